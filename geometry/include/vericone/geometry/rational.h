@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Exact arithmetic of the last rung of every predicate. Slow to compile and to run: include it in .cpp files.
+#pragma once
+
+#include <array>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <vericone/geometry/ellipsoid.h>
+
+namespace vericone::exact {
+
+using Rational = boost::multiprecision::cpp_rational;
+
+template <int D>
+using RationalVector = std::array<Rational, D>;
+template <int D>
+using RationalMatrix = std::array<std::array<Rational, D>, D>;
+
+inline int sign(const Rational& x) { return x.sign(); }
+
+template <int D>
+RationalVector<D> to_rational(const Eigen::Matrix<double, D, 1>& v) {
+  RationalVector<D> r;
+  for (int i = 0; i < D; ++i) r[i] = Rational(v(i));
+  return r;
+}
+
+template <int D>
+RationalMatrix<D> to_rational(const Eigen::Matrix<double, D, D>& m) {
+  RationalMatrix<D> r;
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j) r[i][j] = Rational(m(i, j));
+  return r;
+}
+
+/// Determinant by elimination; exact.
+template <int D>
+Rational determinant(RationalMatrix<D> m) {
+  Rational det = 1;
+  for (int k = 0; k < D; ++k) {
+    int pivot = k;
+    while (pivot < D && m[pivot][k] == 0) ++pivot;
+    if (pivot == D) return 0;
+    if (pivot != k) {
+      std::swap(m[pivot], m[k]);
+      det = -det;
+    }
+    det *= m[k][k];
+    for (int i = k + 1; i < D; ++i) {
+      const Rational f = m[i][k] / m[k][k];
+      for (int j = k; j < D; ++j) m[i][j] -= f * m[k][j];
+    }
+  }
+  return det;
+}
+
+/// The shape matrix that *defines* the body (see BasicEllipsoid).
+template <int D>
+RationalMatrix<D> defining_shape(const BasicEllipsoid<D>& body) {
+  if (!body.defined_by_factor()) return to_rational<D>(body.shape());
+  const RationalMatrix<D> f = to_rational<D>(body.factor());
+  RationalMatrix<D> s;
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j <= i; ++j) {
+      Rational sum = 0;
+      for (int k = 0; k < D; ++k) sum += f[i][k] * f[j][k];
+      s[i][j] = s[j][i] = sum;
+    }
+  return s;
+}
+
+/// Whether all leading minors are positive (Sylvester).
+template <int D>
+bool positive_definite(const RationalMatrix<D>& m) {
+  if (m[0][0].sign() <= 0) return false;
+  if (m[0][0] * m[1][1] - m[0][1] * m[1][0] <= 0) return false;
+  if constexpr (D == 3) return determinant<3>(m).sign() > 0;
+  return true;
+}
+
+}  // namespace vericone::exact
