@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/files/read_points.h>
+
+#include <vericone/geometry/error.h>
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <limits>
+
+#include "source.h"
+
+namespace vericone::files {
+namespace {
+
+/// The one place that a new format is entered in.
+struct Format {
+  std::string_view extension;
+  bool (*recognises)(std::string_view bytes);  // null: the format has no signature
+  Parsed (*parse)(const Source& source);
+};
+
+constexpr Format kFormats[] = {
+    {".obj", nullptr, parse_obj},
+    {".off", looks_like_off, parse_off},
+    {".ply", looks_like_ply, parse_ply},
+};
+
+std::string extension_of(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+const Format& format_of(const Source& source, const std::string& extension) {
+  for (const Format& f : kFormats)
+    if (f.recognises && f.recognises(source.bytes)) return f;
+  for (const Format& f : kFormats)
+    if (f.extension == extension) return f;
+  std::string known;
+  for (const Format& f : kFormats) known += (known.empty() ? "" : ", ") + std::string(f.extension);
+  source.refuse(extension.empty() ? "no extension" : "extension " + in_quotes(extension),
+                "a file in one of the known formats: " + known);
+}
+
+Source load(const std::filesystem::path& path) {
+  Source source{path.string(), {}};
+  for (char& c : source.path)  // errors are one line
+    if (static_cast<unsigned char>(c) < ' ') c = '?';
+  std::error_code failure;
+  const auto status = std::filesystem::status(path, failure);
+  if (!std::filesystem::exists(status)) source.refuse("no such file", "the path of a file");
+  if (!std::filesystem::is_regular_file(status))
+    source.refuse(std::filesystem::is_directory(status) ? "a directory" : "no regular file",
+                  "the path of a file");
+  std::ifstream in(path, std::ios::binary | std::ios::ate);
+  const std::streamoff size = in ? std::streamoff(in.tellg()) : -1;
+  if (size == 0) source.refuse("an empty file", "a file with points");
+  if (size > 0) {
+    source.bytes.resize(std::size_t(size));
+    in.seekg(0);
+    in.read(source.bytes.data(), size);
+  }
+  if (size < 0 || !in) source.refuse("a file that cannot be read", "a readable file");
+  return source;
+}
+
+/// Checks the indices, leaves out what is not finite, and counts.
+PointFile finish(const Source& source, Parsed parsed) {
+  constexpr std::uint32_t kDropped = std::numeric_limits<std::uint32_t>::max();
+  PointFile file;
+  file.format = std::move(parsed.format);
+  const std::size_t count = parsed.points.size();
+  if (count == 0) source.refuse("no points", "a file with at least one point");
+  if (count >= kDropped) source.refuse(std::to_string(count) + " points", "fewer than 2^32 - 1 points");
+
+  std::vector<std::uint32_t> new_index(count, kDropped);
+  for (std::size_t i = 0; i < count; ++i)
+    if (parsed.points[i].allFinite()) {
+      new_index[i] = std::uint32_t(i - file.dropped_points);
+      parsed.points[i - file.dropped_points] = parsed.points[i];
+    } else {
+      ++file.dropped_points;
+    }
+  if (file.dropped_points == count)
+    source.refuse(std::to_string(count) + " points, none of them finite",
+                  "a file with at least one finite point");
+  parsed.points.resize(count - file.dropped_points);
+  file.points = std::move(parsed.points);
+
+  std::vector<char> used(file.points.size(), 0);
+  file.faces.reserve(parsed.faces.size());
+  for (std::size_t f = 0; f < parsed.faces.size(); ++f) {
+    Face& face = parsed.faces[f];
+    bool keeps = face.size() >= 3;
+    for (std::uint32_t& v : face) {
+      if (v >= count)
+        source.refuse("face " + std::to_string(f) + " with vertex index " + std::to_string(v) + " (from 0)",
+                      "at most " + std::to_string(count - 1) + ", the file has " + std::to_string(count) +
+                          (count == 1 ? " vertex" : " vertices"));
+      v = new_index[v];
+      keeps = keeps && v != kDropped;
+    }
+    if (keeps) {
+      for (const std::uint32_t v : face) used[v] = 1;
+      file.faces.push_back(std::move(face));
+    } else {
+      ++file.dropped_faces;
+    }
+  }
+  file.unreferenced_points = std::size_t(std::ranges::count(used, 0));
+  return file;
+}
+
+}  // namespace
+
+PointFile read_points(const std::filesystem::path& path) {
+  const Source source = load(path);
+  return finish(source, format_of(source, extension_of(path)).parse(source));
+}
+
+std::vector<std::string> known_extensions() {
+  std::vector<std::string> extensions;
+  for (const Format& f : kFormats) extensions.emplace_back(f.extension);
+  return extensions;
+}
+
+std::vector<std::array<std::uint32_t, 3>> fan_triangles(const std::vector<Face>& faces) {
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (const Face& f : faces)
+    for (std::size_t k = 2; k < f.size(); ++k) triangles.push_back({f[0], f[k - 1], f[k]});
+  return triangles;
+}
+
+}  // namespace vericone::files

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vericone::files {
+
+/// A file in memory, and the one way to complain about it.
+struct Source {
+  std::string path;
+  std::string bytes;
+
+  [[noreturn]] void refuse(const std::string& value, const std::string& requirement) const;
+};
+
+/// What a parser returns: everything in the file, unchecked beyond its syntax.
+struct Parsed {
+  std::string format;
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::vector<std::uint32_t>> faces;
+};
+
+/// `text` in quotes, shortened, without anything that could break the line of a message.
+std::string in_quotes(std::string_view text);
+
+/// An index into the points of the file, counted from 0; refuses what no file could mean.
+std::uint32_t to_index(const Source& source, std::int64_t index, const std::string& where);
+
+Parsed parse_off(const Source& source);
+Parsed parse_obj(const Source& source);
+Parsed parse_ply(const Source& source);
+
+/// Whether the bytes start with the signature of the format.
+bool looks_like_off(std::string_view bytes);
+bool looks_like_ply(std::string_view bytes);
+
+}  // namespace vericone::files
