@@ -152,6 +152,8 @@ const char* name(PlanarFamily family) {
       return "far_apart";
     case PlanarFamily::nearly_touching:
       return "nearly_touching";
+    case PlanarFamily::within_rounding:
+      return "within_rounding";
     case PlanarFamily::symmetric:
       return "symmetric";
     case PlanarFamily::mixed_scale:
@@ -214,7 +216,12 @@ std::pair<Ellipse, Ellipse> planar_pair(PlanarFamily family, std::uint64_t seed,
     case PlanarFamily::nearly_touching: {
       constexpr std::array kGaps = {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
       const Ellipse a = body(random, center, axes_a), b = body(random, center, axes_b);
-      return apart(random, a, b, 1 + kGaps[index % kGaps.size()]);
+      const double gap = kGaps[index / 4 % kGaps.size()];
+      return apart(random, a, b, 1 + (index % 4 == 3 ? -gap : gap));
+    }
+    case PlanarFamily::within_rounding: {
+      const Ellipse a = body(random, center, axes_a), b = body(random, center, axes_b);
+      return apart(random, a, b, 1 + random.integer(-4, 4) * 0x1p-52);
     }
     case PlanarFamily::symmetric: {
       const int sign = random.coin() ? 1 : -1;
