@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Cones with the apex at the origin given by their edges: size, and a basis to look at them.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+namespace vericone {
+
+/// An orthonormal basis (e1, e2, axis), right-handed, chosen by the axis alone.
+struct AxisFrame {
+  Eigen::Vector3d e1, e2, axis;
+  /// `direction` need not be a unit vector.
+  explicit AxisFrame(const Eigen::Vector3d& direction);
+};
+
+/// Solid angle, in steradian, of the union of the triangular cones (axis, d_i, d_{i+1}) over the closed
+/// polygon of directions, which must wind once counter-clockwise about the axis. For a convex cone that
+/// contains the axis this is its solid angle. Directions need not be unit vectors.
+double polygon_solid_angle(const Eigen::Vector3d& axis, std::span<const Eigen::Vector3d> directions);
+
+/// Area of the section by the plane at distance 1 from the apex perpendicular to the axis; dimensionless,
+/// times r^2 for a plane at distance r. Infinity when a direction does not point strictly to that plane: the
+/// cone is then wider than a half-space allows, and only its solid angle is finite.
+double polygon_section_area(const Eigen::Vector3d& axis, std::span<const Eigen::Vector3d> directions);
+
+/// A cone spanned by its edges, in order, counter-clockwise about `axis`.
+struct PolyhedralCone {
+  std::vector<Eigen::Vector3d> directions;  // unit
+  double solid_angle = 0;                   // steradian
+  double cross_section_area = 0;            // see polygon_section_area
+};
+
+}  // namespace vericone

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Exact answers about two convex quadric bodies: relation now, and whether a relative velocity makes them
+// collide. Inputs are doubles taken as exact numbers. An answer is never wrong; it is found by a rung of the
+// ladder
+//
+//   triage_...  floating point with a running error bound: an answer or `uncertain`, tens of nanoseconds
+//   exact_...   rational arithmetic: always an answer, about a tenth of a millisecond
+//
+// Laws, for all bodies A, B and velocities w (tests/cones/predicates_test.cpp):
+//   (1) relation(A, B) == relation(B, A)
+//   (2) membership of w for (A, B) == membership of -w for (B, A)
+//   (3) membership of w == membership of s w for s > 0 a power of two
+//   (4) a rung that answers agrees with every later rung
+//   (5) both are unchanged by moving A and B together, as long as the centres remain exact
+#pragma once
+
+#include <vericone/geometry/ellipsoid.h>
+#include <cstdint>
+#include <optional>
+
+namespace vericone {
+
+/// How two solid bodies lie. One inside the other counts as overlapping, touching from inside too.
+enum class Relation : std::uint8_t { disjoint, touching, overlapping };
+
+/// Where a relative velocity lies with regard to the closed collision cone of two disjoint bodies.
+enum class Membership : std::uint8_t {
+  in,   // interior: they will overlap
+  on,   // boundary: they will touch without overlapping
+  out,  // they never meet, w = 0 included
+};
+
+/// Whole answer of one engagement.
+enum class Verdict : std::uint8_t { in, on, out, overlapping, touching };
+
+const char* to_string(Relation relation);
+const char* to_string(Membership membership);
+const char* to_string(Verdict verdict);
+
+template <int D>
+struct ContactFrame;
+
+/// Exact relation of two bodies.
+template <int D>
+Relation relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b);
+
+/// The same where the contact frame of the pair is at hand; the answer does not depend on its accuracy.
+template <int D>
+Relation relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b, const ContactFrame<D>& frame);
+
+/// First rung; nothing when rounding could matter. Never answers `touching`.
+template <int D>
+std::optional<Relation> triage_relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
+                                        const ContactFrame<D>& frame);
+
+/// Last rung.
+template <int D>
+Relation exact_relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b);
+
+/// Whether n.x separates the bodies strictly: n.c > rho_A(n) + rho_B(n), for the n given, exactly.
+template <int D>
+bool separates(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b, const Eigen::Matrix<double, D, 1>& n);
+
+/// First rung of separates(): true is certain, false says nothing. No allocation, about 20 ns.
+template <int D>
+bool triage_separates(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
+                      const Eigen::Matrix<double, D, 1>& n);
+
+/// Two ellipsoids prepared for many velocities.
+///
+/// The constructor finds their relation exactly and, for disjoint bodies, a normal n with n.c > rho_A + rho_B
+/// (certified). Each velocity is then decided by the sign of a cubic's discriminant: project along w without
+/// dividing, and test whether the two shadows are apart (docs/theory.md, 2).
+class ConeOracle {
+ public:
+  ConeOracle(const Ellipsoid& a, const Ellipsoid& b);
+
+  Relation relation() const { return relation_; }
+
+  /// Exact. `w` = v_A - v_B is the velocity of A relative to B. Requires relation() == disjoint; for other
+  /// relations see verdict().
+  Membership membership(const Eigen::Vector3d& w) const;
+
+  /// The same for w = v_A - v_B, the difference taken without rounding.
+  Membership membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+
+  /// Floating point with a proved error bound; nothing when it cannot decide. Never answers `on`.
+  /// No allocation, no throw.
+  std::optional<Membership> triage_membership(const Eigen::Vector3d& w) const noexcept;
+
+  /// Floating point without a bound, for comparison: what a program without this library would compute.
+  Membership naive_membership(const Eigen::Vector3d& w) const noexcept;
+
+  /// Rational arithmetic.
+  Membership exact_membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+
+  Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+
+  /// A normal that separates the bodies strictly (certified) unless they are closer than double precision
+  /// tells apart; not normalised. Meaningful for disjoint bodies.
+  const Eigen::Vector3d& separating_normal() const { return normal_; }
+  bool normal_certified() const { return normal_certified_; }
+
+ private:
+  Ellipsoid a_, b_;
+  Relation relation_;
+  Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();
+  bool normal_certified_ = false;
+  // What the first rung reads, in two cache lines' worth of values and magnitudes: lengths divided by a power
+  // of two so that |c| is near one, each entry followed by a bound of the terms it was summed from.
+  struct Scaled {
+    double shape_a[6][2], shape_b[6][2], c[3];
+    bool usable = false;
+  } scaled_;
+};
+
+}  // namespace vericone

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The polynomial whose sign is that of the contact function minus one, over any ring of numbers, and the
+// exact count of its positive roots.
+//
+// With x = lambda / (1 - lambda) > 0, multiplying f - 1 by (1 + x) det(A + x B) > 0 gives
+//
+//   p(x) = x c^T adj(A + x B) c - (1 + x) det(A + x B),
+//
+// of degree 3 in the plane and 4 in space. f is concave in lambda and p < 0 at both ends, so p has no, one
+// double, or two simple positive roots: overlapping, touching, disjoint.
+#pragma once
+
+#include <vericone/geometry/integer.h>
+#include <array>
+#include <vector>
+
+namespace vericone {
+
+/// Symmetric 2x2 [[a, b], [b, c]].
+template <typename N>
+struct Symmetric2 {
+  N a, b, c;
+};
+
+/// Coefficients of -p for two ellipses with shapes A and B, centre line d: k3 x^3 - k2 x^2 - k1 x + k0, where
+/// k3 = det B > 0 and k0 = det A > 0.
+template <typename N>
+struct ContactCubic {
+  N k3, k2, k1, k0;
+
+  ContactCubic(const Symmetric2<N>& a, const Symmetric2<N>& b, const N& dx, const N& dy) {
+    const N xx = dx * dx, yy = dy * dy, xy = dx * dy;
+    const N xy2 = xy + xy;
+    k0 = a.a * a.c - a.b * a.b;
+    k3 = b.a * b.c - b.b * b.b;
+    const N off = a.b * b.b;
+    const N mixed = a.a * b.c + a.c * b.a - (off + off);
+    k1 = xx * a.c + yy * a.a - xy2 * a.b - mixed - k0;
+    k2 = xx * b.c + yy * b.a - xy2 * b.b - mixed - k3;
+  }
+
+  /// Discriminant. The cubic has two distinct positive roots iff it is positive and k1 > 0 or k2 > 0: with
+  /// k3, k0 > 0 one root is negative, and by Descartes' rule the others are positive exactly when the signs
+  /// (+, -k2, -k1, +) change.
+  N discriminant() const {
+    const N k12 = k1 * k2, k03 = k0 * k3;
+    const N t = k12 * k03;
+    const N t2 = t + t, t4 = t2 + t2, t16 = t4 + t4 + t4 + t4;
+    const N s = k03 * k03;
+    const N s2 = s + s, s3 = s2 + s, s9 = s3 + s3 + s3, s27 = s9 + s9 + s9;
+    const N u = k2 * k2 * k2 * k0 + k1 * k1 * k1 * k3;
+    const N u2 = u + u, u4 = u2 + u2;
+    return k12 * k12 + (t16 + t2) + u4 - s27;
+  }
+};
+
+/// Shadow of the quadratic form S along w: L S L^T with L dropping coordinate k, (L x)_1 = w_k x_i - w_i x_k
+/// and (L x)_2 = w_k x_j - w_j x_k. `s(r, c)` gives the entries of S.
+template <typename N, typename Entry>
+Symmetric2<N> shadow(const Entry& s, const N& wi, const N& wj, const N& wk, int i, int j, int k) {
+  const N kk = wk * wk, ki = wk * wi, kj = wk * wj;
+  const N t1 = ki * s(i, k);
+  const N t3 = kj * s(j, k);
+  return {kk * s(i, i) - (t1 + t1) + wi * wi * s(k, k),
+          kk * s(i, j) - kj * s(i, k) - ki * s(j, k) + wi * wj * s(k, k),
+          kk * s(j, j) - (t3 + t3) + wj * wj * s(k, k)};
+}
+
+namespace exact {
+
+/// Integer coefficients, lowest first; the leading one is not zero.
+using Polynomial = std::vector<Integer>;
+
+/// p for two bodies; Polynomial of degree D + 1.
+template <int D>
+Polynomial contact_polynomial(const PairOnGrid<D>& pair);
+
+/// Number of distinct roots in (0, infinity), by Sturm's theorem; p(0) != 0.
+int distinct_positive_roots(const Polynomial& p);
+
+/// A dyadic number x = numerator / 2^exponent strictly between the two positive roots of p, where p > 0.
+/// Requires distinct_positive_roots(p) == 2 and p < 0 at 0 and infinity. `guess` is tried first.
+struct Dyadic {
+  Integer numerator;
+  unsigned exponent = 0;
+};
+Dyadic between_positive_roots(const Polynomial& p, double guess);
+
+/// adj(A + x B) c, up to a positive factor: proportional to S_K^{-1} c, which separates the bodies where p(x)
+/// > 0.
+IntegerVector<3> contact_normal(const PairOnGrid<3>& pair, const Dyadic& x);
+
+}  // namespace exact
+}  // namespace vericone
