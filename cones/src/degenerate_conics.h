@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <optional>
 
+#include "planar_frame.h"
+
 namespace vericone {
 
-/// Normals of the inner common tangents, B on the positive side, the one with the larger y first.
+/// Normals of the inner common tangents in the planar frame, B on the positive side, the one with the larger
+/// y first.
 struct InnerTangents {
   std::array<Eigen::Vector2d, 2> normals;
 };
 
-/// Source, Algorithm 3, for two ellipses with the given shapes and centres at distance 1 along x. Nothing
-/// when the pencil has no three real degenerate members in floating point.
-std::optional<InnerTangents> inner_tangents_by_degenerate_conics(const Eigen::Matrix2d& shape_a,
-                                                                 const Eigen::Matrix2d& shape_b);
+/// Source, 5.2.1 and Algorithm 3, for two disjoint ellipses. Nothing when they are so close that the contact
+/// function does not exceed one in floating point, or when the tangents found are not tangent to 1e-6.
+std::optional<InnerTangents> inner_tangents_by_degenerate_conics(const PlanarFrame& frame,
+                                                                 const ContactFrame<2>& contact);
 
 }  // namespace vericone

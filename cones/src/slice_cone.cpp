@@ -47,7 +47,7 @@ class Slicer {
     const ContactFrame<2> contact(fa, fb, Vector2d(distance_, 0));
     const PlanarFrame frame(contact);
     std::array<Vector2d, 2> normals;
-    if (const auto tangents = inner_tangents_by_degenerate_conics(frame.shape_a, frame.shape_b)) {
+    if (const auto tangents = inner_tangents_by_degenerate_conics(frame, contact)) {
       normals = tangents->normals;
     } else {
       ++fallbacks;

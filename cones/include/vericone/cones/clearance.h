@@ -3,18 +3,18 @@
 // Lengths and times of an engagement: how far off a miss is, how deep a hit, when, and how far apart now.
 #pragma once
 
-#include <optional>
 #include <vericone/cones/predicates.h>
+#include <optional>
 
 namespace vericone {
 
-/// m(w) = max over unit n perpendicular to w of g(n) = n.c - rho_A(n) - rho_B(n): the signed distance between the
-/// shadows of A and B along the relative velocity w = v_A - v_B. Positive: the distance at which the lines of
-/// motion pass; zero: grazing; negative: collision, the least sideways shift of A that would avoid it.
-/// It is constant along the motion and smooth where it is positive.
+/// m(w) = max over unit n perpendicular to w of g(n) = n.c - rho_A(n) - rho_B(n): the signed distance between
+/// the shadows of A and B along the relative velocity w = v_A - v_B. Positive: the distance at which the
+/// lines of motion pass; zero: grazing; negative: collision, the least sideways shift of A that would avoid
+/// it. It is constant along the motion and smooth where it is positive.
 struct Clearance {
-  double distance = 0;                                          // m(w), metres
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();             // the maximising unit normal n*, from A towards B
+  double distance = 0;                               // m(w), metres
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // the maximising unit normal n*, from A towards B
   double time = 0;  // s, when the supporting points n* belongs to pass each other; negative: in the past
 
   /// Derivatives by the envelope theorem: of m with respect to c = p_B - p_A, and to w.
@@ -22,10 +22,10 @@ struct Clearance {
   Eigen::Vector3d gradient_velocity() const { return -time * normal; }
 };
 
-/// Requires w != 0; throws InputError naming "relative_velocity" otherwise. Where m > 0 the maximiser is unique
-/// and found to rounding; where m < 0 the largest of several local maxima is searched for on a grid refined at
-/// the bodies' thin directions, so a reported depth is never too small.
-/// Cost: 1 us where m > 0, 5 us where m < 0.
+/// Requires w != 0; throws InputError naming "relative_velocity" otherwise. Where m > 0 the maximiser is
+/// unique and found to rounding; where m < 0 the largest of several local maxima is searched for on a grid
+/// refined at the bodies' thin directions, so a reported depth is never too small. Cost: 1 us where m > 0, 5
+/// us where m < 0.
 Clearance clearance(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& w);
 
 /// Distance between two disjoint bodies and the unit normal of the closest points, from A towards B.
@@ -36,9 +36,9 @@ struct Separation {
 };
 Separation separation(const Ellipsoid& a, const Ellipsoid& b);
 
-/// First t >= 0, in seconds, at which A moving by w t touches B; nothing when it never does, 0 when they touch or
-/// overlap now. Whether there is a contact is decided exactly; the time has a relative error of a few roundings
-/// away from grazing, where it grows like the square root of the rounding.
+/// First t >= 0, in seconds, at which A moving by w t touches B; nothing when it never does, 0 when they
+/// touch or overlap now. Whether there is a contact is decided exactly; the time has a relative error of a
+/// few roundings away from grazing, where it grows like the square root of the rounding.
 std::optional<double> time_to_contact(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& w);
 
 /// The time alone, for a w known to be in the cone of disjoint bodies. Cost: about 1 us.

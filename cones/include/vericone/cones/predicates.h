@@ -76,6 +76,8 @@ class ConeOracle {
  public:
   ConeOracle(const Ellipsoid& a, const Ellipsoid& b);
 
+  const Ellipsoid& a() const { return a_; }
+  const Ellipsoid& b() const { return b_; }
   Relation relation() const { return relation_; }
 
   /// Exact. `w` = v_A - v_B is the velocity of A relative to B. Requires relation() == disjoint; for other

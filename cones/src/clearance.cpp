@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/cones/clearance.h>
+
+#include <vericone/cones/cone_geometry.h>
+#include <vericone/cones/contact_frame.h>
+#include <vericone/geometry/error.h>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace vericone {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using ShadowFactor = Eigen::Matrix<double, 2, 3>;
+
+/// g on the unit circle of normals perpendicular to w, as a function of the angle.
+class ShadowGap {
+ public:
+  ShadowGap(const Ellipsoid& a, const Ellipsoid& b, const AxisFrame& frame) {
+    Eigen::Matrix<double, 2, 3> e;
+    e << frame.e1.transpose(), frame.e2.transpose();
+    a_ = e * a.factor();
+    b_ = e * b.factor();
+    c_ = e * (b.center() - a.center());
+  }
+
+  struct Value {
+    double g, slope, curvature;  // and derivatives by the angle
+  };
+
+  Value at(double angle) const {
+    const Vector2d n(std::cos(angle), std::sin(angle)), t(-n.y(), n.x());
+    Value v{n.dot(c_), t.dot(c_), 0};
+    for (const ShadowFactor* f : {&a_, &b_}) {
+      const Vector3d u = f->transpose() * n, u_t = f->transpose() * t;
+      const double rho = u.norm(), slope = u.dot(u_t) / rho;
+      v.g -= rho;
+      v.slope -= slope;
+      v.curvature -= (u_t.squaredNorm() - slope * slope) / rho;
+    }
+    v.curvature -= v.g;  // n'' = -n and g is homogeneous
+    return v;
+  }
+
+  /// A starting angle with g > 0 if the shadows are apart; nothing otherwise.
+  std::optional<double> separating_angle() const {
+    const ContactFrame<2> frame(square_factor(a_), square_factor(b_), c_);
+    if (!(frame.contact > 1)) return std::nullopt;
+    const Vector2d n = frame.separating_normal();
+    const double angle = std::atan2(n.y(), n.x());
+    return at(angle).g > 0 ? std::optional(angle) : std::nullopt;
+  }
+
+  /// Where g > 0 its second derivative is negative: one maximum, Newton climbs to it.
+  double climb(double angle) const {
+    Value v = at(angle);
+    for (int iteration = 0; iteration < 60; ++iteration) {
+      double step = std::clamp(-v.slope / v.curvature, -0.5, 0.5);
+      Value next = at(angle + step);
+      while (next.g < v.g && std::abs(step) > 1e-15) {
+        step /= 2;
+        next = at(angle + step);
+      }
+      if (next.g < v.g) break;
+      angle += step;
+      v = next;
+      if (std::abs(step) < 1e-12) break;
+    }
+    return angle;
+  }
+
+  /// Global maximum where g may be negative: every sign change of the slope from + to - on a grid that
+  /// contains the thin directions of both shadows, where rho has a narrow notch.
+  double search() const {
+    constexpr int kUniform = 48;
+    const auto wrapped = [](double angle) {
+      return angle - 2 * std::numbers::pi * std::floor(angle / (2 * std::numbers::pi));
+    };
+    std::array<double, kUniform + 5> grid;
+    int count = 0;
+    for (; count < kUniform; ++count) grid[count] = 2 * std::numbers::pi * count / kUniform;
+    for (const ShadowFactor* f : {&a_, &b_}) {
+      const Matrix2d s = *f * f->transpose();
+      const double long_axis = 0.5 * std::atan2(2 * s(0, 1), s(0, 0) - s(1, 1));
+      for (int k : {1, 3}) grid[count++] = wrapped(long_axis + k * std::numbers::pi / 2);
+    }
+    grid[count] = wrapped(std::atan2(c_.y(), c_.x()));
+    std::sort(grid.begin(), grid.end());
+    double best = grid[0], best_g = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      double lo = grid[i], hi = i + 1 < grid.size() ? grid[i + 1] : grid[0] + 2 * std::numbers::pi;
+      const Value at_lo = at(lo);
+      if (at_lo.g > best_g) {
+        best_g = at_lo.g;
+        best = lo;
+      }
+      if (!(at_lo.slope > 0) || !(at(hi).slope < 0)) continue;
+      double angle = 0.5 * (lo + hi);
+      for (int iteration = 0; iteration < 80 && hi - lo > 1e-14; ++iteration) {
+        const Value v = at(angle);
+        (v.slope > 0 ? lo : hi) = angle;
+        const double newton = angle - v.slope / v.curvature;
+        angle = newton > lo && newton < hi ? newton : 0.5 * (lo + hi);
+      }
+      if (const double g = at(angle).g; g > best_g) {
+        best_g = g;
+        best = angle;
+      }
+    }
+    return best;
+  }
+
+ private:
+  /// A square factor with the same shape, by Gram-Schmidt on the rows.
+  static Matrix2d square_factor(const ShadowFactor& f) {
+    const double l11 = f.row(0).norm(), l21 = f.row(1).dot(f.row(0)) / l11;
+    const double l22 = (f.row(1) - (l21 / l11) * f.row(0)).norm();
+    Matrix2d l;
+    l << l11, 0, l21, l22;
+    return l;
+  }
+
+  ShadowFactor a_, b_;
+  Vector2d c_;
+};
+
+/// c - S_A n / rho_A - S_B n / rho_B: the vector between the supporting points, the gradient of g.
+Vector3d support_difference(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& n) {
+  const Vector3d ua = a.factor().transpose() * n, ub = b.factor().transpose() * n;
+  return b.center() - a.center() - a.factor() * (ua / ua.norm()) - b.factor() * (ub / ub.norm());
+}
+
+double gap(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& n) {
+  return n.dot(b.center() - a.center()) - a.radius(n) - b.radius(n);
+}
+
+void require_direction(const Vector3d& w) {
+  if (!w.allFinite() || w.isZero(0))
+    throw InputError("relative_velocity",
+                     "[" + to_text(w.x()) + ", " + to_text(w.y()) + ", " + to_text(w.z()) + "]",
+                     "finite and not zero");
+}
+
+}  // namespace
+
+Clearance clearance(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& w) {
+  require_direction(w);
+  const double speed = w.stableNorm();
+  const AxisFrame frame(w / speed);
+  const ShadowGap shadows(a, b, frame);
+  const auto start = shadows.separating_angle();
+  const double angle = start ? shadows.climb(*start) : shadows.search();
+  Clearance m;
+  m.distance = shadows.at(angle).g;
+  m.normal = std::cos(angle) * frame.e1 + std::sin(angle) * frame.e2;
+  m.time = support_difference(a, b, m.normal).dot(frame.axis) / speed;
+  return m;
+}
+
+Separation separation(const Ellipsoid& a, const Ellipsoid& b) {
+  const ContactFrame<3> frame(a, b);
+  const Relation rel = relation<3>(a, b, frame);
+  if (rel == Relation::overlapping) return {};
+  Vector3d n = frame.separating_normal().normalized();
+  double g = gap(a, b, n);
+  if (rel == Relation::touching || !(g > 0)) return {0, n};
+  // Newton on the unit sphere. Where g > 0 the Hessian -(H_A + H_B) - g I on the tangent plane is negative
+  // definite, so the step climbs; it is halved until it does.
+  for (int iteration = 0; iteration < 100; ++iteration) {
+    const AxisFrame tangent(n);
+    Eigen::Matrix<double, 3, 2> e;
+    e << tangent.e1, tangent.e2;
+    const Vector2d slope = e.transpose() * support_difference(a, b, n);
+    Matrix2d hessian = g * Matrix2d::Identity();
+    for (const Ellipsoid* body : {&a, &b}) {
+      const Vector3d u = body->factor().transpose() * n;
+      const Eigen::Matrix<double, 3, 2> fe = body->factor().transpose() * e;
+      const double rho = u.norm();
+      const Vector2d along = fe.transpose() * u / rho;
+      hessian += (fe.transpose() * fe - along * along.transpose()) / rho;
+    }
+    const Vector2d step = hessian.inverse() * slope;
+    double scale = std::min(1.0, 0.5 / step.norm());
+    Vector3d next = (n + scale * (e * step)).normalized();
+    double next_g = gap(a, b, next);
+    while (next_g < g && scale > 1e-12) {
+      scale /= 2;
+      next = (n + scale * (e * step)).normalized();
+      next_g = gap(a, b, next);
+    }
+    if (!(next_g > g)) break;
+    const bool settled = scale * step.norm() < 1e-12;
+    n = next;
+    g = next_g;
+    if (settled) break;
+  }
+  return {g, n};
+}
+
+double contact_time(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& w) {
+  // Every ellipsoid |x - c|_{S_K(x)} <= 1 of the contact function contains K, so the ray enters it no later
+  // than K; the last of these entries is the one into K. The entry time is a root of a quadratic and
+  // quasi-concave in log x, and its derivative has the sign of that of f at the point of entry.
+  const ContactFrame<3> frame(a, b);
+  const Vector3d v = frame.to_frame * w;
+  struct Entry {
+    double time, phi;
+  };
+  const auto entry = [&](double log_x) {
+    const double x = std::exp(log_x);
+    double ww = 0, cw = 0, cc = -1;
+    std::array<double, 3> d;
+    for (int i = 0; i < 3; ++i) {
+      const double s2 = frame.sigma(i) * frame.sigma(i);
+      d[i] = 1 / (1 + x * s2);
+      const double k = x / (1 + x) * d[i];
+      ww += k * v(i) * v(i);
+      cw += k * v(i) * frame.center(i);
+      cc += k * frame.center(i) * frame.center(i);
+    }
+    const double root = std::sqrt(std::max(cw * cw - ww * cc, 0.0));
+    const double t = cc / (cw + root);
+    double aa = 0, bb = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double n = (frame.center(i) - t * v(i)) * d[i], n2 = n * n;
+      aa += n2;
+      bb += n2 * frame.sigma(i) * frame.sigma(i);
+    }
+    return Entry{t, std::log(aa / bb) - 2 * log_x};
+  };
+  double lo = -std::log(frame.sigma.maxCoeff()), hi = -std::log(frame.sigma.minCoeff());
+  double u = std::clamp(std::log(frame.ratio), lo, hi);
+  Entry at = entry(u);
+  // Secant between the ends of the bracket with the stale end's value halved (Illinois).
+  double f_lo = 0, f_hi = 0;
+  if (hi - lo > 1e-12) {
+    f_lo = entry(lo).phi;
+    f_hi = entry(hi).phi;
+    int side = 0;
+    for (int iteration = 0; iteration < 60 && hi - lo > 1e-9; ++iteration) {
+      if (at.phi == 0) break;
+      if (at.phi > 0) {
+        lo = u;
+        f_lo = at.phi;
+        if (side == 1) f_hi /= 2;
+        side = 1;
+      } else {
+        hi = u;
+        f_hi = at.phi;
+        if (side == -1) f_lo /= 2;
+        side = -1;
+      }
+      double next = (lo * f_hi - hi * f_lo) / (f_hi - f_lo);
+      if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
+      const bool settled = std::abs(next - u) < 1e-9;
+      u = next;
+      at = entry(u);
+      if (settled) break;
+    }
+  }
+  // The supporting plane at the contact: every plane n gives the lower bound g(n) / n.w, and this one is the
+  // largest, so an error in n enters squared.
+  const double x = std::exp(u);
+  Vector3d n;
+  for (int i = 0; i < 3; ++i)
+    n(i) = (frame.center(i) - at.time * v(i)) / (1 + x * frame.sigma(i) * frame.sigma(i));
+  n = frame.to_frame.transpose() * n;
+  const double closing = n.dot(w);
+  if (closing > 1e-6 * n.norm() * w.norm()) return std::max(gap(a, b, n) / closing, 0.0);
+  return std::max(at.time, 0.0);
+}
+
+std::optional<double> time_to_contact(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& w) {
+  const ConeOracle oracle(a, b);
+  if (oracle.relation() != Relation::disjoint) return 0.0;
+  if (oracle.membership(w) == Membership::out) return std::nullopt;
+  return contact_time(a, b, w);
+}
+
+double clearance_ahead(const ConeOracle& oracle, const Vector3d& v_a, const Vector3d& v_b) {
+  constexpr double kLeast = std::numeric_limits<double>::min();  // rounding must not contradict the verdict
+  const Vector3d w = v_a - v_b;
+  switch (oracle.verdict(v_a, v_b)) {
+    case Verdict::touching:
+    case Verdict::on:
+      return 0;
+    case Verdict::overlapping:
+      return w.isZero(0) ? 0 : std::min(clearance(oracle.a(), oracle.b(), w).distance, 0.0);
+    case Verdict::in:
+      return std::min(clearance(oracle.a(), oracle.b(), w).distance, -kLeast);
+    case Verdict::out:
+      break;
+  }
+  const Separation now = separation(oracle.a(), oracle.b());
+  if (w.isZero(0) || !(now.normal.dot(w) > 0)) return std::max(now.distance, kLeast);
+  return std::max(clearance(oracle.a(), oracle.b(), w).distance, kLeast);
+}
+
+}  // namespace vericone
