@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/ellipsoid.h>
 
+#include <vericone/geometry/error.h>
+#include <vericone/geometry/quadric.h>
+#include <vericone/geometry/rational.h>
 #include <Eigen/Dense>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <numbers>
-#include <vericone/geometry/error.h>
-#include <vericone/geometry/quadric.h>
-#include <vericone/geometry/rational.h>
 
 namespace vericone {
 namespace {
@@ -39,14 +39,15 @@ Eigen::Matrix<double, D, D> validated_rotation(const Eigen::Matrix<double, D, D>
   if (!r.allFinite()) throw InputError("rotation", text(r), "a matrix of finite numbers");
   const double defect = (r.transpose() * r - Matrix::Identity()).cwiseAbs().maxCoeff();
   if (defect > 1e-6) throw InputError("rotation", text(r), "orthonormal to 1e-6 (R^T R = I)");
-  if (r.determinant() < 0) throw InputError("rotation", text(r), "a rotation, determinant +1, not a reflection");
+  if (r.determinant() < 0)
+    throw InputError("rotation", text(r), "a rotation, determinant +1, not a reflection");
   if (defect <= 4 * kEps) return r;  // as good as it gets: keep the caller's bits
   const Eigen::JacobiSVD<Matrix> svd(r, Eigen::ComputeFullU | Eigen::ComputeFullV);
   return svd.matrixU() * svd.matrixV().transpose();
 }
 
-/// Lower Cholesky factor of S, computed with 50 digits and rounded once: in double the thin axis of a body with
-/// axis ratio 1e6 would carry a relative error of 1e-4 (eps times the squared ratio).
+/// Lower Cholesky factor of S, computed with 50 digits and rounded once: in double the thin axis of a body
+/// with axis ratio 1e6 would carry a relative error of 1e-4 (eps times the squared ratio).
 template <int D>
 Eigen::Matrix<double, D, D> cholesky(const Eigen::Matrix<double, D, D>& s) {
   using Wide = boost::multiprecision::cpp_bin_float_50;
@@ -60,6 +61,15 @@ Eigen::Matrix<double, D, D> cholesky(const Eigen::Matrix<double, D, D>& s) {
       f(i, j) = static_cast<double>(l[i][j]);
     }
   return f;
+}
+
+/// F F^T, symmetric bit for bit, which a plain product need not be.
+template <int D>
+Eigen::Matrix<double, D, D> gram(const Eigen::Matrix<double, D, D>& f) {
+  Eigen::Matrix<double, D, D> s;
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j <= i; ++j) s(i, j) = s(j, i) = f.row(i).dot(f.row(j));
+  return s;
 }
 
 template <int D>
@@ -86,7 +96,7 @@ BasicEllipsoid<D> BasicEllipsoid<D>::from_axes(const Vector& center, const Vecto
   BasicEllipsoid e;
   e.center_ = center;
   e.factor_ = validated_rotation<D>(rotation) * semi_axes.asDiagonal();
-  e.shape_ = e.factor_ * e.factor_.transpose();
+  e.shape_ = gram<D>(e.factor_);
   e.defined_by_factor_ = true;
   if (!e.shape_.allFinite() || e.shape_.diagonal().minCoeff() <= 0)
     throw InputError("semi_axes", text(semi_axes), "between 1e-150 and 1e150, their squares are needed");
@@ -101,9 +111,9 @@ BasicEllipsoid<D> BasicEllipsoid<D>::from_shape(const Vector& center, const Matr
       const std::string entry = "shape[" + std::to_string(i) + "][" + std::to_string(j) + "]";
       if (!std::isfinite(shape(i, j))) throw InputError(entry, to_text(shape(i, j)), "a finite number");
       if (j > i && shape(i, j) != shape(j, i))
-        throw InputError("shape", text(shape), "symmetric, but [" + std::to_string(i) + "][" + std::to_string(j) +
-                                                   "] differs from [" + std::to_string(j) + "][" +
-                                                   std::to_string(i) + "]");
+        throw InputError("shape", text(shape),
+                         "symmetric, but [" + std::to_string(i) + "][" + std::to_string(j) +
+                             "] differs from [" + std::to_string(j) + "][" + std::to_string(i) + "]");
     }
   if (!surely_positive_definite<D>(shape) && !exact::positive_definite<D>(exact::to_rational<D>(shape)))
     throw InputError("shape", text(shape), "positive definite (its eigenvalues are the squared semi-axes)");
@@ -158,7 +168,13 @@ BasicEllipsoid<D> BasicEllipsoid<D>::from_quadric(const BasicQuadric<D>& quadric
     center(i) = static_cast<double>(p[i]);
     for (int j = 0; j < D; ++j) shape(i, j) = static_cast<double>(Rational(k * inverse[i][j]));
   }
-  return from_shape(center, shape);
+  try {
+    return from_shape(center, shape);
+  } catch (const InputError& error) {  // out of the range of double, or too thin for it
+    throw InputError(
+        "quadric", text(q),
+        "that of an ellipsoid within double precision, but its " + error.field() + " is " + error.value());
+  }
 }
 
 template <int D>
@@ -207,8 +223,11 @@ BasicEllipsoid<D> BasicEllipsoid<D>::scaled(double scale) const {
   BasicEllipsoid e = *this;
   e.center_ *= scale;
   e.factor_ *= scale;
-  e.shape_ = e.factor_ * e.factor_.transpose();
+  e.shape_ = gram<D>(e.factor_);
   e.defined_by_factor_ = true;
+  require_finite<D>(e.center_, "center");
+  if (!e.shape_.allFinite() || e.shape_.diagonal().minCoeff() <= 0)
+    throw InputError("scale", to_text(scale), "one that leaves the semi-axes between 1e-150 and 1e150");
   return e;
 }
 
@@ -221,7 +240,8 @@ Eigen::Matrix2d rotation_2d(double angle) {
 }
 
 Eigen::Matrix3d rotation_3d(const Eigen::Vector4d& wxyz) {
-  if (!wxyz.allFinite()) throw InputError("rotation", text(wxyz), "a quaternion [w, x, y, z] of finite numbers");
+  if (!wxyz.allFinite())
+    throw InputError("rotation", text(wxyz), "a quaternion [w, x, y, z] of finite numbers");
   const double norm2 = wxyz.squaredNorm();
   if (!(std::abs(norm2 - 1) <= 2e-6))
     throw InputError("rotation", text(wxyz), "a unit quaternion [w, x, y, z] (|q| = 1 to 1e-6)");
@@ -233,7 +253,8 @@ Eigen::Matrix3d rotation_3d(const Eigen::Vector4d& wxyz) {
 }
 
 Eigen::Matrix3d rotation_from_heading(double azimuth, double elevation) {
-  const double ca = std::cos(azimuth), sa = std::sin(azimuth), ce = std::cos(elevation), se = std::sin(elevation);
+  const double ca = std::cos(azimuth), sa = std::sin(azimuth), ce = std::cos(elevation),
+               se = std::sin(elevation);
   return (Eigen::Matrix3d() << ca * ce, -sa, -ca * se, sa * ce, ca, -sa * se, se, 0, ce).finished();
 }
 

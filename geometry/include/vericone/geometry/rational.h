@@ -21,7 +21,7 @@ inline int sign(const Rational& x) { return x.sign(); }
 template <int D>
 RationalVector<D> to_rational(const Eigen::Matrix<double, D, 1>& v) {
   RationalVector<D> r;
-  for (int i = 0; i < D; ++i) r[i] = Rational(v(i));
+  for (int i = 0; i < D; ++i) r[i] = v(i);
   return r;
 }
 
@@ -29,7 +29,7 @@ template <int D>
 RationalMatrix<D> to_rational(const Eigen::Matrix<double, D, D>& m) {
   RationalMatrix<D> r;
   for (int i = 0; i < D; ++i)
-    for (int j = 0; j < D; ++j) r[i][j] = Rational(m(i, j));
+    for (int j = 0; j < D; ++j) r[i][j] = m(i, j);
   return r;
 }
 
