@@ -57,7 +57,8 @@ struct Frame {
 
 /// Kumar and Yildirim's core set: the extreme points along D orthogonal directions, each direction orthogonal
 /// to the spread found before. They choose the directions freely; here each one is that of the point farthest
-/// from the affine hull so far, which keeps the frame good for thin bodies.
+/// from the affine hull so far, which keeps the frame good for thin bodies; those points join the set, so
+/// that it always spans the space.
 template <int D>
 Frame<D> core_set_frame(const Eigen::Ref<const Points<D>>& points) {
   constexpr const char* kDegenerate[] = {"points that are all equal", "points that are all on one line",
@@ -67,6 +68,7 @@ Frame<D> core_set_frame(const Eigen::Ref<const Points<D>>& points) {
   (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).maxCoeff(&start);
   points.row(start).minCoeff(&start);
   f.origin = points.col(start);
+  f.core_set.push_back(start);
   f.axes.setZero();
   const double rounding = 16 * kEps * points.cwiseAbs().maxCoeff();  // of the coordinates themselves
   Points<D> rest = points.colwise() - f.origin;
@@ -87,8 +89,7 @@ Frame<D> core_set_frame(const Eigen::Ref<const Points<D>>& points) {
                        D == 2 ? "spread over the plane, not on one line"
                               : "spread over all of space, not in one plane or on one line");
     f.axes.col(k) = axis;
-    f.core_set.push_back(low);
-    f.core_set.push_back(high);
+    f.core_set.insert(f.core_set.end(), {far, low, high});
     rest -= axis * along;
   }
   std::ranges::sort(f.core_set);
@@ -141,15 +142,17 @@ class DualAscent {
   void maximize(double tolerance, int limit, int& iterations) {
     update();
     int stalled = 0;
+    double best = value(llt_, u_);
     while (iterations < limit && stalled < kStallLimit && residual() > tolerance) {
-      const double before = value(llt_, u_);
       todd_yildirim_step();
       ++iterations;
       for (int k = 0; k < kNewtonSteps && iterations < limit; ++k) {
         ++iterations;
         if (!newton_step()) break;
       }
-      stalled = value(llt_, u_) > before + 4 * kEps ? 0 : stalled + 1;
+      const double now = value(llt_, u_);
+      stalled = now > best + 4 * kEps ? 0 : stalled + 1;
+      best = std::max(best, now);
     }
   }
 
@@ -493,7 +496,8 @@ MinVolumeResult<D> min_volume_ellipsoid(const Eigen::Ref<const Points<D>>& point
   dual.start_uniform();
   double largest = 0;
   while (true) {
-    dual.maximize(std::min(1e-3, 0.01 * options.tolerance), options.max_iterations, result.iterations);
+    dual.maximize(std::clamp(0.01 * options.tolerance, 16 * kEps, 1e-3), options.max_iterations,
+                  result.iterations);
     const Violations<D> v = violations<D>(y, dual.mean(), dual.covariance());
     largest = v.largest;
     result.optimality_gap = v.largest / kN - 1;
