@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "accuracy/accuracy.h"
+
+#include <vericone/files/read_points.h>
+#include <vericone/geometry/error.h>
+#include <vericone/geometry/min_volume_ellipsoid.h>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <ostream>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+#include "accuracy/campaign.h"
+#include "accuracy/engagements.h"
+#include "accuracy/measure.h"
+#include "cone.h"
+#include "figures.h"
+#include "interrupt.h"
+#include "provenance.h"
+
+namespace vericone::accuracy {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+struct Spread {
+  double median = 0, mean = 0, worst = 0;
+};
+
+Spread spread(std::vector<double> values) {
+  if (values.empty()) return {};
+  Spread s;
+  for (const double v : values) s.mean += v / static_cast<double>(values.size());
+  std::sort(values.begin(), values.end());
+  s.median = values[values.size() / 2];
+  s.worst = values.back();
+  return s;
+}
+
+Json spread_json(const Spread& s) { return {{"median", s.median}, {"mean", s.mean}, {"worst", s.worst}}; }
+
+/// Slope of log(error) against log(n), by least squares.
+double order(const std::vector<double>& n, const std::vector<double>& error) {
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  const auto count = static_cast<double>(n.size());
+  for (std::size_t i = 0; i < n.size(); ++i) {
+    const double x = std::log(n[i]), y = std::log(error[i]);
+    sx += x;
+    sy += y;
+    sxx += x * x;
+    sxy += x * y;
+  }
+  return (count * sxy - sx * sy) / (count * sxx - sx * sx);
+}
+
+/// Everything the figures and the text show, from the rows of one table.
+Json summarise(const std::vector<Measurement>& rows, const std::vector<int>& planes) {
+  Json summary;
+  summary["engagements"] = rows.size();
+  const std::size_t finest =
+      static_cast<std::size_t>(std::max_element(planes.begin(), planes.end()) - planes.begin());
+  summary["finest_planes"] = planes[finest];
+  const auto collect = [&](auto&& value) {
+    std::vector<double> values;
+    values.reserve(rows.size());
+    for (const Measurement& m : rows) values.push_back(value(m));
+    return values;
+  };
+  std::vector<double> fit_n, fit_error;
+  Json slices = Json::array();
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const Spread discretisation = spread(collect(
+        [&](const Measurement& m) { return std::abs(m.slice_areas[i] / m.slice_areas[finest] - 1); }));
+    const Spread missing =
+        spread(collect([&](const Measurement& m) { return 1 - m.slice_areas[i] / m.exact_area; }));
+    const double limit = 2.0 / planes[i];
+    slices.push_back({{"planes", planes[i]},
+                      {"discretisation_error", spread_json(discretisation)},
+                      {"two_over_n", limit},
+                      {"below_two_over_n", discretisation.worst < limit},
+                      {"error_against_true_cone", spread_json(missing)}});
+    if (planes[i] >= 6 && planes[i] * 4 <= planes[finest] && discretisation.median > 0) {
+      fit_n.push_back(planes[i]);
+      fit_error.push_back(discretisation.median);
+    }
+  }
+  summary["slice"] = slices;
+  if (fit_n.size() >= 2) summary["slice_order"] = order(fit_n, fit_error);
+  summary["slice_bias"] = spread_json(
+      spread(collect([&](const Measurement& m) { return 1 - m.slice_areas[finest] / m.exact_area; })));
+  std::vector<double> bias =
+      collect([&](const Measurement& m) { return 1 - m.slice_areas[finest] / m.exact_area; });
+  summary["slice_bias_values"] = bias;
+  Json exact = Json::array();
+  std::vector<double> bound_n, bound_median;
+  for (std::size_t i = 0; i < kSampleCounts.size(); ++i) {
+    const Spread error =
+        spread(collect([&](const Measurement& m) { return std::abs(m.areas[i] / m.exact_area - 1); }));
+    const Spread bound =
+        spread(collect([&](const Measurement& m) { return m.area_bounds[i] / m.exact_area; }));
+    const auto violated = std::count_if(rows.begin(), rows.end(), [&](const Measurement& m) {
+      return std::abs(m.areas[i] - m.exact_area) > m.area_bounds[i];
+    });
+    exact.push_back({{"samples", kSampleCounts[i]},
+                     {"error", spread_json(error)},
+                     {"certified_bound", spread_json(bound)},
+                     {"bound_violations", violated}});
+    if (kSampleCounts[i] >= 24) {
+      bound_n.push_back(kSampleCounts[i]);
+      bound_median.push_back(bound.median);
+    }
+  }
+  summary["exact"] = exact;
+  summary["bound_order"] = order(bound_n, bound_median);
+  return summary;
+}
+
+std::vector<std::pair<std::string, Measurement>> read_table(const fs::path& path,
+                                                            const std::vector<int>& planes) {
+  std::ifstream in(path);
+  std::vector<std::pair<std::string, Measurement>> rows;
+  std::string line;
+  std::getline(in, line);  // settings
+  std::getline(in, line);  // header
+  for (std::size_t number = 3; std::getline(in, line); ++number) {
+    try {
+      std::string id;
+      Measurement m = parse_row(line, planes, id);
+      rows.emplace_back(std::move(id), std::move(m));
+    } catch (const std::exception& e) {
+      throw std::runtime_error(path.string() + ":" + std::to_string(number) + ": " + e.what());
+    }
+  }
+  return rows;
+}
+
+std::string percent(double x) {
+  std::ostringstream s;
+  s << std::fixed << std::setprecision(2) << 100 * x << " %";
+  return s.str();
+}
+
+std::string scientific(double x) {
+  std::ostringstream s;
+  s << std::scientific << std::setprecision(1) << x;
+  return s.str();
+}
+
+void print_summary(const Json& s, std::ostream& out) {
+  const auto number = [](const Json& value) { return value.get<double>(); };
+  out << "  planes   discretisation error      2/n      missing from the true cone\n"
+      << "           median     worst                   mean       worst\n";
+  for (const Json& row : s["slice"]) {
+    out << std::setw(8) << row["planes"].get<int>() << "   "
+        << scientific(number(row["discretisation_error"]["median"])) << "    "
+        << scientific(number(row["discretisation_error"]["worst"])) << "   "
+        << scientific(number(row["two_over_n"])) << (row["below_two_over_n"].get<bool>() ? "   " : " ! ")
+        << std::setw(9) << percent(number(row["error_against_true_cone"]["mean"])) << "  " << std::setw(9)
+        << percent(number(row["error_against_true_cone"]["worst"])) << '\n';
+  }
+  if (s.contains("slice_order"))
+    out << "  discretisation error falls as n^" << std::fixed << std::setprecision(2)
+        << number(s["slice_order"]) << "; slice bias (n = " << s["finest_planes"].get<int>() << "): mean "
+        << percent(number(s["slice_bias"]["mean"])) << ", worst " << percent(number(s["slice_bias"]["worst"]))
+        << '\n';
+  out << "  samples  error of the exact cone   certified bound         bound\n"
+      << "           median     worst          median     worst        violated\n";
+  for (const Json& row : s["exact"])
+    out << std::setw(8) << row["samples"].get<int>() << "   " << scientific(number(row["error"]["median"]))
+        << "    " << scientific(number(row["error"]["worst"])) << "        "
+        << scientific(number(row["certified_bound"]["median"])) << "    "
+        << scientific(number(row["certified_bound"]["worst"])) << "      "
+        << row["bound_violations"].get<long>() << '\n';
+  out << "  certified bound falls as m^" << std::fixed << std::setprecision(2) << number(s["bound_order"])
+      << '\n';
+}
+
+std::vector<fs::path> scan_files(const std::vector<std::string>& given) {
+  std::vector<fs::path> files;
+  const auto known = files::known_extensions();
+  for (const std::string& name : given) {
+    if (!fs::is_directory(name)) {
+      files.emplace_back(name);
+      continue;
+    }
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(name))
+      if (std::find(known.begin(), known.end(), entry.path().extension().string()) != known.end())
+        found.push_back(entry.path());
+    if (found.empty()) throw InputError("--scan", name, "a mesh or cloud file, or a folder that has some");
+    std::sort(found.begin(), found.end());
+    files.insert(files.end(), found.begin(), found.end());
+  }
+  return files;
+}
+
+struct Scan {
+  std::string name;
+  std::size_t points = 0;
+  Ellipsoid hull;
+};
+
+Scan read_scan(const fs::path& path) {
+  const files::PointFile file = files::read_points(path);
+  std::vector<Eigen::Vector3d> points;
+  if (file.faces.empty() || file.unreferenced_points == 0) {
+    points = file.points;
+  } else {  // points that no face uses are not part of the object
+    std::vector<bool> used(file.points.size(), false);
+    for (const auto& face : file.faces)
+      for (const auto i : face) used[i] = true;
+    for (std::size_t i = 0; i < used.size(); ++i)
+      if (used[i]) points.push_back(file.points[i]);
+  }
+  try {
+    const auto fit = min_volume_ellipsoid<3>(points);
+    if (!fit.converged())
+      throw InputError("points", "no convergence", "a cloud whose ellipsoid can be found to 1e-7");
+    return {path.stem().string(), points.size(), fit.body};
+  } catch (const InputError& e) {
+    throw e.within(path.string());
+  }
+}
+
+Campaign base_campaign(const Options& o, const fs::path& table) {
+  Campaign c;
+  c.table = table;
+  c.header = csv_header(o.planes);
+  c.threads = o.threads > 0 ? o.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  c.quiet = o.quiet;
+  return c;
+}
+
+std::string planes_text(const std::vector<int>& planes) {
+  std::string text;
+  for (const int n : planes) text.append(text.empty() ? "" : " ").append(std::to_string(n));
+  return text;
+}
+
+void validate(const Options& o) {
+  if (o.planes.size() < 2)
+    throw InputError("--planes", planes_text(o.planes),
+                     "at least two plane counts, the largest is the reference");
+  for (const int n : o.planes)
+    if (n < 3 || n > 100'000) throw InputError("--planes", std::to_string(n), "between 3 and 100000");
+  auto sorted = o.planes;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+    throw InputError("--planes", planes_text(o.planes), "without repetitions");
+  if (o.engagements < 1 || o.engagements > 100'000'000)
+    throw InputError("--engagements", std::to_string(o.engagements), "between 1 and 100000000");
+  if (o.approaches < 1 || o.approaches > 1'000'000)
+    throw InputError("--approaches", std::to_string(o.approaches), "between 1 and 1000000");
+  if (o.threads < 0 || o.threads > 1024)
+    throw InputError("--threads", std::to_string(o.threads), "between 1 and 1024, or 0 for all");
+}
+
+}  // namespace
+
+int run_accuracy(const Options& given, std::ostream& out) {
+  validate(given);
+  Options options = given;
+  std::sort(options.planes.begin(), options.planes.end());
+  const fs::path folder = options.out;
+  if (fs::exists(folder) && !fs::is_directory(folder)) throw InputError("--out", options.out, "a folder");
+  std::vector<Scan> scans;
+  for (const fs::path& file : scan_files(options.scans)) scans.push_back(read_scan(file));
+  catch_interrupts();
+  const auto start = std::chrono::steady_clock::now();
+  const auto stopped = [&] {
+    out << "interrupted; the same command goes on where it stopped (" << folder.string() << ")\n";
+    return kExitInterrupted;
+  };
+
+  Campaign random = base_campaign(options, folder / "engagements.csv");
+  random.label = "random engagements";
+  random.count = options.engagements;
+  random.settings = "# vericone accuracy, seed " + std::to_string(options.seed) + ", " +
+                    std::to_string(options.engagements) + " engagements, planes " +
+                    planes_text(options.planes);
+  random.row = [&](std::uint64_t i) {
+    const auto [a, b] = random_engagement(options.seed, i);
+    return csv_row(std::to_string(i), measure(a, b, options.planes));
+  };
+  if (run_campaign(random) == Outcome::interrupted) return stopped();
+  const double random_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+  std::vector<Measurement> rows;
+  for (auto& [id, m] : read_table(random.table, options.planes)) rows.push_back(std::move(m));
+  Json summary{{"random", summarise(rows, options.planes)}};
+  summary["random"]["seconds"] = random_seconds;
+  out << options.engagements << " random engagements, " << options.planes.size() << " plane counts, "
+      << std::fixed << std::setprecision(1) << random_seconds << " s\n";
+  print_summary(summary["random"], out);
+
+  if (!scans.empty()) {
+    Campaign approach = base_campaign(options, folder / "scans.csv");
+    approach.label = "scanned objects   ";
+    approach.count = scans.size() * options.approaches;
+    approach.settings = "# vericone accuracy, seed " + std::to_string(options.seed) + ", " +
+                        std::to_string(options.approaches) + " approaches, planes " +
+                        planes_text(options.planes) + ", scans";
+    for (const Scan& s : scans) approach.settings += " " + s.name + ":" + std::to_string(s.points);
+    approach.row = [&](std::uint64_t i) {
+      const Scan& scan = scans[i / options.approaches];
+      const std::uint64_t k = i % options.approaches;
+      return csv_row(scan.name + "#" + std::to_string(k),
+                     measure(random_agent(scan.hull, options.seed, k), scan.hull, options.planes));
+    };
+    if (run_campaign(approach) == Outcome::interrupted) return stopped();
+    const auto table = read_table(approach.table, options.planes);
+    out << scans.size() << " scanned objects in their minimum-volume ellipsoids, " << options.approaches
+        << " approaches each\n  object                      points   semi-axes a, b, c (unit of the file)   "
+           "slice bias mean    worst\n";
+    Json objects = Json::array();
+    for (std::size_t s = 0; s < scans.size(); ++s) {
+      std::vector<Measurement> own;
+      for (std::uint64_t k = 0; k < options.approaches; ++k)
+        own.push_back(table[s * options.approaches + k].second);
+      Json object = summarise(own, options.planes);
+      const Eigen::Vector3d axes = scans[s].hull.semi_axes();
+      object["name"] = scans[s].name;
+      object["points"] = scans[s].points;
+      object["semi_axes"] = {axes.x(), axes.y(), axes.z()};
+      std::ostringstream text;
+      text << std::setprecision(4) << axes.x() << ", " << axes.y() << ", " << axes.z();
+      out << "  " << std::left << std::setw(24) << scans[s].name << std::right << std::setw(10)
+          << scans[s].points << "   " << std::left << std::setw(36) << text.str() << std::right
+          << std::setw(10) << percent(object["slice_bias"]["mean"].get<double>()) << std::setw(11)
+          << percent(object["slice_bias"]["worst"].get<double>()) << '\n';
+      objects.push_back(std::move(object));
+    }
+    summary["scans"] = objects;
+  }
+
+  // One engagement to look at: the first random one whose slice cone misses a fifth.
+  std::size_t shown = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (1 - rows[i].slice_areas.back() / rows[i].exact_area > 0.2) {
+      shown = i;
+      break;
+    }
+  const auto [a, b] = random_engagement(options.seed, shown);
+  Json picture = engagement_picture(a, b, 36, 192);
+  picture["engagement"] = shown;
+  write_whole(folder / "engagement.json", picture.dump(1) + "\n");
+  write_whole(folder / "summary.json", summary.dump(1) + "\n");
+  Json origin = provenance(options.command_line);
+  origin["seed"] = options.seed;
+  origin["engagements"] = options.engagements;
+  origin["planes"] = options.planes;
+  origin["scans"] = Json::array();
+  for (const auto& file : scan_files(options.scans)) origin["scans"].push_back(file.string());
+  origin["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  write_whole(folder / "provenance.json", origin.dump(1) + "\n");
+  out << "tables    " << (folder / "engagements.csv").string();
+  if (!scans.empty()) out << ", " << (folder / "scans.csv").string();
+  out << ", " << (folder / "summary.json").string() << ", " << (folder / "provenance.json").string() << '\n';
+  if (options.figures)
+    for (const char* script : {"accuracy.py", "engagement.py"})
+      for (const auto& file : draw_figures(script, folder)) out << "picture   " << file.string() << '\n';
+  return 0;
+}
+
+}  // namespace vericone::accuracy

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace vericone::accuracy {
+
+struct Options {
+  std::uint64_t engagements = 10'000;
+  std::uint64_t approaches = 200;  // per scanned object
+  std::uint64_t seed = 1;
+  std::vector<int> planes{3, 4, 6, 8, 12, 18, 24, 36, 60, 90, 180, 360};
+  std::vector<std::string> scans;  // files, or folders of files
+  std::string out = "out/accuracy";
+  int threads = 0;  // 0: one per processor
+  bool figures = true;
+  bool quiet = false;
+  std::string command_line;
+};
+
+/// `vericone accuracy`: how good a 3-D cone is for a number of planes or samples, on random engagements and
+/// on scanned objects. Writes tables, a summary, provenance and figures to `out`. Returns the exit status;
+/// 130 when interrupted, after which the same command resumes.
+int run_accuracy(const Options& options, std::ostream& out);
+
+}  // namespace vericone::accuracy

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Long work in parallel that can be interrupted at any moment and goes on where it was.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace vericone::accuracy {
+
+struct Campaign {
+  std::filesystem::path table;  // the finished CSV; work in progress stands beside it as *.partial
+  std::string settings;  // one line that pins down every row; unfinished work with other settings is refused
+  std::string header;
+  std::uint64_t count = 0;
+  std::function<std::string(std::uint64_t)> row;  // called from several threads
+  int threads = 1;
+  bool quiet = false;
+  std::string label;  // for the progress line
+};
+
+enum class Outcome { finished, interrupted };
+
+/// Computes the rows in order of their index, appends them to the partial file as blocks get ready, and
+/// renames it at the end. The result does not depend on the number of threads or of interruptions. Progress
+/// goes to standard error. Throws InputError naming "--out" for unfinished work of other settings.
+Outcome run_campaign(const Campaign& campaign);
+
+}  // namespace vericone::accuracy

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "accuracy/engagements.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+namespace vericone::accuracy {
+
+Random::Random(std::uint64_t seed, std::uint64_t index)
+    : state_(seed * 0x9e3779b97f4a7c15 + 0x2545f4914f6cdd1d) {
+  state_ ^= next() + index;
+  next();
+}
+
+std::uint64_t Random::next() {
+  // splitmix64 (Steele, Lea, Flood 2014)
+  std::uint64_t z = (state_ += 0x9e3779b97f4a7c15);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+  return z ^ (z >> 31);
+}
+
+double Random::uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
+
+Eigen::Vector3d Random::direction() {
+  const double z = uniform(-1, 1), azimuth = uniform(0, 2 * std::numbers::pi), r = std::sqrt(1 - z * z);
+  return {r * std::cos(azimuth), r * std::sin(azimuth), z};
+}
+
+Eigen::Matrix3d Random::rotation() {
+  const double u = uniform(), v = uniform(0, 2 * std::numbers::pi), w = uniform(0, 2 * std::numbers::pi);
+  const double p = std::sqrt(1 - u), q = std::sqrt(u);
+  return Eigen::Quaterniond(p * std::sin(v), p * std::cos(v), q * std::sin(w), q * std::cos(w))
+      .normalized()
+      .toRotationMatrix();
+}
+
+namespace {
+
+Eigen::Vector3d semi_axes(Random& random, double low, double high) {
+  const double a = random.uniform(low, high), b = random.uniform(low, high), c = random.uniform(low, high);
+  return {a, b, c};
+}
+
+}  // namespace
+
+std::pair<Ellipsoid, Ellipsoid> random_engagement(std::uint64_t seed, std::uint64_t index) {
+  Random random(seed, index);
+  const Eigen::Vector3d axes_a = semi_axes(random, 1, 10), axes_b = semi_axes(random, 1, 10);
+  const Eigen::Matrix3d rotation_a = random.rotation(), rotation_b = random.rotation();
+  const Eigen::Vector3d d = random.direction();
+  const Ellipsoid a = Ellipsoid::from_axes(Eigen::Vector3d::Zero(), axes_a, rotation_a);
+  const Ellipsoid b = Ellipsoid::from_axes(Eigen::Vector3d::Zero(), axes_b, rotation_b);
+  return {a, b.translated((a.radius(d) + b.radius(d)) * random.uniform(1.5, 3) * d)};
+}
+
+Ellipsoid random_agent(const Ellipsoid& obstacle, std::uint64_t seed, std::uint64_t index) {
+  Random random(seed, index);
+  const double mean = obstacle.semi_axes().mean();
+  const Eigen::Vector3d axes = semi_axes(random, 0.2 * mean, mean);
+  const Ellipsoid agent = Ellipsoid::from_axes(Eigen::Vector3d::Zero(), axes, random.rotation());
+  const Eigen::Vector3d d = random.direction();
+  const double distance = (agent.radius(d) + obstacle.radius(d)) * random.uniform(1.5, 3);
+  return agent.translated(obstacle.center() - distance * d);
+}
+
+}  // namespace vericone::accuracy

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vericone/geometry/ellipsoid.h>
+#include <cstdint>
+#include <utility>
+
+namespace vericone::accuracy {
+
+/// Numbers that depend on a seed and a position alone, not on the order or the thread in which they are
+/// drawn.
+class Random {
+ public:
+  Random(std::uint64_t seed, std::uint64_t index);
+  double uniform();  // [0, 1), 53 bits
+  double uniform(double low, double high) { return low + (high - low) * uniform(); }
+  Eigen::Vector3d direction();  // uniform on the sphere
+  Eigen::Matrix3d rotation();   // uniform (Shoemake 1992)
+
+ private:
+  std::uint64_t next();
+  std::uint64_t state_;
+};
+
+/// Engagement `index` of the campaign: semi-axes uniform in 1..10 m, uniform orientations, the centre of B in
+/// a uniform direction d at 1.5 to 3 times the distance rho_A(d) + rho_B(d) at which a plane perpendicular to
+/// d just separates the bodies. The line of centres then always separates them and the section area is
+/// finite. The source does not print its distribution (errata, 4.1).
+std::pair<Ellipsoid, Ellipsoid> random_engagement(std::uint64_t seed, std::uint64_t index);
+
+/// Approach `index` of an ellipsoidal agent to a given obstacle: the agent has semi-axes of 0.2 to 1 times
+/// the obstacle's mean one, and the rest is as above.
+Ellipsoid random_agent(const Ellipsoid& obstacle, std::uint64_t seed, std::uint64_t index);
+
+}  // namespace vericone::accuracy

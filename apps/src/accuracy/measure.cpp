@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "accuracy/measure.h"
+
+#include <vericone/cones/exact_cone.h>
+#include <vericone/cones/slice_cone.h>
+#include <vericone/geometry/error.h>
+#include <sstream>
+#include <stdexcept>
+
+namespace vericone::accuracy {
+
+Measurement measure(const Ellipsoid& a, const Ellipsoid& b, const std::vector<int>& planes) {
+  Measurement m;
+  const ExactCone reference = exact_cone(a, b, kReferenceSamples);
+  m.exact_area = reference.cross_section_area;
+  m.exact_solid_angle = reference.solid_angle;
+  for (const int n : planes) m.slice_areas.push_back(slice_cone(a, b, n).polyhedral().cross_section_area);
+  for (std::size_t i = 0; i < kSampleCounts.size(); ++i) {
+    const ExactCone cone = exact_cone(a, b, kSampleCounts[i]);
+    m.areas[i] = cone.cross_section_area;
+    m.area_bounds[i] = cone_bounds(cone, a, b).cross_section_area_error;
+  }
+  return m;
+}
+
+std::string csv_header(const std::vector<int>& planes) {
+  std::string header = "engagement,exact_area,exact_solid_angle_sr";
+  for (const int n : planes) header += ",slice_area_n" + std::to_string(n);
+  for (const int m : kSampleCounts) header += ",exact_area_m" + std::to_string(m);
+  for (const int m : kSampleCounts) header += ",exact_area_bound_m" + std::to_string(m);
+  return header;
+}
+
+std::string csv_row(const std::string& id, const Measurement& m) {
+  std::string row = id;
+  const auto add = [&](double x) { row += "," + to_text(x); };
+  add(m.exact_area);
+  add(m.exact_solid_angle);
+  for (const double x : m.slice_areas) add(x);
+  for (const double x : m.areas) add(x);
+  for (const double x : m.area_bounds) add(x);
+  return row;
+}
+
+Measurement parse_row(const std::string& row, const std::vector<int>& planes, std::string& id) {
+  std::istringstream in(row);
+  std::vector<double> values;
+  std::string cell;
+  std::getline(in, id, ',');
+  while (std::getline(in, cell, ',')) values.push_back(std::stod(cell));
+  if (values.size() != 2 + planes.size() + 2 * kSampleCounts.size())
+    throw std::runtime_error("a row of " + std::to_string(values.size() + 1) + " columns");
+  Measurement m;
+  auto it = values.begin();
+  m.exact_area = *it++;
+  m.exact_solid_angle = *it++;
+  m.slice_areas.assign(it, it + static_cast<std::ptrdiff_t>(planes.size()));
+  it += static_cast<std::ptrdiff_t>(planes.size());
+  for (double& x : m.areas) x = *it++;
+  for (double& x : m.area_bounds) x = *it++;
+  return m;
+}
+
+}  // namespace vericone::accuracy

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What is measured on one engagement.
+#pragma once
+
+#include <vericone/geometry/ellipsoid.h>
+#include <array>
+#include <string>
+#include <vector>
+
+namespace vericone::accuracy {
+
+/// Numbers of boundary samples at which the exact cone is held against its own limit.
+inline constexpr std::array<int, 8> kSampleCounts{8, 12, 16, 24, 32, 48, 64, 96};
+/// Samples that stand for the limit: the rule has converged to rounding long before.
+inline constexpr int kReferenceSamples = 512;
+
+struct Measurement {
+  double exact_area = 0;                                   // cross-section at distance 1, dimensionless
+  double exact_solid_angle = 0;                            // sr
+  std::vector<double> slice_areas;                         // one for each plane count
+  std::array<double, kSampleCounts.size()> areas{};        // exact cone with few samples
+  std::array<double, kSampleCounts.size()> area_bounds{};  // and its certified error bound
+};
+
+Measurement measure(const Ellipsoid& a, const Ellipsoid& b, const std::vector<int>& planes);
+
+/// Column names and one row of the table of engagements; numbers with all their digits.
+std::string csv_header(const std::vector<int>& planes);
+std::string csv_row(const std::string& id, const Measurement& m);
+/// Inverse of csv_row; throws std::runtime_error for a row with another number of columns.
+Measurement parse_row(const std::string& row, const std::vector<int>& planes, std::string& id);
+
+}  // namespace vericone::accuracy

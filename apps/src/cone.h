@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vericone/geometry/ellipsoid.h>
+#include <iosfwd>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace vericone {
+
+struct ConeOptions {
+  std::string scene;
+  std::string method = "exact";  // or "slice"
+  int planes = 36;               // slice
+  int samples = 96;              // exact
+  bool json = false;
+  std::string picture_folder;  // empty: no picture
+};
+
+/// `vericone cone`: the cone of one scene, as text or JSON (docs/formats.md), with a picture if asked for.
+void run_cone(const ConeOptions& options, std::ostream& out);
+
+/// What the picture of one engagement shows: both bodies, the slice cone inside the exact one, and a velocity
+/// between the two with the contact it leads to. Requires disjoint bodies.
+nlohmann::ordered_json engagement_picture(const Ellipsoid& a, const Ellipsoid& b, int planes, int samples);
+
+}  // namespace vericone

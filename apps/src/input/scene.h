@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "input/body.h"
+
+namespace vericone::input {
+
+/// Reads a scene file, YAML (of which JSON is a part). Throws InputError naming the file or the field.
+Engagement read_scene(const std::string& path);
+
+}  // namespace vericone::input

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The vericone command. Results go to standard output, progress and errors to standard error.
+// Exit status: 0 done, 1 something outside the program failed, 2 bad input, 130 interrupted.
+#include <vericone/geometry/error.h>
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "accuracy/accuracy.h"
+#include "build_info.h"
+#include "cone.h"
+#include "query.h"
+#ifdef VERICONE_HAVE_VERIFY
+#include <vericone/verify/report.h>
+#endif
+
+namespace {
+
+int run(int argc, char** argv) {
+  CLI::App app{"Collision cones with certified bounds"};
+  app.set_version_flag("--version",
+                       std::string("vericone ") + VERICONE_VERSION + " (" + VERICONE_COMMIT + ")");
+  app.require_subcommand(1);
+  int status = 0;
+
+  vericone::ConeOptions cone;
+  auto* cone_command = app.add_subcommand("cone", "The collision cone of one scene");
+  cone_command->add_option("scene", cone.scene, "Scene file, YAML (docs/formats.md)")->required();
+  cone_command
+      ->add_option("--method", cone.method,
+                   "exact: the true cone with its error bound; slice: the source's, too small")
+      ->capture_default_str();
+  cone_command->add_option("--planes", cone.planes, "Planes of the slice cone")->capture_default_str();
+  cone_command->add_option("--samples", cone.samples, "Boundary samples of the exact cone")
+      ->capture_default_str();
+  cone_command->add_flag("--json", cone.json, "Print JSON");
+  cone_command->add_option("--picture", cone.picture_folder, "Folder for a picture of bodies and cones");
+  cone_command->callback([&] { vericone::run_cone(cone, std::cout); });
+
+  std::string cases;
+  auto* query = app.add_subcommand("query", "Exact verdicts on engagements, one JSON object a line");
+  query->add_option("cases", cases, "File of cases, or - for standard input")->required();
+  query->callback([&] { status = vericone::run_query(cases, std::cout); });
+
+  vericone::accuracy::Options accuracy;
+  auto* accuracy_command =
+      app.add_subcommand("accuracy", "Accuracy of slice and exact cones against planes and samples");
+  accuracy_command->add_option("-N,--engagements", accuracy.engagements, "Random engagements")
+      ->capture_default_str();
+  accuracy_command->add_option("--scan", accuracy.scans, "Mesh or cloud files, or folders of them")
+      ->expected(1, -1);
+  accuracy_command->add_option("--approaches", accuracy.approaches, "Engagements per scanned object")
+      ->capture_default_str();
+  accuracy_command->add_option("--planes", accuracy.planes, "Plane counts; the largest is the reference")
+      ->delimiter(',')
+      ->capture_default_str();
+  accuracy_command->add_option("--seed", accuracy.seed, "Seed of all random numbers")->capture_default_str();
+  accuracy_command->add_option("--out", accuracy.out, "Folder for tables and pictures")
+      ->capture_default_str();
+  accuracy_command->add_option("--threads", accuracy.threads, "Threads, 0: one per processor")
+      ->capture_default_str();
+  bool no_figures = false;
+  accuracy_command->add_flag("--no-figures", no_figures, "Tables only");
+  accuracy_command->add_flag("--quiet", accuracy.quiet, "No progress");
+  accuracy_command->callback([&] {
+    accuracy.figures = !no_figures;
+    for (int i = 0; i < argc; ++i)
+      accuracy.command_line.append(i ? " " : "").append(i ? argv[i] : "vericone");
+    status = vericone::accuracy::run_accuracy(accuracy, std::cout);
+  });
+
+#ifdef VERICONE_HAVE_VERIFY
+  std::uint64_t verify_cases = 200, verify_seed = 1;
+  auto* verify = app.add_subcommand("verify", "Hold the library against exact constructions (CGAL)");
+  verify->add_option("--cases", verify_cases, "Cases per family")
+      ->check(CLI::Range(1, 10'000'000))
+      ->capture_default_str();
+  verify->add_option("--seed", verify_seed, "Seed")->capture_default_str();
+  verify->callback([&] {
+    std::cout << vericone::verify::planar_report(verify_cases, verify_seed) << '\n' << std::flush;
+    std::cout << vericone::verify::spatial_report(verify_cases, verify_seed);
+  });
+#endif
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& e) {
+    return app.exit(e);
+  } catch (const CLI::CallForVersion& e) {
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    std::string text = e.what();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    std::cerr << "vericone: " << text << " (see vericone --help)\n";
+    return 2;
+  }
+  std::cout.flush();
+  if (!std::cout) {
+    std::cerr << "vericone: could not write to standard output\n";
+    return 1;
+  }
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const vericone::InputError& e) {
+    std::cerr << "vericone: " << e.what() << '\n';
+    return 2;
+  } catch (const std::exception& e) {
+    std::cerr << "vericone: " << e.what() << '\n';
+    return 1;
+  }
+}

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "provenance.h"
+
+#include <Eigen/Core>
+#include <chrono>
+#include <ctime>
+#include <fstream>
+#include <stdexcept>
+#include <thread>
+
+#include "build_info.h"
+
+namespace vericone {
+namespace {
+
+std::string processor() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+std::string now() {
+  const std::time_t t = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::string text(32, '\0');
+  text.resize(std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&t)));
+  return text;
+}
+
+}  // namespace
+
+nlohmann::ordered_json provenance(const std::string& command_line) {
+  return {{"command", command_line},
+          {"version", VERICONE_VERSION},
+          {"commit", VERICONE_COMMIT},
+          {"compiler", "g++-compatible " __VERSION__},
+          {"flags", VERICONE_FLAGS},
+          {"eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
+                        std::to_string(EIGEN_MINOR_VERSION)},
+          {"processor", processor()},
+          {"threads", std::thread::hardware_concurrency()},
+          {"finished", now()}};
+}
+
+void write_whole(const std::filesystem::path& path, const std::string& content) {
+  std::filesystem::path partial = path;
+  partial += ".partial";
+  {
+    std::ofstream out(partial, std::ios::binary);
+    out << content;
+    out.flush();
+    if (!out) throw std::runtime_error("could not write " + partial.string());
+  }
+  std::filesystem::rename(partial, path);
+}
+
+}  // namespace vericone

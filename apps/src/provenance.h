@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace vericone {
+
+/// What it takes to get the same result again: commit, version, compiler, flags, processor, command line.
+nlohmann::ordered_json provenance(const std::string& command_line);
+
+/// Writes to a neighbouring file first and renames: a reader sees the old content or the new one, never half.
+/// Throws std::runtime_error naming the path.
+void write_whole(const std::filesystem::path& path, const std::string& content);
+
+}  // namespace vericone

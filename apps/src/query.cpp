@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "query.h"
+
+#include <vericone/cones/clearance.h>
+#include <vericone/geometry/error.h>
+#include <fstream>
+#include <iostream>
+#include <limits>
+
+#include "input/body.h"
+
+namespace vericone {
+namespace {
+
+using input::Json;
+
+Json answer(const input::Engagement& e) {
+  const ConeOracle oracle(e.agent, e.obstacle);
+  const Verdict verdict = oracle.verdict(e.agent_velocity, e.obstacle_velocity);
+  Json result;
+  result["verdict"] = to_string(verdict);
+  result["clearance"] = clearance_ahead(oracle, e.agent_velocity, e.obstacle_velocity);
+  if (verdict == Verdict::out) {
+    result["time_to_contact"] = nullptr;
+  } else if (verdict == Verdict::in || verdict == Verdict::on) {
+    result["time_to_contact"] = contact_time(e.agent, e.obstacle, e.agent_velocity - e.obstacle_velocity);
+  } else {
+    result["time_to_contact"] = 0.0;
+  }
+  return result;
+}
+
+/// Parses one line; a key given twice is refused, since only one of the two would be used.
+Json parse_line(const std::string& line, std::size_t number) {
+  std::vector<std::vector<std::string>> keys;
+  std::string twice;
+  const auto watch = [&](int, Json::parse_event_t event, Json& parsed) {
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key) {
+      const auto key = parsed.get<std::string>();
+      if (std::find(keys.back().begin(), keys.back().end(), key) != keys.back().end()) twice = key;
+      keys.back().push_back(key);
+    }
+    return true;
+  };
+  const std::string where = "line " + std::to_string(number);
+  try {
+    Json value = Json::parse(line, watch);
+    if (!twice.empty()) throw InputError(twice, "given twice", "given once");
+    return value;
+  } catch (const Json::parse_error& e) {
+    throw InputError(where, "a text that breaks off or turns wrong at character " + std::to_string(e.byte),
+                     "one JSON object");
+  } catch (const Json::out_of_range&) {
+    throw InputError(where, "a number out of range", "one JSON object with numbers up to 1.8e308");
+  }
+}
+
+Json answer_line(const std::string& line, std::size_t number, bool& bad) {
+  Json result;
+  result["id"] = nullptr;
+  try {
+    const Json value = parse_line(line, number);
+    if (value.is_object() && value.contains("id")) result["id"] = value["id"];
+    result.update(answer(input::read_engagement(value, input::Velocities::required, {"id"})));
+  } catch (const InputError& e) {
+    bad = true;
+    result["error"] = e.what();
+  }
+  return result;
+}
+
+}  // namespace
+
+int run_query(const std::string& path, std::ostream& out) {
+  std::ifstream file;
+  if (path != "-") {
+    file.open(path);
+    if (!file)
+      throw InputError(path, "no readable file",
+                       "a file of cases, one JSON object a line, or - for standard input");
+  }
+  std::istream& in = path == "-" ? std::cin : file;
+  bool bad = false;
+  std::string line;
+  for (std::size_t number = 1; std::getline(in, line); ++number) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    out << answer_line(line, number, bad).dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+    // A consumer that feeds line by line waits for each answer.
+    if (path == "-" && in.rdbuf()->in_avail() <= 0) out.flush();
+    if (!out) throw std::runtime_error("standard output was closed");
+  }
+  out.flush();
+  return bad ? 2 : 0;
+}
+
+}  // namespace vericone
