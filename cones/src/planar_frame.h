@@ -13,7 +13,6 @@ namespace vericone {
 struct PlanarFrame {
   Eigen::Matrix2d to_space;         // columns: images of the frame's axes
   Eigen::Matrix2d normal_to_space;  // inverse transpose: maps normals
-  Eigen::Matrix2d normal_from_contact;  // maps normals of the contact frame to this one
   Eigen::Matrix2d shape_a, shape_b;
 
   explicit PlanarFrame(const ContactFrame<2>& contact) {
@@ -28,7 +27,6 @@ struct PlanarFrame {
     to_space = contact.to_space * s.asDiagonal() * rotation * stretch.asDiagonal();
     normal_to_space = contact.to_frame.transpose() * s.cwiseInverse().asDiagonal() * rotation *
                       stretch.cwiseInverse().asDiagonal();
-    normal_from_contact = stretch.asDiagonal() * rotation.transpose() * s.asDiagonal();
     const auto map_shape = [&](const Eigen::Vector2d& diagonal) -> Eigen::Matrix2d {
       const Eigen::Matrix2d f =
           stretch.cwiseInverse().asDiagonal() * rotation.transpose() * diagonal.cwiseQuotient(s).asDiagonal();

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/sector.h>
 #include <vericone/geometry/double_double.h>
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "planar_frame.h"
@@ -11,6 +14,9 @@ namespace vericone {
 namespace {
 
 using Eigen::Vector2d;
+
+/// Below this excess of the contact function the roots are started from the maximum between them.
+constexpr double kNearTouching = 1e-6;
 
 /// rho(n)^2 with 31 digits, from the matrix that defines the body.
 DoubleDouble squared_radius(const Ellipse& body, const Vector2d& n) {
@@ -59,22 +65,51 @@ struct RefinedNormal {
 RefinedNormal refine(const Ellipse& a, const Ellipse& b, Vector2d n, double side) {
   RefinedNormal result{n.normalized(), 0};
   double last = std::numeric_limits<double>::infinity();
-  for (int iteration = 0; iteration < 6; ++iteration) {
+  for (int iteration = 0; iteration < 20; ++iteration) {
     const Residual r = residual(a, b, result.n);
     const Vector2d tangent = side * Vector2d(-result.n.y(), result.n.x());
     const double slope = -r.gradient.dot(tangent);  // > 0: the distance between the points of tangency
-    result.turn = r.value / slope;
-    const double size = std::abs(result.turn);
-    if (!(slope > 0) || size < 1e-17 || size > 0.5 * last) break;
-    last = size;
-    if (iteration < 5 && size > 1e-16) {
-      result.n = (result.n + result.turn * tangent).normalized();
-    } else {
+    if (!(slope > 0)) {
+      result.turn = 0;
       break;
     }
+    result.turn = r.value / slope;
+    const double size = std::abs(result.turn);
+    // Below the spacing of doubles the angle itself carries the rest.
+    if (size <= 1e-16 || (size < 1e-13 && size > 0.5 * last)) break;
+    last = size;
+    result.n = (result.n + result.turn * tangent).normalized();
+    result.turn = 0;
   }
   return result;
 }
+
+/// Starts for refine() where the bodies nearly touch and the contact function is one to rounding: the maximum
+/// of g and its curvature there give both roots.
+struct NearTouching {
+  Vector2d normal;  // at the maximum
+  double half = 0;  // angle from there to either root; 0 when it is below what 31 digits tell from 0
+
+  NearTouching(const Ellipse& a, const Ellipse& b, const Vector2d& start) : normal(start.normalized()) {
+    const double det_a = a.factor().determinant(), det_b = b.factor().determinant();
+    for (int iteration = 0; iteration < 20; ++iteration) {
+      const Residual r = residual(a, b, normal);
+      const double ra = a.radius(normal), rb = b.radius(normal);
+      // rho'' + rho = det S / rho^3.
+      const double curvature = det_a * det_a / (ra * ra * ra) + det_b * det_b / (rb * rb * rb) + r.value;
+      half = std::sqrt(std::max(2 * r.value / curvature, 0.0));
+      const Vector2d tangent(-normal.y(), normal.x());
+      const double step = r.gradient.dot(tangent) / curvature;
+      // To a thousandth of the distance to the roots is near enough.
+      if (!(std::abs(step) > std::max(1e-3 * half, 1e-16))) break;
+      normal = (normal + std::clamp(step, -0.1, 0.1) * tangent).normalized();
+    }
+  }
+
+  Vector2d root(double side) const {
+    return normal + std::min(half, 0.5) * side * Vector2d(-normal.y(), normal.x());
+  }
+};
 
 }  // namespace
 
@@ -84,14 +119,21 @@ Sector sector_by_support(const Ellipse& a, const Ellipse& b) {
   const ContactFrame<2> contact(a, b);
   if (rel == Relation::touching) return touching_sector(a, b, contact.separating_normal());
 
-  const PlanarFrame frame(contact);
-  const double orientation = frame.normal_to_space.determinant() > 0 ? 1 : -1;
-  // In the frame K lies to the right of the origin; the normal (1, t) with t > 0 bounds it from below, i.e.
-  // it is the inner normal of the clockwise edge, unless the map to space is a reflection.
-  const Vector2d up = frame.normal_to_space * Vector2d(1, support_tangent_slope(frame, contact, 1));
-  const Vector2d down = frame.normal_to_space * Vector2d(1, support_tangent_slope(frame, contact, -1));
-  const RefinedNormal right = refine(a, b, orientation > 0 ? up : down, 1);
-  const RefinedNormal left = refine(a, b, orientation > 0 ? down : up, -1);
+  RefinedNormal right, left;
+  if (contact.contact - 1 < kNearTouching) {
+    const NearTouching near(a, b, contact.separating_normal());
+    right = refine(a, b, near.root(1), 1);
+    left = refine(a, b, near.root(-1), -1);
+  } else {
+    const PlanarFrame frame(contact);
+    const double orientation = frame.normal_to_space.determinant() > 0 ? 1 : -1;
+    // In the frame K lies to the right of the origin; the normal (1, t) with t > 0 bounds it from below, i.e.
+    // it is the inner normal of the clockwise edge, unless the map to space is a reflection.
+    const Vector2d up = frame.normal_to_space * Vector2d(1, support_tangent_slope(frame, contact, 1));
+    const Vector2d down = frame.normal_to_space * Vector2d(1, support_tangent_slope(frame, contact, -1));
+    right = refine(a, b, orientation > 0 ? up : down, 1);
+    left = refine(a, b, orientation > 0 ? down : up, -1);
+  }
 
   // psi = pi - angle between the normals; as an angle between directions (-left, right turned) it keeps its
   // relative accuracy when the bodies are far apart and psi is small.
@@ -101,7 +143,9 @@ Sector sector_by_support(const Ellipse& a, const Ellipse& b) {
   const double dot = static_cast<double>(product(left.n.x(), right.n.x()) + product(left.n.y(), right.n.y()));
   Sector sector;
   sector.relation = Relation::disjoint;
-  sector.psi = std::atan2(cross, -dot) - left.turn - right.turn;
+  // Normals of nearly touching bodies may cross by a rounding; psi stays below pi.
+  sector.psi = cross > 0 || dot < 0 ? std::atan2(cross, -dot) - left.turn - right.turn
+                                    : std::numbers::pi - std::max(left.turn + right.turn, 0.0);
   sector.left = make_edge(a, b, left.n, -1);
   sector.right = make_edge(a, b, right.n, 1);
   sector.theta_b = bisector_angle(sector.right.direction, sector.psi);
