@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <vericone/verify/planar_families.h>
+#include <vericone/verify/seeded_random.h>
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 namespace vericone::verify {
 namespace {
@@ -11,33 +11,12 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-/// std::mt19937_64 is the same everywhere, the standard distributions are not.
-class Random {
+class Random : public SeededRandom {
  public:
-  Random(PlanarFamily family, std::uint64_t seed, std::uint64_t index) {
-    std::seed_seq sequence{low(seed), high(seed), static_cast<std::uint32_t>(family), low(index),
-                           high(index)};
-    engine_.seed(sequence);
-  }
+  Random(PlanarFamily family, std::uint64_t seed, std::uint64_t index)
+      : SeededRandom(static_cast<std::uint32_t>(family), seed, index) {}
 
-  double uniform(double from, double to) {
-    return from + (to - from) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-  }
-  int integer(int from, int to) {
-    return from + static_cast<int>(engine_() % static_cast<std::uint64_t>(to - from + 1));
-  }
-  bool coin() { return engine_() >> 63; }
-
-  /// Uniform direction: a point of the unit disc, away from its centre, normalised.
-  Vector2d direction() {
-    for (;;) {
-      const double x = uniform(-1, 1), y = uniform(-1, 1), r2 = x * x + y * y;
-      if (r2 <= 1 && r2 >= 0.01) {
-        const double r = std::sqrt(r2);
-        return {x / r, y / r};
-      }
-    }
-  }
+  Vector2d direction() { return SeededRandom::direction<2>(); }
   Vector2d axes() {
     const double first = uniform(1, 10);
     return {first, uniform(1, 10)};
@@ -47,12 +26,6 @@ class Random {
     return {x, uniform(-10, 10)};
   }
   double separation() { return uniform(1.2, 5); }
-
- private:
-  static std::uint32_t low(std::uint64_t x) { return static_cast<std::uint32_t>(x); }
-  static std::uint32_t high(std::uint64_t x) { return static_cast<std::uint32_t>(x >> 32); }
-
-  std::mt19937_64 engine_;
 };
 
 /// `x` to 20 bits after the point: sums and products of a few such numbers are exact.
@@ -154,6 +127,8 @@ const char* name(PlanarFamily family) {
       return "nearly_touching";
     case PlanarFamily::within_rounding:
       return "within_rounding";
+    case PlanarFamily::thin_touching:
+      return "thin_touching";
     case PlanarFamily::symmetric:
       return "symmetric";
     case PlanarFamily::mixed_scale:
@@ -222,6 +197,17 @@ std::pair<Ellipse, Ellipse> planar_pair(PlanarFamily family, std::uint64_t seed,
     case PlanarFamily::within_rounding: {
       const Ellipse a = body(random, center, axes_a), b = body(random, center, axes_b);
       return apart(random, a, b, 1 + random.integer(-4, 4) * 0x1p-52);
+    }
+    case PlanarFamily::thin_touching: {
+      constexpr std::array kThickness = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
+      constexpr std::array kGaps = {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
+      const double thickness = kThickness[index % kThickness.size()];
+      const double gap = kGaps[index / kThickness.size() % kGaps.size()];
+      const int which = random.integer(1, 3);
+      const auto squeezed = [&](const Vector2d& s) { return Vector2d(s.x(), thickness * s.x()); };
+      const Ellipse a = body(random, center, which & 1 ? squeezed(axes_a) : axes_a);
+      const Ellipse b = body(random, center, which & 2 ? squeezed(axes_b) : axes_b);
+      return apart(random, a, b, 1 + gap);
     }
     case PlanarFamily::symmetric: {
       const int sign = random.coin() ? 1 : -1;

@@ -25,15 +25,18 @@ enum class PlanarFamily {
                     // instead
   within_rounding,  // at the touching distance to a few eps: only an exact decision tells separated from
                     // overlapping
+  thin_touching,    // axis ratio 10 to 1e6 : 1 and a gap of 1e-3 to 1e-10 of the touching distance; for the
+                    // thinnest with the smallest gaps only an exact decision tells the side
   symmetric,        // one coordinate axis is an axis of both bodies, exactly: tangents are mirror images
   mixed_scale,      // one body 1e6 times larger
 };
 
 inline constexpr std::array kAllPlanarFamilies = {
-    PlanarFamily::regular,         PlanarFamily::congruent, PlanarFamily::proportional,
-    PlanarFamily::common_axes,     PlanarFamily::circles,   PlanarFamily::thin,
-    PlanarFamily::far_from_origin, PlanarFamily::far_apart, PlanarFamily::nearly_touching,
-    PlanarFamily::within_rounding, PlanarFamily::symmetric, PlanarFamily::mixed_scale};
+    PlanarFamily::regular,         PlanarFamily::congruent,     PlanarFamily::proportional,
+    PlanarFamily::common_axes,     PlanarFamily::circles,       PlanarFamily::thin,
+    PlanarFamily::far_from_origin, PlanarFamily::far_apart,     PlanarFamily::nearly_touching,
+    PlanarFamily::within_rounding, PlanarFamily::thin_touching, PlanarFamily::symmetric,
+    PlanarFamily::mixed_scale};
 
 /// The name of the enumerator.
 const char* name(PlanarFamily family);
