@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/contact_frame.h>
 
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
+
+#include "scaled_inverse.h"
 
 namespace vericone {
 namespace {
@@ -74,7 +75,7 @@ double maximise_contact(const Eigen::Matrix<double, D, 1>& center, const Eigen::
 template <int D>
 ContactFrame<D>::ContactFrame(const Matrix& factor_a, const Matrix& factor_b, const Vector& line)
     : center_line(line) {
-  const Matrix inverse = factor_a.inverse();
+  const Matrix inverse = scaled_inverse<D>(factor_a);
   Matrix u;
   left_singular_vectors<D>(inverse * factor_b, u, sigma);
   to_space = factor_a * u;

@@ -71,12 +71,18 @@ struct DroppedAxis {
 /// Whether the point `x` (relative to the centre, off by at most `slack` in each coordinate) is inside the
 /// body.
 template <int D>
-bool surely_inside(const BasicEllipsoid<D>& body, const Eigen::Matrix<double, D, 1>& x, double slack) {
+bool surely_inside(const BasicEllipsoid<D>& body, Eigen::Matrix<double, D, 1> x, double slack) {
   using Vector = Eigen::Matrix<double, D, 1>;
-  const auto& f = body.factor();
-  const Eigen::Matrix<double, D, D> inverse = f.inverse();
+  using Matrix = Eigen::Matrix<double, D, D>;
+  // At a scale of one, so that neither a determinant nor a square leaves the range; powers of two are exact.
+  const double scale = std::ldexp(1.0, -binary_exponent(body.factor().cwiseAbs().maxCoeff()));
+  const Matrix f = body.factor() * scale;
+  x *= scale;
+  slack *= scale;
+  const Matrix inverse = f.inverse();
   const double inverse_norm = inverse.norm();
-  if (!(inverse_norm * f.norm() < 1e12)) return false;
+  // |I - F G| < 1/2 makes |F^{-1}| < 2 |G|, whatever G is.
+  if (!(inverse_norm < 1e12) || !((Matrix::Identity() - f * inverse).norm() < 0.49)) return false;
   const Vector z = inverse * x;
   const Vector residual = (x - f * z).cwiseAbs();
   const double bound = residual.norm() + std::sqrt(D) * slack +
@@ -178,10 +184,9 @@ std::optional<Relation> triage_relation(const BasicEllipsoid<D>& a, const BasicE
   // At the maximiser both bodies contain y = c / (1 + x sigma^2); it certifies the overlap.
   Eigen::Matrix<double, D, 1> y;
   for (int i = 0; i < D; ++i) y(i) = frame.center(i) / (1 + frame.ratio * frame.sigma(i) * frame.sigma(i));
-  const Eigen::Matrix<double, D, 1> x = frame.to_space * y;
-  const double slack = 4 * kUnitRoundoff * (x.norm() + frame.center_line.norm());
-  if (surely_inside<D>(a, x, 0) && surely_inside<D>(b, x - frame.center_line, slack))
-    return Relation::overlapping;
+  const Eigen::Matrix<double, D, 1> x = frame.to_space * y, c = b.center() - a.center();
+  const double slack = 4 * kUnitRoundoff * (x.cwiseAbs().maxCoeff() + c.cwiseAbs().maxCoeff());
+  if (surely_inside<D>(a, x, 0) && surely_inside<D>(b, x - c, slack)) return Relation::overlapping;
   return std::nullopt;
 }
 

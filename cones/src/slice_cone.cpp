@@ -10,6 +10,7 @@
 
 #include "degenerate_conics.h"
 #include "planar_frame.h"
+#include "scaled_inverse.h"
 
 namespace vericone {
 namespace {
@@ -34,8 +35,8 @@ class Slicer {
   Slicer(const Ellipsoid& a, const Ellipsoid& b)
       : frame_(b.center() - a.center()),
         distance_((b.center() - a.center()).norm()),
-        inverse_a_(a.factor().inverse()),
-        inverse_b_(b.factor().inverse()),
+        inverse_a_(scaled_inverse<3>(a.factor())),
+        inverse_b_(scaled_inverse<3>(b.factor())),
         along_a_(inverse_a_ * frame_.axis),
         along_b_(inverse_b_ * frame_.axis) {}
 
