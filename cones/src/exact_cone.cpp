@@ -5,6 +5,7 @@
 #include <vericone/geometry/error.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -15,13 +16,25 @@ namespace vericone {
 namespace {
 
 using Eigen::Matrix3d;
+using Eigen::Vector2d;
 using Eigen::Vector3d;
+
+/// Two numbers that go through the same operations, one for each end of a chord through the base.
+using Lanes = Eigen::Array2d;
+using Lanes3 = std::array<Lanes, 3>;
+
+Lanes dot(const Lanes3& x, const Lanes3& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
+
+Lanes3 times(const Matrix3d& m, const Lanes3& x) {
+  return {m(0, 0) * x[0] + m(0, 1) * x[1] + m(0, 2) * x[2], m(1, 0) * x[0] + m(1, 1) * x[1] + m(1, 2) * x[2],
+          m(2, 0) * x[0] + m(2, 1) * x[1] + m(2, 2) * x[2]};
+}
 
 /// The pair in coordinates where both bodies are axis-aligned and K lies in the unit ball about (0,0,L)
 /// turned onto `center`: A has the squared semi-axes alpha, B beta.
 class Silhouette {
  public:
-  explicit Silhouette(const ContactFrame<3>& contact) {
+  Silhouette(const ContactFrame<3>& contact, int count) : ds_(2 * std::numbers::pi / count) {
     const Vector3d shape = contact.bounding_shape(), scale = shape.cwiseSqrt();
     center_ = contact.center.cwiseQuotient(scale);
     alpha_ = shape.cwiseInverse();
@@ -29,68 +42,104 @@ class Silhouette {
     to_space_ = contact.to_space * scale.asDiagonal();
     normal_to_space_ = contact.to_frame.transpose() * scale.cwiseInverse().asDiagonal();
     const AxisFrame frame(center_);
+    const double determinant = to_space_.determinant();
+    turning_scale_ = determinant / contact.center_line.norm();
     // A map that reflects would turn the curve clockwise in space.
-    plane_ << (to_space_.determinant() > 0 ? 1 : -1) * frame.e1, frame.e2;
+    plane_ << (determinant > 0 ? 1 : -1) * frame.e1, frame.e2;
     nodes_ = AzimuthNodes(plane_.transpose() * alpha_.asDiagonal() * plane_,
-                          plane_.transpose() * beta_.asDiagonal() * plane_);
+                          plane_.transpose() * beta_.asDiagonal() * plane_, count);
     const double length2 = center_.squaredNorm();
     base_ = center_ / length2;
     start_ = std::sqrt(std::max(0.0, 1 - 1 / length2));
     radius_ = previous_ = start_;
   }
 
-  struct Point {
-    Vector3d normal, contact;  // in space, not normalised
-    Vector3d turning;          // contact x d contact / ds, in space
+  /// Two opposite samples: lane 0 at the azimuth asked for, lane 1 half a turn on.
+  struct Points {
+    Lanes3 normal, contact;  // in space, not normalised
+    Lanes turning;           // axis.(contact x d contact / ds), in space
   };
 
-  /// Sample k of `count`, in order. Normals are base + radius e, in the plane n.center = 1, where
-  /// g = 1 - rho_A - rho_B is concave along each ray with its maximum at the base (there the gradient is
-  /// along the centre line), so Newton converges from any start beyond it.
-  Point at(int k, int count) {
-    const AzimuthNodes::Node node = nodes_.at(k, count);
-    const Vector3d e = plane_ * node.e;
-    const Vector3d e_t = plane_ * Eigen::Vector2d(-node.e.y(), node.e.x());
-    // Cubic through the last two samples and their derivatives.
-    const double ds = 2 * std::numbers::pi / count;
-    const double guess =
-        k < 2 ? radius_ : 5 * previous_ - 4 * radius_ + ds * (4 * radius_rate_ + 2 * previous_rate_);
-    double radius = std::clamp(guess, 0.5 * radius_ + 0.5 * start_, 2 * radius_);
-    Vector3d n, gradient_a, gradient_b;
-    double ra = 0, rb = 0;
-    const auto evaluate = [&] {
-      n = base_ + radius * e;
-      gradient_a = alpha_.cwiseProduct(n);
-      gradient_b = beta_.cwiseProduct(n);
-      ra = std::sqrt(n.dot(gradient_a));
-      rb = std::sqrt(n.dot(gradient_b));
-      gradient_a *= 1 / ra;
-      gradient_b *= 1 / rb;
-    };
-    evaluate();
-    for (int iteration = 0; iteration < 50; ++iteration) {
-      const double step = (1 - ra - rb) / (gradient_a + gradient_b).dot(e);
-      if (!std::isfinite(step)) break;
-      radius = std::max(radius + step, start_);
-      evaluate();
-      if (std::abs(step) < 1e-8 * radius) break;  // quadratic: the next step would be below rounding
+  /// Samples k and k + count / 2, in the order of k. Normals are base + radius e, in the plane n.center = 1,
+  /// where g = 1 - rho_A - rho_B is concave along each ray with its maximum at the base (there the gradient
+  /// is along the centre line), so Newton converges from any start beyond it.
+  Points at(int k) {
+    const AzimuthNodes::Node node = nodes_.at(k);
+    const Vector3d direction = plane_ * node.e, across = plane_ * Vector2d(-node.e.y(), node.e.x());
+    Lanes3 e, e_t;
+    for (int i = 0; i < 3; ++i) {
+      e[i] = Lanes(direction(i), -direction(i));
+      e_t[i] = Lanes(across(i), -across(i));
     }
-    // g(n(t)) = 0 differentiated: radius' = radius (q.e') / -(q.e) with q = grad g.
-    const Vector3d q = center_ - gradient_a - gradient_b;
-    const double radius_t = -radius * q.dot(e_t) / q.dot(e);
+    // Cubic through the last two samples and their derivatives.
+    Lanes radius = radius_ + ds_ * radius_rate_;
+    if (k >= 2) radius = 5 * previous_ - 4 * radius_ + ds_ * (4 * radius_rate_ + 2 * previous_rate_);
+    radius = radius.max(0.5 * (radius_ + start_)).min(2 * radius_);
+
+    Lanes3 n, a, b;  // a = alpha n, b = beta n
+    const auto place = [&] {
+      for (int i = 0; i < 3; ++i) {
+        n[i] = base_[i] + radius * e[i];
+        a[i] = alpha_[i] * n[i];
+        b[i] = beta_[i] * n[i];
+      }
+    };
+    Lanes over_a, over_b;  // 1 / rho
+    for (int iteration = 0;; ++iteration) {
+      place();
+      const Lanes rho_a = dot(n, a).sqrt(), rho_b = dot(n, b).sqrt();
+      over_a = rho_a.inverse();
+      over_b = rho_b.inverse();
+      const Lanes slope_a = dot(a, e) * over_a, slope_b = dot(b, e) * over_b;
+      const Lanes bend_a = (node.square_a - slope_a.square()) * over_a,
+                  bend_b = (node.square_b - slope_b.square()) * over_b;
+      const Lanes over_slope = (slope_a + slope_b).inverse();
+      const Lanes newton = (1 - rho_a - rho_b) * over_slope;
+      // Second order, bounded so that far from the root it stays a Newton step of the right size.
+      const Lanes second = (0.5 * newton * (bend_a + bend_b) * over_slope).max(-0.5).min(0.5);
+      Lanes step = newton * (1 - second);
+      if (!step.allFinite() || iteration == 50) break;
+      step = step.max(start_ - radius);
+      radius += step;
+      const Lanes grown_a = slope_a * step * over_a, grown_b = slope_b * step * over_b;
+      const Lanes largest = grown_a.abs().max(grown_b.abs()).max(step.abs() / radius);
+      if (largest.maxCoeff() < 4e-6) {
+        // Third-order terms are below rounding: no need to take the roots anew.
+        place();
+        const Lanes more_a = grown_a + 0.5 * bend_a * over_a * step.square(),
+                    more_b = grown_b + 0.5 * bend_b * over_b * step.square();
+        over_a *= 1 - more_a + more_a.square();
+        over_b *= 1 - more_b + more_b.square();
+        break;
+      }
+    }
+    // g(n(t)) = 0 differentiated: radius' = radius (q.e') / -(q.e) with q = grad g = center - gradient.
+    Lanes3 gradient_a, gradient_b, gradient;
+    for (int i = 0; i < 3; ++i) {
+      gradient_a[i] = a[i] * over_a;
+      gradient_b[i] = b[i] * over_b;
+      gradient[i] = gradient_a[i] + gradient_b[i];
+    }
+    const Lanes radius_t = -radius * dot(gradient, e_t) / dot(gradient, e);
     previous_ = radius_;
     radius_ = radius;
     previous_rate_ = radius_rate_;
     radius_rate_ = radius_t * node.weight;
-    const Vector3d n_t = radius_t * e + radius * e_t;
     // q' = -(H_A + H_B) n', H = S / rho - (S n)(S n)^T / rho^3.
-    const Vector3d q_t = -(alpha_.cwiseProduct(n_t) - gradient_a * gradient_a.dot(n_t)) / ra -
-                         (beta_.cwiseProduct(n_t) - gradient_b * gradient_b.dot(n_t)) / rb;
-    Point p;
-    p.normal = normal_to_space_ * n;
-    p.contact = to_space_ * q;
-    p.turning = node.weight * p.contact.cross(to_space_ * q_t);
-    return p;
+    Lanes3 n_t, q, q_t;
+    for (int i = 0; i < 3; ++i) n_t[i] = radius_t * e[i] + radius * e_t[i];
+    const Lanes along_a = dot(gradient_a, n_t), along_b = dot(gradient_b, n_t);
+    for (int i = 0; i < 3; ++i) {
+      q[i] = center_[i] - gradient[i];
+      q_t[i] = (gradient_a[i] * along_a - alpha_[i] * n_t[i]) * over_a +
+               (gradient_b[i] * along_b - beta_[i] * n_t[i]) * over_b;
+    }
+    // With T = to_space: axis.(T q x T q') = det T (T^{-1} axis).(q x q'), T^{-1} axis = center / |c|, and
+    // center.(q x q') = -center.(gradient x q').
+    const Lanes volume = center_[0] * (gradient[2] * q_t[1] - gradient[1] * q_t[2]) +
+                         center_[1] * (gradient[0] * q_t[2] - gradient[2] * q_t[0]) +
+                         center_[2] * (gradient[1] * q_t[0] - gradient[0] * q_t[1]);
+    return {times(normal_to_space_, n), times(to_space_, q), turning_scale_ * node.weight * volume};
   }
 
  private:
@@ -98,7 +147,9 @@ class Silhouette {
   Eigen::Matrix<double, 3, 2> plane_;
   AzimuthNodes nodes_;
   Matrix3d to_space_, normal_to_space_;
-  double start_ = 0, radius_ = 0, previous_ = 0, radius_rate_ = 0, previous_rate_ = 0;
+  double ds_, turning_scale_ = 0, start_ = 0;
+  Lanes radius_ = Lanes::Zero(), previous_ = Lanes::Zero();
+  Lanes radius_rate_ = Lanes::Zero(), previous_rate_ = Lanes::Zero();
 };
 
 /// Moves `v` towards `target`, which is certain, in steps of growing size until `certain(v)`. The first step
@@ -127,23 +178,35 @@ ExactCone exact_cone(const Ellipsoid& a, const Ellipsoid& b, int samples) {
     cone.cross_section_area = std::numeric_limits<double>::infinity();
     return cone;
   }
-  Silhouette silhouette(contact);
-  cone.boundary.reserve(samples);
+  Silhouette silhouette(contact, samples);
+  cone.boundary.resize(samples);
+  // Opposite samples come in pairs; of an odd number of samples every pair gives one.
+  const bool paired = samples % 2 == 0;
+  const int half = samples / 2, count = paired ? half : samples;
+  Lanes solid_angle = Lanes::Zero(), area = Lanes::Zero();
   bool bounded = true;
-  const double ds = 2 * std::numbers::pi / samples;
-  for (int i = 0; i < samples; ++i) {
-    const Silhouette::Point p = silhouette.at(i, samples);
-    const double distance = p.contact.norm(), along = cone.axis.dot(p.contact);
-    const double turning = cone.axis.dot(p.turning);
-    cone.boundary.push_back({p.contact / distance, p.normal.normalized(), p.contact});
-    // d omega = (1 - cos) d azimuth = axis.(u x u') / (1 + axis.u) ds for u = q / |q|.
-    cone.solid_angle += turning / (distance * (distance + along)) * ds;
-    if (along > 0) {
-      cone.cross_section_area += 0.5 * turning / (along * along) * ds;
-    } else {
-      bounded = false;
+  for (int i = 0; i < count; ++i) {
+    const Silhouette::Points p = silhouette.at(i);
+    const Lanes distance = dot(p.contact, p.contact).sqrt(), normal = dot(p.normal, p.normal).sqrt();
+    const Lanes over_distance = distance.inverse(), over_normal = normal.inverse();
+    const Lanes along =
+        cone.axis.x() * p.contact[0] + cone.axis.y() * p.contact[1] + cone.axis.z() * p.contact[2];
+    for (int lane = 0; lane < (paired ? 2 : 1); ++lane) {
+      BoundarySample& sample = cone.boundary[i + lane * half];
+      for (int x = 0; x < 3; ++x) {
+        sample.direction(x) = p.contact[x](lane) * over_distance(lane);
+        sample.normal(x) = p.normal[x](lane) * over_normal(lane);
+        sample.contact(x) = p.contact[x](lane);
+      }
+      bounded = bounded && along(lane) > 0;
     }
+    // d omega = (1 - cos) d azimuth = axis.(u x u') / (1 + axis.u) ds for u = q / |q|.
+    solid_angle += p.turning / (distance * (distance + along));
+    area += 0.5 * p.turning / along.square();
   }
+  const double ds = 2 * std::numbers::pi / samples;
+  cone.solid_angle = ds * (paired ? solid_angle.sum() : solid_angle(0));
+  cone.cross_section_area = ds * (paired ? area.sum() : area(0));
   if (!bounded) cone.cross_section_area = std::numeric_limits<double>::infinity();
   return cone;
 }
