@@ -28,7 +28,7 @@ gap = np.array(data["gap_velocity"])
 bounded = data["exact_area"] is not None
 
 figure = plt.figure(figsize=(TWO_COLUMNS, 3.7))
-space = figure.add_axes([0.0, 0.0, 0.58, 0.9], projection="3d")
+space = figure.add_axes([0.02, 0.04, 0.56, 0.86], projection="3d")
 
 
 def cone(directions, color, alpha):
@@ -58,8 +58,12 @@ for name, i in (("x", 0), ("y", 1), ("z", 2)):
     getattr(space, "set_%slim" % name)(extent[:, i].min(), extent[:, i].max())
     getattr(space, "set_%slabel" % name)("%s (m)" % name, labelpad=-4)
 space.tick_params(pad=-2, labelsize=6)
+# Look across the plane that holds the line of centres and the velocity: the contact is then in profile.
 normal = np.cross(axis, gap)
-space.view_init(elev=22, azim=np.degrees(np.arctan2(normal[1], normal[0])) + 15)
+normal /= np.linalg.norm(normal)
+if normal[2] < 0:
+    normal = -normal
+space.view_init(elev=np.degrees(np.arcsin(normal[2])), azim=np.degrees(np.arctan2(normal[1], normal[0])))
 
 plane = figure.add_axes([0.67, 0.13, 0.31, 0.62])
 

@@ -43,16 +43,18 @@ Json exact_json(const Ellipsoid& a, const Ellipsoid& b, int samples) {
   Json directions = Json::array();
   for (const auto& s : cone.boundary) directions.push_back(vector_json(s.direction));
   result["directions"] = directions;
-  result["solid_angle"] = cone.solid_angle;
-  result["cross_section_area"] = number_or_null(cone.cross_section_area);
   if (cone.relation == Relation::disjoint) {
     const ConeBounds bounds = cone_bounds(cone, a, b);
+    result["solid_angle"] = bounds.solid_angle;
+    result["cross_section_area"] = number_or_null(bounds.cross_section_area);
     result["inner"] = polyhedral_json(bounds.inner);
     result["outer"] = polyhedral_json(bounds.outer);
     result["error_bound"] = bounds.solid_angle_error;
     result["cross_section_area_error_bound"] = number_or_null(bounds.cross_section_area_error);
   } else {
     // Half-space and full space are known exactly; they have no edges.
+    result["solid_angle"] = cone.solid_angle;
+    result["cross_section_area"] = nullptr;
     for (const char* side : {"inner", "outer"})
       result[side] = {
           {"directions", Json::array()}, {"solid_angle", cone.solid_angle}, {"cross_section_area", nullptr}};

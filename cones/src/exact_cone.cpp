@@ -152,14 +152,16 @@ class Silhouette {
   Lanes radius_rate_ = Lanes::Zero(), previous_rate_ = Lanes::Zero();
 };
 
-/// Moves `v` towards `target`, which is certain, in steps of growing size until `certain(v)`. The first step
-/// is where the floating-point rung usually decides; gaps between inner and outer are far larger.
-template <typename Certain>
-Vector3d certified(const Vector3d& v, const Vector3d& target, Certain&& certain) {
-  for (double step = 0x1p-44; step < 1; step *= 4) {
-    const Vector3d moved = ((1 - step) * v + step * target).normalized();
-    if (certain(moved)) return moved;
-  }
+/// Moves `v` towards `target`, which is certain, in steps of growing size until the predicate says yes. The first
+/// step is where its floating-point rung usually decides; gaps between inner and outer are far larger. For bodies
+/// so thin that it never does, the whole ladder is asked.
+template <typename Quick, typename Certain>
+Vector3d certified(const Vector3d& v, const Vector3d& target, Quick&& quick, Certain&& certain) {
+  const auto moved = [&](double step) -> Vector3d { return ((1 - step) * v + step * target).normalized(); };
+  for (double step = 0x1p-44; step < 0x1p-28; step *= 4)
+    if (const Vector3d m = moved(step); quick(m)) return m;
+  for (double step = 0x1p-48; step < 1; step *= 4)
+    if (const Vector3d m = moved(step); certain(m)) return m;
   return target;
 }
 
@@ -220,11 +222,13 @@ ConeBounds cone_bounds(const ExactCone& cone, const Ellipsoid& a, const Ellipsoi
   bounds.outer.directions.reserve(cone.boundary.size());
   normals.reserve(cone.boundary.size());
   for (const BoundarySample& s : cone.boundary) {
-    bounds.inner.directions.push_back(certified(s.direction, cone.axis, [&](const Vector3d& w) {
-      return oracle.triage_membership(w) == Membership::in;
-    }));
-    normals.push_back(
-        certified(s.normal, inside_normal, [&](const Vector3d& n) { return triage_separates<3>(a, b, n); }));
+    bounds.inner.directions.push_back(
+        certified(s.direction, cone.axis,
+                  [&](const Vector3d& w) { return oracle.triage_membership(w) == Membership::in; },
+                  [&](const Vector3d& w) { return oracle.membership(w) != Membership::out; }));
+    normals.push_back(certified(s.normal, inside_normal,
+                                [&](const Vector3d& n) { return triage_separates<3>(a, b, n); },
+                                [&](const Vector3d& n) { return separates<3>(a, b, n); }));
   }
   for (std::size_t i = 0; i < normals.size(); ++i) {
     Vector3d edge = normals[i].cross(normals[(i + 1) % normals.size()]);
@@ -238,13 +242,18 @@ ConeBounds cone_bounds(const ExactCone& cone, const Ellipsoid& a, const Ellipsoi
   measure(bounds.inner);
   measure(bounds.outer);
   const auto error = [](double inner, double value, double outer) {
-    return std::max({value - inner, outer - value, 0.0}) + 1e-12 * value;
+    return std::max(value - inner, outer - value) + 1e-12 * value;
   };
-  bounds.solid_angle_error = error(bounds.inner.solid_angle, cone.solid_angle, bounds.outer.solid_angle);
-  bounds.cross_section_area_error =
-      std::isfinite(cone.cross_section_area)
-          ? error(bounds.inner.cross_section_area, cone.cross_section_area, bounds.outer.cross_section_area)
-          : std::numeric_limits<double>::infinity();
+  bounds.solid_angle = std::clamp(cone.solid_angle, bounds.inner.solid_angle, bounds.outer.solid_angle);
+  bounds.solid_angle_error = error(bounds.inner.solid_angle, bounds.solid_angle, bounds.outer.solid_angle);
+  bounds.cross_section_area = cone.cross_section_area;
+  bounds.cross_section_area_error = std::numeric_limits<double>::infinity();
+  if (std::isfinite(cone.cross_section_area)) {
+    bounds.cross_section_area =
+        std::clamp(cone.cross_section_area, bounds.inner.cross_section_area, bounds.outer.cross_section_area);
+    bounds.cross_section_area_error =
+        error(bounds.inner.cross_section_area, bounds.cross_section_area, bounds.outer.cross_section_area);
+  }
   return bounds;
 }
 

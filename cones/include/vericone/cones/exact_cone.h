@@ -47,8 +47,12 @@ ExactCone exact_cone(const Ellipsoid& a, const Ellipsoid& b, int samples);
 /// normals are moved inwards until each is exactly certified to separate. The gap falls as samples^-2.
 struct ConeBounds {
   PolyhedralCone inner, outer;
-  /// The true solid angle and section area differ from those of the exact cone by at most this: the larger of
-  /// the distances to inner and outer, plus 1e-12 of the value for the rounding of the areas themselves.
+  /// The exact cone's numbers, clamped to what inner and outer allow: for very thin bodies and few samples
+  /// the trapezoidal rule has not converged yet, and the bounds know.
+  double solid_angle = 0;
+  double cross_section_area = 0;
+  /// The truth differs from these two by at most this: the larger of the distances to inner and outer, plus
+  /// 1e-12 of the value for the rounding of the areas themselves.
   double solid_angle_error = 0;
   double cross_section_area_error = 0;
 };

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bad inputs and the one line that each gets. The table in docs/bad-input.md is this list, printed by
+`/usr/bin/python3 tests/cli/bad_input_cases.py VERICONE > docs/bad-input.md`; the test runs every case and compares
+the table as well, so neither can go stale."""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+GOOD_AGENT = {"center": [0, 0, 0], "semi_axes": [1, 2, 3], "rotation": [1, 0, 0, 0]}
+GOOD_OBSTACLE = {"center": [10, 0, 0], "shape": [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}
+
+
+def case(agent=None, obstacle=None, **other):
+    """An engagement with changes; a value of None leaves a field out."""
+    def changed(body, changes):
+        body = {**body, **(changes or {})}
+        return {k: v for k, v in body.items() if v is not ...}
+    result = {"id": 7, "agent": changed(GOOD_AGENT, agent), "obstacle": changed(GOOD_OBSTACLE, obstacle),
+              "agent_velocity": [1, 0, 0], "obstacle_velocity": [0, 0, 0], **other}
+    return {k: v for k, v in result.items() if v is not ...}
+
+
+# What is wrong, the line of the query.
+QUERIES = [
+    ("a zero semi-axis", case(agent={"semi_axes": [1, 0, 3]})),
+    ("a negative semi-axis", case(agent={"semi_axes": [1, 2, -3]})),
+    ("two semi-axes", case(agent={"semi_axes": [1, 2]})),
+    ("a semi-axis that is text", case(agent={"semi_axes": [1, "2", 3]})),
+    ("a semi-axis that is null", case(agent={"semi_axes": [None, 2, 3]})),
+    ("semi-axes that are no list", case(agent={"semi_axes": 2})),
+    ("semi-axes whose squares overflow", case(agent={"semi_axes": [1, 2, 1e200]})),
+    ("no centre", case(agent={"center": ...})),
+    ("a centre in the plane", case(agent={"center": [1, 2]})),
+    ("a centre with a truth value", case(obstacle={"center": [True, 0, 0]})),
+    ("a quaternion of length 2", case(agent={"rotation": [2, 0, 0, 0]})),
+    ("a zero quaternion", case(agent={"rotation": [0, 0, 0, 0]})),
+    ("a rotation of five numbers", case(agent={"rotation": [1, 0, 0, 0, 0]})),
+    ("a rotation matrix that shears", case(agent={"rotation": [[1, 0.1, 0], [0, 1, 0], [0, 0, 1]]})),
+    ("a reflection", case(agent={"rotation": [[1, 0, 0], [0, 1, 0], [0, 0, -1]]})),
+    ("a ragged rotation matrix", case(agent={"rotation": [[1, 0, 0], [0, 1], [0, 0, 1]]})),
+    ("no shape", case(agent={"semi_axes": ..., "rotation": ...})),
+    ("two shapes", case(obstacle={"semi_axes": [1, 1, 1]})),
+    ("a shape with a rotation", case(obstacle={"rotation": [1, 0, 0, 0]})),
+    ("an unsymmetric shape", case(obstacle={"shape": [[1, 0.5, 0], [0, 1, 0], [0, 0, 1]]})),
+    ("an indefinite shape", case(obstacle={"shape": [[1, 2, 0], [2, 1, 0], [0, 0, 1]]})),
+    ("a singular shape", case(obstacle={"shape": [[1, 1, 0], [1, 1, 0], [0, 0, 1]]})),
+    ("a zero shape", case(obstacle={"shape": [[0, 0, 0], [0, 0, 0], [0, 0, 0]]})),
+    ("a shape of two rows", case(obstacle={"shape": [[1, 0, 0], [0, 1, 0]]})),
+    ("a quadric that is a hyperboloid", case(obstacle={"center": ..., "shape": ..., "quadric": [
+        [1, 0, 0, 0], [0, 1, 0, 0], [0, 0, -1, 0], [0, 0, 0, -1]]})),
+    ("a quadric without a real point", case(obstacle={"center": ..., "shape": ..., "quadric": [
+        [1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]})),
+    ("a quadric with a centre", case(obstacle={"shape": ..., "quadric": [
+        [1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, -1]]})),
+    ("a misspelt field of a body", case(agent={"semi_axis": [1, 2, 3]})),
+    ("a misspelt field of the engagement", case(agent_speed=3)),
+    ("no agent", case(agent_velocity=[1, 0, 0], **{}) | {"agent": None}),
+    ("no obstacle", {k: v for k, v in case().items() if k != "obstacle"}),
+    ("an agent that is a list", case() | {"agent": [1, 2, 3]}),
+    ("no velocity", case(agent_velocity=...)),
+    ("a velocity of two numbers", case(obstacle_velocity=[1, 2])),
+    ("a line that is a list", [1, 2, 3]),
+    ("a line that is a number", 7),
+    ("a broken line", '{"id": 7, "agent": {'),
+    ("not a number", '{"id": 7, "agent": {"center": [NaN, 0, 0]}}'),
+    ("a number out of range", '{"id": 7, "agent": {"center": [1e999, 0, 0]}}'),
+    ("a field given twice", '{"id": 7, "agent": 1, "agent": 2}'),
+]
+
+SCENE = "agent: {center: [0, 0, 0], semi_axes: [1, 2, 3]}\nobstacle: {center: [10, 0, 0], semi_axes: [1, 1, 1]}\n"
+# What is wrong, arguments (FILE stands for the scene), scene.
+COMMANDS = [
+    ("no command", [], None),
+    ("an unknown command", ["cones"], None),
+    ("an unknown option", ["cone", "FILE", "--plane", "3"], SCENE),
+    ("a scene that does not exist", ["cone", "nowhere.yaml"], None),
+    ("a scene that is not YAML", ["cone", "FILE"], "agent: [1, 2\nobstacle: }"),
+    ("an empty scene", ["cone", "FILE"], ""),
+    ("a scene without obstacle", ["cone", "FILE"], SCENE.split("\n")[0]),
+    ("a scene with a number in quotes", ["cone", "FILE"], SCENE.replace("[1, 2, 3]", '[1, "2", 3]')),
+    ("a scene with .inf", ["cone", "FILE"], SCENE.replace("[1, 2, 3]", "[1, .inf, 3]")),
+    ("a scene with a field twice", ["cone", "FILE"], SCENE + "agent: 3\n"),
+    ("an unknown method", ["cone", "FILE", "--method", "best"], SCENE),
+    ("no planes", ["cone", "FILE", "--method", "slice", "--planes", "0"], SCENE),
+    ("planes that are text", ["cone", "FILE", "--method", "slice", "--planes", "many"], SCENE),
+    ("two samples", ["cone", "FILE", "--samples", "2"], SCENE),
+    ("cases that do not exist", ["query", "nowhere.jsonl"], None),
+    ("no engagements", ["accuracy", "--engagements", "0"], None),
+    ("a single plane count", ["accuracy", "--planes", "36"], None),
+    ("a plane count twice", ["accuracy", "--planes", "36,36"], None),
+    ("a scan that does not exist", ["accuracy", "--scan", "nowhere.off"], None),
+    ("a scan that is not one", ["accuracy", "--scan", "FILE.off"], "hello\n"),
+]
+
+
+def run_queries(vericone):
+    lines = [q if isinstance(q, str) else json.dumps(q) for _, q in QUERIES]
+    result = subprocess.run([vericone, "query", "-"], input="\n".join(lines) + "\n", capture_output=True, text=True,
+                            check=False)
+    answers = [json.loads(line) for line in result.stdout.splitlines()]
+    return lines, answers, result
+
+
+def run_command(vericone, arguments, scene):
+    with tempfile.TemporaryDirectory() as folder:
+        name = "scan.off" if "FILE.off" in arguments else "scene.yaml"
+        if scene is not None:
+            with open(os.path.join(folder, name), "w", encoding="utf-8") as f:
+                f.write(scene)
+        arguments = [name if a.startswith("FILE") else a for a in arguments]
+        result = subprocess.run([vericone] + arguments, capture_output=True, text=True, check=False, cwd=folder)
+        return arguments, result, os.listdir(folder)
+
+
+def table(vericone):
+    def cell(text):
+        return "`" + text.replace("|", "\\|") + "`"
+
+    lines, answers, _ = run_queries(vericone)
+    rows = ["# What bad input gets", "",
+            "One line that names the field, the value and what would be right; exit status 2; nothing half written.",
+            "In a file of cases the run goes on with the next line and ends with 2. This table is made and checked by",
+            "`tests/cli`.", "", "## Lines of `vericone query`", "", "| what | input | answer |", "|---|---|---|"]
+    for (what, _), line, answer in zip(QUERIES, lines, answers):
+        rows.append("| %s | %s | %s |" % (what, cell(line), cell(answer.get("error", "no error"))))
+    rows += ["", "## Commands and scenes", "", "| what | command | message |", "|---|---|---|"]
+    for what, arguments, scene in COMMANDS:
+        arguments, result, _ = run_command(vericone, arguments, scene)
+        rows.append("| %s | %s | %s |" % (what, cell("vericone " + " ".join(arguments)), cell(result.stderr.strip())))
+    return "\n".join(rows) + "\n"
+
+
+if __name__ == "__main__":
+    sys.stdout.write(table(os.path.abspath(sys.argv[1])))

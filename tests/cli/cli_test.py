@@ -1,0 +1,258 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The vericone command as a user meets it: real processes, real files. Environment: VERICONE (the program),
+VERICONE_SOURCE (the project)."""
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import bad_input_cases  # noqa: E402
+
+VERICONE = os.path.abspath(os.environ["VERICONE"])
+SOURCE = os.environ["VERICONE_SOURCE"]
+
+
+def run(*arguments, **options):
+    return subprocess.run([VERICONE, *arguments], capture_output=True, text=True, check=False, **options)
+
+
+def ball(center, radius):
+    return {"center": center, "semi_axes": [radius] * 3}
+
+
+def engagement(agent, obstacle, v_a, v_b=(0, 0, 0), id=1):
+    return {"id": id, "agent": agent, "obstacle": obstacle, "agent_velocity": list(v_a), "obstacle_velocity": list(v_b)}
+
+
+def query(*cases):
+    result = run("query", "-", input="".join(json.dumps(c) + "\n" for c in cases))
+    return result, [json.loads(line) for line in result.stdout.splitlines()]
+
+
+class Query(unittest.TestCase):
+    def test_spheres_in_closed_form(self):
+        # Radii 1 and 2, centres 5 apart along x; a line at distance 3 grazes: direction (4, 3, 0) / 5.
+        a, b = ball([0, 0, 0], 1), ball([5, 0, 0], 2)
+        result, answers = query(
+            engagement(a, b, [1, 0, 0], id="head-on"), engagement(a, b, [4, 3, 0], id="graze"),
+            engagement(a, b, [4, math.nextafter(3, 4), 0], id="just out"),
+            engagement(a, b, [4, math.nextafter(3, 2), 0], id="just in"),
+            engagement(a, b, [-1, 0, 0], id="behind"), engagement(a, b, [0, 0, 0], id="rest"),
+            engagement(a, b, [0, 2, 0], id="across"),
+            engagement(a, ball([3, 0, 0], 2), [1, 0, 0], id="touching"),
+            engagement(a, ball([2, 0, 0], 2), [1, 0, 0], id="overlapping"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        by_id = {x["id"]: x for x in answers}
+        self.assertEqual([x["verdict"] for x in answers],
+                         ["in", "on", "out", "in", "out", "out", "out", "touching", "overlapping"])
+        self.assertAlmostEqual(by_id["head-on"]["clearance"], -3, 12)
+        self.assertAlmostEqual(by_id["head-on"]["time_to_contact"], 2, 12)
+        self.assertEqual(by_id["graze"]["clearance"], 0)
+        self.assertAlmostEqual(by_id["graze"]["time_to_contact"], 4 / 5, 6)
+        self.assertGreater(by_id["just out"]["clearance"], 0)
+        self.assertLess(by_id["just in"]["clearance"], 0)
+        self.assertAlmostEqual(by_id["behind"]["clearance"], 2, 12)  # moving apart: the distance now
+        self.assertIsNone(by_id["behind"]["time_to_contact"])
+        self.assertAlmostEqual(by_id["across"]["clearance"], 2, 12)
+        self.assertEqual(by_id["touching"]["time_to_contact"], 0)
+        self.assertEqual(list(answers[0]), ["id", "verdict", "clearance", "time_to_contact"])
+
+    def test_velocities_are_subtracted_without_rounding(self):
+        a, b = ball([0, 0, 0], 1), ball([5, 0, 0], 2)
+        tiny = 2.0 ** -60  # 3 + tiny rounds to 3
+        _, answers = query(engagement(a, b, [4, 3, 0]), engagement(a, b, [4, 3, 0], [0, -tiny, 0]),
+                           engagement(a, b, [4, 3, 0], [0, tiny, 0]))
+        self.assertEqual([x["verdict"] for x in answers], ["on", "out", "in"])
+
+    def test_shape_and_axes_agree(self):
+        q = [math.sqrt(0.5), 0, 0, math.sqrt(0.5)]
+        body = {"center": [9, 1, 0], "semi_axes": [1, 2, 3], "rotation": q}
+        same = {"center": [9, 1, 0], "shape": [[4, 0, 0], [0, 1, 0], [0, 0, 9]]}
+        _, answers = query(engagement(ball([0, 0, 0], 1), body, [1, 0.2, 0.1]),
+                           engagement(ball([0, 0, 0], 1), same, [1, 0.2, 0.1]))
+        self.assertEqual(answers[0]["verdict"], answers[1]["verdict"])
+        self.assertAlmostEqual(answers[0]["clearance"], answers[1]["clearance"], 12)
+        self.assertAlmostEqual(answers[0]["time_to_contact"], answers[1]["time_to_contact"], 12)
+
+    def test_bad_lines_do_not_stop_the_run(self):
+        good = json.dumps(engagement(ball([0, 0, 0], 1), ball([5, 0, 0], 2), [1, 0, 0]))
+        result = run("query", "-", input=good + "\nnonsense\n\n" + good + "\n")
+        answers = [json.loads(line) for line in result.stdout.splitlines()]
+        self.assertEqual(result.returncode, 2)
+        self.assertEqual([("error" in x) for x in answers], [False, True, False])
+
+    def test_each_answer_comes_at_once(self):
+        with subprocess.Popen([VERICONE, "query", "-"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as p:
+            for i in range(3):
+                p.stdin.write(json.dumps(engagement(ball([0, 0, 0], 1), ball([5, 0, 0], 2), [1, 0, 0], id=i)) + "\n")
+                p.stdin.flush()
+                self.assertEqual(json.loads(p.stdout.readline())["id"], i)
+            p.stdin.close()
+
+
+class BadInput(unittest.TestCase):
+    def test_every_bad_line_names_its_field(self):
+        _, answers, result = bad_input_cases.run_queries(VERICONE)
+        self.assertEqual(result.returncode, 2)
+        self.assertEqual(result.stderr, "")
+        self.assertEqual(len(answers), len(bad_input_cases.QUERIES))
+        for (what, _), answer in zip(bad_input_cases.QUERIES, answers):
+            with self.subTest(what):
+                self.assertIn("error", answer)
+                self.assertRegex(answer["error"], r"^\S.*: got .+, must be .+")
+                self.assertNotIn("\n", answer["error"])
+                if what not in ("a line that is a list", "a line that is a number", "a broken line", "not a number",
+                                "a number out of range", "a field given twice"):
+                    self.assertEqual(answer["id"], 7)
+
+    def test_every_bad_command_says_why(self):
+        for what, arguments, scene in bad_input_cases.COMMANDS:
+            with self.subTest(what):
+                _, result, left = bad_input_cases.run_command(VERICONE, arguments, scene)
+                self.assertEqual(result.returncode, 2)
+                self.assertEqual(result.stdout, "")
+                self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+                self.assertLessEqual(len(left), 1, "something half written: %s" % left)
+
+    def test_the_table_is_the_truth(self):
+        with open(os.path.join(SOURCE, "docs", "bad-input.md"), encoding="utf-8") as f:
+            self.assertEqual(f.read(), bad_input_cases.table(VERICONE))
+        self.assertGreaterEqual(len(bad_input_cases.QUERIES) + len(bad_input_cases.COMMANDS), 30)
+
+
+class Cone(unittest.TestCase):
+    def cone(self, scene, *arguments):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "scene.yaml")
+            with open(path, "w", encoding="utf-8") as f:
+                f.write(scene)
+            result = run("cone", path, "--json", *arguments)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            return json.loads(result.stdout)
+
+    SPHERES = "agent: {center: [0, 0, 0], semi_axes: [1, 1, 1]}\nobstacle: {center: [5, 0, 0], semi_axes: [2, 2, 2]}\n"
+
+    def test_spheres_in_closed_form(self):
+        half = math.asin(3 / 5)
+        for method in ("exact", "slice"):
+            c = self.cone(self.SPHERES, "--method", method, "--planes", "3600", "--samples", "48")
+            digits = 12 if method == "exact" else 5
+            self.assertAlmostEqual(c["solid_angle"], 2 * math.pi * (1 - math.cos(half)), digits)
+            self.assertAlmostEqual(c["cross_section_area"], math.pi * math.tan(half) ** 2, digits)
+            for d in c["directions"]:
+                self.assertAlmostEqual(d[0], math.cos(half), 12)
+        c = self.cone(self.SPHERES, "--samples", "48")
+        truth = 2 * math.pi * (1 - math.cos(half))
+        self.assertLess(c["inner"]["solid_angle"], truth)
+        self.assertGreater(c["outer"]["solid_angle"], truth)
+        self.assertLess(abs(c["solid_angle"] - truth), c["error_bound"])
+        self.assertEqual(len(c["directions"]), 48)
+        self.assertGreater(c["seconds"], 0)
+
+    def test_slice_says_nothing_about_its_error(self):
+        c = self.cone(self.SPHERES, "--method", "slice", "--planes", "12")
+        self.assertEqual(len(c["directions"]), 24)
+        self.assertIsNone(c["error_bound"])
+        self.assertIsNone(c["outer"])
+
+    def test_wide_cone_has_no_section(self):
+        # Two parallel needles side by side: the plane across the line of centres does not separate them.
+        turn = "rotation: [0.9238795325112867, 0, 0, 0.3826834323650898]"
+        c = self.cone("agent: {center: [0, 0, 0], semi_axes: [10, 0.1, 0.1], %s}\n"
+                      "obstacle: {center: [0.3, 0, 0], semi_axes: [10, 0.1, 0.1], %s}\n" % (turn, turn),
+                      "--samples", "400")
+        self.assertEqual(c["relation"], "disjoint")
+        self.assertIsNone(c["cross_section_area"])
+        self.assertLess(c["outer"]["solid_angle"], 2 * math.pi)
+        self.assertLessEqual(c["inner"]["solid_angle"], c["solid_angle"])
+        self.assertLessEqual(c["solid_angle"], c["outer"]["solid_angle"])
+        self.assertLess(c["error_bound"], 0.01 * c["solid_angle"])
+
+    def test_overlapping_and_touching_are_answers(self):
+        touching = self.cone(self.SPHERES.replace("5, 0, 0", "3, 0, 0"))
+        self.assertEqual((touching["relation"], touching["solid_angle"]), ("touching", 2 * math.pi))
+        overlapping = self.cone(self.SPHERES.replace("5, 0, 0", "2, 0, 0"))
+        self.assertEqual((overlapping["relation"], overlapping["solid_angle"]), ("overlapping", 4 * math.pi))
+
+    def test_json_is_a_scene(self):
+        c = self.cone(json.dumps({"agent": ball([0, 0, 0], 1), "obstacle": ball([5, 0, 0], 2)}))
+        self.assertEqual(c["relation"], "disjoint")
+
+
+class Accuracy(unittest.TestCase):
+    ARGUMENTS = ("accuracy", "-N", "400", "--planes", "3,6,12,24,96", "--no-figures", "--quiet", "--seed", "5")
+
+    def read(self, folder, name):
+        with open(os.path.join(folder, name), encoding="utf-8") as f:
+            return f.read()
+
+    def test_threads_and_interruptions_do_not_change_the_table(self):
+        with tempfile.TemporaryDirectory() as folder:
+            whole, parts = os.path.join(folder, "whole"), os.path.join(folder, "parts")
+            self.assertEqual(run(*self.ARGUMENTS, "--threads", "1", "--out", whole).returncode, 0)
+            stops = 0
+            for _ in range(50):
+                with subprocess.Popen([VERICONE, *self.ARGUMENTS, "--threads", "2", "--out", parts],
+                                      stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as p:
+                    if stops < 3:
+                        time.sleep(0.15)
+                        p.send_signal(signal.SIGINT)
+                    p.communicate()
+                if p.returncode == 0:
+                    break
+                self.assertEqual(p.returncode, 130)
+                stops += 1
+            self.assertGreater(stops, 0, "never interrupted: nothing was tested")
+            self.assertEqual(self.read(whole, "engagements.csv"), self.read(parts, "engagements.csv"))
+            self.assertEqual([n for n in os.listdir(parts) if n.endswith(".partial")], [])
+
+    def test_unfinished_work_of_other_settings_is_kept(self):
+        with tempfile.TemporaryDirectory() as folder:
+            partial = os.path.join(folder, "engagements.csv.partial")
+            content = "# vericone accuracy, seed 9, 10 engagements, planes 3 12\nx\n"
+            with open(partial, "w", encoding="utf-8") as f:
+                f.write(content)
+            result = run(*self.ARGUMENTS, "--out", folder)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn("--out", result.stderr)
+            self.assertEqual(self.read(folder, "engagements.csv.partial"), content)
+
+    def test_summary_and_provenance(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertEqual(run(*self.ARGUMENTS, "--out", folder).returncode, 0)
+            summary = json.loads(self.read(folder, "summary.json"))["random"]
+            self.assertTrue(all(row["below_two_over_n"] for row in summary["slice"]))
+            self.assertAlmostEqual(summary["slice_order"], -2, delta=0.3)
+            self.assertEqual([row["bound_violations"] for row in summary["exact"]], [0] * len(summary["exact"]))
+            self.assertGreater(summary["slice_bias"]["mean"], 0.08)  # errata: 8 to 12 % on average
+            self.assertLess(summary["slice_bias"]["mean"], 0.15)
+            origin = json.loads(self.read(folder, "provenance.json"))
+            for key in ("command", "commit", "compiler", "flags", "processor", "seed"):
+                self.assertTrue(str(origin[key]))
+
+    def test_figures(self):
+        if subprocess.run(["/usr/bin/python3", "-c", "import matplotlib"], capture_output=True, check=False).returncode:
+            self.skipTest("no /usr/bin/python3 with matplotlib")
+        with tempfile.TemporaryDirectory() as folder:
+            scan = os.path.join(folder, "tetrahedron.off")
+            with open(scan, "w", encoding="utf-8") as f:
+                f.write("OFF\n4 0 0\n0 0 0\n3 0 0\n0 2 0\n0 0 1\n")
+            result = run("accuracy", "-N", "30", "--planes", "3,12,36", "--approaches", "20", "--quiet", "--scan", scan,
+                         "--out", os.path.join(folder, "out"))
+            self.assertEqual(result.returncode, 0, result.stderr)
+            pictures = [line.split()[1] for line in result.stdout.splitlines() if line.startswith("picture")]
+            self.assertEqual(sorted(os.path.basename(p) for p in pictures),
+                             ["accuracy.pdf", "accuracy.png", "engagement.pdf", "engagement.png", "scans.pdf", "scans.png"])
+            for p in pictures:
+                with open(p, "rb") as f:
+                    self.assertIn(f.read(4), (b"%PDF", b"\x89PNG"))
+
+
+if __name__ == "__main__":
+    unittest.main()
