@@ -20,13 +20,8 @@ Json answer(const input::Engagement& e) {
   Json result;
   result["verdict"] = to_string(verdict);
   result["clearance"] = clearance_ahead(oracle, e.agent_velocity, e.obstacle_velocity);
-  if (verdict == Verdict::out) {
-    result["time_to_contact"] = nullptr;
-  } else if (verdict == Verdict::in || verdict == Verdict::on) {
-    result["time_to_contact"] = contact_time(e.agent, e.obstacle, e.agent_velocity - e.obstacle_velocity);
-  } else {
-    result["time_to_contact"] = 0.0;
-  }
+  const auto time = time_to_contact(oracle, e.agent_velocity, e.obstacle_velocity);
+  result["time_to_contact"] = time ? Json(*time) : Json(nullptr);
   return result;
 }
 

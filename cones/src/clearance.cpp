@@ -210,22 +210,33 @@ double contact_time(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& w) {
   // quasi-concave in log x, and its derivative has the sign of that of f at the point of entry.
   const ContactFrame<3> frame(a, b);
   const Vector3d v = frame.to_frame * w;
+  std::array<double, 3> cross;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    cross[i] = v(i) * frame.center(j) - v(j) * frame.center(i);
+  }
   struct Entry {
     double time, phi;
   };
   const auto entry = [&](double log_x) {
     const double x = std::exp(log_x);
     double ww = 0, cw = 0, cc = -1;
-    std::array<double, 3> d;
+    std::array<double, 3> d, k;
     for (int i = 0; i < 3; ++i) {
       const double s2 = frame.sigma(i) * frame.sigma(i);
       d[i] = 1 / (1 + x * s2);
-      const double k = x / (1 + x) * d[i];
-      ww += k * v(i) * v(i);
-      cw += k * v(i) * frame.center(i);
-      cc += k * frame.center(i) * frame.center(i);
+      k[i] = x / (1 + x) * d[i];
+      ww += k[i] * v(i) * v(i);
+      cw += k[i] * v(i) * frame.center(i);
+      cc += k[i] * frame.center(i) * frame.center(i);
     }
-    const double root = std::sqrt(std::max(cw * cw - ww * cc, 0.0));
+    // cw^2 - ww cc by Lagrange's identity: for distant bodies the two products agree in all their digits.
+    double discriminant = ww;
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3;
+      discriminant -= k[i] * k[j] * cross[i] * cross[i];
+    }
+    const double root = std::sqrt(std::max(discriminant, 0.0));
     const double t = cc / (cw + root);
     double aa = 0, bb = 0;
     for (int i = 0; i < 3; ++i) {
@@ -277,11 +288,20 @@ double contact_time(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& w) {
   return std::max(at.time, 0.0);
 }
 
+std::optional<double> time_to_contact(const ConeOracle& oracle, const Vector3d& v_a, const Vector3d& v_b) {
+  switch (oracle.verdict(v_a, v_b)) {
+    case Verdict::overlapping:
+    case Verdict::touching: return 0.0;
+    case Verdict::out: return std::nullopt;
+    case Verdict::in: return contact_time(oracle.a(), oracle.b(), v_a - v_b);
+    // A double root loses half the digits; the supporting points of the shadows do not.
+    case Verdict::on: return std::max(clearance(oracle.a(), oracle.b(), v_a - v_b).time, 0.0);
+  }
+  return std::nullopt;
+}
+
 std::optional<double> time_to_contact(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& w) {
-  const ConeOracle oracle(a, b);
-  if (oracle.relation() != Relation::disjoint) return 0.0;
-  if (oracle.membership(w) == Membership::out) return std::nullopt;
-  return contact_time(a, b, w);
+  return time_to_contact(ConeOracle(a, b), w, Vector3d::Zero());
 }
 
 double clearance_ahead(const ConeOracle& oracle, const Vector3d& v_a, const Vector3d& v_b) {

@@ -54,7 +54,7 @@ class Query(unittest.TestCase):
         self.assertAlmostEqual(by_id["head-on"]["clearance"], -3, 12)
         self.assertAlmostEqual(by_id["head-on"]["time_to_contact"], 2, 12)
         self.assertEqual(by_id["graze"]["clearance"], 0)
-        self.assertAlmostEqual(by_id["graze"]["time_to_contact"], 4 / 5, 6)
+        self.assertAlmostEqual(by_id["graze"]["time_to_contact"], 4 / 5, 12)
         self.assertGreater(by_id["just out"]["clearance"], 0)
         self.assertLess(by_id["just in"]["clearance"], 0)
         self.assertAlmostEqual(by_id["behind"]["clearance"], 2, 12)  # moving apart: the distance now

@@ -41,6 +41,10 @@ Separation separation(const Ellipsoid& a, const Ellipsoid& b);
 /// few roundings away from grazing, where it grows like the square root of the rounding.
 std::optional<double> time_to_contact(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& w);
 
+/// The same for prepared bodies and w = v_a - v_b, whose verdict is that of the unrounded difference.
+std::optional<double> time_to_contact(const ConeOracle& oracle, const Eigen::Vector3d& v_a,
+                                      const Eigen::Vector3d& v_b);
+
 /// The time alone, for a w known to be in the cone of disjoint bodies. Cost: about 1 us.
 double contact_time(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& w);
 
