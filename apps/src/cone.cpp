@@ -4,8 +4,10 @@
 #include <vericone/cones/clearance.h>
 #include <vericone/cones/exact_cone.h>
 #include <vericone/cones/plane_sector.h>
+#include <vericone/cones/sector.h>
 #include <vericone/cones/slice_cone.h>
 #include <vericone/geometry/error.h>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -65,7 +67,8 @@ Json exact_json(const Ellipsoid& a, const Ellipsoid& b, int samples) {
   return result;
 }
 
-Json slice_json(const Ellipsoid& a, const Ellipsoid& b, int planes) {
+Json slice_json(const input::Engagement& e, int planes) {
+  const Ellipsoid &a = e.agent, &b = e.obstacle;
   const auto start = std::chrono::steady_clock::now();
   const SliceCone cone = slice_cone(a, b, planes);
   PolyhedralCone polyhedral = cone.polyhedral();
@@ -79,9 +82,23 @@ Json slice_json(const Ellipsoid& a, const Ellipsoid& b, int planes) {
               {"relation", to_string(cone.relation)},
               {"axis", vector_json(cone.axis)}};
   result.update(polyhedral_json(polyhedral));
+  // The source's y on each plane (6.14), with the velocities projected on the line of sight and across it.
   Json sectors = Json::array();
-  for (const Slice& s : cone.slices)
-    sectors.push_back({{"azimuth", s.azimuth}, {"psi", s.psi()}, {"theta_b", s.theta_b()}});
+  for (const Slice& s : cone.slices) {
+    const AxisFrame frame(cone.axis);
+    const Eigen::Vector3d across = std::cos(s.azimuth) * frame.e1 + std::sin(s.azimuth) * frame.e2;
+    const auto in_plane = [&](const Eigen::Vector3d& v) {
+      return Eigen::Vector2d(v.dot(cone.axis), v.dot(across));
+    };
+    const ConeFunction y =
+        cone_function(s.psi(), s.theta_b(), in_plane(e.agent_velocity), in_plane(e.obstacle_velocity));
+    sectors.push_back({{"azimuth", s.azimuth},
+                       {"psi", s.psi()},
+                       {"theta_b", s.theta_b()},
+                       {"y", y.y},
+                       {"v_r_hat", y.v_r_hat},
+                       {"v_theta_hat", y.v_theta_hat}});
+  }
   result["sectors"] = sectors;
   // Slices miss part of the cone and cannot tell how much: no bound, no outer cone.
   result["inner"] = nullptr;
@@ -108,6 +125,14 @@ void print_text(const Json& cone, const input::Engagement& e, std::ostream& out)
     out << "error bound         " << cone["error_bound"].dump() << " sr, certified: inner "
         << cone["inner"]["solid_angle"].dump() << " sr, outer " << cone["outer"]["solid_angle"].dump()
         << " sr\n";
+  if (cone["method"] == "slice" && !cone["sectors"].empty()) {
+    const auto& sectors = cone["sectors"];
+    const auto widest = *std::max_element(sectors.begin(), sectors.end(), [](const Json& x, const Json& y) {
+      return x["psi"].get<double>() < y["psi"].get<double>();
+    });
+    out << "widest plane        psi " << to_text(degrees(widest["psi"].get<double>())) << " degrees, y "
+        << to_text(widest["y"].get<double>()) << '\n';
+  }
   if (cone["method"] == "slice")
     out << "note                slices see only contacts within their planes: the true cone is larger\n";
   const ConeOracle oracle(e.agent, e.obstacle);
@@ -173,7 +198,7 @@ void run_cone(const ConeOptions& options, std::ostream& out) {
     throw InputError("--method", options.method, "slice or exact");
   const input::Engagement e = input::read_scene(options.scene);
   const Json cone = options.method == "exact" ? exact_json(e.agent, e.obstacle, options.samples)
-                                              : slice_json(e.agent, e.obstacle, options.planes);
+                                              : slice_json(e, options.planes);
   if (options.json) {
     out << cone.dump(1) << '\n';
   } else {

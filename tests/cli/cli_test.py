@@ -155,6 +155,16 @@ class Cone(unittest.TestCase):
         self.assertEqual(len(c["directions"]), 48)
         self.assertGreater(c["seconds"], 0)
 
+    def test_the_source_6_5(self):
+        # Errata, 4.2: on the plane of largest psi, 77.8 degrees, y = -0.3277; on all planes -0.183 .. -0.328.
+        with open(os.path.join(SOURCE, "docs", "examples", "source-6.5.yaml"), encoding="utf-8") as f:
+            c = self.cone(f.read(), "--method", "slice", "--planes", "720")
+        widest = max(c["sectors"], key=lambda s: s["psi"])
+        self.assertAlmostEqual(math.degrees(widest["psi"]), 77.8, delta=0.05)
+        self.assertAlmostEqual(widest["y"], -0.3277, delta=5e-5)
+        self.assertAlmostEqual(max(s["y"] for s in c["sectors"]), -0.183, delta=5e-4)
+        self.assertTrue(all(s["v_r_hat"] < 0 for s in c["sectors"]))
+
     def test_slice_says_nothing_about_its_error(self):
         c = self.cone(self.SPHERES, "--method", "slice", "--planes", "12")
         self.assertEqual(len(c["directions"]), 24)

@@ -117,6 +117,7 @@ Outcome run_campaign(const Campaign& campaign) {
     }
   };
   std::vector<std::thread> threads;
+  threads.reserve(static_cast<std::size_t>(campaign.threads));
   for (int i = 0; i < campaign.threads; ++i) threads.emplace_back(work);
   Progress progress(campaign, written);
   {
