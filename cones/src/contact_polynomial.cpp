@@ -151,7 +151,7 @@ int distinct_positive_roots(const Polynomial& p) {
 Dyadic between_positive_roots(const Polynomial& p, double guess) {
   if (std::isfinite(guess) && guess > 0 && guess < 1e200) {
     const int e = grid_exponent(guess, 0);
-    const Dyadic x =
+    Dyadic x =
         e >= 0 ? Dyadic{on_grid(guess, 0), 0} : Dyadic{on_grid(guess, e), static_cast<unsigned>(-e)};
     if (sign_at(p, x) > 0) return x;
   }
@@ -161,7 +161,7 @@ Dyadic between_positive_roots(const Polynomial& p, double guess) {
   Dyadic hi{1, 0}, lo{0, 0};
   while (roots_up_to(hi) < 2) hi.numerator *= 4;
   for (;;) {  // ends: the roots are distinct
-    const Dyadic mid{lo.numerator + hi.numerator, hi.exponent + 1};
+    Dyadic mid{lo.numerator + hi.numerator, hi.exponent + 1};
     lo.numerator *= 2;
     hi.numerator *= 2;
     lo.exponent = hi.exponent = mid.exponent;

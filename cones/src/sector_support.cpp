@@ -62,7 +62,7 @@ struct RefinedNormal {
 };
 
 /// `side` = +1 when increasing polar angle of n leaves {g >= 0}, -1 otherwise.
-RefinedNormal refine(const Ellipse& a, const Ellipse& b, Vector2d n, double side) {
+RefinedNormal refine(const Ellipse& a, const Ellipse& b, const Vector2d& n, double side) {
   RefinedNormal result{n.normalized(), 0};
   double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < 20; ++iteration) {

@@ -166,7 +166,8 @@ void read_element(const Source& source, const PlyElement& element, Values& value
       }
       const double length = values.real(*p.count_type);
       const std::size_t least = Values::fewest_bytes(size_of(p.type), 1);
-      if (!(length >= 0) || length > double(values.bytes_left() / least))
+      const std::size_t most = values.bytes_left() / least;
+      if (!(length >= 0) || length > double(most))
         source.refuse(where() + ": a list of length " + to_text(length),
                       "a length that the " + std::to_string(values.bytes_left()) + " bytes left can hold");
       std::vector<std::int64_t> list(roles[k] == Role::other ? 0 : std::size_t(length));
@@ -179,6 +180,7 @@ void read_element(const Source& source, const PlyElement& element, Values& value
       }
       if (roles[k] == Role::corners) {
         std::vector<std::uint32_t> face;
+        face.reserve(list.size());
         for (const std::int64_t v : list) face.push_back(to_index(source, v, where()));
         parsed.faces.push_back(std::move(face));
       } else if (roles[k] == Role::strips) {

@@ -13,7 +13,10 @@
 
 namespace vericone::exact {
 
-using Integer = boost::multiprecision::cpp_int;
+// Without expression templates: a result of `auto` or of a conditional is a number, not a reference to
+// temporaries.
+using Integer =
+    boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>, boost::multiprecision::et_off>;
 
 template <int D>
 using IntegerVector = std::array<Integer, D>;

@@ -3,13 +3,14 @@
 // Exact arithmetic of the last rung of every predicate. Slow to compile and to run: include it in .cpp files.
 #pragma once
 
+#include <vericone/geometry/ellipsoid.h>
 #include <array>
 #include <boost/multiprecision/cpp_int.hpp>
-#include <vericone/geometry/ellipsoid.h>
 
 namespace vericone::exact {
 
-using Rational = boost::multiprecision::cpp_rational;
+using Rational =
+    boost::multiprecision::number<boost::multiprecision::cpp_rational_backend, boost::multiprecision::et_off>;
 
 template <int D>
 using RationalVector = std::array<Rational, D>;
