@@ -17,8 +17,9 @@ TEST(ContactMarch, SpheresMeetWhereTheQuadraticSays) {
     SCOPED_TRACE(index);
     SeededRandom random(400, 1, index);
     const double r1 = random.uniform(1, 10), r2 = random.uniform(1, 10), reach = r1 + r2;
-    const Vector3d c = random.uniform(1.1, 5) * reach * random.direction<3>();
-    const Vector3d w = c / c.norm() + random.uniform(0, 1) * random.direction<3>();
+    const double distance = random.uniform(1.1, 5) * reach, off = random.uniform(0, 1);
+    const Vector3d c = distance * random.direction<3>();
+    const Vector3d w = c / c.norm() + off * random.direction<3>();
     const ContactMarch march(Ellipsoid::from_axes({1, 2, 3}, Vector3d::Constant(r1)),
                              Ellipsoid::from_axes(Vector3d(1, 2, 3) + c, Vector3d::Constant(r2)));
     const double ww = w.squaredNorm(), cw = c.dot(w), cc = c.squaredNorm() - reach * reach;

@@ -60,7 +60,8 @@ TEST(MinkowskiBounds, ConesOfSpheresAreRight) {
       EXPECT_LT(bounds.outer.solid_angle(), cap(sine * bounds.scale));
       SeededRandom random(410, 3, index);
       for (int i = 0; i < 50; ++i) {
-        const Vector3d w = c.normalized() + random.uniform(0, 2) * random.direction<3>();
+        const double aside = random.uniform(0, 2);
+        const Vector3d w = c.normalized() + aside * random.direction<3>();
         const double off = std::atan2(w.cross(c).norm(), w.dot(c));
         if (bounds.inner.contains(w)) {
           EXPECT_LT(off, std::asin(sine));

@@ -7,6 +7,7 @@
 #include <vericone/verify/seeded_random.h>
 #include <vericone/verify/spatial_campaign.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -77,9 +78,10 @@ class PairChecks {
     // Twice as wide as a right circular cone of the same size.
     const double width = std::min(2.0, 2 * std::sqrt(cone_.solid_angle / 3.0));
     for (int i = 0; i < kDirections; ++i) {
-      const Vector3d around = c.normalized() + width * random.uniform(0, 1) * random.direction<3>();
+      const double off = width * random.uniform(0, 1);
+      const Vector3d around = c.normalized() + off * random.direction<3>();
       direction(around);
-      clearance_of(around);
+      clearance_of(around, random.direction<3>());
       direction(random.direction<3>());
     }
   }
@@ -123,21 +125,26 @@ class PairChecks {
 
  private:
   /// Shifting B against the clearance's normal by the clearance makes the line of motion graze; a little less
-  /// must leave the line as it was, a little more must change it. The line is w or -w, ahead or behind.
-  void clearance_of(const Vector3d& w) {
+  /// must leave the line as it was, a little more must change it. So must a little less in every other
+  /// direction across the line, here four, turned at random by `turn`. The line is w or -w, ahead or behind.
+  void clearance_of(const Vector3d& w, const Vector3d& turn) {
     const Clearance m = clearance(a_, b_, w);
     // What the coordinates resolve.
     if (std::abs(m.distance) < 1e-8 * (b_.center() - a_.center()).norm()) return;
-    const auto misses = [&](double factor) {
-      const Vector3d center = b_.center() - factor * m.distance * m.normal;
+    const auto misses = [&](const Vector3d& shift) {
+      const Vector3d center = b_.center() + shift;
       const ConeOracle oracle(a_, b_.defined_by_factor() ? b_.translated(center - b_.center())
                                                          : Ellipsoid::from_shape(center, b_.shape()));
       return oracle.relation() == Relation::disjoint && oracle.membership(w) == Membership::out &&
              oracle.membership(-w) == Membership::out;
     };
     const bool miss = m.distance > 0;
-    report_.clearance.note(misses(0) == miss && misses(1 - kMoved) == miss && misses(1 + kMoved) != miss,
-                           index_);
+    const Vector3d across = w.cross(turn).normalized(), second = w.cross(across).normalized();
+    bool holds = misses(Vector3d::Zero()) == miss;
+    for (const Vector3d& n : {m.normal, across, Vector3d(-across), second, Vector3d(-second)})
+      holds = holds && misses((kMoved - 1) * m.distance * n) == miss;
+    holds = holds && misses(-(1 + kMoved) * m.distance * m.normal) != miss;
+    report_.clearance.note(holds, index_);
   }
 
   const Ellipsoid& a_;

@@ -40,26 +40,27 @@ inline constexpr std::array kGapSamples = {24, 48, 96, 192};
 struct SpatialFamilyReport {
   SpatialFamily family = SpatialFamily::regular;
   std::uint64_t seed = 0, cases = 0;
-  std::uint64_t no_outer_polyhedron =
-      0;  // pairs whose enlarged polyhedra overlap: nothing is known from outside
+  /// Pairs whose enlarged polyhedra overlap, so that nothing is known from outside.
+  std::uint64_t no_outer_polyhedron = 0;
+  /// Directions left out of `march`: within 1e-9 of grazing there.
+  std::uint64_t march_grazing = 0;
 
-  Check relation;   // relation() is disjoint and so says the distance at time 0
-  Check polyhedra;  // in the inner polyhedral cone: not `out`; not in the outer one: `out`
-  Check march;      // membership against first contact by marching, where the closest approach is not within
-                    // 1e-9 of grazing
-  std::uint64_t march_grazing = 0;  // left out there
-  WorstFigure time;  // relative difference of contact_time and the march, where they do not nearly graze
-  WorstFigure
-      surface;      // distance of A from B's surface at contact_time, in eps of what the coordinates resolve
-  Check perturbed;  // boundary directions moved in by 1e-6 are in, moved out are out
-  Check solid_angle;  // exact_cone between inner and outer polyhedral cone, cone_bounds consistent with both
+  Check relation;     // relation() is disjoint, and so says the distance at time 0
+  Check polyhedra;    // in the inner polyhedral cone: not `out`; not in the outer one: `out`
+  Check march;        // membership against whether the march finds a contact
+  Check perturbed;    // boundary directions moved in by 1e-6 are in, moved out are out
+  Check solid_angle;  // exact_cone between the polyhedral cones, cone_bounds consistent with both
   Check inner_bound;  // every edge of cone_bounds' inner cone is in or on
   Check outer_bound;  // every edge of its outer cone, moved away from the axis by 1e-9, is out
   Check slices;       // edges of the slice cone, moved to the axis by 1e-9, are in or on
-  Check clearance;  // B shifted against the clearance's normal by the clearance less 1e-6 of it: the line of
-                    // motion hits or misses as before; by 1e-6 more: the contrary
-  WorstFigure value;  // relative error of cone_bounds' solid angle at 96 samples, against 3072 samples
-  WorstFigure gap;    // (outer - inner) / exact solid angle at 96 samples
+  /// B shifted by the clearance less 1e-6 of it, against its normal or elsewhere across the line of motion:
+  /// the line hits or misses as before; by 1e-6 more against the normal: the contrary.
+  Check clearance;
+
+  WorstFigure time;     // relative difference of contact_time and the march, where they do not nearly graze
+  WorstFigure surface;  // distance of A from B's surface at contact_time, in eps of the coordinates
+  WorstFigure value;    // relative error of cone_bounds' solid angle at 96 samples, against 3072 samples
+  WorstFigure gap;      // (outer - inner) / solid angle at 96 samples
   std::array<double, kGapSamples.size()> gap_medians = {};
   double gap_slope = 0;  // of log gap against log samples, of the medians
 
