@@ -23,7 +23,7 @@ void left_singular_vectors(Eigen::Matrix<double, D, D> g, Eigen::Matrix<double, 
         if (!(std::abs(pq) > kTolerance * std::sqrt(pp) * std::sqrt(qq))) continue;
         rotated = true;
         const double zeta = (qq - pp) / (2 * pq);
-        const double t = std::copysign(1.0, zeta) / (std::abs(zeta) + std::hypot(1.0, zeta));
+        const double t = std::copysign(1.0, zeta) / (std::abs(zeta) + std::sqrt(1 + zeta * zeta));
         const double c = 1 / std::sqrt(1 + t * t), s = c * t;
         const Eigen::Matrix<double, D, 1> gp = g.col(p);
         g.col(p) = c * gp - s * g.col(q);
@@ -37,16 +37,26 @@ void left_singular_vectors(Eigen::Matrix<double, D, D> g, Eigen::Matrix<double, 
   }
 }
 
+/// Logarithm and exponential for a Newton iteration: relative error below 1e-3 for large arguments, falling
+/// like the fifth power of small ones.
+double quick_log(double y) {
+  const double z = (y - 1) / (y + 1), z2 = z * z;
+  return z2 < 0.1 ? 2 * z * (1 + z2 * (1.0 / 3 + z2 / 5)) : std::log(y);
+}
+double quick_exp(double u) {
+  const double even = 1 + u * u / 12;
+  return std::abs(u) < 0.7 ? (even + u / 2) / (even - u / 2) : std::exp(u);
+}
+
 }  // namespace
 
 template <int D>
 double maximise_contact(const Eigen::Matrix<double, D, 1>& center, const Eigen::Matrix<double, D, 1>& sigma) {
   // With x = lambda / (1 - lambda) and n_i = c_i / (1 + x sigma_i^2), f' = 0 reads x = rho_A(n) / rho_B(n),
-  // so log x lies between -log max sigma and -log min sigma. phi(log x) = log(rho_A^2 / rho_B^2) - 2 log x
-  // falls through its only root (f is concave): Newton, kept inside the bracket.
-  double lo = -std::log(sigma.maxCoeff()), hi = -std::log(sigma.minCoeff());
-  double u = 0.5 * (lo + hi);
-  double x = std::exp(u);
+  // so x lies between 1 / max sigma and 1 / min sigma. phi(log x) = log(rho_A^2 / rho_B^2) - 2 log x falls
+  // through its only root (f is concave): Newton in log x, kept inside the bracket.
+  double lo = 1 / sigma.maxCoeff(), hi = 1 / sigma.minCoeff();
+  double x = std::sqrt(lo) * std::sqrt(hi);
   for (int iteration = 0; iteration < 80; ++iteration) {
     double aa = 0, bb = 0, aa_r = 0, bb_r = 0;
     for (int i = 0; i < D; ++i) {
@@ -58,16 +68,18 @@ double maximise_contact(const Eigen::Matrix<double, D, 1>& center, const Eigen::
       bb_r += n2 * s2 * r;
     }
     if (!(aa > 0) || !(bb > 0)) break;  // concentric bodies: f = 0 for every lambda
-    const double phi = std::log(aa / bb) - 2 * u;
-    (phi > 0 ? lo : hi) = u;
-    const double slope = 2 * (bb_r / bb - aa_r / aa) - 2;
-    double next = u - phi / slope;
-    if (!(next >= lo && next <= hi)) next = 0.5 * (lo + hi);
-    const double step = next - u;
-    u = next;
-    x = std::exp(u);
-    // f is stationary here: an error of 1e-9 in log x changes f by 1e-18.
-    if (std::abs(step) < 1e-9) break;
+    const double phi = quick_log(aa / bb / x / x);
+    (phi > 0 ? lo : hi) = x;
+    const double step = -phi / (2 * (bb_r / bb - aa_r / aa) - 2);
+    const double next = x * quick_exp(step);
+    // f is stationary here: an error of 1e-9 in log x changes f by 1e-18, and Newton squares the last step.
+    const bool settled = std::abs(step) < 1e-5;
+    if (settled || (next >= lo && next <= hi)) {
+      x = next;
+      if (settled) break;
+    } else {
+      x = std::sqrt(lo) * std::sqrt(hi);
+    }
   }
   return x;
 }

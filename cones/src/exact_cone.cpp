@@ -19,58 +19,80 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Two numbers that go through the same operations, one for each end of a chord through the base.
-using Lanes = Eigen::Array2d;
+/// Four numbers that go through the same operations: the two ends of a chord
+/// through the base, for the walk forward and for the walk backward.
+using Lanes = Eigen::Array4d;
 using Lanes3 = std::array<Lanes, 3>;
+
+Lanes3 broadcast(const Vector3d& v) {
+  return {Lanes::Constant(v.x()), Lanes::Constant(v.y()), Lanes::Constant(v.z())};
+}
+
+using Walks = AzimuthNodes::Walks;
+Lanes same(const Walks& x) { return {x(0), x(0), x(1), x(1)}; }
+Lanes opposite(const Walks& x) { return {x(0), -x(0), x(1), -x(1)}; }
+Lanes3 opposite(const Eigen::Matrix<double, 3, 2>& plane, const Walks& x, const Walks& y) {
+  return {opposite(plane(0, 0) * x + plane(0, 1) * y), opposite(plane(1, 0) * x + plane(1, 1) * y),
+          opposite(plane(2, 0) * x + plane(2, 1) * y)};
+}
 
 Lanes dot(const Lanes3& x, const Lanes3& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
 
-Lanes3 times(const Matrix3d& m, const Lanes3& x) {
-  return {m(0, 0) * x[0] + m(0, 1) * x[1] + m(0, 2) * x[2], m(1, 0) * x[0] + m(1, 1) * x[1] + m(1, 2) * x[2],
-          m(2, 0) * x[0] + m(2, 1) * x[1] + m(2, 2) * x[2]};
-}
-
-/// The pair in coordinates where both bodies are axis-aligned and K lies in the unit ball about (0,0,L)
-/// turned onto `center`: A has the squared semi-axes alpha, B beta.
+/// The pair in coordinates where both bodies are axis-aligned and K lies in the
+/// unit ball about (0,0,L) turned onto `center`: A has the squared semi-axes
+/// alpha, B beta. Normals are base + radius e, in the plane n.center = 1, with
+/// e a unit vector of the plane across the centre line.
 class Silhouette {
  public:
   Silhouette(const ContactFrame<3>& contact, int count) : ds_(2 * std::numbers::pi / count) {
     const Vector3d shape = contact.bounding_shape(), scale = shape.cwiseSqrt();
-    center_ = contact.center.cwiseQuotient(scale);
-    alpha_ = shape.cwiseInverse();
-    beta_ = contact.sigma.cwiseAbs2().cwiseQuotient(shape);
-    to_space_ = contact.to_space * scale.asDiagonal();
-    normal_to_space_ = contact.to_frame.transpose() * scale.cwiseInverse().asDiagonal();
-    const AxisFrame frame(center_);
-    const double determinant = to_space_.determinant();
-    turning_scale_ = determinant / contact.center_line.norm();
+    const Vector3d center = contact.center.cwiseQuotient(scale), alpha = shape.cwiseInverse(),
+                   beta = contact.sigma.cwiseAbs2().cwiseQuotient(shape);
+    const Matrix3d to_space = contact.to_space * scale.asDiagonal();
+    const Matrix3d normal_to_space = contact.to_frame.transpose() * scale.cwiseInverse().asDiagonal();
+    const AxisFrame frame(center);
+    const double determinant = to_space.determinant(), length2 = center.squaredNorm();
     // A map that reflects would turn the curve clockwise in space.
     plane_ << (determinant > 0 ? 1 : -1) * frame.e1, frame.e2;
-    nodes_ = AzimuthNodes(plane_.transpose() * alpha_.asDiagonal() * plane_,
-                          plane_.transpose() * beta_.asDiagonal() * plane_, count);
-    const double length2 = center_.squaredNorm();
-    base_ = center_ / length2;
+    nodes_ = AzimuthNodes(plane_.transpose() * alpha.asDiagonal() * plane_,
+                          plane_.transpose() * beta.asDiagonal() * plane_, count);
+    const Vector3d base = center / length2;
+    normal_plane_ = normal_to_space * plane_;
+    base_a_ = plane_.transpose() * alpha.cwiseProduct(base);
+    base_b_ = plane_.transpose() * beta.cwiseProduct(base);
+    turning_scale_ = std::abs(determinant) / (std::sqrt(length2) * contact.center_line.norm());
     start_ = std::sqrt(std::max(0.0, 1 - 1 / length2));
     radius_ = previous_ = start_;
+    alpha_ = broadcast(alpha);
+    beta_ = broadcast(beta);
+    adjugate_a_ = broadcast(Vector3d(alpha.y() * alpha.z(), alpha.z() * alpha.x(), alpha.x() * alpha.y()));
+    adjugate_b_ = broadcast(Vector3d(beta.y() * beta.z(), beta.z() * beta.x(), beta.x() * beta.y()));
+    base_ = broadcast(base);
+    center_ = broadcast(center);
+    center_line_ = broadcast(contact.center_line);
+    normal_base_ = broadcast(normal_to_space * base);
+    for (int i = 0; i < 3; ++i) to_space_[i] = broadcast(to_space.row(i));
   }
 
-  /// Two opposite samples: lane 0 at the azimuth asked for, lane 1 half a turn on.
   struct Points {
     Lanes3 normal, contact;  // in space, not normalised
     Lanes turning;           // axis.(contact x d contact / ds), in space
   };
 
-  /// Samples k and k + count / 2, in the order of k. Normals are base + radius e, in the plane n.center = 1,
-  /// where g = 1 - rho_A - rho_B is concave along each ray with its maximum at the base (there the gradient
-  /// is along the centre line), so Newton converges from any start beyond it.
+  /// Samples k and -k of the walks and the opposite ones, in the order of k. g
+  /// = 1 - rho_A - rho_B is concave along each ray with its maximum at the base
+  /// (there the gradient is along the centre line), so Newton converges from
+  /// any start beyond it.
   Points at(int k) {
-    const AzimuthNodes::Node node = nodes_.at(k);
-    const Vector3d direction = plane_ * node.e, across = plane_ * Vector2d(-node.e.y(), node.e.x());
-    Lanes3 e, e_t;
-    for (int i = 0; i < 3; ++i) {
-      e[i] = Lanes(direction(i), -direction(i));
-      e_t[i] = Lanes(across(i), -across(i));
-    }
+    const AzimuthNodes::Nodes nodes = nodes_.at(k);
+    const Walks across_x(-nodes.y(0), nodes.y(1)), across_y(nodes.x(0), -nodes.x(1));
+    const Lanes3 e = opposite(plane_, nodes.x, nodes.y), e_t = opposite(plane_, across_x, across_y);
+    const Lanes weight = same(nodes.weight);
+    // Along a ray S n . e = S base . e + radius S e . e, and the same across
+    // it.
+    const Lanes base_a = opposite(base_a_.x() * nodes.x + base_a_.y() * nodes.y),
+                base_b = opposite(base_b_.x() * nodes.x + base_b_.y() * nodes.y);
+    const Lanes along_a = same(nodes.along_a), along_b = same(nodes.along_b);
     // Cubic through the last two samples and their derivatives.
     Lanes radius = radius_ + ds_ * radius_rate_;
     if (k >= 2) radius = 5 * previous_ - 4 * radius_ + ds_ * (4 * radius_rate_ + 2 * previous_rate_);
@@ -85,76 +107,90 @@ class Silhouette {
       }
     };
     Lanes over_a, over_b;  // 1 / rho
-    for (int iteration = 0;; ++iteration) {
+    for (int iteration = 0; iteration < 50; ++iteration) {
       place();
       const Lanes rho_a = dot(n, a).sqrt(), rho_b = dot(n, b).sqrt();
       over_a = rho_a.inverse();
       over_b = rho_b.inverse();
-      const Lanes slope_a = dot(a, e) * over_a, slope_b = dot(b, e) * over_b;
-      const Lanes bend_a = (node.square_a - slope_a.square()) * over_a,
-                  bend_b = (node.square_b - slope_b.square()) * over_b;
+      const Lanes slope_a = (base_a + radius * along_a) * over_a,
+                  slope_b = (base_b + radius * along_b) * over_b;
+      const Lanes bend_a = (along_a - slope_a.square()) * over_a,
+                  bend_b = (along_b - slope_b.square()) * over_b;
       const Lanes over_slope = (slope_a + slope_b).inverse();
       const Lanes newton = (1 - rho_a - rho_b) * over_slope;
-      // Second order, bounded so that far from the root it stays a Newton step of the right size.
+      // Second order, bounded so that far from the root it stays a Newton step
+      // of the right size.
       const Lanes second = (0.5 * newton * (bend_a + bend_b) * over_slope).max(-0.5).min(0.5);
-      Lanes step = newton * (1 - second);
-      if (!step.allFinite() || iteration == 50) break;
-      step = step.max(start_ - radius);
+      Lanes step = (newton * (1 - second)).max(start_ - radius);
+      // No slope: bodies that all but touch, and the radius is as good as it
+      // gets.
+      step = (step.abs() <= std::numeric_limits<double>::max()).select(step, 0.0);
       radius += step;
-      const Lanes grown_a = slope_a * step * over_a, grown_b = slope_b * step * over_b;
-      const Lanes largest = grown_a.abs().max(grown_b.abs()).max(step.abs() / radius);
-      if (largest.maxCoeff() < 4e-6) {
+      // Powers of step sqrt(S e.e) / rho.
+      const Lanes step2 = step.square();
+      const Lanes size = step2 * (along_a * over_a.square()).max(along_b * over_b.square());
+      if (size.maxCoeff() < 1.6e-11) {
         // Third-order terms are below rounding: no need to take the roots anew.
         place();
-        const Lanes more_a = grown_a + 0.5 * bend_a * over_a * step.square(),
-                    more_b = grown_b + 0.5 * bend_b * over_b * step.square();
+        const Lanes more_a = (slope_a * step + 0.5 * bend_a * step2) * over_a,
+                    more_b = (slope_b * step + 0.5 * bend_b * step2) * over_b;
         over_a *= 1 - more_a + more_a.square();
         over_b *= 1 - more_b + more_b.square();
         break;
       }
     }
-    // g(n(t)) = 0 differentiated: radius' = radius (q.e') / -(q.e) with q = grad g = center - gradient.
-    Lanes3 gradient_a, gradient_b, gradient;
-    for (int i = 0; i < 3; ++i) {
-      gradient_a[i] = a[i] * over_a;
-      gradient_b[i] = b[i] * over_b;
-      gradient[i] = gradient_a[i] + gradient_b[i];
-    }
-    const Lanes radius_t = -radius * dot(gradient, e_t) / dot(gradient, e);
+    Points p;
+    // The gradient S_A n / rho_A + S_B n / rho_B of the width, along e and
+    // across it.
+    const Lanes slope = (base_a + radius * along_a) * over_a + (base_b + radius * along_b) * over_b;
+    const Lanes side =
+        (opposite(base_a_.x() * across_x + base_a_.y() * across_y) + radius * same(nodes.mixed_a)) * over_a +
+        (opposite(base_b_.x() * across_x + base_b_.y() * across_y) + radius * same(nodes.mixed_b)) * over_b;
+    // The width is one all along: radius' slope + radius side = 0.
+    const Lanes over_slope = slope.inverse();
     previous_ = radius_;
     radius_ = radius;
     previous_rate_ = radius_rate_;
-    radius_rate_ = radius_t * node.weight;
-    // q' = -(H_A + H_B) n', H = S / rho - (S n)(S n)^T / rho^3.
-    Lanes3 n_t, q, q_t;
-    for (int i = 0; i < 3; ++i) n_t[i] = radius_t * e[i] + radius * e_t[i];
-    const Lanes along_a = dot(gradient_a, n_t), along_b = dot(gradient_b, n_t);
+    radius_rate_ = -weight * radius * side * over_slope;
+    // With T = to_space: axis.(T q x T q') = det T (T^{-1} axis).(q x q'),
+    // T^{-1} axis = center / |c|, and q' = -(H_A + H_B) n' with q = grad g, H =
+    // S / rho - (S n)(S n)^T / rho^3, n' = radius' e + radius e'. By Lagrange's
+    // identity m.H n' = (n x m).adj(S)(n x n') / rho^3, which makes the product
+    // a sum of positive terms, (radius / slope) (v.adj(S_A) v / rho_A^3 +
+    // v.adj(S_B) v / rho_B^3) with
+    //   v = slope n x e' - side n x e,  n x e = e' / L,  n x e' = radius center
+    //   / L - e / L.
+    Lanes3 v;  // squares of its components times L
+    const Lanes lift = slope * radius;
+    for (int i = 0; i < 3; ++i) v[i] = (lift * center_[i] - slope * e[i] - side * e_t[i]).square();
+    p.turning =
+        turning_scale_ * weight * radius * over_slope *
+        (dot(adjugate_a_, v) * over_a * over_a.square() + dot(adjugate_b_, v) * over_b * over_b.square());
+    const Lanes3 normal_e = opposite(normal_plane_, nodes.x, nodes.y);
+    const Lanes3 gradient = {a[0] * over_a + b[0] * over_b, a[1] * over_a + b[1] * over_b,
+                             a[2] * over_a + b[2] * over_b};
     for (int i = 0; i < 3; ++i) {
-      q[i] = center_[i] - gradient[i];
-      q_t[i] = (gradient_a[i] * along_a - alpha_[i] * n_t[i]) * over_a +
-               (gradient_b[i] * along_b - beta_[i] * n_t[i]) * over_b;
+      p.normal[i] = normal_base_[i] + radius * normal_e[i];
+      p.contact[i] = center_line_[i] - dot(to_space_[i], gradient);
     }
-    // With T = to_space: axis.(T q x T q') = det T (T^{-1} axis).(q x q'), T^{-1} axis = center / |c|, and
-    // center.(q x q') = -center.(gradient x q').
-    const Lanes volume = center_[0] * (gradient[2] * q_t[1] - gradient[1] * q_t[2]) +
-                         center_[1] * (gradient[0] * q_t[2] - gradient[2] * q_t[0]) +
-                         center_[2] * (gradient[1] * q_t[0] - gradient[0] * q_t[1]);
-    return {times(normal_to_space_, n), times(to_space_, q), turning_scale_ * node.weight * volume};
+    return p;
   }
 
  private:
-  Vector3d center_, alpha_, beta_, base_;
-  Eigen::Matrix<double, 3, 2> plane_;
   AzimuthNodes nodes_;
-  Matrix3d to_space_, normal_to_space_;
+  Eigen::Matrix<double, 3, 2> plane_, normal_plane_;
+  Vector2d base_a_, base_b_;  // S base in the plane
+  Lanes3 alpha_, beta_, adjugate_a_, adjugate_b_, base_, center_, center_line_, normal_base_;
+  std::array<Lanes3, 3> to_space_;
   double ds_, turning_scale_ = 0, start_ = 0;
   Lanes radius_ = Lanes::Zero(), previous_ = Lanes::Zero();
   Lanes radius_rate_ = Lanes::Zero(), previous_rate_ = Lanes::Zero();
 };
 
-/// Moves `v` towards `target`, which is certain, in steps of growing size until the predicate says yes. The first
-/// step is where its floating-point rung usually decides; gaps between inner and outer are far larger. For bodies
-/// so thin that it never does, the whole ladder is asked.
+/// Moves `v` towards `target`, which is certain, in steps of growing size until
+/// the predicate says yes. The first step is where its floating-point rung
+/// usually decides; gaps between inner and outer are far larger. For bodies so
+/// thin that it never does, the whole ladder is asked.
 template <typename Quick, typename Certain>
 Vector3d certified(const Vector3d& v, const Vector3d& target, Quick&& quick, Certain&& certain) {
   const auto moved = [&](double step) -> Vector3d { return ((1 - step) * v + step * target).normalized(); };
@@ -182,33 +218,42 @@ ExactCone exact_cone(const Ellipsoid& a, const Ellipsoid& b, int samples) {
   }
   Silhouette silhouette(contact, samples);
   cone.boundary.resize(samples);
-  // Opposite samples come in pairs; of an odd number of samples every pair gives one.
+  // Opposite samples come in pairs; of an odd number of samples every pair
+  // gives one. Both walks stop where they meet.
   const bool paired = samples % 2 == 0;
-  const int half = samples / 2, count = paired ? half : samples;
+  const int half = samples / 2, last = paired ? half / 2 : half;
   Lanes solid_angle = Lanes::Zero(), area = Lanes::Zero();
   bool bounded = true;
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i <= last; ++i) {
     const Silhouette::Points p = silhouette.at(i);
     const Lanes distance = dot(p.contact, p.contact).sqrt(), normal = dot(p.normal, p.normal).sqrt();
     const Lanes over_distance = distance.inverse(), over_normal = normal.inverse();
     const Lanes along =
         cone.axis.x() * p.contact[0] + cone.axis.y() * p.contact[1] + cone.axis.z() * p.contact[2];
-    for (int lane = 0; lane < (paired ? 2 : 1); ++lane) {
-      BoundarySample& sample = cone.boundary[i + lane * half];
+    // d omega = (1 - cos) d azimuth = axis.(u x u') / (1 + axis.u) ds for u = q
+    // / |q|.
+    const Lanes solid_part = p.turning / (distance * (distance + along));
+    const Lanes area_part = 0.5 * p.turning / along.square();
+    const auto put = [&](int index, int lane) {
+      BoundarySample& sample = cone.boundary[index];
       for (int x = 0; x < 3; ++x) {
         sample.direction(x) = p.contact[x](lane) * over_distance(lane);
         sample.normal(x) = p.normal[x](lane) * over_normal(lane);
         sample.contact(x) = p.contact[x](lane);
       }
       bounded = bounded && along(lane) > 0;
-    }
-    // d omega = (1 - cos) d azimuth = axis.(u x u') / (1 + axis.u) ds for u = q / |q|.
-    solid_angle += p.turning / (distance * (distance + along));
-    area += 0.5 * p.turning / along.square();
+      solid_angle(lane) += solid_part(lane);
+      area(lane) += area_part(lane);
+    };
+    put(i, 0);
+    if (paired) put(i + half, 1);
+    if (i == 0 || (paired && 2 * i == half)) continue;  // the walk backward is at a node of the other
+    put(samples - i, 2);
+    if (paired) put(half - i, 3);
   }
   const double ds = 2 * std::numbers::pi / samples;
-  cone.solid_angle = ds * (paired ? solid_angle.sum() : solid_angle(0));
-  cone.cross_section_area = ds * (paired ? area.sum() : area(0));
+  cone.solid_angle = ds * solid_angle.sum();
+  cone.cross_section_area = ds * area.sum();
   if (!bounded) cone.cross_section_area = std::numeric_limits<double>::infinity();
   return cone;
 }
@@ -222,13 +267,13 @@ ConeBounds cone_bounds(const ExactCone& cone, const Ellipsoid& a, const Ellipsoi
   bounds.outer.directions.reserve(cone.boundary.size());
   normals.reserve(cone.boundary.size());
   for (const BoundarySample& s : cone.boundary) {
-    bounds.inner.directions.push_back(
-        certified(s.direction, cone.axis,
-                  [&](const Vector3d& w) { return oracle.triage_membership(w) == Membership::in; },
-                  [&](const Vector3d& w) { return oracle.membership(w) != Membership::out; }));
-    normals.push_back(certified(s.normal, inside_normal,
-                                [&](const Vector3d& n) { return triage_separates<3>(a, b, n); },
-                                [&](const Vector3d& n) { return separates<3>(a, b, n); }));
+    bounds.inner.directions.push_back(certified(
+        s.direction, cone.axis,
+        [&](const Vector3d& w) { return oracle.triage_membership(w) == Membership::in; },
+        [&](const Vector3d& w) { return oracle.membership(w) != Membership::out; }));
+    normals.push_back(certified(
+        s.normal, inside_normal, [&](const Vector3d& n) { return triage_separates<3>(a, b, n); },
+        [&](const Vector3d& n) { return separates<3>(a, b, n); }));
   }
   for (std::size_t i = 0; i < normals.size(); ++i) {
     Vector3d edge = normals[i].cross(normals[(i + 1) % normals.size()]);
