@@ -73,7 +73,9 @@ class ShadowGap {
       v = next;
       if (std::abs(step) < 1e-12) break;
     }
-    return angle;
+    // g is stationary here and says nothing about the last half of the angle's digits; its slope does.
+    const double last = -v.slope / v.curvature;
+    return v.curvature < 0 && std::abs(last) < 1e-6 ? angle + last : angle;
   }
 
   /// Global maximum where g may be negative: every sign change of the slope from + to - on a grid that
@@ -189,19 +191,21 @@ Separation separation(const Ellipsoid& a, const Ellipsoid& b) {
     const Vector2d step = hessian.inverse() * slope;
     double scale = std::min(1.0, 0.5 / step.norm());
     Vector3d next = (n + scale * (e * step)).normalized();
+    // g is stationary at the end and says nothing about the last half of the normal's digits; the slope does.
+    const auto steepness = [&](const Vector3d& at) { return support_difference(a, b, at).cross(at).norm(); };
     double next_g = gap(a, b, next);
-    while (next_g < g && scale > 1e-12) {
-      scale /= 2;
-      next = (n + scale * (e * step)).normalized();
-      next_g = gap(a, b, next);
+    if (!(step.norm() < 1e-7 && steepness(next) < steepness(n))) {
+      while (next_g < g && scale > 1e-12) {
+        scale /= 2;
+        next = (n + scale * (e * step)).normalized();
+        next_g = gap(a, b, next);
+      }
+      if (!(next_g > g)) break;
     }
-    if (!(next_g > g)) break;
-    const bool settled = scale * step.norm() < 1e-12;
     n = next;
     g = next_g;
-    if (settled) break;
   }
-  return {g, n};
+  return {std::max(g, 0.0), n};
 }
 
 double contact_time(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& w) {
@@ -291,11 +295,15 @@ double contact_time(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& w) {
 std::optional<double> time_to_contact(const ConeOracle& oracle, const Vector3d& v_a, const Vector3d& v_b) {
   switch (oracle.verdict(v_a, v_b)) {
     case Verdict::overlapping:
-    case Verdict::touching: return 0.0;
-    case Verdict::out: return std::nullopt;
-    case Verdict::in: return contact_time(oracle.a(), oracle.b(), v_a - v_b);
+    case Verdict::touching:
+      return 0.0;
+    case Verdict::out:
+      return std::nullopt;
+    case Verdict::in:
+      return contact_time(oracle.a(), oracle.b(), v_a - v_b);
     // A double root loses half the digits; the supporting points of the shadows do not.
-    case Verdict::on: return std::max(clearance(oracle.a(), oracle.b(), v_a - v_b).time, 0.0);
+    case Verdict::on:
+      return std::max(clearance(oracle.a(), oracle.b(), v_a - v_b).time, 0.0);
   }
   return std::nullopt;
 }

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plane_axis.h"
+
 namespace vericone {
 namespace {
 
@@ -76,12 +78,7 @@ PlaneSector exact_sector(const Ellipsoid& a, const Ellipsoid& b, const Vector3d&
   PlaneSector sector;
   sector.line_of_sight = c.normalized();
   const Vector3d& u = sector.line_of_sight;
-  const Vector3d rest = across - across.dot(u) * u;
-  if (!across.allFinite() || !(rest.norm() > 1e-12 * across.norm()))
-    throw InputError(
-        "across", "[" + to_text(across.x()) + ", " + to_text(across.y()) + ", " + to_text(across.z()) + "]",
-        "finite and not along the line of centres");
-  sector.across = rest.normalized();
+  sector.across = second_axis(u, across);
   const Vector3d& e = sector.across;
   const Vector3d p = u.cross(e);
   const double distance = c.norm();

@@ -10,6 +10,7 @@
 
 #include "degenerate_conics.h"
 #include "planar_frame.h"
+#include "plane_axis.h"
 #include "scaled_inverse.h"
 
 namespace vericone {
@@ -96,7 +97,7 @@ SliceCone slice_cone(const Ellipsoid& a, const Ellipsoid& b, int planes) {
 Slice slice_sector(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& across) {
   const Slicer slicer(a, b);
   const AxisFrame& frame = slicer.frame();
-  const Vector3d second = (across - across.dot(frame.axis) * frame.axis).normalized();
+  const Vector3d second = second_axis(frame.axis, across);
   int fallbacks = 0;
   return slicer.slice(std::atan2(second.dot(frame.e2), second.dot(frame.e1)), second, fallbacks);
 }
