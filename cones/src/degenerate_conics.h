@@ -15,8 +15,7 @@ struct InnerTangents {
 };
 
 /// Source, 5.2.1 and Algorithm 3, for two disjoint ellipses. Nothing when they are so close that the contact
-/// function does not exceed one in floating point, when the pencil comes out with complex members, or when
-/// the lines found are not tangent to 1e-6.
+/// function does not exceed one by more than a few roundings.
 std::optional<InnerTangents> inner_tangents_by_degenerate_conics(const PlanarFrame& frame,
                                                                  const ContactFrame<2>& contact);
 

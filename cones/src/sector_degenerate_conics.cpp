@@ -15,6 +15,40 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+namespace {
+
+/// The corner of the rectangle as a common point of the two dual conics, by Newton. Where an inner tangent
+/// nearly coincides with an outer one (a needle that points at the other body, a body that looks like a
+/// point) the pencil has nearly a double member and its eigenvectors lose digits that the tangent itself does
+/// not. The line with normal (1, t) passes A's centre at the distance `alpha` and B's at 1 - alpha (both
+/// times |n|):
+///   alpha^2 = n^T S_A n,  (1 - alpha)^2 = n^T S_B n.
+/// Nothing when that does not settle.
+std::optional<double> polished_slope(const PlanarFrame& frame, double t, double alpha) {
+  const Matrix2d &sa = frame.shape_a, &sb = frame.shape_b;
+  double last = 1;
+  for (int iteration = 0; iteration < 8; ++iteration) {
+    const double beta = 1 - alpha;
+    const double miss_a = alpha * alpha - (sa(0, 0) + t * (2 * sa(0, 1) + t * sa(1, 1))),
+                 miss_b = beta * beta - (sb(0, 0) + t * (2 * sb(0, 1) + t * sb(1, 1)));
+    const double slope_a = sa(0, 1) + t * sa(1, 1), slope_b = sb(0, 1) + t * sb(1, 1);
+    const double det = 2 * (slope_a * beta + slope_b * alpha);
+    const double step = (beta * miss_a + alpha * miss_b) / det;
+    alpha += (slope_a * miss_b - slope_b * miss_a) / det;
+    t += step;
+    const double relative = std::abs(step / t);
+    if (!(relative < 0.5)) return std::nullopt;
+    // Quadratic, so the next step would be below rounding; for bodies about to touch rounding ends it
+    // earlier.
+    if (relative < 1e-8 || (relative < 1e-2 && relative > 0.5 * last))
+      return alpha > 0 && alpha < 1 ? std::optional(t) : std::nullopt;
+    last = relative;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 // Dual conic of an ellipse with centre p and shape S: the line n.x = d touches it iff (d - n.p)^2 = n^T S n,
 // i.e. l^T C l = 0 for l = (n, -d) and C = [S - p p^T, -p; -p^T, -1].
 //
@@ -64,14 +98,14 @@ std::optional<InnerTangents> inner_tangents_by_degenerate_conics(const PlanarFra
       const double at_a = -lambda * line.x() + line.z(), at_b = one_minus_lambda * line.x() + line.z();
       if (!(at_a * at_b < 0)) continue;
       if (found == 2) return std::nullopt;
-      const Vector2d n = line.x() > 0 ? Vector2d(line.head<2>()) : Vector2d(-line.head<2>());
-      const double miss = n.x() - std::sqrt(n.dot(frame.shape_a * n)) - std::sqrt(n.dot(frame.shape_b * n));
-      if (!(std::abs(miss) <= 1e-6 * n.x())) return std::nullopt;
-      result.normals[found++] = n;
+      const std::optional<double> slope = polished_slope(frame, line.y() / line.x(), -at_a / line.x());
+      if (!slope) return std::nullopt;
+      result.normals[found++] = Vector2d(1, *slope);
     }
   if (found != 2) return std::nullopt;
-  // (1, t) with t > 0 first.
   if (result.normals[0].y() < result.normals[1].y()) std::swap(result.normals[0], result.normals[1]);
+  // g is positive at (1, 0), so the two lie on either side of it.
+  if (!(result.normals[0].y() > 0 && result.normals[1].y() < 0)) return std::nullopt;
   return result;
 }
 

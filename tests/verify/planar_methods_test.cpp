@@ -19,10 +19,6 @@ constexpr std::uint64_t kCases = 300;
 /// Bound on the relative error of psi by degenerate conics.
 double degenerate_conics_bound(PlanarFamily family) {
   switch (family) {
-    case PlanarFamily::thin:
-      return 5e-6;
-    case PlanarFamily::mixed_scale:
-      return 1e-7;
     case PlanarFamily::nearly_touching:
     case PlanarFamily::thin_touching:
       return 5e-9;
@@ -52,14 +48,8 @@ TEST_P(PlanarMethods, DegenerateConicsAreRightOrDecline) {
   SCOPED_TRACE(to_markdown({&r, 1}));
   EXPECT_EQ(r.wrong_relations, 0);
   EXPECT_LE(r.psi_relative.error, degenerate_conics_bound(GetParam()));
-  // Where it declines: the contact function is one to rounding, or the thin axis is lost in it.
-  if (GetParam() == PlanarFamily::within_rounding) {
-    EXPECT_LT(r.not_answered, kCases / 5);
-  } else if (GetParam() == PlanarFamily::thin || GetParam() == PlanarFamily::thin_touching) {
-    EXPECT_LE(r.not_answered, kCases / 50);
-  } else {
-    EXPECT_EQ(r.not_answered, 0);
-  }
+  // It declines only where the gap is a few roundings.
+  EXPECT_LE(r.not_answered, GetParam() == PlanarFamily::within_rounding ? kCases / 2 : 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Planar, PlanarMethods, testing::ValuesIn(kAllPlanarFamilies),

@@ -50,10 +50,10 @@ Sector sector_by_support(const Ellipse& a, const Ellipse& b);
 /// The sector by degenerate conics (source, 5.2.1 and Algorithm 3): eigenvectors of the pencil of the two
 /// dual conics, the common tangents as the corners of a rectangle in their basis, the inner ones by the sides
 /// on which the centres lie. The pair is first mapped by an affine map that makes both bodies and their
-/// distance comparable, so proportional, concentric-part and distant pairs are ordinary ones. Double precision
-/// throughout: psi is right to 1e-12, to 5e-6 for bodies a million times longer than thick and to sqrt(eps)
-/// for bodies about to touch (docs/planar-accuracy.md). Nothing is returned where rounding decides: for bodies
-/// whose gap is a few roundings, for a few of the thinnest pairs. Cost: a few microseconds.
+/// distance comparable, so proportional, concentric-part, thin and distant pairs are ordinary ones, and each
+/// tangent found is polished as a common point of the dual conics. Double precision throughout: psi is right to
+/// 1e-12, except for bodies about to touch, to eps / sqrt(gap) (docs/planar-accuracy.md). Nothing is returned
+/// where rounding decides, for bodies whose gap is a few roundings. Cost: a few microseconds.
 std::optional<Sector> sector_by_degenerate_conics(const Ellipse& a, const Ellipse& b);
 
 /// Velocities with which the bodies move and turn, for rates.
