@@ -95,13 +95,13 @@ def scanned_objects(scans):
         planes = column(s["slice"], "planes")
         coarse = planes < s["finest_planes"]
         right.plot(planes[coarse], column(s["slice"], "discretisation_error", "worst")[coarse], "-",
-                   color=plt.cm.viridis(i / max(1, len(scans) - 1)), label=s["name"])
+                   color=SLICE, linewidth=0.7, label="one line an object" if i == 0 else None)
     planes = column(scans[0]["slice"], "planes")
     right.plot(planes, 2 / planes, "--", color=GREY, label="2/n")
     right.set_yscale("log")
     right.set_ylabel("worst error against n = %d" % scans[0]["finest_planes"])
     right.set_title("slice: discretisation error")
-    right.legend(loc="lower left", ncol=2, fontsize=5)
+    right.legend(loc="lower left")
     plane_axis(right, planes)
     figure.suptitle("Scanned objects in their minimum-volume ellipsoids, %d approaches of an ellipsoidal agent each"
                     % scans[0]["engagements"], fontsize=8)

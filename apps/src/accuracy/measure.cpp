@@ -17,8 +17,9 @@ Measurement measure(const Ellipsoid& a, const Ellipsoid& b, const std::vector<in
   for (const int n : planes) m.slice_areas.push_back(slice_cone(a, b, n).polyhedral().cross_section_area);
   for (std::size_t i = 0; i < kSampleCounts.size(); ++i) {
     const ExactCone cone = exact_cone(a, b, kSampleCounts[i]);
-    m.areas[i] = cone.cross_section_area;
-    m.area_bounds[i] = cone_bounds(cone, a, b).cross_section_area_error;
+    const ConeBounds bounds = cone_bounds(cone, a, b);
+    m.areas[i] = bounds.cross_section_area;
+    m.area_bounds[i] = bounds.cross_section_area_error;
   }
   return m;
 }
