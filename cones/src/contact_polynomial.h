@@ -32,12 +32,13 @@ struct ContactCubic {
   ContactCubic(const Symmetric2<N>& a, const Symmetric2<N>& b, const N& dx, const N& dy) {
     const N xx = dx * dx, yy = dy * dy, xy = dx * dy;
     const N xy2 = xy + xy;
-    k0 = a.a * a.c - a.b * a.b;
-    k3 = b.a * b.c - b.b * b.b;
-    const N off = a.b * b.b;
-    const N mixed = a.a * b.c + a.c * b.a - (off + off);
-    k1 = xx * a.c + yy * a.a - xy2 * a.b - mixed - k0;
-    k2 = xx * b.c + yy * b.a - xy2 * b.b - mixed - k3;
+    const N nab = -a.b, nbb = -b.b;
+    k0 = a.a * a.c + a.b * nab;
+    k3 = b.a * b.c + b.b * nbb;
+    const N off = nab * b.b;
+    const N mixed = (a.a * b.c + a.c * b.a) + (off + off);
+    k1 = (xx * a.c + yy * a.a + xy2 * nab) - (mixed + k0);
+    k2 = (xx * b.c + yy * b.a + xy2 * nbb) - (mixed + k3);
   }
 
   /// Discriminant. The cubic has two distinct positive roots iff it is positive and k1 > 0 or k2 > 0: with
@@ -45,13 +46,8 @@ struct ContactCubic {
   /// (+, -k2, -k1, +) change.
   N discriminant() const {
     const N k12 = k1 * k2, k03 = k0 * k3;
-    const N t = k12 * k03;
-    const N t2 = t + t, t4 = t2 + t2, t16 = t4 + t4 + t4 + t4;
-    const N s = k03 * k03;
-    const N s2 = s + s, s3 = s2 + s, s9 = s3 + s3 + s3, s27 = s9 + s9 + s9;
-    const N u = k2 * k2 * k2 * k0 + k1 * k1 * k1 * k3;
-    const N u2 = u + u, u4 = u2 + u2;
-    return k12 * k12 + (t16 + t2) + u4 - s27;
+    const N u = (k2 * k2) * (k2 * k0) + (k1 * k1) * (k1 * k3);
+    return (k12 * (k12 + k03 * 18) + u * 4) - k03 * k03 * 27;
   }
 };
 
@@ -65,6 +61,14 @@ Symmetric2<N> shadow(const Entry& s, const N& wi, const N& wj, const N& wk, int 
   return {kk * s(i, i) - (t1 + t1) + wi * wi * s(k, k),
           kk * s(i, j) - kj * s(i, k) - ki * s(j, k) + wi * wj * s(k, k),
           kk * s(j, j) - (t3 + t3) + wj * wj * s(k, k)};
+}
+
+/// The same for w = (u, v, 1) in the order i, j, k, given -u and -v.
+template <typename N, typename Entry>
+Symmetric2<N> affine_shadow(const Entry& s, const N& minus_u, const N& minus_v, int i, int j, int k) {
+  const N ik = s(i, k) + minus_u * s(k, k), jk = s(j, k) + minus_v * s(k, k);
+  return {s(i, i) + minus_u * (s(i, k) + ik), (s(i, j) + minus_v * s(i, k)) + minus_u * jk,
+          s(j, j) + minus_v * (s(j, k) + jk)};
 }
 
 namespace exact {

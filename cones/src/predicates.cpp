@@ -14,6 +14,27 @@ namespace {
 
 constexpr double kUnitRoundoff = 0x1p-53;
 
+// Roundings along the longest path to each quantity, counted from the inputs. c: 1 (difference of the
+// centres). S: 3 (three products of factors summed). u, v = w_i / w_k, w_j / w_k: 3 (two differences of
+// velocities, the quotient).
+//   affine_shadow: ik, jk   u S (3+3+1), 1 sum                    ->  8
+//                  ii, jj   1 sum, u (8+1+3+1), 1 sum             -> 14
+//                  ij       v S 1 sum (8), u jk (8+3+1), 1 sum    -> 13
+//   d:             c + u c (1+3+1), 1 sum                         ->  6
+//   k0, k3:        14+14+1 product, 1 sum                         -> 30
+//   mixed:         14+14+1 product, 2 sums                        -> 31
+//   k1, k2:        d d M (6+6+1 + 14 + 1 = 28), 2 sums -> 30; mixed + k0 -> 32; 1 sum -> 33
+//   discriminant:  k12 = 33+33+1 -> 67; 18 k03 = 30+30+1 + 1 -> 62; their sum -> 68, times k12 -> 136;
+//                  k2 k2 (k2 k0): 67 + 64 + 1, 1 sum -> 133; 27 k03 k03: 61+61+1 + 1 -> 124; 2 sums -> 138
+// The magnitudes carry as many roundings of their own; 3 % covers them and the terms of second order.
+constexpr double kShapeBound = 1.03 * 33 * kUnitRoundoff;
+constexpr double kDiscriminantBound = 1.03 * 138 * kUnitRoundoff;
+// normal.(u, v, 1): 3+1 and 2 sums, counted on the normal as it is.
+constexpr double kAheadBound = 1.03 * 6 * kUnitRoundoff;
+// Products below the smallest normal number lose more than a relative rounding. Inputs are scaled so that no
+// intermediate factor exceeds about 2^150, hence all such losses together stay far below this.
+constexpr double kUnderflowBound = 1e-250;
+
 /// A floating-point value of a polynomial in the inputs together with the same polynomial evaluated on
 /// absolute values. If no monomial went through more than K roundings, the value is within K (1 + tiny) u
 /// times the magnitude of the exact one. Both live in one vector register: tracking costs no extra
@@ -26,45 +47,41 @@ struct Tracked {
   double value() const { return pair[0]; }
   double magnitude() const { return pair[1]; }
 
-  static Tracked of(double x) { return {Pair{x, std::abs(x)}}; }
   static Tracked of(const double (&entry)[2]) { return {Pair{entry[0], entry[1]}}; }
+  static Tracked minus(double x) { return {Pair{-x, std::abs(x)}}; }
 
   friend Tracked operator+(Tracked x, Tracked y) { return {x.pair + y.pair}; }
-  friend Tracked operator-(Tracked x, Tracked y) {
+  friend Tracked operator-(Tracked x) {
     constexpr Bits kSignOfValue = {std::numeric_limits<long long>::min(), 0};
-    return {x.pair + reinterpret_cast<Pair>(reinterpret_cast<Bits>(y.pair) ^ kSignOfValue)};
+    return {reinterpret_cast<Pair>(reinterpret_cast<Bits>(x.pair) ^ kSignOfValue)};
   }
+  friend Tracked operator-(Tracked x, Tracked y) { return x + (-y); }
   friend Tracked operator*(Tracked x, Tracked y) { return {x.pair * y.pair}; }
+  friend Tracked operator*(Tracked x, int factor) { return {x.pair * static_cast<double>(factor)}; }
+
+  /// Whether the exact value is certainly positive (1) or negative (-1).
+  int sign(double relative_bound) const {
+    const double bound = relative_bound * magnitude() + kUnderflowBound;
+    return static_cast<int>(value() > bound) - static_cast<int>(value() < -bound);
+  }
 };
 
 /// Position of entry (r, c) of a symmetric 3x3 matrix among its six.
 constexpr int kPacked[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
 
-// Roundings along the longest path to each quantity, counted from the inputs: w 2 (difference of two
-// velocities, division by the largest entry, which is a common factor but rounds each entry on its own), c 1,
-// S 3 (three products of factors summed).
-//   shadow: w w (2+2+1) . S (3+1) + 3 sums             -> 12
-//   d:      w c (2+1+1) + 1 sum                        ->  5
-//   k0, k3: 12 + 12 + 1 product + 1 sum                -> 26
-//   k1, k2: d d M (5+5+1+12+1 = 24) or mixed (12+12+1+2 = 27), then 4 sums -> 31
-//   discriminant: k k k k (4 . 31 + 3 products) + 6 sums -> 133
-// The magnitudes carry as many roundings of their own; 3 % covers them and the terms of second order.
-constexpr double kShapeBound = 1.03 * 31 * kUnitRoundoff;
-constexpr double kDiscriminantBound = 1.03 * 133 * kUnitRoundoff;
-// Products below the smallest normal number lose more than a relative rounding. Inputs are scaled so that no
-// intermediate factor exceeds about 2^150, hence all such losses together stay far below this.
-constexpr double kUnderflowBound = 1e-250;
-
 /// Exactly the power of two in [|x|, 2|x|), as an exponent; 0 for 0.
 int binary_exponent(double x) { return x == 0 ? 0 : std::ilogb(x) + 1; }
 
+/// The coordinate to project along, that of the largest entry of w, and the two after it. No branches: the
+/// directions of velocities are hard to predict.
 struct DroppedAxis {
   int i, j, k;
   explicit DroppedAxis(const Eigen::Vector3d& w) {
-    const Eigen::Vector3d m = w.cwiseAbs();
-    k = m.x() >= m.y() ? (m.x() >= m.z() ? 0 : 2) : (m.y() >= m.z() ? 1 : 2);
-    i = (k + 1) % 3;
-    j = (k + 2) % 3;
+    constexpr int kNext[] = {1, 2, 0, 1};
+    const double x = std::abs(w.x()), y = std::abs(w.y()), z = std::abs(w.z());
+    k = z > std::max(x, y) ? 2 : static_cast<int>(y > x);
+    i = kNext[k];
+    j = kNext[k + 1];
   }
 };
 
@@ -245,74 +262,74 @@ ConeOracle::ConeOracle(const Ellipsoid& a, const Ellipsoid& b) : a_(a), b_(b) {
   const int e = binary_exponent(c.cwiseAbs().maxCoeff());
   if (std::abs(e) > 400) return;
   const double scale = std::ldexp(1.0, -e), scale2 = scale * scale;
-  Eigen::Vector3d::Map(scaled_.c) = scale * c;
-  bool usable = true;
-  const auto fill = [&](const Ellipsoid& body, double(&entries)[6][2]) {
+  usable_ = true;
+  const auto fill = [&](const Ellipsoid& body, double(Scaled::*entries)[6][2]) {
     const Eigen::Matrix3d f = body.factor().cwiseAbs() * scale;
     const Eigen::Matrix3d magnitude = body.defined_by_factor()
                                           ? Eigen::Matrix3d(f * f.transpose())
                                           : Eigen::Matrix3d(body.shape().cwiseAbs() * scale2);
-    for (int r = 0; r < 3; ++r)
-      for (int col = r; col < 3; ++col) {
-        entries[kPacked[r][col]][0] = body.shape()(r, col) * scale2;
-        entries[kPacked[r][col]][1] = magnitude(r, col);
-      }
-    usable = usable && magnitude.maxCoeff() < 0x1p20 && magnitude.diagonal().minCoeff() > 1e-40;
+    for (int k = 0; k < 3; ++k)
+      for (int r = 0; r < 3; ++r)
+        for (int col = r; col < 3; ++col) {
+          const int row = (k + 1 + r) % 3, column = (k + 1 + col) % 3;
+          auto& entry = (scaled_[k].*entries)[kPacked[r][col]];
+          entry[0] = body.shape()(row, column) * scale2;
+          entry[1] = magnitude(row, column);
+        }
+    usable_ = usable_ && magnitude.maxCoeff() < 0x1p20 && magnitude.diagonal().minCoeff() > 1e-40;
   };
-  fill(a, scaled_.shape_a);
-  fill(b, scaled_.shape_b);
-  scaled_.usable = usable;
+  fill(a, &Scaled::shape_a);
+  fill(b, &Scaled::shape_b);
+  for (int k = 0; k < 3; ++k)
+    for (int r = 0; r < 3; ++r) {
+      const int row = (k + 1 + r) % 3;
+      scaled_[k].c[r][0] = c(row) * scale;
+      scaled_[k].c[r][1] = std::abs(c(row)) * scale;
+      scaled_[k].normal[r][0] = r < 2 ? -normal_(row) : normal_(row);
+      scaled_[k].normal[r][1] = std::abs(normal_(row));
+    }
 }
 
-std::optional<Membership> ConeOracle::triage_membership(const Eigen::Vector3d& w_in) const noexcept {
-  const double largest = w_in.cwiseAbs().maxCoeff();
-  if (largest == 0) return Membership::out;
-  if (!scaled_.usable || !(largest > 1e-150 && largest < 1e150)) return std::nullopt;
-  const Eigen::Vector3d w = w_in / largest;  // one more rounding; direction is what counts
+std::optional<Membership> ConeOracle::triage_membership(const Eigen::Vector3d& w) const noexcept {
   const DroppedAxis axis(w);
-  const int i = axis.i, j = axis.j, k = axis.k;
-  const Tracked wi = Tracked::of(w(i)), wj = Tracked::of(w(j)), wk = Tracked::of(w(k));
-  const auto entry = [](const double(&entries)[6][2]) {
-    return [&entries](int r, int c) { return Tracked::of(entries[kPacked[r][c]]); };
-  };
-  const auto ma = shadow<Tracked>(entry(scaled_.shape_a), wi, wj, wk, i, j, k);
-  const auto mb = shadow<Tracked>(entry(scaled_.shape_b), wi, wj, wk, i, j, k);
-  const Tracked ci = Tracked::of(scaled_.c[i]), cj = Tracked::of(scaled_.c[j]),
-                ck = Tracked::of(scaled_.c[k]);
-  const ContactCubic<Tracked> cubic(ma, mb, wk * ci - wi * ck, wk * cj - wj * ck);
-
-  const Tracked d = cubic.discriminant();
-  const double bound = kDiscriminantBound * d.magnitude() + kUnderflowBound;
-  const auto surely_positive = [](const Tracked& x) {
-    return x.value() > kShapeBound * x.magnitude() + kUnderflowBound;
-  };
-  const auto surely_negative = [](const Tracked& x) {
-    return x.value() < -(kShapeBound * x.magnitude() + kUnderflowBound);
-  };
-  if (d.value() > bound) {
-    if (surely_positive(cubic.k1) || surely_positive(cubic.k2)) return Membership::out;
-    if (!surely_negative(cubic.k1) || !surely_negative(cubic.k2)) return std::nullopt;
-  } else if (!(d.value() < -bound)) {
+  const double wk = w(axis.k);
+  if (!(std::abs(wk) > 0 && std::abs(wk) <= std::numeric_limits<double>::max() && usable_)) {
+    if (w.x() == 0 && w.y() == 0 && w.z() == 0) return Membership::out;
     return std::nullopt;
   }
-  // The line along w meets K, which lies on the positive side of the separating normal.
-  if (!normal_certified_) return std::nullopt;
-  const double ahead = normal_.dot(w), margin = 10 * kUnitRoundoff * normal_.cwiseAbs().dot(w.cwiseAbs());
-  if (ahead > margin) return Membership::in;
-  if (ahead < -margin) return Membership::out;
-  return std::nullopt;
+  const Scaled& scaled = scaled_[axis.k];
+  const Tracked::Pair quotients = Tracked::Pair{w(axis.i), w(axis.j)} / Tracked::Pair{wk, wk};
+  const Tracked minus_u = Tracked::minus(quotients[0]), minus_v = Tracked::minus(quotients[1]);
+  // The side of a plane that separates the bodies: K lies on the positive one.
+  const auto n = [&scaled](int r) { return Tracked::of(scaled.normal[r]); };
+  const Tracked height = n(0) * minus_u + n(1) * minus_v + n(2);
+  const int ahead = normal_certified_ ? (wk > 0 ? 1 : -1) * height.sign(kAheadBound) : 0;
+  if (ahead < 0) return Membership::out;
+
+  const auto a = [&scaled](int r, int col) { return Tracked::of(scaled.shape_a[kPacked[r][col]]); };
+  const auto b = [&scaled](int r, int col) { return Tracked::of(scaled.shape_b[kPacked[r][col]]); };
+  const auto c = [&scaled](int r) { return Tracked::of(scaled.c[r]); };
+  const ContactCubic<Tracked> cubic(affine_shadow<Tracked>(a, minus_u, minus_v, 0, 1, 2),
+                                    affine_shadow<Tracked>(b, minus_u, minus_v, 0, 1, 2),
+                                    c(0) + minus_u * c(2), c(1) + minus_v * c(2));
+  const int discriminant = cubic.discriminant().sign(kDiscriminantBound);
+  const int k1 = cubic.k1.sign(kShapeBound), k2 = cubic.k2.sign(kShapeBound);
+  const bool apart = (discriminant > 0) & ((k1 > 0) | (k2 > 0));
+  const bool meets = (ahead > 0) & ((discriminant < 0) | ((discriminant > 0) & (k1 < 0) & (k2 < 0)));
+  if (!(apart | meets)) return std::nullopt;
+  return apart ? Membership::out : Membership::in;
 }
 
 Membership ConeOracle::naive_membership(const Eigen::Vector3d& w) const noexcept {
   const DroppedAxis axis(w);
-  const int i = axis.i, j = axis.j, k = axis.k;
-  const auto entry = [](const double(&entries)[6][2]) {
-    return [&entries](int r, int c) { return entries[kPacked[r][c]][0]; };
-  };
-  const auto ma = shadow<double>(entry(scaled_.shape_a), w(i), w(j), w(k), i, j, k);
-  const auto mb = shadow<double>(entry(scaled_.shape_b), w(i), w(j), w(k), i, j, k);
-  const double* c = scaled_.c;
-  const ContactCubic<double> cubic(ma, mb, w(k) * c[i] - w(i) * c[k], w(k) * c[j] - w(j) * c[k]);
+  const Scaled& scaled = scaled_[axis.k];
+  const double minus_u = -w(axis.i) / w(axis.k), minus_v = -w(axis.j) / w(axis.k);
+  const auto a = [&scaled](int r, int col) { return scaled.shape_a[kPacked[r][col]][0]; };
+  const auto b = [&scaled](int r, int col) { return scaled.shape_b[kPacked[r][col]][0]; };
+  const auto c = [&scaled](int r) { return scaled.c[r][0]; };
+  const ContactCubic<double> cubic(affine_shadow<double>(a, minus_u, minus_v, 0, 1, 2),
+                                   affine_shadow<double>(b, minus_u, minus_v, 0, 1, 2), c(0) + minus_u * c(2),
+                                   c(1) + minus_v * c(2));
   const double d = cubic.discriminant();
   if (d > 0 && (cubic.k1 > 0 || cubic.k2 > 0)) return Membership::out;
   if (!(normal_.dot(w) > 0)) return Membership::out;

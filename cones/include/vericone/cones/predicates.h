@@ -109,12 +109,16 @@ class ConeOracle {
   Relation relation_;
   Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();
   bool normal_certified_ = false;
-  // What the first rung reads, in two cache lines' worth of values and magnitudes: lengths divided by a power
-  // of two so that |c| is near one, each entry followed by a bound of the terms it was summed from.
+  // What the first rung reads, once for each coordinate k that a velocity may be projected along: lengths
+  // divided by a power of two so that |c| is near one, in the order i, j, k of the coordinates, each number
+  // followed by a bound of the terms it was summed from.
   struct Scaled {
-    double shape_a[6][2], shape_b[6][2], c[3];
-    bool usable = false;
-  } scaled_;
+    alignas(16) double shape_a[6][2], shape_b[6][2];  // ii, ij, ik, jj, jk, kk
+    double c[3][2];
+    double normal[3][2];  // the first two negated
+  };
+  Scaled scaled_[3];
+  bool usable_ = false;
 };
 
 }  // namespace vericone
