@@ -187,16 +187,16 @@ class Silhouette {
   Lanes radius_rate_ = Lanes::Zero(), previous_rate_ = Lanes::Zero();
 };
 
-/// Moves `v` towards `target`, which is certain, in steps of growing size until
-/// the predicate says yes. The first step is where its floating-point rung
-/// usually decides; gaps between inner and outer are far larger. For bodies so
-/// thin that it never does, the whole ladder is asked.
+/// Moves `v` towards `target`, which is certain, in steps of growing size until the predicate says yes. Its
+/// floating-point rung usually decides within a few of them; only where that would take steps that show
+/// beside the gap between inner and outer (`unnoticed`) is the whole ladder asked.
 template <typename Quick, typename Certain>
-Vector3d certified(const Vector3d& v, const Vector3d& target, Quick&& quick, Certain&& certain) {
+Vector3d certified(const Vector3d& v, const Vector3d& target, double unnoticed, Quick&& quick,
+                   Certain&& certain) {
   const auto moved = [&](double step) -> Vector3d { return ((1 - step) * v + step * target).normalized(); };
-  for (double step = 0x1p-44; step < 0x1p-28; step *= 4)
+  for (double step = 0x1p-44; step < unnoticed; step *= 8)
     if (const Vector3d m = moved(step); quick(m)) return m;
-  for (double step = 0x1p-48; step < 1; step *= 4)
+  for (double step = 0x1p-48; step < 1; step *= 8)
     if (const Vector3d m = moved(step); certain(m)) return m;
   return target;
 }
@@ -263,16 +263,19 @@ ConeBounds cone_bounds(const ExactCone& cone, const Ellipsoid& a, const Ellipsoi
   const Vector3d inside_normal = oracle.separating_normal().normalized();
   ConeBounds bounds;
   std::vector<Vector3d> normals;
+  // The relative gap is about 7 / samples^2.
+  const double unnoticed =
+      0.02 / (static_cast<double>(cone.boundary.size()) * static_cast<double>(cone.boundary.size()));
   bounds.inner.directions.reserve(cone.boundary.size());
   bounds.outer.directions.reserve(cone.boundary.size());
   normals.reserve(cone.boundary.size());
   for (const BoundarySample& s : cone.boundary) {
     bounds.inner.directions.push_back(certified(
-        s.direction, cone.axis,
+        s.direction, cone.axis, unnoticed,
         [&](const Vector3d& w) { return oracle.triage_membership(w) == Membership::in; },
         [&](const Vector3d& w) { return oracle.membership(w) != Membership::out; }));
     normals.push_back(certified(
-        s.normal, inside_normal, [&](const Vector3d& n) { return triage_separates<3>(a, b, n); },
+        s.normal, inside_normal, unnoticed, [&](const Vector3d& n) { return triage_separates<3>(a, b, n); },
         [&](const Vector3d& n) { return separates<3>(a, b, n); }));
   }
   for (std::size_t i = 0; i < normals.size(); ++i) {

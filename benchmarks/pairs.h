@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The engagements every benchmark is run on: the same for the library and for its peers.
+#pragma once
+
+#include <vericone/cones/exact_cone.h>
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <vector>
+
+namespace vericone::benchmarks {
+
+struct Placed {
+  Eigen::Vector3d semi_axes;
+  Eigen::Matrix3d rotation;
+  Eigen::Vector3d center;
+
+  Ellipsoid body() const { return Ellipsoid::from_axes(center, semi_axes, rotation); }
+};
+
+struct Engagement {
+  Placed placed_a, placed_b;
+  Ellipsoid a, b;
+  Eigen::Vector3d w;       // velocity of A relative to B, unit
+  Eigen::Vector3d across;  // spans the plane of planar questions together with the line of centres
+  bool near_cone;          // w was aimed within 0.2 rad of the cone's boundary, else anywhere
+
+  /// Distance that A travels along w before it has certainly passed B.
+  double horizon() const {
+    return (b.center() - a.center()).norm() + placed_a.semi_axes.maxCoeff() + placed_b.semi_axes.maxCoeff();
+  }
+};
+
+/// Numbers that are the same with every standard library.
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : engine_(seed) {}
+
+  double uniform(double lo, double hi) {
+    return lo + (hi - lo) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+  }
+
+  double normal() {
+    const double radius = std::sqrt(-2 * std::log(uniform(0x1p-60, 1)));
+    return radius * std::cos(uniform(0, 2 * std::numbers::pi));
+  }
+
+  Eigen::Vector3d direction() {
+    const double x = normal(), y = normal(), z = normal();
+    return Eigen::Vector3d(x, y, z).normalized();
+  }
+
+  Eigen::Matrix3d rotation() {
+    const double w = normal(), x = normal(), y = normal(), z = normal();
+    return Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix();
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// Semi-axes uniform in 1..10, any attitude, centres at 1.5 to 3 times rho_A(d) + rho_B(d) along a random d.
+/// Every second velocity is aimed within 0.2 rad of the cone's boundary, inside and outside alike; the others
+/// point anywhere.
+inline std::vector<Engagement> engagements(int count, std::uint64_t seed = 1) {
+  Dice dice(seed);
+  const auto semi_axes = [&] {
+    const double x = dice.uniform(1, 10), y = dice.uniform(1, 10), z = dice.uniform(1, 10);
+    return Eigen::Vector3d(x, y, z);
+  };
+  std::vector<Engagement> all;
+  all.reserve(count);
+  for (int i = 0; i < count; ++i) {
+    Engagement e;
+    e.placed_a = {semi_axes(), dice.rotation(), dice.uniform(-20, 20) * dice.direction()};
+    e.placed_b = {semi_axes(), dice.rotation(), Eigen::Vector3d::Zero()};
+    e.a = e.placed_a.body();
+    const Eigen::Vector3d d = dice.direction();
+    const double width = e.a.radius(d) + e.placed_b.body().radius(d);
+    e.placed_b.center = e.placed_a.center + dice.uniform(1.5, 3) * width * d;
+    e.b = e.placed_b.body();
+    e.across = dice.direction();
+    e.near_cone = i % 2 == 0;
+    e.w = dice.direction();
+    if (e.near_cone) {
+      const ExactCone cone = exact_cone(e.a, e.b, 16);
+      const BoundarySample& s = cone.boundary[static_cast<std::size_t>(dice.uniform(0, 16))];
+      const double turn = dice.uniform(-0.2, 0.2);
+      e.w = (std::cos(turn) * s.direction + std::sin(turn) * s.normal).normalized();
+    }
+    all.push_back(e);
+  }
+  return all;
+}
+
+}  // namespace vericone::benchmarks
