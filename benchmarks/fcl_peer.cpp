@@ -30,8 +30,8 @@ FclPair::FclPair(const Engagement& e)
 FclPair::~FclPair() = default;
 FclPair::FclPair(FclPair&&) noexcept = default;
 
-// Conservative advancement is left out: FCL 0.7 has none for ellipsoids, says so on standard error at every call
-// and reports "no contact" for all, 271 wrong answers of 1,000 on these engagements.
+// Conservative advancement is left out: FCL 0.7 has none for ellipsoids, says so on standard error at every
+// call and reports "no contact" for all, 271 wrong answers of 1,000 on these engagements.
 const std::vector<FclCall>& fcl_calls() {
   static const std::vector<FclCall> calls{
       {"distance, libccd", false},

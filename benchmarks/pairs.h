@@ -4,6 +4,8 @@
 #pragma once
 
 #include <vericone/cones/exact_cone.h>
+#include <vericone/cones/plane_sector.h>
+#include <vericone/cones/sector.h>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
@@ -26,7 +28,8 @@ struct Engagement {
   Ellipsoid a, b;
   Eigen::Vector3d w;       // velocity of A relative to B, unit
   Eigen::Vector3d across;  // spans the plane of planar questions together with the line of centres
-  bool near_cone;          // w was aimed within 0.2 rad of the cone's boundary, else anywhere
+  SpatialMotion motion;    // for rates
+  bool aimed;              // w was aimed near the cone's boundary, else anywhere
 
   /// Distance that A travels along w before it has certainly passed B.
   double horizon() const {
@@ -63,9 +66,9 @@ class Dice {
 };
 
 /// Semi-axes uniform in 1..10, any attitude, centres at 1.5 to 3 times rho_A(d) + rho_B(d) along a random d.
-/// Every second velocity is aimed within 0.2 rad of the cone's boundary, inside and outside alike; the others
-/// point anywhere.
-inline std::vector<Engagement> engagements(int count, std::uint64_t seed = 1) {
+/// Every second velocity is aimed within `aim` radians of the cone's boundary, inside and outside alike; the
+/// others point anywhere.
+inline std::vector<Engagement> engagements(int count, double aim = 0.2, std::uint64_t seed = 1) {
   Dice dice(seed);
   const auto semi_axes = [&] {
     const double x = dice.uniform(1, 10), y = dice.uniform(1, 10), z = dice.uniform(1, 10);
@@ -83,14 +86,51 @@ inline std::vector<Engagement> engagements(int count, std::uint64_t seed = 1) {
     e.placed_b.center = e.placed_a.center + dice.uniform(1.5, 3) * width * d;
     e.b = e.placed_b.body();
     e.across = dice.direction();
-    e.near_cone = i % 2 == 0;
+    e.motion.v_a = dice.direction();
+    e.motion.v_b = dice.direction();
+    e.motion.omega_a = dice.direction();
+    e.motion.omega_b = dice.direction();
+    e.aimed = i % 2 == 0;
     e.w = dice.direction();
-    if (e.near_cone) {
+    if (e.aimed) {
       const ExactCone cone = exact_cone(e.a, e.b, 16);
       const BoundarySample& s = cone.boundary[static_cast<std::size_t>(dice.uniform(0, 16))];
-      const double turn = dice.uniform(-0.2, 0.2);
+      const double turn = aim * dice.uniform(-1, 1);
       e.w = (std::cos(turn) * s.direction + std::sin(turn) * s.normal).normalized();
     }
+    all.push_back(e);
+  }
+  return all;
+}
+
+/// Two ellipses: the same recipe in the plane.
+struct PlanarEngagement {
+  Ellipse a, b;
+  PlanarMotion motion;
+};
+
+inline std::vector<PlanarEngagement> planar_engagements(int count, std::uint64_t seed = 1) {
+  Dice dice(seed);
+  std::vector<PlanarEngagement> all;
+  all.reserve(count);
+  const auto body = [&](const Eigen::Vector2d& center) {
+    const double x = dice.uniform(1, 10), y = dice.uniform(1, 10);
+    return Ellipse::from_axes(center, {x, y}, rotation_2d(dice.uniform(0, 2 * std::numbers::pi)));
+  };
+  const auto velocity = [&] {
+    const double x = dice.normal(), y = dice.normal();
+    return Eigen::Vector2d(x, y);
+  };
+  for (int i = 0; i < count; ++i) {
+    PlanarEngagement e;
+    e.a = body(velocity());
+    e.b = body(e.a.center());
+    const Eigen::Vector2d d = velocity().normalized();
+    e.b = e.b.translated(dice.uniform(1.5, 3) * (e.a.radius(d) + e.b.radius(d)) * d);
+    e.motion.v_a = velocity();
+    e.motion.v_b = velocity();
+    e.motion.omega_a = dice.normal();
+    e.motion.omega_b = dice.normal();
     all.push_back(e);
   }
   return all;

@@ -362,17 +362,21 @@ Membership ConeOracle::exact_membership(const Eigen::Vector3d& v_a, const Eigen:
   return discriminant == 0 && positive_pair ? Membership::on : Membership::in;
 }
 
+// The first rung has no answer for numbers that are not finite, so they are looked for after it.
+
 Membership ConeOracle::membership(const Eigen::Vector3d& w) const {
-  return membership(w, Eigen::Vector3d::Zero());
+  if (const auto answer = triage_membership(w)) return *answer;
+  require_finite_velocity(w, "agent_velocity");
+  return exact_membership(w, Eigen::Vector3d::Zero());
 }
 
 Membership ConeOracle::membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const {
-  require_finite_velocity(v_a, "agent_velocity");
-  require_finite_velocity(v_b, "obstacle_velocity");
   const Eigen::Vector3d w = v_a - v_b;
   // A difference that rounds to zero or to infinity is not a relative error of one rounding.
-  if (w.allFinite() && w.cwiseAbs().maxCoeff() > 0)
+  if (w.x() != 0 || w.y() != 0 || w.z() != 0)
     if (const auto answer = triage_membership(w)) return *answer;
+  require_finite_velocity(v_a, "agent_velocity");
+  require_finite_velocity(v_b, "obstacle_velocity");
   return exact_membership(v_a, v_b);
 }
 

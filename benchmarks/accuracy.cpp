@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <benchmarks/accuracy.h>
+#include <vericone/cones/slice_cone.h>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace vericone::benchmarks {
+namespace {
+
+double slice_solid_angle(const Engagement& e, int planes) {
+  return slice_cone(e.a, e.b, planes).polyhedral().solid_angle;
+}
+
+}  // namespace
+
+Spread::Spread(std::vector<double> errors) {
+  std::sort(errors.begin(), errors.end());
+  median = errors[errors.size() / 2];
+  worst = errors.back();
+}
+
+Accuracy::Accuracy(const std::vector<Engagement>& pairs) : pairs_(pairs) {
+  constexpr int kReference = 512;
+  for (const Engagement& e : pairs) solid_angles_.push_back(exact_cone(e.a, e.b, kReference).solid_angle);
+}
+
+Spread Accuracy::exact(int samples) const {
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < pairs_.size(); ++i)
+    errors.push_back(
+        std::abs(exact_cone(pairs_[i].a, pairs_[i].b, samples).solid_angle / solid_angles_[i] - 1));
+  return Spread(std::move(errors));
+}
+
+Spread Accuracy::slice(int planes) const {
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < pairs_.size(); ++i)
+    errors.push_back(std::abs(slice_solid_angle(pairs_[i], planes) / solid_angles_[i] - 1));
+  return Spread(std::move(errors));
+}
+
+Spread Accuracy::slice_discretisation(int planes) const {
+  std::vector<double> errors;
+  for (const Engagement& e : pairs_) {
+    const double coarse = slice_solid_angle(e, planes), fine = slice_solid_angle(e, 2 * planes);
+    const double limit = fine + (fine - coarse) / 3;
+    errors.push_back(std::abs(coarse / limit - 1));
+  }
+  return Spread(std::move(errors));
+}
+
+int Accuracy::fewest(double target, double Spread::*measure) const {
+  int samples = 4;
+  while (exact(samples).*measure >= target && samples < 400) samples += 2;
+  return samples;
+}
+
+std::string label(const char* what, int count, const Spread& error) {
+  char text[96];
+  std::snprintf(text, sizeof text, "%s = %d, error %.1e (worst %.1e)", what, count, error.median,
+                error.worst);
+  return text;
+}
+
+}  // namespace vericone::benchmarks

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace vericone::benchmarks {
+
+// Each registers its benchmarks with Google Benchmark.
+void add_sector_benchmarks();
+void add_cone_benchmarks();
+void add_measure_benchmarks();
+void add_membership_benchmarks();
+void add_fcl_benchmarks();
+
+}  // namespace vericone::benchmarks
