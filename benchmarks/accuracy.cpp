@@ -25,12 +25,13 @@ Accuracy::Accuracy(const std::vector<Engagement>& pairs) : pairs_(pairs) {
   for (const Engagement& e : pairs) solid_angles_.push_back(exact_cone(e.a, e.b, kReference).solid_angle);
 }
 
-Spread Accuracy::exact(int samples) const {
+const Spread& Accuracy::exact(int samples) const {
+  if (const auto known = exact_.find(samples); known != exact_.end()) return known->second;
   std::vector<double> errors;
   for (std::size_t i = 0; i < pairs_.size(); ++i)
     errors.push_back(
         std::abs(exact_cone(pairs_[i].a, pairs_[i].b, samples).solid_angle / solid_angles_[i] - 1));
-  return Spread(std::move(errors));
+  return exact_.emplace(samples, Spread(std::move(errors))).first->second;
 }
 
 Spread Accuracy::slice(int planes) const {
@@ -51,8 +52,8 @@ Spread Accuracy::slice_discretisation(int planes) const {
 }
 
 int Accuracy::fewest(double target, double Spread::*measure) const {
-  int samples = 4;
-  while (exact(samples).*measure >= target && samples < 400) samples += 2;
+  int samples = 200;
+  while (samples > 4 && exact(samples - 2).*measure < target) samples -= 2;
   return samples;
 }
 

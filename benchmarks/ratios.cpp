@@ -1,144 +1,250 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Ratios measured in one run, as a Markdown table: the exact cone against slices, membership against FCL.
-#include <vericone/cones/exact_cone.h>
+// Prints, in Markdown, what the library costs beside the source's slices and beside FCL: every time of a
+// table is taken in turn in each of several rounds, and the figures are medians over the rounds.
+#include <benchmarks/accuracy.h>
+#include <benchmarks/agreement.h>
 #include <vericone/cones/slice_cone.h>
 #include <algorithm>
-#include <array>
-#include <chrono>
-#include <cmath>
 #include <cstdio>
+#include <ctime>
+#include <fstream>
 #include <functional>
-
-#include "fcl_peer.h"
-#include "pairs.h"
 
 namespace vericone::benchmarks {
 namespace {
 
-constexpr int kPairs = 1000;
-
-/// Median over passes of the time per pair, in nanoseconds. Passes of all contenders are interleaved by the
-/// caller's order of calls only; the machine should be quiet.
-double time_per_pair(int pairs, const std::function<double(int)>& work) {
-  std::array<double, 9> passes{};
-  volatile double sink = 0;
-  for (double& pass : passes) {
-    const auto start = std::chrono::steady_clock::now();
-    int rounds = 0;
-    do {
-      for (int i = 0; i < pairs; ++i) sink = sink + work(i);
-      ++rounds;
-    } while (std::chrono::steady_clock::now() - start < std::chrono::milliseconds(40));
-    pass = std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count() /
-           rounds / pairs;
-  }
-  std::nth_element(passes.begin(), passes.begin() + passes.size() / 2, passes.end());
-  return passes[passes.size() / 2];
+/// Time this thread has spent running, so that other programs on the machine count less.
+double cpu_nanoseconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
 }
 
-struct Errors {
-  double median, worst;
+struct Item {
+  std::string name;
+  std::function<double()> round;  // nanoseconds a call
+  std::vector<double> times = {};
 };
 
-Errors area_errors(const std::vector<Engagement>& all, const std::vector<double>& truth, int samples) {
-  std::vector<double> errors;
-  for (int i = 0; i < kPairs; ++i)
-    errors.push_back(std::abs(exact_cone(all[i].a, all[i].b, samples).cross_section_area / truth[i] - 1));
-  std::sort(errors.begin(), errors.end());
-  return {errors[kPairs / 2], errors.back()};
+/// `call(i)` for i below `count`, `repeats` times over.
+template <typename Call>
+Item item(std::string name, int count, int repeats, Call call) {
+  return {std::move(name), [=] {
+            const double start = cpu_nanoseconds();
+            for (int r = 0; r < repeats; ++r)
+              for (int i = 0; i < count; ++i) {
+                auto result = call(i);
+                asm volatile("" : : "r,m"(result) : "memory");
+              }
+            return (cpu_nanoseconds() - start) / (static_cast<double>(count) * repeats);
+          }};
 }
 
-void cones(const std::vector<Engagement>& all) {
-  std::vector<double> truth;
-  for (const auto& e : all) truth.push_back(exact_cone(e.a, e.b, 512).cross_section_area);
-  constexpr std::array kCounts{8, 10, 12, 14, 16, 20, 24, 32, 48, 64, 96, 128};
-  std::vector<Errors> errors;
-  for (const int m : kCounts) errors.push_back(area_errors(all, truth, m));
-  const auto first = [&](double limit, double Errors::*which) {
-    for (std::size_t i = 0; i < kCounts.size(); ++i)
-      if (errors[i].*which < limit) return kCounts[i];
-    return kCounts.back();
+double median(std::vector<double> v) {
+  std::nth_element(v.begin(), v.begin() + v.size() / 2, v.end());
+  return v[v.size() / 2];
+}
+
+void measure(std::vector<Item>& items, int rounds) {
+  for (Item& it : items) it.round();  // warm
+  for (int r = 0; r < rounds; ++r)
+    for (Item& it : items) it.times.push_back(it.round());
+}
+
+double median_ratio(const Item& over, const Item& under) {
+  std::vector<double> ratios;
+  for (std::size_t r = 0; r < over.times.size(); ++r) ratios.push_back(over.times[r] / under.times[r]);
+  return median(ratios);
+}
+
+std::string nanoseconds(double t) {
+  char text[32];
+  if (t < 1e3)
+    std::snprintf(text, sizeof text, "%.1f ns", t);
+  else if (t < 1e6)
+    std::snprintf(text, sizeof text, "%.1f us", t * 1e-3);
+  else
+    std::snprintf(text, sizeof text, "%.2f ms", t * 1e-6);
+  return text;
+}
+
+void requirement(const char* what, bool met, double value, const char* format) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  std::printf("| %s | %s | %s |\n", what, text, met ? "met" : "**not met**");
+}
+
+std::string cpu_model() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+  return "unknown processor";
+}
+
+struct ConeFigures {
+  double ratio_48, ratio_matched, worst_96, median_48;
+};
+
+ConeFigures cone_table(int rounds) {
+  constexpr int kAccuracyPairs = 2000, kTimedPairs = 100;
+  const std::vector<Engagement> pairs = engagements(kAccuracyPairs),
+                                fewer(pairs.begin(), pairs.begin() + 200);
+  const Accuracy accuracy(pairs), slice_accuracy(fewer);
+  const Spread discretisation = slice_accuracy.slice_discretisation(360);
+  const int matched = accuracy.fewest(discretisation.median, &Spread::median);
+
+  std::vector<Item> items;
+  std::vector<Spread> errors;
+  for (const int planes : {12, 36, 360}) {
+    items.push_back(
+        item("slice_cone, " + std::to_string(planes) + " planes", kTimedPairs, 1,
+             [&, planes](int i) { return slice_cone(pairs[i].a, pairs[i].b, planes).slices[0].left; }));
+    errors.push_back(slice_accuracy.slice(planes));
+  }
+  std::vector<int> counts = {accuracy.fewest(1e-3, &Spread::median),
+                             accuracy.fewest(1e-6, &Spread::median),
+                             accuracy.fewest(1e-3, &Spread::worst),
+                             accuracy.fewest(1e-6, &Spread::worst),
+                             matched,
+                             48,
+                             96};
+  std::sort(counts.begin(), counts.end());
+  counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
+  for (const int samples : counts) {
+    items.push_back(
+        item("exact_cone, " + std::to_string(samples) + " samples", kTimedPairs, 10,
+             [&, samples](int i) { return exact_cone(pairs[i].a, pairs[i].b, samples).solid_angle; }));
+    errors.push_back(accuracy.exact(samples));
+  }
+  items.push_back(item("exact_cone, 48 samples, and cone_bounds", kTimedPairs, 2, [&](int i) {
+    return cone_bounds(exact_cone(pairs[i].a, pairs[i].b, 48), pairs[i].a, pairs[i].b).solid_angle_error;
+  }));
+  errors.push_back(accuracy.exact(48));
+  counts.push_back(0);
+  measure(items, rounds);
+
+  std::printf("| cone | time | slice_cone(360) / this | solid angle off by: median | worst |\n");
+  std::printf("| --- | --- | --- | --- | --- |\n");
+  ConeFigures figures{};
+  for (std::size_t k = 0; k < items.size(); ++k) {
+    const double ratio = median_ratio(items[2], items[k]);
+    std::printf("| %s | %s | %.3g | %.1e | %.1e |\n", items[k].name.c_str(),
+                nanoseconds(median(items[k].times)).c_str(), ratio, errors[k].median, errors[k].worst);
+    if (k < 3) continue;
+    const int samples = counts[k - 3];
+    if (samples == matched) figures.ratio_matched = ratio;
+    if (samples == 48) figures.ratio_48 = ratio, figures.median_48 = errors[k].median;
+    if (samples == 96) figures.worst_96 = errors[k].worst;
+  }
+  std::printf(
+      "\nOver %d pairs (slices: %zu), relative. slice_cone(360) is off by %.1e (median) from its own "
+      "limit of many planes, which %d exact samples undercut; the rest of its error is what slices "
+      "cannot see.\n",
+      kAccuracyPairs, fewer.size(), discretisation.median, matched);
+  return figures;
+}
+
+struct MembershipFigures {
+  double plain, triage, least_ratio;
+};
+
+MembershipFigures membership_table(int rounds) {
+  constexpr int kPairs = 1000, kFew = 20, kRepeats = 200;
+  const Prepared all(engagements(kPairs)), grazing(engagements(kPairs, 1e-4));
+  struct Row {
+    bool same_question;
+    int count;
+    std::function<bool(const Prepared&, int)> answer;
   };
-  std::vector<std::pair<const char*, int>> rows{{"median error under 1e-3", first(1e-3, &Errors::median)},
-                                                {"median error under 1e-6", first(1e-6, &Errors::median)},
-                                                {"worst error under 1e-3", first(1e-3, &Errors::worst)},
-                                                {"worst error under 1e-6", first(1e-6, &Errors::worst)},
-                                                {"48 samples", 48}};
-  constexpr int kTimed = 100;
-  const double slice =
-      time_per_pair(kTimed, [&](int i) { return double(slice_cone(all[i].a, all[i].b, 360).slices.size()); });
-  std::printf("slice_cone, n = 360: %.1f us\n\n", slice / 1e3);
-  std::printf(
-      "| exact cone | samples | median error | worst error | us | times faster than slices, n = 360 |\n"
-      "|---|---|---|---|---|---|\n");
-  for (const auto& [name, m] : rows) {
-    const double exact =
-        time_per_pair(kTimed, [&, m = m](int i) { return exact_cone(all[i].a, all[i].b, m).solid_angle; });
-    const auto& e = errors[std::find(kCounts.begin(), kCounts.end(), m) - kCounts.begin()];
-    std::printf("| %s | %d | %.1e | %.1e | %.2f | %.0f |\n", name, m, e.median, e.worst, exact / 1e3,
-                slice / exact);
-  }
-  const double bounded = time_per_pair(kTimed, [&](int i) {
-    return cone_bounds(exact_cone(all[i].a, all[i].b, 48), all[i].a, all[i].b).solid_angle_error;
+  std::vector<Item> items;
+  std::vector<Row> rows;
+  const auto add = [&](const std::string& name, bool same_question, int count, int repeats, auto answer) {
+    items.push_back(item(name, count, repeats, [&all, answer](int i) { return answer(all, i); }));
+    rows.push_back({same_question, count, answer});
+  };
+  const auto touches = [](Membership m) { return m != Membership::out; };
+  const auto w = [](const Prepared& p, int i) -> const Eigen::Vector3d& { return p.engagements[i].w; };
+  add("membership, all rungs", true, kPairs, kRepeats,
+      [=](const Prepared& p, int i) { return touches(p.oracles[i].membership(w(p, i))); });
+  add("first rung, proved bound", true, kPairs, kRepeats, [=](const Prepared& p, int i) {
+    const auto answer = p.oracles[i].triage_membership(w(p, i));
+    return answer ? touches(*answer)
+                  : touches(p.oracles[i].exact_membership(w(p, i), Eigen::Vector3d::Zero()));
   });
-  std::printf("| 48 samples with certified bounds | 48 | | | %.2f | %.0f |\n", bounded / 1e3,
-              slice / bounded);
-}
+  add("plain double, no bound", true, kPairs, kRepeats,
+      [=](const Prepared& p, int i) { return touches(p.oracles[i].naive_membership(w(p, i))); });
+  add("one shot, pair prepared anew", true, kPairs, 1, [=](const Prepared& p, int i) {
+    const Engagement& e = p.engagements[i];
+    return touches(ConeOracle(e.a, e.b).membership(e.w));
+  });
+  add("exact rung", true, kPairs, 1, [=](const Prepared& p, int i) {
+    return touches(p.oracles[i].exact_membership(w(p, i), Eigen::Vector3d::Zero()));
+  });
+  for (const int steps : {10, 100, 10000})
+    add("FCL continuousCollide, CCDC_NAIVE, " + std::to_string(steps) + " times", true,
+        steps < 1000 ? kPairs : kFew, 1, [steps](const Prepared& p, int i) { return p.fcl[i].naive(steps); });
+  for (const auto& [name, solver] : {std::pair("libccd", FclSolver::libccd), {"indep", FclSolver::indep}}) {
+    const std::string text = std::string(", GJK ") + name;
+    for (const auto& [motion_name, motion] : {std::pair("translation", FclMotion::translation),
+                                              {"linear", FclMotion::linear},
+                                              {"screw", FclMotion::screw},
+                                              {"spline", FclMotion::spline}})
+      add("FCL conservative advancement" + text + ", " + motion_name + " motion", true, kPairs, 1,
+          [solver, motion](const Prepared& p, int i) { return p.fcl[i].advancement(solver, motion); });
+    add("FCL continuousCollide, CCDC_CONSERVATIVE_ADVANCEMENT on polytopes" + text, true, kPairs, 1,
+        [solver](const Prepared& p, int i) { return p.fcl[i].polytope_advancement(solver); });
+    add("FCL distance now" + text, false, kPairs, 1,
+        [solver](const Prepared& p, int i) { return p.fcl[i].distance(solver) > 0; });
+    add("FCL collide now" + text, false, kPairs, 1,
+        [solver](const Prepared& p, int i) { return p.fcl[i].collide(solver); });
+  }
+  measure(items, rounds);
 
-void membership(const std::vector<Engagement>& all) {
-  std::vector<ConeOracle> oracles;
-  std::vector<FclPair> fcl;
-  std::vector<Membership> truth;
-  int inside = 0;
-  for (const auto& e : all) {
-    oracles.emplace_back(e.a, e.b);
-    fcl.emplace_back(e);
-    truth.push_back(oracles.back().membership(e.w));
-    inside += truth.back() != Membership::out;
-  }
-  std::printf("\n%d velocities, %d of them collide\n\n", kPairs, inside);
-  std::printf("| membership | ns | wrong or undecided |\n|---|---|---|\n");
-  // A robot asks many velocities of few obstacles: 32 prepared pairs stay in the cache, as they would there.
-  constexpr int kPrepared = 32;
-  int naive_wrong = 0, undecided = 0;
-  for (int i = 0; i < kPairs; ++i) {
-    naive_wrong += oracles[i].naive_membership(all[i].w) != truth[i];
-    undecided += !oracles[i].triage_membership(all[i].w).has_value();
-  }
-  const double naive =
-      time_per_pair(kPrepared, [&](int i) { return double(oracles[i].naive_membership(all[i].w)); });
-  const double triage = time_per_pair(kPrepared, [&](int i) {
-    return double(oracles[i].triage_membership(all[i].w).value_or(Membership::on));
-  });
-  const double ladder =
-      time_per_pair(kPrepared, [&](int i) { return double(oracles[i].membership(all[i].w)); });
-  const double one_shot = time_per_pair(
-      kPrepared, [&](int i) { return double(ConeOracle(all[i].a, all[i].b).membership(all[i].w)); });
-  std::printf("| plain double, no bound | %.1f | %d |\n", naive, naive_wrong);
-  std::printf("| first rung, proved bound | %.1f | %d |\n", triage, undecided);
-  std::printf("| whole ladder, exact | %.1f | 0 |\n", ladder);
-  std::printf("| whole ladder, bodies prepared for one question | %.1f | 0 |\n", one_shot);
+  const auto wrong = [&](const Row& row, const Prepared& set) -> std::string {
+    if (!row.same_question) return "other question";
+    const Wrong found = wrong_answers(set, row.count, [&](int i) { return row.answer(set, i); });
+    return std::to_string(found.hits) + " + " + std::to_string(found.misses) + " of " +
+           std::to_string(row.count);
+  };
   std::printf(
-      "\n| FCL call | same question | ns | against plain double | against the exact ladder | wrong |\n"
-      "|---|---|---|---|---|---|\n");
-  for (std::size_t c = 0; c < fcl_calls().size(); ++c) {
-    int wrong = 0;
-    if (fcl_calls()[c].answers_membership)
-      for (int i = 0; i < kPairs; ++i) wrong += (fcl[i].run(c) != 0) != (truth[i] != Membership::out);
-    const double ns = time_per_pair(kPrepared, [&](int i) { return fcl[i].run(c); });
-    const std::string told = fcl_calls()[c].answers_membership ? std::to_string(wrong) : "";
-    std::printf("| %s | %s | %.0f | %.0f x | %.0f x | %s |\n", fcl_calls()[c].name.c_str(),
-                fcl_calls()[c].answers_membership ? "yes" : "no", ns, ns / naive, ns / ladder, told.c_str());
+      "| call | time | this / membership | wrong: false hits + misses | wrong, half aimed within 1e-4 |\n");
+  std::printf("| --- | --- | --- | --- | --- |\n");
+  MembershipFigures figures{median(items[2].times), median(items[1].times), 1e300};
+  for (std::size_t k = 0; k < items.size(); ++k) {
+    const double ratio = median_ratio(items[k], items[0]);
+    std::printf("| %s | %s | %.3g | %s | %s |\n", items[k].name.c_str(),
+                nanoseconds(median(items[k].times)).c_str(), ratio, wrong(rows[k], all).c_str(),
+                wrong(rows[k], grazing).c_str());
+    if (k > 4 && rows[k].same_question) figures.least_ratio = std::min(figures.least_ratio, ratio);
   }
+  const auto hits = [](const Prepared& p) { return std::count(p.touches.begin(), p.touches.end(), true); };
+  std::printf("\n%ld of the %d velocities touch; of those half aimed within 1e-4 rad of the boundary, %ld.\n",
+              hits(all), kPairs, hits(grazing));
+  return figures;
 }
 
 }  // namespace
 }  // namespace vericone::benchmarks
 
-int main() {
+int main(int argc, char** argv) {
   using namespace vericone::benchmarks;
-  const auto all = engagements(kPairs);
-  cones(all);
-  membership(all);
+  const int rounds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 15;
+  std::printf("%s; %s %s, %s; FCL %s; %d rounds, time of the thread.\n\n", cpu_model().c_str(),
+              VERICONE_COMPILER, VERICONE_BUILD_TYPE, VERICONE_FLAGS, fcl_version(), rounds);
+  const ConeFigures cone = cone_table(rounds);
+  std::printf("\n");
+  const MembershipFigures membership = membership_table(rounds);
+  std::printf("\nFCL's table of conservative advancement %s a pair of ellipsoids.\n",
+              fcl_ellipsoids_in_table() ? "has an entry for" : "has no entry for");
+  std::printf("\n| requirement | measured | |\n| --- | --- | --- |\n");
+  requirement("slice_cone(360) / exact_cone(48) at least 50", cone.ratio_48 >= 50, cone.ratio_48, "%.3g");
+  requirement("the same at slice_cone(360)'s own discretisation error", cone.ratio_matched >= 50,
+              cone.ratio_matched, "%.3g");
+  requirement("worst error at 96 samples below 1e-6", cone.worst_96 < 1e-6, cone.worst_96, "%.1e");
+  requirement("median error at 48 samples below 1e-12", cone.median_48 < 1e-12, cone.median_48, "%.1e");
+  requirement("membership in plain double below 40 ns", membership.plain < 40, membership.plain, "%.1f ns");
+  requirement("with a proved bound below 40 ns", membership.triage < 40, membership.triage, "%.1f ns");
+  requirement("fastest FCL call for the same question / membership at least 15", membership.least_ratio >= 15,
+              membership.least_ratio, "%.3g");
 }

@@ -72,7 +72,7 @@ def random_engagements(data):
     right.set_xlabel("boundary samples m")
     right.set_ylabel("relative area error")
     right.set_title("(c) exact: error and bound")
-    right.set_ylim(1e-21, 10)
+    right.set_ylim(1e-24, 10)
     right.legend(loc="lower left")
     figure.suptitle("%d random engagements, semi-axes 1 to 10 m" % data["engagements"], fontsize=8)
     save(figure, "accuracy")

@@ -142,5 +142,29 @@ TEST(ContactTime, OfAGrazingVelocity) {
   }
 }
 
+TEST(ContactTime, AndClearanceAtEveryScale) {
+  RandomBodies random(615);
+  SCOPED_TRACE(random.trace());
+  for (const double scale : {0x1p-400, 1e-100, 1e-9, 1e9, 1e100, 0x1p400}) {
+    for (int i = 0; i < 300; ++i) {
+      const auto [a, b] =
+          random.scaled_from_touching(i % 2 ? 1 : 1e-2, i % 2 ? 10 : 1, random.uniform(1.05, 3));
+      const Ellipsoid p = a.scaled(scale), q = b.scaled(scale);
+      const Vector3d w =
+          b.center() - a.center() + 0.7 * (b.center() - a.center()).norm() * random.direction();
+      ASSERT_NEAR(clearance(p, q, w).distance / scale, clearance(a, b, w).distance, 1e-12)
+          << "case " << i << " scale " << scale;
+      const Separation s = separation(a, b), t = separation(p, q);
+      ASSERT_NEAR(t.distance / scale / s.distance, 1, 1e-9) << "case " << i << " scale " << scale;
+      ASSERT_LT((t.normal - s.normal).norm(), 1e-9) << "case " << i << " scale " << scale;
+      const auto now = time_to_contact(a, b, w), scaled = time_to_contact(p, q, w);
+      ASSERT_EQ(now.has_value(), scaled.has_value()) << "case " << i << " scale " << scale;
+      if (now) {
+        ASSERT_NEAR(*scaled / scale / *now, 1, 1e-9) << "case " << i << " scale " << scale;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vericone

@@ -103,7 +103,11 @@ struct MovedPair {
     Ellipsoid origin = body.translated(-body.center());
     return origin.translated(p);
   }
-  bool exact() const { return moved_b.center() - moved_a.center() == b.center() - a.center(); }
+  bool exact() const {
+    const Vector3d by = moved_a.center() - a.center();
+    return by == moved_b.center() - b.center() && Vector3d(moved_a.center() - by) == a.center() &&
+           Vector3d(moved_b.center() - by) == b.center();
+  }
 };
 
 void check_laws(std::uint64_t seed, int pairs, int velocities, double near, AnswersByKind& answers) {

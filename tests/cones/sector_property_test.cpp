@@ -98,13 +98,13 @@ TEST_P(SectorFamilies, AgreeWithFiftyDigits) {
 
 INSTANTIATE_TEST_SUITE_P(Planar, SectorFamilies,
                          ::testing::Values(Family{"ordinary", ordinary, 8 * kUlp, 1e-12},
-                                           Family{"thin", thin, 8 * kUlp, 1e-8},
+                                           Family{"thin", thin, 8 * kUlp, 1e-12},
                                            Family{"distant", distant, 8 * kUlp, 1e-12},
                                            Family{"nearly_touching", nearly_touching, 8 * kUlp, 1e-8},
                                            Family{"congruent", congruent, 8 * kUlp, 1e-12},
                                            Family{"proportional", proportional, 8 * kUlp, 1e-12},
                                            Family{"coaxial", coaxial, 8 * kUlp, 1e-12},
-                                           Family{"by_shape", by_shape, 8 * kUlp, 1e-8}),
+                                           Family{"by_shape", by_shape, 8 * kUlp, 1e-12}),
                          [](const auto& family) { return std::string(family.param.name); });
 
 /// A line through p along d that the body touches at p: p on the boundary, d in the tangent there.
