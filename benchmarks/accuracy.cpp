@@ -8,8 +8,8 @@
 namespace vericone::benchmarks {
 namespace {
 
-double slice_solid_angle(const Engagement& e, int planes) {
-  return slice_cone(e.a, e.b, planes).polyhedral().solid_angle;
+double slice_area(const Engagement& e, int planes) {
+  return slice_cone(e.a, e.b, planes).polyhedral().cross_section_area;
 }
 
 }  // namespace
@@ -22,7 +22,7 @@ Spread::Spread(std::vector<double> errors) {
 
 Accuracy::Accuracy(const std::vector<Engagement>& pairs) : pairs_(pairs) {
   constexpr int kReference = 512;
-  for (const Engagement& e : pairs) solid_angles_.push_back(exact_cone(e.a, e.b, kReference).solid_angle);
+  for (const Engagement& e : pairs) areas_.push_back(exact_cone(e.a, e.b, kReference).cross_section_area);
 }
 
 const Spread& Accuracy::exact(int samples) const {
@@ -30,21 +30,21 @@ const Spread& Accuracy::exact(int samples) const {
   std::vector<double> errors;
   for (std::size_t i = 0; i < pairs_.size(); ++i)
     errors.push_back(
-        std::abs(exact_cone(pairs_[i].a, pairs_[i].b, samples).solid_angle / solid_angles_[i] - 1));
+        std::abs(exact_cone(pairs_[i].a, pairs_[i].b, samples).cross_section_area / areas_[i] - 1));
   return exact_.emplace(samples, Spread(std::move(errors))).first->second;
 }
 
 Spread Accuracy::slice(int planes) const {
   std::vector<double> errors;
   for (std::size_t i = 0; i < pairs_.size(); ++i)
-    errors.push_back(std::abs(slice_solid_angle(pairs_[i], planes) / solid_angles_[i] - 1));
+    errors.push_back(std::abs(slice_area(pairs_[i], planes) / areas_[i] - 1));
   return Spread(std::move(errors));
 }
 
 Spread Accuracy::slice_discretisation(int planes) const {
   std::vector<double> errors;
   for (const Engagement& e : pairs_) {
-    const double coarse = slice_solid_angle(e, planes), fine = slice_solid_angle(e, 2 * planes);
+    const double coarse = slice_area(e, planes), fine = slice_area(e, 2 * planes);
     const double limit = fine + (fine - coarse) / 3;
     errors.push_back(std::abs(coarse / limit - 1));
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// How far the constructions of a cone are from its solid angle, over many pairs.
+// How far the constructions of a cone are from its cross-section area, over many pairs.
 #pragma once
 
 #include <benchmarks/pairs.h>
@@ -10,7 +10,7 @@
 
 namespace vericone::benchmarks {
 
-/// Of a relative error of the solid angle, over the pairs.
+/// Of a relative error of the cross-section area, over the pairs.
 struct Spread {
   double median = 0, worst = 0;
 
@@ -35,7 +35,7 @@ class Accuracy {
 
  private:
   const std::vector<Engagement>& pairs_;
-  std::vector<double> solid_angles_;
+  std::vector<double> areas_;
   mutable std::map<int, Spread> exact_;  // by samples
 };
 

@@ -94,7 +94,8 @@ struct FclPair::Objects {
   bool continuous(const fcl::CollisionGeometryd& moving, const fcl::CollisionGeometryd& resting,
                   const fcl::ContinuousCollisionRequestd& request) const {
     fcl::ContinuousCollisionResultd result;
-    fcl::continuousCollide(&moving, place_a, end_a, &resting, place_b, place_b, request, result);
+    const fcl::TranslationMotiond motion_a(place_a, end_a), motion_b(place_b, place_b);
+    fcl::continuousCollide(&moving, &motion_a, &resting, &motion_b, request, result);
     return result.is_collide;
   }
 };
@@ -124,15 +125,11 @@ bool FclPair::naive(int steps) const {
       {static_cast<std::size_t>(steps), 1.0 / steps, fcl::CCDM_TRANS, fcl::GST_LIBCCD, fcl::CCDC_NAIVE});
 }
 
-bool FclPair::advancement(FclSolver solver, FclMotion motion) const {
-  constexpr fcl::CCDMotionType kTypes[] = {fcl::CCDM_TRANS, fcl::CCDM_LINEAR, fcl::CCDM_SCREW,
-                                           fcl::CCDM_SPLINE};
-  const auto motion_type = kTypes[static_cast<int>(motion)];
-  const auto motion_a = fcl::getMotionBase(objects_->place_a, objects_->end_a, motion_type),
-             motion_b = fcl::getMotionBase(objects_->place_b, objects_->place_b, motion_type);
-  return solver == FclSolver::libccd
-             ? advance<fcl::detail::GJKSolver_libccdd>(objects_->a, *motion_a, objects_->b, *motion_b)
-             : advance<fcl::detail::GJKSolver_indepd>(objects_->a, *motion_a, objects_->b, *motion_b);
+bool FclPair::advancement(FclSolver solver) const {
+  const Objects& o = *objects_;
+  const fcl::TranslationMotiond motion_a(o.place_a, o.end_a), motion_b(o.place_b, o.place_b);
+  return solver == FclSolver::libccd ? advance<fcl::detail::GJKSolver_libccdd>(o.a, motion_a, o.b, motion_b)
+                                     : advance<fcl::detail::GJKSolver_indepd>(o.a, motion_a, o.b, motion_b);
 }
 
 bool FclPair::polytope_advancement(FclSolver solver) const {

@@ -62,12 +62,7 @@ void add_fcl_benchmarks() {
         "fcl/distance/" + text, [solver](int i) { return pairs[i].distance(solver); }, false);
     add(
         "fcl/collide/" + text, [solver](int i) { return pairs[i].collide(solver); }, false);
-    for (const auto& [motion_name, motion] : {std::pair("translation", FclMotion::translation),
-                                              {"linear", FclMotion::linear},
-                                              {"screw", FclMotion::screw},
-                                              {"spline", FclMotion::spline}})
-      add("fcl/advancement/" + text + "/" + motion_name,
-          [solver, motion](int i) { return pairs[i].advancement(solver, motion); });
+    add("fcl/advancement/" + text, [solver](int i) { return pairs[i].advancement(solver); });
     add("fcl/polytope_advancement/" + text,
         [solver](int i) { return pairs[i].polytope_advancement(solver); });
   }
