@@ -37,8 +37,8 @@ struct ExactCone {
   double cross_section_area = 0;
 };
 
-/// `samples` >= 3 points of the boundary. Cost: about 2 us and 0.06 us a sample, 0.12 us where their number is
-/// odd. Throws InputError naming "samples".
+/// `samples` >= 3 points of the boundary. Cost: about 2 us and 0.06 us a sample, 0.12 us where their number
+/// is odd. Throws InputError naming "samples".
 ExactCone exact_cone(const Ellipsoid& a, const Ellipsoid& b, int samples);
 
 /// Two polyhedral cones with inner <= C <= outer, and what they say about the exact cone's numbers.
