@@ -5,10 +5,12 @@
 #include <vericone/geometry/error.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "azimuth_nodes.h"
 
@@ -46,8 +48,12 @@ class Silhouette {
  public:
   Silhouette(const ContactFrame<3>& contact, int count) : ds_(2 * std::numbers::pi / count) {
     const Vector3d shape = contact.bounding_shape(), scale = shape.cwiseSqrt();
-    const Vector3d center = contact.center.cwiseQuotient(scale), alpha = shape.cwiseInverse(),
-                   beta = contact.sigma.cwiseAbs2().cwiseQuotient(shape);
+    const Vector3d alpha = shape.cwiseInverse(), beta = contact.sigma.cwiseAbs2().cwiseQuotient(shape);
+    Vector3d center = contact.center.cwiseQuotient(scale);
+    // Bodies whose gap is below rounding, known to be apart from the exact rung: traced as if they were a few
+    // roundings farther apart. The cone is a half-space to 1e-7 then.
+    constexpr double kLeast = 1 + 0x1p-50;
+    if (center.squaredNorm() < kLeast) center *= std::sqrt(kLeast) / center.norm();
     const Matrix3d to_space = contact.to_space * scale.asDiagonal();
     const Matrix3d normal_to_space = contact.to_frame.transpose() * scale.cwiseInverse().asDiagonal();
     const AxisFrame frame(center);
@@ -201,6 +207,54 @@ Vector3d certified(const Vector3d& v, const Vector3d& target, double unnoticed, 
   return target;
 }
 
+/// Sign of the turn at `y` on the way x, y, z seen from the origin: positive to the left, which is
+/// counter-clockwise. Differences keep its digits for near vectors.
+double turn(const Vector3d& x, const Vector3d& y, const Vector3d& z) { return x.dot((y - x).cross(z - x)); }
+
+void measure(PolyhedralCone& cone, const Vector3d& axis) {
+  cone.solid_angle = polygon_solid_angle(axis, cone.directions);
+  cone.cross_section_area = polygon_section_area(axis, cone.directions);
+}
+
+/// The intersection of the half-spaces n.x >= 0 of separating normals given in order around it. Normals that
+/// were moved inside the hull of the others bound nothing and would make the chain of edges cross itself.
+PolyhedralCone intersection(std::vector<Vector3d> normals, const Vector3d& axis, const Vector3d& inside) {
+  const AxisFrame frame(axis);
+  // Every separating normal has n.c > 0, so n / n.c is a point of a plane; start at one that is extreme
+  // there.
+  const auto first = std::max_element(normals.begin(), normals.end(), [&](const auto& x, const auto& y) {
+    return x.dot(frame.e1) * y.dot(axis) < y.dot(frame.e1) * x.dot(axis);
+  });
+  std::rotate(normals.begin(), first, normals.end());
+  std::vector<Vector3d> hull;
+  for (std::size_t i = 0; i <= normals.size(); ++i) {
+    const Vector3d& n = normals[i % normals.size()];
+    while (hull.size() > 1 && !(turn(hull[hull.size() - 2], hull.back(), n) > 0)) hull.pop_back();
+    if (i < normals.size()) hull.push_back(n);
+  }
+  PolyhedralCone cone;
+  if (hull.size() < 3) {  // one half-space
+    const AxisFrame across(inside);
+    cone.directions = {across.e1, across.e2, -across.e1, -across.e2};
+    cone.solid_angle = 2 * std::numbers::pi;
+    cone.cross_section_area = std::numeric_limits<double>::infinity();
+    return cone;
+  }
+  cone.directions.reserve(hull.size());
+  double perimeter = 0;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Vector3d& next = hull[(i + 1) % hull.size()];
+    const Vector3d across = hull[i].cross(next - hull[i]);
+    cone.directions.push_back(across.normalized());
+    perimeter += std::atan2(across.norm(), hull[i].dot(next));
+  }
+  measure(cone, axis);
+  // The solid angle of a cone and the perimeter of its polar add up to 2 pi: better for nearly a half-space,
+  // whose edges may be half a turn apart.
+  if (perimeter < 1) cone.solid_angle = 2 * std::numbers::pi - perimeter;
+  return cone;
+}
+
 }  // namespace
 
 ExactCone exact_cone(const Ellipsoid& a, const Ellipsoid& b, int samples) {
@@ -260,14 +314,16 @@ ExactCone exact_cone(const Ellipsoid& a, const Ellipsoid& b, int samples) {
 
 ConeBounds cone_bounds(const ExactCone& cone, const Ellipsoid& a, const Ellipsoid& b) {
   const ConeOracle oracle(a, b);
-  const Vector3d inside_normal = oracle.separating_normal().normalized();
+  // Scaled by a power of two only: a rounding could lose the proof that it separates.
+  const Vector3d inside_normal =
+      oracle.separating_normal() *
+      std::ldexp(1.0, -std::ilogb(oracle.separating_normal().cwiseAbs().maxCoeff()));
   ConeBounds bounds;
   std::vector<Vector3d> normals;
   // The relative gap is about 7 / samples^2.
   const double unnoticed =
       0.02 / (static_cast<double>(cone.boundary.size()) * static_cast<double>(cone.boundary.size()));
   bounds.inner.directions.reserve(cone.boundary.size());
-  bounds.outer.directions.reserve(cone.boundary.size());
   normals.reserve(cone.boundary.size());
   for (const BoundarySample& s : cone.boundary) {
     bounds.inner.directions.push_back(certified(
@@ -278,27 +334,20 @@ ConeBounds cone_bounds(const ExactCone& cone, const Ellipsoid& a, const Ellipsoi
         s.normal, inside_normal, unnoticed, [&](const Vector3d& n) { return triage_separates<3>(a, b, n); },
         [&](const Vector3d& n) { return separates<3>(a, b, n); }));
   }
-  for (std::size_t i = 0; i < normals.size(); ++i) {
-    Vector3d edge = normals[i].cross(normals[(i + 1) % normals.size()]);
-    if (edge.dot(inside_normal) < 0) edge = -edge;
-    bounds.outer.directions.push_back(edge.normalized());
-  }
-  const auto measure = [&](PolyhedralCone& p) {
-    p.solid_angle = polygon_solid_angle(cone.axis, p.directions);
-    p.cross_section_area = polygon_section_area(cone.axis, p.directions);
-  };
-  measure(bounds.inner);
-  measure(bounds.outer);
+  bounds.outer = intersection(std::move(normals), cone.axis, inside_normal);
+  measure(bounds.inner, cone.axis);
   const auto error = [](double inner, double value, double outer) {
     return std::max(value - inner, outer - value) + 1e-12 * value;
   };
-  bounds.solid_angle = std::clamp(cone.solid_angle, bounds.inner.solid_angle, bounds.outer.solid_angle);
+  bounds.solid_angle = std::clamp(cone.solid_angle, bounds.inner.solid_angle,
+                                  std::max(bounds.inner.solid_angle, bounds.outer.solid_angle));
   bounds.solid_angle_error = error(bounds.inner.solid_angle, bounds.solid_angle, bounds.outer.solid_angle);
   bounds.cross_section_area = cone.cross_section_area;
   bounds.cross_section_area_error = std::numeric_limits<double>::infinity();
   if (std::isfinite(cone.cross_section_area)) {
     bounds.cross_section_area =
-        std::clamp(cone.cross_section_area, bounds.inner.cross_section_area, bounds.outer.cross_section_area);
+        std::clamp(cone.cross_section_area, bounds.inner.cross_section_area,
+                   std::max(bounds.inner.cross_section_area, bounds.outer.cross_section_area));
     bounds.cross_section_area_error =
         error(bounds.inner.cross_section_area, bounds.cross_section_area, bounds.outer.cross_section_area);
   }

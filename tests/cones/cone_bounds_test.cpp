@@ -73,7 +73,7 @@ TEST_P(ConeBoundsOf, HoldTheTrueConeBetweenThem) {
     const ConeBounds bounds = cone_bounds(cone, a, b);
     const ConeOracle oracle(a, b);
     ASSERT_EQ(static_cast<int>(bounds.inner.directions.size()), count);
-    ASSERT_EQ(static_cast<int>(bounds.outer.directions.size()), count);
+    ASSERT_LE(static_cast<int>(bounds.outer.directions.size()), std::max(count, 4));
 
     // Inner: all of it collides, by the exact predicate. Sums without rounding: membership(v, -w) is that of
     // v + w.
@@ -119,6 +119,39 @@ INSTANTIATE_TEST_SUITE_P(Pairs, ConeBoundsOf,
                                            Kind{"close", 1, 5, 1.0001, 1.01}, Kind{"distant", 1, 10, 10, 1e6},
                                            Kind{"thin", 1e-2, 1, 1.1, 3}),
                          [](const auto& kind) { return std::string(kind.param.name); });
+
+// The exact rung knows them to be apart where the contact function, in floating point, does not.
+TEST(ConeBounds, OfBodiesCloserThanRounding) {
+  RandomBodies random(584);
+  SCOPED_TRACE(random.trace());
+  int cases = 0, unseen = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const auto [a, b] = random.scaled_from_touching(1, 10, 1 + random.uniform(-3e-16, 6e-16));
+    const int count = random.integer(3, 64);
+    if (relation(a, b) != Relation::disjoint) continue;
+    SCOPED_TRACE("case " + std::to_string(i) + ", " + std::to_string(count) + " samples");
+    ++cases;
+    unseen += !(ContactFrame<3>(a, b).contact > 1);
+    const ExactCone cone = exact_cone(a, b, count);
+    const Vector3d normal = ContactFrame<3>(a, b).separating_normal().normalized();
+    for (const BoundarySample& s : cone.boundary) {
+      ASSERT_NEAR(s.direction.norm(), 1, 1e-14);
+      ASSERT_NEAR(s.direction.dot(normal), 0, 1e-5) << "nearly the half-space of the common normal";
+      ASSERT_LT((s.normal - normal).norm(), 1e-5);
+    }
+    ASSERT_TRUE(std::isfinite(cone.solid_angle));
+    const ConeBounds bounds = cone_bounds(cone, a, b);
+    for (const Vector3d& d : bounds.inner.directions)
+      ASSERT_EQ(ConeOracle(a, b).membership(d), Membership::in);
+    ASSERT_LE(bounds.inner.solid_angle, 2 * pi);
+    ASSERT_LE(bounds.outer.solid_angle, 2 * pi);
+    ASSERT_NEAR(bounds.outer.solid_angle, 2 * pi, 1e-5);
+    ASSERT_GE(bounds.solid_angle + bounds.solid_angle_error, 2 * pi - 1e-5);
+    ASSERT_LE(bounds.solid_angle - bounds.solid_angle_error, 2 * pi);
+  }
+  EXPECT_GT(cases, 2000);
+  EXPECT_GT(unseen, 300);
+}
 
 TEST(ConeBounds, GapFallsWithTheSquareOfTheSamples) {
   RandomBodies random(583);
