@@ -125,7 +125,7 @@ TEST(ConeBounds, OfBodiesCloserThanRounding) {
   RandomBodies random(584);
   SCOPED_TRACE(random.trace());
   int cases = 0, unseen = 0;
-  for (int i = 0; i < 6000; ++i) {
+  for (int i = 0; i < 800; ++i) {
     const auto [a, b] = random.scaled_from_touching(1, 10, 1 + random.uniform(-3e-16, 6e-16));
     const int count = random.integer(3, 64);
     if (relation(a, b) != Relation::disjoint) continue;
@@ -141,16 +141,16 @@ TEST(ConeBounds, OfBodiesCloserThanRounding) {
     }
     ASSERT_TRUE(std::isfinite(cone.solid_angle));
     const ConeBounds bounds = cone_bounds(cone, a, b);
-    for (const Vector3d& d : bounds.inner.directions)
-      ASSERT_EQ(ConeOracle(a, b).membership(d), Membership::in);
+    const ConeOracle oracle(a, b);
+    for (const Vector3d& d : bounds.inner.directions) ASSERT_EQ(oracle.membership(d), Membership::in);
     ASSERT_LE(bounds.inner.solid_angle, 2 * pi);
     ASSERT_LE(bounds.outer.solid_angle, 2 * pi);
     ASSERT_NEAR(bounds.outer.solid_angle, 2 * pi, 1e-5);
     ASSERT_GE(bounds.solid_angle + bounds.solid_angle_error, 2 * pi - 1e-5);
     ASSERT_LE(bounds.solid_angle - bounds.solid_angle_error, 2 * pi);
   }
-  EXPECT_GT(cases, 2000);
-  EXPECT_GT(unseen, 300);
+  EXPECT_GT(cases, 300);
+  EXPECT_GT(unseen, 40);
 }
 
 TEST(ConeBounds, GapFallsWithTheSquareOfTheSamples) {
