@@ -196,7 +196,7 @@ class Cone(unittest.TestCase):
 
 
 class Accuracy(unittest.TestCase):
-    ARGUMENTS = ("accuracy", "-N", "400", "--planes", "3,6,12,24,96", "--no-figures", "--quiet", "--seed", "5")
+    ARGUMENTS = ("accuracy", "--planes", "3,6,12,24,96", "--no-figures", "--quiet", "--seed", "5")
 
     def read(self, folder, name):
         with open(os.path.join(folder, name), encoding="utf-8") as f:
@@ -205,20 +205,20 @@ class Accuracy(unittest.TestCase):
     def test_threads_and_interruptions_do_not_change_the_table(self):
         with tempfile.TemporaryDirectory() as folder:
             whole, parts = os.path.join(folder, "whole"), os.path.join(folder, "parts")
-            self.assertEqual(run(*self.ARGUMENTS, "--threads", "1", "--out", whole).returncode, 0)
-            stops = 0
-            for _ in range(50):
-                with subprocess.Popen([VERICONE, *self.ARGUMENTS, "--threads", "2", "--out", parts],
+            long = (*self.ARGUMENTS, "-N", "10000")  # seconds of work, stopped at its first and second written rows
+            self.assertEqual(run(*long, "--threads", "1", "--out", whole).returncode, 0)
+            partial = os.path.join(parts, "engagements.csv.partial")
+            size = 0
+            for _ in range(2):
+                with subprocess.Popen([VERICONE, *long, "--threads", "2", "--out", parts],
                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as p:
-                    if stops < 3:
-                        time.sleep(0.15)
-                        p.send_signal(signal.SIGINT)
+                    while p.poll() is None and (not os.path.exists(partial) or os.path.getsize(partial) <= size):
+                        time.sleep(0.001)
+                    p.send_signal(signal.SIGINT)
                     p.communicate()
-                if p.returncode == 0:
-                    break
                 self.assertEqual(p.returncode, 130)
-                stops += 1
-            self.assertGreater(stops, 0, "never interrupted: nothing was tested")
+                size = os.path.getsize(partial)
+            self.assertEqual(run(*long, "--threads", "2", "--out", parts).returncode, 0)
             self.assertEqual(self.read(whole, "engagements.csv"), self.read(parts, "engagements.csv"))
             self.assertEqual([n for n in os.listdir(parts) if n.endswith(".partial")], [])
 
@@ -228,14 +228,14 @@ class Accuracy(unittest.TestCase):
             content = "# vericone accuracy, seed 9, 10 engagements, planes 3 12\nx\n"
             with open(partial, "w", encoding="utf-8") as f:
                 f.write(content)
-            result = run(*self.ARGUMENTS, "--out", folder)
+            result = run(*self.ARGUMENTS, "-N", "400", "--out", folder)
             self.assertEqual(result.returncode, 2)
             self.assertIn("--out", result.stderr)
             self.assertEqual(self.read(folder, "engagements.csv.partial"), content)
 
     def test_summary_and_provenance(self):
         with tempfile.TemporaryDirectory() as folder:
-            self.assertEqual(run(*self.ARGUMENTS, "--out", folder).returncode, 0)
+            self.assertEqual(run(*self.ARGUMENTS, "-N", "400", "--out", folder).returncode, 0)
             summary = json.loads(self.read(folder, "summary.json"))["random"]
             self.assertEqual([row["above_two_over_n"] for row in summary["slice"]], [0] * len(summary["slice"]))
             self.assertAlmostEqual(summary["slice_order"], -2, delta=0.3)
