@@ -35,7 +35,7 @@ function(vericone_library name)
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(vericone_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
-  install(TARGETS vericone_${name} EXPORT vericone-targets)
+  install(TARGETS vericone_${name} EXPORT vericone-${name}-targets)
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   set_property(GLOBAL APPEND PROPERTY VERICONE_COMPONENTS ${name})
 endfunction()
@@ -47,8 +47,10 @@ function(vericone_install_package)
     INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vericone)
   write_basic_package_version_file(${PROJECT_BINARY_DIR}/vericone-config-version.cmake
     COMPATIBILITY SameMinorVersion)
-  install(EXPORT vericone-targets NAMESPACE vericone::
-    DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vericone)
+  foreach(name IN LISTS VERICONE_COMPONENTS)
+    install(EXPORT vericone-${name}-targets NAMESPACE vericone::
+      DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vericone)
+  endforeach()
   install(FILES ${PROJECT_BINARY_DIR}/vericone-config.cmake
     ${PROJECT_BINARY_DIR}/vericone-config-version.cmake
     DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vericone)

@@ -71,11 +71,7 @@ Json slice_json(const input::Engagement& e, int planes) {
   const Ellipsoid &a = e.agent, &b = e.obstacle;
   const auto start = std::chrono::steady_clock::now();
   const SliceCone cone = slice_cone(a, b, planes);
-  PolyhedralCone polyhedral = cone.polyhedral();
-  if (cone.relation != Relation::disjoint) {
-    polyhedral.solid_angle = (cone.relation == Relation::touching ? 2 : 4) * std::numbers::pi;
-    polyhedral.cross_section_area = std::numeric_limits<double>::infinity();
-  }
+  const PolyhedralCone polyhedral = cone.polyhedral();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   Json result{{"method", "slice"},
               {"planes", planes},

@@ -151,8 +151,7 @@ int distinct_positive_roots(const Polynomial& p) {
 Dyadic between_positive_roots(const Polynomial& p, double guess) {
   if (std::isfinite(guess) && guess > 0 && guess < 1e200) {
     const int e = grid_exponent(guess, 0);
-    Dyadic x =
-        e >= 0 ? Dyadic{on_grid(guess, 0), 0} : Dyadic{on_grid(guess, e), static_cast<unsigned>(-e)};
+    Dyadic x = e >= 0 ? Dyadic{on_grid(guess, 0), 0} : Dyadic{on_grid(guess, e), static_cast<unsigned>(-e)};
     if (sign_at(p, x) > 0) return x;
   }
   const auto chain = sturm_chain(p);

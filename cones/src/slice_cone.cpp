@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "degenerate_conics.h"
@@ -104,7 +105,11 @@ Slice slice_sector(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& acros
 
 PolyhedralCone SliceCone::polyhedral() const {
   PolyhedralCone cone;
-  if (slices.empty()) return cone;
+  if (relation != Relation::disjoint) {
+    cone.solid_angle = (relation == Relation::touching ? 2 : 4) * std::numbers::pi;
+    cone.cross_section_area = std::numeric_limits<double>::infinity();
+    return cone;
+  }
   const AxisFrame frame(axis);
   const auto add = [&](double azimuth, double angle) {
     const Vector3d across = std::cos(azimuth) * frame.e1 + std::sin(azimuth) * frame.e2;

@@ -71,8 +71,8 @@ template <int D>
 QuadricKind BasicQuadric<D>::kind() const {
   const Inertia whole = inertia<D + 1>(exact::to_rational<D + 1>(matrix_));
   if (whole.zero > 0) return QuadricKind::degenerate;
-  const Inertia part = inertia<D>(exact::to_rational<D>(Eigen::Matrix<double, D, D>(
-      matrix_.template topLeftCorner<D, D>())));
+  const Inertia part =
+      inertia<D>(exact::to_rational<D>(Eigen::Matrix<double, D, D>(matrix_.template topLeftCorner<D, D>())));
   if (part.zero > 0) return QuadricKind::paraboloid;
   const bool definite = part.positive == D || part.negative == D;
   if (definite)

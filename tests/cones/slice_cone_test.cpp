@@ -64,6 +64,7 @@ TEST(SliceCone, TouchingAndOverlappingHaveNoSlices) {
   EXPECT_EQ(touching.relation, Relation::touching);
   EXPECT_TRUE(touching.slices.empty());
   EXPECT_TRUE(touching.polyhedral().directions.empty());
+  EXPECT_EQ(touching.polyhedral().solid_angle, 2 * pi);
   EXPECT_EQ(slice_cone(sphere({0, 0, 0}, 2), sphere({0, 0, 0}, 3), 8).relation, Relation::overlapping);
 }
 

@@ -51,9 +51,9 @@ Sector sector_by_support(const Ellipse& a, const Ellipse& b);
 /// dual conics, the common tangents as the corners of a rectangle in their basis, the inner ones by the sides
 /// on which the centres lie. The pair is first mapped by an affine map that makes both bodies and their
 /// distance comparable, so proportional, concentric-part, thin and distant pairs are ordinary ones, and each
-/// tangent found is polished as a common point of the dual conics. Double precision throughout: psi is right to
-/// 1e-12, except for bodies about to touch, to eps / sqrt(gap) (docs/planar-accuracy.md). Nothing is returned
-/// where rounding decides, for bodies whose gap is a few roundings. Cost: a few microseconds.
+/// tangent found is polished as a common point of the dual conics. Double precision throughout: psi is right
+/// to 1e-12, except for bodies about to touch, to eps / sqrt(gap) (docs/planar-accuracy.md). Nothing is
+/// returned where rounding decides, for bodies whose gap is a few roundings. Cost: a few microseconds.
 std::optional<Sector> sector_by_degenerate_conics(const Ellipse& a, const Ellipse& b);
 
 /// Velocities with which the bodies move and turn, for rates.
@@ -76,7 +76,8 @@ SectorRates sector_rates(const Sector& sector, const Ellipse& a, const Ellipse& 
 
 /// The source's y, (5.1) and (5.10): V_theta_hat^2 / V^2 - sin^2(psi / 2), with the relative velocity
 /// V = V_B - V_A = -w resolved along (V_r_hat) and across (V_theta_hat) the bisector. The pair is on a
-/// collision course iff y < 0 and V_r_hat < 0; y = 0 on the boundary.
+/// collision course iff y < 0 and V_r_hat < 0; y = 0 on the boundary. For disjoint bodies, psi <= pi: the
+/// source's y cannot tell a sector of more than half a turn, and is never negative for psi = 2 pi.
 struct ConeFunction {
   double y = 0;
   double v_r_hat = 0;      // m/s, negative when approaching

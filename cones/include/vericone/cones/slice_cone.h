@@ -32,6 +32,8 @@ struct SliceCone {
   std::vector<Slice> slices;                       // empty unless disjoint
   int support_fallbacks = 0;  // planes on which Algorithm 3 had no real answer and supports were used
 
+  /// The cone spanned by the directions. Solid angle of touching bodies 2 pi, of overlapping ones 4 pi, as
+  /// for the exact cone, without directions.
   PolyhedralCone polyhedral() const;
 };
 

@@ -13,12 +13,12 @@ class BasicQuadric;
 /// A solid ellipse (D = 2) or ellipsoid (D = 3), lengths in metres.
 ///
 /// The body is { p + F u : |u| <= 1 } with centre p and factor F (D x D, invertible), or, what is the same,
-/// { x : (x-p)^T S^{-1} (x-p) <= 1 } with shape matrix S = F F^T (symmetric positive definite; its eigenvalues
-/// are the squared semi-axes).
+/// { x : (x-p)^T S^{-1} (x-p) <= 1 } with shape matrix S = F F^T (symmetric positive definite; its
+/// eigenvalues are the squared semi-axes).
 ///
 /// What an *exact* predicate takes as the body depends on how it was made, and is never a rounded number:
-/// from axes it is defined by the stored factor, S = F F^T without rounding; from a shape or quadric matrix it
-/// is defined by the stored shape(). Both matrices are always there, the other one rounded.
+/// from axes it is defined by the stored factor, S = F F^T without rounding; from a shape or quadric matrix
+/// it is defined by the stored shape(). Both matrices are always there, the other one rounded.
 template <int D>
 class BasicEllipsoid {
  public:
@@ -28,9 +28,9 @@ class BasicEllipsoid {
   /// Unit ball about the origin.
   BasicEllipsoid() = default;
 
-  /// From semi-axes (positive) along the columns of `rotation` (orthonormal to 1e-6, determinant +1; replaced by
-  /// the nearest rotation when it is not orthonormal to rounding).
-  /// Throws InputError naming "center", "semi_axes[i]" or "rotation".
+  /// From semi-axes (positive) along the columns of `rotation` (orthonormal to 1e-6, determinant +1; replaced
+  /// by the nearest rotation when it is not orthonormal to rounding). Throws InputError naming "center",
+  /// "semi_axes[i]" or "rotation".
   static BasicEllipsoid from_axes(const Vector& center, const Vector& semi_axes,
                                   const Matrix& rotation = Matrix::Identity());
 

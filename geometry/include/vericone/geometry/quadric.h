@@ -3,22 +3,23 @@
 // Conics and quadrics as symmetric matrices of homogeneous coordinates.
 #pragma once
 
-#include <Eigen/Geometry>
 #include <vericone/geometry/ellipsoid.h>
+#include <Eigen/Geometry>
 
 namespace vericone {
 
 /// What the zero set of a quadric is; planes, pairs and empty sets are `degenerate`.
 enum class QuadricKind {
-  ellipsoid,             // D = 2: ellipse
-  imaginary_ellipsoid,   // no real point
-  one_sheet_hyperboloid, // D = 2: hyperbola (both kinds coincide there)
+  ellipsoid,              // D = 2: ellipse
+  imaginary_ellipsoid,    // no real point
+  one_sheet_hyperboloid,  // D = 2: hyperbola (both kinds coincide there)
   two_sheet_hyperboloid,
-  paraboloid,            // elliptic or hyperbolic; D = 2: parabola
-  degenerate,            // det Q = 0
+  paraboloid,  // elliptic or hyperbolic; D = 2: parabola
+  degenerate,  // det Q = 0
 };
 
-/// x~^T Q x~ with x~ = (x, 1): a conic (D = 2; source, (5.2)-(5.3)) or a quadric (D = 3; source, (6.1)-(6.2)).
+/// x~^T Q x~ with x~ = (x, 1): a conic (D = 2; source, (5.2)-(5.3)) or a quadric (D = 3; source,
+/// (6.1)-(6.2)).
 template <int D>
 class BasicQuadric {
  public:
@@ -53,9 +54,15 @@ struct PlaneFrame {
   Eigen::Vector3d origin, x_axis, y_axis;
 
   Eigen::Vector3d normal() const { return x_axis.cross(y_axis); }
-  Eigen::Vector3d to_space(const Eigen::Vector2d& p) const { return origin + p.x() * x_axis + p.y() * y_axis; }
-  Eigen::Vector3d direction_to_space(const Eigen::Vector2d& v) const { return v.x() * x_axis + v.y() * y_axis; }
-  Eigen::Vector2d direction_to_plane(const Eigen::Vector3d& v) const { return {v.dot(x_axis), v.dot(y_axis)}; }
+  Eigen::Vector3d to_space(const Eigen::Vector2d& p) const {
+    return origin + p.x() * x_axis + p.y() * y_axis;
+  }
+  Eigen::Vector3d direction_to_space(const Eigen::Vector2d& v) const {
+    return v.x() * x_axis + v.y() * y_axis;
+  }
+  Eigen::Vector2d direction_to_plane(const Eigen::Vector3d& v) const {
+    return {v.dot(x_axis), v.dot(y_axis)};
+  }
 };
 
 /// The conic in which a plane cuts a quadric, P^T Q P (source, (6.11), (6.13)).
