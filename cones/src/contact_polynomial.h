@@ -29,7 +29,7 @@ template <typename N>
 struct ContactCubic {
   N k3, k2, k1, k0;
 
-  ContactCubic(const Symmetric2<N>& a, const Symmetric2<N>& b, const N& dx, const N& dy) {
+  constexpr ContactCubic(const Symmetric2<N>& a, const Symmetric2<N>& b, const N& dx, const N& dy) {
     const N xx = dx * dx, yy = dy * dy, xy = dx * dy;
     const N xy2 = xy + xy;
     const N nab = -a.b, nbb = -b.b;
@@ -44,7 +44,7 @@ struct ContactCubic {
   /// Discriminant. The cubic has two distinct positive roots iff it is positive and k1 > 0 or k2 > 0: with
   /// k3, k0 > 0 one root is negative, and by Descartes' rule the others are positive exactly when the signs
   /// (+, -k2, -k1, +) change.
-  N discriminant() const {
+  constexpr N discriminant() const {
     const N k12 = k1 * k2, k03 = k0 * k3;
     const N u = (k2 * k2) * (k2 * k0) + (k1 * k1) * (k1 * k3);
     return (k12 * (k12 + k03 * 18) + u * 4) - k03 * k03 * 27;
@@ -54,7 +54,7 @@ struct ContactCubic {
 /// Shadow of the quadratic form S along w: L S L^T with L dropping coordinate k, (L x)_1 = w_k x_i - w_i x_k
 /// and (L x)_2 = w_k x_j - w_j x_k. `s(r, c)` gives the entries of S.
 template <typename N, typename Entry>
-Symmetric2<N> shadow(const Entry& s, const N& wi, const N& wj, const N& wk, int i, int j, int k) {
+constexpr Symmetric2<N> shadow(const Entry& s, const N& wi, const N& wj, const N& wk, int i, int j, int k) {
   const N kk = wk * wk, ki = wk * wi, kj = wk * wj;
   const N t1 = ki * s(i, k);
   const N t3 = kj * s(j, k);
@@ -65,7 +65,8 @@ Symmetric2<N> shadow(const Entry& s, const N& wi, const N& wj, const N& wk, int 
 
 /// The same for w = (u, v, 1) in the order i, j, k, given -u and -v.
 template <typename N, typename Entry>
-Symmetric2<N> affine_shadow(const Entry& s, const N& minus_u, const N& minus_v, int i, int j, int k) {
+constexpr Symmetric2<N> affine_shadow(const Entry& s, const N& minus_u, const N& minus_v, int i, int j,
+                                      int k) {
   const N ik = s(i, k) + minus_u * s(k, k), jk = s(j, k) + minus_v * s(k, k);
   return {s(i, i) + minus_u * (s(i, k) + ik), (s(i, j) + minus_v * s(i, k)) + minus_u * jk,
           s(j, j) + minus_v * (s(j, k) + jk)};

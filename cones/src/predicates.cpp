@@ -2,7 +2,10 @@
 #include <vericone/cones/predicates.h>
 
 #include <vericone/cones/contact_frame.h>
+#include <vericone/cones/exact_predicates.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/interval.h>
+#include <vericone/geometry/tracked.h>
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
@@ -14,57 +17,23 @@ namespace {
 
 constexpr double kUnitRoundoff = 0x1p-53;
 
-// Roundings along the longest path to each quantity, counted from the inputs. c: 1 (difference of the
-// centres). S: 3 (three products of factors summed). u, v = w_i / w_k, w_j / w_k: 3 (two differences of
-// velocities, the quotient).
-//   affine_shadow: ik, jk   u S (3+3+1), 1 sum                    ->  8
-//                  ii, jj   1 sum, u (8+1+3+1), 1 sum             -> 14
-//                  ij       v S 1 sum (8), u jk (8+3+1), 1 sum    -> 13
-//   d:             c + u c (1+3+1), 1 sum                         ->  6
-//   k0, k3:        14+14+1 product, 1 sum                         -> 30
-//   mixed:         14+14+1 product, 2 sums                        -> 31
-//   k1, k2:        d d M (6+6+1 + 14 + 1 = 28), 2 sums -> 30; mixed + k0 -> 32; 1 sum -> 33
-//   discriminant:  k12 = 33+33+1 -> 67; 18 k03 = 30+30+1 + 1 -> 62; their sum -> 68, times k12 -> 136;
-//                  k2 k2 (k2 k0): 67 + 64 + 1, 1 sum -> 133; 27 k03 k03: 61+61+1 + 1 -> 124; 2 sums -> 138
-// The magnitudes carry as many roundings of their own; 3 % covers them and the terms of second order.
-constexpr double kShapeBound = 1.03 * 33 * kUnitRoundoff;
-constexpr double kDiscriminantBound = 1.03 * 138 * kUnitRoundoff;
-// normal.(u, v, 1): 3+1 and 2 sums, counted on the normal as it is.
-constexpr double kAheadBound = 1.03 * 6 * kUnitRoundoff;
+/// Roundings on the way to the quantities of the first rung, from the formulas themselves. c: 1 (difference
+/// of the centres). S: 3 (three products of factors summed). u, v = w_i / w_k, w_j / w_k: 3 (two differences
+/// of velocities, the quotient). The normal is taken as it is.
+constexpr auto kCount = [] {
+  struct Counts {
+    RoundingCount ahead, k1, k2, discriminant;
+  };
+  constexpr RoundingCount kCenter{1}, kShape{3}, kSlope{3}, kInput{0};
+  const auto s = [](int, int) { return kShape; };
+  const ContactCubic<RoundingCount> cubic(affine_shadow<RoundingCount>(s, kSlope, kSlope, 0, 1, 2),
+                                          affine_shadow<RoundingCount>(s, kSlope, kSlope, 0, 1, 2),
+                                          kCenter + kSlope * kCenter, kCenter + kSlope * kCenter);
+  return Counts{kInput * kSlope + kInput * kSlope + kInput, cubic.k1, cubic.k2, cubic.discriminant()};
+}();
 // Products below the smallest normal number lose more than a relative rounding. Inputs are scaled so that no
 // intermediate factor exceeds about 2^150, hence all such losses together stay far below this.
 constexpr double kUnderflowBound = 1e-250;
-
-/// A floating-point value of a polynomial in the inputs together with the same polynomial evaluated on
-/// absolute values. If no monomial went through more than K roundings, the value is within K (1 + tiny) u
-/// times the magnitude of the exact one. Both live in one vector register: tracking costs no extra
-/// instruction.
-struct Tracked {
-  using Pair = double __attribute__((vector_size(16)));
-  using Bits = long long __attribute__((vector_size(16)));
-  Pair pair;
-
-  double value() const { return pair[0]; }
-  double magnitude() const { return pair[1]; }
-
-  static Tracked of(const double (&entry)[2]) { return {Pair{entry[0], entry[1]}}; }
-  static Tracked minus(double x) { return {Pair{-x, std::abs(x)}}; }
-
-  friend Tracked operator+(Tracked x, Tracked y) { return {x.pair + y.pair}; }
-  friend Tracked operator-(Tracked x) {
-    constexpr Bits kSignOfValue = {std::numeric_limits<long long>::min(), 0};
-    return {reinterpret_cast<Pair>(reinterpret_cast<Bits>(x.pair) ^ kSignOfValue)};
-  }
-  friend Tracked operator-(Tracked x, Tracked y) { return x + (-y); }
-  friend Tracked operator*(Tracked x, Tracked y) { return {x.pair * y.pair}; }
-  friend Tracked operator*(Tracked x, int factor) { return {x.pair * static_cast<double>(factor)}; }
-
-  /// Whether the exact value is certainly positive (1) or negative (-1).
-  int sign(double relative_bound) const {
-    const double bound = relative_bound * magnitude() + kUnderflowBound;
-    return static_cast<int>(value() > bound) - static_cast<int>(value() < -bound);
-  }
-};
 
 /// Position of entry (r, c) of a symmetric 3x3 matrix among its six.
 constexpr int kPacked[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
@@ -140,6 +109,22 @@ const char* to_string(Membership membership) {
   return "";
 }
 
+const char* to_string(Passage passage) {
+  switch (passage) {
+    case Passage::ahead:
+      return "ahead";
+    case Passage::ahead_grazing:
+      return "ahead, grazing";
+    case Passage::never:
+      return "never";
+    case Passage::behind_grazing:
+      return "behind, grazing";
+    case Passage::behind:
+      return "behind";
+  }
+  return "";
+}
+
 const char* to_string(Verdict verdict) {
   switch (verdict) {
     case Verdict::in:
@@ -207,11 +192,18 @@ std::optional<Relation> triage_relation(const BasicEllipsoid<D>& a, const BasicE
   return std::nullopt;
 }
 
+namespace {
+Relation relation_by_roots(int distinct_positive) {
+  return distinct_positive == 0   ? Relation::overlapping
+         : distinct_positive == 1 ? Relation::touching
+                                  : Relation::disjoint;
+}
+}  // namespace
+
 template <int D>
 Relation exact_relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b) {
-  const auto p = exact::contact_polynomial<D>(exact::PairOnGrid<D>(a, b));
-  const int roots = exact::distinct_positive_roots(p);
-  return roots == 0 ? Relation::overlapping : roots == 1 ? Relation::touching : Relation::disjoint;
+  return relation_by_roots(
+      exact::distinct_positive_roots(exact::contact_polynomial<D>(exact::PairOnGrid<D>(a, b))));
 }
 
 template <int D>
@@ -260,26 +252,35 @@ ConeOracle::ConeOracle(const Ellipsoid& a, const Ellipsoid& b) : a_(a), b_(b) {
   // Powers of two: scaling is exact.
   const Eigen::Vector3d c = b.center() - a.center();
   const int e = binary_exponent(c.cwiseAbs().maxCoeff());
-  if (std::abs(e) > 400) return;
+  if (std::abs(e) > 510) return;
   const double scale = std::ldexp(1.0, -e), scale2 = scale * scale;
   usable_ = true;
-  const auto fill = [&](const Ellipsoid& body, double(Scaled::*entries)[6][2]) {
-    const Eigen::Matrix3d f = body.factor().cwiseAbs() * scale;
-    const Eigen::Matrix3d magnitude = body.defined_by_factor()
-                                          ? Eigen::Matrix3d(f * f.transpose())
-                                          : Eigen::Matrix3d(body.shape().cwiseAbs() * scale2);
-    for (int k = 0; k < 3; ++k)
-      for (int r = 0; r < 3; ++r)
-        for (int col = r; col < 3; ++col) {
-          const int row = (k + 1 + r) % 3, column = (k + 1 + col) % 3;
-          auto& entry = (scaled_[k].*entries)[kPacked[r][col]];
-          entry[0] = body.shape()(row, column) * scale2;
-          entry[1] = magnitude(row, column);
+  const auto fill = [&](const Ellipsoid& body, double(Scaled::*entries)[6][2], Interval(&enclosed)[6]) {
+    const Eigen::Matrix3d f = body.factor() * scale, f_abs = f.cwiseAbs();
+    for (int row = 0; row < 3; ++row)
+      for (int column = row; column < 3; ++column) {
+        double value = body.shape()(row, column) * scale2, magnitude = std::abs(value);
+        Interval& interval = enclosed[kPacked[row][column]];
+        if (body.defined_by_factor()) {
+          value = f.row(row).dot(f.row(column));
+          magnitude = f_abs.row(row).dot(f_abs.row(column));
+          interval = 0;
+          for (int k = 0; k < 3; ++k) interval = interval + Interval(f(row, k)) * Interval(f(column, k));
+        } else {
+          interval = Interval(value, Interval::kTiny);
         }
-    usable_ = usable_ && magnitude.maxCoeff() < 0x1p20 && magnitude.diagonal().minCoeff() > 1e-40;
+        for (int k = 0; k < 3; ++k) {
+          auto& entry = (scaled_[k].*entries)[kPacked[(row + 2 - k) % 3][(column + 2 - k) % 3]];
+          entry[0] = value;
+          entry[1] = magnitude;
+        }
+        usable_ = usable_ && magnitude < 0x1p20 && (row != column || magnitude > 1e-40);
+      }
   };
-  fill(a, &Scaled::shape_a);
-  fill(b, &Scaled::shape_b);
+  fill(a, &Scaled::shape_a, enclosed_.shape_a);
+  fill(b, &Scaled::shape_b, enclosed_.shape_b);
+  for (int i = 0; i < 3; ++i)
+    enclosed_.c[i] = Interval(b.center()(i) * scale) - Interval(a.center()(i) * scale);
   for (int k = 0; k < 3; ++k)
     for (int r = 0; r < 3; ++r) {
       const int row = (k + 1 + r) % 3;
@@ -303,7 +304,7 @@ std::optional<Membership> ConeOracle::triage_membership(const Eigen::Vector3d& w
   // The side of a plane that separates the bodies: K lies on the positive one.
   const auto n = [&scaled](int r) { return Tracked::of(scaled.normal[r]); };
   const Tracked height = n(0) * minus_u + n(1) * minus_v + n(2);
-  const int ahead = normal_certified_ ? (wk > 0 ? 1 : -1) * height.sign(kAheadBound) : 0;
+  const int ahead = normal_certified_ ? (wk > 0 ? 1 : -1) * height.certain(kCount.ahead, kUnderflowBound) : 0;
   if (ahead < 0) return Membership::out;
 
   const auto a = [&scaled](int r, int col) { return Tracked::of(scaled.shape_a[kPacked[r][col]]); };
@@ -312,8 +313,9 @@ std::optional<Membership> ConeOracle::triage_membership(const Eigen::Vector3d& w
   const ContactCubic<Tracked> cubic(affine_shadow<Tracked>(a, minus_u, minus_v, 0, 1, 2),
                                     affine_shadow<Tracked>(b, minus_u, minus_v, 0, 1, 2),
                                     c(0) + minus_u * c(2), c(1) + minus_v * c(2));
-  const int discriminant = cubic.discriminant().sign(kDiscriminantBound);
-  const int k1 = cubic.k1.sign(kShapeBound), k2 = cubic.k2.sign(kShapeBound);
+  const int discriminant = cubic.discriminant().certain(kCount.discriminant, kUnderflowBound);
+  const int k1 = cubic.k1.certain(kCount.k1, kUnderflowBound),
+            k2 = cubic.k2.certain(kCount.k2, kUnderflowBound);
   const bool apart = (discriminant > 0) & ((k1 > 0) | (k2 > 0));
   const bool meets = (ahead > 0) & ((discriminant < 0) | ((discriminant > 0) & (k1 < 0) & (k2 < 0)));
   if (!(apart | meets)) return std::nullopt;
@@ -336,12 +338,48 @@ Membership ConeOracle::naive_membership(const Eigen::Vector3d& w) const noexcept
   return d == 0 ? Membership::on : Membership::in;
 }
 
-Membership ConeOracle::exact_membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const {
+std::optional<Membership> ConeOracle::interval_membership(const Eigen::Vector3d& v_a,
+                                                          const Eigen::Vector3d& v_b) const noexcept {
+  std::array<Interval, 3> w;
+  for (int i = 0; i < 3; ++i) w[i] = Interval(v_a(i)) - Interval(v_b(i));
+  return interval_membership(w);
+}
+
+std::optional<Membership> ConeOracle::interval_membership(const std::array<Interval, 3>& w) const noexcept {
+  const DroppedAxis axis({w[0].mid(), w[1].mid(), w[2].mid()});
+  const Interval& wk = w[axis.k];
+  if (!usable_ || wk.sign() == FilteredSign::uncertain) return std::nullopt;
+  const Interval minus_u = -w[axis.i] / wk, minus_v = -w[axis.j] / wk;
+  int ahead = 0;
+  if (normal_certified_) {
+    const Interval height =
+        Interval(normal_(axis.k)) - Interval(normal_(axis.i)) * minus_u - Interval(normal_(axis.j)) * minus_v;
+    const int side = static_cast<int>(height.positive()) - static_cast<int>(height.negative());
+    ahead = wk.positive() ? side : -side;
+  }
+  if (ahead < 0) return Membership::out;
+  const auto a = [this](int r, int col) { return enclosed_.shape_a[kPacked[r][col]]; };
+  const auto b = [this](int r, int col) { return enclosed_.shape_b[kPacked[r][col]]; };
+  const auto& c = enclosed_.c;
+  const ContactCubic<Interval> cubic(affine_shadow<Interval>(a, minus_u, minus_v, axis.i, axis.j, axis.k),
+                                     affine_shadow<Interval>(b, minus_u, minus_v, axis.i, axis.j, axis.k),
+                                     c[axis.i] + minus_u * c[axis.k], c[axis.j] + minus_v * c[axis.k]);
+  const Interval discriminant = cubic.discriminant();
+  if (discriminant.positive() && (cubic.k1.positive() || cubic.k2.positive())) return Membership::out;
+  const bool meets =
+      discriminant.negative() || (discriminant.positive() && cubic.k1.negative() && cubic.k2.negative());
+  if (ahead > 0 && meets) return Membership::in;
+  return std::nullopt;
+}
+
+namespace {
+
+/// Membership of w != 0 by the signs of theory.md, 2. `normal`: any that separates the bodies strictly.
+template <typename Normal>
+Membership decide_exactly(const exact::PairOnGrid<3>& pair, const exact::IntegerVector<3>& w,
+                          const Normal& normal) {
   using exact::Integer;
-  const auto w = exact::difference_on_grid<3>(v_a, v_b);
-  if (w[0] == 0 && w[1] == 0 && w[2] == 0) return Membership::out;
   const int k = w[0] != 0 ? 0 : w[1] != 0 ? 1 : 2, i = (k + 1) % 3, j = (k + 2) % 3;
-  const exact::PairOnGrid<3> pair(a_, b_);
   const auto entry = [](const exact::IntegerMatrix<3>& s) {
     return [&s](int r, int col) -> const Integer& { return s[r][col]; };
   };
@@ -352,38 +390,100 @@ Membership ConeOracle::exact_membership(const Eigen::Vector3d& v_a, const Eigen:
   const int discriminant = cubic.discriminant().sign();
   const bool positive_pair = cubic.k1 > 0 || cubic.k2 > 0;
   if (discriminant > 0 && positive_pair) return Membership::out;
-  // The line meets K; on which side of the origin? Any strictly separating normal tells.
-  const auto n =
-      normal_certified_
-          ? exact::direction_on_grid<3>(normal_)
-          : exact::contact_normal(pair, exact::between_positive_roots(exact::contact_polynomial<3>(pair), 0));
+  // The line meets K; on which side of the origin?
+  const exact::IntegerVector<3> n = normal();
   const Integer ahead = n[0] * w[0] + n[1] * w[1] + n[2] * w[2];
   if (ahead.sign() < 0) return Membership::out;
   return discriminant == 0 && positive_pair ? Membership::on : Membership::in;
 }
 
+exact::IntegerVector<3> exact_normal(const exact::PairOnGrid<3>& pair) {
+  return exact::contact_normal(pair, exact::between_positive_roots(exact::contact_polynomial<3>(pair), 0));
+}
+
+bool is_zero(const exact::IntegerVector<3>& w) { return w[0] == 0 && w[1] == 0 && w[2] == 0; }
+
+}  // namespace
+
+Membership ConeOracle::exact_membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const {
+  const auto w = exact::difference_on_grid<3>(v_a, v_b);
+  if (is_zero(w)) return Membership::out;
+  const exact::PairOnGrid<3> pair(a_, b_);
+  return decide_exactly(
+      pair, w, [&] { return normal_certified_ ? exact::direction_on_grid<3>(normal_) : exact_normal(pair); });
+}
+
+namespace exact {
+
+template <int D>
+Relation relation(const RationalBody<D>& a, const RationalBody<D>& b) {
+  return relation_by_roots(distinct_positive_roots(contact_polynomial<D>(PairOnGrid<D>(a, b))));
+}
+template Relation relation<2>(const RationalBody<2>&, const RationalBody<2>&);
+template Relation relation<3>(const RationalBody<3>&, const RationalBody<3>&);
+
+Membership membership(const RationalBody<3>& a, const RationalBody<3>& b, const RationalVector<3>& w) {
+  const IntegerVector<3> direction = direction_on_grid<3>(w);
+  if (is_zero(direction)) return Membership::out;
+  const PairOnGrid<3> pair(a, b);
+  return decide_exactly(pair, direction, [&] { return exact_normal(pair); });
+}
+
+}  // namespace exact
+
 // The first rung has no answer for numbers that are not finite, so they are looked for after it.
 
-Membership ConeOracle::membership(const Eigen::Vector3d& w) const {
-  if (const auto answer = triage_membership(w)) return *answer;
-  require_finite_velocity(w, "agent_velocity");
-  return exact_membership(w, Eigen::Vector3d::Zero());
+Membership ConeOracle::membership(const Eigen::Vector3d& w, Rung* rung) const {
+  return climb<ConeMembership>(
+      rung, [&] { return triage_membership(w); },
+      [&] { return interval_membership(w, Eigen::Vector3d::Zero()); },
+      [&] {
+        require_finite_velocity(w, "agent_velocity");
+        return exact_membership(w, Eigen::Vector3d::Zero());
+      });
 }
 
-Membership ConeOracle::membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const {
-  const Eigen::Vector3d w = v_a - v_b;
-  // A difference that rounds to zero or to infinity is not a relative error of one rounding.
-  if (w.x() != 0 || w.y() != 0 || w.z() != 0)
-    if (const auto answer = triage_membership(w)) return *answer;
-  require_finite_velocity(v_a, "agent_velocity");
-  require_finite_velocity(v_b, "obstacle_velocity");
-  return exact_membership(v_a, v_b);
+Membership ConeOracle::membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, Rung* rung) const {
+  return climb<ConeMembership>(
+      rung,
+      [&]() -> std::optional<Membership> {
+        const Eigen::Vector3d w = v_a - v_b;
+        // A difference that rounds to zero or to infinity is not a relative error of one rounding.
+        if (w.x() == 0 && w.y() == 0 && w.z() == 0) return std::nullopt;
+        return triage_membership(w);
+      },
+      [&] { return interval_membership(v_a, v_b); },
+      [&] {
+        require_finite_velocity(v_a, "agent_velocity");
+        require_finite_velocity(v_b, "obstacle_velocity");
+        return exact_membership(v_a, v_b);
+      });
 }
 
-Verdict ConeOracle::verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const {
+Passage ConeOracle::passage(const Eigen::Vector3d& w) const {
+  switch (membership(w)) {
+    case Membership::in:
+      return Passage::ahead;
+    case Membership::on:
+      return Passage::ahead_grazing;
+    case Membership::out:
+      break;
+  }
+  switch (membership(-w)) {
+    case Membership::in:
+      return Passage::behind;
+    case Membership::on:
+      return Passage::behind_grazing;
+    case Membership::out:
+      break;
+  }
+  return Passage::never;
+}
+
+Verdict ConeOracle::verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, Rung* rung) const {
   if (relation_ == Relation::overlapping) return Verdict::overlapping;
   if (relation_ == Relation::touching) return Verdict::touching;
-  switch (membership(v_a, v_b)) {
+  switch (membership(v_a, v_b, rung)) {
     case Membership::in:
       return Verdict::in;
     case Membership::on:

@@ -4,8 +4,11 @@
 // collide. Inputs are doubles taken as exact numbers. An answer is never wrong; it is found by a rung of the
 // ladder
 //
-//   triage_...  floating point with a running error bound: an answer or `uncertain`, tens of nanoseconds
-//   exact_...   rational arithmetic: always an answer, about a tenth of a millisecond
+//   triage_...    doubles with a bound fixed by the formula: an answer or none, tens of nanoseconds
+//   interval_...  doubles with the bound of each operation carried along (interval.h): an answer or none
+//   exact_...     integers (rational input included): always an answer, some ten microseconds
+//
+// A function without a prefix climbs it and, on request, says which rung decided.
 //
 // Laws, for all bodies A, B and velocities w (tests/cones/predicates_test.cpp):
 //   (1) relation(A, B) == relation(B, A)
@@ -16,6 +19,9 @@
 #pragma once
 
 #include <vericone/geometry/ellipsoid.h>
+#include <vericone/geometry/interval.h>
+#include <vericone/geometry/sign.h>
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -31,11 +37,21 @@ enum class Membership : std::uint8_t {
   out,  // they never meet, w = 0 included
 };
 
+/// The same with the past told from never: where the line of motion meets the other body.
+enum class Passage : std::uint8_t {
+  ahead,           // they will overlap: `in`
+  ahead_grazing,   // they will touch: `on`
+  never,           // the line misses, or w = 0
+  behind_grazing,  // moving backwards they would touch
+  behind,          // moving backwards they would overlap
+};
+
 /// Whole answer of one engagement.
 enum class Verdict : std::uint8_t { in, on, out, overlapping, touching };
 
 const char* to_string(Relation relation);
 const char* to_string(Membership membership);
+const char* to_string(Passage passage);
 const char* to_string(Verdict verdict);
 
 template <int D>
@@ -81,23 +97,34 @@ class ConeOracle {
   Relation relation() const { return relation_; }
 
   /// Exact. `w` = v_A - v_B is the velocity of A relative to B. Requires relation() == disjoint; for other
-  /// relations see verdict().
-  Membership membership(const Eigen::Vector3d& w) const;
+  /// relations see verdict(). `rung`: where to write the rung that decided.
+  Membership membership(const Eigen::Vector3d& w, Rung* rung = nullptr) const;
 
   /// The same for w = v_A - v_B, the difference taken without rounding.
-  Membership membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+  Membership membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, Rung* rung = nullptr) const;
+
+  /// The same with the past told from never.
+  Passage passage(const Eigen::Vector3d& w) const;
 
   /// Floating point with a proved error bound; nothing when it cannot decide. Never answers `on`.
   /// No allocation, no throw.
   std::optional<Membership> triage_membership(const Eigen::Vector3d& w) const noexcept;
 
+  /// Second rung: decides nearly all that the first leaves, distant and thin pairs above all. Never answers
+  /// `on`. No allocation, no throw. An answer for an interval vector holds for every w in it.
+  std::optional<Membership> interval_membership(const Eigen::Vector3d& v_a,
+                                                const Eigen::Vector3d& v_b) const noexcept;
+  std::optional<Membership> interval_membership(const std::array<Interval, 3>& w) const noexcept;
+
   /// Floating point without a bound, for comparison: what a program without this library would compute.
   Membership naive_membership(const Eigen::Vector3d& w) const noexcept;
 
-  /// Rational arithmetic.
+  /// Last rung, in integers.
   Membership exact_membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 
-  Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+  /// Relation and membership in one. `rung` is that of the membership; bodies that are not disjoint need none
+  /// and leave it alone.
+  Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, Rung* rung = nullptr) const;
 
   /// A normal that separates the bodies strictly (certified) unless they are closer than double precision
   /// tells apart; not normalised. Meaningful for disjoint bodies.
@@ -119,6 +146,14 @@ class ConeOracle {
   };
   Scaled scaled_[3];
   bool usable_ = false;
+  // What the second rung reads, at the same scale, in the order xx, xy, xz, yy, yz, zz.
+  struct Enclosed {
+    Interval shape_a[6], shape_b[6], c[3];
+  };
+  Enclosed enclosed_;
 };
+
+/// Tag of ConeOracle::membership for rung_counts().
+struct ConeMembership;
 
 }  // namespace vericone

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <vericone/geometry/ellipsoid.h>
+#include <vericone/geometry/rational.h>
 #include <array>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
@@ -74,6 +75,16 @@ IntegerVector<D> difference_on_grid(const Eigen::Matrix<double, D, 1>& x,
   return r;
 }
 
+/// The direction of a rational vector.
+template <int D>
+IntegerVector<D> direction_on_grid(const RationalVector<D>& v) {
+  Integer common = 1;
+  for (const Rational& x : v) common = lcm(common, denominator(x));
+  IntegerVector<D> r;
+  for (int i = 0; i < D; ++i) r[i] = numerator(v[i]) * (common / denominator(v[i]));
+  return r;
+}
+
 /// Two bodies in one unit of length 2^e: the shapes that define them (see BasicEllipsoid), in units of 2^2e,
 /// and c = p_B - p_A.
 template <int D>
@@ -96,6 +107,24 @@ struct PairOnGrid {
     for (int i = 0; i < D; ++i) c[i] = on_grid(body_b.center()(i), e) - on_grid(body_a.center()(i), e);
     a = shape(body_a, e);
     b = shape(body_b, e);
+  }
+
+  /// The unit of length is one part in the common denominator of all lengths and squared lengths.
+  PairOnGrid(const RationalBody<D>& body_a, const RationalBody<D>& body_b) {
+    Integer common = 1;
+    for (const auto* body : {&body_a, &body_b})
+      for (int i = 0; i < D; ++i) {
+        common = lcm(common, denominator(body->center[i]));
+        for (int j = 0; j < D; ++j) common = lcm(common, denominator(body->shape[i][j]));
+      }
+    const auto whole = [](const Rational& x) { return Integer(numerator(x) / denominator(x)); };
+    for (int i = 0; i < D; ++i) {
+      c[i] = whole((body_b.center[i] - body_a.center[i]) * common);
+      for (int j = 0; j < D; ++j) {
+        a[i][j] = whole(body_a.shape[i][j] * common * common);
+        b[i][j] = whole(body_b.shape[i][j] * common * common);
+      }
+    }
   }
 
  private:

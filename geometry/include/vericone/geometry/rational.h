@@ -70,6 +70,18 @@ RationalMatrix<D> defining_shape(const BasicEllipsoid<D>& body) {
   return s;
 }
 
+/// An ellipsoid (D = 3) or ellipse (D = 2) in rational numbers: what BasicEllipsoid is to doubles.
+template <int D>
+struct RationalBody {
+  RationalVector<D> center;
+  RationalMatrix<D> shape;  // symmetric, positive definite
+
+  RationalBody() = default;
+  RationalBody(RationalVector<D> p, RationalMatrix<D> s) : center(std::move(p)), shape(std::move(s)) {}
+  explicit RationalBody(const BasicEllipsoid<D>& body)
+      : center(to_rational<D>(body.center())), shape(defining_shape<D>(body)) {}
+};
+
 /// Whether all leading minors are positive (Sylvester).
 template <int D>
 bool positive_definite(const RationalMatrix<D>& m) {
