@@ -446,13 +446,8 @@ Membership ConeOracle::membership(const Eigen::Vector3d& w, Rung* rung) const {
 Membership ConeOracle::membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, Rung* rung) const {
   return climb<ConeMembership>(
       rung,
-      [&]() -> std::optional<Membership> {
-        const Eigen::Vector3d w = v_a - v_b;
-        // A difference that rounds to zero or to infinity is not a relative error of one rounding.
-        if (w.x() == 0 && w.y() == 0 && w.z() == 0) return std::nullopt;
-        return triage_membership(w);
-      },
-      [&] { return interval_membership(v_a, v_b); },
+      // A difference of doubles is zero only where they are equal.
+      [&] { return triage_membership(v_a - v_b); }, [&] { return interval_membership(v_a, v_b); },
       [&] {
         require_finite_velocity(v_a, "agent_velocity");
         require_finite_velocity(v_b, "obstacle_velocity");
