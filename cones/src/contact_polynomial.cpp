@@ -45,72 +45,6 @@ Integer determinant(const IntegerMatrix<D>& m, const IntegerMatrix<D>& adj) {
   return sum;
 }
 
-void trim(Polynomial& p) {
-  while (!p.empty() && p.back() == 0) p.pop_back();
-}
-
-Polynomial derivative(const Polynomial& p) {
-  Polynomial d;
-  for (std::size_t i = 1; i < p.size(); ++i) d.push_back(p[i] * static_cast<long>(i));
-  return d;
-}
-
-/// A positive multiple of -(a mod b): every elimination step is scaled by |leading coefficient of b|.
-Polynomial negative_remainder(Polynomial a, const Polynomial& b) {
-  const Integer lead = abs(b.back());
-  const int lead_sign = b.back().sign();
-  while (a.size() >= b.size()) {
-    const Integer f = lead_sign > 0 ? a.back() : Integer(-a.back());
-    const std::size_t shift = a.size() - b.size();
-    for (auto& x : a) x *= lead;
-    for (std::size_t i = 0; i < b.size(); ++i) a[i + shift] -= f * b[i];
-    a.pop_back();
-  }
-  trim(a);
-  if (a.empty()) return a;
-  // Without its content the chain's numbers stay a few times as long as the coefficients.
-  Integer content = 0;
-  for (const auto& x : a) content = gcd(content, x);
-  for (auto& x : a) x = -x / content;
-  return a;
-}
-
-std::vector<Polynomial> sturm_chain(const Polynomial& p) {
-  std::vector<Polynomial> chain{p, derivative(p)};
-  while (chain.back().size() > 1) {
-    Polynomial next = negative_remainder(chain[chain.size() - 2], chain.back());
-    if (next.empty()) break;
-    chain.push_back(std::move(next));
-  }
-  return chain;
-}
-
-template <typename Sign>
-int sign_changes(const std::vector<Polynomial>& chain, Sign&& sign_of) {
-  int changes = 0, last = 0;
-  for (const Polynomial& p : chain) {
-    const int s = sign_of(p);
-    if (s != 0 && last != 0 && s != last) ++changes;
-    if (s != 0) last = s;
-  }
-  return changes;
-}
-
-int sign_at(const Polynomial& p, const Dyadic& x) {
-  // 2^(k n) p(m / 2^k) = sum p_i m^i 2^(k (n - i)), by Horner.
-  Integer sum = 0;
-  unsigned shift = 0;
-  for (auto it = p.rbegin(); it != p.rend(); ++it) {
-    sum = sum * x.numerator + (*it << shift);
-    shift += x.exponent;
-  }
-  return sum.sign();
-}
-
-int changes_at(const std::vector<Polynomial>& chain, const Dyadic& x) {
-  return sign_changes(chain, [&](const Polynomial& p) { return sign_at(p, x); });
-}
-
 }  // namespace
 
 template <int D>
@@ -144,30 +78,16 @@ template Polynomial contact_polynomial<3>(const PairOnGrid<3>&);
 
 int distinct_positive_roots(const Polynomial& p) {
   const auto chain = sturm_chain(p);
-  return sign_changes(chain, [](const Polynomial& q) { return q.front().sign(); }) -
-         sign_changes(chain, [](const Polynomial& q) { return q.back().sign(); });
+  return sign_changes_at_zero(chain) - sign_changes_at_infinity(chain);
 }
 
 Dyadic between_positive_roots(const Polynomial& p, double guess) {
   if (std::isfinite(guess) && guess > 0 && guess < 1e200) {
-    const int e = grid_exponent(guess, 0);
-    Dyadic x = e >= 0 ? Dyadic{on_grid(guess, 0), 0} : Dyadic{on_grid(guess, e), static_cast<unsigned>(-e)};
+    Dyadic x = Dyadic::of(guess);
     if (sign_at(p, x) > 0) return x;
   }
-  const auto chain = sturm_chain(p);
-  const int at_zero = sign_changes(chain, [](const Polynomial& q) { return q.front().sign(); });
-  const auto roots_up_to = [&](const Dyadic& x) { return at_zero - changes_at(chain, x); };
-  Dyadic hi{1, 0}, lo{0, 0};
-  while (roots_up_to(hi) < 2) hi.numerator *= 4;
-  for (;;) {  // ends: the roots are distinct
-    Dyadic mid{lo.numerator + hi.numerator, hi.exponent + 1};
-    lo.numerator *= 2;
-    hi.numerator *= 2;
-    lo.exponent = hi.exponent = mid.exponent;
-    const int count = roots_up_to(mid);
-    if (count == 1 && sign_at(p, mid) > 0) return mid;
-    (count == 2 ? hi : lo) = mid;
-  }
+  // Isolating intervals do not overlap, and no root lies at an end.
+  return positive_roots(p).front().hi();
 }
 
 IntegerVector<3> contact_normal(const PairOnGrid<3>& pair, const Dyadic& x) {

@@ -11,9 +11,8 @@
 // double, or two simple positive roots: overlapping, touching, disjoint.
 #pragma once
 
+#include <vericone/geometry/algebraic.h>
 #include <vericone/geometry/integer.h>
-#include <array>
-#include <vector>
 
 namespace vericone {
 
@@ -74,9 +73,6 @@ constexpr Symmetric2<N> affine_shadow(const Entry& s, const N& minus_u, const N&
 
 namespace exact {
 
-/// Integer coefficients, lowest first; the leading one is not zero.
-using Polynomial = std::vector<Integer>;
-
 /// p for two bodies; Polynomial of degree D + 1.
 template <int D>
 Polynomial contact_polynomial(const PairOnGrid<D>& pair);
@@ -86,10 +82,6 @@ int distinct_positive_roots(const Polynomial& p);
 
 /// A dyadic number x = numerator / 2^exponent strictly between the two positive roots of p, where p > 0.
 /// Requires distinct_positive_roots(p) == 2 and p < 0 at 0 and infinity. `guess` is tried first.
-struct Dyadic {
-  Integer numerator;
-  unsigned exponent = 0;
-};
 Dyadic between_positive_roots(const Polynomial& p, double guess);
 
 /// adj(A + x B) c, up to a positive factor: proportional to S_K^{-1} c, which separates the bodies where p(x)

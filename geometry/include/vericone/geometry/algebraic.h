@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Real algebraic numbers: roots of integer polynomials, held by isolating intervals with dyadic ends. Signs
+// and comparisons are exact; equality is decided by greatest common divisors, never by a tolerance.
+#pragma once
+
+#include <vericone/geometry/integer.h>
+#include <vericone/geometry/interval.h>
+#include <memory>
+#include <vector>
+
+namespace vericone::exact {
+
+/// Integer coefficients, lowest first; the leading one is not zero. The zero polynomial is empty.
+using Polynomial = std::vector<Integer>;
+
+/// numerator / 2^exponent.
+struct Dyadic {
+  Integer numerator;
+  unsigned exponent = 0;
+
+  static Dyadic power_of_two(int exponent);
+  static Dyadic of(double finite);
+};
+
+/// Sign of x - y.
+int compare(const Dyadic& x, const Dyadic& y);
+
+/// Contains x, at most a few units in the last place wide; of infinite radius beyond the range of doubles.
+Interval enclosure(const Dyadic& x);
+
+/// Removes leading zeros.
+void trim(Polynomial& p);
+
+/// Divided by the greatest common divisor of the coefficients; signs are kept.
+Polynomial primitive_part(Polynomial p);
+
+Polynomial derivative(const Polynomial& p);
+Polynomial operator+(const Polynomial& p, const Polynomial& q);
+Polynomial operator-(const Polynomial& p, const Polynomial& q);
+Polynomial operator*(const Polynomial& p, const Polynomial& q);
+Polynomial operator*(const Polynomial& p, const Integer& factor);
+
+/// Greatest common divisor, primitive and with a positive leading coefficient; 1 for coprime polynomials. At
+/// most one of p, q is zero.
+Polynomial gcd(Polynomial p, Polynomial q);
+
+/// The polynomial with the same roots, each simple; p is not zero.
+Polynomial squarefree_part(const Polynomial& p);
+
+/// p, p' and the negated remainders, up to positive factors.
+std::vector<Polynomial> sturm_chain(const Polynomial& p);
+
+/// Sign of p(x).
+int sign_at(const Polynomial& p, const Dyadic& x);
+
+/// Changes of sign along a Sturm chain: changes at lo minus changes at hi is the number of distinct roots in
+/// (lo, hi] unless p(lo) = 0 is a multiple root.
+int sign_changes_at(const std::vector<Polynomial>& chain, const Dyadic& x);
+/// At zero from the right as long as p(0) is not zero, and at plus infinity.
+int sign_changes_at_zero(const std::vector<Polynomial>& chain);
+int sign_changes_at_infinity(const std::vector<Polynomial>& chain);
+
+/// One real root of a polynomial. Functions that need to know it better refine it in place; its value never
+/// changes.
+class RealRoot {
+ public:
+  /// The number x itself.
+  explicit RealRoot(Dyadic x);
+  /// The one root in (lo, hi) of a squarefree polynomial that vanishes at neither end; 0 <= lo or hi <= 0.
+  RealRoot(std::shared_ptr<const Polynomial> squarefree, Dyadic lo, Dyadic hi);
+
+  /// Squarefree; the root is one of its simple ones.
+  const Polynomial& polynomial() const { return *p_; }
+  /// lo < root < hi, or lo = root = hi where it is known as a dyadic number.
+  const Dyadic& lo() const { return lo_; }
+  const Dyadic& hi() const { return hi_; }
+  bool is_dyadic() const { return sign_lo_ == 0; }
+  /// Sign of the root.
+  int sign() const;
+
+  /// Until hi - lo <= 2^-bits min(|lo|, |hi|). Quadratic interval refinement (Abbott 2006): digits double.
+  void refine(int bits);
+
+ private:
+  friend int compare(RealRoot& x, const Dyadic& y);
+  bool narrow(int bits) const;
+  void set(Dyadic x);
+
+  std::shared_ptr<const Polynomial> p_;
+  Dyadic lo_, hi_;
+  int sign_lo_ = 0;    // sign of p at lo, the opposite of that at hi; 0 for a dyadic root
+  int log2_cuts_ = 1;  // the next step cuts the interval into this many parts
+};
+
+/// All distinct real roots in increasing order; p is not zero. The intervals do not overlap and no root of p
+/// lies at an end, so the ends separate the roots.
+std::vector<RealRoot> real_roots(const Polynomial& p);
+
+/// Those in the closed interval.
+std::vector<RealRoot> real_roots_in(const Polynomial& p, const Dyadic& lo, const Dyadic& hi);
+
+/// The positive ones.
+std::vector<RealRoot> positive_roots(const Polynomial& p);
+
+/// Sign of q at the root.
+int sign_at(const Polynomial& q, RealRoot& x);
+
+/// Sign of x - y.
+int compare(RealRoot& x, RealRoot& y);
+int compare(RealRoot& x, const Dyadic& y);
+
+/// How many times x is a root of q; q is not zero.
+int multiplicity(RealRoot& x, const Polynomial& q);
+
+/// Contains the root, a few units in the last place wide.
+Interval enclosure(RealRoot& x);
+
+}  // namespace vericone::exact
