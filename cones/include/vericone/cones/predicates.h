@@ -16,6 +16,7 @@
 //   (3) membership of w == membership of s w for s > 0 a power of two
 //   (4) a rung that answers agrees with every later rung
 //   (5) both are unchanged by moving A and B together, as long as the centres remain exact
+//   (6) passage of w is the mirror image of passage of -w
 #pragma once
 
 #include <vericone/geometry/ellipsoid.h>
@@ -57,18 +58,24 @@ const char* to_string(Verdict verdict);
 template <int D>
 struct ContactFrame;
 
-/// Exact relation of two bodies.
+/// Exact relation of two bodies. `rung`: where to write the rung that decided. Cost: about 0.7 us where no
+/// integers are needed.
 template <int D>
-Relation relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b);
+Relation relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b, Rung* rung = nullptr);
 
 /// The same where the contact frame of the pair is at hand; the answer does not depend on its accuracy.
 template <int D>
-Relation relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b, const ContactFrame<D>& frame);
+Relation relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b, const ContactFrame<D>& frame,
+                  Rung* rung = nullptr);
 
-/// First rung; nothing when rounding could matter. Never answers `touching`.
+/// First two rungs: a plane that separates the bodies, or a point inside of both, found in floating point and
+/// certified. Nothing when rounding could matter. Never answer `touching`.
 template <int D>
 std::optional<Relation> triage_relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
                                         const ContactFrame<D>& frame);
+template <int D>
+std::optional<Relation> interval_relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
+                                          const ContactFrame<D>& frame);
 
 /// Last rung.
 template <int D>
@@ -95,6 +102,8 @@ class ConeOracle {
   const Ellipsoid& a() const { return a_; }
   const Ellipsoid& b() const { return b_; }
   Relation relation() const { return relation_; }
+  /// The rung that decided the relation.
+  Rung relation_rung() const { return relation_rung_; }
 
   /// Exact. `w` = v_A - v_B is the velocity of A relative to B. Requires relation() == disjoint; for other
   /// relations see verdict(). `rung`: where to write the rung that decided.
@@ -134,6 +143,7 @@ class ConeOracle {
  private:
   Ellipsoid a_, b_;
   Relation relation_;
+  Rung relation_rung_{};
   Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();
   bool normal_certified_ = false;
   // What the first rung reads, once for each coordinate k that a velocity may be projected along: lengths
@@ -153,7 +163,8 @@ class ConeOracle {
   Enclosed enclosed_;
 };
 
-/// Tag of ConeOracle::membership for rung_counts().
+/// Tags of relation() and of ConeOracle::membership for rung_counts().
+struct EllipsoidRelation;
 struct ConeMembership;
 
 }  // namespace vericone
