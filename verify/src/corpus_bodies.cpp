@@ -140,8 +140,9 @@ void nested(std::vector<CorpusCase>& cases, SeededRandom& random, std::uint64_t 
   const Rational d = power_of_two(-random.integer(1, 20));
   add("nested", "b_in_a", {{}, scaled<D>(a.factor, 1 - d)});
   add("equal", "equal", a);
-  // A translate by less than a diameter sticks out on one side and leaves a gap on the other.
-  add("equal-shifted", "crossing", {unit<D>(power_of_two(-random.integer(1, 30))), a.factor});
+  // A translate by less than a diameter, |G^{-1} d| < 2, sticks out on one side and leaves a gap on the
+  // other.
+  add("equal-shifted", "crossing", {unit<D>(power_of_two(-random.integer(8, 30))), a.factor});
 }
 
 /// Grazing pair: `w` lies in the common supporting plane and carries A's support point to B's.
@@ -198,7 +199,7 @@ template <int D>
 std::vector<CorpusCase> known_cases(const char* predicate, const Grazing<D>& g, SeededRandom& random,
                                     std::uint64_t index) {
   std::vector<CorpusCase> cases{cone_case<D>(predicate, "tangent", g, index, "on", g.w)};
-  for (const int least : {3, 30}) {
+  for (const int least : {3, 24}) {
     const Rational e = power_of_two(-random.integer(least, least + 14));
     cases.push_back(cone_case<D>(predicate, "nudged", g, index, "in", sum<D>(g.w, times<D>(e, g.b.center))));
     cases.push_back(

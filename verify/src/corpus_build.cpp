@@ -11,7 +11,7 @@ namespace {
 
 /// (m, n) -> m^2 - n^2, 2 m n, m^2 + n^2.
 std::array<int, 3> pythagorean_triple(SeededRandom& random) {
-  const int m = random.integer(2, 5);
+  const int m = random.integer(2, 9);
   const int n = random.integer(1, m - 1);
   return {m * m - n * n, 2 * m * n, m * m + n * n};
 }
@@ -28,11 +28,11 @@ Mat<3> scaled_rotation(int w, int x, int y, int z) {
 }
 
 template <int D>
-Mat<D> general_matrix(SeededRandom& random) {
+Mat<D> general_matrix(SeededRandom& random, int most) {
   for (;;) {
     Mat<D> m;
     for (auto& row : m)
-      for (auto& x : row) x = random.integer(-3, 3);
+      for (auto& x : row) x = Rational(random.integer(-most, most));
     if (exact::determinant<D>(m) != 0) return m;
   }
 }
@@ -54,12 +54,12 @@ Mat<D> pythagorean_rotation(SeededRandom& random) {
 template <int D>
 Mat<D> cayley_rotation(SeededRandom& random) {
   if constexpr (D == 2) {
-    const int m = random.integer(1, 9);
-    const int n = random.integer(1, 9);
+    const int m = random.integer(1, 30);
+    const int n = random.integer(1, 30);
     return {{{m * m - n * n, -2 * m * n}, {2 * m * n, m * m - n * n}}};
   } else {
     std::array<int, 4> q{};
-    for (int& x : q) x = random.integer(-3, 3);
+    for (int& x : q) x = random.integer(-9, 9);
     if (q[0] == 0 && q[1] == 0 && q[2] == 0) q[0] = 1;
     return scaled_rotation(q[0], q[1], q[2], q[3]);
   }
@@ -85,8 +85,9 @@ Map<D> random_map(SeededRandom& random, std::uint64_t number) {
   Map<D> map;
   switch (number % 4) {
     case 0:
-      map.m = general_matrix<D>(random);
-      map.kind = "general";
+      // Numbers of few bits can hide an error: products of them are exact in doubles.
+      map.kind = random.coin() ? "general" : "wide";
+      map.m = general_matrix<D>(random, map.kind == "wide" ? 3000 : 3);
       break;
     case 1:
       map.m = pythagorean_rotation<D>(random);
@@ -153,9 +154,9 @@ Mat<D> random_factor(SeededRandom& random) {
   for (;;) {
     Mat<D> g;
     for (auto& row : g)
-      for (auto& x : row) x = random.integer(-4, 4);
-    for (int j = 0; j + 1 < D; ++j) g[D - 1][j] = 0;
-    g[D - 1][D - 1] = random.integer(1, 4);
+      for (auto& x : row) x = Rational(random.integer(-4, 4));
+    for (int j = 0; j + 1 < D; ++j) g[D - 1][j] = Rational();
+    g[D - 1][D - 1] = Rational(random.integer(1, 4));
     if (exact::determinant<D>(g) != 0) return g;
   }
 }

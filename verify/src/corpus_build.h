@@ -80,10 +80,11 @@ struct Map {
   std::string kind;
 };
 
-/// By `number`, so that all kinds come round: m is an integer matrix (general; a Pythagorean rotation; a
-/// Cayley rotation; a signed permutation, which leaves zeros and axis-parallel directions in place), combined
-/// with a setting (plain; thin: one coordinate stretched by up to 2^16; needle: by 2^27, axis ratios above
-/// 1e8; tiny, huge: all lengths times 2^-498, 2^494; far9, far15: 1e9 and 1e15 units from the origin).
+/// By `number`, so that all kinds come round: m is an integer matrix (general, wide with larger numbers; a
+/// Pythagorean rotation; a Cayley rotation; a signed permutation, which leaves zeros and axis-parallel
+/// directions in place), combined with a setting (plain; thin: one coordinate stretched by up to 2^16;
+/// needle: by 2^27, axis ratios above 1e8; tiny, huge: all lengths times 2^-498, 2^494; far9, far15: 1e9 and
+/// 1e15 units from the origin).
 template <int D>
 Map<D> random_map(SeededRandom& random, std::uint64_t number);
 

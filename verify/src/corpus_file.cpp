@@ -96,7 +96,7 @@ std::string number_text(const Rational& x) {
   if (d == 1 && abs(n) < kShort) return n.str();
   const bool dyadic = (d & (d - 1)) == 0;
   if (!dyadic || (d <= (1 << 16) && abs(n) < kShort)) return n.str() + "/" + d.str();
-  const unsigned up = lsb(n), down = lsb(d);  // one of the two is 0
+  const unsigned up = lsb(abs(n)), down = lsb(d);  // one of the two is 0
   return Integer(n < 0 ? -(-n >> up) : n >> up).str() + "*2^" +
          std::to_string(static_cast<int>(up) - static_cast<int>(down));
 }

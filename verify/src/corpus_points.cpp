@@ -319,10 +319,10 @@ void grazed_rim(std::vector<CorpusCase>& cases, SeededRandom& random, std::uint6
 
 std::vector<CorpusCase> side_cases(std::uint64_t seed, int size) {
   std::vector<CorpusCase> cases;
-  for (std::uint64_t i = 0; i < 36U * static_cast<unsigned>(size); ++i) {
+  for (std::uint64_t i = 0; i < 72U * static_cast<unsigned>(size); ++i) {
     SeededRandom random(kSide, seed, i);
-    point_on_body<3>(cases, random, i);
-    point_on_body<2>(cases, random, i);
+    if (i % 2 == 0) point_on_body<3>(cases, random, i / 2);
+    if (i % 2 == 1) point_on_body<2>(cases, random, i / 2);
     point_on_quadric(cases, random, i);
   }
   return cases;
