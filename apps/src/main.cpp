@@ -11,7 +11,7 @@
 #include "cone.h"
 #include "query.h"
 #ifdef VERICONE_HAVE_VERIFY
-#include <vericone/verify/report.h>
+#include "verify.h"
 #endif
 
 namespace {
@@ -70,16 +70,20 @@ int run(int argc, char** argv) {
   });
 
 #ifdef VERICONE_HAVE_VERIFY
-  std::uint64_t verify_cases = 200, verify_seed = 1;
-  auto* verify = app.add_subcommand("verify", "Hold the library against exact constructions (CGAL)");
-  verify->add_option("--cases", verify_cases, "Cases per family")
-      ->check(CLI::Range(1, 10'000'000))
+  vericone::VerifyOptions verify;
+  auto* verify_command =
+      app.add_subcommand("verify", "Hold the library against exact constructions (CGAL); 1: wrong answers");
+  verify_command->add_option("--cases", verify.cases, "Cases of each predicate, 0: none")
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{10'000'000'000}))
       ->capture_default_str();
-  verify->add_option("--seed", verify_seed, "Seed")->capture_default_str();
-  verify->callback([&] {
-    std::cout << vericone::verify::planar_report(verify_cases, verify_seed) << '\n' << std::flush;
-    std::cout << vericone::verify::spatial_report(verify_cases, verify_seed);
-  });
+  verify_command->add_option("--pairs", verify.pairs, "Pairs of each family of sectors and cones, 0: none")
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{10'000'000}))
+      ->capture_default_str();
+  verify_command->add_option("--seed", verify.seed, "Seed of all random numbers")->capture_default_str();
+  verify_command->add_option("--threads", verify.threads, "Threads, 0: one per processor")
+      ->capture_default_str();
+  verify_command->add_flag("--json", verify.json, "Print JSON");
+  verify_command->callback([&] { status = vericone::run_verify(verify, std::cout); });
 #endif
 
   try {
