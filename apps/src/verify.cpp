@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "verify.h"
+
+#include <unistd.h>
+#include <vericone/verify/planar_campaign.h>
+#include <vericone/verify/planar_methods.h>
+#include <vericone/verify/predicate_campaign.h>
+#include <vericone/verify/spatial_campaign.h>
+
+#include <chrono>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "interrupt.h"
+
+namespace vericone {
+namespace {
+
+/// One line on standard error: rewritten on a terminal, elsewhere printed once a step.
+class Progress {
+ public:
+  void show(const std::string& what, std::uint64_t done, std::uint64_t total) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!terminal_ && done < total) return;
+    if (done < total && now - last_ < std::chrono::milliseconds(200)) return;
+    last_ = now;
+    std::fprintf(stderr, "%s%-32s %llu/%llu%s", terminal_ ? "\r" : "", what.c_str(),
+                 static_cast<unsigned long long>(done), static_cast<unsigned long long>(total),
+                 terminal_ && done < total ? "" : "\n");
+    std::fflush(stderr);
+  }
+
+ private:
+  bool terminal_ = isatty(STDERR_FILENO) != 0;
+  std::chrono::steady_clock::time_point last_;
+};
+
+struct Results {
+  std::vector<verify::PredicateReport> predicates;
+  std::vector<verify::PlanarFamilyReport> by_support, by_conics;
+  std::vector<verify::SpatialFamilyReport> spatial;
+
+  std::uint64_t wrong() const {
+    std::uint64_t sum = 0;
+    for (const auto& r : predicates) sum += r.wrong;
+    for (const auto* reports : {&by_support, &by_conics})
+      for (const auto& r : *reports) sum += r.wrong_relations;
+    for (const auto& r : spatial) sum += r.failures();
+    return sum;
+  }
+};
+
+Results run(const VerifyOptions& o) {
+  Results results;
+  Progress progress;
+  verify::PredicateOptions options;
+  options.cases = o.cases;
+  options.seed = o.seed;
+  options.threads = o.threads;
+  options.truth_every = 64;
+  options.stop = interrupted;
+  options.progress = [&](const std::string& name, std::uint64_t done, std::uint64_t total) {
+    progress.show(name, done, total);
+  };
+  if (o.cases) results.predicates = verify::run_predicate_campaign(options);
+  if (!o.pairs) return results;
+
+  struct Method {
+    const char* name;
+    verify::PlanarAnswer (*answer)(const Ellipse&, const Ellipse&);
+    std::vector<verify::PlanarFamilyReport>* reports;
+  };
+  const Method methods[] = {
+      {"sector_by_support", verify::answer_by_support, &results.by_support},
+      {"sector_by_degenerate_conics", verify::answer_by_degenerate_conics, &results.by_conics}};
+  for (const Method& method : methods)
+    for (const auto family : verify::kAllPlanarFamilies) {
+      if (interrupted()) return results;
+      method.reports->push_back(verify::run_planar_family(method.answer, family, o.pairs, o.seed));
+      progress.show(method.name, method.reports->size(), std::size(verify::kAllPlanarFamilies));
+    }
+  for (const auto family : verify::kAllSpatialFamilies) {
+    if (interrupted()) return results;
+    results.spatial.push_back(verify::run_spatial_family(family, o.pairs, o.seed));
+    progress.show("cones in space", results.spatial.size(), std::size(verify::kAllSpatialFamilies));
+  }
+  return results;
+}
+
+nlohmann::json planar_json(const std::vector<verify::PlanarFamilyReport>& reports) {
+  nlohmann::json list = nlohmann::json::array();
+  const std::string lines = verify::to_json_lines(reports);
+  std::size_t from = 0;
+  while (from < lines.size()) {
+    const std::size_t end = std::min(lines.find('\n', from), lines.size());
+    if (end > from) list.push_back(nlohmann::json::parse(lines.substr(from, end - from)));
+    from = end + 1;
+  }
+  return list;
+}
+
+nlohmann::json spatial_json(const std::vector<verify::SpatialFamilyReport>& reports) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const auto& r : reports) {
+    nlohmann::json checks;
+    const auto add = [&](const char* name, const verify::Check& c) {
+      checks[name] = {{"tried", c.tried}, {"failed", c.failed}};
+    };
+    add("relation", r.relation), add("polyhedra", r.polyhedra), add("march", r.march);
+    add("perturbed", r.perturbed), add("solid_angle", r.solid_angle), add("inner_bound", r.inner_bound);
+    add("outer_bound", r.outer_bound), add("slices", r.slices), add("clearance", r.clearance);
+    list.push_back({{"family", verify::name(r.family)},
+                    {"seed", r.seed},
+                    {"cases", r.cases},
+                    {"checks", checks},
+                    {"time_relative", r.time.value},
+                    {"gap_slope", r.gap_slope}});
+  }
+  return list;
+}
+
+void print_json(const VerifyOptions& o, const Results& r, std::ostream& out) {
+  nlohmann::ordered_json j;
+  j["seed"] = o.seed;
+  j["wrong"] = r.wrong();
+  j["interrupted"] = interrupted();
+  j["predicates"] = nlohmann::ordered_json::parse(verify::to_json(r.predicates));
+  j["sector_by_support"] = planar_json(r.by_support);
+  j["sector_by_degenerate_conics"] = planar_json(r.by_conics);
+  j["cones_in_space"] = spatial_json(r.spatial);
+  out << j.dump(2) << '\n';
+}
+
+void print_tables(const Results& r, std::ostream& out) {
+  if (!r.predicates.empty()) out << "predicates\n\n" << verify::to_markdown(r.predicates) << '\n';
+  if (!r.by_support.empty()) out << "sector_by_support\n\n" << verify::to_markdown(r.by_support) << '\n';
+  if (!r.by_conics.empty())
+    out << "sector_by_degenerate_conics\n\n" << verify::to_markdown(r.by_conics) << '\n';
+  if (!r.spatial.empty()) out << "cones in space\n\n" << verify::to_markdown(r.spatial) << '\n';
+  for (const auto& p : r.predicates)
+    if (p.first_wrong)
+      out << "WRONG: " << p.predicate << ", " << p.wrong << " cases, the first is replay_predicate(\""
+          << p.predicate << "\", " << p.seed << ", " << *p.first_wrong << ")\n";
+}
+
+}  // namespace
+
+int run_verify(const VerifyOptions& options, std::ostream& out) {
+  catch_interrupts();
+  const Results results = run(options);
+  options.json ? print_json(options, results, out) : print_tables(results, out);
+  out.flush();
+  if (results.wrong()) return 1;
+  return interrupted() ? kExitInterrupted : 0;
+}
+
+}  // namespace vericone

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+
+namespace vericone {
+
+struct VerifyOptions {
+  std::uint64_t cases = 200'000;  // of each predicate; 0: none
+  std::uint64_t pairs = 30;       // of each family of the sectors and cones; 0: none
+  std::uint64_t seed = 1;
+  unsigned threads = 0;  // 0: one per processor
+  bool json = false;
+};
+
+/// `vericone verify`: holds the library against exact constructions with CGAL (docs/verify.md). Returns the
+/// exit status: 0, 1 if any answer was wrong, 130 when interrupted; what was done by then is printed.
+int run_verify(const VerifyOptions& options, std::ostream& out);
+
+}  // namespace vericone
