@@ -14,11 +14,13 @@ namespace {
 
 using input::Json;
 
-Json answer(const input::Engagement& e) {
+Json answer(const input::Engagement& e, bool with_rung) {
   const ConeOracle oracle(e.agent, e.obstacle);
-  const Verdict verdict = oracle.verdict(e.agent_velocity, e.obstacle_velocity);
+  Rung rung = oracle.relation_rung();  // of bodies that are not disjoint
+  const Verdict verdict = oracle.verdict(e.agent_velocity, e.obstacle_velocity, &rung);
   Json result;
   result["verdict"] = to_string(verdict);
+  if (with_rung) result["rung"] = to_string(rung);
   result["clearance"] = clearance_ahead(oracle, e.agent_velocity, e.obstacle_velocity);
   const auto time = time_to_contact(oracle, e.agent_velocity, e.obstacle_velocity);
   result["time_to_contact"] = time ? Json(*time) : Json(nullptr);
@@ -52,13 +54,13 @@ Json parse_line(const std::string& line, std::size_t number) {
   }
 }
 
-Json answer_line(const std::string& line, std::size_t number, bool& bad) {
+Json answer_line(const std::string& line, std::size_t number, bool with_rung, bool& bad) {
   Json result;
   result["id"] = nullptr;
   try {
     const Json value = parse_line(line, number);
     if (value.is_object() && value.contains("id")) result["id"] = value["id"];
-    result.update(answer(input::read_engagement(value, input::Velocities::required, {"id"})));
+    result.update(answer(input::read_engagement(value, input::Velocities::required, {"id"}), with_rung));
   } catch (const InputError& e) {
     bad = true;
     result["error"] = e.what();
@@ -68,7 +70,7 @@ Json answer_line(const std::string& line, std::size_t number, bool& bad) {
 
 }  // namespace
 
-int run_query(const std::string& path, std::ostream& out) {
+int run_query(const std::string& path, bool with_rung, std::ostream& out) {
   std::ifstream file;
   if (path != "-") {
     file.open(path);
@@ -81,7 +83,7 @@ int run_query(const std::string& path, std::ostream& out) {
   std::string line;
   for (std::size_t number = 1; std::getline(in, line); ++number) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    out << answer_line(line, number, bad).dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+    out << answer_line(line, number, with_rung, bad).dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
     // A consumer that feeds line by line waits for each answer.
     if (path == "-" && in.rdbuf()->in_avail() <= 0) out.flush();
     if (!out) throw std::runtime_error("standard output was closed");

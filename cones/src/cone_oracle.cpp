@@ -146,8 +146,10 @@ std::optional<Membership> ConeOracle::triage_membership(const Eigen::Vector3d& w
   const int discriminant = cubic.discriminant().certain(kCount.discriminant, kUnderflowBound);
   const int k1 = cubic.k1.certain(kCount.k1, kUnderflowBound),
             k2 = cubic.k2.certain(kCount.k2, kUnderflowBound);
+  // No sign change in the coefficients, no positive root, whatever the discriminant: bodies that meet head
+  // on.
   const bool apart = (discriminant > 0) & ((k1 > 0) | (k2 > 0));
-  const bool meets = (ahead > 0) & ((discriminant < 0) | ((discriminant > 0) & (k1 < 0) & (k2 < 0)));
+  const bool meets = (ahead > 0) & ((discriminant < 0) | ((k1 < 0) & (k2 < 0)));
   if (!(apart | meets)) return std::nullopt;
   return apart ? Membership::out : Membership::in;
 }
@@ -196,8 +198,7 @@ std::optional<Membership> ConeOracle::interval_membership(const std::array<Inter
                                      c[axis.i] + minus_u * c[axis.k], c[axis.j] + minus_v * c[axis.k]);
   const Interval discriminant = cubic.discriminant();
   if (discriminant.positive() && (cubic.k1.positive() || cubic.k2.positive())) return Membership::out;
-  const bool meets =
-      discriminant.negative() || (discriminant.positive() && cubic.k1.negative() && cubic.k2.negative());
+  const bool meets = discriminant.negative() || (cubic.k1.negative() && cubic.k2.negative());
   if (ahead > 0 && meets) return Membership::in;
   return std::nullopt;
 }

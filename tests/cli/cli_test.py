@@ -63,6 +63,20 @@ class Query(unittest.TestCase):
         self.assertEqual(by_id["touching"]["time_to_contact"], 0)
         self.assertEqual(list(answers[0]), ["id", "verdict", "clearance", "time_to_contact"])
 
+    def test_rung_says_what_decided(self):
+        a, b = ball([0, 0, 0], 1), ball([5, 0, 0], 2)
+        far = ball([3e7, 1e7, 2e7], 2)
+        cases = [engagement(a, b, [1, 0, 0], id="plain"), engagement(a, b, [4, 3, 0], id="graze"),
+                 engagement(a, far, [3, 1, 2.00000001], id="distant"),
+                 engagement(a, ball([3, 0, 0], 2), [1, 0, 0], id="touching"),
+                 engagement(a, ball([2, 0, 0], 2), [1, 0, 0], id="overlapping")]
+        text = "".join(json.dumps(c) + "\n" for c in cases)
+        answers = [json.loads(line) for line in run("query", "--rung", "-", input=text).stdout.splitlines()]
+        self.assertEqual([x["rung"] for x in answers], ["triage", "exact", "interval", "exact", "triage"])
+        plain = [json.loads(line) for line in run("query", "-", input=text).stdout.splitlines()]
+        for with_rung, without in zip(answers, plain):
+            self.assertEqual({k: v for k, v in with_rung.items() if k != "rung"}, without)
+
     def test_velocities_are_subtracted_without_rounding(self):
         a, b = ball([0, 0, 0], 1), ball([5, 0, 0], 2)
         tiny = 2.0 ** -60  # 3 + tiny rounds to 3

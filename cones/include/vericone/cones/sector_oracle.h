@@ -22,7 +22,7 @@ class SectorOracle {
 
   /// Exact. `w` = v_A - v_B. Requires relation() == disjoint; for other relations see verdict(). Throws
   /// InputError naming "agent_velocity[i]" or "obstacle_velocity[i]" where they are not finite. Cost: 13 ns
-  /// where the first rung decides, 30 ns more for the second, 3 us more for the last.
+  /// where the first rung decides (6 ns without a bound), 45 ns in the second, 2 us in the last.
   Membership membership(const Eigen::Vector2d& w, Rung* rung = nullptr) const;
   Membership membership(const Eigen::Vector2d& v_a, const Eigen::Vector2d& v_b, Rung* rung = nullptr) const;
 
