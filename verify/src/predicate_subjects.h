@@ -27,16 +27,16 @@ struct Block {
 
 /// Code of an answer; kUnsure is the code of FilteredSign::uncertain and of an empty optional.
 constexpr int kUnsure = -1;
-inline int code(Sign sign) { return 1 + static_cast<int>(sign); }
-inline int code(FilteredSign sign) {
+constexpr int code(Sign sign) { return 1 + static_cast<int>(sign); }
+constexpr int code(FilteredSign sign) {
   return sign == FilteredSign::uncertain ? kUnsure : 1 + static_cast<int>(sign);
 }
 template <typename Enum>
-int code(Enum answer) {
+constexpr int code(Enum answer) {
   return static_cast<int>(answer);
 }
 template <typename Enum>
-int code(const std::optional<Enum>& answer) {
+constexpr int code(const std::optional<Enum>& answer) {
   return answer ? code(*answer) : kUnsure;
 }
 
@@ -79,6 +79,7 @@ struct Subject {
 
 /// Subjects by file.
 std::span<const Subject> pair_subjects();  // relation, cone, sector
+std::span<const Subject> hull_subjects();  // hulls of points
 std::span<const Subject> side_subjects();  // point against quadric and body
 
 }  // namespace vericone::verify

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <vericone/cones/contact_frame.h>
+#include <vericone/cones/position.h>
 #include <vericone/cones/predicates.h>
 #include <vericone/cones/sector_oracle.h>
 #include <vericone/verify/predicate_truth.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "predicate_cases.h"
 #include "predicate_subjects.h"
@@ -146,9 +149,67 @@ void run_relation(std::uint64_t seed, std::uint64_t number, Depth depth, Block& 
 }
 bool touches(int answer) { return answer == code(Relation::touching); }
 
+/// TruePosition has the order of Position.
+static_assert(code(TruePosition::equal) == code(Position::equal) &&
+              code(TruePosition::a_inside_b_touching) == code(Position::a_inside_b_touching) &&
+              code(TruePosition::crossing) == code(Position::crossing));
+
+/// Nested bodies, from the inside and from the outside of each other, and equal ones.
+template <int D>
+void run_position(std::uint64_t seed, std::uint64_t number, Depth depth, Block& block) {
+  using Vector = Eigen::Matrix<double, D, 1>;
+  using Body = BasicEllipsoid<D>;
+  SeededRandom random(306 + D, seed, number);
+  const Kind kind = kind_of(number);
+  const Tangency<D> t = cases::nesting<D>(random, kind);
+  // The exact rung takes up to a millisecond: one block in sixteen is hard.
+  const int hard = number / cases::kKinds % 16 == 0 ? 9 : 0;
+  std::vector<std::pair<Body, Body>> pairs;
+  for (int i = 0; i < kCasesPerBlock; ++i) {
+    bool& is_random = block.cases[i].random;
+    is_random = false;
+    Body b = t.b;
+    const int what = i < hard ? i : kCasesPerBlock;
+    if (what == 0) {
+      b = random.integer(0, 3) ? t.b : t.a;
+    } else if (what < 5) {
+      b = cases::moved_to<D>(t.b, cases::jittered<D>(random, t.b.center(), what == 1 ? 1 : 8));
+    } else if (what < 9) {
+      const double off = cases::log_uniform(random, -16, -3);
+      const double factor = random.coin() ? 1 + off : 1 - off;
+      b = cases::moved_to<D>(cases::moved_to<D>(t.b, Vector::Zero()).scaled(factor), t.b.center());
+    } else {
+      is_random = kind == Kind::regular;
+      const double factor = cases::log_uniform(random, -1, 1), shift = random.uniform(0, 3);
+      b = cases::moved_to<D>(cases::moved_to<D>(t.b, Vector::Zero()).scaled(factor),
+                             t.a.center() + shift * t.a.factor() * random.direction<D>());
+    }
+    if (i % 2)
+      pairs.emplace_back(t.a, b);
+    else
+      pairs.emplace_back(b, t.a);
+  }
+  climb_all(block,
+            [&](int i, Rung* rung) { return code(position<D>(pairs[i].first, pairs[i].second, rung)); });
+  for (int i = 0; i < kCasesPerBlock; ++i) {
+    PredicateCase& c = block.cases[i];
+    const auto& [a, b] = pairs[i];
+    c.triage = code(triage_position<D>(a, b));
+    c.interval = code(interval_position<D>(a, b));
+    if (depth.exact) c.exact = code(exact_position<D>(a, b));
+    if (depth.truth) c.truth = code(position_truth<D>(a, b));
+  }
+}
+bool positions_touch(int answer) {
+  return answer == code(Position::touching) || answer == code(Position::a_inside_b_touching) ||
+         answer == code(Position::b_inside_a_touching) || answer == code(Position::equal);
+}
+
 constexpr Subject kSubjects[] = {
     {"relation of ellipsoids", run_relation<3>, touches},
     {"relation of ellipses", run_relation<2>, touches},
+    {"position of ellipsoids", run_position<3>, positions_touch},
+    {"position of ellipses", run_position<2>, positions_touch},
     {"velocity, cone of ellipsoids", run_cone, on_boundary},
     {"velocity, sector of ellipses", run_sector, on_boundary},
 };
