@@ -44,10 +44,11 @@ Eigen::Matrix<double, 2, 3> shadow_plane(const HullScene& scene, const Eigen::Ve
   return g;
 }
 
-/// A normal close to n that has n.w < 0 certainly: a plane that contains w to rounding is turned to face away
-/// from it.
-Eigen::Vector3d facing_away(const Eigen::Vector3d& n, const Eigen::Vector3d& w) {
-  const double along = n.dot(w), noise = 0x1p-48 * n.cwiseAbs().dot(w.cwiseAbs()) + 1e-30;
+/// A normal close to n that has n.v < 0 certainly for all v within `spread` of w: a plane that contains w to
+/// rounding is turned to face away from it.
+Eigen::Vector3d facing_away(const Eigen::Vector3d& n, const Eigen::Vector3d& w,
+                            const Eigen::Vector3d& spread) {
+  const double along = n.dot(w), noise = n.cwiseAbs().dot(0x1p-48 * w.cwiseAbs() + 1.001 * spread) + 1e-30;
   return n - ((along + noise) / w.squaredNorm()) * w;
 }
 
@@ -70,6 +71,7 @@ struct TriageCertificates {
     const auto entry = [&](int r) { return Tracked::of(b(axes[r])) - Tracked::of(a(axes[r])); };
     return {entry(0), entry(1), entry(2)};
   }
+  static Eigen::Vector3d spread() { return Eigen::Vector3d::Zero(); }
   int side(const Eigen::Vector3d& n) const { return triage_side(n, w); }
   bool ahead_of(const Eigen::Vector3d& near, const HullSupport& support, const Eigen::Vector3d& n) const {
     return triage_ahead_of(scene, near, support, n);
@@ -113,6 +115,7 @@ struct IntervalCertificates {
     const auto d = enclosed_difference(scene, pair);
     return {d[axes.i], d[axes.j], d[axes.k]};
   }
+  Eigen::Vector3d spread() const { return {w[0].rad(), w[1].rad(), w[2].rad()}; }
   int side(const Eigen::Vector3d& n) const { return interval_side(n, w); }
   bool ahead_of(const Eigen::Vector3d& near, const HullSupport& support, const Eigen::Vector3d& n) const {
     return interval_ahead_of(scene, near, support, n);
@@ -166,7 +169,7 @@ std::optional<Membership> decide(const HullScene& scene, const Eigen::Vector3d& 
   };
   const auto at_plane = [&](const HullSimplex<2>& s, const Eigen::Vector3d& n, const HullSupport& support) {
     if (support.value() > radius_above(scene, n) * (1 - 1e-14)) {
-      const Eigen::Vector3d away = facing_away(n, w);
+      const Eigen::Vector3d away = facing_away(n, w, certificates.spread());
       if (certificates.side(away) < 0 && certificates.ahead_of(n, support, away)) {
         answer = Membership::out;
         return true;

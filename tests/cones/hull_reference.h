@@ -12,20 +12,40 @@
 namespace vericone::testing {
 
 using exact::Rational;
-using Vector = exact::RationalVector<3>;
+template <typename N>
+using VectorOf = std::array<N, 3>;
+using Vector = VectorOf<Rational>;
 
 inline Vector rational(const Eigen::Vector3d& v) { return exact::to_rational<3>(v); }
-inline Vector operator-(const Vector& x, const Vector& y) { return {x[0] - y[0], x[1] - y[1], x[2] - y[2]}; }
-inline Vector operator+(const Vector& x, const Vector& y) { return {x[0] + y[0], x[1] + y[1], x[2] + y[2]}; }
+template <typename N>
+int sign_of(const N& x) {
+  return static_cast<int>(x > 0) - static_cast<int>(x < 0);
+}
+template <typename N>
+VectorOf<N> operator-(const VectorOf<N>& x, const VectorOf<N>& y) {
+  return {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
+}
+template <typename N>
+VectorOf<N> operator+(const VectorOf<N>& x, const VectorOf<N>& y) {
+  return {x[0] + y[0], x[1] + y[1], x[2] + y[2]};
+}
 inline Vector times(const Rational& s, const Vector& x) { return {s * x[0], s * x[1], s * x[2]}; }
-inline Rational dot(const Vector& x, const Vector& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
-inline Vector cross(const Vector& x, const Vector& y) {
+template <typename N>
+N dot(const VectorOf<N>& x, const VectorOf<N>& y) {
+  return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+}
+template <typename N>
+VectorOf<N> cross(const VectorOf<N>& x, const VectorOf<N>& y) {
   return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
 }
-inline bool zero(const Vector& x) { return x[0] == 0 && x[1] == 0 && x[2] == 0; }
+template <typename N>
+bool zero(const VectorOf<N>& x) {
+  return x[0] == 0 && x[1] == 0 && x[2] == 0;
+}
 
 /// The convex cone of a few vectors: K = conv(d), not with the origin in it.
-inline Membership cone_of_points(const std::vector<Vector>& d, const Vector& w) {
+template <typename N>
+Membership cone_of_points(const std::vector<VectorOf<N>>& d, const VectorOf<N>& w) {
   if (zero(w)) return Membership::out;
   // In the cone iff a non-negative combination of one, two or three of them (Caratheodory).
   bool in_cone = false;
@@ -33,7 +53,7 @@ inline Membership cone_of_points(const std::vector<Vector>& d, const Vector& w) 
   for (std::size_t i = 0; i < n && !in_cone; ++i) {
     if (zero(cross(d[i], w)) && dot(d[i], w) > 0) in_cone = true;
     for (std::size_t j = 0; j < i && !in_cone; ++j) {
-      const Vector m = cross(d[i], d[j]);
+      const VectorOf<N> m = cross(d[i], d[j]);
       if (zero(m)) continue;
       // w = s d_i + t d_j + r m, by Cramer; r = 0.
       if (dot(m, w) == 0) {
@@ -41,10 +61,11 @@ inline Membership cone_of_points(const std::vector<Vector>& d, const Vector& w) 
         continue;
       }
       for (std::size_t k = 0; k < j && !in_cone; ++k) {
-        const Rational det = dot(m, d[k]);
+        const N det = dot(m, d[k]);
         if (det == 0) continue;
-        in_cone = dot(m, w) / det >= 0 && dot(cross(w, d[j]), d[k]) / det >= 0 &&
-                  dot(cross(d[i], w), d[k]) / det >= 0;
+        const int side = sign_of(det);
+        in_cone = side * sign_of(dot(m, w)) >= 0 && side * sign_of(dot(cross(w, d[j]), d[k])) >= 0 &&
+                  side * sign_of(dot(cross(d[i], w), d[k])) >= 0;
       }
     }
   }
@@ -52,13 +73,13 @@ inline Membership cone_of_points(const std::vector<Vector>& d, const Vector& w) 
   // On its boundary iff a plane through w has all vectors on one side; if one does, so does one through
   // another of them.
   bool all_along = true;
-  for (const Vector& x : d) {
-    const Vector m = cross(w, x);
+  for (const VectorOf<N>& x : d) {
+    const VectorOf<N> m = cross(w, x);
     if (zero(m)) continue;
     all_along = false;
     bool positive = true, negative = true;
-    for (const Vector& y : d) {
-      const int s = dot(m, y).sign();
+    for (const VectorOf<N>& y : d) {
+      const int s = sign_of(dot(m, y));
       positive = positive && s >= 0;
       negative = negative && s <= 0;
     }
@@ -79,36 +100,37 @@ inline std::vector<Vector> differences(const std::vector<Eigen::Vector3d>& b,
 }
 
 /// Where the origin lies with regard to conv(d): every plane through three of the points, and what is flat.
-inline Relation origin_and_points(const std::vector<Vector>& d) {
+template <typename N>
+Relation origin_and_points(const std::vector<VectorOf<N>>& d) {
   const std::size_t n = d.size();
   bool solid = false, touched = false;
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < i; ++j)
       for (std::size_t k = 0; k < j; ++k) {
-        const Vector m = cross(d[j] - d[i], d[k] - d[i]);
+        const VectorOf<N> m = cross(d[j] - d[i], d[k] - d[i]);
         if (zero(m)) continue;
         bool above = false, below = false;
-        for (const Vector& x : d) {
-          const int s = dot(m, x - d[i]).sign();
+        for (const VectorOf<N>& x : d) {
+          const int s = sign_of(dot(m, x - d[i]));
           above = above || s > 0;
           below = below || s < 0;
         }
         solid = solid || above || below;
         if (above && below) continue;
-        const int origin = -dot(m, d[i]).sign();
+        const int origin = -sign_of(dot(m, d[i]));
         if ((above && origin < 0) || (below && origin > 0)) return Relation::disjoint;
         if (!above && !below && origin != 0) return Relation::disjoint;
         touched = touched || origin == 0;
       }
   if (solid) return touched ? Relation::touching : Relation::overlapping;
   // Flat: the origin is in conv(d) iff in a triangle, segment or point of it.
-  for (const Vector& x : d)
+  for (const VectorOf<N>& x : d)
     if (zero(x)) return Relation::touching;
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < i; ++j) {
       if (zero(cross(d[i], d[j])) && dot(d[i], d[j]) < 0) return Relation::touching;
       for (std::size_t k = 0; k < j; ++k) {
-        const Vector m = cross(d[j] - d[i], d[k] - d[i]);
+        const VectorOf<N> m = cross(d[j] - d[i], d[k] - d[i]);
         if (zero(m) || dot(m, d[i]) != 0) continue;
         if (dot(m, cross(d[i], d[j])) >= 0 && dot(m, cross(d[j], d[k])) >= 0 &&
             dot(m, cross(d[k], d[i])) >= 0)
