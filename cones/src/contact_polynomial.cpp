@@ -21,14 +21,6 @@ IntegerMatrix<D> adjugate(const IntegerMatrix<D>& m) {
   return r;
 }
 
-template <int D>
-Integer quadratic_form(const IntegerMatrix<D>& m, const IntegerVector<D>& v) {
-  Integer sum = 0;
-  for (int i = 0; i < D; ++i)
-    for (int j = 0; j < D; ++j) sum += m[i][j] * v[i] * v[j];
-  return sum;
-}
-
 /// Trace of m n.
 template <int D>
 Integer inner(const IntegerMatrix<D>& m, const IntegerMatrix<D>& n) {
@@ -39,7 +31,7 @@ Integer inner(const IntegerMatrix<D>& m, const IntegerMatrix<D>& n) {
 }
 
 template <int D>
-Integer determinant(const IntegerMatrix<D>& m, const IntegerMatrix<D>& adj) {
+Integer expand_determinant(const IntegerMatrix<D>& m, const IntegerMatrix<D>& adj) {
   Integer sum = 0;
   for (int j = 0; j < D; ++j) sum += m[0][j] * adj[j][0];
   return sum;
@@ -48,27 +40,34 @@ Integer determinant(const IntegerMatrix<D>& m, const IntegerMatrix<D>& adj) {
 }  // namespace
 
 template <int D>
-Polynomial contact_polynomial(const PairOnGrid<D>& pair) {
-  const auto &a = pair.a, &b = pair.b;
-  const auto adj_a = adjugate<D>(a), adj_b = adjugate<D>(b);
-  const Integer det_a = determinant<D>(a, adj_a), det_b = determinant<D>(b, adj_b);
-  Polynomial e, d;  // c^T adj(A + x B) c and det(A + x B)
+ShapePencil<D>::ShapePencil(const IntegerMatrix<D>& a, const IntegerMatrix<D>& b) {
+  const auto adj_a = exact::adjugate<D>(a), adj_b = exact::adjugate<D>(b);
+  const Integer det_a = expand_determinant<D>(a, adj_a), det_b = expand_determinant<D>(b, adj_b);
   if constexpr (D == 2) {
-    e = {quadratic_form<2>(adj_a, pair.c), quadratic_form<2>(adj_b, pair.c)};
-    d = {det_a, inner<2>(adj_a, b), det_b};
+    adjugate = {adj_a, adj_b};
+    determinant = {det_a, inner<2>(adj_a, b), det_b};
   } else {
-    IntegerMatrix<3> sum;
+    IntegerMatrix<3> mixed;
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) sum[i][j] = a[i][j] + b[i][j];
-    const Integer ea = quadratic_form<3>(adj_a, pair.c), eb = quadratic_form<3>(adj_b, pair.c);
-    e = {ea, quadratic_form<3>(adjugate<3>(sum), pair.c) - ea - eb, eb};
-    d = {det_a, inner<3>(adj_a, b), inner<3>(a, adj_b), det_b};
+      for (int j = 0; j < 3; ++j) mixed[i][j] = a[i][j] + b[i][j];
+    mixed = exact::adjugate<3>(mixed);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) mixed[i][j] -= adj_a[i][j] + adj_b[i][j];
+    adjugate = {adj_a, mixed, adj_b};
+    determinant = {det_a, inner<3>(adj_a, b), inner<3>(a, adj_b), det_b};
   }
-  Polynomial p(d.size() + 1, Integer(0));
-  for (std::size_t i = 0; i < e.size(); ++i) p[i + 1] += e[i];
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    p[i] -= d[i];
-    p[i + 1] -= d[i];
+}
+template struct ShapePencil<2>;
+template struct ShapePencil<3>;
+
+template <int D>
+Polynomial contact_polynomial(const PairOnGrid<D>& pair) {
+  const ShapePencil<D> pencil(pair.a, pair.b);
+  Polynomial p(D + 2, Integer(0));
+  for (int i = 0; i < D; ++i) p[i + 1] += bilinear_form<D>(pencil.adjugate[i], pair.c, pair.c);
+  for (int i = 0; i <= D; ++i) {
+    p[i] -= pencil.determinant[i];
+    p[i + 1] -= pencil.determinant[i];
   }
   return p;
 }

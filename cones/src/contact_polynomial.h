@@ -13,6 +13,7 @@
 
 #include <vericone/geometry/algebraic.h>
 #include <vericone/geometry/integer.h>
+#include <array>
 
 namespace vericone {
 
@@ -72,6 +73,24 @@ constexpr Symmetric2<N> affine_shadow(const Entry& s, const N& minus_u, const N&
 }
 
 namespace exact {
+
+/// Coefficients of adj(A + x B) and det(A + x B), lowest first.
+template <int D>
+struct ShapePencil {
+  std::array<IntegerMatrix<D>, D> adjugate;
+  std::array<Integer, D + 1> determinant;
+
+  ShapePencil(const IntegerMatrix<D>& a, const IntegerMatrix<D>& b);
+};
+
+/// v^T m w.
+template <int D>
+Integer bilinear_form(const IntegerMatrix<D>& m, const IntegerVector<D>& v, const IntegerVector<D>& w) {
+  Integer sum = 0;
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j) sum += m[i][j] * v[i] * w[j];
+  return sum;
+}
 
 /// p for two bodies; Polynomial of degree D + 1.
 template <int D>

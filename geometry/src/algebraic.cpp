@@ -90,14 +90,31 @@ Polynomial negative_remainder(Polynomial a, const Polynomial& b) {
   return a;
 }
 
-/// a / b where b divides a over the integers.
-Polynomial quotient(Polynomial a, const Polynomial& b) {
-  Polynomial q(a.size() - b.size() + 1);
-  for (std::size_t i = q.size(); i-- > 0;) {
-    q[i] = a[i + b.size() - 1] / b.back();
-    for (std::size_t j = 0; j < b.size(); ++j) a[i + j] -= q[i] * b[j];
+/// Whether p and q certainly have no common factor: they have none modulo a prime that does not divide their
+/// leading coefficients.
+bool surely_coprime(const Polynomial& p, const Polynomial& q) {
+  static constexpr std::uint64_t kPrime = (1u << 31) - 1;
+  const auto reduced = [](const Polynomial& f) {
+    std::vector<std::uint64_t> r;
+    for (const Integer& x : f) {
+      const auto m = static_cast<std::int64_t>(Integer(x % kPrime));
+      r.push_back(static_cast<std::uint64_t>(m < 0 ? m + static_cast<std::int64_t>(kPrime) : m));
+    }
+    return r;
+  };
+  auto a = reduced(p), b = reduced(q);
+  if (a.back() == 0 || b.back() == 0) return false;
+  while (!b.empty()) {
+    while (a.size() >= b.size()) {  // scaled by the leading coefficient of b
+      const std::uint64_t lead = b.back(), top = kPrime - a.back();
+      const std::size_t shift = a.size() - b.size();
+      for (std::size_t i = 0; i < a.size(); ++i)
+        a[i] = (a[i] * lead + (i >= shift ? top * b[i - shift] : 0)) % kPrime;
+      while (!a.empty() && a.back() == 0) a.pop_back();
+    }
+    std::swap(a, b);
   }
-  return q;
+  return a.size() == 1;
 }
 
 template <typename Sign>
@@ -263,6 +280,7 @@ Polynomial operator*(const Polynomial& p, const Integer& factor) {
 Polynomial gcd(Polynomial p, Polynomial q) {
   p = primitive_part(std::move(p));
   q = primitive_part(std::move(q));
+  if (!p.empty() && !q.empty() && surely_coprime(p, q)) return {Integer(1)};
   if (p.size() < q.size()) std::swap(p, q);
   while (!q.empty()) {
     Polynomial r = negative_remainder(std::move(p), q);
@@ -278,7 +296,16 @@ Polynomial squarefree_part(const Polynomial& p) {
   Polynomial primitive = primitive_part(p);
   if (p.size() < 3) return primitive;
   const Polynomial repeated = gcd(primitive, derivative(primitive));
-  return repeated.size() == 1 ? primitive : quotient(std::move(primitive), repeated);
+  return repeated.size() == 1 ? primitive : divide_exactly(std::move(primitive), repeated);
+}
+
+Polynomial divide_exactly(Polynomial a, const Polynomial& b) {
+  Polynomial q(a.size() - b.size() + 1);
+  for (std::size_t i = q.size(); i-- > 0;) {
+    q[i] = a[i + b.size() - 1] / b.back();
+    for (std::size_t j = 0; j < b.size(); ++j) a[i + j] -= q[i] * b[j];
+  }
+  return q;
 }
 
 std::vector<Polynomial> sturm_chain(const Polynomial& p) {
@@ -307,8 +334,8 @@ int sign_changes_at_infinity(const std::vector<Polynomial>& chain) {
 
 RealRoot::RealRoot(Dyadic x) { set(std::move(x)); }
 
-RealRoot::RealRoot(std::shared_ptr<const Polynomial> squarefree, Dyadic lo, Dyadic hi)
-    : p_(std::move(squarefree)), lo_(std::move(lo)), hi_(std::move(hi)), sign_lo_(exact::sign_at(*p_, lo_)) {}
+RealRoot::RealRoot(std::shared_ptr<const Polynomial> p, Dyadic lo, Dyadic hi)
+    : p_(std::move(p)), lo_(std::move(lo)), hi_(std::move(hi)), sign_lo_(exact::sign_at(*p_, lo_)) {}
 
 void RealRoot::set(Dyadic x) {
   x = reduced(std::move(x));

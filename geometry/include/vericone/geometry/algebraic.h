@@ -45,6 +45,9 @@ Polynomial operator*(const Polynomial& p, const Integer& factor);
 /// most one of p, q is zero.
 Polynomial gcd(Polynomial p, Polynomial q);
 
+/// p / q where q is primitive and divides p.
+Polynomial divide_exactly(Polynomial p, const Polynomial& q);
+
 /// The polynomial with the same roots, each simple; p is not zero.
 Polynomial squarefree_part(const Polynomial& p);
 
@@ -67,10 +70,11 @@ class RealRoot {
  public:
   /// The number x itself.
   explicit RealRoot(Dyadic x);
-  /// The one root in (lo, hi) of a squarefree polynomial that vanishes at neither end; 0 <= lo or hi <= 0.
-  RealRoot(std::shared_ptr<const Polynomial> squarefree, Dyadic lo, Dyadic hi);
+  /// The one root in (lo, hi) of a polynomial that has no other there, counted with multiplicity, and
+  /// vanishes at neither end; 0 <= lo or hi <= 0.
+  RealRoot(std::shared_ptr<const Polynomial> p, Dyadic lo, Dyadic hi);
 
-  /// Squarefree; the root is one of its simple ones.
+  /// The root is one of its simple ones.
   const Polynomial& polynomial() const { return *p_; }
   /// lo < root < hi, or lo = root = hi where it is known as a dyadic number.
   const Dyadic& lo() const { return lo_; }

@@ -1,0 +1,575 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <vericone/cones/clearance.h>
+#include <vericone/cones/contact_time_enclosure.h>
+#include <vericone/cones/order.h>
+#include <vericone/cones/sector.h>
+#include <vericone/geometry/error.h>
+#include <vericone/geometry/rational.h>
+#include <Eigen/LU>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <chrono>
+#include <iostream>
+
+#include "exact_tangency.h"
+#include "support/random_bodies.h"
+
+namespace vericone {
+namespace {
+
+using Eigen::Matrix2d, Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
+using testing::ExactTangency, testing::RandomBodies;
+using Real =
+    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<80>, boost::multiprecision::et_off>;
+
+Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)); }
+Sign sign_of(double x) { return x > 0 ? Sign::positive : x < 0 ? Sign::negative : Sign::zero; }
+
+/// How many decisions fell on each rung; checks that all rungs that answer agree.
+struct Rungs {
+  int cases = 0, by[3] = {}, zeros = 0;
+
+  Sign turn(const TangentRef& p, const TangentRef& q) {
+    Rung rung = Rung::triage;
+    const Sign s = vericone::turn(p, q, &rung);
+    count(s, rung);
+    const auto triage = triage_turn(p, q), interval = interval_turn(p, q);
+    EXPECT_EQ(exact_turn(p, q), s);
+    EXPECT_EQ(triage.value_or(s), s);
+    EXPECT_EQ(interval.value_or(s), s);
+    EXPECT_EQ(rung == Rung::triage, triage.has_value());
+    EXPECT_EQ(rung == Rung::interval, !triage && interval);
+    EXPECT_EQ(vericone::turn(q, p), -s) << "law (1)";
+    return s;
+  }
+  Sign earlier(const Encounter& p, const Encounter& q) {
+    Rung rung = Rung::triage;
+    const Sign s = vericone::earlier(p, q, &rung);
+    count(s, rung);
+    const auto triage = triage_earlier(p, q), interval = interval_earlier(p, q);
+    EXPECT_EQ(exact_earlier(p, q), s);
+    EXPECT_EQ(triage.value_or(s), s);
+    EXPECT_EQ(interval.value_or(s), s);
+    EXPECT_EQ(rung == Rung::triage, triage.has_value());
+    EXPECT_EQ(rung == Rung::interval, !triage && interval);
+    EXPECT_EQ(vericone::earlier(q, p), -s) << "law (1)";
+    return s;
+  }
+  void print(const std::string& what) const {
+    std::cout << "[ rungs    ] " << what << ": " << cases << " cases, triage " << by[0] << ", interval "
+              << by[1] << ", exact " << by[2] << ", zeros " << zeros << "\n";
+  }
+
+ private:
+  void count(Sign s, Rung rung) {
+    ++cases;
+    ++by[static_cast<int>(rung)];
+    zeros += s == Sign::zero;
+  }
+};
+
+// --- Order of two tangent directions --------------------------------------------------------------------
+
+/// The direction with 80 digits: the root of g in an angle-free form by bisection from a separating normal.
+struct WideDirection {
+  Real x, y;
+
+  explicit WideDirection(const TangentRef& t) {
+    const auto sa = exact::defining_shape<2>(t.a), sb = exact::defining_shape<2>(t.b);
+    const Real cx = Real(t.b.center().x()) - Real(t.a.center().x()),
+               cy = Real(t.b.center().y()) - Real(t.a.center().y());
+    const auto rho = [](const exact::RationalMatrix<2>& s, const Real& nx, const Real& ny) {
+      return Real(sqrt(Real(s[0][0]) * nx * nx + 2 * Real(s[0][1]) * nx * ny + Real(s[1][1]) * ny * ny));
+    };
+    const auto gap = [&](const Real& nx, const Real& ny) {
+      return Real(nx * cx + ny * cy - rho(sa, nx, ny) - rho(sb, nx, ny));
+    };
+    const Vector2d n0 = ContactFrame<2>(t.a, t.b).separating_normal().normalized();
+    // n = c + tau c', c' = c turned by +90 degrees: n.c > 0 on all of { g >= 0 }, whose ends are sought.
+    const auto at = [&](const Real& tau) { return gap(cx - tau * cy, cy + tau * cx); };
+    const Real side = t.left ? -1 : 1;
+    Real lo = (Real(n0.y()) * cx - Real(n0.x()) * cy) / (Real(n0.x()) * cx + Real(n0.y()) * cy), step = side;
+    while (at(lo + step) > 0) step *= 2;
+    Real hi = lo + step;
+    for (int i = 0; i < 270; ++i) {
+      const Real mid = (lo + hi) / 2;
+      (at(mid) > 0 ? lo : hi) = mid;
+    }
+    x = side * (cy + lo * cx);
+    y = -side * (cx - lo * cy);
+  }
+};
+
+Sign wide_turn(const TangentRef& p, const TangentRef& q) {
+  const WideDirection d(p), e(q);
+  const Real cross = d.x * e.y - d.y * e.x, size = sqrt((d.x * d.x + d.y * d.y) * (e.x * e.x + e.y * e.y));
+  if (abs(cross) < size * Real("1e-65")) return Sign::zero;
+  return cross > 0 ? Sign::positive : Sign::negative;
+}
+
+Ellipse circle(double x, double y, double r) { return Ellipse::from_axes({x, y}, {r, r}); }
+
+TEST(Turn, CirclesWithKnownTangents) {
+  // Directions at 30 degrees to the line of centres.
+  const TangentRef left{circle(0, 0, 1), circle(4, 0, 1), true}, right{left.a, left.b, false};
+  const TangentRef up{circle(7, 5, 2), circle(7, 13, 2), true},
+      narrow{circle(0, 0, 1), circle(5, 0, 1), true};
+  EXPECT_EQ(turn(left, right), Sign::negative);
+  EXPECT_EQ(turn(right, left), Sign::positive);
+  EXPECT_EQ(turn(left, up), Sign::positive);
+  EXPECT_EQ(turn(right, up), Sign::positive);  // 150 degrees
+  EXPECT_EQ(turn(left, narrow), Sign::negative);
+  Rung rung = Rung::triage;
+  EXPECT_EQ(turn(left, left, &rung), Sign::zero);
+  EXPECT_EQ(rung, Rung::exact);
+  EXPECT_FALSE(opposed(left, left));
+  EXPECT_FALSE(opposed(left, right));
+  // Exchanged bodies: the same line the other way.
+  const TangentRef back{left.b, left.a, true};
+  EXPECT_EQ(turn(left, back), Sign::zero);
+  EXPECT_TRUE(opposed(left, back));
+  // A right angle apart in total: 30 + 60; the tangents of (1, sqrt 3) are parallel to one of these only.
+  const TangentRef slanted{circle(0, 0, 1), circle(0, 2, 1), true};
+  EXPECT_EQ(turn(left, slanted), Sign::positive);
+}
+
+TEST(Turn, TouchingAndOverlappingBodies) {
+  // Both edges lie in the common tangent x = 1.
+  const Ellipse a = circle(0, 0, 1), b = circle(3, 0, 2);
+  const TangentRef left{a, b, true}, right{a, b, false}, other{circle(0, 0, 1), circle(4, 0, 1), true};
+  EXPECT_EQ(turn(left, right), Sign::zero);
+  EXPECT_TRUE(opposed(left, right));
+  EXPECT_FALSE(opposed(left, left));
+  EXPECT_EQ(turn(left, other), Sign::negative);
+  EXPECT_EQ(turn(right, other), Sign::positive);
+  EXPECT_THROW((void)turn({a, circle(1, 0, 1), true}, left), InputError);
+  EXPECT_THROW((void)turn(left, {a, circle(1, 0, 1), true}), InputError);
+}
+
+TEST(Turn, RandomPairsAgreeWithEightyDigits) {
+  RandomBodies random(701);
+  SCOPED_TRACE(random.trace());
+  for (const double low : {1.0, 1e-3}) {
+    Rungs rungs;
+    for (int i = 0; i < 60; ++i) {
+      TangentRef t[2];
+      for (TangentRef& r : t) {
+        std::tie(r.a, r.b) =
+            random.planar_scaled_from_touching(low, 10 * low * (1 / low), random.uniform(1.01, 4));
+        r.left = random.coin();
+      }
+      ASSERT_EQ(rungs.turn(t[0], t[1]), wide_turn(t[0], t[1])) << "case " << i;
+      ASSERT_EQ(vericone::turn({t[0].b, t[0].a, t[0].left}, t[1]), -vericone::turn(t[0], t[1])) << "law (2)";
+      const auto moved = [&](const TangentRef& r, double scale) {
+        return TangentRef{r.a.scaled(scale), r.b.scaled(scale), r.left};
+      };
+      for (const double scale : {0x1p-480, 0x1p480})
+        ASSERT_EQ(vericone::turn(moved(t[0], scale), t[1]), vericone::turn(t[0], t[1])) << "law (3)";
+      // Against the directions of the construction.
+      const auto direction = [](const TangentRef& r) {
+        const Sector s = sector_by_support(r.a, r.b);
+        return r.left ? s.left.direction : s.right.direction;
+      };
+      const Vector2d d = direction(t[0]), e = direction(t[1]);
+      const double cross = d.x() * e.y() - d.y() * e.x();
+      if (std::abs(cross) > 1e-9) {
+        ASSERT_EQ(vericone::turn(t[0], t[1]), sign_of(cross)) << "case " << i;
+      }
+    }
+    rungs.print("turn, random, axes from " + std::to_string(low));
+    EXPECT_GT(rungs.by[0], 50);
+  }
+}
+
+/// A pair with the inner tangent of direction M (side, 0), from integers; `left` says which of the two it is.
+TangentRef tangent_along(RandomBodies& random, const Matrix2d& m, double scale) {
+  for (;;) {
+    Matrix2d ga, gb;
+    const int ka = random.integer(1, 4), kb = random.integer(1, 4);
+    ga << random.integer(-4, 4), random.integer(-4, 4), 0, ka;
+    gb << random.integer(-4, 4), random.integer(-4, 4), 0, kb;
+    if (ga(0, 0) == 0 || gb(0, 0) == 0) continue;
+    const Matrix2d sa = ga * ga.transpose(), sb = gb * gb.transpose();
+    const Vector2d c(random.integer(-20, 20), ka + kb);
+    // q = c - S_A n / k_A - S_B n / k_B for n = (0, 1).
+    const double along = ka * kb * c.x() - kb * sa(0, 1) - ka * sb(0, 1);
+    if (along == 0) continue;
+    const Vector2d home(random.integer(-9, 9), random.integer(-9, 9));
+    const auto body = [&](const Matrix2d& s, const Vector2d& center) {
+      return Ellipse::from_shape(scale * (m * center), scale * scale * (m * s * m.transpose()));
+    };
+    return {body(sa, home), body(sb, home + c), (along < 0) == (m.determinant() > 0)};
+  }
+}
+
+TEST(Turn, ParallelTangentsFromIntegersAndTheirNeighbours) {
+  RandomBodies random(702);
+  SCOPED_TRACE(random.trace());
+  Rungs ties, near;
+  int neighbours[3] = {};
+  for (int i = 0; i < 120; ++i) {
+    Matrix2d m;
+    do {
+      for (int k = 0; k < 4; ++k) m(k) = random.integer(-5, 5);
+    } while (m.determinant() == 0);
+    const double scale = i % 3 == 0 ? 0x1p-200 : i % 3 == 1 ? 1 : 0x1p200;
+    const TangentRef p = tangent_along(random, m, 1), q = tangent_along(random, m, scale);
+    ASSERT_EQ(ties.turn(p, q), Sign::zero) << "case " << i;
+    const auto ahead = [](const TangentRef& t) {
+      const Sector s = sector_by_support(t.a, t.b);
+      return t.left ? s.left.direction : s.right.direction;
+    };
+    ASSERT_EQ(opposed(p, q), ahead(p).dot(ahead(q)) < 0);
+    TangentRef moved = q;
+    Vector2d center = q.b.center();
+    for (int k = 0; k < 2; ++k)
+      if (center(k) != 0) center(k) = testing::moved_by_ulps(center(k), random.integer(-8, 8));
+    moved.b = Ellipse::from_shape(center, q.b.shape());
+    const Sign s = near.turn(p, moved);
+    ASSERT_EQ(s, wide_turn(p, moved)) << "case " << i;
+    ++neighbours[static_cast<int>(s) + 1];
+  }
+  ties.print("turn, parallel");
+  near.print("turn, neighbours of parallel");
+  EXPECT_EQ(ties.by[2], ties.cases);
+  EXPECT_GT(neighbours[0], 20);
+  EXPECT_GT(neighbours[2], 20);
+}
+
+TEST(Turn, EveryRungDecides) {
+  // The same pair with one circle grown by a part in 2^k: the tangent opens by about as much.
+  struct Case {
+    double part;
+    Rung rung;
+  };
+  for (const Case& c :
+       {Case{0x1p-10, Rung::triage}, Case{0x1p-40, Rung::interval}, Case{0x1p-52, Rung::exact}}) {
+    const TangentRef p{circle(0, 0, 1), circle(5, 1, 2), true}, q{p.a, circle(5, 1, 2 * (1 + c.part)), true};
+    Rung rung = Rung::triage;
+    EXPECT_EQ(turn(p, q, &rung), Sign::positive) << c.part;
+    EXPECT_EQ(rung, c.rung) << c.part;
+    EXPECT_EQ(turn({p.a, p.b, false}, {q.a, q.b, false}, &rung), Sign::negative) << c.part;
+    EXPECT_EQ(rung, c.rung) << c.part;
+    Rungs().turn(p, q);
+  }
+}
+
+TEST(Turn, LinearMapsWithPositiveDeterminant) {
+  RandomBodies random(703);
+  SCOPED_TRACE(random.trace());
+  const auto small = [&] {
+    for (;;) {
+      Matrix2d ga, gb;
+      for (Matrix2d* g : {&ga, &gb})
+        for (int k = 0; k < 4; ++k) (*g)(k) = random.integer(-6, 6);
+      if (ga.determinant() == 0 || gb.determinant() == 0) continue;
+      const Ellipse a = Ellipse::from_shape({random.integer(-20, 20), random.integer(-20, 20)},
+                                            ga * ga.transpose()),
+                    b = Ellipse::from_shape({random.integer(-20, 20), random.integer(-20, 20)},
+                                            gb * gb.transpose());
+      if (relation<2>(a, b) != Relation::overlapping) return TangentRef{a, b, random.coin()};
+    }
+  };
+  for (int i = 0; i < 200; ++i) {
+    const TangentRef p = small(), q = small();
+    Matrix2d m;
+    do {
+      for (int k = 0; k < 4; ++k) m(k) = random.integer(-5, 5);
+    } while (m.determinant() <= 0);
+    const auto image = [&](const TangentRef& t) {
+      const auto body = [&](const Ellipse& e) {
+        return Ellipse::from_shape(m * e.center(), m * e.shape() * m.transpose());
+      };
+      return TangentRef{body(t.a), body(t.b), t.left};
+    };
+    ASSERT_EQ(turn(image(p), image(q)), turn(p, q)) << "case " << i;
+    ASSERT_EQ(turn(p, {q.a.translated({3, -5}), q.b.translated({3, -5}), q.left}), turn(p, q))
+        << "case " << i;
+  }
+}
+
+// --- Which of two contacts is earlier -------------------------------------------------------------------
+
+/// The image under an integer matrix, exact for small integers in shapes.
+Encounter image(const Encounter& e, const Matrix3d& m, const Vector3d& shift) {
+  const auto body = [&](const Ellipsoid& x) {
+    return Ellipsoid::from_shape(m * x.center() + shift, m * x.shape() * m.transpose());
+  };
+  return {body(e.a), body(e.b), m * e.w};
+}
+
+Matrix3d integer_matrix(RandomBodies& random) {
+  for (;;) {
+    Matrix3d m;
+    for (int k = 0; k < 9; ++k) m(k) = random.integer(-3, 3);
+    if (std::abs(m.determinant()) > 0.5) return m;
+  }
+}
+
+/// Small integers throughout, colliding along (1, 0, 0).
+Encounter integer_collision(RandomBodies& random) {
+  for (;;) {
+    Matrix3d s[2];
+    for (Matrix3d& m : s) {
+      const Matrix3d g = integer_matrix(random);
+      m = g * g.transpose();
+    }
+    const auto coordinate = [&] { return static_cast<double>(random.integer(-6, 6)); };
+    const Encounter e{Ellipsoid::from_shape({coordinate() - 12, coordinate(), coordinate()}, s[0]),
+                      Ellipsoid::from_shape({coordinate() + 12, coordinate(), coordinate()}, s[1]),
+                      {1, 0, 0}};
+    const ConeOracle oracle(e.a, e.b);
+    if (oracle.verdict(e.w, Vector3d::Zero()) == Verdict::in) return e;
+  }
+}
+
+TEST(Earlier, KnownTimes) {
+  const Ellipsoid ball = Ellipsoid::from_axes({0, 0, 0}, {1, 1, 1});
+  const Encounter in_three{ball, ball.translated({5, 0, 0}), {1, 0, 0}},
+      in_four{ball, ball.translated({0, 6, 0}), {0, 1, 0}}, now{ball, ball.translated({1, 0, 0}), {0, 0, 0}},
+      touching{ball, ball.translated({2, 0, 0}), {-1, 0, 0}},
+      never{ball, ball.translated({5, 0, 0}), {-1, 0, 0}}, still{ball, ball.translated({5, 0, 0}), {0, 0, 0}},
+      grazing{ball, ball.translated({3, 2, 0}), {1, 0, 0}},
+      misses{ball, ball.translated({3, 3, 0}), {1, 0, 0}},
+      tall{Ellipsoid::from_axes({0, 0, 0}, {2, 1, 1}), ball.translated({6, 0, 0}), {1, 0, 0}};
+  Rungs r;
+  EXPECT_EQ(r.earlier(in_three, in_four), Sign::negative);
+  EXPECT_EQ(r.earlier(now, in_three), Sign::negative);
+  EXPECT_EQ(r.earlier(touching, in_three), Sign::negative);
+  EXPECT_EQ(r.earlier(touching, now), Sign::zero);
+  EXPECT_EQ(r.earlier(now, now), Sign::zero);
+  EXPECT_EQ(r.earlier(never, in_three), Sign::positive);
+  EXPECT_EQ(r.earlier(never, still), Sign::zero);
+  EXPECT_EQ(r.earlier(never, misses), Sign::zero);
+  EXPECT_EQ(r.earlier(now, never), Sign::negative);
+  EXPECT_EQ(r.earlier(grazing, in_three), Sign::zero);  // both at t = 3
+  EXPECT_EQ(r.earlier(grazing, in_four), Sign::negative);
+  EXPECT_EQ(r.earlier(grazing, misses), Sign::negative);
+  EXPECT_EQ(r.earlier(tall, in_three), Sign::zero);
+  EXPECT_EQ(r.earlier({in_three.a, in_three.b, {2, 0, 0}}, {in_four.a, in_four.b, {0, 3, 0}}),
+            Sign::positive);
+  EXPECT_THROW((void)earlier({ball, ball.translated({5, 0, 0}), {std::nan(""), 0, 0}}, now), InputError);
+}
+
+TEST(Earlier, IrrationalTimesOfBalls) {
+  // t = u - sqrt(v) for balls of radii with sum r: u = c.w / w.w.
+  const Ellipsoid ball = Ellipsoid::from_axes({0, 0, 0}, {1, 1, 1});
+  const auto at = [&](double x, double y) { return Encounter{ball, ball.translated({x, y, 0}), {1, 0, 0}}; };
+  EXPECT_EQ(earlier(at(5, 1), at(5, -1)), Sign::zero);  // 5 - sqrt 3
+  EXPECT_EQ(earlier(at(5, 1), at(5, 1.5)), Sign::negative);
+  const Encounter turned{ball, ball.translated({3, 4, 1}), {0.6, 0.8, 0}};  // w is not quite of length one
+  EXPECT_NE(earlier(at(5, 1), turned), Sign::zero);
+  const Encounter scaled{ball, ball.translated({3, 4, 1}), {3, 4, 0}};  // one fifth of it, exactly
+  EXPECT_EQ(earlier({ball, ball.translated({5, 0, 1}), {5, 0, 0}}, scaled), Sign::zero);
+}
+
+TEST(Earlier, TiesByLinearMapsAndTheirNeighbours) {
+  RandomBodies random(704);
+  SCOPED_TRACE(random.trace());
+  Rungs ties, near;
+  for (int i = 0; i < 40; ++i) {
+    const Encounter base = integer_collision(random);
+    const Vector3d shift(random.integer(-50, 50), random.integer(-50, 50), random.integer(-50, 50));
+    const Encounter other = image(base, integer_matrix(random), shift);
+    ASSERT_EQ(ties.earlier(base, other), Sign::zero) << "case " << i;
+    ASSERT_EQ(earlier({base.b, base.a, -base.w}, other), Sign::zero) << "law (4)";
+    // w = (s, 0, 0) divides the time by s.
+    const double s = testing::moved_by_ulps(1, i % 2 ? random.integer(1, 8) : -random.integer(1, 8));
+    ASSERT_EQ(near.earlier({base.a, base.b, {s, 0, 0}}, other), s > 1 ? Sign::negative : Sign::positive)
+        << "case " << i;
+  }
+  ties.print("earlier, ties");
+  near.print("earlier, neighbours of ties");
+  EXPECT_EQ(ties.by[2], ties.cases);
+}
+
+TEST(Earlier, GrazingContacts) {
+  RandomBodies random(705);
+  SCOPED_TRACE(random.trace());
+  Rungs ties, near;
+  for (int i = 0; i < 40; ++i) {
+    const double scale = i % 3 == 0 ? 0x1p-150 : i % 3 == 1 ? 1 : 0x1p150;
+    const ExactTangency t = ExactTangency::random(random, 1, scale);
+    const Encounter p{t.a, t.b, t.w}, q = image(p, integer_matrix(random), Vector3d::Zero());
+    ASSERT_EQ(ConeOracle(p.a, p.b).membership(p.w), Membership::on);
+    ASSERT_EQ(ties.earlier(p, q), Sign::zero) << "case " << i;
+    const double s = 1 + (i % 2 ? 1 : -1) * random.integer(1, 8) * 0x1p-36;
+    ASSERT_EQ(near.earlier({p.a, p.b, s * p.w}, q), s > 1 ? Sign::negative : Sign::positive) << "case " << i;
+    // w = k_A k_B q with q the vector between the supporting points: the time is 1 / (k_A k_B), at most one.
+    const auto time = exact_time_to_contact(ConeOracle(p.a, p.b), p.w / scale, Vector3d::Zero());
+    ASSERT_TRUE(time && time->positive());
+    double inverse = scale / time->mid();
+    ASSERT_NEAR(inverse / scale / scale, std::round(inverse / scale / scale), 1e-9) << "case " << i;
+  }
+  ties.print("earlier, grazing ties");
+  near.print("earlier, grazing neighbours");
+}
+
+TEST(Earlier, EveryRungDecides) {
+  const Ellipsoid a = Ellipsoid::from_axes({0, 0, 0}, {1, 2, 3}),
+                  b = Ellipsoid::from_axes({10, 1, 1}, {2, 1, 1});
+  struct Case {
+    double part;
+    Rung rung;
+  };
+  for (const Case& c :
+       {Case{0x1p-10, Rung::triage}, Case{0x1p-36, Rung::interval}, Case{0x1p-52, Rung::exact}}) {
+    const Encounter p{a, b, {1, 0, 0}}, q{a, b, {1 + c.part, 0, 0}};
+    Rung rung = Rung::triage;
+    EXPECT_EQ(earlier(q, p, &rung), Sign::negative) << c.part;
+    EXPECT_EQ(rung, c.rung) << c.part;
+    Rungs().earlier(p, q);
+  }
+}
+
+/// The first contact with 80 digits, by bisection: at time t the bodies are apart iff the contact function
+/// exceeds one at its maximum.
+Real wide_time(const Encounter& e) {
+  const auto sa = exact::defining_shape<3>(e.a), sb = exact::defining_shape<3>(e.b);
+  using Matrix = std::array<std::array<Real, 3>, 3>;
+  const auto contact = [&](const Real& t) {
+    std::array<Real, 3> c;
+    for (int i = 0; i < 3; ++i) c[i] = Real(e.b.center()(i)) - Real(e.a.center()(i)) - t * Real(e.w(i));
+    const auto value = [&](const Real& x, Real& slope_sign) {
+      Matrix m;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) m[i][j] = Real(sa[i][j]) + x * Real(sb[i][j]);
+      std::array<Real, 3> n;
+      const auto cofactor = [&](int i, int j) {
+        const int r0 = (i + 1) % 3, r1 = (i + 2) % 3, c0 = (j + 1) % 3, c1 = (j + 2) % 3;
+        return Real(m[r0][c0] * m[r1][c1] - m[r0][c1] * m[r1][c0]);
+      };
+      Real det = 0, f = 0, qa = 0, qb = 0;
+      for (int j = 0; j < 3; ++j) det += m[0][j] * cofactor(0, j);
+      for (int i = 0; i < 3; ++i) {
+        n[i] = 0;
+        for (int j = 0; j < 3; ++j) n[i] += cofactor(i, j) * c[j] / det;
+      }
+      for (int i = 0; i < 3; ++i) {
+        f += n[i] * c[i];
+        for (int j = 0; j < 3; ++j) {
+          qa += n[i] * Real(sa[i][j]) * n[j];
+          qb += n[i] * Real(sb[i][j]) * n[j];
+        }
+      }
+      slope_sign = qa - x * x * qb;  // of the contact function
+      return Real(x / (1 + x) * f);
+    };
+    Real lo = -40, hi = 40, slope;  // log2 x
+    for (int i = 0; i < 130; ++i) {
+      const Real mid = (lo + hi) / 2;
+      value(pow(Real(2), mid), slope);
+      (slope > 0 ? lo : hi) = mid;
+    }
+    return value(pow(Real(2), lo), slope);
+  };
+  Real hi = clearance(e.a, e.b, e.w).time, lo = 0;
+  const double guess = contact_time(e.a, e.b, e.w);
+  for (const double part : {1e-12, 1e-6}) {
+    if (contact(Real(guess) * (1 - part)) > 1) lo = std::max(lo, Real(Real(guess) * (1 - part)));
+    if (contact(Real(guess) * (1 + part)) < 1) hi = std::min(hi, Real(Real(guess) * (1 + part)));
+  }
+  for (int i = 0; i < 60; ++i) {
+    const Real mid = (lo + hi) / 2;
+    (contact(mid) > 1 ? lo : hi) = mid;
+  }
+  return lo;
+}
+
+TEST(Earlier, EnclosuresContainTheTime) {
+  RandomBodies random(706);
+  SCOPED_TRACE(random.trace());
+  int by_intervals = 0, cases = 0;
+  double widest = 0;
+  for (int i = 0; i < 12; ++i) {
+    const double low = i % 2 ? 0.05 : 1;
+    const auto [a, b] = random.scaled_from_touching(low, 10 * low, random.uniform(1.1, 5));
+    const ConeOracle oracle(a, b);
+    const Vector3d w = b.center() - a.center() + random.in_box(0.2);
+    if (oracle.membership(w) != Membership::in) continue;
+    ++cases;
+    const Real t = wide_time({a, b, w});
+    const auto enclosure = enclose_time_to_contact(oracle, w, Vector3d::Zero()),
+               exact = exact_time_to_contact(oracle, w, Vector3d::Zero());
+    ASSERT_TRUE(enclosure && exact);
+    // The reference is good to some 1e-28.
+    const Real slack = t * Real("1e-25");
+    for (const Interval& found : {*enclosure, *exact}) {
+      ASSERT_TRUE(Real(found.lo()) <= t + slack && t - slack <= Real(found.hi())) << "case " << i;
+    }
+    ASSERT_LE(exact->rad(), 0x1p-51 * exact->mid());
+    widest = std::max(widest, enclosure->rad() / enclosure->mid());
+    by_intervals += interval_time_to_contact(a, b, {w(0), w(1), w(2)}).has_value();
+  }
+  EXPECT_GT(cases, 5);
+  EXPECT_GT(by_intervals, cases / 2);
+  EXPECT_LT(widest, 1e-9);
+}
+
+TEST(Earlier, IntervalEnclosuresContainTheExactOne) {
+  RandomBodies random(707);
+  SCOPED_TRACE(random.trace());
+  struct Family {
+    const char* name;
+    double low, high, scale;
+  };
+  for (const Family& f : {Family{"axes 1..10", 1, 10, 1}, Family{"axes 1e-4..1", 1e-4, 1, 1},
+                          Family{"scale 1e-150", 1, 10, 0x1p-498}, Family{"scale 1e150", 1, 10, 0x1p490}}) {
+    int in = 0, found_by_intervals = 0;
+    double sum = 0;
+    for (int i = 0; i < 60; ++i) {
+      const auto [a0, b0] = random.scaled_from_touching(f.low, f.high, random.uniform(1.01, 6));
+      const Ellipsoid a = a0.scaled(f.scale), b = b0.scaled(f.scale);
+      const ConeOracle oracle(a, b);
+      const Vector3d v_b = random.in_box(1), v_a = v_b + (b0.center() - a0.center()) + random.in_box(0.1);
+      const Verdict verdict = oracle.verdict(v_a, v_b);
+      const auto exact = exact_time_to_contact(oracle, v_a, v_b);
+      ASSERT_EQ(exact.has_value(), verdict == Verdict::in) << f.name << " case " << i;
+      const auto enclosure = enclose_time_to_contact(oracle, v_a, v_b);
+      ASSERT_EQ(enclosure.has_value(), exact.has_value());
+      if (!exact) continue;
+      ++in;
+      // Two enclosures of one number.
+      ASSERT_LE(enclosure->lo(), exact->hi()) << f.name << " case " << i;
+      ASSERT_GE(enclosure->hi(), exact->lo()) << f.name << " case " << i;
+      std::array<Interval, 3> w;
+      for (int k = 0; k < 3; ++k) w[k] = Interval(v_a(k)) - Interval(v_b(k));
+      if (interval_time_to_contact(a, b, w)) {
+        ++found_by_intervals;
+        sum += enclosure->rad() / enclosure->mid();
+        ASSERT_LE(enclosure->lo(), exact->lo() * (1 + 1e-15));
+        ASSERT_GE(enclosure->hi(), exact->hi() * (1 - 1e-15));
+      }
+    }
+    std::cout << "[ times    ] " << f.name << ": " << in << " contacts, " << found_by_intervals
+              << " enclosed by intervals, mean relative radius " << sum / found_by_intervals << "\n";
+    EXPECT_GT(in, 20) << f.name;
+    EXPECT_GT(found_by_intervals, in / 2) << f.name;
+  }
+}
+
+TEST(Earlier, RandomEncountersAreOrderedLikeTheirTimes) {
+  RandomBodies random(708);
+  SCOPED_TRACE(random.trace());
+  Rungs rungs;
+  for (int i = 0; i < 150; ++i) {
+    Encounter e[2];
+    std::optional<double> t[2];
+    for (int k = 0; k < 2; ++k) {
+      std::tie(e[k].a, e[k].b) = random.scaled_from_touching(1, 10, random.uniform(0.9, 4));
+      e[k].w = e[k].b.center() - e[k].a.center() + random.in_box(6);
+      t[k] = time_to_contact(e[k].a, e[k].b, e[k].w);
+    }
+    const Sign s = rungs.earlier(e[0], e[1]);
+    const double never = std::numeric_limits<double>::infinity(), x = t[0].value_or(never),
+                 y = t[1].value_or(never);
+    if (x == y || std::abs(x - y) > 1e-9) {
+      ASSERT_EQ(s, x == y ? Sign::zero : sign_of(x - y)) << "case " << i;
+    }
+  }
+  rungs.print("earlier, random");
+  EXPECT_GT(rungs.by[0], 140);
+}
+
+}  // namespace
+}  // namespace vericone
