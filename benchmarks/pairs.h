@@ -136,4 +136,45 @@ inline std::vector<PlanarEngagement> planar_engagements(int count, std::uint64_t
   return all;
 }
 
+/// Ellipsoids with common axes and velocities that graze exactly, all numbers small integers: the image under
+/// a diagonal map of two spheres of radii summing to leg1 m, centres hyp m apart, and w = (leg2, leg1, 0) of
+/// a Pythagorean triple, axes permuted; seven of eight velocities are then moved by up to 8 units in the last
+/// place.
+inline std::vector<Engagement> tangent_engagements(int count, std::uint64_t seed = 2) {
+  Dice dice(seed);
+  const auto whole = [&dice](int lo, int hi) {
+    return static_cast<int>(std::floor(dice.uniform(lo, hi + 1)));
+  };
+  constexpr int kTriples[][3] = {{3, 4, 5},   {5, 12, 13},  {8, 15, 17},
+                                 {7, 24, 25}, {20, 21, 29}, {12, 35, 37}};
+  std::vector<Engagement> all;
+  all.reserve(count);
+  for (int i = 0; i < count; ++i) {
+    const auto& triple = kTriples[whole(0, 5)];
+    const bool swap = whole(0, 1) == 1;
+    const int leg1 = triple[swap ? 1 : 0], leg2 = triple[swap ? 0 : 1], m = whole(1, 3);
+    const int radius = whole(1, leg1 * m - 1), x = whole(0, 2), y = (x + whole(1, 2)) % 3;
+    const Eigen::Vector3d map(whole(1, 9), whole(1, 9), whole(1, 9));
+    Eigen::Vector3d c = Eigen::Vector3d::Zero(), w = Eigen::Vector3d::Zero();
+    c(x) = triple[2] * m;
+    w(x) = leg2;
+    w(y) = whole(0, 1) == 1 ? leg1 : -leg1;
+    Engagement e;
+    e.placed_a = {map * radius, Eigen::Matrix3d::Identity(),
+                  Eigen::Vector3d(whole(-9, 9), whole(-9, 9), whole(-9, 9))};
+    e.placed_b = {map * (leg1 * m - radius), Eigen::Matrix3d::Identity(),
+                  e.placed_a.center + map.cwiseProduct(c)};
+    e.a = e.placed_a.body();
+    e.b = e.placed_b.body();
+    e.w = map.cwiseProduct(w);
+    e.w *= std::ldexp(1.0, -std::ilogb(e.w.norm()));  // exact; FCL's motion goes far enough
+    const int ulps = i % 8 == 0 ? 0 : whole(-8, 8);
+    for (int k = 0; k < std::abs(ulps); ++k) e.w(y) = std::nextafter(e.w(y), ulps < 0 ? -1e9 : 1e9);
+    e.across = Eigen::Vector3d::Unit(y);
+    e.aimed = true;
+    all.push_back(e);
+  }
+  return all;
+}
+
 }  // namespace vericone::benchmarks
