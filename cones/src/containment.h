@@ -254,6 +254,7 @@ ContainmentGuess<D> search_containment(const Eigen::Matrix<double, D, 1>& a,
     rho2 += a(i) * n(i) * n(i);
   }
   if (rho2 < 1) n(last) = std::copysign(std::sqrt((1 - rho2) / a(last) + n(last) * n(last)), c(last));
+  n /= n.cwiseAbs().maxCoeff();
   return guess;
 }
 
