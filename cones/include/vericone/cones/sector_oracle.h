@@ -11,7 +11,7 @@ namespace vericone {
 ///
 /// With n perpendicular to w the line of motion misses iff |n.c| > rho_A(n) + rho_B(n). Without square roots:
 /// G = (n.c)^2 - q_A - q_B > 0 and F = G^2 - 4 q_A q_B > 0, q = n^T S n; it grazes iff G > 0 and F = 0. F has
-/// degree 8 in w, 8 in c and 4 in the shapes. Ahead or behind is told by a normal that separates the bodies.
+/// degree 4 in w, 4 in c and 2 in the shapes. Ahead or behind is told by a normal that separates the bodies.
 class SectorOracle {
  public:
   SectorOracle(const Ellipse& a, const Ellipse& b);
