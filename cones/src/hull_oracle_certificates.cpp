@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vericone {
 namespace {
@@ -78,23 +79,21 @@ bool interval_ahead_of(const HullScene& scene, const Eigen::Vector3d& near, cons
   }
   // A point whose value under `near` exceeds the least by more than this is not the least under n.
   const double beyond = 2 * kRoundUp * (support_slack(scene, near) + turned(scene, near, n));
-  const auto extreme = [&](const CentredPoints& points, double sign, double least) {
-    Interval lowest(std::numeric_limits<double>::infinity());
+  // A lower bound of the least of sign * n.x.
+  const auto least = [&](const CentredPoints& points, double sign, double least_near) {
     double low = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < points.size(); ++i) {
-      if (sign * (near.x() * points.x[i] + near.y() * points.y[i] + near.z() * points.z[i]) > least + beyond)
+      if (sign * (near.x() * points.x[i] + near.y() * points.y[i] + near.z() * points.z[i]) >
+          least_near + beyond)
         continue;
-      const Interval h = sign > 0 ? enclosed_height(points, i, n) : -enclosed_height(points, i, n);
-      if (!(h.lo() >= low)) {
-        low = h.lo();
-        lowest = h;
-      }
+      const Interval height = Interval(sign) * enclosed_height(points, i, n);
+      if (!height.finite()) return Interval(-std::numeric_limits<double>::infinity());
+      low = std::min(low, height.lo());
     }
-    // Only its lower end counts: no candidate is below it.
     return Interval(low);
   };
-  const Interval gap = extreme(scene.centred_obstacle, 1, support.obstacle_value) +
-                       extreme(scene.centred_agent, -1, -support.agent_value) - sqrt(square);
+  const Interval gap = least(scene.centred_obstacle, 1, support.obstacle_value) +
+                       least(scene.centred_agent, -1, -support.agent_value) - sqrt(square);
   return gap.finite() && gap.positive();
 }
 
