@@ -3,7 +3,6 @@
 
 #include <vericone/cones/clearance.h>
 #include <cmath>
-#include <limits>
 
 #include "contact_polynomial.h"
 
@@ -183,6 +182,15 @@ RealRoot entry_time(const MovingContact& contact, double first, double inside, i
   return by_all_roots();
 }
 
+/// A guess of a time at which they overlap: half way between the first and the last contact.
+double time_inside(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& w, double first) {
+  const double far =
+      4 * ((b.center() - a.center()).norm() + a.factor().norm() + b.factor().norm()) / w.stableNorm();
+  if (!(far * w).allFinite() || !std::isfinite(far)) return first;
+  const double last = far - vericone::contact_time(a.translated(far * w), b, -w);
+  return 0.5 * (first + last);
+}
+
 /// The time of a grazing contact is rational: the double root X / Y of the shadows' cubic is rho_A / rho_B,
 /// n = L^T adj(Y M_A + X M_B) d the normal, n.c = rho_A + rho_B, and t = q.w / w.w with
 /// q = c - S_A n / rho_A - S_B n / rho_B.
@@ -228,9 +236,9 @@ ContactTime contact_time(const ConeOracle& oracle, const Eigen::Vector3d& v_a, c
   const int unit = length_exponent(pair, oracle.a(), oracle.b()) - velocity.exponent;
   if (verdict == Verdict::on) return {When::later, grazing_time(pair, velocity.w, unit)};
   const Eigen::Vector3d w = v_a - v_b;
-  return {When::later, entry_time(MovingContact(pair, velocity.w),
-                                  std::ldexp(vericone::contact_time(oracle.a(), oracle.b(), w), -unit),
-                                  std::ldexp(clearance(oracle.a(), oracle.b(), w).time, -unit), unit)};
+  const double first = vericone::contact_time(oracle.a(), oracle.b(), w);
+  return {When::later, entry_time(MovingContact(pair, velocity.w), std::ldexp(first, -unit),
+                                  std::ldexp(time_inside(oracle.a(), oracle.b(), w, first), -unit), unit)};
 }
 
 int compare(ContactTime& x, ContactTime& y) {

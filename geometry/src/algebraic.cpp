@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace vericone::exact {
 namespace {
@@ -11,6 +12,37 @@ namespace {
 /// floor(log2 |x|), x != 0.
 int log2_floor(const Integer& x) { return static_cast<int>(msb(Integer(abs(x)))); }
 int log2_floor(const Dyadic& x) { return log2_floor(x.numerator) - static_cast<int>(x.exponent); }
+
+/// Lehmer's algorithm: many division steps are found from the leading digits and applied at once. (The binary
+/// algorithm of the library is slow for numbers of thousands of digits.)
+Integer common_divisor(Integer a, Integer b) {
+  a = abs(a);
+  b = abs(b);
+  if (a < b) std::swap(a, b);
+  while (b != 0 && log2_floor(b) >= 64) {
+    const auto shift = static_cast<unsigned>(log2_floor(a) - 61);
+    auto x = static_cast<std::int64_t>(Integer(a >> shift)),
+         y = static_cast<std::int64_t>(Integer(b >> shift));
+    std::int64_t xa = 1, xb = 0, ya = 0, yb = 1;
+    while (y + ya != 0 && y + yb != 0) {
+      const std::int64_t q = (x + xa) / (y + ya);
+      if (q != (x + xb) / (y + yb)) break;
+      x = std::exchange(y, x - q * y);
+      xa = std::exchange(ya, xa - q * ya);
+      xb = std::exchange(yb, xb - q * yb);
+    }
+    if (xb == 0) {
+      a = std::exchange(b, a % b);
+    } else {
+      // Of determinant +-1, so the divisor is the same whatever the digits left out.
+      Integer next = xa * a + xb * b;
+      b = abs(Integer(ya * a + yb * b));
+      a = abs(next);
+      if (a < b) std::swap(a, b);
+    }
+  }
+  return b == 0 ? a : gcd(b, Integer(a % b));
+}
 
 /// Brings both to one exponent.
 void align(Dyadic& x, Dyadic& y) {
@@ -239,7 +271,7 @@ void trim(Polynomial& p) {
 Polynomial primitive_part(Polynomial p) {
   Integer content = 0;
   for (const auto& x : p) {
-    content = gcd(content, x);
+    content = common_divisor(content, x);
     if (content == 1) return p;
   }
   for (auto& x : p) x /= content;

@@ -8,7 +8,6 @@
 #include <vericone/geometry/rational.h>
 #include <Eigen/LU>
 #include <boost/multiprecision/cpp_bin_float.hpp>
-#include <chrono>
 #include <iostream>
 
 #include "exact_tangency.h"
@@ -456,7 +455,7 @@ Real wide_time(const Encounter& e) {
       return Real(x / (1 + x) * f);
     };
     Real lo = -40, hi = 40, slope;  // log2 x
-    for (int i = 0; i < 130; ++i) {
+    for (int i = 0; i < 100; ++i) {
       const Real mid = (lo + hi) / 2;
       value(pow(Real(2), mid), slope);
       (slope > 0 ? lo : hi) = mid;
@@ -469,7 +468,7 @@ Real wide_time(const Encounter& e) {
     if (contact(Real(guess) * (1 - part)) > 1) lo = std::max(lo, Real(Real(guess) * (1 - part)));
     if (contact(Real(guess) * (1 + part)) < 1) hi = std::min(hi, Real(Real(guess) * (1 + part)));
   }
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 48; ++i) {
     const Real mid = (lo + hi) / 2;
     (contact(mid) > 1 ? lo : hi) = mid;
   }
@@ -481,7 +480,7 @@ TEST(Earlier, EnclosuresContainTheTime) {
   SCOPED_TRACE(random.trace());
   int by_intervals = 0, cases = 0;
   double widest = 0;
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < 8; ++i) {
     const double low = i % 2 ? 0.05 : 1;
     const auto [a, b] = random.scaled_from_touching(low, 10 * low, random.uniform(1.1, 5));
     const ConeOracle oracle(a, b);
@@ -501,7 +500,7 @@ TEST(Earlier, EnclosuresContainTheTime) {
     widest = std::max(widest, enclosure->rad() / enclosure->mid());
     by_intervals += interval_time_to_contact(a, b, {w(0), w(1), w(2)}).has_value();
   }
-  EXPECT_GT(cases, 5);
+  EXPECT_GE(cases, 4);
   EXPECT_GT(by_intervals, cases / 2);
   EXPECT_LT(widest, 1e-9);
 }

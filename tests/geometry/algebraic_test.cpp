@@ -30,9 +30,29 @@ TEST(Algebraic, PolynomialArithmetic) {
   EXPECT_EQ(gcd(p, linear(3, 2) * linear(-7, 5)), linear(3, 2));
   EXPECT_EQ(gcd(p, linear(2, 1)), polynomial({1}));
   EXPECT_EQ(gcd(p, {}), polynomial({3, -5, 2}));
+  EXPECT_EQ(divide_exactly(p, linear(3, 2)), polynomial({-2, 2}));
   EXPECT_EQ(squarefree_part(linear(1, 1) * linear(1, 1) * linear(1, 1) * linear(3, 2)),
             linear(1, 1) * linear(3, 2));
   EXPECT_EQ(squarefree_part(p * Integer(-1)), polynomial({-3, 5, -2}));
+}
+
+TEST(Algebraic, ContentOfLongNumbers) {
+  testing::RandomBodies random(603);
+  SCOPED_TRACE(random.trace());
+  const auto long_number = [&](int limbs) {
+    Integer x = 1;
+    for (int i = 0; i < limbs; ++i) x = (x << 52) + static_cast<long long>(random.uniform() * 0x1p52);
+    return random.coin() ? x : Integer(-x);
+  };
+  for (int i = 0; i < 300; ++i) {
+    const Integer content = abs(long_number(random.integer(0, 30)));
+    Polynomial p;
+    for (int k = random.integer(2, 5); k > 0; --k) p.push_back(content * long_number(random.integer(0, 60)));
+    Integer expected = 0;
+    for (const Integer& x : p) expected = boost::multiprecision::gcd(expected, x);
+    const Polynomial q = primitive_part(p);
+    for (std::size_t k = 0; k < p.size(); ++k) ASSERT_EQ(q[k] * expected, p[k]) << "case " << i;
+  }
 }
 
 TEST(Algebraic, DyadicNumbers) {
