@@ -91,10 +91,10 @@ BasicEllipsoid<D> image(const MatrixD<D>& m, double scale, const MatrixD<D>& s, 
 /// In coordinates where the normal is the last unit vector, a body with an integer factor whose last row is
 /// (0, ..., 0, k) has the half width k along it and its support point there is p + the last column.
 template <int D>
-Tangency<D> exact_tangency(SeededRandom& random, bool touching) {
+Tangency<D> exact_tangency(SeededRandom& random, bool touching, const MatrixD<D>& m, double scale) {
   for (;;) {
     Tangency<D> t;
-    const MatrixD<D> m = exact_map<D>(random, t.size);
+    t.size = scale;
     MatrixD<D> ga = integers<D>(random, 4), gb = integers<D>(random, 4);
     const int ka = random.integer(1, 4), kb = random.integer(1, 4);
     ga.row(D - 1).setZero(), gb.row(D - 1).setZero();
@@ -114,7 +114,21 @@ Tangency<D> exact_tangency(SeededRandom& random, bool touching) {
   }
 }
 
+template <int D>
+Tangency<D> exact_tangency(SeededRandom& random, bool touching) {
+  double scale = 1;
+  const MatrixD<D> m = exact_map<D>(random, scale);
+  return exact_tangency<D>(random, touching, m, scale);
+}
+
 }  // namespace
+
+std::pair<Tangency<2>, Tangency<2>> parallel_tangencies(SeededRandom& random) {
+  double scale = 1;
+  const MatrixD<2> m = exact_map<2>(random, scale);
+  const Tangency<2> p = exact_tangency<2>(random, false, m, scale);
+  return {p, exact_tangency<2>(random, false, m, scale)};
+}
 
 template <int D>
 Tangency<D> tangency(SeededRandom& random, Kind kind, bool touching) {

@@ -7,6 +7,7 @@
 #include <vericone/verify/seeded_random.h>
 
 #include <cstdint>
+#include <utility>
 
 namespace vericone::verify::cases {
 
@@ -36,6 +37,9 @@ struct Tangency {
 /// `touching`: the points of support coincide, so that the bodies touch.
 template <int D>
 Tangency<D> tangency(SeededRandom& random, Kind kind, bool touching);
+
+/// Two pairs of ellipses with parallel inner tangents, exactly.
+std::pair<Tangency<2>, Tangency<2>> parallel_tangencies(SeededRandom& random);
 
 /// B holds A and their surfaces touch, exactly or to rounding.
 template <int D>

@@ -129,8 +129,9 @@ void run_relation(std::uint64_t seed, std::uint64_t number, Depth depth, Block& 
   SeededRandom random(302 + D, seed, number);
   const Kind kind = kind_of(number);
   const Tangency<D> t = cases::tangency<D>(random, kind, true);
-  // The exact rung takes 0.1 ms: three blocks of four have one case at the contact only.
-  const int hard = number / cases::kKinds % 4 == 0 ? 9 : 1;
+  // The exact rung takes 0.1 ms: one block in sixteen is hard, three more have one case at the contact.
+  const std::uint64_t round = number / cases::kKinds;
+  const int hard = round % 16 == 0 ? 9 : round % 4 == 0 ? 1 : 0;
   std::vector<BasicEllipsoid<D>> b;
   for (int i = 0; i < kCasesPerBlock; ++i)
     b.push_back(other_body<D>(random, t, kind, i, hard, block.cases[i].random));
@@ -162,8 +163,9 @@ void run_position(std::uint64_t seed, std::uint64_t number, Depth depth, Block& 
   SeededRandom random(306 + D, seed, number);
   const Kind kind = kind_of(number);
   const Tangency<D> t = cases::nesting<D>(random, kind);
-  // The exact rung takes up to a millisecond: one block in sixteen is hard.
-  const int hard = number / cases::kKinds % 16 == 0 ? 9 : 0;
+  // The exact rung takes up to a millisecond: one block in 32 is hard, one more has a case at the contact.
+  const std::uint64_t round = number / cases::kKinds;
+  const int hard = round % 32 == 0 ? 9 : round % 32 == 16 ? 1 : 0;
   std::vector<std::pair<Body, Body>> pairs;
   for (int i = 0; i < kCasesPerBlock; ++i) {
     bool& is_random = block.cases[i].random;

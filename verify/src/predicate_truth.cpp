@@ -298,34 +298,74 @@ Membership ConeTruth::membership(const Eigen::Vector3d& v_a, const Eigen::Vector
   return grazes ? Membership::on : Membership::in;
 }
 
-struct SectorTruth::Exact {
-  /// Inner normals n = side (1, t), t a root, or side (0, 1).
+namespace {
+
+/// Normals of the inner tangents, from A to B: side (1, t) with t a root, or side (0, 1).
+struct InnerNormals {
   struct Normal {
     std::optional<std::size_t> root;
     int side;
   };
+  Relation relation;
   std::optional<Roots> roots;
   std::vector<Normal> normals;
+
+  InnerNormals(const Ellipse& a, const Ellipse& b) {
+    // exact_tangents.cpp: R = (s^2 + alpha - beta)^2 - 4 s^2 alpha, inner where alpha + beta - s^2 < 0.
+    const Pair<2> pair(a, b);
+    relation = apart<2>(pair).relation;
+    const auto quadratic = [](const Matrix<2>& m) { return Form({m[0][0], 2 * m[0][1], m[1][1]}); };
+    const Form alpha = quadratic(pair.a), beta = quadratic(pair.b), s({pair.c[0], pair.c[1]}), s2 = s * s,
+               difference = s2 + alpha - beta,
+               resultant = difference * difference - Integer(4) * (s2 * alpha), inner = alpha + beta - s2;
+    if (!resultant.is_zero()) {
+      roots.emplace(resultant);
+      for (std::size_t i = 0; i < roots->size(); ++i)
+        if (roots->sign_at(inner, i) < 0) normals.push_back({i, roots->sign_at(s, i)});
+      if (resultant.c[4] == 0 && sgn(inner.c[2]) < 0) normals.push_back({std::nullopt, sgn(pair.c[1])});
+    }
+    const std::size_t expected = relation == Relation::disjoint ? 2 : relation == Relation::touching ? 1 : 0;
+    if (normals.size() != expected) throw std::logic_error("relation and inner tangents contradict");
+  }
+
+  /// Sign of the cross product of normal i with normal j of `other`.
+  int cross(std::size_t i, const InnerNormals& other, std::size_t j) const {
+    const Normal &n = normals[i], &m = other.normals[j];
+    int turn = 0;
+    if (n.root && m.root)
+      turn = -roots->compare(*n.root, *other.roots, *m.root);
+    else if (n.root || m.root)
+      turn = n.root ? 1 : -1;
+    return n.side * m.side * turn;
+  }
+
+  /// The left edge, of which B is to the right, runs along the clockwise normal turned left; the right edge
+  /// along the other one turned right. Touching bodies have one normal for both.
+  std::size_t edge(bool left) const {
+    if (normals.empty()) throw std::logic_error("the tangents of overlapping bodies");
+    if (normals.size() == 1) return 0;
+    const bool first_clockwise = cross(0, *this, 1) > 0;
+    return first_clockwise == left ? 0 : 1;
+  }
+};
+
+}  // namespace
+
+struct SectorTruth::Exact : InnerNormals {
+  using InnerNormals::InnerNormals;
 };
 
 SectorTruth::SectorTruth(const Ellipse& a, const Ellipse& b) {
-  // exact_tangents.cpp: R = (s^2 + alpha - beta)^2 - 4 s^2 alpha, inner where alpha + beta - s^2 < 0.
-  auto exact = std::make_shared<Exact>();
-  const Pair<2> pair(a, b);
-  relation_ = apart<2>(pair).relation;
-  const auto quadratic = [](const Matrix<2>& m) { return Form({m[0][0], 2 * m[0][1], m[1][1]}); };
-  const Form alpha = quadratic(pair.a), beta = quadratic(pair.b), s({pair.c[0], pair.c[1]}), s2 = s * s,
-             difference = s2 + alpha - beta, resultant = difference * difference - Integer(4) * (s2 * alpha),
-             inner = alpha + beta - s2;
-  if (!resultant.is_zero()) {
-    exact->roots.emplace(resultant);
-    for (std::size_t i = 0; i < exact->roots->size(); ++i)
-      if (exact->roots->sign_at(inner, i) < 0) exact->normals.push_back({i, exact->roots->sign_at(s, i)});
-    if (resultant.c[4] == 0 && sgn(inner.c[2]) < 0) exact->normals.push_back({std::nullopt, sgn(pair.c[1])});
-  }
-  const std::size_t expected = relation_ == Relation::disjoint ? 2 : relation_ == Relation::touching ? 1 : 0;
-  if (exact->normals.size() != expected) throw std::logic_error("relation and inner tangents contradict");
+  auto exact = std::make_shared<Exact>(a, b);
+  relation_ = exact->relation;
   exact_ = exact;
+}
+
+Sign turn_truth(const Ellipse& a, const Ellipse& b, bool left, const Ellipse& other_a, const Ellipse& other_b,
+                bool other_left) {
+  const InnerNormals p(a, b), q(other_a, other_b);
+  const int cross = p.cross(p.edge(left), q, q.edge(other_left));
+  return static_cast<Sign>(left == other_left ? cross : -cross);
 }
 
 Membership SectorTruth::membership(const Eigen::Vector2d& v_a, const Eigen::Vector2d& v_b) const {

@@ -81,6 +81,12 @@ class SectorTruth {
   Relation relation_;
 };
 
+/// Sign of the cross product of the directions, from a towards b, of two inner tangents: the left edge of the
+/// sector of (a, b), or the right one, with one of the sector of (other_a, other_b). Compares the normals,
+/// roots of two resultants. The bodies of a pair do not overlap.
+Sign turn_truth(const Ellipse& a, const Ellipse& b, bool left, const Ellipse& other_a, const Ellipse& other_b,
+                bool other_left);
+
 /// Sign of x~^T Q x~, in rationals.
 template <int D>
 Sign side_truth(const BasicQuadric<D>& quadric, const Eigen::Matrix<double, D, 1>& point);

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <vericone/cones/order.h>
+#include <vericone/verify/predicate_truth.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "predicate_cases.h"
+#include "predicate_subjects.h"
+
+namespace vericone::verify {
+namespace {
+
+using cases::Kind;
+using cases::kind_of;
+
+bool is_zero(int answer) { return answer == code(Sign::zero); }
+
+/// Tangents of two sectors: parallel, the same, a few ulps apart, anywhere.
+void run_turn(std::uint64_t seed, std::uint64_t number, Depth depth, Block& block) {
+  SeededRandom random(360, seed, number);
+  const Kind kind = kind_of(number);
+  // The exact rung takes half a millisecond: one block in sixteen is hard, three more have a degenerate case.
+  const std::uint64_t round = number / cases::kKinds;
+  const bool hard = round % 16 == 0;
+  for (;;) {
+    auto [p, q] = kind == Kind::exact ? cases::parallel_tangencies(random)
+                                      : std::pair(cases::tangency<2>(random, kind, false),
+                                                  cases::tangency<2>(random, kind, false));
+    if (relation<2>(p.a, p.b) != Relation::disjoint || relation<2>(q.a, q.b) != Relation::disjoint) continue;
+    std::vector<std::pair<TangentRef, TangentRef>> pairs;
+    bool usable = true;
+    for (int i = 0; i < kCasesPerBlock; ++i) {
+      PredicateCase& c = block.cases[i];
+      TangentRef first{p.a, p.b, random.coin()}, second{q.a, q.b, random.coin()};
+      const int what = hard || (i == 0 && round % 4 == 0) ? i : kCasesPerBlock;
+      c.random = what > 7 && kind == Kind::regular;
+      if (what == 0 && kind != Kind::exact) {
+        second = first;
+      } else if (what == 1) {
+        second = {p.b, p.a, first.left};  // the other way along the same line
+      } else if (what < 8 && what > 1) {
+        if (kind != Kind::exact) second = first;
+        second.b =
+            cases::moved_to<2>(second.b, cases::jittered<2>(random, second.b.center(), what < 4 ? 1 : 8));
+        usable = usable && relation<2>(second.a, second.b) == Relation::disjoint;
+      } else if (what > 7) {
+        // Another place for B: every direction is then another one.
+        const Eigen::Vector2d line = second.b.center() - second.a.center();
+        Eigen::Vector2d turned(line.y(), -line.x());
+        if (random.coin()) turned = -turned;
+        const double part = random.uniform(0.1, 1);
+        second.b = cases::moved_to<2>(second.b, second.b.center() + part * turned);
+        if (relation<2>(second.a, second.b) != Relation::disjoint) second.b = q.b;
+      }
+      pairs.emplace_back(first, second);
+    }
+    if (!usable) continue;
+    climb_all(block, [&](int i, Rung* rung) { return code(turn(pairs[i].first, pairs[i].second, rung)); });
+    for (int i = 0; i < kCasesPerBlock; ++i) {
+      PredicateCase& c = block.cases[i];
+      const auto& [first, second] = pairs[i];
+      c.triage = code(triage_turn(first, second));
+      c.interval = code(interval_turn(first, second));
+      if (depth.exact) c.exact = code(exact_turn(first, second));
+      if (depth.truth)
+        c.truth = code(turn_truth(first.a, first.b, first.left, second.a, second.b, second.left));
+    }
+    return;
+  }
+}
+
+constexpr Subject kSubjects[] = {{"order of tangents", run_turn, is_zero}};
+
+}  // namespace
+
+std::span<const Subject> order_subjects() { return kSubjects; }
+
+}  // namespace vericone::verify
