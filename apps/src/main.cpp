@@ -10,6 +10,7 @@
 #include "build_info.h"
 #include "cone.h"
 #include "query.h"
+#include "signmap.h"
 #ifdef VERICONE_HAVE_VERIFY
 #include "verify.h"
 #endif
@@ -40,7 +41,9 @@ int run(int argc, char** argv) {
   std::string cases;
   auto* query = app.add_subcommand("query", "Exact verdicts on engagements, one JSON object a line");
   query->add_option("cases", cases, "File of cases, or - for standard input")->required();
-  query->callback([&] { status = vericone::run_query(cases, std::cout); });
+  bool with_rung = false;
+  query->add_flag("--rung", with_rung, "Add the rung of the ladder that decided: triage, interval or exact");
+  query->callback([&] { status = vericone::run_query(cases, with_rung, std::cout); });
 
   vericone::accuracy::Options accuracy;
   auto* accuracy_command =
@@ -67,6 +70,21 @@ int run(int argc, char** argv) {
     for (int i = 0; i < argc; ++i)
       accuracy.command_line.append(i ? " " : "").append(i ? argv[i] : "vericone");
     status = vericone::accuracy::run_accuracy(accuracy, std::cout);
+  });
+
+  vericone::SignMapOptions signmap;
+  auto* signmap_command =
+      app.add_subcommand("signmap", "Answers on the doubles around a velocity that grazes exactly");
+  signmap_command->add_option("--out", signmap.out, "Folder for table and picture")->capture_default_str();
+  signmap_command->add_option("--cells", signmap.cells, "Doubles along each axis")->capture_default_str();
+  signmap_command->add_option("--seed", signmap.seed, "Seed of the engagement")->capture_default_str();
+  bool no_signmap_figure = false;
+  signmap_command->add_flag("--no-figures", no_signmap_figure, "Tables only");
+  signmap_command->callback([&] {
+    signmap.figures = !no_signmap_figure;
+    for (int i = 0; i < argc; ++i)
+      signmap.command_line.append(i ? " " : "").append(i ? argv[i] : "vericone");
+    vericone::run_signmap(signmap, std::cout);
   });
 
 #ifdef VERICONE_HAVE_VERIFY

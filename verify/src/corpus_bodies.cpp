@@ -58,7 +58,7 @@ void add_pair(CorpusCase& c, const Map<D>& map, const Body<D>& a, const Body<D>&
   add_body<D>(c, "a", map, swapped ? b : a);
   add_body<D>(c, "b", map, swapped ? a : b);
   if (!swapped) return;
-  if (c.truth.starts_with("b_in_a")) c.truth.replace(0, 6, "a_in_b");
+  if (c.truth.starts_with("b_inside_a")) c.truth.replace(0, 10, "a_inside_b");
 }
 
 /// B along the normal from where it touches A, by `gap` (negative: into A).
@@ -117,11 +117,11 @@ void inside(std::vector<CorpusCase>& cases, SeededRandom& random, std::uint64_t 
     add_pair<D>(c, map, a, b, swapped);
     if (fits(c)) cases.push_back(std::move(c));
   };
-  add("touch-inside", "b_in_a_touching", q * Rational(below, 4), 1 - r, "exact");
-  add("osculating", "b_in_a_touching", q, 1 - r, "exact");
+  add("touch-inside", "b_inside_a_touching", q * Rational(below, 4), 1 - r, "exact");
+  add("osculating", "b_inside_a_touching", q, 1 - r, "exact");
   add("touch-inside-crossing", "crossing", q + Rational(1, 4 << random.integer(0, 2)), 1 - r, "any");
   const Rational nudge = power_of_two(-random.integer(4, 40));
-  add("touch-inside-nudged", "b_in_a", q * Rational(below, 4), 1 - r - nudge, "any");
+  add("touch-inside-nudged", "b_inside_a", q * Rational(below, 4), 1 - r - nudge, "any");
   add("touch-inside-nudged", "crossing", q * Rational(below, 4), 1 - r + nudge, "any");
 }
 
@@ -138,7 +138,7 @@ void nested(std::vector<CorpusCase>& cases, SeededRandom& random, std::uint64_t 
     if (fits(c)) cases.push_back(std::move(c));
   };
   const Rational d = power_of_two(-random.integer(1, 20));
-  add("nested", "b_in_a", {{}, scaled<D>(a.factor, 1 - d)});
+  add("nested", "b_inside_a", {{}, scaled<D>(a.factor, 1 - d)});
   add("equal", "equal", a);
   // A translate by less than a diameter, |G^{-1} d| < 2, sticks out on one side and leaves a gap on the
   // other.
