@@ -356,6 +356,57 @@ TEST(HullOracle, GrazedFeaturesAndTheirNeighbours) {
   EXPECT_GT(near.exact, 20);
 }
 
+/// In general position: a vertex, an edge or a face on the plane x_k = r of a ball of radius r, whose line of
+/// motion lies in that plane, all under an integer map; then a few last places beside.
+TEST(HullOracle, NeighboursOfGrazedEllipsoids) {
+  RandomBodies random(309);
+  SCOPED_TRACE(random.trace());
+  RungTally tally;
+  int on = 0, neighbours[3] = {};
+  for (int i = 0; i < 1500; ++i) {
+    const MappedBall ball(random);
+    const int k = random.integer(0, 2);
+    Vector3d along = lattice_vector(random, 9), off = kRest;
+    along(k) = 0;
+    if (along.isZero(0)) continue;
+    off(k) = ball.radius;
+    Points v;
+    const int grazed = random.integer(1, 3);
+    for (int t = 0; t < grazed; ++t) {  // the first on the line, the others in the plane
+      Vector3d x = off + random.integer(4, 9) * along;
+      if (t > 0) x += lattice_vector(random, 5);
+      x(k) = ball.radius;
+      v.push_back(x);
+    }
+    for (int t = random.integer(0, 4); t > 0; --t) {  // and the rest beyond it
+      Vector3d x = 5 * along + lattice_vector(random, 5);
+      x(k) = ball.radius + random.integer(1, 9);
+      v.push_back(x);
+    }
+    for (Vector3d& x : v) x = ball.m * x + ball.center;
+    const Vector3d w = ball.m * along;
+    const HullOracle oracle(ball.ellipsoid(), HullBody(v)), swapped(HullBody(v), ball.ellipsoid());
+    if (oracle.relation() != Relation::disjoint) continue;
+    expect_membership(oracle, w, kRest, Membership::on);
+    expect_membership(swapped, -w, kRest, Membership::on);
+    ++on;
+    for (const int most : {1, 8, 64}) {
+      for (Vector3d& x : v) x = random.ulps(x, most);
+      const HullOracle near(ball.ellipsoid(), HullBody(v));
+      if (near.relation() != Relation::disjoint) continue;
+      const Vector3d u = random.ulps(w, most);
+      const Membership expected = near.exact_membership(u, kRest);
+      ++neighbours[static_cast<int>(expected)];
+      tally.count(expect_membership(near, u, kRest, expected));
+    }
+  }
+  EXPECT_GT(on, 700);
+  EXPECT_GT(neighbours[0], 350);
+  EXPECT_GT(neighbours[2], 350);
+  EXPECT_GT(tally.interval, 40);
+  EXPECT_GT(tally.exact, 350);
+}
+
 TEST(HullOracle, GrazingBoxesAndTheirNeighbours) {
   const Vector3d along(0, 0, 1);
   const HullBody agent = HullBody::box({-1, -2, -3}, {3, 4, 1});
