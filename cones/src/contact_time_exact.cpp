@@ -147,8 +147,8 @@ RealRoot scaled_root(Polynomial p, const Dyadic& lo, const Dyadic& hi, int by) {
 }
 
 /// The first contact of bodies that will overlap, in the units of the grid. `first` and `inside`: guesses of
-/// it and of a time at which they overlap.
-RealRoot entry_time(const MovingContact& contact, double first, double inside, int unit) {
+/// it and of times at which they overlap.
+RealRoot entry_time(const MovingContact& contact, double first, std::array<double, 2> inside, int unit) {
   const Polynomial discriminant = contact.discriminant();
   const auto by_all_roots = [&] {
     // Between neighbouring roots of the discriminant the relation does not change.
@@ -158,9 +158,10 @@ RealRoot entry_time(const MovingContact& contact, double first, double inside, i
     return scaled_root(roots[i].polynomial(), roots[i].lo(), roots[i].hi(), unit);
   };
   const auto usable = [](double t) { return std::isfinite(t) && t > 0; };
-  if (!usable(inside)) return by_all_roots();
-  Dyadic lo{0, 0}, hi = Dyadic::of(inside);
-  if (!contact.overlapping(hi)) return by_all_roots();
+  Dyadic lo{0, 0}, hi{0, 0};
+  for (const double t : inside)
+    if (hi.numerator == 0 && usable(t) && contact.overlapping(Dyadic::of(t))) hi = Dyadic::of(t);
+  if (hi.numerator == 0) return by_all_roots();
   const auto narrow_to = [&](const Dyadic& t) {
     if (exact::compare(t, lo) <= 0 || exact::compare(t, hi) >= 0) return;
     (contact.overlapping(t) ? hi : lo) = t;
@@ -236,9 +237,11 @@ ContactTime contact_time(const ConeOracle& oracle, const Eigen::Vector3d& v_a, c
   const int unit = length_exponent(pair, oracle.a(), oracle.b()) - velocity.exponent;
   if (verdict == Verdict::on) return {When::later, grazing_time(pair, velocity.w, unit)};
   const Eigen::Vector3d w = v_a - v_b;
-  const double first = vericone::contact_time(oracle.a(), oracle.b(), w);
+  const double first = vericone::contact_time(oracle.a(), oracle.b(), w),
+               inside = time_inside(oracle.a(), oracle.b(), w, first);
+  const double passing = w.allFinite() ? clearance(oracle.a(), oracle.b(), w).time : first;  // if short
   return {When::later, entry_time(MovingContact(pair, velocity.w), std::ldexp(first, -unit),
-                                  std::ldexp(time_inside(oracle.a(), oracle.b(), w, first), -unit), unit)};
+                                  {std::ldexp(inside, -unit), std::ldexp(passing, -unit)}, unit)};
 }
 
 int compare(ContactTime& x, ContactTime& y) {
