@@ -392,7 +392,11 @@ TEST(HullOracle, NeighboursOfGrazedEllipsoids) {
     ++on;
     for (const int most : {1, 8, 64}) {
       for (Vector3d& x : v) x = random.ulps(x, most);
-      const HullOracle near(ball.ellipsoid(), HullBody(v));
+      // The centre too, so that its differences from the points are rounded.
+      Vector3d center = ball.center;
+      for (int c = 0; c < 3; ++c)
+        if (center(c) != 0) center(c) = moved_by_ulps(center(c), random.integer(-most, most));
+      const HullOracle near(Ellipsoid::from_shape(center, ball.ellipsoid().shape()), HullBody(v));
       if (near.relation() != Relation::disjoint) continue;
       const Vector3d u = random.ulps(w, most);
       const Membership expected = near.exact_membership(u, kRest);
