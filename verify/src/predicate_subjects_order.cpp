@@ -71,7 +71,53 @@ void run_turn(std::uint64_t seed, std::uint64_t number, Depth depth, Block& bloc
   }
 }
 
-constexpr Subject kSubjects[] = {{"order of tangents", run_turn, is_zero}};
+/// Encounters that are the same in disguise, a few ulps apart, anywhere.
+void run_earlier(std::uint64_t seed, std::uint64_t number, Depth depth, Block& block) {
+  SeededRandom random(361, seed, number);
+  const Kind kind = kind_of(number);
+  // The exact rung takes milliseconds.
+  const std::uint64_t round = number / cases::kKinds;
+  const bool hard = round % 64 == 0;
+  const auto encounter = [&] {
+    const cases::Tangency<3> t = cases::tangency<3>(random, kind, false);
+    // Between the grazing velocity and the line of centres, which hits.
+    const double part = random.uniform(0.05, 1);
+    const Eigen::Vector3d c = t.b.center() - t.a.center();
+    return Encounter{t.a, t.b, part * c + (1 - part) * t.grazing};
+  };
+  const Encounter p = encounter(), q = encounter();
+  std::vector<std::pair<Encounter, Encounter>> pairs;
+  for (int i = 0; i < kCasesPerBlock; ++i) {
+    PredicateCase& c = block.cases[i];
+    const int what = hard || (i == 0 && round % 8 == 0) ? i : kCasesPerBlock;
+    c.random = what > 7 && kind == Kind::regular;
+    Encounter other = what < 8 ? p : q;
+    if (what == 0) {
+      other = {p.b, p.a, -p.w};
+    } else if (what == 1) {
+      other = {p.a.scaled(2), p.b.scaled(2), 2 * p.w};
+    } else if (what < 5) {
+      other.w = cases::jittered<3>(random, p.w, what == 2 ? 1 : 8);
+    } else if (what < 8) {
+      other.b = cases::moved_to<3>(p.b, cases::jittered<3>(random, p.b.center(), 8));
+    } else {
+      other.w *= random.uniform(0.1, 5);
+    }
+    pairs.emplace_back(p, other);
+  }
+  climb_all(block, [&](int i, Rung* rung) { return code(earlier(pairs[i].first, pairs[i].second, rung)); });
+  for (int i = 0; i < kCasesPerBlock; ++i) {
+    PredicateCase& c = block.cases[i];
+    const auto& [first, second] = pairs[i];
+    c.triage = code(triage_earlier(first, second));
+    c.interval = code(interval_earlier(first, second));
+    if (depth.exact) c.exact = code(exact_earlier(first, second));
+    if (depth.truth) c.truth = code(earlier_truth(first.a, first.b, first.w, second.a, second.b, second.w));
+  }
+}
+
+constexpr Subject kSubjects[] = {{"order of tangents", run_turn, is_zero},
+                                 {"order of times to contact", run_earlier, is_zero, 400}};
 
 }  // namespace
 

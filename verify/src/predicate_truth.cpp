@@ -16,14 +16,22 @@ struct Pair {
   Matrix<D> a, b;
   Vector<D> c;
 
-  Pair(const BasicEllipsoid<D>& body_a, const BasicEllipsoid<D>& body_b) {
+  Pair(const BasicEllipsoid<D>& body_a, const BasicEllipsoid<D>& body_b)
+      : Pair(body_a, body_b, unit_of(body_a, body_b)) {}
+
+  Pair(const BasicEllipsoid<D>& body_a, const BasicEllipsoid<D>& body_b, int unit) {
+    a = shape_on_unit<D>(body_a, unit);
+    b = shape_on_unit<D>(body_b, unit);
+    const auto pa = on_unit<D>(body_a.center(), unit), pb = on_unit<D>(body_b.center(), unit);
+    for (int i = 0; i < D; ++i) c[i] = pb[i] - pa[i];
+  }
+
+ private:
+  static int unit_of(const BasicEllipsoid<D>& body_a, const BasicEllipsoid<D>& body_b) {
     Unit unit;
     unit.body<D>(body_a);
     unit.body<D>(body_b);
-    a = shape_on_unit<D>(body_a, unit.e);
-    b = shape_on_unit<D>(body_b, unit.e);
-    const auto pa = on_unit<D>(body_a.center(), unit.e), pb = on_unit<D>(body_b.center(), unit.e);
-    for (int i = 0; i < D; ++i) c[i] = pb[i] - pa[i];
+    return unit.e;
   }
 };
 
@@ -377,6 +385,128 @@ Membership SectorTruth::membership(const Eigen::Vector2d& v_a, const Eigen::Vect
     least =
         std::min(least, n.side * (n.root ? exact_->roots->sign_at(Form({w[0], w[1]}), *n.root) : sgn(w[1])));
   return least > 0 ? Membership::in : least == 0 ? Membership::on : Membership::out;
+}
+
+namespace {
+
+/// Polynomial in lambda whose coefficients are polynomials in the time.
+struct Bivariate {
+  std::vector<Form> c;
+
+  friend Bivariate operator*(const Bivariate& x, const Bivariate& y) {
+    if (x.c.empty() || y.c.empty()) return {};
+    Bivariate r{std::vector<Form>(x.c.size() + y.c.size() - 1)};
+    for (std::size_t i = 0; i < x.c.size(); ++i)
+      for (std::size_t j = 0; j < y.c.size(); ++j) r.c[i + j] = r.c[i + j] + x.c[i] * y.c[j];
+    return r;
+  }
+  friend Bivariate operator+(Bivariate x, const Bivariate& y) {
+    if (x.c.size() < y.c.size()) x.c.resize(y.c.size());
+    for (std::size_t i = 0; i < y.c.size(); ++i) x.c[i] = x.c[i] + y.c[i];
+    return x;
+  }
+  friend Bivariate operator-(Bivariate x, const Bivariate& y) {
+    if (x.c.size() < y.c.size()) x.c.resize(y.c.size());
+    for (std::size_t i = 0; i < y.c.size(); ++i) x.c[i] = x.c[i] - y.c[i];
+    return x;
+  }
+};
+
+/// When two bodies first touch: now, at a root, or never; nothing where they graze.
+struct ContactRoot {
+  enum { now, later, never } when = never;
+  bool grazes = false;
+  std::optional<Roots> roots;
+  std::size_t index = 0;
+
+  ContactRoot(const Ellipsoid& body_a, const Ellipsoid& body_b, const Eigen::Vector3d& velocity) {
+    const ConeTruth cone(body_a, body_b);
+    if (cone.relation() != Relation::disjoint) {
+      when = now;
+      return;
+    }
+    const Membership membership = cone.membership(velocity);
+    grazes = membership == Membership::on;
+    if (membership != Membership::in) return;
+    when = later;
+
+    Unit unit;
+    unit.body<3>(body_a);
+    unit.body<3>(body_b);
+    unit.vector<3>(velocity);
+    Pair<3> pair(body_a, body_b, unit.e);
+    const Vector<3> w = on_unit<3>(velocity, unit.e);
+    const Matrix<4> q_a = quadric<3>(pair.a, Vector<3>{});
+    const Matrix<3> adj = adjugate<3>(pair.b);
+    std::array<Form, 3> c, g;  // c - t w
+    for (int i = 0; i < 3; ++i) c[i] = Form({pair.c[i], -w[i]});
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) g[i] = g[i] + adj[i][k] * c[k];
+    std::array<std::array<Bivariate, 4>, 4> m;
+    Form corner({-determinant<3>(pair.b)});
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) m[i][j].c = {Form({adj[i][j]}), Form({q_a[i][j]})};
+      m[i][3].c = m[3][i].c = {Form() - g[i], Form({q_a[i][3]})};
+      corner = corner + g[i] * c[i];
+    }
+    m[3][3].c = {corner, Form({q_a[3][3]})};
+    const auto all = without<4>(-1);
+    roots.emplace(discriminant(minor_determinant<4, Bivariate>(m, all, all)));
+
+    std::vector<Rational> samples = roots->between();
+    for (index = 0; index < roots->size(); ++index) {
+      const Rational& t = samples[index + 1];
+      if (roots->sign_of_root(index) <= 0 || sgn(t) <= 0) continue;
+      Pair<3> moved = pair;
+      const Integer &num = t.get_num(), &den = t.get_den();
+      for (int i = 0; i < 3; ++i) {
+        moved.c[i] = den * pair.c[i] - num * w[i];
+        for (int j = 0; j < 3; ++j) moved.a[i][j] *= den * den, moved.b[i][j] *= den * den;
+      }
+      if (apart<3>(moved).relation == Relation::overlapping) return;
+    }
+    throw std::logic_error("bodies that meet at no root");
+  }
+
+ private:
+  /// Up to a constant factor.
+  static Form discriminant(const Bivariate& f) {
+    using Inner = CGAL::Polynomial<CORE::BigInt>;
+    using Outer = CGAL::Polynomial<Inner>;
+    Integer common = 0;
+    for (const Form& x : f.c)
+      for (const Integer& y : x.c) common = gcd(common, y);
+    std::vector<Inner> coefficients;
+    for (const Form& x : f.c) {
+      std::vector<CORE::BigInt> z;
+      for (const Integer& y : x.c) {
+        CORE::BigInt value(0);
+        mpz_divexact(value.get_mp(), y.get_mpz_t(), common.get_mpz_t());
+        z.push_back(value);
+      }
+      coefficients.emplace_back(z.begin(), z.end());
+    }
+    const Outer p(coefficients.begin(), coefficients.end());
+    const Inner r = CGAL::resultant(p, CGAL::differentiate(p));
+    Form result;
+    for (int i = 0; i <= CGAL::degree(r); ++i) {
+      CORE::BigInt x = r[i];
+      result.c.emplace_back(x.get_mp());
+    }
+    return result;
+  }
+};
+
+}  // namespace
+
+std::optional<Sign> earlier_truth(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& w,
+                                  const Ellipsoid& other_a, const Ellipsoid& other_b,
+                                  const Eigen::Vector3d& other_w) {
+  const ContactRoot p(a, b, w), q(other_a, other_b, other_w);
+  if (p.grazes || q.grazes) return std::nullopt;
+  if (p.when != q.when) return p.when < q.when ? Sign::negative : Sign::positive;
+  if (p.when != ContactRoot::later) return Sign::zero;
+  return static_cast<Sign>(p.roots->compare(p.index, *q.roots, q.index));
 }
 
 template <int D>

@@ -33,7 +33,9 @@ struct PredicateReport {
 };
 
 struct PredicateOptions {
-  std::uint64_t cases = 1'000'000;  // rounded up to whole blocks of kCasesPerBlock
+  /// Rounded up to whole blocks of kCasesPerBlock. The order of times to contact, whose last rung takes
+  /// milliseconds, gets a 400th, and the oracle more often.
+  std::uint64_t cases = 1'000'000;
   std::uint64_t seed = 1;
   unsigned threads = 0;  // 0: one per processor
   /// One in so many blocks is asked of the exact rung, and against CGAL; 0: none.

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace vericone::verify {
@@ -86,6 +87,15 @@ class SectorTruth {
 /// roots of two resultants. The bodies of a pair do not overlap.
 Sign turn_truth(const Ellipse& a, const Ellipse& b, bool left, const Ellipse& other_a, const Ellipse& other_b,
                 bool other_left);
+
+/// Sign of (time to contact of a and b, a moving with w relative to b) - (that of the other encounter); 0 for
+/// bodies that touch or overlap now, later than any other for those that never touch. The discriminant of
+/// det(lambda Q_A(t) + Q_B) with regard to lambda (CGAL::resultant) changes sign or vanishes at a contact;
+/// the first of its roots after which the bodies overlap is the contact, by relation at rational times
+/// between them. Nothing where one of them grazes.
+std::optional<Sign> earlier_truth(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& w,
+                                  const Ellipsoid& other_a, const Ellipsoid& other_b,
+                                  const Eigen::Vector3d& other_w);
 
 /// Sign of x~^T Q x~, in rationals.
 template <int D>
