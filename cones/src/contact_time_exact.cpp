@@ -3,6 +3,7 @@
 
 #include <vericone/cones/clearance.h>
 #include <cmath>
+#include <functional>
 
 #include "contact_polynomial.h"
 
@@ -146,9 +147,80 @@ RealRoot scaled_root(Polynomial p, const Dyadic& lo, const Dyadic& hi, int by) {
   return {std::make_shared<const Polynomial>(primitive_part(std::move(p))), shifted(lo, by), shifted(hi, by)};
 }
 
+/// Shadows along w.
+struct Shadows {
+  int i, j, k;
+  Symmetric2<Integer> a, b;
+  Integer dx, dy;
+  Polynomial cubic;
+
+  Shadows(const PairOnGrid<3>& pair, const IntegerVector<3>& w) {
+    k = w[0] != 0 ? 0 : w[1] != 0 ? 1 : 2;
+    i = (k + 1) % 3;
+    j = (k + 2) % 3;
+    const auto entry = [](const IntegerMatrix<3>& s) {
+      return [&s](int r, int col) -> const Integer& { return s[r][col]; };
+    };
+    a = shadow<Integer>(entry(pair.a), w[i], w[j], w[k], i, j, k);
+    b = shadow<Integer>(entry(pair.b), w[i], w[j], w[k], i, j, k);
+    dx = w[k] * pair.c[i] - w[i] * pair.c[k];
+    dy = w[k] * pair.c[j] - w[j] * pair.c[k];
+    const ContactCubic<Integer> c(a, b, dx, dy);
+    cubic = {c.k0, -c.k1, -c.k2, c.k3};
+  }
+};
+
+struct Fraction {
+  Integer numerator, denominator;  // positive
+};
+
+/// When the supporting points for rho_A / rho_B = x / y pass each other: n = L^T adj(y M_A + x M_B) d,
+/// n.c = rho_A + rho_B, and t = q.w / w.w with q = c - S_A n / rho_A - S_B n / rho_B.
+Fraction passing_time(const PairOnGrid<3>& pair, const IntegerVector<3>& w, const Shadows& s,
+                      const Integer& x, const Integer& y) {
+  const Integer m11 = y * s.a.a + x * s.b.a, m12 = y * s.a.b + x * s.b.b, m22 = y * s.a.c + x * s.b.c;
+  const Integer u = m22 * s.dx - m12 * s.dy, v = m11 * s.dy - m12 * s.dx;
+  IntegerVector<3> n;
+  n[s.i] = w[s.k] * u;
+  n[s.j] = w[s.k] * v;
+  n[s.k] = -(w[s.i] * u + w[s.j] * v);
+  const auto dot = [](const IntegerVector<3>& f, const IntegerVector<3>& g) {
+    return Integer(f[0] * g[0] + f[1] * g[1] + f[2] * g[2]);
+  };
+  const Integer nc_xy = dot(n, pair.c) * x * y;
+  return {dot(pair.c, w) * nc_xy -
+              (x + y) * (y * bilinear_form<3>(pair.a, n, w) + x * bilinear_form<3>(pair.b, n, w)),
+          dot(w, w) * nc_xy};
+}
+
+/// The time of a grazing contact is rational: rho_A / rho_B is the double root of the shadows' cubic.
+RealRoot grazing_time(const PairOnGrid<3>& pair, const IntegerVector<3>& w, int unit) {
+  const Shadows shadows(pair, w);
+  const Polynomial repeated = gcd(shadows.cubic, derivative(shadows.cubic));  // linear: one root is negative
+  const Fraction t = passing_time(pair, w, shadows, -repeated[0], repeated[1]);
+  const Polynomial linear = primitive_part({-t.numerator, t.denominator});
+  const RealRoot root = positive_roots(linear).front();
+  return scaled_root(linear, root.lo(), root.hi(), unit);
+}
+
+/// A time at which bodies overlap that hardly do so: the cubic has no double root, but nearly.
+std::optional<Dyadic> nearly_grazing_time(const PairOnGrid<3>& pair, const IntegerVector<3>& w) {
+  const Shadows shadows(pair, w);
+  auto extrema = positive_roots(derivative(shadows.cubic));
+  if (extrema.empty()) return std::nullopt;
+  extrema.back().refine(100);
+  const Dyadic& x = extrema.back().lo();
+  const Fraction t = passing_time(pair, w, shadows, x.numerator, Integer(1) << x.exponent);
+  if (t.numerator <= 0 || t.denominator <= 0) return std::nullopt;
+  const int bits = static_cast<int>(msb(t.denominator)) - static_cast<int>(msb(t.numerator)) + 100;
+  const auto exponent = static_cast<unsigned>(std::max(bits, 0));
+  return Dyadic{(t.numerator << exponent) / t.denominator, exponent};
+}
+
 /// The first contact of bodies that will overlap, in the units of the grid. `first` and `inside`: guesses of
 /// it and of times at which they overlap.
-RealRoot entry_time(const MovingContact& contact, double first, std::array<double, 2> inside, int unit) {
+RealRoot entry_time(const MovingContact& contact, double first, std::array<double, 2> inside,
+                    const std::function<std::optional<Dyadic>()>& last_guess, int unit) {
   const Polynomial discriminant = contact.discriminant();
   const auto by_all_roots = [&] {
     // Between neighbouring roots of the discriminant the relation does not change.
@@ -161,7 +233,11 @@ RealRoot entry_time(const MovingContact& contact, double first, std::array<doubl
   Dyadic lo{0, 0}, hi{0, 0};
   for (const double t : inside)
     if (hi.numerator == 0 && usable(t) && contact.overlapping(Dyadic::of(t))) hi = Dyadic::of(t);
-  if (hi.numerator == 0) return by_all_roots();
+  if (hi.numerator == 0) {
+    const auto t = last_guess();
+    if (!t || !contact.overlapping(*t)) return by_all_roots();
+    hi = *t;
+  }
   const auto narrow_to = [&](const Dyadic& t) {
     if (exact::compare(t, lo) <= 0 || exact::compare(t, hi) >= 0) return;
     (contact.overlapping(t) ? hi : lo) = t;
@@ -192,38 +268,6 @@ double time_inside(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d
   return 0.5 * (first + last);
 }
 
-/// The time of a grazing contact is rational: the double root X / Y of the shadows' cubic is rho_A / rho_B,
-/// n = L^T adj(Y M_A + X M_B) d the normal, n.c = rho_A + rho_B, and t = q.w / w.w with
-/// q = c - S_A n / rho_A - S_B n / rho_B.
-RealRoot grazing_time(const PairOnGrid<3>& pair, const IntegerVector<3>& w, int unit) {
-  const int k = w[0] != 0 ? 0 : w[1] != 0 ? 1 : 2, i = (k + 1) % 3, j = (k + 2) % 3;
-  const auto entry = [](const IntegerMatrix<3>& s) {
-    return [&s](int r, int col) -> const Integer& { return s[r][col]; };
-  };
-  const auto ma = shadow<Integer>(entry(pair.a), w[i], w[j], w[k], i, j, k);
-  const auto mb = shadow<Integer>(entry(pair.b), w[i], w[j], w[k], i, j, k);
-  const Integer dx = w[k] * pair.c[i] - w[i] * pair.c[k], dy = w[k] * pair.c[j] - w[j] * pair.c[k];
-  const ContactCubic<Integer> cubic(ma, mb, dx, dy);
-  const Polynomial p{cubic.k0, -cubic.k1, -cubic.k2, cubic.k3};
-  const Polynomial repeated = gcd(p, derivative(p));  // linear: the third root is negative
-  const Integer &y = repeated[1], x = -repeated[0];
-  const Integer m11 = y * ma.a + x * mb.a, m12 = y * ma.b + x * mb.b, m22 = y * ma.c + x * mb.c;
-  const Integer u = m22 * dx - m12 * dy, v = m11 * dy - m12 * dx;
-  IntegerVector<3> n;
-  n[i] = w[k] * u;
-  n[j] = w[k] * v;
-  n[k] = -(w[i] * u + w[j] * v);
-  const auto dot = [](const IntegerVector<3>& f, const IntegerVector<3>& g) {
-    return Integer(f[0] * g[0] + f[1] * g[1] + f[2] * g[2]);
-  };
-  const Integer nc_xy = dot(n, pair.c) * x * y;
-  const Integer along = dot(pair.c, w) * nc_xy -
-                        (x + y) * (y * bilinear_form<3>(pair.a, n, w) + x * bilinear_form<3>(pair.b, n, w));
-  const Polynomial linear = primitive_part({-along, dot(w, w) * nc_xy});
-  const RealRoot root = positive_roots(linear).front();
-  return scaled_root(linear, root.lo(), root.hi(), unit);
-}
-
 }  // namespace
 
 ContactTime contact_time(const ConeOracle& oracle, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) {
@@ -239,9 +283,11 @@ ContactTime contact_time(const ConeOracle& oracle, const Eigen::Vector3d& v_a, c
   const Eigen::Vector3d w = v_a - v_b;
   const double first = vericone::contact_time(oracle.a(), oracle.b(), w),
                inside = time_inside(oracle.a(), oracle.b(), w, first);
-  const double passing = w.allFinite() ? clearance(oracle.a(), oracle.b(), w).time : first;  // if short
-  return {When::later, entry_time(MovingContact(pair, velocity.w), std::ldexp(first, -unit),
-                                  {std::ldexp(inside, -unit), std::ldexp(passing, -unit)}, unit)};
+  const double passing = w.allFinite() ? clearance(oracle.a(), oracle.b(), w).time : first;
+  return {When::later, entry_time(
+                           MovingContact(pair, velocity.w), std::ldexp(first, -unit),
+                           {std::ldexp(inside, -unit), std::ldexp(passing, -unit)},
+                           [&] { return nearly_grazing_time(pair, velocity.w); }, unit)};
 }
 
 int compare(ContactTime& x, ContactTime& y) {
