@@ -28,7 +28,7 @@ struct TangentRef {
 /// Sign of the cross product of the two directions: positive when that of q lies counter-clockwise from that
 /// of p by less than half a turn, negative when clockwise, zero when they are parallel, in the same or in
 /// opposite directions (see opposed()). Throws InputError naming "p" or "q" when its bodies overlap or are
-/// not finite. Cost: 1 us where the first rung decides, 2 us the second, about 0.2 ms the last.
+/// not finite. Cost: 2 us where the first rung decides, hardly more the second, about 0.2 ms the last.
 Sign turn(const TangentRef& p, const TangentRef& q, Rung* rung = nullptr);
 
 /// First rung: both directions between two that are certified, some 1e-9 apart. Never answers zero.
