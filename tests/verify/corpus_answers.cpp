@@ -5,6 +5,7 @@
 #include <vericone/cones/exact_position.h>
 #include <vericone/cones/exact_predicates.h>
 #include <vericone/cones/hull_oracle.h>
+#include <vericone/cones/orifice.h>
 #include <vericone/cones/position.h>
 #include <vericone/cones/predicates.h>
 #include <vericone/cones/sector_oracle.h>
@@ -183,6 +184,25 @@ RungAnswers hull_answers(const CorpusCase& c) {
   return r;
 }
 
+RungAnswers orifice_answers(const CorpusCase& c) {
+  RungAnswers r;
+  r.what = "orifice";
+  r.truth = c.truth;
+  const Ellipsoid ball =
+      Ellipsoid::from_axes(c.vector<3>("a.center"), Eigen::Vector3d::Constant(c.doubles("a.radius")->at(0)));
+  const OrificeOracle oracle(
+      ball, {c.vector<3>("orifice.center"), c.vector<3>("orifice.axis"), c.doubles("orifice.radius")->at(0)});
+  if (oracle.side() != WallSide::clear) throw std::runtime_error(c.label() + ": not clear of the wall");
+  const Eigen::Vector3d w = c.vector<3>("w");
+  Rung rung{};
+  r.ladder = to_string(oracle.membership(w, &rung));
+  r.rung = rung;
+  r.triage = text(oracle.triage_membership(w));
+  r.interval = text(oracle.interval_membership(w));
+  r.exact = to_string(oracle.exact_membership(w));
+  return r;
+}
+
 const char* sign_of(double x) { return x < 0 ? "negative" : x > 0 ? "positive" : "zero"; }
 
 template <int D>
@@ -243,6 +263,10 @@ std::vector<RungAnswers> answers(const CorpusCase& c) {
             : planar         ? body_side_answers<2>(c)
                              : body_side_answers<3>(c)};
   if (c.predicate == "hull") return {hull_answers(c)};
+  if (c.predicate == "orifice") {
+    if (c.doubles("a.radius")->at(0) > 1e150) return {};  // beyond what an ellipsoid may be
+    return {orifice_answers(c)};
+  }
   return {};
 }
 

@@ -144,6 +144,12 @@ TEST(Corpus, HoldsMembershipInConesOfHulls) {
   EXPECT_GE(t.naive_wrong, t.naive / 10);
 }
 
+TEST(Corpus, HoldsPassageThroughOpenings) {
+  const Tally t = hold("orifice", "orifice");
+  EXPECT_GE(t.cases, 250);
+  EXPECT_GE(t.degenerate, 50);
+}
+
 TEST(Corpus, HoldsTheSideOfPoints) {
   const Tally t = hold("side", "side");
   EXPECT_GE(t.cases, 400);
