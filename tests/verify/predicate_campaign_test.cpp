@@ -28,7 +28,7 @@ std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
 PredicateOptions options() {
   PredicateOptions o;
 #ifdef VERICONE_LONG_CAMPAIGN
-  o.cases = kTotal / predicate_names().size() + 1;
+  o.cases = kTotal / (predicate_names().size() - 1) + 1;  // the slow one counts for little
   o.seed = 2;
   o.exact_every = 256;
   o.truth_every = 8192;
