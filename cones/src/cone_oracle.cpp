@@ -15,19 +15,21 @@
 namespace vericone {
 namespace {
 
-/// Roundings on the way to the quantities of the first rung, from the formulas themselves. c: 1 (difference
-/// of the centres). S: 3 (three products of factors summed). u, v = w_i / w_k, w_j / w_k: 3 (two differences
-/// of velocities, the quotient). The normal is taken as it is.
+// Roundings of the inputs of the first rung. c: 1 (difference of the centres). S: 3 (three products of factors
+// summed). u, v = w_i / w_k, w_j / w_k: 3 (two differences of velocities, the quotient). The normal is taken as
+// it is.
+constexpr RoundingCount kCenter{1}, kShape{3}, kSlope{3}, kNormal{0};
+
+/// Roundings on the way to the quantities of the first rung, from the formulas themselves.
 constexpr auto kCount = [] {
   struct Counts {
     RoundingCount ahead, k1, k2, discriminant;
   };
-  constexpr RoundingCount kCenter{1}, kShape{3}, kSlope{3}, kInput{0};
   const auto s = [](int, int) { return kShape; };
   const ContactCubic<RoundingCount> cubic(affine_shadow<RoundingCount>(s, kSlope, kSlope, 0, 1, 2),
                                           affine_shadow<RoundingCount>(s, kSlope, kSlope, 0, 1, 2),
                                           kCenter + kSlope * kCenter, kCenter + kSlope * kCenter);
-  return Counts{kInput * kSlope + kInput * kSlope + kInput, cubic.k1, cubic.k2, cubic.discriminant()};
+  return Counts{kNormal * kSlope + kNormal * kSlope + kNormal, cubic.k1, cubic.k2, cubic.discriminant()};
 }();
 // Products below the smallest normal number lose more than a relative rounding. Inputs are scaled so that no
 // intermediate factor exceeds about 2^150, hence all such losses together stay far below this.

@@ -43,7 +43,8 @@ Interval angle_between(const Vector2d& u, const Vector2d& v) {
 std::optional<DirectionEnclosure> enclose_edge(const SectorOracle& oracle, const SectorEdge& edge,
                                                bool left) {
   // The rounded edge is off by a few units in the last place at most, but nothing is taken on trust.
-  for (double step = 0x1p-53; step < 0.5; step *= 2) {
+  for (int bits = 53; bits > 1; --bits) {
+    const double step = std::ldexp(1.0, -bits);
     const Vector2d inside = edge.direction + step * edge.normal,
                    outside = edge.direction - step * edge.normal;
     const Interval turn =
@@ -225,8 +226,8 @@ Interval enclose_clearance(const Ellipsoid& a, const Ellipsoid& b, const Vector3
     const Interval upper = Shadows::norm(cross(q, v)) / Shadows::norm(v);
     return Interval::between(lower.lo(), std::max(lower.hi(), upper.hi())) * Interval(length);
   }
-  for (double slack = 1e-12; slack < 4; slack *= 16) {
-    const double bound = lower.hi() + slack;
+  for (int bits = 40; bits >= 0; bits -= 4) {
+    const double bound = lower.hi() + std::ldexp(1.0, -bits);
     int budget = 2000;
     bool proved = true;
     for (int side = 0; side < 4 && proved; ++side)
@@ -270,7 +271,8 @@ std::optional<PlaneSectorEnclosure> enclose_plane_sector(const Ellipsoid& a, con
       for (int r = 0; r < 3; ++r) w[r] = c * u[r] + s * e[r];
       return oracle.interval_membership(w);
     };
-    for (double step = 0x1p-50; step < 0.1; step *= 2) {
+    for (int bits = 50; bits > 3; --bits) {
+      const double step = std::ldexp(1.0, -bits);
       // The line of sight is inside, so the ray turns outwards exactly once in the half-plane.
       if (membership(angle - step) == Membership::in && membership(angle + step) == Membership::out)
         return Interval::between(angle - step, angle + step);

@@ -49,7 +49,7 @@ TEST_P(SectorEnclosures, ContainTheExactAngles) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, SectorEnclosures, ::testing::ValuesIn(kAllPlanarFamilies),
-                         [](const auto& info) { return std::string(name(info.param)); });
+                         [](const auto& test) { return std::string(name(test.param)); });
 
 }  // namespace
 }  // namespace vericone::verify
