@@ -79,8 +79,8 @@ HullScene scene(SeededRandom& random, Kind kind, bool with_ellipsoid) {
       for (int k = 0; k < 3; ++k) home(k) = random.integer(-9, 9);
       const Matrix3d s = axes.cwiseAbs2().asDiagonal();
       h.ellipsoid = Ellipsoid::from_shape(size * (m * home), size * (size * (m * s * m.transpose())));
-      const Vector3d along = slide(random, kind, 1, {});
-      h.b = points(random, kind, 1, {}, lowest);
+      const Vector3d along = slide(random, kind, 1, Vector3d::Zero());
+      h.b = points(random, kind, 1, Vector3d::Zero(), lowest);
       const Vector3d at = home + Vector3d(0, 0, axes.z()) + along;
       for (Vector3d& x : h.b) x = size * (m * (x - lowest + at));
       h.grazing = size * (m * along);

@@ -61,9 +61,9 @@ struct CorpusCase {
   std::string label() const;
 };
 
-/// Truths: position: disjoint, touching, crossing, a_inside_b, b_inside_a, a_inside_b_touching, b_inside_a_touching, equal;
-/// relation: disjoint, touching, overlapping; membership, sector, hull, orifice: in, on, out; side: negative,
-/// zero, positive.
+/// Truths: position: disjoint, touching, crossing, a_inside_b, b_inside_a, a_inside_b_touching,
+/// b_inside_a_touching, equal; relation: disjoint, touching, overlapping; membership, sector, hull, orifice:
+/// in, on, out; side: negative, zero, positive.
 inline constexpr std::array<std::string_view, 7> kCorpusPredicates = {
     "position", "relation", "membership", "sector", "side", "hull", "orifice"};
 
