@@ -33,19 +33,27 @@ class EnclosedBody {
         m_[i][j] = by_factor_ ? scaled_down(body.factor()(i, j), e) : scaled_down(body.shape()(i, j), 2 * e);
   }
 
-  /// rho(n) = sqrt(n^T S n) and S n.
+  /// rho(n) = sqrt(n^T S n) and S n, for a vector of doubles or of intervals. S n / rho is the supporting
+  /// point: for each n of a box exactly on the body.
   struct Support {
     Interval rho;
     IntervalVector shape_times_n;
+
+    IntervalVector point() const {
+      IntervalVector p;
+      for (int i = 0; i < D; ++i) p[i] = shape_times_n[i] / rho;
+      return p;
+    }
   };
-  Support support(const Vector& n) const {
+  template <typename Normal>
+  Support support(const Normal& n) const {
     Support r;
     IntervalVector u;
     Interval sum = 0;
     for (int i = 0; i < D; ++i) {
       u[i] = 0;
-      for (int j = 0; j < D; ++j) u[i] = u[i] + (by_factor_ ? m_[j][i] : m_[i][j]) * Interval(n(j));
-      sum = sum + (by_factor_ ? square(u[i]) : u[i] * Interval(n(i)));
+      for (int j = 0; j < D; ++j) u[i] = u[i] + (by_factor_ ? m_[j][i] : m_[i][j]) * Interval(n[j]);
+      sum = sum + (by_factor_ ? square(u[i]) : u[i] * Interval(n[i]));
     }
     r.rho = sqrt(sum);
     for (int i = 0; i < D; ++i) {
@@ -54,7 +62,6 @@ class EnclosedBody {
     }
     return r;
   }
-  Interval radius(const Vector& n) const { return support(n).rho; }
 
   /// Whether the body certainly contains the point centre + y: |adj(F) y|^2 < det(F)^2, or
   /// y^T adj(S) y < det S.
@@ -116,10 +123,11 @@ struct EnclosedPair {
   }
 
   /// g(n) = n.c - rho_A(n) - rho_B(n).
-  Interval gap(const Vector& n) const {
+  template <typename Normal>
+  Interval gap(const Normal& n) const {
     Interval along = 0;
-    for (int i = 0; i < D; ++i) along = along + c[i] * Interval(n(i));
-    return along - (a.radius(n) + b.radius(n));
+    for (int i = 0; i < D; ++i) along = along + c[i] * Interval(n[i]);
+    return along - (a.support(n).rho + b.support(n).rho);
   }
 
  private:

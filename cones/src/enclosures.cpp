@@ -8,6 +8,8 @@
 #include <limits>
 #include <numbers>
 
+#include "enclosed_pair.h"
+
 namespace vericone {
 namespace {
 
@@ -57,134 +59,80 @@ std::optional<DirectionEnclosure> enclose_edge(const SectorOracle& oracle, const
   return std::nullopt;
 }
 
-/// The pair projected along w without dividing: with L x = (w_k x_i - w_i x_k, w_k x_j - w_j x_k) the normals
-/// perpendicular to w are exactly n = L^T z, z in the plane.
-class Shadows {
- public:
-  Shadows(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& w) : a_(a), b_(b) {
-    int k = 0;
-    w.cwiseAbs().maxCoeff(&k);
-    // Powers of two: lengths near one, and w too.
-    length_ = std::ldexp(
-        1.0, std::ilogb(std::max({a.factor().cwiseAbs().maxCoeff(), b.factor().cwiseAbs().maxCoeff(),
-                                  (b.center() - a.center()).cwiseAbs().maxCoeff()})));
-    const Vector3d v = w * std::ldexp(1.0, -std::ilogb(std::abs(w(k))));
-    i_ = (k + 1) % 3;
-    j_ = (k + 2) % 3;
-    k_ = k;
-    v_ = v;
-    for (int r = 0; r < 3; ++r)
-      c_[r] = (Interval(b.center()(r)) - Interval(a.center()(r))) / Interval(length_);
-    for (int r = 0; r < 3; ++r)
-      for (int s = 0; s < 3; ++s) {
-        m_a_[r][s] = matrix(a, r, s);
-        m_b_[r][s] = matrix(b, r, s);
-      }
-  }
+using Box = std::array<Interval, 3>;
 
-  /// Whether scaling was exact: no entry left the normal numbers.
-  bool in_range() const {
-    const double least = std::min(a_.factor().cwiseAbs().maxCoeff(), b_.factor().cwiseAbs().maxCoeff());
-    return length_ > 1e-140 && length_ < 1e140 && least > 1e-145;
-  }
-  double length() const { return length_; }
-
-  /// L^T z.
-  std::array<Interval, 3> normal(const Interval& x, const Interval& y) const {
-    std::array<Interval, 3> n;
-    n[i_] = Interval(v_(k_)) * x;
-    n[j_] = Interval(v_(k_)) * y;
-    n[k_] = -(Interval(v_(i_)) * x + Interval(v_(j_)) * y);
-    return n;
-  }
-  /// The z nearest to a normal about perpendicular to w.
-  Vector2d coordinates(const Vector3d& n) const { return Vector2d(n(i_), n(j_)) / v_(k_); }
-
-  static Interval dot(const std::array<Interval, 3>& x, const std::array<Interval, 3>& y) {
-    return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-  }
-  static Interval norm(const std::array<Interval, 3>& x) {
-    return sqrt(square(x[0]) + square(x[1]) + square(x[2]));
-  }
-
-  /// rho(n), and (S n).t where asked for.
-  Interval radius(bool of_a, const std::array<Interval, 3>& n, const std::array<Interval, 3>* t = nullptr,
-                  Interval* along = nullptr) const {
-    const auto& m = of_a ? m_a_ : m_b_;
-    const bool by_factor = (of_a ? a_ : b_).defined_by_factor();
-    std::array<Interval, 3> u, ut;
-    for (int s = 0; s < 3; ++s) {
-      u[s] = m[0][s] * n[0] + m[1][s] * n[1] + m[2][s] * n[2];
-      if (t) ut[s] = m[0][s] * (*t)[0] + m[1][s] * (*t)[1] + m[2][s] * (*t)[2];
-    }
-    if (t) *along = by_factor ? dot(u, ut) : dot(n, ut);
-    return by_factor ? norm(u) : sqrt(dot(n, u));
-  }
-
-  /// The supporting point of a body relative to its centre: exactly in the body for each n of the box.
-  std::array<Interval, 3> support(bool of_a, const std::array<Interval, 3>& n) const {
-    const auto& m = of_a ? m_a_ : m_b_;
-    const bool by_factor = (of_a ? a_ : b_).defined_by_factor();
-    std::array<Interval, 3> u, p;
-    for (int s = 0; s < 3; ++s) u[s] = m[0][s] * n[0] + m[1][s] * n[1] + m[2][s] * n[2];
-    const Interval rho = by_factor ? norm(u) : sqrt(dot(n, u));
-    for (int r = 0; r < 3; ++r)
-      p[r] = (by_factor ? m[r][0] * u[0] + m[r][1] * u[1] + m[r][2] * u[2] : u[r]) / rho;
-    return p;
-  }
-
-  /// g(n), lengths scaled.
-  Interval gap(const std::array<Interval, 3>& n) const {
-    return dot(n, c_) - radius(true, n) - radius(false, n);
-  }
-  const std::array<Interval, 3>& center_line() const { return c_; }
-  std::array<Interval, 3> velocity() const { return {v_(0), v_(1), v_(2)}; }
-
- private:
-  Interval matrix(const Ellipsoid& body, int r, int s) const {
-    return body.defined_by_factor() ? Interval(body.factor()(r, s)) / Interval(length_)
-                                    : Interval(body.shape()(r, s)) / (Interval(length_) * Interval(length_));
-  }
-
-  const Ellipsoid &a_, &b_;
-  int i_, j_, k_;
-  double length_;
-  Vector3d v_;
-  std::array<Interval, 3> c_;
-  Interval m_a_[3][3], m_b_[3][3];
-};
-
-std::array<Interval, 3> cross(const std::array<Interval, 3>& x, const std::array<Interval, 3>& y) {
+Interval dot(const Box& x, const Box& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
+Interval norm(const Box& x) { return sqrt(square(x[0]) + square(x[1]) + square(x[2])); }
+Box cross(const Box& x, const Box& y) {
   return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
 }
 
+/// Normals that are exactly perpendicular to w: L^T z with the projection that needs no division,
+/// L x = (w_k x_i - w_i x_k, w_k x_j - w_j x_k).
+class NormalsAcross {
+ public:
+  explicit NormalsAcross(const Vector3d& w) {
+    w.cwiseAbs().maxCoeff(&k_);
+    i_ = (k_ + 1) % 3;
+    j_ = (k_ + 2) % 3;
+    w_ = w * std::ldexp(1.0, -std::ilogb(std::abs(w(k_))));
+  }
+
+  Box normal(const Interval& x, const Interval& y) const {
+    Box n;
+    n[i_] = Interval(w_(k_)) * x;
+    n[j_] = Interval(w_(k_)) * y;
+    n[k_] = -(Interval(w_(i_)) * x + Interval(w_(j_)) * y);
+    return n;
+  }
+  /// The z of a normal about perpendicular to w.
+  Vector2d coordinates(const Vector3d& n) const { return Vector2d(n(i_), n(j_)) / w_(k_); }
+  Box velocity() const { return {w_(0), w_(1), w_(2)}; }
+
+ private:
+  int i_, j_, k_;
+  Vector3d w_;
+};
+
+/// c minus the supporting points of n: the vector between a point of A and a point of B.
+Box between_supports(const EnclosedPair<3>& pair, const Box& n) {
+  const Box at_a = pair.a.support(n).point(), at_b = pair.b.support(n).point();
+  Box q;
+  for (int r = 0; r < 3; ++r) q[r] = pair.c[r] - at_a[r] - at_b[r];
+  return q;
+}
+
+/// Lengths of the pair's unit in metres; infinite where the range of doubles ends.
+Interval in_metres(const EnclosedPair<3>& pair, const Interval& x) { return scaled_down(x, -pair.exponent); }
+
+bool in_range(const EnclosedPair<3>& pair) { return pair.usable && std::abs(pair.exponent) < 465; }
+
 /// Whether g(n) <= bound |n| for all n = L^T z with z on one side of the square max |z_i| = 1, side 0..3, its
 /// free coordinate in [lo, hi]. Mean value form; halves what it cannot decide. `budget`: boxes left.
-bool below_everywhere(const Shadows& shadows, double bound, int side, double lo, double hi, int& budget) {
+bool below_everywhere(const EnclosedPair<3>& pair, const NormalsAcross& across, double bound, int side,
+                      double lo, double hi, int& budget) {
   if (--budget < 0) return false;
   const double middle = 0.5 * (lo + hi);
   const auto at = [&](const Interval& t) {
     const double fixed = side < 2 ? 1 : -1;
-    return side % 2 == 0 ? shadows.normal(fixed, t) : shadows.normal(t, fixed);
+    return side % 2 == 0 ? across.normal(fixed, t) : across.normal(t, fixed);
   };
-  const auto slope_of = side % 2 == 0 ? shadows.normal(0.0, 1.0) : shadows.normal(1.0, 0.0);
+  const Box along = side % 2 == 0 ? across.normal(0.0, 1.0) : across.normal(1.0, 0.0);
   const Interval range = Interval::between(lo, hi);
-  const auto n = at(range), n0 = at(middle);
+  const Box n = at(range), n0 = at(middle);
   // h(t) = n.c - rho_A - rho_B - bound |n|
-  const Interval value = shadows.gap(n0) - Interval(bound) * Shadows::norm(n0);
-  Interval along_a, along_b;
-  const Interval ra = shadows.radius(true, n, &slope_of, &along_a),
-                 rb = shadows.radius(false, n, &slope_of, &along_b);
-  const Interval length = Shadows::norm(n);
-  if (ra.positive() && rb.positive() && length.positive()) {
-    const Interval slope = Shadows::dot(slope_of, shadows.center_line()) - along_a / ra - along_b / rb -
-                           Interval(bound) * (Shadows::dot(n, slope_of) / length);
+  const Interval value = pair.gap(n0) - Interval(bound) * norm(n0);
+  const auto a = pair.a.support(n), b = pair.b.support(n);
+  const Interval length = norm(n);
+  if (a.rho.positive() && b.rho.positive() && length.positive()) {
+    const Interval slope = dot(along, pair.c) - dot(along, a.shape_times_n) / a.rho -
+                           dot(along, b.shape_times_n) / b.rho - Interval(bound) * (dot(along, n) / length);
     const Interval whole = value + slope * (range - Interval(middle));
     if (whole.hi() <= 0) return true;
   }
   if (value.positive() || hi - lo < 1e-13) return false;
-  return below_everywhere(shadows, bound, side, lo, middle, budget) &&
-         below_everywhere(shadows, bound, side, middle, hi, budget);
+  return below_everywhere(pair, across, bound, side, lo, middle, budget) &&
+         below_everywhere(pair, across, bound, side, middle, hi, budget);
 }
 
 }  // namespace
@@ -211,44 +159,38 @@ std::optional<SectorEnclosure> enclose_sector(const Ellipse& a, const Ellipse& b
 
 Interval enclose_clearance(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& w) {
   const Clearance near = clearance(a, b, w);  // refuses bad velocities
-  const Shadows shadows(a, b, w);
-  if (!shadows.in_range()) return {0, kInfinity};
-  const double length = shadows.length();
-  const Vector2d z = shadows.coordinates(near.normal);
-  const auto n = shadows.normal(z.x(), z.y());
-  const Interval lower = shadows.gap(n) / Shadows::norm(n);
+  const EnclosedPair<3> pair(a, b);
+  if (!in_range(pair)) return {0, kInfinity};
+  const NormalsAcross across(w);
+  const Vector2d z = across.coordinates(near.normal);
+  const Box n = across.normal(z.x(), z.y());
+  const Interval lower = pair.gap(n) / norm(n);
   if (lower.positive()) {
     // The two supporting points, projected along w, are points of the two shadows.
-    const auto pa = shadows.support(true, n), pb = shadows.support(false, n);
-    std::array<Interval, 3> q;
-    for (int r = 0; r < 3; ++r) q[r] = shadows.center_line()[r] - pa[r] - pb[r];
-    const auto v = shadows.velocity();
-    const Interval upper = Shadows::norm(cross(q, v)) / Shadows::norm(v);
-    return Interval::between(lower.lo(), std::max(lower.hi(), upper.hi())) * Interval(length);
+    const Box v = across.velocity();
+    const Interval upper = norm(cross(between_supports(pair, n), v)) / norm(v);
+    return in_metres(pair, Interval::between(lower.lo(), std::max(lower.hi(), upper.hi())));
   }
   for (int bits = 40; bits >= 0; bits -= 4) {
     const double bound = lower.hi() + std::ldexp(1.0, -bits);
     int budget = 2000;
     bool proved = true;
     for (int side = 0; side < 4 && proved; ++side)
-      proved = below_everywhere(shadows, bound, side, -1, 1, budget);
-    if (proved) return Interval::between(lower.lo(), bound) * Interval(length);
+      proved = below_everywhere(pair, across, bound, side, -1, 1, budget);
+    if (proved) return in_metres(pair, Interval::between(lower.lo(), bound));
   }
-  return Interval::between(lower.lo(), 4) * Interval(length);  // |c| <= 2 length bounds every gap
+  return in_metres(pair, Interval::between(lower.lo(), 2));  // |c| <= sqrt(3) bounds every gap
 }
 
 Interval enclose_separation(const Ellipsoid& a, const Ellipsoid& b) {
   if (relation<3>(a, b) != Relation::disjoint) return 0.0;
-  const Separation near = separation(a, b);
-  const Shadows shadows(a, b, Vector3d::UnitX());  // for its lengths
-  if (!shadows.in_range()) return {0, kInfinity};
-  const std::array<Interval, 3> n{near.normal.x(), near.normal.y(), near.normal.z()};
-  const Interval lower = shadows.gap(n) / Shadows::norm(n);
-  const auto pa = shadows.support(true, n), pb = shadows.support(false, n);
-  std::array<Interval, 3> q;
-  for (int r = 0; r < 3; ++r) q[r] = shadows.center_line()[r] - pa[r] - pb[r];
-  return Interval::between(std::max(0.0, lower.lo()), std::max(lower.hi(), Shadows::norm(q).hi())) *
-         Interval(shadows.length());
+  const Vector3d normal = separation(a, b).normal;
+  const EnclosedPair<3> pair(a, b);
+  if (!in_range(pair)) return {0, kInfinity};
+  const Box n{normal.x(), normal.y(), normal.z()};
+  const Interval lower = pair.gap(n) / norm(n);
+  return in_metres(pair, Interval::between(std::max(0.0, lower.lo()),
+                                           std::max(lower.hi(), norm(between_supports(pair, n)).hi())));
 }
 
 std::optional<PlaneSectorEnclosure> enclose_plane_sector(const Ellipsoid& a, const Ellipsoid& b,
@@ -256,18 +198,18 @@ std::optional<PlaneSectorEnclosure> enclose_plane_sector(const Ellipsoid& a, con
   const PlaneSector sector = exact_sector(a, b, across);
   const ConeOracle oracle(a, b);
   // u and e as boxes around the true ones: c / |c|, and what is left of `across` without its part along c.
-  std::array<Interval, 3> u, e, towards{across.x(), across.y(), across.z()};
+  Box u, e, towards{across.x(), across.y(), across.z()};
   for (int r = 0; r < 3; ++r) u[r] = Interval(b.center()(r)) - Interval(a.center()(r));
-  const Interval distance = Shadows::norm(u);
+  const Interval distance = norm(u);
   for (Interval& x : u) x = x / distance;
-  const Interval part = Shadows::dot(towards, u);
+  const Interval part = dot(towards, u);
   for (int r = 0; r < 3; ++r) e[r] = towards[r] - part * u[r];
-  const Interval rest = Shadows::norm(e);
+  const Interval rest = norm(e);
   for (Interval& x : e) x = x / rest;
   const auto enclose = [&](double angle, double side) -> std::optional<Interval> {
     const auto membership = [&](double phi) {
       const Interval c = rounded_by_library(std::cos(phi)), s = rounded_by_library(side * std::sin(phi));
-      std::array<Interval, 3> w;
+      Box w;
       for (int r = 0; r < 3; ++r) w[r] = c * u[r] + s * e[r];
       return oracle.interval_membership(w);
     };

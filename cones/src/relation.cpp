@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "contact_polynomial.h"
+#include "enclosed_pair.h"
 
 namespace vericone {
 namespace {
@@ -24,20 +25,6 @@ double radius_above(const BasicEllipsoid<D>& body, const Eigen::Matrix<double, D
   }
   const double q = n.dot(body.shape() * n), magnitude = n_abs.dot(body.shape().cwiseAbs() * n_abs);
   return std::sqrt(std::max(q, 0.0) + 16 * kUnitRoundoff * magnitude) * (1 + 4 * kUnitRoundoff);
-}
-
-/// rho(n)^2 and rho(n), from the matrix that defines the body.
-template <int D>
-Interval radius_enclosed(const BasicEllipsoid<D>& body, const Eigen::Matrix<double, D, 1>& n) {
-  Interval q = 0;
-  for (int i = 0; i < D; ++i) {
-    Interval row = 0;
-    for (int j = 0; j < D; ++j)
-      row = row +
-            Interval(body.defined_by_factor() ? body.factor()(j, i) : body.shape()(i, j)) * Interval(n(j));
-    q = q + (body.defined_by_factor() ? square(row) : Interval(n(i)) * row);
-  }
-  return sqrt(q);
 }
 
 }  // namespace
@@ -57,9 +44,7 @@ bool triage_separates(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
 template <int D>
 bool interval_separates(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
                         const Eigen::Matrix<double, D, 1>& n) {
-  Interval g = 0;
-  for (int i = 0; i < D; ++i) g = g + Interval(n(i)) * (Interval(b.center()(i)) - Interval(a.center()(i)));
-  return (g - radius_enclosed<D>(a, n) - radius_enclosed<D>(b, n)).positive();
+  return EnclosedPair<D>(a, b).gap(n).positive();
 }
 
 template <int D>

@@ -209,6 +209,29 @@ class Cone(unittest.TestCase):
         self.assertEqual(c["relation"], "disjoint")
 
 
+class SignMap(unittest.TestCase):
+    def test_table_and_provenance(self):
+        with tempfile.TemporaryDirectory() as folder:
+            result = run("signmap", "--cells", "41", "--no-figures", "--out", folder)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            tables = [n for n in os.listdir(folder) if n.endswith(".csv")]
+            self.assertEqual(len(tables), 1)
+            with open(os.path.join(folder, tables[0]), encoding="utf-8") as f:
+                rows = [line.strip().split(",") for line in f if not line.startswith("#")]
+            header, cells = rows[0], rows[1:]
+            self.assertEqual(len(cells), 41 * 41)
+            exact = {tuple(map(int, c[:2])): c[header.index("library")] for c in cells}
+            self.assertEqual(exact[0, 0], "on")  # the velocity in the middle grazes, by construction
+            self.assertGreater(sum(v == "in" for v in exact.values()), 300)
+            self.assertGreater(sum(v == "out" for v in exact.values()), 300)
+            self.assertIn("provenance.json", os.listdir(folder))
+
+    def test_refuses_what_it_cannot_draw(self):
+        result = run("signmap", "--cells", "0", "--no-figures")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("cells", result.stderr)
+
+
 class Accuracy(unittest.TestCase):
     ARGUMENTS = ("accuracy", "--planes", "3,6,12,24,96", "--no-figures", "--quiet", "--seed", "5")
 

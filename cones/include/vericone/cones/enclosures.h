@@ -38,7 +38,7 @@ std::optional<SectorEnclosure> enclose_sector(const Ellipse& a, const Ellipse& b
 /// and bound over all normals. Width for bodies of 1 to 10 m: about 1e-13 m where m > 0, 1e-11 m where m < 0,
 /// up to 1e-3 m where all normals are equally good (spheres hit head on). Cost: 3 us where m > 0, 0.3 ms
 /// where m < 0. Throws InputError naming "relative_velocity" where w is zero or not finite. The interval is
-/// infinite where lengths leave the range 1e-140..1e140.
+/// infinite where lengths leave the range 1e-140 to 1e140.
 Interval enclose_clearance(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& w);
 
 /// Distance between two bodies, metres: [0, 0] where they touch or overlap, decided exactly. Cost: about 2
