@@ -31,6 +31,9 @@ function(vericone_library name)
   set_target_properties(vericone_${name} PROPERTIES EXPORT_NAME ${name})
   target_compile_features(vericone_${name} PUBLIC cxx_std_20)
   target_compile_options(vericone_${name} PUBLIC -ffp-contract=off PRIVATE ${VERICONE_WARNINGS})
+  if(VERICONE_COUNT_RUNGS)
+    target_compile_definitions(vericone_${name} PUBLIC VERICONE_COUNT_RUNGS)
+  endif()
   target_include_directories(vericone_${name} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
