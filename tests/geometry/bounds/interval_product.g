@@ -1,6 +1,6 @@
 # Interval::operator*: the radius, computed to nearest, is at least |xm| yr + xr (|ym| + yr) + u |xm ym|, which bounds
 # |x y - fl(xm ym)|. a = |xm|, b = |ym|, r = xr, s = yr, where nothing leaves the normal numbers; the losses where
-# something does are below 5 * 2^-1075, and the code adds 2^-1070.
+# something does are below 5 * 2^-1075, and the code adds 2^-1000.
 @rnd = float<ieee_64, ne>;
 a = rnd(a_); b = rnd(b_); r = rnd(r_); s = rnd(s_); t = rnd(t_);
 total rnd= (a * s + r * (b + s)) + 1b-53 * (a * b);

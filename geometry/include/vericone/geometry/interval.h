@@ -26,7 +26,7 @@ class Interval {
  public:
   static constexpr double kUnitRoundoff = 0x1p-53;
   static constexpr double kInflate = 1 + 0x1p-49;
-  static constexpr double kTiny = 0x1p-1070;
+  static constexpr double kTiny = 0x1p-1000;
 
   constexpr Interval() = default;
   constexpr Interval(double exact) : mid_(exact) {}  // NOLINT(google-explicit-constructor): one is exactly it
