@@ -82,8 +82,7 @@ int run(int argc, char** argv) {
   signmap_command->add_flag("--no-figures", no_signmap_figure, "Tables only");
   signmap_command->callback([&] {
     signmap.figures = !no_signmap_figure;
-    for (int i = 0; i < argc; ++i)
-      signmap.command_line.append(i ? " " : "").append(i ? argv[i] : "vericone");
+    for (int i = 0; i < argc; ++i) signmap.command_line.append(i ? " " : "").append(i ? argv[i] : "vericone");
     vericone::run_signmap(signmap, std::cout);
   });
 

@@ -83,7 +83,8 @@ int run_query(const std::string& path, bool with_rung, std::ostream& out) {
   std::string line;
   for (std::size_t number = 1; std::getline(in, line); ++number) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    out << answer_line(line, number, with_rung, bad).dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+    out << answer_line(line, number, with_rung, bad).dump(-1, ' ', false, Json::error_handler_t::replace)
+        << '\n';
     // A consumer that feeds line by line waits for each answer.
     if (path == "-" && in.rdbuf()->in_avail() <= 0) out.flush();
     if (!out) throw std::runtime_error("standard output was closed");

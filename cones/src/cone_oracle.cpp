@@ -11,13 +11,14 @@
 #include <limits>
 
 #include "contact_polynomial.h"
+#include "velocity_ladder.h"
 
 namespace vericone {
 namespace {
 
-// Roundings of the inputs of the first rung. c: 1 (difference of the centres). S: 3 (three products of factors
-// summed). u, v = w_i / w_k, w_j / w_k: 3 (two differences of velocities, the quotient). The normal is taken as
-// it is.
+// Roundings of the inputs of the first rung. c: 1 (difference of the centres). S: 3 (three products of
+// factors summed). u, v = w_i / w_k, w_j / w_k: 3 (two differences of velocities, the quotient). The normal
+// is taken as it is.
 constexpr RoundingCount kCenter{1}, kShape{3}, kSlope{3}, kNormal{0};
 
 /// Roundings on the way to the quantities of the first rung, from the formulas themselves.
@@ -53,13 +54,6 @@ struct DroppedAxis {
     j = kNext[k + 1];
   }
 };
-
-void require_finite_velocity(const Eigen::Vector3d& v, const char* field) {
-  for (int i = 0; i < 3; ++i)
-    if (!std::isfinite(v(i)))
-      throw InputError(std::string(field) + "[" + std::to_string(i) + "]", to_text(v(i)),
-                       "a finite number (m/s)");
-}
 
 }  // namespace
 
@@ -257,62 +251,18 @@ Membership membership(const RationalBody<3>& a, const RationalBody<3>& b, const 
 
 }  // namespace exact
 
-// The first rung has no answer for numbers that are not finite, so they are looked for after it.
-
 Membership ConeOracle::membership(const Eigen::Vector3d& w, Rung* rung) const {
-  return climb<ConeMembership>(
-      rung, [&] { return triage_membership(w); },
-      [&] { return interval_membership(w, Eigen::Vector3d::Zero()); },
-      [&] {
-        require_finite_velocity(w, "agent_velocity");
-        return exact_membership(w, Eigen::Vector3d::Zero());
-      });
+  return climb_membership<ConeMembership>(*this, w, Eigen::Vector3d(Eigen::Vector3d::Zero()), rung);
 }
 
 Membership ConeOracle::membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, Rung* rung) const {
-  return climb<ConeMembership>(
-      rung,
-      // A difference of doubles is zero only where they are equal.
-      [&] { return triage_membership(v_a - v_b); }, [&] { return interval_membership(v_a, v_b); },
-      [&] {
-        require_finite_velocity(v_a, "agent_velocity");
-        require_finite_velocity(v_b, "obstacle_velocity");
-        return exact_membership(v_a, v_b);
-      });
+  return climb_membership<ConeMembership>(*this, v_a, v_b, rung);
 }
 
-Passage ConeOracle::passage(const Eigen::Vector3d& w) const {
-  switch (membership(w)) {
-    case Membership::in:
-      return Passage::ahead;
-    case Membership::on:
-      return Passage::ahead_grazing;
-    case Membership::out:
-      break;
-  }
-  switch (membership(-w)) {
-    case Membership::in:
-      return Passage::behind;
-    case Membership::on:
-      return Passage::behind_grazing;
-    case Membership::out:
-      break;
-  }
-  return Passage::never;
-}
+Passage ConeOracle::passage(const Eigen::Vector3d& w) const { return passage_by_membership(*this, w); }
 
 Verdict ConeOracle::verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, Rung* rung) const {
-  if (relation_ == Relation::overlapping) return Verdict::overlapping;
-  if (relation_ == Relation::touching) return Verdict::touching;
-  switch (membership(v_a, v_b, rung)) {
-    case Membership::in:
-      return Verdict::in;
-    case Membership::on:
-      return Verdict::on;
-    case Membership::out:
-      return Verdict::out;
-  }
-  return Verdict::out;
+  return verdict_of(relation_, [&] { return membership(v_a, v_b, rung); });
 }
 
 }  // namespace vericone

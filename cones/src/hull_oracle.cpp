@@ -10,6 +10,7 @@
 #include "hull_oracle_exact.h"
 #include "hull_oracle_scene.h"
 #include "hull_oracle_search.h"
+#include "velocity_ladder.h"
 
 namespace vericone {
 namespace {
@@ -208,13 +209,6 @@ Eigen::Vector3d to_direction(const exact::IntegerVector<3>& n) {
   return r;
 }
 
-void require_finite_velocity(const Eigen::Vector3d& v, const char* field) {
-  for (int i = 0; i < 3; ++i)
-    if (!std::isfinite(v(i)))
-      throw InputError(std::string(field) + "[" + std::to_string(i) + "]", to_text(v(i)),
-                       "a finite number (m/s)");
-}
-
 }  // namespace
 
 HullOracle::HullOracle(const Ellipsoid& agent, const HullBody& obstacle)
@@ -337,64 +331,17 @@ Membership HullOracle::exact_membership(const Eigen::Vector3d& v_a, const Eigen:
 }
 
 Membership HullOracle::membership(const Eigen::Vector3d& w, Rung* rung) const {
-  return climb<HullMembership>(
-      rung, [&] { return triage_membership(w); },
-      [&] { return interval_membership(w, Eigen::Vector3d::Zero()); },
-      [&] {
-        require_finite_velocity(w, "agent_velocity");
-        return exact_membership(w, Eigen::Vector3d::Zero());
-      });
+  return climb_membership<HullMembership>(*this, w, Eigen::Vector3d(Eigen::Vector3d::Zero()), rung);
 }
 
 Membership HullOracle::membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, Rung* rung) const {
-  return climb<HullMembership>(
-      rung,
-      [&]() -> std::optional<Membership> {
-        const Eigen::Vector3d w = v_a - v_b;
-        // A difference that rounds to zero or to infinity is not a relative error of one rounding.
-        if (w.x() == 0 && w.y() == 0 && w.z() == 0) return std::nullopt;
-        return triage_membership(w);
-      },
-      [&] { return interval_membership(v_a, v_b); },
-      [&] {
-        require_finite_velocity(v_a, "agent_velocity");
-        require_finite_velocity(v_b, "obstacle_velocity");
-        return exact_membership(v_a, v_b);
-      });
+  return climb_membership<HullMembership>(*this, v_a, v_b, rung);
 }
 
-Passage HullOracle::passage(const Eigen::Vector3d& w) const {
-  switch (membership(w)) {
-    case Membership::in:
-      return Passage::ahead;
-    case Membership::on:
-      return Passage::ahead_grazing;
-    case Membership::out:
-      break;
-  }
-  switch (membership(-w)) {
-    case Membership::in:
-      return Passage::behind;
-    case Membership::on:
-      return Passage::behind_grazing;
-    case Membership::out:
-      break;
-  }
-  return Passage::never;
-}
+Passage HullOracle::passage(const Eigen::Vector3d& w) const { return passage_by_membership(*this, w); }
 
 Verdict HullOracle::verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, Rung* rung) const {
-  if (relation_ == Relation::overlapping) return Verdict::overlapping;
-  if (relation_ == Relation::touching) return Verdict::touching;
-  switch (membership(v_a, v_b, rung)) {
-    case Membership::in:
-      return Verdict::in;
-    case Membership::on:
-      return Verdict::on;
-    case Membership::out:
-      return Verdict::out;
-  }
-  return Verdict::out;
+  return verdict_of(relation_, [&] { return membership(v_a, v_b, rung); });
 }
 
 }  // namespace vericone

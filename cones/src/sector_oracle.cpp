@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "contact_polynomial.h"
+#include "velocity_ladder.h"
 
 namespace vericone {
 namespace {
@@ -38,13 +39,6 @@ constexpr RoundingCount kAhead = RoundingCount{0} * RoundingCount{3} + RoundingC
 constexpr double kUnderflow = 1e-250;
 
 int binary_exponent(double x) { return x == 0 ? 0 : std::ilogb(x) + 1; }
-
-void require_finite_velocity(const Eigen::Vector2d& v, const char* field) {
-  for (int i = 0; i < 2; ++i)
-    if (!std::isfinite(v(i)))
-      throw InputError(std::string(field) + "[" + std::to_string(i) + "]", to_text(v(i)),
-                       "a finite number (m/s)");
-}
 
 exact::IntegerVector<2> exact_normal(const exact::PairOnGrid<2>& pair) {
   const exact::Dyadic x = exact::between_positive_roots(exact::contact_polynomial<2>(pair), 0);
@@ -185,36 +179,16 @@ Membership SectorOracle::exact_membership(const Eigen::Vector2d& v_a, const Eige
 }
 
 Membership SectorOracle::membership(const Eigen::Vector2d& w, Rung* rung) const {
-  return membership(w, Eigen::Vector2d::Zero(), rung);
+  return climb_membership<SectorMembership>(*this, w, Eigen::Vector2d(Eigen::Vector2d::Zero()), rung);
 }
 
 Membership SectorOracle::membership(const Eigen::Vector2d& v_a, const Eigen::Vector2d& v_b,
                                     Rung* rung) const {
-  return climb<SectorMembership>(
-      rung,
-      [&]() -> std::optional<Membership> {
-        return triage_membership(v_a - v_b);  // a difference of doubles is zero only where they are equal
-      },
-      [&] { return interval_membership(v_a, v_b); },
-      [&] {
-        require_finite_velocity(v_a, "agent_velocity");
-        require_finite_velocity(v_b, "obstacle_velocity");
-        return exact_membership(v_a, v_b);
-      });
+  return climb_membership<SectorMembership>(*this, v_a, v_b, rung);
 }
 
 Verdict SectorOracle::verdict(const Eigen::Vector2d& v_a, const Eigen::Vector2d& v_b, Rung* rung) const {
-  if (relation_ == Relation::overlapping) return Verdict::overlapping;
-  if (relation_ == Relation::touching) return Verdict::touching;
-  switch (membership(v_a, v_b, rung)) {
-    case Membership::in:
-      return Verdict::in;
-    case Membership::on:
-      return Verdict::on;
-    case Membership::out:
-      return Verdict::out;
-  }
-  return Verdict::out;
+  return verdict_of(relation_, [&] { return membership(v_a, v_b, rung); });
 }
 
 namespace exact {
