@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scaled_inverse.h"
+#include <vericone/geometry/scaled_inverse.h>
 
 namespace vericone {
 namespace {

@@ -12,7 +12,7 @@
 #include "degenerate_conics.h"
 #include "planar_frame.h"
 #include "plane_axis.h"
-#include "scaled_inverse.h"
+#include <vericone/geometry/scaled_inverse.h>
 
 namespace vericone {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/quadric_side.h>
 
+#include <vericone/geometry/combined.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/integer.h>
 #include <vericone/geometry/interval.h>
@@ -60,6 +61,19 @@ template <int D, typename Number, typename Matrix, typename Vector>
 constexpr Number side_by_shape(const Matrix& s, const Vector& d) {
   const auto adjugate = [&](int i, int j) { return cofactor<D, Number>(s, i, j); };
   return quadratic_form<D, Number>(adjugate, d) - determinant<D, Number>(s);
+}
+
+/// d^T M d - level.
+template <int D, typename Number, typename Matrix, typename Vector>
+constexpr Number side_of_delimiter(const Matrix& m, const Vector& d, const Number& level) {
+  return quadratic_form<D, Number>(m, d) - level;
+}
+
+template <int D>
+constexpr RoundingCount delimiter_count() {
+  const auto entry = [](int, int) { return RoundingCount{0}; };
+  const auto coordinate = [](int) { return RoundingCount{1}; };  // the difference to the centre
+  return side_of_delimiter<D, RoundingCount>(entry, coordinate, RoundingCount{0});
 }
 
 template <int D>
@@ -143,6 +157,72 @@ struct ScaledBody {
     return by_factor ? side_by_factor<D, Number>(entry, d) : side_by_shape<D, Number>(entry, d);
   }
 };
+
+/// A delimiter with lengths and matrix entries scaled to at most one by powers of two.
+template <int D>
+struct ScaledDelimiter {
+  Eigen::Matrix<double, D, D> m;
+  Eigen::Matrix<double, D, 1> point, center;
+  double level;
+  bool usable;
+
+  ScaledDelimiter(const Delimiter<D>& delimiter, const Eigen::Matrix<double, D, 1>& p,
+                  const Eigen::Matrix<double, D, 1>& x) {
+    const double by_m = scale_to_one(delimiter.matrix.cwiseAbs().maxCoeff());
+    const double by_x = scale_to_one((x - p).cwiseAbs().maxCoeff());
+    m = delimiter.matrix * by_m;
+    point = x * by_x;
+    center = p * by_x;
+    level = delimiter.level * by_m * by_x * by_x;
+    const auto in_range = [](double before, double after) {
+      return before == 0 || (std::abs(after) >= 0x1p-900 && std::abs(after) <= 0x1p900);
+    };
+    usable = by_m > 0 && by_x > 0 && in_range(delimiter.level, delimiter.level * by_m) &&
+             in_range(delimiter.level, delimiter.level * by_m * by_x) && in_range(delimiter.level, level);
+    for (int i = 0; i < D; ++i) {
+      usable = usable && in_range(x(i), point(i)) && in_range(p(i), center(i));
+      for (int j = 0; j < D; ++j) usable = usable && in_range(delimiter.matrix(i, j), m(i, j));
+    }
+  }
+};
+
+template <int D>
+FilteredSign triage_delimiter(const ScaledDelimiter<D>& s) {
+  constexpr RoundingCount kCount = delimiter_count<D>();
+  return side_of_delimiter<D, Tracked>([&](int i, int j) { return Tracked::of(s.m(i, j)); },
+                                       [&](int i) { return Tracked::of(s.point(i) - s.center(i)); },
+                                       Tracked::of(s.level))
+      .sign(kCount, kUnderflow);
+}
+
+template <int D>
+FilteredSign interval_delimiter(const ScaledDelimiter<D>& s) {
+  return side_of_delimiter<D, Interval>([&](int i, int j) { return Interval(s.m(i, j)); },
+                                        [&](int i) { return Interval(s.point(i)) - Interval(s.center(i)); },
+                                        Interval(s.level))
+      .sign();
+}
+
+template <int D>
+exact::Integer exact_delimiter(const Delimiter<D>& delimiter, const Eigen::Matrix<double, D, 1>& p,
+                               const Eigen::Matrix<double, D, 1>& x) {
+  using exact::Integer;
+  constexpr int kNone = 1 << 20;
+  int e_m = kNone, e_x = kNone;
+  for (int i = 0; i < D; ++i) {
+    e_x = std::min({e_x, exact::grid_exponent(x(i), kNone), exact::grid_exponent(p(i), kNone)});
+    for (int j = 0; j < D; ++j) e_m = std::min(e_m, exact::grid_exponent(delimiter.matrix(i, j), kNone));
+  }
+  if (e_x == kNone) e_x = 0;
+  const int e_level = exact::grid_exponent(delimiter.level, kNone);
+  if (e_m == kNone) e_m = 0;
+  // One grid for the level and for the products: 2^(e_m + 2 e_x).
+  if (e_level != kNone) e_m = std::min(e_m, e_level - 2 * e_x);
+  return side_of_delimiter<D, Integer>(
+      [&](int i, int j) { return exact::on_grid(delimiter.matrix(i, j), e_m); },
+      [&](int i) { return Integer(exact::on_grid(x(i), e_x) - exact::on_grid(p(i), e_x)); },
+      exact::on_grid(delimiter.level, e_m + 2 * e_x));
+}
 
 template <typename Point>
 void require_finite(const Point& point) {
@@ -278,6 +358,25 @@ Sign side(std::span<const BasicQuadric<D>> quadrics, const Eigen::Matrix<double,
   }
   return largest;
 }
+
+template <int D>
+Sign side(const BasicCombined<D>& body, const Eigen::Matrix<double, D, 1>& point, Rung* rung) {
+  Sign largest = side<D>(body.ellipsoid(), point, rung);
+  for (const Delimiter<D>& delimiter : body.delimiters()) {
+    if (largest == Sign::positive) break;
+    const ScaledDelimiter<D> scaled(delimiter, body.center(), point);
+    Rung own{};
+    const Sign s = climb<PointCombined>(
+        &own, [&] { return scaled.usable ? known(triage_delimiter<D>(scaled)) : std::nullopt; },
+        [&] { return scaled.usable ? known(interval_delimiter<D>(scaled)) : std::nullopt; },
+        [&] { return sign_of(exact_delimiter<D>(delimiter, body.center(), point)); });
+    if (rung) *rung = std::max(*rung, own);
+    largest = std::max(largest, s);
+  }
+  return largest;
+}
+template Sign side<2>(const CombinedEllipse&, const Eigen::Vector2d&, Rung*);
+template Sign side<3>(const CombinedEllipsoid&, const Eigen::Vector3d&, Rung*);
 
 namespace exact {
 

@@ -7,6 +7,7 @@
 // largest of its members' sides; rungs that answer agree.
 #pragma once
 
+#include <vericone/geometry/combined.h>
 #include <vericone/geometry/quadric.h>
 #include <vericone/geometry/rational.h>
 #include <vericone/geometry/sign.h>
@@ -24,6 +25,11 @@ Sign side(const BasicQuadric<D>& quadric, const Eigen::Matrix<double, D, 1>& poi
 /// determinants, sign of |adj(F)(x - p)|^2 - det(F)^2 or of (x - p)^T adj(S) (x - p) - det S.
 template <int D>
 Sign side(const BasicEllipsoid<D>& body, const Eigen::Matrix<double, D, 1>& point, Rung* rung = nullptr);
+
+/// The same for combined quadrics: negative inside, zero on the boundary, positive outside. A delimiter's
+/// value d^T M d - level, d = x - p, is of degree 1 in M and 2 in d. `rung`: the highest one asked.
+template <int D>
+Sign side(const BasicCombined<D>& body, const Eigen::Matrix<double, D, 1>& point, Rung* rung = nullptr);
 
 /// Side of the combination { x : x~^T Q_i x~ <= 0 for all i }: negative in its interior, zero on its
 /// boundary, positive outside. Empty: all of space. `rung`: the last one asked.
@@ -56,5 +62,6 @@ Sign side(const RationalBody<D>& body, const RationalVector<D>& point);
 /// Tags of the ladders for rung_counts().
 struct PointQuadric;
 struct PointBody;
+struct PointCombined;
 
 }  // namespace vericone
