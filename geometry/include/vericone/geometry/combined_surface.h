@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Surfaces of combined quadrics (combined.h) as triangles and polylines: for pictures and files. No predicate
+// and no cone uses them.
+#pragma once
+
+#include <vericone/geometry/combined.h>
+#include <array>
+#include <string>
+#include <vector>
+
+namespace vericone {
+
+/// A triangulated surface. All vertices are on the body's surface to rounding; those of edges where two
+/// quadrics meet (the rims) are on both, so that rims are as sharp as they are.
+struct CombinedSurface {
+  struct Triangle {
+    std::array<int, 3> vertices{};  // counter-clockwise seen from outside
+    int quadric = 0;                // it lies on: 0 the ellipsoid, i + 1 the delimiter i
+  };
+  std::vector<Eigen::Vector3d> vertices;  // metres
+  std::vector<Triangle> triangles;
+};
+
+/// The closed surface. `resolution` (0.005 to 1): length of the edges in parts of the ellipsoid's semi-axes;
+/// small dents and waists get shorter ones. Every edge belongs to two triangles, in opposite directions; the
+/// Euler characteristic is 2. A body pinched to a point at its centre (level 0) has one vertex there, shared
+/// by all parts that meet in it. Throws InputError naming "resolution".
+CombinedSurface surface(const CombinedEllipsoid& body, double resolution = 0.1);
+
+enum class SurfacePart {
+  ellipsoid,   // the source's ellipsoid delimited by hyperboloid (EDH, (6.6))
+  delimiters,  // its hyperboloid delimited by ellipsoid (HDE, (6.7)); both together: (6.8), (6.9)
+};
+
+/// The triangles on the ellipsoid, or those on the delimiters, with the vertices they need.
+CombinedSurface part(const CombinedSurface& surface, SurfacePart which);
+
+/// The edges between triangles on different quadrics, each once.
+std::vector<std::array<int, 2>> rims(const CombinedSurface& surface);
+
+/// Volume inside a closed surface, m^3, by the divergence theorem.
+double enclosed_volume(const CombinedSurface& surface);
+
+/// Wavefront OBJ (a group "quadric_i" for each quadric) and PLY (text, with the property "quadric" of faces).
+std::string to_obj(const CombinedSurface& surface);
+std::string to_ply(const CombinedSurface& surface);
+
+/// Part of a planar body's boundary on one conic, from corner to corner counter-clockwise; a single arc that
+/// returns to its beginning where there are no corners.
+struct BoundaryArc {
+  int conic = 0;  // 0 the ellipse, i + 1 the delimiter i
+  std::vector<Eigen::Vector2d> points;
+};
+
+/// The boundary, counter-clockwise; `resolution` as above, in radians about the centre where the ellipse is a
+/// unit circle. Throws InputError naming "resolution".
+std::vector<BoundaryArc> outline(const CombinedEllipse& body, double resolution = 0.02);
+
+}  // namespace vericone
