@@ -16,12 +16,12 @@ std::optional<Interval> interval_time_to_contact(const Ellipsoid& a, const Ellip
 
 std::optional<Interval> exact_time_to_contact(const ConeOracle& oracle, const Eigen::Vector3d& v_a,
                                               const Eigen::Vector3d& v_b) {
-  exact::ContactTime time = exact::contact_time(oracle, v_a, v_b);
-  switch (time.when) {
+  exact::ContactTime time(oracle, v_a, v_b);
+  switch (time.when()) {
     case exact::ContactTime::When::now:
       return Interval(0);
     case exact::ContactTime::When::later:
-      return exact::enclosure(*time.root);
+      return time.enclosure();
     case exact::ContactTime::When::never:
       break;
   }

@@ -54,10 +54,10 @@ Sign exact_earlier(const Encounter& p, const Encounter& q) {
   require_finite(p, "p");
   require_finite(q, "q");
   const auto time = [](const Encounter& encounter) {
-    return exact::contact_time(ConeOracle(encounter.a, encounter.b), encounter.w, Eigen::Vector3d::Zero());
+    return exact::ContactTime(ConeOracle(encounter.a, encounter.b), encounter.w, Eigen::Vector3d::Zero());
   };
   exact::ContactTime of_p = time(p), of_q = time(q);
-  return static_cast<Sign>(exact::compare(of_p, of_q));
+  return static_cast<Sign>(compare(of_p, of_q));
 }
 
 Sign earlier(const Encounter& p, const Encounter& q, Rung* rung) {

@@ -9,10 +9,6 @@
 namespace vericone::exact {
 namespace {
 
-/// floor(log2 |x|), x != 0.
-int log2_floor(const Integer& x) { return static_cast<int>(msb(Integer(abs(x)))); }
-int log2_floor(const Dyadic& x) { return log2_floor(x.numerator) - static_cast<int>(x.exponent); }
-
 /// Lehmer's algorithm: many division steps are found from the leading digits and applied at once. (The binary
 /// algorithm of the library is slow for numbers of thousands of digits.)
 Integer common_divisor(Integer a, Integer b) {
@@ -60,35 +56,8 @@ Dyadic reduced(Dyadic x) {
   return x;
 }
 
-/// Strictly between lo < hi, which have one sign: the arithmetic mean of near numbers, about the geometric
-/// one of numbers of different sizes.
-Dyadic between(Dyadic lo, Dyadic hi) {
-  if (lo.numerator != 0 && hi.numerator != 0) {
-    const int small = std::min(log2_floor(lo), log2_floor(hi)),
-              large = std::max(log2_floor(lo), log2_floor(hi));
-    if (large - small >= 2) {
-      Dyadic mid = Dyadic::power_of_two(static_cast<int>(std::floor((small + large + 1) / 2.0)));
-      if (lo.numerator < 0) mid.numerator = -mid.numerator;
-      return mid;
-    }
-  }
-  align(lo, hi);
-  return reduced({lo.numerator + hi.numerator, lo.exponent + 1});
-}
-
-/// 2^(k n) p(x) for x = m / 2^k and p of degree n: sum p_i m^i 2^(k (n - i)), by Horner.
-Integer scaled_value(const Polynomial& p, const Dyadic& x) {
-  Integer sum = 0;
-  unsigned shift = 0;
-  for (auto it = p.rbegin(); it != p.rend(); ++it) {
-    sum = sum * x.numerator + (*it << shift);
-    shift += x.exponent;
-  }
-  return sum;
-}
-
-/// Bounds of the same on [lo, hi], lo.exponent == hi.exponent: sign of all values, 0 if they differ or are
-/// not told apart.
+/// Bounds of scaled_value() on [lo, hi], lo.exponent == hi.exponent: sign of all values, 0 if they differ or
+/// are not told apart.
 int sign_on(const Polynomial& p, Dyadic lo, Dyadic hi) {
   align(lo, hi);
   Integer least = 0, most = 0;
@@ -120,33 +89,6 @@ Polynomial negative_remainder(Polynomial a, const Polynomial& b) {
   a = primitive_part(std::move(a));
   for (auto& x : a) x = -x;
   return a;
-}
-
-/// Whether p and q certainly have no common factor: they have none modulo a prime that does not divide their
-/// leading coefficients.
-bool surely_coprime(const Polynomial& p, const Polynomial& q) {
-  static constexpr std::uint64_t kPrime = (1u << 31) - 1;
-  const auto reduced = [](const Polynomial& f) {
-    std::vector<std::uint64_t> r;
-    for (const Integer& x : f) {
-      const auto m = static_cast<std::int64_t>(Integer(x % kPrime));
-      r.push_back(static_cast<std::uint64_t>(m < 0 ? m + static_cast<std::int64_t>(kPrime) : m));
-    }
-    return r;
-  };
-  auto a = reduced(p), b = reduced(q);
-  if (a.back() == 0 || b.back() == 0) return false;
-  while (!b.empty()) {
-    while (a.size() >= b.size()) {  // scaled by the leading coefficient of b
-      const std::uint64_t lead = b.back(), top = kPrime - a.back();
-      const std::size_t shift = a.size() - b.size();
-      for (std::size_t i = 0; i < a.size(); ++i)
-        a[i] = (a[i] * lead + (i >= shift ? top * b[i - shift] : 0)) % kPrime;
-      while (!a.empty() && a.back() == 0) a.pop_back();
-    }
-    std::swap(a, b);
-  }
-  return a.size() == 1;
 }
 
 template <typename Sign>
@@ -245,6 +187,9 @@ Interval enclosure_of_magnitude(const Integer& m, unsigned exponent) {
 
 }  // namespace
 
+int log2_floor(const Integer& x) { return static_cast<int>(msb(Integer(abs(x)))); }
+int log2_floor(const Dyadic& x) { return log2_floor(x.numerator) - static_cast<int>(x.exponent); }
+
 Dyadic Dyadic::power_of_two(int e) {
   return e >= 0 ? Dyadic{Integer(1) << static_cast<unsigned>(e), 0} : Dyadic{1, static_cast<unsigned>(-e)};
 }
@@ -257,6 +202,20 @@ Dyadic Dyadic::of(double finite) {
 int compare(const Dyadic& x, const Dyadic& y) {
   return x.exponent < y.exponent ? (x.numerator << (y.exponent - x.exponent)).compare(y.numerator)
                                  : x.numerator.compare(y.numerator << (x.exponent - y.exponent));
+}
+
+Dyadic between(Dyadic lo, Dyadic hi) {
+  if (lo.numerator != 0 && hi.numerator != 0) {
+    const int small = std::min(log2_floor(lo), log2_floor(hi)),
+              large = std::max(log2_floor(lo), log2_floor(hi));
+    if (large - small >= 2) {
+      Dyadic mid = Dyadic::power_of_two(static_cast<int>(std::floor((small + large + 1) / 2.0)));
+      if (lo.numerator < 0) mid.numerator = -mid.numerator;
+      return mid;
+    }
+  }
+  align(lo, hi);
+  return reduced({lo.numerator + hi.numerator, lo.exponent + 1});
 }
 
 Interval enclosure(const Dyadic& x) {
@@ -309,10 +268,36 @@ Polynomial operator*(const Polynomial& p, const Integer& factor) {
   return r;
 }
 
+bool surely_coprime(const Polynomial& p, const Polynomial& q) {
+  if (p.empty() || q.empty()) return false;
+  static constexpr std::uint64_t kPrime = (1u << 31) - 1;
+  const auto reduced = [](const Polynomial& f) {
+    std::vector<std::uint64_t> r;
+    for (const Integer& x : f) {
+      const auto m = static_cast<std::int64_t>(Integer(x % kPrime));
+      r.push_back(static_cast<std::uint64_t>(m < 0 ? m + static_cast<std::int64_t>(kPrime) : m));
+    }
+    return r;
+  };
+  auto a = reduced(p), b = reduced(q);
+  if (a.back() == 0 || b.back() == 0) return false;
+  while (!b.empty()) {
+    while (a.size() >= b.size()) {  // scaled by the leading coefficient of b
+      const std::uint64_t lead = b.back(), top = kPrime - a.back();
+      const std::size_t shift = a.size() - b.size();
+      for (std::size_t i = 0; i < a.size(); ++i)
+        a[i] = (a[i] * lead + (i >= shift ? top * b[i - shift] : 0)) % kPrime;
+      while (!a.empty() && a.back() == 0) a.pop_back();
+    }
+    std::swap(a, b);
+  }
+  return a.size() == 1;
+}
+
 Polynomial gcd(Polynomial p, Polynomial q) {
+  if (surely_coprime(p, q)) return {Integer(1)};
   p = primitive_part(std::move(p));
   q = primitive_part(std::move(q));
-  if (!p.empty() && !q.empty() && surely_coprime(p, q)) return {Integer(1)};
   if (p.size() < q.size()) std::swap(p, q);
   while (!q.empty()) {
     Polynomial r = negative_remainder(std::move(p), q);
@@ -348,6 +333,17 @@ std::vector<Polynomial> sturm_chain(const Polynomial& p) {
     chain.push_back(std::move(next));
   }
   return chain;
+}
+
+Integer scaled_value(const Polynomial& p, const Dyadic& x) {
+  // sum p_i m^i 2^(k (n - i)), by Horner.
+  Integer sum = 0;
+  unsigned shift = 0;
+  for (auto it = p.rbegin(); it != p.rend(); ++it) {
+    sum = sum * x.numerator + (*it << shift);
+    shift += x.exponent;
+  }
+  return sum;
 }
 
 int sign_at(const Polynomial& p, const Dyadic& x) { return scaled_value(p, x).sign(); }

@@ -382,6 +382,34 @@ TEST(Earlier, TiesByLinearMapsAndTheirNeighbours) {
   EXPECT_EQ(ties.by[2], ties.cases);
 }
 
+TEST(Earlier, DifferentBodiesAtTheSameTimeAndTheirNeighbours) {
+  // A stands back by w from where it touches B: the time is 1. A velocity with a little more of a component
+  // along the normal is earlier, and as much as 2^-1000 of it counts.
+  RandomBodies random(713);
+  SCOPED_TRACE(random.trace());
+  Rungs ties, near;
+  const auto meeting = [&] {
+    for (;;) {
+      const ExactTangency t = ExactTangency::random(random);
+      Vector3d w(random.integer(-20, 20), random.integer(-20, 20), 0);
+      if (t.normal.dot(w) == 0 || t.normal(2) == 0) continue;
+      if (t.normal.dot(w) < 0) w = -w;
+      return std::pair(Encounter{t.touching_a.translated(-w), t.touching_b, w}, t.normal(2) > 0 ? 1 : -1);
+    }
+  };
+  for (int i = 0; i < 30; ++i) {
+    const auto [p, side] = meeting();
+    const Encounter q = meeting().first;
+    ASSERT_EQ(ties.earlier(p, q), Sign::zero) << "case " << i;
+    Encounter other = p;
+    other.w(2) = std::ldexp(i % 2 ? 1 : -1, i % 3 == 0 ? -30 : i % 3 == 1 ? -150 : -1000);
+    ASSERT_EQ(near.earlier(other, q), sign_of(-side * other.w(2))) << "case " << i;
+  }
+  ties.print("earlier, different bodies");
+  near.print("earlier, their neighbours");
+  EXPECT_EQ(ties.by[2], ties.cases);
+}
+
 TEST(Earlier, GrazingContacts) {
   RandomBodies random(705);
   SCOPED_TRACE(random.trace());

@@ -30,6 +30,9 @@ TEST(Algebraic, PolynomialArithmetic) {
   EXPECT_EQ(gcd(p, linear(3, 2) * linear(-7, 5)), linear(3, 2));
   EXPECT_EQ(gcd(p, linear(2, 1)), polynomial({1}));
   EXPECT_EQ(gcd(p, {}), polynomial({3, -5, 2}));
+  EXPECT_TRUE(surely_coprime(p, linear(2, 1)));
+  EXPECT_FALSE(surely_coprime(p, linear(3, 2) * linear(-7, 5)));
+  EXPECT_FALSE(surely_coprime(p, {}));
   EXPECT_EQ(divide_exactly(p, linear(3, 2)), polynomial({-2, 2}));
   EXPECT_EQ(squarefree_part(linear(1, 1) * linear(1, 1) * linear(1, 1) * linear(3, 2)),
             linear(1, 1) * linear(3, 2));
@@ -67,6 +70,14 @@ TEST(Algebraic, DyadicNumbers) {
   EXPECT_FALSE(enclosure(Dyadic::power_of_two(1024)).finite());
   EXPECT_TRUE(enclosure(Dyadic::power_of_two(-1200)).contains(0x1p-1074) ||
               enclosure(Dyadic::power_of_two(-1200)).contains(0));
+  EXPECT_EQ(log2_floor(Dyadic{-3, 4}), -3);
+  EXPECT_EQ(scaled_value(polynomial({1, 0, 2}), Dyadic{3, 1}), 4 * 1 + 2 * 9);
+  for (const auto& [lo, hi] :
+       {std::pair(Dyadic{0, 0}, Dyadic{1, 0}), std::pair(Dyadic{1, 0}, Dyadic{3, 1}),
+        std::pair(Dyadic{1, 100}, Dyadic{1, 0}), std::pair(Dyadic{-9, 0}, Dyadic{-1, 5})}) {
+    EXPECT_EQ(compare(lo, between(lo, hi)), -1);
+    EXPECT_EQ(compare(hi, between(lo, hi)), 1);
+  }
   // One third lies between the ends.
   const Dyadic third{(Integer(1) << 90) / 3, 90};
   EXPECT_LT(compare(Dyadic::of(enclosure(third).lo()), third), 0);

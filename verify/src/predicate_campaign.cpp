@@ -99,15 +99,9 @@ struct Tally {
 };
 
 PredicateReport run(const Subject& subject, const PredicateOptions& options) {
-  const std::uint64_t per_block = kCasesPerBlock * subject.fewer,
-                      blocks = (options.cases + per_block - 1) / per_block;
+  const std::uint64_t blocks = (options.cases + kCasesPerBlock - 1) / kCasesPerBlock;
   const unsigned threads =
       options.threads ? options.threads : std::max(1u, std::thread::hardware_concurrency());
-  const auto at_least_one_in = [&](std::uint64_t every, std::uint64_t most) {
-    return subject.fewer == 1 ? every : std::min(every, most);
-  };
-  const std::uint64_t exact_every = at_least_one_in(options.exact_every, 16),
-                      truth_every = at_least_one_in(options.truth_every, 8);
   std::atomic<std::uint64_t> next = 0;
   std::atomic<bool> stopped = false;
   std::mutex mutex;
@@ -125,7 +119,7 @@ PredicateReport run(const Subject& subject, const PredicateOptions& options) {
         std::uint64_t number = first;
         for (; number < last && !(options.stop && options.stop()); ++number) {
           Block block;
-          const Depth depth{one_in(exact_every, number), one_in(truth_every, number)};
+          const Depth depth{one_in(options.exact_every, number), one_in(options.truth_every, number)};
           subject.run(options.seed, number, depth, block);
           mine.add(subject, options, number, depth, block);
         }

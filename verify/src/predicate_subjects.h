@@ -75,8 +75,6 @@ struct Subject {
   void (*run)(std::uint64_t seed, std::uint64_t number, Depth depth, Block& block);
   /// Whether the answer is that of a degenerate case.
   bool (*degenerate)(int answer);
-  /// For predicates whose last rung takes milliseconds: so many times fewer cases.
-  std::uint64_t fewer = 1;
 };
 
 /// Subjects by file.

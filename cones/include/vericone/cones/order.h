@@ -58,7 +58,8 @@ Sign earlier(const Encounter& p, const Encounter& q, Rung* rung = nullptr);
 std::optional<Sign> triage_earlier(const Encounter& p, const Encounter& q) noexcept;
 /// Second rung: the same as narrow as intervals allow.
 std::optional<Sign> interval_earlier(const Encounter& p, const Encounter& q) noexcept;
-/// Last rung: roots of discriminants, of degree 12 in the time.
+/// Last rung: bounds of both times in integers, as narrow as needed; ties as equal contact polynomials or common
+/// roots of discriminants, of degree 12 in the time.
 Sign exact_earlier(const Encounter& p, const Encounter& q);
 
 /// Tags of turn() and earlier() for rung_counts().

@@ -23,8 +23,16 @@ struct Dyadic {
   static Dyadic of(double finite);
 };
 
+/// floor(log2 |x|), x != 0.
+int log2_floor(const Integer& x);
+int log2_floor(const Dyadic& x);
+
 /// Sign of x - y.
 int compare(const Dyadic& x, const Dyadic& y);
+
+/// Strictly between lo < hi, which have one sign: the arithmetic mean of near numbers, about the geometric
+/// one of numbers of different sizes.
+Dyadic between(Dyadic lo, Dyadic hi);
 
 /// Contains x, at most a few units in the last place wide; of infinite radius beyond the range of doubles.
 Interval enclosure(const Dyadic& x);
@@ -41,6 +49,10 @@ Polynomial operator-(const Polynomial& p, const Polynomial& q);
 Polynomial operator*(const Polynomial& p, const Polynomial& q);
 Polynomial operator*(const Polynomial& p, const Integer& factor);
 
+/// Whether p and q certainly have no common factor: they have none modulo a prime that does not divide their
+/// leading coefficients. Hardly ever false for coprime polynomials, and fast.
+bool surely_coprime(const Polynomial& p, const Polynomial& q);
+
 /// Greatest common divisor, primitive and with a positive leading coefficient; 1 for coprime polynomials. At
 /// most one of p, q is zero.
 Polynomial gcd(Polynomial p, Polynomial q);
@@ -53,6 +65,9 @@ Polynomial squarefree_part(const Polynomial& p);
 
 /// p, p' and the negated remainders, up to positive factors.
 std::vector<Polynomial> sturm_chain(const Polynomial& p);
+
+/// 2^(k n) p(x) for x = m / 2^k and n + 1 coefficients.
+Integer scaled_value(const Polynomial& p, const Dyadic& x);
 
 /// Sign of p(x).
 int sign_at(const Polynomial& p, const Dyadic& x);
