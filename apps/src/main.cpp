@@ -10,6 +10,7 @@
 #include "build_info.h"
 #include "cone.h"
 #include "query.h"
+#include "shapes.h"
 #include "signmap.h"
 #ifdef VERICONE_HAVE_VERIFY
 #include "verify.h"
@@ -84,6 +85,24 @@ int run(int argc, char** argv) {
     signmap.figures = !no_signmap_figure;
     for (int i = 0; i < argc; ++i) signmap.command_line.append(i ? " " : "").append(i ? argv[i] : "vericone");
     vericone::run_signmap(signmap, std::cout);
+  });
+
+  vericone::ShapesOptions shapes;
+  auto* shapes_command = app.add_subcommand("shapes", "Pictures and meshes of combined quadrics");
+  shapes_command->add_option("--out", shapes.out, "Folder for data, pictures and meshes")
+      ->capture_default_str();
+  shapes_command->add_option("--figure", shapes.which, "Names of figures (docs/combined.md); all if not given")
+      ->delimiter(',');
+  shapes_command->add_option("--mesh", shapes.mesh, "obj or ply: also write the surfaces as files");
+  shapes_command
+      ->add_option("--resolution", shapes.resolution, "Edges of the surfaces, in parts of the semi-axes")
+      ->capture_default_str();
+  bool no_shapes_figure = false;
+  shapes_command->add_flag("--no-figures", no_shapes_figure, "Data only");
+  shapes_command->callback([&] {
+    shapes.figures = !no_shapes_figure;
+    for (int i = 0; i < argc; ++i) shapes.command_line.append(i ? " " : "").append(i ? argv[i] : "vericone");
+    vericone::run_shapes(shapes, std::cout);
   });
 
 #ifdef VERICONE_HAVE_VERIFY

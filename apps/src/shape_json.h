@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Combined quadrics and what belongs to them as JSON for apps/figures.
+#pragma once
+
+#include <vericone/geometry/combined_surface.h>
+#include <nlohmann/json.hpp>
+
+namespace vericone {
+
+nlohmann::ordered_json to_json(const Eigen::Vector2d& v);
+nlohmann::ordered_json to_json(const Eigen::Vector3d& v);
+
+/// {"center", "factor", "delimiters": [{"matrix", "level"}]}
+nlohmann::ordered_json body_json(const CombinedEllipse& body);
+nlohmann::ordered_json body_json(const CombinedEllipsoid& body);
+
+/// {"vertices", "triangles", "quadrics"}
+nlohmann::ordered_json mesh_json(const CombinedSurface& surface);
+
+/// The planar body with its arcs and corners: body_json and {"arcs": [{"conic", "points"}], "corners"}
+nlohmann::ordered_json outline_json(const CombinedEllipse& body);
+
+}  // namespace vericone
