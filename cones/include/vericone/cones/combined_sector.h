@@ -22,17 +22,20 @@ struct Touch {
 /// through a corner, or at a line through two corners. Where one body reaches into the other's dent the edges
 /// are not tangents of the convex hulls (`hulls_overlap`), and psi may exceed pi.
 struct CombinedSector {
-  Sector sector;  // relation disjoint or overlapping (touching within rounding counts as either)
+  /// Relation: `overlapping` is proved by a common point, `disjoint` exact where the ellipses are disjoint
+  /// and otherwise right unless the bodies come nearer than rounding. `touching` only of two plain ellipses.
+  Sector sector;
   Touch left_a, left_b, right_a, right_b;
-  bool hulls_overlap = false;
+  bool hulls_overlap = false;  // psi > pi
 };
 
-/// The sector by comparing all candidates: exact up to rounding. Cost: a few microseconds.
+/// The sector by comparing all candidates: exact up to rounding (docs/planar-accuracy.md). Cost: about 2 us
+/// where the ellipses are disjoint, no allocation for up to three delimiters.
 CombinedSector combined_sector(const CombinedEllipse& a, const CombinedEllipse& b);
 
-/// How the delimiters of a body change beyond moving and turning with it.
+/// How a delimiter of a body changes beyond moving and turning with it.
 struct DelimiterRate {
-  Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();  // 1 / (m^2 s), in axes that turn with the body
+  Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();  // 1 / (m^2 s), added to what turning does
   double level = 0;                                  // 1 / s
 };
 
@@ -55,7 +58,7 @@ enum class TangentChoice {
 /// touch the body; otherwise tangents from corners by pole and polar, (5.6) and (5.7) as corrected
 /// (errata, 3.5), chosen as said. `a` an ellipse, `b` delimited by one hyperbola, as in the source. Nothing
 /// where the procedure finds no two tangents. Not exact: see docs/planar-accuracy.md for how often each
-/// choice errs.
+/// choice errs. Throws InputError naming "obstacle.hyperboloids" where there are several.
 std::optional<Sector> sector_by_source(const Ellipse& a, const CombinedEllipse& b, TangentChoice choice);
 
 }  // namespace vericone
