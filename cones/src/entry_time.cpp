@@ -36,6 +36,36 @@ Dyadic smaller_root(const Integer& a0, const Integer& a1, const Integer& a2, int
   return a1 < 0 ? quotient(2 * a0, root - a1, digits) : quotient(-a1 - root, 2 * a2, digits);
 }
 
+/// The smaller root t of p(x; .), so many digits of it, and derivatives there, times powers of two: p_x^2 /
+/// (p_xx p_t) is in units of the last place of t, p_x / p_xx in those of x.
+struct Passage {
+  Dyadic t;
+  Integer px, pt, pxx, pxt;
+
+  Passage(const MovingContact& contact, const Dyadic& x, int digits) {
+    std::array<Integer, 3> q, dq, ddq;
+    for (int k = 0; k < 3; ++k) {
+      const Polynomial& p = contact.by_time()[k];
+      const Polynomial derived = derivative(p);
+      q[k] = scaled_value(p, x);
+      dq[k] = scaled_value(derived, x);
+      ddq[k] = scaled_value(derivative(derived), x);
+    }
+    t = smaller_root(q[0], q[1], q[2], digits);
+    const Integer& s = t.numerator;
+    const auto value = [&](const std::array<Integer, 3>& c) {
+      return Integer((c[2] * s + (c[1] << t.exponent)) * s + (c[0] << (2 * t.exponent)));
+    };
+    const auto slope = [&](const std::array<Integer, 3>& c) {
+      return Integer(2 * c[2] * s + (c[1] << t.exponent));
+    };
+    px = value(dq);
+    pxx = value(ddq);
+    pt = slope(q);
+    pxt = slope(dq);
+  }
+};
+
 /// Changes of sign among the coefficients of (1 + y)^n p((lo + hi y) / (1 + y)): 0 or 1 is the number of
 /// roots in (lo, hi), with multiplicities (Descartes).
 int descartes_bound(const Polynomial& p, const Dyadic& lo, const Dyadic& hi) {
@@ -82,70 +112,43 @@ void EntryTime::refine(int bits) {
   while (!narrow(bits)) step(bits);
 }
 
-/// One step of Newton's iteration for d t_x / dx = -p_x / p_t = 0, halving where it does not converge.
 void EntryTime::step(int bits) {
-  // Values times powers of two: q = q(x) 2^(n e), q' 2^((n - 1) e), ... for x = m / 2^e, and of t = s / 2^f.
-  std::array<Integer, 3> q, dq, ddq;
-  for (int k = 0; k < 3; ++k) {
-    const Polynomial derived = derivative(contact_.by_time()[k]);
-    q[k] = scaled_value(contact_.by_time()[k], x_);
-    dq[k] = scaled_value(derived, x_);
-    ddq[k] = scaled_value(derivative(derived), x_);
-  }
-  const Dyadic t = smaller_root(q[0], q[1], q[2], digits_);
-  if (compare(t, lo_) > 0) lo_ = t;
-  const Integer& s = t.numerator;
-  const unsigned f = t.exponent;
-  const auto at_t = [&](const std::array<Integer, 3>& c) {
-    return Integer((c[2] * s + (c[1] << f)) * s + (c[0] << (2 * f)));
-  };
-  const auto slope_at_t = [&](const std::array<Integer, 3>& c) {
-    return Integer(2 * c[2] * s + (c[1] << f));
-  };
-  const Integer px = at_t(dq), pxx = at_t(ddq), pt = slope_at_t(q), pxt = slope_at_t(dq);
-  const Integer numerator = -px * pt, denominator = pxx * pt - pxt * px;  // of 2^e times the step
-  if (px != 0) (px > 0 ? x_low_ : x_high_) = x_;
-
-  Dyadic next = x_;
-  bool converged = px == 0;
+  const Passage at(contact_, x_, digits_);
+  if (compare(at.t, lo_) > 0) lo_ = at.t;
+  if (at.px != 0) (at.px > 0 ? x_low_ : x_high_) = x_;
+  // Newton's iteration for d t_x / dx = -p_x / p_t = 0, where it leads to a maximum.
+  const Integer denominator = at.pxx * at.pt - at.pxt * at.px;
   if (denominator > 0) {
     // t* - t is about half of p_x^2 / denominator, in units of the last place of t.
-    const Integer width = px * px / denominator + 8;
-    if (s > 0 && width << static_cast<unsigned>(bits) <= s) {
-      const Dyadic later{s + width, f};
+    const Integer width = at.px * at.px / denominator + 8;
+    if (at.t.numerator > 0 && width << static_cast<unsigned>(bits) <= at.t.numerator) {
+      const Dyadic later{at.t.numerator + width, at.t.exponent};
       if (contact_.surely_overlapping(later) && (hi_.numerator == 0 || compare(later, hi_) < 0)) hi_ = later;
       if (narrow(bits)) return;
     }
-    converged = converged || width < 16;
     const int digits = digits_ / 2 + 16;
-    const unsigned finer = static_cast<unsigned>(std::max(digits - log2_floor(x_.numerator), 0));
-    const Integer move = (numerator << finer) / denominator;
-    next = {(x_.numerator << finer) + move, x_.exponent + finer};
-    const int log2_move =
-        move == 0 ? std::numeric_limits<int>::min() : log2_floor(move) - static_cast<int>(next.exponent);
-    converged = converged || move == 0;
-    const bool good = next.numerator > 0 && log2_move < log2_last_move_ &&
-                      (!x_low_ || compare(next, *x_low_) >= 0) && (!x_high_ || compare(next, *x_high_) <= 0);
-    if (good) {
+    const auto finer = static_cast<unsigned>(std::max(digits - log2_floor(x_.numerator), 0));
+    const Integer move = -((at.px * at.pt) << finer) / denominator;
+    Dyadic next{(x_.numerator << finer) + move, x_.exponent + finer};
+    if (next.numerator > 0) next = leading(std::move(next), digits);
+    if (width < 16 || move == 0 || compare(next, x_) == 0) return use_digits(2 * digits_);
+    const int log2_move = log2_floor(move) - static_cast<int>(x_.exponent + finer);
+    if (next.numerator > 0 && log2_move < log2_last_move_ && !(x_low_ && compare(next, *x_low_) < 0) &&
+        !(x_high_ && compare(next, *x_high_) > 0)) {
       log2_last_move_ = log2_move;
-      next = leading(std::move(next), digits);
-      converged = converged || compare(next, x_) == 0;
-    } else {
-      next = x_;
+      x_ = std::move(next);
+      return;
     }
   }
-  if (converged) return use_digits(2 * digits_);
-  if (compare(next, x_) == 0) {
-    if (x_low_ && x_high_) {
-      next = between(*x_low_, *x_high_);
-      log2_last_move_ = std::numeric_limits<int>::max();
-    } else if (x_low_) {
-      next.numerator <<= 4;
-    } else {
-      next.exponent += 4;
-    }
+  log2_last_move_ = std::numeric_limits<int>::max();
+  if (x_low_ && x_high_) {
+    x_ = between(*x_low_, *x_high_);
+    if (log2_floor(x_.numerator) > digits_) use_digits(2 * digits_);
+  } else if (x_low_) {
+    x_.numerator <<= 4;
+  } else {
+    x_.exponent += 4;
   }
-  x_ = std::move(next);
 }
 
 const Polynomial& EntryTime::discriminant() {
