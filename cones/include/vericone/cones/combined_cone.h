@@ -46,9 +46,10 @@ class CombinedOracle {
   /// they decide, else some 10 to 100 us.
   Certified membership(const Eigen::Vector3d& w) const;
 
-  /// Whether all directions of the convex hull of two (less than a right angle apart, both not zero) are in,
-  /// or all are out.
-  Certified chord(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
+  /// Whether all directions of the convex hull of two, less than a right angle apart and not zero, are in
+  /// (out): true is certain, false says nothing.
+  bool all_in(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
+  bool all_out(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
 
   /// First contact of A moving by w t: an interval that contains the time, seconds. Nothing where
   /// membership(w) is not `in`. `width`: of the interval, relative to the time needed to cross |c|.
