@@ -41,6 +41,13 @@ Json mesh_json(const CombinedSurface& surface) {
   return {{"vertices", vertices}, {"triangles", triangles}, {"quadrics", quadrics}};
 }
 
+Json solid_json(const CombinedEllipsoid& body, const CombinedSurface& whole, const std::string& part) {
+  const CombinedSurface shown = part == "ellipsoid"    ? vericone::part(whole, SurfacePart::ellipsoid)
+                                : part == "delimiters" ? vericone::part(whole, SurfacePart::delimiters)
+                                                       : whole;
+  return {{"body", body_json(body)}, {"part", part}, {"mesh", mesh_json(shown)}};
+}
+
 Json outline_json(const CombinedEllipse& body) {
   Json arcs = Json::array(), all = Json::array();
   for (const BoundaryArc& arc : outline(body)) {

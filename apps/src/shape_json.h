@@ -5,6 +5,7 @@
 
 #include <vericone/geometry/combined_surface.h>
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace vericone {
 
@@ -17,6 +18,11 @@ nlohmann::ordered_json body_json(const CombinedEllipsoid& body);
 
 /// {"vertices", "triangles", "quadrics"}
 nlohmann::ordered_json mesh_json(const CombinedSurface& surface);
+
+/// A body in space, or the part of its surface on the ellipsoid ("ellipsoid") or on the delimiters
+/// ("delimiters"): {"body", "part", "mesh"}
+nlohmann::ordered_json solid_json(const CombinedEllipsoid& body, const CombinedSurface& whole,
+                                  const std::string& part = "whole");
 
 /// The planar body with its arcs and corners: body_json and {"arcs": [{"conic", "points"}], "corners"}
 nlohmann::ordered_json outline_json(const CombinedEllipse& body);

@@ -12,6 +12,7 @@
 
 #include "figures.h"
 #include "provenance.h"
+#include "shape_engagements.h"
 #include "shape_json.h"
 
 namespace vericone {
@@ -76,13 +77,7 @@ class Shapes {
       out_ << "surface   " << file.string() << ": " << whole.triangles.size() << " triangles, volume "
            << to_text(enclosed_volume(whole)) << " of " << to_text(v.value) << " m^3\n";
     }
-    const CombinedSurface shown = part == "ellipsoid"    ? vericone::part(whole, SurfacePart::ellipsoid)
-                                  : part == "delimiters" ? vericone::part(whole, SurfacePart::delimiters)
-                                                         : whole;
-    return {{"body", body_json(body)},
-            {"part", part},
-            {"volume", volume(body).value},
-            {"mesh", mesh_json(shown)}};
+    return solid_json(body, whole, part);
   }
 
   /// The whole ellipsoid, and the hyperboloid as far as an ellipsoid `reach` times as large.
@@ -91,6 +86,8 @@ class Shapes {
     return Json::array({solid(name + "_ellipsoid", CombinedEllipsoid(e)),
                         solid(name + "_hyperboloid", {e.scaled(reach), body.delimiters()}, "delimiters")});
   }
+
+  double resolution() const { return options_.resolution; }
 
  private:
   const ShapesOptions& options_;
@@ -168,6 +165,9 @@ const std::vector<Figure>& all_figures() {
               {panel("(b) ball, three hyperboloids", Json::array({s.solid("star_8", eight_pointed())})),
                panel("(c) ball, six hyperboloids", Json::array({s.solid("star_20", twenty_pointed())}))}}};
        }},
+      {"section", "combined_engagement.py",
+       [](Shapes& s) { return section_figure(biconcave(), s.resolution()); }},
+      {"notch", "combined_engagement.py", [](Shapes& s) { return notch_figure(biconvex(), s.resolution()); }},
   };
   return all;
 }

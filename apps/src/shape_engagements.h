@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vericone/geometry/combined.h>
+#include <nlohmann/json.hpp>
+
+namespace vericone {
+
+/// The source's Fig 6.6: an ellipsoid and a body with dents (about the origin; it is placed and turned here),
+/// their section by one plane through the line of centres with its corners and common tangents, and the cone
+/// of many such planes beside the true one. `resolution` of the surfaces.
+nlohmann::ordered_json section_figure(const CombinedEllipsoid& dented, double resolution);
+
+/// A small ball before a body with a waist: the true cone has notches that the cone of the convex hulls has
+/// not, and a velocity in a notch passes the waist.
+nlohmann::ordered_json notch_figure(const CombinedEllipsoid& waisted, double resolution);
+
+}  // namespace vericone
