@@ -2,6 +2,8 @@
 #include "cone.h"
 
 #include <vericone/cones/clearance.h>
+#include <vericone/cones/combined_cone.h>
+#include <vericone/cones/combined_slice_cone.h>
 #include <vericone/cones/exact_cone.h>
 #include <vericone/cones/plane_sector.h>
 #include <vericone/cones/sector.h>
@@ -14,8 +16,10 @@
 #include <numbers>
 #include <ostream>
 
+#include "answer.h"
 #include "figures.h"
 #include "input/scene.h"
+#include "planar_cone.h"
 #include "provenance.h"
 
 namespace vericone {
@@ -67,17 +71,56 @@ Json exact_json(const Ellipsoid& a, const Ellipsoid& b, int samples) {
   return result;
 }
 
-Json slice_json(const input::Engagement& e, int planes) {
-  const Ellipsoid &a = e.agent, &b = e.obstacle;
+/// Inner and outer cone to a tolerance, of any bodies.
+Json certified_json(const CombinedEllipsoid& a, const CombinedEllipsoid& b, double tolerance) {
   const auto start = std::chrono::steady_clock::now();
-  const SliceCone cone = slice_cone(a, b, planes);
-  const PolyhedralCone polyhedral = cone.polyhedral();
+  const CombinedCone cone = combined_cone(a, b, tolerance);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  Json result{{"method", "slice"},
-              {"planes", planes},
-              {"relation", to_string(cone.relation)},
-              {"axis", vector_json(cone.axis)}};
-  result.update(polyhedral_json(polyhedral));
+  const bool known = cone.relation.has_value();
+  Json result{{"method", "certified"},
+              {"tolerance", tolerance},
+              {"relation", known ? to_string(*cone.relation) : "undecided"},
+              {"axis", vector_json(cone.axis)},
+              {"directions", nullptr}};  // the boundary is somewhere between inner and outer
+  result["solid_angle"] = known ? number_or_null(cone.solid_angle) : Json(nullptr);
+  result["cross_section_area"] = known ? number_or_null(cone.cross_section_area) : Json(nullptr);
+  result["inner"] = known ? polyhedral_json(cone.inner) : Json(nullptr);
+  result["outer"] = known ? polyhedral_json(cone.outer) : Json(nullptr);
+  result["error_bound"] = known ? number_or_null(cone.solid_angle_error) : Json(nullptr);
+  result["cross_section_area_error_bound"] =
+      known ? number_or_null(cone.cross_section_area_error) : Json(nullptr);
+  result["seconds"] = seconds;
+  return result;
+}
+
+/// What a slice cone of either kind is put into words from.
+struct Slices {
+  std::string relation;
+  Eigen::Vector3d axis;
+  std::vector<Slice> slices;
+  PolyhedralCone polyhedral;
+  Json extra = Json::object();
+};
+
+Slices slices_of(const input::Engagement& e, int planes) {
+  if (e.ellipsoids()) {
+    const SliceCone cone = slice_cone(e.agent.ellipsoid(), e.obstacle.ellipsoid(), planes);
+    return {to_string(cone.relation), cone.axis, cone.slices, cone.polyhedral()};
+  }
+  const CombinedSliceCone cone = combined_slice_cone(e.agent, e.obstacle, planes);
+  return {cone.relation ? to_string(*cone.relation) : "undecided", cone.axis, cone.slices, cone.polyhedral(),
+          Json{{"planes_with_overlapping_hulls", cone.hulls_overlap}}};
+}
+
+Json slice_json(const input::Engagement& e, int planes) {
+  const auto start = std::chrono::steady_clock::now();
+  const Slices cone = slices_of(e, planes);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  Json result{
+      {"method", "slice"}, {"planes", planes}, {"relation", cone.relation}, {"axis", vector_json(cone.axis)}};
+  result.update(polyhedral_json(cone.polyhedral));
+  if (cone.relation == "undecided") result["solid_angle"] = nullptr;
+  result.update(cone.extra);
   // The source's y on each plane (6.14), with the velocities projected on the line of sight and across it.
   Json sectors = Json::array();
   for (const Slice& s : cone.slices) {
@@ -91,7 +134,8 @@ Json slice_json(const input::Engagement& e, int planes) {
     sectors.push_back({{"azimuth", s.azimuth},
                        {"psi", s.psi()},
                        {"theta_b", s.theta_b()},
-                       {"y", y.y},
+                       // y cannot tell a sector of more than half a turn.
+                       {"y", s.psi() <= std::numbers::pi ? Json(y.y) : Json(nullptr)},
                        {"v_r_hat", y.v_r_hat},
                        {"v_theta_hat", y.v_theta_hat}});
   }
@@ -106,35 +150,72 @@ Json slice_json(const input::Engagement& e, int planes) {
 
 double degrees(double x) { return x * 180 / std::numbers::pi; }
 
+std::string setting(const Json& cone) {
+  if (cone.contains("planes")) return cone["planes"].dump() + " planes";
+  if (cone.contains("samples")) return cone["samples"].dump() + " samples";
+  return "tolerance " + cone["tolerance"].dump();
+}
+
+void print_widest_plane(const Json& sectors, std::ostream& out) {
+  const auto widest = *std::max_element(sectors.begin(), sectors.end(), [](const Json& x, const Json& y) {
+    return x["psi"].get<double>() < y["psi"].get<double>();
+  });
+  out << "widest plane        psi " << to_text(degrees(widest["psi"].get<double>())) << " degrees, y "
+      << (widest["y"].is_null() ? "not defined" : to_text(widest["y"].get<double>())) << '\n';
+}
+
 void print_text(const Json& cone, const input::Engagement& e, std::ostream& out) {
   const auto area = [](const Json& value) {
     return value.is_null() ? std::string("unbounded (the cone reaches 90 degrees from its axis)")
                            : to_text(value.get<double>());
   };
-  out << "method              " << cone["method"].get<std::string>() << ", "
-      << (cone.contains("planes") ? cone["planes"].dump() + " planes" : cone["samples"].dump() + " samples")
-      << '\n'
-      << "bodies              " << cone["relation"].get<std::string>() << '\n'
-      << "solid angle         " << cone["solid_angle"].dump() << " sr\n"
-      << "cross-section area  " << area(cone["cross_section_area"]) << " (at distance 1)\n";
+  out << "method              " << cone["method"].get<std::string>() << ", " << setting(cone) << '\n'
+      << "bodies              " << cone["relation"].get<std::string>() << '\n';
+  if (cone["solid_angle"].is_number())
+    out << "solid angle         " << cone["solid_angle"].dump() << " sr\n"
+        << "cross-section area  " << area(cone["cross_section_area"]) << " (at distance 1)\n";
   if (cone["error_bound"].is_number())
     out << "error bound         " << cone["error_bound"].dump() << " sr, certified: inner "
         << cone["inner"]["solid_angle"].dump() << " sr, outer " << cone["outer"]["solid_angle"].dump()
         << " sr\n";
-  if (cone["method"] == "slice" && !cone["sectors"].empty()) {
-    const auto& sectors = cone["sectors"];
-    const auto widest = *std::max_element(sectors.begin(), sectors.end(), [](const Json& x, const Json& y) {
-      return x["psi"].get<double>() < y["psi"].get<double>();
-    });
-    out << "widest plane        psi " << to_text(degrees(widest["psi"].get<double>())) << " degrees, y "
-        << to_text(widest["y"].get<double>()) << '\n';
-  }
+  if (cone["method"] == "slice" && !cone["sectors"].empty()) print_widest_plane(cone["sectors"], out);
   if (cone["method"] == "slice")
-    out << "note                slices see only contacts within their planes: the true cone is larger\n";
-  const ConeOracle oracle(e.agent, e.obstacle);
-  out << "verdict             " << to_string(oracle.verdict(e.agent_velocity, e.obstacle_velocity))
-      << " (of the scene's velocities, exact)\n";
+    out << (e.ellipsoids() ? "note                slices see only contacts within their planes: the true "
+                             "cone is larger\n"
+                           : "note                slices see only contacts within their planes: they are in "
+                             "the true cone, "
+                             "what lies between them need not be\n");
+  out << "verdict             " << answer(e, false)["verdict"].get<std::string>()
+      << " (of the scene's velocities, " << verdict_kind(e) << ")\n";
   out << "time                " << cone["seconds"].dump() << " s\n";
+}
+
+Json cone_json(const ConeOptions& options, const input::Engagement& e) {
+  if (options.samples && options.tolerance)
+    throw InputError("--samples", std::to_string(*options.samples), "left out where --tolerance is given");
+  if (options.method == "slice") return slice_json(e, options.planes);
+  if (options.tolerance || !e.ellipsoids()) {
+    if (options.samples)
+      throw InputError("--samples", std::to_string(*options.samples),
+                       "left out for combined quadrics, whose cone is refined to --tolerance");
+    return certified_json(e.agent, e.obstacle, options.tolerance.value_or(kDefaultTolerance));
+  }
+  return exact_json(e.agent.ellipsoid(), e.obstacle.ellipsoid(), options.samples.value_or(kDefaultSamples));
+}
+
+void run_planar_cone(const ConeOptions& options, const input::PlanarEngagement& e, std::ostream& out) {
+  if (options.method != "exact")
+    throw InputError("--method", options.method, "left out for a planar scene, whose cone is one sector");
+  if (options.tolerance)
+    throw InputError("--tolerance", to_text(*options.tolerance), "left out for a planar scene");
+  if (!options.picture_folder.empty())
+    throw InputError("--picture", options.picture_folder, "asked for in space only");
+  const Json cone = planar_cone_json(e);
+  if (options.json) {
+    out << cone.dump(1) << '\n';
+  } else {
+    print_planar_cone(cone, e, out);
+  }
 }
 
 }  // namespace
@@ -192,21 +273,27 @@ Json engagement_picture(const Ellipsoid& a, const Ellipsoid& b, int planes, int 
 void run_cone(const ConeOptions& options, std::ostream& out) {
   if (options.method != "exact" && options.method != "slice")
     throw InputError("--method", options.method, "slice or exact");
-  const input::Engagement e = input::read_scene(options.scene);
-  const Json cone = options.method == "exact" ? exact_json(e.agent, e.obstacle, options.samples)
-                                              : slice_json(e, options.planes);
+  const input::AnyEngagement scene = input::read_scene(options.scene);
+  if (const auto* planar = std::get_if<input::PlanarEngagement>(&scene))
+    return run_planar_cone(options, *planar, out);
+  const auto& e = std::get<input::Engagement>(scene);
+  if (!options.picture_folder.empty() && !e.ellipsoids())
+    throw InputError("--picture", options.picture_folder, "asked for two ellipsoids only");
+  const Json cone = cone_json(options, e);
   if (options.json) {
     out << cone.dump(1) << '\n';
   } else {
     print_text(cone, e, out);
   }
   if (!options.picture_folder.empty()) {
-    if (relation<3>(e.agent, e.obstacle) != Relation::disjoint)
+    const Ellipsoid &a = e.agent.ellipsoid(), &b = e.obstacle.ellipsoid();
+    if (relation<3>(a, b) != Relation::disjoint)
       throw InputError("--picture", options.picture_folder, "asked for disjoint bodies only");
     const std::filesystem::path folder = options.picture_folder;
     std::filesystem::create_directories(folder);
-    write_whole(folder / "engagement.json",
-                engagement_picture(e.agent, e.obstacle, options.planes, options.samples).dump(1) + "\n");
+    write_whole(
+        folder / "engagement.json",
+        engagement_picture(a, b, options.planes, options.samples.value_or(kDefaultSamples)).dump(1) + "\n");
     for (const auto& picture : draw_figures("engagement.py", folder))
       if (!options.json) out << "picture             " << picture.string() << '\n';
   }

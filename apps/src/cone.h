@@ -4,15 +4,20 @@
 #include <vericone/geometry/ellipsoid.h>
 #include <iosfwd>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 namespace vericone {
 
+inline constexpr int kDefaultSamples = 96;
+inline constexpr double kDefaultTolerance = 0.01;
+
 struct ConeOptions {
   std::string scene;
-  std::string method = "exact";  // or "slice"
-  int planes = 36;               // slice
-  int samples = 96;              // exact
+  std::string method = "exact";     // or "slice"
+  int planes = 36;                  // slice
+  std::optional<int> samples;       // exact, two ellipsoids; kDefaultSamples
+  std::optional<double> tolerance;  // exact, certified to it; kDefaultTolerance for combined quadrics
   bool json = false;
   std::string picture_folder;  // empty: no picture
 };

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "accuracy/accuracy.h"
+#include "accuracy/combined_accuracy.h"
 #include "build_info.h"
 #include "cone.h"
 #include "query.h"
@@ -33,8 +34,12 @@ int run(int argc, char** argv) {
                    "exact: the true cone with its error bound; slice: the source's, too small")
       ->capture_default_str();
   cone_command->add_option("--planes", cone.planes, "Planes of the slice cone")->capture_default_str();
-  cone_command->add_option("--samples", cone.samples, "Boundary samples of the exact cone")
-      ->capture_default_str();
+  cone_command->add_option("--samples", cone.samples, "Boundary samples of the exact cone of ellipsoids")
+      ->default_str(std::to_string(vericone::kDefaultSamples));
+  cone_command
+      ->add_option("--tolerance", cone.tolerance,
+                   "Certified cone: solid angle between inner and outer, relative; combined quadrics always")
+      ->default_str(vericone::to_text(vericone::kDefaultTolerance));
   cone_command->add_flag("--json", cone.json, "Print JSON");
   cone_command->add_option("--picture", cone.picture_folder, "Folder for a picture of bodies and cones");
   cone_command->callback([&] { vericone::run_cone(cone, std::cout); });
@@ -49,8 +54,18 @@ int run(int argc, char** argv) {
   vericone::accuracy::Options accuracy;
   auto* accuracy_command =
       app.add_subcommand("accuracy", "Accuracy of slice and exact cones against planes and samples");
-  accuracy_command->add_option("-N,--engagements", accuracy.engagements, "Random engagements")
+  accuracy_command
+      ->add_option("--obstacle", accuracy.obstacle,
+                   "Obstacles of the random engagements: ellipsoid, biconcave, biconvex or star")
       ->capture_default_str();
+  accuracy_command
+      ->add_option("-N,--engagements", accuracy.engagements,
+                   "Random engagements; by default 10000, or 1000 with other obstacles than ellipsoids")
+      ->default_str("10000");
+  accuracy_command
+      ->add_option("--tolerance", accuracy.tolerance,
+                   "Of the certified cone that slices are held against, with other obstacles than ellipsoids")
+      ->default_str(vericone::to_text(vericone::accuracy::kReferenceTolerance));
   accuracy_command->add_option("--scan", accuracy.scans, "Mesh or cloud files, or folders of them")
       ->expected(1, -1);
   accuracy_command->add_option("--approaches", accuracy.approaches, "Engagements per scanned object")
@@ -60,7 +75,7 @@ int run(int argc, char** argv) {
       ->capture_default_str();
   accuracy_command->add_option("--seed", accuracy.seed, "Seed of all random numbers")->capture_default_str();
   accuracy_command->add_option("--out", accuracy.out, "Folder for tables and pictures")
-      ->capture_default_str();
+      ->default_str("out/accuracy");
   accuracy_command->add_option("--threads", accuracy.threads, "Threads, 0: one per processor")
       ->capture_default_str();
   bool no_figures = false;

@@ -1,31 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "query.h"
 
-#include <vericone/cones/clearance.h>
 #include <vericone/geometry/error.h>
 #include <fstream>
 #include <iostream>
-#include <limits>
 
-#include "input/body.h"
+#include "answer.h"
 
 namespace vericone {
 namespace {
 
 using input::Json;
-
-Json answer(const input::Engagement& e, bool with_rung) {
-  const ConeOracle oracle(e.agent, e.obstacle);
-  Rung rung = oracle.relation_rung();  // of bodies that are not disjoint
-  const Verdict verdict = oracle.verdict(e.agent_velocity, e.obstacle_velocity, &rung);
-  Json result;
-  result["verdict"] = to_string(verdict);
-  if (with_rung) result["rung"] = to_string(rung);
-  result["clearance"] = clearance_ahead(oracle, e.agent_velocity, e.obstacle_velocity);
-  const auto time = time_to_contact(oracle, e.agent_velocity, e.obstacle_velocity);
-  result["time_to_contact"] = time ? Json(*time) : Json(nullptr);
-  return result;
-}
 
 /// Parses one line; a key given twice is refused, since only one of the two would be used.
 Json parse_line(const std::string& line, std::size_t number) {

@@ -22,6 +22,22 @@ def case(agent=None, obstacle=None, **other):
     return {k: v for k, v in result.items() if v is not ...}
 
 
+def dented(*hyperboloids, **obstacle):
+    """An engagement whose obstacle is an ellipsoid with semi-axes 1, 2, 3 and these hyperboloids."""
+    return case(obstacle={"shape": ..., "semi_axes": [1, 2, 3], "hyperboloids": list(hyperboloids), **obstacle})
+
+
+GOOD_HYPERBOLOID = {"sheets": 2, "semi_axes": [0.5, 1, 1]}
+
+
+def planar(agent_velocity=(1, 0), **obstacle):
+    """An engagement in the plane."""
+    body = {"center": [9, 0], **obstacle}
+    return {"id": 7, "agent": {"center": [0, 0], "semi_axes": [1, 2]},
+            "obstacle": {k: v for k, v in body.items() if v is not ...},
+            "agent_velocity": list(agent_velocity), "obstacle_velocity": [0, 0]}
+
+
 # What is wrong, the line of the query.
 QUERIES = [
     ("a zero semi-axis", case(agent={"semi_axes": [1, 0, 3]})),
@@ -61,6 +77,33 @@ QUERIES = [
     ("an agent that is a list", case() | {"agent": [1, 2, 3]}),
     ("no velocity", case(agent_velocity=...)),
     ("a velocity of two numbers", case(obstacle_velocity=[1, 2])),
+    ("a hyperboloid that misses the ellipsoid", dented({"sheets": 2, "semi_axes": [1.5, 1, 1]})),
+    ("a second one that misses it", dented(GOOD_HYPERBOLOID, {"sheets": 1, "semi_axes": [1, 2.5, 3.5]})),
+    ("a hyperboloid of three sheets", dented(GOOD_HYPERBOLOID, {"sheets": 3, "semi_axes": [1, 1, 1]})),
+    ("sheets that are text", dented({"sheets": "two", "semi_axes": [0.5, 1, 1]})),
+    ("a hyperboloid without sheets", dented({"semi_axes": [0.5, 1, 1]})),
+    ("a hyperboloid with a negative semi-axis", dented({"sheets": 2, "semi_axes": [0.5, -1, 1]})),
+    ("a hyperboloid with two semi-axes", dented({"sheets": 2, "semi_axes": [0.5, 1]})),
+    ("a hyperboloid without semi-axes", dented({"sheets": 2})),
+    ("a hyperboloid turned by a shear", dented(
+        {**GOOD_HYPERBOLOID, "rotation": [[1, 0.1, 0], [0, 1, 0], [0, 0, 1]]})),
+    ("a hyperboloid with a centre", dented({**GOOD_HYPERBOLOID, "center": [0, 0, 0]})),
+    ("a hyperboloid that is a number", dented(2)),
+    ("hyperboloids that are no list", dented(hyperboloids=GOOD_HYPERBOLOID)),
+    ("hyperboloids with a shape matrix", case(obstacle={"hyperboloids": [GOOD_HYPERBOLOID]})),
+    ("hyperbolas in space", dented(hyperboloids=..., hyperbolas=[])),
+    ("k above 1", planar(a_c=3, b_c=2, k=1.5, phi=0)),
+    ("a negative k", planar(a_c=3, b_c=2, k=-0.1)),
+    ("a conic without k", planar(a_c=3, b_c=2)),
+    ("a conic with a negative b_c", planar(a_c=3, b_c=-2, k=0.5)),
+    ("a conic with a phi that is a list", planar(a_c=3, b_c=2, k=0.5, phi=[0])),
+    ("a hyperbola that misses the ellipse", planar(semi_axes=[3, 2], hyperbolas=[{"semi_axes": [4, 1]}])),
+    ("a hyperbola with three semi-axes", planar(semi_axes=[3, 2], hyperbolas=[{"semi_axes": [1, 1, 1]}])),
+    ("hyperbolas with a shape matrix", planar(shape=[[4, 0], [0, 1]], hyperbolas=[{"semi_axes": [1, 1]}])),
+    ("a planar body with a quaternion", planar(semi_axes=[3, 2], rotation=[1, 0, 0, 0])),
+    ("a planar body with two shapes", planar(semi_axes=[3, 2], a_c=3, b_c=2, k=0)),
+    ("a planar body with hyperboloids", planar(semi_axes=[3, 2], hyperboloids=[])),
+    ("a planar body and a velocity in space", planar(agent_velocity=(1, 0, 0), semi_axes=[3, 2])),
     ("a line that is a list", [1, 2, 3]),
     ("a line that is a number", 7),
     ("a broken line", '{"id": 7, "agent": {'),
@@ -70,6 +113,8 @@ QUERIES = [
 ]
 
 SCENE = "agent: {center: [0, 0, 0], semi_axes: [1, 2, 3]}\nobstacle: {center: [10, 0, 0], semi_axes: [1, 1, 1]}\n"
+DENTED_SCENE = SCENE.replace("[1, 1, 1]}", "[1, 1, 1], hyperboloids: [{sheets: 2, semi_axes: [0.5, 1, 1]}]}")
+PLANAR_SCENE = "agent: {center: [0, 0], semi_axes: [1, 2]}\nobstacle: {center: [9, 0], semi_axes: [1, 1]}\n"
 # What is wrong, arguments (FILE stands for the scene), scene.
 COMMANDS = [
     ("no command", [], None),
@@ -86,10 +131,21 @@ COMMANDS = [
     ("no planes", ["cone", "FILE", "--method", "slice", "--planes", "0"], SCENE),
     ("planes that are text", ["cone", "FILE", "--method", "slice", "--planes", "many"], SCENE),
     ("two samples", ["cone", "FILE", "--samples", "2"], SCENE),
+    ("samples with a tolerance", ["cone", "FILE", "--samples", "9", "--tolerance", "0.1"], SCENE),
+    ("samples of a combined quadric", ["cone", "FILE", "--samples", "9"], DENTED_SCENE),
+    ("no tolerance", ["cone", "FILE", "--tolerance", "0"], DENTED_SCENE),
+    ("a picture of a combined quadric", ["cone", "FILE", "--picture", "here"], DENTED_SCENE),
+    ("slices of a planar scene", ["cone", "FILE", "--method", "slice"], PLANAR_SCENE),
+    ("a tolerance for a planar scene", ["cone", "FILE", "--tolerance", "0.1"], PLANAR_SCENE),
+    ("a picture of a planar scene", ["cone", "FILE", "--picture", "here"], PLANAR_SCENE),
     ("cases that do not exist", ["query", "nowhere.jsonl"], None),
     ("no engagements", ["accuracy", "--engagements", "0"], None),
     ("a single plane count", ["accuracy", "--planes", "36"], None),
     ("a plane count twice", ["accuracy", "--planes", "36,36"], None),
+    ("an unknown obstacle", ["accuracy", "--obstacle", "cube"], None),
+    ("a tolerance with ellipsoids", ["accuracy", "--tolerance", "0.1"], None),
+    ("a tolerance above 1", ["accuracy", "--obstacle", "star", "--tolerance", "2"], None),
+    ("a scan with a star", ["accuracy", "--obstacle", "star", "--scan", "FILE.off"], "hello\n"),
     ("a scan that does not exist", ["accuracy", "--scan", "nowhere.off"], None),
     ("a scan that is not one", ["accuracy", "--scan", "FILE.off"], "hello\n"),
 ]

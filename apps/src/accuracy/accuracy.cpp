@@ -16,8 +16,10 @@
 #include <thread>
 
 #include "accuracy/campaign.h"
+#include "accuracy/combined_accuracy.h"
 #include "accuracy/engagements.h"
 #include "accuracy/measure.h"
+#include "accuracy/statistics.h"
 #include "cone.h"
 #include "figures.h"
 #include "interrupt.h"
@@ -28,36 +30,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
-
-struct Spread {
-  double median = 0, mean = 0, worst = 0;
-};
-
-Spread spread(std::vector<double> values) {
-  if (values.empty()) return {};
-  Spread s;
-  for (const double v : values) s.mean += v / static_cast<double>(values.size());
-  std::sort(values.begin(), values.end());
-  s.median = values[values.size() / 2];
-  s.worst = values.back();
-  return s;
-}
-
-Json spread_json(const Spread& s) { return {{"median", s.median}, {"mean", s.mean}, {"worst", s.worst}}; }
-
-/// Slope of log(error) against log(n), by least squares.
-double order(const std::vector<double>& n, const std::vector<double>& error) {
-  double sx = 0, sy = 0, sxx = 0, sxy = 0;
-  const auto count = static_cast<double>(n.size());
-  for (std::size_t i = 0; i < n.size(); ++i) {
-    const double x = std::log(n[i]), y = std::log(error[i]);
-    sx += x;
-    sy += y;
-    sxx += x * x;
-    sxy += x * y;
-  }
-  return (count * sxy - sx * sy) / (count * sxx - sx * sx);
-}
 
 /// Everything the figures and the text show, from the rows of one table.
 Json summarise(const std::vector<Measurement>& rows, const std::vector<int>& planes) {
@@ -141,18 +113,6 @@ std::vector<std::pair<std::string, Measurement>> read_table(const fs::path& path
     }
   }
   return rows;
-}
-
-std::string percent(double x) {
-  std::ostringstream s;
-  s << std::fixed << std::setprecision(2) << 100 * x << " %";
-  return s.str();
-}
-
-std::string scientific(double x) {
-  std::ostringstream s;
-  s << std::scientific << std::setprecision(1) << x;
-  return s.str();
 }
 
 void print_summary(const Json& s, std::ostream& out) {
@@ -240,12 +200,6 @@ Campaign base_campaign(const Options& o, const fs::path& table) {
   return c;
 }
 
-std::string planes_text(const std::vector<int>& planes) {
-  std::string text;
-  for (const int n : planes) text.append(text.empty() ? "" : " ").append(std::to_string(n));
-  return text;
-}
-
 void validate(const Options& o) {
   if (o.planes.size() < 2)
     throw InputError("--planes", planes_text(o.planes),
@@ -256,8 +210,8 @@ void validate(const Options& o) {
   std::sort(sorted.begin(), sorted.end());
   if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
     throw InputError("--planes", planes_text(o.planes), "without repetitions");
-  if (o.engagements < 1 || o.engagements > 100'000'000)
-    throw InputError("--engagements", std::to_string(o.engagements), "between 1 and 100000000");
+  if (o.engagements && (*o.engagements < 1 || *o.engagements > 100'000'000))
+    throw InputError("--engagements", std::to_string(*o.engagements), "between 1 and 100000000");
   if (o.approaches < 1 || o.approaches > 1'000'000)
     throw InputError("--approaches", std::to_string(o.approaches), "between 1 and 1000000");
   if (o.threads < 0 || o.threads > 1024)
@@ -270,8 +224,16 @@ int run_accuracy(const Options& given, std::ostream& out) {
   validate(given);
   Options options = given;
   std::sort(options.planes.begin(), options.planes.end());
+  const ObstacleKind kind = obstacle_kind(options.obstacle);
+  if (options.out.empty())
+    options.out = kind == ObstacleKind::ellipsoid ? "out/accuracy" : "out/accuracy-" + options.obstacle;
   const fs::path folder = options.out;
   if (fs::exists(folder) && !fs::is_directory(folder)) throw InputError("--out", options.out, "a folder");
+  if (kind != ObstacleKind::ellipsoid) return run_combined_accuracy(options, kind, out);
+  if (options.tolerance)
+    throw InputError("--tolerance", to_text(*options.tolerance),
+                     "left out for ellipsoids, whose cone is exact");
+  const std::uint64_t engagements = options.engagements.value_or(10'000);
   std::vector<Scan> scans;
   for (const fs::path& file : scan_files(options.scans)) scans.push_back(read_scan(file));
   catch_interrupts();
@@ -283,10 +245,9 @@ int run_accuracy(const Options& given, std::ostream& out) {
 
   Campaign random = base_campaign(options, folder / "engagements.csv");
   random.label = "random engagements";
-  random.count = options.engagements;
+  random.count = engagements;
   random.settings = "# vericone accuracy, seed " + std::to_string(options.seed) + ", " +
-                    std::to_string(options.engagements) + " engagements, planes " +
-                    planes_text(options.planes);
+                    std::to_string(engagements) + " engagements, planes " + planes_text(options.planes);
   random.row = [&](std::uint64_t i) {
     const auto [a, b] = random_engagement(options.seed, i);
     return csv_row(std::to_string(i), measure(a, b, options.planes));
@@ -299,8 +260,8 @@ int run_accuracy(const Options& given, std::ostream& out) {
   for (auto& [id, m] : read_table(random.table, options.planes)) rows.push_back(std::move(m));
   Json summary{{"random", summarise(rows, options.planes)}};
   summary["random"]["seconds"] = random_seconds;
-  out << options.engagements << " random engagements, " << options.planes.size() << " plane counts, "
-      << std::fixed << std::setprecision(1) << random_seconds << " s\n";
+  out << engagements << " random engagements, " << options.planes.size() << " plane counts, " << std::fixed
+      << std::setprecision(1) << random_seconds << " s\n";
   print_summary(summary["random"], out);
 
   if (!scans.empty()) {
@@ -357,7 +318,7 @@ int run_accuracy(const Options& given, std::ostream& out) {
   write_whole(folder / "summary.json", summary.dump(1) + "\n");
   Json origin = provenance(options.command_line);
   origin["seed"] = options.seed;
-  origin["engagements"] = options.engagements;
+  origin["engagements"] = engagements;
   origin["planes"] = options.planes;
   origin["scans"] = Json::array();
   for (const auto& file : scan_files(options.scans)) origin["scans"].push_back(file.string());

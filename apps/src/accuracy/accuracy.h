@@ -3,19 +3,22 @@
 
 #include <cstdint>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace vericone::accuracy {
 
 struct Options {
-  std::uint64_t engagements = 10'000;
-  std::uint64_t approaches = 200;  // per scanned object
+  std::string obstacle = "ellipsoid";        // or biconcave, biconvex, star
+  std::optional<std::uint64_t> engagements;  // 10,000; 1000 with other obstacles
+  std::optional<double> tolerance;           // of the certified reference of other obstacles
+  std::uint64_t approaches = 200;            // per scanned object
   std::uint64_t seed = 1;
   std::vector<int> planes{3, 4, 6, 8, 12, 18, 24, 36, 60, 90, 180, 360};
   std::vector<std::string> scans;  // files, or folders of files
-  std::string out = "out/accuracy";
-  int threads = 0;  // 0: one per processor
+  std::string out;                 // empty: out/accuracy, or out/accuracy-OBSTACLE
+  int threads = 0;                 // 0: one per processor
   bool figures = true;
   bool quiet = false;
   std::string command_line;

@@ -22,8 +22,6 @@
 namespace vericone::accuracy {
 namespace {
 
-constexpr std::uint64_t kBlock = 50;
-
 /// Rows that stand complete in an unfinished file; the file is cut after the last of them.
 std::uint64_t complete_rows(const std::filesystem::path& partial, const Campaign& campaign) {
   if (!std::filesystem::exists(partial)) return 0;
@@ -99,10 +97,10 @@ Outcome run_campaign(const Campaign& campaign) {
   const auto work = [&] {
     try {
       while (!interrupted()) {
-        const std::uint64_t first = next.fetch_add(kBlock);
+        const std::uint64_t first = next.fetch_add(campaign.block);
         if (first >= campaign.count) return;
         std::string text;
-        for (std::uint64_t i = first; i < std::min(first + kBlock, campaign.count); ++i) {
+        for (std::uint64_t i = first; i < std::min(first + campaign.block, campaign.count); ++i) {
           if (interrupted()) return;
           text += campaign.row(i) + "\n";
         }
@@ -126,7 +124,7 @@ Outcome run_campaign(const Campaign& campaign) {
       ready.wait_for(lock, std::chrono::milliseconds(100));
       while (!blocks.empty() && blocks.begin()->first == written) {
         out << blocks.begin()->second << std::flush;
-        written = std::min(written + kBlock, campaign.count);
+        written = std::min(written + campaign.block, campaign.count);
         blocks.erase(blocks.begin());
       }
       progress.show(written, false);

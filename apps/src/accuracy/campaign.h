@@ -17,6 +17,7 @@ struct Campaign {
   std::uint64_t count = 0;
   std::function<std::string(std::uint64_t)> row;  // called from several threads
   int threads = 1;
+  std::uint64_t block = 50;  // rows that are written together
   bool quiet = false;
   std::string label;  // for the progress line
 };

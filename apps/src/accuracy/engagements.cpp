@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "accuracy/engagements.h"
 
+#include <vericone/geometry/error.h>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace vericone::accuracy {
 
@@ -43,16 +45,62 @@ Eigen::Vector3d semi_axes(Random& random, double low, double high) {
   return {a, b, c};
 }
 
-}  // namespace
+struct Drawn {
+  Ellipsoid a, b;
+  Eigen::Vector3d axes_b;
+  Eigen::Matrix3d rotation_b;
+};
 
-std::pair<Ellipsoid, Ellipsoid> random_engagement(std::uint64_t seed, std::uint64_t index) {
-  Random random(seed, index);
+Drawn draw(Random& random) {
   const Eigen::Vector3d axes_a = semi_axes(random, 1, 10), axes_b = semi_axes(random, 1, 10);
   const Eigen::Matrix3d rotation_a = random.rotation(), rotation_b = random.rotation();
   const Eigen::Vector3d d = random.direction();
   const Ellipsoid a = Ellipsoid::from_axes(Eigen::Vector3d::Zero(), axes_a, rotation_a);
   const Ellipsoid b = Ellipsoid::from_axes(Eigen::Vector3d::Zero(), axes_b, rotation_b);
-  return {a, b.translated((a.radius(d) + b.radius(d)) * random.uniform(1.5, 3) * d)};
+  return {a, b.translated((a.radius(d) + b.radius(d)) * random.uniform(1.5, 3) * d), axes_b, rotation_b};
+}
+
+std::vector<Delimiter<3>> random_delimiters(ObstacleKind kind, const Drawn& drawn, Random& random) {
+  constexpr double kLeast = 0.3, kMost = 0.8;
+  std::vector<Delimiter<3>> delimiters;
+  const int count = kind == ObstacleKind::star ? 3 : 1;
+  for (int i = 0; i < count; ++i) {
+    const double u = random.uniform(kLeast, kMost), v = random.uniform(kLeast, 1);
+    const Eigen::Matrix3d turn = kind == ObstacleKind::star ? random.rotation() : drawn.rotation_b;
+    Eigen::Vector3d axes = drawn.axes_b;
+    if (kind == ObstacleKind::star)
+      for (int k = 0; k < 3; ++k) axes(k) = 1 / CombinedEllipsoid(drawn.b).gauge(turn.col(k));
+    if (kind == ObstacleKind::biconvex) {
+      delimiters.push_back(hyperboloid(1, axes.cwiseProduct(Eigen::Vector3d(v, u, u)), turn));
+    } else {
+      delimiters.push_back(hyperboloid(2, axes.cwiseProduct(Eigen::Vector3d(u, v, v)), turn));
+    }
+  }
+  return delimiters;
+}
+
+}  // namespace
+
+std::pair<Ellipsoid, Ellipsoid> random_engagement(std::uint64_t seed, std::uint64_t index) {
+  Random random(seed, index);
+  const Drawn drawn = draw(random);
+  return {drawn.a, drawn.b};
+}
+
+ObstacleKind obstacle_kind(const std::string& name) {
+  if (name == "ellipsoid") return ObstacleKind::ellipsoid;
+  if (name == "biconcave") return ObstacleKind::biconcave;
+  if (name == "biconvex") return ObstacleKind::biconvex;
+  if (name == "star") return ObstacleKind::star;
+  throw InputError("--obstacle", name, "ellipsoid, biconcave, biconvex or star");
+}
+
+std::pair<Ellipsoid, CombinedEllipsoid> random_combined_engagement(ObstacleKind kind, std::uint64_t seed,
+                                                                   std::uint64_t index) {
+  Random random(seed, index);
+  const Drawn drawn = draw(random);
+  if (kind == ObstacleKind::ellipsoid) return {drawn.a, drawn.b};
+  return {drawn.a, CombinedEllipsoid(drawn.b, random_delimiters(kind, drawn, random))};
 }
 
 Ellipsoid random_agent(const Ellipsoid& obstacle, std::uint64_t seed, std::uint64_t index) {

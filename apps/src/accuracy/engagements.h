@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vericone/geometry/ellipsoid.h>
+#include <vericone/geometry/combined.h>
 #include <cstdint>
+#include <string>
 #include <utility>
 
 namespace vericone::accuracy {
@@ -27,6 +28,21 @@ class Random {
 /// d just separates the bodies. The line of centres then always separates them and the section area is
 /// finite. The source does not print its distribution (errata, 4.1).
 std::pair<Ellipsoid, Ellipsoid> random_engagement(std::uint64_t seed, std::uint64_t index);
+
+/// The obstacles of `vericone accuracy --obstacle`.
+enum class ObstacleKind { ellipsoid, biconcave, biconvex, star };
+
+/// Throws InputError naming "--obstacle".
+ObstacleKind obstacle_kind(const std::string& name);
+
+/// The same engagement with the obstacle delimited, its ellipsoid (semi-axes a, b, c) as it was:
+///   biconcave  one hyperboloid of two sheets on the body's axes, semi-axes (u a, v b, v c),
+///   biconvex   one of one sheet on the body's axes, semi-axes (v a, u b, u c),
+///   star       three of two sheets at uniform orientations, u and v as parts of the ellipsoid's extent along
+///              their axes,
+/// u uniform in 0.3 to 0.8 (what the dents and the waist leave), v in 0.3 to 1.
+std::pair<Ellipsoid, CombinedEllipsoid> random_combined_engagement(ObstacleKind kind, std::uint64_t seed,
+                                                                   std::uint64_t index);
 
 /// Approach `index` of an ellipsoidal agent to a given obstacle: the agent has semi-axes of 0.2 to 1 times
 /// the obstacle's mean one, and the rest is as above.

@@ -3,26 +3,38 @@
 // Bodies and velocities from JSON values; the fields are described in docs/formats.md.
 #pragma once
 
-#include <vericone/geometry/ellipsoid.h>
+#include <vericone/geometry/combined.h>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
+#include <variant>
 
 namespace vericone::input {
 
 using Json = nlohmann::ordered_json;
 
 /// One engagement: two bodies and their velocities, m and m/s.
-struct Engagement {
-  Ellipsoid agent, obstacle;
-  Eigen::Vector3d agent_velocity = Eigen::Vector3d::Zero();
-  Eigen::Vector3d obstacle_velocity = Eigen::Vector3d::Zero();
+template <int D>
+struct BasicEngagement {
+  using Vector = Eigen::Matrix<double, D, 1>;
+  BasicCombined<D> agent, obstacle;
+  Vector agent_velocity = Vector::Zero();
+  Vector obstacle_velocity = Vector::Zero();
+
+  /// Nothing delimits the bodies: the exact predicates answer.
+  bool ellipsoids() const { return agent.is_ellipsoid() && obstacle.is_ellipsoid(); }
 };
+
+using Engagement = BasicEngagement<3>;
+using PlanarEngagement = BasicEngagement<2>;
+using AnyEngagement = std::variant<Engagement, PlanarEngagement>;
 
 enum class Velocities { required, optional };
 
 /// Reads {"agent", "obstacle", "agent_velocity", "obstacle_velocity"}; further keys only if listed in `also`.
-/// Throws InputError naming the field, for example "obstacle.semi_axes[1]".
-Engagement read_engagement(const Json& value, Velocities velocities, std::initializer_list<const char*> also);
+/// Planar where a body's centre has two numbers and no body is spatial. Throws InputError naming the field,
+/// for example "obstacle.semi_axes[1]".
+AnyEngagement read_engagement(const Json& value, Velocities velocities,
+                              std::initializer_list<const char*> also);
 
 /// A value as it stands in a message: one line, at most 60 characters.
 std::string quoted(const Json& value);

@@ -57,7 +57,7 @@ Json to_json(const YAML::Node& node, const std::string& path, int depth) {
 
 }  // namespace
 
-Engagement read_scene(const std::string& path) {
+AnyEngagement read_scene(const std::string& path) {
   if (!std::filesystem::is_regular_file(path)) throw InputError(path, "no such file", "a scene file (YAML)");
   YAML::Node root;
   try {

@@ -8,6 +8,6 @@
 namespace vericone::input {
 
 /// Reads a scene file, YAML (of which JSON is a part). Throws InputError naming the file or the field.
-Engagement read_scene(const std::string& path);
+AnyEngagement read_scene(const std::string& path);
 
 }  // namespace vericone::input

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "accuracy/combined_accuracy.h"
+
+#include <vericone/cones/combined_cone.h>
+#include <vericone/cones/combined_slice_cone.h>
+#include <vericone/geometry/error.h>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <ostream>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+#include "accuracy/campaign.h"
+#include "accuracy/statistics.h"
+#include "figures.h"
+#include "interrupt.h"
+#include "provenance.h"
+
+namespace vericone::accuracy {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kDefaultEngagements = 1000;
+
+/// Areas of sections at distance 1.
+struct Row {
+  double inner_area = 0, outer_area = 0;
+  double inner_solid_angle = 0, outer_solid_angle = 0;  // sr
+  std::vector<double> slice_areas;                      // one for each plane count
+};
+
+Row measure(const Ellipsoid& a, const CombinedEllipsoid& b, const std::vector<int>& planes,
+            double tolerance) {
+  Row row;
+  const CombinedCone cone = combined_cone(a, b, tolerance);
+  row.inner_area = cone.inner.cross_section_area;
+  row.outer_area = cone.outer.cross_section_area;
+  row.inner_solid_angle = cone.inner.solid_angle;
+  row.outer_solid_angle = cone.outer.solid_angle;
+  for (const int n : planes)
+    row.slice_areas.push_back(combined_slice_cone(a, b, n).polyhedral().cross_section_area);
+  return row;
+}
+
+std::string header(const std::vector<int>& planes) {
+  std::string text = "engagement,inner_area,outer_area,inner_solid_angle_sr,outer_solid_angle_sr";
+  for (const int n : planes) text += ",slice_area_n" + std::to_string(n);
+  return text;
+}
+
+std::string line(std::uint64_t index, const Row& row) {
+  std::string text = std::to_string(index);
+  for (const double x : {row.inner_area, row.outer_area, row.inner_solid_angle, row.outer_solid_angle})
+    text += "," + to_text(x);
+  for (const double x : row.slice_areas) text += "," + to_text(x);
+  return text;
+}
+
+std::vector<Row> read_table(const fs::path& path, std::size_t planes) {
+  std::ifstream in(path);
+  std::vector<Row> rows;
+  std::string text, cell;
+  std::getline(in, text);  // settings
+  std::getline(in, text);  // header
+  while (std::getline(in, text)) {
+    std::istringstream cells(text);
+    std::vector<double> values;
+    while (std::getline(cells, cell, ',')) values.push_back(std::stod(cell));
+    if (values.size() != 5 + planes)
+      throw std::runtime_error(path.string() + ": a row of " + std::to_string(values.size()) + " columns");
+    rows.push_back({values[1], values[2], values[3], values[4], {values.begin() + 5, values.end()}});
+  }
+  return rows;
+}
+
+/// The part of the true area that a slice area misses: between these two. The lower one may be negative: what
+/// lies between slices need not be in the cone.
+struct Missing {
+  double at_least = 0, at_most = 0;
+};
+Missing missing(double slice_area, const Row& row) {
+  return {1 - slice_area / row.inner_area, 1 - slice_area / row.outer_area};
+}
+
+Json missing_json(const std::vector<Row>& rows, std::size_t planes) {
+  Missing mean, worst{-1e300, -1e300};
+  for (const Row& row : rows) {
+    const Missing m = missing(row.slice_areas[planes], row);
+    mean.at_least += m.at_least / static_cast<double>(rows.size());
+    mean.at_most += m.at_most / static_cast<double>(rows.size());
+    worst.at_least = std::max(worst.at_least, m.at_least);
+    worst.at_most = std::max(worst.at_most, m.at_most);
+  }
+  return {{"mean", {mean.at_least, mean.at_most}}, {"worst", {worst.at_least, worst.at_most}}};
+}
+
+Json summarise(const std::vector<Row>& rows, const std::vector<int>& planes) {
+  Json summary;
+  summary["engagements"] = rows.size();
+  const std::size_t finest = planes.size() - 1;
+  summary["finest_planes"] = planes[finest];
+  std::vector<double> fit_n, fit_error;
+  Json slices = Json::array();
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    std::vector<double> errors;
+    for (const Row& row : rows) errors.push_back(std::abs(row.slice_areas[i] / row.slice_areas[finest] - 1));
+    const double limit = 2.0 / planes[i];
+    const Spread discretisation = spread(errors);
+    slices.push_back({{"planes", planes[i]},
+                      {"discretisation_error", spread_json(discretisation)},
+                      {"two_over_n", limit},
+                      {"above_two_over_n",
+                       std::count_if(errors.begin(), errors.end(), [&](double x) { return x >= limit; })},
+                      {"error_against_true_cone", missing_json(rows, i)}});
+    if (planes[i] >= 6 && planes[i] * 4 <= planes[finest] && discretisation.median > 0) {
+      fit_n.push_back(planes[i]);
+      fit_error.push_back(discretisation.median);
+    }
+  }
+  summary["slice"] = slices;
+  if (fit_n.size() >= 2) summary["slice_order"] = order(fit_n, fit_error);
+  summary["slice_bias"] = missing_json(rows, finest);
+  Json values = Json::array();
+  std::vector<double> gaps;
+  for (const Row& row : rows) {
+    const Missing m = missing(row.slice_areas[finest], row);
+    values.push_back({m.at_least, m.at_most});
+    gaps.push_back(1 - row.inner_solid_angle / row.outer_solid_angle);
+  }
+  summary["slice_bias_values"] = values;
+  summary["reference_gap"] = spread_json(spread(gaps));
+  return summary;
+}
+
+void print_summary(const Json& s, std::ostream& out) {
+  const auto number = [](const Json& value) { return value.get<double>(); };
+  const auto range = [&](const Json& value) {
+    return percent(number(value[0])) + " to " + percent(number(value[1]));
+  };
+  out << "  planes   discretisation error      2/n   above it   missing from the true cone, between\n"
+      << "           median     worst                           mean                   worst\n";
+  for (const Json& row : s["slice"])
+    out << std::setw(8) << row["planes"].get<int>() << "   "
+        << scientific(number(row["discretisation_error"]["median"])) << "    "
+        << scientific(number(row["discretisation_error"]["worst"])) << "   "
+        << scientific(number(row["two_over_n"])) << std::setw(8) << row["above_two_over_n"].get<long>()
+        << "     " << std::left << std::setw(23) << range(row["error_against_true_cone"]["mean"])
+        << range(row["error_against_true_cone"]["worst"]) << std::right << '\n';
+  if (s.contains("slice_order"))
+    out << "  discretisation error falls as n^" << std::fixed << std::setprecision(2)
+        << number(s["slice_order"]) << '\n';
+  out << "  slice bias (n = " << s["finest_planes"].get<int>() << "): mean " << range(s["slice_bias"]["mean"])
+      << ", worst " << range(s["slice_bias"]["worst"]) << "\n  inner and outer reference cone differ by "
+      << percent(number(s["reference_gap"]["median"])) << " (median), "
+      << percent(number(s["reference_gap"]["worst"])) << " (worst) of the solid angle\n";
+}
+
+}  // namespace
+
+int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostream& out) {
+  if (!options.scans.empty())
+    throw InputError("--scan", options.scans.front(), "left out with --obstacle " + options.obstacle);
+  const double tolerance = options.tolerance.value_or(kReferenceTolerance);
+  if (!(tolerance > 0 && tolerance < 1))
+    throw InputError("--tolerance", to_text(tolerance), "between 0 and 1, both excluded");
+  const std::uint64_t count = options.engagements.value_or(kDefaultEngagements);
+  const fs::path folder = options.out;
+  catch_interrupts();
+  const auto start = std::chrono::steady_clock::now();
+  const auto seconds = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+
+  Campaign campaign;
+  campaign.table = folder / "engagements.csv";
+  campaign.header = header(options.planes);
+  campaign.threads = options.threads > 0 ? options.threads
+                                         : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  campaign.quiet = options.quiet;
+  campaign.block = 5;
+  campaign.label = options.obstacle + " obstacles";
+  campaign.count = count;
+  campaign.settings = "# vericone accuracy, obstacle " + options.obstacle + ", tolerance " +
+                      to_text(tolerance) + ", seed " + std::to_string(options.seed) + ", " +
+                      std::to_string(count) + " engagements, planes " + planes_text(options.planes);
+  campaign.row = [&](std::uint64_t i) {
+    const auto [a, b] = random_combined_engagement(kind, options.seed, i);
+    return line(i, measure(a, b, options.planes, tolerance));
+  };
+  if (run_campaign(campaign) == Outcome::interrupted) {
+    out << "interrupted; the same command goes on where it stopped (" << folder.string() << ")\n";
+    return kExitInterrupted;
+  }
+
+  Json summary{{"random", summarise(read_table(campaign.table, options.planes.size()), options.planes)}};
+  summary["random"]["obstacle"] = options.obstacle;
+  summary["random"]["tolerance"] = tolerance;
+  summary["random"]["seconds"] = seconds();
+  out << count << " random engagements with " << options.obstacle << " obstacles, " << options.planes.size()
+      << " plane counts, true cones certified to " << percent(tolerance) << ", " << std::fixed
+      << std::setprecision(1) << seconds() << " s\n";
+  print_summary(summary["random"], out);
+  write_whole(folder / "summary.json", summary.dump(1) + "\n");
+  Json origin = provenance(options.command_line);
+  origin["seed"] = options.seed;
+  origin["obstacle"] = options.obstacle;
+  origin["tolerance"] = tolerance;
+  origin["engagements"] = count;
+  origin["planes"] = options.planes;
+  origin["seconds"] = seconds();
+  write_whole(folder / "provenance.json", origin.dump(1) + "\n");
+  out << "tables    " << campaign.table.string() << ", " << (folder / "summary.json").string() << ", "
+      << (folder / "provenance.json").string() << '\n';
+  if (options.figures)
+    for (const auto& file : draw_figures("combined_accuracy.py", folder))
+      out << "picture   " << file.string() << '\n';
+  return 0;
+}
+
+}  // namespace vericone::accuracy

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Summaries of tables and how they are written.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace vericone::accuracy {
+
+struct Spread {
+  double median = 0, mean = 0, worst = 0;
+};
+
+Spread spread(std::vector<double> values);
+nlohmann::ordered_json spread_json(const Spread& s);
+
+/// Slope of log(error) against log(n), by least squares.
+double order(const std::vector<double>& n, const std::vector<double>& error);
+
+std::string percent(double x);
+std::string scientific(double x);
+/// Numbers with a space between.
+std::string planes_text(const std::vector<int>& planes);
+
+}  // namespace vericone::accuracy

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "answer.h"
+
+#include <vericone/cones/clearance.h>
+#include <vericone/cones/combined_cone.h>
+#include <algorithm>
+
+namespace vericone {
+namespace {
+
+using input::Json;
+
+Json exact_answer(const input::Engagement& e, bool with_rung) {
+  const ConeOracle oracle(e.agent.ellipsoid(), e.obstacle.ellipsoid());
+  Rung rung = oracle.relation_rung();  // of bodies that are not disjoint
+  const Verdict verdict = oracle.verdict(e.agent_velocity, e.obstacle_velocity, &rung);
+  Json result;
+  result["verdict"] = to_string(verdict);
+  if (with_rung) result["rung"] = to_string(rung);
+  result["clearance"] = clearance_ahead(oracle, e.agent_velocity, e.obstacle_velocity);
+  const auto time = time_to_contact(oracle, e.agent_velocity, e.obstacle_velocity);
+  result["time_to_contact"] = time ? Json(*time) : Json(nullptr);
+  return result;
+}
+
+/// Bodies delimited by hyperboloids: proved, or undecided. There is no clearance: the shadows of these bodies
+/// are not convex, and the signed distance of two such shadows is not what clearance() computes.
+Json certified_answer(const input::Engagement& e, bool with_rung) {
+  const CombinedOracle oracle(e.agent, e.obstacle);
+  const Eigen::Vector3d w = e.agent_velocity - e.obstacle_velocity;
+  const auto relation = oracle.relation();
+  Json result;
+  std::string verdict = "undecided";
+  Json time = nullptr, enclosure = nullptr;
+  if (relation && *relation != Relation::disjoint) {
+    verdict = to_string(*relation);
+    time = 0.0;
+    enclosure = {0.0, 0.0};
+  } else if (relation) {
+    verdict = to_string(oracle.membership(w));
+    if (verdict == "in")
+      if (const auto t = oracle.time_to_contact(w)) {
+        time = t->mid();
+        enclosure = {std::max(t->lo(), 0.0), t->hi()};
+      }
+  }
+  result["verdict"] = verdict;
+  if (with_rung) result["rung"] = "certified";
+  result["clearance"] = nullptr;
+  result["time_to_contact"] = time;
+  result["time_enclosure"] = enclosure;
+  return result;
+}
+
+Ellipsoid raised(const Ellipse& body, double height) {
+  Eigen::Vector3d center(body.center().x(), body.center().y(), 0);
+  if (!body.defined_by_factor()) {
+    Eigen::Matrix3d shape = Eigen::Matrix3d::Zero();
+    shape.topLeftCorner<2, 2>() = body.shape();
+    shape(2, 2) = height * height;
+    return Ellipsoid::from_shape(center, shape);
+  }
+  const Eigen::Matrix2d& f = body.factor();
+  const double x = f.col(0).norm(), y = f.col(1).norm();
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  rotation.topLeftCorner<2, 2>() << f.col(0) / x, f.col(1) / y;
+  return Ellipsoid::from_axes(center, {x, y, height}, rotation);
+}
+
+CombinedEllipsoid raised(const CombinedEllipse& body, double height) {
+  std::vector<Delimiter<3>> delimiters;
+  for (const Delimiter<2>& d : body.delimiters()) {
+    Delimiter<3> cylinder{Eigen::Matrix3d::Zero(), d.level};
+    cylinder.matrix.topLeftCorner<2, 2>() = d.matrix;
+    delimiters.push_back(cylinder);
+  }
+  return CombinedEllipsoid::trusted(raised(body.ellipsoid(), height), std::move(delimiters));
+}
+
+bool ellipsoids(const input::AnyEngagement& engagement) {
+  return std::visit([](const auto& e) { return e.ellipsoids(); }, engagement);
+}
+
+}  // namespace
+
+input::Engagement raised(const input::PlanarEngagement& e) {
+  const double height =
+      std::max(e.agent.ellipsoid().semi_axes().maxCoeff(), e.obstacle.ellipsoid().semi_axes().maxCoeff());
+  input::Engagement result;
+  result.agent = raised(e.agent, height);
+  result.obstacle = raised(e.obstacle, height);
+  result.agent_velocity << e.agent_velocity, 0;
+  result.obstacle_velocity << e.obstacle_velocity, 0;
+  return result;
+}
+
+Json answer(const input::AnyEngagement& engagement, bool with_rung) {
+  if (const auto* planar = std::get_if<input::PlanarEngagement>(&engagement))
+    return answer(raised(*planar), with_rung);
+  const auto& e = std::get<input::Engagement>(engagement);
+  return e.ellipsoids() ? exact_answer(e, with_rung) : certified_answer(e, with_rung);
+}
+
+const char* verdict_kind(const input::AnyEngagement& engagement) {
+  return ellipsoids(engagement) ? "exact" : "certified";
+}
+
+}  // namespace vericone

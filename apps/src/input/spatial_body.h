@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "input/body.h"
+
+namespace vericone::input {
+
+/// Throws InputError with `path` before the field.
+CombinedEllipsoid read_spatial_body(const Json& value, const std::string& path);
+
+}  // namespace vericone::input
