@@ -4,6 +4,9 @@
 // table is taken in turn in each of several rounds, and the figures are medians over the rounds.
 #include <benchmarks/accuracy.h>
 #include <benchmarks/agreement.h>
+#include <benchmarks/combined_pairs.h>
+#include <vericone/cones/combined_cone.h>
+#include <vericone/cones/combined_slice_cone.h>
 #include <vericone/cones/slice_cone.h>
 #include <algorithm>
 #include <cstdio>
@@ -139,6 +142,71 @@ ConeFigures cone_table(int rounds) {
   return {ratio(row[48]), ratio(row[matched]), accuracy.exact(96).worst, accuracy.exact(48).median};
 }
 
+/// Slice cones of combined quadrics beside those of ellipsoids, and the certified cones. Returns the largest
+/// ratio of the former.
+double combined_table(int rounds) {
+  constexpr int kSlicePairs = 100, kCertifiedPairs = 10, kPlanes = 36;
+  struct Row {
+    const char* name;
+    Family a, b;
+    std::vector<CombinedEngagement> pairs = {};
+  };
+  std::vector<Row> rows = {{"biconcave", Family::ellipsoid, Family::biconcave},
+                           {"biconvex", Family::ellipsoid, Family::biconvex},
+                           {"star", Family::ellipsoid, Family::star},
+                           {"star and star", Family::star, Family::star}};
+  const std::vector<Engagement> plain = engagements(kSlicePairs);
+  std::vector<Item> items = {item("slice_cone of ellipsoids, 36 planes", kSlicePairs, 1, [&](int i) {
+    return slice_cone(plain[i].a, plain[i].b, kPlanes).slices[0].left;
+  })};
+  for (Row& row : rows) row.pairs = combined_engagements(kSlicePairs, row.a, row.b);
+  for (const Row& row : rows)
+    items.push_back(
+        item(std::string("combined_slice_cone, ") + row.name + ", 36 planes", kSlicePairs, 1, [&row](int i) {
+          return combined_slice_cone(row.pairs[i].a, row.pairs[i].b, kPlanes).slices[0].left;
+        }));
+  const std::size_t slices = items.size();
+  items.push_back(item("the same, biconcave, tangents chosen as in 6.3.2", kSlicePairs, 1, [&](int i) {
+    const CombinedEngagement& e = rows[0].pairs[i];
+    return combined_slice_cone(e.a, e.b, kPlanes, SliceSector::source_by_sides).slices[0].left;
+  }));
+  for (const Row& row : rows)
+    items.push_back(item(std::string("CombinedOracle prepared, ") + row.name, kSlicePairs, 1, [&row](int i) {
+      return CombinedOracle(row.pairs[i].a, row.pairs[i].b).relation() == Relation::disjoint;
+    }));
+  std::vector<std::vector<CombinedOracle>> oracles(rows.size());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    for (const CombinedEngagement& e : rows[k].pairs) oracles[k].emplace_back(e.a, e.b);
+    items.push_back(
+        item(std::string("its membership, ") + rows[k].name, kSlicePairs, 1,
+             [&all = oracles[k], &row = rows[k]](int i) { return all[i].membership(row.pairs[i].w); }));
+  }
+  measure(items, rounds);
+  std::vector<Item> certified;
+  for (const Row& row : rows)
+    certified.push_back(item(
+        std::string("combined_cone to 0.01, ") + row.name, kCertifiedPairs, 1,
+        [&row](int i) { return combined_cone(row.pairs[i].a, row.pairs[i].b, 0.01).solid_angle_error; }));
+  for (Item& it : certified) it.times.push_back(it.round());
+
+  double worst = 0;
+  std::printf("| call | time | this / slice_cone of ellipsoids |\n| --- | --- | --- |\n");
+  for (std::size_t k = 0; k < items.size(); ++k) {
+    const double ratio = median_ratio(items[k], items[0]);
+    if (k < slices) worst = std::max(worst, ratio);
+    std::printf("| %s | %s | %.3g |\n", items[k].name.c_str(), nanoseconds(median(items[k].times)).c_str(),
+                ratio);
+  }
+  for (const Item& it : certified)
+    std::printf("| %s | %s | |\n", it.name.c_str(), nanoseconds(median(it.times)).c_str());
+  std::printf(
+      "\nThe ellipsoids of the first table, delimited as benchmarks/combined_pairs.h says; certified cones "
+      "of %d "
+      "pairs.\n",
+      kCertifiedPairs);
+  return worst;
+}
+
 struct MembershipFigures {
   double plain, ladder, triage, over_plain, least_ratio, passed;
 };
@@ -241,6 +309,8 @@ int main(int argc, char** argv) {
               VERICONE_COMPILER, VERICONE_BUILD_TYPE, VERICONE_FLAGS, fcl_version(), rounds);
   const ConeFigures cone = cone_table(rounds);
   std::printf("\n");
+  const double combined = combined_table(rounds);
+  std::printf("\n");
   const MembershipFigures membership = membership_table(rounds);
   std::printf("\nFCL's table of conservative advancement %s a pair of ellipsoids.\n",
               fcl_ellipsoids_in_table() ? "has an entry for" : "has no entry for");
@@ -250,6 +320,8 @@ int main(int argc, char** argv) {
               cone.ratio_matched, "%.3g");
   requirement("worst area error at 96 samples below 1e-6", cone.worst_96 < 1e-6, cone.worst_96, "%.1e");
   requirement("median area error at 48 samples below 1e-12", cone.median_48 < 1e-12, cone.median_48, "%.1e");
+  requirement("slices of combined quadrics / slices of ellipsoids at most 5", combined <= 5, combined,
+              "%.3g");
   requirement("membership in plain double below 40 ns", membership.plain < 40, membership.plain, "%.1f ns");
   requirement("exact membership, all rungs, below 40 ns", membership.ladder < 40, membership.ladder,
               "%.1f ns");

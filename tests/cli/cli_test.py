@@ -328,6 +328,18 @@ class Combined(unittest.TestCase):
         overlapping = {**scene, "agent": ball([7, 0, 0], 0.75)}
         self.assertIn("bodies              overlapping", self.scene(overlapping, text=True))
 
+    def test_examples(self):
+        folder = os.path.join(SOURCE, "docs", "examples")
+        for name in sorted(n for n in os.listdir(folder) if n.endswith(".yaml")):
+            result = run("cone", os.path.join(folder, name))
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn("verdict             in (", result.stdout, name)
+        result = run("query", os.path.join(folder, "combined.jsonl"))
+        self.assertEqual(result.returncode, 2)  # the last line is a mistake
+        answers = [json.loads(line) for line in result.stdout.splitlines()]
+        self.assertEqual([a.get("verdict") for a in answers], ["in", "out", "out", None])
+        self.assert_time(answers[0], (8 - 0.5 - 0.25) / 2)
+
     # Source, 5.4.2; y(0) and psi are those of errata, 4.
     PLANAR = {"agent": {"center": [0, 0], "semi_axes": [6, 2], "rotation": math.pi / 4},
               "obstacle": {"center": [45, 0], "a_c": 6, "b_c": 2, "k": 1, "phi": 2 * math.pi / 3},

@@ -8,7 +8,7 @@
 
 namespace vericone::accuracy {
 
-inline constexpr double kReferenceTolerance = 0.05;
+inline constexpr double kReferenceTolerance = 0.01;
 
 /// `vericone accuracy --obstacle KIND` for combined quadrics: slice cones against planes, held against the
 /// certified inner and outer cone. What slices miss is an interval then, as wide as the two differ. Requires
