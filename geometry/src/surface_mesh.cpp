@@ -3,11 +3,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
-#include <set>
 
 namespace vericone {
 namespace {
@@ -15,6 +14,7 @@ namespace {
 using Eigen::Matrix3d, Eigen::Vector3d;
 using forms::Form;
 
+constexpr double kFinest = 64;      // edges are halved down to this part of the resolution to find a form
 constexpr double kOnCurve = 1e-12;  // relative; values of a form are right to a few roundings
 
 double angle_between(const Vector3d& u, const Vector3d& v) {
@@ -58,13 +58,48 @@ SurfaceMesh::SurfaceMesh(std::vector<Form<3>> forms, double resolution)
   icosahedron();
   for (double length = 1.2; length > 1.3 * resolution_; length /= 2) quarter_all();
   if (forms_.size() == 1) return;
-  refine();
-  for (int m = 1; m < static_cast<int>(forms_.size()); ++m) cut(m);
+  // The cuts make new edges and move nodes, between which a third form may come nearest again: seen
+  // afterwards at nodes that are not on their triangles' forms. Shorter edges there, and once more.
+  constexpr int kAttempts = 6;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    refine();
+    const auto nodes = nodes_;
+    const auto triangles = triangles_;
+    for (int m = 1; m < static_cast<int>(forms_.size()); ++m) cut(m);
+    if (!find_missed() || attempt + 1 == kAttempts) return;
+    nodes_ = nodes;
+    triangles_ = triangles;
+  }
+}
+
+bool SurfaceMesh::find_missed() {
+  bool found = false;
+  for (const Triangle& t : triangles_)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Node& node = nodes_[static_cast<std::size_t>(t.nodes[k])];
+      const Form<3>& f = forms_[static_cast<std::size_t>(t.form)];
+      const double r2 = radius(node) * radius(node);
+      if (std::abs(r2 * f(node.direction) - f.level) <= 1e-10 * (f.level + r2 * size(f))) continue;
+      double length = 0;
+      for (std::size_t n = 0; n < 3; ++n)
+        length =
+            std::max(length, angle_between(nodes_[static_cast<std::size_t>(t.nodes[n])].direction,
+                                           nodes_[static_cast<std::size_t>(t.nodes[(n + 1) % 3])].direction));
+      small_.push_back({node.direction, length});
+      found = true;
+    }
+  return found;
 }
 
 double SurfaceMesh::radius(const Node& node) const {
   const Form<3>& f = forms_[static_cast<std::size_t>(node.form)];
-  return std::sqrt(f.level / f(node.direction));
+  double r = std::sqrt(f.level / f(node.direction));
+  // A form that no edge found is cut off by the triangles, but the nodes are on it.
+  for (const Form<3>& other : forms_) {
+    const double q = other(node.direction);
+    if (other.level > 0 && q > 0) r = std::min(r, std::sqrt(other.level / q));
+  }
+  return r;
 }
 
 void SurfaceMesh::icosahedron() {
@@ -117,18 +152,24 @@ bool SurfaceMesh::too_long(int i, int j) const {
   const Node &a = nodes_[static_cast<std::size_t>(i)], &b = nodes_[static_cast<std::size_t>(j)];
   const double length = angle_between(a.direction, b.direction);
   if (length > wanted_length((a.direction + b.direction).normalized())) return true;
-  if (length < resolution_ / 16) return false;
   // The surface is steep where a dent is deep.
-  if ((a.direction * radius(a) - b.direction * radius(b)).norm() > 1.6 * resolution_) return true;
+  if (length > resolution_ / 16 &&
+      (a.direction * radius(a) - b.direction * radius(b)).norm() > 1.6 * resolution_)
+    return true;
   // A form that comes nearest between the ends only.
-  if (a.form == b.form && length > resolution_ / 8)
-    for (int m = 0; m < static_cast<int>(forms_.size()); ++m) {
-      if (m == a.form) continue;
-      const OnChord h(
-          forms::difference<3>(forms_[static_cast<std::size_t>(m)], forms_[static_cast<std::size_t>(a.form)]),
-          a.direction, b.direction);
-      if (h.a < 0 && h.c < 0 && h.b > 0 && h.roots().size() == 2) return true;
-    }
+  if (length < resolution_ / kFinest) return false;
+  if (a.form != b.form) {
+    const double s = crossing(a.form, b.form, i, j);
+    const int there = forms::active_form<3>(forms_, ((1 - s) * a.direction + s * b.direction).normalized());
+    return there != a.form && there != b.form;
+  }
+  for (int m = 0; m < static_cast<int>(forms_.size()); ++m) {
+    if (m == a.form) continue;
+    const OnChord h(
+        forms::difference<3>(forms_[static_cast<std::size_t>(m)], forms_[static_cast<std::size_t>(a.form)]),
+        a.direction, b.direction);
+    if (h.a < 0 && h.c < 0 && h.b > 0 && h.roots().size() == 2) return true;
+  }
   return false;
 }
 
@@ -251,26 +292,35 @@ void SurfaceMesh::snap(int m, std::vector<double>& signs) {
   }
 }
 
-/// A node where the edge crosses the curve of m. On an edge between two other forms it is the corner where
-/// all three meet, found by Newton's method from there.
+/// A node where the edge crosses the curve of m. An edge between two other forms stands for the curve between
+/// its ends where these two meet: the node is the corner on that curve, found by halving it.
 int SurfaceMesh::rim_node(int m, int i, int j, int label, int other_label) {
-  const double s = crossing(m, label, i, j);
   const Vector3d from = nodes_[static_cast<std::size_t>(i)].direction,
                  to = nodes_[static_cast<std::size_t>(j)].direction;
-  Vector3d u = ((1 - s) * from + s * to).normalized();
+  const auto chord = [&](double s) -> Vector3d { return (1 - s) * from + s * to; };
+  Vector3d u = chord(crossing(m, label, i, j)).normalized();
   if (other_label != label) {
     const auto f = [&](int x) { return forms_[static_cast<std::size_t>(x)]; };
-    const Matrix3d h1 = forms::difference<3>(f(m), f(label)).matrix,
-                   h2 = forms::difference<3>(f(other_label), f(label)).matrix;
-    Vector3d v = u;
-    for (int step = 0; step < 20; ++step) {
-      Matrix3d jacobian;
-      jacobian << 2 * (h1 * v).transpose(), 2 * (h2 * v).transpose(), v.transpose();
-      const Vector3d change = jacobian.fullPivLu().solve(Vector3d(-v.dot(h1 * v), -v.dot(h2 * v), 0));
-      v = (v + change).normalized();
-      if (change.norm() < 1e-15) break;
+    const Form<3> change = forms::difference<3>(f(m), f(label)),
+                  rim = forms::difference<3>(f(other_label), f(label));
+    const Vector3d aside = from.cross(to).normalized();
+    const auto on_rim = [&](double s) -> Vector3d {
+      const Vector3d p = chord(s);
+      const forms::Roots r = forms::roots(rim(p), p.dot(rim.matrix * aside), rim(aside));
+      double x = r.count ? std::numeric_limits<double>::infinity() : 0;
+      for (int k = 0; k < r.count; ++k) {
+        const double root = r.direction[k].y() / r.direction[k].x();
+        if (std::abs(root) < std::abs(x)) x = root;
+      }
+      return std::isfinite(x) ? (p + x * aside).normalized() : p.normalized();
+    };
+    double low = 0, high = 1;
+    const bool rising = change(from) < 0;
+    for (int step = 0; step < 60; ++step) {
+      const double middle = 0.5 * (low + high);
+      ((change(on_rim(middle)) < 0) == rising ? low : high) = middle;
     }
-    if ((v - u).norm() < (to - from).norm()) u = v;
+    u = on_rim(0.5 * (low + high));
   }
   Node node{u, label, true};
   // A form of level 0 says nothing about the radius.

@@ -46,6 +46,8 @@ class SurfaceMesh {
   bool bisect_marked();
 
   void cut(int m);
+  /// Nodes that are not on the form of a triangle of theirs become `small_` spots.
+  bool find_missed();
   double excess(int m, const Node& node) const;
   double crossing(int m, int l, int i, int j) const;
   void snap(int m, std::vector<double>& signs);
@@ -59,7 +61,7 @@ class SurfaceMesh {
     Eigen::Vector3d axis;
     double radius;
   };
-  std::vector<Small> small_;  // dents and ends of waists that need short edges
+  std::vector<Small> small_;  // where short edges are needed: small dents, ends of thin waists
 };
 
 }  // namespace vericone
