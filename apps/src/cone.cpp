@@ -102,19 +102,31 @@ struct Slices {
   Json extra = Json::object();
 };
 
-Slices slices_of(const input::Engagement& e, int planes) {
-  if (e.ellipsoids()) {
+Slices slices_of(const input::Engagement& e, int planes, SliceSector sectors) {
+  if (e.ellipsoids() && sectors == SliceSector::all_candidates) {
     const SliceCone cone = slice_cone(e.agent.ellipsoid(), e.obstacle.ellipsoid(), planes);
     return {to_string(cone.relation), cone.axis, cone.slices, cone.polyhedral()};
   }
-  const CombinedSliceCone cone = combined_slice_cone(e.agent, e.obstacle, planes);
+  const CombinedSliceCone cone = combined_slice_cone(e.agent, e.obstacle, planes, sectors);
+  Json extra{{"planes_with_overlapping_hulls", cone.hulls_overlap}};
+  if (sectors != SliceSector::all_candidates) {
+    extra["planes_without_tangents"] = cone.source_failures;
+    extra["planes_with_wrong_tangents"] = cone.source_differences;
+  }
   return {cone.relation ? to_string(*cone.relation) : "undecided", cone.axis, cone.slices, cone.polyhedral(),
-          Json{{"planes_with_overlapping_hulls", cone.hulls_overlap}}};
+          extra};
 }
 
-Json slice_json(const input::Engagement& e, int planes) {
+SliceSector sectors_of(const ConeOptions& options) {
+  if (options.tangents == "all") return SliceSector::all_candidates;
+  if (options.tangents == "by-sides") return SliceSector::source_by_sides;
+  if (options.tangents == "printed") return SliceSector::source_printed;
+  throw InputError("--tangents", options.tangents, "all, by-sides or printed");
+}
+
+Json slice_json(const input::Engagement& e, int planes, SliceSector choice) {
   const auto start = std::chrono::steady_clock::now();
-  const Slices cone = slices_of(e, planes);
+  const Slices cone = slices_of(e, planes, choice);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   Json result{
       {"method", "slice"}, {"planes", planes}, {"relation", cone.relation}, {"axis", vector_json(cone.axis)}};
@@ -179,6 +191,9 @@ void print_text(const Json& cone, const input::Engagement& e, std::ostream& out)
         << cone["inner"]["solid_angle"].dump() << " sr, outer " << cone["outer"]["solid_angle"].dump()
         << " sr\n";
   if (cone["method"] == "slice" && !cone["sectors"].empty()) print_widest_plane(cone["sectors"], out);
+  if (cone.contains("planes_without_tangents"))
+    out << "source's tangents   none on " << cone["planes_without_tangents"].dump() << " planes, wrong on "
+        << cone["planes_with_wrong_tangents"].dump() << '\n';
   if (cone["method"] == "slice")
     out << (e.ellipsoids() ? "note                slices see only contacts within their planes: the true "
                              "cone is larger\n"
@@ -193,7 +208,10 @@ void print_text(const Json& cone, const input::Engagement& e, std::ostream& out)
 Json cone_json(const ConeOptions& options, const input::Engagement& e) {
   if (options.samples && options.tolerance)
     throw InputError("--samples", std::to_string(*options.samples), "left out where --tolerance is given");
-  if (options.method == "slice") return slice_json(e, options.planes);
+  const SliceSector sectors = sectors_of(options);
+  if (options.method == "slice") return slice_json(e, options.planes, sectors);
+  if (sectors != SliceSector::all_candidates)
+    throw InputError("--tangents", options.tangents, "left out where --method is not slice");
   if (options.tolerance || !e.ellipsoids()) {
     if (options.samples)
       throw InputError("--samples", std::to_string(*options.samples),
@@ -206,6 +224,8 @@ Json cone_json(const ConeOptions& options, const input::Engagement& e) {
 void run_planar_cone(const ConeOptions& options, const input::PlanarEngagement& e, std::ostream& out) {
   if (options.method != "exact")
     throw InputError("--method", options.method, "left out for a planar scene, whose cone is one sector");
+  if (options.tangents != "all")
+    throw InputError("--tangents", options.tangents, "left out for a planar scene");
   if (options.tolerance)
     throw InputError("--tolerance", to_text(*options.tolerance), "left out for a planar scene");
   if (!options.picture_folder.empty())

@@ -16,6 +16,7 @@ struct ConeOptions {
   std::string scene;
   std::string method = "exact";     // or "slice"
   int planes = 36;                  // slice
+  std::string tangents = "all";     // slice: or the source's choices, "by-sides", "printed"
   std::optional<int> samples;       // exact, two ellipsoids; kDefaultSamples
   std::optional<double> tolerance;  // exact, certified to it; kDefaultTolerance for combined quadrics
   bool json = false;

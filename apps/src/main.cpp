@@ -34,6 +34,11 @@ int run(int argc, char** argv) {
                    "exact: the true cone with its error bound; slice: the source's, too small")
       ->capture_default_str();
   cone_command->add_option("--planes", cone.planes, "Planes of the slice cone")->capture_default_str();
+  cone_command
+      ->add_option("--tangents", cone.tangents,
+                   "Slices of combined quadrics: all candidates compared, or the source's choice, by-sides "
+                   "(6.3.2) or printed (5.2.2)")
+      ->capture_default_str();
   cone_command->add_option("--samples", cone.samples, "Boundary samples of the exact cone of ellipsoids")
       ->default_str(std::to_string(vericone::kDefaultSamples));
   cone_command
@@ -106,7 +111,8 @@ int run(int argc, char** argv) {
   auto* shapes_command = app.add_subcommand("shapes", "Pictures and meshes of combined quadrics");
   shapes_command->add_option("--out", shapes.out, "Folder for data, pictures and meshes")
       ->capture_default_str();
-  shapes_command->add_option("--figure", shapes.which, "Names of figures (docs/combined.md); all if not given")
+  shapes_command
+      ->add_option("--figure", shapes.which, "Names of figures (docs/combined.md); all if not given")
       ->delimiter(',');
   shapes_command->add_option("--mesh", shapes.mesh, "obj or ply: also write the surfaces as files");
   shapes_command

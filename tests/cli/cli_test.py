@@ -309,6 +309,18 @@ class Combined(unittest.TestCase):
         for p in s["sectors"]:
             self.assertAlmostEqual(p["psi"], 2 * half, 10)
 
+    def test_the_sources_choice_of_tangents(self):
+        scene = {"agent": {"center": [0, 0, 0], "semi_axes": [1, 0.6, 0.5]},
+                 "obstacle": self.body([8, 1, 0], [2, 3, 3], {"sheets": 2, "semi_axes": [0.7, 1.2, 1.2]})}
+        truth = self.scene(scene, "--method", "slice", "--planes", "12")
+        self.assertNotIn("planes_without_tangents", truth)
+        source = self.scene(scene, "--method", "slice", "--planes", "12", "--tangents", "by-sides")
+        self.assertLessEqual(source["planes_without_tangents"] + source["planes_with_wrong_tangents"], 12)
+        wrong = sum(abs(p["psi"] - q["psi"]) > 1e-9 for p, q in zip(truth["sectors"], source["sectors"]))
+        self.assertEqual(wrong, source["planes_with_wrong_tangents"])
+        self.assertIn("source's tangents   none on ",
+                      self.scene(scene, "--method", "slice", "--tangents", "printed", text=True))
+
     def test_tolerance_of_ellipsoids_is_that_of_the_certified_cone(self):
         scene = {"agent": ball([0, 0, 0], 1), "obstacle": ball([5, 0, 0], 2)}
         truth = 2 * math.pi * (1 - math.cos(math.asin(3 / 5)))
@@ -327,6 +339,28 @@ class Combined(unittest.TestCase):
         self.assertIn("verdict             in (of the scene's velocities, certified)", text)
         overlapping = {**scene, "agent": ball([7, 0, 0], 0.75)}
         self.assertIn("bodies              overlapping", self.scene(overlapping, text=True))
+
+    def test_planar_verdicts_follow_the_edges(self):
+        # The sector is found in the plane, the verdict in space (see docs/formats.md): independent.
+        obstacles = [{"a_c": 3, "b_c": 1.5, "k": k, "phi": 0.4} for k in (0, 0.3, 0.9, 1)]
+        obstacles.append({"semi_axes": [2, 3], "rotation": 0.3, "hyperbolas": [
+            {"semi_axes": [0.8, 1]}, {"semi_axes": [1.1, 0.7], "rotation": 1.2}]})
+        agent = {"center": [0, 0], "semi_axes": [1, 0.4], "rotation": -0.5}
+        cases, truths = [], []
+        for obstacle in obstacles:
+            for x, y in ((6, 1), (3.2, -3), (-12, 4)):
+                scene = {"agent": agent, "obstacle": {"center": [x, y], **obstacle}}
+                c = self.scene(scene)
+                self.assertEqual(c["relation"], "disjoint")
+                for side in (1, -1):
+                    for inwards, verdict in ((1e-5, "in"), (-1e-5, "out")):
+                        t = c["theta_b"] + side * (c["psi"] / 2 - inwards)
+                        cases.append({**scene, "agent_velocity": [math.cos(t), math.sin(t)], "obstacle_velocity": [0, 0]})
+                        truths.append(verdict)
+        answers = [a["verdict"] for a in query(*cases)[1]]
+        for answer, truth, case in zip(answers, truths, cases):
+            self.assertIn(answer, (truth, "undecided"), case)
+        self.assertLess(answers.count("undecided"), 6)
 
     def test_examples(self):
         folder = os.path.join(SOURCE, "docs", "examples")
