@@ -143,8 +143,8 @@ class Meeting {
     Parameters taus;
     const auto corners = a_.corners();
     for (const auto& corner : corners) {
-      if (common(corner.offset)) return true;
       const Vector2d u = a_.rounds()[0].inverse * corner.offset;
+      if (common(u)) return true;
       if (u != Vector2d::Zero()) taus.push_back(direction_parameter(u));
     }
     SmallList<SeenConic, 4> seen;
@@ -172,15 +172,19 @@ class Meeting {
   }
 
  private:
-  /// Certain: the point, moved inwards by a few roundings, is inside of both.
-  bool common(const Vector2d& offset) const {
+  /// Certain: the point F u of A, moved inwards or aside by as much as its own rounding may be, is in both.
+  bool common(const Vector2d& u) const {
     const Vector2d c = b_.body().center() - a_.body().center();
-    if (!b_.contains(offset - c)) return false;
-    for (const double shrink : {1.0, 1 - 1e-15, 1 - 8e-15}) {
-      const Vector2d point = a_.body().center() + shrink * offset;
-      if (side<2>(a_.body(), point) != Sign::positive && side<2>(b_.body(), point) != Sign::positive)
-        return true;
-    }
+    const Matrix2d& f = a_.rounds()[0].factor;
+    if (!b_.contains(f * u - c)) return false;
+    const Vector2d across(-u.y(), u.x());
+    for (const double step : {0.0, 1e-15, 1e-14, 1e-12, 1e-10, 1e-8})
+      for (const double aside : {0.0, step, -step}) {
+        const Vector2d point = a_.body().center() + f * ((1 - step) * u + aside * across);
+        if (side<2>(a_.body(), point) != Sign::positive && side<2>(b_.body(), point) != Sign::positive)
+          return true;
+        if (step == 0) break;
+      }
     return false;
   }
 
@@ -197,8 +201,8 @@ class Meeting {
 
   bool arc_point(const SmallList<Matrix2d, 4>& own, double tau) const {
     const Vector2d u = direction(tau);
-    const Vector2d offset = a_.rounds()[0].factor * (radius(own, u) * u);
-    return common(offset) || common(-offset);
+    const Vector2d point = radius(own, u) * u;
+    return common(point) || common(-point);
   }
 
   /// The boundary lines of a delimiter of level 0, as far as they belong to the body.
@@ -231,9 +235,8 @@ class Meeting {
       }
       std::sort(stops.begin(), stops.end());
       for (std::size_t i = 0; i < stops.size(); ++i) {
-        if (common(a_.rounds()[0].factor * (stops[i] * u))) return true;
-        if (i + 1 < stops.size() && common(a_.rounds()[0].factor * (0.5 * (stops[i] + stops[i + 1]) * u)))
-          return true;
+        if (common(stops[i] * u)) return true;
+        if (i + 1 < stops.size() && common(0.5 * (stops[i] + stops[i + 1]) * u)) return true;
       }
     }
     return false;

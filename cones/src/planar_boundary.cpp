@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planar_boundary.h"
 
+#include <vericone/geometry/double_double.h>
 #include <vericone/geometry/scaled_inverse.h>
 #include <cmath>
 
@@ -25,12 +26,56 @@ Matrix2d factor_of(const Matrix2d& m, double level) {
   const double angle = 0.5 * std::atan2(2 * m(0, 1), m(0, 0) - m(1, 1));
   const double c = std::cos(angle), s = std::sin(angle);
   const double mean = 0.5 * (m(0, 0) + m(1, 1)), reach = std::hypot(0.5 * (m(0, 0) - m(1, 1)), m(0, 1));
-  // The smaller eigenvalue without cancellation.
-  const double large = mean + reach, small = (m(0, 0) * m(1, 1) - m(0, 1) * m(0, 1)) / large;
+  // The smaller eigenvalue without cancellation: it is the square of the long axis.
+  const DoubleDouble determinant =
+      DoubleDouble::two_product(m(0, 0), m(1, 1)) - DoubleDouble::two_product(m(0, 1), m(0, 1));
+  const double large = mean + reach, small = static_cast<double>(determinant) / large;
   const double p = std::sqrt(level / large), q = std::sqrt(level / small);
   Matrix2d f;
   f << c * p, -s * q, s * p, c * q;
   return f;
+}
+
+/// xx x^2 + 2 xy x y + yy y^2 with 31 digits.
+DoubleDouble form(const DoubleDouble& xx, const DoubleDouble& xy, const DoubleDouble& yy, const Vector2d& p) {
+  const DoubleDouble x = p.x(), y = p.y(), mixed = xy * (x * y);
+  return xx * (x * x) + mixed + mixed + yy * (y * y);
+}
+
+/// By how much a point misses a conic (where the centre's value is -1, or 0 at level 0), with the digits that
+/// a thin body's matrix would lose.
+double residual(const CombinedEllipse& body, int conic, const Vector2d& p) {
+  if (conic > 0) {
+    const auto& [m, level] = body.delimiters()[conic - 1];
+    const double value = static_cast<double>(form(m(0, 0), m(0, 1), m(1, 1), p) - DoubleDouble(level));
+    return level > 0 ? value / level : value;
+  }
+  if (body.ellipsoid().defined_by_factor()) {
+    const Matrix2d& f = body.ellipsoid().factor();
+    const DoubleDouble x = p.x(), y = p.y(), u = x * f(1, 1) - y * f(0, 1), v = y * f(0, 0) - x * f(1, 0);
+    const DoubleDouble determinant =
+        DoubleDouble::two_product(f(0, 0), f(1, 1)) - DoubleDouble::two_product(f(0, 1), f(1, 0));
+    const DoubleDouble square = determinant * determinant;
+    return static_cast<double>(u * u + v * v - square) / static_cast<double>(square);
+  }
+  const Matrix2d& s = body.ellipsoid().shape();
+  const DoubleDouble determinant =
+      DoubleDouble::two_product(s(0, 0), s(1, 1)) - DoubleDouble::two_product(s(0, 1), s(0, 1));
+  return static_cast<double>(form(s(1, 1), -s(0, 1), s(0, 0), p) - determinant) /
+         static_cast<double>(determinant);
+}
+
+/// One step of Newton's method for the crossing of two conics, u where the ellipse is the unit disc.
+Vector2d polished(const CombinedEllipse& body, int i, int j, const Vector2d& u, const Matrix2d& of_i,
+                  const Matrix2d& of_j, double level_i, double level_j) {
+  const Vector2d offset = body.ellipsoid().factor() * u;
+  Matrix2d slopes;
+  slopes << (2 / (level_i > 0 ? level_i : 1) * of_i * u).transpose(),
+      (2 / (level_j > 0 ? level_j : 1) * of_j * u).transpose();
+  const Vector2d step = slopes.inverse() * Vector2d(residual(body, i, offset), residual(body, j, offset));
+  // Conics that hardly cross have no better corner than this one.
+  constexpr double kRounding = 1e-5;
+  return step.norm() < kRounding * u.norm() ? Vector2d(offset - body.ellipsoid().factor() * step) : offset;
 }
 
 }  // namespace
@@ -94,7 +139,7 @@ SmallList<PlanarBoundary::CornerPoint, 16> PlanarBoundary::corners() const {
         for (int other = 0; other < count && valid; ++other)
           valid = other == i || other == j || within(matrix(other), level(other), r * u);
         if (!valid) continue;
-        const Vector2d offset = rounds_[0].factor * (r * u);
+        const Vector2d offset = polished(*body_, i, j, r * u, a, b, level(i), level(j));
         all.push_back({offset, i, j});
         all.push_back({-offset, i, j});
       }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/combined_sector.h>
 #include <vericone/geometry/error.h>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -33,7 +34,8 @@ struct Line {
 
 class SourceTangents {
  public:
-  SourceTangents(const Ellipse& a, const CombinedEllipse& b) : center_b_(b.center() - a.center()) {
+  SourceTangents(const Ellipse& a, const CombinedEllipse& b, bool keep_both)
+      : center_b_(b.center() - a.center()), keep_both_(keep_both), inverse_a_(a.factor().inverse()) {
     // F_1^{-1} where A's centre is the origin: x^T S^{-1} x = 1.
     dual_ << a.shape(), Vector2d::Zero(), Eigen::RowVector2d::Zero(), -1;
     for (const Corner& corner : corners(b)) corners_.push_back(corner.point - a.center());
@@ -52,7 +54,7 @@ class SourceTangents {
     std::vector<Line> kept;
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       const std::vector<Line> separating = tangents(chosen[i]);
-      if (separating.size() == 2) return separating;  // grazing: step 5 is skipped
+      if (separating.size() == 2 && (keep_both_ || grazes(chosen[i]))) return separating;  // without step 5
       for (const Line& line : separating)
         if (line.side(chosen[1 - i]) * line.side(center_b_) >= 0) kept.push_back(line);
     }
@@ -87,7 +89,11 @@ class SourceTangents {
     return kept;
   }
 
+  bool grazes(const Vector2d& corner) const { return (inverse_a_ * corner).norm() < 1 + 1e-9; }
+
   Vector2d center_b_;
+  bool keep_both_;
+  Eigen::Matrix2d inverse_a_;
   Eigen::Matrix3d dual_;
   std::vector<Vector2d> corners_;
 };
@@ -116,13 +122,13 @@ std::optional<Sector> sector_by_source(const Ellipse& a, const CombinedEllipse& 
   const bool left_valid = on_body(ellipses->left), right_valid = on_body(ellipses->right);
   if (left_valid && right_valid) return ellipses;
 
-  const SourceTangents source(a, b);
+  const SourceTangents source(a, b, choice == TangentChoice::keep_both);
   if (!source.cornered()) return std::nullopt;
   const auto replacement = [&](const SectorEdge& lost, bool left) {
     const Vector2d near =
         intersect ? Vector2d(0.5 * (b.center() - a.center())) : Vector2d(lost.point_on_b - a.center());
     std::optional<SectorEdge> edge =
-        pick(choice == TangentChoice::printed ? source.printed(near) : source.by_sides(), left);
+        pick(choice == TangentChoice::by_sides ? source.by_sides() : source.printed(near), left);
     if (edge) edge->point_on_a += a.center(), edge->point_on_b += a.center();
     return edge;
   };

@@ -47,11 +47,12 @@ SectorRates combined_sector_rates(const CombinedSector& sector, const CombinedEl
                                   const std::vector<DelimiterRate>& rates_a = {},
                                   const std::vector<DelimiterRate>& rates_b = {});
 
-/// How the source chooses among the tangents (5.2.2.2).
+/// How the source chooses among the tangents.
 enum class TangentChoice {
-  printed,   // its steps 1 to 5 as printed: the two corners nearest to the lost point of tangency, tests by
-             // centres
-  by_sides,  // 6.3.2: centres on opposite sides and all corners on one side, over all corners
+  printed,  // 5.2.2.2, steps 1 to 5: the two corners nearest to the lost point of tangency, tests by centres;
+            // both tangents of one corner are kept only where that corner grazes A
+  keep_both,  // the same, but both are kept wherever both pass step 4, which may also be meant
+  by_sides,   // 6.3.2: centres on opposite sides and all corners on one side, over all corners
 };
 
 /// The source's own way: common tangents of the ellipses by degenerate conics (Algorithm 3), kept where they
