@@ -47,11 +47,11 @@ def cone_lines(axes, view, data, solids, reach, generators=24):
     directions = np.array(data["inner"])
     tips = apex + reach * directions / (directions @ axis)[:, None]
     border = closed(tips)
-    draw_lines(axes, view, [border], solids, apex, color=EXACT, width=1.1, hidden_width=0.5, zorder=6)
+    draw_lines(axes, view, [border], solids, color=EXACT, width=1.1, hidden_width=0.5, zorder=6)
     length = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(border, axis=0), axis=1))])
     s = np.linspace(0, length[-1], generators, endpoint=False)
     for tip in np.stack([np.interp(s, length, c) for c in border.T], axis=1):
-        draw_lines(axes, view, [np.linspace(apex, tip, 60)], solids, apex, color=EXACT, width=0.35, hidden_width=0,
+        draw_lines(axes, view, [np.linspace(apex, tip, 60)], solids, color=EXACT, width=0.35, hidden_width=0,
                    zorder=6)
     return tips
 
@@ -71,7 +71,7 @@ def scene(axes, name, data, hull_border=False):
         ghost = Solid(data["a"], colors=(AGENT, AGENT), shift=beside)
         draw_solids(axes, view, [ghost, obstacle], fill=False, hidden_rims=False)
         path = np.linspace(apex, apex + 1.5 * beside, 300)
-        draw_lines(axes, view, [path[20:]], solids, apex, color=VELOCITY, width=1.2, hidden_width=0.7, zorder=7)
+        draw_lines(axes, view, [path[20:]], solids, color=VELOCITY, width=1.2, hidden_width=0.7, zorder=7)
         axes.annotate("", xy=view.project(path[-1]), xytext=view.project(path[-6]), zorder=8,
                       arrowprops={"arrowstyle": "-|>", "color": VELOCITY, "lw": 1.2, "shrinkA": 0, "shrinkB": 0})
         shown.append(path)
@@ -81,7 +81,7 @@ def scene(axes, name, data, hull_border=False):
         first, second = basis(axis)
         border = hull(at_distance_one(np.array(data["outer"]), axis))
         line = apex + reach * (axis + border @ np.array([first, second]))
-        draw_lines(axes, view, [closed(line)], solids, apex, color=GREY, width=0.8, hidden_width=0.5, zorder=6)
+        draw_lines(axes, view, [closed(line)], solids, color=GREY, width=0.8, hidden_width=0.5, zorder=6)
     for label, s, offset in (("A", agent, (0, -10)), ("B", obstacle, (-14, -2))):
         flat = view.project(s.points + s.center)
         at = flat[flat[:, 1].argmin() if label == "A" else flat[:, 1].argmax()]
@@ -133,7 +133,7 @@ def plane_section(axes, data):
         axes.annotate(name, corner, xytext=9 * away, textcoords="offset points", ha="center", va="center")
     for n, tangent in enumerate(data["tangents"]):
         a, b, d = (np.array(tangent[k]) for k in ("on_a", "on_b", "direction"))
-        line = np.array([a - 1.2 * d, b + 1.8 * d])
+        line = np.array([a - 1.2 * d, b + 1.5 * d])
         axes.plot(*line.T, color=EXACT, linewidth=0.9, zorder=4)
         axes.plot(*np.array([a, b]).T, "o", color=EXACT, markersize=3, zorder=5)
         axes.annotate("$t_%d$" % (n + 1), line[1], xytext=8 * d, textcoords="offset points", ha="center", va="center",

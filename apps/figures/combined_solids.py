@@ -20,7 +20,7 @@ def draw(axes, panel, name):
     solids = [Solid(s) for s in panel["solids"]]
     if len(solids) == 2:  # two surfaces through each other
         ellipsoid, hyperboloid = solids
-        draw_lines(axes, view, hyperboloid.cut(ellipsoid), solids, ellipsoid.center, hidden_width=0)
+        draw_lines(axes, view, hyperboloid.cut(ellipsoid), solids, hyperboloid, hidden_width=0)
         ellipsoid.cut(hyperboloid)
     draw_solids(axes, view, solids, hidden_rims=len(solids) == 1 and name != "stars")
     return view, solids

@@ -64,6 +64,14 @@ class Solid:
                     hidden |= hit
         return hidden
 
+    def beside(self, points):
+        """Points of chords of the surface moved off it: outwards, and inwards if the inside may be seen."""
+        p = points - self.center
+        if not self.closed:
+            return [self.center + 1.004 * p, self.center + 0.996 * p]
+        size = np.max([np.einsum("ij,jk,ik->i", p, m, p) / level for m, level in self.forms if level > 0], axis=0)
+        return [self.center + 1.002 * p / np.sqrt(size)[:, None]]
+
     def gradients(self, points):
         """Of each triangle's form at a point of it."""
         g = np.empty_like(points)
@@ -87,8 +95,11 @@ class Solid:
                     roots = np.roots([a, 2 * b, c]) if a else np.array([-c / (2 * b)])
                     t = [r.real for r in roots if abs(r.imag) < 1e-9 and -1e-9 <= r.real <= 1 + 1e-9][0]
                     y = y + t * d
+                    for _ in range(6):  # onto both surfaces: Newton's steps of least length
+                        both = np.stack([form[0] @ y, m @ y])
+                        y = y - np.linalg.lstsq(2 * both, both @ y - [form[1], level], rcond=None)[0]
                     new[key] = len(points)
-                    points.append(y * np.sqrt(form[1] / (y @ form[0] @ y)))
+                    points.append(y)
                 return new[key]
 
             for t, q in zip(self.triangles, self.quadrics):
@@ -160,9 +171,8 @@ def chains(links, center):
             line.append(key)
 
     for key in sorted(at, key=lambda k: len(at[k])):  # open ends first
-        line = walk(key)
-        if len(line) > 1:
-            lines.append(np.array([where[k] for k in line]) + center)
+        while any(n not in used for n in at[key]):
+            lines.append(np.array([where[k] for k in walk(key)]) + center)
     return lines
 
 
@@ -180,16 +190,14 @@ def refined(line, steps=4):
     return np.stack([np.interp(s, np.arange(len(line)), c) for c in line.T], axis=1)
 
 
-def draw_lines(axes, view, lines, solids, center, color="k", width=0.9, hidden_width=0.5, zorder=5):
-    """Lines on the surface of a body about `center`; what is behind one of the solids dashed or left out."""
+def draw_lines(axes, view, lines, solids, surface=None, color="k", width=0.9, hidden_width=0.5, zorder=5):
+    """Lines, on the surface of a solid or free; what is behind one of the solids dashed or left out."""
     if not lines:
         return
     lines = [refined(line) for line in lines]
     middles = np.vstack([0.5 * (line[1:] + line[:-1]) for line in lines])
-    # Chords are a little behind their own surface, seen from outside or from inside: asked on both sides.
     hidden = np.ones(len(middles), bool)
-    for push in (1.002, 0.998):
-        moved = center + push * (middles - center)
+    for moved in surface.beside(middles) if surface else (middles,):
         hidden &= np.any([s.hides(moved, view.toward) for s in solids], axis=0)
     start = 0
     for line in lines:
@@ -228,8 +236,8 @@ def draw_solids(axes, view, solids, hidden_rims=True, alpha=1.0, fill=True):
         axes.add_collection(PolyCollection([faces[i] for i in order], facecolors=[colors[i] for i in order],
                                            edgecolors="face", linewidths=0.25, alpha=alpha, zorder=2))
     for s in solids:
-        draw_lines(axes, view, s.contours(view.toward), solids, s.center, hidden_width=0)
-        draw_lines(axes, view, s.rims(), solids, s.center, hidden_width=0.45 if hidden_rims else 0)
+        draw_lines(axes, view, s.contours(view.toward), solids, s, hidden_width=0)
+        draw_lines(axes, view, s.rims(), solids, s, hidden_width=0.45 if hidden_rims else 0)
 
 
 def frame(axes, view, points, margin=0.04, below=0.14):

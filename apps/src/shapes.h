@@ -9,7 +9,7 @@ namespace vericone {
 
 struct ShapesOptions {
   std::vector<std::string> which;  // names of figures, docs/combined.md; empty: all
-  double resolution = 0.06;        // of the surfaces, in parts of the semi-axes
+  double resolution = 0.09;        // of the surfaces, in parts of the semi-axes
   std::string mesh;                // also the bodies' surfaces as files: "obj" or "ply"
   std::string out = "out/shapes";
   bool figures = true;
