@@ -103,7 +103,8 @@ double expected_standoff(const End& first, const End& last) {
 
 }  // namespace
 
-CombinedCone combined_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& b, double tolerance) {
+CombinedCone combined_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& b, double tolerance,
+                           std::uint64_t most_boxes) {
   if (!(tolerance > 0) || !(tolerance < 1))
     throw InputError("tolerance", to_text(tolerance), "between 0 and 1");
   const CombinedOracle oracle(a, b, std::min(1e-4, 1e-2 * tolerance));
@@ -150,7 +151,7 @@ CombinedCone combined_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& 
     add(tracer.sector(ends[i], last, expected_standoff(ends[i], last)));
   }
   std::vector<Sector> done;
-  while (!heap.empty() && heap.size() + done.size() < kMostSectors &&
+  while (!heap.empty() && heap.size() + done.size() < kMostSectors && oracle.boxes_searched() < most_boxes &&
          (unbounded > 0 || outer - inner > tolerance * outer)) {
     std::pop_heap(heap.begin(), heap.end());
     const Sector s = heap.back();

@@ -113,17 +113,22 @@ CombinedFrame::CombinedFrame(const CombinedEllipsoid& a, const CombinedEllipsoid
   for (int i = 0; i < 3; ++i) c[i] = Interval(b.center()(i) / unit) - Interval(a.center()(i) / unit);
   center_ = inverse_a_ * c;
 
-  const auto delimiters = [&](const CombinedEllipsoid& body, std::vector<EnclosedQuadric>& out) {
-    out.push_back(quadric(ellipsoid_matrix(body.ellipsoid(), t, unit), 1));
+  /// The surfaces of a body, positions about its centre being m z.
+  const auto surfaces = [&](const CombinedEllipsoid& body, const IntervalMatrix3& m, bool round) {
+    std::vector<EnclosedQuadric> list;
+    list.push_back(quadric(
+        round ? enclosed(Eigen::Matrix3d::Identity()) : ellipsoid_matrix(body.ellipsoid(), m, unit), 1));
     for (const Delimiter<3>& d : body.delimiters())
-      out.push_back(quadric(product(transposed(t), product(enclosed(d.matrix * (unit * unit)), t)), d.level));
+      list.push_back(
+          quadric(product(transposed(m), product(enclosed(d.matrix * (unit * unit)), m)), d.level));
+    return list;
   };
-  if (a.ellipsoid().defined_by_factor()) {
-    a_.push_back(quadric(enclosed(Eigen::Matrix3d::Identity()), 1));
-    for (const Delimiter<3>& d : a.delimiters())
-      a_.push_back(quadric(product(transposed(t), product(enclosed(d.matrix * (unit * unit)), t)), d.level));
-  } else {
-    delimiters(a, a_);
+  const IntervalMatrix3 own = enclosed(b.ellipsoid().factor() / unit);
+  a_ = surfaces(a, t, a.ellipsoid().defined_by_factor());
+  b_ = surfaces(b, t, false);
+  own_b_ = surfaces(b, own, b.ellipsoid().defined_by_factor());
+  columns_b_ = transposed(product(inverse_a_, own));
+  if (!a.ellipsoid().defined_by_factor()) {
     // |N - I| <= e in every entry: n^T N^{-1} n and x^T N x are those of the ball up to 3 e / (1 - 3 e).
     double e = 0;
     for (int i = 0; i < 3; ++i)
@@ -131,12 +136,9 @@ CombinedFrame::CombinedFrame(const CombinedEllipsoid& a, const CombinedEllipsoid
         e = std::max(e, (a_[0].matrix[i][j] - Interval(i == j ? 1.0 : 0.0)).magnitude());
     defect_ = 4 * e;
   }
-  delimiters(b, b_);
-
   map_b_ = scaled_inverse<3>(factor) * (b.ellipsoid().factor() / unit);
-  extent_b_ = map_b_.rowwise().norm() * (1 + 1e-6);
-  usable_ = finite(inverse_a_) && defect_ < 1e-3 && extent_b_.allFinite();
-  for (const auto* list : {&a_, &b_})
+  usable_ = finite(inverse_a_) && finite(columns_b_) && defect_ < 1e-3 && map_b_.allFinite();
+  for (const auto* list : {&a_, &b_, &own_b_})
     for (const EnclosedQuadric& q : *list) usable_ = usable_ && finite(q.matrix);
   for (const Interval& x : center_) usable_ = usable_ && x.finite();
 }

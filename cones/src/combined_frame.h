@@ -44,8 +44,11 @@ class CombinedFrame {
     return a_;
   }  // first: the ellipsoid, nearly the unit matrix
   const std::vector<EnclosedQuadric>& b() const { return b_; }
-  /// Half widths of a box around B about its centre.
-  const Eigen::Vector3d& extent_b() const { return extent_b_; }
+  /// B in its own coordinates z, in which its ellipsoid is the unit ball: x = c + G z, with the columns of G.
+  /// Thin bodies are round there.
+  const std::vector<EnclosedQuadric>& own_b() const { return own_b_; }
+  const std::array<IntervalVector3, 3>& columns_b() const { return columns_b_; }
+
   /// Half the width of B's ellipsoid along u, rounded up.
   double reach_b(const Eigen::Vector3d& u) const { return (map_b_.transpose() * u).norm() * (1 + 1e-6); }
 
@@ -57,9 +60,9 @@ class CombinedFrame {
   bool usable_ = false;
   IntervalMatrix3 inverse_a_;
   IntervalVector3 center_;
-  std::vector<EnclosedQuadric> a_, b_;
+  std::vector<EnclosedQuadric> a_, b_, own_b_;
+  std::array<IntervalVector3, 3> columns_b_;
   Eigen::Matrix3d map_b_;  // unit ball to B's ellipsoid, rounded
-  Eigen::Vector3d extent_b_;
   double defect_ = 0;
 };
 

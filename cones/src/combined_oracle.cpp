@@ -28,11 +28,6 @@ IntervalVector3 exactly(const Vector3d& v) { return {Interval(v(0)), Interval(v(
 
 Interval norm(const IntervalVector3& v) { return sqrt(square(v[0]) + square(v[1]) + square(v[2])); }
 
-/// x -> w x x as columns.
-std::array<IntervalVector3, 3> cross_columns(const IntervalVector3& w) {
-  return {cross(w, kIdentity[0]), cross(w, kIdentity[1]), cross(w, kIdentity[2])};
-}
-
 /// Whether q, a quadratic form about a centre, is at most its level on the whole segment from x to y
 /// (relative to that centre): a parabola's largest value is at an end or at its vertex.
 bool segment_inside(const EnclosedQuadric& q, const IntervalVector3& x, const IntervalVector3& y) {
@@ -77,8 +72,10 @@ struct CombinedOracle::State {
   // Where neither body is an ellipsoid: one of them replaced by its ellipsoid (what misses that misses the
   // body) or by one inside of it (what meets that meets the body). Three unknowns each; tried first.
   std::vector<CombinedOracle> wider, narrower;
-  std::vector<QuadraticConstraint<3>> surfaces_b;  // of y = x - c
+  std::vector<QuadraticConstraint<3>> surfaces_b;  // of z, B's own coordinates
   double extent = 0;                               // |x| is at most this
+  double columns_square = 0;                       // squared columns of G, summed
+  mutable std::uint64_t boxes = 0;
 
   // Scratch memory; an oracle is used by one thread at a time.
   mutable QuadraticSearch<3> search3;
@@ -95,18 +92,20 @@ struct CombinedOracle::State {
         a(swapped ? second : first),
         b(swapped ? first : second),
         frame(a, b) {
-    limits.least_width = tolerance;
     if (a.is_ellipsoid() && b.is_ellipsoid()) {
       exact.emplace(a.ellipsoid(), b.ellipsoid());
       relation = exact->relation();
     }
     if (!frame.usable()) return;
-    for (const EnclosedQuadric& q : frame.b())
-      surfaces_b.push_back(quadratic_constraint<3>(q.matrix, kIdentity, kZero, Interval(q.level),
-                                                   -q.least_eigenvalue, extent_b()));
-    extent = (middle(frame.center()).norm() + frame.extent_b().norm() + 1) * (1 + 1e-6);
+    for (const EnclosedQuadric& q : frame.own_b())
+      surfaces_b.push_back(
+          quadratic_constraint<3>(q.matrix, kIdentity, kZero, Interval(q.level), -q.least_eigenvalue, kRoom));
+    for (const IntervalVector3& column : frame.columns_b()) columns_square += dot(column, column).hi();
+    extent = (middle(frame.center()).norm() + std::sqrt(columns_square) + 1) * (1 + 1e-6);
+    limits.least_width = tolerance / std::max(1.0, std::sqrt(columns_square));
     if (exact) return;
-    relation = search_relation();
+    const bool apart = vericone::relation<3>(a.ellipsoid(), b.ellipsoid()) == Relation::disjoint;
+    relation = apart ? Relation::disjoint : search_relation();
     if (relation != Relation::disjoint) return;
     ConeOracle outer(a.bounding_ellipsoid(), b.bounding_ellipsoid());
     if (outer.relation() == Relation::disjoint) around.emplace(std::move(outer));
@@ -128,16 +127,39 @@ struct CombinedOracle::State {
     if (in_b) add(narrower, a, *in_b);
   }
 
+  template <int N>
+  SearchResult<N> search(QuadraticSearch<N>& searcher, const std::vector<QuadraticConstraint<N>>& list,
+                         const SearchBox<N>& box, const SearchLimits& most) const {
+    SearchResult<N> r = searcher.run(list, box, most);
+    boxes += static_cast<std::uint64_t>(r.boxes);
+    return r;
+  }
+
+  static inline const SearchBox<3> kBox{Vector3d::Zero(), Vector3d::Constant(1.001)};
   /// With room for what boxes are widened by.
-  Vector3d extent_b() const { return frame.extent_b() * 1.0001; }
-  SearchBox<3> box_b() const { return {Vector3d::Zero(), frame.extent_b()}; }
+  static inline const Vector3d kRoom = Vector3d::Constant(1.002);
+
+  /// The row of l.x = l.c + (G^T l).z.
+  IntervalVector3 in_own(const IntervalVector3& l) const {
+    const auto& g = frame.columns_b();
+    return {dot(l, g[0]), dot(l, g[1]), dot(l, g[2])};
+  }
+  /// l.x + l0 <= 0.
+  void add_half_space(const IntervalVector3& l, const Interval& l0) const {
+    const IntervalVector3 row = in_own(l);
+    list3.push_back(linear_constraint<3>({row[0], row[1], row[2]}, dot(l, frame.center()) + l0, kRoom));
+  }
+  IntervalVector3 position(const Vector3d& z) const {
+    const auto& g = frame.columns_b();
+    return frame.center() + g[0] * Interval(z(0)) + g[1] * Interval(z(1)) + g[2] * Interval(z(2));
+  }
 
   std::optional<Relation> search_relation() const {
     list3 = surfaces_b;
     for (const EnclosedQuadric& q : frame.a())
-      list3.push_back(quadratic_constraint<3>(q.matrix, kIdentity, frame.center(), Interval(q.level),
-                                              -q.least_eigenvalue, extent_b()));
-    switch (search3.run(list3, box_b(), limits).outcome) {
+      list3.push_back(quadratic_constraint<3>(q.matrix, frame.columns_b(), frame.center(), Interval(q.level),
+                                              -q.least_eigenvalue * columns_square, kRoom));
+    switch (search(search3, list3, kBox, limits).outcome) {
       case SearchOutcome::empty:
         return Relation::disjoint;
       case SearchOutcome::found:
@@ -148,12 +170,12 @@ struct CombinedOracle::State {
     return std::nullopt;
   }
 
-  /// A contact along a direction: the point of B, relative to B's centre, and that of A, in the frame.
+  /// A contact along a direction w.
   struct Contact {
     SearchOutcome outcome = SearchOutcome::undecided;
-    Vector3d on_b = Vector3d::Zero();
-    Vector3d on_a = Vector3d::Zero();  // three unknowns: not used
-    double way = 0;                    // x = a + way w
+    Vector3d on_b = Vector3d::Zero();  // A an ellipsoid: the point of B, in B's own coordinates
+    Vector3d on_a = Vector3d::Zero();  // otherwise: the point of A, in the frame,
+    double way = 0;                    // and way w from there to that of B
   };
 
   // Room that `defect` takes: |x| <= extent in all that follows.
@@ -165,31 +187,29 @@ struct CombinedOracle::State {
   }
 
   Contact contact_of_ball(const IntervalVector3& w, double longest) const {
-    const Vector3d room = extent_b();
     list3 = surfaces_b;
-    // |w x (y + c)|^2 <= |w|^2: in the shadow.
+    // |w x (c + G z)|^2 <= |w|^2: in the shadow.
     const Interval w2 = dot(w, w);
-    list3.push_back(
-        quadratic_constraint<3>(kUnitMatrix, cross_columns(w), cross(w, frame.center()), w2, 0, room));
+    const auto& g = frame.columns_b();
+    list3.push_back(quadratic_constraint<3>(kUnitMatrix, {cross(w, g[0]), cross(w, g[1]), cross(w, g[2])},
+                                            cross(w, frame.center()), w2, 0, kRoom));
     list3.back().slack += ball_slack();
     // Disjoint bodies meet at points beyond the middle of A only.
-    const Interval along_c = dot(w, frame.center());
-    list3.push_back(linear_constraint<3>({-w[0], -w[1], -w[2]}, -along_c, room));
+    add_half_space(-w, Interval(0));
     list3.back().slack += 4 * frame.defect() * extent;
     const bool bounded = longest < extent;
     if (bounded) {
-      const Interval most = Interval(longest) * w2;
-      list3.push_back(linear_constraint<3>({w[0], w[1], w[2]}, along_c - most, room));
+      add_half_space(w, -(Interval(longest) * w2));
       list3.back().slack += 4 * frame.defect() * extent;
     }
-    SearchResult<3> r = search3.run(list3, box_b(), limits);
+    SearchResult<3> r = search(search3, list3, kBox, limits);
     if (bounded && r.outcome != SearchOutcome::found) {
       // What the ball at the end of the way reaches beyond its middle.
       list3 = surfaces_b;
-      list3.push_back(quadratic_constraint<3>(
-          kUnitMatrix, kIdentity, frame.center() + (-(w * Interval(longest))), Interval(1), 0, room));
+      list3.push_back(quadratic_constraint<3>(kUnitMatrix, g, frame.center() + (-(w * Interval(longest))),
+                                              Interval(1), 0, kRoom));
       list3.back().slack += ball_slack();
-      const SearchResult<3> end = search3.run(list3, box_b(), limits);
+      const SearchResult<3> end = search(search3, list3, kBox, limits);
       if (end.outcome != SearchOutcome::empty) r = end;
     }
     return {r.outcome, r.point, Vector3d::Zero(), 0};
@@ -198,15 +218,15 @@ struct CombinedOracle::State {
   /// The points of both bodies: the first three unknowns are that of A, L z + k is that of B about its
   /// centre.
   template <int N>
-  void add_bodies(const std::array<IntervalVector3, N>& to_y, const IntervalVector3& k, double columns_square,
+  void add_bodies(const std::array<IntervalVector3, N>& to_y, const IntervalVector3& k, double squares,
                   const Eigen::Matrix<double, N, 1>& room, std::vector<QuadraticConstraint<N>>& list) const {
     std::array<IntervalVector3, N> to_a;
     to_a.fill(kZero);
     std::copy(kIdentity.begin(), kIdentity.end(), to_a.begin());
     list.clear();
     for (const EnclosedQuadric& q : frame.b())
-      list.push_back(quadratic_constraint<N>(q.matrix, to_y, k, Interval(q.level),
-                                             -q.least_eigenvalue * columns_square, room));
+      list.push_back(
+          quadratic_constraint<N>(q.matrix, to_y, k, Interval(q.level), -q.least_eigenvalue * squares, room));
     for (const EnclosedQuadric& q : frame.a())
       list.push_back(
           quadratic_constraint<N>(q.matrix, to_a, kZero, Interval(q.level), -q.least_eigenvalue, room));
@@ -228,7 +248,7 @@ struct CombinedOracle::State {
     contact_inequalities(w, way);
     const SearchBox<4> box{Eigen::Vector4d(0, 0, 0, 0.5 * way),
                            Eigen::Vector4d(1.001, 1.001, 1.001, 0.5 * way)};
-    const SearchResult<4> r = search4.run(list4, box, limits);
+    const SearchResult<4> r = search(search4, list4, box, limits);
     return {r.outcome, Vector3d::Zero(), r.point.head<3>(), r.point(3)};
   }
 
@@ -280,8 +300,8 @@ struct CombinedOracle::State {
     const Vector3d normal = middle(n);
     if (!(normal.norm() > 1e-9)) return SearchOutcome::undecided;
     if (!a.is_ellipsoid()) return contacts_between_both(from, to);
-    const Vector3d room = extent_b();
     const IntervalVector3& c = frame.center();
+    const auto& g = frame.columns_b();
     const Interval radius(1 + frame.defect());
     list3 = surfaces_b;
     // Distance from the sweep of the ball's middle, a sector of the plane with normal n: across the plane,
@@ -289,23 +309,23 @@ struct CombinedOracle::State {
     const auto unit = [](const IntervalVector3& v) { return v * (Interval(1) / norm(v)); };
     const IntervalVector3 across = unit(n);
     std::array<IntervalVector3, 3> rows;
-    for (int j = 0; j < 3; ++j) rows[j] = {across[j], Interval(0), Interval(0)};
+    for (int j = 0; j < 3; ++j) rows[j] = {dot(across, g[j]), Interval(0), Interval(0)};
     for (const IntervalVector3& side : {unit(cross(n, from)), unit(cross(to, n))}) {
       list3.push_back(quadratic_constraint<3>(kUnitMatrix, rows, {dot(across, c), Interval(0), Interval(0)},
-                                              square(radius), 0, room));
-      add_side(list3.back(), side, dot(side, c), room);
+                                              square(radius), 0, kRoom));
+      add_side(list3.back(), in_own(side), dot(side, c), kRoom);
     }
     // A point of the sweep outside of A itself projects on the ray it belongs to beyond the middle of A, so
     // along the bisector m it is farther than -|m| sin(half the angle).
     const IntervalVector3 m =
         unit(from * Interval(1 / middle(from).norm()) + to * Interval(1 / middle(to).norm()));
     const Interval sine = hull(norm(cross(from, m)) / norm(from), norm(cross(to, m)) / norm(to));
-    list3.push_back(linear_constraint<3>({-m[0], -m[1], -m[2]}, -dot(m, c) - sine * radius, room));
-    return search3.run(list3, box_b(), chord_limits()).outcome;
+    add_half_space(-m, -(sine * radius));
+    return search(search3, list3, kBox, chord_limits()).outcome;
   }
 
   /// A chord that needs more is better divided.
-  SearchLimits chord_limits() const { return {limits.least_width, 2000}; }
+  SearchLimits chord_limits() const { return {limits.least_width, 1000}; }
 
   /// Unknowns: the point a of A and two coordinates of that of B; the third makes b - a lie in the plane of
   /// the directions.
@@ -336,13 +356,13 @@ struct CombinedOracle::State {
       for (int j = 0; j < 3; ++j) row[j] = row[j] + l[j];
       list5.push_back(linear_constraint<5>(row, -dot(l, c + k), room));
     }
-    return search5.run(list5, box, chord_limits()).outcome;
+    return search(search5, list5, box, chord_limits()).outcome;
   }
 
   /// Whether one point of B is met along all directions between two: those along which the ball meets it are
   /// a convex cone.
   bool ball_meets(const Contact& found, const IntervalVector3& from, const IntervalVector3& to) const {
-    const IntervalVector3 x = exactly(found.on_b) + frame.center();
+    const IntervalVector3 x = position(found.on_b);
     const Interval radius(1 - frame.defect());
     for (const IntervalVector3* w : {&from, &to}) {
       const IntervalVector3 k = cross(*w, x);
@@ -353,8 +373,11 @@ struct CombinedOracle::State {
 
   bool ball_meets_all(const IntervalVector3& from, const IntervalVector3& to, int depth) const {
     const IntervalVector3 half = (from + to) * Interval(0.5);
-    const Contact found = contact_of_ball(half, 1e300);
+    Contact found = contact_of_ball(half, 1e300);
     if (found.outcome != SearchOutcome::found) return false;
+    // Well inside, a point is met along more directions.
+    for (double margin = 1e-6; margin < 1 && descend<3>(list3, margin, found.on_b); margin *= 2) {
+    }
     if (ball_meets(found, from, to)) return true;
     if (depth == 0) return false;
     return (ball_meets(found, from, half) || ball_meets_all(from, half, depth - 1)) &&
@@ -409,6 +432,13 @@ struct CombinedOracle::State {
     return both_meet_all(from, first, to, last, 5);
   }
 
+  std::uint64_t all_boxes() const {
+    std::uint64_t sum = boxes;
+    for (const auto* list : {&wider, &narrower})
+      for (const CombinedOracle& oracle : *list) sum += oracle.boxes_searched();
+    return sum;
+  }
+
   IntervalVector3 direction(const Vector3d& w) const { return frame.direction(swapped ? Vector3d(-w) : w); }
 };
 
@@ -423,6 +453,7 @@ CombinedOracle& CombinedOracle::operator=(CombinedOracle&&) noexcept = default;
 
 const CombinedEllipsoid& CombinedOracle::a() const { return state_->given_a; }
 const CombinedEllipsoid& CombinedOracle::b() const { return state_->given_b; }
+std::uint64_t CombinedOracle::boxes_searched() const { return state_->all_boxes(); }
 std::optional<Relation> CombinedOracle::relation() const { return state_->relation; }
 
 Certified CombinedOracle::membership(const Vector3d& w) const {
@@ -493,7 +524,9 @@ std::optional<Interval> CombinedOracle::time_to_contact(const Vector3d& w, doubl
   // direction = k F^{-1} w: t w = way F (k F^{-1} w), so t = way k.
   const Vector3d in_space = s.a.ellipsoid().factor() * middle(direction);
   const double k = in_space.norm() / w.norm();
-  return Interval::between(lo * k * (1 - 1e-9), hi * k * (1 + 1e-9));
+  // The way of a contact is not negative, whatever rounding says.
+  const Interval time = Interval::between(lo * k * (1 - 1e-9), hi * k * (1 + 1e-9));
+  return lo > 0 ? time : Interval::between(0, time.hi());
 }
 
 }  // namespace vericone

@@ -55,6 +55,9 @@ class CombinedOracle {
   /// membership(w) is not `in`. `width`: of the interval, relative to the time needed to cross |c|.
   std::optional<Interval> time_to_contact(const Eigen::Vector3d& w, double width = 1e-6) const;
 
+  /// Boxes searched since the construction: a measure of effort that is the same on every machine.
+  std::uint64_t boxes_searched() const;
+
  private:
   struct State;
   std::unique_ptr<State> state_;
@@ -81,7 +84,8 @@ struct CombinedCone {
 /// of the outer one, or until that is below what the oracle can decide; the bound returned says which.
 /// Overlapping bodies: every velocity (4 pi, no directions). Throws InputError naming "tolerance". Cost: see
 /// docs/benchmarks.md.
-CombinedCone combined_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& b, double tolerance = 0.01);
+CombinedCone combined_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& b, double tolerance = 0.01,
+                           std::uint64_t most_boxes = 2'000'000);
 
 /// A range of directions cos(t) x_axis + sin(t) y_axis on a plane through the apex.
 struct PlaneInterval {
