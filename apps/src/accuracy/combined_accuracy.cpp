@@ -110,6 +110,7 @@ Json summarise(const std::vector<Row>& rows, const std::vector<int>& planes) {
   Json slices = Json::array();
   for (std::size_t i = 0; i < planes.size(); ++i) {
     std::vector<double> errors;
+    errors.reserve(rows.size());
     for (const Row& row : rows) errors.push_back(std::abs(row.slice_areas[i] / row.slice_areas[finest] - 1));
     const double limit = 2.0 / planes[i];
     const Spread discretisation = spread(errors);
@@ -129,6 +130,7 @@ Json summarise(const std::vector<Row>& rows, const std::vector<int>& planes) {
   summary["slice_bias"] = missing_json(rows, finest);
   Json values = Json::array();
   std::vector<double> gaps;
+  gaps.reserve(rows.size());
   for (const Row& row : rows) {
     const Missing m = missing(row.slice_areas[finest], row);
     values.push_back({m.at_least, m.at_most});
