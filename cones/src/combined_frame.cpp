@@ -2,6 +2,7 @@
 #include "combined_frame.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include <vericone/geometry/scaled_inverse.h>
@@ -157,6 +158,30 @@ IntervalVector3 CombinedFrame::direction(const Eigen::Vector3d& w) const {
   const Interval scale(1 / middle(v).norm());
   for (Interval& x : v) x = x * scale;
   return v;
+}
+
+bool surely_contains(const CombinedEllipsoid& body, const Ellipsoid& ellipsoid) {
+  if (body.center() != ellipsoid.center()) return false;
+  const double largest = ellipsoid.factor().cwiseAbs().maxCoeff();
+  if (!(largest > 1e-100) || !(largest < 1e100)) return false;
+  const double unit = std::ldexp(1.0, std::ilogb(largest));
+  const IntervalMatrix3 t = enclosed(ellipsoid.factor() / unit);
+  const IntervalMatrix3 own = ellipsoid_matrix(ellipsoid, t, unit);
+  const auto above = [&](const IntervalMatrix3& m, double level) {
+    IntervalMatrix3 d;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) d[i][j] = own[i][j] * Interval(level) - m[i][j];
+    d = symmetric(d);
+    const Interval minor = d[0][0] * d[1][1] - square(d[0][1]);
+    const Interval det = d[0][0] * (d[1][1] * d[2][2] - square(d[1][2])) -
+                         d[0][1] * (d[0][1] * d[2][2] - d[1][2] * d[0][2]) +
+                         d[0][2] * (d[0][1] * d[1][2] - d[1][1] * d[0][2]);
+    return d[0][0].positive() && minor.positive() && det.positive();
+  };
+  if (!above(ellipsoid_matrix(body.ellipsoid(), t, unit), 1)) return false;
+  return std::all_of(body.delimiters().begin(), body.delimiters().end(), [&](const Delimiter<3>& d) {
+    return above(product(transposed(t), product(enclosed(d.matrix * (unit * unit)), t)), d.level);
+  });
 }
 
 template <int N>

@@ -66,6 +66,10 @@ class CombinedFrame {
   double defect_ = 0;
 };
 
+/// Whether `body` certainly contains the ellipsoid about the same centre: N - M_i / level_i positive definite
+/// for each of its surfaces, N that of the ellipsoid.
+bool surely_contains(const CombinedEllipsoid& body, const Ellipsoid& ellipsoid);
+
 /// z -> (L z + k)^T M (L z + k) - level <= 0 for z in the box |z_j| <= extent_j about 0; `concavity` as in
 /// QuadraticConstraint. L has N columns.
 template <int N>

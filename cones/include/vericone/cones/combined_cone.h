@@ -23,7 +23,8 @@ namespace vericone {
 enum class Certified : std::uint8_t { in, out, undecided };
 const char* to_string(Certified answer);
 
-/// Two bodies prepared for many directions.
+/// Two bodies prepared for many directions. Not for several threads at once: scratch memory is kept between
+/// calls.
 class CombinedOracle {
  public:
   /// `tolerance` (0 < tolerance < 1): boxes are refined to this part of A's extent before `undecided` is
