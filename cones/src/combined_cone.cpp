@@ -41,7 +41,7 @@ class Tracer {
            std::sin(angle) * (std::cos(azimuth) * frame_.e1 + std::sin(azimuth) * frame_.e2);
   }
 
-  /// By bisection: the axis is in and its opposite out, whatever the bodies (docs/theory.md, 6).
+  /// By bisection: the axis is in and its opposite out, whatever the bodies (docs/theory.md, 7).
   End end(double azimuth, double guess, double spread) const {
     End e{azimuth, 0, kPi};
     const auto ask = [&](double angle) {

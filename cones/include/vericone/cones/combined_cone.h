@@ -2,7 +2,7 @@
 //
 // The true collision cone of two combined quadrics (combined.h), certified. An answer other than `undecided`
 // is proved: `in` by a point of A and a point of B that meet, `out` by nonnegative multipliers of the
-// quadrics for which no point of a box can satisfy them all, box by box (docs/theory.md, 6).
+// quadrics for which no point of a box can satisfy them all, box by box (docs/theory.md, 7).
 //
 // Both bodies are star-shaped about their centres, so K = B + (-A) is star-shaped about c = p_B - p_A, and
 // the cone contains with every direction all directions between it and c: on each half-plane bounded by the
