@@ -55,11 +55,13 @@ struct CombinedOracle::State {
       relation = contacts.relation();
     }
     if (relation != Relation::disjoint) return;
-    const auto core = [](const CombinedEllipsoid& body) {
-      const auto inscribed =
-          body.is_ellipsoid() ? std::optional(body.ellipsoid()) : body.inscribed_ellipsoid();
-      return inscribed && (body.is_ellipsoid() || surely_contains(body, *inscribed)) ? inscribed
-                                                                                     : std::nullopt;
+    // Narrower by so much that intervals can prove it inside, though it touches all around.
+    const auto core = [](const CombinedEllipsoid& body) -> std::optional<Ellipsoid> {
+      if (body.is_ellipsoid()) return body.ellipsoid();
+      const auto inscribed = body.inscribed_ellipsoid();
+      if (!inscribed) return std::nullopt;
+      const Ellipsoid inner = Ellipsoid::from_shape(body.center(), inscribed->shape() * (1 - 1e-4));
+      return surely_contains(body, inner) ? std::optional(inner) : std::nullopt;
     };
     const auto core_a = core(a), core_b = core(b);
     if (core_a && core_b) inside.emplace(*core_a, *core_b);
