@@ -20,7 +20,7 @@ struct Touch {
 /// star-shaped about c and the cone is *one* sector about c whatever the dents do, each side of it less than
 /// pi from c: the largest signed angle from c to b - a. It is attained at a common tangent, at a tangent
 /// through a corner, or at a line through two corners. Where one body reaches into the other's dent the edges
-/// are not tangents of the convex hulls (`hulls_overlap`), and psi may exceed pi.
+/// are not tangents of the convex hulls (`hulls_overlap`), and psi exceeds pi.
 struct CombinedSector {
   /// Relation: `overlapping` is proved by a common point, `disjoint` exact where the ellipses are disjoint
   /// and otherwise right unless the bodies come nearer than rounding. `touching` only of two plain ellipses.
