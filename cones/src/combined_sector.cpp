@@ -95,6 +95,10 @@ class CombinedTangents {
   static Touch at_corner(const PlanarBoundary::CornerPoint& p) { return {true, p.first, p.second}; }
   static Touch at_arc(const PlanarBoundary::Round& round) { return {false, round.conic, round.conic}; }
 
+  static Vector2d support_offset(const PlanarBoundary::Round& round, const Vector2d& n) {
+    return round.factor * (round.factor.transpose() * n).normalized();
+  }
+
   void collect_corners() {
     if (collected_) return;
     corners_a_ = a_.corners();
@@ -109,7 +113,8 @@ class CombinedTangents {
                           const PlanarBoundary::Round& on_b) -> std::optional<Candidate> {
       if (sector.relation == Relation::overlapping) return std::nullopt;
       const SectorEdge& edge = sign > 0 ? sector.left : sector.right;
-      const Vector2d p = edge.point_on_a - a_.body().center(), q = edge.point_on_b - b_.body().center();
+      // Not from the edge's points, which are rounded where the bodies are far from the origin.
+      const Vector2d p = support_offset(on_a, edge.normal), q = support_offset(on_b, -edge.normal);
       if (!a_.on_body(p, on_a.conic) || !b_.on_body(q, on_b.conic)) return std::nullopt;
       return Candidate{edge.direction, p, q, at_arc(on_a), at_arc(on_b), 0};
     };

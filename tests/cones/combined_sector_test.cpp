@@ -162,6 +162,24 @@ TEST(CombinedSector, Laws) {
   }
 }
 
+/// Nothing is lost at 1e9 from the origin: the centres here differ by exact numbers.
+TEST(CombinedSector, FarFromTheOrigin) {
+  RandomBodies random(5225);
+  SCOPED_TRACE(random.trace());
+  const auto coarse = [](double x) { return std::round(x * 1024) / 1024; };
+  for (int i = 0; i < 1000; ++i) {
+    const CombinedEllipse a = random_combined(random, Vector2d::Zero());
+    const Vector2d c = random.uniform(2, 14) * random.direction_2d();
+    const CombinedEllipse b = random_combined(random, Vector2d(coarse(c.x()), coarse(c.y())));
+    const Vector2d by(0x1p30, -0x1p29);
+    const CombinedSector near = combined_sector(a, b),
+                         far = combined_sector(a.translated(by), b.translated(by));
+    ASSERT_EQ(far.sector.relation, near.sector.relation) << "case " << i;
+    ASSERT_NEAR(far.sector.psi, near.sector.psi, 1e-13) << "case " << i;
+    ASSERT_LT(difference(far.sector.theta_b, near.sector.theta_b), 1e-13) << "case " << i;
+  }
+}
+
 TEST(CombinedSector, EllipsesAsBefore) {
   RandomBodies random(5224);
   SCOPED_TRACE(random.trace());
