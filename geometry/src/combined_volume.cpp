@@ -54,6 +54,7 @@ double half_plane(const std::vector<Form3>& all, const Vector3d& pole, const Vec
   Eigen::Matrix<double, 3, 2> axes;
   axes << pole, side;
   std::vector<Form2> plane;
+  plane.reserve(all.size());
   for (const Form3& f : all) plane.push_back({axes.transpose() * f.matrix * axes, f.level});
   const std::vector<double> angles = breaks(plane, pi);
   double sum = 0;
