@@ -59,6 +59,7 @@ CombinedEllipsoid twenty_pointed() {
 
 CombinedEllipse six_pointed() {
   std::vector<Delimiter<2>> dents;
+  dents.reserve(3);
   for (int i = 0; i < 3; ++i) dents.push_back(hyperbola({1.3, 0.8}, i * std::numbers::pi / 3));
   return {Ellipse::from_axes({0, 0}, {3, 3}), dents};
 }
