@@ -64,7 +64,7 @@ CombinedEllipse six_pointed() {
   return {Ellipse::from_axes({0, 0}, {3, 3}), dents};
 }
 
-/// What the figures share: the surface of each body is made once, and written as a file where asked.
+/// What the figures share: the options, and which surfaces have been written as files.
 class Shapes {
  public:
   Shapes(const ShapesOptions& options, std::ostream& out) : options_(options), out_(out) {}
