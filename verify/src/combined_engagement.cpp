@@ -15,6 +15,7 @@ using Eigen::Vector3d;
 constexpr std::uint32_t kStream = 730;
 constexpr int kCoarse = 1, kFine = 2;
 constexpr int kDenseSamples = 20000;
+constexpr double kReach = 1e-3;  // of distances, what samples resolve
 constexpr double kPi = std::numbers::pi;
 constexpr double kRounding = 1e-13;
 
@@ -101,15 +102,24 @@ bool CombinedEngagement::meets(const CombinedSweep& sweep, const Vector3d& w) co
   return false;
 }
 
+const CombinedSweep& CombinedEngagement::dense() {
+  if (!dense_) dense_.emplace(pair_.a, pair_.b, kDenseSamples);
+  return *dense_;
+}
+
 bool CombinedEngagement::confirmed(const Vector3d& w) {
   if (meets(sweep_, w)) return true;
-  if (!dense_) {
-    dense_.emplace(pair_.a, pair_.b, kDenseSamples);
-    exchanged_.emplace(pair_.b, pair_.a, kDenseSamples);
-  }
-  if (meets(*dense_, w)) return true;
+  if (meets(dense(), w)) return true;
+  if (!exchanged_) exchanged_.emplace(pair_.b, pair_.a, kDenseSamples);
   const auto hit = exchanged_->search(-w);
   return hit && exactly_meets(pair_.b, pair_.a, hit->x, -w, hit->t);
+}
+
+bool CombinedEngagement::overlap_found(const CombinedEllipsoid& a) const {
+  const Vector3d c = pair_.b.center() - a.center(), e = c.normalized();
+  const double back = 3 * (a.ellipsoid().semi_axes()(0) + pair_.b.ellipsoid().semi_axes()(0));
+  const auto hit = CombinedSweep(a.translated(-back * e), pair_.b, kDenseSamples).earliest(e);
+  return hit && hit->t <= back * (1 + kReach);
 }
 
 GridVector CombinedEngagement::random_direction(bool any) {
@@ -132,6 +142,7 @@ bool CombinedEngagement::relation() {
     expect(report_.relation, r != Relation::disjoint, "disjoint, but a point is in both", c_);
   if (report_.family != CombinedFamily::mouth && report_.family != CombinedFamily::nearly_touching)
     expect(report_.relation, r != Relation::overlapping, "relation of ellipsoids put apart", c_);
+  if (r == Relation::overlapping) report_.confirmed.note(overlap || overlap_found(pair_.a), index_);
   if (truth_.relation() != Relation::disjoint) ++report_.no_outer;
   return r == Relation::disjoint;
 }
@@ -321,7 +332,11 @@ void CombinedEngagement::times() {
     const Certified m = oracle_.membership(w);
     expect(report_.times, time.has_value() == (m == Certified::in), "a time for `in` and nothing else", w);
     if (!time) continue;
-    const auto hit = sweep_.earliest(w);
+    auto hit = sweep_.earliest(w);
+    if (!hit || hit->t > time->hi() * (1 + 1e-6)) {
+      report_.confirmed.note(overlap_found(pair_.a.translated(time->hi() * w)), index_);
+      hit = dense().earliest(w);
+    }
     if (!hit) continue;
     const bool exact = exactly_meets(pair_.a, pair_.b, hit->x, w, hit->t);
     expect(report_.times, time->hi() > 0 && time->finite(), "a time of no contact", w);

@@ -40,8 +40,13 @@ class CombinedEngagement {
   };
   Known known(const GridVector& w) const;
   bool meets(const CombinedSweep& sweep, const Eigen::Vector3d& w) const;
+  const CombinedSweep& dense();
   /// Whether a contact is found, with many more samples where a few do not find it.
   bool confirmed(const Eigen::Vector3d& w);
+  /// Whether A where it is put is found to overlap B or to miss it by a
+  /// thousandth of their sizes: star-shaped bodies that approach along their line
+  /// of centres overlap from the first contact on.
+  bool overlap_found(const CombinedEllipsoid& a) const;
   /// A direction about the line of centres, or any.
   GridVector random_direction(bool any);
   void expect(Check& check, bool holds, const char* what, const Eigen::Vector3d& w);
@@ -56,7 +61,7 @@ class CombinedEngagement {
   SeededRandom random_;
   CombinedTruth truth_;
   CombinedSweep sweep_;
-  std::optional<CombinedSweep> dense_, exchanged_;
+  std::optional<CombinedSweep> dense_, exchanged_;  // where a few samples do not do
   CombinedOracle oracle_;
   Eigen::Vector3d c_;
   double width_;  // of the cone about c, in units of |c|

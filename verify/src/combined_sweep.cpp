@@ -171,7 +171,9 @@ std::optional<SweepHit> CombinedSweep::search(const Vector3d& w) const {
       if (t >= 0) starts.push_back({b_.gauge_squared(y + t * w), static_cast<int>(i), t});
     }
   }
-  const std::size_t kept = std::min<std::size_t>(8, starts.size());
+  // More samples, more starts and longer: for contacts that nearly graze.
+  const std::size_t kept = std::min(8 + a_.boundary.size() / 200, starts.size());
+  const int most = 250 + static_cast<int>(a_.boundary.size() / 20);
   std::partial_sort(starts.begin(), starts.begin() + static_cast<std::ptrdiff_t>(kept), starts.end(),
                     [](const Start& x, const Start& y) { return x.value < y.value; });
   Steps random;
@@ -180,7 +182,7 @@ std::optional<SweepHit> CombinedSweep::search(const Vector3d& w) const {
     double t = starts[k].t, value = starts[k].value;
     Vector3d x = a_.boundary_point(u);
     double step = 0.1;
-    for (int i = 0; i < 250 && step > 1e-9; ++i) {
+    for (int i = 0; i < most && step > 1e-9; ++i) {
       if (value < kInside) return SweepHit{a_.center + x, t};
       Vector3d v = u;
       for (int j = 0; j < 3; ++j) v(j) += step * random.next();
