@@ -102,10 +102,10 @@ IntervalVector3 cross(const IntervalVector3& x, const IntervalVector3& y) {
 Eigen::Vector3d middle(const IntervalVector3& v) { return {v[0].mid(), v[1].mid(), v[2].mid()}; }
 
 CombinedFrame::CombinedFrame(const CombinedEllipsoid& a, const CombinedEllipsoid& b) {
-  // A power of two is the unit of length: dividing by it is exact for lengths between 1e-100 and 1e100.
+  // A power of two is the unit of length: dividing by it is exact for lengths between 1e-140 and 1e140.
   const double largest =
       std::max(a.ellipsoid().factor().cwiseAbs().maxCoeff(), b.ellipsoid().factor().cwiseAbs().maxCoeff());
-  if (!(largest > 1e-100) || !(largest < 1e100)) return;
+  if (!(largest > 1e-140) || !(largest < 1e140)) return;
   const double unit = std::ldexp(1.0, std::ilogb(largest));
   const Eigen::Matrix3d factor = a.ellipsoid().factor() / unit;
   const IntervalMatrix3 t = enclosed(factor);
@@ -163,7 +163,7 @@ IntervalVector3 CombinedFrame::direction(const Eigen::Vector3d& w) const {
 bool surely_contains(const CombinedEllipsoid& body, const Ellipsoid& ellipsoid) {
   if (body.center() != ellipsoid.center()) return false;
   const double largest = ellipsoid.factor().cwiseAbs().maxCoeff();
-  if (!(largest > 1e-100) || !(largest < 1e100)) return false;
+  if (!(largest > 1e-140) || !(largest < 1e140)) return false;
   const double unit = std::ldexp(1.0, std::ilogb(largest));
   const IntervalMatrix3 t = enclosed(ellipsoid.factor() / unit);
   const IntervalMatrix3 own = ellipsoid_matrix(ellipsoid, t, unit);

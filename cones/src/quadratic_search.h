@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -65,17 +64,18 @@ struct SearchResult {
 /// that is off by the square of the width only. Each single bound may empty or shrink the box; otherwise
 /// multipliers lambda >= 0 are sought for which the combination is positive on all of it, so that not all can
 /// be negative. Near the tangency of two bodies the multipliers are those of the tangency (Karush, Kuhn and
-/// Tucker), and a gap delta is proved with boxes of width sqrt(delta). Cost: about 0.3 us a box. The
-/// constraints: at most kMostConstraints, `stack` is scratch memory.
+/// Tucker), and a gap delta is proved with boxes of width sqrt(delta). Cost: about 0.3 us a box, no
+/// allocation once the scratch memory has grown.
 template <int N>
 class QuadraticSearch {
  public:
   using Vector = Eigen::Matrix<double, N, 1>;
-  static constexpr int kMostConstraints = 24;
 
   SearchResult<N> run(const std::vector<QuadraticConstraint<N>>& constraints, const SearchBox<N>& box,
                       const SearchLimits& limits) {
     count_ = static_cast<int>(constraints.size());
+    bounds_.resize(constraints.size());
+    concavity_.resize(constraints.size());
     SearchResult<N> result;
     bool undecided = false;
     stack_.assign(1, box);
@@ -289,8 +289,8 @@ class QuadraticSearch {
   }
 
   int count_ = 0;
-  std::array<Bound, kMostConstraints> bounds_;
-  std::array<double, kMostConstraints> concavity_{};
+  std::vector<Bound> bounds_;
+  std::vector<double> concavity_;
   Vector gradient_ = Vector::Zero();
   std::vector<SearchBox<N>> stack_;
 };

@@ -193,6 +193,34 @@ TEST(CombinedOracle, AnswersAgreeWithTheLawsOfCones) {
   EXPECT_GT(decided, asked * 0.999);
 }
 
+TEST(CombinedOracle, UnitsOfLengthDoNotMatter) {
+  RandomBodies random(77);
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 40; ++i) {
+    const CombinedEllipsoid a = any_body(random, {0, 0, 0}), b = any_body(random, 25 * random.direction());
+    const Vector3d w = b.center() + random.in_box(12);
+    const Certified answer = CombinedOracle(a, b).membership(w);
+    for (const double scale : {0x1p-400, 0x1p-20, 0x1p20, 0x1p400}) {
+      const CombinedOracle scaled(a.scaled(scale), b.scaled(scale));
+      ASSERT_EQ(scaled.relation(), Relation::disjoint);
+      EXPECT_EQ(scaled.membership(w), answer) << scale;
+    }
+  }
+}
+
+TEST(CombinedOracle, ManyDelimiters) {
+  std::vector<Delimiter<3>> list;
+  RandomBodies random(31);
+  list.reserve(30);
+  for (int i = 0; i < 30; ++i) list.push_back(hyperboloid(2, {2.5, 1, 1}, random.rotation()));
+  const CombinedEllipsoid urchin(Ellipsoid::from_axes({0, 0, 0}, {4, 4, 4}), list);
+  const CombinedOracle oracle(urchin, urchin.translated({12, 1, 2}));
+  ASSERT_EQ(oracle.relation(), Relation::disjoint);
+  EXPECT_EQ(oracle.membership({12, 1, 2}), Certified::in);
+  EXPECT_EQ(oracle.membership({0, 1, 2}), Certified::out);
+  EXPECT_TRUE(oracle.all_in({12, 1, 2}, {12, 1, 2.1}));
+}
+
 TEST(CombinedOracle, BracketsEdgesToItsTolerance) {
   RandomBodies random(4711);
   SCOPED_TRACE(random.trace());
