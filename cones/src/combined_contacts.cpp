@@ -110,7 +110,8 @@ std::optional<Relation> CombinedContacts::relation() const {
   for (const EnclosedQuadric& q : frame_.a())
     list3_.push_back(quadratic_constraint<3>(q.matrix, frame_.columns_b(), frame_.center(), Interval(q.level),
                                              -q.least_eigenvalue * columns_square_, kRoom));
-  switch (search(search3_, list3_, kBox, limits_).outcome) {
+  // Asked once: as fine as rounding lets it be, whatever the tolerance.
+  switch (search(search3_, list3_, kBox, {1e-10, limits_.boxes}).outcome) {
     case SearchOutcome::empty:
       return Relation::disjoint;
     case SearchOutcome::found:
