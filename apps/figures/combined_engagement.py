@@ -56,8 +56,13 @@ def cone_lines(axes, view, data, solids, reach, generators=24):
     return tips
 
 
+def side_view(axis):
+    """From the side of the line of centres, a little from above."""
+    return np.degrees(np.arctan2(axis[1], axis[0])) - 75, 25
+
+
 def scene(axes, name, data, hull_border=False):
-    view = View(*VIEWS[name])
+    view = View(*VIEWS.get(name, side_view(data["axis"])))
     agent, obstacle = Solid(data["a"], colors=(AGENT, AGENT)), Solid(data["b"])
     solids = [agent, obstacle]
     draw_solids(axes, view, solids)
@@ -107,12 +112,15 @@ def cross_section(axes, data, hulls=True):
               label="slices, n = %d: %.4f sr" % (data["planes"], data["slice_solid_angle"]))
     if "velocity" in data:
         v = data["velocity"]
-        mark = at_distance_one(np.array([v["w"], v["above"], v["below"]]), axis)
-        axes.plot(*mark[1:].T, ":", color=VELOCITY, linewidth=0.8)
-        axes.plot(*mark[:1].T, "o", color=VELOCITY, markersize=4.5,
+        mark = at_distance_one(np.array([v["w"]]), axis)
+        axes.plot(*mark.T, "o", color=VELOCITY, markersize=4.5,
                   label="velocity: %s" % {"out": "passes", "in": "collides"}.get(v["verdict"], "undecided"))
-        axes.plot(*mark[1:].T, "x", color=VELOCITY, markersize=4,
-                  label="above, below: %s" % ("collide" if v["above_verdict"] == v["below_verdict"] == "in" else "?"))
+        if "above" in v:
+            others = at_distance_one(np.array([v["above"], v["below"]]), axis)
+            axes.plot(*others.T, ":", color=VELOCITY, linewidth=0.8)
+            both = v["above_verdict"] == v["below_verdict"] == "in"
+            axes.plot(*others.T, "x", color=VELOCITY, markersize=4,
+                      label="above, below: %s" % ("collide" if both else "?"))
     axes.plot([0], [0], "+", color="k")
     axes.set_aspect("equal", adjustable="datalim")
     axes.set_xlabel("across the line of centres (1)")

@@ -21,6 +21,7 @@
 #include "input/scene.h"
 #include "planar_cone.h"
 #include "provenance.h"
+#include "shape_engagements.h"
 
 namespace vericone {
 namespace {
@@ -290,6 +291,32 @@ Json engagement_picture(const Ellipsoid& a, const Ellipsoid& b, int planes, int 
   return result;
 }
 
+namespace {
+
+struct ConePicture {
+  Json data;
+  const char* script;
+};
+
+/// What --picture asks for, refused before anything is printed or written.
+ConePicture cone_picture(const ConeOptions& options, const input::Engagement& e, const Json& cone) {
+  const auto refuse = [&](const char* requirement) {
+    throw InputError("--picture", options.picture_folder, requirement);
+  };
+  if (cone["relation"] != to_string(Relation::disjoint)) refuse("asked for disjoint bodies only");
+  if (e.ellipsoids())
+    return {engagement_picture(e.agent.ellipsoid(), e.obstacle.ellipsoid(), options.planes,
+                               options.samples.value_or(kDefaultSamples)),
+            "engagement.py"};
+  ConePicture picture{scene_figure(e.agent, e.obstacle, e.agent_velocity - e.obstacle_velocity,
+                                   options.tolerance.value_or(kDefaultTolerance), options.planes),
+                      "combined_engagement.py"};
+  if (picture.data.is_null()) refuse("asked for a cone within 90 degrees of the line of centres");
+  return picture;
+}
+
+}  // namespace
+
 void run_cone(const ConeOptions& options, std::ostream& out) {
   if (options.method != "exact" && options.method != "slice")
     throw InputError("--method", options.method, "slice or exact");
@@ -297,26 +324,21 @@ void run_cone(const ConeOptions& options, std::ostream& out) {
   if (const auto* planar = std::get_if<input::PlanarEngagement>(&scene))
     return run_planar_cone(options, *planar, out);
   const auto& e = std::get<input::Engagement>(scene);
-  if (!options.picture_folder.empty() && !e.ellipsoids())
-    throw InputError("--picture", options.picture_folder, "asked for two ellipsoids only");
   const Json cone = cone_json(options, e);
+  const bool drawn = !options.picture_folder.empty();
+  const ConePicture picture = drawn ? cone_picture(options, e, cone) : ConePicture{};
   if (options.json) {
     out << cone.dump(1) << '\n';
   } else {
     print_text(cone, e, out);
   }
-  if (!options.picture_folder.empty()) {
-    const Ellipsoid &a = e.agent.ellipsoid(), &b = e.obstacle.ellipsoid();
-    if (relation<3>(a, b) != Relation::disjoint)
-      throw InputError("--picture", options.picture_folder, "asked for disjoint bodies only");
-    const std::filesystem::path folder = options.picture_folder;
-    std::filesystem::create_directories(folder);
-    write_whole(
-        folder / "engagement.json",
-        engagement_picture(a, b, options.planes, options.samples.value_or(kDefaultSamples)).dump(1) + "\n");
-    for (const auto& picture : draw_figures("engagement.py", folder))
-      if (!options.json) out << "picture             " << picture.string() << '\n';
-  }
+  if (!drawn) return;
+  const std::filesystem::path folder = options.picture_folder;
+  std::filesystem::create_directories(folder);
+  write_whole(folder / "engagement.json", picture.data.dump(1) + "\n");
+  write_whole(folder / "shapes.json", Json{{"figures", {"engagement"}}}.dump(1) + "\n");
+  for (const auto& file : draw_figures(picture.script, folder))
+    if (!options.json) out << "picture             " << file.string() << '\n';
 }
 
 }  // namespace vericone

@@ -6,6 +6,7 @@
 #include <vericone/cones/combined_slice_cone.h>
 #include <vericone/geometry/combined_surface.h>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -20,6 +21,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kTolerance = 0.003;  // of the cones, in parts of their solid angle
 constexpr int kPlanes = 36;
+constexpr double kResolution = 0.09;  // of surfaces
 
 CombinedEllipsoid placed(const CombinedEllipsoid& body, const Vector3d& center, const Matrix3d& r) {
   const Ellipsoid& e = body.ellipsoid();
@@ -37,18 +39,18 @@ Json directions_json(const std::vector<Vector3d>& directions) {
   return all;
 }
 
-Json engagement_json(const CombinedEllipsoid& a, const CombinedEllipsoid& b, double resolution) {
-  const CombinedCone cone = combined_cone(a, b, kTolerance);
+Json engagement_json(const CombinedEllipsoid& a, const CombinedEllipsoid& b, const CombinedCone& cone,
+                     double resolution, int planes) {
   if (cone.relation != Relation::disjoint)
     throw std::runtime_error("the bodies of a figure are not disjoint");
-  const CombinedSliceCone slices = combined_slice_cone(a, b, kPlanes);
+  const CombinedSliceCone slices = combined_slice_cone(a, b, planes);
   return {{"a", solid_json(a, surface(a, resolution))},
           {"b", solid_json(b, surface(b, resolution))},
           {"axis", to_json(cone.axis)},
           {"inner", directions_json(cone.inner.directions)},
           {"outer", directions_json(cone.outer.directions)},
           {"slices", directions_json(slices.polyhedral().directions)},
-          {"planes", kPlanes},
+          {"planes", planes},
           {"solid_angle", cone.solid_angle},
           {"solid_angle_error", cone.solid_angle_error},
           {"slice_solid_angle", slices.polyhedral().solid_angle}};
@@ -64,6 +66,17 @@ Json edge_json(const SectorEdge& edge, const Touch& on_a, const Touch& on_b) {
 
 }  // namespace
 
+Json scene_figure(const CombinedEllipsoid& a, const CombinedEllipsoid& b, const Vector3d& w, double tolerance,
+                  int planes) {
+  const CombinedCone cone = combined_cone(a, b, tolerance);
+  const auto ahead = [&](const Vector3d& d) { return d.dot(b.center() - a.center()) > 0; };
+  if (!std::all_of(cone.outer.directions.begin(), cone.outer.directions.end(), ahead)) return nullptr;
+  Json json = engagement_json(a, b, cone, kResolution, planes);
+  if (ahead(w))
+    json["velocity"] = {{"w", to_json(w)}, {"verdict", to_string(CombinedOracle(a, b).membership(w))}};
+  return json;
+}
+
 Json section_figure(const CombinedEllipsoid& dented, double resolution) {
   const CombinedEllipsoid a =
       Ellipsoid::from_axes({0, 0, 0}, {1.6, 1.0, 0.8}, rotation_from_heading(0.6, 0.3));
@@ -78,7 +91,7 @@ Json section_figure(const CombinedEllipsoid& dented, double resolution) {
   const CombinedSector sector = combined_sector(section_a, section_b);
   if (sector.sector.relation != Relation::disjoint)
     throw std::runtime_error("the sections of a figure are not disjoint");
-  Json json = engagement_json(a, b, resolution);
+  Json json = engagement_json(a, b, combined_cone(a, b, kTolerance), resolution, kPlanes);
   json["plane"] = {{"x_axis", to_json(along)}, {"y_axis", to_json(across)}};
   json["section_a"] = outline_json(section_a);
   json["section_b"] = outline_json(section_b);
@@ -99,7 +112,7 @@ Json notch_figure(const CombinedEllipsoid& waisted, double resolution) {
   const CombinedOracle oracle(a, b);
   // In the cone of the hulls: a mean of two velocities that collide.
   const Vector3d above = w + Vector3d(0, 0, 2.6), below = w - Vector3d(0, 0, 2.6);
-  Json json = engagement_json(a, b, resolution);
+  Json json = engagement_json(a, b, combined_cone(a, b, kTolerance), resolution, kPlanes);
   json["velocity"] = {{"w", to_json(w)},         {"verdict", to_string(oracle.membership(w))},
                       {"above", to_json(above)}, {"above_verdict", to_string(oracle.membership(above))},
                       {"below", to_json(below)}, {"below_verdict", to_string(oracle.membership(below))}};

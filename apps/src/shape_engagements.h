@@ -15,4 +15,9 @@ nlohmann::ordered_json section_figure(const CombinedEllipsoid& dented, double re
 /// not, and a velocity in a notch passes the waist.
 nlohmann::ordered_json notch_figure(const CombinedEllipsoid& waisted, double resolution);
 
+/// The engagement of a scene: bodies, certified cone, slice cone, and the velocity w = v_A - v_B where it
+/// approaches. Null where the cone reaches a right angle from the line of centres: it has no section then.
+nlohmann::ordered_json scene_figure(const CombinedEllipsoid& a, const CombinedEllipsoid& b,
+                                    const Eigen::Vector3d& w, double tolerance, int planes);
+
 }  // namespace vericone

@@ -538,7 +538,12 @@ class Accuracy(unittest.TestCase):
             self.assertEqual(result.returncode, 0, result.stderr)
             dented = [line.split()[1] for line in result.stdout.splitlines() if line.startswith("picture")]
             self.assertEqual(sorted(os.path.basename(p) for p in dented), ["accuracy.pdf", "accuracy.png"])
-            for p in pictures + dented:
+            scene = os.path.join(SOURCE, "docs", "examples", "biconcave.yaml")
+            result = run("cone", scene, "--tolerance", "0.1", "--picture", os.path.join(folder, "scene"))
+            self.assertEqual(result.returncode, 0, result.stderr)
+            shown = [line.split()[1] for line in result.stdout.splitlines() if line.startswith("picture")]
+            self.assertEqual(sorted(os.path.basename(p) for p in shown), ["engagement.pdf", "engagement.png"])
+            for p in pictures + dented + shown:
                 with open(p, "rb") as f:
                     self.assertIn(f.read(4), (b"%PDF", b"\x89PNG"))
 
