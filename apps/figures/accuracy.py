@@ -2,7 +2,7 @@
 """Accuracy of slice and exact cones, from summary.json: random engagements, then scanned objects."""
 import numpy as np
 
-from style import BOUND, EXACT, GREY, SLICE, TWO_COLUMNS, plt, read, save
+from style import BOUND, EXACT, GREY, SLICE, TWO_COLUMNS, plane_axis, plt, read, save
 
 
 def column(rows, *keys):
@@ -12,15 +12,6 @@ def column(rows, *keys):
             row = row[key]
         values.append(row)
     return np.array(values, dtype=float)
-
-
-def plane_axis(axis, planes):
-    axis.set_xscale("log")
-    shown = [n for n in (3, 6, 12, 24, 60, 180, 360) if planes.min() <= n <= planes.max()]
-    axis.set_xticks(shown)
-    axis.set_xticklabels([str(n) for n in shown])
-    axis.minorticks_off()
-    axis.set_xlabel("planes n")
 
 
 def random_engagements(data):

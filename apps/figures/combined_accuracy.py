@@ -2,21 +2,12 @@
 """Slice cones of combined quadrics against planes, held against certified inner and outer cones (summary.json)."""
 import numpy as np
 
-from style import BOUND, EXACT, GREY, SLICE, TWO_COLUMNS, plt, read, save
+from style import BOUND, EXACT, GREY, SLICE, TWO_COLUMNS, plane_axis, plt, read, save
 
 data = read("summary.json")["random"]
 slices = data["slice"]
 planes = np.array([row["planes"] for row in slices])
 finest = data["finest_planes"]
-
-
-def plane_axis(axis):
-    axis.set_xscale("log")
-    shown = [n for n in (3, 6, 12, 24, 60, 180, 360) if planes.min() <= n <= planes.max()]
-    axis.set_xticks(shown)
-    axis.set_xticklabels([str(n) for n in shown])
-    axis.minorticks_off()
-    axis.set_xlabel("planes n")
 
 
 figure, (left, middle, right) = plt.subplots(1, 3, figsize=(TWO_COLUMNS, 2.8), constrained_layout=True)
@@ -30,7 +21,7 @@ left.set_yscale("log")
 left.set_ylabel("relative area error against n = %d" % finest)
 left.set_title("(a) discretisation error")
 left.legend(loc="lower left")
-plane_axis(left)
+plane_axis(left, planes)
 
 for measure, colour in (("worst", SLICE), ("mean", EXACT)):
     bounds = 100 * np.array([row["error_against_true_cone"][measure] for row in slices])
@@ -42,7 +33,7 @@ middle.set_ylim(top=100)
 middle.set_ylabel("area of the true cone missing (%)")
 middle.set_title("(b) bias: proved between")
 middle.legend(loc="upper right")
-plane_axis(middle)
+plane_axis(middle, planes)
 
 values = 100 * np.array(data["slice_bias_values"])
 values = values[np.argsort(values.mean(axis=1))]

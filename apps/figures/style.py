@@ -31,6 +31,15 @@ def read(name):
         return json.load(f)
 
 
+def plane_axis(axis, planes):
+    axis.set_xscale("log")
+    shown = [n for n in (3, 6, 12, 24, 60, 180, 360) if planes.min() <= n <= planes.max()]
+    axis.set_xticks(shown)
+    axis.set_xticklabels([str(n) for n in shown])
+    axis.minorticks_off()
+    axis.set_xlabel("planes n")
+
+
 def save(figure, name):
     for extension in ("pdf", "png"):
         path = os.path.join(folder(), name + "." + extension)

@@ -195,7 +195,7 @@ CombinedContact CombinedContacts::of_both(const IntervalVector3& w, double longe
 }
 
 /// A contact along w near another one, moved inwards as far as a few steps find: it then carries over to
-/// more directions. Not a proof; `carries` checks.
+/// more directions. Not a proof; `joined` checks.
 CombinedContact CombinedContacts::deepened(const IntervalVector3& w, const CombinedContact& near) const {
   contact_inequalities(w, 1.01 * extent_);
   Eigen::Vector4d z;

@@ -9,10 +9,10 @@
 #include <limits>
 #include <numbers>
 
+#include <vericone/geometry/scaled_inverse.h>
 #include "degenerate_conics.h"
 #include "planar_frame.h"
 #include "plane_axis.h"
-#include <vericone/geometry/scaled_inverse.h>
 
 namespace vericone {
 namespace {

@@ -73,18 +73,20 @@ struct CombinedCone {
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  // unit, from A to B
 
   /// Both closed polygons of unit directions, counter-clockwise about the axis, star-shaped about it;
-  /// successive directions may have the same azimuth. Empty unless disjoint.
+  /// successive directions may have the same azimuth. Empty unless disjoint. Where nothing could be proved
+  /// out, outer has the directions -axis and the solid angle 4 pi.
   PolyhedralCone inner, outer;
 
   double solid_angle = 0;        // steradian, the middle of the two
   double solid_angle_error = 0;  // half their difference: a bound, not an estimate
-  double cross_section_area =
-      0;  // the same at distance 1 along the axis; infinite where outer reaches 90 degrees
+  /// The same for the section at distance 1 along the axis; infinite where outer reaches 90 degrees.
+  double cross_section_area = 0;
   double cross_section_area_error = 0;
 };
 
 /// Refined until the solid angles of inner and outer cone differ by at most `tolerance` (0 < tolerance < 1)
-/// of the outer one, or until that is below what the oracle can decide; the bound returned says which.
+/// of the outer one, or until `most_boxes` have been searched (by default a few seconds); the bound returned
+/// says what was reached.
 /// Overlapping bodies: every velocity (4 pi, no directions). Throws InputError naming "tolerance". Cost: see
 /// docs/benchmarks.md.
 CombinedCone combined_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& b, double tolerance = 0.01,
