@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What simulated LiDARs on the agent see of an obstacle, and what cone they get from it (docs/lidar.md).
+#pragma once
+
+#include <vericone/geometry/ellipsoid.h>
+#include <vericone/lidar/lidar.h>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace vericone::scanning {
+
+struct Setup {
+  Ellipsoid agent;
+  /// From the agent's frame, in which the lidars' poses are given, to the world's.
+  Eigen::Isometry3d agent_pose = Eigen::Isometry3d::Identity();
+  /// The obstacle as placed in the world.
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<lidar::Lidar> lidars;
+  std::uint64_t seed = 1;
+  int planes = 36;
+  /// The lidars' elevations and azimuths are made 2^0, 2^1, ... 2^(levels-1) times as fine.
+  int levels = 5;
+};
+
+/// A cone found on the half-planes of `planes` planes through `Study::axis`.
+struct HalfPlaneCone {
+  /// Edge of each half-plane, radians from the axis, azimuths 2 pi j / (2 planes); NaN where there is none.
+  std::vector<double> edges;
+  double solid_angle = 0;  // sr, of the polygon of the edges; NaN where an edge is missing
+};
+
+struct Level {
+  int fineness = 1;
+  std::size_t beams = 0, returned = 0, missed = 0, dropped = 0, too_near = 0;
+  double spacing = 0;             // radians between neighbouring beams
+  HalfPlaneCone sections;         // the source's (6.3.3): tangents to the points near each plane
+  HalfPlaneCone cone;             // the true cone of the points
+  int planes_without_answer = 0;  // on which the source's search found no two tangents
+  double tried = 0;               // points the search tried, mean over the planes
+  double seconds_scan = 0, seconds_sections = 0, seconds_cone = 0;
+};
+
+struct Study {
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  // from the agent's centre to that of the seen points
+  std::vector<Level> levels;
+  HalfPlaneCone visible_sections, visible_cone;  // of the part of the mesh that the lidars can see
+  HalfPlaneCone whole_sections, whole_cone;      // of the whole mesh
+  double visible_area = 0, whole_area = 0;       // m^2 of surface
+};
+
+/// Progress (a line now and then) goes to `log` unless null. Throws InputError, also where the lidars see
+/// nothing ("lidars").
+Study study(const Setup& setup, std::ostream* log = nullptr);
+
+/// Fig 6.7 of the source for these bodies: the section by the plane through `Study::axis` at an azimuth.
+struct PlaneSectionPicture {
+  struct Line {
+    Eigen::Vector2d on_agent, on_obstacle;
+  };
+  std::vector<Eigen::Vector2d> agent;                  // outline of its section
+  std::vector<std::vector<Eigen::Vector2d>> obstacle;  // section of the whole mesh, polylines
+  std::vector<Eigen::Vector2d> sensors;                // the lidars, projected onto the plane
+  std::vector<Eigen::Vector2d> returns;                // points near the plane, projected onto it
+  std::vector<Line> tangents;                          // left, right; empty where the search finds none
+  double psi = 0, theta_b = 0;                         // of the tangents; radians from the axis
+  double whole_left = 0, whole_right = 0;  // true cone of the whole obstacle: radians from the axis
+  double half_thickness = 0;               // m, of the slab of points
+  int tried = 0;
+};
+
+PlaneSectionPicture plane_section_picture(const Setup& setup, double azimuth);
+
+/// Everything as JSON for apps/figures/scan_convergence.py and visible_section.py.
+void write_json(const Study& study, std::ostream& out);
+void write_json(const PlaneSectionPicture& picture, std::ostream& out);
+
+}  // namespace vericone::scanning
