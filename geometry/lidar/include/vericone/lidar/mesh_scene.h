@@ -36,7 +36,7 @@ class MeshScene {
   MeshScene& operator=(MeshScene&&) noexcept;
 
   /// The first hit at a range in [least, most]. `direction` a unit vector, `origin` anywhere. Safe from
-  /// several threads at once. The range is right to about 1e-15 (|origin - hit| + range) / cos, cos that of
+  /// several threads at once. The range is right to about 4e-15 (|origin| + |hit|) / cos, cos that of
   /// the angle between ray and normal. Cost: below a microsecond for a mesh of 100,000 triangles.
   std::optional<Hit> first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                double least = 0, double most = std::numeric_limits<double>::infinity()) const;

@@ -35,9 +35,9 @@ struct Scan {
 };
 
 /// Every beam's first hit. `agent` from the agent's frame to the world's. Noise and dropout are a function of
-/// `seed` and the beam's index alone: the same on every machine with any number of threads. Threads: as many
-/// as the machine has cores. Throws InputError for a bad lidar or an agent pose that is no rigid motion.
-/// Cost: below a microsecond a beam and core.
+/// `seed` and the beam's index alone, whatever the number of threads. Threads: as many as there are cores.
+/// Throws InputError for a bad lidar or an agent pose that is no rigid motion. Cost: below a microsecond a
+/// beam and core.
 Scan scan(const MeshScene& scene, const Lidar& lidar, const Eigen::Isometry3d& agent, std::uint64_t seed);
 
 }  // namespace vericone::lidar
