@@ -1,39 +1,60 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Cones of any shape, holes included, as a map on the sphere of directions.
+// Cones of any shape, holes included, as a map on the sphere of directions (docs/cone-map.md).
 #pragma once
 
 #include <vericone/cones/direction_cell.h>
+#include <array>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <vector>
 
 namespace vericone {
 
 struct ConeMapOptions {
   double resolution = 0.01;              // radians: cells are divided until their edges are shorter
-  std::uint64_t most_cells = 2'000'000;  // asked about; then the rest stays undecided
-  /// Told the share that is decided, 0 to 1; returns false to stop (the rest stays undecided).
+  std::uint64_t most_cells = 2'000'000;  // asked about; then the rest stays undecided, largest cells first
+  int threads = 1;                       // the map does not depend on it; 0: as many as the machine has
+  /// Told the share of the sphere that is decided, 0 to 1; returns false to stop (the rest stays undecided).
   std::function<bool(double)> progress;
 };
 
 struct ConeMapCell {
-  DirectionCell corners;
+  std::array<std::uint32_t, 3> corners{};  // of the map's, counter-clockwise seen from outside
   Certified label = Certified::undecided;
 };
 
 /// The sphere of relative velocities' directions, cut into spherical triangles that collide (`in`), are safe
 /// (`out`), or are undecided at this resolution.
 struct ConeMap {
-  std::vector<ConeMapCell> cells;                 // cover the sphere, overlap in edges only
-  double colliding = 0, safe = 0, undecided = 0;  // steradian, 4 pi in all
+  /// Directions, not of unit length: |x| is between 0.79 and 1. Coordinates are multiples of a power of two
+  /// for which the middle of two corners is exact; so the cells cover every direction, and have no more than
+  /// edges in common, without any rounding.
+  std::vector<Eigen::Vector3d> corners;
+  /// The two corners that a corner is the middle of; for the first twelve, twice itself.
+  std::vector<std::array<std::uint32_t, 2>> between;
+  std::vector<ConeMapCell> cells;  // neighbours may be of different sizes
+
+  double colliding = 0, safe = 0, undecided = 0;  // steradian, 4 pi in all, to 1e-12
   std::uint64_t asked = 0;                        // calls of the classifier
+  bool complete = true;                           // false: stopped before the resolution was reached
+
+  DirectionCell cell(std::size_t i) const {
+    const auto& c = cells[i].corners;
+    return {corners[c[0]], corners[c[1]], corners[c[2]]};
+  }
 };
 
-/// Starts from an icosahedron; each undecided triangle is cut into four at the middles of its edges.
-/// The true solid angle is between `colliding` and `colliding + undecided`. Throws InputError naming
-/// "resolution" or "most_cells".
+/// Starts from an icosahedron; each undecided triangle is cut into four at the middles of its edges, level by
+/// level; four parts of the same label are one cell again. The true solid angle is between `colliding` and
+/// `colliding + undecided`. Cost: calls of the classifier; 8 bytes a call and what the classifier keeps of
+/// one level. Throws InputError naming "resolution", "most_cells" or "threads", and what the classifier does.
 ConeMap cone_map(const DirectionClassifier& classifier, const ConeMapOptions& options = {});
+
+/// The index of the cell that contains a direction != 0 (of any one on an edge). Linear in the cells.
+std::size_t cell_at(const ConeMap& map, const Eigen::Vector3d& direction);
+
+/// Steradian; of any lengths. Accurate to rounding for the smallest cells too.
+double solid_angle(const DirectionCell& cell);
 
 }  // namespace vericone

@@ -11,8 +11,9 @@
 
 namespace vericone {
 
-/// All directions a d0 + b d1 + c d2, a, b, c >= 0, not all zero: a spherical triangle. Unit vectors, less
-/// than a right angle apart, det(d0, d1, d2) > 0.
+/// All directions a d0 + b d1 + c d2, a, b, c >= 0, not all zero: a spherical triangle. Vectors of lengths
+/// between 0.7 and 1 (with unit vectors the parts of a cell would not be exactly the cell), less than a right
+/// angle apart, det(d0, d1, d2) > 0.
 using DirectionCell = std::array<Eigen::Vector3d, 3>;
 
 /// What a classifier learned about a cell and need not learn again for the parts of it: indices of its own.

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Cone maps as JSON for apps/figures/cone_map.py.
+#pragma once
+
+#include <vericone/cones/cone_map.h>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace vericone {
+
+/// What the picture needs, to be written as `cone_map.json` into the folder given to draw_figures:
+/// {"title", "towards", "colliding", "safe", "undecided", "asked", "complete", "resolution", "corners",
+///  "cells": [[i, j, k]], "labels": "ios...", "region": {...} or null}
+/// `towards` != 0: the direction of the middle of the picture, whose region is outlined. Solid angles in
+/// steradian, `labels` one letter a cell: i(n), o(ut), u(ndecided).
+nlohmann::ordered_json cone_map_json(const ConeMap& map, const Eigen::Vector3d& towards, double resolution,
+                                     const std::string& title = "");
+
+/// Numbers alone, for the answer of the command: {"method", "resolution", "colliding", "safe", "undecided",
+/// "cells", "asked", "complete", "region"}, where `region` is that around `towards`, {"label", "solid_angle",
+/// "most_solid_angle", "surely_separate", "holes"}, or null where the direction is undecided.
+nlohmann::ordered_json cone_map_summary(const ConeMap& map, const Eigen::Vector3d& towards,
+                                        double resolution);
+
+}  // namespace vericone
