@@ -4,7 +4,9 @@
 #include <vericone/geometry/ellipsoid.h>
 #include <vericone/geometry/error.h>
 #include <vericone/lidar/scan.h>
+#if defined(__SSE__)
 #include <xmmintrin.h>
+#endif
 
 #include <cmath>
 #include <numbers>
@@ -108,6 +110,7 @@ TEST(MeshScene, LimitsOfRangeAreKept) {
   EXPECT_FALSE(scene.sees(eye, {1, 0.1, 0.2}, 1e-9));
 }
 
+#if defined(__SSE__)
 TEST(MeshScene, LeavesTheFloatingPointEnvironment) {
   const Mesh mesh = testing::sphere(4);
   const unsigned before = _mm_getcsr();
@@ -124,6 +127,7 @@ TEST(MeshScene, LeavesTheFloatingPointEnvironment) {
     _mm_setcsr(before);
   }
 }
+#endif
 
 TEST(MeshScene, RefusesWhatIsNoMesh) {
   Mesh mesh = testing::cube();
