@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(
     Table, MalformedFiles,
     ::testing::Values(
         BadFile{"empty", "a.off", "", "an empty file", "with points"},
-        BadFile{"unknown_extension", "a.xyz", "1 2 3\n", "\".xyz\"", ".obj, .off, .ply"},
+        BadFile{"unknown_extension", "a.xzy", "1 2 3\n", "\".xzy\"", ".obj, .off, .pcd, .ply"},
         BadFile{"no_extension", "a", "1 2 3\n", "no extension", "known formats"},
         BadFile{"text_as_obj", "a.obj", "Dear reader,\n", "line 1: \"Dear\"", "statement"},
         BadFile{"control_characters", "a.obj", "\x01\x02\x03\x1b[2J\n", "\"????[2J\"", "statement"},

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <vericone/files/read_points.h>
+#include <vericone/geometry/error.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
 
 #include <Eigen/Geometry>
@@ -133,6 +134,43 @@ TEST(KleopatraFile, EllipsoidHasTheKnownAxes) {
   EXPECT_LT((axes - Vector3d(147.6, 57.3, 55.4)).cwiseAbs().maxCoeff(), 0.1);
 }
 
+/// Clouds and scan graphs of the data folder: what their publishers or other programs counted.
+struct RealCloud {
+  std::string name, file, format;
+  std::size_t points, dropped, width, height;
+};
+
+void PrintTo(const RealCloud& c, std::ostream* out) { *out << c.file; }
+
+class RealClouds : public ::testing::TestWithParam<RealCloud> {};
+
+TEST_P(RealClouds, HaveWhatIsKnownOfThem) {
+  const RealCloud& known = GetParam();
+  const auto path = data_file(known.file);
+  if (!path) GTEST_SKIP() << known.file << " is not here; set VERICONE_DATA_DIR to the folder with it";
+  const PointFile file = read_points(*path);
+  EXPECT_EQ(file.format, known.format);
+  EXPECT_EQ(file.points.size(), known.points);
+  EXPECT_EQ(file.dropped_points, known.dropped);
+  EXPECT_EQ(file.width, known.width);
+  EXPECT_EQ(file.height, known.height);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, RealClouds,
+    ::testing::Values(RealCloud{"table_top", "mOSD_learn33.pcd", "PCD binary_compressed", 307200 - 128069,
+                                128069, 640, 480},
+                      RealCloud{"lamppost", "lamppost.pcd", "PCD ascii", 1771, 0, 0, 0},
+                      RealCloud{"lidar", "small_gicp_target.ply", "PLY binary_little_endian", 69088, 0, 0, 0},
+                      RealCloud{"scan_graph", "spherical_scan.graph", "scan graph", 10201, 0, 0, 0}),
+    [](const auto& instance) { return instance.param.name; });
+
+TEST(LamppostFile, HasItsExtent) {
+  const auto path = data_file("lamppost.pcd");
+  if (!path) GTEST_SKIP() << "lamppost.pcd is not here; set VERICONE_DATA_DIR to the folder with it";
+  EXPECT_LT((extent(read_points(*path)) - Vector3d(1.41, 0.97, 5.92)).cwiseAbs().maxCoeff(), 0.006);
+}
+
 /// Meshes of the Debian package libcgal-demo, unpacked for the test.
 struct CgalMesh {
   std::string name, member;
@@ -169,8 +207,35 @@ INSTANTIATE_TEST_SUITE_P(
                       CgalMesh{"coloured_ply", "data/meshes/colored_tetra.ply", 4, 4},
                       CgalMesh{"building_with_normals", "data/points_3/building.ply", 100000, 0},
                       CgalMesh{"binary_with_colours", "data/points_3/b9_training.ply", 22300, 0},
-                      CgalMesh{"binary_with_normals", "data/points_3/oni.ply", 1435, 0}),
+                      CgalMesh{"binary_with_normals", "data/points_3/oni.ply", 1435, 0},
+                      CgalMesh{"sphere_stl", "data/meshes/sphere.stl", 162, 320},
+                      CgalMesh{"pig_stl", "data/meshes/pig.stl", 0, 16848},
+                      CgalMesh{"text_with_normals", "data/points_3/cube.pwn", 50000, 0},
+                      CgalMesh{"text", "data/points_3/radar.xyz", 20950, 0}),
     [](const auto& instance) { return instance.param.name; });
+
+TEST(CgalArchive, IsReadButForAFileWithAWrongHeader) {
+  if (!std::filesystem::exists(VERICONE_CGAL_MESHES))
+    GTEST_SKIP() << VERICONE_CGAL_MESHES << " is not here (libcgal-demo)";
+  const testing::TemporaryDirectory directory;
+  const std::string command =
+      "tar -xzf '" VERICONE_CGAL_MESHES "' -C '" + directory.path().string() + "' data/meshes data/points_3";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  std::size_t read = 0;
+  std::vector<std::string> refused;
+  for (const char* folder : {"meshes", "points_3"})
+    for (const auto& entry : std::filesystem::directory_iterator(directory.path() / "data" / folder)) {
+      try {
+        EXPECT_FALSE(read_points(entry.path()).points.empty());
+        ++read;
+      } catch (const InputError& error) {
+        refused.push_back(entry.path().filename().string() + ": " + error.value());
+      }
+    }
+  EXPECT_GE(read, 170U);
+  // Eight faces under a header of seven.
+  EXPECT_THAT(refused, ::testing::ElementsAre(::testing::StartsWith("prim.off: line 24")));
+}
 
 }  // namespace
 }  // namespace vericone::files

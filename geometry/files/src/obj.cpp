@@ -59,7 +59,7 @@ std::vector<std::uint32_t> read_face(const Source& source, const Lines& lines, W
 }  // namespace
 
 Parsed parse_obj(const Source& source) {
-  Parsed parsed{.format = "OBJ", .points = {}, .faces = {}};
+  Parsed parsed{.format = "OBJ"};
   Lines lines(source);
   while (lines.next(true)) {
     Words words(lines.text());

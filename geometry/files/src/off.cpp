@@ -64,7 +64,7 @@ Parsed parse_off(const Source& source) {
         "a header with " + std::to_string(vertices) + " vertices and " + std::to_string(faces) + " faces",
         "counts that the " + std::to_string(left - 1) + " bytes after it can hold");
 
-  Parsed parsed{.format = "OFF", .points = {}, .faces = {}};
+  Parsed parsed{.format = "OFF"};
   parsed.points.reserve(vertices);
   std::size_t columns = 0;
   for (std::size_t i = 0; i < vertices; ++i) {

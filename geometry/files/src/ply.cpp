@@ -193,7 +193,7 @@ void read_element(const Source& source, const PlyElement& element, Values& value
 
 template <typename Values>
 Parsed read_body(const Source& source, const PlyHeader& header, std::string format) {
-  Parsed parsed{.format = std::move(format), .points = {}, .faces = {}};
+  Parsed parsed{.format = std::move(format)};
   Values values(source, std::string_view(source.bytes).substr(header.size));
   for (const PlyElement& element : header.elements) read_element(source, element, values, parsed);
   values.end();

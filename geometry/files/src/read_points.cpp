@@ -4,7 +4,6 @@
 #include <vericone/geometry/error.h>
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 #include <limits>
 
 #include "source.h"
@@ -15,14 +14,21 @@ namespace {
 /// The one place that a new format is entered in.
 struct Format {
   std::string_view extension;
+  /// Whether the extension by itself promises geometry.
+  bool is_telling;
   bool (*recognises)(std::string_view bytes);  // null: the format has no signature
   Parsed (*parse)(const Source& source);
 };
 
 constexpr Format kFormats[] = {
-    {".obj", nullptr, parse_obj},
-    {".off", looks_like_off, parse_off},
-    {".ply", looks_like_ply, parse_ply},
+    {".asc", false, nullptr, parse_xyz},       {".bin", false, nullptr, parse_kitti},
+    {".csv", false, nullptr, parse_xyz},       {".graph", true, looks_like_scan_graph, parse_scan_graph},
+    {".las", true, looks_like_las, parse_las}, {".laz", false, nullptr, parse_las},
+    {".obj", true, nullptr, parse_obj},        {".off", true, looks_like_off, parse_off},
+    {".pcd", true, looks_like_pcd, parse_pcd}, {".ply", true, looks_like_ply, parse_ply},
+    {".pts", false, nullptr, parse_xyz},       {".pwn", false, nullptr, parse_xyz},
+    {".stl", true, nullptr, parse_stl},        {".txt", false, nullptr, parse_xyz},
+    {".xyz", true, nullptr, parse_xyz},
 };
 
 std::string extension_of(const std::filesystem::path& path) {
@@ -42,33 +48,13 @@ const Format& format_of(const Source& source, const std::string& extension) {
                 "a file in one of the known formats: " + known);
 }
 
-Source load(const std::filesystem::path& path) {
-  Source source{path.string(), {}};
-  for (char& c : source.path)  // errors are one line
-    if (static_cast<unsigned char>(c) < ' ') c = '?';
-  std::error_code failure;
-  const auto status = std::filesystem::status(path, failure);
-  if (!std::filesystem::exists(status)) source.refuse("no such file", "the path of a file");
-  if (!std::filesystem::is_regular_file(status))
-    source.refuse(std::filesystem::is_directory(status) ? "a directory" : "no regular file",
-                  "the path of a file");
-  std::ifstream in(path, std::ios::binary | std::ios::ate);
-  const std::streamoff size = in ? std::streamoff(in.tellg()) : -1;
-  if (size == 0) source.refuse("an empty file", "a file with points");
-  if (size > 0) {
-    source.bytes.resize(std::size_t(size));
-    in.seekg(0);
-    in.read(source.bytes.data(), size);
-  }
-  if (size < 0 || !in) source.refuse("a file that cannot be read", "a readable file");
-  return source;
-}
-
 /// Checks the indices, leaves out what is not finite, and counts.
 PointFile finish(const Source& source, Parsed parsed) {
   constexpr std::uint32_t kDropped = std::numeric_limits<std::uint32_t>::max();
   PointFile file;
   file.format = std::move(parsed.format);
+  file.width = parsed.width;
+  file.height = parsed.height;
   const std::size_t count = parsed.points.size();
   if (count == 0) source.refuse("no points", "a file with at least one point");
   if (count >= kDropped) source.refuse(std::to_string(count) + " points", "fewer than 2^32 - 1 points");
@@ -120,7 +106,8 @@ PointFile read_points(const std::filesystem::path& path) {
 
 std::vector<std::string> known_extensions() {
   std::vector<std::string> extensions;
-  for (const Format& f : kFormats) extensions.emplace_back(f.extension);
+  for (const Format& f : kFormats)
+    if (f.is_telling) extensions.emplace_back(f.extension);
   return extensions;
 }
 

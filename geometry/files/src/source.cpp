@@ -2,12 +2,35 @@
 #include "source.h"
 
 #include <vericone/geometry/error.h>
+#include <fstream>
 #include <limits>
 
 namespace vericone::files {
 
 void Source::refuse(const std::string& value, const std::string& requirement) const {
   throw InputError(path, value, requirement);
+}
+
+Source load(const std::filesystem::path& path) {
+  Source source{path.string(), {}};
+  for (char& c : source.path)  // errors are one line
+    if (static_cast<unsigned char>(c) < ' ') c = '?';
+  std::error_code failure;
+  const auto status = std::filesystem::status(path, failure);
+  if (!std::filesystem::exists(status)) source.refuse("no such file", "the path of a file");
+  if (!std::filesystem::is_regular_file(status))
+    source.refuse(std::filesystem::is_directory(status) ? "a directory" : "no regular file",
+                  "the path of a file");
+  std::ifstream in(path, std::ios::binary | std::ios::ate);
+  const std::streamoff size = in ? std::streamoff(in.tellg()) : -1;
+  if (size == 0) source.refuse("an empty file", "a file with points");
+  if (size > 0) {
+    source.bytes.resize(std::size_t(size));
+    in.seekg(0);
+    in.read(source.bytes.data(), size);
+  }
+  if (size < 0 || !in) source.refuse("a file that cannot be read", "a readable file");
+  return source;
 }
 
 std::string in_quotes(std::string_view text) {

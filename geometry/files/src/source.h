@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,11 +18,15 @@ struct Source {
   [[noreturn]] void refuse(const std::string& value, const std::string& requirement) const;
 };
 
+/// The whole file; refuses what is missing, unreadable or empty.
+Source load(const std::filesystem::path& path);
+
 /// What a parser returns: everything in the file, unchecked beyond its syntax.
 struct Parsed {
-  std::string format;
-  std::vector<Eigen::Vector3d> points;
-  std::vector<std::vector<std::uint32_t>> faces;
+  std::string format = {};
+  std::vector<Eigen::Vector3d> points = {};
+  std::vector<std::vector<std::uint32_t>> faces = {};
+  std::size_t width = 0, height = 0;  // of an organised cloud
 };
 
 /// `text` in quotes, shortened, without anything that could break the line of a message.
@@ -33,9 +38,18 @@ std::uint32_t to_index(const Source& source, std::int64_t index, const std::stri
 Parsed parse_off(const Source& source);
 Parsed parse_obj(const Source& source);
 Parsed parse_ply(const Source& source);
+Parsed parse_stl(const Source& source);
+Parsed parse_pcd(const Source& source);
+Parsed parse_las(const Source& source);
+Parsed parse_xyz(const Source& source);
+Parsed parse_kitti(const Source& source);
+Parsed parse_scan_graph(const Source& source);
 
 /// Whether the bytes start with the signature of the format.
 bool looks_like_off(std::string_view bytes);
 bool looks_like_ply(std::string_view bytes);
+bool looks_like_pcd(std::string_view bytes);
+bool looks_like_las(std::string_view bytes);
+bool looks_like_scan_graph(std::string_view bytes);
 
 }  // namespace vericone::files

@@ -32,7 +32,9 @@ class Words {
 /// The lines of a file that hold anything besides a comment (from '#' to the end), numbered as in the file.
 class Lines {
  public:
-  explicit Lines(const Source& source) : source_(source), rest_(source.bytes) {}
+  /// From byte `from`, `before` lines down.
+  explicit Lines(const Source& source, std::size_t from = 0, std::size_t before = 0)
+      : source_(source), rest_(std::string_view(source.bytes).substr(from)), read_(before) {}
 
   /// A line that ends in a backslash goes on in the next one (OBJ).
   bool next(bool joins_continued = false);

@@ -17,11 +17,15 @@ namespace vericone::files {
 using Face = std::vector<std::uint32_t>;
 
 struct PointFile {
-  /// "OFF", "OBJ", "PLY ascii", "PLY binary_little_endian" or "PLY binary_big_endian".
+  /// "OFF", "OBJ", "PLY ascii", "PLY binary_little_endian", "PLY binary_big_endian", "STL ascii",
+  /// "STL binary", "PCD ascii", "PCD binary", "PCD binary_compressed", "LAS 1.2" (its version), "XYZ",
+  /// "KITTI", "nuScenes", "scan graph" or "scan graph text".
   std::string format;
 
-  /// In the unit and order of the file. The double nearest to what is written, however many digits; a binary
-  /// float is kept exactly. All finite.
+  /// In the unit, frame and order of the file. The double nearest to what is written, however many digits; a
+  /// binary float is kept exactly; LAS coordinates are rounded once from integer * scale + offset. Of a scan
+  /// graph in its world frame, turned and moved in double; of an STL file each point once, in the order of
+  /// first use. All finite.
   std::vector<Eigen::Vector3d> points;
 
   /// Empty for a cloud. Triangles, quads and larger polygons as they stand in the file.
@@ -34,13 +38,18 @@ struct PointFile {
   /// Faces of the file that use a dropped point or have fewer than three corners, left out of `faces`.
   std::size_t dropped_faces = 0;
 
+  /// Of an organised cloud (PCD with more than one row) the grid of the file, which `points` still fills
+  /// where no point was dropped; 0 otherwise.
+  std::size_t width = 0, height = 0;
+
   /// Members of `points` that no member of `faces` uses; for a cloud, all.
   std::size_t unreferenced_points = 0;
 };
 
-/// Reads OFF, OBJ and PLY (ascii and both binary kinds), with or without faces. Other content (normals,
-/// colours, intensities, further PLY elements) is read over; PLY triangle strips become triangles. The format
-/// is told by the first bytes where the format has a signature, by the extension otherwise.
+/// Reads meshes (OFF, OBJ, PLY, STL) and clouds (PLY, PCD, LAS, XYZ and kin, KITTI, OctoMap's scan graphs);
+/// docs/formats.md has what is kept of each and what is refused. Other content (normals, colours,
+/// intensities, further PLY elements) is read over; PLY triangle strips become triangles. The format is told
+/// by the first bytes where the format has a signature, by the extension otherwise.
 ///
 /// Throws InputError whose field is the path and whose message is one line: for a file that is missing,
 /// empty, truncated, longer than its header says, of no known format or malformed anywhere, that has no
@@ -48,7 +57,8 @@ struct PointFile {
 /// what its header claims. Time and memory are linear in the size of the file.
 PointFile read_points(const std::filesystem::path& path);
 
-/// Extensions of the known formats, with dot, lower case: ".obj", ".off", ".ply".
+/// Extensions that promise a mesh or a cloud, with dot, lower case: ".obj", ".off", ... For choosing among
+/// the files of a folder; read_points() also reads .asc, .bin (KITTI), .csv, .pts, .pwn and .txt.
 std::vector<std::string> known_extensions();
 
 /// The faces cut into triangles, each as a fan about its first corner (right for convex polygons).

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// LAS 1.0 to 1.4, uncompressed. An own reader of the coordinates, which stand at the start of every kind of
+// record: Debian 12 has neither libLAS nor PDAL nor LASzip.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <vericone/geometry/error.h>
+
+#include "binary.h"
+#include "source.h"
+
+namespace vericone::files {
+namespace {
+
+/// Fewest bytes of a record, by point format.
+constexpr std::array<std::size_t, 11> kRecordSize = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
+
+/// Places in the header.
+constexpr std::size_t kMajor = 24, kMinor = 25, kHeaderSize = 94, kOffsetToPoints = 96, kFormat = 104,
+                      kRecordLength = 105, kLegacyCount = 107, kScale = 131, kOffset = 155, kCount = 247;
+
+struct Header {
+  int minor = 0;
+  std::size_t points_at = 0, record = 0;
+  std::uint64_t count = 0;
+  Eigen::Array3d scale, offset;
+};
+
+Header read_header(const Source& source) {
+  const std::string& bytes = source.bytes;
+  const char* head = bytes.data();
+  const auto need = [&](std::size_t size) {
+    if (bytes.size() < size)
+      source.refuse("end of file inside the header, after " + std::to_string(bytes.size()) + " bytes",
+                    "a LAS file, whose header takes " + std::to_string(size) + " bytes");
+  };
+  need(227);
+  Header h;
+  const int major = head[kMajor];
+  h.minor = head[kMinor];
+  if (major != 1 || h.minor < 0 || h.minor > 4)
+    source.refuse("LAS version " + std::to_string(major) + "." + std::to_string(h.minor),
+                  "version 1.0 to 1.4");
+  const std::size_t size = h.minor >= 4 ? 375 : h.minor == 3 ? 235 : 227;
+  need(size);
+  const std::size_t header_size = little_endian<std::uint16_t>(head + kHeaderSize);
+  h.points_at = little_endian<std::uint32_t>(head + kOffsetToPoints);
+  if (header_size < size || h.points_at < header_size || h.points_at > bytes.size())
+    source.refuse("a header of " + std::to_string(header_size) + " bytes and points from byte " +
+                      std::to_string(h.points_at),
+                  "at least " + std::to_string(size) + " bytes of header and points after it in the " +
+                      std::to_string(bytes.size()) + " bytes of the file");
+
+  // LASzip marks a compressed file in the upper bits of the format.
+  const auto format = std::uint8_t(head[kFormat]);
+  if ((format & 0xc0U) != 0)
+    source.refuse("compressed points (LAZ)",
+                  "an uncompressed LAS file, such as laszip, las2las or pdal translate make of it; "
+                  "Debian 12 has no library that decompresses");
+  if (format >= kRecordSize.size()) source.refuse("point format " + std::to_string(format), "0 to 10");
+  h.record = little_endian<std::uint16_t>(head + kRecordLength);
+  if (h.record < kRecordSize[format])
+    source.refuse("records of " + std::to_string(h.record) + " bytes",
+                  "at least " + std::to_string(kRecordSize[format]) + " bytes, for point format " +
+                      std::to_string(format));
+
+  h.count = little_endian<std::uint32_t>(head + kLegacyCount);
+  if (h.minor >= 4) {
+    const auto count = little_endian<std::uint64_t>(head + kCount);
+    if (h.count != 0 && count != h.count)
+      source.refuse("two numbers of points, " + std::to_string(h.count) + " and " + std::to_string(count),
+                    "one number, or zero in the place of versions before 1.4");
+    h.count = count;
+  }
+  if (h.count > (bytes.size() - h.points_at) / h.record)
+    source.refuse(
+        "a header with " + std::to_string(h.count) + " points of " + std::to_string(h.record) + " bytes",
+        "a count that the " + std::to_string(bytes.size() - h.points_at) +
+            " bytes after the header can hold");
+
+  for (int i = 0; i < 3; ++i) {
+    h.scale(i) = little_endian<double>(head + kScale + 8 * std::size_t(i));
+    h.offset(i) = little_endian<double>(head + kOffset + 8 * std::size_t(i));
+    if (!std::isfinite(h.scale(i)) || h.scale(i) == 0 || !std::isfinite(h.offset(i)))
+      source.refuse("scale " + to_text(h.scale(i)) + " and offset " + to_text(h.offset(i)) +
+                        " of coordinate " + std::to_string(i),
+                    "finite numbers, the scale not zero");
+  }
+  return h;
+}
+
+}  // namespace
+
+bool looks_like_las(std::string_view bytes) { return bytes.starts_with("LASF"); }
+
+Parsed parse_las(const Source& source) {
+  if (!looks_like_las(source.bytes))
+    source.refuse(in_quotes(std::string_view(source.bytes).substr(0, 4)), "LASF at the start of a LAS file");
+  const Header h = read_header(source);
+  Parsed parsed{.format = "LAS 1." + std::to_string(h.minor)};
+  parsed.points.resize(h.count);
+  const char* at = source.bytes.data() + h.points_at;
+  for (Eigen::Vector3d& p : parsed.points) {
+    // One rounding, of the exact sum.
+    for (int i = 0; i < 3; ++i)
+      p(i) = std::fma(double(little_endian<std::int32_t>(at + 4 * i)), h.scale(i), h.offset(i));
+    at += h.record;
+  }
+  return parsed;
+}
+
+}  // namespace vericone::files
