@@ -15,6 +15,8 @@ constexpr int kBins = 16;
 constexpr std::uint32_t kMostInLeaf = 4;
 /// Beyond this the pieces are halved by number, whatever their places: no tree is deeper than twice this.
 constexpr int kDeepestBySurface = 48;
+/// What those who descend leave room for.
+constexpr int kDeepest = 120;
 /// What looking at a node costs in units of looking at a piece.
 constexpr double kNodeCost = 0.3;
 
@@ -218,6 +220,7 @@ Hierarchy::Hierarchy(std::vector<Node> nodes, std::vector<std::uint32_t> order)
       level[node.first] = level[node.first + 1] = level[i] + 1;
     }
   }
+  require(depth_ <= kDeepest, "a tree of " + std::to_string(depth_) + " levels", "at most 120 levels");
   require(slots == order_.size(), std::to_string(slots) + " slots in leaves", "each slot in one leaf");
 }
 

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// When, where and how near: first contact and miss distance.
+#include <algorithm>
+#include <optional>
+
+#include "assembly/contact.h"
+#include "assembly/gap.h"
+#include "assembly/state.h"
+
+namespace vericone::assembly {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kMostNewtonSteps = 60;
+
+/// Contact of one piece; times in multiples of the scaled velocity.
+struct PieceContact {
+  double earliest = 0, latest = kInfinity, time = 0;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::UnitX();
+};
+
+/// Newton's method on the distance between the moving apex and the core, which is convex in time: from the
+/// left it never passes the contact, and every step is a plane that the agent has to reach first. `d`: the
+/// velocity in the frame. Nothing where a plane proves that there is no contact.
+std::optional<PieceContact> piece_contact(const Scene& scene, std::uint32_t slot, const Eigen::Vector3d& d) {
+  const Directions apex{};
+  Core core = scene.core(slot);
+  PieceContact contact;
+  Eigen::Vector3d normal = core.center().isZero(0) ? d : core.center();
+  Eigen::Vector3d on_piece = core.center();
+  double t = 0;
+  for (int step = 0; step < kMostNewtonSteps; ++step) {
+    core.offset = t * d;
+    const Gap found = gap(core, apex, normal, GapGoal::measure);
+    const double length = found.v.norm();
+    on_piece = found.on_piece;
+    if (!(length > 0) || !(found.least > 0)) break;
+    normal = found.v / length;
+    const double closing = normal.dot(d);
+    // Distances known to `slack`, and the planes with them.
+    const double slack = 16 * kUlp * (core.reach() + core.offset.norm());
+    const double wait = found.least - slack - core.outer_rounding();
+    contact.time = std::max(t, t + (length - core.outer_rounding()) / closing);
+    if (wait > 0 && closing <= 0) return std::nullopt;
+    if (!(wait > 0)) break;
+    const double next = t + wait / closing * (1 - 16 * kUlp);
+    if (!(next > t * (1 + 4 * kUlp))) break;
+    t = next;
+  }
+  contact.earliest = std::max(0.0, t * (1 - 4 * kUlp));
+  if (!std::isfinite(contact.time) || contact.time < t) contact.time = t;
+
+  // Some time later the agent surely overlaps, unless it only grazes.
+  double step = std::max(8 * kUlp * t, 64 * kUlp * core.reach() / d.norm());
+  for (int i = 0; i < 32; ++i, step *= 4) {
+    const double later = t + step;
+    core.offset = later * d;
+    if (gap(core, apex, normal).answer != Gap::Answer::met) continue;
+    contact.latest = later * (1 + 4 * kUlp);
+    break;
+  }
+  contact.time = std::clamp(contact.time, contact.earliest, contact.latest);
+  contact.normal = scene.frame().to_frame().transpose() * normal;
+  contact.normal.normalize();
+  contact.point = scene.frame().to_space(on_piece);
+  if (!scene.frame().round()) contact.point -= scene.body().radius() * contact.normal;
+  return contact;
+}
+
+/// Closed under the whole set of questions: whether the ray meets the piece, by proof or by its exact
+/// predicate.
+bool meets(const Scene& scene, std::uint32_t slot, const Directions& ray, const Eigen::Vector3d& w,
+           Effort& effort) {
+  const Core core = scene.core(slot);
+  const Eigen::Vector3d away = RayResidual{ray.ray[0]}(core.center());
+  const Gap found = gap(core, ray, away.isZero(0) ? core.center() : away);
+  if (found.answer != Gap::Answer::close) return found.answer == Gap::Answer::met;
+  ++effort.exact;
+  return scene.exact_membership(slot, w, Eigen::Vector3d::Zero()) != Membership::out;
+}
+
+AssemblyContact in_world(const Scene& scene, const PieceContact& contact, std::uint32_t slot, double scale) {
+  AssemblyContact result;
+  result.earliest = contact.earliest / scale * (1 - 2 * kUlp);
+  result.latest = contact.latest / scale * (1 + 2 * kUlp);
+  result.time = std::clamp(contact.time / scale, result.earliest, result.latest);
+  result.point = scene.point_to_world(contact.point);
+  result.normal = scene.to_world(contact.normal);
+  result.piece = scene.piece(slot);
+  return result;
+}
+
+}  // namespace
+
+std::optional<AssemblyContact> first_contact(const Scene& scene, const Eigen::Vector3d& w, Effort& effort) {
+  const Slabs slabs(scene.frame(), scene.body().bounds(), w);
+  const Directions ray(scene.frame(), {w});
+  const BoxTest test(scene.frame(), ray, RayResidual{ray.ray[0]});
+  const Eigen::Vector3d d = scene.frame().to_frame() * (w / slabs.scale());
+  double limit = kInfinity;
+  PieceContact first;
+  first.earliest = kInfinity;
+  double latest = kInfinity;
+  std::uint32_t first_slot = 0;
+  along_ray(scene, slabs, limit, effort, [&](std::uint32_t slot, double) {
+    const Box box = scene.slot_box(slot);
+    if (!(slabs.enter(box.low.data(), box.high.data()) < limit) || test.apart(box.low, box.high)) return true;
+    ++effort.pieces;
+    if (!meets(scene, slot, ray, w, effort)) return true;
+    const std::optional<PieceContact> contact = piece_contact(scene, slot, d);
+    if (!contact) return true;
+    if (contact->earliest < first.earliest) {
+      first = *contact;
+      first_slot = slot;
+    }
+    latest = limit = std::min(latest, contact->latest);
+    return true;
+  });
+  if (std::isinf(first.earliest)) return std::nullopt;
+  first.latest = latest;
+  return in_world(scene, first, first_slot, slabs.scale());
+}
+
+AssemblyMiss miss_distance(const Scene& scene, const Frame& space, const Eigen::Vector3d& w, double tolerance,
+                           Effort& effort) {
+  const bool moving = !w.isZero(0);
+  const Directions directions = moving ? Directions(space, {w}) : Directions();
+  const Eigen::Vector3d ray = moving ? directions.ray[0] : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  const BoxTest test(space, directions, RayResidual{ray});
+  const auto nodes = scene.nodes();
+  AssemblyMiss miss;
+  miss.least = miss.most = kInfinity;
+  struct Item {
+    std::uint32_t node;
+    double distance;
+  };
+  Item stack[128];
+  int size = 0;
+  ++effort.nodes;
+  stack[size++] = {0, test.distance(nodes[0])};
+  while (size > 0) {
+    const Item item = stack[--size];
+    if (item.distance >= miss.most) continue;
+    const Hierarchy::Node& node = nodes[item.node];
+    if (!node.is_leaf()) {
+      effort.nodes += 2;
+      const double first = test.distance(nodes[node.first]), second = test.distance(nodes[node.first + 1]);
+      const Item one{node.first, first}, two{node.first + 1, second};
+      stack[size++] = first < second ? two : one;
+      stack[size++] = first < second ? one : two;
+      continue;
+    }
+    for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot) {
+      const Box box = scene.slot_box(slot);
+      if (test.distance(box.low, box.high) >= miss.most) continue;
+      ++effort.pieces;
+      const Core core = scene.core(space, slot);
+      const Eigen::Vector3d away = RayResidual{ray}(core.center());
+      const Gap found = gap(core, directions, away.isZero(0) ? Eigen::Vector3d::UnitX() : away,
+                            GapGoal::measure, tolerance);
+      const double radius = core.outer_rounding();
+      const double far = found.v.norm() + core.error() + 64 * kUlp * (core.reach() + found.along[0]);
+      const double most = std::max(0.0, far - radius), least = std::max(0.0, found.least - radius);
+      // Every piece bounds the least distance from below, the nearest one from above.
+      if (most < miss.most) {
+        miss.most = most;
+        miss.point =
+            scene.point_to_world(space.to_space(found.on_piece) -
+                                 (radius > 0 && far > 0 ? Eigen::Vector3d(found.v * (radius / found.v.norm()))
+                                                        : Eigen::Vector3d::Zero()));
+        miss.time = moving ? found.along[0] / w.norm() : 0;
+        miss.piece = scene.piece(slot);
+      }
+      miss.least = std::min(miss.least, least);
+    }
+  }
+  miss.least = std::min(miss.least, miss.most);
+  return miss;
+}
+
+}  // namespace vericone::assembly
+
+namespace vericone {
+
+std::optional<AssemblyContact> AssemblyOracle::first_contact(const Eigen::Vector3d& w, Effort* effort) const {
+  Effort unused;
+  Effort& count = effort != nullptr ? *effort : unused;
+  const assembly::Scene& scene = *state_;
+  const Membership membership = this->membership(w, nullptr);
+  if (membership == Membership::out && state_->relation == Relation::disjoint) return std::nullopt;
+  if (state_->relation != Relation::disjoint) {
+    AssemblyContact now;
+    const AssemblyMiss place = miss_distance(Eigen::Vector3d::Zero());
+    now.point = place.point;
+    now.piece = place.piece;
+    return now;
+  }
+  return assembly::first_contact(scene, scene.to_body(w), count);
+}
+
+AssemblyMiss AssemblyOracle::miss_distance(const Eigen::Vector3d& w, double tolerance, Effort* effort) const {
+  Effort unused;
+  const assembly::Scene& scene = *state_;
+  AssemblyMiss miss = assembly::miss_distance(scene, state_->space, scene.to_body(w), tolerance,
+                                              effort != nullptr ? *effort : unused);
+  // Met or not is known exactly, and where they meet the distance is 0.
+  if (miss.least == 0 && (state_->relation != Relation::disjoint || membership(w) != Membership::out))
+    miss.most = 0;
+  return miss;
+}
+
+}  // namespace vericone

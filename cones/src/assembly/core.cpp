@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "assembly/core.h"
+
+namespace vericone::assembly {
+
+Core Core::of_points(const Frame& frame, const Eigen::Vector3d* points, std::size_t count, double radius) {
+  Core core(frame, Kind::points);
+  core.count_ = count;
+  Eigen::Vector3d low = frame.relative(points[0]), high = low;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d c = frame.relative(points[i]);
+    low = low.cwiseMin(c);
+    high = high.cwiseMax(c);
+    if (count <= kFew) core.few_[i] = frame.to_frame() * c;
+  }
+  if (count > kFew) core.many_ = points;
+  core.center_ = frame.to_frame() * (0.5 * (low + high));
+  core.inner_rounding_ = core.outer_rounding_ = radius;
+  core.finish(low.cwiseAbs().cwiseMax(high.cwiseAbs()).norm());
+  return core;
+}
+
+Core Core::of_box(const Frame& frame, const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+  Core core(frame, Kind::box);
+  const Eigen::Vector3d l = frame.relative(low), h = frame.relative(high);
+  core.center_ = frame.to_frame() * (0.5 * (l + h));
+  const Eigen::Vector3d half = 0.5 * (h - l);
+  for (int k = 0; k < 3; ++k) core.few_[k] = frame.to_frame().col(k) * half(k);
+  core.finish(l.cwiseAbs().cwiseMax(h.cwiseAbs()).norm());
+  return core;
+}
+
+Core Core::of_ball(const Frame& frame, const Eigen::Vector3d& center, double radius) {
+  if (!frame.round() || radius == 0) return of_points(frame, &center, 1, radius);
+  Core core(frame, Kind::ball);
+  const Eigen::Vector3d c = frame.relative(center);
+  core.center_ = frame.to_frame() * c;
+  core.radius_ = radius;
+  core.finish(c.norm() + radius);
+  return core;
+}
+
+void Core::finish(double size_in_space) {
+  // A hull agent's points are as far from the origin as its size says; they share G = 1.
+  const double size = (size_in_space + (frame_->round() ? 0 : frame_->ball())) * (1 + 8 * kUlp);
+  error_ = 2 * frame_->error(size) + frame_->support_error();
+  inner_rounding_ += frame_->inner();
+  outer_rounding_ += frame_->outer();
+  reach_ = (frame_->norm() * size + outer_rounding_ + error_) * (1 + 8 * kUlp);
+}
+
+Eigen::Vector3d Core::piece_support(const Eigen::Vector3d& n) const {
+  switch (kind_) {
+    case Kind::box: {
+      Eigen::Vector3d k = center_;
+      for (int i = 0; i < 3; ++i) {
+        if (n.dot(few_[i]) > 0) {
+          k -= few_[i];
+        } else {
+          k += few_[i];
+        }
+      }
+      return k;
+    }
+    case Kind::ball: {
+      const Eigen::Vector3d back = frame_->to_frame().transpose() * n;
+      const double length = back.norm();
+      if (!(length > 0)) return center_;
+      return center_ - frame_->to_frame() * (back * (radius_ / length));
+    }
+    case Kind::points:
+      break;
+  }
+  if (many_ != nullptr) {
+    const Eigen::Vector3d back = frame_->to_frame().transpose() * n;
+    std::size_t best = 0;
+    double least = back.dot(frame_->relative(many_[0]));
+    for (std::size_t i = 1; i < count_; ++i)
+      if (const double value = back.dot(frame_->relative(many_[i])); value < least) {
+        least = value;
+        best = i;
+      }
+    return frame_->to_frame() * frame_->relative(many_[best]);
+  }
+  std::size_t best = 0;
+  double least = n.dot(few_[0]);
+  for (std::size_t i = 1; i < count_; ++i)
+    if (const double value = n.dot(few_[i]); value < least) {
+      least = value;
+      best = i;
+    }
+  return few_[best];
+}
+
+}  // namespace vericone::assembly

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The extreme direction of a body on a half-plane, and cells of directions.
+#include <vericone/geometry/error.h>
+#include <algorithm>
+#include <numbers>
+
+#include "assembly/gap.h"
+#include "assembly/state.h"
+
+namespace vericone {
+using namespace assembly;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Of the plane sector between two rays.
+struct SectorResidual {
+  Eigen::Vector3d first, last, normal;  // normal: of their plane, unit; zero where the rays are one
+
+  explicit SectorResidual(const Directions& sector)
+      : first(sector.ray[0]), last(sector.ray[1]), normal(sector.ray[0].cross(sector.ray[1])) {
+    const double length = normal.norm();
+    if (length > 1e-12) {
+      normal /= length;
+    } else {
+      normal.setZero();
+    }
+  }
+  Eigen::Vector3d operator()(const Eigen::Vector3d& y) const {
+    if (!normal.isZero(0) && normal.dot(first.cross(y)) >= 0 && normal.dot(y.cross(last)) >= 0)
+      return y.dot(normal) * normal;
+    const double a = y.dot(first), b = y.dot(last);
+    return a > b ? RayResidual{first}(y) : RayResidual{last}(y);
+  }
+};
+
+/// The half-plane, in the obstacle's frame.
+struct HalfPlane {
+  Eigen::Vector3d axis, side;
+  Eigen::Vector3d at(double angle) const { return std::cos(angle) * axis + std::sin(angle) * side; }
+};
+
+/// The largest angle between `from` and `to` at which a piece is met, so far.
+class Search {
+ public:
+  Search(const Scene& scene, const HalfPlane& plane, double from, double to, double tolerance, Effort& effort)
+      : scene_(scene),
+        plane_(plane),
+        to_(to),
+        tolerance_(tolerance),
+        effort_(effort),
+        low_(from),
+        high_(from) {
+    look_beyond(from);
+  }
+
+  /// Descends the whole hierarchy.
+  void run() {
+    const auto nodes = scene_.nodes();
+    struct Item {
+      std::uint32_t node;
+      double order;
+    };
+    Item stack[128];
+    int size = 0;
+    ++effort_.nodes;
+    if (!apart(nodes[0])) stack[size++] = {0, 0};
+    while (size > 0) {
+      const Item item = stack[--size];
+      const Hierarchy::Node& node = nodes[item.node];
+      // The sector may have shrunk since the node was put aside.
+      if (found_ && apart(node)) continue;
+      if (node.is_leaf()) {
+        for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot) raise(slot);
+        continue;
+      }
+      effort_.nodes += 2;
+      Item children[2];
+      int count = 0;
+      for (std::uint32_t child = node.first; child < node.first + 2; ++child)
+        if (!apart(nodes[child])) children[count++] = {child, height(nodes[child])};
+      if (count == 2 && children[0].order > children[1].order) std::swap(children[0], children[1]);
+      for (int i = 0; i < count; ++i) stack[size++] = children[i];
+    }
+  }
+
+  bool found() const { return found_; }
+  double low() const { return low_; }
+  double high() const { return std::max(high_, beyond_); }
+  const Eigen::Vector3d& direction() const { return direction_; }
+  std::uint32_t slot() const { return slot_; }
+
+ private:
+  void look_beyond(double angle) {
+    beyond_ = std::min(angle, to_);
+    sector_ = Directions(scene_.frame(), {plane_.at(beyond_), plane_.at(to_)});
+    residual_ = SectorResidual(sector_);
+  }
+
+  bool apart(const Hierarchy::Node& node) const {
+    return !sector_.spread_too_far() && BoxTest(scene_.frame(), sector_, residual_).apart(node);
+  }
+
+  /// How far a node reaches towards the end of the sector, for the order of visits only.
+  double height(const Hierarchy::Node& node) const {
+    const Box box = node.box();
+    const Eigen::Vector3d c = box.center() - scene_.frame().origin();
+    const double across = c.dot(plane_.side) + box.half_widths().dot(plane_.side.cwiseAbs());
+    return std::atan2(across, c.dot(plane_.axis));
+  }
+
+  Directions sector(double from) const { return {scene_.frame(), {plane_.at(from), plane_.at(to_)}}; }
+
+  Gap ask(const Core& core, const Directions& directions) const {
+    const Eigen::Vector3d away = SectorResidual(directions)(core.center());
+    return gap(core, directions, away.isZero(0) ? core.center() : away);
+  }
+
+  /// The angle of the direction that a search ended with.
+  double angle(const Gap& found, const Directions& directions, double from) const {
+    const double a = found.along[0] / directions.length[0] / plane_.at(from).cwiseAbs().maxCoeff();
+    const double b = found.along[1] / directions.length[1] / plane_.at(to_).cwiseAbs().maxCoeff();
+    if (!(a + b > 0)) return from;
+    const Eigen::Vector3d d = a * plane_.at(from) + b * plane_.at(to_);
+    return std::clamp(std::atan2(d.dot(plane_.side), d.dot(plane_.axis)), from, to_);
+  }
+
+  /// Takes the angle as found where the direction there is proved to meet the piece.
+  bool take(std::uint32_t slot, const Core& core, double angle) {
+    const Eigen::Vector3d w = plane_.at(angle);
+    const Directions ray(scene_.frame(), {w});
+    const Eigen::Vector3d away = RayResidual{ray.ray[0]}(core.center());
+    const Gap found = gap(core, ray, away.isZero(0) ? core.center() : away);
+    if (found.answer == Gap::Answer::apart) return false;
+    if (found.answer == Gap::Answer::close) {
+      ++effort_.exact;
+      if (scene_.exact_membership(slot, w, Eigen::Vector3d::Zero()) == Membership::out) return false;
+    }
+    if (!found_ || angle > low_) {
+      found_ = true;
+      low_ = angle;
+      direction_ = w;
+      slot_ = slot;
+    }
+    return true;
+  }
+
+  /// Looks for directions beyond what is known at which the piece is met.
+  void raise(std::uint32_t slot) {
+    ++effort_.pieces;
+    const Box box = scene_.slot_box(slot);
+    if (!sector_.spread_too_far() && BoxTest(scene_.frame(), sector_, residual_).apart(box.low, box.high))
+      return;
+    const Core core = scene_.core(slot);
+    Gap found = ask(core, sector_);
+    if (found.answer == Gap::Answer::apart) return;
+    double low = beyond_, high = to_;
+    if (take(slot, core, angle(found, sector_, beyond_))) low = std::max(low, low_);
+    // Bisection; a direction that meets the piece is found on the way wherever there is one to speak of.
+    while (high - low > 0.5 * tolerance_) {
+      const double middle = low + 0.5 * (high - low);
+      if (middle <= low || middle >= high) break;
+      const Directions beyond = sector(middle);
+      found = ask(core, beyond);
+      if (found.answer == Gap::Answer::apart) {
+        high = middle;
+        continue;
+      }
+      low = middle;
+      const double met = angle(found, beyond, middle);
+      if (take(slot, core, met)) low = std::max(low, met);
+    }
+    high_ = std::max(high_, high);
+    if (found_ && low_ + 0.5 * tolerance_ > beyond_) look_beyond(low_ + 0.5 * tolerance_);
+  }
+
+  const Scene& scene_;
+  HalfPlane plane_;
+  double to_, tolerance_;
+  Effort& effort_;
+  Directions sector_;
+  SectorResidual residual_{Directions(scene_.frame(), {plane_.axis, plane_.axis})};
+  bool found_ = false;
+  double low_, high_, beyond_ = 0;
+  Eigen::Vector3d direction_ = Eigen::Vector3d::Zero();
+  std::uint32_t slot_ = 0;
+};
+
+}  // namespace
+
+ExtremeDirection AssemblyOracle::extreme(const Eigen::Vector3d& axis, const Eigen::Vector3d& side,
+                                         double tolerance, Effort* effort) const {
+  if (!(tolerance >= 1e-13 && tolerance <= 1))
+    throw InputError("tolerance", to_text(tolerance), "radians between 1e-13 and 1");
+  Effort unused;
+  const HalfPlane plane{state_->to_body(axis), state_->to_body(side)};
+  ExtremeDirection result;
+  // Rays of a sector must not be opposite to each other, in the frame of a thin agent neither.
+  constexpr int kParts = 4;
+  for (int part = kParts - 1; part >= 0 && !result.any; --part) {
+    Search search(*state_, plane, kPi * part / kParts, kPi * (part + 1) / kParts, tolerance,
+                  effort != nullptr ? *effort : unused);
+    search.run();
+    result.any = search.found();
+    if (!result.any) {
+      // What is neither proved to be met nor to be apart.
+      if (search.high() > kPi * part / kParts) result.high = std::max(result.high, search.high());
+      continue;
+    }
+    result.low = search.low();
+    result.high = std::max(result.high, search.high());
+    result.direction = state_->to_world(search.direction());
+    result.piece = state_->piece(search.slot());
+  }
+  return result;
+}
+
+}  // namespace vericone

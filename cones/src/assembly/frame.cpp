@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "assembly/frame.h"
+
+#include <vericone/geometry/error.h>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace vericone::assembly {
+
+Frame::Frame(const Ellipsoid& agent) : origin_(agent.center()) {
+  to_frame_ = agent.factor().inverse();
+  norm_ = to_frame_.norm() * (1 + 16 * kUlp);
+  // G S G^T = 1 + D; the squared length of a point of E's surface along n is nᵀ(1 + D)n.
+  Eigen::Matrix3d deviation;
+  double rounding;
+  if (agent.defined_by_factor()) {
+    const Eigen::Matrix3d product = to_frame_ * agent.factor();
+    deviation = product * product.transpose() - Eigen::Matrix3d::Identity();
+    rounding = 32 * kUlp * norm_ * agent.factor().norm();
+  } else {
+    deviation = to_frame_ * agent.shape() * to_frame_.transpose() - Eigen::Matrix3d::Identity();
+    rounding = 32 * kUlp * norm_ * norm_ * agent.shape().norm();
+  }
+  const double off = deviation.norm() + rounding;
+  if (!(off < 0.01))
+    throw InputError("agent",
+                     "semi-axes " + to_text(agent.semi_axes()(0)) + " to " + to_text(agent.semi_axes()(2)),
+                     agent.defined_by_factor() ? "a body whose matrix can be inverted (axis ratio below 1e12)"
+                                               : "a body whose shape can be inverted (axis ratio below 1e6; "
+                                                 "thinner ones from semi_axes)");
+  round_ = true;
+  from_frame_ = agent.factor();
+  outer_ = ball_ = std::sqrt(1 + off) * (1 + 4 * kUlp);
+  inner_ = std::sqrt(1 - off) * (1 - 4 * kUlp);
+  for (int k = 0; k < 3; ++k)
+    reach_(k) = std::sqrt(agent.shape()(k, k)) * (1 + 8 * kUlp) + off * std::sqrt(agent.shape()(k, k));
+}
+
+Frame Frame::in_space(const Ellipsoid& agent) {
+  const Frame round(agent);
+  Frame frame(HullBody({agent.center()}));
+  frame.points_.clear();
+  frame.factor_ = agent.factor();
+  frame.reach_ = round.reach_;
+  frame.ball_ = agent.factor().norm() * round.outer_ * (1 + 8 * kUlp);
+  frame.support_error_ = (round.outer_ - 1 + 16 * kUlp) * agent.factor().norm();
+  return frame;
+}
+
+Eigen::Vector3d Frame::support(const Eigen::Vector3d& n) const {
+  if (points_.empty()) {
+    const Eigen::Vector3d back = factor_.transpose() * n;
+    const double length = back.norm();
+    return length > 0 ? Eigen::Vector3d(factor_ * (back / length)) : Eigen::Vector3d::Zero();
+  }
+  std::size_t best = 0;
+  double most = n.dot(points_[0]);
+  for (std::size_t i = 1; i < points_.size(); ++i)
+    if (const double value = n.dot(points_[i]); value > most) {
+      most = value;
+      best = i;
+    }
+  return points_[best];
+}
+
+Frame::Frame(const HullBody& agent) {
+  Eigen::Vector3d low = agent.points().front(), high = low;
+  for (const Eigen::Vector3d& a : agent.points()) {
+    low = low.cwiseMin(a);
+    high = high.cwiseMax(a);
+  }
+  origin_ = 0.5 * low + 0.5 * high;
+  points_.reserve(agent.size());
+  for (const Eigen::Vector3d& a : agent.points()) {
+    points_.push_back(a - origin_);
+    reach_ = reach_.cwiseMax(points_.back().cwiseAbs());
+    ball_ = std::max(ball_, points_.back().norm());
+  }
+  reach_ *= 1 + 4 * kUlp;
+  ball_ *= 1 + 8 * kUlp;
+  norm_ = std::sqrt(3.0) * (1 + 4 * kUlp);
+}
+
+Directions::Directions(const Frame& frame, std::initializer_list<Eigen::Vector3d> rays_in_space) {
+  for (const Eigen::Vector3d& d : rays_in_space) {
+    // Scaled first: velocities of any size are directions.
+    const Eigen::Vector3d scaled = d / d.cwiseAbs().maxCoeff();
+    const Eigen::Vector3d mapped = frame.to_frame() * scaled;
+    length[count] = mapped.norm();
+    error = std::max(error, frame.error(scaled.norm()) / length[count] + 8 * kUlp);
+    ray[count] = mapped / length[count];
+    middle += ray[count];
+    ++count;
+  }
+  if (count == 0) return;
+  middle.normalize();
+  for (int i = 0; i < count; ++i) least_cosine = std::min(least_cosine, middle.dot(ray[i]) - error);
+}
+
+}  // namespace vericone::assembly

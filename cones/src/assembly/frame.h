@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The agent in the coordinates in which questions about assemblies are answered.
+#pragma once
+
+#include <vericone/geometry/ellipsoid.h>
+#include <vericone/geometry/hull_body.h>
+#include <Eigen/Core>
+#include <algorithm>
+#include <initializer_list>
+#include <vector>
+
+namespace vericone::assembly {
+
+/// One rounding of a double.
+inline constexpr double kUlp = 0x1p-53;
+
+/// y = G (x - p). G is any matrix as stored, so nothing depends on how well it inverts the agent's factor:
+/// what the agent becomes, E, lies between two balls whose radii are proved. A hull keeps G = 1 and becomes
+/// the points a_i - p; so does an ellipsoid where lengths in space are asked for.
+///
+/// Computed coordinates y of a point x differ from the exact ones by at most error(|x - p|).
+class Frame {
+ public:
+  /// Throws InputError naming "agent".
+  explicit Frame(const Ellipsoid& agent);
+  explicit Frame(const HullBody& agent);
+  /// With G = 1.
+  static Frame in_space(const Ellipsoid& agent);
+
+  const Eigen::Vector3d& origin() const { return origin_; }
+  const Eigen::Matrix3d& to_frame() const { return to_frame_; }
+
+  /// E is nearly the unit ball.
+  bool round() const { return round_; }
+  /// Where round(): E is between the balls of these radii about 0; 0 otherwise.
+  double inner() const { return inner_; }
+  double outer() const { return outer_; }
+
+  /// Where not round(): the point of E with the most n.e; rounded.
+  Eigen::Vector3d support(const Eigen::Vector3d& n) const;
+  /// How far E as support() knows it is from E.
+  double support_error() const { return support_error_; }
+
+  /// At least the support max n.e over E.
+  double extent(const Eigen::Vector3d& n) const {
+    if (round_) return outer_ * n.norm();
+    return std::min(ball_ * n.norm(), n.cwiseAbs().dot(reach_)) * (1 + 8 * kUlp);
+  }
+  /// Largest |e| over E, at most.
+  double ball() const { return ball_; }
+
+  /// In space: the agent is in the box p - reach .. p + reach.
+  const Eigen::Vector3d& reach() const { return reach_; }
+
+  /// See above; `size`: |x - p| or more, in space, and for hulls the size of the agent added.
+  double error(double size) const { return 16 * kUlp * norm_ * size; }
+
+  /// Of G, at least.
+  double norm() const { return norm_; }
+
+  /// Back from the frame, for what is only reported.
+  Eigen::Vector3d to_space(const Eigen::Vector3d& y) const { return origin_ + from_frame_ * y; }
+
+  Eigen::Vector3d relative(const Eigen::Vector3d& x) const { return x - origin_; }
+
+ private:
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero(), reach_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d to_frame_ = Eigen::Matrix3d::Identity(), from_frame_ = Eigen::Matrix3d::Identity();
+  bool round_ = false;
+  double norm_ = 1;  // of G, Frobenius, rounded up
+  double inner_ = 0, outer_ = 0, ball_ = 0, support_error_ = 0;
+  std::vector<Eigen::Vector3d> points_;                   // of a hull
+  Eigen::Matrix3d factor_ = Eigen::Matrix3d::Identity();  // of an ellipsoid in space
+};
+
+/// The directions asked about: rays from the apex and all between them (none: the apex alone).
+struct Directions {
+  Eigen::Vector3d ray[3];  // in the frame, unit
+  double length[3] = {};   // of the rays as given, divided by their largest coordinates, in the frame
+  int count = 0;
+  double error = 0;  // of each ray, as a vector
+
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // in the frame, unit
+  double least_cosine = 1;  // between it and the rays; spread too far if not positive
+
+  Directions() = default;
+  Directions(const Frame& frame, std::initializer_list<Eigen::Vector3d> rays_in_space);
+
+  bool spread_too_far() const { return !(least_cosine > 0.02); }
+
+  /// At most the largest n.d over unit directions d asked about; >= 0. A unit d is a combination of rays with
+  /// weights whose sum is at most 1 / least_cosine.
+  double slant(const Eigen::Vector3d& unit_normal) const {
+    double most = 0;
+    for (int i = 0; i < count; ++i) most = std::max(most, unit_normal.dot(ray[i]) + error + 8 * kUlp);
+    return count > 1 ? 1.01 * most / least_cosine : most;
+  }
+};
+
+}  // namespace vericone::assembly

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "assembly/gap.h"
+
+#include <Eigen/LU>
+#include <cmath>
+
+namespace vericone::assembly {
+namespace {
+
+constexpr int kMostSteps = 64;
+
+/// Generators of the face that holds the point of least norm: at least one point, and rays.
+struct Corral {
+  Eigen::Vector3d of[4], on_piece[4];
+  int ray[4] = {-1, -1, -1, -1};  // which ray; -1 for a point
+  double weight[4] = {1, 0, 0, 0};
+  int size = 0;
+
+  void add(const Eigen::Vector3d& x, int which, const Eigen::Vector3d& piece = Eigen::Vector3d::Zero()) {
+    of[size] = x;
+    on_piece[size] = piece;
+    ray[size] = which;
+    weight[size] = 0;
+    ++size;
+  }
+
+  void drop(int i) {
+    --size;
+    for (; i < size; ++i) {
+      of[i] = of[i + 1];
+      on_piece[i] = on_piece[i + 1];
+      ray[i] = ray[i + 1];
+      weight[i] = weight[i + 1];
+    }
+  }
+
+  /// The weights of the least norm in the affine hull; false where the generators are dependent.
+  bool affine(double (&x)[4]) const {
+    int base = 0;
+    while (ray[base] >= 0) ++base;
+    Eigen::Vector3d m[3];
+    int index[3], n = 0;
+    for (int i = 0; i < size; ++i)
+      if (i != base) {
+        m[n] = ray[i] >= 0 ? of[i] : of[i] - of[base];
+        index[n++] = i;
+      }
+    // Cholesky's factorisation of the Gram matrix of m, in place.
+    double g[3][3], r[3];
+    for (int i = 0; i < n; ++i) {
+      r[i] = -m[i].dot(of[base]);
+      for (int j = 0; j <= i; ++j) g[i][j] = m[i].dot(m[j]);
+    }
+    for (int i = 0; i < n; ++i) {
+      const double diagonal = g[i][i];
+      for (int j = 0; j < i; ++j) {
+        for (int k = 0; k < j; ++k) g[i][j] -= g[i][k] * g[j][k];
+        g[i][j] /= g[j][j];
+        r[i] -= g[i][j] * r[j];
+        g[i][i] -= g[i][j] * g[i][j];
+      }
+      if (!(g[i][i] > 1e-14 * diagonal)) return false;
+      g[i][i] = std::sqrt(g[i][i]);
+      r[i] /= g[i][i];
+    }
+    for (int i = n - 1; i >= 0; --i) {
+      for (int j = i + 1; j < n; ++j) r[i] -= g[j][i] * r[j];
+      r[i] /= g[i][i];
+    }
+    x[base] = 1;
+    for (int i = 0; i < n; ++i) {
+      x[index[i]] = r[i];
+      if (ray[index[i]] < 0) x[base] -= r[i];
+    }
+    return true;
+  }
+
+  /// Drops generators until the point of least norm of the affine hull has positive weights. The weights so
+  /// far are feasible, and stay so.
+  bool minimise() {
+    for (;;) {
+      double x[4];
+      if (!affine(x)) return false;
+      double step = 1;
+      int out = -1;
+      for (int i = 0; i < size; ++i)
+        if (!(x[i] > 0)) {
+          const double s = weight[i] > 0 ? weight[i] / (weight[i] - x[i]) : 0;
+          if (out < 0 || s < step) {
+            step = s;
+            out = i;
+          }
+        }
+      if (out < 0) {
+        for (int i = 0; i < size; ++i) weight[i] = x[i];
+        return true;
+      }
+      for (int i = 0; i < size; ++i) weight[i] += step * (x[i] - weight[i]);
+      int points = 0;
+      for (int i = 0; i < size; ++i) points += ray[i] < 0;
+      if (ray[out] < 0 && points == 1) return false;  // by rounding only: points have the weight 1 together
+      drop(out);
+    }
+  }
+
+  /// Whether 0 is a combination of the four generators with positive weights even if each of them is off by
+  /// `error`. With M the matrix of the generators over a row that adds up the points' weights, M x = (0, 1);
+  /// a change E of M moves x by no more than |M^-1| |E| |x| / (1 - |M^-1| |E|).
+  bool surely_around_zero(double error) const {
+    Eigen::Matrix4d m;
+    Eigen::Vector4d x;
+    double change = 0;
+    for (int i = 0; i < 4; ++i) {
+      const bool point = ray[i] < 0;
+      m.col(i) << of[i], (point ? 1.0 : 0.0);
+      x(i) = weight[i];
+      change += error * error;
+    }
+    const Eigen::Matrix4d inverse = m.inverse();
+    if (!inverse.allFinite()) return false;
+    const double norm = inverse.norm();
+    const double relative = norm * std::sqrt(change);
+    const double residual =
+        norm * ((m * x - Eigen::Vector4d(0, 0, 0, 1)).norm() + 16 * kUlp * m.norm() * x.norm());
+    if (!(relative < 0.01) || !((m * inverse - Eigen::Matrix4d::Identity()).norm() < 0.01)) return false;
+    return x.minCoeff() > 1.1 * (relative * x.norm() + residual);
+  }
+
+  /// Point and ray part of the combination, with weights that are feasible without rounding to trust.
+  void read(Gap& gap) const {
+    double total = 0;
+    for (int i = 0; i < size; ++i)
+      if (ray[i] < 0) total += weight[i];
+    gap.k.setZero();
+    gap.on_piece.setZero();
+    std::fill(gap.along, gap.along + 3, 0.0);
+    Eigen::Vector3d d = Eigen::Vector3d::Zero();
+    for (int i = 0; i < size; ++i) {
+      if (ray[i] < 0) {
+        gap.k += (weight[i] / total) * of[i];
+        gap.on_piece += (weight[i] / total) * on_piece[i];
+      } else {
+        gap.along[ray[i]] = std::max(0.0, weight[i]);
+        d += gap.along[ray[i]] * of[i];  // of = -ray
+      }
+    }
+    gap.v = gap.k + d;
+  }
+};
+
+}  // namespace
+
+Gap gap(const Core& core, const Directions& directions, const Eigen::Vector3d& first, GapGoal goal,
+        double relative) {
+  Gap result;
+  Corral corral;
+  Eigen::Vector3d on_piece;
+  const Eigen::Vector3d start = core.support(first, on_piece);
+  corral.add(start, -1, on_piece);
+  corral.weight[0] = 1;
+  double last_norm = INFINITY;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Corral before = corral;
+    if (!corral.minimise()) corral = before;  // the newest generator adds nothing that rounding would show
+    corral.read(result);
+    const double norm = result.v.norm();
+
+    // Met: the combination is within the inner ball, and what rounds it is known.
+    if (goal == GapGoal::decide) {
+      const double far = result.along[0] + result.along[1] + result.along[2];
+      if (norm + core.error() + far * (directions.error + 8 * kUlp) + 16 * kUlp * (core.reach() + far) <
+          core.inner_rounding()) {
+        result.answer = Gap::Answer::met;
+        return result;
+      }
+    }
+    if (corral.size == 4) {
+      if (goal == GapGoal::decide &&
+          corral.surely_around_zero(core.error() + directions.error + 64 * kUlp * core.reach()))
+        result.answer = Gap::Answer::met;
+      return result;
+    }
+    if (!(norm < last_norm) || !(norm > 8 * kUlp * core.reach())) return result;
+    last_norm = norm;
+
+    int ray = -1;
+    double most = 4 * kUlp * norm;
+    for (int i = 0; i < directions.count; ++i)
+      if (const double slant = result.v.dot(directions.ray[i]); slant > most) {
+        most = slant;
+        ray = i;
+      }
+    const Eigen::Vector3d s = core.support(result.v, on_piece);
+    const double distance = result.v.dot(s) / norm;
+    if (ray < 0) {
+      const double slack = core.error() + 16 * kUlp * (s.norm() + core.reach()) +
+                           directions.slant(result.v / norm) * (core.reach() + core.offset.norm());
+      const double least = distance - slack;
+      if (least > result.least) result.least = least;
+      if (least > core.outer_rounding()) {
+        result.answer = Gap::Answer::apart;
+        if (goal == GapGoal::decide) return result;
+      }
+      if (norm - distance <= std::max(relative, 2 * kUlp) * norm) return result;
+      corral.add(s, -1, on_piece);
+    } else {
+      corral.add(-directions.ray[ray], ray);
+    }
+  }
+  return result;
+}
+
+}  // namespace vericone::assembly

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/cones/assembly_oracle.h>
+#include <vericone/geometry/error.h>
+#include <string>
+
+#include "assembly/gap.h"
+#include "assembly/state.h"
+
+namespace vericone {
+using namespace assembly;
+
+namespace {
+
+void require_finite(const char* field, const Eigen::Vector3d& v) {
+  for (int k = 0; k < 3; ++k)
+    if (!std::isfinite(v(k)))
+      throw InputError(std::string(field) + "[" + std::to_string(k) + "]", to_text(v(k)),
+                       "a finite number (m/s)");
+}
+
+/// y itself: the residual of the apex.
+struct ApexResidual {
+  Eigen::Vector3d operator()(const Eigen::Vector3d& y) const { return y; }
+};
+
+Relation find_relation(const Scene& scene) {
+  const Directions apex{};
+  const BoxTest test(scene.frame(), apex, ApexResidual{});
+  const auto nodes = scene.nodes();
+  Relation relation = Relation::disjoint;
+  std::vector<std::uint32_t> stack{0};
+  while (!stack.empty()) {
+    const Hierarchy::Node& node = nodes[stack.back()];
+    stack.pop_back();
+    if (test.apart(node)) continue;
+    if (!node.is_leaf()) {
+      stack.push_back(node.first);
+      stack.push_back(node.first + 1);
+      continue;
+    }
+    for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot) {
+      const Core core = scene.core(slot);
+      const Gap found = gap(core, apex, core.center().isZero(0) ? Eigen::Vector3d::UnitX() : core.center());
+      if (found.answer == Gap::Answer::apart) continue;
+      if (found.answer == Gap::Answer::met) return Relation::overlapping;
+      const Relation exact = scene.exact_relation(slot);
+      if (exact == Relation::overlapping) return exact;
+      if (exact == Relation::touching) relation = exact;
+    }
+  }
+  return relation;
+}
+
+Membership find_membership(const Scene& scene, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                           Effort& effort) {
+  Eigen::Vector3d w = v_a - v_b;
+  if (w.isZero(0)) return Membership::out;  // differences of doubles vanish only where they are equal
+  if (!w.allFinite()) w = 0.5 * v_a - 0.5 * v_b;
+  const Slabs slabs(scene.frame(), scene.body().bounds(), w);
+  const Directions ray(scene.frame(), {w});
+  const BoxTest test(scene.frame(), ray, RayResidual{ray.ray[0]});
+  Membership answer = Membership::out;
+  const double limit = std::numeric_limits<double>::infinity();
+  along_ray(scene, slabs, limit, effort, [&](std::uint32_t slot, double) {
+    const Box box = scene.slot_box(slot);
+    if (std::isinf(slabs.enter(box.low.data(), box.high.data())) || test.apart(box.low, box.high))
+      return true;
+    ++effort.pieces;
+    const Core core = scene.core(slot);
+    const Eigen::Vector3d away = RayResidual{ray.ray[0]}(core.center());
+    const Gap found = gap(core, ray, away.isZero(0) ? core.center() : away);
+    if (found.answer == Gap::Answer::apart) return true;
+    if (found.answer == Gap::Answer::met) {
+      answer = Membership::in;
+      return false;
+    }
+    ++effort.exact;
+    const Membership exact = scene.exact_membership(slot, v_a, v_b);
+    if (exact != Membership::out) answer = exact;
+    return exact != Membership::in;
+  });
+  return answer;
+}
+
+}  // namespace
+
+AssemblyOracle::AssemblyOracle(const Ellipsoid& agent, const Assembly& obstacle, const Pose& pose)
+    : state_(std::make_unique<State>(agent, obstacle, pose)) {
+  state_->relation = find_relation(*state_);
+}
+AssemblyOracle::AssemblyOracle(const HullBody& agent, const Assembly& obstacle, const Pose& pose)
+    : state_(std::make_unique<State>(agent, obstacle, pose)) {
+  state_->relation = find_relation(*state_);
+}
+AssemblyOracle::~AssemblyOracle() = default;
+AssemblyOracle::AssemblyOracle(AssemblyOracle&&) noexcept = default;
+AssemblyOracle& AssemblyOracle::operator=(AssemblyOracle&&) noexcept = default;
+
+const Assembly& AssemblyOracle::obstacle() const { return state_->body(); }
+Relation AssemblyOracle::relation() const { return state_->relation; }
+
+Membership AssemblyOracle::membership(const Eigen::Vector3d& w, Effort* effort) const {
+  return membership(w, Eigen::Vector3d::Zero(), effort);
+}
+
+Membership AssemblyOracle::membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                                      Effort* effort) const {
+  require_finite("agent_velocity", v_a);
+  require_finite("obstacle_velocity", v_b);
+  Effort unused;
+  Effort& count = effort != nullptr ? *effort : unused;
+  if (state_->relation != Relation::disjoint) return v_a == v_b ? Membership::out : Membership::in;
+  if (state_->upright()) return find_membership(*state_, v_a, v_b, count);
+  return find_membership(*state_, state_->to_body(v_a - v_b), Eigen::Vector3d::Zero(), count);
+}
+
+Verdict AssemblyOracle::verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const {
+  if (state_->relation == Relation::overlapping) return Verdict::overlapping;
+  if (state_->relation == Relation::touching) return Verdict::touching;
+  switch (membership(v_a, v_b)) {
+    case Membership::in:
+      return Verdict::in;
+    case Membership::on:
+      return Verdict::on;
+    case Membership::out:
+      break;
+  }
+  return Verdict::out;
+}
+
+}  // namespace vericone

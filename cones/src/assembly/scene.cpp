@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "assembly/scene.h"
+
+#include <vericone/cones/hull_oracle.h>
+#include <vericone/geometry/error.h>
+#include <string>
+
+namespace vericone::assembly {
+namespace {
+
+bool upright(const Pose& pose) {
+  for (int i = 0; i < 3; ++i) {
+    if (!std::isfinite(pose.position(i)))
+      throw InputError("pose.position[" + std::to_string(i) + "]", to_text(pose.position(i)),
+                       "a finite number (m)");
+  }
+  const Eigen::Matrix3d& r = pose.rotation;
+  if (!((r.transpose() * r - Eigen::Matrix3d::Identity()).norm() < 1e-12 && r.determinant() > 0))
+    throw InputError("pose.rotation", "determinant " + to_text(r.determinant()),
+                     "a rotation, orthonormal to 1e-12");
+  return r == Eigen::Matrix3d::Identity();
+}
+
+Ellipsoid in_body(const Ellipsoid& agent, const Pose& pose) {
+  if (upright(pose)) return pose.position.isZero(0) ? agent : agent.translated(-pose.position);
+  const Eigen::Vector3d center = pose.to_body(agent.center());
+  const Eigen::Matrix3d turn = pose.rotation.transpose();
+  if (!agent.defined_by_factor()) {
+    const Eigen::Matrix3d shape = turn * agent.shape() * pose.rotation;
+    return Ellipsoid::from_shape(center, 0.5 * (shape + shape.transpose()));
+  }
+  Eigen::Matrix3d axes = turn * agent.axis_directions();
+  if (axes.determinant() < 0) axes.col(2) *= -1;
+  return Ellipsoid::from_axes(center, agent.semi_axes(), axes);
+}
+
+HullBody in_body(const HullBody& agent, const Pose& pose) {
+  const bool turned = !upright(pose);
+  std::vector<Eigen::Vector3d> points = agent.points();
+  for (Eigen::Vector3d& x : points) {
+    if (turned) {
+      x = pose.to_body(x);
+    } else {
+      x -= pose.position;
+    }
+  }
+  return HullBody(std::move(points));
+}
+
+/// Calls ask() with the exact oracle of the agent and the piece.
+template <class Ask>
+auto with_oracle(const Scene& scene, std::uint32_t slot, Ask&& ask) {
+  const Assembly& body = scene.body();
+  const auto hull = [&](HullBody piece) {
+    return scene.ellipsoid() != nullptr ? ask(HullOracle(*scene.ellipsoid(), piece))
+                                        : ask(HullOracle(*scene.hull(), piece));
+  };
+  switch (body.kind()) {
+    case PieceKind::triangle: {
+      const auto& corners = body.by_slot().triangles[slot];
+      return hull(HullBody({corners.begin(), corners.end()}));
+    }
+    case PieceKind::box: {
+      const Box& box = body.by_slot().boxes[slot];
+      return hull(HullBody::box(box.low, box.high));
+    }
+    case PieceKind::hull:
+      return hull(body.by_slot().hulls[slot]);
+    case PieceKind::ball:
+      break;
+  }
+  const Eigen::Vector3d& center = body.by_slot().balls[slot];
+  if (body.radius() == 0) return hull(HullBody({center}));
+  const Ellipsoid ball = Ellipsoid::from_axes(center, Eigen::Vector3d::Constant(body.radius()));
+  return scene.ellipsoid() != nullptr ? ask(ConeOracle(*scene.ellipsoid(), ball))
+                                      : ask(HullOracle(*scene.hull(), ball));
+}
+
+}  // namespace
+
+Scene::Scene(const Ellipsoid& agent, const Assembly& body, const Pose& pose)
+    : body_(body),
+      pose_(pose),
+      upright_(assembly::upright(pose)),
+      ellipsoid_(in_body(agent, pose)),
+      frame_(*ellipsoid_) {}
+
+Scene::Scene(const HullBody& agent, const Assembly& body, const Pose& pose)
+    : body_(body),
+      pose_(pose),
+      upright_(assembly::upright(pose)),
+      hull_(in_body(agent, pose)),
+      frame_(*hull_) {}
+
+Core Scene::core(const Frame& frame, std::uint32_t slot) const {
+  const Assembly::Storage& storage = body_.by_slot();
+  switch (body_.kind()) {
+    case PieceKind::triangle:
+      return Core::of_points(frame, storage.triangles[slot].data(), 3);
+    case PieceKind::ball:
+      return Core::of_ball(frame, storage.balls[slot], body_.radius());
+    case PieceKind::box:
+      return Core::of_box(frame, storage.boxes[slot].low, storage.boxes[slot].high);
+    case PieceKind::hull:
+      break;
+  }
+  return Core::of_points(frame, storage.hulls[slot].points().data(), storage.hulls[slot].size());
+}
+
+Box Scene::slot_box(std::uint32_t slot) const {
+  const Assembly::Storage& storage = body_.by_slot();
+  switch (body_.kind()) {
+    case PieceKind::triangle: {
+      Box box{storage.triangles[slot][0], storage.triangles[slot][0]};
+      for (const Eigen::Vector3d& x : storage.triangles[slot]) box.include({x, x});
+      return box;
+    }
+    case PieceKind::ball: {
+      const double wide = body_.radius() * (1 + 4 * kUlp);
+      return {storage.balls[slot].array() - wide, storage.balls[slot].array() + wide};
+    }
+    case PieceKind::box:
+      return storage.boxes[slot];
+    case PieceKind::hull:
+      break;
+  }
+  Box box{storage.hulls[slot].points()[0], storage.hulls[slot].points()[0]};
+  for (const Eigen::Vector3d& x : storage.hulls[slot].points()) box.include({x, x});
+  return box;
+}
+
+Membership Scene::exact_membership(std::uint32_t slot, const Eigen::Vector3d& v_a,
+                                   const Eigen::Vector3d& v_b) const {
+  return with_oracle(*this, slot, [&](const auto& oracle) {
+    return oracle.relation() == Relation::disjoint ? oracle.membership(v_a, v_b) : Membership::in;
+  });
+}
+
+Relation Scene::exact_relation(std::uint32_t slot) const {
+  return with_oracle(*this, slot, [](const auto& oracle) { return oracle.relation(); });
+}
+
+}  // namespace vericone::assembly

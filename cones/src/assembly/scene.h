@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What an oracle of assemblies reads, and how it descends the hierarchy.
+#pragma once
+
+#include <vericone/cones/assembly_oracle.h>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "assembly/core.h"
+#include "assembly/frame.h"
+
+namespace vericone::assembly {
+
+/// An agent in the obstacle's own frame, and the obstacle.
+class Scene {
+ public:
+  Scene(const Ellipsoid& agent, const Assembly& body, const Pose& pose);
+  Scene(const HullBody& agent, const Assembly& body, const Pose& pose);
+
+  const Frame& frame() const { return frame_; }
+  const Assembly& body() const { return body_; }
+  const Pose& pose() const { return pose_; }
+  /// The pose moves the body only, or not at all.
+  bool upright() const { return upright_; }
+  std::span<const Hierarchy::Node> nodes() const { return body_.hierarchy().nodes(); }
+  std::uint32_t piece(std::uint32_t slot) const { return body_.hierarchy().order()[slot]; }
+
+  /// Of the obstacle's frame.
+  Eigen::Vector3d to_body(const Eigen::Vector3d& direction) const {
+    return upright_ ? direction : Eigen::Vector3d(pose_.rotation.transpose() * direction);
+  }
+  Eigen::Vector3d to_world(const Eigen::Vector3d& direction) const {
+    return upright_ ? direction : Eigen::Vector3d(pose_.rotation * direction);
+  }
+
+  Eigen::Vector3d point_to_world(const Eigen::Vector3d& x) const {
+    return upright_ ? Eigen::Vector3d(x + pose_.position) : pose_.to_world(x);
+  }
+
+  Core core(std::uint32_t slot) const { return core(frame_, slot); }
+  /// The same for another frame of the same agent or a point.
+  Core core(const Frame& frame, std::uint32_t slot) const;
+  Box slot_box(std::uint32_t slot) const;
+
+  /// The piece's own exact predicates. `w` = v_a - v_b in the obstacle's frame.
+  Membership exact_membership(std::uint32_t slot, const Eigen::Vector3d& v_a,
+                              const Eigen::Vector3d& v_b) const;
+  Relation exact_relation(std::uint32_t slot) const;
+
+  /// Of the agent; the one that there is.
+  const Ellipsoid* ellipsoid() const { return ellipsoid_ ? &*ellipsoid_ : nullptr; }
+  const HullBody* hull() const { return hull_ ? &*hull_ : nullptr; }
+
+ private:
+  Assembly body_;
+  Pose pose_;
+  bool upright_ = true;
+  std::optional<Ellipsoid> ellipsoid_;
+  std::optional<HullBody> hull_;
+  Frame frame_;
+};
+
+/// Proofs that a box of the hierarchy, widened by the agent, is apart from all directions asked about: a
+/// plane through the apex whose normal is the part of the box's middle that points away from the directions.
+///
+/// `Residual`: y -> y minus the point of the directions (or of a cone that contains them) nearest to y, or 0.
+template <class Residual>
+class BoxTest {
+ public:
+  BoxTest(const Frame& frame, const Directions& directions, Residual residual)
+      : frame_(frame), directions_(directions), residual_(std::move(residual)) {}
+
+  /// A distance, in the frame, that the widened box keeps from all directions; not positive where no such
+  /// plane is found.
+  double distance(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const {
+    const Eigen::Vector3d l = low - frame_.origin(), h = high - frame_.origin();
+    const Eigen::Vector3d middle = 0.5 * (l + h), half = 0.5 * (h - l);
+    const Eigen::Vector3d y = frame_.to_frame() * middle;
+    const Eigen::Vector3d n = residual_(y);
+    const double length = n.norm();
+    if (!(length > 0)) return 0;
+    const Eigen::Vector3d back = frame_.to_frame().transpose() * n;
+    const double size = frame_.norm() * (middle.norm() + half.norm()) + frame_.ball();
+    const double slack = 128 * kUlp * size + directions_.slant(n / length) * (size + frame_.outer());
+    return (n.dot(y) - back.cwiseAbs().dot(half) - frame_.extent(n)) / length - slack;
+  }
+  double distance(const Hierarchy::Node& node) const {
+    return distance({node.low[0], node.low[1], node.low[2]}, {node.high[0], node.high[1], node.high[2]});
+  }
+  bool apart(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const {
+    return distance(low, high) > 0;
+  }
+  bool apart(const Hierarchy::Node& node) const { return distance(node) > 0; }
+
+ private:
+  const Frame& frame_;
+  const Directions& directions_;
+  Residual residual_;
+};
+
+/// Residual of one ray.
+struct RayResidual {
+  Eigen::Vector3d ray;
+  Eigen::Vector3d operator()(const Eigen::Vector3d& y) const { return y - std::max(0.0, y.dot(ray)) * ray; }
+};
+
+/// A ray from the apex against boxes, each widened by the box around the agent. Conservative: no widened
+/// piece that is met is missed.
+class Slabs {
+ public:
+  /// `w`: in space, finite, not zero.
+  Slabs(const Frame& frame, const Box& bounds, const Eigen::Vector3d& w) {
+    scale_ = w.cwiseAbs().maxCoeff();
+    for (int k = 0; k < 3; ++k) {
+      const double component = w(k) / scale_;
+      inverse_[k] = std::abs(component) < 1e-290 ? 1e290 : 1 / component;
+      const double largest = std::max(std::abs(bounds.low(k)), std::abs(bounds.high(k))) +
+                             std::abs(frame.origin()(k)) + frame.reach()(k);
+      const double slack = 16 * kUlp * largest + 1e-280;
+      low_[k] = -frame.origin()(k) - frame.reach()(k) - slack;
+      high_[k] = -frame.origin()(k) + frame.reach()(k) + slack;
+    }
+  }
+
+  /// When the ray enters the box, in multiples of w / max|w_k|; infinity where it misses.
+  double enter(const double* low, const double* high) const { return enter_any(low, high); }
+  double enter(const Hierarchy::Node& node) const { return enter_any(node.low, node.high); }
+
+  /// Largest |w_k|: what to divide by for times in seconds.
+  double scale() const { return scale_; }
+
+ private:
+  template <class Number>
+  double enter_any(const Number* low, const Number* high) const {
+    double first = 0, last = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 3; ++k) {
+      const double a = (low[k] + low_[k]) * inverse_[k], b = (high[k] + high_[k]) * inverse_[k];
+      first = std::max(first, std::min(a, b));
+      last = std::min(last, std::max(a, b));
+    }
+    return first * (1 - 8 * kUlp) <= last * (1 + 8 * kUlp) ? first * (1 - 8 * kUlp)
+                                                           : std::numeric_limits<double>::infinity();
+  }
+
+  double inverse_[3], low_[3], high_[3], scale_ = 1;
+};
+
+/// Calls leaf(slot, enter) for the slots whose boxes the ray enters before `limit`, nearer nodes first;
+/// `limit` may shrink meanwhile. leaf returns false to stop.
+template <class Leaf>
+void along_ray(const Scene& scene, const Slabs& slabs, const double& limit, Effort& effort, Leaf&& leaf) {
+  const auto nodes = scene.nodes();
+  if (nodes.empty()) return;
+  struct Item {
+    std::uint32_t node;
+    double enter;
+  };
+  Item stack[128];
+  int size = 0;
+  ++effort.nodes;
+  if (const double enter = slabs.enter(nodes[0]); enter < limit) stack[size++] = {0, enter};
+  while (size > 0) {
+    const Item item = stack[--size];
+    if (!(item.enter < limit)) continue;
+    const Hierarchy::Node& node = nodes[item.node];
+    if (node.is_leaf()) {
+      for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot)
+        if (!leaf(slot, item.enter)) return;
+      continue;
+    }
+    effort.nodes += 2;
+    const double first = slabs.enter(nodes[node.first]), second = slabs.enter(nodes[node.first + 1]);
+    const bool swap = first < second;
+    const Item far{node.first + (swap ? 1u : 0u), swap ? second : first};
+    const Item near{node.first + (swap ? 0u : 1u), swap ? first : second};
+    if (far.enter < limit) stack[size++] = far;
+    if (near.enter < limit) stack[size++] = near;
+  }
+}
+
+}  // namespace vericone::assembly
