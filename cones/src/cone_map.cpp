@@ -116,6 +116,7 @@ class Divider {
     for (std::uint32_t i = 0; i < kRoots; ++i) {
       const DirectionCell cell = {corners[kFaces[i][0]], corners[kFaces[i][1]], corners[kFaces[i][2]]};
       if (auto undecided = ask(cell, i, start)) level.push_back(std::move(*undecided));
+      count_decided(i, cell);
     }
     while (!level.empty()) {
       std::vector<Undecided> next;
@@ -148,11 +149,15 @@ class Divider {
     for (std::size_t i = 0; i < count; ++i) {
       const auto four = parts(cells[i].cell);
       for (std::uint32_t k = 0; k < 4; ++k) {
-        if (options_.progress && nodes_[base + 4 * i + k].label != Certified::undecided)
-          decided_ += solid_angle(four[k]);
+        count_decided(base + 4 * static_cast<std::uint32_t>(i) + k, four[k]);
         if (found[i][k]) next.push_back(std::move(*found[i][k]));
       }
     }
+  }
+
+  /// For progress().
+  void count_decided(std::uint32_t node, const DirectionCell& cell) {
+    if (options_.progress && nodes_[node].label != Certified::undecided) decided_ += solid_angle(cell);
   }
 
   /// The cell where it is to be divided.

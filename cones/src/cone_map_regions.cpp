@@ -74,7 +74,8 @@ std::vector<Side> sides_of(const ConeMap& map) {
 }
 
 /// Chains directed edges with the region to their left to closed polygons. Where the region touches itself in
-/// a corner the way goes on along the same wedge of it: the next edge clockwise from where it came.
+/// a corner the way goes on along the other wedge of it, the corner being of the region: the last edge
+/// clockwise from where it came.
 class Chains {
  public:
   Chains(const std::vector<Vector3d>& corners, std::vector<Edge> edges)
@@ -108,13 +109,13 @@ class Chains {
     const auto [from, to] = edges_[at];
     auto edge = std::lower_bound(edges_.begin(), edges_.end(), Edge{to, 0});
     std::size_t best = static_cast<std::size_t>(edge - edges_.begin());
-    double least = 7;
+    double most = -1;
     for (; edge != edges_.end() && (*edge)[0] == to; ++edge) {
       const Vector3d &v = corners_[to], back = corners_[from] - v, out = corners_[(*edge)[1]] - v;
       double turn = std::atan2(v.dot(out.cross(back)), v.norm() * out.dot(back));
       if (turn <= 0) turn += 2 * std::numbers::pi;
-      if (turn < least) {
-        least = turn;
+      if (turn > most) {
+        most = turn;
         best = static_cast<std::size_t>(edge - edges_.begin());
       }
     }
@@ -133,10 +134,10 @@ class Regions {
     sides_ = sides_of(map);
     for (std::size_t i = 0; i + 1 < sides_.size(); i += 2) {
       const Index a = sides_[i].cell, b = sides_[i + 1].cell;
-      if (label(a) == label(b)) own_.join(a, b);
       for (const Certified l : {Certified::in, Certified::out})
         if (may_be(a, l) && may_be(b, l)) possible(l).join(a, b);
     }
+    join_at_corners();
   }
 
   /// All, or only that of a cell.
@@ -163,6 +164,7 @@ class Regions {
       const int s = side(region.label);
       const Index root = possible(region.label).find(region.cells.front());
       region.most_solid_angle = size_of[s].at(root);
+      region.possible = root;
       region.surely_separate = regions_in[s].at(root) == 1;
     }
     std::vector<std::vector<Edge>> rims(result.size());
@@ -182,6 +184,20 @@ class Regions {
   }
 
  private:
+  /// Cells of one label that have a corner in common, be it in the middle of an edge.
+  void join_at_corners() {
+    const auto none = static_cast<Index>(map_.cells.size());
+    std::vector<std::array<Index, 2>> first(map_.corners.size(), {none, none});
+    for (const Side& s : sides_) {
+      if (label(s.cell) == Certified::undecided) continue;
+      for (const auto corner : {static_cast<Index>(s.edge >> 32), static_cast<Index>(s.edge)}) {
+        Index& cell = first[corner][side(label(s.cell))];
+        if (cell == none) cell = s.cell;
+        own_.join(cell, s.cell);
+      }
+    }
+  }
+
   Certified label(Index cell) const { return map_.cells[cell].label; }
   bool may_be(Index cell, Certified l) const {
     return label(cell) == l || label(cell) == Certified::undecided;

@@ -9,21 +9,23 @@
 
 namespace vericone {
 
-/// Cells of one label connected by edges, parts of edges included.
+/// Cells of one label connected by edges, parts of edges or corners.
 ///
-/// Proved: all of the region has its label, and is one piece; so of the set of all safe (or colliding)
-/// directions it is a part of one connected component. That component lies within the possible region:
-/// everything that edges connect with it when undecided cells are taken to have the same label.
+/// Proved: all of the region has its label and is one piece, so it lies in one connected component of the set
+/// of all safe (or colliding) directions. That component lies within the possible region: all that edges
+/// connect with it when undecided cells are taken to have the same label.
 struct ConeMapRegion {
   Certified label = Certified::out;  // in or out
   std::vector<std::uint32_t> cells;  // indices, increasing
   double solid_angle = 0;            // steradian: the component has at least this
   double most_solid_angle = 0;       // and at most this: the possible region's
-  /// The possible region holds no other region of the label: proved to be a component of its own, with no way
-  /// from it to another region. False says only that undecided cells lie on a way between two of them.
+  /// Number of the possible region. Regions of one label with different numbers are proved to be apart: no
+  /// way leads from one to the other. With the same number a way through undecided cells may.
+  std::uint32_t possible = 0;
+  /// No other region of the label has that number.
   bool surely_separate = false;
   /// Closed polygons of directions (as in ConeMap::corners), the region to their left: counter-clockwise
-  /// around it, clockwise around holes. The longest, in radians, comes first. Empty for the whole sphere.
+  /// around it, clockwise around its holes. The longest, in radians, comes first. Empty for the whole sphere.
   std::vector<std::vector<Eigen::Vector3d>> boundary;
 };
 
