@@ -145,10 +145,13 @@ void set_sector(VisibleSector& result, const Line& left, const Line& right) {
   sector.theta_b = bisector_angle(right.direction, sector.psi);
   result.left_point = left.point;
   result.right_point = right.point;
-  if (sector.psi > 0)
+  // A point against a point leaves one direction.
+  if (sector.psi >= -2 * kOnLine) {
+    sector.psi = std::max(0.0, sector.psi);
     result.sector = sector;
-  else
+  } else {
     result.reason = NoSector::no_tangents;
+  }
 }
 
 /// 6.3.3: from the ends inwards.
