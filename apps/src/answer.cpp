@@ -4,6 +4,7 @@
 #include <vericone/cones/clearance.h>
 #include <vericone/cones/combined_cone.h>
 #include <algorithm>
+#include <cmath>
 
 namespace vericone {
 namespace {
@@ -52,6 +53,54 @@ Json certified_answer(const input::Engagement& e, bool with_rung) {
   return result;
 }
 
+Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+Json interval(double low, double high) { return {number_or_null(low), number_or_null(high)}; }
+
+Json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+/// A body of pieces: exact verdicts, enclosed lengths and times.
+Json assembly_answer(const input::AssemblyEngagement& e, bool with_rung) {
+  const AssemblyOracle oracle = assembly_oracle(e);
+  const Eigen::Vector3d w = e.agent_velocity - e.obstacle_velocity;
+  const Relation relation = oracle.relation();
+  Effort effort;
+  Membership membership = Membership::out;
+  if (relation == Relation::disjoint)
+    membership = oracle.membership(e.agent_velocity, e.obstacle_velocity, &effort);
+  Json result;
+  result["verdict"] = relation == Relation::disjoint ? to_string(membership) : to_string(relation);
+  if (with_rung)
+    result["rung"] =
+        to_string(effort.exact > 0 || relation != Relation::disjoint ? Rung::exact : Rung::triage);
+  Json clearance = nullptr, around = nullptr, time = nullptr, enclosure = nullptr, point = nullptr,
+       normal = nullptr;
+  if (relation != Relation::disjoint) {
+    time = 0.0;
+    enclosure = interval(0, 0);
+    if (relation == Relation::touching) clearance = 0.0, around = interval(0, 0);
+  } else if (membership == Membership::out) {
+    const AssemblyMiss miss = oracle.miss_distance(w);
+    clearance = 0.5 * (miss.least + miss.most);
+    around = interval(miss.least, miss.most);
+  } else {
+    if (membership == Membership::on) clearance = 0.0, around = interval(0, 0);
+    if (const auto contact = oracle.first_contact(w)) {
+      time = number_or_null(contact->time);
+      enclosure = interval(contact->earliest, contact->latest);
+      point = vector_json(contact->point + contact->time * e.obstacle_velocity);
+      normal = vector_json(contact->normal);
+    }
+  }
+  result["clearance"] = clearance;
+  result["clearance_enclosure"] = around;
+  result["time_to_contact"] = time;
+  result["time_enclosure"] = enclosure;
+  result["contact_point"] = point;
+  result["contact_normal"] = normal;
+  return result;
+}
+
 Ellipsoid raised(const Ellipse& body, double height) {
   Eigen::Vector3d center(body.center().x(), body.center().y(), 0);
   if (!body.defined_by_factor()) {
@@ -77,9 +126,10 @@ CombinedEllipsoid raised(const CombinedEllipse& body, double height) {
   return CombinedEllipsoid::trusted(raised(body.ellipsoid(), height), std::move(delimiters));
 }
 
-bool ellipsoids(const input::AnyEngagement& engagement) {
-  return std::visit([](const auto& e) { return e.ellipsoids(); }, engagement);
-}
+/// Whether the exact predicates decide; combined quadrics alone are searched.
+bool exactly(const input::Engagement& e) { return e.ellipsoids(); }
+bool exactly(const input::PlanarEngagement& e) { return e.ellipsoids(); }
+bool exactly(const input::AssemblyEngagement&) { return true; }
 
 }  // namespace
 
@@ -94,15 +144,22 @@ input::Engagement raised(const input::PlanarEngagement& e) {
   return result;
 }
 
+AssemblyOracle assembly_oracle(const input::AssemblyEngagement& e) {
+  return std::visit(
+      [&](const auto& agent) { return AssemblyOracle(agent, e.obstacle.pieces, e.obstacle.pose); }, e.agent);
+}
+
 Json answer(const input::AnyEngagement& engagement, bool with_rung) {
   if (const auto* planar = std::get_if<input::PlanarEngagement>(&engagement))
     return answer(raised(*planar), with_rung);
+  if (const auto* pieces = std::get_if<input::AssemblyEngagement>(&engagement))
+    return assembly_answer(*pieces, with_rung);
   const auto& e = std::get<input::Engagement>(engagement);
   return e.ellipsoids() ? exact_answer(e, with_rung) : certified_answer(e, with_rung);
 }
 
 const char* verdict_kind(const input::AnyEngagement& engagement) {
-  return ellipsoids(engagement) ? "exact" : "certified";
+  return std::visit([](const auto& e) { return exactly(e); }, engagement) ? "exact" : "certified";
 }
 
 }  // namespace vericone

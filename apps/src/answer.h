@@ -3,12 +3,17 @@
 // What one engagement leads to: the verdict, the clearance and the time, for bodies of every kind.
 #pragma once
 
+#include <vericone/cones/assembly_oracle.h>
+
 #include "input/body.h"
 
 namespace vericone {
 
-/// {"verdict", ["rung"], "clearance", "time_to_contact", ["time_enclosure"]} as docs/formats.md says.
+/// {"verdict", ["rung"], "clearance", "time_to_contact", ...} as docs/formats.md says.
 input::Json answer(const input::AnyEngagement& engagement, bool with_rung);
+
+/// The agent and the body of an engagement, prepared for many velocities.
+AssemblyOracle assembly_oracle(const input::AssemblyEngagement& engagement);
 
 /// Why a verdict can be relied on: "exact" or "certified".
 const char* verdict_kind(const input::AnyEngagement& engagement);

@@ -19,6 +19,7 @@
 #include "answer.h"
 #include "figures.h"
 #include "input/scene.h"
+#include "pieces/pieces_cone.h"
 #include "planar_cone.h"
 #include "provenance.h"
 #include "shape_engagements.h"
@@ -210,7 +211,7 @@ Json cone_json(const ConeOptions& options, const input::Engagement& e) {
   if (options.samples && options.tolerance)
     throw InputError("--samples", std::to_string(*options.samples), "left out where --tolerance is given");
   const SliceSector sectors = sectors_of(options);
-  if (options.method == "slice") return slice_json(e, options.planes, sectors);
+  if (options.method == "slice") return slice_json(e, options.planes.value_or(kDefaultPlanes), sectors);
   if (sectors != SliceSector::all_candidates)
     throw InputError("--tangents", options.tangents, "left out where --method is not slice");
   if (options.tolerance || !e.ellipsoids()) {
@@ -231,6 +232,7 @@ void run_planar_cone(const ConeOptions& options, const input::PlanarEngagement& 
     throw InputError("--tolerance", to_text(*options.tolerance), "left out for a planar scene");
   if (!options.picture_folder.empty())
     throw InputError("--picture", options.picture_folder, "asked for in space only");
+  if (options.map) throw InputError("--map", to_text(options.map->resolution), "asked for in space only");
   const Json cone = planar_cone_json(e);
   if (options.json) {
     out << cone.dump(1) << '\n';
@@ -305,12 +307,14 @@ ConePicture cone_picture(const ConeOptions& options, const input::Engagement& e,
   };
   if (cone["relation"] != to_string(Relation::disjoint)) refuse("asked for disjoint bodies only");
   if (e.ellipsoids())
-    return {engagement_picture(e.agent.ellipsoid(), e.obstacle.ellipsoid(), options.planes,
+    return {engagement_picture(e.agent.ellipsoid(), e.obstacle.ellipsoid(),
+                               options.planes.value_or(kDefaultPlanes),
                                options.samples.value_or(kDefaultSamples)),
             "engagement.py"};
-  ConePicture picture{scene_figure(e.agent, e.obstacle, e.agent_velocity - e.obstacle_velocity,
-                                   options.tolerance.value_or(kDefaultTolerance), options.planes),
-                      "combined_engagement.py"};
+  ConePicture picture{
+      scene_figure(e.agent, e.obstacle, e.agent_velocity - e.obstacle_velocity,
+                   options.tolerance.value_or(kDefaultTolerance), options.planes.value_or(kDefaultPlanes)),
+      "combined_engagement.py"};
   if (picture.data.is_null()) refuse("asked for a cone within 90 degrees of the line of centres");
   return picture;
 }
@@ -323,22 +327,35 @@ void run_cone(const ConeOptions& options, std::ostream& out) {
   const input::AnyEngagement scene = input::read_scene(options.scene);
   if (const auto* planar = std::get_if<input::PlanarEngagement>(&scene))
     return run_planar_cone(options, *planar, out);
+  if (const auto* pieces = std::get_if<input::AssemblyEngagement>(&scene))
+    return run_pieces_cone(options, *pieces, out);
   const auto& e = std::get<input::Engagement>(scene);
-  const Json cone = cone_json(options, e);
+  Json cone = cone_json(options, e);
   const bool drawn = !options.picture_folder.empty();
   const ConePicture picture = drawn ? cone_picture(options, e, cone) : ConePicture{};
+  MapAnswer map;
+  if (options.map)
+    map = map_answer(e, *options.map, options.tolerance.value_or(kDefaultTolerance), options.scene);
   if (options.json) {
+    if (options.map) cone["map"] = map.summary;
     out << cone.dump(1) << '\n';
   } else {
     print_text(cone, e, out);
+    if (options.map) print_map(map.summary, out);
   }
   if (!drawn) return;
   const std::filesystem::path folder = options.picture_folder;
   std::filesystem::create_directories(folder);
   write_whole(folder / "engagement.json", picture.data.dump(1) + "\n");
   write_whole(folder / "shapes.json", Json{{"figures", {"engagement"}}}.dump(1) + "\n");
-  for (const auto& file : draw_figures(picture.script, folder))
-    if (!options.json) out << "picture             " << file.string() << '\n';
+  std::vector<std::filesystem::path> files = draw_figures(picture.script, folder);
+  if (options.map) {
+    write_whole(folder / "cone_map.json", map.picture.dump() + "\n");
+    const auto more = draw_figures("cone_map.py", folder);
+    files.insert(files.end(), more.begin(), more.end());
+  }
+  if (!options.json)
+    for (const auto& file : files) out << "picture             " << file.string() << '\n';
 }
 
 }  // namespace vericone

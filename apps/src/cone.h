@@ -7,18 +7,22 @@
 #include <optional>
 #include <string>
 
+#include "map_answer.h"
+
 namespace vericone {
 
 inline constexpr int kDefaultSamples = 96;
 inline constexpr double kDefaultTolerance = 0.01;
+inline constexpr int kDefaultPlanes = 36;
 
 struct ConeOptions {
   std::string scene;
   std::string method = "exact";     // or "slice"
-  int planes = 36;                  // slice
+  std::optional<int> planes;        // slice; half-planes of a body of pieces
   std::string tangents = "all";     // slice: or the source's choices, "by-sides", "printed"
   std::optional<int> samples;       // exact, two ellipsoids; kDefaultSamples
-  std::optional<double> tolerance;  // exact, certified to it; kDefaultTolerance for combined quadrics
+  std::optional<double> tolerance;  // exact, certified to it; kDefaultTolerance for combined quadrics; pieces
+  std::optional<MapRequest> map;
   bool json = false;
   std::string picture_folder;  // empty: no picture
 };

@@ -10,6 +10,7 @@
 #include "accuracy/combined_accuracy.h"
 #include "build_info.h"
 #include "cone.h"
+#include "pieces/gallery.h"
 #include "query.h"
 #include "shapes.h"
 #include "signmap.h"
@@ -33,7 +34,10 @@ int run(int argc, char** argv) {
       ->add_option("--method", cone.method,
                    "exact: the true cone with its error bound; slice: the source's, too small")
       ->capture_default_str();
-  cone_command->add_option("--planes", cone.planes, "Planes of the slice cone")->capture_default_str();
+  cone_command
+      ->add_option("--planes", cone.planes,
+                   "Planes of the slice cone (36); half-planes of the cone of a body of pieces (64)")
+      ->default_str("");
   cone_command
       ->add_option("--tangents", cone.tangents,
                    "Slices of combined quadrics: all candidates compared, or the source's choice, by-sides "
@@ -43,11 +47,30 @@ int run(int argc, char** argv) {
       ->default_str(std::to_string(vericone::kDefaultSamples));
   cone_command
       ->add_option("--tolerance", cone.tolerance,
-                   "Certified cone: solid angle between inner and outer, relative; combined quadrics always")
-      ->default_str(vericone::to_text(vericone::kDefaultTolerance));
+                   "Certified cone: solid angle between inner and outer, relative (0.01), combined quadrics "
+                   "always; bodies of pieces: width of each extreme angle, radians (0.0001)")
+      ->default_str("");
+  std::vector<double> resolution, around;
+  auto* map = cone_command
+                  ->add_option("--map", resolution,
+                               "Map of all directions: colliding, safe, undecided cells, down to this size")
+                  ->type_name("[RADIANS]")
+                  ->expected(0, 1)
+                  ->default_str(vericone::to_text(vericone::kDefaultResolution));
+  cone_command->add_option("--around", around, "x,y,z: the map's region that holds this direction")
+      ->delimiter(',')
+      ->expected(3)
+      ->needs(map);
   cone_command->add_flag("--json", cone.json, "Print JSON");
   cone_command->add_option("--picture", cone.picture_folder, "Folder for a picture of bodies and cones");
-  cone_command->callback([&] { vericone::run_cone(cone, std::cout); });
+  cone_command->callback([&] {
+    if (map->count() > 0) {
+      cone.map.emplace();
+      if (!resolution.empty()) cone.map->resolution = resolution.front();
+      if (!around.empty()) cone.map->around = Eigen::Vector3d(around[0], around[1], around[2]);
+    }
+    vericone::run_cone(cone, std::cout);
+  });
 
   std::string cases;
   auto* query = app.add_subcommand("query", "Exact verdicts on engagements, one JSON object a line");
@@ -105,6 +128,31 @@ int run(int argc, char** argv) {
     signmap.figures = !no_signmap_figure;
     for (int i = 0; i < argc; ++i) signmap.command_line.append(i ? " " : "").append(i ? argv[i] : "vericone");
     vericone::run_signmap(signmap, std::cout);
+  });
+
+  vericone::GalleryOptions gallery;
+  auto* gallery_command =
+      app.add_subcommand("gallery", "The cone of every mesh, cloud and octree map given, with pictures");
+  gallery_command->add_option("files", gallery.files, "Files, or folders of them")
+      ->required()
+      ->expected(1, -1);
+  gallery_command->add_option("--out", gallery.out, "Folder for tables and pictures")->capture_default_str();
+  gallery_command->add_option("--planes", gallery.half_planes, "Half-planes of each cone")
+      ->capture_default_str();
+  gallery_command->add_option("--tolerance", gallery.tolerance, "Of their angles, radians")
+      ->capture_default_str();
+  gallery_command->add_option("--map", gallery.resolution, "Resolution of the cone maps, radians; 0: none")
+      ->capture_default_str();
+  gallery_command
+      ->add_option("--radius", gallery.radius,
+                   "Of the points of clouds, in parts of the cloud's largest side")
+      ->capture_default_str();
+  bool no_gallery_figures = false;
+  gallery_command->add_flag("--no-figures", no_gallery_figures, "Tables only");
+  gallery_command->callback([&] {
+    gallery.figures = !no_gallery_figures;
+    for (int i = 0; i < argc; ++i) gallery.command_line.append(i ? " " : "").append(i ? argv[i] : "vericone");
+    status = vericone::run_gallery(gallery, std::cout);
   });
 
   vericone::ShapesOptions shapes;

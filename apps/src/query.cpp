@@ -2,6 +2,7 @@
 #include "query.h"
 
 #include <vericone/geometry/error.h>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 
@@ -39,13 +40,15 @@ Json parse_line(const std::string& line, std::size_t number) {
   }
 }
 
-Json answer_line(const std::string& line, std::size_t number, bool with_rung, bool& bad) {
+Json answer_line(const std::string& line, std::size_t number, bool with_rung,
+                 const std::filesystem::path& folder, bool& bad) {
   Json result;
   result["id"] = nullptr;
   try {
     const Json value = parse_line(line, number);
     if (value.is_object() && value.contains("id")) result["id"] = value["id"];
-    result.update(answer(input::read_engagement(value, input::Velocities::required, {"id"}), with_rung));
+    result.update(
+        answer(input::read_engagement(value, input::Velocities::required, {"id"}, folder), with_rung));
   } catch (const InputError& e) {
     bad = true;
     result["error"] = e.what();
@@ -64,11 +67,13 @@ int run_query(const std::string& path, bool with_rung, std::ostream& out) {
                        "a file of cases, one JSON object a line, or - for standard input");
   }
   std::istream& in = path == "-" ? std::cin : file;
+  const std::filesystem::path folder = path == "-" ? "" : std::filesystem::path(path).parent_path();
   bool bad = false;
   std::string line;
   for (std::size_t number = 1; std::getline(in, line); ++number) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    out << answer_line(line, number, with_rung, bad).dump(-1, ' ', false, Json::error_handler_t::replace)
+    out << answer_line(line, number, with_rung, folder, bad)
+               .dump(-1, ' ', false, Json::error_handler_t::replace)
         << '\n';
     // A consumer that feeds line by line waits for each answer.
     if (path == "-" && in.rdbuf()->in_avail() <= 0) out.flush();

@@ -3,7 +3,10 @@
 // Bodies and velocities from JSON values; the fields are described in docs/formats.md.
 #pragma once
 
+#include <vericone/geometry/assembly.h>
 #include <vericone/geometry/combined.h>
+#include <vericone/geometry/pose.h>
+#include <filesystem>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <variant>
@@ -26,15 +29,35 @@ struct BasicEngagement {
 
 using Engagement = BasicEngagement<3>;
 using PlanarEngagement = BasicEngagement<2>;
-using AnyEngagement = std::variant<Engagement, PlanarEngagement>;
+
+/// A body made of pieces, and where it came from.
+struct PiecesBody {
+  std::string source;  // the field that gave it: "mesh", "cloud", "octree", "hull" or "points"
+  std::string file;    // as given; empty for points
+  Assembly pieces;     // its own frame, scaled
+  Pose pose;
+  nlohmann::ordered_json notes = nlohmann::ordered_json::object();  // what was left out in reading
+
+  Eigen::Vector3d middle() const { return pose.to_world(pieces.bounds().center()); }  // of its bounds
+};
+
+/// One engagement with a body of pieces: an ellipsoid or a convex polyhedron, in world coordinates, meets it.
+struct AssemblyEngagement {
+  std::variant<Ellipsoid, HullBody> agent;
+  PiecesBody obstacle;
+  Eigen::Vector3d agent_velocity = Eigen::Vector3d::Zero();
+  Eigen::Vector3d obstacle_velocity = Eigen::Vector3d::Zero();
+};
+
+using AnyEngagement = std::variant<Engagement, PlanarEngagement, AssemblyEngagement>;
 
 enum class Velocities { required, optional };
 
 /// Reads {"agent", "obstacle", "agent_velocity", "obstacle_velocity"}; further keys only if listed in `also`.
-/// Planar where a body's centre has two numbers and no body is spatial. Throws InputError naming the field,
-/// for example "obstacle.semi_axes[1]".
+/// Planar where a body's centre has two numbers and no body is spatial. Names of files are relative to
+/// `folder`. Throws InputError naming the field, for example "obstacle.semi_axes[1]".
 AnyEngagement read_engagement(const Json& value, Velocities velocities,
-                              std::initializer_list<const char*> also);
+                              std::initializer_list<const char*> also, const std::filesystem::path& folder);
 
 /// A value as it stands in a message: one line, at most 60 characters.
 std::string quoted(const Json& value);

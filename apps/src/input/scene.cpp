@@ -57,7 +57,7 @@ Json to_json(const YAML::Node& node, const std::string& path, int depth) {
 
 }  // namespace
 
-AnyEngagement read_scene(const std::string& path) {
+Json read_scene_fields(const std::string& path) {
   if (!std::filesystem::is_regular_file(path)) throw InputError(path, "no such file", "a scene file (YAML)");
   YAML::Node root;
   try {
@@ -65,7 +65,12 @@ AnyEngagement read_scene(const std::string& path) {
   } catch (const YAML::Exception& e) {
     throw InputError(path + ":" + std::to_string(e.mark.line + 1), e.msg, "valid YAML");
   }
-  return read_engagement(to_json(root, "", 0), Velocities::optional, {"name"});
+  return to_json(root, "", 0);
+}
+
+AnyEngagement read_scene(const std::string& path) {
+  return read_engagement(read_scene_fields(path), Velocities::optional, {"name", "lidars"},
+                         std::filesystem::path(path).parent_path());
 }
 
 }  // namespace vericone::input

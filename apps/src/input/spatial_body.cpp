@@ -3,12 +3,14 @@
 
 #include <vericone/geometry/quadric.h>
 
+#include "input/assembly_body.h"
 #include "input/fields.h"
 
 namespace vericone::input {
 namespace {
 
-Eigen::Matrix3d read_rotation(const Json& value, const std::string& path) {
+/// As written: not quite orthonormal yet.
+Eigen::Matrix3d read_turn(const Json& value, const std::string& path) {
   if (value.is_array() && value.size() == 4) return rotation_3d(read_vector<4>(value, path, ""));
   if (value.is_array() && value.size() == 3) return read_matrix<3>(value, path, "");
   throw InputError(path, quoted(value), "a quaternion [w, x, y, z] or a 3x3 matrix");
@@ -36,7 +38,7 @@ Delimiter<3> read_hyperboloid(const Json& value, const std::string& path, const 
                      path + ".semi_axes", " (metres)");
   return within(path, [&] {
     Eigen::Matrix3d own = Eigen::Matrix3d::Identity();
-    if (value.contains("rotation")) own = orthonormal(read_rotation(value["rotation"], "rotation"));
+    if (value.contains("rotation")) own = orthonormal(read_turn(value["rotation"], "rotation"));
     return hyperboloid(sheets, axes, body * own);
   });
 }
@@ -45,7 +47,7 @@ CombinedEllipsoid read_axes(const Json& value, const std::string& path, const Ei
   const Eigen::Vector3d axes = read_vector<3>(value["semi_axes"], path + ".semi_axes", " (metres)");
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   const Ellipsoid ellipsoid = within(path, [&] {
-    if (value.contains("rotation")) rotation = read_rotation(value["rotation"], "rotation");
+    if (value.contains("rotation")) rotation = read_turn(value["rotation"], "rotation");
     return Ellipsoid::from_axes(center, axes, rotation);
   });
   if (!value.contains("hyperboloids")) return ellipsoid;
@@ -62,13 +64,18 @@ CombinedEllipsoid read_axes(const Json& value, const std::string& path, const Ei
 
 }  // namespace
 
+Eigen::Matrix3d read_rotation(const Json& body, const std::string& path) {
+  if (!body.contains("rotation")) return Eigen::Matrix3d::Identity();
+  return within(path, [&] { return orthonormal(read_turn(body["rotation"], "rotation")); });
+}
+
 CombinedEllipsoid read_spatial_body(const Json& value, const std::string& path) {
   require_object(value, path);
   require_known(value, path, {"center", "semi_axes", "rotation", "hyperboloids", "shape", "quadric"});
   const int kinds = value.contains("semi_axes") + value.contains("shape") + value.contains("quadric");
   if (kinds != 1)
     throw InputError(path, kinds == 0 ? "no shape" : "more than one shape",
-                     "given by exactly one of semi_axes (with rotation), shape, quadric");
+                     "given by exactly one of semi_axes (with rotation), shape, quadric, " + pieces_kinds());
   for (const char* other : {"center", "rotation"})
     if (value.contains("quadric") && value.contains(other))
       throw InputError(path + "." + other, quoted(value[other]), "left out: the quadric matrix contains it");

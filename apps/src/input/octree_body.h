@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "input/body.h"
+
+namespace vericone::input {
+
+struct OctreePieces {
+  Assembly boxes;
+  Json notes;
+};
+
+/// Whether this build reads octree maps.
+bool have_octrees();
+
+/// The fields of an octree map beside `octree`, `center`, `rotation` and `scale`.
+const std::vector<std::string>& octree_fields();
+
+/// The cells of a map that are obstacles by what `unknown`, `free`, `occupied_above` and `region` say. Throws
+/// InputError with `path` before the field.
+OctreePieces read_octree_pieces(const Json& value, const std::string& path, const std::filesystem::path& file,
+                                double scale);
+
+}  // namespace vericone::input

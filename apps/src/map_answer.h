@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The cone map that `vericone cone --map` adds to the answer, for bodies of every kind.
+#pragma once
+
+#include <vericone/cones/cone_map.h>
+#include <iosfwd>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "input/body.h"
+
+namespace vericone {
+
+inline constexpr double kDefaultResolution = 0.02;  // radians
+
+struct MapRequest {
+  double resolution = kDefaultResolution;
+  std::optional<Eigen::Vector3d> around;  // the direction whose region is asked for
+};
+
+struct MapAnswer {
+  nlohmann::ordered_json summary;  // docs/formats.md
+  nlohmann::ordered_json picture;  // for apps/figures/cone_map.py
+};
+
+/// `middle`: the direction of the middle of the picture where none is asked for. Throws InputError naming
+/// "--map" or "--around".
+MapAnswer map_answer(const DirectionClassifier& classifier, const MapRequest& request,
+                     const Eigen::Vector3d& middle, const std::string& title);
+
+/// The same for two ellipsoids or combined quadrics, the latter by their cone to `tolerance`.
+MapAnswer map_answer(const input::Engagement& engagement, const MapRequest& request, double tolerance,
+                     const std::string& title);
+
+void print_map(const nlohmann::ordered_json& summary, std::ostream& out);
+
+}  // namespace vericone

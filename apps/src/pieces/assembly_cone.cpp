@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pieces/assembly_cone.h"
+
+#include <vericone/geometry/error.h>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <ostream>
+
+#include "answer.h"
+
+namespace vericone {
+namespace {
+
+using std::numbers::pi;
+using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+double degrees(double x) { return x * 180 / pi; }
+
+Json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+Eigen::Vector3d axis_of(const input::AssemblyEngagement& e) {
+  const Eigen::Vector3d axis = e.obstacle.middle() - agent_center(e);
+  return axis.norm() > 0 ? axis : Eigen::Vector3d(1, 0, 0);
+}
+
+/// Sum over the sectors between half-planes of 1 - cos of the angle.
+double envelope_of(const std::vector<ExtremeDirection>& extremes) {
+  double sum = 0;
+  for (const ExtremeDirection& x : extremes)
+    if (x.any) sum += 1 - std::cos(0.5 * (x.low + x.high));
+  return 2 * pi * sum / static_cast<double>(extremes.size());
+}
+
+const char* plural(PieceKind kind) {
+  switch (kind) {
+    case PieceKind::triangle:
+      return "triangles";
+    case PieceKind::ball:
+      return "balls";
+    case PieceKind::box:
+      return "boxes";
+    case PieceKind::hull:
+      return "hull";
+  }
+  return "";
+}
+
+}  // namespace
+
+Eigen::Vector3d agent_center(const input::AssemblyEngagement& e) {
+  if (const auto* ellipsoid = std::get_if<Ellipsoid>(&e.agent)) return ellipsoid->center();
+  const auto& points = std::get<HullBody>(e.agent).points();
+  Box bounds{points.front(), points.front()};
+  for (const Eigen::Vector3d& x : points) bounds.include({x, x});
+  return bounds.center();
+}
+
+AxisFrame AssemblyCone::upright(const Eigen::Vector3d& axis) {
+  AxisFrame frame(axis);
+  const Eigen::Vector3d right = frame.axis.cross(Eigen::Vector3d::UnitZ());
+  if (right.norm() > 1e-9) {
+    frame.e2 = right.normalized();
+    frame.e1 = frame.e2.cross(frame.axis);
+  }
+  return frame;
+}
+
+double AssemblyCone::azimuth(std::size_t j) const {
+  return 2 * pi * static_cast<double>(j) / static_cast<double>(extremes.size());
+}
+
+Eigen::Vector3d AssemblyCone::side(std::size_t j) const {
+  return std::cos(azimuth(j)) * frame.e1 + std::sin(azimuth(j)) * frame.e2;
+}
+
+double AssemblyCone::widest() const {
+  double most = 0;
+  for (const ExtremeDirection& x : extremes)
+    if (x.any) most = std::max(most, x.high);
+  return most;
+}
+
+int AssemblyCone::reaching_pi() const {
+  return static_cast<int>(std::count_if(extremes.begin(), extremes.end(), [&](const ExtremeDirection& x) {
+    return x.any && x.high >= pi - tolerance;
+  }));
+}
+
+AssemblyCone assembly_cone(const input::AssemblyEngagement& e, int half_planes, double tolerance) {
+  constexpr int kLeast = 3, kMost = 100'000;
+  if (half_planes < kLeast || half_planes > kMost)
+    throw InputError("--planes", std::to_string(half_planes), "between 3 and 100000 half-planes");
+  if (!(tolerance >= 1e-13 && tolerance <= 1))
+    throw InputError("--tolerance", to_text(tolerance), "between 1e-13 and 1 radians for a body of pieces");
+  const auto start = Clock::now();
+  AssemblyCone cone(assembly_oracle(e), axis_of(e), tolerance);
+  cone.relation = cone.oracle.relation();
+  cone.seconds_prepared = since(start);
+  if (cone.relation != Relation::disjoint) return cone;
+  const auto prepared = Clock::now();
+  cone.extremes.resize(static_cast<std::size_t>(half_planes));
+  for (std::size_t j = 0; j < cone.extremes.size(); ++j)
+    cone.extremes[j] = cone.oracle.extreme(cone.frame.axis, cone.side(j), tolerance, &cone.effort);
+  cone.envelope = envelope_of(cone.extremes);
+  cone.seconds = since(prepared);
+  return cone;
+}
+
+std::string describe(const input::PiecesBody& body) {
+  std::string text = body.source == "points" ? "hull" : body.source;
+  if (body.pieces.kind() == PieceKind::hull) {
+    text += " of " + std::to_string(body.pieces.by_slot().hulls.front().size()) + " points";
+  } else {
+    text += " of " + std::to_string(body.pieces.size()) + " " + plural(body.pieces.kind());
+  }
+  return body.file.empty() ? text : text + " (" + body.file + ")";
+}
+
+Json to_json(const AssemblyCone& cone, const input::AssemblyEngagement& e) {
+  const Assembly& pieces = e.obstacle.pieces;
+  Json obstacle{{"source", e.obstacle.source},
+                {"file", e.obstacle.file.empty() ? Json(nullptr) : Json(e.obstacle.file)},
+                {"pieces", pieces.size()},
+                {"piece", to_string(pieces.kind())},
+                {"bounds", {vector_json(pieces.bounds().low), vector_json(pieces.bounds().high)}}};
+  obstacle.update(e.obstacle.notes);
+  Json extremes = Json::array(), directions = Json::array();
+  for (std::size_t j = 0; j < cone.extremes.size(); ++j) {
+    const ExtremeDirection& x = cone.extremes[j];
+    extremes.push_back({{"azimuth", cone.azimuth(j)},
+                        {"low", x.any ? Json(x.low) : Json(nullptr)},
+                        {"high", x.any ? Json(x.high) : Json(nullptr)}});
+    directions.push_back(x.any ? vector_json(x.direction) : Json(nullptr));
+  }
+  const bool disjoint = cone.relation == Relation::disjoint;
+  return {{"method", "certified"},
+          {"half_planes", cone.extremes.size()},
+          {"tolerance", cone.tolerance},
+          {"relation", to_string(cone.relation)},
+          {"obstacle", obstacle},
+          {"axis", vector_json(cone.frame.axis)},
+          {"e1", vector_json(cone.frame.e1)},
+          {"e2", vector_json(cone.frame.e2)},
+          {"directions", disjoint ? directions : Json(nullptr)},
+          {"extremes", disjoint ? extremes : Json(nullptr)},
+          {"half_planes_reaching_pi", disjoint ? Json(cone.reaching_pi()) : Json(nullptr)},
+          {"envelope_solid_angle", disjoint ? Json(cone.envelope) : Json(nullptr)},
+          {"effort",
+           {{"nodes", cone.effort.nodes},
+            {"pieces", cone.effort.pieces},
+            {"exact", cone.effort.exact},
+            {"hierarchy_nodes", pieces.hierarchy().nodes().size()}}},
+          {"seconds_prepared", cone.seconds_prepared},
+          {"seconds", cone.seconds}};
+}
+
+void print_text(const AssemblyCone& cone, const input::AssemblyEngagement& e, std::ostream& out) {
+  out << "method              certified, " << cone.extremes.size() << " half-planes, tolerance "
+      << to_text(cone.tolerance) << " rad\n"
+      << "obstacle            " << describe(e.obstacle) << '\n'
+      << "bodies              " << to_string(cone.relation) << '\n';
+  if (cone.relation != Relation::disjoint) return;
+  double narrowest = pi;
+  int none = 0;
+  for (const ExtremeDirection& x : cone.extremes) {
+    if (!x.any) ++none;
+    narrowest = std::min(narrowest, x.any ? x.low : 0);
+  }
+  out << "extreme directions  " << to_text(degrees(narrowest)) << " to " << to_text(degrees(cone.widest()))
+      << " degrees from the axis\n";
+  if (none) out << "                    " << none << " half-planes without a colliding direction\n";
+  if (const int all_around = cone.reaching_pi())
+    out << "surrounded          on " << all_around
+        << " half-planes up to 180 degrees: the body reaches behind the agent; "
+        << "--map says which directions are free\n";
+  out << "envelope            " << to_text(cone.envelope)
+      << " sr within the extreme directions, holes included, from the half-planes alone\n";
+  const auto nodes = static_cast<double>(e.obstacle.pieces.hierarchy().nodes().size());
+  const double a_plane = static_cast<double>(cone.effort.nodes) / static_cast<double>(cone.extremes.size());
+  char share[32];
+  std::snprintf(share, sizeof share, "%.2g", 100 * a_plane / nodes);
+  out << "effort              " << std::llround(a_plane) << " boxes a half-plane, " << share
+      << " % of the hierarchy; " << cone.effort.pieces << " pieces in all, " << cone.effort.exact
+      << " exactly\n";
+}
+
+}  // namespace vericone

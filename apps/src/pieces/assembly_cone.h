@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The cone of an agent and a body of pieces: how far it reaches around the line between them.
+#pragma once
+
+#include <vericone/cones/assembly_oracle.h>
+#include <vericone/cones/cone_geometry.h>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "input/body.h"
+
+namespace vericone {
+
+inline constexpr int kDefaultHalfPlanes = 64;
+inline constexpr double kDefaultAngle = 1e-4;  // radians
+
+Eigen::Vector3d agent_center(const input::AssemblyEngagement& engagement);  // of a polyhedron: of its bounds
+
+/// What is computed of one engagement, and the oracle that did it.
+struct AssemblyCone {
+  AssemblyCone(AssemblyOracle prepared, const Eigen::Vector3d& axis, double radians)
+      : oracle(std::move(prepared)), frame(upright(axis)), tolerance(radians) {}
+
+  /// e1 as far upwards (z) as can be, e2 to the right for who looks along the axis.
+  static AxisFrame upright(const Eigen::Vector3d& axis);
+
+  AssemblyOracle oracle;
+  Relation relation = Relation::disjoint;
+  AxisFrame frame;   // axis: from the agent's centre to the middle of the body's bounds
+  double tolerance;  // radians
+  std::vector<ExtremeDirection>
+      extremes;  // half-planes at 2 pi j / n from e1 towards e2; empty unless disjoint
+  /// Of all directions no farther from the axis than the extremes' middles, by the trapezoidal rule.
+  double envelope = 0;
+  Effort effort;
+  double seconds_prepared = 0, seconds = 0;  // the oracle and the relation; the extremes
+
+  double azimuth(std::size_t j) const;
+  Eigen::Vector3d side(std::size_t j) const;
+  double widest() const;    // radians, upper bound
+  int reaching_pi() const;  // half-planes on which the direction away from the body collides
+};
+
+/// Throws InputError naming "--planes" (less than 3, more than 100000) or "--tolerance".
+AssemblyCone assembly_cone(const input::AssemblyEngagement& engagement, int half_planes, double tolerance);
+
+/// As docs/formats.md says; without the map and the verdict.
+nlohmann::ordered_json to_json(const AssemblyCone& cone, const input::AssemblyEngagement& engagement);
+void print_text(const AssemblyCone& cone, const input::AssemblyEngagement& engagement, std::ostream& out);
+
+/// "mesh of 69451 triangles (bunny.obj)".
+std::string describe(const input::PiecesBody& body);
+
+}  // namespace vericone

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pieces/gallery.h"
+
+#include <vericone/files/read_points.h>
+#include <vericone/geometry/error.h>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <numbers>
+#include <optional>
+
+#include "input/assembly_body.h"
+#include "interrupt.h"
+#include "map_answer.h"
+#include "pieces/assembly_cone.h"
+#include "pieces/pieces_picture.h"
+#include "provenance.h"
+
+namespace vericone {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+bool is_map(const fs::path& file) { return file.extension() == ".bt" || file.extension() == ".ot"; }
+
+std::vector<fs::path> all_files(const std::vector<std::string>& given) {
+  std::vector<std::string> known = files::known_extensions();
+  known.insert(known.end(), {".bt", ".ot"});
+  std::vector<fs::path> all;
+  for (const fs::path path : given) {
+    if (!fs::is_directory(path)) {
+      all.push_back(path);
+      continue;
+    }
+    std::vector<fs::path> inside;
+    for (const auto& entry : fs::recursive_directory_iterator(path))
+      if (entry.is_regular_file() &&
+          std::find(known.begin(), known.end(), entry.path().extension()) != known.end())
+        inside.push_back(entry.path());
+    std::sort(inside.begin(), inside.end());
+    all.insert(all.end(), inside.begin(), inside.end());
+  }
+  return all;
+}
+
+double largest_side(const Assembly& pieces) { return 2 * pieces.bounds().half_widths().maxCoeff(); }
+
+input::AssemblyEngagement before(input::PiecesBody body) {
+  const double size = largest_side(body.pieces);
+  if (!(size > 0)) throw InputError(body.file, "a single point", "a body with an extent");
+  const Eigen::Vector3d from = Eigen::Vector3d(-0.8, -0.5, 0.33).normalized();
+  const Ellipsoid ball =
+      Ellipsoid::from_axes(body.middle() + 1.5 * size * from, Eigen::Vector3d::Constant(0.1 * size));
+  const Eigen::Vector3d w = -from;
+  return {ball, std::move(body), w};
+}
+
+/// A ball in free space, the nearest to the middle of the map that a grid of twice its radius finds.
+std::optional<input::AssemblyEngagement> within(input::PiecesBody body, double radius) {
+  const Eigen::Vector3d middle = body.middle(), half = body.pieces.bounds().half_widths();
+  std::vector<Eigen::Vector3d> places;
+  const double step = 2 * radius;
+  const Eigen::Vector3i n = (half / step).cast<int>();
+  for (int x = -n.x(); x <= n.x(); ++x)
+    for (int y = -n.y(); y <= n.y(); ++y)
+      for (int z = -n.z(); z <= n.z(); ++z) places.push_back(step * Eigen::Vector3d(x, y, z));
+  std::stable_sort(places.begin(), places.end(),
+                   [](const auto& a, const auto& b) { return a.squaredNorm() < b.squaredNorm(); });
+  for (const Eigen::Vector3d& place : places) {
+    const Ellipsoid ball = Ellipsoid::from_axes(middle + place, Eigen::Vector3d::Constant(radius));
+    if (AssemblyOracle(ball, body.pieces, body.pose).relation() == Relation::disjoint)
+      return input::AssemblyEngagement{ball, std::move(body), Eigen::Vector3d::UnitX()};
+  }
+  return std::nullopt;
+}
+
+class Gallery {
+ public:
+  Gallery(const GalleryOptions& options, std::ostream& out) : options_(options), out_(out) {}
+
+  void add(const fs::path& file) {
+    add(file, before(input::read_any_body(file, options_.radius, "free")), "");
+    if (!is_map(file)) return;
+    input::PiecesBody body = input::read_any_body(file, options_.radius, "occupied");
+    const double radius = 4 * body.notes.value("cell", 0.05);
+    if (auto inside = within(std::move(body), radius)) add(file, *inside, "-within");
+  }
+
+  void fail(const fs::path& file, const std::string& why) {
+    std::cerr << file.string() << ": " << why << '\n';
+    rows_.push_back({{"file", file.string()}, {"error", why}});
+    failed_ = true;
+  }
+
+  void write() const {
+    const fs::path folder = options_.out;
+    write_whole(folder / "gallery.json", Json{{"rows", rows_}}.dump(1) + "\n");
+    write_whole(folder / "gallery.md", table());
+    Json origin = provenance(options_.command_line);
+    origin["radius"] = options_.radius;
+    write_whole(folder / "provenance.json", origin.dump(1) + "\n");
+  }
+
+  bool failed() const { return failed_; }
+
+ private:
+  void add(const fs::path& file, const input::AssemblyEngagement& e, const std::string& suffix) {
+    const AssemblyCone cone = assembly_cone(e, options_.half_planes, options_.tolerance);
+    if (cone.relation != Relation::disjoint)
+      throw std::runtime_error("agent and body are " + std::string(to_string(cone.relation)));
+    const fs::path folder = fs::path(options_.out) / folder_name(file, suffix);
+    fs::create_directories(folder);
+    Json row{{"file", file.string()},
+             {"what", describe(e.obstacle)},
+             {"agent", suffix.empty() ? "before it" : "within it"}};
+    Json whole = to_json(cone, e);
+    if (options_.resolution > 0)
+      whole["map"] =
+          map_answer(cone.oracle, {options_.resolution, std::nullopt}, cone.frame.axis, "").summary;
+    write_whole(folder / "cone.json", whole.dump(1) + "\n");
+    row["cone"] = summary(whole, cone);
+    Json pictures = Json::array();
+    if (options_.figures)
+      for (const auto& picture : draw_pieces(cone, e, folder)) pictures.push_back(picture.string());
+    row["pictures"] = pictures;
+    out_ << line(row) << '\n' << std::flush;
+    rows_.push_back(row);
+  }
+
+  /// A name of its own for each file, also where files of several folders have the same one.
+  std::string folder_name(const fs::path& file, const std::string& suffix) const {
+    std::string name = file.filename().string();
+    std::replace(name.begin(), name.end(), '.', '-');
+    name += suffix;
+    int same = 0;
+    for (const Json& row : rows_)
+      same += row.contains("what") &&
+              fs::path(row["file"].get<std::string>()).filename() == file.filename() &&
+              row["file"] != file.string();
+    return same ? name + "-" + std::to_string(same + 1) : name;
+  }
+
+  static Json summary(const Json& whole, const AssemblyCone& cone) {
+    const double nodes = static_cast<double>(cone.effort.nodes) / static_cast<double>(cone.extremes.size());
+    Json result{{"pieces", whole["obstacle"]["pieces"]},
+                {"seconds_read", whole["obstacle"].value("seconds_read", 0.0)},
+                {"seconds_built", whole["obstacle"].value("seconds_built", 0.0)},
+                {"seconds_half_planes", cone.seconds},
+                {"widest_degrees", cone.widest() * 180 / std::numbers::pi},
+                {"envelope_solid_angle", cone.envelope},
+                {"nodes_a_half_plane", nodes / whole["effort"]["hierarchy_nodes"].get<double>()}};
+    if (whole.contains("map")) result["map"] = whole["map"];
+    return result;
+  }
+
+  std::string table() const {
+    std::string text =
+        "| file | body | agent | read (s) | hierarchy (s) | half-planes (ms) | boxes a half-plane | farthest "
+        "(deg) | "
+        "within extremes (sr) | colliding (sr) | undecided (sr) | map (s) "
+        "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+    for (const Json& row : rows_) text += line(row) + "\n";
+    return text;
+  }
+
+  static std::string number(double x, const char* format) {
+    char text[32];
+    std::snprintf(text, sizeof text, format, x);
+    return text;
+  }
+
+  static std::string line(const Json& row) {
+    const std::string name = fs::path(row["file"].get<std::string>()).filename().string();
+    if (row.contains("error")) return "| " + name + " | " + row["error"].get<std::string>() + " |";
+    const Json& c = row["cone"];
+    const auto of = [&](const char* field) { return c[field].get<double>(); };
+    std::string text =
+        "| " + name + " | " + row["what"].get<std::string>() + " | " + row["agent"].get<std::string>() +
+        " | " + number(of("seconds_read"), "%.3f") + " | " + number(of("seconds_built"), "%.3f") + " | " +
+        number(1e3 * of("seconds_half_planes"), "%.1f") + " | " +
+        number(100 * of("nodes_a_half_plane"), "%.2g %%") + " | " + number(of("widest_degrees"), "%.2f") +
+        " | " + number(of("envelope_solid_angle"), "%.4f") + " | ";
+    if (!c.contains("map")) return text + "| | |";
+    return text + number(c["map"]["colliding"], "%.4f") + " | " + number(c["map"]["undecided"], "%.4f") +
+           " | " + number(c["map"]["seconds"], "%.2f") + " |";
+  }
+
+  const GalleryOptions& options_;
+  std::ostream& out_;
+  Json rows_ = Json::array();
+  bool failed_ = false;
+};
+
+}  // namespace
+
+int run_gallery(const GalleryOptions& options, std::ostream& out) {
+  if (!(options.radius >= 0 && options.radius <= 1))
+    throw InputError("--radius", to_text(options.radius),
+                     "between 0 and 1, parts of the cloud's largest side");
+  const std::vector<fs::path> files = all_files(options.files);
+  if (files.empty()) throw InputError("files", "none", "meshes, clouds or octree maps, or folders of them");
+  fs::create_directories(options.out);
+  catch_interrupts();
+  Gallery gallery(options, out);
+  for (std::size_t i = 0; i < files.size() && !interrupted(); ++i) {
+    std::cerr << "[" << i + 1 << "/" << files.size() << "] " << files[i].string() << '\n';
+    try {
+      gallery.add(files[i]);
+    } catch (const InputError& e) {
+      gallery.fail(files[i], e.what());
+    } catch (const std::exception& e) {
+      if (interrupted()) break;
+      gallery.fail(files[i], e.what());
+    }
+  }
+  gallery.write();
+  if (interrupted()) return kExitInterrupted;
+  return gallery.failed() ? 2 : 0;
+}
+
+}  // namespace vericone

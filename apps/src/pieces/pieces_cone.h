@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <iosfwd>
+
+#include "cone.h"
+#include "input/body.h"
+
+namespace vericone {
+
+/// `vericone cone` of a body of pieces: a mesh, a cloud, an octree map or the convex hull of points.
+void run_pieces_cone(const ConeOptions& options, const input::AssemblyEngagement& engagement,
+                     std::ostream& out);
+
+}  // namespace vericone

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pieces/pieces_picture.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+#include <thread>
+
+#include "answer.h"
+#include "figures.h"
+#include "pieces/decimate.h"
+#include "provenance.h"
+
+namespace vericone {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using std::numbers::pi;
+
+constexpr int kPixels = 201;                                // across the view along the axis
+constexpr int kPanoramaWidth = 360, kPanoramaHeight = 180;  // one degree a pixel
+
+Json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+Json agent_json(const input::AssemblyEngagement& e) {
+  if (const auto* ellipsoid = std::get_if<Ellipsoid>(&e.agent)) {
+    Json factor = Json::array();
+    for (int i = 0; i < 3; ++i) factor.push_back(vector_json(ellipsoid->factor().row(i)));
+    return {{"center", vector_json(ellipsoid->center())}, {"factor", factor}};
+  }
+  Json points = Json::array();
+  for (const Eigen::Vector3d& x : std::get<HullBody>(e.agent).points()) points.push_back(vector_json(x));
+  return {{"center", vector_json(agent_center(e))}, {"points", points}};
+}
+
+/// Around the agent, axis-aligned.
+Box bounds_of(const input::AssemblyEngagement& e) {
+  if (const auto* ellipsoid = std::get_if<Ellipsoid>(&e.agent)) {
+    const Eigen::Vector3d half = ellipsoid->factor().rowwise().norm();
+    return {ellipsoid->center() - half, ellipsoid->center() + half};
+  }
+  const auto& points = std::get<HullBody>(e.agent).points();
+  Box bounds{points.front(), points.front()};
+  for (const Eigen::Vector3d& x : points) bounds.include({x, x});
+  return bounds;
+}
+
+/// Metres to the first contact in each direction, row by row; null where none comes.
+template <typename Direction>
+Json distances(const AssemblyOracle& oracle, int rows, int columns, Direction direction) {
+  std::vector<std::vector<double>> found(static_cast<std::size_t>(rows));
+  std::atomic<int> next = 0;
+  const auto work = [&] {
+    for (int row = next++; row < rows; row = next++) {
+      auto& line = found[static_cast<std::size_t>(row)];
+      for (int column = 0; column < columns; ++column) {
+        const auto contact = oracle.first_contact(direction(row, column));
+        line.push_back(contact ? contact->time : -1);
+      }
+    }
+  };
+  std::vector<std::jthread> threads;
+  for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) threads.emplace_back(work);
+  work();
+  threads.clear();
+  Json all = Json::array();
+  for (const auto& line : found) {
+    Json row = Json::array();
+    // Four digits are plenty for a colour.
+    for (const double x : line) row.push_back(x < 0 ? Json(nullptr) : Json(std::stod(std::to_string(x))));
+    all.push_back(std::move(row));
+  }
+  return all;
+}
+
+/// Directions around the axis, equally far from it as from the middle of the picture.
+Json view_along_axis(const AssemblyCone& cone, const Eigen::Vector3d& w) {
+  // The velocity as well where it is not far beyond.
+  const double widest = cone.widest(),
+               away = std::acos(std::clamp(w.dot(cone.frame.axis) / w.norm(), -1.0, 1.0));
+  const double reach =
+      std::min(away < 1.8 * widest ? std::max(1.15 * widest, 1.05 * away) : 1.15 * widest, pi);
+  const auto direction = [&](int row, int column) -> Eigen::Vector3d {
+    const double x = reach * (2.0 * column / (kPixels - 1) - 1), y = reach * (2.0 * row / (kPixels - 1) - 1);
+    const double angle = std::hypot(x, y);
+    if (!(angle > 0)) return cone.frame.axis;
+    const Eigen::Vector3d across = (x * cone.frame.e2 + y * cone.frame.e1) / angle;
+    return std::cos(angle) * cone.frame.axis + std::sin(angle) * across;
+  };
+  return {{"reach", reach}, {"distances", distances(cone.oracle, kPixels, kPixels, direction)}};
+}
+
+/// All directions by azimuth (-180 to 180 degrees from x towards y) and elevation (-90 to 90).
+Json panorama(const AssemblyCone& cone) {
+  const auto direction = [](int row, int column) -> Eigen::Vector3d {
+    const double elevation = pi * ((row + 0.5) / kPanoramaHeight - 0.5),
+                 azimuth = 2 * pi * ((column + 0.5) / kPanoramaWidth - 0.5);
+    return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+            std::sin(elevation)};
+  };
+  return distances(cone.oracle, kPanoramaHeight, kPanoramaWidth, direction);
+}
+
+Json velocity_json(const AssemblyCone& cone, const input::AssemblyEngagement& e) {
+  const Eigen::Vector3d w = e.agent_velocity - e.obstacle_velocity;
+  if (!(w.norm() > 0)) return nullptr;
+  Json result{{"w", vector_json(w)},
+              {"verdict", to_string(cone.oracle.membership(e.agent_velocity, e.obstacle_velocity))}};
+  if (const auto contact = cone.oracle.first_contact(w)) {
+    result["time"] = contact->time;
+    result["point"] = vector_json(contact->point);  // seen from the obstacle
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> draw_pieces(const AssemblyCone& cone, const input::AssemblyEngagement& e,
+                                               const std::filesystem::path& folder) {
+  const Box agent = bounds_of(e);
+  const bool within = e.obstacle.pieces.bounds().contains(e.obstacle.pose.to_body(agent.center()));
+  Json data = to_json(cone, e);
+  data["title"] = describe(e.obstacle);
+  data["agent"] = agent_json(e);
+  data["velocity"] = velocity_json(cone, e);
+  if (within) {
+    data["top"] = top_view(e.obstacle, agent.low.z(), agent.high.z());
+    data["heights"] = {agent.low.z(), agent.high.z()};
+    data["panorama"] = panorama(cone);
+  } else {
+    data["body"] = shown_pieces(e.obstacle);
+    data["view"] = view_along_axis(cone, e.agent_velocity - e.obstacle_velocity);
+  }
+  write_whole(folder / "pieces.json", data.dump() + "\n");
+  return draw_figures(within ? "panorama.py" : "pieces.py", folder);
+}
+
+}  // namespace vericone
