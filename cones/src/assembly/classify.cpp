@@ -58,9 +58,16 @@ bool some_piece_meets_all(const Scene& scene, const DirectionCell& cell, const D
   const auto farther = [](const Item& a, const Item& b) { return a.distance > b.distance; };
   Item heap[2 * kMostNodes];
   int size = 0, visited = 0, pieces = 0;
+  const auto nearer = [](const Item& a, const Item& b) { return a.distance < b.distance; };
+  // The nearest of them.
   for (const std::uint32_t node : frontier) {
-    if (size == kMostNodes) break;
-    heap[size++] = {node, nearness(nodes[node].box())};
+    const Item item{node, nearness(nodes[node].box())};
+    if (size == kMostNodes) {
+      if (!(item.distance < heap[0].distance)) continue;
+      std::pop_heap(heap, heap + size--, nearer);
+    }
+    heap[size++] = item;
+    std::push_heap(heap, heap + size, nearer);
   }
   std::make_heap(heap, heap + size, farther);
   Directions rays[3];
@@ -99,6 +106,8 @@ Certified AssemblyOracle::classify(const DirectionCell& cell, const Frontier& pa
     own = parent;
     return Certified::undecided;
   }
+  // First: where one piece meets all, there are often thousands that meet some.
+  if (some_piece_meets_all(scene, turned, directions, parent)) return Certified::in;
   const CircularResidual residual(directions);
   const BoxTest test(scene.frame(), directions, residual);
   const auto nodes = scene.nodes();
@@ -130,8 +139,7 @@ Certified AssemblyOracle::classify(const DirectionCell& cell, const Frontier& pa
     }
     if (!apart) own.push_back(index);
   }
-  if (own.empty()) return Certified::out;
-  return some_piece_meets_all(scene, turned, directions, own) ? Certified::in : Certified::undecided;
+  return own.empty() ? Certified::out : Certified::undecided;
 }
 
 }  // namespace vericone

@@ -147,6 +147,15 @@ class Search {
     return true;
   }
 
+  /// The same a little before the angle: at the very end of what meets the piece the direction itself,
+  /// rounded, may just miss it.
+  bool take_near(std::uint32_t slot, const Core& core, double angle) {
+    if (take(slot, core, angle)) return true;
+    for (const double back : {0.01 * tolerance_, 0.25 * tolerance_})
+      if (angle - back > beyond_ && take(slot, core, angle - back)) return true;
+    return false;
+  }
+
   /// Looks for directions beyond what is known at which the piece is met.
   void raise(std::uint32_t slot) {
     ++effort_.pieces;
@@ -157,7 +166,7 @@ class Search {
     Gap found = ask(core, sector_);
     if (found.answer == Gap::Answer::apart) return;
     double low = beyond_, high = to_;
-    if (take(slot, core, angle(found, sector_, beyond_))) low = std::max(low, low_);
+    if (take_near(slot, core, angle(found, sector_, beyond_))) low = std::max(low, low_);
     // Bisection; a direction that meets the piece is found on the way wherever there is one to speak of.
     while (high - low > 0.5 * tolerance_) {
       const double middle = low + 0.5 * (high - low);
@@ -169,8 +178,7 @@ class Search {
         continue;
       }
       low = middle;
-      const double met = angle(found, beyond, middle);
-      if (take(slot, core, met)) low = std::max(low, met);
+      if (take_near(slot, core, angle(found, beyond, middle))) low = std::max(low, low_);
     }
     high_ = std::max(high_, high);
     if (found_ && low_ + 0.5 * tolerance_ > beyond_) look_beyond(low_ + 0.5 * tolerance_);

@@ -24,6 +24,29 @@ struct Corral {
     ++size;
   }
 
+  bool has_ray(int i) const {
+    for (int j = 0; j < size; ++j)
+      if (ray[j] == i) return true;
+    return false;
+  }
+
+  /// v without what rounding left of it along the rays of the face, where nothing is left in exact
+  /// arithmetic. Near touching that is most of what v is off by.
+  Eigen::Vector3d normal(Eigen::Vector3d v) const {
+    Eigen::Vector3d basis[3];
+    int n = 0;
+    for (int i = 0; i < size; ++i) {
+      if (ray[i] < 0 || n == 2) continue;
+      basis[n] = of[i];
+      if (n == 1) basis[1] -= basis[1].dot(basis[0]) * basis[0];
+      const double length = basis[n].norm();
+      if (length > 1e-12) basis[n++] /= length;
+    }
+    for (int sweep = 0; sweep < 2; ++sweep)
+      for (int i = 0; i < n; ++i) v -= v.dot(basis[i]) * basis[i];
+    return v;
+  }
+
   void drop(int i) {
     --size;
     for (; i < size; ++i) {
@@ -45,32 +68,33 @@ struct Corral {
         m[n] = ray[i] >= 0 ? of[i] : of[i] - of[base];
         index[n++] = i;
       }
-    // Cholesky's factorisation of the Gram matrix of m, in place.
-    double g[3][3], r[3];
+    // Least squares |of[base] + m x| by orthogonalisation, not by normal equations: the rays of a narrow
+    // sector are nearly one.
+    double r[3][3], x_of[3];
+    Eigen::Vector3d rest = -of[base];
     for (int i = 0; i < n; ++i) {
-      r[i] = -m[i].dot(of[base]);
-      for (int j = 0; j <= i; ++j) g[i][j] = m[i].dot(m[j]);
-    }
-    for (int i = 0; i < n; ++i) {
-      const double diagonal = g[i][i];
-      for (int j = 0; j < i; ++j) {
-        for (int k = 0; k < j; ++k) g[i][j] -= g[i][k] * g[j][k];
-        g[i][j] /= g[j][j];
-        r[i] -= g[i][j] * r[j];
-        g[i][i] -= g[i][j] * g[i][j];
-      }
-      if (!(g[i][i] > 1e-14 * diagonal)) return false;
-      g[i][i] = std::sqrt(g[i][i]);
-      r[i] /= g[i][i];
+      const double length = m[i].norm();
+      for (int j = 0; j < i; ++j) r[j][i] = 0;
+      for (int sweep = 0; sweep < 2; ++sweep)
+        for (int j = 0; j < i; ++j) {
+          const double part = m[j].dot(m[i]);
+          r[j][i] += part;
+          m[i] -= part * m[j];
+        }
+      r[i][i] = m[i].norm();
+      if (!(r[i][i] > 1e-13 * length)) return false;
+      m[i] /= r[i][i];
+      x_of[i] = m[i].dot(rest);
+      rest -= x_of[i] * m[i];
     }
     for (int i = n - 1; i >= 0; --i) {
-      for (int j = i + 1; j < n; ++j) r[i] -= g[j][i] * r[j];
-      r[i] /= g[i][i];
+      for (int j = i + 1; j < n; ++j) x_of[i] -= r[i][j] * x_of[j];
+      x_of[i] /= r[i][i];
     }
     x[base] = 1;
     for (int i = 0; i < n; ++i) {
-      x[index[i]] = r[i];
-      if (ray[index[i]] < 0) x[base] -= r[i];
+      x[index[i]] = x_of[i];
+      if (ray[index[i]] < 0) x[base] -= x_of[i];
     }
     return true;
   }
@@ -184,17 +208,21 @@ Gap gap(const Core& core, const Directions& directions, const Eigen::Vector3d& f
     last_norm = norm;
 
     int ray = -1;
+    // A ray of the face is perpendicular to v up to rounding, and need not come in again.
     double most = 4 * kUlp * norm;
     for (int i = 0; i < directions.count; ++i)
-      if (const double slant = result.v.dot(directions.ray[i]); slant > most) {
+      if (const double slant = result.v.dot(directions.ray[i]); slant > most && !corral.has_ray(i)) {
         most = slant;
         ray = i;
       }
-    const Eigen::Vector3d s = core.support(result.v, on_piece);
-    const double distance = result.v.dot(s) / norm;
+    const Eigen::Vector3d along = corral.normal(result.v);
+    const Eigen::Vector3d n = along / along.norm();
+    if (!n.allFinite()) return result;
+    const Eigen::Vector3d s = core.support(n, on_piece);
+    const double distance = n.dot(s);
     if (ray < 0) {
       const double slack = core.error() + 16 * kUlp * (s.norm() + core.reach()) +
-                           directions.slant(result.v / norm) * (core.reach() + core.offset.norm());
+                           directions.slant(n) * (core.reach() + core.offset.norm());
       const double least = distance - slack;
       if (least > result.least) result.least = least;
       if (least > core.outer_rounding()) {
