@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // When, where and how near: first contact and miss distance.
+#include <vericone/geometry/error.h>
 #include <algorithm>
 #include <optional>
+#include <string>
 
 #include "assembly/contact.h"
 #include "assembly/gap.h"
@@ -157,9 +159,9 @@ AssemblyMiss miss_distance(const Scene& scene, const Frame& space, const Eigen::
       ++effort.pieces;
       const Core core = scene.core(space, slot);
       const Eigen::Vector3d away = RayResidual{ray}(core.center());
-      const Gap found = gap(core, directions, away.isZero(0) ? Eigen::Vector3d::UnitX() : away,
-                            GapGoal::measure, tolerance);
       const double radius = core.outer_rounding();
+      const Gap found = gap(core, directions, away.isZero(0) ? Eigen::Vector3d::UnitX() : away,
+                            GapGoal::measure, tolerance, miss.most + radius);
       const double far = found.v.norm() + core.error() + 64 * kUlp * (core.reach() + found.along[0]);
       const double most = std::max(0.0, far - radius), least = std::max(0.0, found.least - radius);
       // Every piece bounds the least distance from below, the nearest one from above.
@@ -182,13 +184,21 @@ AssemblyMiss miss_distance(const Scene& scene, const Frame& space, const Eigen::
 }  // namespace vericone::assembly
 
 namespace vericone {
+namespace {
+
+void require_velocity(const Eigen::Vector3d& w) {
+  for (int k = 0; k < 3; ++k)
+    if (!std::isfinite(w(k)))
+      throw InputError("agent_velocity[" + std::to_string(k) + "]", to_text(w(k)), "a finite number (m/s)");
+}
+
+}  // namespace
 
 std::optional<AssemblyContact> AssemblyOracle::first_contact(const Eigen::Vector3d& w, Effort* effort) const {
   Effort unused;
   Effort& count = effort != nullptr ? *effort : unused;
   const assembly::Scene& scene = *state_;
-  const Membership membership = this->membership(w, nullptr);
-  if (membership == Membership::out && state_->relation == Relation::disjoint) return std::nullopt;
+  require_velocity(w);
   if (state_->relation != Relation::disjoint) {
     AssemblyContact now;
     const AssemblyMiss place = miss_distance(Eigen::Vector3d::Zero());
@@ -196,17 +206,28 @@ std::optional<AssemblyContact> AssemblyOracle::first_contact(const Eigen::Vector
     now.piece = place.piece;
     return now;
   }
+  if (w.isZero(0)) return std::nullopt;
   return assembly::first_contact(scene, scene.to_body(w), count);
 }
 
 AssemblyMiss AssemblyOracle::miss_distance(const Eigen::Vector3d& w, double tolerance, Effort* effort) const {
+  require_velocity(w);
+  if (!(tolerance >= 1e-13 && tolerance <= 1))
+    throw InputError("tolerance", to_text(tolerance), "a number between 1e-13 and 1");
   Effort unused;
+  Effort& count = effort != nullptr ? *effort : unused;
   const assembly::Scene& scene = *state_;
-  AssemblyMiss miss = assembly::miss_distance(scene, state_->space, scene.to_body(w), tolerance,
-                                              effort != nullptr ? *effort : unused);
-  // Met or not is known exactly, and where they meet the distance is 0.
-  if (miss.least == 0 && (state_->relation != Relation::disjoint || membership(w) != Membership::out))
-    miss.most = 0;
+  // Whether they meet is known exactly; then the distance is 0, where they first do.
+  if (state_->relation == Relation::disjoint)
+    if (const std::optional<AssemblyContact> contact = first_contact(w, effort)) {
+      AssemblyMiss met;
+      met.point = contact->point;
+      met.time = contact->time;
+      met.piece = contact->piece;
+      return met;
+    }
+  AssemblyMiss miss = assembly::miss_distance(scene, state_->space, scene.to_body(w), tolerance, count);
+  if (state_->relation != Relation::disjoint) miss.least = miss.most = 0;
   return miss;
 }
 

@@ -175,7 +175,7 @@ struct Corral {
 }  // namespace
 
 Gap gap(const Core& core, const Directions& directions, const Eigen::Vector3d& first, GapGoal goal,
-        double relative) {
+        double relative, double enough) {
   Gap result;
   Corral corral;
   Eigen::Vector3d on_piece;
@@ -229,6 +229,7 @@ Gap gap(const Core& core, const Directions& directions, const Eigen::Vector3d& f
         result.answer = Gap::Answer::apart;
         if (goal == GapGoal::decide) return result;
       }
+      if (result.least > enough) return result;
       if (norm - distance <= std::max(relative, 2 * kUlp) * norm) return result;
       corral.add(s, -1, on_piece);
     } else {

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 
 #include "assembly/core.h"
 #include "assembly/frame.h"
@@ -36,6 +37,7 @@ enum class GapGoal : std::uint8_t {
 /// `answer`: apart: no direction meets the piece, proved; met: the direction of `along` meets it, proved;
 /// close: neither could be proved. `first`: a normal to begin with, not zero. Ends after at most 64 steps.
 Gap gap(const Core& core, const Directions& directions, const Eigen::Vector3d& first,
-        GapGoal goal = GapGoal::decide, double relative = 0);
+        GapGoal goal = GapGoal::decide, double relative = 0,
+        double enough = std::numeric_limits<double>::infinity());
 
 }  // namespace vericone::assembly
