@@ -4,6 +4,8 @@
 #include <vericone/geometry/error.h>
 #include <algorithm>
 #include <numbers>
+#include <optional>
+#include <string>
 
 #include "assembly/gap.h"
 #include "assembly/state.h"
@@ -17,7 +19,9 @@ constexpr double kPi = std::numbers::pi;
 
 /// Of the plane sector between two rays.
 struct SectorResidual {
-  Eigen::Vector3d first, last, normal;  // normal: of their plane, unit; zero where the rays are one
+  Eigen::Vector3d first, last;
+  // Of their plane, unit; and in it, perpendicular to the two rays and inwards. Zero where the rays are one.
+  Eigen::Vector3d normal, from_first, from_last;
 
   explicit SectorResidual(const Directions& sector)
       : first(sector.ray[0]), last(sector.ray[1]), normal(sector.ray[0].cross(sector.ray[1])) {
@@ -27,12 +31,14 @@ struct SectorResidual {
     } else {
       normal.setZero();
     }
+    from_first = normal.cross(first);
+    from_last = last.cross(normal);
   }
   Eigen::Vector3d operator()(const Eigen::Vector3d& y) const {
-    if (!normal.isZero(0) && normal.dot(first.cross(y)) >= 0 && normal.dot(y.cross(last)) >= 0)
-      return y.dot(normal) * normal;
+    if (y.dot(from_first) >= 0 && y.dot(from_last) >= 0 && !normal.isZero(0)) return y.dot(normal) * normal;
     const double a = y.dot(first), b = y.dot(last);
-    return a > b ? RayResidual{first}(y) : RayResidual{last}(y);
+    return a > b ? Eigen::Vector3d(y - std::max(0.0, a) * first)
+                 : Eigen::Vector3d(y - std::max(0.0, b) * last);
   }
 };
 
@@ -85,6 +91,9 @@ class Search {
       for (int i = 0; i < count; ++i) stack[size++] = children[i];
     }
   }
+
+  /// Before run(): a piece that may be met far out.
+  void try_slot(std::uint32_t slot) { raise(slot); }
 
   bool found() const { return found_; }
   double low() const { return low_; }
@@ -167,10 +176,13 @@ class Search {
     if (found.answer == Gap::Answer::apart) return;
     double low = beyond_, high = to_;
     if (take_near(slot, core, angle(found, sector_, beyond_))) low = std::max(low, low_);
-    // Bisection; a direction that meets the piece is found on the way wherever there is one to speak of.
+    // Mostly little is gained: steps that grow until one is beyond, then bisection. A direction that meets
+    // the piece is found on the way wherever there is one to speak of.
+    double step = tolerance_;
     while (high - low > 0.5 * tolerance_) {
-      const double middle = low + 0.5 * (high - low);
+      const double middle = low + std::min(step, 0.5 * (high - low));
       if (middle <= low || middle >= high) break;
+      step *= 4;
       const Directions beyond = sector(middle);
       found = ask(core, beyond);
       if (found.answer == Gap::Answer::apart) {
@@ -198,29 +210,64 @@ class Search {
 
 }  // namespace
 
-ExtremeDirection AssemblyOracle::extreme(const Eigen::Vector3d& axis, const Eigen::Vector3d& side,
-                                         double tolerance, Effort* effort) const {
-  if (!(tolerance >= 1e-13 && tolerance <= 1))
-    throw InputError("tolerance", to_text(tolerance), "radians between 1e-13 and 1");
-  Effort unused;
-  const HalfPlane plane{state_->to_body(axis), state_->to_body(side)};
+namespace {
+
+/// `guess`: a slot that may be met far out, for a neighbouring half-plane was.
+ExtremeDirection find_extreme(const Scene& scene, const HalfPlane& plane, double tolerance, Effort& effort,
+                              std::optional<std::uint32_t>& guess) {
   ExtremeDirection result;
   // Rays of a sector must not be opposite to each other, in the frame of a thin agent neither.
   constexpr int kParts = 4;
   for (int part = kParts - 1; part >= 0 && !result.any; --part) {
-    Search search(*state_, plane, kPi * part / kParts, kPi * (part + 1) / kParts, tolerance,
-                  effort != nullptr ? *effort : unused);
+    const double from = kPi * part / kParts, to = kPi * (part + 1) / kParts;
+    Search search(scene, plane, from, to, tolerance, effort);
+    if (guess) search.try_slot(*guess);
     search.run();
     result.any = search.found();
     if (!result.any) {
       // What is neither proved to be met nor to be apart.
-      if (search.high() > kPi * part / kParts) result.high = std::max(result.high, search.high());
+      if (search.high() > from) result.high = std::max(result.high, search.high());
       continue;
     }
     result.low = search.low();
     result.high = std::max(result.high, search.high());
-    result.direction = state_->to_world(search.direction());
-    result.piece = state_->piece(search.slot());
+    result.direction = scene.to_world(search.direction());
+    result.piece = scene.piece(search.slot());
+    guess = search.slot();
+  }
+  return result;
+}
+
+void require_tolerance(double tolerance) {
+  if (!(tolerance >= 1e-13 && tolerance <= 1))
+    throw InputError("tolerance", to_text(tolerance), "radians between 1e-13 and 1");
+}
+
+}  // namespace
+
+ExtremeDirection AssemblyOracle::extreme(const Eigen::Vector3d& axis, const Eigen::Vector3d& side,
+                                         double tolerance, Effort* effort) const {
+  require_tolerance(tolerance);
+  Effort unused;
+  std::optional<std::uint32_t> guess;
+  return find_extreme(*state_, {state_->to_body(axis), state_->to_body(side)}, tolerance,
+                      effort != nullptr ? *effort : unused, guess);
+}
+
+std::vector<ExtremeDirection> AssemblyOracle::extremes(const Eigen::Vector3d& axis, int half_planes,
+                                                       double tolerance, Effort* effort) const {
+  require_tolerance(tolerance);
+  if (half_planes < 1) throw InputError("half_planes", std::to_string(half_planes), "1 or more");
+  Effort unused;
+  const AxisFrame basis(axis);
+  std::optional<std::uint32_t> guess;
+  std::vector<ExtremeDirection> result;
+  result.reserve(std::size_t(half_planes));
+  for (int i = 0; i < half_planes; ++i) {
+    const double azimuth = 2 * kPi * i / half_planes;
+    const Eigen::Vector3d side = std::cos(azimuth) * basis.e1 + std::sin(azimuth) * basis.e2;
+    result.push_back(find_extreme(*state_, {state_->to_body(basis.axis), state_->to_body(side)}, tolerance,
+                                  effort != nullptr ? *effort : unused, guess));
   }
   return result;
 }

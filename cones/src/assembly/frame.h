@@ -42,10 +42,10 @@ class Frame {
   /// How far E as support() knows it is from E.
   double support_error() const { return support_error_; }
 
-  /// At least the support max n.e over E.
-  double extent(const Eigen::Vector3d& n) const {
-    if (round_) return outer_ * n.norm();
-    return std::min(ball_ * n.norm(), n.cwiseAbs().dot(reach_)) * (1 + 8 * kUlp);
+  /// At least the support max n.e over E; `length`: |n|.
+  double extent(const Eigen::Vector3d& n, double length) const {
+    if (round_) return outer_ * length;
+    return std::min(ball_ * length, n.cwiseAbs().dot(reach_)) * (1 + 8 * kUlp);
   }
   /// Largest |e| over E, at most.
   double ball() const { return ball_; }

@@ -180,6 +180,20 @@ Gap gap(const Core& core, const Directions& directions, const Eigen::Vector3d& f
   Corral corral;
   Eigen::Vector3d on_piece;
   const Eigen::Vector3d start = core.support(first, on_piece);
+  // Most pieces are apart, and most of them by the first normal.
+  const auto least_along = [&](const Eigen::Vector3d& n, const Eigen::Vector3d& s) {
+    const double slack = core.error() + 16 * kUlp * (s.norm() + core.reach()) +
+                         directions.slant(n) * (core.reach() + core.offset.norm());
+    return n.dot(s) - slack;
+  };
+  if (goal == GapGoal::decide) {
+    result.v = first / first.norm();
+    result.least = std::max(0.0, least_along(result.v, start));
+    if (result.least > core.outer_rounding()) {
+      result.answer = Gap::Answer::apart;
+      return result;
+    }
+  }
   corral.add(start, -1, on_piece);
   corral.weight[0] = 1;
   double last_norm = INFINITY;
@@ -221,9 +235,7 @@ Gap gap(const Core& core, const Directions& directions, const Eigen::Vector3d& f
     const Eigen::Vector3d s = core.support(n, on_piece);
     const double distance = n.dot(s);
     if (ray < 0) {
-      const double slack = core.error() + 16 * kUlp * (s.norm() + core.reach()) +
-                           directions.slant(n) * (core.reach() + core.offset.norm());
-      const double least = distance - slack;
+      const double least = least_along(n, s);
       if (least > result.least) result.least = least;
       if (least > core.outer_rounding()) {
         result.answer = Gap::Answer::apart;

@@ -82,9 +82,11 @@ class BoxTest {
     const double length = n.norm();
     if (!(length > 0)) return 0;
     const Eigen::Vector3d back = frame_.to_frame().transpose() * n;
-    const double size = frame_.norm() * (middle.norm() + half.norm()) + frame_.ball();
+    const double above = n.dot(y) - back.cwiseAbs().dot(half) - frame_.extent(n, length);
+    if (!(above > 0)) return 0;
+    const double size = frame_.norm() * (middle.cwiseAbs().sum() + half.sum()) + frame_.ball();
     const double slack = 128 * kUlp * size + directions_.slant(n / length) * (size + frame_.outer());
-    return (n.dot(y) - back.cwiseAbs().dot(half) - frame_.extent(n)) / length - slack;
+    return above / length - slack;
   }
   double distance(const Hierarchy::Node& node) const {
     return distance({node.low[0], node.low[1], node.low[2]}, {node.high[0], node.high[1], node.high[2]});

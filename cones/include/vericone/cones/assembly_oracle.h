@@ -19,6 +19,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace vericone {
 
@@ -96,6 +97,11 @@ class AssemblyOracle : public DirectionClassifier {
   /// naming "tolerance".
   ExtremeDirection extreme(const Eigen::Vector3d& axis, const Eigen::Vector3d& side, double tolerance = 1e-4,
                            Effort* effort = nullptr) const;
+
+  /// The same on half-planes at the azimuths 2 pi i / half_planes about the axis, counter-clockwise from e1
+  /// of AxisFrame(axis) (cone_geometry.h): faster together, as neighbours end at the same pieces.
+  std::vector<ExtremeDirection> extremes(const Eigen::Vector3d& axis, int half_planes = 64,
+                                         double tolerance = 1e-4, Effort* effort = nullptr) const;
 
   Frontier start() const override;
   Certified classify(const DirectionCell& cell, const Frontier& parent, Frontier& own) const override;
