@@ -16,6 +16,7 @@ list(FILTER probe_sources EXCLUDE REGEX
   "/(clearance|plane_sector|slice_cone|enclosures|order_|contact_time|moving_contact|entry_time)[a-z_]*.cpp$")
 list(FILTER probe_sources EXCLUDE REGEX
   "/(min_volume|sector_degenerate|sector_by_source|combined|surface_mesh|planar_boundary|pole_polar)[a-z_]*.cpp$")
+list(FILTER probe_sources EXCLUDE REGEX "/(assembly|cone_map|hierarchy|mesh_section|visible)[a-z_/]*.cpp$")
 foreach(source corpus corpus_bodies corpus_build corpus_file corpus_points)
   list(APPEND probe_sources ${PROJECT_SOURCE_DIR}/verify/src/${source}.cpp)
 endforeach()
