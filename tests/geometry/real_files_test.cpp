@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <vericone/files/read_points.h>
+#include <vericone/files/triangle_mesh.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
 
@@ -132,6 +133,27 @@ TEST(KleopatraFile, EllipsoidHasTheKnownAxes) {
   // From a run stopped earlier: its volume is 1.5e-4 larger, which leaves its axes uncertain by more than
   // 1e-3.
   EXPECT_LT((axes - Vector3d(147.6, 57.3, 55.4)).cwiseAbs().maxCoeff(), 0.1);
+}
+
+TEST(RealMeshes, AreOpenOrClosedAsIsKnown) {
+  const auto report = [](const std::string& name) -> std::optional<MeshReport> {
+    const auto path = data_file(name);
+    if (!path) return std::nullopt;
+    return triangle_mesh(read_points(*path)).report;
+  };
+  const auto bunny = report("stanford-bunny.obj"), bottle = report("ycb_006_mustard_bottle.obj"),
+             asteroid = report("216Kleopatra.obj");
+  if (!bunny || !bottle || !asteroid) GTEST_SKIP() << "meshes missing; set VERICONE_DATA_DIR to their folder";
+  EXPECT_EQ(bunny->boundary_edges, 223U);
+  EXPECT_EQ(bunny->unreferenced_points, 1113U);
+  for (const MeshReport& closed : {*bottle, *asteroid}) {
+    EXPECT_TRUE(closed.is_closed());
+    EXPECT_TRUE(closed.is_oriented());
+    EXPECT_EQ(closed.nonmanifold_edges, 0U);
+  }
+  // V - E + F of spheres.
+  EXPECT_EQ(8194 - int(bottle->edges) + 16384, 2);
+  EXPECT_EQ(2048 - int(asteroid->edges) + 4092, 2);
 }
 
 /// Clouds and scan graphs of the data folder: what their publishers or other programs counted.
