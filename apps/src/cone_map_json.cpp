@@ -55,16 +55,4 @@ Json cone_map_json(const ConeMap& map, const Eigen::Vector3d& towards, double re
           {"region", std::move(region_part)}};
 }
 
-Json cone_map_summary(const ConeMap& map, const Eigen::Vector3d& towards, double resolution) {
-  return {{"method", "map"},
-          {"resolution", resolution},
-          {"colliding", map.colliding},
-          {"safe", map.safe},
-          {"undecided", map.undecided},
-          {"cells", map.cells.size()},
-          {"asked", map.asked},
-          {"complete", map.complete},
-          {"region", region_json(region_around(map, towards))}};
-}
-
 }  // namespace vericone

@@ -17,10 +17,4 @@ namespace vericone {
 nlohmann::ordered_json cone_map_json(const ConeMap& map, const Eigen::Vector3d& towards, double resolution,
                                      const std::string& title = "");
 
-/// Numbers alone, for the answer of the command: {"method", "resolution", "colliding", "safe", "undecided",
-/// "cells", "asked", "complete", "region"}, where `region` is that around `towards`, {"label", "solid_angle",
-/// "most_solid_angle", "surely_separate", "holes"}, or null where the direction is undecided.
-nlohmann::ordered_json cone_map_summary(const ConeMap& map, const Eigen::Vector3d& towards,
-                                        double resolution);
-
 }  // namespace vericone
