@@ -15,17 +15,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// By bearing from the origin, which is the agent's centre; nearer ones first.
-void order_by_bearing(std::vector<Vector2d>& points) {
-  std::vector<std::pair<double, Vector2d>> keyed;
-  keyed.reserve(points.size());
-  for (const Vector2d& p : points) keyed.emplace_back(std::atan2(p.y(), p.x()), p);
-  std::sort(keyed.begin(), keyed.end(), [](const auto& x, const auto& y) {
-    return x.first != y.first ? x.first < y.first : x.second.squaredNorm() < y.second.squaredNorm();
-  });
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] = keyed[i].second;
-}
-
 /// `sector_on(frame, chain)`: the sector of the agent's section, about the plane's origin, and the chain.
 template <typename SectorOn>
 VisibleCone cone(const Vector3d& center, const PlanePoints& obstacle, const Vector3d& towards, int planes,
@@ -58,6 +47,16 @@ VisibleCone cone(const Vector3d& center, const PlanePoints& obstacle, const Vect
 }
 
 }  // namespace
+
+void order_by_bearing(std::vector<Vector2d>& points) {
+  std::vector<std::pair<double, Vector2d>> keyed;
+  keyed.reserve(points.size());
+  for (const Vector2d& p : points) keyed.emplace_back(std::atan2(p.y(), p.x()), p);
+  std::sort(keyed.begin(), keyed.end(), [](const auto& x, const auto& y) {
+    return x.first != y.first ? x.first < y.first : x.second.squaredNorm() < y.second.squaredNorm();
+  });
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = keyed[i].second;
+}
 
 PlanePoints points_near_plane(std::span<const Vector3d> cloud, double half_thickness) {
   if (!(half_thickness >= 0))

@@ -34,6 +34,10 @@ double slab_half_thickness(std::span<const Eigen::Vector3d> cloud, const Eigen::
 PlanePoints mesh_section_points(std::span<const Eigen::Vector3d> points,
                                 std::span<const std::array<std::uint32_t, 3>> triangles);
 
+/// Points of a plane in the order of their bearing from its origin, the nearer of two first: from one extreme
+/// end to the other for points on the side of its x axis.
+void order_by_bearing(std::vector<Eigen::Vector2d>& points);
+
 struct VisiblePlane {
   double azimuth = 0;          // as in Slice
   std::optional<Slice> slice;  // edges need not be positive: the axis may be outside of the sector
