@@ -117,7 +117,8 @@ class Search {
     const Box box = node.box();
     const Eigen::Vector3d c = box.center() - scene_.frame().origin();
     const double across = c.dot(plane_.side) + box.half_widths().dot(plane_.side.cwiseAbs());
-    return std::atan2(across, c.dot(plane_.axis));
+    const double along = c.dot(plane_.axis), sum = std::abs(across) + std::abs(along);
+    return sum > 0 ? (along < 0 ? 2 - across / sum : across / sum) : 0;
   }
 
   Directions sector(double from) const { return {scene_.frame(), {plane_.at(from), plane_.at(to_)}}; }

@@ -2,6 +2,7 @@
 #include "assembly/gap.h"
 
 #include <Eigen/LU>
+#include <array>
 #include <cmath>
 
 namespace vericone::assembly {
@@ -11,7 +12,11 @@ constexpr int kMostSteps = 64;
 
 /// Generators of the face that holds the point of least norm: at least one point, and rays.
 struct Corral {
-  Eigen::Vector3d of[4], on_piece[4];
+  static std::array<Eigen::Vector3d, 4> zeros() {
+    return {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+            Eigen::Vector3d::Zero()};
+  }
+  std::array<Eigen::Vector3d, 4> of = zeros(), on_piece = zeros();
   int ray[4] = {-1, -1, -1, -1};  // which ray; -1 for a point
   double weight[4] = {1, 0, 0, 0};
   int size = 0;
@@ -49,7 +54,7 @@ struct Corral {
 
   void drop(int i) {
     --size;
-    for (; i < size; ++i) {
+    for (; i < size && i < 3; ++i) {
       of[i] = of[i + 1];
       on_piece[i] = on_piece[i + 1];
       ray[i] = ray[i + 1];
@@ -198,8 +203,8 @@ Gap gap(const Core& core, const Directions& directions, const Eigen::Vector3d& f
   corral.weight[0] = 1;
   double last_norm = INFINITY;
   for (int step = 0; step < kMostSteps; ++step) {
-    const Corral before = corral;
-    if (!corral.minimise()) corral = before;  // the newest generator adds nothing that rounding would show
+    // Where the newest generator adds nothing that rounding would show, it does not come in.
+    if (Corral next = corral; next.minimise()) corral = next;
     corral.read(result);
     const double norm = result.v.norm();
 
