@@ -3,6 +3,7 @@
 #include <vericone/geometry/integer.h>
 #include <vericone/geometry/tracked.h>
 
+#include <cmath>
 #include <optional>
 
 namespace vericone::files {
@@ -36,6 +37,37 @@ std::optional<bool> triage_collinear(const Eigen::Vector3d& a, const Eigen::Vect
   return std::nullopt;
 }
 
+/// x - y where that is a double.
+std::optional<double> exact_difference(double x, double y) {
+  // The error of the rounded difference is a double itself (Knuth), unless something overflows.
+  const double d = x - y, back = x - d, error = (x - (d + back)) + (back - y);
+  return error == 0 ? std::optional(d) : std::nullopt;
+}
+
+/// Coordinates from floats and from grids mostly have differences that are doubles. Their products are then
+/// compared as pairs of doubles, value and error.
+std::optional<bool> pair_collinear(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                   const Eigen::Vector3d& c) {
+  std::array<double, 3> u, v;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto k = Eigen::Index(i);
+    const auto ui = exact_difference(b(k), a(k)), vi = exact_difference(c(k), a(k));
+    if (!ui || !vi) return std::nullopt;
+    u[i] = *ui;
+    v[i] = *vi;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    const double left = u[j] * v[k], right = u[k] * v[j];
+    const auto is_sound = [](double product, double x, double y) {
+      return (x == 0 || y == 0) || (std::abs(product) > 0x1p-900 && std::abs(product) < 0x1p1000);
+    };
+    if (!is_sound(left, u[j], v[k]) || !is_sound(right, u[k], v[j])) return std::nullopt;
+    if (left != right || std::fma(u[j], v[k], -left) != std::fma(u[k], v[j], -right)) return false;
+  }
+  return true;
+}
+
 bool exact_collinear(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
   constexpr int kNone = 1 << 20;
   int e = kNone;
@@ -54,6 +86,7 @@ bool exact_collinear(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const E
 bool are_collinear(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
   if (a == b || b == c || c == a) return true;
   if (const auto answer = triage_collinear(a, b, c)) return *answer;
+  if (const auto answer = pair_collinear(a, b, c)) return *answer;
   return exact_collinear(a, b, c);
 }
 

@@ -11,11 +11,15 @@ constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
 
 std::size_t hash(const Eigen::Vector3d& p) {
   std::uint64_t h = 0;
-  for (int i = 0; i < 3; ++i) {
-    h ^= std::bit_cast<std::uint64_t>(p(i) + 0.0);  // -0 + 0 is 0
+  const auto mix = [&h] {
     h *= 0x9e3779b97f4a7c15U;
     h ^= h >> 32;
+  };
+  for (int i = 0; i < 3; ++i) {
+    h ^= std::bit_cast<std::uint64_t>(p(i) + 0.0);  // -0 + 0 is 0
+    mix();
   }
+  mix();  // round numbers have their bits at the top
   return std::size_t(h);
 }
 
