@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Directions as pictures: distance to the first contact by colour, safe directions white."""
 import numpy as np
+from matplotlib.colors import LogNorm, Normalize
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from style import EXACT, plt
 
@@ -11,45 +13,53 @@ def masked(rows):
     return np.ma.masked_invalid(np.array([[np.nan if x is None else x for x in row] for row in rows]))
 
 
-def colour_limits(values):
-    """All but the farthest 2 %, which would leave the rest one colour."""
+def norm_of(values):
+    """Logarithmic where distances differ much."""
     seen = values.compressed()
-    return (seen.min(), np.percentile(seen, 98)) if len(seen) else (0, 1)
+    if not len(seen):
+        return Normalize(0, 1)
+    low, high = seen.min(), seen.max()
+    return LogNorm(low, high) if 0 < 5 * low < high else Normalize(low, high)
 
 
-def colour_bar(axes, image, values):
-    low, high = colour_limits(values)
-    bar = plt.colorbar(image, ax=axes, shrink=0.85, pad=0.03, extend="max" if values.max() > high else "neither")
+def colour_bar(axes, image):
+    bar = plt.colorbar(image, ax=axes, shrink=0.85, pad=0.03)
     bar.set_label("distance to first contact (m)")
+    if isinstance(image.norm, LogNorm):
+        bar.ax.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        bar.ax.yaxis.set_major_formatter(FuncFormatter(lambda x, _: "%g" % x))
+        bar.ax.yaxis.set_minor_formatter(NullFormatter())
     bar.ax.tick_params(labelsize=6)
-    return bar
+
+
+def in_view(data, direction):
+    """Degrees to the right and up from the axis."""
+    d = np.array(direction) / np.linalg.norm(direction)
+    x, y = d @ np.array(data["view"]["right"]), d @ np.array(data["view"]["up"])
+    away = np.degrees(np.arctan2(np.hypot(x, y), d @ np.array(data["axis"])))
+    return away * np.array([x, y]) / max(np.hypot(x, y), 1e-12)
 
 
 def along_axis(axes, data):
     """Around the axis: the angle from it is the distance from the middle, in degrees."""
     reach = np.degrees(data["view"]["reach"])
     values = masked(data["view"]["distances"])
-    low, high = colour_limits(values)
     n = len(values)
     edge = reach * (1 + 1 / (n - 1))
-    image = axes.imshow(values, origin="lower", extent=(-edge, edge, -edge, edge), cmap=NEAR_TO_FAR, vmin=low, vmax=high,
+    image = axes.imshow(values, origin="lower", extent=(-edge, edge, -edge, edge), cmap=NEAR_TO_FAR, norm=norm_of(values),
                         interpolation="nearest", zorder=1)
-    azimuth = np.array([x["azimuth"] for x in data["extremes"]])
-    angle = np.degrees([np.nan if x["low"] is None else (x["low"] + x["high"]) / 2 for x in data["extremes"]])
-    x, y = angle * np.sin(azimuth), angle * np.cos(azimuth)  # azimuths count from upwards
-    axes.plot(np.append(x, x[0]), np.append(y, y[0]), ".-", color=EXACT, linewidth=0.7, markersize=2.2, zorder=3,
-              label="extreme directions, %d half-planes" % len(azimuth))
+    edges = [in_view(data, d) for d in data["directions"] if d is not None]
+    if edges:
+        axes.plot(*np.array(edges + edges[:1]).T, ".-", color=EXACT, linewidth=0.7, markersize=2.2, zorder=3,
+                  label="extreme directions, %d half-planes" % len(data["directions"]))
     if data["velocity"]:
-        w = np.array(data["velocity"]["w"])
-        a, b, c = (w @ np.array(data[k]) / np.linalg.norm(w) for k in ("e1", "e2", "axis"))
-        away = np.degrees(np.arccos(np.clip(c, -1, 1)))
-        if away < edge:
-            axes.plot(*(away * np.array([b, a]) / max(np.hypot(a, b), 1e-12)), "o", color="#c01f1f", markersize=4, zorder=4,
-                      label="velocity: %s" % verdict(data["velocity"]))
+        at = in_view(data, data["velocity"]["w"])
+        if max(np.abs(at)) < edge:
+            axes.plot(*at, "o", color="#c01f1f", markersize=4, zorder=4, label="velocity: %s" % verdict(data["velocity"]))
     axes.set_xlabel("from the axis, to the right (degrees)")
     axes.set_ylabel("from the axis, up (degrees)")
     axes.set_aspect("equal")
-    return image, values
+    return image
 
 
 def verdict(velocity):

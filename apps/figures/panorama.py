@@ -4,7 +4,7 @@ elevation, coloured by the distance to the first contact."""
 import numpy as np
 from matplotlib.colors import ListedColormap
 
-from directions import NEAR_TO_FAR, colour_bar, colour_limits, masked, verdict
+from directions import NEAR_TO_FAR, colour_bar, masked, norm_of, verdict
 from style import AGENT, OBSTACLE, TWO_COLUMNS, plt, read, save
 
 VELOCITY = "#c01f1f"
@@ -42,8 +42,7 @@ def above(axes):
 
 def all_around(axes):
     values = masked(data["panorama"])
-    low, high = colour_limits(values)
-    image = axes.imshow(values, origin="lower", extent=(-180, 180, -90, 90), cmap=NEAR_TO_FAR, vmin=low, vmax=high,
+    image = axes.imshow(values, origin="lower", extent=(-180, 180, -90, 90), cmap=NEAR_TO_FAR, norm=norm_of(values),
                         interpolation="nearest", zorder=1, aspect="auto")
     if data["velocity"]:
         w = np.array(data["velocity"]["w"])
@@ -51,10 +50,11 @@ def all_around(axes):
                   color=VELOCITY, markersize=4, zorder=4, label="velocity: %s" % verdict(data["velocity"]))
         axes.legend(loc="upper right")
     axes.set_xticks(range(-180, 181, 45))
+    axes.set_xlim(180, -180)  # as the agent sees it: what is to the left of x stands on the left
     axes.set_yticks(range(-90, 91, 30))
     axes.set_xlabel("azimuth of the velocity, from x towards y (degrees)")
     axes.set_ylabel("elevation (degrees)")
-    colour_bar(axes, image, values)
+    colour_bar(axes, image)
     weight = np.cos(np.radians(np.linspace(-89.5, 89.5, values.shape[0])))
     safe = (values.mask * weight[:, None]).sum() / (weight.sum() * values.shape[1]) if np.ma.is_masked(values) else 0
     axes.set_title("white: no contact ever, %.1f %% of all directions (by the pixels)" % (100 * safe), fontsize=7, loc="left")

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <ostream>
 
@@ -60,22 +61,8 @@ Eigen::Vector3d agent_center(const input::AssemblyEngagement& e) {
   return bounds.center();
 }
 
-AxisFrame AssemblyCone::upright(const Eigen::Vector3d& axis) {
-  AxisFrame frame(axis);
-  const Eigen::Vector3d right = frame.axis.cross(Eigen::Vector3d::UnitZ());
-  if (right.norm() > 1e-9) {
-    frame.e2 = right.normalized();
-    frame.e1 = frame.e2.cross(frame.axis);
-  }
-  return frame;
-}
-
 double AssemblyCone::azimuth(std::size_t j) const {
   return 2 * pi * static_cast<double>(j) / static_cast<double>(extremes.size());
-}
-
-Eigen::Vector3d AssemblyCone::side(std::size_t j) const {
-  return std::cos(azimuth(j)) * frame.e1 + std::sin(azimuth(j)) * frame.e2;
 }
 
 double AssemblyCone::widest() const {
@@ -103,9 +90,7 @@ AssemblyCone assembly_cone(const input::AssemblyEngagement& e, int half_planes, 
   cone.seconds_prepared = since(start);
   if (cone.relation != Relation::disjoint) return cone;
   const auto prepared = Clock::now();
-  cone.extremes.resize(static_cast<std::size_t>(half_planes));
-  for (std::size_t j = 0; j < cone.extremes.size(); ++j)
-    cone.extremes[j] = cone.oracle.extreme(cone.frame.axis, cone.side(j), tolerance, &cone.effort);
+  cone.extremes = cone.oracle.extremes(cone.frame.axis, half_planes, tolerance, &cone.effort);
   cone.envelope = envelope_of(cone.extremes);
   cone.seconds = since(prepared);
   return cone;
@@ -118,7 +103,7 @@ std::string describe(const input::PiecesBody& body) {
   } else {
     text += " of " + std::to_string(body.pieces.size()) + " " + plural(body.pieces.kind());
   }
-  return body.file.empty() ? text : text + " (" + body.file + ")";
+  return body.file.empty() ? text : text + " (" + std::filesystem::path(body.file).filename().string() + ")";
 }
 
 Json to_json(const AssemblyCone& cone, const input::AssemblyEngagement& e) {

@@ -21,10 +21,7 @@ Eigen::Vector3d agent_center(const input::AssemblyEngagement& engagement);  // o
 /// What is computed of one engagement, and the oracle that did it.
 struct AssemblyCone {
   AssemblyCone(AssemblyOracle prepared, const Eigen::Vector3d& axis, double radians)
-      : oracle(std::move(prepared)), frame(upright(axis)), tolerance(radians) {}
-
-  /// e1 as far upwards (z) as can be, e2 to the right for who looks along the axis.
-  static AxisFrame upright(const Eigen::Vector3d& axis);
+      : oracle(std::move(prepared)), frame(axis), tolerance(radians) {}
 
   AssemblyOracle oracle;
   Relation relation = Relation::disjoint;
@@ -38,7 +35,6 @@ struct AssemblyCone {
   double seconds_prepared = 0, seconds = 0;  // the oracle and the relation; the extremes
 
   double azimuth(std::size_t j) const;
-  Eigen::Vector3d side(std::size_t j) const;
   double widest() const;    // radians, upper bound
   int reaching_pi() const;  // half-planes on which the direction away from the body collides
 };

@@ -74,8 +74,13 @@ Json distances(const AssemblyOracle& oracle, int rows, int columns, Direction di
   return all;
 }
 
-/// Directions around the axis, equally far from it as from the middle of the picture.
+/// Directions around the axis, equally far from it as from the middle of the picture, whose upwards and right
+/// are those of who looks along the axis.
 Json view_along_axis(const AssemblyCone& cone, const Eigen::Vector3d& w) {
+  const Eigen::Vector3d& axis = cone.frame.axis;
+  Eigen::Vector3d right = axis.cross(Eigen::Vector3d::UnitZ());
+  right = right.norm() > 1e-9 ? right.normalized() : Eigen::Vector3d(cone.frame.e1);
+  const Eigen::Vector3d up = right.cross(axis);
   // The velocity as well where it is not far beyond.
   const double widest = cone.widest(),
                away = std::acos(std::clamp(w.dot(cone.frame.axis) / w.norm(), -1.0, 1.0));
@@ -84,11 +89,14 @@ Json view_along_axis(const AssemblyCone& cone, const Eigen::Vector3d& w) {
   const auto direction = [&](int row, int column) -> Eigen::Vector3d {
     const double x = reach * (2.0 * column / (kPixels - 1) - 1), y = reach * (2.0 * row / (kPixels - 1) - 1);
     const double angle = std::hypot(x, y);
-    if (!(angle > 0)) return cone.frame.axis;
-    const Eigen::Vector3d across = (x * cone.frame.e2 + y * cone.frame.e1) / angle;
-    return std::cos(angle) * cone.frame.axis + std::sin(angle) * across;
+    if (!(angle > 0)) return axis;
+    const Eigen::Vector3d across = (x * right + y * up) / angle;
+    return std::cos(angle) * axis + std::sin(angle) * across;
   };
-  return {{"reach", reach}, {"distances", distances(cone.oracle, kPixels, kPixels, direction)}};
+  return {{"reach", reach},
+          {"up", vector_json(up)},
+          {"right", vector_json(right)},
+          {"distances", distances(cone.oracle, kPixels, kPixels, direction)}};
 }
 
 /// All directions by azimuth (-180 to 180 degrees from x towards y) and elevation (-90 to 90).
