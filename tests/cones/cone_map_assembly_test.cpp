@@ -209,6 +209,7 @@ TEST(ConeMapOfAssemblies, OutOfARoomLeadsTheDoor) {
   const auto way = region_around(map, to_door);
   ASSERT_TRUE(way);
   EXPECT_EQ(way->label, Certified::out);
+  EXPECT_EQ(way->boundary.size(), 1) << "no cells that could not be decided within";
   // Nothing else leads out.
   for (const auto& r : regions(map))
     if (r.label == Certified::out) {
