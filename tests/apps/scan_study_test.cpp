@@ -117,6 +117,38 @@ TEST(ScanStudy, NarrowViewsMissAndSayHowMuch) {
   EXPECT_GT(s.levels.back().cone.solid_angle, 0.97 * s.visible_cone.solid_angle);
 }
 
+TEST(ScanStudy, ScansFromPosesKnownUpToAnErrorAreFused) {
+  testing::Mesh mesh = testing::cube().mapped(Vector3d(0.5, 0.8, 0.6).asDiagonal(), {6, 0, 0});
+  mesh.append(testing::sphere(4).mapped(0.5 * Eigen::Matrix3d::Identity(), {5.3, 0.4, 0.5}));
+  mesh.append(testing::sphere(4).mapped(0.4 * Eigen::Matrix3d::Identity(), {5.4, -0.6, -0.3}));
+  scanning::Setup setup = balls();
+  setup.points = mesh.points;
+  setup.triangles = mesh.triangles;
+  setup.lidars = {lidar_at({0, 0.3, 0}, lidar::raster(60, 60, 0.6, 0.6)),
+                  lidar_at({0, -0.3, 0.1}, lidar::raster(60, 60, 0.6, 0.6))};
+  setup.levels = 2;
+  const Study exact = study(setup);
+  setup.position_error = 0.03;
+  setup.rotation_error = 0.005;
+  const Study fused = study(setup);
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_EQ(exact.levels[k].fusion_error, 0);
+    EXPECT_EQ(fused.levels[k].not_fused, "");
+    EXPECT_GT(fused.levels[k].fusion_error, 0);
+    EXPECT_LT(fused.levels[k].fusion_error, 0.003);
+    for (std::size_t j = 0; j < exact.levels[k].cone.edges.size(); ++j)
+      EXPECT_NEAR(fused.levels[k].cone.edges[j], exact.levels[k].cone.edges[j], 2e-3);
+  }
+  // A ball does not tell how the lidars are turned: no answer.
+  scanning::Setup ball = balls();
+  ball.lidars = setup.lidars;
+  ball.levels = 1;
+  ball.position_error = 0.03;
+  const Study none = study(ball);
+  EXPECT_THAT(none.levels[0].not_fused, ::testing::HasSubstr("slide"));
+  EXPECT_TRUE(std::isnan(none.levels[0].cone.solid_angle));
+}
+
 TEST(ScanStudy, RefusesWhatHasNoCone) {
   RandomBodies random(7804);
   scanning::Setup setup = heap(random, 2);

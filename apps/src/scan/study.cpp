@@ -89,6 +89,10 @@ void check(const Setup& setup) {
                      "a whole number from 1 to " + std::to_string(kMostLevels));
   if (setup.planes < 2 || setup.planes > 10'000)
     throw InputError("planes", std::to_string(setup.planes), "a whole number from 2 to 10000");
+  for (const auto& [field, value] :
+       {std::pair("position_error", setup.position_error), std::pair("rotation_error", setup.rotation_error)})
+    if (!(value >= 0 && std::isfinite(value)))
+      throw InputError(field, to_text(value), "a finite number from 0 up (metres, radians)");
   if (setup.lidars.empty()) throw InputError("lidars", "none", "at least one");
 }
 
@@ -115,13 +119,14 @@ std::vector<lidar::Lidar> finer(const std::vector<lidar::Lidar>& lidars, int fac
 Seen look(const Setup& setup, const lidar::MeshScene& scene, const std::vector<lidar::Lidar>& lidars) {
   Seen seen;
   for (std::size_t i = 0; i < lidars.size(); ++i) {
-    lidar::Scan scan = lidar::scan(scene, lidars[i], setup.agent_pose, setup.seed + i);
+    seen.scans.push_back(lidar::scan(scene, lidars[i], setup.agent_pose, setup.seed + i));
+    const lidar::Scan& scan = seen.scans.back();
     const std::vector<Vector3d> points = scan.world_points();
     seen.half_thickness = std::max(
         seen.half_thickness, slab_half_thickness(points, scan.pose.translation(), lidars[i].beams.spacing()));
     seen.points.insert(seen.points.end(), points.begin(), points.end());
-    seen.scans.push_back(std::move(scan));
   }
+  if (lidars.size() > 1 && (setup.position_error > 0 || setup.rotation_error > 0)) fuse_scans(setup, seen);
   return seen;
 }
 
@@ -146,7 +151,9 @@ Study study(const Setup& setup, std::ostream* log) {
   const AssemblyOracle whole = oracle_of(setup, Assembly::mesh(setup.points, setup.triangles));
 
   const std::vector<lidar::Lidar> finest = finer(setup.lidars, 1 << (setup.levels - 1));
-  const Seen most = look(setup, scene, finest);
+  Setup exact = setup;  // the axis and what can be seen do not depend on how well poses are known
+  exact.position_error = exact.rotation_error = 0;
+  const Seen most = look(exact, scene, finest);
   const Vector3d towards = center_of(most.points);
   study.axis = (towards - setup.agent.center()).normalized();
 
@@ -157,6 +164,8 @@ Study study(const Setup& setup, std::ostream* log) {
     auto start = Clock::now();
     const Seen seen = look(setup, scene, lidars);
     level.seconds_scan = seconds_since(start);
+    level.not_fused = seen.not_fused;
+    level.fusion_error = seen.fusion_error;
     for (std::size_t i = 0; i < lidars.size(); ++i) {
       const lidar::Scan& scan = seen.scans[i];
       level.beams += scan.beams.size();

@@ -22,6 +22,10 @@ struct Setup {
   std::vector<Eigen::Vector3d> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<lidar::Lidar> lidars;
+  /// How well the poses of the second and further lidars are known: standard deviations of their position
+  /// along each axis (m) and of their rotation about each (rad). Where not both are 0, the scans are fused by
+  /// ICP (fuse.h) from poses that are off by that much.
+  double position_error = 0, rotation_error = 0;
   std::uint64_t seed = 1;
   int planes = 36;
   /// The lidars' elevations and azimuths are made 2^0, 2^1, ... 2^(levels-1) times as fine.
@@ -43,6 +47,8 @@ struct Level {
   HalfPlaneCone cone;             // the true cone of the points
   int planes_without_answer = 0;  // on which the source's search found no two tangents
   double tried = 0;               // points the search tried, mean over the planes
+  std::string not_fused;          // why the scans could not be fused; no cones then. Empty: fused, or no need
+  double fusion_error = 0;        // m, the farthest that a point is from where the true poses have it
   double seconds_scan = 0, seconds_sections = 0, seconds_cone = 0;
 };
 

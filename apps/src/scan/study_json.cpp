@@ -36,6 +36,8 @@ void write_json(const Study& study, std::ostream& out) {
          {"cone", to_json(l.cone)},
          {"planes_without_answer", l.planes_without_answer},
          {"tried", l.tried},
+         {"not_fused", l.not_fused.empty() ? Json() : Json(l.not_fused)},
+         {"fusion_error", l.fusion_error},
          {"seconds",
           {{"scan", l.seconds_scan}, {"sections", l.seconds_sections}, {"cone", l.seconds_cone}}}});
   const Json json = {{"axis", to_json(study.axis)},

@@ -5,6 +5,7 @@
 
 #include <vericone/cones/assembly_oracle.h>
 #include <vericone/lidar/scan.h>
+#include <string>
 #include <vector>
 
 #include "scan/study.h"
@@ -16,8 +17,13 @@ struct Seen {
   std::vector<lidar::Scan> scans;
   std::vector<Eigen::Vector3d> points;  // in the world
   double half_thickness = 0;            // m, of the slabs that stand for planes
+  std::string not_fused;                // then there are no points
+  double fusion_error = 0;              // m
 };
 Seen look(const Setup& setup, const lidar::MeshScene& scene, const std::vector<lidar::Lidar>& lidars);
+
+/// Replaces seen.points by the cloud of the scans fused from poses that are off as `setup` says.
+void fuse_scans(const Setup& setup, Seen& seen);
 
 /// With `factor` times as many steps between elevations and between azimuths; the old beams among the new.
 std::vector<lidar::Lidar> finer(const std::vector<lidar::Lidar>& lidars, int factor);
