@@ -66,7 +66,7 @@ std::optional<PieceContact> piece_contact(const Scene& scene, std::uint32_t slot
   contact.normal = scene.frame().to_frame().transpose() * normal;
   contact.normal.normalize();
   contact.point = scene.frame().to_space(on_piece);
-  if (!scene.frame().round()) contact.point -= scene.body().radius() * contact.normal;
+  if (scene.frame().is_space()) contact.point -= scene.body().radius() * contact.normal;
   return contact;
 }
 
@@ -163,14 +163,14 @@ AssemblyMiss miss_distance(const Scene& scene, const Frame& space, const Eigen::
       const Gap found = gap(core, directions, away.isZero(0) ? Eigen::Vector3d::UnitX() : away,
                             GapGoal::measure, tolerance, miss.most + radius);
       const double far = found.v.norm() + core.error() + 64 * kUlp * (core.reach() + found.along[0]);
-      const double most = std::max(0.0, far - radius), least = std::max(0.0, found.least - radius);
+      const double most = std::max(0.0, far - core.inner_rounding());
+      const double least = std::max(0.0, found.least - radius);
       // Every piece bounds the least distance from below, the nearest one from above.
       if (most < miss.most) {
         miss.most = most;
-        miss.point =
-            scene.point_to_world(space.to_space(found.on_piece) -
-                                 (radius > 0 && far > 0 ? Eigen::Vector3d(found.v * (radius / found.v.norm()))
-                                                        : Eigen::Vector3d::Zero()));
+        Eigen::Vector3d point = found.on_piece;
+        if (scene.body().radius() > 0) point -= scene.body().radius() * found.v.normalized();
+        miss.point = scene.point_to_world(space.to_space(point));
         miss.time = moving ? found.along[0] / w.norm() : 0;
         miss.piece = scene.piece(slot);
       }

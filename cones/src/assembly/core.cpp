@@ -31,7 +31,7 @@ Core Core::of_box(const Frame& frame, const Eigen::Vector3d& low, const Eigen::V
 }
 
 Core Core::of_ball(const Frame& frame, const Eigen::Vector3d& center, double radius) {
-  if (!frame.round() || radius == 0) return of_points(frame, &center, 1, radius);
+  if (frame.is_space() || radius == 0) return of_points(frame, &center, 1, radius);
   Core core(frame, Kind::ball);
   const Eigen::Vector3d c = frame.relative(center);
   core.center_ = frame.to_frame() * c;

@@ -30,6 +30,7 @@ Frame::Frame(const Ellipsoid& agent) : origin_(agent.center()) {
                                                : "a body whose shape can be inverted (axis ratio below 1e6; "
                                                  "thinner ones from semi_axes)");
   round_ = true;
+  is_space_ = false;
   from_frame_ = agent.factor();
   outer_ = ball_ = std::sqrt(1 + off) * (1 + 4 * kUlp);
   inner_ = std::sqrt(1 - off) * (1 - 4 * kUlp);
@@ -43,6 +44,14 @@ Frame Frame::in_space(const Ellipsoid& agent) {
   frame.points_.clear();
   frame.factor_ = agent.factor();
   frame.reach_ = round.reach_;
+  // A ball is a point with a radius: no search has to find its curved surface.
+  const Eigen::Vector3d axes = agent.semi_axes();
+  if (axes(0) - axes(2) <= 1e-13 * axes(0)) {
+    frame.round_ = true;
+    frame.outer_ = frame.ball_ = axes(0) * round.outer_ * (1 + 64 * kUlp);
+    frame.inner_ = axes(2) * round.inner_ * (1 - 64 * kUlp);
+    return frame;
+  }
   frame.ball_ = agent.factor().norm() * round.outer_ * (1 + 8 * kUlp);
   frame.support_error_ = (round.outer_ - 1 + 16 * kUlp) * agent.factor().norm();
   return frame;

@@ -31,9 +31,12 @@ class Frame {
   const Eigen::Vector3d& origin() const { return origin_; }
   const Eigen::Matrix3d& to_frame() const { return to_frame_; }
 
-  /// E is nearly the unit ball.
+  /// G = 1.
+  bool is_space() const { return is_space_; }
+
+  /// E is nearly a ball about 0.
   bool round() const { return round_; }
-  /// Where round(): E is between the balls of these radii about 0; 0 otherwise.
+  /// Where round(): E is between the balls of these radii; 0 otherwise.
   double inner() const { return inner_; }
   double outer() const { return outer_; }
 
@@ -67,7 +70,7 @@ class Frame {
  private:
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero(), reach_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d to_frame_ = Eigen::Matrix3d::Identity(), from_frame_ = Eigen::Matrix3d::Identity();
-  bool round_ = false;
+  bool round_ = false, is_space_ = true;
   double norm_ = 1;  // of G, Frobenius, rounded up
   double inner_ = 0, outer_ = 0, ball_ = 0, support_error_ = 0;
   std::vector<Eigen::Vector3d> points_;                   // of a hull

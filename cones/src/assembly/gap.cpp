@@ -239,8 +239,8 @@ Gap gap(const Core& core, const Directions& directions, const Eigen::Vector3d& f
     if (!n.allFinite()) return result;
     const Eigen::Vector3d s = core.support(n, on_piece);
     const double distance = n.dot(s);
-    // Also where a ray slants: by rounding alone it does when it lies in the span of the face, as where a side
-    // of the cell is parallel to an edge of the piece; then it would bring the search no further.
+    // Also where a ray slants: by rounding alone it does when it lies in the span of the face, as where a
+    // side of the cell is parallel to an edge of the piece; then it would bring the search no further.
     const double least = least_along(n, s);
     if (least > result.least) result.least = least;
     if (least > core.outer_rounding()) {

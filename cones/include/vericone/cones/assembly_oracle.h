@@ -32,8 +32,8 @@ struct Effort {
 
 /// The first contact of a moving agent with an assembly.
 struct AssemblyContact {
-  /// Seconds. Nothing is touched before `time.lower()`; at `time.upper()` the agent overlaps the body.
-  /// upper is infinite where the contact grazes closer than rounding tells.
+  /// Seconds. Nothing is touched before `earliest`; at `latest` the agent overlaps the body, proved both.
+  /// Infinite where the contact grazes closer than rounding tells.
   double earliest = 0, latest = 0;
   double time = 0;                                   // the best estimate, earliest <= time <= latest
   Eigen::Vector3d point = Eigen::Vector3d::Zero();   // of the body that is touched first, at that time
@@ -49,10 +49,13 @@ struct AssemblyMiss {
   std::uint32_t piece = 0;
 };
 
-/// The largest angle from `axis` on a half-plane at which the agent collides.
+/// The largest angle from an axis on a half-plane at which the agent collides.
 struct ExtremeDirection {
-  bool any = false;          // false: proved that no direction of the half-plane beyond `least` collides
-  double low = 0, high = 0;  // radians from the axis: at `low` it is proved to collide, beyond `high` never
+  /// Whether some direction of the half-plane is proved to collide.
+  bool any = false;
+  /// Radians from the axis: at `low` it is proved to collide, beyond `high` proved not to. Where `any` is
+  /// false, low = 0 and nothing beyond `high` collides: high > 0 only where pieces graze within rounding.
+  double low = 0, high = 0;
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  // unit, at `low`
   std::uint32_t piece = 0;                              // met at `low`
 };
@@ -93,8 +96,9 @@ class AssemblyOracle : public DirectionClassifier {
                              Effort* effort = nullptr) const;
 
   /// The half-plane of directions cos(t) axis + sin(t) side, 0 <= t <= pi; axis and side orthonormal.
-  /// high - low <= tolerance (radians, at least 1e-13). Requires relation() == disjoint. Throws InputError
-  /// naming "tolerance".
+  /// high - low <= tolerance (radians, 1e-13 to 1) except where pieces graze the half-plane within rounding,
+  /// and at the corners of polyhedral agents and pieces below 1e-7. Requires relation() == disjoint. Throws
+  /// InputError naming "tolerance".
   ExtremeDirection extreme(const Eigen::Vector3d& axis, const Eigen::Vector3d& side, double tolerance = 1e-4,
                            Effort* effort = nullptr) const;
 
