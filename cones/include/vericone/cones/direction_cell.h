@@ -29,7 +29,7 @@ class DirectionClassifier {
 
   /// `in`: every direction of the cell collides; `out`: none does; both are proved. `undecided`: the cell is
   /// mixed, or could not be proved to be either. `parent`: that of a cell that contains this one, or start();
-  /// `own`: receives this cell's. May be called by several threads at once.
+  /// `own`: receives this cell's where it is undecided. May be called by several threads at once.
   virtual Certified classify(const DirectionCell& cell, const Frontier& parent, Frontier& own) const = 0;
 };
 
