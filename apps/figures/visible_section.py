@@ -10,7 +10,7 @@ agent, returns = np.array(data["agent"]), np.array(data["returns"]).reshape(-1, 
 everything = np.vstack([agent, returns, data["sensors"]] + [np.array(line) for line in data["obstacle"]])
 reach = 1.12 * np.linalg.norm(everything, axis=1).max()
 width, height = np.ptp(everything, axis=0)
-figure, axes = plt.subplots(figsize=(TWO_COLUMNS, np.clip(1.3 + 1.1 * TWO_COLUMNS * height / width, 2.8, 7)))
+figure, axes = plt.subplots(figsize=(TWO_COLUMNS, np.clip(1.6 + 1.15 * TWO_COLUMNS * height / width, 2.8, 7)))
 axes.fill(*agent.T, color=AGENT, alpha=0.2, linewidth=0)
 axes.plot(*np.vstack([agent, agent[:1]]).T, color=AGENT)
 axes.annotate("A", agent[np.argmin(agent[:, 1])], xytext=(0, 4), textcoords="offset points", ha="center")
@@ -45,5 +45,5 @@ if data["tangents"]:
 else:
     axes.set_title("no common tangents")
 figure.legend(loc="lower center", ncol=3, frameon=False, columnspacing=1.2)
-figure.tight_layout(pad=0.4, rect=(0, 0.38 / figure.get_figheight(), 1, 1))
+figure.tight_layout(pad=0.4, rect=(0, 0.4 / figure.get_figheight(), 1, 0.99))
 save(figure, "visible_section")
