@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <string>
 
 namespace vericone {
@@ -44,40 +43,54 @@ float rounded_down(double x) {
 }
 float rounded_up(double x) { return -rounded_down(-x); }
 
+/// A piece on its way through the tree; moved about itself, since looking it up elsewhere costs more.
+struct Item {
+  Extent extent;
+  std::uint32_t piece;
+  float middle(int axis) const { return 0.5f * extent.low[axis] + 0.5f * extent.high[axis]; }
+};
+
 class Builder {
  public:
-  Builder(std::span<const Box> boxes, std::vector<Hierarchy::Node>& nodes, std::vector<std::uint32_t>& order)
-      : nodes_(nodes), order_(order), extents_(boxes.size()), middles_(boxes.size()) {
-    for (std::size_t i = 0; i < boxes.size(); ++i)
+  Builder(std::span<const Box> boxes, std::vector<Hierarchy::Node>& nodes)
+      : nodes_(nodes), items_(boxes.size()) {
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      items_[i].piece = static_cast<std::uint32_t>(i);
       for (int k = 0; k < 3; ++k) {
-        extents_[i].low[k] = rounded_down(boxes[i].low(k));
-        extents_[i].high[k] = rounded_up(boxes[i].high(k));
-        middles_[i][k] = 0.5f * extents_[i].low[k] + 0.5f * extents_[i].high[k];
+        items_[i].extent.low[k] = rounded_down(boxes[i].low(k));
+        items_[i].extent.high[k] = rounded_up(boxes[i].high(k));
       }
+    }
   }
 
+  /// The depth of the tree.
   int build() {
-    order_.resize(extents_.size());
-    std::iota(order_.begin(), order_.end(), 0u);
-    nodes_.reserve(extents_.size());
+    nodes_.reserve(items_.size());
     nodes_.resize(1);
     struct Task {
       std::uint32_t node, first, last;
       int depth;
     };
     int deepest = 0;
-    std::vector<Task> tasks{{0, 0, std::uint32_t(extents_.size()), 0}};
+    std::vector<Task> tasks{{0, 0, std::uint32_t(items_.size()), 0}};
     while (!tasks.empty()) {
       const Task task = tasks.back();
       tasks.pop_back();
       deepest = std::max(deepest, task.depth);
-      Extent all;
-      for (std::uint32_t i = task.first; i < task.last; ++i) all.include(extents_[order_[i]]);
+      const std::span<Item> items(items_.data() + task.first, task.last - task.first);
+      Extent all, middles;
+      for (const Item& item : items) {
+        all.include(item.extent);
+        for (int k = 0; k < 3; ++k) {
+          middles.low[k] = std::min(middles.low[k], item.middle(k));
+          middles.high[k] = std::max(middles.high[k], item.middle(k));
+        }
+      }
       Hierarchy::Node& node = nodes_[task.node];
       std::copy(all.low, all.low + 3, node.low);
       std::copy(all.high, all.high + 3, node.high);
-      const std::uint32_t middle = split(task.first, task.last, task.depth, all);
-      if (middle == task.first) {
+      const auto half = static_cast<std::uint32_t>(split(items, task.depth, all, middles));
+      if (half == 0) {
         node.first = task.first;
         node.count = task.last - task.first;
         continue;
@@ -86,101 +99,106 @@ class Builder {
       node.first = child;
       node.count = 0;
       nodes_.resize(nodes_.size() + 2);
-      tasks.push_back({child + 1, middle, task.last, task.depth + 1});
-      tasks.push_back({child, task.first, middle, task.depth + 1});
+      tasks.push_back({child + 1, task.first + half, task.last, task.depth + 1});
+      tasks.push_back({child, task.first, task.first + half, task.depth + 1});
     }
     nodes_.shrink_to_fit();
     return deepest;
   }
 
+  std::vector<std::uint32_t> order() const {
+    std::vector<std::uint32_t> pieces;
+    pieces.reserve(items_.size());
+    for (const Item& item : items_) pieces.push_back(item.piece);
+    return pieces;
+  }
+
  private:
-  /// Where the second half begins after reordering, or `first` for a leaf.
-  std::uint32_t split(std::uint32_t first, std::uint32_t last, int depth, const Extent& all) {
-    const std::uint32_t count = last - first;
-    if (count == 1) return first;
-    float low[3], high[3];
-    for (int k = 0; k < 3; ++k) {
-      low[k] = std::numeric_limits<float>::infinity();
-      high[k] = -low[k];
-    }
-    for (std::uint32_t i = first; i < last; ++i)
-      for (int k = 0; k < 3; ++k) {
-        low[k] = std::min(low[k], middles_[order_[i]][k]);
-        high[k] = std::max(high[k], middles_[order_[i]][k]);
-      }
+  /// Where bins begin along an axis, and how wide they are.
+  struct Binning {
+    float low = 0, scale = 0;  // scale 0: nothing to part along this axis
+    int operator()(float middle) const { return std::clamp(int((middle - low) * scale), 0, kBins - 1); }
+  };
+  struct Bin {
+    Extent extent;
+    std::uint32_t count = 0;
+  };
+
+  /// How many of the items are in the first half after reordering; 0 for a leaf.
+  static std::size_t split(std::span<Item> items, int depth, const Extent& all, const Extent& middles) {
+    if (items.size() == 1) return 0;
+    Binning binning[3];
     int best_axis = -1, best_bin = 0;
-    double best_cost = std::numeric_limits<double>::infinity();
-    float best_scale = 0;
     if (depth < kDeepestBySurface) {
+      double best_cost = std::numeric_limits<double>::infinity();
+      Bin bins[3][kBins];
       for (int k = 0; k < 3; ++k) {
-        const float scale = kBins / (high[k] - low[k]);
-        if (!(high[k] > low[k]) || !std::isfinite(scale)) continue;
-        Extent bins[kBins];
-        std::uint32_t counts[kBins] = {};
-        for (std::uint32_t i = first; i < last; ++i) {
-          const int b = bin(order_[i], k, low[k], scale);
-          bins[b].include(extents_[order_[i]]);
-          ++counts[b];
+        const float scale = kBins / (middles.high[k] - middles.low[k]);
+        if (middles.high[k] > middles.low[k] && std::isfinite(scale)) binning[k] = {middles.low[k], scale};
+      }
+      for (const Item& item : items)
+        for (int k = 0; k < 3; ++k) {
+          Bin& bin = bins[k][binning[k](item.middle(k))];
+          bin.extent.include(item.extent);
+          ++bin.count;
         }
+      for (int k = 0; k < 3; ++k) {
         double right_area[kBins];
         Extent right;
         for (int b = kBins - 1; b > 0; --b) {
-          right.include(bins[b]);
+          right.include(bins[k][b].extent);
           right_area[b] = right.half_area();
         }
         Extent left;
-        std::uint32_t left_count = 0;
+        std::size_t left_count = 0;
         for (int b = 1; b < kBins; ++b) {
-          left.include(bins[b - 1]);
-          left_count += counts[b - 1];
-          if (left_count == 0 || left_count == count) continue;
-          const double cost = left.half_area() * left_count + right_area[b] * (count - left_count);
+          left.include(bins[k][b - 1].extent);
+          left_count += bins[k][b - 1].count;
+          if (left_count == 0 || left_count == items.size()) continue;
+          const double cost =
+              left.half_area() * double(left_count) + right_area[b] * double(items.size() - left_count);
           if (cost < best_cost) {
             best_cost = cost;
             best_axis = k;
             best_bin = b;
-            best_scale = scale;
           }
         }
       }
       const double area = all.half_area();
-      if (best_axis >= 0 && count <= kMostInLeaf && best_cost + kNodeCost * area >= area * count)
-        return first;
+      if (best_axis >= 0 && items.size() <= kMostInLeaf &&
+          best_cost + kNodeCost * area >= area * double(items.size()))
+        return 0;
     }
-    const auto begin = order_.begin() + first, end = order_.begin() + last;
     if (best_axis >= 0) {
-      const auto middle = std::partition(begin, end, [&](std::uint32_t i) {
-        return bin(i, best_axis, low[best_axis], best_scale) < best_bin;
+      const auto half = std::partition(items.begin(), items.end(), [&](const Item& item) {
+        return binning[best_axis](item.middle(best_axis)) < best_bin;
       });
-      return first + std::uint32_t(middle - begin);
+      return std::size_t(half - items.begin());
     }
-    if (count <= kMostInLeaf) return first;
+    if (items.size() <= kMostInLeaf) return 0;
     // All in one place, or too deep: halve by number.
     int axis = 0;
     for (int k = 1; k < 3; ++k)
-      if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
-    const auto middle = begin + count / 2;
-    std::nth_element(begin, middle, end, [&](std::uint32_t a, std::uint32_t b) {
-      return middles_[a][axis] != middles_[b][axis] ? middles_[a][axis] < middles_[b][axis] : a < b;
+      if (middles.high[k] - middles.low[k] > middles.high[axis] - middles.low[axis]) axis = k;
+    const auto half = items.begin() + std::ptrdiff_t(items.size() / 2);
+    std::nth_element(items.begin(), half, items.end(), [&](const Item& a, const Item& b) {
+      const float x = a.middle(axis), y = b.middle(axis);
+      return x != y ? x < y : a.piece < b.piece;
     });
-    return first + count / 2;
-  }
-
-  int bin(std::uint32_t piece, int axis, float low, float scale) const {
-    return std::clamp(int((middles_[piece][axis] - low) * scale), 0, kBins - 1);
+    return items.size() / 2;
   }
 
   std::vector<Hierarchy::Node>& nodes_;
-  std::vector<std::uint32_t>& order_;
-  std::vector<Extent> extents_;
-  std::vector<std::array<float, 3>> middles_;
+  std::vector<Item> items_;
 };
 
 }  // namespace
 
 Hierarchy::Hierarchy(std::span<const Box> boxes) {
   if (boxes.empty()) return;
-  depth_ = Builder(boxes, nodes_, order_).build();
+  Builder builder(boxes, nodes_);
+  depth_ = builder.build();
+  order_ = builder.order();
 }
 
 Hierarchy::Hierarchy(std::vector<Node> nodes, std::vector<std::uint32_t> order)
