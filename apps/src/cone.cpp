@@ -6,7 +6,6 @@
 #include <vericone/cones/combined_slice_cone.h>
 #include <vericone/cones/exact_cone.h>
 #include <vericone/cones/plane_sector.h>
-#include <vericone/cones/sector.h>
 #include <vericone/cones/slice_cone.h>
 #include <vericone/geometry/error.h>
 #include <algorithm>
@@ -23,6 +22,7 @@
 #include "planar_cone.h"
 #include "provenance.h"
 #include "shape_engagements.h"
+#include "slice_json.h"
 
 namespace vericone {
 namespace {
@@ -32,14 +32,6 @@ using Json = nlohmann::ordered_json;
 Json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-
-Json polyhedral_json(const PolyhedralCone& cone) {
-  Json directions = Json::array();
-  for (const auto& d : cone.directions) directions.push_back(vector_json(d));
-  return {{"directions", directions},
-          {"solid_angle", cone.solid_angle},
-          {"cross_section_area", number_or_null(cone.cross_section_area)}};
-}
 
 Json exact_json(const Ellipsoid& a, const Ellipsoid& b, int samples) {
   const auto start = std::chrono::steady_clock::now();
@@ -135,24 +127,9 @@ Json slice_json(const input::Engagement& e, int planes, SliceSector choice) {
   result.update(polyhedral_json(cone.polyhedral));
   if (cone.relation == "undecided") result["solid_angle"] = nullptr;
   result.update(cone.extra);
-  // The source's y on each plane (6.14), with the velocities projected on the line of sight and across it.
   Json sectors = Json::array();
-  for (const Slice& s : cone.slices) {
-    const AxisFrame frame(cone.axis);
-    const Eigen::Vector3d across = std::cos(s.azimuth) * frame.e1 + std::sin(s.azimuth) * frame.e2;
-    const auto in_plane = [&](const Eigen::Vector3d& v) {
-      return Eigen::Vector2d(v.dot(cone.axis), v.dot(across));
-    };
-    const ConeFunction y =
-        cone_function(s.psi(), s.theta_b(), in_plane(e.agent_velocity), in_plane(e.obstacle_velocity));
-    sectors.push_back({{"azimuth", s.azimuth},
-                       {"psi", s.psi()},
-                       {"theta_b", s.theta_b()},
-                       // y cannot tell a sector of more than half a turn.
-                       {"y", s.psi() <= std::numbers::pi ? Json(y.y) : Json(nullptr)},
-                       {"v_r_hat", y.v_r_hat},
-                       {"v_theta_hat", y.v_theta_hat}});
-  }
+  for (const Slice& s : cone.slices)
+    sectors.push_back(sector_json(s, cone.axis, e.agent_velocity, e.obstacle_velocity));
   result["sectors"] = sectors;
   // Slices miss part of the cone and cannot tell how much: no bound, no outer cone.
   result["inner"] = nullptr;

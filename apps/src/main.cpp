@@ -12,6 +12,7 @@
 #include "cone.h"
 #include "pieces/gallery.h"
 #include "query.h"
+#include "scan/run_scan.h"
 #include "shapes.h"
 #include "signmap.h"
 #ifdef VERICONE_HAVE_VERIFY
@@ -153,6 +154,32 @@ int run(int argc, char** argv) {
     gallery.figures = !no_gallery_figures;
     for (int i = 0; i < argc; ++i) gallery.command_line.append(i ? " " : "").append(i ? argv[i] : "vericone");
     status = vericone::run_gallery(gallery, std::cout);
+  });
+
+  vericone::ScanOptions scan;
+  auto* scan_command = app.add_subcommand(
+      "scan", "What simulated LiDARs on the agent see of a mesh, and the cone they get from it");
+  scan_command->add_option("scene", scan.scene, "Scene file with a mesh and lidars (docs/formats.md)")
+      ->required();
+  scan_command->add_option("--out", scan.out, "Folder for cloud, tables and pictures")->capture_default_str();
+  scan_command->add_option("--planes", scan.planes, "Planes through what is seen")->capture_default_str();
+  scan_command
+      ->add_option("--levels", scan.levels, "How often the beams are made twice as fine, and one more")
+      ->capture_default_str();
+  scan_command->add_option("--azimuth", scan.azimuth, "Of the plane of the picture, radians")
+      ->capture_default_str();
+  scan_command->add_option("--seed", scan.seed, "Seed of all random numbers")->capture_default_str();
+  bool no_scan_figures = false;
+  scan_command->add_flag("--no-figures", no_scan_figures, "Cloud and tables only");
+  scan_command->add_flag("--quiet", scan.quiet, "No progress");
+  scan_command->callback([&] {
+    scan.figures = !no_scan_figures;
+    for (int i = 0; i < argc; ++i) scan.command_line.append(i ? " " : "").append(i ? argv[i] : "vericone");
+#ifdef VERICONE_HAVE_LIDAR
+    vericone::run_scan(scan, std::cout);
+#else
+    throw vericone::InputError("scan", "a command without LiDARs", "a build with VERICONE_LIDAR");
+#endif
   });
 
   vericone::ShapesOptions shapes;

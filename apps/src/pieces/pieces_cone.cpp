@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pieces/pieces_cone.h"
 
+#include <vericone/cones/visible_cone.h>
 #include <vericone/geometry/error.h>
+#include <chrono>
 #include <filesystem>
 #include <ostream>
 
@@ -9,7 +11,9 @@
 #include "figures.h"
 #include "pieces/assembly_cone.h"
 #include "pieces/pieces_picture.h"
+#include "pieces/world_mesh.h"
 #include "provenance.h"
+#include "slice_json.h"
 
 namespace vericone {
 namespace {
@@ -21,6 +25,47 @@ void refuse_options(const ConeOptions& options) {
     throw InputError("--samples", std::to_string(*options.samples), "left out for a body of pieces");
   if (options.tangents != "all")
     throw InputError("--tangents", options.tangents, "left out for a body of pieces");
+}
+
+/// The source's slices of a mesh that is known as a whole: tangents to the corners of its sections.
+Json slices_json(const input::AssemblyEngagement& e, int planes) {
+  const auto* agent = std::get_if<Ellipsoid>(&e.agent);
+  if (!agent || e.obstacle.pieces.kind() != PieceKind::triangle)
+    throw InputError("--method", "slice",
+                     "left out except for an ellipsoid and a mesh, a scene of ellipsoids, or scan");
+  const WorldMesh mesh = world_mesh(e.obstacle);
+  const auto start = std::chrono::steady_clock::now();
+  const VisibleCone cone = visible_cone(*agent, mesh_section_points(mesh.points, mesh.triangles),
+                                        e.obstacle.middle(), planes, {.search = {}, .by_search = false});
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const AssemblyOracle oracle = assembly_oracle(e);
+  Json result{{"method", "slice"},
+              {"planes", planes},
+              {"relation", to_string(oracle.relation())},
+              {"axis", {cone.axis.x(), cone.axis.y(), cone.axis.z()}}};
+  result.update(polyhedral_json(cone.polyhedral()));
+  Json sectors = Json::array();
+  for (const VisiblePlane& plane : cone.planes)
+    if (plane.slice)
+      sectors.push_back(sector_json(*plane.slice, cone.axis, e.agent_velocity, e.obstacle_velocity));
+  result["sectors"] = sectors;
+  result["planes_without_answer"] = cone.planes_without_answer();
+  result["inner"] = result["outer"] = result["error_bound"] = nullptr;
+  result["seconds"] = seconds;
+  return result;
+}
+
+void print_slices(const Json& cone, const input::AssemblyEngagement& e, std::ostream& out) {
+  out << "method              slice, " << cone["planes"].dump() << " planes\n"
+      << "obstacle            " << describe(e.obstacle) << '\n'
+      << "bodies              " << cone["relation"].get<std::string>() << '\n';
+  if (cone["solid_angle"].is_number()) out << "solid angle         " << cone["solid_angle"].dump() << " sr\n";
+  if (cone["planes_without_answer"] != 0)
+    out << "no tangents         on " << cone["planes_without_answer"].dump() << " planes\n";
+  out << "note                slices see only contacts within their planes: they are in the true cone, what "
+         "lies "
+         "between them need not be\n"
+      << "time                " << cone["seconds"].dump() << " s\n";
 }
 
 void print_verdict(const input::AssemblyEngagement& e, std::ostream& out) {
@@ -38,6 +83,17 @@ void print_verdict(const input::AssemblyEngagement& e, std::ostream& out) {
 
 void run_pieces_cone(const ConeOptions& options, const input::AssemblyEngagement& e, std::ostream& out) {
   refuse_options(options);
+  if (options.method == "slice") {
+    if (options.map || !options.picture_folder.empty())
+      throw InputError("--method", "slice", "left out where a map or a picture is asked for");
+    const Json slices = slices_json(e, options.planes.value_or(kDefaultPlanes));
+    if (options.json) {
+      out << slices.dump(1) << '\n';
+    } else {
+      print_slices(slices, e, out);
+    }
+    return;
+  }
   const AssemblyCone cone = assembly_cone(e, options.planes.value_or(kDefaultHalfPlanes),
                                           options.tolerance.value_or(kDefaultAngle));
   const bool drawn = !options.picture_folder.empty();

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vericone/lidar/lidar.h>
+#include <vector>
+
+#include "input/body.h"
+
+namespace vericone::scanning {
+
+struct SceneLidars {
+  std::vector<lidar::Lidar> lidars;
+  double position_error = 0, rotation_error = 0;  // how well their poses are known, see Setup
+};
+
+/// The fields `lidars` and `lidar_pose_error` of a scene (docs/formats.md). Throws InputError naming the
+/// field.
+SceneLidars read_lidars(const input::Json& scene);
+
+}  // namespace vericone::scanning

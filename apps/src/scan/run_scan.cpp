@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scan/run_scan.h"
+
+#include <vericone/cones/visible_cone.h>
+#include <vericone/geometry/error.h>
+#include <vericone/lidar/scan.h>
+#include <filesystem>
+#include <iostream>
+#include <sstream>
+
+#include "figures.h"
+#include "input/scene.h"
+#include "pieces/assembly_cone.h"
+#include "pieces/world_mesh.h"
+#include "provenance.h"
+#include "scan/lidar_fields.h"
+#include "scan/study.h"
+#include "scan/study_parts.h"
+#include "slice_json.h"
+
+namespace vericone {
+namespace {
+
+using namespace scanning;
+using Eigen::Vector3d;
+using Json = nlohmann::ordered_json;
+
+struct Scene {
+  input::AssemblyEngagement engagement;
+  SceneLidars lidars;
+};
+
+Scene read(const std::string& path) {
+  const input::AnyEngagement any = input::read_scene(path);
+  const auto* e = std::get_if<input::AssemblyEngagement>(&any);
+  if (!e || e->obstacle.pieces.kind() != PieceKind::triangle)
+    throw InputError("obstacle", "no mesh", "a mesh for the lidars to see");
+  if (!std::holds_alternative<Ellipsoid>(e->agent)) throw InputError("agent", "a hull", "an ellipsoid");
+  return {*e, read_lidars(input::read_scene_fields(path))};
+}
+
+Setup setup_of(const Scene& scene, const ScanOptions& options) {
+  Setup setup;
+  setup.agent = std::get<Ellipsoid>(scene.engagement.agent);
+  setup.agent_pose.translation() = setup.agent.center();
+  WorldMesh mesh = world_mesh(scene.engagement.obstacle);
+  setup.points = std::move(mesh.points);
+  setup.triangles = std::move(mesh.triangles);
+  setup.lidars = scene.lidars.lidars;
+  setup.position_error = scene.lidars.position_error;
+  setup.rotation_error = scene.lidars.rotation_error;
+  setup.seed = options.seed;
+  setup.planes = options.planes;
+  setup.levels = options.levels;
+  return setup;
+}
+
+std::string ply(const std::vector<Vector3d>& points) {
+  std::ostringstream out;
+  out << "ply\nformat ascii 1.0\ncomment metres, world frame; made by vericone scan\nelement vertex "
+      << points.size() << "\nproperty double x\nproperty double y\nproperty double z\nend_header\n";
+  for (const Vector3d& x : points)
+    out << to_text(x.x()) << ' ' << to_text(x.y()) << ' ' << to_text(x.z()) << '\n';
+  return out.str();
+}
+
+/// The source's sectors of the fused cloud.
+Json sectors_json(const VisibleCone& cone, const input::AssemblyEngagement& e) {
+  Json sectors = Json::array();
+  for (const VisiblePlane& plane : cone.planes) {
+    Json one{{"azimuth", plane.azimuth}, {"points", plane.points}, {"tried", plane.tried}};
+    if (plane.slice) {
+      one.update(sector_json(*plane.slice, cone.axis, e.agent_velocity, e.obstacle_velocity));
+    } else {
+      one["reason"] = to_string(plane.reason);
+    }
+    sectors.push_back(one);
+  }
+  return sectors;
+}
+
+Json parsed(const auto& what) {
+  std::ostringstream text;
+  write_json(what, text);
+  return Json::parse(text.str());
+}
+
+void print(const Json& scan, std::ostream& out) {
+  out << "returns             " << scan["cloud"]["points"].dump() << " of " << scan["cloud"]["beams"].dump()
+      << " beams\n";
+  if (const Json& fusion = scan["fusion"]; !fusion.is_null()) {
+    out << "fusion              ";
+    if (fusion["failed"].is_null()) {
+      out << "points are at most " << fusion["error"].dump() << " m from where the true poses have them\n";
+    } else {
+      out << "failed: " << fusion["failed"].get<std::string>() << '\n';
+    }
+  }
+  if (scan["sectors"].is_null()) return;
+  out << "sectors             " << scan["sectors"]["solid_angle"].dump() << " sr on " << scan["planes"].dump()
+      << " planes, none on " << scan["sectors"]["planes_without_answer"].dump() << '\n';
+}
+
+}  // namespace
+
+void run_scan(const ScanOptions& options, std::ostream& out) {
+  const Scene scene = read(options.scene);
+  const Setup setup = setup_of(scene, options);
+  std::ostream* log = options.quiet ? nullptr : &std::cerr;
+  const lidar::MeshScene mesh(setup.points, setup.triangles);
+  const Seen seen = look(setup, mesh, setup.lidars);
+  if (log) *log << seen.points.size() << " returns\n";
+  Json result = parsed(study(setup, log));
+  std::size_t beams = 0;
+  for (const lidar::Lidar& l : setup.lidars) beams += l.beams.size();
+  result["planes"] = options.planes;
+  result["seed"] = options.seed;
+  result["cloud"] = {
+      {"beams", beams}, {"points", seen.points.size()}, {"half_thickness", seen.half_thickness}};
+  const bool fused = setup.position_error > 0 || setup.rotation_error > 0;
+  result["fusion"] = nullptr;
+  if (fused)
+    result["fusion"] = {{"failed", seen.not_fused.empty() ? Json(nullptr) : Json(seen.not_fused)},
+                        {"error", seen.not_fused.empty() ? Json(seen.fusion_error) : Json(nullptr)}};
+  result["sectors"] = nullptr;
+  if (seen.not_fused.empty()) {
+    const VisibleCone cone = visible_cone(setup.agent, points_near_plane(seen.points, seen.half_thickness),
+                                          center_of(seen.points), options.planes);
+    Json sectors = polyhedral_json(cone.polyhedral());
+    sectors["axis"] = {cone.axis.x(), cone.axis.y(), cone.axis.z()};
+    sectors["planes_without_answer"] = cone.planes_without_answer();
+    sectors["sectors"] = sectors_json(cone, scene.engagement);
+    result["sectors"] = sectors;
+  }
+
+  const std::filesystem::path folder = options.out;
+  std::filesystem::create_directories(folder);
+  write_whole(folder / "cloud.ply", ply(seen.points));
+  write_whole(folder / "scan.json", result.dump(1) + "\n");
+  write_whole(folder / "section.json", parsed(plane_section_picture(setup, options.azimuth)).dump() + "\n");
+  write_whole(folder / "provenance.json", provenance(options.command_line).dump(1) + "\n");
+  out << "obstacle            " << describe(scene.engagement.obstacle) << '\n';
+  print(result, out);
+  out << "written             " << (folder / "cloud.ply").string() << ", " << (folder / "scan.json").string()
+      << '\n';
+  if (options.figures)
+    for (const char* script : {"visible_section.py", "scan_convergence.py"})
+      for (const auto& file : draw_figures(script, folder))
+        out << "picture             " << file.string() << '\n';
+}
+
+}  // namespace vericone
