@@ -38,21 +38,79 @@ double distance_to(const Vector3d& p, const std::vector<Vector3d>& shape) {
   return shape.size() == 1 ? (p - shape[0]).norm() : distance_to_triangle(p, shape);
 }
 
-/// From x to the cone of up to three directions: the least over its faces.
+double distance_to_box(const Vector3d& p, const Box& box) {
+  return (p - p.cwiseMax(box.low).cwiseMin(box.high)).norm();
+}
+
+/// The box of TruePieces::boxes, or nothing.
+std::optional<Box> as_box(const std::vector<Vector3d>& points) {
+  if (points.size() != 8) return std::nullopt;
+  const Box box{points.front(), points.back()};
+  return TruePieces::boxes({box}).hulls.front() == points ? std::optional(box) : std::nullopt;
+}
+
+/// From x to the flat cone of some directions, where the foot is within; otherwise infinite.
+template <int N>
+double distance_to_flat(const Vector3d& x, const Eigen::Matrix<double, 3, N>& d) {
+  const Eigen::Matrix<double, N, N> gram = d.transpose() * d;
+  if (!(gram.determinant() > 1e-20)) return INFINITY;
+  const Eigen::Matrix<double, N, 1> s = gram.inverse() * (d.transpose() * x);
+  return (s.array() >= 0).all() ? (x - d * s).norm() : INFINITY;
+}
+
+/// From x to the cone of two or three directions: the least over its faces.
 double distance_to_cone(const Vector3d& x, const std::vector<Vector3d>& directions) {
   double least = x.norm();
+  Eigen::Matrix3d d;
   const int n = static_cast<int>(directions.size());
-  for (int subset = 1; subset < 1 << n; ++subset) {
-    Eigen::MatrixXd d(3, 0);
-    for (int i = 0; i < n; ++i)
-      if (subset >> i & 1) {
-        d.conservativeResize(3, d.cols() + 1);
-        d.col(d.cols() - 1) = directions[i].normalized();
-      }
-    const Eigen::VectorXd s = d.colPivHouseholderQr().solve(x);
-    if ((s.array() >= 0).all()) least = std::min(least, (x - d * s).norm());
+  for (int i = 0; i < n; ++i) {
+    d.col(i) = directions[static_cast<std::size_t>(i)].normalized();
+    if (d.col(i).dot(x) > 0) least = std::min(least, (x - d.col(i).dot(x) * d.col(i)).norm());
+  }
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < i; ++j) {
+      Eigen::Matrix<double, 3, 2> pair;
+      pair << d.col(i), d.col(j);
+      least = std::min(least, distance_to_flat<2>(x, pair));
+    }
+  if (n == 3) least = std::min(least, distance_to_flat<3>(x, d));
+  return least;
+}
+
+/// The least of a convex function of one number.
+template <typename Function>
+double least_between(double low, double high, double accuracy, const Function& at) {
+  constexpr double kGolden = 0.6180339887498949;
+  double a = high - kGolden * (high - low), b = low + kGolden * (high - low), at_a = at(a), at_b = at(b);
+  double least = std::min({at(low), at(high), at_a, at_b});
+  while (high - low > accuracy * (std::abs(high) + std::abs(low)) && a < b) {
+    if (at_a < at_b) {
+      high = b, b = a, at_b = at_a;
+      a = high - kGolden * (high - low), at_a = at(a);
+    } else {
+      low = a, a = b, at_a = at_b;
+      b = low + kGolden * (high - low), at_b = at(b);
+    }
+    least = std::min({least, at_a, at_b});
   }
   return least;
+}
+
+/// The least of a convex function of places that grows beyond `farthest`, along a line or in a sector of a
+/// right angle or less.
+template <typename Distance>
+double least_along(const Motion& motion, const Eigen::Matrix3d& map, double farthest,
+                   const Distance& distance) {
+  if (motion.directions.empty())
+    return least_between(motion.from, motion.to, 1e-9,
+                         [&](double t) { return distance(map * (t * motion.w)); });
+  const Vector3d d = (map * motion.directions[0]).normalized();
+  if (motion.directions.size() == 1)
+    return least_between(0, 2 * farthest, 1e-9, [&](double t) { return distance(t * d); });
+  const Vector3d e = (map * motion.directions[1]).normalized();
+  return least_between(0, 2 * farthest, 1e-7, [&](double t) {
+    return least_between(0, 2 * farthest, 1e-7, [&](double u) { return distance(t * d + u * e); });
+  });
 }
 
 }  // namespace
@@ -63,6 +121,7 @@ Nearness::Nearness(const Ellipsoid& agent, const TruePieces& pieces) {
   reach_ = axes.maxCoeff() * (1 + 1e-9) + pieces.radius;
   spread_ = axes.maxCoeff() / axes.minCoeff();
   const bool ball = spread_ < 1 + 1e-12;
+  if (ball) spread_ = 1;
   if (spread_ < 1e5 && (ball || pieces.radius == 0)) {
     has_map_ = true;
     if (ball) {
@@ -81,7 +140,12 @@ Nearness::Nearness(const HullBody& agent, const TruePieces& pieces) {
   for (const Vector3d& x : agent.points()) reach_ = std::max(reach_, (x - center_).norm() * (1 + 1e-9));
   reach_ += pieces.radius;
   for (const Vector3d& x : agent.points()) size_ = std::max(size_, x.cwiseAbs().maxCoeff());
-  if (agent.size() == 1) {
+  if (const auto box = as_box(agent.points())) {
+    // The agent is carried over to the pieces: points and boxes become boxes, and it a point at the origin.
+    agent_box_ = box;
+    has_map_ = true;
+    unit_ = pieces.radius;
+  } else if (agent.size() == 1) {
     // A point: touching and overlapping are the same distance, so only `out` is said, below.
     has_map_ = pieces.radius > 0;
     unit_ = pieces.radius;
@@ -92,14 +156,21 @@ Nearness::Nearness(const HullBody& agent, const TruePieces& pieces) {
 void Nearness::add(const TruePieces& pieces) {
   size_ = std::max(size_, center_.cwiseAbs().maxCoeff());
   for (const auto& points : pieces.hulls) {
-    Piece piece{Vector3d::Zero(), 0, {}};
+    Piece piece{Vector3d::Zero(), 0, {}, {}};
     for (const Vector3d& x : points) piece.center += x / static_cast<double>(points.size());
     for (const Vector3d& x : points) {
       piece.radius = std::max(piece.radius, (x - piece.center).norm() * (1 + 1e-9));
       size_ = std::max(size_, x.cwiseAbs().maxCoeff());
     }
-    if (has_map_ && (points.size() == 1 || points.size() == 3))
+    if (agent_box_ && points.size() == 1)
+      piece.box = Box{points[0] - agent_box_->high, points[0] - agent_box_->low};
+    else if (agent_box_)
+      if (const auto box = as_box(points))
+        piece.box = Box{box->low - agent_box_->high, box->high - agent_box_->low};
+    if (has_map_ && !agent_box_ && (points.size() == 1 || points.size() == 3))
       for (const Vector3d& x : points) piece.shape.push_back(map_ * (x - center_));
+    if (has_map_ && !agent_box_ && spread_ == 1)
+      if (auto box = as_box(points)) piece.box = Box{box->low - center_, box->high - center_};
     pieces_.push_back(std::move(piece));
   }
 }
@@ -120,37 +191,37 @@ std::optional<Membership> Nearness::decide(std::size_t i, const Motion& motion, 
   }
   const double doubt = kDoubt * (distance + piece.radius + reach_) + 1e-12 * size_;
   if (distance > reach_ + piece.radius + margin + doubt) return Membership::out;
-  if (!piece.shape.empty() && (margin == 0 || scale_ > 0)) return by_distance(piece, motion, margin);
+  if ((piece.box || !piece.shape.empty()) && (margin == 0 || scale_ > 0))
+    return by_distance(piece, motion, margin);
   return std::nullopt;
 }
 
 std::optional<Membership> Nearness::by_distance(const Piece& piece, const Motion& motion,
                                                 double margin) const {
-  double least = 0, farthest = 0;
+  // The distance is convex along a line; beyond the farthest corner it grows.
+  double farthest = piece.box ? piece.box->low.norm() + piece.box->high.norm() : 0;
   for (const Vector3d& x : piece.shape) farthest = std::max(farthest, x.norm());
-  if (motion.directions.size() == 1 && motion.to == 0) {
-    // The distance is convex along the ray; beyond the farthest corner it grows.
-    const Vector3d w = (map_ * motion.directions.front()).normalized();
-    double low = 0, high = 2 * farthest;
-    for (int k = 0; k < 80 && high - low > 1e-9 * high; ++k) {
-      const double a = low + 0.382 * (high - low), b = high - 0.382 * (high - low);
-      if (distance_to(a * w, piece.shape) < distance_to(b * w, piece.shape))
-        high = b;
-      else
-        low = a;
-    }
-    least = distance_to(0.5 * (low + high) * w, piece.shape);
-  } else if (motion.directions.empty() && motion.from == motion.to) {
-    const Vector3d at = map_ * (motion.to * motion.w);
-    farthest = std::max(farthest, at.norm());
-    least = distance_to(at, piece.shape);
-  } else {
-    return std::nullopt;
-  }
+  const auto& directions = motion.directions;
+  const bool sector = directions.size() == 2 && piece.box && directions[0].dot(directions[1]) >= 0;
+  if (!directions.empty() && (motion.to != 0 || (directions.size() > 1 && !sector))) return std::nullopt;
   const double reach = unit_ + margin * scale_;
+  if (directions.empty())
+    for (double t : {motion.from, motion.to}) farthest = std::max(farthest, (map_ * (t * motion.w)).norm());
   const double doubt = kDoubt * (farthest + reach) + 1e-12 * size_ * map_.cwiseAbs().maxCoeff() * spread_;
-  if (least > reach + doubt) return Membership::out;
-  if (least < reach - doubt) return Membership::in;
+  const auto least = [&](double inset) {
+    return least_along(motion, map_, farthest, [&](const Vector3d& x) {
+      if (!piece.box) return distance_to(x, piece.shape);
+      const Vector3d in = Vector3d::Constant(inset);
+      return distance_to_box(x, {piece.box->low + in, piece.box->high - in});
+    });
+  };
+  const double distance = least(0);
+  if (distance > reach + doubt) return Membership::out;
+  if (distance < reach - doubt) return Membership::in;
+  // Close to a box that is a little smaller is inside.
+  if (piece.box && reach == 0 && 4 * doubt < (piece.box->high - piece.box->low).minCoeff() &&
+      least(2 * doubt) < doubt)
+    return Membership::in;
   return std::nullopt;
 }
 

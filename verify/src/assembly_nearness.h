@@ -27,6 +27,7 @@ class Nearness {
     Eigen::Vector3d center;  // of a ball about it
     double radius;
     std::vector<Eigen::Vector3d> shape;  // in the agent's coordinates: a point, a triangle, else empty
+    std::optional<Box> box;              // piece and agent together, where they make a box, rounded
   };
   void add(const TruePieces& pieces);
   std::optional<Membership> by_distance(const Piece& piece, const Motion& motion, double margin) const;
@@ -34,6 +35,7 @@ class Nearness {
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();  // of a ball about the agent
   double reach_ = 0;                                  // its radius and that of the pieces
   double size_ = 0;                                   // largest coordinate
+  std::optional<Box> agent_box_;                      // where the agent is a box
   bool has_map_ = false;
   Eigen::Matrix3d map_ = Eigen::Matrix3d::Identity();  // to the agent's coordinates
   double unit_ = 0;                                    // the reach in them, without a margin
