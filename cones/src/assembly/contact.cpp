@@ -105,7 +105,7 @@ std::optional<AssemblyContact> first_contact(const Scene& scene, const Eigen::Ve
   first.earliest = kInfinity;
   double latest = kInfinity;
   std::uint32_t first_slot = 0;
-  along_ray(scene, slabs, limit, effort, [&](std::uint32_t slot, double) {
+  along_ray(scene, slabs, test, limit, effort, [&](std::uint32_t slot, double) {
     const Box box = scene.slot_box(slot);
     if (!(slabs.enter(box.low.data(), box.high.data()) < limit) || test.apart(box.low, box.high)) return true;
     ++effort.pieces;

@@ -61,7 +61,7 @@ Membership find_membership(const Scene& scene, const Eigen::Vector3d& v_a, const
   const BoxTest test(scene.frame(), ray, RayResidual{ray.ray[0]});
   Membership answer = Membership::out;
   const double limit = std::numeric_limits<double>::infinity();
-  along_ray(scene, slabs, limit, effort, [&](std::uint32_t slot, double) {
+  along_ray(scene, slabs, test, limit, effort, [&](std::uint32_t slot, double) {
     const Box box = scene.slot_box(slot);
     if (std::isinf(slabs.enter(box.low.data(), box.high.data())) || test.apart(box.low, box.high))
       return true;

@@ -150,11 +150,21 @@ class Slabs {
 };
 
 /// Calls leaf(slot, enter) for the slots whose boxes the ray enters before `limit`, nearer nodes first;
-/// `limit` may shrink meanwhile. leaf returns false to stop.
-template <class Leaf>
-void along_ray(const Scene& scene, const Slabs& slabs, const double& limit, Effort& effort, Leaf&& leaf) {
+/// `limit` may shrink meanwhile. leaf returns false to stop. Boxes that look small beside the agent are
+/// compared with it as it is, not only with the box around it: between the two there is room for thousands of
+/// points of a dense cloud.
+template <class Residual, class Leaf>
+void along_ray(const Scene& scene, const Slabs& slabs, const BoxTest<Residual>& test, const double& limit,
+               Effort& effort, Leaf&& leaf) {
   const auto nodes = scene.nodes();
-  if (nodes.empty()) return;
+  const float small = static_cast<float>(scene.frame().reach().maxCoeff());
+  const auto enter = [&](const Hierarchy::Node& node) {
+    const double at = slabs.enter(node);
+    if (!(at < limit)) return std::numeric_limits<double>::infinity();
+    const bool is_small = node.high[0] - node.low[0] < small && node.high[1] - node.low[1] < small &&
+                          node.high[2] - node.low[2] < small;
+    return is_small && test.apart(node) ? std::numeric_limits<double>::infinity() : at;
+  };
   struct Item {
     std::uint32_t node;
     double enter;
@@ -162,7 +172,7 @@ void along_ray(const Scene& scene, const Slabs& slabs, const double& limit, Effo
   Item stack[128];
   int size = 0;
   ++effort.nodes;
-  if (const double enter = slabs.enter(nodes[0]); enter < limit) stack[size++] = {0, enter};
+  if (const double at = enter(nodes[0]); at < limit) stack[size++] = {0, at};
   while (size > 0) {
     const Item item = stack[--size];
     if (!(item.enter < limit)) continue;
@@ -173,7 +183,7 @@ void along_ray(const Scene& scene, const Slabs& slabs, const double& limit, Effo
       continue;
     }
     effort.nodes += 2;
-    const double first = slabs.enter(nodes[node.first]), second = slabs.enter(nodes[node.first + 1]);
+    const double first = enter(nodes[node.first]), second = enter(nodes[node.first + 1]);
     const bool swap = first < second;
     const Item far{node.first + (swap ? 1u : 0u), swap ? second : first};
     const Item near{node.first + (swap ? 0u : 1u), swap ? first : second};
