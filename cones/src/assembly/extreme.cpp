@@ -67,17 +67,18 @@ class Search {
     const auto nodes = scene_.nodes();
     struct Item {
       std::uint32_t node;
+      int version;  // of the sector that it was compared with
       double order;
     };
     Item stack[128];
     int size = 0;
     ++effort_.nodes;
-    if (!apart(nodes[0])) stack[size++] = {0, 0};
+    if (!apart(nodes[0])) stack[size++] = {0, version_, 0};
     while (size > 0) {
       const Item item = stack[--size];
       const Hierarchy::Node& node = nodes[item.node];
       // The sector may have shrunk since the node was put aside.
-      if (found_ && apart(node)) continue;
+      if (item.version != version_ && apart(node)) continue;
       if (node.is_leaf()) {
         for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot) raise(slot);
         continue;
@@ -86,7 +87,7 @@ class Search {
       Item children[2];
       int count = 0;
       for (std::uint32_t child = node.first; child < node.first + 2; ++child)
-        if (!apart(nodes[child])) children[count++] = {child, height(nodes[child])};
+        if (!apart(nodes[child])) children[count++] = {child, version_, height(nodes[child])};
       if (count == 2 && children[0].order > children[1].order) std::swap(children[0], children[1]);
       for (int i = 0; i < count; ++i) stack[size++] = children[i];
     }
@@ -105,12 +106,11 @@ class Search {
   void look_beyond(double angle) {
     beyond_ = std::min(angle, to_);
     sector_ = Directions(scene_.frame(), {plane_.at(beyond_), plane_.at(to_)});
-    residual_ = SectorResidual(sector_);
+    test_.emplace(scene_.frame(), sector_, SectorResidual(sector_));
+    ++version_;
   }
 
-  bool apart(const Hierarchy::Node& node) const {
-    return !sector_.spread_too_far() && BoxTest(scene_.frame(), sector_, residual_).apart(node);
-  }
+  bool apart(const Hierarchy::Node& node) const { return !sector_.spread_too_far() && test_->apart(node); }
 
   /// How far a node reaches towards the end of the sector, for the order of visits only.
   double height(const Hierarchy::Node& node) const {
@@ -123,9 +123,9 @@ class Search {
 
   Directions sector(double from) const { return {scene_.frame(), {plane_.at(from), plane_.at(to_)}}; }
 
-  Gap ask(const Core& core, const Directions& directions) const {
-    const Eigen::Vector3d away = SectorResidual(directions)(core.center());
-    return gap(core, directions, away.isZero(0) ? core.center() : away);
+  static Eigen::Vector3d direction_of(const Eigen::Vector3d& v, const Eigen::Vector3d& otherwise) {
+    if (!v.isZero(0)) return v;
+    return otherwise.isZero(0) ? Eigen::Vector3d::UnitX() : otherwise;
   }
 
   /// The angle of the direction that a search ended with.
@@ -137,14 +137,16 @@ class Search {
     return std::clamp(std::atan2(d.dot(plane_.side), d.dot(plane_.axis)), from, to_);
   }
 
-  /// Takes the angle as found where the direction there is proved to meet the piece.
-  bool take(std::uint32_t slot, const Core& core, double angle) {
+  /// Takes the angle as found where the direction there is proved to meet the piece; `exactly`: by the exact
+  /// predicate, where doubles do not tell.
+  bool take(std::uint32_t slot, const Core& core, double angle, bool exactly) {
     const Eigen::Vector3d w = plane_.at(angle);
     const Directions ray(scene_.frame(), {w});
     const Eigen::Vector3d away = RayResidual{ray.ray[0]}(core.center());
     const Gap found = gap(core, ray, away.isZero(0) ? core.center() : away);
     if (found.answer == Gap::Answer::apart) return false;
     if (found.answer == Gap::Answer::close) {
+      if (!exactly) return false;
       ++effort_.exact;
       if (scene_.exact_membership(slot, w, Eigen::Vector3d::Zero()) == Membership::out) return false;
     }
@@ -160,23 +162,21 @@ class Search {
   /// The same a little before the angle: at the very end of what meets the piece the direction itself,
   /// rounded, may just miss it.
   bool take_near(std::uint32_t slot, const Core& core, double angle) {
-    if (take(slot, core, angle)) return true;
-    for (const double back : {0.01 * tolerance_, 0.25 * tolerance_})
-      if (angle - back > beyond_ && take(slot, core, angle - back)) return true;
+    for (const double back : {0.0, 0.01 * tolerance_, 0.25 * tolerance_})
+      if (angle - back >= beyond_ && take(slot, core, angle - back, false)) return true;
     return false;
   }
 
   /// Looks for directions beyond what is known at which the piece is met.
   void raise(std::uint32_t slot) {
     ++effort_.pieces;
-    const Box box = scene_.slot_box(slot);
-    if (!sector_.spread_too_far() && BoxTest(scene_.frame(), sector_, residual_).apart(box.low, box.high))
-      return;
     const Core core = scene_.core(slot);
-    Gap found = ask(core, sector_);
+    const Eigen::Vector3d away = test_->residual()(core.center());
+    const Gap found = gap(core, sector_, direction_of(away, core.center()));
     if (found.answer == Gap::Answer::apart) return;
-    double low = beyond_, high = to_;
-    if (take_near(slot, core, angle(found, sector_, beyond_))) low = std::max(low, low_);
+    double low = beyond_, high = to_, met = angle(found, sector_, beyond_);
+    Eigen::Vector3d normal = direction_of(found.v, core.center());  // searches begin where the last one ended
+    if (take_near(slot, core, met)) low = std::max(low, low_);
     // Mostly little is gained: steps that grow until one is beyond, then bisection. A direction that meets
     // the piece is found on the way wherever there is one to speak of.
     double step = tolerance_;
@@ -185,14 +185,20 @@ class Search {
       if (middle <= low || middle >= high) break;
       step *= 4;
       const Directions beyond = sector(middle);
-      found = ask(core, beyond);
-      if (found.answer == Gap::Answer::apart) {
+      const Gap at_middle = gap(core, beyond, normal);
+      normal = direction_of(at_middle.v, normal);
+      if (at_middle.answer == Gap::Answer::apart) {
         high = middle;
         continue;
       }
       low = middle;
-      if (take_near(slot, core, angle(found, beyond, middle))) low = std::max(low, low_);
+      met = angle(at_middle, beyond, middle);
+      if (take_near(slot, core, met)) low = std::max(low, low_);
     }
+    // Met by a sliver of directions at most.
+    if (!found_ || low_ < high - tolerance_)
+      for (const double at : {met, low})
+        if (take(slot, core, at, true)) break;
     high_ = std::max(high_, high);
     if (found_ && low_ + 0.5 * tolerance_ > beyond_) look_beyond(low_ + 0.5 * tolerance_);
   }
@@ -202,7 +208,8 @@ class Search {
   double to_, tolerance_;
   Effort& effort_;
   Directions sector_;
-  SectorResidual residual_{Directions(scene_.frame(), {plane_.axis, plane_.axis})};
+  std::optional<BoxTest<SectorResidual>> test_;  // of sector_
+  int version_ = 0;                              // counts sectors
   bool found_ = false;
   double low_, high_, beyond_ = 0;
   Eigen::Vector3d direction_ = Eigen::Vector3d::Zero();

@@ -91,6 +91,8 @@ class BoxTest {
   double distance(const Hierarchy::Node& node) const {
     return distance({node.low[0], node.low[1], node.low[2]}, {node.high[0], node.high[1], node.high[2]});
   }
+  const Residual& residual() const { return residual_; }
+
   bool apart(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const {
     return distance(low, high) > 0;
   }
