@@ -18,7 +18,7 @@ def view_of():
     """From the side of the axis and from above; from the left or the right as it is."""
     if abs(axis[2]) > 0.9:
         return View(-60, 15)
-    return View(np.degrees(np.arctan2(axis[1], axis[0])) - 65, 24)
+    return View(np.degrees(np.arctan2(axis[1], axis[0])) - 55, 24)
 
 
 def ball_triangles(body, steps=24):

@@ -38,6 +38,17 @@ def planar(agent_velocity=(1, 0), **obstacle):
             "agent_velocity": list(agent_velocity), "obstacle_velocity": [0, 0]}
 
 
+# Files in the folder that the commands run in.
+FILES = {"junk.obj": "v 1 2\n", "points.xyz": "0 0 0\n1 0 0\n", "cut.bt": "# Octomap OcTree binary file\nid OcTree\n"}
+CUBE = {"points": [[x, y, z] for x in (9, 11) for y in (-1, 1) for z in (-1, 1)]}
+
+
+def pieces(agent=None, **obstacle):
+    """An engagement with a body of pieces."""
+    return {"id": 7, "agent": agent or {"center": [0, 0, 0], "semi_axes": [1, 2, 3]}, "obstacle": obstacle,
+            "agent_velocity": [1, 0, 0], "obstacle_velocity": [0, 0, 0]}
+
+
 # What is wrong, the line of the query.
 QUERIES = [
     ("a zero semi-axis", case(agent={"semi_axes": [1, 0, 3]})),
@@ -104,6 +115,38 @@ QUERIES = [
     ("a planar body with two shapes", planar(semi_axes=[3, 2], a_c=3, b_c=2, k=0)),
     ("a planar body with hyperboloids", planar(semi_axes=[3, 2], hyperboloids=[])),
     ("a planar body and a velocity in space", planar(agent_velocity=(1, 0, 0), semi_axes=[3, 2])),
+    ("a mesh that is not there", pieces(mesh="nowhere.obj")),
+    ("a mesh that is not one", pieces(mesh="junk.obj")),
+    ("a mesh without faces", pieces(mesh="points.xyz")),
+    ("a mesh that is a number", pieces(mesh=3)),
+    ("a mesh with a radius", pieces(mesh="points.xyz", radius=1)),
+    ("a folder for a mesh", pieces(mesh=".")),
+    ("a cloud without a radius", pieces(cloud="points.xyz")),
+    ("a cloud with a negative radius", pieces(cloud="points.xyz", radius=-0.1)),
+    ("a cloud with a radius that is text", pieces(cloud="points.xyz", radius="1 m")),
+    ("a scale of zero", pieces(cloud="points.xyz", radius=1, scale=0)),
+    ("a scale that is a list", pieces(cloud="points.xyz", radius=1, scale=[1, 1, 2])),
+    ("a scale that overflows", pieces(cloud="points.xyz", radius=1, scale=1e308, center=[0, 0, 0])
+     | {"obstacle": {**CUBE, "scale": 1e308}}),
+    ("a map that is not there", pieces(octree="nowhere.bt")),
+    ("a map that breaks off", pieces(octree="cut.bt")),
+    ("a map whose unknown space is uncertain", pieces(octree="cut.bt", unknown="maybe")),
+    ("a map whose free space is a truth value", pieces(octree="cut.bt", free=True)),
+    ("a threshold above 1", pieces(octree="cut.bt", occupied_above=1.5)),
+    ("a region of one corner", pieces(octree="cut.bt", region=[[0, 0, 0]])),
+    ("a region turned over", pieces(octree="cut.bt", region=[[1, 1, 1], [0, 2, 2]])),
+    ("a region for a mesh", pieces(mesh="points.xyz", region=[[0, 0, 0], [1, 1, 1]])),
+    ("no points", pieces(points=[])),
+    ("points in the plane", pieces(points=[[1, 2]])),
+    ("points and a mesh", pieces(points=[[1, 2, 3]], mesh="points.xyz")),
+    ("a mesh and semi-axes", pieces(mesh="points.xyz", semi_axes=[1, 1, 1])),
+    ("a cube with a centre in the plane", pieces(**CUBE, center=[1, 2])),
+    ("a cube turned by a shear", pieces(**CUBE, rotation=[[1, 0.1, 0], [0, 1, 0], [0, 0, 1]])),
+    ("an agent that is a mesh", pieces({"mesh": "points.xyz"}, **CUBE)),
+    ("an agent with hyperboloids before pieces", pieces(
+        {"center": [0, 0, 0], "semi_axes": [1, 2, 3], "hyperboloids": [GOOD_HYPERBOLOID]}, **CUBE)),
+    ("a planar agent before pieces", pieces({"center": [0, 0], "semi_axes": [1, 2]}, **CUBE)),
+    ("a hull before an ellipsoid", pieces(CUBE, center=[20, 0, 0], semi_axes=[1, 1, 1])),
     ("a line that is a list", [1, 2, 3]),
     ("a line that is a number", 7),
     ("a broken line", '{"id": 7, "agent": {'),
@@ -119,6 +162,8 @@ MOUTH_SCENE = ("agent: {center: [2.2, 0, 0], semi_axes: [0.5, 0.5, 0.5]}\n"
                "obstacle: {center: [0, 0, 0], semi_axes: [7, 7, 9], hyperboloids: [{sheets: 1, semi_axes: [1.5, 1, 1], "
                "rotation: [[0, 0, -1], [0, 1, 0], [1, 0, 0]]}]}\n")
 PLANAR_SCENE = "agent: {center: [0, 0], semi_axes: [1, 2]}\nobstacle: {center: [9, 0], semi_axes: [1, 1]}\n"
+PIECES_SCENE = ("agent: {center: [0, 0, 0], semi_axes: [1, 2, 3]}\n"
+                "obstacle: {points: [[9, 0, 0], [9, 1, 0], [9, 0, 1], [10, 0, 0]]}\n")
 # What is wrong, arguments (FILE stands for the scene), scene.
 COMMANDS = [
     ("no command", [], None),
@@ -146,6 +191,20 @@ COMMANDS = [
     ("slices of a planar scene", ["cone", "FILE", "--method", "slice"], PLANAR_SCENE),
     ("a tolerance for a planar scene", ["cone", "FILE", "--tolerance", "0.1"], PLANAR_SCENE),
     ("a picture of a planar scene", ["cone", "FILE", "--picture", "here"], PLANAR_SCENE),
+    ("a map of resolution zero", ["cone", "FILE", "--map", "0"], SCENE),
+    ("a map of a planar scene", ["cone", "FILE", "--map", "0.1"], PLANAR_SCENE),
+    ("a region without a map", ["cone", "FILE", "--around", "1,0,0"], SCENE),
+    ("a region around no direction", ["cone", "FILE", "--map", "0.1", "--around", "0,0,0"], SCENE),
+    ("samples of a body of pieces", ["cone", "FILE", "--samples", "9"], PIECES_SCENE),
+    ("tangents of a body of pieces", ["cone", "FILE", "--tangents", "printed"], PIECES_SCENE),
+    ("two half-planes", ["cone", "FILE", "--planes", "2"], PIECES_SCENE),
+    ("no tolerance of half-planes", ["cone", "FILE", "--tolerance", "0"], PIECES_SCENE),
+    ("slices of a hull", ["cone", "FILE", "--method", "slice"], PIECES_SCENE),
+    ("a picture of bodies that overlap", ["cone", "FILE", "--picture", "here"], PIECES_SCENE.replace("[9, 0, 0]", "[0, 0, 0]")),
+    ("a scan of an ellipsoid", ["scan", "FILE"], SCENE),
+    ("a scan of a hull", ["scan", "FILE"], PIECES_SCENE),
+    ("a gallery of nothing", ["gallery"], None),
+    ("a gallery with a large radius", ["gallery", "nowhere.obj", "--radius", "2"], None),
     ("cases that do not exist", ["query", "nowhere.jsonl"], None),
     ("no engagements", ["accuracy", "--engagements", "0"], None),
     ("a single plane count", ["accuracy", "--planes", "36"], None),
@@ -161,8 +220,12 @@ COMMANDS = [
 
 def run_queries(vericone):
     lines = [q if isinstance(q, str) else json.dumps(q) for _, q in QUERIES]
-    result = subprocess.run([vericone, "query", "-"], input="\n".join(lines) + "\n", capture_output=True, text=True,
-                            check=False)
+    with tempfile.TemporaryDirectory() as folder:
+        for name, content in FILES.items():
+            with open(os.path.join(folder, name), "w", encoding="utf-8") as f:
+                f.write(content)
+        result = subprocess.run([vericone, "query", "-"], input="\n".join(lines) + "\n", capture_output=True, text=True,
+                                check=False, cwd=folder)
     answers = [json.loads(line) for line in result.stdout.splitlines()]
     return lines, answers, result
 

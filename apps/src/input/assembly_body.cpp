@@ -209,8 +209,10 @@ PiecesBody read_pieces_body(const Json& value, const std::string& path, const st
   require_fields_of(kind, value, path);
   const Pose pose = read_pose(value, path);
   if (kind == "points") {
-    HullBody hull(scaled(read_point_list(value[kind], path + "." + kind), read_scale(value, path)));
-    return {kind, "", Assembly::polyhedra({std::move(hull)}), pose};
+    auto points = scaled(read_point_list(value[kind], path + "." + kind), read_scale(value, path));
+    return within(path, [&]() -> PiecesBody {
+      return {kind, "", Assembly::polyhedra({HullBody(std::move(points))}), pose};
+    });
   }
   std::string file;
   const Pieces& pieces = read_pieces(kind, value, path, folder, file);
