@@ -182,14 +182,12 @@ struct Corral {
 Gap gap(const Core& core, const Directions& directions, const Eigen::Vector3d& first, GapGoal goal,
         double relative, double enough) {
   Gap result;
-  Corral corral;
   Eigen::Vector3d on_piece;
   const Eigen::Vector3d start = core.support(first, on_piece);
   // Most pieces are apart, and most of them by the first normal.
+  const double reach = core.reach() + core.offset.cwiseAbs().sum();
   const auto least_along = [&](const Eigen::Vector3d& n, const Eigen::Vector3d& s) {
-    const double slack = core.error() + 16 * kUlp * (s.norm() + core.reach()) +
-                         directions.slant(n) * (core.reach() + core.offset.norm());
-    return n.dot(s) - slack;
+    return n.dot(s) - (core.error() + 32 * kUlp * reach + directions.slant(n) * reach);
   };
   if (goal == GapGoal::decide) {
     result.v = first / first.norm();
@@ -199,6 +197,7 @@ Gap gap(const Core& core, const Directions& directions, const Eigen::Vector3d& f
       return result;
     }
   }
+  Corral corral;
   corral.add(start, -1, on_piece);
   corral.weight[0] = 1;
   double last_norm = INFINITY;
