@@ -3,6 +3,7 @@
 // Cone maps of meshes, boxes and clouds: orifice cones of windows, doors and rings.
 #include <gtest/gtest.h>
 #include <vericone/cones/assembly_oracle.h>
+#include <vericone/cones/classifiers.h>
 #include <vericone/cones/cone_map_regions.h>
 #include <vericone/cones/hull_oracle.h>
 
@@ -221,6 +222,34 @@ TEST(ConeMapOfAssemblies, OutOfARoomLeadsTheDoor) {
   const ConeMap shut = map_of(AssemblyOracle(agent, Assembly::boxes(room(0.25, false))), 0.02);
   EXPECT_EQ(shut.safe, 0);
   EXPECT_LT(shut.undecided, 0.01);
+}
+
+TEST(ConeMapOfAssemblies, ConvexPolyhedraAndEllipsoids) {
+  RandomBodies random(26);
+  SCOPED_TRACE(random.trace());
+  const auto hull_at = [&](const Vector3d& center) {
+    std::vector<Vector3d> points;
+    for (int i = 0; i < 12; ++i) points.push_back(center + random.in_box(0.8));
+    return HullBody(points);
+  };
+  const auto truth = [](const HullOracle& oracle) {
+    return [&](const Vector3d& d) {
+      return oracle.membership(d) == Membership::out ? Certified::out : Certified::in;
+    };
+  };
+  for (int k = 0; k < 5; ++k) {
+    const Vector3d at = random.uniform(3, 6) * random.direction();
+    const HullBody agent = hull_at({0, 0, 0}), obstacle = hull_at(at);
+    const ConeMap hulls = map_of(AssemblyOracle(agent, Assembly::polyhedra({obstacle})), 0.01);
+    expect_never_contradicted(hulls, random, 1000, truth(HullOracle(agent, obstacle)));
+    EXPECT_LT(hulls.undecided, 0.05);
+    // A polyhedron before an ellipsoid: the two exchanged.
+    const Ellipsoid body = random.ellipsoid(at, 0.3, 1);
+    const ConeMap exchanged = map_of(
+        MirroredClassifier(std::make_shared<AssemblyOracle>(body, Assembly::polyhedra({agent}))), 0.01);
+    expect_never_contradicted(exchanged, random, 1000, truth(HullOracle(agent, body)));
+    EXPECT_LT(exchanged.undecided, 0.05);
+  }
 }
 
 TEST(ConeMapOfAssemblies, ACloudOfPoints) {
