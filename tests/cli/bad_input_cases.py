@@ -164,6 +164,7 @@ MOUTH_SCENE = ("agent: {center: [2.2, 0, 0], semi_axes: [0.5, 0.5, 0.5]}\n"
 PLANAR_SCENE = "agent: {center: [0, 0], semi_axes: [1, 2]}\nobstacle: {center: [9, 0], semi_axes: [1, 1]}\n"
 PIECES_SCENE = ("agent: {center: [0, 0, 0], semi_axes: [1, 2, 3]}\n"
                 "obstacle: {points: [[9, 0, 0], [9, 1, 0], [9, 0, 1], [10, 0, 0]]}\n")
+LIDARS = "lidars: [{beams: {rows: 9, columns: 9, horizontal: 1, vertical: 1}}]\n"
 # What is wrong, arguments (FILE stands for the scene), scene.
 COMMANDS = [
     ("no command", [], None),
@@ -201,8 +202,19 @@ COMMANDS = [
     ("no tolerance of half-planes", ["cone", "FILE", "--tolerance", "0"], PIECES_SCENE),
     ("slices of a hull", ["cone", "FILE", "--method", "slice"], PIECES_SCENE),
     ("a picture of bodies that overlap", ["cone", "FILE", "--picture", "here"], PIECES_SCENE.replace("[9, 0, 0]", "[0, 0, 0]")),
-    ("a scan of an ellipsoid", ["scan", "FILE"], SCENE),
-    ("a scan of a hull", ["scan", "FILE"], PIECES_SCENE),
+    ("a scan without lidars", ["scan", "FILE"], PIECES_SCENE),
+    ("a scan with lidars that are no list", ["scan", "FILE"], PIECES_SCENE + "lidars: 2\n"),
+    ("a lidar without beams", ["scan", "FILE"], PIECES_SCENE + "lidars: [{position: [0, 0, 1]}]\n"),
+    ("a lidar without rows", ["scan", "FILE"], PIECES_SCENE + LIDARS.replace("rows: 9", "rows: 0")),
+    ("a lidar with a view of 9 rad", ["scan", "FILE"], PIECES_SCENE + LIDARS.replace("horizontal: 1", "horizontal: 9")),
+    ("a lidar of an unknown colour", ["scan", "FILE"], PIECES_SCENE + LIDARS.replace("beams:", "colour: red, beams:")),
+    ("a lidar with a range turned over", ["scan", "FILE"],
+     PIECES_SCENE + LIDARS.replace("beams:", "min_range: 5, max_range: 1, beams:")),
+    ("a lidar that loses all", ["scan", "FILE"], PIECES_SCENE + LIDARS.replace("beams:", "dropout: 2, beams:")),
+    ("a lidar towards nothing", ["scan", "FILE"], PIECES_SCENE + LIDARS.replace("beams:", "towards: [0, 0, 0], beams:")),
+    ("a negative error of poses", ["scan", "FILE"], PIECES_SCENE + LIDARS + "pose_error: {position: -1}\n"),
+    ("a scan of an ellipsoid", ["scan", "FILE"], SCENE + LIDARS),
+    ("a scan of a hull", ["scan", "FILE"], PIECES_SCENE + LIDARS),
     ("a gallery of nothing", ["gallery"], None),
     ("a gallery with a large radius", ["gallery", "nowhere.obj", "--radius", "2"], None),
     ("cases that do not exist", ["query", "nowhere.jsonl"], None),

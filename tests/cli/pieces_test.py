@@ -317,6 +317,15 @@ class Scan(unittest.TestCase):
         with open(os.path.join(out, "provenance.json"), encoding="utf-8") as f:
             self.assertIn("scan", json.load(f)["command"])
 
+    def test_lidars_turn_with_the_agent(self):
+        beams = {"elevations": [-0.2, -0.1, 0, 0.1, 0.2], "azimuths": 720}
+        forwards = {"rows": 20, "columns": 20, "horizontal": 0.6, "vertical": 0.6}
+        back = {"center": [0, 0, 0], "semi_axes": [0.5] * 3, "rotation": [0, 0, 0, 1]}  # half a turn about z
+        around = self.scan("--no-figures", lidars=[{"beams": beams}])[0]
+        self.assertGreater(around["cloud"]["points"], 100)
+        seen = self.scan("--no-figures", agent=back, lidars=[{"beams": forwards, "towards": [-1, 0, 0]}])[0]
+        self.assertGreater(seen["cloud"]["points"], 100)
+
     def test_the_seed_decides(self):
         noisy = [{"position": [0, 0, 0.6], "towards": [1, 0, -0.1], "beams": self.BEAMS, "range_noise": 0.01,
                   "dropout": 0.1}]

@@ -69,8 +69,8 @@ Json read_scene_fields(const std::string& path) {
 }
 
 AnyEngagement read_scene(const std::string& path) {
-  return read_engagement(read_scene_fields(path), Velocities::optional,
-                         {"name", "lidars", "lidar_pose_error"}, std::filesystem::path(path).parent_path());
+  return read_engagement(read_scene_fields(path), Velocities::optional, {"name", "lidars", "pose_error"},
+                         std::filesystem::path(path).parent_path());
 }
 
 }  // namespace vericone::input

@@ -22,8 +22,8 @@ double not_negative(const Json& value, const std::string& path, const char* fiel
 
 int count(const Json& value, const std::string& path, const char* field) {
   const double n = read_number(require_field(value, path, field, "a whole number"), path + "." + field, "");
-  if (!(n >= 1 && n <= 1e6 && n == std::floor(n)))
-    throw InputError(path + "." + field, to_text(n), "a whole number from 1 to 1000000");
+  if (!(n >= 1 && n <= 1e4 && n == std::floor(n)))
+    throw InputError(path + "." + field, to_text(n), "a whole number from 1 to 10000");
   return static_cast<int>(n);
 }
 
@@ -95,17 +95,18 @@ lidar::Lidar read_lidar(const Json& value, const std::string& path) {
 }  // namespace
 
 SceneLidars read_lidars(const Json& scene) {
+  require_object(scene, "scene");
   const char* requirement = "a list of lidars, each with position and beams";
   const Json& list = require_field(scene, "", "lidars", requirement);
   if (!list.is_array() || list.empty()) throw InputError("lidars", quoted(list), requirement);
   SceneLidars all;
   for (std::size_t i = 0; i < list.size(); ++i) all.lidars.push_back(read_lidar(list[i], at("lidars", i)));
-  if (scene.contains("lidar_pose_error")) {
-    const Json& error = scene["lidar_pose_error"];
-    require_object(error, "lidar_pose_error");
-    require_known(error, "lidar_pose_error", {"position", "rotation"});
-    all.position_error = not_negative(error, "lidar_pose_error", "position", " (metres)");
-    all.rotation_error = not_negative(error, "lidar_pose_error", "rotation", " (radians)");
+  if (scene.contains("pose_error")) {
+    const Json& error = scene["pose_error"];
+    require_object(error, "pose_error");
+    require_known(error, "pose_error", {"position", "rotation"});
+    all.position_error = not_negative(error, "pose_error", "position", " (metres)");
+    all.rotation_error = not_negative(error, "pose_error", "rotation", " (radians)");
   }
   return all;
 }

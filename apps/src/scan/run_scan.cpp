@@ -10,6 +10,7 @@
 
 #include "figures.h"
 #include "input/scene.h"
+#include "input/spatial_body.h"
 #include "pieces/assembly_cone.h"
 #include "pieces/world_mesh.h"
 #include "provenance.h"
@@ -27,22 +28,26 @@ using Json = nlohmann::ordered_json;
 
 struct Scene {
   input::AssemblyEngagement engagement;
+  Eigen::Matrix3d agent_rotation;
   SceneLidars lidars;
 };
 
 Scene read(const std::string& path) {
+  const Json fields = input::read_scene_fields(path);
+  SceneLidars lidars = read_lidars(fields);
   const input::AnyEngagement any = input::read_scene(path);
   const auto* e = std::get_if<input::AssemblyEngagement>(&any);
   if (!e || e->obstacle.pieces.kind() != PieceKind::triangle)
     throw InputError("obstacle", "no mesh", "a mesh for the lidars to see");
   if (!std::holds_alternative<Ellipsoid>(e->agent)) throw InputError("agent", "a hull", "an ellipsoid");
-  return {*e, read_lidars(input::read_scene_fields(path))};
+  return {*e, input::read_rotation(fields["agent"], "agent"), std::move(lidars)};
 }
 
 Setup setup_of(const Scene& scene, const ScanOptions& options) {
   Setup setup;
   setup.agent = std::get<Ellipsoid>(scene.engagement.agent);
   setup.agent_pose.translation() = setup.agent.center();
+  setup.agent_pose.linear() = scene.agent_rotation;
   WorldMesh mesh = world_mesh(scene.engagement.obstacle);
   setup.points = std::move(mesh.points);
   setup.triangles = std::move(mesh.triangles);
