@@ -215,6 +215,39 @@ TEST(AssemblyOracle, APoseMovesTheBody) {
   }
 }
 
+TEST(AssemblyOracle, AnswersDoNotDependOnTheUnitOfLength) {
+  // Powers of two change nothing but the exponents; squares of the outer ones leave the range of doubles.
+  test::RandomAssemblies random(4);
+  for (int scene = 0; scene < 8; ++scene) {
+    const Vector3d place = random.vector(5);
+    std::vector<Vector3d> points;
+    std::vector<Assembly::Triangle> triangles;
+    for (std::uint32_t i = 0; i < 12; ++i) {
+      const Vector3d c = random.vector(3);
+      for (int k = 0; k < 3; ++k) points.push_back(c + random.vector(0.5));
+      triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    const Agent agent = random.agent(scene % 2 == 1, place);
+    const AssemblyOracle oracle = oracle_of(agent, Assembly::mesh(points, triangles));
+    std::vector<Vector3d> velocities;
+    for (int i = 0; i < 20; ++i) velocities.push_back(random.vector(3) - place);
+    for (const int exponent : {-700, -400, -30, 30, 400, 700}) {
+      // Ellipsoids beyond 2^±500 have no shape matrix in doubles.
+      if (scene % 2 == 0 && std::abs(exponent) > 500) continue;
+      const double scale = std::ldexp(1.0, exponent);
+      std::vector<Vector3d> scaled = points;
+      for (Vector3d& x : scaled) x *= scale;
+      const Agent same = std::visit([&](const auto& a) -> Agent { return a.scaled(scale); }, agent);
+      const AssemblyOracle other = oracle_of(same, Assembly::mesh(scaled, triangles));
+      ASSERT_EQ(other.relation(), oracle.relation()) << exponent;
+      for (const Vector3d& w : velocities) {
+        EXPECT_EQ(other.membership(w), oracle.membership(w)) << exponent;
+        EXPECT_EQ(other.membership(scale * w), oracle.membership(w)) << exponent;
+      }
+    }
+  }
+}
+
 TEST(AssemblyOracle, RefusesWhatHasNoAnswer) {
   const AssemblyOracle oracle(Ellipsoid::from_axes({0, 0, 0}, {1, 1, 1}), wall());
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -5,22 +5,27 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vericone::assembly {
 
 Frame::Frame(const Ellipsoid& agent) : origin_(agent.center()) {
-  to_frame_ = agent.factor().inverse();
-  norm_ = to_frame_.norm() * (1 + 16 * kUlp);
+  // Through numbers of ordinary size, which leave room for squares and determinants.
+  const double unit = std::exp2(-std::ilogb(agent.factor().cwiseAbs().maxCoeff()));
+  const Eigen::Matrix3d factor = agent.factor() * unit, shape = (agent.shape() * unit) * unit;
+  const Eigen::Matrix3d inverse = factor.inverse();
+  to_frame_ = inverse * unit;
+  norm_ = inverse.norm() * unit * (1 + 16 * kUlp);
   // G S G^T = 1 + D; the squared length of a point of E's surface along n is nᵀ(1 + D)n.
   Eigen::Matrix3d deviation;
   double rounding;
   if (agent.defined_by_factor()) {
-    const Eigen::Matrix3d product = to_frame_ * agent.factor();
+    const Eigen::Matrix3d product = inverse * factor;
     deviation = product * product.transpose() - Eigen::Matrix3d::Identity();
-    rounding = 32 * kUlp * norm_ * agent.factor().norm();
+    rounding = 32 * kUlp * inverse.norm() * factor.norm();
   } else {
-    deviation = to_frame_ * agent.shape() * to_frame_.transpose() - Eigen::Matrix3d::Identity();
-    rounding = 32 * kUlp * norm_ * norm_ * agent.shape().norm();
+    deviation = inverse * shape * inverse.transpose() - Eigen::Matrix3d::Identity();
+    rounding = 32 * kUlp * inverse.squaredNorm() * shape.norm();
   }
   const double off = deviation.norm() + rounding;
   if (!(off < 0.01))
@@ -55,6 +60,14 @@ Frame Frame::in_space(const Ellipsoid& agent) {
   frame.ball_ = agent.factor().norm() * round.outer_ * (1 + 8 * kUlp);
   frame.support_error_ = (round.outer_ - 1 + 16 * kUlp) * agent.factor().norm();
   return frame;
+}
+
+void Frame::check_range(double largest) {
+  constexpr double kLeast = 1e-100, kMost = 1e100;
+  const double size = largest + ball_;
+  const bool within =
+      size > kLeast && size < kMost && norm_ > kLeast && norm_ < kMost && norm_ * size < kMost;
+  beyond_range_ = within ? 0 : std::numeric_limits<double>::infinity();
 }
 
 Eigen::Vector3d Frame::support(const Eigen::Vector3d& n) const {

@@ -56,8 +56,13 @@ class Frame {
   /// In space: the agent is in the box p - reach .. p + reach.
   const Eigen::Vector3d& reach() const { return reach_; }
 
-  /// See above; `size`: |x - p| or more, in space, and for hulls the size of the agent added.
-  double error(double size) const { return 16 * kUlp * norm_ * size; }
+  /// See above; `size`: |x - p| or more, in space, and for hulls the size of the agent added. Infinite where
+  /// squares of lengths leave the range of doubles: then doubles prove nothing, and exact predicates decide.
+  double error(double size) const { return 16 * kUlp * norm_ * size + beyond_range_; }
+  double beyond_range() const { return beyond_range_; }
+
+  /// To be told how large what it is used for is: |x - p|, at most.
+  void check_range(double largest);
 
   /// Of G, at least.
   double norm() const { return norm_; }
@@ -71,7 +76,8 @@ class Frame {
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero(), reach_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d to_frame_ = Eigen::Matrix3d::Identity(), from_frame_ = Eigen::Matrix3d::Identity();
   bool round_ = false, is_space_ = true;
-  double norm_ = 1;  // of G, Frobenius, rounded up
+  double beyond_range_ = 0;  // or infinity
+  double norm_ = 1;          // of G, Frobenius, rounded up
   double inner_ = 0, outer_ = 0, ball_ = 0, support_error_ = 0;
   std::vector<Eigen::Vector3d> points_;                   // of a hull
   Eigen::Matrix3d factor_ = Eigen::Matrix3d::Identity();  // of an ellipsoid in space

@@ -83,14 +83,25 @@ Scene::Scene(const Ellipsoid& agent, const Assembly& body, const Pose& pose)
       pose_(pose),
       upright_(assembly::upright(pose)),
       ellipsoid_(in_body(agent, pose)),
-      frame_(*ellipsoid_) {}
+      frame_(*ellipsoid_) {
+  check_range();
+}
 
 Scene::Scene(const HullBody& agent, const Assembly& body, const Pose& pose)
     : body_(body),
       pose_(pose),
       upright_(assembly::upright(pose)),
       hull_(in_body(agent, pose)),
-      frame_(*hull_) {}
+      frame_(*hull_) {
+  check_range();
+}
+
+void Scene::check_range() { frame_.check_range(largest()); }
+
+double Scene::largest() const {
+  const Box& bounds = body_.bounds();
+  return bounds.low.cwiseAbs().sum() + bounds.high.cwiseAbs().sum() + frame_.origin().cwiseAbs().sum();
+}
 
 Core Scene::core(const Frame& frame, std::uint32_t slot) const {
   const Assembly::Storage& storage = body_.by_slot();

@@ -49,11 +49,16 @@ class Scene {
                               const Eigen::Vector3d& v_b) const;
   Relation exact_relation(std::uint32_t slot) const;
 
+  /// At least |x - p| for the agent's centre p and every point x of the body.
+  double largest() const;
+
   /// Of the agent; the one that there is.
   const Ellipsoid* ellipsoid() const { return ellipsoid_ ? &*ellipsoid_ : nullptr; }
   const HullBody* hull() const { return hull_ ? &*hull_ : nullptr; }
 
  private:
+  void check_range();
+
   Assembly body_;
   Pose pose_;
   bool upright_ = true;
@@ -85,7 +90,8 @@ class BoxTest {
     const double above = n.dot(y) - back.cwiseAbs().dot(half) - frame_.extent(n, length);
     if (!(above > 0)) return 0;
     const double size = frame_.norm() * (middle.cwiseAbs().sum() + half.sum()) + frame_.ball();
-    const double slack = 128 * kUlp * size + directions_.slant(n / length) * (size + frame_.outer());
+    const double slack =
+        128 * kUlp * size + frame_.beyond_range() + directions_.slant(n / length) * (size + frame_.outer());
     return above / length - slack;
   }
   double distance(const Hierarchy::Node& node) const {

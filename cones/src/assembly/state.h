@@ -7,7 +7,9 @@ namespace vericone {
 
 struct AssemblyOracle::State : assembly::Scene {
   State(const Ellipsoid& agent, const Assembly& body, const Pose& pose)
-      : Scene(agent, body, pose), space(assembly::Frame::in_space(*ellipsoid())) {}
+      : Scene(agent, body, pose), space(assembly::Frame::in_space(*ellipsoid())) {
+    space.check_range(largest());
+  }
   State(const HullBody& agent, const Assembly& body, const Pose& pose)
       : Scene(agent, body, pose), space(frame()) {}
 
