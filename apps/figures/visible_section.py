@@ -43,7 +43,7 @@ if data["tangents"]:
         "none" if data["whole_left"] is None or data["whole_right"] is None
         else "%.2f°" % np.degrees(data["whole_left"] + data["whole_right"])))
 else:
-    axes.set_title("no common tangents")
+    axes.set_title("no answer: " + (data["reason"] or "no common tangents"))
 figure.legend(loc="lower center", ncol=3, frameon=False, columnspacing=1.2)
 figure.tight_layout(pad=0.4, rect=(0, 0.4 / figure.get_figheight(), 1, 0.99))
 save(figure, "visible_section")

@@ -147,6 +147,9 @@ TEST(ScanStudy, ScansFromPosesKnownUpToAnErrorAreFused) {
   const Study none = study(ball);
   EXPECT_THAT(none.levels[0].not_fused, ::testing::HasSubstr("slide"));
   EXPECT_TRUE(std::isnan(none.levels[0].cone.solid_angle));
+  const PlaneSectionPicture picture = plane_section_picture(ball, 0);
+  EXPECT_THAT(picture.reason, ::testing::HasSubstr("slide"));
+  EXPECT_TRUE(picture.tangents.empty() && !picture.obstacle.empty());
 }
 
 TEST(ScanStudy, RefusesWhatHasNoCone) {

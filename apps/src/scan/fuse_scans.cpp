@@ -57,7 +57,8 @@ void fuse_scans(const Setup& setup, Seen& seen) {
   if (most > kMostPoints) options.voxel = spacing * std::sqrt(double(most) / kMostPoints);
   options.last_distance = std::max(options.last_distance, 2 * options.voxel);
   options.max_distance = std::max(options.max_distance, options.last_distance);
-  options.tolerance = 1e-6 * farthest;
+  // Correspondences of sparse scans keep changing: a small part of the distance between points is at rest.
+  options.tolerance = std::max(1e-6 * farthest, 5e-3 * spacing);
   lidar::Fusion fusion = lidar::fuse(scans, initial, options);
   seen.not_fused = fusion.reason;
   if (!fusion.converged) return;

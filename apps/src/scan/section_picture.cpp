@@ -18,7 +18,10 @@ PlaneSectionPicture plane_section_picture(const Setup& setup, double azimuth) {
   const AssemblyOracle whole = oracle_of(setup, Assembly::mesh(setup.points, setup.triangles));
   const Seen seen = look(setup, scene, setup.lidars);
   const Vector3d& center = setup.agent.center();
-  const AxisFrame frame(center_of(seen.points) - center);
+  std::vector<Vector3d> where_they_are;
+  for (const lidar::Scan& scan : seen.scans)
+    for (const lidar::Return& r : scan.returns) where_they_are.push_back(r.in_world);
+  const AxisFrame frame(center_of(seen.not_fused.empty() ? seen.points : where_they_are) - center);
   const PlaneFrame plane{center, frame.axis, std::cos(azimuth) * frame.e1 + std::sin(azimuth) * frame.e2};
 
   PlaneSectionPicture picture;
@@ -45,6 +48,7 @@ PlaneSectionPicture plane_section_picture(const Setup& setup, double azimuth) {
     return visible_sector(section.ellipsoid(), chain);
   }();
   picture.tried = sector.tried;
+  picture.reason = !seen.not_fused.empty() ? seen.not_fused : sector.sector ? "" : to_string(sector.reason);
   if (sector.sector) {
     picture.psi = sector.sector->psi;
     picture.theta_b = sector.sector->theta_b;

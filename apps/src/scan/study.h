@@ -74,6 +74,7 @@ struct PlaneSectionPicture {
   std::vector<Eigen::Vector2d> sensors;                // the lidars, projected onto the plane
   std::vector<Eigen::Vector2d> returns;                // points near the plane, projected onto it
   std::vector<Line> tangents;                          // left, right; empty where the search finds none
+  std::string reason;                                  // why there are none
   double psi = 0, theta_b = 0;                         // of the tangents; radians from the axis
   double whole_left = 0, whole_right = 0;  // true cone of the whole obstacle: radians from the axis
   double half_thickness = 0;               // m, of the slab of points

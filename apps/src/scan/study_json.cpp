@@ -63,6 +63,7 @@ void write_json(const PlaneSectionPicture& picture, std::ostream& out) {
                      {"sensors", to_json(picture.sensors)},
                      {"returns", to_json(picture.returns)},
                      {"tangents", tangents},
+                     {"reason", picture.reason.empty() ? Json() : Json(picture.reason)},
                      {"psi", picture.psi},
                      {"theta_b", picture.theta_b},
                      {"whole_left", picture.whole_left},
