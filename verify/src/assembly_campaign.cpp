@@ -43,7 +43,15 @@ AssemblyReport run_assembly_family(AgentKind agent, PieceKind pieces, const Asse
   for (std::uint64_t index = 0; index < options.cases; ++index) {
     ++report.cases;
     const AssemblyCase c = assembly_case(agent, pieces, options.seed, index);
-    AssemblyEngagement engagement(c, index, report);
+    AssemblyCase told = c;
+    if (options.without_last_piece && c.assembly().size() > 1) {
+      // Of several triangles the points stay.
+      if (pieces == PieceKind::triangle) told.triangles.pop_back();
+      if (pieces == PieceKind::ball) told.points.pop_back();
+      if (pieces == PieceKind::box) told.boxes.pop_back();
+      if (pieces == PieceKind::hull) told.hulls.pop_back();
+    }
+    AssemblyEngagement engagement(c, told, index, report);
     if (!engagement.relation()) continue;
     engagement.velocities();
     // Neighbouring indices are of other variations: every variation gets its turn.

@@ -34,13 +34,14 @@ double largest(const AssemblyCase& c) {
 
 }  // namespace
 
-AssemblyEngagement::AssemblyEngagement(const AssemblyCase& c, std::uint64_t index, AssemblyReport& report)
+AssemblyEngagement::AssemblyEngagement(const AssemblyCase& c, const AssemblyCase& told, std::uint64_t index,
+                                       AssemblyReport& report)
     : case_(c),
       index_(index),
       report_(report),
       random_(970, report.seed, index),
-      assembly_(c.assembly()),
-      oracle_(oracle_of(c, assembly_)),
+      assembly_(told.assembly()),
+      oracle_(oracle_of(told, assembly_)),
       truth_(truth_of(c)),
       size_(largest(c)) {}
 

@@ -11,7 +11,9 @@ namespace vericone::verify {
 
 class AssemblyEngagement {
  public:
-  AssemblyEngagement(const AssemblyCase& c, std::uint64_t index, AssemblyReport& report);
+  /// The oracle is told of `told`, which is `c` but where a library is broken on purpose.
+  AssemblyEngagement(const AssemblyCase& c, const AssemblyCase& told, std::uint64_t index,
+                     AssemblyReport& report);
 
   /// False where there is no cone.
   bool relation();

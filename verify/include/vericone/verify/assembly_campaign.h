@@ -19,6 +19,7 @@ struct AssemblyOptions {
   std::uint64_t seed = 1;
   std::uint64_t extremes_every = 2;  // one case in so many with half-planes
   std::uint64_t maps_every = 16;     // one case in so many with a cone map
+  bool without_last_piece = false;   // a broken library: what it is told lacks a piece
 };
 
 /// One kind of agent and of pieces, cases with indices 0 .. cases - 1.
