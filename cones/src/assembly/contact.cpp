@@ -4,11 +4,11 @@
 #include <vericone/geometry/error.h>
 #include <algorithm>
 #include <optional>
-#include <string>
 
 #include "assembly/contact.h"
 #include "assembly/gap.h"
 #include "assembly/state.h"
+#include "velocity_ladder.h"
 
 namespace vericone::assembly {
 namespace {
@@ -184,21 +184,12 @@ AssemblyMiss miss_distance(const Scene& scene, const Frame& space, const Eigen::
 }  // namespace vericone::assembly
 
 namespace vericone {
-namespace {
-
-void require_velocity(const Eigen::Vector3d& w) {
-  for (int k = 0; k < 3; ++k)
-    if (!std::isfinite(w(k)))
-      throw InputError("agent_velocity[" + std::to_string(k) + "]", to_text(w(k)), "a finite number (m/s)");
-}
-
-}  // namespace
 
 std::optional<AssemblyContact> AssemblyOracle::first_contact(const Eigen::Vector3d& w, Effort* effort) const {
   Effort unused;
   Effort& count = effort != nullptr ? *effort : unused;
   const assembly::Scene& scene = *state_;
-  require_velocity(w);
+  require_finite_velocity(w, "agent_velocity");
   if (state_->relation != Relation::disjoint) {
     AssemblyContact now;
     const AssemblyMiss place = miss_distance(Eigen::Vector3d::Zero());
@@ -211,7 +202,7 @@ std::optional<AssemblyContact> AssemblyOracle::first_contact(const Eigen::Vector
 }
 
 AssemblyMiss AssemblyOracle::miss_distance(const Eigen::Vector3d& w, double tolerance, Effort* effort) const {
-  require_velocity(w);
+  require_finite_velocity(w, "agent_velocity");
   if (!(tolerance >= 1e-13 && tolerance <= 1))
     throw InputError("tolerance", to_text(tolerance), "a number between 1e-13 and 1");
   Effort unused;

@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/assembly_oracle.h>
-#include <vericone/geometry/error.h>
-#include <string>
 
 #include "assembly/gap.h"
 #include "assembly/state.h"
+#include "velocity_ladder.h"
 
 namespace vericone {
 using namespace assembly;
 
 namespace {
-
-void require_finite(const char* field, const Eigen::Vector3d& v) {
-  for (int k = 0; k < 3; ++k)
-    if (!std::isfinite(v(k)))
-      throw InputError(std::string(field) + "[" + std::to_string(k) + "]", to_text(v(k)),
-                       "a finite number (m/s)");
-}
 
 /// y itself: the residual of the apex.
 struct ApexResidual {
@@ -105,8 +97,8 @@ Membership AssemblyOracle::membership(const Eigen::Vector3d& w, Effort* effort) 
 
 Membership AssemblyOracle::membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
                                       Effort* effort) const {
-  require_finite("agent_velocity", v_a);
-  require_finite("obstacle_velocity", v_b);
+  require_finite_velocity(v_a, "agent_velocity");
+  require_finite_velocity(v_b, "obstacle_velocity");
   Effort unused;
   Effort& count = effort != nullptr ? *effort : unused;
   if (state_->relation != Relation::disjoint) return v_a == v_b ? Membership::out : Membership::in;
@@ -115,17 +107,7 @@ Membership AssemblyOracle::membership(const Eigen::Vector3d& v_a, const Eigen::V
 }
 
 Verdict AssemblyOracle::verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const {
-  if (state_->relation == Relation::overlapping) return Verdict::overlapping;
-  if (state_->relation == Relation::touching) return Verdict::touching;
-  switch (membership(v_a, v_b)) {
-    case Membership::in:
-      return Verdict::in;
-    case Membership::on:
-      return Verdict::on;
-    case Membership::out:
-      break;
-  }
-  return Verdict::out;
+  return verdict_of(state_->relation, [&] { return membership(v_a, v_b); });
 }
 
 }  // namespace vericone
