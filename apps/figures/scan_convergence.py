@@ -32,8 +32,9 @@ for kind, color, label in (("sections", SLICE, "tangents on each plane (6.3.3)")
     off = np.array([errors(level, first["visible"], kind) for level in first["levels"]])
     error.loglog(beams, off[:, 0], "o-", color=color, label=label + ": largest")
     error.loglog(beams, off[:, 1], "o:", color=color, label="mean", markersize=2.5)
-start = np.nanmax([errors(first["levels"][0], first["visible"], k)[0] for k in ("sections", "cone")])
-error.loglog(beams, start * np.sqrt(beams[0] / beams), "--", color=GREY, linewidth=0.8, label="1 / √beams")
+start = [e for e in (errors(first["levels"][0], first["visible"], k)[0] for k in ("sections", "cone")) if np.isfinite(e)]
+if start:
+    error.loglog(beams, max(start) * np.sqrt(beams[0] / beams), "--", color=GREY, linewidth=0.8, label="1 / √beams")
 error.set_xlabel("beams")
 error.set_ylabel("error of an edge against the seen part (rad)")
 error.set_title("(a) against the cone of what is seen%s" % (": " + names[0] if len(names) > 1 else ""))
@@ -48,12 +49,17 @@ for name, color, mark in zip(names, COLORS, MARKS):
     floor = 1 - study["visible"]["cone"]["solid_angle"] / whole
     hidden = 1 - study["visible"]["area"] / study["whole"]["area"]
     counts = [level["beams"] for level in study["levels"]]
-    what = "%.2g %% of the cone missed" % (100 * floor) if floor > 1e-6 else "nothing of the cone missed"
-    missing.loglog(counts, np.where(part > 0, part, np.nan), mark + "-", color=color,
+    what = "%.2g %% of the cone hidden" % (100 * floor) if floor > 1e-6 else "nothing of the cone hidden"
+    missing.loglog(counts, np.abs(part), mark + "-", color=color,
                    label="%s%.0f %% of the surface unseen, %s" % (name + ": " if name else "", 100 * hidden, what))
+    # Noise makes cones too large: shown by size, hollow.
+    large = part < 0
+    if large.any():
+        missing.loglog(np.array(counts)[large], -part[large], mark, color=color, markerfacecolor="white", zorder=5,
+                       label="hollow: too large by that (noise)")
     if floor > 1e-6:
         missing.axhline(floor, color=color, linestyle=":", linewidth=1)
-    bottom = min([bottom] + [p for p in part if p > 0] + ([floor] if floor > 1e-6 else []))
+    bottom = min([bottom] + [abs(p) for p in part if p] + ([floor] if floor > 1e-6 else []))
 missing.set_ylim(bottom / 2, 1)
 missing.set_xlabel("beams")
 missing.set_ylabel("part of the true cone's solid angle missed")
