@@ -112,7 +112,7 @@ class Pieces(unittest.TestCase):
         c = self.cone({"agent": inside, "obstacle": {"mesh": self.mesh}})
         self.assertEqual(c["half_planes_reaching_pi"], 64)
         self.assertAlmostEqual(c["envelope_solid_angle"], 4 * math.pi, 6)
-        self.assertIn("surrounded ", self.cone({"agent": inside, "obstacle": {"mesh": self.mesh}}, text=True))
+        self.assertIn("surrounded          on all half-planes", self.cone({"agent": inside, "obstacle": {"mesh": self.mesh}}, text=True))
 
     def test_place_turn_and_scale(self):
         # x_world = center + R scale x: the cube is [8, 12] x [-2, 2]^2, then along y, then moved up by 1.

@@ -156,15 +156,19 @@ void print_text(const AssemblyCone& cone, const input::AssemblyEngagement& e, st
     if (!x.any) ++none;
     narrowest = std::min(narrowest, x.any ? x.low : 0);
   }
-  out << "extreme directions  " << to_text(degrees(narrowest)) << " to " << to_text(degrees(cone.widest()))
-      << " degrees from the axis\n";
-  if (none) out << "                    " << none << " half-planes without a colliding direction\n";
-  if (const int all_around = cone.reaching_pi())
-    out << "surrounded          on " << all_around
-        << " half-planes up to 180 degrees: the body reaches behind the agent; "
-        << "--map says which directions are free\n";
-  out << "envelope            " << to_text(cone.envelope)
-      << " sr within the extreme directions, holes included, from the half-planes alone\n";
+  const int all_around = cone.reaching_pi();
+  if (all_around == static_cast<int>(cone.extremes.size())) {
+    out << "surrounded          on all half-planes the cone reaches 180 degrees; --map says what is free\n";
+  } else {
+    out << "extreme directions  " << to_text(degrees(narrowest)) << " to " << to_text(degrees(cone.widest()))
+        << " degrees from the axis\n";
+    if (none) out << "                    " << none << " half-planes without a colliding direction\n";
+    if (all_around)
+      out << "surrounded          on " << all_around
+          << " half-planes the cone reaches 180 degrees; --map says what is free\n";
+    out << "envelope            " << to_text(cone.envelope)
+        << " sr within the extreme directions, holes included, from the half-planes alone\n";
+  }
   const auto nodes = static_cast<double>(e.obstacle.pieces.hierarchy().nodes().size());
   const double a_plane = static_cast<double>(cone.effort.nodes) / static_cast<double>(cone.extremes.size());
   char share[32];
