@@ -98,7 +98,8 @@ struct Counts {
       ++undecided;
       return;
     }
-    ASSERT_EQ(search.sector.has_value(), reference.gap > 0) << "gap " << reference.gap << " psi " << reference.psi;
+    ASSERT_EQ(search.sector.has_value(), reference.gap > 0)
+        << "gap " << reference.gap << " psi " << reference.psi;
     ASSERT_EQ(direct.sector.has_value(), reference.gap > 0);
     if (!search.sector) {
       ++none;
