@@ -173,7 +173,8 @@ TEST_F(Octrees, PointsAreWhatOctomapSaysOfThem) {
             const Box& around = i % 2 ? within : octree.bounds;
             Vector3d x;
             for (int k = 0; k < 3; ++k) x(k) = random.uniform(around.low(k), around.high(k));
-            const auto* node = tree.search(x.x(), x.y(), x.z());
+            ::octomap::OcTreeKey key;  // none out of the cube
+            const auto* node = tree.coordToKeyChecked(x.x(), x.y(), x.z(), key) ? tree.search(key) : nullptr;
             const bool occupied = node && tree.isNodeOccupied(node);
             ASSERT_EQ(is_in(kinds.occupied, x), occupied) << x.transpose();
             ASSERT_EQ(is_in(kinds.free, x), node && !occupied) << x.transpose();

@@ -99,10 +99,11 @@ PointFile finish(const Source& source, Parsed parsed) {
 
 }  // namespace
 
-PointFile read_points(const std::filesystem::path& path) {
-  const Source source = load(path);
-  return finish(source, format_of(source, extension_of(path)).parse(source));
+PointFile read_points(const Source& source) {
+  return finish(source, format_of(source, extension_of(source.path)).parse(source));
 }
+
+PointFile read_points(const std::filesystem::path& path) { return read_points(load(path)); }
 
 std::vector<std::string> known_extensions() {
   std::vector<std::string> extensions;

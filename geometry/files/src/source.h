@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vericone/files/read_points.h>
+
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
@@ -20,6 +22,9 @@ struct Source {
 
 /// The whole file; refuses what is missing, unreadable or empty.
 Source load(const std::filesystem::path& path);
+
+/// read_points() of a file that is in memory.
+PointFile read_points(const Source& source);
 
 /// What a parser returns: everything in the file, unchecked beyond its syntax.
 struct Parsed {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vericone/octomap/read_octree.h>
+
 #include <string>
 
 #include "source.h"
@@ -22,5 +24,8 @@ struct OctreeHeader {
 /// only: at the end of a file it goes on with what its variables happen to hold, and it has no limit of
 /// depth.
 OctreeHeader check_octree(const files::Source& source);
+
+/// read_octree() of a file that is in memory.
+Octree read_octree(const files::Source& source);
 
 }  // namespace vericone::octomap

@@ -72,8 +72,9 @@ std::vector<OctreeCell> read_cells(const files::Source& source, const OctreeHead
 
 }  // namespace
 
-Octree read_octree(const std::filesystem::path& path) {
-  const files::Source source = files::load(path);
+Octree read_octree(const std::filesystem::path& path) { return read_octree(files::load(path)); }
+
+Octree read_octree(const files::Source& source) {
   const OctreeHeader header = check_octree(source);
   Octree octree;
   octree.format = header.is_binary ? "OcTree binary" : header.id;
