@@ -103,6 +103,17 @@ class Search {
   std::uint32_t slot() const { return slot_; }
 
  private:
+  /// `normal`: of a plane, in the frame, that a piece which ends there has proved apart. Where the body
+  /// bulges there the plane is apart from its neighbours too, and a fixed plane is compared with a box in no
+  /// time.
+  void look_beyond(double angle, const Eigen::Vector3d& normal) {
+    look_beyond(angle);
+    const double length = normal.norm();
+    edge_.reset();
+    if (!(length > 0)) return;
+    edge_.emplace(scene_.frame(), sector_, normal / length);
+    edge_normal_ = normal;
+  }
   void look_beyond(double angle) {
     beyond_ = std::min(angle, to_);
     sector_ = Directions(scene_.frame(), {plane_.at(beyond_), plane_.at(to_)});
@@ -110,7 +121,9 @@ class Search {
     ++version_;
   }
 
-  bool apart(const Hierarchy::Node& node) const { return !sector_.spread_too_far() && test_->apart(node); }
+  bool apart(const Hierarchy::Node& node) const {
+    return (edge_ && edge_->apart(node)) || (!sector_.spread_too_far() && test_->apart(node));
+  }
 
   /// How far a node reaches towards the end of the sector, for the order of visits only.
   double height(const Hierarchy::Node& node) const {
@@ -171,8 +184,8 @@ class Search {
   void raise(std::uint32_t slot) {
     ++effort_.pieces;
     const Core core = scene_.core(slot);
-    const Eigen::Vector3d away = test_->residual()(core.center());
-    const Gap found = gap(core, sector_, direction_of(away, core.center()));
+    const Gap found = gap(
+        core, sector_, edge_ ? edge_normal_ : direction_of(test_->residual()(core.center()), core.center()));
     if (found.answer == Gap::Answer::apart) return;
     double low = beyond_, high = to_, met = angle(found, sector_, beyond_);
     Eigen::Vector3d normal = direction_of(found.v, core.center());  // searches begin where the last one ended
@@ -180,6 +193,7 @@ class Search {
     // Mostly little is gained: steps that grow until one is beyond, then bisection. A direction that meets
     // the piece is found on the way wherever there is one to speak of.
     double step = tolerance_;
+    Eigen::Vector3d beyond_high = Eigen::Vector3d::Zero();
     while (high - low > 0.5 * tolerance_) {
       const double middle = low + std::min(step, 0.5 * (high - low));
       if (middle <= low || middle >= high) break;
@@ -189,6 +203,7 @@ class Search {
       normal = direction_of(at_middle.v, normal);
       if (at_middle.answer == Gap::Answer::apart) {
         high = middle;
+        beyond_high = at_middle.v;
         continue;
       }
       low = middle;
@@ -200,7 +215,7 @@ class Search {
       for (const double at : {met, low})
         if (take(slot, core, at, true)) break;
     high_ = std::max(high_, high);
-    if (found_ && low_ + 0.5 * tolerance_ > beyond_) look_beyond(low_ + 0.5 * tolerance_);
+    if (found_ && low_ + 0.5 * tolerance_ > beyond_) look_beyond(low_ + 0.5 * tolerance_, beyond_high);
   }
 
   const Scene& scene_;
@@ -209,7 +224,9 @@ class Search {
   Effort& effort_;
   Directions sector_;
   std::optional<BoxTest<SectorResidual>> test_;  // of sector_
-  int version_ = 0;                              // counts sectors
+  std::optional<Plane> edge_;                    // apart from the sector, at its beginning
+  Eigen::Vector3d edge_normal_ = Eigen::Vector3d::Zero();
+  int version_ = 0;  // counts sectors
   bool found_ = false;
   double low_, high_, beyond_ = 0;
   Eigen::Vector3d direction_ = Eigen::Vector3d::Zero();

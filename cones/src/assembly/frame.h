@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <initializer_list>
+#include <limits>
 #include <vector>
 
 namespace vericone::assembly {
@@ -101,6 +102,7 @@ struct Directions {
   /// At most the largest n.d over unit directions d asked about; >= 0. A unit d is a combination of rays with
   /// weights whose sum is at most 1 / least_cosine.
   double slant(const Eigen::Vector3d& unit_normal) const {
+    if (count > 1 && spread_too_far()) return std::numeric_limits<double>::infinity();
     double most = 0;
     for (int i = 0; i < count; ++i) most = std::max(most, unit_normal.dot(ray[i]) + error + 8 * kUlp);
     return count > 1 ? 1.01 * most / least_cosine : most;

@@ -67,6 +67,33 @@ class Scene {
   Frame frame_;
 };
 
+/// A plane through the apex as a proof that boxes, widened by the agent, are apart from directions.
+class Plane {
+ public:
+  /// `normal`: in the frame, unit.
+  Plane(const Frame& frame, const Directions& directions, const Eigen::Vector3d& normal)
+      : frame_(&frame),
+        back_(frame.to_frame().transpose() * normal),
+        extent_(frame.extent(normal, 1)),
+        relative_slack_(128 * kUlp + directions.slant(normal)) {}
+
+  bool apart(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const {
+    const Eigen::Vector3d l = low - frame_->origin(), h = high - frame_->origin();
+    const Eigen::Vector3d middle = 0.5 * (l + h), half = 0.5 * (h - l);
+    const double size = frame_->norm() * (middle.cwiseAbs().sum() + half.sum()) + frame_->ball();
+    return back_.dot(middle) - back_.cwiseAbs().dot(half) - extent_ >
+           relative_slack_ * (size + frame_->outer()) + frame_->beyond_range();
+  }
+  bool apart(const Hierarchy::Node& node) const {
+    return apart({node.low[0], node.low[1], node.low[2]}, {node.high[0], node.high[1], node.high[2]});
+  }
+
+ private:
+  const Frame* frame_;
+  Eigen::Vector3d back_;
+  double extent_, relative_slack_;
+};
+
 /// Proofs that a box of the hierarchy, widened by the agent, is apart from all directions asked about: a
 /// plane through the apex whose normal is the part of the box's middle that points away from the directions.
 ///
