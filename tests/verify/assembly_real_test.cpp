@@ -4,7 +4,7 @@
 // VERICONE_CASES and VERICONE_SEED replace the number of velocities of each body and agent, and the seed.
 #include <gtest/gtest.h>
 #include <vericone/cones/assembly_oracle.h>
-#include <vericone/cones/hull_oracle.h>
+#include <vericone/cones/cone_geometry.h>
 #include <vericone/verify/assembly_truth.h>
 #include <vericone/verify/seeded_random.h>
 
@@ -98,12 +98,14 @@ class Brute : public ::testing::TestWithParam<std::tuple<std::string, AgentShape
       EXPECT_LE(d.most - d.least, 1e-8 * (d.most + 1));
     }
     const Vector3d axis = (b.assembly.bounds().center() - center(agent)).normalized();
-    const Vector3d first = axis.unitOrthogonal(), second = axis.cross(first);
+    const AxisFrame frame(axis);
+    std::vector<ExtremeDirection> ring;
+    if (planes > 0) ring = oracle.extremes(axis, planes);
     for (int k = 0; k < planes; ++k) {
       SCOPED_TRACE(k);
       const double turn = 2 * std::numbers::pi * k / planes;
-      const Vector3d side = std::cos(turn) * first + std::sin(turn) * second;
-      const ExtremeDirection e = oracle.extreme(axis, side);
+      const Vector3d side = std::cos(turn) * frame.e1 + std::sin(turn) * frame.e2;
+      const ExtremeDirection& e = ring[static_cast<std::size_t>(k)];
       const auto at = [&](double t) { return Vector3d(std::cos(t) * axis + std::sin(t) * side); };
       ++half_planes;
       if (e.any) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "assembly_engagement.h"
 
+#include <vericone/cones/cone_geometry.h>
 #include <vericone/cones/cone_map.h>
 #include <vericone/verify/contact_march.h>
 
@@ -196,6 +197,28 @@ void AssemblyEngagement::extremes() {
     axis(i) = random_.coin() ? 1 : -1;
     side(j) = random_.coin() ? 1 : -1;
     half_plane(axis, side);
+  }
+  ring();
+}
+
+void AssemblyEngagement::ring() {
+  const Vector3d axis = random_.direction<3>();
+  const AxisFrame frame(axis);
+  const int planes = random_.integer(3, 12);
+  const auto found = oracle_.extremes(axis, planes);
+  // Pieces that graze exactly may fall to either side of a half-plane that is rounded.
+  const bool whole = case_.variation == AssemblyVariation::regular ||
+                     case_.variation == AssemblyVariation::thin ||
+                     case_.variation == AssemblyVariation::enclosing;
+  for (int k = 0; k < planes; ++k) {
+    const double turn = 2 * std::numbers::pi * k / planes;
+    const Vector3d side = std::cos(turn) * frame.e1 + std::sin(turn) * frame.e2;
+    const ExtremeDirection &e = found[static_cast<std::size_t>(k)], alone = oracle_.extreme(axis, side);
+    if (e.any)
+      expect(report_.extreme, truth_.membership(e.direction) != Membership::out, "ring: low", e.direction);
+    if (whole)
+      expect(report_.extreme, e.any == alone.any && e.low <= alone.high + 1e-9 && alone.low <= e.high + 1e-9,
+             "ring: as alone", side);
   }
 }
 

@@ -27,6 +27,8 @@ class AssemblyEngagement {
   void contact_point(const Eigen::Vector3d& w, const AssemblyContact& contact);
   void miss(const Eigen::Vector3d& w, Membership truth);
   void half_plane(const Eigen::Vector3d& axis, const Eigen::Vector3d& side);
+  /// Many half-planes at once against each alone.
+  void ring();
   void expect(Check& check, bool holds, const char* what, const Eigen::Vector3d& w);
 
   const AssemblyCase& case_;
