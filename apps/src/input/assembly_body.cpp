@@ -222,7 +222,13 @@ PiecesBody read_pieces_body(const Json& value, const std::string& path, const st
 PiecesBody read_any_body(const std::filesystem::path& file, double radius, const std::string& unknown) {
   const std::string name = file.filename().string(), extension = file.extension().string();
   if (extension == ".bt" || extension == ".ot") {
-    OctreePieces octree = read_octree_pieces({{"octree", name}, {"unknown", unknown}}, name, file, 1);
+    OctreePieces octree = [&] {
+      try {
+        return read_octree_pieces({{"octree", name}, {"unknown", unknown}}, "", file, 1);
+      } catch (const InputError& e) {
+        throw InputError(file.string(), e.value(), e.requirement());
+      }
+    }();
     return {"octree", name, std::move(octree.boxes), {}, std::move(octree.notes)};
   }
   std::string kind = "mesh";

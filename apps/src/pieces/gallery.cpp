@@ -90,7 +90,7 @@ class Gallery {
   }
 
   void fail(const fs::path& file, const std::string& why) {
-    std::cerr << file.string() << ": " << why << '\n';
+    std::cerr << (why.starts_with(file.string()) ? "" : file.string() + ": ") << why << '\n';
     rows_.push_back({{"file", file.string()}, {"error", why}});
     failed_ = true;
   }
