@@ -18,7 +18,7 @@ Parsed parse_kitti(const Source& source) {
   parsed.points.resize(count);
   const char* at = source.bytes.data();
   for (Eigen::Vector3d& p : parsed.points) {
-    for (int i = 0; i < 3; ++i) p(i) = little_endian<float>(at + 4 * i);
+    for (std::ptrdiff_t i = 0; i < 3; ++i) p(i) = little_endian<float>(at + 4 * i);
     at += stride;
   }
   return parsed;

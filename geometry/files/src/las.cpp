@@ -38,9 +38,9 @@ Header read_header(const Source& source) {
   };
   need(227);
   Header h;
-  const int major = head[kMajor];
-  h.minor = head[kMinor];
-  if (major != 1 || h.minor < 0 || h.minor > 4)
+  const int major = std::uint8_t(head[kMajor]);
+  h.minor = std::uint8_t(head[kMinor]);
+  if (major != 1 || h.minor > 4)
     source.refuse("LAS version " + std::to_string(major) + "." + std::to_string(h.minor),
                   "version 1.0 to 1.4");
   const std::size_t size = h.minor >= 4 ? 375 : h.minor == 3 ? 235 : 227;
@@ -104,7 +104,7 @@ Parsed parse_las(const Source& source) {
   const char* at = source.bytes.data() + h.points_at;
   for (Eigen::Vector3d& p : parsed.points) {
     // One rounding, of the exact sum.
-    for (int i = 0; i < 3; ++i)
+    for (std::ptrdiff_t i = 0; i < 3; ++i)
       p(i) = std::fma(double(little_endian<std::int32_t>(at + 4 * i)), h.scale(i), h.offset(i));
     at += h.record;
   }

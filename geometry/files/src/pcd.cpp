@@ -81,8 +81,9 @@ void read_binary(const Source& source, const PcdHeader& header, Parsed& parsed) 
       if (header.coordinates[i] == f) offset[i] = stride;
     stride += header.fields[f].size * header.fields[f].count;
   }
+  // There are x, y and z at least, so the stride is not zero.
   const std::string_view body = std::string_view(source.bytes).substr(header.size);
-  if (header.points > body.size() / stride)
+  if (stride == 0 || header.points > body.size() / stride)
     source.refuse(
         "a header with " + std::to_string(header.points) + " points of " + std::to_string(stride) + " bytes",
         "a count that the " + std::to_string(body.size()) + " bytes after it can hold");

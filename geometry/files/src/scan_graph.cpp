@@ -18,7 +18,7 @@ namespace {
 /// A vector or quaternion is its dimension (int32) and as many doubles.
 constexpr std::size_t kVector = 28, kQuaternion = 36, kPose = kVector + kQuaternion;
 /// Two scans, the pose between them, a weight.
-constexpr std::size_t kEdge = 2 * 4 + kPose + 8;
+constexpr std::size_t kEdge = 8 + kPose + 8;
 
 class BinaryReader {
  public:

@@ -117,7 +117,7 @@ class Walk {
 }  // namespace
 
 OctreeHeader check_octree(const Source& source) {
-  const OctreeHeader header = read_header(source);
+  OctreeHeader header = read_header(source);
   const bool is_colour = header.id == "ColorOcTree";
   if (!is_colour && header.id != "OcTree" && header.id != "OcTreeStamped")
     source.refuse("a tree of the kind " + in_quotes(header.id),
