@@ -69,6 +69,55 @@ TEST(AssemblyQuestions, NothingIsTouchedBeforeAndSomethingOverlappedAfterTheCont
   EXPECT_GT(contacts, 300);
 }
 
+TEST(AssemblyQuestions, PolyhedraThatMeetSymmetrically) {
+  // Face to face, and a corner on the edge that two triangles share: both times are known.
+  const AssemblyOracle faces(HullBody::box({-1, -1, -1}, {1, 1, 1}),
+                             Assembly::boxes({{{4, -1, -1}, {6, 1, 1}}}));
+  const auto face = faces.first_contact({1, 0, 0});
+  ASSERT_TRUE(face);
+  EXPECT_LE(face->earliest, 3);
+  EXPECT_GE(face->latest, 3);
+  EXPECT_LT(face->latest - face->earliest, 1e-9);
+  const HullBody tetrahedron({{0, 0, 0}, {-1, 0.2, 0}, {-1, -0.1, 0.2}, {-1, -0.1, -0.2}});
+  const AssemblyOracle corner(
+      tetrahedron, Assembly::mesh({{5, -1, -1}, {5, 1, -1}, {5, 1, 1}, {5, -1, 1}}, {{0, 1, 2}, {0, 2, 3}}));
+  const auto edge = corner.first_contact({1, 0, 0});
+  ASSERT_TRUE(edge);
+  EXPECT_LE(edge->earliest, 5);
+  EXPECT_GE(edge->latest, 5);
+  EXPECT_LT(edge->latest - edge->earliest, 1e-9);
+}
+
+TEST(AssemblyQuestions, AgentsOfManyPoints) {
+  // The same body by its corners alone and with thousands of points inside.
+  test::RandomAssemblies random(17);
+  std::vector<Vector3d> corners, many;
+  for (int i = 0; i < 12; ++i) corners.push_back(random.vector(0.5) + Vector3d(7, 0, 0));
+  many = corners;
+  while (many.size() < 3000) {
+    Vector3d inside = Vector3d::Zero();
+    double sum = 0;
+    for (const Vector3d& corner : corners) {
+      const double weight = random.number(0, 1);
+      inside += weight * corner;
+      sum += weight;
+    }
+    many.push_back(inside / sum);
+  }
+  const Assembly body = random.body(PieceKind::triangle, 100);
+  const AssemblyOracle few(HullBody(corners), body), all(HullBody(many), body);
+  ASSERT_EQ(few.relation(), all.relation());
+  for (int i = 0; i < 200; ++i) {
+    const Vector3d w = random.vector(4) - Vector3d(7, 0, 0);
+    EXPECT_EQ(few.membership(w), all.membership(w));
+    const auto one = few.first_contact(w), other = all.first_contact(w);
+    ASSERT_EQ(bool(one), bool(other));
+    if (one) {
+      EXPECT_NEAR(one->time, other->time, 1e-12);
+    }
+  }
+}
+
 TEST(AssemblyQuestions, MissDistanceIsTheLeastOverTheWay) {
   int misses = 0;
   in_scenes(12, 60,

@@ -221,8 +221,9 @@ TEST(AssemblyNef, TheConeThroughTheWindowIsSafe) {
         std::abs(middle.x()) < 3 * middle.z() / 16 && std::abs(middle.y()) < 3 * middle.z() / 16;
     if (hole) {
       EXPECT_EQ(map.cells[i].label, Certified::out);
-      if (++through % 4 == 0)
+      if (++through % 4 == 0) {
         for (const Vector3d& d : cell) EXPECT_EQ(sum.along(d), Membership::out);
+      }
     }
   }
   EXPECT_GT(through, 20);

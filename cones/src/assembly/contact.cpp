@@ -22,6 +22,23 @@ struct PieceContact {
   Eigen::Vector3d point = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::UnitX();
 };
 
+/// Whether the apex is proved to be inside. Where polyhedra meet symmetrically, a simplex of their corners
+/// may hold it on a face; then the four corners of a tetrahedron of size `around` about it are asked for, in
+/// no particular direction. The core is convex.
+bool overlaps(const Core& core, const Eigen::Vector3d& normal, double around) {
+  const Directions apex{};
+  if (gap(core, apex, normal).answer == Gap::Answer::met) return true;
+  if (core.inner_rounding() > 0) return false;
+  const Eigen::Vector3d corners[] = {
+      {0.78, 0.37, 0.51}, {-0.81, 0.53, -0.24}, {-0.19, -0.94, 0.29}, {0.22, 0.04, -0.97}};
+  Core moved = core;
+  for (const Eigen::Vector3d& corner : corners) {
+    moved.offset = core.offset + around * corner;
+    if (gap(moved, apex, normal).answer != Gap::Answer::met) return false;
+  }
+  return true;
+}
+
 /// Newton's method on the distance between the moving apex and the core, which is convex in time: from the
 /// left it never passes the contact, and every step is a plane that the agent has to reach first. `d`: the
 /// velocity in the frame. Nothing where a plane proves that there is no contact.
@@ -55,12 +72,9 @@ std::optional<PieceContact> piece_contact(const Scene& scene, std::uint32_t slot
 
   // Some time later the agent surely overlaps, unless it only grazes.
   double step = std::max(8 * kUlp * t, 64 * kUlp * core.reach() / d.norm());
-  for (int i = 0; i < 32; ++i, step *= 4) {
-    const double later = t + step;
-    core.offset = later * d;
-    if (gap(core, apex, normal).answer != Gap::Answer::met) continue;
-    contact.latest = later * (1 + 4 * kUlp);
-    break;
+  for (int i = 0; i < 32 && std::isinf(contact.latest); ++i, step *= 4) {
+    core.offset = (t + step) * d;
+    if (overlaps(core, normal, 0.25 * step * d.norm())) contact.latest = (t + step) * (1 + 4 * kUlp);
   }
   contact.time = std::clamp(contact.time, contact.earliest, contact.latest);
   contact.normal = scene.frame().to_frame().transpose() * normal;

@@ -74,7 +74,7 @@ class Search {
     int size = 0;
     ++effort_.nodes;
     if (!apart(nodes[0])) stack[size++] = {0, version_, 0};
-    while (size > 0) {
+    while (size > 0 && !at_end()) {
       const Item item = stack[--size];
       const Hierarchy::Node& node = nodes[item.node];
       // The sector may have shrunk since the node was put aside.
@@ -96,9 +96,12 @@ class Search {
   /// Before run(): a piece that may be met far out.
   void try_slot(std::uint32_t slot) { raise(slot); }
 
+  /// Nothing more can be found.
+  bool at_end() const { return found_ && low_ + tolerance_ >= to_; }
+
   bool found() const { return found_; }
   double low() const { return low_; }
-  double high() const { return std::max(high_, beyond_); }
+  double high() const { return at_end() ? to_ : std::max(high_, beyond_); }
   const Eigen::Vector3d& direction() const { return direction_; }
   std::uint32_t slot() const { return slot_; }
 

@@ -4,10 +4,17 @@
 #include <vericone/geometry/error.h>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 namespace vericone::assembly {
+namespace {
+
+/// Points that are looked through one by one; more are sought in a hierarchy.
+constexpr std::size_t kFew = 48;
+
+}  // namespace
 
 Frame::Frame(const Ellipsoid& agent) : origin_(agent.center()) {
   // Through numbers of ordinary size, which leave room for squares and determinants.
@@ -76,6 +83,7 @@ Eigen::Vector3d Frame::support(const Eigen::Vector3d& n) const {
     const double length = back.norm();
     return length > 0 ? Eigen::Vector3d(factor_ * (back / length)) : Eigen::Vector3d::Zero();
   }
+  if (!hierarchy_.nodes().empty()) return farthest_of_many(n);
   std::size_t best = 0;
   double most = n.dot(points_[0]);
   for (std::size_t i = 1; i < points_.size(); ++i)
@@ -83,6 +91,42 @@ Eigen::Vector3d Frame::support(const Eigen::Vector3d& n) const {
       most = value;
       best = i;
     }
+  return points_[best];
+}
+
+Eigen::Vector3d Frame::farthest_of_many(const Eigen::Vector3d& n) const {
+  const auto nodes = hierarchy_.nodes();
+  const Eigen::Vector3d size = n.cwiseAbs();
+  const auto most_in = [&](const Hierarchy::Node& node) {
+    const Box box = node.box();
+    return n.dot(box.center()) + size.dot(box.half_widths());
+  };
+  struct Item {
+    std::uint32_t node;
+    double most;
+  };
+  std::array<Item, 128> stack;
+  std::size_t count = 0;
+  std::uint32_t best = 0;
+  double most = n.dot(points_[0]);
+  stack[count++] = {0, most_in(nodes[0])};
+  while (count > 0) {
+    const Item item = stack[--count];
+    if (item.most <= most) continue;
+    const Hierarchy::Node& node = nodes[item.node];
+    if (node.is_leaf()) {
+      for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+        if (const double value = n.dot(points_[i]); value > most) {
+          most = value;
+          best = i;
+        }
+      continue;
+    }
+    const Item first{node.first, most_in(nodes[node.first])},
+        second{node.first + 1, most_in(nodes[node.first + 1])};
+    stack[count++] = first.most < second.most ? first : second;
+    stack[count++] = first.most < second.most ? second : first;
+  }
   return points_[best];
 }
 
@@ -101,6 +145,16 @@ Frame::Frame(const HullBody& agent) {
   }
   reach_ *= 1 + 4 * kUlp;
   ball_ *= 1 + 8 * kUlp;
+  if (points_.size() > kFew) {
+    std::vector<Box> boxes;
+    boxes.reserve(points_.size());
+    for (const Eigen::Vector3d& a : points_) boxes.push_back({a, a});
+    hierarchy_ = Hierarchy(boxes);
+    std::vector<Eigen::Vector3d> by_slot;
+    by_slot.reserve(points_.size());
+    for (const std::uint32_t i : hierarchy_.order()) by_slot.push_back(points_[i]);
+    points_ = std::move(by_slot);
+  }
   norm_ = std::sqrt(3.0) * (1 + 4 * kUlp);
 }
 

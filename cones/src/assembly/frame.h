@@ -4,6 +4,7 @@
 #pragma once
 
 #include <vericone/geometry/ellipsoid.h>
+#include <vericone/geometry/hierarchy.h>
 #include <vericone/geometry/hull_body.h>
 #include <Eigen/Core>
 #include <algorithm>
@@ -74,13 +75,16 @@ class Frame {
   Eigen::Vector3d relative(const Eigen::Vector3d& x) const { return x - origin_; }
 
  private:
+  Eigen::Vector3d farthest_of_many(const Eigen::Vector3d& n) const;
+
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero(), reach_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d to_frame_ = Eigen::Matrix3d::Identity(), from_frame_ = Eigen::Matrix3d::Identity();
   bool round_ = false, is_space_ = true;
   double beyond_range_ = 0;  // or infinity
   double norm_ = 1;          // of G, Frobenius, rounded up
   double inner_ = 0, outer_ = 0, ball_ = 0, support_error_ = 0;
-  std::vector<Eigen::Vector3d> points_;                   // of a hull
+  std::vector<Eigen::Vector3d> points_;  // of a hull, by slot of the hierarchy where there is one
+  Hierarchy hierarchy_;                  // of the points, where they are many
   Eigen::Matrix3d factor_ = Eigen::Matrix3d::Identity();  // of an ellipsoid in space
 };
 
