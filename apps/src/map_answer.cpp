@@ -19,11 +19,17 @@ constexpr std::size_t kShownRegions = 20;
 
 const char* name_of(Certified label) { return label == Certified::in ? "colliding" : "safe"; }
 
-Json region_json(const ConeMapRegion& region) {
+/// `all`: the map's.
+Json region_json(const ConeMapRegion& region, const std::vector<ConeMapRegion>& all) {
+  double others = 0;
+  for (const ConeMapRegion& other : all)
+    if (other.label == region.label && other.possible == region.possible) others += other.solid_angle;
+  others = region.surely_separate ? 0 : others - region.solid_angle;
   return {{"label", name_of(region.label)},
           {"solid_angle", region.solid_angle},
           {"most_solid_angle", region.most_solid_angle},
           {"surely_separate", region.surely_separate},
+          {"others_possibly_connected", std::max(0.0, others)},
           {"holes", region.boundary.empty() ? 0 : region.boundary.size() - 1}};
 }
 
@@ -43,10 +49,11 @@ MapAnswer map_answer(const DirectionClassifier& classifier, const MapRequest& re
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   Json list = Json::array();
   const auto all = regions(map);
-  for (std::size_t i = 0; i < std::min(all.size(), kShownRegions); ++i) list.push_back(region_json(all[i]));
+  for (std::size_t i = 0; i < std::min(all.size(), kShownRegions); ++i)
+    list.push_back(region_json(all[i], all));
   Json around = nullptr;
   if (request.around)
-    if (const auto region = region_around(map, *request.around)) around = region_json(*region);
+    if (const auto region = region_around(map, *request.around)) around = region_json(*region, all);
   Json summary{{"resolution", request.resolution},
                {"colliding", map.colliding},
                {"safe", map.safe},
@@ -89,7 +96,9 @@ void print_map(const Json& map, std::ostream& out) {
     } else {
       out << "  " << around["label"].get<std::string>() << ", a region of " << around["solid_angle"].dump()
           << " to " << around["most_solid_angle"].dump() << " sr"
-          << (around["surely_separate"] == true ? ", surely apart from all others of its kind\n" : "\n");
+          << (around["surely_separate"] == true ? ", surely apart from all others of its kind\n"
+                                                : ", may be connected with others of " +
+                                                      around["others_possibly_connected"].dump() + " sr\n");
     }
   }
   out << "map time            " << map["seconds"].dump() << " s\n";

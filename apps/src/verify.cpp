@@ -2,6 +2,7 @@
 #include "verify.h"
 
 #include <unistd.h>
+#include <vericone/verify/assembly_campaign.h>
 #include <vericone/verify/planar_campaign.h>
 #include <vericone/verify/planar_methods.h>
 #include <vericone/verify/predicate_campaign.h>
@@ -42,6 +43,7 @@ struct Results {
   std::vector<verify::PredicateReport> predicates;
   std::vector<verify::PlanarFamilyReport> by_support, by_conics;
   std::vector<verify::SpatialFamilyReport> spatial;
+  std::vector<verify::AssemblyReport> assemblies;
 
   std::uint64_t wrong() const {
     std::uint64_t sum = 0;
@@ -49,9 +51,14 @@ struct Results {
     for (const auto* reports : {&by_support, &by_conics})
       for (const auto& r : *reports) sum += r.wrong_relations;
     for (const auto& r : spatial) sum += r.failures();
+    for (const auto& r : assemblies) sum += r.failures();
     return sum;
   }
 };
+
+constexpr verify::AgentKind kAgents[] = {verify::AgentKind::ball, verify::AgentKind::ellipsoid,
+                                         verify::AgentKind::hull};
+constexpr PieceKind kPieces[] = {PieceKind::triangle, PieceKind::ball, PieceKind::box, PieceKind::hull};
 
 Results run(const VerifyOptions& o) {
   Results results;
@@ -87,6 +94,16 @@ Results run(const VerifyOptions& o) {
     results.spatial.push_back(verify::run_spatial_family(family, o.pairs, o.seed));
     progress.show("cones in space", results.spatial.size(), std::size(verify::kAllSpatialFamilies));
   }
+  for (const auto agent : kAgents)
+    for (const auto pieces : kPieces) {
+      if (interrupted()) return results;
+      verify::AssemblyOptions assembly;
+      assembly.cases = o.pairs;
+      assembly.seed = o.seed;
+      results.assemblies.push_back(verify::run_assembly_family(agent, pieces, assembly));
+      progress.show("meshes, clouds and maps", results.assemblies.size(),
+                    std::size(kAgents) * std::size(kPieces));
+    }
   return results;
 }
 
@@ -122,6 +139,25 @@ nlohmann::json spatial_json(const std::vector<verify::SpatialFamilyReport>& repo
   return list;
 }
 
+nlohmann::json assembly_json(const std::vector<verify::AssemblyReport>& reports) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const auto& r : reports) {
+    nlohmann::json checks;
+    const auto add = [&](const char* name, const verify::Check& c) {
+      checks[name] = {{"tried", c.tried}, {"failed", c.failed}};
+    };
+    add("relation", r.relation), add("membership", r.membership), add("contact", r.contact);
+    add("contact_point", r.contact_point), add("miss", r.miss), add("extreme", r.extreme);
+    add("map_out", r.map_out), add("map_in", r.map_in);
+    list.push_back({{"agent", verify::to_string(r.agent)},
+                    {"pieces", to_string(r.pieces)},
+                    {"seed", r.seed},
+                    {"cases", r.cases},
+                    {"checks", checks}});
+  }
+  return list;
+}
+
 void print_json(const VerifyOptions& o, const Results& r, std::ostream& out) {
   nlohmann::ordered_json j;
   j["seed"] = o.seed;
@@ -131,6 +167,7 @@ void print_json(const VerifyOptions& o, const Results& r, std::ostream& out) {
   j["sector_by_support"] = planar_json(r.by_support);
   j["sector_by_degenerate_conics"] = planar_json(r.by_conics);
   j["cones_in_space"] = spatial_json(r.spatial);
+  j["assemblies"] = assembly_json(r.assemblies);
   out << j.dump(2) << '\n';
 }
 
@@ -140,6 +177,8 @@ void print_tables(const Results& r, std::ostream& out) {
   if (!r.by_conics.empty())
     out << "sector_by_degenerate_conics\n\n" << verify::to_markdown(r.by_conics) << '\n';
   if (!r.spatial.empty()) out << "cones in space\n\n" << verify::to_markdown(r.spatial) << '\n';
+  if (!r.assemblies.empty())
+    out << "meshes, clouds and maps\n\n" << verify::to_markdown(r.assemblies) << '\n';
   for (const auto& p : r.predicates)
     if (p.first_wrong)
       out << "WRONG: " << p.predicate << ", " << p.wrong << " cases, the first is replay_predicate(\""
