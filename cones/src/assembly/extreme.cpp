@@ -48,6 +48,14 @@ struct HalfPlane {
   Eigen::Vector3d at(double angle) const { return std::cos(angle) * axis + std::sin(angle) * side; }
 };
 
+/// The directions of the half-plane between two angles.
+struct Sector {
+  Eigen::Vector3d first, last;  // in space
+  Directions directions;
+  Sector(const Frame& frame, const Eigen::Vector3d& from, const Eigen::Vector3d& to)
+      : first(from), last(to), directions(frame, {from, to}) {}
+};
+
 /// The largest angle between `from` and `to` at which a piece is met, so far.
 class Search {
  public:
@@ -57,6 +65,8 @@ class Search {
         to_(to),
         tolerance_(tolerance),
         effort_(effort),
+        last_(plane.at(to)),
+        sector_(scene.frame(), plane.at(from), last_),
         low_(from),
         high_(from) {
     look_beyond(from);
@@ -86,8 +96,12 @@ class Search {
       effort_.nodes += 2;
       Item children[2];
       int count = 0;
-      for (std::uint32_t child = node.first; child < node.first + 2; ++child)
-        if (!apart(nodes[child])) children[count++] = {child, version_, height(nodes[child])};
+      for (std::uint32_t child = node.first; child < node.first + 2; ++child) {
+        const double above = edge_ ? edge_->above(nodes[child]) : 0;
+        if (above > 0 || apart_by_box(nodes[child])) continue;
+        children[count++] = {child, version_, edge_ ? -above : height(nodes[child])};
+      }
+      // What reaches farthest beyond is looked at first: it leaves the least to the others.
       if (count == 2 && children[0].order > children[1].order) std::swap(children[0], children[1]);
       for (int i = 0; i < count; ++i) stack[size++] = children[i];
     }
@@ -114,18 +128,21 @@ class Search {
     const double length = normal.norm();
     edge_.reset();
     if (!(length > 0)) return;
-    edge_.emplace(scene_.frame(), sector_, normal / length);
+    edge_.emplace(scene_.frame(), sector_.directions, normal / length);
     edge_normal_ = normal;
   }
   void look_beyond(double angle) {
     beyond_ = std::min(angle, to_);
-    sector_ = Directions(scene_.frame(), {plane_.at(beyond_), plane_.at(to_)});
-    test_.emplace(scene_.frame(), sector_, SectorResidual(sector_));
+    sector_ = sector(beyond_);
+    test_.emplace(scene_.frame(), sector_.directions, SectorResidual(sector_.directions));
     ++version_;
   }
 
+  bool apart_by_box(const Hierarchy::Node& node) const {
+    return !sector_.directions.spread_too_far() && test_->apart(node);
+  }
   bool apart(const Hierarchy::Node& node) const {
-    return (edge_ && edge_->apart(node)) || (!sector_.spread_too_far() && test_->apart(node));
+    return (edge_ && edge_->above(node) > 0) || apart_by_box(node);
   }
 
   /// How far a node reaches towards the end of the sector, for the order of visits only.
@@ -137,7 +154,7 @@ class Search {
     return sum > 0 ? (along < 0 ? 2 - across / sum : across / sum) : 0;
   }
 
-  Directions sector(double from) const { return {scene_.frame(), {plane_.at(from), plane_.at(to_)}}; }
+  Sector sector(double from) const { return {scene_.frame(), plane_.at(from), last_}; }
 
   static Eigen::Vector3d direction_of(const Eigen::Vector3d& v, const Eigen::Vector3d& otherwise) {
     if (!v.isZero(0)) return v;
@@ -145,11 +162,11 @@ class Search {
   }
 
   /// The angle of the direction that a search ended with.
-  double angle(const Gap& found, const Directions& directions, double from) const {
-    const double a = found.along[0] / directions.length[0] / plane_.at(from).cwiseAbs().maxCoeff();
-    const double b = found.along[1] / directions.length[1] / plane_.at(to_).cwiseAbs().maxCoeff();
+  double angle(const Gap& found, const Sector& sector, double from) const {
+    const double a = found.along[0] / sector.directions.length[0],
+                 b = found.along[1] / sector.directions.length[1];
     if (!(a + b > 0)) return from;
-    const Eigen::Vector3d d = a * plane_.at(from) + b * plane_.at(to_);
+    const Eigen::Vector3d d = a * sector.first + b * sector.last;
     return std::clamp(std::atan2(d.dot(plane_.side), d.dot(plane_.axis)), from, to_);
   }
 
@@ -186,9 +203,13 @@ class Search {
   /// Looks for directions beyond what is known at which the piece is met.
   void raise(std::uint32_t slot) {
     ++effort_.pieces;
+    if (edge_ && scene_.body().kind() == PieceKind::triangle &&
+        edge_->above(scene_.body().by_slot().triangles[slot]) > 0)
+      return;
     const Core core = scene_.core(slot);
-    const Gap found = gap(
-        core, sector_, edge_ ? edge_normal_ : direction_of(test_->residual()(core.center()), core.center()));
+    const Gap found =
+        gap(core, sector_.directions,
+            edge_ ? edge_normal_ : direction_of(test_->residual()(core.center()), core.center()));
     if (found.answer == Gap::Answer::apart) return;
     double low = beyond_, high = to_, met = angle(found, sector_, beyond_);
     Eigen::Vector3d normal = direction_of(found.v, core.center());  // searches begin where the last one ended
@@ -201,8 +222,8 @@ class Search {
       const double middle = low + std::min(step, 0.5 * (high - low));
       if (middle <= low || middle >= high) break;
       step *= 4;
-      const Directions beyond = sector(middle);
-      const Gap at_middle = gap(core, beyond, normal);
+      const Sector beyond = sector(middle);
+      const Gap at_middle = gap(core, beyond.directions, normal);
       normal = direction_of(at_middle.v, normal);
       if (at_middle.answer == Gap::Answer::apart) {
         high = middle;
@@ -225,7 +246,8 @@ class Search {
   HalfPlane plane_;
   double to_, tolerance_;
   Effort& effort_;
-  Directions sector_;
+  Eigen::Vector3d last_;  // direction at to_
+  Sector sector_;
   std::optional<BoxTest<SectorResidual>> test_;  // of sector_
   std::optional<Plane> edge_;                    // apart from the sector, at its beginning
   Eigen::Vector3d edge_normal_ = Eigen::Vector3d::Zero();

@@ -161,11 +161,13 @@ Frame::Frame(const HullBody& agent) {
 Directions::Directions(const Frame& frame, std::initializer_list<Eigen::Vector3d> rays_in_space) {
   for (const Eigen::Vector3d& d : rays_in_space) {
     // Scaled first: velocities of any size are directions.
-    const Eigen::Vector3d scaled = d / d.cwiseAbs().maxCoeff();
+    const double largest = d.cwiseAbs().maxCoeff();
+    const Eigen::Vector3d scaled = d / largest;
     const Eigen::Vector3d mapped = frame.to_frame() * scaled;
-    length[count] = mapped.norm();
-    error = std::max(error, frame.error(scaled.norm()) / length[count] + 8 * kUlp);
-    ray[count] = mapped / length[count];
+    const double norm = mapped.norm();
+    length[count] = norm * largest;
+    error = std::max(error, frame.error(scaled.norm()) / norm + 8 * kUlp);
+    ray[count] = mapped / norm;
     middle += ray[count];
     ++count;
   }

@@ -91,7 +91,7 @@ class Frame {
 /// The directions asked about: rays from the apex and all between them (none: the apex alone).
 struct Directions {
   Eigen::Vector3d ray[3];  // in the frame, unit
-  double length[3] = {};   // of the rays as given, divided by their largest coordinates, in the frame
+  double length[3] = {};   // of the rays as given, in the frame
   int count = 0;
   double error = 0;  // of each ray, as a vector
 

@@ -77,18 +77,28 @@ class Plane {
         extent_(frame.extent(normal, 1)),
         relative_slack_(128 * kUlp + directions.slant(normal)) {}
 
-  bool apart(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const {
-    const Eigen::Vector3d l = low - frame_->origin(), h = high - frame_->origin();
+  /// How far above the plane the widened box surely is; not positive where it may reach through.
+  double above(const Hierarchy::Node& node) const {
+    const Box box = node.box();
+    const Eigen::Vector3d l = box.low - frame_->origin(), h = box.high - frame_->origin();
     const Eigen::Vector3d middle = 0.5 * (l + h), half = 0.5 * (h - l);
-    const double size = frame_->norm() * (middle.cwiseAbs().sum() + half.sum()) + frame_->ball();
-    return back_.dot(middle) - back_.cwiseAbs().dot(half) - extent_ >
-           relative_slack_ * (size + frame_->outer()) + frame_->beyond_range();
+    return above(back_.dot(middle) - back_.cwiseAbs().dot(half), middle.cwiseAbs().sum() + half.sum());
   }
-  bool apart(const Hierarchy::Node& node) const {
-    return apart({node.low[0], node.low[1], node.low[2]}, {node.high[0], node.high[1], node.high[2]});
+  /// The same of the widened convex hull of three points.
+  double above(const std::array<Eigen::Vector3d, 3>& corners) const {
+    const Eigen::Vector3d a = corners[0] - frame_->origin(), b = corners[1] - frame_->origin(),
+                          c = corners[2] - frame_->origin();
+    return above(std::min({back_.dot(a), back_.dot(b), back_.dot(c)}),
+                 a.cwiseAbs().cwiseMax(b.cwiseAbs()).cwiseMax(c.cwiseAbs()).sum());
   }
 
  private:
+  /// `least`: of what lies at most `size` from p.
+  double above(double least, double size) const {
+    const double reach = frame_->norm() * size + frame_->ball() + frame_->outer();
+    return least - extent_ - (relative_slack_ * reach + frame_->beyond_range());
+  }
+
   const Frame* frame_;
   Eigen::Vector3d back_;
   double extent_, relative_slack_;
