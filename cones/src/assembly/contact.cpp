@@ -41,8 +41,9 @@ bool overlaps(const Core& core, const Eigen::Vector3d& normal, double around) {
 
 /// Newton's method on the distance between the moving apex and the core, which is convex in time: from the
 /// left it never passes the contact, and every step is a plane that the agent has to reach first. `d`: the
-/// velocity in the frame. Nothing where a plane proves that there is no contact.
-std::optional<PieceContact> piece_contact(const Scene& scene, std::uint32_t slot, const Eigen::Vector3d& d) {
+/// velocity in the frame. Nothing where a plane proves that there is no contact before `limit`.
+std::optional<PieceContact> piece_contact(const Scene& scene, std::uint32_t slot, const Eigen::Vector3d& d,
+                                          double limit) {
   const Directions apex{};
   Core core = scene.core(slot);
   PieceContact contact;
@@ -66,6 +67,7 @@ std::optional<PieceContact> piece_contact(const Scene& scene, std::uint32_t slot
     const double next = t + wait / closing * (1 - 16 * kUlp);
     if (!(next > t * (1 + 4 * kUlp))) break;
     t = next;
+    if (t > limit) return std::nullopt;
   }
   contact.earliest = std::max(0.0, t * (1 - 4 * kUlp));
   if (!std::isfinite(contact.time) || contact.time < t) contact.time = t;
@@ -124,7 +126,7 @@ std::optional<AssemblyContact> first_contact(const Scene& scene, const Eigen::Ve
     if (!(slabs.enter(box.low.data(), box.high.data()) < limit) || test.apart(box.low, box.high)) return true;
     ++effort.pieces;
     if (!meets(scene, slot, ray, w, effort)) return true;
-    const std::optional<PieceContact> contact = piece_contact(scene, slot, d);
+    const std::optional<PieceContact> contact = piece_contact(scene, slot, d, limit);
     if (!contact) return true;
     if (contact->earliest < first.earliest) {
       first = *contact;
