@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The extreme direction of a body on a half-plane, and cells of directions.
+// The extreme direction of a body on a half-plane.
 #include <vericone/geometry/error.h>
 #include <algorithm>
 #include <numbers>
@@ -257,10 +257,6 @@ class Search {
   Eigen::Vector3d direction_ = Eigen::Vector3d::Zero();
   std::uint32_t slot_ = 0;
 };
-
-}  // namespace
-
-namespace {
 
 /// `guess`: a slot that may be met far out, for a neighbouring half-plane was.
 ExtremeDirection find_extreme(const Scene& scene, const HalfPlane& plane, double tolerance, Effort& effort,
