@@ -5,33 +5,18 @@
 #include <vericone/geometry/error.h>
 
 #include "geometry/random.h"
+#include "geometry/refused_files.h"
 #include "geometry/written_files.h"
 
 namespace vericone::files {
 namespace {
 
-using testing::bytes_of, testing::Random, testing::TemporaryDirectory;
-
-struct BadFile {
-  std::string name, file, bytes, value, requirement;
-};
-
-void PrintTo(const BadFile& bad, std::ostream* out) { *out << bad.name; }
+using testing::BadFile, testing::bytes_of, testing::Random, testing::TemporaryDirectory;
 
 class MalformedFiles : public ::testing::TestWithParam<BadFile> {};
 
 TEST_P(MalformedFiles, AreRefusedInOneLine) {
-  const TemporaryDirectory directory;
-  const auto path = directory.write(GetParam().file, GetParam().bytes);
-  try {
-    read_points(path);
-    FAIL() << "nothing was thrown";
-  } catch (const InputError& error) {
-    EXPECT_EQ(error.field(), path.string());
-    EXPECT_THAT(error.value(), ::testing::HasSubstr(GetParam().value));
-    EXPECT_THAT(error.requirement(), ::testing::HasSubstr(GetParam().requirement));
-    EXPECT_THAT(error.what(), ::testing::Not(::testing::HasSubstr("\n")));
-  }
+  testing::expect_refused(GetParam(), [](const auto& path) { read_points(path); });
 }
 
 const std::string kCube = "0 0 0\n1 0 0\n0 1 0\n";
