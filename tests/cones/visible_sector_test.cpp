@@ -113,6 +113,16 @@ struct Counts {
       EXPECT_LT(turns_off(s->sector->theta_b, reference.theta_b), 1e-10);
     }
   }
+
+  /// Prints them; there must be enough of each kind for the comparison to mean something.
+  void report() const {
+    std::cout << answers << " sectors, " << none << " without tangents, " << undecided
+              << " touching; off by at most " << worst << " rad; " << 100 * tried / points
+              << " % of the points tried\n";
+    EXPECT_GT(answers, 1000);
+    EXPECT_GT(none, 100);
+    EXPECT_LT(undecided, 10);
+  }
 };
 
 TEST(VisibleSector, SearchEqualsSeparatingLinesForEllipticAgents) {
@@ -140,12 +150,7 @@ TEST(VisibleSector, SearchEqualsSeparatingLinesForEllipticAgents) {
       }
     }
   }
-  std::cout << counts.answers << " sectors, " << counts.none << " without tangents, " << counts.undecided
-            << " touching; off by at most " << counts.worst << " rad; " << 100 * counts.tried / counts.points
-            << " % of the points tried\n";
-  EXPECT_GT(counts.answers, 1000);
-  EXPECT_GT(counts.none, 100);
-  EXPECT_LT(counts.undecided, 10);
+  counts.report();
 }
 
 TEST(VisibleSector, SearchEqualsSeparatingLinesForAgentsOfAnyShape) {
@@ -170,12 +175,7 @@ TEST(VisibleSector, SearchEqualsSeparatingLinesForAgentsOfAnyShape) {
     ASSERT_NO_FATAL_FAILURE(counts.compare(search, sector_of_points(agent, chain), reference, 1));
     if (search.sector) counts.tried += search.tried, counts.points += double(chain.size());
   }
-  std::cout << counts.answers << " sectors, " << counts.none << " without tangents, " << counts.undecided
-            << " touching; off by at most " << counts.worst << " rad; " << 100 * counts.tried / counts.points
-            << " % of the points tried\n";
-  EXPECT_GT(counts.answers, 1000);
-  EXPECT_GT(counts.none, 100);
-  EXPECT_LT(counts.undecided, 10);
+  counts.report();
 }
 
 TEST(VisibleSector, PointsOfAnEllipseGiveItsSector) {
