@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 
 #include "hull_oracle_checks.h"
 #include "support/velocity_laws.h"

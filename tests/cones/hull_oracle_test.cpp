@@ -6,9 +6,6 @@
 #include <vericone/cones/hull_oracle.h>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
-#include <numeric>
 
 #include "hull_oracle_checks.h"
 #include "support/velocity_laws.h"
