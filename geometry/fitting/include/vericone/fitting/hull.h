@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Quadric hulls: unions of combined quadrics, and what is proved of them.
+#pragma once
+
+#include <vericone/fitting/sample.h>
+#include <vericone/geometry/combined.h>
+#include <vericone/geometry/quadric.h>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vericone::fitting {
+
+enum class Shape {
+  ellipse,  // footprint on the xy plane; as a body the upright elliptic cylinder over it
+  ellipsoid,
+  biconcave,  // ellipsoid and the outside of a two-sheeted hyperboloid (source, (6.8))
+  biconvex,   // ellipsoid and the inside of a one-sheeted hyperboloid (source, (6.9))
+  star,       // ellipsoid and two or more hyperboloids of either kind
+};
+std::string to_string(Shape shape);
+
+/// One body of a hull. A point is in it where it is on the negative side of all its quadrics.
+struct Piece {
+  /// In space; for the shape `ellipse` not used.
+  CombinedEllipsoid body;
+
+  /// For the shape `ellipse` only: the footprint, and where z ends (low = high: the points are planar).
+  std::optional<Ellipse> footprint;
+  double low = 0, high = 0;
+
+  /// What is proved is proved of these numbers. The first is the ellipsoid (or elliptic cylinder), then one
+  /// for each delimiter (or, where low < high, the slab between them).
+  std::vector<Quadric> quadrics;
+};
+
+/// What exact arithmetic says of a hull and a sample.
+struct Certificate {
+  std::size_t points = 0, points_inside = 0;
+  /// Of a mesh. A triangle counts as inside where one piece contains all of it.
+  std::size_t triangles = 0, triangles_inside = 0;
+  /// Points whose ball of radius `margin` (m) is inside one piece; points_inside where the margin is 0.
+  double margin = 0;
+  std::size_t margins_inside = 0;
+  /// Statements that intervals did not decide.
+  std::size_t by_exact = 0;
+  /// Indices of the points nearest to the boundary of their piece, at most 20: values above -1e-9 where the
+  /// centre has -1.
+  std::vector<std::size_t> touching;
+
+  bool all_inside() const {
+    return points_inside == points && triangles_inside == triangles && margins_inside == points;
+  }
+  double coverage() const { return points ? double(points_inside) / double(points) : 1; }
+};
+
+/// Points and triangles of a mesh (the points that triangles use), or of a cloud, against pieces given by
+/// quadrics. Nothing but the numbers of `quadrics` enters, so that anyone can repeat it from what is
+/// written. Decided by intervals, else in rational arithmetic: a triangle is inside where the greatest value
+/// of each quadric on it is not positive, which the corners, the edges along which the quadric is concave,
+/// and the plane where it is concave on it tell. Throws InputError naming "pieces" where there is none.
+/// Linear in points times pieces.
+Certificate check(const std::vector<std::vector<Quadric>>& pieces, const Sample& sample, double margin = 0);
+
+/// Which piece is to contain what; -1: none has to. Sizes of points and triangles of the sample.
+struct Assignment {
+  std::vector<int> points, triangles;
+};
+
+/// Inflates each surface of each piece about its centre by the least factor for which exact arithmetic says
+/// that it contains what is assigned to its piece, with balls of radius `margin` about the points: `body` (by
+/// quadric_side.h) as well as `quadrics`, which are set here. The factors are 1 + a few roundings where the
+/// fit was tight. Surfaces are only ever moved outwards. Returns the largest factor applied to a body.
+double enclose(std::vector<Piece>& pieces, const Sample& sample, const Assignment& assignment,
+               double margin = 0);
+
+/// Sets `quadrics` of a piece without any proof: rounded once from `body` or `footprint`.
+void set_quadrics(Piece& piece);
+
+}  // namespace vericone::fitting

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Quadric surfaces near points: least squares of geometric distances, and the same with robust losses.
+// Neither contains the points: that is another question (containing.h).
+#pragma once
+
+#include <vericone/fitting/hull.h>
+#include <cstdint>
+
+namespace vericone::fitting {
+
+struct SurfaceFitOptions {
+  bool robust = false;       // else least squares
+  std::uint64_t seed = 0;    // of the trial samples of the robust start
+  int max_iterations = 200;  // of each refinement
+};
+
+/// A direction or length that the sample leaves open.
+struct Unknown {
+  std::string what;             // "center along (0.1, 0.2, 0.97)", "semi-axis 2", ...
+  double value = 0, error = 0;  // metres; error: one standard deviation
+};
+
+struct SurfaceFit {
+  Piece piece;             // in the frame of the points given; quadrics not set
+  bool converged = false;  // false: the solver's last iterate, no fit
+  double noise = 0;    // estimated standard deviation of the distances of inliers, same unit as the points
+  double inliers = 1;  // share of the weights within 3 * noise (robust) or 1
+  /// One standard deviation of centre (3) and of the ellipsoid's semi-axes (3, decreasing), from the
+  /// curvature of the cost at the solution, for independent noise.
+  Eigen::Vector3d center_error = Eigen::Vector3d::Zero(), axes_error = Eigen::Vector3d::Zero();
+  /// Share of the surface's area that has points near it: within the angle of 1/2 grid cell about the centre.
+  double seen = 1;
+  /// What the points do not determine: standard deviation above a twentieth of the value.
+  std::vector<Unknown> unknown;
+  int iterations = 0;
+};
+
+/// Points and weights of the sample. The residual of a point is its signed distance to the ellipsoid, for
+/// combined shapes the largest of the signed distances to the surfaces (the distance to the body, except
+/// outside near rims). Started from an algebraic fit, or the best of trial samples (robust), and from
+/// principal axes; for dents and waists from where the convex hull is farthest from the points. Robust:
+/// redescending loss with the scale re-estimated from the residuals.
+/// Throws InputError naming "points" where there are fewer than parameters or where no such surface is near
+/// the points (a plane, a paraboloid: what was found is said). Time linear in the points, some tens of
+/// passes.
+SurfaceFit fit_surface(const CanonicalSample& sample, Shape shape, const SurfaceFitOptions& options = {});
+
+}  // namespace vericone::fitting
