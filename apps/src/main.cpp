@@ -10,6 +10,7 @@
 #include "accuracy/combined_accuracy.h"
 #include "build_info.h"
 #include "cone.h"
+#include "fit/fit_command.h"
 #include "pieces/gallery.h"
 #include "query.h"
 #include "scan/run_scan.h"
@@ -179,6 +180,52 @@ int run(int argc, char** argv) {
     vericone::run_scan(scan, std::cout);
 #else
     throw vericone::InputError("scan", "a command without LiDARs", "a build with VERICONE_LIDAR");
+#endif
+  });
+
+  vericone::FitCommandOptions fit;
+  auto* fit_command = app.add_subcommand("fit", "A quadric hull of a scan, with what is proved of it");
+  fit_command->add_option("file", fit.file, "Mesh, cloud or octree map (docs/files.md)")->required();
+  fit_command
+      ->add_option("--mode", fit.mode, "least-squares, robust, or containing: proved to contain the scan")
+      ->capture_default_str();
+  fit_command
+      ->add_option(
+          "--shape", fit.shape,
+          "ellipse (a footprint), ellipsoid, biconcave, biconvex, star, or auto: chosen and explained")
+      ->capture_default_str();
+  double coverage = 1;
+  auto* coverage_option =
+      fit_command
+          ->add_option("--coverage", coverage,
+                       "Share of the points to be inside; containing: 1 if not given, otherwise the surface "
+                       "stays where it was fitted")
+          ->default_str("");
+  fit_command->add_option("--margin", fit.margin, "Radius of balls about the points to be inside, metres")
+      ->capture_default_str();
+  fit_command->add_option("--pieces", fit.pieces, "Bodies whose union is the hull")->capture_default_str();
+  fit_command->add_option("--seed", fit.seed, "Seed of all random numbers")->capture_default_str();
+  fit_command->add_option(
+      "--cone", fit.cone,
+      "Compare the cones of scan and hulls for an agent: x,y,z,radius, around:N, or a file");
+  auto* check_option = fit_command->add_option(
+      "--check", fit.check,
+      "Instead of fitting: repeat the certificate of this fit.json; 1: it does not hold");
+  fit_command->add_flag("--json", fit.json, "Print JSON");
+  fit_command->add_option("--out", fit.out, "Folder for result, meshes and picture")->capture_default_str();
+  bool no_fit_figures = false;
+  fit_command->add_flag("--no-figures", no_fit_figures, "Result and meshes only");
+  fit_command->add_flag("--quiet", fit.quiet, "No progress");
+  for (const char* other : {"--mode", "--shape", "--coverage", "--margin", "--pieces", "--seed", "--cone"})
+    check_option->excludes(fit_command->get_option(other));
+  fit_command->callback([&] {
+    if (coverage_option->count() > 0) fit.coverage = coverage;
+    fit.figures = !no_fit_figures;
+    for (int i = 0; i < argc; ++i) fit.command_line.append(i ? " " : "").append(i ? argv[i] : "vericone");
+#ifdef VERICONE_HAVE_FITTING
+    status = vericone::run_fit(fit, std::cout);
+#else
+    throw vericone::InputError("fit", "a command without fits", "a build with VERICONE_FITTING");
 #endif
   });
 

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fit/fit_command.h"
+
+#include <unistd.h>
+
+#include <vericone/geometry/error.h>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
+#include "figures.h"
+#include "fit/cone_json.h"
+#include "fit/fit_body.h"
+#include "fit/fit_check.h"
+#include "fit/fit_json.h"
+#include "fit/fit_outlier.h"
+#include "fit/fit_picture.h"
+#include "fit/fit_text.h"
+#include "fit/hull_files.h"
+#include "fit/staged_folder.h"
+#include "interrupt.h"
+#include "provenance.h"
+
+namespace vericone {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// One line on standard error, rewritten on a terminal, elsewhere printed once a step.
+class Progress {
+ public:
+  explicit Progress(bool quiet) : quiet_(quiet) {}
+  ~Progress() { finish(); }
+
+  /// False when the work is to stop.
+  bool show(const std::string& what, double share) {
+    if (quiet_) return !interrupted();
+    const auto now = Clock::now();
+    const bool next = what != step_;
+    if (next || (terminal_ && now - last_ > std::chrono::milliseconds(200))) {
+      if (next) finish();
+      last_ = now;
+      step_ = what;
+      if (terminal_) {
+        std::fprintf(stderr, "\r%-60s %3.0f %%", what.c_str(), 100 * share);
+      } else {
+        std::fprintf(stderr, "%s\n", what.c_str());
+      }
+      std::fflush(stderr);
+    }
+    return !interrupted();
+  }
+
+ private:
+  void finish() {
+    if (terminal_ && !step_.empty()) std::fputc('\n', stderr);
+    step_.clear();
+  }
+
+  bool quiet_, terminal_ = isatty(STDERR_FILENO) != 0;
+  std::string step_;
+  Clock::time_point last_;
+};
+
+fitting::Mode mode_of(const std::string& text) {
+  for (const auto mode : {fitting::Mode::least_squares, fitting::Mode::robust, fitting::Mode::containing})
+    if (fit::to_string(mode) == text) return mode;
+  throw InputError("--mode", text, "least-squares, robust or containing");
+}
+
+std::optional<fitting::Shape> shape_of(const std::string& text) {
+  using enum fitting::Shape;
+  if (text == "auto") return std::nullopt;
+  for (const auto shape : {ellipse, ellipsoid, biconcave, biconvex, star})
+    if (fitting::to_string(shape) == text) return shape;
+  throw InputError("--shape", text, "ellipse, ellipsoid, biconcave, biconvex, star or auto");
+}
+
+fitting::FitOptions fit_options(const FitCommandOptions& given, Progress& progress) {
+  fitting::FitOptions options;
+  options.mode = mode_of(given.mode);
+  options.shape = shape_of(given.shape);
+  options.coverage = given.coverage;
+  options.margin = given.margin;
+  options.pieces = given.pieces;
+  options.seed = given.seed;
+  options.progress = [&progress](const std::string& what, double share) {
+    return progress.show(what, share);
+  };
+  return options;
+}
+
+/// What is wrong with the points is wrong with the file; what is wrong with an option has its name.
+fitting::FitResult fit_or_explain(const fit::Scan& scan, const fitting::FitOptions& options) {
+  try {
+    return fitting::fit(scan.sample, options);
+  } catch (const InputError& e) {
+    for (const char* option : {"coverage", "margin", "pieces", "shape"})
+      if (e.field() == option) throw InputError(std::string("--") + option, e.value(), e.requirement());
+    if (e.field() == "points") throw InputError(scan.file, e.value(), e.requirement());
+    throw InputError(scan.file, e.field() + ": " + e.value(), e.requirement());
+  }
+}
+
+std::string title_of(const fit::Scan& scan, const fitting::FitResult& result) {
+  std::string text = fs::path(scan.file).filename().string() + ": " + fit::to_string(result.mode) + ", " +
+                     fitting::to_string(result.shape);
+  if (result.pieces.size() > 1) text += ", " + std::to_string(result.pieces.size()) + " pieces";
+  return text;
+}
+
+/// The part of a path that the user knows it by.
+std::string shown(const fs::path& folder, const fs::path& file) {
+  return (folder / file.filename()).string();
+}
+
+const std::vector<std::string>& names_of_files() {
+  static const std::vector<std::string> names{
+      "fit.json", "body.yaml", "hull.obj",       "hull.ply",      "provenance.json", "fit_picture.json",
+      "fit.png",  "fit.pdf",   "fit_cones.json", "fit_cones.png", "fit_cones.pdf"};
+  return names;
+}
+
+struct Answer {
+  fit::Scan scan;
+  fitting::FitResult result;
+  std::vector<Json> bodies;
+  Json json;
+  std::optional<ConeComparison> cones;
+};
+
+Answer answer_of(const FitCommandOptions& given, Progress& progress) {
+  const fitting::FitOptions options = fit_options(given, progress);
+  std::optional<ConeRequest> request;
+  if (!given.cone.empty()) request = read_cone_request(given.cone);
+  Answer a;
+  progress.show("reading " + given.file, 0);
+  a.scan = fit::read_scan(given.file);
+  const auto start = Clock::now();
+  a.result = fit_or_explain(a.scan, options);
+  const double seconds = since(start);
+  const bool all = options.mode == fitting::Mode::containing && options.coverage.value_or(1) == 1;
+  if (all && a.result.shape != fitting::Shape::ellipse)
+    if (auto note = fit::outlier_note(a.scan.sample)) a.result.notes.push_back(*note);
+  const auto inside = a.result.certified ? fit::points_inside(a.result.pieces, a.scan.sample)
+                                         : std::vector<Eigen::Vector3d>();
+  a.bodies = fit::enclosing_body_fields(a.result.pieces, inside);
+  a.json = fit::fit_json(a.scan, options, a.result, a.bodies);
+  if (request) {
+    ConeComparisonOptions cones;
+    cones.progress = options.progress;
+    a.cones = compare_cones(a.scan.sample, a.result, *request, cones);
+    a.json["cones"] = cones_json(*a.cones);
+  }
+  a.json["seconds_read"] = a.scan.seconds;
+  a.json["seconds"] = seconds;
+  return a;
+}
+
+void write_files(const Answer& a, const FitCommandOptions& given, StagedFolder& folder, Progress& progress) {
+  const fs::path& stage = folder.path();
+  const std::string comment = "Fitted to " + given.file + ": " + title_of(a.scan, a.result);
+  const std::vector<CombinedSurface> surfaces = fit::hull_surfaces(a.result.pieces);
+  write_whole(stage / "fit.json", a.json.dump(1) + "\n");
+  write_whole(stage / "body.yaml", fit::body_yaml(a.bodies, comment));
+  write_whole(stage / "hull.obj", fit::hull_obj(surfaces));
+  write_whole(stage / "hull.ply", fit::hull_ply(surfaces));
+  write_whole(stage / "provenance.json", provenance(given.command_line).dump(1) + "\n");
+  if (!given.figures) return;
+  progress.show("drawing", 0);
+  const std::string title = title_of(a.scan, a.result);
+  write_whole(stage / "fit_picture.json", fit::fit_picture(a.scan, a.result, surfaces, title).dump() + "\n");
+  draw_figures("fit.py", stage);
+  if (!a.cones) return;
+  write_whole(stage / "fit_cones.json", cones_picture(*a.cones, title).dump() + "\n");
+  draw_figures("fit_cones.py", stage);
+}
+
+void print(const Answer& a, const FitCommandOptions& given, const std::vector<fs::path>& files,
+           std::ostream& out) {
+  if (given.json) {
+    out << a.json.dump(1) << '\n';
+    return;
+  }
+  fit::print_fit(a.json, describe(a.scan), out);
+  if (a.cones) print_cones(*a.cones, out);
+  const fs::path folder = given.out;
+  out << "written             " << shown(folder, "fit.json") << ", " << shown(folder, "body.yaml") << ", "
+      << shown(folder, "hull.obj") << ", " << shown(folder, "hull.ply") << '\n';
+  for (const fs::path& file : files)
+    if (file.extension() == ".png" || file.extension() == ".pdf")
+      out << "picture             " << shown(folder, file) << '\n';
+}
+
+}  // namespace
+
+int run_fit(const FitCommandOptions& given, std::ostream& out) {
+  if (!given.check.empty()) return check_fit(given.file, given.check, given.json, out);
+  catch_interrupts();
+  StagedFolder folder(given.out, "--out");
+  try {
+    std::vector<fs::path> files;
+    Answer a;
+    {
+      Progress progress(given.quiet);
+      a = answer_of(given, progress);
+      if (!interrupted()) write_files(a, given, folder, progress);
+    }
+    if (interrupted()) return kExitInterrupted;
+    files = folder.publish(names_of_files());
+    print(a, given, files, out);
+  } catch (const fitting::Interrupted&) {
+    return kExitInterrupted;
+  } catch (const std::runtime_error&) {
+    // A figure script gets the same signal and ends.
+    if (interrupted()) return kExitInterrupted;
+    throw;
+  }
+  return 0;
+}
+
+}  // namespace vericone

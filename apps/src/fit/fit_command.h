@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <optional>
+#include <string>
+
+namespace vericone {
+
+struct FitCommandOptions {
+  std::string file;
+  std::string mode = "containing";  // or "least-squares", "robust"
+  std::string shape = "auto";       // or the name of one
+  std::optional<double> coverage;
+  double margin = 0;  // metres
+  int pieces = 1;
+  std::uint64_t seed = 0;
+  std::string cone;   // the agent of a comparison of cones; empty: none
+  std::string check;  // the written result to check instead of fitting; empty: none
+  bool json = false;
+  std::string out = "out/fit";
+  bool figures = true;
+  bool quiet = false;
+  std::string command_line;
+};
+
+/// `vericone fit`: a quadric hull of a scan, with what is proved of it (docs/formats.md). Writes fit.json,
+/// body.yaml, hull.obj, hull.ply, provenance.json and pictures to `out`, all together at the end or none.
+/// Returns the exit status: 0; of a check 1 where it fails; 130 interrupted. Throws InputError naming the
+/// file or an option.
+int run_fit(const FitCommandOptions& options, std::ostream& out);
+
+}  // namespace vericone
