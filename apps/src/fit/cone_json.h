@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A comparison of cones as JSON, as a table, and for apps/figures/fit_cones.py.
+#pragma once
+
+#include <iosfwd>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "fit/cone_comparison.h"
+
+namespace vericone {
+
+/// docs/fitting-cones.md has the fields.
+nlohmann::ordered_json cones_json(const ConeComparison& comparison);
+
+void print_cones(const ConeComparison& comparison, std::ostream& out);
+
+/// To be written as `fit_cones.json` into the folder given to draw_figures("fit_cones.py", folder).
+nlohmann::ordered_json cones_picture(const ConeComparison& comparison, const std::string& title);
+
+}  // namespace vericone
