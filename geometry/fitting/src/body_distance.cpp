@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "body_distance.h"
+
+#include <vericone/geometry/scaled_inverse.h>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+// Inside the body K, the distance to its boundary is the least distance d to one of its surfaces: no surface
+// enters the open ball of radius d about x, so the ball is on the inner side of all of them and hence in K;
+// and the foot at distance d is in the closed ball, hence in K, and on a surface, hence on K's boundary.
+//
+// Outside, the distance to any region of which K is a part is a lower bound, so where the foot on the
+// farthest region is in K it is the nearest point. Else the nearest point is on one surface and a local
+// minimum of the distance on it, or where two or three surfaces cross. All of these are tried. Since K is
+// star-shaped about its centre, every candidate y counts by where the ray through y leaves K (or by y itself
+// where it is inside): no candidate is outside K by rounding, and the result is never below the distance.
+
+namespace vericone::fitting {
+namespace {
+
+using Eigen::Matrix3d, Eigen::Vector3d;
+
+/// Between neighbouring samples of a rim, where the ellipsoid is the unit ball.
+constexpr double kChord = 0.06;
+constexpr int kMostHalvings = 12;
+
+}  // namespace
+
+BodyDistance::BodyDistance(const CombinedEllipsoid& body, Rims rims) : center_(body.center()) {
+  const Matrix3d& f = body.ellipsoid().factor();
+  unit_ = std::ldexp(1.0, std::ilogb(f.cwiseAbs().maxCoeff()));
+  factor_ = f / unit_;
+  inverse_ = scaled_inverse<3>(factor_);
+  reach_ = factor_.norm();
+  surfaces_.push_back(
+      CenteredQuadric::ellipsoid(body.ellipsoid().axis_directions(), body.ellipsoid().semi_axes() / unit_));
+  forms_.push_back({Matrix3d::Identity(), 1});
+  for (const Delimiter<3>& d : body.delimiters()) {
+    const Matrix3d matrix = d.matrix * unit_ * unit_, form = factor_.transpose() * matrix * factor_;
+    surfaces_.emplace_back(matrix, d.level);
+    forms_.push_back({0.5 * (form + form.transpose()), d.level});
+  }
+  if (rims == Rims::at_once) add_rims();
+}
+
+void BodyDistance::add_rims() {
+  for (std::size_t i = 0; i < forms_.size(); ++i)
+    for (std::size_t j = i + 1; j < forms_.size(); ++j) add_rim(i, j);
+  has_rims_ = true;
+}
+
+double BodyDistance::operator()(const Vector3d& point) const {
+  const Vector3d x = (point - center_) / unit_;
+  double depth = std::numeric_limits<double>::infinity(), bound = -1;
+  Foot farthest;
+  for (const CenteredQuadric& s : surfaces_) {
+    const bool violated = s.value(x) > 0;
+    if (!violated && bound >= 0) continue;
+    const Foot foot = s.nearest(x);
+    if (!violated) {
+      depth = std::min(depth, foot.distance);
+    } else if (foot.distance > bound) {
+      bound = foot.distance;
+      farthest = foot;
+    }
+  }
+  if (bound < 0) return -depth * unit_;
+  const double reached = (x - clamped(farthest.point)).norm();
+  if (reached <= bound + 1e-12 * (bound + 1e-3 * reach_)) return bound * unit_;
+  if (has_rims_) return std::max(bound, outside(x, reached)) * unit_;
+  BodyDistance all = *this;
+  all.add_rims();
+  return std::max(bound, all.outside(x, reached)) * unit_;
+}
+
+Vector3d BodyDistance::on_boundary(const Vector3d& point) const {
+  const Vector3d y = (point - center_) / unit_;
+  const Vector3d v = inverse_ * y;
+  double largest = v.squaredNorm();
+  for (std::size_t k = 1; k < forms_.size(); ++k) {
+    const double value = v.dot(forms_[k].matrix * v);
+    if (value > 0) {
+      if (forms_[k].level == 0) return center_;
+      largest = std::max(largest, value / forms_[k].level);
+    }
+  }
+  return center_ + unit_ * (y / std::sqrt(largest));
+}
+
+/// y, or where it is outside K the point at which the segment from the centre to it leaves K.
+Vector3d BodyDistance::clamped(const Vector3d& y) const {
+  const Vector3d v = inverse_ * y;
+  double largest = std::max(1.0, v.squaredNorm());
+  for (std::size_t k = 1; k < forms_.size(); ++k) {
+    const double value = v.dot(forms_[k].matrix * v), level = forms_[k].level;
+    // Points of a cone are on it to rounding only.
+    if (level == 0 && value > 1e-12 * v.squaredNorm()) return Vector3d::Zero();
+    if (value > level && level > 0) largest = std::max(largest, value / level);
+  }
+  return y / std::sqrt(largest);
+}
+
+Vector3d BodyDistance::rim_direction(const Rim& rim, double angle) const {
+  return (rim.pole + std::cos(angle) * rim.first + std::sin(angle) * rim.second).normalized();
+}
+
+/// The surface that bounds K in this direction: one of the rim's two (then the first of them), or another.
+std::size_t BodyDistance::rim_form(const Rim& rim, double angle) const {
+  const Vector3d v = rim_direction(rim, angle);
+  const std::size_t own = forms_[rim.one].level > 0 ? rim.one : rim.other;
+  double largest = std::max(1e-300, v.dot(forms_[own].matrix * v) / forms_[own].level);
+  std::size_t best = rim.one;
+  for (std::size_t k = 0; k < forms_.size(); ++k) {
+    if (k == rim.one || k == rim.other) continue;
+    const double value = v.dot(forms_[k].matrix * v);
+    if (value > largest * forms_[k].level) {
+      best = k;
+      if (forms_[k].level == 0) break;
+      largest = value / forms_[k].level;
+    }
+  }
+  return best;
+}
+
+Vector3d BodyDistance::rim_point(const Rim& rim, double angle) const {
+  const Vector3d v = rim_direction(rim, angle);
+  const std::size_t own = forms_[rim.one].level > 0 ? rim.one : rim.other;
+  double largest = std::max(1.0, v.dot(forms_[own].matrix * v) / forms_[own].level);
+  for (std::size_t k = 0; k < forms_.size(); ++k) {
+    if (k == rim.one || k == rim.other) continue;
+    const double value = v.dot(forms_[k].matrix * v);
+    if (value > largest * forms_[k].level) {
+      if (forms_[k].level == 0) return Vector3d::Zero();
+      largest = value / forms_[k].level;
+    }
+  }
+  return factor_ * v / std::sqrt(largest);
+}
+
+void BodyDistance::add_rim(std::size_t one, std::size_t other) {
+  const Matrix3d h = forms_[other].level * forms_[one].matrix - forms_[one].level * forms_[other].matrix;
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(h);
+  const Vector3d& l = solver.eigenvalues();
+  if (!(l(0) < 0 && l(2) > 0)) return;  // one surface is inside the other
+  // The axis of the cone v^T h v = 0 belongs to the eigenvalue of the sign that occurs once.
+  const int pole = l(1) > 0 ? 0 : 2;
+  const int first = pole == 0 ? 1 : 0, second = pole == 0 ? 2 : 1;
+  Rim rim;
+  rim.pole = solver.eigenvectors().col(pole);
+  rim.one = one;
+  rim.other = other;
+  // A cone that is nearly two planes: cut off where it is one to rounding.
+  const auto ratio = [&](int k) { return std::sqrt(std::min(1e30, std::abs(l(pole) / l(k)))); };
+  rim.first = ratio(first) * solver.eigenvectors().col(first);
+  rim.second = ratio(second) * solver.eigenvectors().col(second);
+
+  constexpr double kTurn = 2 * std::numbers::pi;
+  struct Piece {
+    double from, to;
+    int halvings;
+  };
+  std::vector<Piece> open;
+  for (int k = 16; k-- > 0;) open.push_back({kTurn * k / 16, kTurn * (k + 1) / 16, 0});
+  rim.angles.push_back(0);
+  while (!open.empty()) {
+    const Piece piece = open.back();
+    open.pop_back();
+    const double chord = (rim_direction(rim, piece.to) - rim_direction(rim, piece.from)).norm();
+    const double middle = 0.5 * (piece.from + piece.to);
+    if (chord > kChord && piece.halvings < kMostHalvings) {
+      open.push_back({middle, piece.to, piece.halvings + 1});
+      open.push_back({piece.from, middle, piece.halvings + 1});
+      continue;
+    }
+    const std::size_t before = rim_form(rim, piece.from);
+    if (before != rim_form(rim, piece.to)) {
+      double low = piece.from, high = piece.to;
+      for (int k = 0; k < 60; ++k) {
+        const double at = 0.5 * (low + high);
+        (rim_form(rim, at) == before ? low : high) = at;
+      }
+      if (low > piece.from) rim.angles.push_back(low);
+      if (high < piece.to) rim.angles.push_back(high);
+    }
+    rim.angles.push_back(piece.to);
+  }
+  for (const double a : rim.angles) rim.points.push_back(rim_point(rim, a));
+  rims_.push_back(std::move(rim));
+}
+
+/// The least distance from x to the rim and its mirror image, or `best` where that is less.
+double BodyDistance::nearest_on_rim(const Rim& rim, const Vector3d& x, double best) const {
+  const auto distance = [&](const Vector3d& p) { return x.dot(p) < 0 ? (x + p).norm() : (x - p).norm(); };
+  const std::size_t count = rim.points.size() - 1;  // the last is the first
+  std::vector<double> all(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    all[k] = distance(rim.points[k]);
+    best = std::min(best, all[k]);
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t last = k ? k - 1 : count - 1;
+    if (all[k] > all[last] || all[k] > all[(k + 1) % count]) continue;
+    const double length =
+        std::max((rim.points[k + 1] - rim.points[k]).norm(), (rim.points[last] - rim.points[k]).norm());
+    if (all[k] - 2 * length > best) continue;
+    // Golden section; of two neighbouring arcs one may begin at a corner of the rim.
+    for (int part = 0; part < 2; ++part) {
+      constexpr double kGolden = std::numbers::phi - 1;
+      double low = part ? rim.angles[k] : rim.angles[last] - (k ? 0 : 2 * std::numbers::pi);
+      double high = part ? rim.angles[k + 1] : rim.angles[k];
+      double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
+      double at_a = distance(rim_point(rim, a)), at_b = distance(rim_point(rim, b));
+      while (high - low > 1e-9) {
+        best = std::min({best, at_a, at_b});
+        if (at_a < at_b) {
+          high = b;
+          b = a;
+          at_b = at_a;
+          a = high - kGolden * (high - low);
+          at_a = distance(rim_point(rim, a));
+        } else {
+          low = a;
+          a = b;
+          at_a = at_b;
+          b = low + kGolden * (high - low);
+          at_b = distance(rim_point(rim, b));
+        }
+      }
+    }
+  }
+  return best;
+}
+
+double BodyDistance::outside(const Vector3d& x, double best) const {
+  std::vector<Vector3d> feet;
+  for (const CenteredQuadric& s : surfaces_) {
+    if (s.value(x) > 0) feet.push_back(s.nearest(x).point);
+    s.add_other_feet(x, reach_, feet);
+  }
+  best = std::min(best, x.norm());  // the centre
+  for (const Vector3d& y : feet) best = std::min(best, (x - clamped(y)).norm());
+  for (const Rim& rim : rims_) best = nearest_on_rim(rim, x, best);
+  return best;
+}
+
+}  // namespace vericone::fitting
