@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 namespace vericone {
@@ -51,8 +52,10 @@ ConeRequest parse_around(const std::string& argument) {
 }
 
 std::string ball_text(const Vector3d& center, double radius) {
-  return "ball of radius " + to_text(radius) + " m at (" + to_text(center.x()) + ", " + to_text(center.y()) +
-         ", " + to_text(center.z()) + ")";
+  char text[160];
+  std::snprintf(text, sizeof text, "ball of radius %.5g m at (%.5g, %.5g, %.5g)", radius, center.x(),
+                center.y(), center.z());
+  return text;
 }
 
 ConeAgent ball(const Vector3d& center, double radius) {

@@ -102,7 +102,7 @@ BodyCone cone_by_map(const DirectionClassifier& classifier, const MapSettings& s
   BodyCone cone;
   cone.low = map.colliding;
   cone.high = map.colliding + map.undecided;
-  cone.method = "map at " + to_text(settings.resolution) + " rad";
+  cone.method = "cone map";
   for (const ConeMapRegion& region : regions(map)) {
     if (region.label != Certified::out) continue;
     for (const auto& loop : region.boundary) {
