@@ -5,7 +5,8 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_rgb
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
+from matplotlib.patches import Patch, PathPatch
+from matplotlib.path import Path
 
 from solids import Solid, View, draw_lines
 from style import EXACT, GREY, SLICE, TWO_COLUMNS, plt, read, save
@@ -74,10 +75,14 @@ def draw_hull(axes, view, solids):
     for s in solids:
         corners = s.points[s.triangles] + s.center
         front = corner_normals(corners) @ view.toward > 0
-        colors = [(*to_rgb(EXACT if q == 0 else SLICE), 0.16) for q in s.quadrics[front]]
-        # Without smoothing of edges, which would show every triangle where two translucent ones meet.
-        axes.add_collection(PolyCollection(view.project(corners[front]), facecolors=colors, edgecolors="none",
-                                           antialiaseds=False, zorder=3, rasterized=True))
+        for of, color in ((s.quadrics == 0, EXACT), (s.quadrics != 0, SLICE if isinstance(s, Solid) else EXACT)):
+            flat = view.project(corners[front & of])
+            if len(flat) == 0:
+                continue
+            # One path of all triangles: separate translucent ones would show their common edges.
+            closed = np.concatenate([flat, flat[:, :1]], axis=1).reshape(-1, 2)
+            codes = np.tile([Path.MOVETO, Path.LINETO, Path.LINETO, Path.CLOSEPOLY], len(flat))
+            axes.add_patch(PathPatch(Path(closed, codes), facecolor=color, alpha=0.16, linewidth=0, zorder=3))
     for s in solids:
         draw_lines(axes, view, s.contours(view.toward), solids, s, color=EXACT, hidden_width=0, zorder=6)
         draw_lines(axes, view, s.rims(), solids, s, color=SLICE if isinstance(s, Solid) else EXACT, hidden_width=0.45,
@@ -116,8 +121,10 @@ size = np.ptp(everything, axis=0)
 size = np.maximum(size, 0.35 * size.max())
 height = min(max(1.5 + 5.6 * (size[2] + size[1]) / (size[0] + size[1]), 4.2), 8.4)
 figure = plt.figure(figsize=(TWO_COLUMNS, height))
+gap = 0.66  # inches, for the labels below one row and the titles of the next
 grid = figure.add_gridspec(2, 2, width_ratios=size[[0, 1]], height_ratios=size[[2, 1]], left=0.09, right=0.985,
-                           bottom=0.5 / height, top=1 - 0.72 / height, wspace=0.24, hspace=0.24)
+                           bottom=0.5 / height, top=1 - 0.72 / height, wspace=0.24,
+                           hspace=2 * gap / (height - 1.22 - gap))
 for place, view, title, names in ((grid[0, 0], FRONT, "from the front", "xz"), (grid[0, 1], SIDE, "from the side", "yz"),
                                   (grid[1, 0], ABOVE, "from above", "xy")):
     axes = figure.add_subplot(place)
