@@ -84,14 +84,16 @@ def show_excess(axes, data, names):
     rows = [row for row in data["mean"] if row["what"] != "scan"]
     several = len(data["agents"]) > 1
     for place, row in enumerate(rows):
-        low, high = 100 * row["excess_low"], 100 * row["excess_high"]
+        low = 100 * row["excess_low"]
+        bounded = row["excess_high"] is not None
+        high = 100 * row["excess_high"] if bounded else low
         axes.bar(place, 0.5 * (low + high), width=0.6, color=COLORS[row["what"]], alpha=0.75)
         axes.errorbar(place, 0.5 * (low + high), yerr=0.5 * (high - low), color="k", linewidth=0.8, capsize=3)
-        note = "%.1f" % low if "%.1f" % low == "%.1f" % high else "%.1f to %.1f" % (low, high)
+        note = "%.1f to %.1f" % (low, high) if bounded else "at least %.1f" % low
         top = max(high, 0)
         if several:
             each = [50 * (r["excess_low"] + r["excess_high"]) for agent in data["agents"] for r in agent["rows"]
-                    if r["what"] == row["what"]]
+                    if r["what"] == row["what"] and r["excess_high"] is not None]
             axes.plot(place + np.linspace(-0.22, 0.22, len(each)), sorted(each), ".", color="k", markersize=2.5,
                       markeredgewidth=0)
             top = max(top, *each)

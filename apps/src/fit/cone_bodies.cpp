@@ -178,15 +178,20 @@ BodyCone cone_of_polyhedron(const Ellipsoid& agent, const HullBody& body, const 
 BodyCone cone_of_pieces(const Ellipsoid& agent, const std::vector<fitting::Piece>& pieces, double tolerance,
                         const MapSettings& settings) {
   std::vector<std::shared_ptr<const DirectionClassifier>> all;
+  double largest = 0, sum = 0;
   for (const fitting::Piece& piece : pieces) {
     BodyCone alone =
         piece.footprint ? cone_of_cylinder(agent, piece) : cone_of_combined(agent, piece.body, tolerance);
     if (pieces.size() == 1 || !alone.disjoint) return alone;
     if (piece.footprint)
       throw InputError("--cone", "footprints of several pieces", "asked for bodies, or for one footprint");
+    largest = std::max(largest, alone.low);
+    sum += alone.high;
     all.push_back(classifier_of(agent, piece.body, tolerance));
   }
   BodyCone cone = cone_by_map(AnyOfClassifier(std::move(all)), settings);
+  cone.low = std::max(cone.low, largest);
+  cone.high = std::min(cone.high, sum);
   cone.method += " of " + std::to_string(pieces.size()) + " pieces";
   return cone;
 }
