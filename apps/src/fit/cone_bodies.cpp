@@ -5,7 +5,6 @@
 #include <vericone/cones/cone_map_regions.h>
 #include <vericone/cones/exact_cone.h>
 #include <vericone/fitting/fit.h>
-#include <vericone/geometry/error.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -82,6 +81,18 @@ BodyCone cone_of_cylinder(const Ellipsoid& agent, const fitting::Piece& piece) {
   BodyCone cone = cone_of_polyhedron(agent, prism(piece, true), inside);
   cone.low = inner.low;
   cone.method = "prisms of 360 sides in and about the cylinder";
+  return cone;
+}
+
+BodyCone cone_of_cylinders(const Ellipsoid& agent, const std::vector<fitting::Piece>& pieces,
+                           const MapSettings& settings) {
+  const auto by_prisms = [&](bool outer) {
+    std::vector<HullBody> prisms;
+    for (const fitting::Piece& piece : pieces) prisms.push_back(prism(piece, outer));
+    return cone_by_map(AssemblyOracle(agent, Assembly::polyhedra(std::move(prisms))), settings);
+  };
+  BodyCone cone = by_prisms(true);
+  cone.low = by_prisms(false).low;
   return cone;
 }
 
@@ -179,17 +190,18 @@ BodyCone cone_of_pieces(const Ellipsoid& agent, const std::vector<fitting::Piece
                         const MapSettings& settings) {
   std::vector<std::shared_ptr<const DirectionClassifier>> all;
   double largest = 0, sum = 0;
+  bool footprints = false;
   for (const fitting::Piece& piece : pieces) {
+    footprints = piece.footprint.has_value();
     BodyCone alone =
-        piece.footprint ? cone_of_cylinder(agent, piece) : cone_of_combined(agent, piece.body, tolerance);
+        footprints ? cone_of_cylinder(agent, piece) : cone_of_combined(agent, piece.body, tolerance);
     if (pieces.size() == 1 || !alone.disjoint) return alone;
-    if (piece.footprint)
-      throw InputError("--cone", "footprints of several pieces", "asked for bodies, or for one footprint");
     largest = std::max(largest, alone.low);
     sum += alone.high;
-    all.push_back(classifier_of(agent, piece.body, tolerance));
+    if (!footprints) all.push_back(classifier_of(agent, piece.body, tolerance));
   }
-  BodyCone cone = cone_by_map(AnyOfClassifier(std::move(all)), settings);
+  BodyCone cone = footprints ? cone_of_cylinders(agent, pieces, settings)
+                             : cone_by_map(AnyOfClassifier(std::move(all)), settings);
   cone.low = std::max(cone.low, largest);
   cone.high = std::min(cone.high, sum);
   cone.method += " of " + std::to_string(pieces.size()) + " pieces";
