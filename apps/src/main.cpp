@@ -204,7 +204,11 @@ int run(int argc, char** argv) {
   fit_command->add_option("--margin", fit.margin, "Radius of balls about the points to be inside, metres")
       ->capture_default_str();
   fit_command->add_option("--pieces", fit.pieces, "Bodies whose union is the hull")->capture_default_str();
-  fit_command->add_option("--seed", fit.seed, "Seed of all random numbers")->capture_default_str();
+  fit_command->add_option("--seed", fit.seed, "Seed of all random numbers")
+      ->check([](const std::string& text) {
+        return text.starts_with("-") ? "got " + text + ", must be a whole number, 0 or more" : std::string();
+      })
+      ->capture_default_str();
   fit_command->add_option(
       "--cone", fit.cone,
       "Compare the cones of scan and hulls for an agent: x,y,z,radius, around:N, or a file");

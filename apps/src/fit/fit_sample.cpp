@@ -24,7 +24,16 @@ void read_map(Scan& scan) {
   if (!input::have_octrees())
     throw InputError(scan.file, "an octree map",
                      "a mesh or a cloud: this vericone was built without octree maps");
-  const input::PiecesBody body = input::read_any_body(scan.file, 0, "free");
+  const input::PiecesBody body = [&] {
+    try {
+      return input::read_any_body(scan.file, 0, "free");
+    } catch (const InputError& e) {
+      // Scenes name the file of a map in the value.
+      const std::string name = std::filesystem::path(scan.file).filename().string() + ": ";
+      throw InputError(scan.file, e.value().starts_with(name) ? e.value().substr(name.size()) : e.value(),
+                       e.requirement());
+    }
+  }();
   const auto& boxes = body.pieces.by_slot().boxes;
   scan.kind = ScanKind::octree;
   scan.format = "octree";

@@ -11,14 +11,15 @@ namespace vericone {
 namespace fs = std::filesystem;
 
 StagedFolder::StagedFolder(const fs::path& folder, const std::string& option)
-    : folder_(fs::absolute(folder).lexically_normal()) {
+    : folder_(folder.lexically_normal()) {
   if (!folder_.has_filename()) folder_ = folder_.parent_path();
+  if (folder_.empty()) throw InputError(option, "nothing", "a folder");
   for (fs::path above = folder_; !above.empty(); above = above.parent_path()) {
     if (fs::is_directory(above)) break;
     if (fs::exists(above))
-      throw InputError(option, folder.string(), "a folder; " + above.string() + " is none");
+      throw InputError(option, folder.string(), "a folder; " + above.string() + " is a file");
   }
-  stage_ = folder_;
+  stage_ = folder_ == "." ? fs::current_path() : folder_;
   stage_ += ".partial-" + std::to_string(getpid());
 }
 
