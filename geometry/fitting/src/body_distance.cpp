@@ -26,6 +26,7 @@ using Eigen::Matrix3d, Eigen::Vector3d;
 /// Between neighbouring samples of a rim, where the ellipsoid is the unit ball.
 constexpr double kChord = 0.06;
 constexpr int kMostHalvings = 12;
+constexpr double kTurn = 2 * std::numbers::pi;
 
 }  // namespace
 
@@ -107,24 +108,6 @@ Vector3d BodyDistance::rim_direction(const Rim& rim, double angle) const {
   return (rim.pole + std::cos(angle) * rim.first + std::sin(angle) * rim.second).normalized();
 }
 
-/// The surface that bounds K in this direction: one of the rim's two (then the first of them), or another.
-std::size_t BodyDistance::rim_form(const Rim& rim, double angle) const {
-  const Vector3d v = rim_direction(rim, angle);
-  const std::size_t own = forms_[rim.one].level > 0 ? rim.one : rim.other;
-  double largest = std::max(1e-300, v.dot(forms_[own].matrix * v) / forms_[own].level);
-  std::size_t best = rim.one;
-  for (std::size_t k = 0; k < forms_.size(); ++k) {
-    if (k == rim.one || k == rim.other) continue;
-    const double value = v.dot(forms_[k].matrix * v);
-    if (value > largest * forms_[k].level) {
-      best = k;
-      if (forms_[k].level == 0) break;
-      largest = value / forms_[k].level;
-    }
-  }
-  return best;
-}
-
 Vector3d BodyDistance::rim_point(const Rim& rim, double angle) const {
   const Vector3d v = rim_direction(rim, angle);
   const std::size_t own = forms_[rim.one].level > 0 ? rim.one : rim.other;
@@ -157,77 +140,120 @@ void BodyDistance::add_rim(std::size_t one, std::size_t other) {
   rim.first = ratio(first) * solver.eigenvectors().col(first);
   rim.second = ratio(second) * solver.eigenvectors().col(second);
 
-  constexpr double kTurn = 2 * std::numbers::pi;
-  struct Piece {
+  const std::vector<double> corners = rim_corners(rim);
+  for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
+    // At least a few to a part, so that the distance has one minimum on each at most.
+    constexpr int kLeast = 4;
+    const double step = (corners[k + 1] - corners[k]) / kLeast;
+    for (int i = 0; i < kLeast; ++i)
+      add_arcs(rim, corners[k] + i * step, i + 1 < kLeast ? corners[k] + (i + 1) * step : corners[k + 1]);
+  }
+  rims_.push_back(std::move(rim));
+}
+
+// With w the direction before it is normalised, the third surface is beyond the rim where
+// level_own w^T A_third w - level_third w^T A_own w is negative: a trigonometric polynomial of degree 2 in
+// the angle. Between its extrema it has one root at most.
+std::vector<double> BodyDistance::rim_corners(const Rim& rim) const {
+  constexpr int kGrid = 128;
+  std::vector<double> corners{0, kTurn};
+  const Form& own = forms_[forms_[rim.one].level > 0 ? rim.one : rim.other];
+  Matrix3d basis;
+  basis << rim.pole, rim.first, rim.second;
+  for (std::size_t k = 0; k < forms_.size(); ++k) {
+    if (k == rim.one || k == rim.other) continue;
+    const Matrix3d h =
+        basis.transpose() * (own.level * forms_[k].matrix - forms_[k].level * own.matrix) * basis;
+    const auto value = [&](double a) {
+      const Vector3d w(1, std::cos(a), std::sin(a));
+      return w.dot(h * w);
+    };
+    const auto slope = [&](double a) {
+      const Vector3d w(1, std::cos(a), std::sin(a)), turned(0, -std::sin(a), std::cos(a));
+      return turned.dot(h * w);
+    };
+    const auto bisect = [](const auto& f, double low, double high) {
+      const bool positive = f(low) > 0;
+      for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (low + high);
+        ((f(middle) > 0) == positive ? low : high) = middle;
+      }
+      return 0.5 * (low + high);
+    };
+    std::vector<double> extrema{0};
+    double before = slope(0);
+    for (int i = 0; i < kGrid; ++i) {
+      const double low = kTurn * i / kGrid, high = kTurn * (i + 1) / kGrid, after = slope(high);
+      if ((before > 0) != (after > 0)) extrema.push_back(bisect(slope, low, high));
+      before = after;
+    }
+    extrema.push_back(kTurn);
+    for (std::size_t i = 0; i + 1 < extrema.size(); ++i)
+      if ((value(extrema[i]) > 0) != (value(extrema[i + 1]) > 0))
+        corners.push_back(bisect(value, extrema[i], extrema[i + 1]));
+  }
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+void BodyDistance::add_arcs(Rim& rim, double from, double to) const {
+  if (!(to > from)) return;
+  struct Part {
     double from, to;
     int halvings;
   };
-  std::vector<Piece> open;
-  for (int k = 16; k-- > 0;) open.push_back({kTurn * k / 16, kTurn * (k + 1) / 16, 0});
-  rim.angles.push_back(0);
+  std::vector<Part> open{{from, to, 0}};
   while (!open.empty()) {
-    const Piece piece = open.back();
+    const Part part = open.back();
     open.pop_back();
-    const double chord = (rim_direction(rim, piece.to) - rim_direction(rim, piece.from)).norm();
-    const double middle = 0.5 * (piece.from + piece.to);
-    if (chord > kChord && piece.halvings < kMostHalvings) {
-      open.push_back({middle, piece.to, piece.halvings + 1});
-      open.push_back({piece.from, middle, piece.halvings + 1});
+    const double chord = (rim_direction(rim, part.to) - rim_direction(rim, part.from)).norm();
+    if ((chord > kChord || part.to - part.from > 1) && part.halvings < kMostHalvings) {
+      const double middle = 0.5 * (part.from + part.to);
+      open.push_back({middle, part.to, part.halvings + 1});
+      open.push_back({part.from, middle, part.halvings + 1});
       continue;
     }
-    const std::size_t before = rim_form(rim, piece.from);
-    if (before != rim_form(rim, piece.to)) {
-      double low = piece.from, high = piece.to;
-      for (int k = 0; k < 60; ++k) {
-        const double at = 0.5 * (low + high);
-        (rim_form(rim, at) == before ? low : high) = at;
-      }
-      if (low > piece.from) rim.angles.push_back(low);
-      if (high < piece.to) rim.angles.push_back(high);
-    }
-    rim.angles.push_back(piece.to);
+    const double step = 1e-6 * (part.to - part.from);
+    Arc arc;
+    arc.from = part.from;
+    arc.to = part.to;
+    arc.start = rim_point(rim, part.from);
+    arc.end = rim_point(rim, part.to);
+    arc.start_tangent = rim_point(rim, part.from + step) - arc.start;
+    arc.end_tangent = arc.end - rim_point(rim, part.to - step);
+    rim.arcs.push_back(arc);
   }
-  for (const double a : rim.angles) rim.points.push_back(rim_point(rim, a));
-  rims_.push_back(std::move(rim));
 }
 
 /// The least distance from x to the rim and its mirror image, or `best` where that is less.
 double BodyDistance::nearest_on_rim(const Rim& rim, const Vector3d& x, double best) const {
-  const auto distance = [&](const Vector3d& p) { return x.dot(p) < 0 ? (x + p).norm() : (x - p).norm(); };
-  const std::size_t count = rim.points.size() - 1;  // the last is the first
-  std::vector<double> all(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    all[k] = distance(rim.points[k]);
-    best = std::min(best, all[k]);
-  }
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t last = k ? k - 1 : count - 1;
-    if (all[k] > all[last] || all[k] > all[(k + 1) % count]) continue;
-    const double length =
-        std::max((rim.points[k + 1] - rim.points[k]).norm(), (rim.points[last] - rim.points[k]).norm());
-    if (all[k] - 2 * length > best) continue;
-    // Golden section; of two neighbouring arcs one may begin at a corner of the rim.
-    for (int part = 0; part < 2; ++part) {
-      constexpr double kGolden = std::numbers::phi - 1;
-      double low = part ? rim.angles[k] : rim.angles[last] - (k ? 0 : 2 * std::numbers::pi);
-      double high = part ? rim.angles[k + 1] : rim.angles[k];
-      double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
-      double at_a = distance(rim_point(rim, a)), at_b = distance(rim_point(rim, b));
-      while (high - low > 1e-9) {
-        best = std::min({best, at_a, at_b});
-        if (at_a < at_b) {
-          high = b;
-          b = a;
-          at_b = at_a;
-          a = high - kGolden * (high - low);
-          at_a = distance(rim_point(rim, a));
-        } else {
-          low = a;
-          a = b;
-          at_a = at_b;
-          b = low + kGolden * (high - low);
-          at_b = distance(rim_point(rim, b));
-        }
+  const auto towards = [&](const Vector3d& p) -> Vector3d { return x.dot(p) < 0 ? Vector3d(-x) : x; };
+  const auto distance = [&](const Vector3d& p) { return (towards(p) - p).norm(); };
+  for (const Arc& arc : rim.arcs) best = std::min(best, distance(arc.start));
+  for (const Arc& arc : rim.arcs) {
+    // Nearer from both ends inwards, and near enough.
+    if (!((towards(arc.start) - arc.start).dot(arc.start_tangent) > 0)) continue;
+    if (!((towards(arc.end) - arc.end).dot(arc.end_tangent) < 0)) continue;
+    const double length = (arc.end - arc.start).norm();
+    if (std::min(distance(arc.start), distance(arc.end)) - 2 * length > best) continue;
+    constexpr double kGolden = std::numbers::phi - 1;
+    double low = arc.from, high = arc.to;
+    double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
+    double at_a = distance(rim_point(rim, a)), at_b = distance(rim_point(rim, b));
+    while (high - low > 1e-7 * (arc.to - arc.from)) {
+      best = std::min({best, at_a, at_b});
+      if (at_a < at_b) {
+        high = b;
+        b = a;
+        at_b = at_a;
+        a = high - kGolden * (high - low);
+        at_a = distance(rim_point(rim, a));
+      } else {
+        low = a;
+        a = b;
+        at_a = at_b;
+        b = low + kGolden * (high - low);
+        at_b = distance(rim_point(rim, b));
       }
     }
   }

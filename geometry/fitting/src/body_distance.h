@@ -32,21 +32,28 @@ class BodyDistance {
     double level;
   };
 
+  /// Part of a rim on which the same surfaces bound the body, short; where a third one cuts off the rim, of
+  /// that one instead.
+  struct Arc {
+    double from = 0, to = 0;  // angles
+    Eigen::Vector3d start, end, start_tangent, end_tangent;
+  };
+
   /// Where two surfaces cross, as directions from the centre: v(a) = pole + cos(a) first + sin(a) second and
-  /// -v(a), in coordinates in which the ellipsoid is the unit ball. Samples begin and end at the same angle;
-  /// neighbours are near each other, and where a third surface begins or ends to cut there is one.
+  /// -v(a), in coordinates in which the ellipsoid is the unit ball.
   struct Rim {
     Eigen::Vector3d pole, first, second;
     std::size_t one = 0, other = 0;
-    std::vector<double> angles;
-    std::vector<Eigen::Vector3d> points;
+    std::vector<Arc> arcs;
   };
 
   void add_rims();
   void add_rim(std::size_t one, std::size_t other);
+  void add_arcs(Rim& rim, double from, double to) const;
   Eigen::Vector3d rim_direction(const Rim& rim, double angle) const;
   Eigen::Vector3d rim_point(const Rim& rim, double angle) const;
-  std::size_t rim_form(const Rim& rim, double angle) const;
+  /// Angles at which a third surface begins or ends to cut off the rim, in [0, 2 pi].
+  std::vector<double> rim_corners(const Rim& rim) const;
   Eigen::Vector3d clamped(const Eigen::Vector3d& y) const;
   double nearest_on_rim(const Rim& rim, const Eigen::Vector3d& x, double best) const;
   double outside(const Eigen::Vector3d& x, double bound) const;
