@@ -3,6 +3,7 @@
 `/usr/bin/python3 tests/cli/bad_input_cases.py VERICONE > docs/bad-input.md`; the test runs every case and compares
 the table as well, so neither can go stale."""
 import json
+import math
 import os
 import subprocess
 import sys
@@ -229,6 +230,75 @@ COMMANDS = [
     ("a scan that is not one", ["accuracy", "--scan", "FILE.off"], "hello\n"),
 ]
 
+def rows(points):
+    return "".join("%r %r %r\n" % tuple(float(c) for c in p) for p in points)
+
+
+SPIRAL = [(math.cos(i) * i / 20, math.sin(i) * i / 20, math.cos(2.1 * i)) for i in range(20)]
+FLAT = [(x, y, x + 2 * y) for x in range(4) for y in range(3)]
+LEVEL = [(x, y, 0.5) for x in range(4) for y in range(3)]
+PARABOLOID = [(x / 4, y / 4, (x * x + y * y) / 32) for x in range(-9, 10) for y in range(-9, 10)]
+RESULT = {"pieces": [{"quadrics": [[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, -1]]]}], "certified": True,
+          "coverage": 1, "margin": 0, "certificate": {}}
+LEAST = ("--mode", "least-squares")
+# What is wrong, arguments after `fit`, the files they name.
+FITS = [
+    ("a file that is not there", ["nowhere.obj"], {}),
+    ("a file of an unknown format", ["scan.dat"], {"scan.dat": "hello\n"}),
+    ("an empty file", ["scan.xyz"], {"scan.xyz": ""}),
+    ("a truncated mesh", ["scan.off"], {"scan.off": "OFF\n4 4 6\n0 0 0\n1 0 0\n"}),
+    ("nothing but NaN", ["scan.xyz"], {"scan.xyz": "nan nan nan\n" * 9}),
+    ("a line of text among points", ["scan.xyz"], {"scan.xyz": rows(SPIRAL) + "and so on\n"}),
+    ("a mesh without area", ["scan.obj"], {"scan.obj": "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"}),
+    ("a map that breaks off", ["scan.bt"], {"scan.bt": "# Octomap OcTree binary file\nid OcTree\n"}),
+    ("three points", ["scan.xyz"], {"scan.xyz": rows(SPIRAL[:3])}),
+    ("eight points for the nine numbers of an ellipsoid", ["scan.xyz", *LEAST, "--shape", "ellipsoid"],
+     {"scan.xyz": rows(SPIRAL[:8])}),
+    ("nine points for an ellipsoid with dents", ["scan.xyz", *LEAST, "--shape", "biconcave"],
+     {"scan.xyz": rows(SPIRAL[:9])}),
+    ("four points for an ellipse", ["scan.xyz", *LEAST, "--shape", "ellipse"], {"scan.xyz": rows(LEVEL[:4])}),
+    ("one point many times", ["scan.xyz"], {"scan.xyz": rows(SPIRAL[3:4] * 50)}),
+    ("three points many times", ["scan.xyz"], {"scan.xyz": rows(SPIRAL[:3] * 50)}),
+    ("eight points many times", ["scan.xyz", *LEAST, "--shape", "ellipsoid"], {"scan.xyz": rows(SPIRAL[:8] * 50)}),
+    ("points on a line", ["scan.xyz"], {"scan.xyz": rows((i, 2 * i, 3 * i) for i in range(30))}),
+    ("points on a line for an ellipse", ["scan.xyz", "--shape", "ellipse"],
+     {"scan.xyz": rows((i, 2 * i, 3 * i) for i in range(30))}),
+    ("points above a line for an ellipse", ["scan.xyz", "--shape", "ellipse"],
+     {"scan.xyz": rows((i, 2 * i, i * i) for i in range(30))}),
+    ("points in a plane for an ellipsoid", ["scan.xyz", "--shape", "ellipsoid"], {"scan.xyz": rows(FLAT)}),
+    ("points in a plane for dents", ["scan.xyz", "--shape", "biconcave"], {"scan.xyz": rows(FLAT)}),
+    ("points in a plane near a surface", ["scan.xyz", *LEAST, "--shape", "ellipsoid"], {"scan.xyz": rows(FLAT)}),
+    ("points of a paraboloid", ["scan.xyz", *LEAST, "--shape", "ellipsoid"], {"scan.xyz": rows(PARABOLOID)}),
+    ("an unknown mode", ["scan.xyz", "--mode", "best"], {"scan.xyz": rows(SPIRAL)}),
+    ("an unknown shape", ["scan.xyz", "--shape", "cube"], {"scan.xyz": rows(SPIRAL)}),
+    ("a coverage of nothing", ["scan.xyz", "--coverage", "0"], {"scan.xyz": rows(SPIRAL)}),
+    ("a coverage of more than all", ["scan.xyz", "--coverage", "1.5"], {"scan.xyz": rows(SPIRAL)}),
+    ("a coverage that is not a number", ["scan.xyz", "--coverage", "nan"], {"scan.xyz": rows(SPIRAL)}),
+    ("a coverage in percent", ["scan.xyz", "--coverage", "95%"], {"scan.xyz": rows(SPIRAL)}),
+    ("a negative margin", ["scan.xyz", "--margin", "-0.1"], {"scan.xyz": rows(SPIRAL)}),
+    ("an infinite margin", ["scan.xyz", "--margin", "inf"], {"scan.xyz": rows(SPIRAL)}),
+    ("a margin where nothing has to be inside", ["scan.xyz", *LEAST, "--margin", "0.1"], {"scan.xyz": rows(SPIRAL)}),
+    ("no pieces", ["scan.xyz", "--pieces", "0"], {"scan.xyz": rows(SPIRAL)}),
+    ("too many pieces", ["scan.xyz", "--pieces", "65"], {"scan.xyz": rows(SPIRAL)}),
+    ("more pieces than the points are enough for", ["scan.xyz", "--pieces", "20"], {"scan.xyz": rows(SPIRAL)}),
+    ("a negative seed", ["scan.xyz", "--seed", "-1"], {"scan.xyz": rows(SPIRAL)}),
+    ("a file for the folder", ["scan.xyz", "--out", "scan.xyz"], {"scan.xyz": rows(SPIRAL)}),
+    ("a folder in a file", ["scan.xyz", "--out", "scan.xyz/fit"], {"scan.xyz": rows(SPIRAL)}),
+    ("an agent within the scan", ["scan.xyz", "--cone", "0,0,0,1.5"], {"scan.xyz": rows(SPIRAL)}),
+    ("an agent without a radius", ["scan.xyz", "--cone", "5,0,0"], {"scan.xyz": rows(SPIRAL)}),
+    ("a check of a result that is not there", ["scan.xyz", "--check", "fit.json"], {"scan.xyz": rows(SPIRAL)}),
+    ("a check of what is no JSON", ["scan.xyz", "--check", "fit.json"],
+     {"scan.xyz": rows(SPIRAL), "fit.json": "{"}),
+    ("a check of what is no result", ["scan.xyz", "--check", "fit.json"],
+     {"scan.xyz": rows(SPIRAL), "fit.json": '{"volume": 3}'}),
+    ("a check of a quadric that is not symmetric", ["scan.xyz", "--check", "fit.json"],
+     {"scan.xyz": rows(SPIRAL), "fit.json": json.dumps(RESULT).replace("[[[1, 0", "[[[1, 2")}),
+    ("a check of a certificate without numbers", ["scan.xyz", "--check", "fit.json"],
+     {"scan.xyz": rows(SPIRAL), "fit.json": json.dumps(RESULT)}),
+    ("a check and a fit at once", ["scan.xyz", "--check", "fit.json", "--shape", "star"],
+     {"scan.xyz": rows(SPIRAL), "fit.json": json.dumps(RESULT)}),
+]
+
 
 def run_queries(vericone):
     lines = [q if isinstance(q, str) else json.dumps(q) for _, q in QUERIES]
@@ -253,22 +323,37 @@ def run_command(vericone, arguments, scene):
         return arguments, result, os.listdir(folder)
 
 
+def run_fit(vericone, arguments, files):
+    with tempfile.TemporaryDirectory() as folder:
+        for name, content in files.items():
+            with open(os.path.join(folder, name), "w", encoding="utf-8") as f:
+                f.write(content)
+        result = subprocess.run([vericone, "fit", *arguments, "--quiet"], capture_output=True, text=True, check=False,
+                                cwd=folder)
+        return result, sorted(set(os.listdir(folder)) - set(files))
+
+
 def table(vericone):
     def cell(text):
         return "`" + text.replace("|", "\\|") + "`"
 
     lines, answers, _ = run_queries(vericone)
-    rows = ["# What bad input gets", "",
+    text = ["# What bad input gets", "",
             "One line that names the field, the value and what would be right; exit status 2; nothing half written.",
             "In a file of cases the run goes on with the next line and ends with 2. This table is made and checked by",
             "`tests/cli`.", "", "## Lines of `vericone query`", "", "| what | input | answer |", "|---|---|---|"]
     for (what, _), line, answer in zip(QUERIES, lines, answers):
-        rows.append("| %s | %s | %s |" % (what, cell(line), cell(answer.get("error", "no error"))))
-    rows += ["", "## Commands and scenes", "", "| what | command | message |", "|---|---|---|"]
+        text.append("| %s | %s | %s |" % (what, cell(line), cell(answer.get("error", "no error"))))
+    text += ["", "## Commands and scenes", "", "| what | command | message |", "|---|---|---|"]
     for what, arguments, scene in COMMANDS:
         arguments, result, _ = run_command(vericone, arguments, scene)
-        rows.append("| %s | %s | %s |" % (what, cell("vericone " + " ".join(arguments)), cell(result.stderr.strip())))
-    return "\n".join(rows) + "\n"
+        text.append("| %s | %s | %s |" % (what, cell("vericone " + " ".join(arguments)), cell(result.stderr.strip())))
+    text += ["", "## Fits", "", "| what | command | message |", "|---|---|---|"]
+    for what, arguments, files in FITS:
+        result, _ = run_fit(vericone, arguments, files)
+        text.append("| %s | %s | %s |" % (what, cell("vericone fit " + " ".join(arguments)),
+                                                   cell(result.stderr.strip())))
+    return "\n".join(text) + "\n"
 
 
 if __name__ == "__main__":
