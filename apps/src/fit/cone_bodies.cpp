@@ -140,7 +140,7 @@ BodyCone cone_of_ellipsoid(const Ellipsoid& agent, const Ellipsoid& body) {
 
 BodyCone cone_of_combined(const Ellipsoid& agent, const CombinedEllipsoid& body, double tolerance) {
   if (body.is_ellipsoid()) return cone_of_ellipsoid(agent, body.ellipsoid());
-  const std::string method = "certified cone to " + to_text(tolerance);
+  const std::string method = "certified inner and outer cone";
   CombinedCone bounds = combined_cone(agent, body, tolerance);
   if (!bounds.relation) {
     BodyCone cone = everywhere(method + ", not decided whether the bodies touch");

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "fit/cone_bodies.h"
@@ -17,6 +18,8 @@ namespace {
 using Eigen::Vector3d;
 using std::numbers::pi;
 using Clock = std::chrono::steady_clock;
+
+constexpr double kFinest = 1e-8;  // radians, of cone maps
 
 /// The bodies that are compared, which all agents share.
 struct Bodies {
@@ -36,6 +39,10 @@ std::vector<Vector3d> used_points(const fitting::Sample& scan) {
   for (std::size_t i = 0; i < used.size(); ++i)
     if (used[i]) points.push_back(scan.points[i]);
   return points;
+}
+
+bool proved_to_contain(const fitting::FitResult& fit) {
+  return fit.certified && fit.certificate.all_inside();
 }
 
 Bodies bodies_of(const fitting::Sample& scan, const fitting::FitResult& fit,
@@ -76,8 +83,11 @@ Bodies bodies_of(const fitting::Sample& scan, const fitting::FitResult& fit,
   return bodies;
 }
 
-void set_excess(ConeRow& row, const ConeRow& scan) {
+/// `contains`: the body is proved to contain the scan, so its cone contains the scan's.
+void set_excess(ConeRow& row, const ConeRow& scan, bool contains) {
+  if (contains) row.low = std::max(row.low, scan.low);
   row.excess_low = scan.high > 0 ? row.low / scan.high - 1 : 0;
+  if (contains) row.excess_low = std::max(row.excess_low, 0.0);
   row.excess_high = scan.low > 0 ? row.high / scan.low - 1 : std::numeric_limits<double>::infinity();
 }
 
@@ -102,7 +112,7 @@ class Comparison {
                       [&] { return cone_of_ellipsoid(agent.body, *bodies_.ellipsoid); });
     MapSettings settings;
     settings.threads = options_.threads;
-    settings.resolution = options_.resolution * radius_of(ellipsoid);
+    settings.resolution = std::max(kFinest, options_.resolution * radius_of(ellipsoid));
     const double tolerance = std::clamp(options_.resolution, 1e-4, 0.01);
     settings.progress = [&](double share) { return told("cone of the hull", 0.5 * share); };
     hull = row("hull", fit_.volume ? std::optional(fit_.volume->value) : std::nullopt,
@@ -114,8 +124,10 @@ class Comparison {
     ConeRow scan = row("scan", fit_.scan_volume, [&] { return cone_by_map(oracle, settings); });
     if (scan.outline.empty())
       throw InputError("--cone", agent.text, "an agent outside of the scan: it is enclosed by it");
-    for (auto* other : {&ellipsoid, &hull, &convex})
-      if (*other) set_excess(**other, scan);
+    // The minimum-volume ellipsoid contains every point exactly; nothing proves that Qhull's corners do.
+    if (ellipsoid) set_excess(*ellipsoid, scan, bodies_.scan.radius() == 0);
+    set_excess(*hull, scan, proved_to_contain(fit_));
+    if (convex) set_excess(*convex, scan, false);
     cones.rows.push_back(std::move(scan));
     for (auto* other : {&ellipsoid, &hull, &convex})
       if (*other) cones.rows.push_back(std::move(**other));

@@ -79,12 +79,12 @@ void print_cones(const ConeComparison& comparison, std::ostream& out) {
                      : "mean over " + std::to_string(count) + " agents around, the first a " +
                            comparison.agents.front().agent.text)
       << '\n'
-      << std::left << std::setw(20) << "  of" << std::setw(22) << "solid angle (sr)" << std::setw(22)
+      << std::left << std::setw(20) << "  of" << std::setw(27) << "solid angle (sr)" << std::setw(27)
       << "excess over scan (%)" << std::setw(14) << "volume (m^3)"
       << "how\n";
   for (const ConeRow& row : comparison.mean) {
-    out << "  " << std::setw(18) << row.what << std::setw(22) << between("%.5g", row.low, row.high)
-        << std::setw(22)
+    out << "  " << std::setw(18) << row.what << std::setw(27) << between("%.5g", row.low, row.high)
+        << std::setw(27)
         << (row.what == "scan" ? "" : between("%.2f", 100 * row.excess_low, 100 * row.excess_high))
         << std::setw(14) << (row.volume ? text("%.5g", *row.volume) : "-") << row.method;
     if (row.overlapping && count == 1) out << "; the agent is not apart from it: all directions";
