@@ -220,9 +220,11 @@ int run(int argc, char** argv) {
   bool no_fit_figures = false;
   fit_command->add_flag("--no-figures", no_fit_figures, "Result and meshes only");
   fit_command->add_flag("--quiet", fit.quiet, "No progress");
-  for (const char* other : {"--mode", "--shape", "--coverage", "--margin", "--pieces", "--seed", "--cone"})
-    check_option->excludes(fit_command->get_option(other));
   fit_command->callback([&] {
+    for (const char* other : {"--mode", "--shape", "--coverage", "--margin", "--pieces", "--seed", "--cone"})
+      if (check_option->count() > 0 && fit_command->count(other) > 0)
+        throw vericone::InputError("--check", fit.check,
+                                   std::string("given without ") + other + ", which is of a fit");
     if (coverage_option->count() > 0) fit.coverage = coverage;
     fit.figures = !no_fit_figures;
     for (int i = 0; i < argc; ++i) fit.command_line.append(i ? " " : "").append(i ? argv[i] : "vericone");

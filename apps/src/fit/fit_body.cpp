@@ -127,6 +127,7 @@ std::vector<Json> enclosing_body_fields(const std::vector<fitting::Piece>& piece
     for (const fitting::Piece& piece : pieces) fields.push_back(body_fields(piece, factor));
     return fields;
   };
+  if (inside.empty()) return all(1);
   for (int exponent = 50; exponent >= 20; exponent -= 2) {
     std::vector<Json> fields = all(1 + std::ldexp(1.0, -exponent));
     if (contain(fields, inside)) return fields;

@@ -16,7 +16,7 @@ nlohmann::ordered_json body_fields(const fitting::Piece& piece, double factor = 
 
 /// The same for all pieces, moved outwards by the least factor of 1 + 2^-50, 1 + 2^-48, ... with which the
 /// bodies that scenes read from the fields contain, in exact arithmetic, every point that `inside` names.
-/// Throws std::runtime_error where no factor up to 1 + 2^-20 does.
+/// As they are where it names none. Throws std::runtime_error where no factor up to 1 + 2^-20 does.
 std::vector<nlohmann::ordered_json> enclosing_body_fields(const std::vector<fitting::Piece>& pieces,
                                                           const std::vector<Eigen::Vector3d>& inside);
 

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <vericone/geometry/error.h>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -114,6 +115,13 @@ std::string title_of(const fit::Scan& scan, const fitting::FitResult& result) {
   return text;
 }
 
+/// What was asked for: a proof where the scan is to be contained, else surfaces that the solver arrived at.
+bool succeeded(const fitting::FitResult& result) {
+  const auto& surfaces = result.surfaces;
+  return (result.mode != fitting::Mode::containing || result.certified) &&
+         std::all_of(surfaces.begin(), surfaces.end(), [](const auto& s) { return s.converged; });
+}
+
 /// The part of a path that the user knows it by.
 std::string shown(const fs::path& folder, const fs::path& file) {
   return (folder / file.filename()).string();
@@ -214,6 +222,7 @@ int run_fit(const FitCommandOptions& given, std::ostream& out) {
     if (interrupted()) return kExitInterrupted;
     files = folder.publish(names_of_files());
     print(a, given, files, out);
+    return succeeded(a.result) ? 0 : 1;
   } catch (const fitting::Interrupted&) {
     return kExitInterrupted;
   } catch (const std::runtime_error&) {
@@ -221,7 +230,6 @@ int run_fit(const FitCommandOptions& given, std::ostream& out) {
     if (interrupted()) return kExitInterrupted;
     throw;
   }
-  return 0;
 }
 
 }  // namespace vericone
