@@ -15,21 +15,26 @@ struct SurfaceFitOptions {
   int max_iterations = 200;  // of each refinement
 };
 
-/// A direction or length that the sample leaves open.
+/// A direction or length that the sample leaves open, in the world.
 struct Unknown {
   std::string what;             // "center along (0.1, 0.2, 0.97)", "semi-axis 2", ...
-  double value = 0, error = 0;  // metres; error: one standard deviation
+  double value = 0, error = 0;  // metres, the centre's from the sample's mean; error: one standard deviation
 };
 
 struct SurfaceFit {
-  Piece piece;             // in the frame of the points given; quadrics not set
+  /// Quadrics not set. In the frame of the sample; the shape `ellipse`: footprint, low, high and all lengths
+  /// here in the world, since the frame is turned and the vertical is the world's.
+  Piece piece;
   bool converged = false;  // false: the solver's last iterate, no fit
   double noise = 0;    // estimated standard deviation of the distances of inliers, same unit as the points
   double inliers = 1;  // share of the weights within 3 * noise (robust) or 1
   /// One standard deviation of centre (3) and of the ellipsoid's semi-axes (3, decreasing), from the
   /// curvature of the cost at the solution, for independent noise.
   Eigen::Vector3d center_error = Eigen::Vector3d::Zero(), axes_error = Eigen::Vector3d::Zero();
-  /// Share of the surface's area that has points near it: within the angle of 1/2 grid cell about the centre.
+  /// Of the centre, so that its error along any direction can be told.
+  Eigen::Matrix3d center_covariance = Eigen::Matrix3d::Zero();
+  /// Share of the ellipsoid's area that has points near it (within 3 * noise, and within a cell of a grid of
+  /// up to 400 directions, as seen from the centre where the ellipsoid is the unit ball).
   double seen = 1;
   /// What the points do not determine: standard deviation above a twentieth of the value.
   std::vector<Unknown> unknown;

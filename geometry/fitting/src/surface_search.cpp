@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "robust_scale.h"
+
+namespace vericone::fitting {
+namespace {
+
+using Eigen::Vector3d, Eigen::VectorXd;
+
+/// Of the biweight, in standard deviations: 95 % efficient for normal noise.
+constexpr double kCutoff = 4.685;
+/// No residual is known better than to rounding, in the unit ball.
+constexpr double kFloor = 1e-13;
+constexpr std::size_t kFew = 250, kMore = 600;
+
+double scale_of(const SurfaceModel& model, const Parameters& parameters, const Cloud& cloud) {
+  const VectorXd r = residuals(model, parameters, cloud);
+  std::vector<Residual> all(cloud.points.size());
+  for (std::size_t i = 0; i < all.size(); ++i)
+    all[i] = {std::abs(r(static_cast<Eigen::Index>(i))), cloud.weights[i]};
+  return robust_scale(std::move(all), kFloor);
+}
+
+/// Some steps from a start; `score` is what starts are compared by.
+struct Attempt {
+  SurfaceStart start;
+  double score = 0;
+};
+
+Attempt attempt(const SurfaceStart& start, const Cloud& cloud, bool robust, int rounds, int iterations) {
+  Attempt a{start, 0};
+  for (int k = 0; k < (robust ? rounds : 1); ++k) {
+    const double cutoff = robust ? kCutoff * scale_of(start.model, a.start.parameters, cloud) : 0;
+    const Solution s = descend(start.model, a.start.parameters, cloud, cutoff, iterations);
+    a.start.parameters = s.parameters;
+    a.score = s.cost;
+  }
+  if (robust) a.score = scale_of(start.model, a.start.parameters, cloud);
+  return a;
+}
+
+/// The attempts with the least scores, best first.
+std::vector<SurfaceStart> best(const std::vector<SurfaceStart>& starts, const Cloud& cloud, bool robust,
+                               int rounds, int iterations, std::size_t most) {
+  std::vector<Attempt> all;
+  for (const SurfaceStart& s : starts) {
+    const Attempt a = attempt(s, cloud, robust, rounds, iterations);
+    if (std::isfinite(a.score)) all.push_back(a);
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Attempt& a, const Attempt& b) { return a.score < b.score; });
+  std::vector<SurfaceStart> chosen;
+  for (std::size_t i = 0; i < std::min(most, all.size()); ++i) chosen.push_back(all[i].start);
+  return chosen;
+}
+
+FittedSurface refined(const SurfaceStart& start, const Cloud& cloud, const SurfaceFitOptions& options) {
+  FittedSurface fit;
+  fit.model = start.model;
+  Parameters p = start.parameters;
+  int iterations = 0;
+  if (options.robust) {
+    // The scale is settled first and then kept, so that the result is the minimum of one function.
+    double last = 0;
+    for (int round = 0; round < 20; ++round) {
+      const double scale = scale_of(fit.model, p, cloud);
+      fit.cutoff = kCutoff * scale;
+      if (std::abs(scale - last) <= 1e-2 * scale) break;
+      last = scale;
+      const Solution s = descend(fit.model, p, cloud, fit.cutoff, std::min(10, options.max_iterations));
+      p = s.parameters;
+      iterations += s.iterations;
+    }
+  }
+  fit.solution = descend(fit.model, p, cloud, fit.cutoff, options.max_iterations);
+  polish(fit.model, cloud, fit.cutoff, fit.solution);
+  fit.solution.iterations += iterations;
+  fit.noise = least_squares_noise(fit.model, fit.solution.parameters, cloud);
+  if (options.robust) {
+    const double n = effective_points(cloud), left = n - fit.model.size();
+    fit.noise = scale_of(fit.model, fit.solution.parameters, cloud) * std::sqrt(left > 0.5 ? n / left : 1);
+  }
+  return fit;
+}
+
+/// What is best: converged before not converged, then the least noise.
+bool better(const FittedSurface& a, const FittedSurface& b) {
+  if (a.solution.converged != b.solution.converged) return a.solution.converged;
+  return a.noise < b.noise;
+}
+
+FittedSurface refined_best(const std::vector<SurfaceStart>& starts, const Cloud& cloud,
+                           const SurfaceFitOptions& options) {
+  FittedSurface result = refined(starts.front(), cloud, options);
+  for (std::size_t i = 1; i < starts.size(); ++i) {
+    const FittedSurface other = refined(starts[i], cloud, options);
+    if (better(other, result)) result = other;
+  }
+  return result;
+}
+
+/// Points near the surface, for the convex hull.
+Cloud near_points(const FittedSurface& fit, const Cloud& cloud) {
+  const VectorXd r = residuals(fit.model, fit.solution.parameters, cloud);
+  Cloud near;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i)
+    if (std::abs(r(static_cast<Eigen::Index>(i))) <= 4 * fit.noise) {
+      near.points.push_back(cloud.points[i]);
+      near.weights.push_back(cloud.weights[i]);
+    }
+  return thinned(near, kMore);
+}
+
+}  // namespace
+
+FittedSurface fit_ellipsoid(const Cloud& cloud, bool planar, const SurfaceFitOptions& options) {
+  SurfaceModel model;
+  model.planar = planar;
+  std::vector<Parameters> starts = ellipsoid_starts(cloud, planar);
+  if (options.robust) {
+    starts.resize(1);
+    for (const Parameters& p : trial_starts(cloud, planar, options.seed, 8)) starts.push_back(p);
+  }
+  std::vector<SurfaceStart> all;
+  for (const Parameters& p : starts) all.push_back({model, p});
+  all = best(all, thinned(cloud, options.robust ? kFew : kMore), options.robust, 3, 15, 3);
+  if (options.robust) all = best(all, thinned(cloud, kMore), true, 2, 15, 1);
+  return refined_best({all.front()}, cloud, options);
+}
+
+FittedSurface base_ellipsoid(const Cloud& cloud, const SurfaceFitOptions& options) {
+  constexpr double kLong = 3;
+  FittedSurface base = fit_ellipsoid(cloud, false, options);
+  if (base.solution.converged && Surfaces(base.model, base.solution.parameters).semi_axes()(0) < kLong)
+    return base;
+  base.solution.parameters = options.robust ? trial_starts(cloud, false, options.seed, 1).front()
+                                            : ellipsoid_starts(cloud, false).back();
+  base.noise = options.robust ? scale_of(base.model, base.solution.parameters, cloud)
+                              : least_squares_noise(base.model, base.solution.parameters, cloud);
+  return base;
+}
+
+FittedSurface add_delimiter(const FittedSurface& from, const Cloud& cloud, int sheets,
+                            const SurfaceFitOptions& options) {
+  const Cloud near = near_points(from, cloud);
+  const Vector3d center = from.solution.parameters.head<3>();
+  const auto all = delimited_starts(from.model, from.solution.parameters, sheets, near,
+                                    deepest_direction(thinned(near, kFew), center));
+  const auto few = best(all, thinned(cloud, kFew), options.robust, 2, 8, 3);
+  const auto one = best(few, thinned(cloud, kMore), options.robust, 2, 15, 1);
+  return refined_best(one, cloud, options);
+}
+
+// One more delimiter is taken where the noise falls clearly: by a tenth, and by more than six parameters
+// should make it fall (the Bayesian criterion).
+FittedSurface fit_star(const FittedSurface& ellipsoid, const Cloud& cloud, const SurfaceFitOptions& options) {
+  constexpr double kClear = 0.9;
+  const double n = std::max(effective_points(cloud), 2.0), clear = std::exp(-6 * std::log(n) / (2 * n));
+  FittedSurface star = ellipsoid;
+  for (int k = 0; k < 3; ++k) {
+    FittedSurface next = add_delimiter(star, cloud, 2, options);
+    const FittedSurface waist = add_delimiter(star, cloud, 1, options);
+    if (better(waist, next)) next = waist;
+    const bool needed = k == 0 || next.noise < std::min(kClear, clear) * star.noise;
+    if (!needed || (k > 0 && !next.solution.converged)) break;
+    star = next;
+  }
+  return star;
+}
+
+}  // namespace vericone::fitting
