@@ -7,6 +7,17 @@
 
 #include <cmath>
 
+#ifdef VERICONE_DEFAULT_DATA_DIR
+#include <vericone/files/read_points.h>
+#include <vericone/geometry/error.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "geometry/written_files.h"
+#endif
+
 namespace vericone::verify {
 namespace {
 
@@ -91,6 +102,68 @@ void on_ellipsoids() {
   }
   std::printf("CGAL's volume is at least %.2g larger\n", nearest);
 }
+
+#ifdef VERICONE_DEFAULT_DATA_DIR
+/// About their middle and within the unit cube, where CGAL's certificate holds.
+std::vector<Eigen::Vector3d> near_origin(std::vector<Eigen::Vector3d> points) {
+  Eigen::Vector3d low = points.front(), high = low;
+  for (const auto& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  for (auto& p : points) p = (p - 0.5 * (low + high)) / (0.5 * (high - low).maxCoeff());
+  return points;
+}
+
+/// Every file with points that are not in one plane; the number of those.
+std::size_t real_files(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> paths;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) paths.push_back(entry.path());
+  std::sort(paths.begin(), paths.end());
+  std::size_t checked = 0;
+  for (const auto& path : paths) {
+    SCOPED_TRACE(path.filename());
+    std::vector<Eigen::Vector3d> points;
+    MinVolumeResult<3> r;
+    try {
+      points = files::read_points(path).points;
+      r = min_volume_ellipsoid<3>(points);
+    } catch (const InputError&) {
+      continue;  // no file of points, or a flat one
+    }
+    ++checked;
+    EXPECT_TRUE(r.converged());
+    EXPECT_LT(r.optimality_gap, 1e-6);
+    EXPECT_LT(r.volume_ratio_bound - 1, 2e-6);
+    if (points.size() < 5) continue;
+    points = near_origin(std::move(points));
+    const double volume = min_volume_ellipsoid<3>(points).body.volume();
+    const CgalMinEllipsoid<3> cgal = cgal_min_ellipsoid<3>(points, 0.01);
+    EXPECT_LE(cgal.ratio_bound, 1.0101);
+    EXPECT_LE(cgal.volume, cgal.ratio_bound * volume * (1 + 1e-12));
+    EXPECT_LE(volume, r.volume_ratio_bound * cgal.volume * (1 + 1e-12));
+  }
+  return checked;
+}
+
+TEST(MinEllipsoid, RealScans) {
+  const char* given = std::getenv("VERICONE_DATA_DIR");
+  const std::filesystem::path folder(given ? given : VERICONE_DEFAULT_DATA_DIR);
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
+  EXPECT_GT(real_files(folder), 0);
+}
+
+TEST(MinEllipsoid, MeshesAndCloudsOfCgal) {
+  if (!std::filesystem::exists(VERICONE_CGAL_MESHES))
+    GTEST_SKIP() << VERICONE_CGAL_MESHES << " is not here (libcgal-demo)";
+  const testing::TemporaryDirectory directory;
+  const std::string command =
+      "tar -xzf '" VERICONE_CGAL_MESHES "' -C '" + directory.path().string() + "' data/meshes data/points_3";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_GT(real_files(directory.path() / "data" / "meshes"), 50);
+  EXPECT_GT(real_files(directory.path() / "data" / "points_3"), 10);
+}
+#endif
 
 TEST(MinEllipsoid, RandomCloudsInThePlane) { random_clouds<2>(); }
 TEST(MinEllipsoid, RandomCloudsInSpace) { random_clouds<3>(); }

@@ -10,6 +10,7 @@
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
+#include <ctime>
 #include <numbers>
 #include <stdexcept>
 
@@ -49,46 +50,76 @@ bool inside(const BasicEllipsoid<D>& body, const exact::RationalMatrix<D>& shape
   return exact::determinant<D + 1>(m).sign() >= 0;
 }
 
+/// CGAL's ellipsoid x^T matrix x + 2 vector.x + nu <= alpha and what it certifies.
+template <int D>
+struct CgalRun {
+  Eigen::Matrix<double, D, D> matrix;
+  Eigen::Matrix<double, D, 1> vector;
+  double nu, alpha;
+  CgalMinEllipsoid<D> result;
+};
+
+double thread_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+template <int D>
+constexpr double kUnitBall = D == 2 ? std::numbers::pi : 4 * std::numbers::pi / 3;
+
+template <int D>
+CgalRun<D> run_cgal(const std::vector<Eigen::Matrix<double, D, 1>>& points, double epsilon) {
+  std::vector<typename Traits<D>::Type::Point> converted;
+  converted.reserve(points.size());
+  for (const auto& p : points) converted.push_back(Traits<D>::point(p));
+  CgalRun<D> run;
+  const double start = thread_seconds();
+  const CGAL::Approximate_min_ellipsoid_d<typename Traits<D>::Type> theirs(epsilon, converted.begin(),
+                                                                           converted.end());
+  run.result.seconds = thread_seconds() - start;
+  if (!theirs.is_full_dimensional()) throw std::logic_error("cgal_min_ellipsoid: CGAL found a flat body");
+  run.result.ratio_bound = (1 + theirs.achieved_epsilon()) * (1 + 2 * kSlack);
+
+  // alpha = (1 + k) (D + 1), where CGAL's certificate is 1 + achieved_epsilon = (1 + k)^((D + 1) / 2). Its M
+  // is symmetric and its certificate holds up to the rounding of its updates, for which a little is added.
+  run.alpha = std::pow(1 + theirs.achieved_epsilon(), 2.0 / (D + 1)) * (D + 1) * (1 + kSlack);
+  for (int i = 0; i < D; ++i) {
+    for (int j = 0; j < D; ++j) run.matrix(i, j) = theirs.defining_matrix(i, j);
+    run.vector(i) = theirs.defining_vector(i) / 2;
+  }
+  run.nu = theirs.defining_scalar();
+  const double rest = run.alpha - run.nu + run.vector.dot(run.matrix.inverse() * run.vector);
+  run.result.volume = kUnitBall<D> * std::sqrt(std::pow(rest, D) / run.matrix.determinant());
+  return run;
+}
+
 }  // namespace
+
+template <int D>
+CgalMinEllipsoid<D> cgal_min_ellipsoid(const std::vector<Eigen::Matrix<double, D, 1>>& points,
+                                       double epsilon) {
+  return run_cgal<D>(points, epsilon).result;
+}
 
 template <int D>
 MinEllipsoidComparison<D> compare_min_ellipsoid(const std::vector<Eigen::Matrix<double, D, 1>>& points,
                                                 double epsilon) {
   using Vector = Eigen::Matrix<double, D, 1>;
   MinEllipsoidComparison<D> result{.ours = min_volume_ellipsoid<D>(points)};
-  const double unit_ball = D == 2 ? std::numbers::pi : 4 * std::numbers::pi / 3;
   const BasicEllipsoid<D>& body = result.ours.body;
-  result.our_volume = unit_ball * std::abs(body.factor().determinant());
+  result.our_volume = kUnitBall<D> * std::abs(body.factor().determinant());
   const exact::RationalMatrix<D> shape = exact::defining_shape<D>(body);
 
-  std::vector<typename Traits<D>::Type::Point> converted;
-  converted.reserve(points.size());
-  for (const Vector& p : points) converted.push_back(Traits<D>::point(p));
-  const CGAL::Approximate_min_ellipsoid_d<typename Traits<D>::Type> theirs(epsilon, converted.begin(),
-                                                                           converted.end());
-  if (!theirs.is_full_dimensional()) throw std::logic_error("compare_min_ellipsoid: CGAL found a flat body");
-  result.cgal_ratio_bound = (1 + theirs.achieved_epsilon()) * (1 + 2 * kSlack);
-
-  // CGAL's ellipsoid is y^T M y + 2 m^T y + nu <= alpha with alpha = (1 + k) (D + 1), where its certificate
-  // is 1 + achieved_epsilon = (1 + k)^((D + 1) / 2). Its M is symmetric and its certificate holds up to the
-  // rounding of its updates, for which a little is added.
-  const double alpha = std::pow(1 + theirs.achieved_epsilon(), 2.0 / (D + 1)) * (D + 1) * (1 + kSlack);
-  Eigen::Matrix<double, D, D> matrix;
-  Vector vector;
-  for (int i = 0; i < D; ++i) {
-    for (int j = 0; j < D; ++j) matrix(i, j) = theirs.defining_matrix(i, j);
-    vector(i) = theirs.defining_vector(i) / 2;
-  }
-  const double nu = theirs.defining_scalar();
-  const double rest = alpha - nu + vector.dot(matrix.inverse() * vector);
-  result.cgal_volume = unit_ball * std::sqrt(std::pow(rest, D) / matrix.determinant());
-
-  const exact::RationalMatrix<D> exact_matrix = exact::to_rational<D>(matrix);
-  const exact::RationalVector<D> exact_vector = exact::to_rational<D>(vector);
+  const CgalRun<D> theirs = run_cgal<D>(points, epsilon);
+  result.cgal_volume = theirs.result.volume;
+  result.cgal_ratio_bound = theirs.result.ratio_bound;
+  const exact::RationalMatrix<D> exact_matrix = exact::to_rational<D>(theirs.matrix);
+  const exact::RationalVector<D> exact_vector = exact::to_rational<D>(theirs.vector);
   for (const Vector& p : points) {
     if (!inside<D>(body, shape, p)) ++result.outside_ours;
     const exact::RationalVector<D> x = exact::to_rational<D>(p);
-    Rational value = Rational(nu) - Rational(alpha);
+    Rational value = Rational(theirs.nu) - Rational(theirs.alpha);
     for (int i = 0; i < D; ++i) {
       value += 2 * exact_vector[i] * x[i];
       for (int j = 0; j < D; ++j) value += exact_matrix[i][j] * x[i] * x[j];
@@ -98,6 +129,8 @@ MinEllipsoidComparison<D> compare_min_ellipsoid(const std::vector<Eigen::Matrix<
   return result;
 }
 
+template CgalMinEllipsoid<2> cgal_min_ellipsoid<2>(const std::vector<Eigen::Vector2d>&, double);
+template CgalMinEllipsoid<3> cgal_min_ellipsoid<3>(const std::vector<Eigen::Vector3d>&, double);
 template MinEllipsoidComparison<2> compare_min_ellipsoid<2>(const std::vector<Eigen::Vector2d>&, double);
 template MinEllipsoidComparison<3> compare_min_ellipsoid<3>(const std::vector<Eigen::Vector3d>&, double);
 
