@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "greatest_value.h"
 #include "rational_quadric.h"
@@ -35,25 +36,33 @@ class Content {
   Content(const Sample& sample, const Assignment& assignment, int piece, const Eigen::Vector3d& near,
           double margin)
       : sample_(sample), near_(near), margin_(margin) {
+    std::vector<char> listed(sample.points.size(), 0);
     for (std::uint32_t i = 0; i < assignment.points.size(); ++i)
-      if (assignment.points[i] == piece) contents_.points.push_back(i);
-    for (std::uint32_t t = 0; t < assignment.triangles.size(); ++t)
-      if (assignment.triangles[t] == piece) contents_.triangles.push_back(t);
+      if (assignment.points[i] == piece) {
+        contents_.points.push_back(i);
+        listed[i] = 1;
+      }
+    for (std::uint32_t t = 0; t < assignment.triangles.size(); ++t) {
+      if (assignment.triangles[t] != piece) continue;
+      contents_.triangles.push_back(t);
+      for (const std::uint32_t i : sample.triangles[t])
+        if (!std::exchange(listed[i], 1)) contents_.corners.push_back(i);
+    }
   }
 
   bool empty() const { return contents_.empty(); }
 
   /// Bound of the greatest value.
-  Rational reach(const RationalMatrix<4>& quadric) const {
-    return *greatest_value(QuadraticForm(quadric, near_), sample_, contents_, margin_);
+  double reach(const RationalMatrix<4>& quadric) const {
+    return greatest_value(QuadraticForm(quadric, near_), sample_, contents_, margin_);
   }
-  Rational reach(const Quadric& quadric) const {
+  double reach(const Quadric& quadric) const {
     return reach(exact::to_rational<4>(Eigen::Matrix4d(quadric.matrix())));
   }
 
   /// (x - p)^T S^{-1} (x - p) of an ellipsoid or ellipse.
   template <typename Body>
-  Rational squared_gauge(const Body& body) const {
+  double squared_gauge(const Body& body) const {
     return reach(quadric_about(center_in_space(body), inverse_shape(body), 0));
   }
 
@@ -66,8 +75,7 @@ class Content {
       high = std::max(high, rounded_up(Rational(z + Rational(by))));
     };
     for (const std::uint32_t i : contents_.points) widen(i, margin_);
-    for (const std::uint32_t t : contents_.triangles)
-      for (const std::uint32_t i : sample_.triangles[t]) widen(i, 0);
+    for (const std::uint32_t i : contents_.corners) widen(i, 0);
     return {low, high};
   }
 
@@ -82,9 +90,9 @@ class Content {
 /// factor, 1 where nothing had to be done.
 template <typename Body>
 std::pair<Body, double> inflate(const Body& body, const Content& content) {
-  const Rational reach = content.squared_gauge(body);
+  const double reach = content.squared_gauge(body);
   if (reach <= 1) return {body, 1};
-  double factor = root_up(rounded_up(reach));
+  double factor = root_up(reach);
   // Entries of the factor are rounded one by one, which moves the surface of a thin body by more than that.
   for (double step = 0x1p-52;; step *= 2) {
     Body larger = inflated(body, factor);
@@ -108,9 +116,8 @@ double inflate_body(Piece& piece, const Content& content) {
   std::vector<Delimiter<3>> delimiters = piece.body.delimiters();
   const auto center = exact::to_rational<3>(ellipsoid.center());
   for (Delimiter<3>& d : delimiters) {
-    const Rational reach = content.reach(quadric_about(center, exact::to_rational<3>(d.matrix), 0));
-    if (reach <= Rational(d.level)) continue;
-    const double level = rounded_up(reach);
+    const double level = content.reach(quadric_about(center, exact::to_rational<3>(d.matrix), 0));
+    if (level <= d.level) continue;
     largest = std::max(largest, std::sqrt(level / d.level));
     d.level = level;
   }
@@ -122,10 +129,10 @@ double inflate_body(Piece& piece, const Content& content) {
 /// With its constant lowered until nothing is positive.
 Quadric inflated(const Quadric& quadric, const Content& content) {
   Eigen::Matrix4d q = quadric.matrix();
-  Rational reach = content.reach(quadric);
+  double reach = content.reach(quadric);
   // Once, unless there is a margin, whose bounds are not exact.
   for (double step = 1; reach > 0; step *= 2) {
-    const double lower = rounded_down(Rational(Rational(q(3, 3)) - reach * Rational(step)));
+    const double lower = rounded_down(Rational(Rational(q(3, 3)) - Rational(reach) * Rational(step)));
     q(3, 3) = std::min(lower, std::nextafter(q(3, 3), -kInfinity));
     reach = content.reach(Quadric(q));
   }

@@ -5,7 +5,6 @@
 
 #include <vericone/fitting/sample.h>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "quadratic_form.h"
@@ -16,15 +15,16 @@ namespace vericone::fitting {
 struct Contents {
   std::vector<std::uint32_t> points;     // with balls about them
   std::vector<std::uint32_t> triangles;  // all of each
+  std::vector<std::uint32_t> corners;    // of the triangles, as far as they are not among the points
 
   bool empty() const { return points.empty() && triangles.empty(); }
 };
 
-/// Certainly not below it. Without a radius exact, unless thousands of points or triangles are within the
-/// roundings of intervals of the greatest: then some of those roundings above. With a radius: of balls about
-/// the points (BallBound), some roundings above. Nothing for empty contents.
-/// Throws InputError naming "margin" where intervals find no bound for a ball.
-std::optional<exact::Rational> greatest_value(const QuadraticForm& form, const Sample& sample,
-                                              const Contents& contents, double radius);
+/// Not below it. Without a radius the least such double, unless hundreds of points or triangles are within
+/// the roundings of intervals of the greatest: then some of those roundings above. With a radius: of balls
+/// about the points (BallBound), some roundings above. Minus infinity for empty contents. Throws InputError
+/// naming "margin" where intervals find no bound for a ball.
+double greatest_value(const QuadraticForm& form, const Sample& sample, const Contents& contents,
+                      double radius);
 
 }  // namespace vericone::fitting
