@@ -27,12 +27,14 @@ template <int D>
 struct Traits;
 template <>
 struct Traits<2> {
-  using Type = CGAL::Approximate_min_ellipsoid_d_traits_2<Kernel, CGAL::MP_Float>;
+  template <typename Number>
+  using Type = CGAL::Approximate_min_ellipsoid_d_traits_2<Kernel, Number>;
   static Kernel::Point_2 point(const Eigen::Vector2d& p) { return {p.x(), p.y()}; }
 };
 template <>
 struct Traits<3> {
-  using Type = CGAL::Approximate_min_ellipsoid_d_traits_3<Kernel, CGAL::MP_Float>;
+  template <typename Number>
+  using Type = CGAL::Approximate_min_ellipsoid_d_traits_3<Kernel, Number>;
   static Kernel::Point_3 point(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 };
 
@@ -68,15 +70,16 @@ double thread_seconds() {
 template <int D>
 constexpr double kUnitBall = D == 2 ? std::numbers::pi : 4 * std::numbers::pi / 3;
 
-template <int D>
+/// `Number`: of the certificate.
+template <int D, typename Number = CGAL::MP_Float>
 CgalRun<D> run_cgal(const std::vector<Eigen::Matrix<double, D, 1>>& points, double epsilon) {
-  std::vector<typename Traits<D>::Type::Point> converted;
+  using CgalTraits = typename Traits<D>::template Type<Number>;
+  std::vector<typename CgalTraits::Point> converted;
   converted.reserve(points.size());
   for (const auto& p : points) converted.push_back(Traits<D>::point(p));
   CgalRun<D> run;
   const double start = thread_seconds();
-  const CGAL::Approximate_min_ellipsoid_d<typename Traits<D>::Type> theirs(epsilon, converted.begin(),
-                                                                           converted.end());
+  const CGAL::Approximate_min_ellipsoid_d<CgalTraits> theirs(epsilon, converted.begin(), converted.end());
   run.result.seconds = thread_seconds() - start;
   if (!theirs.is_full_dimensional()) throw std::logic_error("cgal_min_ellipsoid: CGAL found a flat body");
   run.result.ratio_bound = (1 + theirs.achieved_epsilon()) * (1 + 2 * kSlack);
@@ -97,9 +100,9 @@ CgalRun<D> run_cgal(const std::vector<Eigen::Matrix<double, D, 1>>& points, doub
 }  // namespace
 
 template <int D>
-CgalMinEllipsoid<D> cgal_min_ellipsoid(const std::vector<Eigen::Matrix<double, D, 1>>& points,
-                                       double epsilon) {
-  return run_cgal<D>(points, epsilon).result;
+CgalMinEllipsoid<D> cgal_min_ellipsoid(const std::vector<Eigen::Matrix<double, D, 1>>& points, double epsilon,
+                                       bool plain) {
+  return plain ? run_cgal<D, double>(points, epsilon).result : run_cgal<D>(points, epsilon).result;
 }
 
 template <int D>
@@ -129,8 +132,8 @@ MinEllipsoidComparison<D> compare_min_ellipsoid(const std::vector<Eigen::Matrix<
   return result;
 }
 
-template CgalMinEllipsoid<2> cgal_min_ellipsoid<2>(const std::vector<Eigen::Vector2d>&, double);
-template CgalMinEllipsoid<3> cgal_min_ellipsoid<3>(const std::vector<Eigen::Vector3d>&, double);
+template CgalMinEllipsoid<2> cgal_min_ellipsoid<2>(const std::vector<Eigen::Vector2d>&, double, bool);
+template CgalMinEllipsoid<3> cgal_min_ellipsoid<3>(const std::vector<Eigen::Vector3d>&, double, bool);
 template MinEllipsoidComparison<2> compare_min_ellipsoid<2>(const std::vector<Eigen::Vector2d>&, double);
 template MinEllipsoidComparison<3> compare_min_ellipsoid<3>(const std::vector<Eigen::Vector3d>&, double);
 

@@ -21,9 +21,11 @@ struct CgalMinEllipsoid {
 
 /// `epsilon` > 0 is what CGAL is asked for. D = 2 or 3; at least D + 2 points, not all in a hyperplane (CGAL
 /// takes D + 1 points for degenerate). Throws std::logic_error when CGAL finds no full-dimensional ellipsoid.
+/// `plain`: the certificate as well in doubles, against CGAL's documentation: proves nothing, only to time
+/// the rest.
 template <int D>
-CgalMinEllipsoid<D> cgal_min_ellipsoid(const std::vector<Eigen::Matrix<double, D, 1>>& points,
-                                       double epsilon);
+CgalMinEllipsoid<D> cgal_min_ellipsoid(const std::vector<Eigen::Matrix<double, D, 1>>& points, double epsilon,
+                                       bool plain = false);
 
 template <int D>
 struct MinEllipsoidComparison {
@@ -48,8 +50,8 @@ template <int D>
 MinEllipsoidComparison<D> compare_min_ellipsoid(const std::vector<Eigen::Matrix<double, D, 1>>& points,
                                                 double epsilon);
 
-extern template CgalMinEllipsoid<2> cgal_min_ellipsoid<2>(const std::vector<Eigen::Vector2d>&, double);
-extern template CgalMinEllipsoid<3> cgal_min_ellipsoid<3>(const std::vector<Eigen::Vector3d>&, double);
+extern template CgalMinEllipsoid<2> cgal_min_ellipsoid<2>(const std::vector<Eigen::Vector2d>&, double, bool);
+extern template CgalMinEllipsoid<3> cgal_min_ellipsoid<3>(const std::vector<Eigen::Vector3d>&, double, bool);
 extern template MinEllipsoidComparison<2> compare_min_ellipsoid<2>(const std::vector<Eigen::Vector2d>&,
                                                                    double);
 extern template MinEllipsoidComparison<3> compare_min_ellipsoid<3>(const std::vector<Eigen::Vector3d>&,
