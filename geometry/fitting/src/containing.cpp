@@ -1,1 +1,214 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/fitting/containing.h>
+#include <vericone/geometry/combined_volume.h>
+#include <vericone/geometry/min_volume_ellipsoid.h>
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "barrier.h"
+#include "delimiter_starts.h"
+#include "trim.h"
+
+namespace vericone::fitting {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr std::size_t kRefined = 2;         // starts that are followed to the end
+constexpr std::size_t kMostDelimiters = 3;  // of a star
+constexpr double kWorthwhile = 0.03;        // of log volume, for the third delimiter of a star
+
+struct Kept {
+  std::vector<Vector3d> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// The points kept, and the triangles all of whose corners are.
+Kept keep(const CanonicalSample& sample, const std::vector<char>& kept) {
+  Kept result;
+  std::vector<std::uint32_t> index(sample.points.size(), 0);
+  for (std::size_t i = 0; i < sample.points.size(); ++i)
+    if (kept[i]) {
+      index[i] = std::uint32_t(result.points.size());
+      result.points.push_back(sample.points[i]);
+    }
+  for (const auto& t : sample.triangles)
+    if (kept[t[0]] && kept[t[1]] && kept[t[2]])
+      result.triangles.push_back({index[t[0]], index[t[1]], index[t[2]]});
+  return result;
+}
+
+Ellipsoid from_factor(const Vector3d& center, const Matrix3d& factor) {
+  const Eigen::JacobiSVD<Matrix3d> svd(factor, Eigen::ComputeFullU);
+  Matrix3d axes = svd.matrixU();
+  if (axes.determinant() < 0) axes.col(2) = -axes.col(2);
+  return Ellipsoid::from_axes(center, svd.singularValues(), axes);
+}
+
+/// Back from the coordinates in which the minimum-volume ellipsoid is the unit ball.
+CombinedEllipsoid to_sample(const StarBody& body, const Ellipsoid& unit) {
+  const Matrix3d lower = Eigen::LLT<Matrix3d>(body.ellipsoid).matrixL();
+  const Matrix3d root = lower.transpose().inverse();
+  const Matrix3d back = unit.factor().inverse();
+  std::vector<Delimiter<3>> delimiters;
+  for (const Matrix3d& m : body.delimiters) {
+    const Matrix3d form = back.transpose() * m * back;
+    delimiters.push_back({(form + form.transpose()) / 2, 1});
+  }
+  return CombinedEllipsoid::trusted(
+      from_factor(unit.center() + unit.factor() * body.center, unit.factor() * root), std::move(delimiters));
+}
+
+HullProblem problem_of(const Kept& kept, const Ellipsoid& unit, std::vector<Delimit> delimits,
+                       double margin) {
+  const Matrix3d inverse = unit.factor().inverse();
+  std::vector<Vector3d> points;
+  points.reserve(kept.points.size());
+  for (const Vector3d& x : kept.points) points.push_back(inverse * (x - unit.center()));
+  return HullProblem(std::move(points), kept.triangles, std::move(delimits), margin, unit.factor());
+}
+
+/// The best minimum from several starts with delimiters of the given kinds.
+Minimum best_of(const Kept& kept, const Ellipsoid& unit, double margin,
+                const std::vector<DelimiterStart>& starts, std::vector<Delimit> kinds, bool thorough,
+                int& followed, int& iterations, std::vector<Delimit>& kinds_found) {
+  struct Rough {
+    Minimum minimum;
+    std::vector<Delimit> kinds;
+  };
+  std::vector<Rough> rough;
+  for (const DelimiterStart& start : starts) {
+    std::vector<Delimit> all = kinds;
+    all.push_back(start.kind);
+    const HullProblem problem = problem_of(kept, unit, all, margin);
+    rough.push_back({minimise(problem, start.body, false), all});
+    iterations += rough.back().minimum.iterations;
+    ++followed;
+  }
+  std::stable_sort(rough.begin(), rough.end(), [](const Rough& a, const Rough& b) {
+    return a.minimum.log_volume < b.minimum.log_volume;
+  });
+  Minimum best;
+  best.log_volume = std::numeric_limits<double>::infinity();
+  if (!thorough && !rough.empty()) {
+    kinds_found = rough.front().kinds;
+    return rough.front().minimum;
+  }
+  for (std::size_t i = 0; i < std::min(kRefined, rough.size()); ++i) {
+    const HullProblem problem = problem_of(kept, unit, rough[i].kinds, margin);
+    Minimum m = minimise(problem, rough[i].minimum.body, true);
+    iterations += m.iterations;
+    if (m.log_volume < best.log_volume - 1e-12) {
+      best = std::move(m);
+      kinds_found = rough[i].kinds;
+    }
+  }
+  return best;
+}
+
+ContainingFit combined(const Kept& kept, const Ellipsoid& unit, Shape shape,
+                       const ContainingOptions& options) {
+  ContainingFit fit;
+  const HullProblem bare = problem_of(kept, unit, {}, options.margin);
+  const std::vector<Vector3d> outermost = outermost_points(bare);
+  const std::vector<Vector3d> directions = delimiter_directions(outermost);
+  std::vector<Delimit> kinds;
+  if (shape != Shape::biconvex) kinds.push_back(Delimit::dents);
+  if (shape != Shape::biconcave) kinds.push_back(Delimit::waist);
+  const bool star = shape == Shape::star;
+  std::vector<Delimit> found;
+  Minimum best =
+      best_of(kept, unit, options.margin,
+              delimiter_starts(outermost, directions, StarBody{}, kinds, std::size_t(options.starts)), {},
+              !star, fit.starts, fit.iterations, found);
+  while (star && found.size() < kMostDelimiters) {
+    std::vector<Delimit> more;
+    const Minimum next =
+        best_of(kept, unit, options.margin, delimiter_starts(outermost, directions, best.body, kinds, 3),
+                found, false, fit.starts, fit.iterations, more);
+    if (found.size() >= 2 && next.log_volume > best.log_volume - kWorthwhile) break;
+    best = next;
+    found = more;
+  }
+  if (star) {
+    best = minimise(problem_of(kept, unit, found, options.margin), best.body, true);
+    fit.iterations += best.iterations;
+  }
+  fit.piece.body = to_sample(best.body, unit);
+  fit.converged = best.converged;
+  fit.stationarity = best.stationarity;
+  fit.volume = std::exp(best.log_volume) * std::abs(unit.factor().determinant());
+  return fit;
+}
+
+ContainingFit footprint(const CanonicalSample& sample, const std::vector<char>& kept, double margin) {
+  ContainingFit fit;
+  std::vector<Vector2d> points;
+  const int corners = margin > 0 ? 32 : 1;
+  const double out = margin > 0 ? margin * sample.frame.scale / std::cos(std::numbers::pi / corners) : 0;
+  fit.piece.low = std::numeric_limits<double>::infinity();
+  fit.piece.high = -fit.piece.low;
+  for (std::size_t i = 0; i < sample.points.size(); ++i) {
+    if (!kept[i]) continue;
+    const Vector3d x = sample.frame.to_world(sample.points[i]);
+    fit.piece.low = std::min(fit.piece.low, x.z());
+    fit.piece.high = std::max(fit.piece.high, x.z());
+    // A regular polygon around the disc of the margin.
+    for (int k = 0; k < corners; ++k) {
+      const double a = 2 * std::numbers::pi * k / corners;
+      points.emplace_back(x.x() + out * std::cos(a), x.y() + out * std::sin(a));
+    }
+  }
+  const MinVolumeResult<2> result = min_volume_ellipsoid<2>(points);
+  fit.piece.footprint = result.body;
+  fit.converged = result.converged();
+  fit.stationarity = result.optimality_gap;
+  fit.volume_ratio_bound = margin > 0 ? 0 : result.volume_ratio_bound;
+  fit.volume = result.body.volume();
+  fit.iterations = result.iterations;
+  fit.starts = 1;
+  return fit;
+}
+
+}  // namespace
+
+ContainingFit containing_fit(const CanonicalSample& sample, Shape shape, const ContainingOptions& options) {
+  const std::vector<char> kept = trim(sample, options.coverage, shape == Shape::ellipse);
+  ContainingFit fit;
+  if (shape == Shape::ellipse) {
+    fit = footprint(sample, kept, options.margin);
+  } else {
+    const Kept parts = keep(sample, kept);
+    const MinVolumeResult<3> least = min_volume_ellipsoid<3>(parts.points);
+    if (shape == Shape::ellipsoid && !(options.margin > 0)) {
+      fit.piece.body = least.body;
+      fit.converged = least.converged();
+      fit.stationarity = least.optimality_gap;
+      fit.volume_ratio_bound = least.volume_ratio_bound;
+      fit.volume = least.body.volume();
+      fit.iterations = least.iterations;
+      fit.starts = 1;
+    } else if (shape == Shape::ellipsoid) {
+      const Minimum m = minimise(problem_of(parts, least.body, {}, options.margin), StarBody{}, true);
+      fit.piece.body = to_sample(m.body, least.body);
+      fit.converged = m.converged;
+      fit.stationarity = m.stationarity;
+      fit.volume = fit.piece.body.ellipsoid().volume();
+      fit.iterations = m.iterations;
+      fit.starts = 1;
+    } else {
+      fit = combined(parts, least.body, shape, options);
+    }
+  }
+  fit.kept = kept;
+  return fit;
+}
+
+}  // namespace vericone::fitting
