@@ -66,37 +66,42 @@ PlanarFrame to_plane(const CanonicalSample& sample, Cloud& cloud) {
   return frame;
 }
 
-/// Refuses points that no ellipsoid (ellipse) can be told from.
-void require_extent(const Cloud& cloud, bool planar) {
+/// Mean squares about the mean along the principal axes, increasing.
+Eigen::VectorXd spread(const Cloud& cloud, bool planar) {
   Vector3d mean = Vector3d::Zero();
   for (std::size_t i = 0; i < cloud.points.size(); ++i) mean += cloud.weights[i] * cloud.points[i];
   Matrix3d covariance = Matrix3d::Zero();
   for (std::size_t i = 0; i < cloud.points.size(); ++i)
     covariance += cloud.weights[i] * (cloud.points[i] - mean) * (cloud.points[i] - mean).transpose();
   const int d = planar ? 2 : 3;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance.topLeftCorner(d, d));
-  const auto flat = (solver.eigenvalues().array() < 1e-18 * solver.eigenvalues()(d - 1)).count();
-  if (flat == 0 && solver.eigenvalues()(d - 1) > 0) return;
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(covariance.topLeftCorner(d, d)).eigenvalues();
+}
+
+/// Refuses points that no ellipsoid (ellipse) can be told from.
+void require_extent(const Cloud& cloud, bool planar) {
+  const Eigen::VectorXd squares = spread(cloud, planar);
+  const double most = squares(squares.size() - 1);
+  const auto flat = (squares.array() < 1e-18 * most).count();
+  if (flat == 0 && most > 0) return;
   if (planar) throw InputError("points", "points whose footprint is on one line", "spread over the xy plane");
   throw InputError("points", flat >= 2 ? "points on one line" : "points in one plane", "spread in space");
 }
 
 /// Refuses what is no closed surface near the points but the limit of some.
-void require_closed(const FittedSurface& fit) {
-  constexpr double kLong = 50;  // the points are within the unit ball
+void require_closed(const FittedSurface& fit, const Cloud& cloud) {
+  constexpr double kLong = 10;
   const bool planar = fit.model.planar;
   const int d = planar ? 2 : 3;
   const Vector3d a = Surfaces(fit.model, fit.solution.parameters).semi_axes();
-  const auto open = (a.head(d).array() > kLong).count();
+  const double thickness = std::sqrt(std::max(0.0, spread(cloud, planar)(0)));
   const std::string wanted = planar ? "near an ellipse" : "near an ellipsoid";
-  if (open == 0) {
-    if (a(d - 1) > 2 * fit.noise) return;
-    throw InputError("points",
-                     std::string("points that a ") + (planar ? "line" : "plane") +
-                         " fits as well: a semi-axis of " + to_text(a(d - 1)) +
-                         " of their extent with noise " + to_text(fit.noise),
-                     wanted);
-  }
+  // What separates the two sides of the surface has to be seen through the noise.
+  const bool flat = thickness < 2.5 * fit.noise || a(d - 1) < 2 * fit.noise;
+  if (flat)
+    throw InputError("points", planar ? "points near a straight line" : "points near a plane",
+                     wanted + ": they are no thicker than their noise");
+  if (!is_open(fit)) return;
+  const auto open = (a.head(d).array() > kLong).count();
   const std::string found = planar      ? (open == 1 ? "a parabola or two parallel lines" : "a straight line")
                             : open == 1 ? "a paraboloid or a cylinder"
                                         : "a plane or a parabolic cylinder";
@@ -121,7 +126,7 @@ FittedSurface fit_shape(const Cloud& cloud, Shape shape, const SurfaceFitOptions
     fit = fit_star(fit, cloud, options);
   else if (!plain)
     fit = add_delimiter(fit, cloud, shape == Shape::biconcave ? 2 : 1, options);
-  require_closed(fit);
+  require_closed(fit, cloud);
   if (!plain) require_cut(fit);
   return fit;
 }

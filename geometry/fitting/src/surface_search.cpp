@@ -13,46 +13,79 @@ using Eigen::Vector3d, Eigen::VectorXd;
 
 /// Of the biweight, in standard deviations: 95 % efficient for normal noise.
 constexpr double kCutoff = 4.685;
-/// No residual is known better than to rounding, in the unit ball.
-constexpr double kFloor = 1e-13;
+/// Exact points have no scale; this is far above rounding and far below what matters, in the unit ball.
+constexpr double kFloor = 1e-9;
 constexpr std::size_t kFew = 250, kMore = 600;
 
-double scale_of(const SurfaceModel& model, const Parameters& parameters, const Cloud& cloud) {
-  const VectorXd r = residuals(model, parameters, cloud);
+std::vector<Residual> sizes_of(const VectorXd& r, const Cloud& cloud) {
   std::vector<Residual> all(cloud.points.size());
   for (std::size_t i = 0; i < all.size(); ++i)
     all[i] = {std::abs(r(static_cast<Eigen::Index>(i))), cloud.weights[i]};
-  return robust_scale(std::move(all), kFloor);
+  return all;
 }
 
-/// Some steps from a start; `score` is what starts are compared by.
+double scale_of(const SurfaceModel& model, const Parameters& parameters, const Cloud& cloud) {
+  return robust_scale(sizes_of(residuals(model, parameters, cloud), cloud), kFloor);
+}
+
+bool is_open(const SurfaceModel& model, const Parameters& parameters, bool converged) {
+  // A solver on its way to infinity does not arrive there.
+  constexpr double kLongest = 50, kLong = 10;
+  return !(Surfaces(model, parameters).semi_axes()(0) < (converged ? kLongest : kLong));
+}
+
+/// Some steps from a start.
 struct Attempt {
   SurfaceStart start;
-  double score = 0;
+  VectorXd residuals;
+  double scale = 0;
+  double score = 0;  // what starts are compared by
+  bool open = false;
 };
 
 Attempt attempt(const SurfaceStart& start, const Cloud& cloud, bool robust, int rounds, int iterations) {
-  Attempt a{start, 0};
+  constexpr double kMedian = 0.6745;  // of |x| for normal x
+  Attempt a;
+  a.start = start;
   for (int k = 0; k < (robust ? rounds : 1); ++k) {
-    const double cutoff = robust ? kCutoff * scale_of(start.model, a.start.parameters, cloud) : 0;
+    double cutoff = 0;
+    if (robust) {
+      // The median, not the scale of the best part: a start has to find the rest yet.
+      std::vector<Residual> sizes = sizes_of(residuals(start.model, a.start.parameters, cloud), cloud);
+      cutoff = kCutoff * std::max(kFloor, weighted_quantile(sizes, 0.5) / kMedian);
+    }
     const Solution s = descend(start.model, a.start.parameters, cloud, cutoff, iterations);
     a.start.parameters = s.parameters;
     a.score = s.cost;
   }
-  if (robust) a.score = scale_of(start.model, a.start.parameters, cloud);
+  a.residuals = residuals(start.model, a.start.parameters, cloud);
+  a.scale = robust_scale(sizes_of(a.residuals, cloud), kFloor);
+  a.open = is_open(start.model, a.start.parameters, true);
   return a;
+}
+
+/// One measure for all: the squares, but at most that of six times the least scale, so that a surface near
+/// many points is better than one very near few.
+void score_robustly(std::vector<Attempt>& all, const Cloud& cloud) {
+  double least = all.front().scale;
+  for (const Attempt& a : all) least = std::min(least, a.scale);
+  const double most = 36 * least * least;
+  for (Attempt& a : all) {
+    a.score = 0;
+    for (std::size_t i = 0; i < cloud.weights.size(); ++i)
+      a.score += cloud.weights[i] * std::min(most, std::pow(a.residuals(static_cast<Eigen::Index>(i)), 2));
+  }
 }
 
 /// The attempts with the least scores, best first.
 std::vector<SurfaceStart> best(const std::vector<SurfaceStart>& starts, const Cloud& cloud, bool robust,
                                int rounds, int iterations, std::size_t most) {
   std::vector<Attempt> all;
-  for (const SurfaceStart& s : starts) {
-    const Attempt a = attempt(s, cloud, robust, rounds, iterations);
-    if (std::isfinite(a.score)) all.push_back(a);
-  }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Attempt& a, const Attempt& b) { return a.score < b.score; });
+  for (const SurfaceStart& s : starts) all.push_back(attempt(s, cloud, robust, rounds, iterations));
+  if (robust) score_robustly(all, cloud);
+  std::stable_sort(all.begin(), all.end(), [](const Attempt& a, const Attempt& b) {
+    return a.open != b.open ? b.open : a.score < b.score;
+  });
   std::vector<SurfaceStart> chosen;
   for (std::size_t i = 0; i < std::min(most, all.size()); ++i) chosen.push_back(all[i].start);
   return chosen;
@@ -87,8 +120,10 @@ FittedSurface refined(const SurfaceStart& start, const Cloud& cloud, const Surfa
   return fit;
 }
 
-/// What is best: converged before not converged, then the least noise.
+/// What is best: closed before open, converged before not converged, then the least noise.
 bool better(const FittedSurface& a, const FittedSurface& b) {
+  const bool a_open = is_open(a), b_open = is_open(b);
+  if (a_open != b_open) return b_open;
   if (a.solution.converged != b.solution.converged) return a.solution.converged;
   return a.noise < b.noise;
 }
@@ -117,6 +152,10 @@ Cloud near_points(const FittedSurface& fit, const Cloud& cloud) {
 
 }  // namespace
 
+bool is_open(const FittedSurface& fit) {
+  return is_open(fit.model, fit.solution.parameters, fit.solution.converged);
+}
+
 FittedSurface fit_ellipsoid(const Cloud& cloud, bool planar, const SurfaceFitOptions& options) {
   SurfaceModel model;
   model.planar = planar;
@@ -133,9 +172,9 @@ FittedSurface fit_ellipsoid(const Cloud& cloud, bool planar, const SurfaceFitOpt
 }
 
 FittedSurface base_ellipsoid(const Cloud& cloud, const SurfaceFitOptions& options) {
-  constexpr double kLong = 3;
+  constexpr double kStretched = 3;
   FittedSurface base = fit_ellipsoid(cloud, false, options);
-  if (base.solution.converged && Surfaces(base.model, base.solution.parameters).semi_axes()(0) < kLong)
+  if (base.solution.converged && Surfaces(base.model, base.solution.parameters).semi_axes()(0) < kStretched)
     return base;
   base.solution.parameters = options.robust ? trial_starts(cloud, false, options.seed, 1).front()
                                             : ellipsoid_starts(cloud, false).back();

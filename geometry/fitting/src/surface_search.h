@@ -10,6 +10,9 @@
 
 namespace vericone::fitting {
 
+/// A semi-axis so long beside the points (in the unit ball) that an open surface is meant.
+bool is_open(const FittedSurface& fit);
+
 /// An ellipsoid; planar: an ellipse.
 FittedSurface fit_ellipsoid(const Cloud& cloud, bool planar, const SurfaceFitOptions& options);
 

@@ -177,11 +177,13 @@ Solution descend(const SurfaceModel& model, const Parameters& start, const Cloud
 // share of the error. It is taken again where that is not so (points that change from one surface to
 // another).
 void polish(const SurfaceModel& model, const Cloud& cloud, double cutoff, Solution& s) {
-  constexpr double kStep = 1e-5, kDone = 1e-13, kConverged = 1e-10;
+  constexpr double kStep = 1e-7, kDone = 1e-13, kConverged = 1e-10;
   std::vector<int> free;
   for (int i = 0; i < model.size(); ++i)
     if (!s.fixed[static_cast<std::size_t>(i)]) free.push_back(i);
   const auto n = static_cast<Eigen::Index>(free.size());
+  const double unit =
+      cutoff > 0 ? std::min(kStep, 1e-3 * cutoff) : kStep;  // the loss must not bend within it
   const auto gradient = [&](const Parameters& p) -> VectorXd {
     return cost_gradient(model, p, cloud, cutoff)(free);
   };
@@ -191,7 +193,7 @@ void polish(const SurfaceModel& model, const Cloud& cloud, double cutoff, Soluti
     MatrixXd h(n, n);
     for (Eigen::Index j = 0; j < n; ++j) {
       const int i = free[static_cast<std::size_t>(j)];
-      const double step = kStep * std::max(1.0, std::abs(s.parameters(i)));
+      const double step = unit * std::max(1.0, std::abs(s.parameters(i)));
       Parameters plus = s.parameters, minus = s.parameters;
       plus(i) += step;
       minus(i) -= step;
