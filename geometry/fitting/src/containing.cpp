@@ -12,7 +12,6 @@
 
 #include "barrier.h"
 #include "delimiter_starts.h"
-#include "trim.h"
 
 namespace vericone::fitting {
 namespace {
@@ -24,26 +23,6 @@ using Eigen::Vector3d;
 constexpr std::size_t kRefined = 2;         // starts that are followed to the end
 constexpr std::size_t kMostDelimiters = 3;  // of a star
 constexpr double kWorthwhile = 0.03;        // of log volume, for the third delimiter of a star
-
-struct Kept {
-  std::vector<Vector3d> points;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-};
-
-/// The points kept, and the triangles all of whose corners are.
-Kept keep(const CanonicalSample& sample, const std::vector<char>& kept) {
-  Kept result;
-  std::vector<std::uint32_t> index(sample.points.size(), 0);
-  for (std::size_t i = 0; i < sample.points.size(); ++i)
-    if (kept[i]) {
-      index[i] = std::uint32_t(result.points.size());
-      result.points.push_back(sample.points[i]);
-    }
-  for (const auto& t : sample.triangles)
-    if (kept[t[0]] && kept[t[1]] && kept[t[2]])
-      result.triangles.push_back({index[t[0]], index[t[1]], index[t[2]]});
-  return result;
-}
 
 Ellipsoid from_factor(const Vector3d& center, const Matrix3d& factor) {
   const Eigen::JacobiSVD<Matrix3d> svd(factor, Eigen::ComputeFullU);
@@ -66,17 +45,17 @@ CombinedEllipsoid to_sample(const StarBody& body, const Ellipsoid& unit) {
       from_factor(unit.center() + unit.factor() * body.center, unit.factor() * root), std::move(delimiters));
 }
 
-HullProblem problem_of(const Kept& kept, const Ellipsoid& unit, std::vector<Delimit> delimits,
+HullProblem problem_of(const CanonicalSample& sample, const Ellipsoid& unit, std::vector<Delimit> delimits,
                        double margin) {
   const Matrix3d inverse = unit.factor().inverse();
   std::vector<Vector3d> points;
-  points.reserve(kept.points.size());
-  for (const Vector3d& x : kept.points) points.push_back(inverse * (x - unit.center()));
-  return HullProblem(std::move(points), kept.triangles, std::move(delimits), margin, unit.factor());
+  points.reserve(sample.points.size());
+  for (const Vector3d& x : sample.points) points.push_back(inverse * (x - unit.center()));
+  return HullProblem(std::move(points), sample.triangles, std::move(delimits), margin, unit.factor());
 }
 
 /// The best minimum from several starts with delimiters of the given kinds.
-Minimum best_of(const Kept& kept, const Ellipsoid& unit, double margin,
+Minimum best_of(const CanonicalSample& sample, const Ellipsoid& unit, double margin,
                 const std::vector<DelimiterStart>& starts, std::vector<Delimit> kinds, bool thorough,
                 int& followed, int& iterations, std::vector<Delimit>& kinds_found) {
   struct Rough {
@@ -87,7 +66,7 @@ Minimum best_of(const Kept& kept, const Ellipsoid& unit, double margin,
   for (const DelimiterStart& start : starts) {
     std::vector<Delimit> all = kinds;
     all.push_back(start.kind);
-    const HullProblem problem = problem_of(kept, unit, all, margin);
+    const HullProblem problem = problem_of(sample, unit, all, margin);
     rough.push_back({minimise(problem, start.body, false), all});
     iterations += rough.back().minimum.iterations;
     ++followed;
@@ -102,7 +81,7 @@ Minimum best_of(const Kept& kept, const Ellipsoid& unit, double margin,
     return rough.front().minimum;
   }
   for (std::size_t i = 0; i < std::min(kRefined, rough.size()); ++i) {
-    const HullProblem problem = problem_of(kept, unit, rough[i].kinds, margin);
+    const HullProblem problem = problem_of(sample, unit, rough[i].kinds, margin);
     Minimum m = minimise(problem, rough[i].minimum.body, true);
     iterations += m.iterations;
     if (m.log_volume < best.log_volume - 1e-12) {
@@ -113,10 +92,10 @@ Minimum best_of(const Kept& kept, const Ellipsoid& unit, double margin,
   return best;
 }
 
-ContainingFit combined(const Kept& kept, const Ellipsoid& unit, Shape shape,
+ContainingFit combined(const CanonicalSample& sample, const Ellipsoid& unit, Shape shape,
                        const ContainingOptions& options) {
   ContainingFit fit;
-  const HullProblem bare = problem_of(kept, unit, {}, options.margin);
+  const HullProblem bare = problem_of(sample, unit, {}, options.margin);
   const std::vector<Vector3d> outermost = outermost_points(bare);
   const std::vector<Vector3d> directions = delimiter_directions(outermost);
   std::vector<Delimit> kinds;
@@ -125,20 +104,20 @@ ContainingFit combined(const Kept& kept, const Ellipsoid& unit, Shape shape,
   const bool star = shape == Shape::star;
   std::vector<Delimit> found;
   Minimum best =
-      best_of(kept, unit, options.margin,
+      best_of(sample, unit, options.margin,
               delimiter_starts(outermost, directions, StarBody{}, kinds, std::size_t(options.starts)), {},
               !star, fit.starts, fit.iterations, found);
   while (star && found.size() < kMostDelimiters) {
     std::vector<Delimit> more;
     const Minimum next =
-        best_of(kept, unit, options.margin, delimiter_starts(outermost, directions, best.body, kinds, 3),
+        best_of(sample, unit, options.margin, delimiter_starts(outermost, directions, best.body, kinds, 3),
                 found, false, fit.starts, fit.iterations, more);
     if (found.size() >= 2 && next.log_volume > best.log_volume - kWorthwhile) break;
     best = next;
     found = more;
   }
   if (star) {
-    best = minimise(problem_of(kept, unit, found, options.margin), best.body, true);
+    best = minimise(problem_of(sample, unit, found, options.margin), best.body, true);
     fit.iterations += best.iterations;
   }
   fit.piece.body = to_sample(best.body, unit);
@@ -148,16 +127,15 @@ ContainingFit combined(const Kept& kept, const Ellipsoid& unit, Shape shape,
   return fit;
 }
 
-ContainingFit footprint(const CanonicalSample& sample, const std::vector<char>& kept, double margin) {
+ContainingFit footprint(const CanonicalSample& sample, double margin) {
   ContainingFit fit;
   std::vector<Vector2d> points;
   const int corners = margin > 0 ? 32 : 1;
   const double out = margin > 0 ? margin * sample.frame.scale / std::cos(std::numbers::pi / corners) : 0;
   fit.piece.low = std::numeric_limits<double>::infinity();
   fit.piece.high = -fit.piece.low;
-  for (std::size_t i = 0; i < sample.points.size(); ++i) {
-    if (!kept[i]) continue;
-    const Vector3d x = sample.frame.to_world(sample.points[i]);
+  for (const Vector3d& y : sample.points) {
+    const Vector3d x = sample.frame.to_world(y);
     fit.piece.low = std::min(fit.piece.low, x.z());
     fit.piece.high = std::max(fit.piece.high, x.z());
     // A regular polygon around the disc of the margin.
@@ -180,13 +158,11 @@ ContainingFit footprint(const CanonicalSample& sample, const std::vector<char>& 
 }  // namespace
 
 ContainingFit containing_fit(const CanonicalSample& sample, Shape shape, const ContainingOptions& options) {
-  const std::vector<char> kept = trim(sample, options.coverage, shape == Shape::ellipse);
   ContainingFit fit;
   if (shape == Shape::ellipse) {
-    fit = footprint(sample, kept, options.margin);
+    fit = footprint(sample, options.margin);
   } else {
-    const Kept parts = keep(sample, kept);
-    const MinVolumeResult<3> least = min_volume_ellipsoid<3>(parts.points);
+    const MinVolumeResult<3> least = min_volume_ellipsoid<3>(sample.points);
     if (shape == Shape::ellipsoid && !(options.margin > 0)) {
       fit.piece.body = least.body;
       fit.converged = least.converged();
@@ -196,7 +172,7 @@ ContainingFit containing_fit(const CanonicalSample& sample, Shape shape, const C
       fit.iterations = least.iterations;
       fit.starts = 1;
     } else if (shape == Shape::ellipsoid) {
-      const Minimum m = minimise(problem_of(parts, least.body, {}, options.margin), StarBody{}, true);
+      const Minimum m = minimise(problem_of(sample, least.body, {}, options.margin), StarBody{}, true);
       fit.piece.body = to_sample(m.body, least.body);
       fit.converged = m.converged;
       fit.stationarity = m.stationarity;
@@ -204,10 +180,9 @@ ContainingFit containing_fit(const CanonicalSample& sample, Shape shape, const C
       fit.iterations = m.iterations;
       fit.starts = 1;
     } else {
-      fit = combined(parts, least.body, shape, options);
+      fit = combined(sample, least.body, shape, options);
     }
   }
-  fit.kept = kept;
   return fit;
 }
 

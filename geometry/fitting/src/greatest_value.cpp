@@ -60,7 +60,7 @@ class Search {
   Search(const QuadraticForm& form, const Sample& sample) : form_(form), sample_(sample) {}
 
   void add_point(std::uint32_t i) {
-    const Interval value = form_.at(sample_.points[i]).value;
+    const Interval value = form_.narrowly_at(sample_.points[i]).value;
     points_.add(i, upper(value), lower(value));
   }
 
@@ -159,7 +159,7 @@ double greatest_value(const QuadraticForm& form, const Sample& sample, const Con
   if (radius > 0) {
     const BallBound bound(form);
     for (const std::uint32_t i : contents.points)
-      balls = std::max(balls, bound.greatest_value(form.at(sample.points[i]), radius));
+      balls = std::max(balls, bound.greatest_value(form.narrowly_at(sample.points[i]), radius));
     if (balls == kInfinity)
       throw InputError("margin", to_text(radius), "of the order of the points' extent (metres)");
   } else {

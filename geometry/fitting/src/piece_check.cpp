@@ -17,7 +17,8 @@ PieceCheck::PieceCheck(const std::vector<Quadric>& quadrics, const Eigen::Vector
 Known PieceCheck::contains(const Eigen::Vector3d& x) const {
   Known all = Known::yes;
   for (const QuadraticForm& form : forms_) {
-    const Interval value = form.at(x).value;
+    Interval value = form.at(x).value;
+    if (value.sign() == FilteredSign::uncertain) value = form.narrowly_at(x).value;
     if (value.finite() && value.positive()) return Known::no;
     if (!value.finite() || !(value.mid() <= -value.rad())) all = Known::unsure;
   }
@@ -54,7 +55,7 @@ bool PieceCheck::contains_exactly(const Corners& corners) const {
 
 bool PieceCheck::contains_ball(const Eigen::Vector3d& x, double radius) const {
   for (std::size_t i = 0; i < forms_.size(); ++i)
-    if (!(balls_[i].greatest_value(forms_[i].at(x), radius) <= 0)) return false;
+    if (!(balls_[i].greatest_value(forms_[i].narrowly_at(x), radius) <= 0)) return false;
   return true;
 }
 

@@ -12,11 +12,6 @@ namespace {
 using exact::Integer;
 using exact::Rational;
 
-Interval enclosed(const Rational& x) {
-  const double low = rounded_down(x), high = rounded_up(x);
-  return low == high ? Interval(low) : Interval::between(low, high);
-}
-
 exact::RationalMatrix<4> rational(const Quadric& quadric) {
   return exact::to_rational<4>(Eigen::Matrix4d(quadric.matrix()));
 }
@@ -50,17 +45,22 @@ QuadraticForm::QuadraticForm(const exact::RationalMatrix<4>& matrix, const Eigen
   convex_ = positive_semidefinite(integers_);
 
   const exact::RationalVector<3> p = exact::to_rational<3>(near);
+  exact::RationalMatrix<3> second;
+  exact::RationalVector<3> first;
   Rational c = matrix[3][3];
   for (std::size_t i = 0; i < 3; ++i) {
     Rational b = matrix[i][3];
     for (std::size_t j = 0; j < 3; ++j) {
+      second[i][j] = matrix[i][j];
       a_[i][j] = enclosed(matrix[i][j]);
       b += matrix[i][j] * p[j];
     }
+    first[i] = b;
     b_[i] = enclosed(b);
     c += p[i] * (b + matrix[i][3]);
   }
   c_ = enclosed(c);
+  squares_ = SquaresForm(second, first, c);
 
   Eigen::Matrix3d a;
   Eigen::Vector3d b;
@@ -80,6 +80,13 @@ QuadraticForm::At QuadraticForm::at(const Eigen::Vector3d& x) const {
     r.half_gradient[i] = a_[i][0] * r.offset[0] + a_[i][1] * r.offset[1] + a_[i][2] * r.offset[2] + b_[i];
   r.rest = b_[0] * r.offset[0] + b_[1] * r.offset[1] + b_[2] * r.offset[2] + c_;
   r.value = polar(r, r);
+  return r;
+}
+
+QuadraticForm::At QuadraticForm::narrowly_at(const Eigen::Vector3d& x) const {
+  At r = at(x);
+  const Interval value = squares_.value(r.offset);
+  if (value.rad() < r.value.rad()) r.value = value;
   return r;
 }
 

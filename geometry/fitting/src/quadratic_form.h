@@ -11,6 +11,8 @@
 #include <vericone/geometry/rational.h>
 #include <array>
 
+#include "squares_form.h"
+
 namespace vericone::fitting {
 
 /// Polar forms of N points, up to one common factor that is positive.
@@ -33,6 +35,8 @@ class QuadraticForm {
     Interval rest, value;                           // x~^T Q y~ = half_gradient . offset(y) + rest
   };
   At at(const Eigen::Vector3d& x) const;
+  /// The same with a value that is narrower for thin bodies, at about twice the cost.
+  At narrowly_at(const Eigen::Vector3d& x) const;
   static Interval polar(const At& x, const At& y) {
     return x.half_gradient[0] * y.offset[0] + x.half_gradient[1] * y.offset[1] +
            x.half_gradient[2] * y.offset[2] + x.rest;
@@ -64,6 +68,7 @@ class QuadraticForm {
   std::array<std::array<Interval, 3>, 3> a_;
   std::array<Interval, 3> b_;
   Interval c_;
+  SquaresForm squares_;
   bool convex_ = false;
   double depth_ = 0;
 };

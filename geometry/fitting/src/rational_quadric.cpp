@@ -84,4 +84,9 @@ double rounded_up(const Rational& x) {
 
 double rounded_down(const Rational& x) { return -rounded_up(Rational(-x)); }
 
+Interval enclosed(const Rational& x) {
+  const double low = rounded_down(x), high = rounded_up(x);
+  return low == high ? Interval(low) : Interval::between(low, high);
+}
+
 }  // namespace vericone::fitting

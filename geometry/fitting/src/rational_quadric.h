@@ -4,6 +4,7 @@
 #pragma once
 
 #include <vericone/geometry/combined.h>
+#include <vericone/geometry/interval.h>
 #include <vericone/geometry/rational.h>
 
 namespace vericone::fitting {
@@ -25,5 +26,6 @@ exact::RationalVector<3> center_in_space(const Ellipse& body);
 double nearly(const exact::Rational& x);
 double rounded_up(const exact::Rational& x);
 double rounded_down(const exact::Rational& x);
+Interval enclosed(const exact::Rational& x);
 
 }  // namespace vericone::fitting

@@ -68,7 +68,7 @@ Distinct distinct_points(const Sample& sample) {
     return x == y ? a < b : before(x, y);
   });
   Distinct result;
-  result.which.assign(sample.points.size(), 0);
+  result.which.assign(sample.points.size(), CanonicalSample::kUnused);
   for (const std::uint32_t i : used) {
     if (result.original.empty() || point(result.original.back()) != point(i)) {
       result.original.push_back(i);
@@ -159,11 +159,11 @@ CanonicalSample canonical(const Sample& sample) {
     result.original.push_back(distinct.original[order[i]]);
     result.weights.push_back(sample.is_mesh() ? 0 : distinct.count[order[i]]);
   }
-  if (sample.is_mesh()) {
-    std::vector<std::uint32_t> index(sample.points.size());
-    for (std::size_t i = 0; i < index.size(); ++i) index[i] = rank[distinct.which[i]];
-    result.triangles = canonical_triangles(sample, index, result.points, result.weights);
-  }
+  result.index = distinct.which;
+  for (std::uint32_t& i : result.index)
+    if (i != CanonicalSample::kUnused) i = rank[i];
+  if (sample.is_mesh())
+    result.triangles = canonical_triangles(sample, result.index, result.points, result.weights);
   double total = std::accumulate(result.weights.begin(), result.weights.end(), 0.0);
   if (!(total > 0)) {  // a mesh without area: its points are all there is
     result.weights.assign(n, 1);

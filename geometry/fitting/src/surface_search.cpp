@@ -162,7 +162,7 @@ FittedSurface fit_ellipsoid(const Cloud& cloud, bool planar, const SurfaceFitOpt
   std::vector<Parameters> starts = ellipsoid_starts(cloud, planar);
   if (options.robust) {
     starts.resize(1);
-    for (const Parameters& p : trial_starts(cloud, planar, options.seed, 8)) starts.push_back(p);
+    for (const Parameters& p : trial_starts(cloud, planar, options.seed, 5)) starts.push_back(p);
   }
   std::vector<SurfaceStart> all;
   for (const Parameters& p : starts) all.push_back({model, p});

@@ -8,14 +8,12 @@
 namespace vericone::fitting {
 
 struct ContainingOptions {
-  double coverage = 1;  // share of the points that are to be inside
-  double margin = 0;    // radius of balls about the points that are to be inside, unit of the sample
-  int starts = 6;       // of the search for dents and waists
+  double margin = 0;  // radius of balls about the points that are to be inside, unit of the sample
+  int starts = 6;     // of the search for dents and waists
 };
 
 struct ContainingFit {
   Piece piece;             // in the frame of the points given; tight to rounding, not yet proved
-  std::vector<char> kept;  // of the sample's points; all where coverage is 1
   double volume = 0;       // of the body (footprints: area)
   bool converged = false;  // first-order conditions hold to `stationarity`
   /// Largest violation of the first-order conditions of a local minimum of log volume.

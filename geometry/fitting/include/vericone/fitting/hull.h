@@ -41,13 +41,14 @@ struct Certificate {
   std::size_t points = 0, points_inside = 0;
   /// Of a mesh. A triangle counts as inside where one piece contains all of it.
   std::size_t triangles = 0, triangles_inside = 0;
-  /// Points whose ball of radius `margin` (m) is inside one piece; points_inside where the margin is 0.
+  /// Points whose ball of radius `margin` (m) intervals prove to be inside one piece: one that touches the
+  /// boundary to rounding may count as outside. points_inside where the margin is 0.
   double margin = 0;
   std::size_t margins_inside = 0;
-  /// Statements that intervals did not decide.
+  /// Points and triangles that intervals did not decide.
   std::size_t by_exact = 0;
-  /// Indices of the points nearest to the boundary of their piece, at most 20: values above -1e-9 where the
-  /// centre has -1.
+  /// Indices of the points nearest to the boundary of the piece in which they are deepest, nearest first, at
+  /// most 20: values above -1e-9 where the centre has -1.
   std::vector<std::size_t> touching;
 
   bool all_inside() const {
@@ -60,8 +61,8 @@ struct Certificate {
 /// quadrics. Nothing but the numbers of `quadrics` enters, so that anyone can repeat it from what is
 /// written. Decided by intervals, else in rational arithmetic: a triangle is inside where the greatest value
 /// of each quadric on it is not positive, which the corners, the edges along which the quadric is concave,
-/// and the plane where it is concave on it tell. Throws InputError naming "pieces" where there is none.
-/// Linear in points times pieces.
+/// and the plane where it is concave on it tell. Throws InputError naming "pieces" or "pieces[i]" where there
+/// is none or no quadric, "points[i]", "triangles[i]" or "margin". Linear in points times pieces.
 Certificate check(const std::vector<std::vector<Quadric>>& pieces, const Sample& sample, double margin = 0);
 
 /// Which piece is to contain what; -1: none has to. Sizes of points and triangles of the sample.
@@ -72,11 +73,15 @@ struct Assignment {
 /// Inflates each surface of each piece about its centre by the least factor for which exact arithmetic says
 /// that it contains what is assigned to its piece, with balls of radius `margin` about the points: `body` (by
 /// quadric_side.h) as well as `quadrics`, which are set here. The factors are 1 + a few roundings where the
-/// fit was tight. Surfaces are only ever moved outwards. Returns the largest factor applied to a body.
+/// fit was tight; `quadrics` far from the origin and of very thin bodies need more (docs/fitting-proof.md).
+/// Surfaces are only ever moved outwards, so that a delimiter may come to miss its ellipsoid. Returns the
+/// largest factor applied to a body. Throws InputError as check, and naming "assignment.points" or
+/// "assignment.triangles".
 double enclose(std::vector<Piece>& pieces, const Sample& sample, const Assignment& assignment,
                double margin = 0);
 
-/// Sets `quadrics` of a piece without any proof: rounded once from `body` or `footprint`.
+/// Sets `quadrics` of a piece without any proof: `body` or `footprint` rounded, each surface scaled to -1 at
+/// the centre. Far from the origin the roundings are chosen together, so that the surface stays where it is.
 void set_quadrics(Piece& piece);
 
 }  // namespace vericone::fitting

@@ -49,6 +49,10 @@ struct CanonicalSample {
   /// One index into Sample::points for each point.
   std::vector<std::uint32_t> original;
 
+  /// For each of Sample::points its index in `points`; kUnused for those that no triangle of a mesh uses.
+  std::vector<std::uint32_t> index;
+  static constexpr std::uint32_t kUnused = 0xffffffff;
+
   bool is_mesh() const { return !triangles.empty(); }
 };
 
