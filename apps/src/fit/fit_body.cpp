@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/fit_body.h"
 
+#include <vericone/geometry/error.h>
 #include <vericone/geometry/quadric_side.h>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -45,12 +46,22 @@ Json hyperboloid_fields(const Delimiter<3>& d, const Eigen::Matrix3d& body, doub
           {"rotation", matrix_json(body.transpose() * turn)}};
 }
 
+/// Of a surface that proofs moved off the ellipsoid nothing is left to say, and scenes refuse it.
+bool delimits(const Delimiter<3>& d, const Ellipsoid& ellipsoid) {
+  try {
+    CombinedEllipsoid(ellipsoid, {d});
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 Json spatial_fields(const CombinedEllipsoid& body, double factor) {
   Eigen::Matrix3d rotation = body.ellipsoid().axis_directions();
   if (rotation.determinant() < 0) rotation.col(2) = -rotation.col(2);
   Json hyperboloids = Json::array();
   for (const Delimiter<3>& d : body.delimiters())
-    hyperboloids.push_back(hyperboloid_fields(d, rotation, factor));
+    if (delimits(d, body.ellipsoid())) hyperboloids.push_back(hyperboloid_fields(d, rotation, factor));
   return {{"center", to_json(body.center())},
           {"semi_axes", to_json(Eigen::Vector3d(factor * body.ellipsoid().semi_axes()))},
           {"rotation", matrix_json(rotation)},
