@@ -5,22 +5,16 @@
 #include <Eigen/LU>
 
 namespace vericone::fitting {
-namespace {
-
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
-
-}  // namespace
 
 Piece to_world(const Piece& piece, const Frame& frame) {
   if (piece.footprint) return piece;
   Piece result = piece;
   const Ellipsoid& body = piece.body.ellipsoid();
-  Matrix3d axes = frame.axes * body.axis_directions();
+  Eigen::Matrix3d axes = frame.axes * body.axis_directions();
   if (axes.determinant() < 0) axes.col(2) = -axes.col(2);
   std::vector<Delimiter<3>> delimiters;
   for (const Delimiter<3>& d : piece.body.delimiters()) {
-    const Matrix3d form = frame.axes * d.matrix * frame.axes.transpose() / (frame.scale * frame.scale);
+    const Eigen::Matrix3d form = frame.axes * d.matrix * frame.axes.transpose() / (frame.scale * frame.scale);
     delimiters.push_back({(form + form.transpose()) / 2, d.level});
   }
   result.body = CombinedEllipsoid::trusted(
@@ -38,10 +32,6 @@ SurfaceFit to_world(const SurfaceFit& fit, const Frame& frame) {
   result.center_covariance =
       frame.axes * fit.center_covariance * frame.axes.transpose() * (frame.scale * frame.scale);
   result.center_error = result.center_covariance.diagonal().cwiseMax(0).cwiseSqrt();
-  for (Unknown& u : result.unknown) {
-    u.value *= frame.scale;
-    u.error *= frame.scale;
-  }
   return result;
 }
 

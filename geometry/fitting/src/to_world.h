@@ -10,7 +10,7 @@ namespace vericone::fitting {
 /// Footprints are in the world already.
 Piece to_world(const Piece& piece, const Frame& frame);
 
-/// Lengths, places and directions; quadrics are not set.
+/// Lengths, places and directions (what is unknown is told in metres already); quadrics are not set.
 SurfaceFit to_world(const SurfaceFit& fit, const Frame& frame);
 
 }  // namespace vericone::fitting
