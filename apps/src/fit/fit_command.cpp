@@ -15,7 +15,6 @@
 #include "fit/fit_body.h"
 #include "fit/fit_check.h"
 #include "fit/fit_json.h"
-#include "fit/fit_outlier.h"
 #include "fit/fit_picture.h"
 #include "fit/fit_text.h"
 #include "fit/hull_files.h"
@@ -103,7 +102,10 @@ fitting::FitResult fit_or_explain(const fit::Scan& scan, const fitting::FitOptio
   } catch (const InputError& e) {
     for (const char* option : {"coverage", "margin", "pieces", "shape"})
       if (e.field() == option) throw InputError(std::string("--") + option, e.value(), e.requirement());
-    if (e.field() == "points") throw InputError(scan.file, e.value(), e.requirement());
+    const bool flat = e.value().find("in one plane") != std::string::npos;
+    if (e.field() == "points")
+      throw InputError(scan.file, e.value(),
+                       e.requirement() + (flat ? " (--shape ellipse fits a footprint in the xy plane)" : ""));
     throw InputError(scan.file, e.field() + ": " + e.value(), e.requirement());
   }
 }
@@ -115,10 +117,11 @@ std::string title_of(const fit::Scan& scan, const fitting::FitResult& result) {
   return text;
 }
 
-/// What was asked for: a proof where the scan is to be contained, else surfaces that the solver arrived at.
-bool succeeded(const fitting::FitResult& result) {
+/// What was asked for: a proof where something is to be inside, surfaces that the solver arrived at.
+bool succeeded(const fitting::FitResult& result, const FitCommandOptions& given) {
   const auto& surfaces = result.surfaces;
-  return (result.mode != fitting::Mode::containing || result.certified) &&
+  const bool claims = result.mode == fitting::Mode::containing || given.coverage;
+  return (result.certified || !claims) &&
          std::all_of(surfaces.begin(), surfaces.end(), [](const auto& s) { return s.converged; });
 }
 
@@ -152,9 +155,6 @@ Answer answer_of(const FitCommandOptions& given, Progress& progress) {
   const auto start = Clock::now();
   a.result = fit_or_explain(a.scan, options);
   const double seconds = since(start);
-  const bool all = options.mode == fitting::Mode::containing && options.coverage.value_or(1) == 1;
-  if (all && a.result.shape != fitting::Shape::ellipse)
-    if (auto note = fit::outlier_note(a.scan.sample)) a.result.notes.push_back(*note);
   const auto inside = a.result.certified ? fit::points_inside(a.result.pieces, a.scan.sample)
                                          : std::vector<Eigen::Vector3d>();
   a.bodies = fit::enclosing_body_fields(a.result.pieces, inside);
@@ -222,7 +222,7 @@ int run_fit(const FitCommandOptions& given, std::ostream& out) {
     if (interrupted()) return kExitInterrupted;
     files = folder.publish(names_of_files());
     print(a, given, files, out);
-    return succeeded(a.result) ? 0 : 1;
+    return succeeded(a.result, given) ? 0 : 1;
   } catch (const fitting::Interrupted&) {
     return kExitInterrupted;
   } catch (const std::runtime_error&) {
