@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "quadratic_form.h"
 #include "support/random_bodies.h"
 #include "triangle_form.h"
 
@@ -158,6 +159,43 @@ std::optional<exact::RationalVector<3>> witness(const exact::RationalMatrix<4>& 
   second[(cut + 1) % 3] = middle;
   if (auto w = witness(q, first, depth - 1)) return w;
   return witness(q, second, depth - 1);
+}
+
+bool contains(const Interval& interval, const Rational& x) {
+  return Rational(interval.mid()) - Rational(interval.rad()) <= x &&
+         x <= Rational(interval.mid()) + Rational(interval.rad());
+}
+
+TEST(QuadraticForm, IntervalsContainWhatIntegersSay) {
+  RandomBodies random(60);
+  SCOPED_TRACE(random.trace());
+  double widest = 0;
+  for (int n = 0; n < 2000; ++n) {
+    // Many zeros, so that there are cylinders, planes and forms without a square: 2 x y.
+    Matrix4d m;
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j <= i; ++j)
+        m(i, j) = m(j, i) = random.coin() ? 0 : random.log_uniform(1e-6, 1e6) * (random.coin() ? 1 : -1);
+    if (m.isZero()) continue;
+    const Vector3d near = random.in_box(10);
+    const QuadraticForm form(Quadric(m), near);
+    const std::array<Vector3d, 3> x{near + random.in_box(1e-3), random.in_box(10), near};
+    const auto exact = form.exact_polars<3>(x);
+    for (std::size_t i = 0; i < 3; ++i) {
+      Rational value = 0;  // by the definition
+      const Vector4d h = x[i].homogeneous();
+      for (int r = 0; r < 4; ++r)
+        for (int s = 0; s < 4; ++s) value += Rational(h(r)) * Rational(m(r, s)) * Rational(h(s));
+      ASSERT_EQ(form.number(exact.form[i][i], exact.exponent), value);
+      ASSERT_TRUE(contains(form.at(x[i]).value, value));
+      ASSERT_TRUE(contains(form.narrowly_at(x[i]).value, value));
+      widest = std::max(widest, form.narrowly_at(x[i]).value.rad() / (m.cwiseAbs().maxCoeff() * 300));
+      for (std::size_t j = 0; j < 3; ++j)
+        ASSERT_TRUE(contains(QuadraticForm::polar(form.at(x[i]), form.at(x[j])),
+                             form.number(exact.form[i][j], exact.exponent)));
+    }
+  }
+  EXPECT_LT(widest, 1e-13);
 }
 
 TEST(Certificate, TrianglesOfQuadricsOfAllKindsAgainstHalvingInRationals) {
