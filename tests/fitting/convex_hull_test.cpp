@@ -26,7 +26,7 @@ double support(const std::vector<Vector3d>& points, const Vector3d& direction) {
 }
 
 /// Everything that makes it the hull: closed, seen from outside, no point beyond a facet, and as wide as the
-/// points in every direction. `extent`: lengths along the points' own axes.
+/// points in every direction. `factor` takes points that are about round to these.
 void expect_hull(const std::vector<Vector3d>& points, const ConvexHull& hull, const Matrix3d& factor,
                  Random& random) {
   ASSERT_TRUE(std::is_sorted(hull.vertices.begin(), hull.vertices.end()));

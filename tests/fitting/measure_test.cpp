@@ -13,6 +13,7 @@
 
 #include "geometry/meshes.h"
 #include "geometry/random.h"
+#include "scan_distance.h"
 #ifdef VERICONE_HAVE_FILES
 #include <vericone/files/triangle_mesh.h>
 #endif
@@ -107,7 +108,7 @@ TEST(HullToScan, SamplesAreEvenOverTheArea) {
   EXPECT_NEAR(d->mean, sum / weights, 0.01 * sum / weights);
 }
 
-TEST(HullToScan, BruteForceOverTriangles) {
+TEST(HullToScan, OnlyTheBoundaryOfTheUnion) {
   Random random(920);
   SCOPED_TRACE(random.trace());
   // A cloud and a hull of two balls: every sample is on the union's boundary, so with the cloud dense on that
@@ -122,6 +123,51 @@ TEST(HullToScan, BruteForceOverTriangles) {
   ASSERT_TRUE(d);
   EXPECT_LT(d->max, 0.06);
   EXPECT_GT(d->mean, 0.001);
+}
+
+/// By minimising over the triangle's two coordinates on ever finer grids about the best place.
+double by_search(const Vector3d& x, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  double best = 1e300, u0 = 0.5, v0 = 0.5;
+  for (double width = 0.5; width > 1e-9; width *= 0.5) {
+    const double um = u0, vm = v0;
+    for (int i = -4; i <= 4; ++i)
+      for (int j = -4; j <= 4; ++j) {
+        const double u = std::clamp(um + i * width / 4, 0.0, 1.0);
+        const double v = std::clamp(vm + j * width / 4, 0.0, 1.0 - u);
+        const double d = (a + u * (b - a) + v * (c - a) - x).norm();
+        if (d < best) {
+          best = d;
+          u0 = u;
+          v0 = v;
+        }
+      }
+  }
+  return best;
+}
+
+TEST(HullToScan, NearestTriangleByBruteForce) {
+  Random random(940);
+  SCOPED_TRACE(random.trace());
+  Sample soup;
+  for (std::uint32_t k = 0; k < 60; ++k) {
+    const Vector3d at = 2 * random.vector<3>(), along = random.vector<3>();
+    // Every fifth a segment, every seventh a point.
+    soup.points.push_back(at);
+    soup.points.push_back(k % 7 == 6 ? at : Vector3d(at + along));
+    soup.points.push_back(k % 7 == 6   ? at
+                          : k % 5 == 4 ? Vector3d(at + 2 * along)
+                                       : Vector3d(at + random.vector<3>()));
+    soup.triangles.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+  }
+  const ScanDistance distance(soup);
+  for (int k = 0; k < 100; ++k) {
+    const Vector3d x = 3 * random.vector<3>();
+    double best = 1e300;
+    for (const auto& [a, b, c] : soup.triangles)
+      best = std::min(best, by_search(x, soup.points[a], soup.points[b], soup.points[c]));
+    EXPECT_NEAR(distance(x), best, 1e-6);
+    EXPECT_LE(distance(x), best + 1e-12);
+  }
 }
 
 TEST(HullToScan, NothingForFootprints) {
