@@ -109,9 +109,18 @@ FittedSurface refined(const SurfaceStart& start, const Cloud& cloud, const Surfa
       iterations += s.iterations;
     }
   }
-  fit.solution = descend(fit.model, p, cloud, fit.cutoff, options.max_iterations);
-  polish(fit.model, cloud, fit.cutoff, fit.solution);
-  fit.solution.iterations += iterations;
+  // The solver may come to rest at a ridge, where points inside are about to change their surface. From a
+  // place beside it, it goes on to a minimum.
+  constexpr int kTries = 3;
+  constexpr double kAside = 1e-4;
+  for (int k = 0; k < kTries && !fit.solution.converged; ++k) {
+    fit.solution = descend(fit.model, p, cloud, fit.cutoff, options.max_iterations);
+    polish(fit.model, cloud, fit.cutoff, fit.solution);
+    iterations += fit.solution.iterations;
+    for (Eigen::Index i = 0; i < p.size(); ++i)
+      p(i) = fit.solution.parameters(i) + ((i + k) % 2 ? kAside : -kAside);
+  }
+  fit.solution.iterations = iterations;
   fit.noise = least_squares_noise(fit.model, fit.solution.parameters, cloud);
   if (options.robust) {
     const double n = effective_points(cloud), left = n - fit.model.size();
@@ -138,12 +147,15 @@ FittedSurface refined_best(const std::vector<SurfaceStart>& starts, const Cloud&
   return result;
 }
 
-/// Points near the surface, for the convex hull.
+/// Points near the surface: what the noise allows, and in any case most of them, since a first surface may be
+/// near one part of the body only.
 Cloud near_points(const FittedSurface& fit, const Cloud& cloud) {
   const VectorXd r = residuals(fit.model, fit.solution.parameters, cloud);
+  std::vector<Residual> sizes = sizes_of(r, cloud);
+  const double most = std::max(4 * fit.noise, 1.5 * weighted_quantile(sizes, 0.6));
   Cloud near;
   for (std::size_t i = 0; i < cloud.points.size(); ++i)
-    if (std::abs(r(static_cast<Eigen::Index>(i))) <= 4 * fit.noise) {
+    if (std::abs(r(static_cast<Eigen::Index>(i))) <= most) {
       near.points.push_back(cloud.points[i]);
       near.weights.push_back(cloud.weights[i]);
     }
@@ -195,18 +207,29 @@ FittedSurface add_delimiter(const FittedSurface& from, const Cloud& cloud, int s
 }
 
 // One more delimiter is taken where the noise falls clearly: by a tenth, and by more than six parameters
-// should make it fall (the Bayesian criterion).
+// should make it fall (the Bayesian criterion). Both kinds are tried as the first, since the better one alone
+// need not be part of the better pair.
 FittedSurface fit_star(const FittedSurface& ellipsoid, const Cloud& cloud, const SurfaceFitOptions& options) {
   constexpr double kClear = 0.9;
   const double n = std::max(effective_points(cloud), 2.0), clear = std::exp(-6 * std::log(n) / (2 * n));
-  FittedSurface star = ellipsoid;
-  for (int k = 0; k < 3; ++k) {
-    FittedSurface next = add_delimiter(star, cloud, 2, options);
-    const FittedSurface waist = add_delimiter(star, cloud, 1, options);
-    if (better(waist, next)) next = waist;
-    const bool needed = k == 0 || next.noise < std::min(kClear, clear) * star.noise;
-    if (!needed || (k > 0 && !next.solution.converged)) break;
-    star = next;
+  const auto needed = [&](const FittedSurface& next, const FittedSurface& now) {
+    if (is_open(next) || !next.solution.converged) return false;
+    return is_open(now) || next.noise < std::min(kClear, clear) * now.noise;
+  };
+  const FittedSurface dents = add_delimiter(ellipsoid, cloud, 2, options);
+  const FittedSurface waist = add_delimiter(ellipsoid, cloud, 1, options);
+  FittedSurface star = better(waist, dents) ? waist : dents;
+  std::vector<FittedSurface> parents{dents, waist};
+  for (int count = 2; count <= 3; ++count) {
+    FittedSurface best = star;
+    for (const FittedSurface& parent : parents)
+      for (const int sheets : {2, 1}) {
+        const FittedSurface next = add_delimiter(parent, cloud, sheets, options);
+        if (best.model.delimiters.size() < next.model.delimiters.size() || better(next, best)) best = next;
+      }
+    if (!needed(best, star)) break;
+    star = best;
+    parents = {star};
   }
   return star;
 }

@@ -15,7 +15,7 @@ namespace {
 using Eigen::MatrixXd, Eigen::Vector3d, Eigen::VectorXd;
 
 /// The factors are reciprocals of lengths; the points are within the unit ball.
-constexpr double kLongest = 1e3, kShortest = 1e-4;
+constexpr double kLongest = 1e3, kShortest = 1e-4, kNarrowest = 1e-2;
 
 /// All residuals at once where Ceres moves to other parameters: the principal axes are shared.
 class Batch : public ceres::EvaluationCallback {
@@ -79,7 +79,7 @@ Bounds bounds(const SurfaceModel& model) {
   for (int k = model.ellipsoid_size(); k < model.size(); k += 6)
     for (const int i : {k + 3, k + 5}) {
       b.low(i) = 1 / kLongest;
-      b.high(i) = 1 / kShortest;
+      b.high(i) = 1 / kNarrowest;
     }
   return b;
 }
