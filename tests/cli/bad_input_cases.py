@@ -235,7 +235,7 @@ def rows(points):
 
 
 SPIRAL = [(math.cos(i) * i / 20, math.sin(i) * i / 20, math.cos(2.1 * i)) for i in range(20)]
-FLAT = [(x, y, x + 2 * y) for x in range(4) for y in range(3)]
+FLAT = [(x, y, x + 2 * y) for x in range(5) for y in range(4)]
 LEVEL = [(x, y, 0.5) for x in range(4) for y in range(3)]
 PARABOLOID = [(x / 4, y / 4, (x * x + y * y) / 32) for x in range(-9, 10) for y in range(-9, 10)]
 RESULT = {"pieces": [{"quadrics": [[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, -1]]]}], "certified": True,

@@ -44,12 +44,12 @@ def shell(n, axes=(3.0, 2.0, 1.0), seed=1, center=(5.0, -2.0, 7.0), noise=0.0):
     return points
 
 
-def peanut(n=24):
+def peanut(n=16):
     """A closed mesh with a waist about its long axis, x."""
     points, faces = [[-2.2, 0, 0], [2.2, 0, 0]], []
     for i in range(1, n):
         t = math.pi * i / n
-        r = math.sin(t) * (0.45 + 0.55 * math.cos(t) ** 2)
+        r = math.sin(t) * (0.25 + 0.75 * math.cos(t) ** 2)
         for k in range(n):
             a = 2 * math.pi * k / n
             points.append([-2.2 * math.cos(t), r * math.cos(a), r * math.sin(a)])
