@@ -154,7 +154,7 @@ TEST(ConeComparison, RowsAreNestedAndContainWhatRandomDirectionsSay) {
   }
 }
 
-TEST(ConeComparison, AnAgentInTheWaistOverlapsTheEllipsoidOnly) {
+TEST(ConeComparison, AnAgentInTheWaistOverlapsConvexHullsOnly) {
   const CombinedEllipsoid hull = waisted();
   const ConeComparison c =
       compare_cones(mesh_within(hull), hull_of({hull}), one(ball({0, 0.7, 0}, 0.1)), settings(0.02));
