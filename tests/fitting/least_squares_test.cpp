@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(, LeastSquaresShapes,
 TEST_P(LeastSquaresShapes, FindExactSurfacesExactly) {
   for (const bool robust : {false, true})
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-      // A quarter of the waists among gross points is missed: recovery_test.cpp.
+      // Some waists among gross points are missed: recovery_test.cpp.
       if (robust && GetParam() == Shape::biconvex) continue;
       Random random(seed);
       SCOPED_TRACE(random.trace());

@@ -53,16 +53,17 @@ INSTANTIATE_TEST_SUITE_P(
         Study{"BiconcaveNoisy", Shape::biconcave, {500, 0.01, 0, false}, false, 40, 0.005, 0.018},
         Study{"BiconvexNoisy", Shape::biconvex, {500, 0.01, 0, false}, false, 40, 0.006, 0.05},
         Study{"BiconcaveOutliers", Shape::biconcave, {500, 0.01, 0.3, false}, true, 20, 0.0055, 0.035, 0.05},
-        Study{"BiconvexOutliers", Shape::biconvex, {500, 0.01, 0.3, false}, true, 20, 0.0065, 0.06, 0.4}),
+        Study{"BiconvexOutliers", Shape::biconvex, {500, 0.01, 0.3, false}, true, 20, 0.0065, 0.06, 0.2}),
     [](const auto& study) { return study.param.name; });
 
 // Waists among gross points are the known weakness: the first ellipsoid of the robust start is near one part
 // of such a body only, and a quarter is missed (docs/fitting-surfaces.md).
 //
 // Besides the stated accuracy the errors are held against the standard deviations that the fits themselves
-// report: the root mean square of the ratios is 1 where these are right, within 0.1 for some hundred numbers
-// that are not all independent. A half-sided view with gross points is the exception: one of them that
-// happens to lie near the unseen side has a lever that no standard deviation knows.
+// report: the root mean square of the ratios is 1 where these are right, within 4 / sqrt(2 k) where k numbers
+// are independent; half of the six a seed gives are counted as such. A half-sided view with gross points is
+// the exception: one of them that happens to lie near the unseen side has a lever that no standard deviation
+// knows.
 TEST_P(Recovery, FindsTheBodyToItsOwnErrors) {
   Study study = GetParam();
   study.seeds = setting("VERICONE_RECOVERY_SEEDS", study.seeds);
@@ -114,7 +115,7 @@ TEST_P(Recovery, FindsTheBodyToItsOwnErrors) {
             << std::sqrt(squares / numbers) << " | " << worst << " | " << open << " | " << lost << " |\n";
   EXPECT_LE(lost + open, study.missed * study.seeds);
   const bool levers = study.sample.half && study.sample.outliers > 0;
-  EXPECT_NEAR(std::sqrt(squares / numbers), 1, levers ? 0.4 : 0.15);
+  EXPECT_NEAR(std::sqrt(squares / numbers), 1, levers ? 0.4 : 4 / std::sqrt(6.0 * study.seeds));
 }
 
 }  // namespace

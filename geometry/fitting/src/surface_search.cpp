@@ -199,8 +199,15 @@ FittedSurface add_delimiter(const FittedSurface& from, const Cloud& cloud, int s
                             const SurfaceFitOptions& options) {
   const Cloud near = near_points(from, cloud);
   const Vector3d center = from.solution.parameters.head<3>();
-  const auto all = delimited_starts(from.model, from.solution.parameters, sheets, near,
-                                    deepest_direction(thinned(near, kFew), center));
+  std::vector<SurfaceStart> all = delimited_starts(from.model, from.solution.parameters, sheets, near,
+                                                   deepest_direction(thinned(near, kFew), center));
+  if (options.robust && from.model.delimiters.empty()) {
+    // The first ellipsoid may be near one part of the body only.
+    const Cloud dense = thinned(concentrated(cloud, 0.65), kMore);
+    const Parameters p = ellipsoid_starts(dense, false).back();
+    const Vector3d deepest = deepest_direction(thinned(dense, kFew), p.head<3>());
+    for (const SurfaceStart& s : delimited_starts(from.model, p, sheets, dense, deepest)) all.push_back(s);
+  }
   const auto few = best(all, thinned(cloud, kFew), options.robust, 2, 8, 3);
   const auto one = best(few, thinned(cloud, kMore), options.robust, 2, 15, 1);
   return refined_best(one, cloud, options);

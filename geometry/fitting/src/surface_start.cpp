@@ -263,6 +263,38 @@ std::vector<Parameters> ellipsoid_starts(const Cloud& cloud, bool planar) {
   return starts;
 }
 
+Cloud concentrated(const Cloud& cloud, double share) {
+  constexpr int kRounds = 30;
+  Vector3d center;
+  for (int k = 0; k < 3; ++k) {
+    std::vector<double> sorted;
+    for (const Vector3d& x : cloud.points) sorted.push_back(x(k));
+    std::sort(sorted.begin(), sorted.end());
+    center(k) = sorted[sorted.size() / 2];
+  }
+  Matrix3d inverse = Matrix3d::Identity();
+  Cloud part;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<Residual> far(cloud.points.size());
+    for (std::size_t i = 0; i < far.size(); ++i) {
+      const Vector3d y = cloud.points[i] - center;
+      far[i] = {y.dot(inverse * y), cloud.weights[i]};
+    }
+    std::vector<Residual> sorted = far;
+    const double most = weighted_quantile(sorted, share);
+    part = {};
+    for (std::size_t i = 0; i < far.size(); ++i)
+      if (far[i].size <= most) {
+        part.points.push_back(cloud.points[i]);
+        part.weights.push_back(cloud.weights[i]);
+      }
+    const Moments<3> m = moments<3>(part);
+    center = m.mean;
+    inverse = (m.covariance + 1e-12 * Matrix3d::Identity()).inverse();
+  }
+  return part;
+}
+
 std::vector<Parameters> trial_starts(const Cloud& cloud, bool planar, std::uint64_t seed, std::size_t most) {
   std::vector<Parameters> starts;
   for (const Scored& s : planar ? trials<2>(cloud, seed, most) : trials<3>(cloud, seed, most))

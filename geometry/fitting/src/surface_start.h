@@ -23,6 +23,10 @@ std::vector<Parameters> ellipsoid_starts(const Cloud& cloud, bool planar);
 /// with the least median distance improved by fits to the points near them. Best first, at most `most`.
 std::vector<Parameters> trial_starts(const Cloud& cloud, bool planar, std::uint64_t seed, std::size_t most);
 
+/// The share of the points that lies most densely about one centre, by steps that each take those nearest in
+/// the covariance of the last: gross points all around are left out, whatever the shape.
+Cloud concentrated(const Cloud& cloud, double share);
+
 struct SurfaceStart {
   SurfaceModel model;
   Parameters parameters;
