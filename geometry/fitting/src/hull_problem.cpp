@@ -16,8 +16,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Semi-axes of hyperboloids are at most ten times those of the minimum-volume ellipsoid: a delimiter that
-/// tends to a cylinder or a slab stays a hyperboloid.
+/// Semi-axes are at most ten times those of the minimum-volume ellipsoid: a delimiter that tends to a
+/// cylinder or a slab stays a hyperboloid, an ellipsoid whose ends the delimiters cut off stays an ellipsoid.
 constexpr double kLeastEigenvalue = 0.01;
 
 /// So that a waist does not become a pair of dents on the way.
@@ -144,21 +144,26 @@ double HullProblem::constraint(const Constraint& c, const StarBody& body, Variab
       return value_at(cuts_[c.index].place - body.center, c.surface, body, gradient, factor);
     case Constraint::eigenvalue: {
       const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(body.form(c.surface));
-      const bool negative = int(c.index) < (delimits_[std::size_t(c.surface - 1)] == Delimit::dents ? 2 : 1);
-      const double sign = negative ? 1 : -1;
+      const double sign = int(c.index) < negative_eigenvalues(c.surface) ? 1 : -1;
       if (gradient) {
         const Vector3d axis = solver.eigenvectors().col(int(c.index));
         add_symmetric(axis * axis.transpose(), c.surface, sign * factor, *gradient);
       }
-      return sign * solver.eigenvalues()(int(c.index)) + (negative ? kLeastEigenvalue : kLeastPositive);
+      return sign * solver.eigenvalues()(int(c.index)) +
+             (sign > 0 || c.surface == 0 ? kLeastEigenvalue : kLeastPositive);
     }
   }
   return 0;
 }
 
+int HullProblem::negative_eigenvalues(int surface) const {
+  if (surface == 0) return 0;
+  return delimits_[std::size_t(surface - 1)] == Delimit::dents ? 2 : 1;
+}
+
 std::vector<HullProblem::Constraint> HullProblem::signature() const {
   std::vector<Constraint> all;
-  for (int s = 1; s <= int(delimits_.size()); ++s)
+  for (int s = 0; s <= int(delimits_.size()); ++s)
     for (std::uint32_t k = 0; k < 3; ++k) all.push_back({Constraint::eigenvalue, s, k});
   return all;
 }
@@ -212,7 +217,7 @@ void HullProblem::make_feasible(StarBody& body, double slack) const {
   for (std::size_t i = 0; i < body.delimiters.size(); ++i) {
     Eigen::SelfAdjointEigenSolver<Matrix3d> solver(body.delimiters[i]);
     Vector3d values = solver.eigenvalues();
-    const int negative = delimits_[i] == Delimit::dents ? 2 : 1;
+    const int negative = negative_eigenvalues(int(i) + 1);
     for (int k = 0; k < negative; ++k) values(k) = std::min(values(k), -kLeastEigenvalue * (1 + 4 * slack));
     body.delimiters[i] = solver.eigenvectors() * values.asDiagonal() * solver.eigenvectors().transpose();
   }
@@ -224,15 +229,12 @@ void HullProblem::make_feasible(StarBody& body, double slack) const {
     for (int s = 0; s < body.surfaces(); ++s) {
       const double factor = (1 - slack) / (1 + most[std::size_t(s)]);
       if (factor >= 1) continue;
-      if (s == 0) {
-        body.ellipsoid *= factor;
-        continue;
-      }
       // Positive eigenvalues alone are made smaller: the region grows, and its kind stays.
       Eigen::SelfAdjointEigenSolver<Matrix3d> solver(body.form(s));
       Vector3d values = solver.eigenvalues();
+      const double least = s == 0 ? (1 + slack + 1e-9) * kLeastEigenvalue : 2 * kLeastPositive;
       for (int k = 0; k < 3; ++k)
-        if (values(k) > 2 * kLeastPositive) values(k) = std::max(values(k) * factor, 2 * kLeastPositive);
+        if (values(k) > least) values(k) = std::max(values(k) * factor, least);
       body.form(s) = solver.eigenvectors() * values.asDiagonal() * solver.eigenvectors().transpose();
       body.form(s) = ((body.form(s) + body.form(s).transpose()) / 2).eval();
     }

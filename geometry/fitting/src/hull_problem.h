@@ -67,7 +67,7 @@ class HullProblem {
   double constraint(const Constraint& c, const StarBody& body, Variables* gradient = nullptr,
                     double factor = 1) const;
 
-  /// The eigenvalues that keep the kinds of the delimiters.
+  /// The bounds of eigenvalues, which keep ellipsoid and delimiters what they are.
   std::vector<Constraint> signature() const;
 
   /// log volume and its gradient; false where the ellipsoid is none.
@@ -82,6 +82,7 @@ class HullProblem {
   void make_feasible(StarBody& body, double slack) const;
 
  private:
+  int negative_eigenvalues(int surface) const;
   Eigen::Vector3d place_on(std::uint32_t triangle, int surface, const StarBody& body) const;
   double value_at(const Eigen::Vector3d& y, int surface, const StarBody& body, Variables* gradient,
                   double factor) const;
