@@ -6,29 +6,39 @@
 #include <vericone/fitting/least_squares.h>
 #include <vericone/geometry/error.h>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "fitting/noisy_surfaces.h"
+#include "surface_model.h"
 
 namespace vericone::fitting {
 namespace {
 
-using Eigen::Vector3d;
+using Eigen::Matrix3d, Eigen::Vector3d;
 using testing::KnownSurface, testing::NoisySample, testing::Random;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+#ifdef VERICONE_LONG_CAMPAIGN
+constexpr bool kLong = true;
+#else
+constexpr bool kLong = false;
+#endif
 
 struct Study {
   std::string name;
   Shape shape;
   NoisySample sample;
   bool robust;
-  int seeds;
-  double center, axes;  // stated accuracy: about half again the worst error measured
-  double missed = 0;    // share that may be missed
+  int seeds;          // where time is short; 200 in the campaign
+  double missed = 0;  // share that may be missed
 };
 
 int setting(const char* name, int otherwise) {
@@ -42,80 +52,128 @@ double quantile(std::vector<double> values, double share) {
   return values[std::min(k, values.size() - 1)];
 }
 
+/// Six numbers: how far the centre is off along the axes of the sample's frame, and the semi-axes.
+struct Errors {
+  Vector6 off = Vector6::Zero(), reported = Vector6::Zero();
+};
+
+Errors errors(const SurfaceFit& fit, const Frame& frame, const KnownSurface& known) {
+  Errors e;
+  e.off << frame.axes.transpose() * (frame.to_world(fit.piece.body.center()) - known.body.center()),
+      frame.scale * fit.piece.body.ellipsoid().semi_axes() - known.semi_axes;
+  e.reported << frame.scale * fit.center_error, frame.scale * fit.axes_error;
+  return e;
+}
+
+/// The least standard deviations that an unbiased estimate could have from these points if it were told which
+/// are gross (the Cramer-Rao bound): by the derivatives of the distances at the known body.
+Vector6 least_deviations(const KnownSurface& known, const Frame& frame, const Sample& sample,
+                         const NoisySample& how) {
+  const Ellipsoid& e = known.body.ellipsoid();
+  SurfaceModel model;
+  Parameters p = ellipsoid_parameters(false, e.center(), e.shape().inverse());
+  for (const Delimiter<3>& d : known.body.delimiters()) {
+    // The axis of the delimiter is that of the eigenvalue whose sign no other has.
+    const bool two = (d.matrix / d.level).determinant() > 0;  // one positive, two negative
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver((two ? -1 : 1) * d.matrix / d.level);
+    Matrix3d axes = solver.eigenvectors();
+    if (axes.determinant() < 0) axes.col(2) *= -1;
+    append_delimiter(model, p, two ? 2 : 1, solver.eigenvalues().cwiseAbs().cwiseSqrt().cwiseInverse(), axes);
+  }
+  const Surfaces surfaces(model, p);
+  const auto inliers = static_cast<std::size_t>(std::lround(how.points * (1 - how.outliers)));
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(model.size(), model.size());
+  Eigen::VectorXd row(model.size());
+  for (std::size_t i = 0; i < inliers; ++i) {
+    surfaces.distance(sample.points[i], row.data());
+    information += row * row.transpose();
+  }
+  const double noise = how.noise * known.size();
+  const Eigen::MatrixXd c = noise * noise * information.inverse(), j = surfaces.semi_axes_derivative();
+  Vector6 result;
+  result << (frame.axes.transpose() * c.topLeftCorner<3, 3>() * frame.axes).diagonal(),
+      (j * c * j.transpose()).diagonal();
+  return result.cwiseMax(0.0).cwiseSqrt();
+}
+
 class Recovery : public ::testing::TestWithParam<Study> {};
 INSTANTIATE_TEST_SUITE_P(
     , Recovery,
-    ::testing::Values(
-        Study{"EllipsoidNoisy", Shape::ellipsoid, {500, 0.01, 0, false}, false, 200, 0.006, 0.0065},
-        Study{"EllipsoidHalf", Shape::ellipsoid, {500, 0.01, 0, true}, false, 200, 0.03, 0.03},
-        Study{"EllipsoidOutliers", Shape::ellipsoid, {500, 0.01, 0.3, false}, true, 40, 0.007, 0.0085},
-        Study{"EllipsoidHalfOutliers", Shape::ellipsoid, {500, 0.01, 0.3, true}, true, 40, 0.065, 0.05},
-        Study{"BiconcaveNoisy", Shape::biconcave, {500, 0.01, 0, false}, false, 40, 0.005, 0.018},
-        Study{"BiconvexNoisy", Shape::biconvex, {500, 0.01, 0, false}, false, 40, 0.006, 0.05},
-        Study{"BiconcaveOutliers", Shape::biconcave, {500, 0.01, 0.3, false}, true, 20, 0.0055, 0.035, 0.05},
-        Study{"BiconvexOutliers", Shape::biconvex, {500, 0.01, 0.3, false}, true, 20, 0.0065, 0.06, 0.2}),
+    ::testing::Values(Study{"EllipsoidNoisy", Shape::ellipsoid, {500, 0.01, 0, false}, false, 200},
+                      Study{"EllipsoidHalf", Shape::ellipsoid, {500, 0.01, 0, true}, false, 200},
+                      Study{"EllipsoidOutliers", Shape::ellipsoid, {500, 0.01, 0.3, false}, true, 40},
+                      Study{
+                          "EllipsoidHalfOutliers", Shape::ellipsoid, {500, 0.01, 0.3, true}, true, 40, 0.02},
+                      Study{"BiconcaveNoisy", Shape::biconcave, {500, 0.01, 0, false}, false, 40},
+                      Study{"BiconvexNoisy", Shape::biconvex, {500, 0.01, 0, false}, false, 40},
+                      Study{"BiconcaveOutliers", Shape::biconcave, {500, 0.01, 0.3, false}, true, 10, 0.02},
+                      Study{"BiconvexOutliers", Shape::biconvex, {500, 0.01, 0.3, false}, true, 10, 0.02}),
     [](const auto& study) { return study.param.name; });
 
-// Waists among gross points are the known weakness: the first ellipsoid of the robust start is near one part
-// of such a body only, and a quarter is missed (docs/fitting-surfaces.md).
-//
-// Besides the stated accuracy the errors are held against the standard deviations that the fits themselves
-// report: the root mean square of the ratios is 1 where these are right, within 4 / sqrt(2 k) where k numbers
-// are independent; half of the six a seed gives are counted as such. A half-sided view with gross points is
-// the exception: one of them that happens to lie near the unseen side has a lever that no standard deviation
-// knows.
+// Found: each of the six errors is within six of the standard deviations that no unbiased estimate can
+// undercut. Normal errors of twice that size, far more than the loss costs, would be beyond them in one of
+// 350 numbers, those of that size in one of 500 million: what is beyond them is another body. Found ones
+// are held against the deviations that the fits themselves report too: the root mean square of the ratios
+// is 1 where these are right.
 TEST_P(Recovery, FindsTheBodyToItsOwnErrors) {
+  constexpr double kFound = 6;
   Study study = GetParam();
-  study.seeds = setting("VERICONE_RECOVERY_SEEDS", study.seeds);
-  study.sample.points = setting("VERICONE_RECOVERY_POINTS", study.sample.points);
-  std::vector<double> center, axes, noise;
-  double squares = 0, worst = 0;
-  int numbers = 0, lost = 0, open = 0;
+  study.seeds = setting("VERICONE_RECOVERY_SEEDS", kLong ? 200 : study.seeds);
+  const bool tell = setting("VERICONE_RECOVERY_TELL", 0) != 0;
+  std::vector<double> center, axes;
+  double squares = 0, least_squares = 0, worst = 0, worst_least = 0;
+  int refused = 0, open = 0, missed = 0;
   for (int seed = 1; seed <= study.seeds; ++seed) {
     Random random(static_cast<std::uint64_t>(seed));
     const int sheets = study.shape == Shape::biconcave ? 2 : study.shape == Shape::biconvex ? 1 : 0;
     const KnownSurface known = testing::random_surface(random, sheets);
-    const CanonicalSample sample = canonical(testing::noisy_sample(random, known, study.sample));
+    const Sample scan = testing::noisy_sample(random, known, study.sample);
+    const CanonicalSample sample = canonical(scan);
     SurfaceFit fit;
     try {
       fit = fit_surface(sample, study.shape, {study.robust, static_cast<std::uint64_t>(seed), 200});
     } catch (const InputError& e) {
-      ++lost;
-      std::cout << "seed " << seed << ": " << e.what() << "\n";
+      ++refused;
+      std::cout << "seed " << seed << " refused: " << e.what() << "\n";
       continue;
     }
     if (!fit.converged) {
       ++open;
+      std::cout << "seed " << seed << " has not converged\n";
       continue;
     }
-    const Vector3d off = sample.frame.to_world(fit.piece.body.center()) - known.body.center();
-    const Vector3d a = sample.frame.scale * fit.piece.body.ellipsoid().semi_axes();
-    const Vector3d off_axes = a - known.semi_axes;
-    const Vector3d center_ratio =
-        (sample.frame.axes.transpose() * off / sample.frame.scale).cwiseQuotient(fit.center_error);
-    const Vector3d axes_ratio = off_axes.cwiseQuotient(sample.frame.scale * fit.axes_error);
-    const double axes_off = off_axes.cwiseQuotient(known.semi_axes).cwiseAbs().maxCoeff();
-    const double most = std::max(center_ratio.cwiseAbs().maxCoeff(), axes_ratio.cwiseAbs().maxCoeff());
-    if (off.norm() > study.center * known.size() || axes_off > study.axes) {
-      ++lost;
-      std::cout << "seed " << seed << ": centre off by " << off.norm() / known.size() << ", axes by "
-                << axes_off << ", " << most << " reported errors\n";
+    const Errors e = errors(fit, sample.frame, known);
+    const Vector6 least = least_deviations(known, sample.frame, scan, study.sample);
+    const Vector6 ratio = e.off.cwiseQuotient(e.reported), to_least = e.off.cwiseQuotient(least);
+    const double center_off = e.off.head<3>().norm() / known.size(),
+                 axes_off = e.off.tail<3>().cwiseQuotient(known.semi_axes).cwiseAbs().maxCoeff(),
+                 most = ratio.cwiseAbs().maxCoeff(), most_least = to_least.cwiseAbs().maxCoeff();
+    if (tell || most_least > kFound)
+      std::cout << "seed " << seed << (most_least > kFound ? " missed" : "") << ": centre off by "
+                << center_off << ", axes by " << axes_off << ", " << most << " reported, " << most_least
+                << " least deviations\n";
+    if (most_least > kFound) {
+      ++missed;
+      continue;
     }
-    center.push_back(off.norm() / known.size());
+    center.push_back(center_off);
     axes.push_back(axes_off);
-    noise.push_back(fit.noise * sample.frame.scale / (study.sample.noise * known.size()));
-    squares += center_ratio.squaredNorm() + axes_ratio.squaredNorm();
+    squares += ratio.squaredNorm() / 6;
+    least_squares += to_least.squaredNorm() / 6;
     worst = std::max(worst, most);
-    numbers += 6;
+    worst_least = std::max(worst_least, most_least);
   }
-  ASSERT_GT(numbers, 0);
-  std::cout << "| " << study.name << " | " << quantile(center, 0.5) << " | " << quantile(center, 0.95)
-            << " | " << quantile(center, 1) << " | " << quantile(axes, 0.5) << " | " << quantile(axes, 0.95)
-            << " | " << quantile(axes, 1) << " | " << quantile(noise, 0.5) << " | "
-            << std::sqrt(squares / numbers) << " | " << worst << " | " << open << " | " << lost << " |\n";
-  EXPECT_LE(lost + open, study.missed * study.seeds);
-  const bool levers = study.sample.half && study.sample.outliers > 0;
-  EXPECT_NEAR(std::sqrt(squares / numbers), 1, levers ? 0.4 : 4 / std::sqrt(6.0 * study.seeds));
+  ASSERT_FALSE(center.empty());
+  const auto found = double(center.size());
+  std::cout << "| " << study.name << " | " << study.seeds << " | " << quantile(center, 0.5) << " | "
+            << quantile(center, 0.95) << " | " << quantile(center, 1) << " | " << quantile(axes, 0.5) << " | "
+            << quantile(axes, 0.95) << " | " << quantile(axes, 1) << " | " << std::sqrt(squares / found)
+            << ", " << worst << " | " << std::sqrt(least_squares / found) << ", " << worst_least << " | "
+            << refused + open << " | " << missed << " |\n";
+  EXPECT_LE(refused + open + missed, study.missed * study.seeds);
+  EXPECT_LE(worst, kFound);
+  EXPECT_GT(std::sqrt(squares / found), 0.8);
+  EXPECT_LT(std::sqrt(squares / found), 1.25);
 }
 
 }  // namespace

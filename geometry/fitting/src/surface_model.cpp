@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -88,6 +89,29 @@ Vector6 products(const Vector3d& z) {
   return zz;
 }
 
+/// The surface that is first when distances are taken to first order.
+std::size_t first_guess(const std::vector<Surfaces::Surface>& all, const Vector3d& y) {
+  std::size_t guess = 0;
+  double most = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < all.size() && all.size() > 1; ++i) {
+    const Vector3d my = all[i].matrix * y;
+    const double distance = (y.dot(my) - 1) / my.norm();
+    if (!(distance > most)) continue;
+    most = distance;
+    guess = i;
+  }
+  return guess;
+}
+
+/// Whether it is certain that the signed distance to the surface is below `distance`, without computing it:
+/// y is inside, and so is the ball about y of that depth.
+bool is_farther(const Surfaces::Surface& s, const Vector3d& y, double distance) {
+  constexpr double kCertain = 1 - 1e-9;
+  const Vector3d my = s.matrix * y;
+  const double depth = std::max(0.0, -distance);
+  return y.dot(my) + 2 * depth * my.norm() + depth * depth * std::max(0.0, s.eigenvalues(2)) < kCertain;
+}
+
 /// Nearest point of the curve where two surfaces meet, if it is that of the body: multipliers not negative.
 struct Rim {
   Vector3d point;
@@ -158,11 +182,12 @@ Surfaces::Surfaces(const SurfaceModel& model, const Parameters& parameters)
 double Surfaces::distance(const Vector3d& x, double* gradient) const {
   Vector3d y = x - center_;
   if (planar_) y.z() = 0;
-  std::size_t active = 0;
-  SecularFoot foot;
-  for (std::size_t i = 0; i < all_.size(); ++i) {
+  std::size_t active = first_guess(all_, y);
+  SecularFoot foot = secular_foot(all_[active].eigenvalues, all_[active].axes.transpose() * y);
+  for (std::size_t i = 0, guess = active; i < all_.size(); ++i) {
+    if (i == guess || is_farther(all_[i], y, foot.distance)) continue;
     const SecularFoot f = secular_foot(all_[i].eigenvalues, all_[i].axes.transpose() * y);
-    if (i > 0 && f.distance <= foot.distance) continue;
+    if (f.distance <= foot.distance) continue;
     active = i;
     foot = f;
   }
