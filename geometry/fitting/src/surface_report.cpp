@@ -55,29 +55,33 @@ double least_squares_noise(const SurfaceModel& model, const Parameters& paramete
   return std::sqrt(left > 0.5 ? sum * n / left : sum);
 }
 
+// Gross points that lie near the surface by chance count like others, and one on an unseen side pulls the
+// surface to itself, so that what is left of its residual tells nothing. As in the jackknife, each residual
+// is taken as it would be if the point had not been used: over 1 minus its leverage.
 MatrixXd covariance(const FittedSurface& fit, const Cloud& cloud) {
+  constexpr double kLeast = 1e-3;  // of 1 - leverage: a point that alone determines a parameter
   const int n = fit.model.size();
-  const Surfaces surfaces(fit.model, fit.solution.parameters);
-  const double points = effective_points(cloud);
-  const double correction = points > n + 1 ? points / (points - n) : points;
-  MatrixXd b = MatrixXd::Zero(n, n);
-  VectorXd row(n);
-  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    const double r = surfaces.distance(cloud.points[i], row.data());
-    double variance = fit.noise * fit.noise;
-    if (fit.cutoff > 0) {
-      const double u = std::max(0.0, 1 - r * r / (fit.cutoff * fit.cutoff));
-      variance = r * r * u * u * u * u * correction;
-    }
-    b += cloud.weights[i] * cloud.weights[i] * variance * row * row.transpose();
-  }
   std::vector<int> free;
   for (int i = 0; i < n; ++i)
     if (!fit.solution.fixed[static_cast<std::size_t>(i)]) free.push_back(i);
   const MatrixXd h = fit.solution.curvature(free, free);
   const MatrixXd inverse = h.inverse();
+  const Surfaces surfaces(fit.model, fit.solution.parameters);
+  MatrixXd b = MatrixXd::Zero(h.rows(), h.cols());
+  VectorXd all(n);
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const double r = surfaces.distance(cloud.points[i], all.data()), w = cloud.weights[i];
+    const VectorXd row = all(free);
+    double variance = fit.noise * fit.noise;
+    if (fit.cutoff > 0) {
+      const double square = r * r / (fit.cutoff * fit.cutoff), u = std::max(0.0, 1 - square);
+      const double leverage = w * u * (1 - 5 * square) * row.dot(inverse * row);
+      variance = std::pow(r * u * u / std::clamp(1 - leverage, kLeast, 1.0), 2);
+    }
+    b += w * w * variance * row * row.transpose();
+  }
   MatrixXd result = MatrixXd::Zero(n, n);
-  result(free, free) = inverse * b(free, free) * inverse;
+  result(free, free) = inverse * b * inverse;
   return result;
 }
 

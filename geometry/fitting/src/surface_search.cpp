@@ -162,6 +162,15 @@ Cloud near_points(const FittedSurface& fit, const Cloud& cloud) {
   return thinned(near, kMore);
 }
 
+/// Starts about the densest share of the points.
+void add_dense_starts(const SurfaceModel& model, const Cloud& cloud, int sheets, double share,
+                      std::vector<SurfaceStart>& all) {
+  const Cloud dense = thinned(concentrated(cloud, share), kMore);
+  const Parameters p = ellipsoid_starts(dense, false).back();
+  const Vector3d deepest = deepest_direction(thinned(dense, kFew), p.head<3>());
+  for (const SurfaceStart& s : delimited_starts(model, p, sheets, dense, deepest)) all.push_back(s);
+}
+
 }  // namespace
 
 bool is_open(const FittedSurface& fit) {
@@ -201,16 +210,19 @@ FittedSurface add_delimiter(const FittedSurface& from, const Cloud& cloud, int s
   const Vector3d center = from.solution.parameters.head<3>();
   std::vector<SurfaceStart> all = delimited_starts(from.model, from.solution.parameters, sheets, near,
                                                    deepest_direction(thinned(near, kFew), center));
-  if (options.robust && from.model.delimiters.empty()) {
-    // The first ellipsoid may be near one part of the body only.
-    const Cloud dense = thinned(concentrated(cloud, 0.65), kMore);
-    const Parameters p = ellipsoid_starts(dense, false).back();
-    const Vector3d deepest = deepest_direction(thinned(dense, kFew), p.head<3>());
-    for (const SurfaceStart& s : delimited_starts(from.model, p, sheets, dense, deepest)) all.push_back(s);
-  }
+  const bool first = options.robust && from.model.delimiters.empty();
+  // The first ellipsoid may be near one part of the body only.
+  if (first) add_dense_starts(from.model, cloud, sheets, 0.65, all);
   const auto few = best(all, thinned(cloud, kFew), options.robust, 2, 8, 3);
   const auto one = best(few, thinned(cloud, kMore), options.robust, 2, 15, 1);
-  return refined_best(one, cloud, options);
+  FittedSurface fit = refined_best(one, cloud, options);
+  if (!first || (fit.solution.converged && !is_open(fit))) return fit;
+  // No body is found from there: once more, with more work.
+  all.clear();
+  for (const double share : {0.55, 0.75}) add_dense_starts(from.model, cloud, sheets, share, all);
+  const auto more = best(all, thinned(cloud, kMore), true, 4, 15, 3);
+  const FittedSurface again = refined_best(more, cloud, options);
+  return better(again, fit) ? again : fit;
 }
 
 // One more delimiter is taken where the noise falls clearly: by a tenth, and by more than six parameters
