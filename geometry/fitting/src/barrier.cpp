@@ -19,14 +19,17 @@ using Constraint = HullProblem::Constraint;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kFirstWeight = 1e-3;  // of the barrier
-constexpr double kRoughWeight = 1e-4, kLastWeight = 1e-10;
+constexpr double kFirstWeight = 1e-4;  // of the barrier
+constexpr double kRoughWeight = 1e-5, kLastWeight = 1e-10;
+// The volumes of stars have small kinks (star_volume.h), which finer weights would only feel out.
+constexpr double kLastWeightOfStars = 1e-6;
 constexpr double kReduction = 0.1;
 constexpr double kCentred = 0.1;  // expected decrease, in parts of the weight, at which it is made smaller
 constexpr double kDifference = 1e-5;  // step of central differences of gradients
 constexpr double kStationary = 1e-8;
 constexpr double kPressed = 1e-5;  // multipliers of constraints that hold with equality
 constexpr double kViolated = 1e-10;
+constexpr int kRoundsOfStars = 4;
 constexpr int kRounds = 12, kNewtonSteps = 20;
 
 /// The problem restricted to a working set.
@@ -64,14 +67,17 @@ class Barrier {
   bool lagrangian_hessian(const VectorXd& x, const VectorXd& weights, MatrixXd& hessian) const {
     const Eigen::Index n = x.size();
     hessian.resize(n, n);
+    // Of stars, whose gradients cost the most and are the least smooth, forward differences do.
+    const bool is_forward = n > 15;
     VectorXd up, down;
+    if (is_forward && !lagrangian_gradient(x, weights, down)) return false;
     for (Eigen::Index k = 0; k < n; ++k) {
       VectorXd moved = x;
       moved(k) = x(k) + kDifference;
       if (!lagrangian_gradient(moved, weights, up)) return false;
       moved(k) = x(k) - kDifference;
-      if (!lagrangian_gradient(moved, weights, down)) return false;
-      hessian.col(k) = (up - down) / (2 * kDifference);
+      if (!is_forward && !lagrangian_gradient(moved, weights, down)) return false;
+      hessian.col(k) = (up - down) / ((is_forward ? 1 : 2) * kDifference);
     }
     hessian = ((hessian + hessian.transpose()) / 2).eval();
     return true;
@@ -266,18 +272,19 @@ bool take_over(const HullProblem& problem, const Polished& polished, Minimum& re
 
 Minimum minimise(HullProblem problem, StarBody start, bool thorough) {
   Minimum result;
-  problem.make_feasible(start, 0.05);
+  problem.make_feasible(start, 0.02);
   std::set<Constraint> working_set = first_working_set(problem, start);
   std::vector<Constraint> working(working_set.begin(), working_set.end());
   VectorXd x = to_variables(start), multipliers;
-  const double last = thorough ? kLastWeight : kRoughWeight;
+  const bool is_star = start.delimiters.size() > 1;
+  const double last = !thorough ? kRoughWeight : is_star ? kLastWeightOfStars : kLastWeight;
   double value = 0;
   result.log_volume = result.stationarity = std::numeric_limits<double>::infinity();
   result.body = start;
   if (!Barrier(problem, working).value(x, kFirstWeight, value)) return result;
   double mu = kFirstWeight;
   for (; mu > 0.99 * last; mu *= kReduction) {
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < (is_star ? kRoundsOfStars : kRounds); ++round) {
       result.iterations += centre(Barrier(problem, working), mu, x, multipliers);
       const StarBody body = to_body(x);
       std::vector<std::vector<std::pair<double, Constraint>>> violated;

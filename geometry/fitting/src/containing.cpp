@@ -3,6 +3,7 @@
 #include <vericone/geometry/combined_volume.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
@@ -20,9 +21,10 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr std::size_t kRefined = 2;         // starts that are followed to the end
+constexpr std::size_t kRefined = 3;         // starts that are followed to the end
 constexpr std::size_t kMostDelimiters = 3;  // of a star
-constexpr double kWorthwhile = 0.03;        // of log volume, for the third delimiter of a star
+constexpr std::size_t kStartsOfStars = 2;   // for each further delimiter
+constexpr double kWorthwhile = 0.02;        // of log volume, for a further delimiter of a star
 
 Ellipsoid from_factor(const Vector3d& center, const Matrix3d& factor) {
   const Eigen::JacobiSVD<Matrix3d> svd(factor, Eigen::ComputeFullU);
@@ -84,12 +86,24 @@ Minimum best_of(const CanonicalSample& sample, const Ellipsoid& unit, double mar
     const HullProblem problem = problem_of(sample, unit, rough[i].kinds, margin);
     Minimum m = minimise(problem, rough[i].minimum.body, true);
     iterations += m.iterations;
-    if (m.log_volume < best.log_volume - 1e-12) {
+    // A minimum is preferred to a point on the way that happens to be smaller.
+    if (m.converged == best.converged ? m.log_volume < best.log_volume - 1e-12 : m.converged) {
       best = std::move(m);
       kinds_found = rough[i].kinds;
     }
   }
   return best;
+}
+
+/// Delimiters that do not cut the ellipsoid.
+void drop_idle(StarBody& body) {
+  const Matrix3d lower = Eigen::LLT<Matrix3d>(body.ellipsoid).matrixL();
+  const Matrix3d inverse = lower.inverse();
+  std::erase_if(body.delimiters, [&](const Matrix3d& m) {
+    const Matrix3d form = inverse * m * inverse.transpose();
+    return !(Eigen::SelfAdjointEigenSolver<Matrix3d>((form + form.transpose()) / 2).eigenvalues()(2) >
+             1 + 1e-9);
+  });
 }
 
 ContainingFit combined(const CanonicalSample& sample, const Ellipsoid& unit, Shape shape,
@@ -103,23 +117,25 @@ ContainingFit combined(const CanonicalSample& sample, const Ellipsoid& unit, Sha
   if (shape != Shape::biconcave) kinds.push_back(Delimit::waist);
   const bool star = shape == Shape::star;
   std::vector<Delimit> found;
-  Minimum best =
-      best_of(sample, unit, options.margin,
-              delimiter_starts(outermost, directions, StarBody{}, kinds, std::size_t(options.starts)), {},
-              !star, fit.starts, fit.iterations, found);
+  Minimum best = best_of(
+      sample, unit, options.margin,
+      delimiter_starts(outermost, directions, StarBody{}, kinds, std::size_t(options.starts) * kinds.size()),
+      {}, true, fit.starts, fit.iterations, found);
+  // A further delimiter stays where it pays; the volume of what comes out is never above that of one.
   while (star && found.size() < kMostDelimiters) {
     std::vector<Delimit> more;
-    const Minimum next =
-        best_of(sample, unit, options.margin, delimiter_starts(outermost, directions, best.body, kinds, 3),
-                found, false, fit.starts, fit.iterations, more);
-    if (found.size() >= 2 && next.log_volume > best.log_volume - kWorthwhile) break;
+    const Minimum next = best_of(sample, unit, options.margin,
+                                 delimiter_starts(outermost, directions, best.body, kinds, kStartsOfStars),
+                                 found, false, fit.starts, fit.iterations, more);
+    if (!(next.log_volume < best.log_volume - kWorthwhile)) break;
     best = next;
     found = more;
   }
-  if (star) {
+  if (found.size() > 1) {
     best = minimise(problem_of(sample, unit, found, options.margin), best.body, true);
     fit.iterations += best.iterations;
   }
+  drop_idle(best.body);
   fit.piece.body = to_sample(best.body, unit);
   fit.converged = best.converged;
   fit.stationarity = best.stationarity;
@@ -181,6 +197,11 @@ ContainingFit containing_fit(const CanonicalSample& sample, Shape shape, const C
       fit.starts = 1;
     } else {
       fit = combined(sample, least.body, shape, options);
+      // Where nothing is to be cut away the ellipsoid itself is the least body, to the last digit.
+      if (!(options.margin > 0) && !(fit.volume < least.body.volume())) {
+        fit.piece.body = least.body;
+        fit.volume = least.body.volume();
+      }
     }
   }
   return fit;

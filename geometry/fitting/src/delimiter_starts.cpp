@@ -21,7 +21,7 @@ constexpr double kLongEdge = 0.15;  // triangles are sampled as densely; the ell
 constexpr int kSpread = 64;         // directions on the half sphere
 constexpr std::size_t kPockets = 8;
 constexpr double kApart = 0.94;  // cosine of the angle at which two starts differ
-const double kOpenings[] = {0.1, 0.5, 1.5, 4};
+const double kOpenings[] = {0.1, 0.4, 1.5, 5, 15};
 const double kShifts[] = {0, 0.15, -0.15, 0.3, -0.3};
 
 std::size_t bin(const Vector3d& y) {

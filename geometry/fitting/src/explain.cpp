@@ -87,7 +87,9 @@ int parameters(Shape shape) {
 
 void score(Candidate& candidate, Mode mode) {
   const double size = mode == Mode::containing ? candidate.volume : candidate.noise;
-  candidate.score = candidate.converged
+  // A containing body is proved to contain whether or not it is a minimum; a surface that is no minimum is
+  // none.
+  candidate.score = candidate.converged || mode == Mode::containing
                         ? std::log(std::max(size, 1e-300)) + kPricePerParameter * candidate.parameters
                         : std::numeric_limits<double>::infinity();
 }
@@ -105,7 +107,7 @@ std::string explain_choice(const std::vector<Candidate>& candidates, Shape chose
   for (const Candidate& c : candidates) {
     if (&c == best) continue;
     text += "; " + to_string(c.shape);
-    if (!c.converged) {
+    if (!c.converged && mode != Mode::containing) {
       text += " did not converge";
       continue;
     }
@@ -122,6 +124,18 @@ std::vector<std::string> remarks(const Sample& sample, const CanonicalSample& ca
   std::vector<std::string> notes;
   if (options.mode == Mode::containing && result.shape != Shape::ellipse)
     remark_lone_point(canon, kept, sample, notes);
+  const auto delimiters = [&] {
+    std::size_t least = 99;
+    for (const Piece& piece : result.pieces) least = std::min(least, piece.body.delimiters().size());
+    return least;
+  };
+  if (options.mode == Mode::containing && result.shape == Shape::star && delimiters() < 2)
+    notes.push_back("further hyperboloids would take away less than 2 % each: the star has " +
+                    std::to_string(delimiters()));
+  if (options.mode == Mode::containing && delimiters() == 0 &&
+      (result.shape == Shape::biconcave || result.shape == Shape::biconvex))
+    notes.push_back("no " + std::string(result.shape == Shape::biconcave ? "dents" : "waist") +
+                    " that would make the ellipsoid smaller: the hull is the ellipsoid");
   for (std::size_t k = 0; k < result.surfaces.size(); ++k)
     remark_surface(result.surfaces[k], result.surfaces.size() > 1 ? " of piece " + std::to_string(k) : "",
                    notes);

@@ -13,7 +13,7 @@ namespace vericone::fitting {
 int parameters(Shape shape);
 
 /// Log of the volume (containing) or of the noise (near the points), and kPricePerParameter for each
-/// parameter; infinite where the fit has not converged.
+/// parameter; infinite where a surface has not converged.
 void score(Candidate& candidate, Mode mode);
 
 /// A parameter has to take away 1 % of volume or noise.
