@@ -24,7 +24,7 @@ double effective_points(const Cloud& cloud);
 double least_squares_noise(const SurfaceModel& model, const Parameters& parameters, const Cloud& cloud);
 
 /// Covariance of the parameters for independent errors of the points: H^-1 B H^-1 with the curvature H of the
-/// cost and B the covariance of its gradient.
+/// cost and B the covariance of its gradient. Robust: B from the residuals themselves, over 1 - leverage.
 Eigen::MatrixXd covariance(const FittedSurface& fit, const Cloud& cloud);
 
 /// Share of the ellipsoid's area that has points within 3 * noise near it.
