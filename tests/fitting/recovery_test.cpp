@@ -42,6 +42,8 @@ struct Study {
   double missed = 0;  // share that may be missed
 };
 
+void PrintTo(const Study& study, std::ostream* out) { *out << study.name; }
+
 int setting(const char* name, int otherwise) {
   const char* given = std::getenv(name);
   return given ? std::atoi(given) : otherwise;
