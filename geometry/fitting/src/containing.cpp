@@ -196,7 +196,10 @@ ContainingFit containing_fit(const CanonicalSample& sample, Shape shape, const C
       fit.iterations = m.iterations;
       fit.starts = 1;
     } else {
-      fit = combined(sample, least.body, shape, options);
+      // The search branches: it sees rounded coordinates. What that changes enclose() makes up for.
+      CanonicalSample grid = sample;
+      for (Vector3d& y : grid.points) y = rounded(y);
+      fit = combined(grid, min_volume_ellipsoid<3>(grid.points).body, shape, options);
       // Where nothing is to be cut away the ellipsoid itself is the least body, to the last digit.
       if (!(options.margin > 0) && !(fit.volume < least.body.volume())) {
         fit.piece.body = least.body;

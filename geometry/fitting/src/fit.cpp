@@ -95,7 +95,9 @@ Trial try_shape(const std::vector<Part>& parts, Shape shape, const FitOptions& o
       trial.surfaces.push_back(std::move(fit));
     }
     c.parameters +=
-        trial.pieces.back().footprint ? 5 : 9 + 6 * int(trial.pieces.back().body.delimiters().size());
+        shape == Shape::ellipse
+            ? 5
+            : std::max(parameters(shape), 9 + 6 * int(trial.pieces.back().body.delimiters().size()));
   }
   return trial;
 }

@@ -137,6 +137,11 @@ std::vector<std::array<std::uint32_t, 3>> canonical_triangles(const Sample& samp
 
 }  // namespace
 
+Vector3d rounded(const Vector3d& y) {
+  constexpr double kGrid = 1 << 26;
+  return (y * kGrid).array().round() / kGrid;
+}
+
 CanonicalSample canonical(const Sample& sample) {
   require_valid(sample);
   const Distinct distinct = distinct_points(sample);
@@ -151,8 +156,10 @@ CanonicalSample canonical(const Sample& sample) {
   for (std::size_t i = 0; i < n; ++i) framed[i] = result.frame.to_frame(world[i]);
   std::vector<std::uint32_t> order(n), rank(n);
   std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return before(framed[a], framed[b]); });
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const Vector3d x = rounded(framed[a]), y = rounded(framed[b]);
+    return x == y ? before(framed[a], framed[b]) : before(x, y);
+  });
   for (std::size_t i = 0; i < n; ++i) {
     rank[order[i]] = std::uint32_t(i);
     result.points.push_back(framed[order[i]]);

@@ -35,7 +35,8 @@ struct Frame {
 struct CanonicalSample {
   Frame frame;
 
-  /// Each point once, in the frame, in increasing order of coordinates; of a mesh those that triangles use.
+  /// Each point once, in the frame, in increasing order of rounded coordinates (below); of a mesh those that
+  /// triangles use.
   /// They lie within the unit ball.
   std::vector<Eigen::Vector3d> points;
 
@@ -55,6 +56,11 @@ struct CanonicalSample {
 
   bool is_mesh() const { return !triangles.empty(); }
 };
+
+/// Coordinates rounded to 2^-26, a hundred-millionth of the unit ball. Those of the same sample in another
+/// frame differ by some 1e-15 and are then (but for one in ten million) the same numbers: searches that
+/// branch are done with them, so that they take the same way.
+Eigen::Vector3d rounded(const Eigen::Vector3d& y);
 
 /// Throws InputError naming "points" where there is none, where coordinates are not finite or above 1e100,
 /// and where all are equal; "triangles[i]" for an index that is no point.
