@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -80,8 +81,8 @@ Distinct distinct_points(const Sample& sample) {
   return result;
 }
 
-/// Principal axes in decreasing order, the signs of the first two such that the third moments along them are
-/// positive.
+/// Principal axes in decreasing order. Signs such that third moments are positive; along the axis where that
+/// is least telling (the sample may be symmetric) such that the axes are a rotation.
 Frame principal_frame(const std::vector<Vector3d>& points) {
   const Vector3d offset = points.front();
   Vector3d mean = Vector3d::Zero();
@@ -101,15 +102,14 @@ Frame principal_frame(const std::vector<Vector3d>& points) {
   }
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(second / double(points.size()));
   frame.axes = solver.eigenvectors().rowwise().reverse();
-  for (int k = 0; k < 2; ++k) {
-    double third = 0;
-    for (const Vector3d& x : points) {
-      const double y = frame.axes.col(k).dot(x - frame.origin) / reach;
-      third += y * y * y;
-    }
-    if (third < 0) frame.axes.col(k) = -frame.axes.col(k);
-  }
-  frame.axes.col(2) = frame.axes.col(0).cross(frame.axes.col(1));
+  Vector3d third = Vector3d::Zero();
+  for (const Vector3d& x : points)
+    third += (frame.axes.transpose() * (x - frame.origin) / reach).array().cube().matrix();
+  Eigen::Index least = 0;
+  third.cwiseAbs().minCoeff(&least);
+  for (int k = 0; k < 3; ++k)
+    if (k != least && third(k) < 0) frame.axes.col(k) = -frame.axes.col(k);
+  if (frame.axes.determinant() < 0) frame.axes.col(least) = -frame.axes.col(least);
   return frame;
 }
 
