@@ -121,7 +121,8 @@ ContainingFit combined(const CanonicalSample& sample, const Ellipsoid& unit, Sha
       sample, unit, options.margin,
       delimiter_starts(outermost, directions, StarBody{}, kinds, std::size_t(options.starts) * kinds.size()),
       {}, true, fit.starts, fit.iterations, found);
-  // A further delimiter stays where it pays; the volume of what comes out is never above that of one.
+  // A further delimiter stays where it pays, and all of them only where they did in the end.
+  const Minimum single = best;
   while (star && found.size() < kMostDelimiters) {
     std::vector<Delimit> more;
     const Minimum next = best_of(sample, unit, options.margin,
@@ -134,6 +135,7 @@ ContainingFit combined(const CanonicalSample& sample, const Ellipsoid& unit, Sha
   if (found.size() > 1) {
     best = minimise(problem_of(sample, unit, found, options.margin), best.body, true);
     fit.iterations += best.iterations;
+    if (!(best.log_volume < single.log_volume)) best = single;
   }
   drop_idle(best.body);
   fit.piece.body = to_sample(best.body, unit);

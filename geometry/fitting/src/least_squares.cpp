@@ -7,25 +7,13 @@
 #include <cmath>
 #include <limits>
 
+#include "explain.h"
 #include "surface_search.h"
 
 namespace vericone::fitting {
 namespace {
 
 using Eigen::Matrix2d, Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
-
-int parameters(Shape shape) {
-  switch (shape) {
-    case Shape::ellipse:
-      return 5;
-    case Shape::ellipsoid:
-      return 9;
-    case Shape::star:
-      return 21;
-    default:
-      return 15;
-  }
-}
 
 /// Coordinates in which a footprint is fitted: about the mean, along the principal axes, within the unit
 /// disc. In units of the sample's frame: the frame may be turned, the vertical is the world's.
