@@ -120,7 +120,7 @@ TEST(Fit, ContainingHullsAreProved) {
     EXPECT_TRUE(result.certified) << to_string(shape);
     EXPECT_EQ(result.certificate.points_inside, mesh.points.size());
     EXPECT_EQ(result.certificate.triangles_inside, mesh.triangles.size());
-    EXPECT_LT(result.inflation, 1 + 1e-7);  // the search rounds to 1.5e-8 of the scan
+    EXPECT_LT(result.inflation, 1 + 1e-9);
     if (shape != Shape::ellipse) {
       EXPECT_LE(result.volume->value, *result.ellipsoid_volume * (1 + 1e-9));
       EXPECT_GT(result.volume->value, *result.scan_volume);

@@ -19,7 +19,8 @@ using Constraint = HullProblem::Constraint;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kFirstWeight = 1e-4;  // of the barrier
+constexpr double kFirstWeight = 1e-4;  // of the barrier: heavier ones push deep dents out
+constexpr double kNearWeight = 1e-7;   // from nearby
 constexpr double kRoughWeight = 1e-5, kLastWeight = 1e-10;
 // The volumes of stars have small kinks (star_volume.h), which finer weights would only feel out.
 constexpr double kLastWeightOfStars = 1e-6;
@@ -270,9 +271,11 @@ bool take_over(const HullProblem& problem, const Polished& polished, Minimum& re
 
 }  // namespace
 
-Minimum minimise(HullProblem problem, StarBody start, bool thorough) {
+Minimum minimise(HullProblem problem, StarBody start, Descent descent) {
   Minimum result;
-  problem.make_feasible(start, 0.02);
+  const bool thorough = descent != Descent::rough;
+  const double first = descent == Descent::last ? kNearWeight : kFirstWeight;
+  problem.make_feasible(start, descent == Descent::last ? 10 * kNearWeight : 0.02);
   std::set<Constraint> working_set = first_working_set(problem, start);
   std::vector<Constraint> working(working_set.begin(), working_set.end());
   VectorXd x = to_variables(start), multipliers;
@@ -281,8 +284,8 @@ Minimum minimise(HullProblem problem, StarBody start, bool thorough) {
   double value = 0;
   result.log_volume = result.stationarity = std::numeric_limits<double>::infinity();
   result.body = start;
-  if (!Barrier(problem, working).value(x, kFirstWeight, value)) return result;
-  double mu = kFirstWeight;
+  if (!Barrier(problem, working).value(x, first, value)) return result;
+  double mu = first;
   for (; mu > 0.99 * last; mu *= kReduction) {
     for (int round = 0; round < (is_star ? kRoundsOfStars : kRounds); ++round) {
       result.iterations += centre(Barrier(problem, working), mu, x, multipliers);

@@ -18,9 +18,14 @@ struct Minimum {
   std::vector<HullProblem::Constraint> active;
 };
 
+enum class Descent {
+  rough,     // to about 1e-3 of the volume, for comparing starts
+  thorough,  // to the last digit
+  last,      // the same from nearby: stays in the minimum that it starts in
+};
+
 /// Follows log volume + mu sum log(1 - 1/c) from a body that need not be feasible, over a working set of
-/// constraints that takes in what is violated, round by round, until nothing is. `thorough`: to the last
-/// digit; else to about 1e-3 of the volume, for comparing starts.
-Minimum minimise(HullProblem problem, StarBody start, bool thorough);
+/// constraints that takes in what is violated, round by round, until nothing is.
+Minimum minimise(HullProblem problem, StarBody start, Descent descent);
 
 }  // namespace vericone::fitting

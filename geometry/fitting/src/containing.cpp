@@ -57,7 +57,7 @@ HullProblem problem_of(const CanonicalSample& sample, const Ellipsoid& unit, std
 }
 
 /// The best minimum from several starts with delimiters of the given kinds.
-Minimum best_of(const CanonicalSample& sample, const Ellipsoid& unit, double margin,
+Minimum best_of(const CanonicalSample& grid, const Ellipsoid& unit, double margin,
                 const std::vector<DelimiterStart>& starts, std::vector<Delimit> kinds, bool thorough,
                 int& followed, int& iterations, std::vector<Delimit>& kinds_found) {
   struct Rough {
@@ -68,8 +68,8 @@ Minimum best_of(const CanonicalSample& sample, const Ellipsoid& unit, double mar
   for (const DelimiterStart& start : starts) {
     std::vector<Delimit> all = kinds;
     all.push_back(start.kind);
-    const HullProblem problem = problem_of(sample, unit, all, margin);
-    rough.push_back({minimise(problem, start.body, false), all});
+    const HullProblem problem = problem_of(grid, unit, all, margin);
+    rough.push_back({minimise(problem, start.body, Descent::rough), all});
     iterations += rough.back().minimum.iterations;
     ++followed;
   }
@@ -83,11 +83,11 @@ Minimum best_of(const CanonicalSample& sample, const Ellipsoid& unit, double mar
     return rough.front().minimum;
   }
   for (std::size_t i = 0; i < std::min(kRefined, rough.size()); ++i) {
-    const HullProblem problem = problem_of(sample, unit, rough[i].kinds, margin);
-    Minimum m = minimise(problem, rough[i].minimum.body, true);
+    const HullProblem problem = problem_of(grid, unit, rough[i].kinds, margin);
+    Minimum m = minimise(problem, rough[i].minimum.body, Descent::thorough);
     iterations += m.iterations;
     // A minimum is preferred to a point on the way that happens to be smaller.
-    if (m.converged == best.converged ? m.log_volume < best.log_volume - 1e-12 : m.converged) {
+    if (m.converged == best.converged ? m.log_volume < best.log_volume - 1e-9 : m.converged) {
       best = std::move(m);
       kinds_found = rough[i].kinds;
     }
@@ -106,10 +106,10 @@ void drop_idle(StarBody& body) {
   });
 }
 
-ContainingFit combined(const CanonicalSample& sample, const Ellipsoid& unit, Shape shape,
-                       const ContainingOptions& options) {
+ContainingFit combined(const CanonicalSample& sample, const CanonicalSample& grid, const Ellipsoid& unit,
+                       Shape shape, const ContainingOptions& options) {
   ContainingFit fit;
-  const HullProblem bare = problem_of(sample, unit, {}, options.margin);
+  const HullProblem bare = problem_of(grid, unit, {}, options.margin);
   const std::vector<Vector3d> outermost = outermost_points(bare);
   const std::vector<Vector3d> directions = delimiter_directions(outermost);
   std::vector<Delimit> kinds;
@@ -118,14 +118,14 @@ ContainingFit combined(const CanonicalSample& sample, const Ellipsoid& unit, Sha
   const bool star = shape == Shape::star;
   std::vector<Delimit> found;
   Minimum best = best_of(
-      sample, unit, options.margin,
+      grid, unit, options.margin,
       delimiter_starts(outermost, directions, StarBody{}, kinds, std::size_t(options.starts) * kinds.size()),
       {}, true, fit.starts, fit.iterations, found);
   // A further delimiter stays where it pays, and all of them only where they did in the end.
   const Minimum single = best;
   while (star && found.size() < kMostDelimiters) {
     std::vector<Delimit> more;
-    const Minimum next = best_of(sample, unit, options.margin,
+    const Minimum next = best_of(grid, unit, options.margin,
                                  delimiter_starts(outermost, directions, best.body, kinds, kStartsOfStars),
                                  found, false, fit.starts, fit.iterations, more);
     if (!(next.log_volume < best.log_volume - kWorthwhile)) break;
@@ -133,10 +133,15 @@ ContainingFit combined(const CanonicalSample& sample, const Ellipsoid& unit, Sha
     found = more;
   }
   if (found.size() > 1) {
-    best = minimise(problem_of(sample, unit, found, options.margin), best.body, true);
+    best = minimise(problem_of(grid, unit, found, options.margin), best.body, Descent::thorough);
     fit.iterations += best.iterations;
     if (!(best.log_volume < single.log_volume)) best = single;
   }
+  // The points themselves have the last word, unless they leave it to the rounded ones.
+  found.resize(best.body.delimiters.size());
+  const Minimum exact = minimise(problem_of(sample, unit, found, options.margin), best.body, Descent::last);
+  fit.iterations += exact.iterations;
+  if (exact.converged || !best.converged) best = exact;
   drop_idle(best.body);
   fit.piece.body = to_sample(best.body, unit);
   fit.converged = best.converged;
@@ -190,7 +195,8 @@ ContainingFit containing_fit(const CanonicalSample& sample, Shape shape, const C
       fit.iterations = least.iterations;
       fit.starts = 1;
     } else if (shape == Shape::ellipsoid) {
-      const Minimum m = minimise(problem_of(sample, least.body, {}, options.margin), StarBody{}, true);
+      const Minimum m =
+          minimise(problem_of(sample, least.body, {}, options.margin), StarBody{}, Descent::thorough);
       fit.piece.body = to_sample(m.body, least.body);
       fit.converged = m.converged;
       fit.stationarity = m.stationarity;
@@ -198,10 +204,10 @@ ContainingFit containing_fit(const CanonicalSample& sample, Shape shape, const C
       fit.iterations = m.iterations;
       fit.starts = 1;
     } else {
-      // The search branches: it sees rounded coordinates. What that changes enclose() makes up for.
+      // The search for starts branches: it sees rounded coordinates. The last steps see the points.
       CanonicalSample grid = sample;
       for (Vector3d& y : grid.points) y = rounded(y);
-      fit = combined(grid, min_volume_ellipsoid<3>(grid.points).body, shape, options);
+      fit = combined(sample, grid, min_volume_ellipsoid<3>(grid.points).body, shape, options);
       // Where nothing is to be cut away the ellipsoid itself is the least body, to the last digit.
       if (!(options.margin > 0) && !(fit.volume < least.body.volume())) {
         fit.piece.body = least.body;

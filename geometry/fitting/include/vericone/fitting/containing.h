@@ -23,9 +23,6 @@ struct ContainingFit {
   int starts = 0, iterations = 0;
 };
 
-/// For dents and waists of the points rounded to 2^-26 of the frame (rounded() in sample.h): tight to 1e-8,
-/// until enclose() has made it so to rounding.
-///
 /// Of least volume among the bodies of this shape that contain the points, and for shapes with dents and
 /// waists the triangles of a mesh. For ellipse and ellipsoid the least; for the others a local minimum, the
 /// best of several starts. Never larger than the ellipsoid.
