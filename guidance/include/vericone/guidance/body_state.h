@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A body at an instant, as guidance sees it.
+#pragma once
+
+#include <vericone/cones/combined_sector.h>
+#include <vericone/geometry/combined.h>
+#include <vericone/geometry/hull_body.h>
+#include <Eigen/Core>
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+namespace vericone::guidance {
+
+/// In world coordinates. Planar bodies lie in the plane z = 0 and move in it. An ellipsoid is a combined body
+/// without delimiters.
+using Shape = std::variant<CombinedEllipse, CombinedEllipsoid, HullBody>;
+
+/// How a spatial delimiter changes beyond moving and turning with its body.
+struct SpatialDelimiterRate {
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();  // 1 / (m^2 s)
+  double level = 0;                                  // 1 / s
+};
+
+/// Rates of a shape beyond moving and turning; nothing for rigid ones.
+struct ShapeRate {
+  Eigen::Matrix3d shape =
+      Eigen::Matrix3d::Zero();                   // of the ellipsoid's S, m^2/s; upper left 2 x 2 in the plane
+  std::vector<SpatialDelimiterRate> delimiters;  // missing ones are zero
+};
+
+/// Whether a body's orientation follows its velocity.
+enum class Turning : std::uint8_t {
+  none,          // as omega says, whatever it commands
+  with_heading,  // omega = v x a / |v|^2 for its own acceleration a (a body without roll)
+};
+
+struct BodyState {
+  Shape shape;  // its centre is `position`; of hulls, the reference point
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  Eigen::Vector3d omega =
+      Eigen::Vector3d::Zero();  // rad/s; of a body that turns with its heading, beyond that
+  Turning turning = Turning::none;
+  ShapeRate rate;
+
+  bool planar() const { return std::holds_alternative<CombinedEllipse>(shape); }
+};
+
+}  // namespace vericone::guidance

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A law of our own: it steers the miss distance m(w) (clearance.h) to a distance in metres. No plane is
+// chosen, and what is controlled is what matters.
+#pragma once
+
+#include <vericone/guidance/body_state.h>
+#include <vericone/guidance/laws.h>
+
+namespace vericone::guidance {
+
+struct ClearanceOptions {
+  double required = 1;                                    // metres to pass at, at least
+  double gain = 1;                                        // K, 1/s: m' = -K (m - required)
+  double most = std::numeric_limits<double>::infinity();  // m/s^2, of the whole acceleration
+  bool longitudinal = false;  // may change the speed too; otherwise perpendicular to the velocity
+  /// Without this the law stops commanding where m >= required; with it, it also comes back towards it.
+  bool hold = false;
+};
+
+struct ClearanceCommand {
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  // of A, m/s^2, saturated
+  double demanded = 0;                                     // its magnitude before saturation
+  double m = 0;                                            // metres
+  double drift = 0;  // m' without any acceleration of A, m/s: turning and changing bodies
+  Eigen::Vector3d by_acceleration = Eigen::Vector3d::Zero();  // gradient of m' with respect to it, s
+  double time_to_closest = 0;  // s, of the supporting points; negative: receding
+  LawStatus status = LawStatus::clear;
+};
+
+/// The acceleration of least magnitude with m' = -K (m - required), the turning of A with its heading
+/// included. By the envelope theorem m' = -t n.(a_A - a_B) - (rates of both radii along n); n, t of
+/// clearance(). Combined bodies and hulls are replaced by ellipsoids that contain them, so the real distance
+/// is larger. Where the bodies' centres and velocity leave the direction open (spheres head on) it is that of
+/// clearance()'s own maximiser: deterministic. Moving apart: nothing commanded, `receding`. Planar bodies:
+/// within the plane. Cost: 1.5 us where m > 0, 6 us where m < 0.
+ClearanceCommand clearance_law(const BodyState& a, const BodyState& b, const ClearanceOptions& options,
+                               const Eigen::Vector3d& acceleration_b = Eigen::Vector3d::Zero());
+
+/// m(w) of the bodies as the law sees them; of planar ones in the plane.
+double law_clearance(const BodyState& a, const BodyState& b);
+
+}  // namespace vericone::guidance

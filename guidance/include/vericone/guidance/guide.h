@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// One step of guidance: from two bodies at an instant to accelerations in space.
+#pragma once
+
+#include <vericone/guidance/clearance_law.h>
+#include <vericone/guidance/laws.h>
+#include <vericone/guidance/plane_choice.h>
+#include <vericone/guidance/plane_view.h>
+#include <optional>
+
+namespace vericone::guidance {
+
+enum class Law : std::uint8_t {
+  avoidance,               // (5.12), (6.17)
+  cooperative_avoidance,   // (6.19), ratio mu
+  cooperative_rendezvous,  // (5.14)
+  matching_rendezvous,     // (5.16)-(5.17)
+  clearance,               // clearance_law.h
+};
+const char* to_string(Law law);
+
+/// Where psi' and theta_b' come from.
+enum class GuideRates : std::uint8_t {
+  analytic,
+  differenced,
+  backward,  // the source's: from the step before, kept in the memory; zero on the first step
+};
+
+struct GuideOptions {
+  Law law = Law::avoidance;
+  SectorMethod sector = SectorMethod::exact;
+  GuideRates rates = GuideRates::analytic;
+  PlaneOptions plane;
+  LawOptions inversion;
+  ClearanceOptions clearance;
+  double mu = 0;          // cooperative avoidance: a_B = mu a_A
+  double gain_speed = 1;  // K_2 of matching
+};
+
+/// What one step hands to the next; a fresh one starts an engagement.
+struct GuideMemory {
+  std::optional<Eigen::Vector3d> across;
+  struct Past {
+    double time, psi, theta_b;  // theta_b against fixed axes: with the angle the line of sight has turned
+    Eigen::Vector3d line_of_sight;
+  };
+  std::optional<Past> past;
+};
+
+struct GuideStep {
+  Eigen::Vector3d a = Eigen::Vector3d::Zero(), b = Eigen::Vector3d::Zero();  // accelerations of both, m/s^2
+  LawStatus status = LawStatus::clear;
+  double demanded = 0;          // |a| before saturation
+  double y = 0, v_r_hat = 0;    // on the plane chosen; of the clearance law 0
+  double psi = 0, theta_b = 0;  // rad; theta_b from the line of sight
+  double m = 0;                 // metres, clearance law only
+  Eigen::Vector3d across = Eigen::Vector3d::Zero();
+};
+
+/// Nothing where the bodies are not apart as the method sees them. `time`, seconds, for backward differences.
+/// No allocation and no throw with ellipsoids. Cost: ellipsoids, true sector, analytic rates, the plane
+/// followed: docs/benchmarks.md.
+std::optional<GuideStep> guide(const BodyState& a, const BodyState& b, const GuideOptions& options,
+                               GuideMemory& memory, double time);
+
+}  // namespace vericone::guidance

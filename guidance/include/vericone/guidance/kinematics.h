@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Engagement kinematics in the source's terms, in the plane (5.8), (5.13), (5.15) and in space (6.10), from
+// and to Cartesian states. Metres, seconds, radians. The relative velocity is V = V_B - V_A: closing is V_r <
+// 0.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace vericone::guidance {
+
+/// Positions and velocities of two bodies in fixed axes.
+template <int D>
+struct Cartesian {
+  using Vector = Eigen::Matrix<double, D, 1>;
+  Vector p_a = Vector::Zero(), v_a = Vector::Zero();
+  Vector p_b = Vector::Zero(), v_b = Vector::Zero();
+};
+
+/// The angle that differs from `angle` by whole turns and from `near` by at most half a turn: for histories
+/// without jumps.
+double unwrapped(double angle, double near);
+
+/// Azimuth in (-pi, pi], elevation in [-pi/2, pi/2].
+struct Direction {
+  double azimuth = 0, elevation = 0;
+};
+
+/// Of a vector; where it is vertical or zero, an angle that has no value is that of `otherwise`.
+Direction direction_of(const Eigen::Vector3d& v, const Direction& otherwise = {});
+Eigen::Vector3d unit_vector(const Direction& direction);
+
+/// An engagement in one plane. In space it is the projection on a plane through the line of sight; then
+/// `v_normal` and `plane_spin` say how it moves out of that plane.
+struct PlanarState {
+  double r = 0, theta = 0;          // line of sight from A to B
+  double v_theta = 0, v_r = 0;      // of V = V_B - V_A
+  double alpha = 0, beta = 0;       // headings of A and B, of their projections in space
+  double speed_a = 0, speed_b = 0;  // of the projections in space
+  double v_normal = 0;    // component of V along u x e: u the line of sight, e the plane's axis of V_theta
+  double plane_spin = 0;  // rad/s, of the plane about u, beyond the turning of the line of sight
+};
+
+/// Accelerations of both bodies in the plane: lateral ones at heading + pi/2, longitudinal ones along it.
+struct PlanarInputs {
+  double lateral_a = 0, longitudinal_a = 0, lateral_b = 0, longitudinal_b = 0;  // m/s^2
+};
+
+struct PlanarRates {
+  double r = 0, theta = 0, v_theta = 0, v_r = 0, alpha = 0, beta = 0, speed_a = 0, speed_b = 0;
+};
+
+/// (5.8), (5.13), (5.15) together, and the terms v_normal^2 / r in V_r and plane_spin v_normal in V_theta
+/// that a projection adds (the source leaves them out, errata 3.6). A body at rest has no heading to turn:
+/// its rate is 0. Requires r > 0.
+PlanarRates planar_rates(const PlanarState& state, const PlanarInputs& inputs);
+
+/// Headings of bodies at rest are 0. Requires p_a != p_b; throws InputError naming "obstacle.center".
+PlanarState planar_state(const Cartesian<2>& motion);
+/// With A at `p_a`.
+Cartesian<2> cartesian(const PlanarState& state, const Eigen::Vector2d& p_a = Eigen::Vector2d::Zero());
+
+/// An engagement in space, (6.10)'s states. At the poles, phi = +-pi/2, theta has no value and its rate none
+/// either: see at_pole.
+struct SpatialState {
+  double r = 0, theta = 0, phi = 0;  // line of sight from A to B: azimuth, elevation
+  double v_theta = 0, v_phi = 0, v_r = 0;
+  Direction heading_a, heading_b;  // (beta, alpha) of the source: azimuth, elevation
+  double speed_a = 0, speed_b = 0;
+};
+
+/// An acceleration of (6.10): magnitude and direction (delta, gamma).
+struct DirectedAcceleration {
+  double magnitude = 0;  // m/s^2
+  Direction direction;
+};
+DirectedAcceleration directed(const Eigen::Vector3d& acceleration);
+
+struct SpatialRates {
+  double r = 0, theta = 0, phi = 0, v_theta = 0, v_phi = 0, v_r = 0;
+  Direction heading_a, heading_b;
+  double speed_a = 0, speed_b = 0;
+  bool at_pole = false;  // cos(phi) is 0: theta, v_theta and v_phi have no rates, they are 0 here
+};
+
+/// (6.10) with the V_phi row corrected (errata 3.6), and the rates of headings and speeds for accelerations
+/// in any direction. A vertical heading has no azimuth to change: its rate is 0.
+SpatialRates spatial_rates(const SpatialState& state, const DirectedAcceleration& a,
+                           const DirectedAcceleration& b);
+
+/// `previous`: an earlier state, from which angles without a value are taken and to which all are unwrapped.
+/// Throws InputError naming "obstacle.center".
+SpatialState spatial_state(const Cartesian<3>& motion, const SpatialState* previous = nullptr);
+Cartesian<3> cartesian(const SpatialState& state, const Eigen::Vector3d& p_a = Eigen::Vector3d::Zero());
+
+}  // namespace vericone::guidance

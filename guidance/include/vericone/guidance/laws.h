@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The source's laws in one plane, by dynamic inversion of the cone function y, (5.1) and (5.10): in the plane
+// (5.12), (5.14), (5.16)-(5.17), and on planes of space (6.17), (6.19). All are pure functions; printed
+// mistakes are corrected (errata 3.5, 3.6) and the neglected terms of moving planes are there (kinematics.h).
+// No allocation, no throw.
+#pragma once
+
+#include <vericone/guidance/kinematics.h>
+#include <cstdint>
+#include <limits>
+
+namespace vericone::guidance {
+
+/// The cone on the plane: opening and bisector, theta_b against the axis of the state's theta, and their
+/// rates against fixed axes of the plane. Where A turns with its heading, its own lateral acceleration turns
+/// the cone as well: rates are psi_rate + psi_rate_by_a a with a A's lateral acceleration.
+struct PlaneCone {
+  double psi = 0, theta_b = 0;                      // rad
+  double psi_rate = 0, theta_b_rate = 0;            // rad/s
+  double psi_rate_by_a = 0, theta_b_rate_by_a = 0;  // rad/s per m/s^2
+};
+
+/// (5.10), y, its parts, and what changes it: y' = drift + by_lateral_a a_A + ... along the kinematics.
+struct ConeRates {
+  double y = 0;
+  double v_r_hat = 0, v_theta_hat = 0;  // along and across the bisector
+  double drift = 0;                     // 1/s
+  double by_lateral_a = 0, by_longitudinal_a = 0, by_lateral_b = 0, by_longitudinal_b = 0;
+
+  bool colliding() const { return y < 0 && v_r_hat < 0; }
+};
+/// (5.11) in closed form. V = 0: all rates 0, y = -sin^2(psi/2).
+ConeRates cone_rates(const PlanarState& state, const PlaneCone& cone);
+
+enum class LawStatus : std::uint8_t {
+  steering,
+  saturated,    // steering with the most allowed
+  clear,        // y >= cease: nothing commanded
+  receding,     // V_r_hat >= 0: nothing commanded
+  on_bisector,  // V_theta_hat = 0 within rounding: no first-order effect, the most on the chosen side
+  ineffective,  // the inputs do not turn the relative velocity: the most, which turns the heading
+  no_relative_velocity,  // V = 0: nothing commanded (avoidance), or arrived (rendezvous)
+};
+const char* to_string(LawStatus status);
+
+struct LawOptions {
+  double gain = 1;                                        // K, 1/s
+  double reference = 0;                                   // w: y' = -K (y - w)
+  double most = std::numeric_limits<double>::infinity();  // saturation, m/s^2
+  /// Avoidance commands nothing where y >= cease. The source stops at y > 0.
+  double cease = 0;
+  /// Sign of A's lateral acceleration where both sides are as good (on_bisector, ineffective).
+  double side = 1;
+  /// |by_lateral_a| below this part of the largest value it can have counts as no effect.
+  double effect = 1e-9;
+};
+
+struct LawCommand {
+  double a = 0;         // lateral acceleration of A, m/s^2, saturated
+  double demanded = 0;  // before saturation
+  ConeRates rates;
+  LawStatus status = LawStatus::clear;
+};
+
+/// (5.12), and (6.17) with a projected state. Aiming along the bisector, or with inputs without effect and no
+/// finite `most`, commands 0.
+LawCommand avoidance(const PlanarState& state, const PlaneCone& cone, const LawOptions& options);
+
+struct CooperativeCommand {
+  double a = 0, b = 0;  // lateral accelerations of A and B, m/s^2
+  double demanded_a = 0, demanded_b = 0;
+  ConeRates rates;
+  LawStatus status = LawStatus::clear;
+};
+
+/// (6.18)-(6.19) as corrected: a_B = mu a_A. Saturation scales both, which keeps their ratio.
+CooperativeCommand cooperative_avoidance(const PlanarState& state, const PlaneCone& cone,
+                                         const LawOptions& options, double mu);
+
+/// (5.14) as corrected. One equation, two unknowns: the pair of least a_A^2 + a_B^2. Drives y to the
+/// reference from either side, so that the bodies graze; `cease` is not read.
+CooperativeCommand cooperative_rendezvous(const PlanarState& state, const PlaneCone& cone,
+                                          const LawOptions& options);
+
+struct MatchingCommand {
+  double lateral = 0, longitudinal = 0;  // of A, m/s^2
+  double demanded_lateral = 0, demanded_longitudinal = 0;
+  ConeRates rates;
+  double speed_squared = 0;  // y_2 = V_r^2 + V_theta^2
+  LawStatus status = LawStatus::steering;
+};
+
+/// (5.16)-(5.17) as corrected: y to the reference with gain K and y_2 = V^2 to 0 with gain K_2. The
+/// system's determinant is -2 V^2 (errata 3.5), so it is solved in closed form; on the bisector, where y has
+/// no gradient, only (5.17) is kept, by the least acceleration. Saturation scales both.
+MatchingCommand matching_rendezvous(const PlanarState& state, const PlaneCone& cone,
+                                    const LawOptions& options, double gain_speed);
+
+}  // namespace vericone::guidance

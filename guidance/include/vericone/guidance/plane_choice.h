@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// On which plane to avoid (source, 6.4.1). All planes hold the line of sight.
+#pragma once
+
+#include <vericone/guidance/plane_view.h>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace vericone::guidance {
+
+enum class PlaneChoice : std::uint8_t {
+  largest_opening,     // maximum psi, the source's choice in 6.5
+  least_turn,          // the nearest edge is the least angle from the relative velocity's projection
+  least_y,             // minimum y: the deepest inside
+  wind_aware,          // least turn among planes whose acceleration does not oppose the wind
+  steepest_clearance,  // spanned by the line of sight and the gradient of m(w): ellipsoids, or the ellipsoids
+                       // around combined bodies and hulls
+  of_motion,           // spanned by the line of sight and the relative velocity: y < 0 there iff it collides
+};
+const char* to_string(PlaneChoice choice);
+
+struct PlaneOptions {
+  PlaneChoice choice = PlaneChoice::largest_opening;
+  int planes = 24;     // candidates at equal angles over half a turn
+  bool refine = true;  // go on from the best candidate to the optimum, to 1e-4 rad
+  Eigen::Vector3d wind = Eigen::Vector3d::Zero();  // m/s, for wind_aware
+};
+
+/// One candidate: for the choice, and for pictures of y and psi on all planes (Fig 6.9).
+struct PlaneCandidate {
+  double azimuth = 0;  // of `across` about the line of sight, rad from AxisFrame(line of sight).e1
+  double psi = 0, theta_b = 0, y = 0, v_r_hat = 0;
+};
+
+/// All `planes` candidates. Those on which there is no sector are left out.
+std::vector<PlaneCandidate> all_planes(const BodyState& a, const BodyState& b, SectorMethod method,
+                                       int planes);
+
+/// The second axis of the plane chosen, unit. `previous`: that of the last call; where it is given the
+/// optimum is followed from it by a few evaluations, and all candidates are compared only where that fails.
+/// Nothing where no plane has a sector. Planar bodies: the plane itself. Deterministic: equally good planes
+/// are told apart by the least azimuth. No allocation. Cost: see docs/benchmarks.md.
+std::optional<Eigen::Vector3d> choose_plane(const BodyState& a, const BodyState& b, SectorMethod method,
+                                            const PlaneOptions& options,
+                                            const Eigen::Vector3d* previous = nullptr);
+
+}  // namespace vericone::guidance

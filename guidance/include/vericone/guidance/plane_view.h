@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// An engagement seen on one plane through the line of sight: the states and the cone that planar laws read.
+#pragma once
+
+#include <vericone/guidance/body_state.h>
+#include <vericone/guidance/kinematics.h>
+#include <vericone/guidance/laws.h>
+#include <optional>
+
+namespace vericone::guidance {
+
+/// Which cone the plane is cut from. Planar bodies have one sector, whatever is asked.
+enum class SectorMethod : std::uint8_t {
+  slice,  // the source's: both bodies' sections by the plane (6.11); too small
+  exact,  // the true cone's section: contacts outside the plane count
+};
+
+enum class RateMethod : std::uint8_t {
+  analytic,     // closed form where there is one (below), else `differenced`
+  differenced,  // central differences of the cone along the bodies' momentary motion, h = 1e-4 s times r /
+                // |V|
+  none,         // zero: for the source's backward differences see guide.h
+};
+
+/// u = line_of_sight, e = across: orthonormal. The plane's angles are measured from u towards e, so theta =
+/// 0.
+struct PlaneView {
+  Eigen::Vector3d line_of_sight, across;
+  PlanarState state;
+  PlaneCone cone;
+
+  Eigen::Vector3d normal() const { return line_of_sight.cross(across); }
+  /// World direction of A's (B's) lateral acceleration, heading + pi/2 in the plane: perpendicular to the
+  /// whole velocity.
+  Eigen::Vector3d lateral_a() const;
+  Eigen::Vector3d lateral_b() const;
+};
+
+/// The states alone. `across`: any vector not parallel to the line of sight; planar bodies take the plane
+/// z = 0 with e = (-u_y, u_x, 0), whatever it is. Requires different centres and a vector not parallel.
+PlaneView plane_states(const BodyState& a, const BodyState& b, const Eigen::Vector3d& across,
+                       double plane_spin = 0);
+
+/// The cone at `view`, filled in; false where the bodies are not apart (on the plane, for slices) or an
+/// oracle does not decide, and nothing is written. A is planar or an ellipsoid; the obstacle planar, combined
+/// or a hull.
+///
+/// Closed-form rates: planar bodies; slices of combined bodies (ellipsoids among them); exact sectors of
+/// ellipsoids. Others (`exact` of combined bodies and hulls, slices of hulls) are differenced.
+/// Cost with closed-form rates: ellipsoids exact 3 us, slices 3 us; combined `exact` milliseconds.
+bool fill_cone(PlaneView& view, const BodyState& a, const BodyState& b, SectorMethod method,
+               RateMethod rates);
+
+/// Both in one.
+std::optional<PlaneView> plane_view(const BodyState& a, const BodyState& b, const Eigen::Vector3d& across,
+                                    SectorMethod method, RateMethod rates, double plane_spin = 0);
+
+/// The body a moment `dt` later along its momentary motion: moved, turned by omega (and its heading by
+/// `acceleration` where it turns with it), its shape changed at its rate.
+BodyState advanced(const BodyState& body, double dt,
+                   const Eigen::Vector3d& acceleration = Eigen::Vector3d::Zero());
+
+/// Angular velocity: omega, and v x a / |v|^2 where it turns with its heading.
+Eigen::Vector3d angular_velocity(const BodyState& body, const Eigen::Vector3d& acceleration);
+
+}  // namespace vericone::guidance

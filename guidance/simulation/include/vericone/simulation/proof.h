@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Whether two moving bodies met, proved: exact disjointness at the ends of every piece of time, and between
+// them a separation with a margin that covers what the bodies can have moved, turned and changed meanwhile.
+#pragma once
+
+#include <vericone/simulation/track.h>
+#include <cstdint>
+
+namespace vericone::simulation {
+
+enum class ProofVerdict : std::uint8_t {
+  avoided,    // proved apart all the time
+  touched,    // proved to touch or overlap at a time
+  undecided,  // they come closer than the proof resolves
+};
+const char* to_string(ProofVerdict verdict);
+
+struct ProofOptions {
+  /// Metres. The proof holds for all motions whose positions are within this of the track's: rounding and the
+  /// integrator's error.
+  double padding = 1e-8;
+  /// Seconds. A piece of time shorter than this is not divided further: `undecided`.
+  double resolution = 1e-7;
+};
+
+struct PairProof {
+  ProofVerdict verdict = ProofVerdict::avoided;
+  /// touched: apart before `from`, proved; meeting at `to`, proved. undecided: the first piece of time
+  /// without proof. avoided: the interval asked about.
+  double from = 0, to = 0;  // s
+  /// touched: a point near both bodies at `to`. Otherwise where they come nearest.
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  /// avoided: the distance was never below this, proved, metres; and when it was proved least.
+  double least_distance = 0, least_time = 0;
+  std::uint64_t pieces = 0;  // pieces of time that were proved separately
+};
+
+/// Over [from, to], within the life of both tracks. Pairs: two planar bodies; ellipsoids, combined bodies and
+/// hulls in any combination that has a certified predicate (an ellipsoid and any other; two combined; two
+/// hulls); throws InputError naming "bodies" for others. A planar and a spatial body do not mix.
+PairProof prove(const Track& a, const Track& b, double from, double to, const ProofOptions& options = {});
+
+}  // namespace vericone::simulation

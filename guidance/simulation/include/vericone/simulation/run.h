@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A scenario carried out: what moved where, what was commanded, what happened, and what is proved of it.
+#pragma once
+
+#include <vericone/simulation/scenario.h>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace vericone::simulation {
+
+/// One agent and one of the bodies it minds, at the time of a command. Body indices are the scenario's.
+struct EncounterSample {
+  double t = 0;
+  std::size_t agent = 0, obstacle = 0;
+  guidance::SpatialState state;  // (6.10)'s states; planar scenarios have phi = 0
+  guidance::GuideStep step;      // what the law says for this obstacle alone
+  double plane_azimuth = 0;      // of step.across about the line of sight, rad from AxisFrame.e1
+  bool cone = false;             // false: no cone (not apart as the method sees it); y, psi are NaN
+  bool attended = false;         // the agent follows this one
+};
+
+/// The same moment on all planes.
+struct PlaneSample {
+  double t = 0;
+  std::size_t agent = 0, obstacle = 0;
+  guidance::PlaneCandidate plane;
+};
+
+enum class EventKind : std::uint8_t {
+  appears,      // body `agent`
+  enters_cone,  // y < 0 and closing from now on, as the law sees it
+  leaves_cone,  // y >= 0 (or m >= required) from now on; the last sample before it was inside
+  passes,       // closest approach of the centres, V_r = 0
+  aligned,      // the velocity points at the goal from now on
+  reaches_goal,
+  contact,  // proved
+};
+const char* to_string(EventKind kind);
+
+struct Event {
+  double t = 0;
+  EventKind kind = EventKind::appears;
+  std::size_t agent = 0, obstacle = 0;  // equal where only one body is concerned
+  double value =
+      0;  // passes: distance of the centres, m; enters_cone, leaves_cone: y; contact: earliest possible time
+};
+
+struct PairOutcome {
+  std::size_t a = 0, b = 0;
+  PairProof proof;
+};
+
+struct Run {
+  std::vector<Track> tracks;                // one a body
+  double end = 0;                           // s
+  std::vector<EncounterSample> encounters;  // by time, agent, obstacle
+  std::vector<PlaneSample> planes;
+  std::vector<Event> events;        // by time
+  std::vector<PairOutcome> proofs;  // every pair of bodies of which one has a pilot or a partner
+  bool interrupted = false;
+
+  /// touched if any pair touched; else undecided if any is; else avoided.
+  ProofVerdict verdict() const;
+};
+
+struct RunOptions {
+  bool prove = true;
+  bool log = true;  // encounters and planes
+  /// Called after every step with the time reached; false ends the run there, `interrupted`.
+  std::function<bool(double t)> progress;
+};
+
+/// Deterministic. Throws InputError like check().
+Run simulate(const Scenario& scenario, const RunOptions& options = {});
+
+/// The first event of a kind, at or after a time; `obstacle` and `agent` by name.
+std::optional<Event> find_event(const Scenario& scenario, const Run& run, EventKind kind,
+                                const std::string& agent, const std::string& obstacle, double after = 0);
+
+/// The sample of an encounter nearest in time; nothing where there is none within one step.
+std::optional<EncounterSample> sample_at(const Scenario& scenario, const Run& run, const std::string& agent,
+                                         const std::string& obstacle, double t);
+
+}  // namespace vericone::simulation

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What a run is made of. Read from YAML by the command (docs/scenarios.md).
+#pragma once
+
+#include <vericone/guidance/guide.h>
+#include <vericone/simulation/proof.h>
+#include <vericone/simulation/track.h>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vericone::simulation {
+
+/// Where an agent wants to go once nothing threatens it.
+struct Goal {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  double most = 0;     // m/s^2, with which it turns towards the point
+  std::string after;   // obstacle that has to be passed first; empty: none
+  double reached = 1;  // metres: the run ends when the agent is this near
+};
+
+/// What flies a body. Bodies without one keep their velocity.
+struct Pilot {
+  guidance::GuideOptions guide;
+  /// Names of what is avoided (met, for rendezvous). Empty: all other bodies, except for a partner's own
+  /// agent.
+  std::vector<std::string> minds;
+  /// Cooperative laws: the body that carries out the second acceleration. Has no pilot of its own.
+  std::vector<std::string> partners;
+  std::optional<Goal> goal;
+};
+
+struct Body {
+  std::string name;
+  ShapeInTime shape;
+  Motion start;  // at `appears`
+  Orientation orientation = Orientation::heading;
+  double appears = 0;  // s
+  std::optional<Pilot> pilot;
+};
+
+struct Scenario {
+  std::string name;
+  double duration = 10;           // s, at most
+  double step = 0.01;             // s, between two commands, which are held in between
+  bool stop_when_passed = false;  // ends when every agent has passed all that it minds, and none is to come
+  int planes_logged = 0;          // y and psi are logged on this many planes (Fig 6.9)
+  std::vector<Body> bodies;
+  ProofOptions proof;
+};
+
+/// Throws InputError with the field's path: "bodies[2].shape.k", "bodies[0].pilot.minds[1]", ...
+void check(const Scenario& scenario);
+
+}  // namespace vericone::simulation

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Bodies that change their shape: what they are at a time, how fast they change, and what holds all that they
+// are during an interval.
+#pragma once
+
+#include <vericone/guidance/body_state.h>
+#include <variant>
+
+namespace vericone::simulation {
+
+/// k(t) = offset + amplitude sin(rate t + phase), or its absolute value; t in seconds of the scenario.
+struct Oscillation {
+  double offset = 0, amplitude = 0;
+  double rate = 0, phase = 0;  // rad/s, rad
+  bool absolute = false;
+
+  double at(double t) const;
+  double rate_at(double t) const;  // 1/s; at a corner of |...| that of the side after t
+  /// Bounds of k over [from, to], widened by a few roundings.
+  struct Range {
+    double low, high;
+  };
+  Range range(double from, double to) const;
+};
+
+/// About the origin of the body's own frame, its x axis ahead. Hulls: the origin is the reference point.
+struct RigidShape {
+  guidance::Shape shape;
+};
+
+/// The source's conic (5.5) with the dents ahead and behind, k(t) in [0, 1).
+struct DentedConic {
+  double a_c = 1, b_c = 1;
+  Oscillation k;
+};
+
+/// Its counterpart in space, (x/a)^2 + |(y/b)^2 + (z/c)^2 - k| <= 1: the ellipsoid (a, b, c) sqrt(1 + k)
+/// delimited by the two-sheeted hyperboloid (a, b, c) sqrt(1 - k). k = 0: the ellipsoid (a, b, c).
+struct DentedQuadric {
+  Eigen::Vector3d semi_axes = Eigen::Vector3d::Ones();
+  Oscillation k;
+};
+
+using ShapeInTime = std::variant<RigidShape, DentedConic, DentedQuadric>;
+
+/// Throws InputError naming "a_c", "b_c", "semi_axes[i]" or "k" (values outside [0, 1) at some time).
+void check(const ShapeInTime& shape);
+
+bool planar(const ShapeInTime& shape);
+
+/// At time t, centre (reference point) at `position`, turned by `rotation`. Of planar shapes the rotation
+/// about z counts.
+guidance::Shape shape_at(const ShapeInTime& shape, double t, const Eigen::Vector3d& position,
+                         const Eigen::Matrix3d& rotation);
+
+/// Rates at time t in world axes, beyond turning.
+guidance::ShapeRate shape_rate_at(const ShapeInTime& shape, double t, const Eigen::Matrix3d& rotation);
+
+/// A shape that contains the body at every time of [from, to]: (5.5) with the ellipse of the largest k and
+/// the hyperbola of the least. Posed like shape_at.
+guidance::Shape shape_over(const ShapeInTime& shape, double from, double to, const Eigen::Vector3d& position,
+                           const Eigen::Matrix3d& rotation);
+
+/// The largest distance of a point of the body from its reference point, at any time; rounded up.
+double reach(const ShapeInTime& shape);
+
+}  // namespace vericone::simulation
