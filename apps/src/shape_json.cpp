@@ -17,9 +17,9 @@ template <int D>
 Json combined_json(const BasicCombined<D>& body) {
   Json delimiters = Json::array();
   for (const auto& d : body.delimiters())
-    delimiters.push_back({{"matrix", matrix_json<D>(d.matrix)}, {"level", d.level}});
+    delimiters.push_back({{"matrix", to_json(d.matrix)}, {"level", d.level}});
   return {{"center", to_json(body.center())},
-          {"factor", matrix_json<D>(body.ellipsoid().factor())},
+          {"factor", to_json(body.ellipsoid().factor())},
           {"delimiters", delimiters}};
 }
 
@@ -27,6 +27,8 @@ Json combined_json(const BasicCombined<D>& body) {
 
 Json to_json(const Eigen::Vector2d& v) { return {v.x(), v.y()}; }
 Json to_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+Json to_json(const Eigen::Matrix2d& m) { return matrix_json<2>(m); }
+Json to_json(const Eigen::Matrix3d& m) { return matrix_json<3>(m); }
 
 Json body_json(const CombinedEllipse& body) { return combined_json<2>(body); }
 Json body_json(const CombinedEllipsoid& body) { return combined_json<3>(body); }

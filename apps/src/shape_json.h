@@ -11,6 +11,9 @@ namespace vericone {
 
 nlohmann::ordered_json to_json(const Eigen::Vector2d& v);
 nlohmann::ordered_json to_json(const Eigen::Vector3d& v);
+/// By rows.
+nlohmann::ordered_json to_json(const Eigen::Matrix2d& m);
+nlohmann::ordered_json to_json(const Eigen::Matrix3d& m);
 
 /// {"center", "factor", "delimiters": [{"matrix", "level"}]}
 nlohmann::ordered_json body_json(const CombinedEllipse& body);

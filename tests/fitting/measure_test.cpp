@@ -306,11 +306,15 @@ TEST(EnclosedVolume, OfRealMeshes) {
     const char* file;
     double volume;  // as other programs found it, shown digits; 0: open
   };
+  std::string missing;
   for (const Case& c : {Case{"216Kleopatra.obj", 7.089e5}, Case{"ycb_006_mustard_bottle.obj", 6.12e-4},
                         Case{"stanford-bunny.obj", 0}}) {
     const char* given = std::getenv("VERICONE_DATA_DIR");
     const auto path = std::filesystem::path(given ? given : VERICONE_DEFAULT_DATA_DIR) / c.file;
-    if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+    if (!std::filesystem::exists(path)) {
+      missing += " " + path.string();
+      continue;
+    }
     const files::TriangleMesh mesh = files::triangle_mesh(files::read_points(path));
     const auto v = enclosed_volume({mesh.points, mesh.triangles});
     ASSERT_EQ(v.has_value(), c.volume > 0) << c.file;
@@ -318,6 +322,7 @@ TEST(EnclosedVolume, OfRealMeshes) {
       EXPECT_NEAR(*v, c.volume, 1e-3 * c.volume) << c.file;
     }
   }
+  if (!missing.empty()) GTEST_SKIP() << "not there:" << missing << "; the others were tested";
 }
 #endif
 

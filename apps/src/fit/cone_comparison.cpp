@@ -30,24 +30,14 @@ struct Bodies {
   std::optional<double> convex_hull_volume;
 };
 
-std::vector<Vector3d> used_points(const fitting::Sample& scan) {
-  if (!scan.is_mesh()) return scan.points;
-  std::vector<char> used(scan.points.size(), 0);
-  for (const auto& t : scan.triangles)
-    for (const std::uint32_t i : t) used[i] = 1;
-  std::vector<Vector3d> points;
-  for (std::size_t i = 0; i < used.size(); ++i)
-    if (used[i]) points.push_back(scan.points[i]);
-  return points;
-}
-
 bool proved_to_contain(const fitting::FitResult& fit) {
   return fit.certified && fit.certificate.all_inside();
 }
 
 Bodies bodies_of(const fitting::Sample& scan, const fitting::FitResult& fit,
                  std::vector<std::string>& notes) {
-  const std::vector<Vector3d> points = used_points(scan);
+  std::vector<Vector3d> points;
+  for (const std::uint32_t i : fitting::used_points(scan)) points.push_back(scan.points[i]);
   const double radius = fit.certificate.margin;
   Bodies bodies{
       .scan = scan.is_mesh() ? Assembly::mesh(scan.points, scan.triangles) : Assembly::cloud(points, radius),

@@ -18,12 +18,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json matrix_json(const Eigen::Matrix3d& m) {
-  Json rows = Json::array();
-  for (int i = 0; i < 3; ++i) rows.push_back(to_json(Eigen::Vector3d(m.row(i))));
-  return rows;
-}
-
 /// Sheets, semi-axes and rotation of { y^T M y <= level }, whose axis is the eigenvector with the sign that
 /// the others have not.
 Json hyperboloid_fields(const Delimiter<3>& d, const Eigen::Matrix3d& body, double factor) {
@@ -43,7 +37,7 @@ Json hyperboloid_fields(const Delimiter<3>& d, const Eigen::Matrix3d& body, doub
   if (turn.determinant() < 0) turn.col(2) = -turn.col(2);
   return {{"sheets", positive == 1 ? 2 : 1},
           {"semi_axes", to_json(semi_axes)},
-          {"rotation", matrix_json(body.transpose() * turn)}};
+          {"rotation", to_json(Eigen::Matrix3d(body.transpose() * turn))}};
 }
 
 /// Of a surface that proofs moved off the ellipsoid nothing is left to say, and scenes refuse it.
@@ -64,7 +58,7 @@ Json spatial_fields(const CombinedEllipsoid& body, double factor) {
     if (delimits(d, body.ellipsoid())) hyperboloids.push_back(hyperboloid_fields(d, rotation, factor));
   return {{"center", to_json(body.center())},
           {"semi_axes", to_json(Eigen::Vector3d(factor * body.ellipsoid().semi_axes()))},
-          {"rotation", matrix_json(rotation)},
+          {"rotation", to_json(rotation)},
           {"hyperboloids", hyperboloids}};
 }
 
@@ -148,13 +142,10 @@ std::vector<Json> enclosing_body_fields(const std::vector<fitting::Piece>& piece
 
 std::vector<Eigen::Vector3d> points_inside(const std::vector<fitting::Piece>& pieces,
                                            const fitting::Sample& sample) {
-  std::vector<char> used(sample.points.size(), !sample.is_mesh());
-  for (const auto& t : sample.triangles)
-    for (const auto i : t) used[i] = 1;
   std::vector<Eigen::Vector3d> inside;
-  for (std::size_t i = 0; i < sample.points.size(); ++i) {
+  for (const std::uint32_t i : fitting::used_points(sample)) {
     const Eigen::Vector3d& x = sample.points[i];
-    if (used[i] && std::any_of(pieces.begin(), pieces.end(), [&](const fitting::Piece& piece) {
+    if (std::any_of(pieces.begin(), pieces.end(), [&](const fitting::Piece& piece) {
           return side<3>(std::span<const Quadric>(piece.quadrics), x) != Sign::positive;
         }))
       inside.push_back(x);

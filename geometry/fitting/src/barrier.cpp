@@ -160,7 +160,6 @@ int centre(const Barrier& barrier, double mu, VectorXd& x, VectorXd& multipliers
 
 struct Polished {
   VectorXd x;
-  std::vector<Constraint> active;
   double residual = 0;
 };
 
@@ -212,7 +211,7 @@ std::optional<Polished> polish(const HullProblem& problem, const std::vector<Con
       multipliers.erase(multipliers.begin() + worst);
       continue;
     }
-    return Polished{x, active, residual};
+    return Polished{x, residual};
   }
   return std::nullopt;
 }
@@ -256,17 +255,15 @@ std::set<Constraint> first_working_set(HullProblem& problem, const StarBody& bod
   return working;
 }
 
-/// The polished body where it holds what it must; nothing otherwise.
-bool take_over(const HullProblem& problem, const Polished& polished, Minimum& result) {
+/// The polished body, where it contains what it must.
+void take_over(const HullProblem& problem, const Polished& polished, Minimum& result) {
   const StarBody body = to_body(polished.x);
   const std::vector<double> most = problem.greatest(body, 0, nullptr);
-  if (!(*std::max_element(most.begin(), most.end()) < kViolated)) return false;
+  if (!(*std::max_element(most.begin(), most.end()) < kViolated)) return;
   for (const Constraint& c : problem.signature())
-    if (!(problem.constraint(c, body) < kViolated)) return false;
+    if (!(problem.constraint(c, body) < kViolated)) return;
   result.body = body;
   result.stationarity = polished.residual;
-  result.active = polished.active;
-  return true;
 }
 
 }  // namespace
@@ -314,8 +311,6 @@ Minimum minimise(HullProblem problem, StarBody start, Descent descent) {
       const VectorXd weights = central(slacks, last);
       if (barrier.lagrangian_gradient(x, weights, gradient))
         result.stationarity = gradient.cwiseAbs().maxCoeff();
-      for (std::size_t i = 0; i < working.size(); ++i)
-        if (weights(Eigen::Index(i)) > kPressed) result.active.push_back(working[i]);
       if (const auto polished = polish(problem, working, weights, x)) take_over(problem, *polished, result);
     }
     result.converged = result.stationarity <= kStationary;

@@ -15,7 +15,6 @@ struct Minimum {
   double stationarity = 0;
   bool converged = false;  // stationarity <= 1e-8, multipliers nonnegative
   int iterations = 0;      // Newton steps
-  std::vector<HullProblem::Constraint> active;
 };
 
 enum class Descent {

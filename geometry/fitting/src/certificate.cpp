@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "middle.h"
 #include "piece_check.h"
-#include "used_points.h"
 
 namespace vericone::fitting {
 namespace {

@@ -137,11 +137,14 @@ ContainingFit combined(const CanonicalSample& sample, const CanonicalSample& gri
     fit.iterations += best.iterations;
     if (!(best.log_volume < single.log_volume)) best = single;
   }
-  // The points themselves have the last word, unless they leave it to the rounded ones.
-  found.resize(best.body.delimiters.size());
-  const Minimum exact = minimise(problem_of(sample, unit, found, options.margin), best.body, Descent::last);
-  fit.iterations += exact.iterations;
-  if (exact.converged || !best.converged) best = exact;
+  // The points themselves have the last word. Not of stars, whose conditions hold roughly only: what rounding
+  // changed enclose() makes up for.
+  if (best.body.delimiters.size() <= 1) {
+    found.resize(best.body.delimiters.size());
+    const Minimum exact = minimise(problem_of(sample, unit, found, options.margin), best.body, Descent::last);
+    fit.iterations += exact.iterations;
+    if (exact.converged || !best.converged) best = exact;
+  }
   drop_idle(best.body);
   fit.piece.body = to_sample(best.body, unit);
   fit.converged = best.converged;
@@ -178,43 +181,43 @@ ContainingFit footprint(const CanonicalSample& sample, double margin) {
   return fit;
 }
 
+ContainingFit ellipsoid(const CanonicalSample& sample, double margin) {
+  const MinVolumeResult<3> least = min_volume_ellipsoid<3>(sample.points);
+  ContainingFit fit;
+  fit.starts = 1;
+  if (margin > 0) {
+    const Minimum m = minimise(problem_of(sample, least.body, {}, margin), StarBody{}, Descent::thorough);
+    fit.piece.body = to_sample(m.body, least.body);
+    fit.converged = m.converged;
+    fit.stationarity = m.stationarity;
+    fit.iterations = m.iterations;
+  } else {
+    fit.piece.body = least.body;
+    fit.converged = least.converged();
+    fit.stationarity = least.optimality_gap;
+    fit.volume_ratio_bound = least.volume_ratio_bound;
+    fit.iterations = least.iterations;
+  }
+  fit.volume = fit.piece.body.ellipsoid().volume();
+  return fit;
+}
+
 }  // namespace
 
 ContainingFit containing_fit(const CanonicalSample& sample, Shape shape, const ContainingOptions& options) {
-  ContainingFit fit;
-  if (shape == Shape::ellipse) {
-    fit = footprint(sample, options.margin);
-  } else {
-    const MinVolumeResult<3> least = min_volume_ellipsoid<3>(sample.points);
-    if (shape == Shape::ellipsoid && !(options.margin > 0)) {
-      fit.piece.body = least.body;
-      fit.converged = least.converged();
-      fit.stationarity = least.optimality_gap;
-      fit.volume_ratio_bound = least.volume_ratio_bound;
-      fit.volume = least.body.volume();
-      fit.iterations = least.iterations;
-      fit.starts = 1;
-    } else if (shape == Shape::ellipsoid) {
-      const Minimum m =
-          minimise(problem_of(sample, least.body, {}, options.margin), StarBody{}, Descent::thorough);
-      fit.piece.body = to_sample(m.body, least.body);
-      fit.converged = m.converged;
-      fit.stationarity = m.stationarity;
-      fit.volume = fit.piece.body.ellipsoid().volume();
-      fit.iterations = m.iterations;
-      fit.starts = 1;
-    } else {
-      // The search for starts branches: it sees rounded coordinates. The last steps see the points.
-      CanonicalSample grid = sample;
-      for (Vector3d& y : grid.points) y = rounded(y);
-      fit = combined(sample, grid, min_volume_ellipsoid<3>(grid.points).body, shape, options);
-      // Where nothing is to be cut away the ellipsoid itself is the least body, to the last digit.
-      if (!(options.margin > 0) && !(fit.volume < least.body.volume())) {
-        fit.piece.body = least.body;
-        fit.volume = least.body.volume();
-      }
-    }
-  }
+  if (shape == Shape::ellipse) return footprint(sample, options.margin);
+  const ContainingFit least = ellipsoid(sample, options.margin);
+  if (shape == Shape::ellipsoid) return least;
+  // The search for starts branches: it sees rounded coordinates. The last steps see the points.
+  CanonicalSample grid = sample;
+  for (Vector3d& y : grid.points) y = rounded(y);
+  ContainingFit fit = combined(sample, grid, min_volume_ellipsoid<3>(grid.points).body, shape, options);
+  if (fit.volume < least.volume) return fit;
+  // Nothing is to be cut away.
+  fit.piece = least.piece;
+  fit.volume = least.volume;
+  fit.converged = least.converged;
+  fit.stationarity = least.stationarity;
   return fit;
 }
 

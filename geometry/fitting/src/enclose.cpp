@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "greatest_value.h"
+#include "middle.h"
 #include "rational_quadric.h"
-#include "used_points.h"
 
 namespace vericone::fitting {
 namespace {

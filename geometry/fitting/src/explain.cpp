@@ -70,21 +70,6 @@ void remark_surface(const SurfaceFit& surface, const std::string& which, std::ve
 
 }  // namespace
 
-int parameters(Shape shape) {
-  switch (shape) {
-    case Shape::ellipse:
-      return 5;
-    case Shape::ellipsoid:
-      return 9;
-    case Shape::biconcave:
-    case Shape::biconvex:
-      return 15;
-    case Shape::star:
-      return 21;
-  }
-  return 0;
-}
-
 void score(Candidate& candidate, Mode mode) {
   const double size = mode == Mode::containing ? candidate.volume : candidate.noise;
   // A containing body is proved to contain whether or not it is a minimum; a surface that is no minimum is

@@ -9,9 +9,6 @@
 
 namespace vericone::fitting {
 
-/// 5 for an ellipse, 9 for an ellipsoid, 6 more for each delimiter: of a star the least that it has, 21.
-int parameters(Shape shape);
-
 /// Log of the volume (containing) or of the noise (near the points), and kPricePerParameter for each
 /// parameter; infinite where a surface has not converged.
 void score(Candidate& candidate, Mode mode);

@@ -222,11 +222,8 @@ std::vector<Trial> try_all(const std::vector<Part>& parts, const CanonicalSample
 
 void measure(const Sample& sample, const CanonicalSample& canon, FitResult& result) {
   result.volume = volume(result.pieces);
-  if (result.pieces.front().footprint) {
-    double area = 0;
-    for (const Piece& piece : result.pieces) area += piece.footprint->volume();
-    if (result.pieces.size() == 1) result.area = area;
-  }
+  if (const auto& footprint = result.pieces.front().footprint; footprint && result.pieces.size() == 1)
+    result.area = footprint->volume();
   if (sample.is_mesh()) result.scan_volume = enclosed_volume(sample);
   const double unit = std::pow(canon.frame.scale, 3);
   try {

@@ -23,6 +23,21 @@ std::string to_string(Shape shape) {
   return "star";
 }
 
+int parameters(Shape shape) {
+  switch (shape) {
+    case Shape::ellipse:
+      return 5;
+    case Shape::ellipsoid:
+      return 9;
+    case Shape::biconcave:
+    case Shape::biconvex:
+      return 15;
+    case Shape::star:
+      return 21;
+  }
+  return 0;
+}
+
 void set_quadrics(Piece& piece) {
   piece.quadrics.clear();
   if (piece.footprint) {

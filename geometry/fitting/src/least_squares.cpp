@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "explain.h"
 #include "surface_search.h"
 
 namespace vericone::fitting {

@@ -43,21 +43,9 @@ void require_pieces(const std::vector<Piece>& pieces) {
   if (pieces.empty()) throw InputError("pieces", "none", "at least one");
 }
 
-void require_indices(const Sample& sample) {
+std::vector<std::uint32_t> require_points(const Sample& sample) {
   if (sample.points.empty()) throw InputError("points", "none", "at least one");
-  for (std::size_t t = 0; t < sample.triangles.size(); ++t)
-    for (const std::uint32_t v : sample.triangles[t])
-      if (v >= sample.points.size())
-        throw InputError("triangles[" + std::to_string(t) + "]", std::to_string(v), "the index of a point");
-}
-
-/// Whether each point is one that counts: those of a mesh that triangles use.
-std::vector<char> counted(const Sample& sample) {
-  if (!sample.is_mesh()) return std::vector<char>(sample.points.size(), 1);
-  std::vector<char> used(sample.points.size(), 0);
-  for (const auto& t : sample.triangles)
-    for (const std::uint32_t v : t) used[v] = 1;
-  return used;
+  return used_points(sample);
 }
 
 /// Triangles of the pieces' surfaces, with the area up to and including each.
@@ -92,14 +80,11 @@ double fraction(double x) { return x - std::floor(x); }
 
 DistanceStatistics scan_to_hull(const std::vector<Piece>& pieces, const Sample& sample) {
   require_pieces(pieces);
-  require_indices(sample);
   std::vector<BodyDistance> bodies;
   for (const Piece& p : pieces)
     if (!p.footprint) bodies.emplace_back(p.body);
-  const std::vector<char> used = counted(sample);
   Statistics all;
-  for (std::size_t i = 0; i < sample.points.size(); ++i) {
-    if (!used[i]) continue;
+  for (const std::uint32_t i : require_points(sample)) {
     const Vector3d& x = sample.points[i];
     double least = std::numeric_limits<double>::infinity();
     for (const BodyDistance& d : bodies) least = std::min(least, d(x));
@@ -113,7 +98,7 @@ DistanceStatistics scan_to_hull(const std::vector<Piece>& pieces, const Sample& 
 std::optional<DistanceStatistics> hull_to_scan(const std::vector<Piece>& pieces, const Sample& sample,
                                                int samples) {
   require_pieces(pieces);
-  require_indices(sample);
+  require_points(sample);
   if (samples < 1) throw InputError("samples", std::to_string(samples), "at least 1");
   if (std::any_of(pieces.begin(), pieces.end(), [](const Piece& p) { return p.footprint.has_value(); }))
     return std::nullopt;
@@ -150,7 +135,7 @@ std::optional<DistanceStatistics> hull_to_scan(const std::vector<Piece>& pieces,
 
 std::optional<double> enclosed_volume(const Sample& mesh) {
   if (!mesh.is_mesh()) return std::nullopt;
-  require_indices(mesh);
+  const std::vector<std::uint32_t> used = require_points(mesh);
   // Equal points become one: the first of them.
   const std::size_t count = mesh.points.size();
   const auto less = [&](std::uint32_t i, std::uint32_t j) {
@@ -190,15 +175,9 @@ std::optional<double> enclosed_volume(const Sample& mesh) {
   }
 
   // About the middle of the points: far from the origin the products would cancel.
-  const std::vector<char> used = counted(mesh);
   LongVector middle = LongVector::Zero();
-  long double corners = 0;
-  for (std::size_t i = 0; i < count; ++i)
-    if (used[i]) {
-      middle += mesh.points[i].cast<long double>();
-      corners += 1;
-    }
-  middle /= corners;
+  for (const std::uint32_t i : used) middle += mesh.points[i].cast<long double>();
+  middle /= static_cast<long double>(used.size());
   long double sum = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
     const LongVector p = mesh.points[a].cast<long double>() - middle;

@@ -166,7 +166,7 @@ std::vector<Part> partition(const Part& whole, int count) {
     groups = partitioner.settle(std::move(*next));
   }
   if (!groups)
-    throw InputError("points", "in one plane", "points in space (for a footprint use the shape ellipse)");
+    throw InputError("points", "a plane of them", "points in space where there are several pieces");
   std::vector<Part> parts;
   for (int k = 0; k < count; ++k) {
     std::vector<char> kept(whole.sample.points.size(), 0);

@@ -30,27 +30,6 @@ void require_valid(const Sample& sample) {
       if (!(std::abs(sample.points[i](k)) <= kLargest))
         throw InputError("points[" + std::to_string(i) + "]", to_text(sample.points[i](k)),
                          "coordinates of at most 1e100 in magnitude (m)");
-  for (std::size_t i = 0; i < sample.triangles.size(); ++i)
-    for (const std::uint32_t corner : sample.triangles[i])
-      if (corner >= sample.points.size())
-        throw InputError("triangles[" + std::to_string(i) + "]", std::to_string(corner),
-                         "indices below " + std::to_string(sample.points.size()));
-}
-
-/// Indices of the points that count: of a mesh those that triangles use.
-std::vector<std::uint32_t> used_points(const Sample& sample) {
-  std::vector<std::uint32_t> used;
-  if (!sample.is_mesh()) {
-    used.resize(sample.points.size());
-    std::iota(used.begin(), used.end(), 0u);
-    return used;
-  }
-  std::vector<char> is_used(sample.points.size(), 0);
-  for (const auto& t : sample.triangles)
-    for (const std::uint32_t corner : t) is_used[corner] = 1;
-  for (std::uint32_t i = 0; i < is_used.size(); ++i)
-    if (is_used[i]) used.push_back(i);
-  return used;
 }
 
 struct Distinct {
@@ -136,6 +115,27 @@ std::vector<std::array<std::uint32_t, 3>> canonical_triangles(const Sample& samp
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> used_points(const Sample& sample) {
+  std::vector<char> used(sample.points.size(), !sample.is_mesh());
+  for (std::size_t t = 0; t < sample.triangles.size(); ++t)
+    for (const std::uint32_t i : sample.triangles[t]) {
+      if (i >= used.size())
+        throw InputError("triangles[" + std::to_string(t) + "]", std::to_string(i),
+                         "indices below the number of points, " + std::to_string(used.size()));
+      used[i] = 1;
+    }
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t i = 0; i < used.size(); ++i) {
+    if (!used[i]) continue;
+    for (int k = 0; k < 3; ++k)
+      if (!std::isfinite(sample.points[i](k)))
+        throw InputError("points[" + std::to_string(i) + "]", to_text(sample.points[i](k)),
+                         "a finite number (metres)");
+    all.push_back(i);
+  }
+  return all;
+}
 
 Vector3d rounded(const Vector3d& y) {
   constexpr double kGrid = 1 << 26;

@@ -22,6 +22,9 @@ enum class Shape {
 };
 std::string to_string(Shape shape);
 
+/// 5 for an ellipse, 9 for an ellipsoid, 6 more for each delimiter: of a star the least that it has, 21.
+int parameters(Shape shape);
+
 /// One body of a hull. A point is in it where it is on the negative side of all its quadrics.
 struct Piece {
   /// In space; for the shape `ellipse` not used.

@@ -19,6 +19,11 @@ struct Sample {
   bool is_mesh() const { return !triangles.empty(); }
 };
 
+/// Indices, increasing, of the points that count: all of a cloud; of a mesh those that triangles use. Throws
+/// InputError naming "points[i]" where one of them is not finite and "triangles[i]" for an index that is no
+/// point.
+std::vector<std::uint32_t> used_points(const Sample& sample);
+
 /// Coordinates that belong to the sample: origin at its mean, axes along its principal directions (signs by
 /// the third moments), and a length. x = origin + scale * axes * y.
 struct Frame {
