@@ -1,2 +1,155 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/guidance/clearance_law.h>
+
+#include <vericone/cones/clearance.h>
+#include <vericone/cones/cone_geometry.h>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include <vericone/guidance/plane_view.h>
+#include "containing_ellipsoid.h"
+
+namespace vericone::guidance {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// What the law needs of m(w): the value, the normal and when its supporting points pass.
+struct Miss {
+  double m = 0, time = 0;
+  Vector3d normal = Vector3d::Zero();
+  bool ahead = false;  // the passage, or the collision, is still to come
+};
+
+Miss spatial_miss(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& w) {
+  const Clearance c = clearance(a, b, w);
+  Miss miss{c.distance, c.time, c.normal, c.time > 0};
+  // The supporting points of a line that hits may lie behind although the hit lies ahead: the cone knows.
+  if (c.distance < 0) {
+    const ConeOracle oracle(a, b);
+    if (oracle.relation() == Relation::disjoint)
+      miss.ahead = oracle.triage_membership(w).value_or(Membership::in) != Membership::out;
+    else
+      miss.ahead = w.dot(b.center() - a.center()) > 0;
+  }
+  return miss;
+}
+
+/// In the plane two normals are perpendicular to w.
+Miss planar_miss(const Ellipse& a, const Ellipse& b, const Vector2d& w) {
+  const Vector2d c = b.center() - a.center(), along = w.normalized();
+  Miss best;
+  for (const double side : {1.0, -1.0}) {
+    const Vector2d n(-side * along.y(), side * along.x());
+    const double m = n.dot(c) - a.radius(n) - b.radius(n);
+    if (side < 0 && !(m > best.m)) continue;
+    const Vector2d apart = b.support_point(-n) - a.support_point(n);
+    best = {m, apart.dot(w) / w.squaredNorm(), Vector3d(n.x(), n.y(), 0), true};
+  }
+  best.ahead = best.m < 0 ? c.dot(w) > 0 : best.time > 0;
+  return best;
+}
+
+Eigen::Matrix3d raised(const Eigen::Matrix2d& m) {
+  Eigen::Matrix3d result = Eigen::Matrix3d::Zero();
+  result.topLeftCorner<2, 2>() = m;
+  return result;
+}
+
+/// One body along a normal: S n / rho, the gradient of its radius.
+struct Side {
+  Vector3d reach;
+  double radius;
+};
+
+struct View {
+  Miss miss;
+  Side a, b;
+};
+
+Side side_of(const Eigen::Matrix3d& factor, const Vector3d& n) {
+  const Vector3d u = factor.transpose() * n;
+  const double rho = u.norm();
+  return {factor * u / rho, rho};
+}
+
+View view_of(const BodyState& a, const BodyState& b) {
+  const Vector3d w = a.velocity - b.velocity;
+  View view;
+  if (a.planar()) {
+    const Ellipse body_a = containing_ellipse(a), body_b = containing_ellipse(b);
+    view.miss = planar_miss(body_a, body_b, w.head<2>());
+    view.a = side_of(raised(body_a.factor()), view.miss.normal);
+    view.b = side_of(raised(body_b.factor()), view.miss.normal);
+  } else {
+    const Ellipsoid body_a = containing_ellipsoid(a), body_b = containing_ellipsoid(b);
+    view.miss = spatial_miss(body_a, body_b, w);
+    view.a = side_of(body_a.factor(), view.miss.normal);
+    view.b = side_of(body_b.factor(), view.miss.normal);
+  }
+  return view;
+}
+
+/// rho' of a body that turns with omega and changes its shape: n.S'n / (2 rho), S' = [omega x] S - S [omega x] + extra.
+double radius_rate(const Side& side, const Vector3d& n, const Vector3d& omega, const Eigen::Matrix3d& extra) {
+  return side.reach.dot(n.cross(omega)) + 0.5 * n.dot(extra * n) / side.radius;
+}
+
+}  // namespace
+
+ClearanceCommand clearance_law(const BodyState& a, const BodyState& b, const ClearanceOptions& options,
+                               const Vector3d& acceleration_b) {
+  ClearanceCommand command;
+  const Vector3d w = a.velocity - b.velocity;
+  if (!(w.squaredNorm() > 0)) {
+    command.status = LawStatus::no_relative_velocity;
+    return command;
+  }
+  const View view = view_of(a, b);
+  const Vector3d& n = view.miss.normal;
+  command.m = view.miss.m;
+  command.time_to_closest = view.miss.time;
+
+  const Vector3d omega_b = angular_velocity(b, acceleration_b);
+  command.drift = view.miss.time * n.dot(acceleration_b) - radius_rate(view.a, n, a.omega, a.rate.shape) -
+                  radius_rate(view.b, n, omega_b, b.rate.shape);
+  command.by_acceleration = -view.miss.time * n;
+  const double speed = a.velocity.norm();
+  // omega = v x a / |v|^2: reach.(n x omega) = a.((reach x n) x v) / |v|^2.
+  if (a.turning == Turning::with_heading && speed > 0)
+    command.by_acceleration -= view.a.reach.cross(n).cross(a.velocity) / (speed * speed);
+
+  if (!view.miss.ahead) {
+    command.status = LawStatus::receding;
+    return command;
+  }
+  if (command.m >= options.required && !options.hold) return command;
+
+  Vector3d effect = command.by_acceleration;
+  const Vector3d ahead = speed > 0 ? Vector3d(a.velocity / speed) : Vector3d::Zero();
+  if (!options.longitudinal) effect -= effect.dot(ahead) * ahead;
+  const double wanted = -options.gain * (command.m - options.required) - command.drift;
+  const double reach = std::abs(view.miss.time) + view.a.radius / std::max(speed, 1e-300);
+  if (effect.norm() <= 1e-9 * reach) {
+    command.status = LawStatus::ineffective;
+    Vector3d aside = -n + n.dot(ahead) * ahead;
+    if (!(aside.norm() > 1e-6)) aside = a.planar() ? Vector3d(-ahead.y(), ahead.x(), 0) : AxisFrame(a.velocity).e1;
+    if (std::isfinite(options.most)) command.acceleration = options.most * aside.normalized();
+    command.demanded = options.most;
+    return command;
+  }
+  command.acceleration = effect * (wanted / effect.squaredNorm());
+  command.demanded = command.acceleration.norm();
+  command.status = LawStatus::steering;
+  if (command.demanded > options.most) {
+    command.acceleration *= options.most / command.demanded;
+    command.status = LawStatus::saturated;
+  }
+  return command;
+}
+
+double law_clearance(const BodyState& a, const BodyState& b) { return view_of(a, b).miss.m; }
+
+}  // namespace vericone::guidance

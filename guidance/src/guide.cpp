@@ -1,2 +1,124 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/guidance/guide.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace vericone::guidance {
+namespace {
+
+using Eigen::Vector3d;
+
+RateMethod rate_method(GuideRates rates) {
+  switch (rates) {
+    case GuideRates::analytic:
+      return RateMethod::analytic;
+    case GuideRates::differenced:
+      return RateMethod::differenced;
+    case GuideRates::backward:
+      break;
+  }
+  return RateMethod::none;
+}
+
+/// The source's rates: what changed since the step before, the turning of the line of sight in the plane included.
+void difference_backward(PlaneView& view, const GuideMemory& memory, double time) {
+  if (!memory.past || !(time > memory.past->time)) return;
+  const GuideMemory::Past& past = *memory.past;
+  const double dt = time - past.time;
+  const Vector3d& u = view.line_of_sight;
+  const double turned = std::atan2(past.line_of_sight.cross(u).dot(view.normal()), past.line_of_sight.dot(u));
+  view.cone.psi_rate = (view.cone.psi - past.psi) / dt;
+  view.cone.theta_b_rate = (view.cone.theta_b - past.theta_b + turned) / dt;
+}
+
+/// Along A's heading as projected on the plane.
+Vector3d ahead(const PlaneView& view) {
+  return std::cos(view.state.alpha) * view.line_of_sight + std::sin(view.state.alpha) * view.across;
+}
+
+GuideStep by_clearance(const BodyState& a, const BodyState& b, const GuideOptions& options) {
+  const ClearanceCommand command = clearance_law(a, b, options.clearance);
+  GuideStep step;
+  step.a = command.acceleration;
+  step.demanded = command.demanded;
+  step.status = command.status;
+  step.m = command.m;
+  return step;
+}
+
+}  // namespace
+
+const char* to_string(Law law) {
+  switch (law) {
+    case Law::avoidance:
+      return "avoidance";
+    case Law::cooperative_avoidance:
+      return "cooperative-avoidance";
+    case Law::cooperative_rendezvous:
+      return "cooperative-rendezvous";
+    case Law::matching_rendezvous:
+      return "matching-rendezvous";
+    case Law::clearance:
+      return "clearance";
+  }
+  return "?";
+}
+
+std::optional<GuideStep> guide(const BodyState& a, const BodyState& b, const GuideOptions& options,
+                               GuideMemory& memory, double time) {
+  if (options.law == Law::clearance) return by_clearance(a, b, options);
+
+  const std::optional<Vector3d> across =
+      choose_plane(a, b, options.sector, options.plane, memory.across ? &*memory.across : nullptr);
+  if (!across) return std::nullopt;
+  std::optional<PlaneView> view = plane_view(a, b, *across, options.sector, rate_method(options.rates));
+  if (!view) return std::nullopt;
+  if (options.rates == GuideRates::backward) difference_backward(*view, memory, time);
+  memory.across = view->across;
+  memory.past = {time, view->cone.psi, view->cone.theta_b, view->line_of_sight};
+
+  GuideStep step;
+  step.across = view->across;
+  step.psi = view->cone.psi;
+  step.theta_b = view->cone.theta_b - view->state.theta;
+  const auto read = [&step](const auto& command) {
+    step.status = command.status;
+    step.y = command.rates.y;
+    step.v_r_hat = command.rates.v_r_hat;
+  };
+  switch (options.law) {
+    case Law::avoidance: {
+      const LawCommand command = avoidance(view->state, view->cone, options.inversion);
+      read(command);
+      step.a = command.a * view->lateral_a();
+      step.demanded = std::abs(command.demanded);
+      break;
+    }
+    case Law::cooperative_avoidance:
+    case Law::cooperative_rendezvous: {
+      const CooperativeCommand command =
+          options.law == Law::cooperative_avoidance
+              ? cooperative_avoidance(view->state, view->cone, options.inversion, options.mu)
+              : cooperative_rendezvous(view->state, view->cone, options.inversion);
+      read(command);
+      step.a = command.a * view->lateral_a();
+      step.b = command.b * view->lateral_b();
+      step.demanded = std::abs(command.demanded_a);
+      break;
+    }
+    case Law::matching_rendezvous: {
+      const MatchingCommand command =
+          matching_rendezvous(view->state, view->cone, options.inversion, options.gain_speed);
+      read(command);
+      step.a = command.lateral * view->lateral_a() + command.longitudinal * ahead(*view);
+      step.demanded = std::hypot(command.demanded_lateral, command.demanded_longitudinal);
+      break;
+    }
+    case Law::clearance:
+      break;
+  }
+  return step;
+}
+
+}  // namespace vericone::guidance

@@ -1,2 +1,131 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/geometry/error.h>
 #include <vericone/guidance/kinematics.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace vericone::guidance {
+namespace {
+
+using Eigen::Vector3d;
+using std::numbers::pi;
+
+/// The axes of (6.10) at a direction: along it, and those in which azimuth and elevation grow.
+struct Axes {
+  Vector3d along, azimuth, elevation;
+  double cosine;   // of the elevation
+  bool vertical;   // the elevation rounds to a right angle: the cosine is rounding
+};
+
+Axes axes_at(double azimuth, double elevation) {
+  const double ca = std::cos(azimuth), sa = std::sin(azimuth);
+  const double ce = std::cos(elevation), se = std::sin(elevation);
+  const bool vertical = std::abs(ce) <= std::numeric_limits<double>::epsilon();
+  return {{ce * ca, ce * sa, se}, {-sa, ca, 0}, {-se * ca, -se * sa, ce}, ce, vertical};
+}
+
+struct HeadingRates {
+  Direction heading;
+  double speed = 0;
+};
+
+HeadingRates heading_rates(const Direction& heading, double speed, const Vector3d& acceleration) {
+  const Axes axes = axes_at(heading.azimuth, heading.elevation);
+  HeadingRates rates;
+  rates.speed = acceleration.dot(axes.along);
+  if (!(speed > 0)) return rates;
+  if (!axes.vertical) rates.heading.azimuth = acceleration.dot(axes.azimuth) / (speed * axes.cosine);
+  rates.heading.elevation = acceleration.dot(axes.elevation) / speed;
+  return rates;
+}
+
+Direction heading_of(const Vector3d& v, const Direction* previous) {
+  Direction heading = direction_of(v, previous ? *previous : Direction{});
+  if (previous) heading.azimuth = unwrapped(heading.azimuth, previous->azimuth);
+  return heading;
+}
+
+}  // namespace
+
+double unwrapped(double angle, double near) {
+  return angle - 2 * pi * std::nearbyint((angle - near) / (2 * pi));
+}
+
+Direction direction_of(const Vector3d& v, const Direction& otherwise) {
+  Direction direction = otherwise;
+  const double level = std::hypot(v.x(), v.y());
+  // Zeros may have a sign, which atan2 would turn into half a turn: + 0 makes them positive.
+  if (level > 0) direction.azimuth = std::atan2(v.y() + 0.0, v.x() + 0.0);
+  if (level > 0 || v.z() != 0) direction.elevation = std::atan2(v.z(), level);
+  return direction;
+}
+
+Vector3d unit_vector(const Direction& direction) {
+  return axes_at(direction.azimuth, direction.elevation).along;
+}
+
+DirectedAcceleration directed(const Vector3d& acceleration) {
+  return {acceleration.stableNorm(), direction_of(acceleration)};
+}
+
+SpatialRates spatial_rates(const SpatialState& s, const DirectedAcceleration& a,
+                           const DirectedAcceleration& b) {
+  const Axes axes = axes_at(s.theta, s.phi);
+  const Vector3d a_a = a.magnitude * unit_vector(a.direction), a_b = b.magnitude * unit_vector(b.direction);
+  const Vector3d relative = a_b - a_a;
+  SpatialRates rates;
+  rates.r = s.v_r;
+  rates.phi = s.v_phi / s.r;
+  rates.v_r = (s.v_theta * s.v_theta + s.v_phi * s.v_phi) / s.r + relative.dot(axes.along);
+  rates.at_pole = axes.vertical;
+  if (!rates.at_pole) {  // (6.10); its V_phi row as corrected, -V_phi V_r for the printed -V_theta V_r
+    const double tangent = std::tan(s.phi);
+    rates.theta = s.v_theta / (s.r * axes.cosine);
+    rates.v_theta =
+        (-s.v_theta * s.v_r + s.v_theta * s.v_phi * tangent) / s.r + relative.dot(axes.azimuth);
+    rates.v_phi =
+        (-s.v_phi * s.v_r - s.v_theta * s.v_theta * tangent) / s.r + relative.dot(axes.elevation);
+  }
+  const HeadingRates of_a = heading_rates(s.heading_a, s.speed_a, a_a),
+                     of_b = heading_rates(s.heading_b, s.speed_b, a_b);
+  rates.heading_a = of_a.heading;
+  rates.heading_b = of_b.heading;
+  rates.speed_a = of_a.speed;
+  rates.speed_b = of_b.speed;
+  return rates;
+}
+
+SpatialState spatial_state(const Cartesian<3>& motion, const SpatialState* previous) {
+  const Vector3d c = motion.p_b - motion.p_a, v = motion.v_b - motion.v_a;
+  if (c.isZero(0))
+    throw InputError("obstacle.center",
+                     "[" + to_text(motion.p_b.x()) + ", " + to_text(motion.p_b.y()) + ", " +
+                         to_text(motion.p_b.z()) + "]",
+                     "different from the agent's centre");
+  SpatialState s;
+  s.r = c.stableNorm();
+  const Direction before = previous ? Direction{previous->theta, previous->phi} : Direction{};
+  const Direction sight = heading_of(c, previous ? &before : nullptr);
+  s.theta = sight.azimuth;
+  s.phi = sight.elevation;
+  // V_r along the vector itself: near a pole the angles keep fewer digits of it.
+  const Axes axes = axes_at(s.theta, s.phi);
+  s.v_r = v.dot(c) / s.r;
+  s.v_theta = v.dot(axes.azimuth);
+  s.v_phi = v.dot(axes.elevation);
+  s.heading_a = heading_of(motion.v_a, previous ? &previous->heading_a : nullptr);
+  s.heading_b = heading_of(motion.v_b, previous ? &previous->heading_b : nullptr);
+  s.speed_a = motion.v_a.norm();
+  s.speed_b = motion.v_b.norm();
+  return s;
+}
+
+Cartesian<3> cartesian(const SpatialState& s, const Vector3d& p_a) {
+  return {p_a, s.speed_a * unit_vector(s.heading_a), p_a + s.r * unit_vector({s.theta, s.phi}),
+          s.speed_b * unit_vector(s.heading_b)};
+}
+
+}  // namespace vericone::guidance
