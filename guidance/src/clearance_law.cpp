@@ -92,7 +92,8 @@ View view_of(const BodyState& a, const BodyState& b) {
   return view;
 }
 
-/// rho' of a body that turns with omega and changes its shape: n.S'n / (2 rho), S' = [omega x] S - S [omega x] + extra.
+/// rho' of a body that turns with omega and changes its shape: n.S'n / (2 rho), S' = [omega x] S - S [omega
+/// x] + extra.
 double radius_rate(const Side& side, const Vector3d& n, const Vector3d& omega, const Eigen::Matrix3d& extra) {
   return side.reach.dot(n.cross(omega)) + 0.5 * n.dot(extra * n) / side.radius;
 }
@@ -135,7 +136,8 @@ ClearanceCommand clearance_law(const BodyState& a, const BodyState& b, const Cle
   if (effect.norm() <= 1e-9 * reach) {
     command.status = LawStatus::ineffective;
     Vector3d aside = -n + n.dot(ahead) * ahead;
-    if (!(aside.norm() > 1e-6)) aside = a.planar() ? Vector3d(-ahead.y(), ahead.x(), 0) : AxisFrame(a.velocity).e1;
+    if (!(aside.norm() > 1e-6))
+      aside = a.planar() ? Vector3d(-ahead.y(), ahead.x(), 0) : AxisFrame(a.velocity).e1;
     if (std::isfinite(options.most)) command.acceleration = options.most * aside.normalized();
     command.demanded = options.most;
     return command;

@@ -31,7 +31,9 @@ Ellipsoid containing(const HullBody& hull) {
 
 }  // namespace
 
-Ellipse containing_ellipse(const BodyState& body) { return containing(std::get<CombinedEllipse>(body.shape)); }
+Ellipse containing_ellipse(const BodyState& body) {
+  return containing(std::get<CombinedEllipse>(body.shape));
+}
 
 Ellipsoid containing_ellipsoid(const BodyState& body) {
   if (const auto* combined = std::get_if<CombinedEllipsoid>(&body.shape)) return containing(*combined);

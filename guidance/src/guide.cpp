@@ -21,7 +21,8 @@ RateMethod rate_method(GuideRates rates) {
   return RateMethod::none;
 }
 
-/// The source's rates: what changed since the step before, the turning of the line of sight in the plane included.
+/// The source's rates: what changed since the step before, the turning of the line of sight in the plane
+/// included.
 void difference_backward(PlaneView& view, const GuideMemory& memory, double time) {
   if (!memory.past || !(time > memory.past->time)) return;
   const GuideMemory::Past& past = *memory.past;

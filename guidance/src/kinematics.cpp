@@ -10,8 +10,12 @@
 namespace vericone::guidance {
 namespace {
 
-using Eigen::Vector3d;
+using Eigen::Vector2d, Eigen::Vector3d;
 using std::numbers::pi;
+
+double heading_of(const Vector2d& v) { return v.isZero(0) ? 0 : std::atan2(v.y(), v.x()); }
+
+Vector2d unit(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 /// The axes of (6.10) at a direction: along it, and those in which azimuth and elevation grow.
 struct Axes {
@@ -52,6 +56,49 @@ Direction heading_of(const Vector3d& v, const Direction* previous) {
 
 double unwrapped(double angle, double near) {
   return angle - 2 * pi * std::nearbyint((angle - near) / (2 * pi));
+}
+
+PlanarRates planar_rates(const PlanarState& s, const PlanarInputs& in) {
+  const double sine_a = std::sin(s.alpha - s.theta), cosine_a = std::cos(s.alpha - s.theta);
+  const double sine_b = std::sin(s.beta - s.theta), cosine_b = std::cos(s.beta - s.theta);
+  PlanarRates rates;
+  rates.r = s.v_r;
+  rates.theta = s.v_theta / s.r;
+  // A frame (u, e, u x e) that turns with the line of sight has u' = (V_theta e + V_n u x e) / r and
+  // e' = -(V_theta / r) u + spin (u x e): hence the terms of a projection.
+  rates.v_theta = -s.v_theta * s.v_r / s.r + s.plane_spin * s.v_normal  // (5.8), (5.13), (5.15)
+                  - cosine_a * in.lateral_a - sine_a * in.longitudinal_a + cosine_b * in.lateral_b +
+                  sine_b * in.longitudinal_b;
+  rates.v_r = (s.v_theta * s.v_theta + s.v_normal * s.v_normal) / s.r  // (5.8), (5.13), (5.15)
+              + sine_a * in.lateral_a - cosine_a * in.longitudinal_a - sine_b * in.lateral_b +
+              cosine_b * in.longitudinal_b;
+  rates.alpha = s.speed_a > 0 ? in.lateral_a / s.speed_a : 0;
+  rates.beta = s.speed_b > 0 ? in.lateral_b / s.speed_b : 0;
+  rates.speed_a = in.longitudinal_a;
+  rates.speed_b = in.longitudinal_b;
+  return rates;
+}
+
+PlanarState planar_state(const Cartesian<2>& motion) {
+  const Vector2d c = motion.p_b - motion.p_a, v = motion.v_b - motion.v_a;
+  if (c.isZero(0))
+    throw InputError("obstacle.center", "[" + to_text(motion.p_b.x()) + ", " + to_text(motion.p_b.y()) + "]",
+                     "different from the agent's centre");
+  PlanarState s;
+  s.r = c.stableNorm();
+  const Vector2d u = c / s.r;
+  s.theta = std::atan2(c.y(), c.x());
+  s.v_r = v.dot(u);
+  s.v_theta = u.x() * v.y() - u.y() * v.x();
+  s.alpha = heading_of(motion.v_a);
+  s.beta = heading_of(motion.v_b);
+  s.speed_a = motion.v_a.norm();
+  s.speed_b = motion.v_b.norm();
+  return s;
+}
+
+Cartesian<2> cartesian(const PlanarState& s, const Vector2d& p_a) {
+  return {p_a, s.speed_a * unit(s.alpha), p_a + s.r * unit(s.theta), s.speed_b * unit(s.beta)};
 }
 
 Direction direction_of(const Vector3d& v, const Direction& otherwise) {

@@ -1,2 +1,72 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/simulation/run.h>
+#include "engagement.h"
+
+#include <vericone/cones/cone_geometry.h>
+#include <cmath>
+#include <limits>
+
+namespace vericone::simulation {
+namespace {
+
+using guidance::Law;
+using guidance::LawStatus;
+
+bool avoids(Law law) {
+  return law == Law::avoidance || law == Law::cooperative_avoidance || law == Law::clearance;
+}
+
+bool nothing_to_say(const std::optional<guidance::GuideStep>& step) {
+  return step && (step->status == LawStatus::clear || step->status == LawStatus::receding ||
+                  step->status == LawStatus::no_relative_velocity);
+}
+
+}  // namespace
+
+Engagement::Engagement(std::size_t agent, std::size_t obstacle, const Pilot& pilot)
+    : agent_(agent), obstacle_(obstacle), pilot_(&pilot) {}
+
+void Engagement::observe(const guidance::BodyState& a, const guidance::BodyState& b, double t) {
+  const Eigen::Vector3d c = b.position - a.position, v = b.velocity - a.velocity;
+  const double closing = -c.dot(v);  // times r
+  if (passed_ && closing <= 0) return;
+  passed_ = false;
+  step_ = guidance::guide(a, b, pilot_->guide, memory_, t);
+  time_to_go_ = closing > 0 ? c.squaredNorm() / closing : std::numeric_limits<double>::infinity();
+  if (closing <= 0 && avoids(pilot_->guide.law) && nothing_to_say(step_)) {
+    passed_ = true;
+    memory_ = {};
+  }
+}
+
+bool Engagement::demands() const { return step_ && !nothing_to_say(step_); }
+
+bool Engagement::inside() const {
+  if (!step_ || passed_) return false;
+  if (pilot_->guide.law == Law::clearance)
+    return step_->m < pilot_->guide.clearance.required && step_->status != LawStatus::receding;
+  return step_->y < pilot_->guide.inversion.cease && step_->v_r_hat < 0;
+}
+
+EncounterSample Engagement::sample(const guidance::BodyState& a, const guidance::BodyState& b, double t,
+                                   bool attended) {
+  EncounterSample sample;
+  sample.t = t;
+  sample.agent = agent_;
+  sample.obstacle = obstacle_;
+  sample.state = guidance::spatial_state({a.position, a.velocity, b.position, b.velocity},
+                                         last_state_ ? &*last_state_ : nullptr);
+  last_state_ = sample.state;
+  sample.attended = attended;
+  sample.cone = step_.has_value() && !passed_ && pilot_->guide.law != Law::clearance;
+  if (step_) sample.step = *step_;
+  if (passed_) sample.step.status = LawStatus::receding;
+  if (!sample.cone)
+    sample.step.y = sample.step.psi = sample.step.theta_b = std::numeric_limits<double>::quiet_NaN();
+  if (sample.step.across.any()) {
+    const AxisFrame frame(b.position - a.position);
+    sample.plane_azimuth = std::atan2(sample.step.across.dot(frame.e2), sample.step.across.dot(frame.e1));
+  }
+  return sample;
+}
+
+}  // namespace vericone::simulation

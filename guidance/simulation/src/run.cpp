@@ -1,2 +1,309 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/simulation/run.h>
+
+#include <vericone/cones/cone_geometry.h>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "engagement.h"
+#include "run_events.h"
+
+namespace vericone::simulation {
+namespace {
+
+using Eigen::Vector3d;
+using guidance::BodyState;
+
+std::size_t index_of(const Scenario& scenario, const std::string& name) {
+  const auto it = std::find_if(scenario.bodies.begin(), scenario.bodies.end(),
+                               [&](const Body& body) { return body.name == name; });
+  return std::size_t(it - scenario.bodies.begin());
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// The acceleration that turns the velocity towards the goal: the most, and in the last step what is missing.
+struct Homing {
+  Vector3d acceleration;
+  bool aligned;
+};
+Homing towards(const Goal& goal, const Motion& motion, double step) {
+  const Vector3d v = motion.velocity, to_goal = goal.point - motion.position;
+  const double speed = v.norm();
+  const Vector3d aside = to_goal - v * (to_goal.dot(v) / (speed * speed));
+  const double angle = std::atan2(aside.norm(), to_goal.dot(v) / speed);
+  if (!(angle > 1e-9) || !(speed > 0)) return {Vector3d::Zero(), true};
+  // Straight behind: any side is as good.
+  const Vector3d side = aside.norm() > 1e-12 * to_goal.norm() ? Vector3d(aside.normalized())
+                        : v.z() == 0 && goal.point.z() == 0   ? Vector3d(-v.y(), v.x(), 0) / speed
+                                                              : AxisFrame(v).e1;
+  const double missing = angle * speed / step;
+  return {std::min(goal.most, missing) * side, missing <= goal.most};
+}
+
+class Runner {
+ public:
+  Runner(const Scenario& scenario, const RunOptions& options) : scenario_(scenario), options_(options) {
+    run_.tracks.reserve(scenario.bodies.size());
+    for (const Body& body : scenario.bodies) {
+      run_.tracks.emplace_back(body.shape, body.start, body.orientation, body.appears);
+      if (body.appears > 0)
+        event({body.appears, EventKind::appears, run_.tracks.size() - 1, run_.tracks.size() - 1, 0});
+    }
+    for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
+      if (!scenario.bodies[i].pilot) continue;
+      const Pilot& pilot = *scenario.bodies[i].pilot;
+      for (std::size_t j = 0; j < scenario.bodies.size(); ++j)
+        if (j != i && (pilot.minds.empty() || contains(pilot.minds, scenario.bodies[j].name)))
+          engagements_.push_back({Engagement(i, j, pilot)});
+    }
+    aligned_.assign(scenario.bodies.size(), false);
+    states_.resize(scenario.bodies.size());
+    accelerations_.assign(scenario.bodies.size(), Vector3d::Zero());
+  }
+
+  Run run() {
+    double t = 0;
+    for (std::uint64_t k = 1; t < scenario_.duration; ++k) {
+      // Commands at multiples of the step, and where a body appears.
+      const double next = std::min(double(k) * scenario_.step, scenario_.duration);
+      while (t < next && !done_) {
+        double to = next;
+        for (const Body& body : scenario_.bodies)
+          if (body.appears > t && body.appears < to) to = body.appears;
+        interval(t, to);
+        t = to;
+      }
+      run_.end = t;
+      if (options_.progress && !options_.progress(t)) {
+        run_.interrupted = true;
+        break;
+      }
+      if (done_ || (scenario_.stop_when_passed && all_passed(t))) break;
+    }
+    if (options_.prove && !run_.interrupted) prove_pairs();
+    std::stable_sort(run_.events.begin(), run_.events.end(),
+                     [](const Event& x, const Event& y) { return x.t < y.t; });
+    return std::move(run_);
+  }
+
+ private:
+  struct Followed {
+    Engagement engagement;
+    bool inside = false;   // at the command before
+    bool closing = false;  // at the command before
+    bool has_passed = false;
+  };
+
+  bool present(std::size_t body, double t) const { return scenario_.bodies[body].appears <= t; }
+  void event(const Event& event) { run_.events.push_back(event); }
+
+  /// Commands at t, held until `to`.
+  void interval(double t, double to) {
+    for (std::size_t i = 0; i < states_.size(); ++i)
+      if (present(i, t)) states_[i] = run_.tracks[i].state(t);
+    std::fill(accelerations_.begin(), accelerations_.end(), Vector3d::Zero());
+    for (Followed& f : engagements_) {
+      const Engagement& e = f.engagement;
+      if (!present(e.agent(), t) || !present(e.obstacle(), t)) continue;
+      f.engagement.observe(states_[e.agent()], states_[e.obstacle()], t);
+      crossed_cone(f, t);
+    }
+    for (std::size_t i = 0; i < scenario_.bodies.size(); ++i)
+      if (scenario_.bodies[i].pilot && present(i, t)) command(i, t, to);
+    for (std::size_t i = 0; i < run_.tracks.size(); ++i)
+      if (present(i, t)) run_.tracks[i].advance(accelerations_[i], to);
+    for (Followed& f : engagements_) passing(f, t, to);
+    for (std::size_t i = 0; i < scenario_.bodies.size(); ++i) reaching(i, t, to);
+    before_ = t;
+  }
+
+  void command(std::size_t agent, double t, double to) {
+    const Pilot& pilot = *scenario_.bodies[agent].pilot;
+    const Followed* attended = nullptr;
+    for (const Followed& f : engagements_) {
+      if (f.engagement.agent() != agent || !present(f.engagement.obstacle(), t) || !f.engagement.demands())
+        continue;
+      if (attended == nullptr || f.engagement.time_to_go() < attended->engagement.time_to_go()) attended = &f;
+    }
+    if (attended != nullptr) {
+      accelerations_[agent] = attended->engagement.step()->a;
+      const std::size_t other = attended->engagement.obstacle();
+      if (contains(pilot.partners, scenario_.bodies[other].name))
+        accelerations_[other] = attended->engagement.step()->b;
+      aligned_[agent] = false;
+    } else if (pilot.goal && goal_open(agent, *pilot.goal)) {
+      const Homing homing = towards(*pilot.goal, run_.tracks[agent].motion(t), to - t);
+      accelerations_[agent] = homing.acceleration;
+      if (homing.aligned && !aligned_[agent]) event({to, EventKind::aligned, agent, agent, 0});
+      aligned_[agent] = homing.aligned;
+    }
+    if (!options_.log) return;
+    for (Followed& f : engagements_) {
+      if (f.engagement.agent() != agent || !present(f.engagement.obstacle(), t)) continue;
+      const BodyState &a = states_[agent], &b = states_[f.engagement.obstacle()];
+      run_.encounters.push_back(f.engagement.sample(a, b, t, &f == attended));
+      if (scenario_.planes_logged > 0 && !f.engagement.passed())
+        for (const auto& plane : guidance::all_planes(a, b, pilot.guide.sector, scenario_.planes_logged))
+          run_.planes.push_back({t, agent, f.engagement.obstacle(), plane});
+    }
+  }
+
+  bool goal_open(std::size_t agent, const Goal& goal) const {
+    if (goal.after.empty()) return true;
+    const std::size_t after = index_of(scenario_, goal.after);
+    return std::any_of(engagements_.begin(), engagements_.end(), [&](const Followed& f) {
+      return f.engagement.agent() == agent && f.engagement.obstacle() == after && f.has_passed;
+    });
+  }
+
+  /// The cone was entered or left since the command before.
+  void crossed_cone(Followed& f, double t) {
+    const Engagement& e = f.engagement;
+    const bool inside = e.inside();
+    const std::size_t i = e.agent(), j = e.obstacle();
+    if (inside != f.inside && e.step() && !e.passed()) {
+      const guidance::GuideOptions& guide = scenario_.bodies[i].pilot->guide;
+      // Not a change of sides but the first look, or a passage: nothing is crossed.
+      const bool first = !(before_ >= 0) || !present(i, before_) || !present(j, before_);
+      const bool closing = e.step()->v_r_hat < 0 || guide.law == guidance::Law::clearance;
+      double when = t;
+      if (!first && closing)
+        when = sign_change(
+            [&](double s) {
+              return margin(run_.tracks[i], run_.tracks[j], guide, f.engagement.step()->across, s);
+            },
+            before_, t);
+      const double value = guide.law == guidance::Law::clearance ? e.step()->m : e.step()->y;
+      if (inside) event({when, EventKind::enters_cone, i, j, value});
+      if (!inside && closing) event({when, EventKind::leaves_cone, i, j, value});
+    }
+    f.inside = inside;
+  }
+
+  void passing(Followed& f, double t, double to) {
+    const std::size_t i = f.engagement.agent(), j = f.engagement.obstacle();
+    if (!present(i, t) || !present(j, t)) return;
+    const Track &a = run_.tracks[i], &b = run_.tracks[j];
+    const double now = closing_rate(a, b, t), then = closing_rate(a, b, to);
+    if (now < 0 && then >= 0) {
+      const double when = sign_change([&](double s) { return closing_rate(a, b, s); }, t, to);
+      event({when, EventKind::passes, i, j, (b.motion(when).position - a.motion(when).position).norm()});
+      f.has_passed = true;
+    } else if (now >= 0 && then >= 0) {
+      f.has_passed = true;
+    }
+  }
+
+  void reaching(std::size_t agent, double t, double to) {
+    const Body& body = scenario_.bodies[agent];
+    if (!body.pilot || !body.pilot->goal || !present(agent, t) || !goal_open(agent, *body.pilot->goal))
+      return;
+    const Goal& goal = *body.pilot->goal;
+    const auto outside = [&](double s) {
+      return goal.reached - (run_.tracks[agent].motion(s).position - goal.point).norm();
+    };
+    if (!(outside(t) < 0) || !(outside(to) >= 0)) return;
+    event({sign_change(outside, t, to), EventKind::reaches_goal, agent, agent, goal.reached});
+    done_ = std::none_of(scenario_.bodies.begin(), scenario_.bodies.end(), [&](const Body& other) {
+      return other.pilot && other.pilot->goal && &other != &body;
+    });
+  }
+
+  bool all_passed(double t) const {
+    for (const Body& body : scenario_.bodies)
+      if (body.appears > t || (body.pilot && body.pilot->goal)) return false;
+    return std::all_of(engagements_.begin(), engagements_.end(),
+                       [](const Followed& f) { return f.has_passed; });
+  }
+
+  void prove_pairs() {
+    const auto flown = [&](std::size_t i) {
+      if (scenario_.bodies[i].pilot) return true;
+      return std::any_of(scenario_.bodies.begin(), scenario_.bodies.end(), [&](const Body& other) {
+        return other.pilot && contains(other.pilot->partners, scenario_.bodies[i].name);
+      });
+    };
+    for (std::size_t i = 0; i < run_.tracks.size(); ++i)
+      for (std::size_t j = i + 1; j < run_.tracks.size(); ++j) {
+        if (!flown(i) && !flown(j)) continue;
+        const double from = std::max(run_.tracks[i].appears(), run_.tracks[j].appears());
+        if (!(from < run_.end)) continue;
+        PairOutcome outcome{i, j, prove(run_.tracks[i], run_.tracks[j], from, run_.end, scenario_.proof)};
+        if (outcome.proof.verdict == ProofVerdict::touched)
+          event({outcome.proof.to, EventKind::contact, i, j, outcome.proof.from});
+        run_.proofs.push_back(outcome);
+      }
+  }
+
+  const Scenario& scenario_;
+  const RunOptions& options_;
+  Run run_;
+  std::vector<Followed> engagements_;
+  std::vector<BodyState> states_;
+  std::vector<Vector3d> accelerations_;
+  std::vector<bool> aligned_;
+  double before_ = -1;
+  bool done_ = false;
+};
+
+}  // namespace
+
+const char* to_string(EventKind kind) {
+  switch (kind) {
+    case EventKind::appears:
+      return "appears";
+    case EventKind::enters_cone:
+      return "enters-cone";
+    case EventKind::leaves_cone:
+      return "leaves-cone";
+    case EventKind::passes:
+      return "passes";
+    case EventKind::aligned:
+      return "aligned";
+    case EventKind::reaches_goal:
+      return "reaches-goal";
+    case EventKind::contact:
+      return "contact";
+  }
+  return "?";
+}
+
+ProofVerdict Run::verdict() const {
+  ProofVerdict worst = ProofVerdict::avoided;
+  for (const PairOutcome& pair : proofs) {
+    if (pair.proof.verdict == ProofVerdict::touched) return ProofVerdict::touched;
+    if (pair.proof.verdict == ProofVerdict::undecided) worst = ProofVerdict::undecided;
+  }
+  return worst;
+}
+
+Run simulate(const Scenario& scenario, const RunOptions& options) {
+  check(scenario);
+  return Runner(scenario, options).run();
+}
+
+std::optional<Event> find_event(const Scenario& scenario, const Run& run, EventKind kind,
+                                const std::string& agent, const std::string& obstacle, double after) {
+  const std::size_t i = index_of(scenario, agent), j = index_of(scenario, obstacle);
+  for (const Event& event : run.events)
+    if (event.kind == kind && event.agent == i && event.obstacle == j && event.t >= after) return event;
+  return std::nullopt;
+}
+
+std::optional<EncounterSample> sample_at(const Scenario& scenario, const Run& run, const std::string& agent,
+                                         const std::string& obstacle, double t) {
+  const std::size_t i = index_of(scenario, agent), j = index_of(scenario, obstacle);
+  std::optional<EncounterSample> nearest;
+  for (const EncounterSample& sample : run.encounters)
+    if (sample.agent == i && sample.obstacle == j &&
+        (!nearest || std::abs(sample.t - t) < std::abs(nearest->t - t)))
+      nearest = sample;
+  if (nearest && !(std::abs(nearest->t - t) <= scenario.step * (1 + 1e-9))) nearest.reset();
+  return nearest;
+}
+
+}  // namespace vericone::simulation

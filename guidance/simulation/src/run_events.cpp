@@ -1,2 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/simulation/run.h>
+#include "run_events.h"
+
+#include <cmath>
+#include <limits>
+
+namespace vericone::simulation {
+
+double sign_change(const std::function<double(double)>& value, double from, double to) {
+  const bool end = value(to) >= 0;
+  double low = from, high = to;
+  while (high - low > 1e-12 * (to - from)) {
+    const double middle = low + (high - low) / 2;
+    if (!(middle > low && middle < high)) break;
+    const double v = value(middle);
+    (!std::isfinite(v) || (v >= 0) == end ? high : low) = middle;
+  }
+  return high;
+}
+
+double closing_rate(const Track& a, const Track& b, double t) {
+  const Motion at_a = a.motion(t), at_b = b.motion(t);
+  return (at_b.position - at_a.position).dot(at_b.velocity - at_a.velocity);
+}
+
+double margin(const Track& a, const Track& b, const guidance::GuideOptions& options,
+              const Eigen::Vector3d& across, double t) {
+  const guidance::BodyState at_a = a.state(t), at_b = b.state(t);
+  if (options.law == guidance::Law::clearance)
+    return guidance::law_clearance(at_a, at_b) - options.clearance.required;
+  const auto plane = guidance::choose_plane(at_a, at_b, options.sector, options.plane, &across);
+  if (!plane) return std::numeric_limits<double>::quiet_NaN();
+  const auto view = guidance::plane_view(at_a, at_b, *plane, options.sector, guidance::RateMethod::none);
+  if (!view) return std::numeric_limits<double>::quiet_NaN();
+  return guidance::cone_rates(view->state, view->cone).y - options.inversion.cease;
+}
+
+}  // namespace vericone::simulation

@@ -1,2 +1,135 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/simulation/scenario.h>
+
+#include <vericone/geometry/error.h>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace vericone::simulation {
+namespace {
+
+std::string at(const char* list, std::size_t i) { return std::string(list) + "[" + std::to_string(i) + "]"; }
+
+void require_positive(double value, const char* field, const char* unit) {
+  if (!(value > 0) || !std::isfinite(value))
+    throw InputError(field, to_text(value), std::string("a positive finite number") + unit);
+}
+
+void require_not_negative(double value, const char* field, const char* unit) {
+  if (!(value >= 0) || !std::isfinite(value))
+    throw InputError(field, to_text(value), std::string("a finite number, 0 or more") + unit);
+}
+
+void check_laws(const guidance::GuideOptions& guide) {
+  require_positive(guide.inversion.gain, "gain", " (1/s)");
+  require_positive(guide.clearance.gain, "gain", " (1/s)");
+  if (!(guide.inversion.most > 0))
+    throw InputError("most", to_text(guide.inversion.most), "positive (m/s^2)");
+  if (!std::isfinite(guide.inversion.reference))
+    throw InputError("reference", to_text(guide.inversion.reference), "a finite number");
+  if (std::isnan(guide.inversion.cease)) throw InputError("cease", "nan", "a number");
+  if (guide.inversion.side != 1 && guide.inversion.side != -1)
+    throw InputError("side", to_text(guide.inversion.side), "1 or -1");
+  if (!std::isfinite(guide.mu)) throw InputError("mu", to_text(guide.mu), "a finite number");
+  require_positive(guide.gain_speed, "gain_speed", " (1/s)");
+  require_not_negative(guide.clearance.required, "clearance.required", " (m)");
+  if (guide.plane.planes < 1 || guide.plane.planes > 10000)
+    throw InputError("plane.planes", std::to_string(guide.plane.planes), "from 1 to 10000");
+  if (!guide.plane.wind.allFinite())
+    throw InputError("plane.wind", "a number that is not finite", "finite (m/s)");
+}
+
+bool cooperates(guidance::Law law) {
+  return law == guidance::Law::cooperative_avoidance || law == guidance::Law::cooperative_rendezvous;
+}
+
+void check_pilot(const Pilot& pilot, const Body& self, const Scenario& scenario) {
+  check_laws(pilot.guide);
+  const auto find = [&](const std::string& name) {
+    return std::find_if(scenario.bodies.begin(), scenario.bodies.end(),
+                        [&](const Body& body) { return body.name == name; });
+  };
+  const auto require_other = [&](const std::vector<std::string>& names, const char* field) {
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (names[i] == self.name || find(names[i]) == scenario.bodies.end())
+        throw InputError(at(field, i), names[i], "the name of another body");
+  };
+  require_other(pilot.minds, "minds");
+  require_other(pilot.partners, "partners");
+  for (std::size_t i = 0; i < pilot.partners.size(); ++i)
+    if (find(pilot.partners[i])->pilot)
+      throw InputError(at("partners", i), pilot.partners[i],
+                       "a body without a pilot of its own: it carries out what this law says");
+  if (!pilot.partners.empty() && !cooperates(pilot.guide.law))
+    throw InputError("partners", pilot.partners.front(), "no partners with this law, or a cooperative one");
+  if (!pilot.goal) return;
+  if (!pilot.goal->point.allFinite())
+    throw InputError("goal.point", "a number that is not finite", "finite (m)");
+  require_positive(pilot.goal->most, "goal.most", " (m/s^2)");
+  require_positive(pilot.goal->reached, "goal.reached", " (m)");
+  if (!pilot.goal->after.empty()) {
+    const auto after = find(pilot.goal->after);
+    if (pilot.goal->after == self.name || after == scenario.bodies.end())
+      throw InputError("goal.after", pilot.goal->after, "the name of another body");
+  }
+}
+
+void check_body(const Body& body, const Scenario& scenario) {
+  const auto within = [](const char* field, auto make) {
+    try {
+      make();
+    } catch (const InputError& e) {
+      throw e.within(field);
+    }
+  };
+  within("shape", [&] { check(body.shape); });
+  if (!body.start.position.allFinite())
+    throw InputError("position", "a number that is not finite", "finite (m)");
+  if (!body.start.velocity.allFinite())
+    throw InputError("velocity", "a number that is not finite", "finite (m/s)");
+  if (planar(body.shape) && (body.start.position.z() != 0 || body.start.velocity.z() != 0))
+    throw InputError("position", "out of the plane", "z = 0 for planar bodies, of position and velocity");
+  if (planar(body.shape) != planar(scenario.bodies.front().shape))
+    throw InputError("shape", planar(body.shape) ? "planar" : "spatial", "all planar or all spatial");
+  require_not_negative(body.appears, "appears", " (s)");
+  if (!(body.appears < scenario.duration))
+    throw InputError("appears", to_text(body.appears),
+                     "before the end, duration = " + to_text(scenario.duration));
+  if (!body.pilot) return;
+  if (!body.start.velocity.any()) throw InputError("velocity", "0", "a heading: a body with a pilot moves");
+  if (const auto* rigid = std::get_if<RigidShape>(&body.shape);
+      rigid != nullptr && std::holds_alternative<HullBody>(rigid->shape))
+    throw InputError("shape", "a hull", "an ellipsoid: a hull has no pilot");
+  within("pilot", [&] { check_pilot(*body.pilot, body, scenario); });
+}
+
+}  // namespace
+
+void check(const Scenario& scenario) {
+  require_positive(scenario.duration, "duration", " (s)");
+  require_positive(scenario.step, "step", " (s)");
+  if (!(scenario.duration / scenario.step <= 1e7))
+    throw InputError("step", to_text(scenario.step), "at least duration / 1e7");
+  require_not_negative(scenario.proof.padding, "proof.padding", " (m)");
+  require_positive(scenario.proof.resolution, "proof.resolution", " (s)");
+  if (scenario.planes_logged < 0 || scenario.planes_logged > 10000)
+    throw InputError("planes_logged", std::to_string(scenario.planes_logged), "from 0 to 10000");
+  if (scenario.bodies.empty()) throw InputError("bodies", "none", "one body or more");
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
+    const Body& body = scenario.bodies[i];
+    if (body.name.empty() || !names.insert(body.name).second)
+      throw InputError(at("bodies", i) + ".name", body.name.empty() ? "nothing" : body.name,
+                       "a name that no other body has");
+  }
+  for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
+    try {
+      check_body(scenario.bodies[i], scenario);
+    } catch (const InputError& e) {
+      throw e.within(at("bodies", i));
+    }
+  }
+}
+
+}  // namespace vericone::simulation

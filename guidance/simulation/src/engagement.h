@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// One agent and one of the bodies it minds, through a run.
+#pragma once
+
+#include <vericone/simulation/run.h>
+
+namespace vericone::simulation {
+
+class Engagement {
+ public:
+  Engagement(std::size_t agent, std::size_t obstacle, const Pilot& pilot);
+
+  std::size_t agent() const { return agent_; }
+  std::size_t obstacle() const { return obstacle_; }
+
+  /// What the law says at time t. Once the bodies have passed each other and the law has nothing to say, it
+  /// is not asked again until they close.
+  void observe(const guidance::BodyState& a, const guidance::BodyState& b, double t);
+
+  const std::optional<guidance::GuideStep>& step() const { return step_; }
+  double time_to_go() const { return time_to_go_; }  // s, r / closing speed
+  bool passed() const { return passed_; }
+
+  /// The law wants an acceleration.
+  bool demands() const;
+  /// On a collision course as the law sees it: y < cease and closing, or m < required and ahead.
+  bool inside() const;
+
+  EncounterSample sample(const guidance::BodyState& a, const guidance::BodyState& b, double t, bool attended);
+
+ private:
+  std::size_t agent_, obstacle_;
+  const Pilot* pilot_;
+  guidance::GuideMemory memory_;
+  std::optional<guidance::GuideStep> step_;
+  std::optional<guidance::SpatialState> last_state_;
+  double time_to_go_ = 0;
+  bool passed_ = false;
+};
+
+}  // namespace vericone::simulation
