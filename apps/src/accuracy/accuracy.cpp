@@ -15,7 +15,6 @@
 #include <stdexcept>
 #include <thread>
 
-#include "accuracy/campaign.h"
 #include "accuracy/combined_accuracy.h"
 #include "accuracy/engagements.h"
 #include "accuracy/measure.h"
@@ -24,6 +23,7 @@
 #include "figures.h"
 #include "interrupt.h"
 #include "provenance.h"
+#include "resumable_table.h"
 
 namespace vericone::accuracy {
 namespace {
@@ -191,8 +191,8 @@ Scan read_scan(const fs::path& path) {
   }
 }
 
-Campaign base_campaign(const Options& o, const fs::path& table) {
-  Campaign c;
+ResumableTable base_campaign(const Options& o, const fs::path& table) {
+  ResumableTable c;
   c.table = table;
   c.header = csv_header(o.planes);
   c.threads = o.threads > 0 ? o.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -243,7 +243,7 @@ int run_accuracy(const Options& given, std::ostream& out) {
     return kExitInterrupted;
   };
 
-  Campaign random = base_campaign(options, folder / "engagements.csv");
+  ResumableTable random = base_campaign(options, folder / "engagements.csv");
   random.label = "random engagements";
   random.count = engagements;
   random.settings = "# vericone accuracy, seed " + std::to_string(options.seed) + ", " +
@@ -252,7 +252,7 @@ int run_accuracy(const Options& given, std::ostream& out) {
     const auto [a, b] = random_engagement(options.seed, i);
     return csv_row(std::to_string(i), measure(a, b, options.planes));
   };
-  if (run_campaign(random) == Outcome::interrupted) return stopped();
+  if (run_table(random) == TableOutcome::interrupted) return stopped();
   const double random_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
@@ -265,7 +265,7 @@ int run_accuracy(const Options& given, std::ostream& out) {
   print_summary(summary["random"], out);
 
   if (!scans.empty()) {
-    Campaign approach = base_campaign(options, folder / "scans.csv");
+    ResumableTable approach = base_campaign(options, folder / "scans.csv");
     approach.label = "scanned objects   ";
     approach.count = scans.size() * options.approaches;
     approach.settings = "# vericone accuracy, seed " + std::to_string(options.seed) + ", " +
@@ -278,7 +278,7 @@ int run_accuracy(const Options& given, std::ostream& out) {
       return csv_row(scan.name + "#" + std::to_string(k),
                      measure(random_agent(scan.hull, options.seed, k), scan.hull, options.planes));
     };
-    if (run_campaign(approach) == Outcome::interrupted) return stopped();
+    if (run_table(approach) == TableOutcome::interrupted) return stopped();
     const auto table = read_table(approach.table, options.planes);
     out << scans.size() << " scanned objects in their minimum-volume ellipsoids, " << options.approaches
         << " approaches each\n  object                      points   semi-axes a, b, c (unit of the file)   "

@@ -15,11 +15,11 @@
 #include <stdexcept>
 #include <thread>
 
-#include "accuracy/campaign.h"
 #include "accuracy/statistics.h"
 #include "figures.h"
 #include "interrupt.h"
 #include "provenance.h"
+#include "resumable_table.h"
 
 namespace vericone::accuracy {
 namespace {
@@ -180,7 +180,7 @@ int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostrea
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
 
-  Campaign campaign;
+  ResumableTable campaign;
   campaign.table = folder / "engagements.csv";
   campaign.header = header(options.planes);
   campaign.threads = options.threads > 0 ? options.threads
@@ -196,7 +196,7 @@ int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostrea
     const auto [a, b] = random_combined_engagement(kind, options.seed, i);
     return line(i, measure(a, b, options.planes, tolerance));
   };
-  if (run_campaign(campaign) == Outcome::interrupted) {
+  if (run_table(campaign) == TableOutcome::interrupted) {
     out << "interrupted; the same command goes on where it stopped (" << folder.string() << ")\n";
     return kExitInterrupted;
   }

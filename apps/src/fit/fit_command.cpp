@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/fit_command.h"
 
-#include <unistd.h>
-
 #include <vericone/geometry/error.h>
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 
@@ -18,9 +15,10 @@
 #include "fit/fit_picture.h"
 #include "fit/fit_text.h"
 #include "fit/hull_files.h"
-#include "fit/staged_folder.h"
 #include "interrupt.h"
+#include "progress.h"
 #include "provenance.h"
+#include "staged_folder.h"
 
 namespace vericone {
 namespace {
@@ -30,42 +28,6 @@ using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-/// One line on standard error, rewritten on a terminal, elsewhere printed once a step.
-class Progress {
- public:
-  explicit Progress(bool quiet) : quiet_(quiet) {}
-  ~Progress() { finish(); }
-
-  /// False when the work is to stop.
-  bool show(const std::string& what, double share) {
-    if (quiet_) return !interrupted();
-    const auto now = Clock::now();
-    const bool next = what != step_;
-    if (next || (terminal_ && now - last_ > std::chrono::milliseconds(200))) {
-      if (next) finish();
-      last_ = now;
-      step_ = what;
-      if (terminal_) {
-        std::fprintf(stderr, "\r%-60s %3.0f %%", what.c_str(), 100 * share);
-      } else {
-        std::fprintf(stderr, "%s\n", what.c_str());
-      }
-      std::fflush(stderr);
-    }
-    return !interrupted();
-  }
-
- private:
-  void finish() {
-    if (terminal_ && !step_.empty()) std::fputc('\n', stderr);
-    step_.clear();
-  }
-
-  bool quiet_, terminal_ = isatty(STDERR_FILENO) != 0;
-  std::string step_;
-  Clock::time_point last_;
-};
 
 fitting::Mode mode_of(const std::string& text) {
   for (const auto mode : {fitting::Mode::least_squares, fitting::Mode::robust, fitting::Mode::containing})

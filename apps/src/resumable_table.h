@@ -8,9 +8,9 @@
 #include <functional>
 #include <string>
 
-namespace vericone::accuracy {
+namespace vericone {
 
-struct Campaign {
+struct ResumableTable {
   std::filesystem::path table;  // the finished CSV; work in progress stands beside it as *.partial
   std::string settings;  // one line that pins down every row; unfinished work with other settings is refused
   std::string header;
@@ -22,11 +22,11 @@ struct Campaign {
   std::string label;  // for the progress line
 };
 
-enum class Outcome { finished, interrupted };
+enum class TableOutcome { finished, interrupted };
 
 /// Computes the rows in order of their index, appends them to the partial file as blocks get ready, and
 /// renames it at the end. The result does not depend on the number of threads or of interruptions. Progress
 /// goes to standard error. Throws InputError naming "--out" for unfinished work of other settings.
-Outcome run_campaign(const Campaign& campaign);
+TableOutcome run_table(const ResumableTable& work);
 
-}  // namespace vericone::accuracy
+}  // namespace vericone

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "accuracy/campaign.h"
+#include "resumable_table.h"
 
 #include <unistd.h>
 
@@ -19,23 +19,23 @@
 
 #include "interrupt.h"
 
-namespace vericone::accuracy {
+namespace vericone {
 namespace {
 
 /// Rows that stand complete in an unfinished file; the file is cut after the last of them.
-std::uint64_t complete_rows(const std::filesystem::path& partial, const Campaign& campaign) {
+std::uint64_t complete_rows(const std::filesystem::path& partial, const ResumableTable& work) {
   if (!std::filesystem::exists(partial)) return 0;
   std::ifstream in(partial, std::ios::binary);
   std::string line;
   if (!std::getline(in, line) || in.eof()) return 0;  // not even the first line: start anew
-  if (line != campaign.settings)
-    throw InputError("--out", campaign.table.parent_path().string(),
+  if (line != work.settings)
+    throw InputError("--out", work.table.parent_path().string(),
                      "a folder without the unfinished run of other settings that " +
                          partial.filename().string() + " holds; delete that file to give it up");
-  if (!std::getline(in, line) || in.eof() || line != campaign.header) return 0;
+  if (!std::getline(in, line) || in.eof() || line != work.header) return 0;
   std::uint64_t rows = 0;
-  std::uintmax_t length = campaign.settings.size() + campaign.header.size() + 2;
-  while (rows < campaign.count && std::getline(in, line) && !in.eof()) {
+  std::uintmax_t length = work.settings.size() + work.header.size() + 2;
+  while (rows < work.count && std::getline(in, line) && !in.eof()) {
     length += line.size() + 1;
     ++rows;
   }
@@ -46,33 +46,32 @@ std::uint64_t complete_rows(const std::filesystem::path& partial, const Campaign
 
 class Progress {
  public:
-  Progress(const Campaign& campaign, std::uint64_t done)
-      : campaign_(campaign), first_(done), terminal_(isatty(STDERR_FILENO) != 0) {}
+  Progress(const ResumableTable& work, std::uint64_t done)
+      : work_(work), first_(done), terminal_(isatty(STDERR_FILENO) != 0) {}
 
   void show(std::uint64_t done, bool last) {
-    if (campaign_.quiet) return;
+    if (work_.quiet) return;
     const auto now = std::chrono::steady_clock::now();
     // A log gets a line every ten seconds, a terminal a bar four times a second.
     if (!last && now - shown_ < (terminal_ ? std::chrono::milliseconds(250) : std::chrono::seconds(10)))
       return;
     shown_ = now;
     const double elapsed = std::chrono::duration<double>(now - start_).count();
-    const double share =
-        campaign_.count ? static_cast<double>(done) / static_cast<double>(campaign_.count) : 1;
-    const double left = done > first_ ? elapsed * static_cast<double>(campaign_.count - done) /
-                                            static_cast<double>(done - first_)
-                                      : 0;
+    const double share = work_.count ? static_cast<double>(done) / static_cast<double>(work_.count) : 1;
+    const double left =
+        done > first_ ? elapsed * static_cast<double>(work_.count - done) / static_cast<double>(done - first_)
+                      : 0;
     std::string bar;
     for (int i = 0; i < 30; ++i) bar += i < share * 30 ? '#' : '.';
     std::fprintf(stderr, "%s%s [%s] %llu/%llu  %.0f s, %.0f s left%s", terminal_ ? "\r" : "",
-                 campaign_.label.c_str(), bar.c_str(), static_cast<unsigned long long>(done),
-                 static_cast<unsigned long long>(campaign_.count), elapsed, left,
+                 work_.label.c_str(), bar.c_str(), static_cast<unsigned long long>(done),
+                 static_cast<unsigned long long>(work_.count), elapsed, left,
                  terminal_ && !last ? "   " : "   \n");
     std::fflush(stderr);
   }
 
  private:
-  const Campaign& campaign_;
+  const ResumableTable& work_;
   std::uint64_t first_;
   bool terminal_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), shown_{};
@@ -80,13 +79,13 @@ class Progress {
 
 }  // namespace
 
-Outcome run_campaign(const Campaign& campaign) {
-  std::filesystem::path partial = campaign.table;
+TableOutcome run_table(const ResumableTable& work) {
+  std::filesystem::path partial = work.table;
   partial += ".partial";
-  std::filesystem::create_directories(campaign.table.parent_path());
-  std::uint64_t written = complete_rows(partial, campaign);
+  std::filesystem::create_directories(work.table.parent_path());
+  std::uint64_t written = complete_rows(partial, work);
   std::ofstream out(partial, written ? std::ios::binary | std::ios::app : std::ios::binary);
-  if (written == 0) out << campaign.settings << '\n' << campaign.header << '\n';
+  if (written == 0) out << work.settings << '\n' << work.header << '\n';
   if (!out) throw InputError("--out", partial.string(), "a folder that can be written to");
 
   std::mutex mutex;
@@ -94,15 +93,15 @@ Outcome run_campaign(const Campaign& campaign) {
   std::map<std::uint64_t, std::string> blocks;
   std::exception_ptr failure;
   std::atomic<std::uint64_t> next{written};
-  const auto work = [&] {
+  const auto compute = [&] {
     try {
       while (!interrupted()) {
-        const std::uint64_t first = next.fetch_add(campaign.block);
-        if (first >= campaign.count) return;
+        const std::uint64_t first = next.fetch_add(work.block);
+        if (first >= work.count) return;
         std::string text;
-        for (std::uint64_t i = first; i < std::min(first + campaign.block, campaign.count); ++i) {
+        for (std::uint64_t i = first; i < std::min(first + work.block, work.count); ++i) {
           if (interrupted()) return;
-          text += campaign.row(i) + "\n";
+          text += work.row(i) + "\n";
         }
         const std::lock_guard lock(mutex);
         blocks[first] = std::move(text);
@@ -115,30 +114,30 @@ Outcome run_campaign(const Campaign& campaign) {
     }
   };
   std::vector<std::thread> threads;
-  threads.reserve(static_cast<std::size_t>(campaign.threads));
-  for (int i = 0; i < campaign.threads; ++i) threads.emplace_back(work);
-  Progress progress(campaign, written);
+  threads.reserve(static_cast<std::size_t>(work.threads));
+  for (int i = 0; i < work.threads; ++i) threads.emplace_back(compute);
+  Progress progress(work, written);
   {
     std::unique_lock lock(mutex);
-    while (written < campaign.count && !failure && !interrupted()) {
+    while (written < work.count && !failure && !interrupted()) {
       ready.wait_for(lock, std::chrono::milliseconds(100));
       while (!blocks.empty() && blocks.begin()->first == written) {
         out << blocks.begin()->second << std::flush;
-        written = std::min(written + campaign.block, campaign.count);
+        written = std::min(written + work.block, work.count);
         blocks.erase(blocks.begin());
       }
       progress.show(written, false);
     }
   }
-  next = campaign.count;
+  next = work.count;
   for (auto& t : threads) t.join();
   if (failure) std::rethrow_exception(failure);
   progress.show(written, true);
   out.close();
   if (!out) throw std::runtime_error("could not write " + partial.string());
-  if (written < campaign.count) return Outcome::interrupted;
-  std::filesystem::rename(partial, campaign.table);
-  return Outcome::finished;
+  if (written < work.count) return TableOutcome::interrupted;
+  std::filesystem::rename(partial, work.table);
+  return TableOutcome::finished;
 }
 
-}  // namespace vericone::accuracy
+}  // namespace vericone

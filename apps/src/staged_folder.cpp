@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fit/staged_folder.h"
+#include "staged_folder.h"
 
 #include <unistd.h>
 
