@@ -20,8 +20,8 @@ Vector2d unit(double angle) { return {std::cos(angle), std::sin(angle)}; }
 /// The axes of (6.10) at a direction: along it, and those in which azimuth and elevation grow.
 struct Axes {
   Vector3d along, azimuth, elevation;
-  double cosine;   // of the elevation
-  bool vertical;   // the elevation rounds to a right angle: the cosine is rounding
+  double cosine;  // of the elevation
+  bool vertical;  // the elevation rounds to a right angle: the cosine is rounding
 };
 
 Axes axes_at(double azimuth, double elevation) {
@@ -131,10 +131,8 @@ SpatialRates spatial_rates(const SpatialState& s, const DirectedAcceleration& a,
   if (!rates.at_pole) {  // (6.10); its V_phi row as corrected, -V_phi V_r for the printed -V_theta V_r
     const double tangent = std::tan(s.phi);
     rates.theta = s.v_theta / (s.r * axes.cosine);
-    rates.v_theta =
-        (-s.v_theta * s.v_r + s.v_theta * s.v_phi * tangent) / s.r + relative.dot(axes.azimuth);
-    rates.v_phi =
-        (-s.v_phi * s.v_r - s.v_theta * s.v_theta * tangent) / s.r + relative.dot(axes.elevation);
+    rates.v_theta = (-s.v_theta * s.v_r + s.v_theta * s.v_phi * tangent) / s.r + relative.dot(axes.azimuth);
+    rates.v_phi = (-s.v_phi * s.v_r - s.v_theta * s.v_theta * tangent) / s.r + relative.dot(axes.elevation);
   }
   const HeadingRates of_a = heading_rates(s.heading_a, s.speed_a, a_a),
                      of_b = heading_rates(s.heading_b, s.speed_b, a_b);
@@ -148,10 +146,10 @@ SpatialRates spatial_rates(const SpatialState& s, const DirectedAcceleration& a,
 SpatialState spatial_state(const Cartesian<3>& motion, const SpatialState* previous) {
   const Vector3d c = motion.p_b - motion.p_a, v = motion.v_b - motion.v_a;
   if (c.isZero(0))
-    throw InputError("obstacle.center",
-                     "[" + to_text(motion.p_b.x()) + ", " + to_text(motion.p_b.y()) + ", " +
-                         to_text(motion.p_b.z()) + "]",
-                     "different from the agent's centre");
+    throw InputError(
+        "obstacle.center",
+        "[" + to_text(motion.p_b.x()) + ", " + to_text(motion.p_b.y()) + ", " + to_text(motion.p_b.z()) + "]",
+        "different from the agent's centre");
   SpatialState s;
   s.r = c.stableNorm();
   const Direction before = previous ? Direction{previous->theta, previous->phi} : Direction{};

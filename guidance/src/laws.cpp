@@ -14,6 +14,25 @@ bool at_rest(const PlanarState& s) {
 
 double relative_speed(const PlanarState& s) { return std::hypot(s.v_r, s.v_theta); }
 
+/// How much an acceleration of V by (radial, across) turns V, rad/s.
+double turning(const PlanarState& s, double radial, double across) {
+  const double speed = relative_speed(s);
+  return (s.v_r / speed * across - s.v_theta / speed * radial) / speed;
+}
+
+double turning_by_lateral_a(const PlanarState& s) {
+  return turning(s, std::sin(s.alpha - s.theta), -std::cos(s.alpha - s.theta));
+}
+double turning_by_lateral_b(const PlanarState& s) {
+  return turning(s, -std::sin(s.beta - s.theta), std::cos(s.beta - s.theta));
+}
+double turning_by_longitudinal_a(const PlanarState& s) {
+  return turning(s, -std::cos(s.alpha - s.theta), -std::sin(s.alpha - s.theta));
+}
+double turning_by_longitudinal_b(const PlanarState& s) {
+  return turning(s, std::cos(s.beta - s.theta), std::sin(s.beta - s.theta));
+}
+
 /// y' = -K (y - w) as an equation for the inputs: by_inputs = needed.
 double needed(const ConeRates& f, const LawOptions& options) {
   return -options.gain * (f.y - options.reference) - f.drift;
@@ -47,12 +66,6 @@ double limiting_factor(double size, const LawOptions& options) {
   return size > options.most ? options.most / size : 1;
 }
 
-/// How much an acceleration of V by (radial, across) turns V, rad/s.
-double turning(const PlanarState& s, double radial, double across) {
-  const double speed = relative_speed(s);
-  return (s.v_r / speed * across - s.v_theta / speed * radial) / speed;
-}
-
 /// Avoidance with A's lateral acceleration a and B's ratio a: the common part of (6.17) and (6.19).
 struct RatioCommand {
   double a = 0, demanded = 0;
@@ -79,6 +92,20 @@ RatioCommand avoid(const PlanarState& s, const ConeRates& f, const LawOptions& o
     command.status = factor < 1 ? LawStatus::saturated : LawStatus::steering;
   }
   return command;
+}
+
+/// Parts of the most with which a pair leaves the bisector: there y has no gradient but V can still be
+/// turned, with the shares that the pair of least magnitude has beside it. A alone where neither turns V.
+struct Shares {
+  double a = 1, b = 0;
+};
+
+Shares shares_on_bisector(const PlanarState& s, LawStatus status, const LawOptions& options) {
+  const double a = turning_by_lateral_a(s), b = turning_by_lateral_b(s);
+  const double greater = std::max(std::abs(a), std::abs(b));
+  if (status != LawStatus::on_bisector || greater * relative_speed(s) <= options.effect) return {};
+  const double divisor = a < 0 ? -greater : greater;
+  return {a / divisor, b / divisor};
 }
 
 }  // namespace
@@ -121,22 +148,20 @@ ConeRates cone_rates(const PlanarState& s, const PlaneCone& cone) {
   // (5.11). Along (5.8) without inputs V keeps its direction; on a moving plane it does not.
   const double moving_plane = turning(s, s.v_normal * s.v_normal / s.r, s.plane_spin * s.v_normal);
   f.drift = by_turning * (moving_plane - cone.theta_b_rate) + by_opening * cone.psi_rate;
-  const double sine_a = std::sin(s.alpha - s.theta), cosine_a = std::cos(s.alpha - s.theta);
-  const double sine_b = std::sin(s.beta - s.theta), cosine_b = std::cos(s.beta - s.theta);
-  f.by_lateral_a = by_turning * (turning(s, sine_a, -cosine_a) - cone.theta_b_rate_by_a) +
-                   by_opening * cone.psi_rate_by_a;
-  f.by_lateral_b = by_turning * (turning(s, -sine_b, cosine_b) - cone.theta_b_rate_by_b) +
-                   by_opening * cone.psi_rate_by_b;
-  f.by_longitudinal_a = by_turning * turning(s, -cosine_a, -sine_a);
-  f.by_longitudinal_b = by_turning * turning(s, cosine_b, sine_b);
+  f.by_lateral_a =
+      by_turning * (turning_by_lateral_a(s) - cone.theta_b_rate_by_a) + by_opening * cone.psi_rate_by_a;
+  f.by_lateral_b =
+      by_turning * (turning_by_lateral_b(s) - cone.theta_b_rate_by_b) + by_opening * cone.psi_rate_by_b;
+  f.by_longitudinal_a = by_turning * turning_by_longitudinal_a(s);
+  f.by_longitudinal_b = by_turning * turning_by_longitudinal_b(s);
   return f;
 }
 
 LawCommand avoidance(const PlanarState& state, const PlaneCone& cone, const LawOptions& options) {
   LawCommand command;
   command.rates = cone_rates(state, cone);
-  const RatioCommand of_a = avoid(state, command.rates, options, 0, command.rates.by_lateral_a,
-                                  at_rest(state) ? 0 : largest_effect_a(state, cone));
+  const RatioCommand of_a =
+      avoid(state, command.rates, options, 0, command.rates.by_lateral_a, largest_effect_a(state, cone));
   command.a = of_a.a;
   command.demanded = of_a.demanded;
   command.status = of_a.status;
@@ -147,11 +172,9 @@ CooperativeCommand cooperative_avoidance(const PlanarState& state, const PlaneCo
                                          const LawOptions& options, double mu) {
   CooperativeCommand command;
   command.rates = cone_rates(state, cone);
-  const double largest =
-      at_rest(state) ? 0 : largest_effect_a(state, cone) + std::abs(mu) * largest_effect_b(state, cone);
-  const RatioCommand of_a =
-      avoid(state, command.rates, options, mu, command.rates.by_lateral_a + mu * command.rates.by_lateral_b,
-            largest);
+  const double largest = largest_effect_a(state, cone) + std::abs(mu) * largest_effect_b(state, cone);
+  const RatioCommand of_a = avoid(state, command.rates, options, mu,
+                                  command.rates.by_lateral_a + mu * command.rates.by_lateral_b, largest);
   command.a = of_a.a;
   command.b = mu * of_a.a;
   command.demanded_a = of_a.demanded;
@@ -173,28 +196,16 @@ CooperativeCommand cooperative_rendezvous(const PlanarState& state, const PlaneC
   const double largest = std::hypot(largest_effect_a(state, cone), largest_effect_b(state, cone));
   if (effect <= options.effect * largest) {
     command.status = without_effect(state, f, options);
-    // On the bisector y has no gradient but V can still be turned: with the shares that the pair of least
-    // magnitude has beside it.
-    double share_a = turning(state, std::sin(state.alpha - state.theta), -std::cos(state.alpha - state.theta));
-    double share_b = turning(state, -std::sin(state.beta - state.theta), std::cos(state.beta - state.theta));
-    const double greater = std::max(std::abs(share_a), std::abs(share_b));
-    if (command.status != LawStatus::on_bisector || greater * relative_speed(state) <= options.effect) {
-      share_a = 1;
-      share_b = 0;
-    } else {
-      const double sign = share_a < 0 ? -1 : 1;
-      share_a /= sign * greater;
-      share_b /= sign * greater;
-    }
-    command.a = command.demanded_a = the_most(options) * share_a;
-    command.b = command.demanded_b = the_most(options) * share_b;
+    const Shares shares = shares_on_bisector(state, command.status, options);
+    command.a = command.demanded_a = the_most(options) * shares.a;
+    command.b = command.demanded_b = the_most(options) * shares.b;
     return command;
   }
   const double size = needed(f, options) / effect;
   command.demanded_a = size * (f.by_lateral_a / effect);
   command.demanded_b = size * (f.by_lateral_b / effect);
-  const double factor = limiting_factor(
-      std::max(std::abs(command.demanded_a), std::abs(command.demanded_b)), options);
+  const double factor =
+      limiting_factor(std::max(std::abs(command.demanded_a), std::abs(command.demanded_b)), options);
   command.a = factor * command.demanded_a;
   command.b = factor * command.demanded_b;
   command.status = factor < 1 ? LawStatus::saturated : LawStatus::steering;

@@ -14,11 +14,13 @@ namespace vericone::guidance {
 
 /// The cone on the plane: opening and bisector, theta_b against the axis of the state's theta, and their
 /// rates against fixed axes of the plane. Where A turns with its heading, its own lateral acceleration turns
-/// the cone as well: rates are psi_rate + psi_rate_by_a a with a A's lateral acceleration.
+/// the cone as well: rates are psi_rate + psi_rate_by_a a with a A's lateral acceleration; so with B and its
+/// own.
 struct PlaneCone {
   double psi = 0, theta_b = 0;                      // rad
   double psi_rate = 0, theta_b_rate = 0;            // rad/s
   double psi_rate_by_a = 0, theta_b_rate_by_a = 0;  // rad/s per m/s^2
+  double psi_rate_by_b = 0, theta_b_rate_by_b = 0;  // rad/s per m/s^2
 };
 
 /// (5.10), y, its parts, and what changes it: y' = drift + by_lateral_a a_A + ... along the kinematics.
@@ -37,8 +39,8 @@ enum class LawStatus : std::uint8_t {
   steering,
   saturated,    // steering with the most allowed
   clear,        // y >= cease: nothing commanded
-  receding,     // V_r_hat >= 0: nothing commanded
-  on_bisector,  // V_theta_hat = 0 within rounding: no first-order effect, the most on the chosen side
+  receding,     // V_r_hat >= 0: nothing commanded (matching: V alone is braked)
+  on_bisector,  // V_theta_hat = 0 within rounding, no first-order effect: the most on the chosen side
   ineffective,  // the inputs do not turn the relative velocity: the most, which turns the heading
   no_relative_velocity,  // V = 0: nothing commanded (avoidance), or arrived (rendezvous)
 };
@@ -93,7 +95,8 @@ struct MatchingCommand {
 
 /// (5.16)-(5.17) as corrected: y to the reference with gain K and y_2 = V^2 to 0 with gain K_2. The
 /// system's determinant is -2 V^2 (errata 3.5), so it is solved in closed form; on the bisector, where y has
-/// no gradient, only (5.17) is kept, by the least acceleration. Saturation scales both.
+/// no gradient, and moving apart, where it says nothing about meeting, only (5.17) is kept, by the least
+/// acceleration. Saturation scales both, so that their resultant is at most `most`.
 MatchingCommand matching_rendezvous(const PlanarState& state, const PlaneCone& cone,
                                     const LawOptions& options, double gain_speed);
 
