@@ -1,2 +1,211 @@
 // SPDX-License-Identifier: BSD-3-Clause
+//
+// The clearance law against finite differences of m(w) along motion that the test propagates itself.
 #include <gtest/gtest.h>
+#include <vericone/cones/clearance.h>
+#include <vericone/guidance/clearance_law.h>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "cones/richardson.h"
+#include "support/random_bodies.h"
+
+namespace vericone::guidance {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using vericone::testing::RandomBodies;
+
+/// An ellipsoid that moves on a parabola, turns at a constant rate and grows along its axes.
+struct Flight {
+  Vector3d center, velocity, acceleration, omega;
+  Vector3d semi_axes, growth;
+  Matrix3d rotation;
+
+  Matrix3d turned(double t) const {
+    const double angle = omega.norm() * t;
+    return angle == 0 ? rotation : Matrix3d(Eigen::AngleAxisd(angle, omega.normalized()) * rotation);
+  }
+  Ellipsoid body(double t) const {
+    return Ellipsoid::from_axes(center + velocity * t + 0.5 * t * t * acceleration, semi_axes + growth * t,
+                                turned(t));
+  }
+  Vector3d velocity_at(double t) const { return velocity + acceleration * t; }
+  BodyState state(Turning turning) const {
+    BodyState state;
+    state.shape = CombinedEllipsoid(body(0));
+    state.position = center;
+    state.velocity = velocity;
+    state.turning = turning;
+    if (turning == Turning::none) state.omega = omega;
+    const Matrix3d rate =
+        rotation * Vector3d(2 * semi_axes.cwiseProduct(growth)).asDiagonal() * rotation.transpose();
+    state.rate.shape = (rate + rate.transpose()) / 2;
+    return state;
+  }
+};
+
+Flight random_flight(RandomBodies& random, const Vector3d& center) {
+  Flight f;
+  f.center = center;
+  f.velocity = random.uniform(2, 12) * random.direction();
+  f.acceleration = Vector3d::Zero();
+  f.omega = 0.5 * random.in_box(1);
+  f.semi_axes = {random.uniform(1, 5), random.uniform(1, 5), random.uniform(1, 5)};
+  f.growth = 0.2 * random.in_box(1);
+  f.rotation = random.rotation();
+  return f;
+}
+
+double miss(const Flight& a, const Flight& b, double t) {
+  return clearance(a.body(t), b.body(t), a.velocity_at(t) - b.velocity_at(t)).distance;
+}
+
+class ClearanceLaw : public ::testing::TestWithParam<bool> {};
+
+/// m' = -K (m - required) along the motion that the command causes: 1,000 states a row, A turning with its
+/// heading or not.
+TEST_P(ClearanceLaw, MakesTheMissDistanceFollowItsOrder) {
+  const bool heading = GetParam();
+  RandomBodies random(heading ? 61 : 62);
+  SCOPED_TRACE(random.trace());
+  ClearanceOptions options;
+  options.required = 3;
+  options.gain = 0.7;
+  options.hold = true;
+  std::vector<double> errors;
+  int inside = 0;
+  while (errors.size() < 1000) {
+    Flight a = random_flight(random, Vector3d::Zero()),
+           b = random_flight(random, random.uniform(15, 40) * random.direction());
+    const Vector3d ahead = (b.center + random.in_box(8)).normalized();
+    a.velocity = b.velocity + random.uniform(5, 15) * ahead;
+    if (heading) a.omega.setZero();
+    b.acceleration = random.in_box(2);
+    if (relation<3>(a.body(0), b.body(0)) != Relation::disjoint) continue;
+    const ClearanceCommand command = clearance_law(a.state(heading ? Turning::with_heading : Turning::none),
+                                                   b.state(Turning::none), options, b.acceleration);
+    if (command.status != LawStatus::steering) continue;
+    EXPECT_NEAR(command.acceleration.dot(a.velocity), 0, 1e-9 * command.demanded * a.velocity.norm());
+    a.acceleration = command.acceleration;
+    if (heading) a.omega = a.velocity.cross(a.acceleration) / a.velocity.squaredNorm();
+    const double h = 1e-2 / (1 + a.acceleration.norm() + 10 * a.omega.norm());
+    const double found = vericone::testing::richardson_derivative([&](double t) { return miss(a, b, t); }, h);
+    const double wanted = -options.gain * (command.m - options.required);
+    // The scale: what the terms of m' are made of.
+    const double scale = std::abs(wanted) + std::abs(command.drift) +
+                         std::abs(command.time_to_closest) * b.acceleration.norm();
+    const double error = std::abs(found - wanted) / scale;
+    // Where m < 0 another of its maxima may take over within the difference: m has a corner there and no
+    // rate.
+    if (command.m < 0) {
+      const double left = (miss(a, b, 0) - miss(a, b, -h)) / h, right = (miss(a, b, h) - miss(a, b, 0)) / h;
+      if (std::abs(left - right) > 0.05 * scale) continue;
+      ++inside;
+    }
+    errors.push_back(error);
+  }
+  std::sort(errors.begin(), errors.end());
+  EXPECT_LT(errors.back(), 1e-6);
+  EXPECT_GT(inside, 200);
+}
+INSTANTIATE_TEST_SUITE_P(Turning, ClearanceLaw, ::testing::Bool(),
+                         [](const auto& param) { return param.param ? "WithHeading" : "None"; });
+
+TEST(ClearanceLawPlanar, MakesTheMissDistanceFollowItsOrder) {
+  RandomBodies random(63);
+  SCOPED_TRACE(random.trace());
+  ClearanceOptions options;
+  options.required = 2;
+  options.hold = true;
+  int tested = 0;
+  while (tested < 500) {
+    const Eigen::Vector2d c = random.uniform(10, 30) * random.direction_2d();
+    const Eigen::Vector2d va = random.uniform(3, 10) * random.direction_2d(),
+                          vb = random.uniform(0, 3) * random.direction_2d();
+    const double angle = random.uniform(-3, 3), angle_b = random.uniform(-3, 3);
+    const Eigen::Vector2d axes(random.uniform(1, 4), random.uniform(1, 4)),
+        axes_b(random.uniform(1, 4), random.uniform(1, 4));
+    BodyState a, b;
+    a.shape = CombinedEllipse(Ellipse::from_axes({0, 0}, axes, rotation_2d(angle)));
+    a.velocity = {va.x(), va.y(), 0};
+    a.turning = Turning::with_heading;
+    b.shape = CombinedEllipse(Ellipse::from_axes(c, axes_b, rotation_2d(angle_b)));
+    b.position = {c.x(), c.y(), 0};
+    b.velocity = {vb.x(), vb.y(), 0};
+    const ClearanceCommand command = clearance_law(a, b, options);
+    if (command.status != LawStatus::steering) continue;
+    EXPECT_EQ(command.acceleration.z(), 0);
+    const Eigen::Vector2d lateral = command.acceleration.head<2>();
+    const double turn = (va.x() * lateral.y() - va.y() * lateral.x()) / va.squaredNorm();
+    // The widths of both bodies along the normals of the relative velocity, written out.
+    const auto m = [&](double t) {
+      const Eigen::Vector2d w = va + lateral * t - vb, p = c + vb * t - va * t - 0.5 * t * t * lateral;
+      double most = -1e300;
+      for (const double side : {1.0, -1.0}) {
+        const Eigen::Vector2d n = side * Eigen::Vector2d(-w.y(), w.x()).normalized();
+        const auto width = [&](const Eigen::Vector2d& semi_axes, double at) {
+          return semi_axes.cwiseProduct(rotation_2d(-at) * n).norm();
+        };
+        most = std::max(most, n.dot(p) - width(axes, angle + turn * t) - width(axes_b, angle_b));
+      }
+      return most;
+    };
+    ASSERT_NEAR(command.m, m(0), 1e-10);
+    const double h = 1e-2 / (1 + lateral.norm() + 10 * std::abs(turn));
+    const double left = (m(0) - m(-h)) / h, right = (m(h) - m(0)) / h;
+    const double wanted = -options.gain * (command.m - options.required);
+    if (std::abs(left - right) > 0.1 * (std::abs(wanted) + 1)) continue;  // the other normal takes over
+    EXPECT_NEAR(vericone::testing::richardson_derivative(m, h), wanted, 1e-6 * (std::abs(wanted) + 1));
+    ++tested;
+  }
+}
+
+BodyState ball(const Vector3d& center, const Vector3d& velocity, double radius) {
+  BodyState state;
+  state.shape = CombinedEllipsoid(Ellipsoid::from_axes(center, Vector3d::Constant(radius)));
+  state.position = center;
+  state.velocity = velocity;
+  return state;
+}
+
+TEST(ClearanceLawStates, AreToldApart) {
+  ClearanceOptions options;
+  options.required = 1;
+  options.most = 4;
+  const BodyState b = ball({20, 0, 0}, {0, 0, 0}, 1);
+  // Passing 3 m beside the other: enough.
+  EXPECT_EQ(clearance_law(ball({0, 5, 0}, {5, 0, 0}, 1), b, options).status, LawStatus::clear);
+  // Away from it.
+  EXPECT_EQ(clearance_law(ball({0, 0, 0}, {-5, 0.1, 0}, 1), b, options).status, LawStatus::receding);
+  EXPECT_EQ(clearance_law(ball({0, 0, 0}, {0, 0, 0}, 1), b, options).status, LawStatus::no_relative_velocity);
+  // Head on: all sides are as good; one is taken, the same every time, with the most allowed.
+  const ClearanceCommand head_on = clearance_law(ball({0, 0, 0}, {5, 0, 0}, 1), b, options);
+  EXPECT_EQ(head_on.status, LawStatus::steering);
+  EXPECT_NEAR(head_on.m, -2, 1e-12);
+  EXPECT_NEAR(head_on.acceleration.x(), 0, 1e-12);
+  EXPECT_EQ(clearance_law(ball({0, 0, 0}, {5, 0, 0}, 1), b, options).acceleration, head_on.acceleration);
+  options.most = 0.1;
+  const ClearanceCommand saturated = clearance_law(ball({0, 0.5, 0}, {5, 0, 0}, 1), b, options);
+  EXPECT_EQ(saturated.status, LawStatus::saturated);
+  EXPECT_NEAR(saturated.acceleration.norm(), 0.1, 1e-15);
+  EXPECT_GT(saturated.acceleration.y(), 0.09);  // to the side on which it already is
+}
+
+/// Spheres: the shadow is a disc, m = distance of the line of motion - radii; closed form.
+TEST(ClearanceLawStates, SpheresInClosedForm) {
+  RandomBodies random(64);
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 200; ++i) {
+    const Vector3d c = random.uniform(10, 20) * random.direction(),
+                   v = random.uniform(1, 9) * random.direction();
+    const double m = c.cross(v).norm() / v.norm() - 3;
+    EXPECT_NEAR(law_clearance(ball({0, 0, 0}, v, 1), ball(c, {0, 0, 0}, 2)), m, 1e-10);
+  }
+}
+
+}  // namespace
+}  // namespace vericone::guidance
