@@ -70,13 +70,28 @@ class Width {
 
 }  // namespace
 
-PlaneSector exact_sector(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& across) {
+SectorPlanes::SectorPlanes(const Ellipsoid& a, const Ellipsoid& b)
+    : a_(a), b_(b), c_(b.center() - a.center()), line_of_sight_(c_.normalized()) {
   const ContactFrame<3> frame(a, b);
-  if (const Relation rel = relation<3>(a, b, frame); rel != Relation::disjoint)
-    throw InputError("bodies", to_string(rel), "disjoint for a sector with two edges");
-  const Vector3d c = b.center() - a.center();
+  separating_ = frame.separating_normal();
+  auto certified = triage_relation<3>(a, b, frame);
+  if (!certified) certified = interval_relation<3>(a, b, frame);
+  disjoint_ = certified == Relation::disjoint;
+}
+
+PlaneSector exact_sector(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& across) {
+  const SectorPlanes planes(a, b);
+  if (!planes.disjoint())
+    if (const Relation rel = relation<3>(a, b); rel != Relation::disjoint)
+      throw InputError("bodies", to_string(rel), "disjoint for a sector with two edges");
+  return planes.on(across);
+}
+
+PlaneSector SectorPlanes::on(const Vector3d& across) const {
+  const Ellipsoid &a = a_, &b = b_;
+  const Vector3d& c = c_;
   PlaneSector sector;
-  sector.line_of_sight = c.normalized();
+  sector.line_of_sight = line_of_sight_;
   const Vector3d& u = sector.line_of_sight;
   sector.across = second_axis(u, across);
   const Vector3d& e = sector.across;
@@ -87,8 +102,7 @@ PlaneSector exact_sector(const Ellipsoid& a, const Ellipsoid& b, const Vector3d&
   // The plane's sector is polar to the projection of the separating normals N = { width <= |c| } (n.u = 1)
   // onto the plane: its ends are the extreme tau of N. G(tau) = |c| - min_s width is concave and positive at
   // the separating normal; from a point beyond the root Newton comes down monotonically.
-  Vector3d start = frame.separating_normal();
-  start /= start.dot(u);
+  const Vector3d start = separating_ / separating_.dot(u);
   const auto edge = [&](double side) {
     double tau = start.dot(e), s = start.dot(p);
     double reach = 1 + std::abs(tau);

@@ -1,2 +1,254 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/guidance/plane_view.h>
+
+#include <vericone/cones/cone_geometry.h>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "plane_cones.h"
+
+namespace vericone::guidance {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// The part of `v` across the unit vector `u`, unit; where there is none, some axis that `u` alone decides.
+Vector3d across_axis(const Vector3d& u, const Vector3d& v) {
+  Vector3d rest = v - v.dot(u) * u;
+  if (!(rest.norm() > 1e-12 * v.norm())) return AxisFrame(u).e1;
+  rest.normalize();
+  // Twice: what is left of a vector nearly along u is not perpendicular to it yet.
+  return (rest - rest.dot(u) * u).normalized();
+}
+
+Vector3d lateral(const PlaneView& view, double heading) {
+  return -std::sin(heading) * view.line_of_sight + std::cos(heading) * view.across;
+}
+
+/// Angular velocity of A for a unit lateral acceleration; zero where it does not turn with its heading.
+Vector3d turning_by_lateral(const PlaneView& view, const BodyState& a) {
+  const double square = a.velocity.squaredNorm();
+  if (a.turning == Turning::none || !(square > 0)) return Vector3d::Zero();
+  return a.velocity.cross(view.lateral_a()) / square;
+}
+
+/// Of the axes (u, e): with the line of sight, and about it.
+Vector3d plane_turning(const PlaneView& view, const Vector3d& c, const Vector3d& v) {
+  return view.line_of_sight.cross(v) / c.norm() + view.state.plane_spin * view.line_of_sight;
+}
+
+std::vector<DelimiterRate> in_plane(const ShapeRate& rate) {
+  std::vector<DelimiterRate> all;
+  for (const SpatialDelimiterRate& d : rate.delimiters)
+    all.push_back({d.matrix.topLeftCorner<2, 2>(), d.level});
+  return all;
+}
+
+double direction_in_plane(const Vector3d& u) { return std::atan2(u.y(), u.x()); }
+
+/// theta_b from the line of sight, in (-pi, pi].
+double from_sight(double theta_b, const Vector3d& u) {
+  return std::remainder(theta_b - direction_in_plane(u), 2 * std::numbers::pi);
+}
+
+bool planar_cone(const PlaneView& view, const BodyState& a, const BodyState& b, bool with_rates,
+                 PlaneCone& cone) {
+  const auto &shape_a = std::get<CombinedEllipse>(a.shape), &shape_b = std::get<CombinedEllipse>(b.shape);
+  const CombinedSector sector = combined_sector(shape_a, shape_b);
+  if (sector.sector.relation != Relation::disjoint) return false;
+  cone.psi = sector.sector.psi;
+  cone.theta_b = from_sight(sector.sector.theta_b, view.line_of_sight);
+  if (!with_rates) return true;
+  PlanarMotion motion;
+  motion.v_a = a.velocity.head<2>();
+  motion.v_b = b.velocity.head<2>();
+  motion.omega_a = a.omega.z();
+  motion.omega_b = b.omega.z();
+  motion.shape_rate_a = a.rate.shape.topLeftCorner<2, 2>();
+  motion.shape_rate_b = b.rate.shape.topLeftCorner<2, 2>();
+  const SectorRates rates =
+      combined_sector_rates(sector, shape_a, shape_b, motion, in_plane(a.rate), in_plane(b.rate));
+  cone.psi_rate = rates.psi;
+  cone.theta_b_rate = rates.theta_b;
+  if (const Vector3d turning = turning_by_lateral(view, a); !turning.isZero(0)) {
+    PlanarMotion unit;
+    unit.omega_a = turning.z();
+    const SectorRates by_a = combined_sector_rates(sector, shape_a, shape_b, unit);
+    cone.psi_rate_by_a = by_a.psi;
+    cone.theta_b_rate_by_a = by_a.theta_b;
+  }
+  return true;
+}
+
+bool slice_cone(const PlaneView& view, const BodyState& a, const BodyState& b, bool with_rates,
+                PlaneCone& cone) {
+  const auto &shape_a = std::get<CombinedEllipsoid>(a.shape), &shape_b = std::get<CombinedEllipsoid>(b.shape);
+  const Vector3d &u = view.line_of_sight, &e = view.across;
+  const Sections sections = sections_of(shape_a, shape_b, u, e);
+  if (!sections.disjoint()) return false;
+  cone.psi = sections.opening().psi;
+  cone.theta_b = sections.opening().theta_b;
+  if (!with_rates) return true;
+  const Vector3d v = b.velocity - a.velocity, c = shape_b.center() - shape_a.center();
+  const Vector3d plane = plane_turning(view, c, v);
+  TurningMotion motion{a.omega - plane, b.omega - plane, v.dot(u), &a.rate, &b.rate};
+  const OpeningRates rates = section_rates(sections, shape_a, shape_b, u, e, motion);
+  cone.psi_rate = rates.psi;
+  cone.theta_b_rate = rates.theta_b + v.dot(e) / c.norm();
+  if (const Vector3d turning = turning_by_lateral(view, a); !turning.isZero(0)) {
+    TurningMotion unit;
+    unit.omega_a = turning;
+    const OpeningRates by_a = section_rates(sections, shape_a, shape_b, u, e, unit);
+    cone.psi_rate_by_a = by_a.psi;
+    cone.theta_b_rate_by_a = by_a.theta_b;
+  }
+  return true;
+}
+
+bool exact_cone(const PlaneView& view, const BodyState& a, const BodyState& b, bool with_rates,
+                PlaneCone& cone) {
+  const Ellipsoid &shape_a = std::get<CombinedEllipsoid>(a.shape).ellipsoid(),
+                  &shape_b = std::get<CombinedEllipsoid>(b.shape).ellipsoid();
+  const SectorPlanes planes(shape_a, shape_b);
+  if (!planes.disjoint()) return false;
+  const PlaneSector sector = planes.on(view.across);
+  cone.psi = sector.psi();
+  cone.theta_b = sector.theta_b();
+  if (!with_rates) return true;
+  const PlaneSectorRates rates = exact_sector_rates(
+      sector, shape_a, shape_b,
+      {a.velocity, b.velocity, a.omega, b.omega, a.rate.shape, b.rate.shape, view.state.plane_spin});
+  cone.psi_rate = rates.psi();
+  cone.theta_b_rate = rates.theta_b() + rates.line_of_sight;
+  if (const Vector3d turning = turning_by_lateral(view, a); !turning.isZero(0)) {
+    SpatialMotion unit;
+    unit.omega_a = turning;
+    const PlaneSectorRates by_a = exact_sector_rates(sector, shape_a, shape_b, unit);
+    cone.psi_rate_by_a = by_a.psi();
+    cone.theta_b_rate_by_a = by_a.theta_b();
+  }
+  return true;
+}
+
+/// Inverse of the time in which the engagement changes by its own size, 1/s.
+double rate_scale(const BodyState& a, const BodyState& b) {
+  const double r = (b.position - a.position).norm();
+  double scale = (b.velocity - a.velocity).norm() / r + a.omega.norm() + b.omega.norm();
+  for (const BodyState* body : {&a, &b})
+    if (const auto* shape = std::get_if<CombinedEllipsoid>(&body->shape))
+      scale += body->rate.shape.norm() / shape->ellipsoid().shape().norm();
+  return scale > 0 ? scale : 1;
+}
+
+/// The body turned by the rotation vector `turn` about its centre.
+BodyState turned(const BodyState& body, const Vector3d& turn) {
+  BodyState still = body;
+  still.velocity.setZero();
+  still.omega = turn;
+  still.rate = {};
+  return advanced(still, 1);
+}
+
+/// Central differences with the plane carried along: e is turned with the line of sight, which describes a
+/// great circle, and about it by plane_spin. Nothing is written where a sector is missing.
+bool difference(const PlaneView& view, const BodyState& a, const BodyState& b, SectorMethod method,
+                double tolerance, PlaneCone& cone) {
+  // The error of the edges over h and that of the difference, h^2, are made alike.
+  const double part = std::max(1e-4, std::cbrt(tolerance)), h = part / rate_scale(a, b);
+  const auto later = [&](double dt) -> std::optional<Opening> {
+    const BodyState next_a = advanced(a, dt), next_b = advanced(b, dt);
+    const Vector3d u = (next_b.position - next_a.position).normalized();
+    const Vector3d carried =
+        Eigen::Quaterniond::FromTwoVectors(view.line_of_sight, u).toRotationMatrix() * view.across;
+    const double spin = view.state.plane_spin * dt;
+    return PlaneCones(next_a, next_b, method)
+        .on(u, across_axis(u, std::cos(spin) * carried + std::sin(spin) * u.cross(carried)));
+  };
+  const auto before = later(-h), after = later(h);
+  if (!before || !after) return false;
+  cone.psi_rate = (after->psi - before->psi) / (2 * h);
+  cone.theta_b_rate = std::remainder(after->theta_b - before->theta_b, 2 * std::numbers::pi) / (2 * h) +
+                      view.state.v_theta / view.state.r;
+  if (const Vector3d turning = turning_by_lateral(view, a); !turning.isZero(0)) {
+    const double size = turning.norm();
+    const auto by_turn = [&](double angle) {
+      return PlaneCones(turned(a, angle / size * turning), b, method).on(view.line_of_sight, view.across);
+    };
+    const auto back = by_turn(-part), ahead = by_turn(part);
+    if (!back || !ahead) return false;
+    cone.psi_rate_by_a = size * (ahead->psi - back->psi) / (2 * part);
+    cone.theta_b_rate_by_a =
+        size * std::remainder(ahead->theta_b - back->theta_b, 2 * std::numbers::pi) / (2 * part);
+  }
+  return true;
+}
+
+}  // namespace
+
+Vector3d PlaneView::lateral_a() const { return lateral(*this, state.alpha); }
+Vector3d PlaneView::lateral_b() const { return lateral(*this, state.beta); }
+
+PlaneView plane_states(const BodyState& a, const BodyState& b, const Vector3d& across, double plane_spin) {
+  const Vector3d c = b.position - a.position, v = b.velocity - a.velocity;
+  PlaneView view;
+  view.line_of_sight = c.normalized();
+  const Vector3d& u = view.line_of_sight;
+  view.across = a.planar() && b.planar() ? Vector3d(-u.y(), u.x(), 0) : across_axis(u, across);
+  const Vector3d& e = view.across;
+  PlanarState& state = view.state;
+  state.r = c.norm();
+  state.v_r = v.dot(u);
+  state.v_theta = v.dot(e);
+  state.v_normal = v.dot(view.normal());
+  state.plane_spin = plane_spin;
+  const Vector2d along_a(a.velocity.dot(u), a.velocity.dot(e)), along_b(b.velocity.dot(u), b.velocity.dot(e));
+  state.alpha = std::atan2(along_a.y(), along_a.x());
+  state.beta = std::atan2(along_b.y(), along_b.x());
+  state.speed_a = along_a.norm();
+  state.speed_b = along_b.norm();
+  return view;
+}
+
+bool fill_cone(PlaneView& view, const BodyState& a, const BodyState& b, SectorMethod method,
+               RateMethod rates) {
+  PlaneCone cone;
+  const bool analytic = rates == RateMethod::analytic;
+  const auto* spatial_a = std::get_if<CombinedEllipsoid>(&a.shape);
+  const auto* spatial_b = std::get_if<CombinedEllipsoid>(&b.shape);
+  bool closed_form = true, found = false;
+  double tolerance = 0;
+  if (a.planar() && b.planar()) {
+    found = planar_cone(view, a, b, analytic, cone);
+  } else if (spatial_a && spatial_b && method == SectorMethod::slice) {
+    found = slice_cone(view, a, b, analytic, cone);
+  } else if (spatial_a && spatial_b && spatial_a->is_ellipsoid() && spatial_b->is_ellipsoid()) {
+    found = exact_cone(view, a, b, analytic, cone);
+  } else {
+    closed_form = false;
+    const PlaneCones cones(a, b, method);
+    tolerance = cones.tolerance();
+    if (const auto opening = cones.on(view.line_of_sight, view.across)) {
+      cone.psi = opening->psi;
+      cone.theta_b = opening->theta_b;
+      found = true;
+    }
+  }
+  if (!found) return false;
+  if (rates == RateMethod::differenced || (analytic && !closed_form))
+    if (!difference(view, a, b, method, tolerance, cone)) return false;
+  view.cone = cone;
+  return true;
+}
+
+std::optional<PlaneView> plane_view(const BodyState& a, const BodyState& b, const Vector3d& across,
+                                    SectorMethod method, RateMethod rates, double plane_spin) {
+  if (a.position == b.position) return std::nullopt;
+  PlaneView view = plane_states(a, b, across, plane_spin);
+  if (!fill_cone(view, a, b, method, rates)) return std::nullopt;
+  return view;
+}
+
+}  // namespace vericone::guidance

@@ -28,6 +28,25 @@ struct PlaneSector {
 /// bodies; throws InputError naming "across" or "bodies". Cost: about 2 us.
 PlaneSector exact_sector(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& across);
 
+/// Two bodies prepared for sectors on many planes: about half of exact_sector()'s time is spent once. No
+/// allocation.
+class SectorPlanes {
+ public:
+  SectorPlanes(const Ellipsoid& a, const Ellipsoid& b);
+
+  /// Certified; false also of bodies so near each other that rounding could matter (exact_sector() then asks
+  /// integers).
+  bool disjoint() const { return disjoint_; }
+
+  /// As exact_sector(). Requires disjoint bodies. Throws InputError naming "across".
+  PlaneSector on(const Eigen::Vector3d& across) const;
+
+ private:
+  Ellipsoid a_, b_;
+  Eigen::Vector3d c_, line_of_sight_, separating_ = Eigen::Vector3d::Zero();
+  bool disjoint_ = false;
+};
+
 /// How the bodies, and the plane with them, move.
 struct SpatialMotion {
   Eigen::Vector3d v_a = Eigen::Vector3d::Zero(), v_b = Eigen::Vector3d::Zero();          // m/s

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plane_cones.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace vericone::guidance {
+
+using Eigen::Vector3d;
+
+PlaneCones::PlaneCones(const BodyState& a, const BodyState& b, SectorMethod method)
+    : kind_(kind_of(a, b, method)) {}
+
+PlaneCones::Kind PlaneCones::kind_of(const BodyState& a, const BodyState& b, SectorMethod method) {
+  if (a.planar() && b.planar())
+    return Planar{std::get<CombinedEllipse>(a.shape), std::get<CombinedEllipse>(b.shape)};
+  const auto* agent = std::get_if<CombinedEllipsoid>(&a.shape);
+  if (!agent) return None{};
+  if (const auto* hull = std::get_if<HullBody>(&b.shape)) {
+    if (!agent->is_ellipsoid()) return None{};
+    if (method == SectorMethod::slice) return HullSlices{agent->ellipsoid(), *hull};
+    return ExactHull(agent->ellipsoid(), *hull);
+  }
+  const auto* obstacle = std::get_if<CombinedEllipsoid>(&b.shape);
+  if (!obstacle) return None{};
+  if (method == SectorMethod::slice) return Slices{*agent, *obstacle};
+  if (agent->is_ellipsoid() && obstacle->is_ellipsoid())
+    return SectorPlanes(agent->ellipsoid(), obstacle->ellipsoid());
+  return ExactCombined(*agent, *obstacle);
+}
+
+std::optional<Opening> PlaneCones::on(const Vector3d& u, const Vector3d& e) const {
+  struct Ask {
+    const Vector3d &u, &e;
+
+    std::optional<Opening> operator()(const None&) const { return std::nullopt; }
+    std::optional<Opening> operator()(const Planar& pair) const {
+      const Sector sector = combined_sector(pair.a, pair.b).sector;
+      if (sector.relation != Relation::disjoint) return std::nullopt;
+      return Opening{sector.psi,
+                     std::remainder(sector.theta_b - std::atan2(u.y(), u.x()), 2 * std::numbers::pi)};
+    }
+    std::optional<Opening> operator()(const Slices& pair) const {
+      const Sections sections = sections_of(pair.a, pair.b, u, e);
+      if (!sections.disjoint()) return std::nullopt;
+      return sections.opening();
+    }
+    std::optional<Opening> operator()(const HullSlices& pair) const {
+      return hull_section(pair.agent, pair.hull, u, e);
+    }
+    std::optional<Opening> operator()(const SectorPlanes& planes) const {
+      if (!planes.disjoint()) return std::nullopt;
+      const PlaneSector sector = planes.on(e);
+      return Opening{sector.psi(), sector.theta_b()};
+    }
+    std::optional<Opening> operator()(const ExactHull& exact) const { return exact.on(u, e); }
+    std::optional<Opening> operator()(const ExactCombined& exact) const { return exact.on(u, e); }
+  };
+  return std::visit(Ask{u, e}, kind_);
+}
+
+double PlaneCones::tolerance() const {
+  if (std::holds_alternative<ExactHull>(kind_)) return ExactHull::kEdge;
+  if (std::holds_alternative<ExactCombined>(kind_)) return ExactCombined::kEdge;
+  return 0;
+}
+
+}  // namespace vericone::guidance

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Sectors of two bodies on planes through their line of sight, by kind of body.
+#pragma once
+
+#include <vericone/cones/assembly_oracle.h>
+#include <vericone/cones/combined_cone.h>
+#include <vericone/cones/plane_sector.h>
+#include <vericone/guidance/plane_view.h>
+#include <optional>
+#include <variant>
+
+namespace vericone::guidance {
+
+/// On the plane of u (line of sight) and e (across), radians from u towards e.
+struct Opening {
+  double psi = 0, theta_b = 0;
+
+  double left() const { return theta_b + 0.5 * psi; }
+  double right() const { return theta_b - 0.5 * psi; }
+};
+
+/// Rates of an opening beside the plane's own turning.
+struct OpeningRates {
+  double psi = 0, theta_b = 0;
+};
+
+/// How both bodies move beyond what the states say, seen from axes that turn with the plane.
+struct TurningMotion {
+  Eigen::Vector3d omega_a = Eigen::Vector3d::Zero(), omega_b = Eigen::Vector3d::Zero();
+  double closing = 0;                 // V_r, m/s
+  const ShapeRate* rate_a = nullptr;  // none: zero
+  const ShapeRate* rate_b = nullptr;
+};
+
+/// Sections of combined bodies by the plane of both centres, that of A about the origin and that of B about
+/// (distance, 0).
+struct Sections {
+  CombinedEllipse a, b;
+  CombinedSector sector;
+
+  bool disjoint() const { return sector.sector.relation == Relation::disjoint; }
+  Opening opening() const { return {sector.sector.psi, sector.sector.theta_b}; }
+};
+Sections sections_of(const CombinedEllipsoid& a, const CombinedEllipsoid& b, const Eigen::Vector3d& u,
+                     const Eigen::Vector3d& e);
+/// Closed form. Requires disjoint sections.
+OpeningRates section_rates(const Sections& sections, const CombinedEllipsoid& a, const CombinedEllipsoid& b,
+                           const Eigen::Vector3d& u, const Eigen::Vector3d& e, const TurningMotion& motion);
+
+/// The section of a hull by the plane, and of the agent; nothing where the plane misses the hull or the
+/// agent's section reaches into it.
+std::optional<Opening> hull_section(const Ellipsoid& agent, const HullBody& hull, const Eigen::Vector3d& u,
+                                    const Eigen::Vector3d& e);
+
+/// The true sector where an oracle says of each direction whether it is in.
+class ExactHull {
+ public:
+  static constexpr double kEdge = 1e-9;  // rad
+
+  ExactHull(const Ellipsoid& agent, const HullBody& hull);
+  std::optional<Opening> on(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
+
+ private:
+  AssemblyOracle oracle_;
+  bool disjoint_;
+};
+class ExactCombined {
+ public:
+  static constexpr double kEdge = 1e-7;  // rad
+
+  ExactCombined(const CombinedEllipsoid& a, const CombinedEllipsoid& b);
+  std::optional<Opening> on(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
+
+ private:
+  CombinedOracle oracle_;
+  bool disjoint_;
+};
+
+/// Two bodies at an instant, prepared to be seen on many planes through their line of sight. Refers to the
+/// bodies.
+class PlaneCones {
+ public:
+  PlaneCones(const BodyState& a, const BodyState& b, SectorMethod method);
+
+  /// u: the line of sight; e perpendicular to it, unit. Nothing as fill_cone() says.
+  std::optional<Opening> on(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
+
+  /// Radians to which the edges are right, where that is not rounding.
+  double tolerance() const;
+
+ private:
+  struct None {};
+  struct Planar {
+    const CombinedEllipse &a, &b;
+  };
+  struct Slices {
+    const CombinedEllipsoid &a, &b;
+  };
+  struct HullSlices {
+    const Ellipsoid& agent;
+    const HullBody& hull;
+  };
+  using Kind = std::variant<None, Planar, Slices, HullSlices, SectorPlanes, ExactHull, ExactCombined>;
+  static Kind kind_of(const BodyState& a, const BodyState& b, SectorMethod method);
+
+  Kind kind_;
+};
+
+}  // namespace vericone::guidance
