@@ -26,12 +26,15 @@ struct Motion {
 };
 
 /// Motion with an acceleration that is constant in the frame carried along by the velocity: its lateral part
-/// turns the velocity without changing the speed, its longitudinal part changes the speed alone. A body at
-/// rest is accelerated in the fixed direction.
+/// turns the velocity without changing the speed, its longitudinal part changes the speed alone. So it lies
+/// in one plane. A body slower than 1 mm/s is at rest: it has no heading to carry anything along, and from
+/// then on the acceleration stays as it is in space and the body does not turn; one that brakes beyond rest
+/// moves backwards until the end of the arc.
 class Arc {
  public:
-  /// From `start` at time `from` until `to` > from, the acceleration as it stands at `from`. Dense output of
-  /// dopri5 with absolute and relative tolerance 1e-11.
+  /// From `start` at time `from` until `to` > from, the acceleration as it stands at `from`. dopri5 with
+  /// tolerance 1e-12 m and rad a step (relative 1e-14); dense output by one step of the method, of the length
+  /// needed, from the last accepted one, so of the same order. Throws InputError naming "to".
   Arc(const Motion& start, const Eigen::Vector3d& acceleration, Orientation orientation, double from,
       double to);
 
@@ -40,20 +43,44 @@ class Arc {
   /// from <= t <= to.
   Motion at(double t) const;
   Eigen::Vector3d acceleration(double t) const;
+  const Motion& start() const { return start_; }
   const Motion& end() const { return end_; }
+  bool accelerated() const { return most_acceleration_ > 0; }
 
-  /// Bounds over the arc: |a|, and the rate at which the body turns, rad/s.
+  /// Bounds over the arc: |a|, and the rate at which the body turns, rad/s; infinite where a level body turns
+  /// at once (a vertical velocity, a start that was not level).
   double most_acceleration() const { return most_acceleration_; }
   double most_turn_rate() const { return most_turn_rate_; }
 
  private:
-  struct Step;  // an accepted step of the integrator with its dense output
+  /// In the plane of the arc, from its start: along and across the first velocity, metres, and the angle that
+  /// the velocity has turned, rad.
+  struct InPlane {
+    double along = 0, across = 0, turned = 0;
+  };
+  struct Step {  // an accepted step of the integrator: where it began, seconds after `from`
+    double begin;
+    InPlane state;
+  };
+
+  void integrate();
+  InPlane in_plane(double elapsed) const;
+  double speed(double elapsed) const { return speed_ + longitudinal_ * elapsed; }
+  Eigen::Matrix3d rotation(const InPlane& state, const Eigen::Vector3d& velocity) const;
+  double turn_rate_bound() const;
+
   Motion start_, end_;
   Eigen::Vector3d acceleration_;
   Orientation orientation_;
   double from_, to_;
+  // The plane: unit vectors along the velocity at the start and along the lateral acceleration.
+  Eigen::Vector3d ahead_ = Eigen::Vector3d::Zero(), aside_ = Eigen::Vector3d::Zero();
+  double speed_ = 0, longitudinal_ = 0, lateral_ = 0;
+  double carried_ = 0;  // seconds, until when the acceleration is carried along
+  InPlane last_;        // then
   double most_acceleration_ = 0, most_turn_rate_ = 0;
-  std::shared_ptr<const std::vector<Step>> steps_;  // none without acceleration: a straight line
+  // The second step and all that follow: none in most arcs, which are as short as a step of guidance.
+  std::shared_ptr<const std::vector<Step>> steps_;
 };
 
 /// A body's whole motion. Arcs follow each other without gap.
@@ -61,7 +88,8 @@ class Track {
  public:
   Track(ShapeInTime shape, const Motion& start, Orientation orientation, double appears);
 
-  /// Goes on until `to` with an acceleration as it stands now.
+  /// Goes on until `to` with an acceleration as it stands now. Arcs without acceleration that follow each
+  /// other are one. Throws InputError naming "to" where it is not after end().
   void advance(const Eigen::Vector3d& acceleration, double to);
 
   double appears() const { return appears_; }
@@ -73,7 +101,8 @@ class Track {
   /// appears() <= t <= end().
   Motion motion(double t) const;
   Eigen::Vector3d acceleration(double t) const;
-  /// What guidance sees at time t.
+  /// What guidance sees at time t. Bodies that turn with their velocity do so without roll as guidance sees
+  /// them, level ones too, whose slow roll in a climbing turn is left out.
   guidance::BodyState state(double t) const;
 
   /// Bounds over [from, to].
