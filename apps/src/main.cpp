@@ -16,6 +16,7 @@
 #include "scan/run_scan.h"
 #include "shapes.h"
 #include "signmap.h"
+#include "simulate/simulate_command.h"
 #ifdef VERICONE_HAVE_VERIFY
 #include "verify.h"
 #endif
@@ -252,6 +253,29 @@ int run(int argc, char** argv) {
     shapes.figures = !no_shapes_figure;
     for (int i = 0; i < argc; ++i) shapes.command_line.append(i ? " " : "").append(i ? argv[i] : "vericone");
     vericone::run_shapes(shapes, std::cout);
+  });
+
+  vericone::SimulateOptions simulate;
+  auto* simulate_command =
+      app.add_subcommand("simulate", "A scenario of moving bodies, with a proof of what was avoided");
+  simulate_command->add_option("scenario", simulate.scenario, "Scenario file, YAML (docs/scenarios.md)")
+      ->required();
+  simulate_command->add_option("--out", simulate.out, "Folder for tables, proof and picture")
+      ->capture_default_str();
+  bool no_simulate_figure = false;
+  simulate_command->add_flag("--no-figures", no_simulate_figure, "Tables and proof only");
+  simulate_command->add_flag("--quiet", simulate.quiet, "No progress");
+  simulate_command->add_flag("--json", simulate.json, "Print JSON");
+  simulate_command->callback([&] {
+    simulate.figures = !no_simulate_figure;
+    for (int i = 0; i < argc; ++i)
+      simulate.command_line.append(i ? " " : "").append(i ? argv[i] : "vericone");
+#ifdef VERICONE_HAVE_SIMULATION
+    status = vericone::run_simulate(simulate, std::cout);
+#else
+    throw vericone::InputError("simulate", "a command without simulation",
+                               "a build with VERICONE_SIMULATION");
+#endif
   });
 
 #ifdef VERICONE_HAVE_VERIFY

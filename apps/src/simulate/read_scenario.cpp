@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulate/read_scenario.h"
+
+#include <filesystem>
+
+#include "input/scene.h"
+#include "simulate/read_motion.h"
+#include "simulate/read_pilot.h"
+#include "simulate/read_shape.h"
+#include "simulate/scenario_fields.h"
+
+namespace vericone::scenario {
+namespace {
+
+using input::at, input::quoted, input::require_field, input::require_known, input::require_object;
+
+simulation::Body read_body(const Json& value, const std::string& path) {
+  require_object(value, path);
+  require_known(value, path,
+                {"name", "shape", "position", "velocity", "speed", "heading", "heading_deg", "orientation",
+                 "rotation", "appears", "pilot"});
+  simulation::Body body;
+  body.name = read_text(require_field(value, path, "name", "a name, as text"), path + ".name", "a name");
+  body.shape = read_shape(require_field(value, path, "shape", "a mapping, such as {semi_axes: [3, 2, 1]}"),
+                          path + ".shape");
+  const bool planar = simulation::planar(body.shape);
+  read_motion(value, path, planar, body);
+  if_given(value, path, "appears",
+           [&](const Json& v, const std::string& p) { body.appears = read_not_negative(v, p, " (s)"); });
+  if_given(value, path, "pilot",
+           [&](const Json& v, const std::string& p) { body.pilot = read_pilot(v, p, planar); });
+  return body;
+}
+
+void read_proof(const Json& value, const std::string& path, simulation::ProofOptions& proof) {
+  require_object(value, path);
+  require_known(value, path, {"padding", "resolution"});
+  if_given(value, path, "padding", [&](const Json& v, const std::string& p) {
+    proof.padding = read_not_negative(v, p, " (metres)");
+  });
+  if_given(value, path, "resolution",
+           [&](const Json& v, const std::string& p) { proof.resolution = read_positive(v, p, " (s)"); });
+}
+
+}  // namespace
+
+simulation::Scenario read_scenario(const Json& fields, const std::string& name) {
+  if (!fields.is_object()) throw InputError("scenario", quoted(fields), "a mapping with bodies");
+  require_known(fields, "",
+                {"name", "duration", "step", "stop_when_passed", "planes_logged", "proof", "bodies"});
+  simulation::Scenario scenario;
+  scenario.name = name;
+  if_given(fields, "", "name",
+           [&](const Json& v, const std::string& p) { scenario.name = read_text(v, p, "a name"); });
+  if_given(fields, "", "duration",
+           [&](const Json& v, const std::string& p) { scenario.duration = read_positive(v, p, " (s)"); });
+  if_given(fields, "", "step",
+           [&](const Json& v, const std::string& p) { scenario.step = read_positive(v, p, " (s)"); });
+  if_given(fields, "", "stop_when_passed",
+           [&](const Json& v, const std::string& p) { scenario.stop_when_passed = read_flag(v, p); });
+  if_given(fields, "", "planes_logged", [&](const Json& v, const std::string& p) {
+    scenario.planes_logged = read_count(v, p, 0, 10'000);
+  });
+  if_given(fields, "", "proof",
+           [&](const Json& v, const std::string& p) { read_proof(v, p, scenario.proof); });
+  const Json& bodies = require_field(fields, "", "bodies", "a list of bodies");
+  if (!bodies.is_array() || bodies.empty()) throw InputError("bodies", quoted(bodies), "a list of bodies");
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    scenario.bodies.push_back(read_body(bodies[i], at("bodies", i)));
+  simulation::check(scenario);
+  return scenario;
+}
+
+simulation::Scenario read_scenario(const std::string& file) {
+  return read_scenario(input::read_scene_fields(file), std::filesystem::path(file).stem().string());
+}
+
+}  // namespace vericone::scenario

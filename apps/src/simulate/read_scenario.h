@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Scenarios from YAML; the fields are described in docs/scenarios.md.
+#pragma once
+
+#include <vericone/simulation/scenario.h>
+#include <string>
+
+#include "input/body.h"
+
+namespace vericone::scenario {
+
+/// Reads and checks a scenario. Throws InputError naming the file or the field, for example
+/// "bodies[1].shape.k". A scenario without name is called like the file.
+simulation::Scenario read_scenario(const std::string& file);
+simulation::Scenario read_scenario(const input::Json& fields, const std::string& name);
+
+}  // namespace vericone::scenario

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A run as files: tables with units in their column names and JSON, described in docs/scenarios.md. What does
+// not apply is an empty field.
+#pragma once
+
+#include <vericone/simulation/run.h>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace vericone::scenario {
+
+/// One row a body and command time from its appearance.
+std::string bodies_csv(const simulation::Scenario& scenario, const simulation::Run& run);
+/// One row an agent, an obstacle and a command time.
+std::string encounters_csv(const simulation::Scenario& scenario, const simulation::Run& run);
+std::string planes_csv(const simulation::Scenario& scenario, const simulation::Run& run);
+std::string events_csv(const simulation::Scenario& scenario, const simulation::Run& run);
+
+/// The verdict and what is proved of every pair.
+nlohmann::ordered_json proof_json(const simulation::Scenario& scenario, const simulation::Run& run);
+/// What the bodies look like in their own frames.
+nlohmann::ordered_json shapes_json(const simulation::Scenario& scenario);
+
+/// What an event's value is: "m", "s" or "1"; empty where it has none.
+std::string unit_of(const simulation::Scenario& scenario, const simulation::Event& event);
+bool has_obstacle(const simulation::Event& event);
+
+}  // namespace vericone::scenario

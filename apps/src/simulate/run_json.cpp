@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulate/run_files.h"
+
+namespace vericone::scenario {
+namespace {
+
+using namespace simulation;
+using Json = nlohmann::ordered_json;
+
+Json numbers(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+Json k_json(const Oscillation& k) {
+  if (k.amplitude == 0) return k.absolute ? std::abs(k.offset) : k.offset;
+  return {{"offset", k.offset},
+          {"amplitude", k.amplitude},
+          {"rate", k.rate},
+          {"phase", k.phase},
+          {"absolute", k.absolute}};
+}
+
+template <int D>
+Json rows(const Eigen::Matrix<double, D, D>& m) {
+  Json list = Json::array();
+  for (int i = 0; i < D; ++i) {
+    Json row = Json::array();
+    for (int j = 0; j < D; ++j) row.push_back(m(i, j));
+    list.push_back(row);
+  }
+  return list;
+}
+
+/// Semi-axes in the order of the factor's columns, which a scenario writes along x, y, z.
+template <int D>
+Json combined_json(const BasicCombined<D>& body, const char* ellipsoid, const char* delimited) {
+  Json json{{"kind", body.is_ellipsoid() ? ellipsoid : delimited}};
+  const auto& factor = body.ellipsoid().factor();
+  Json axes = Json::array();
+  for (int i = 0; i < D; ++i) axes.push_back(factor.col(i).norm());
+  json["semi_axes"] = axes;
+  json["factor"] = rows<D>(factor);
+  if (body.is_ellipsoid()) return json;
+  json["delimiters"] = Json::array();
+  for (const Delimiter<D>& d : body.delimiters())
+    json["delimiters"].push_back({{"matrix", rows<D>(d.matrix)}, {"level", d.level}});
+  return json;
+}
+
+Json shape_json(const guidance::Shape& shape) {
+  if (const auto* ellipse = std::get_if<CombinedEllipse>(&shape))
+    return combined_json<2>(*ellipse, "ellipse", "combined");
+  if (const auto* ellipsoid = std::get_if<CombinedEllipsoid>(&shape))
+    return combined_json<3>(*ellipsoid, "ellipsoid", "combined");
+  Json points = Json::array();
+  for (const Eigen::Vector3d& x : std::get<HullBody>(shape).points()) points.push_back(numbers(x));
+  return {{"kind", "hull"}, {"points", points}};
+}
+
+Json shape_json(const ShapeInTime& shape) {
+  if (const auto* conic = std::get_if<DentedConic>(&shape))
+    return {{"kind", "dented_conic"}, {"a_c", conic->a_c}, {"b_c", conic->b_c}, {"k", k_json(conic->k)}};
+  if (const auto* quadric = std::get_if<DentedQuadric>(&shape))
+    return {{"kind", "dented_quadric"}, {"dented", numbers(quadric->semi_axes)}, {"k", k_json(quadric->k)}};
+  return shape_json(std::get<RigidShape>(shape).shape);
+}
+
+}  // namespace
+
+Json proof_json(const Scenario& scenario, const Run& run) {
+  Json pairs = Json::array();
+  for (const PairOutcome& pair : run.proofs) {
+    const PairProof& proof = pair.proof;
+    Json entry{{"a", scenario.bodies[pair.a].name},
+               {"b", scenario.bodies[pair.b].name},
+               {"verdict", to_string(proof.verdict)},
+               {"from", proof.from},
+               {"to", proof.to},
+               {"place", nullptr},
+               {"least_distance", nullptr},
+               {"least_time", nullptr},
+               {"pieces", proof.pieces}};
+    if (proof.verdict == ProofVerdict::avoided) {
+      entry["least_distance"] = proof.least_distance;
+      entry["least_time"] = proof.least_time;
+    } else {
+      entry["place"] = numbers(proof.place);
+    }
+    pairs.push_back(entry);
+  }
+  return {{"verdict", to_string(run.verdict())}, {"pairs", pairs}};
+}
+
+Json shapes_json(const Scenario& scenario) {
+  Json list = Json::array();
+  for (const Body& body : scenario.bodies) {
+    Json entry{{"name", body.name}};
+    const Json shape = shape_json(body.shape);
+    for (const auto& [key, value] : shape.items()) entry[key] = value;
+    list.push_back(entry);
+  }
+  return list;
+}
+
+}  // namespace vericone::scenario

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/guidance/clearance_law.h>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "simulate/csv_row.h"
+#include "simulate/run_files.h"
+
+namespace vericone::scenario {
+namespace {
+
+using namespace simulation;
+
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+/// When commands were given, and the end.
+std::vector<double> command_times(const Run& run) {
+  std::vector<double> times{run.end};
+  for (const Track& track : run.tracks)
+    for (const Arc& arc : track.arcs()) times.push_back(arc.from());
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+double k_at(const ShapeInTime& shape, double t) {
+  if (const auto* conic = std::get_if<DentedConic>(&shape)) return conic->k.at(t);
+  if (const auto* quadric = std::get_if<DentedQuadric>(&shape)) return quadric->k.at(t);
+  return kNothing;
+}
+
+void body_row(std::string& table, const Body& body, const Track& track, double t,
+              guidance::Direction& heading, bool first) {
+  const Motion motion = track.motion(t);
+  const Eigen::Vector3d a = track.acceleration(t);
+  const double speed = motion.velocity.norm();
+  guidance::Direction now = guidance::direction_of(motion.velocity, heading);
+  if (!first) now.azimuth = guidance::unwrapped(now.azimuth, heading.azimuth);
+  heading = now;
+  CsvRow row(table);
+  row.number(t).text(body.name).vector(motion.position).vector(motion.velocity);
+  row.number(speed).number(now.azimuth).number(now.elevation).vector(a).number(a.norm());
+  row.number(planar(body.shape) && speed > 0 ? motion.velocity.cross(a).z() / speed : kNothing);
+  const Eigen::Quaterniond q(motion.rotation);
+  row.number(q.w()).number(q.x()).number(q.y()).number(q.z()).number(k_at(body.shape, t));
+}
+
+/// m(w) of the pair at the time of a sample; nothing without relative velocity.
+double clearance_of(const Scenario& scenario, const Run& run, const EncounterSample& sample) {
+  const auto& pilot = scenario.bodies[sample.agent].pilot;
+  if (pilot && pilot->guide.law == guidance::Law::clearance) return sample.step.m;
+  const auto a = run.tracks[sample.agent].state(sample.t), b = run.tracks[sample.obstacle].state(sample.t);
+  if (a.velocity == b.velocity) return kNothing;
+  return guidance::law_clearance(a, b);
+}
+
+void command_fields(CsvRow& row, const Eigen::Vector3d& acceleration, std::optional<double> demanded) {
+  const guidance::DirectedAcceleration directed = guidance::directed(acceleration);
+  row.number(directed.magnitude);
+  if (demanded) row.number(*demanded);
+  if (directed.magnitude > 0) {
+    row.number(directed.direction.azimuth).number(directed.direction.elevation);
+  } else {
+    row.empty(2);
+  }
+}
+
+}  // namespace
+
+std::string bodies_csv(const Scenario& scenario, const Run& run) {
+  std::string table =
+      "t [s],body,x [m],y [m],z [m],vx [m/s],vy [m/s],vz [m/s],speed [m/s],azimuth [rad],elevation [rad],"
+      "ax [m/s^2],ay [m/s^2],az [m/s^2],a [m/s^2],lateral [m/s^2],qw,qx,qy,qz,k\n";
+  std::vector<guidance::Direction> headings(run.tracks.size());
+  std::vector<bool> seen(run.tracks.size(), false);
+  for (const double t : command_times(run))
+    for (std::size_t i = 0; i < run.tracks.size(); ++i) {
+      if (t < run.tracks[i].appears() || t > run.tracks[i].end()) continue;
+      body_row(table, scenario.bodies[i], run.tracks[i], t, headings[i], !seen[i]);
+      seen[i] = true;
+    }
+  return table;
+}
+
+std::string encounters_csv(const Scenario& scenario, const Run& run) {
+  std::string table =
+      "t [s],agent,obstacle,r [m],theta [rad],phi [rad],V_r [m/s],V_theta [m/s],V_phi [m/s],y,psi [rad],"
+      "theta_b [rad],V_r_hat [m/s],plane [rad],m [m],a [m/s^2],demanded [m/s^2],delta [rad],gamma [rad],"
+      "a_B [m/s^2],delta_B [rad],gamma_B [rad],status,attended\n";
+  for (const EncounterSample& s : run.encounters) {
+    const guidance::SpatialState& state = s.state;
+    CsvRow row(table);
+    row.number(s.t).text(scenario.bodies[s.agent].name).text(scenario.bodies[s.obstacle].name);
+    row.number(state.r).number(state.theta).number(state.phi);
+    row.number(state.v_r).number(state.v_theta).number(state.v_phi);
+    row.number(s.step.y).number(s.step.psi).number(s.step.theta_b);
+    row.number(s.cone ? s.step.v_r_hat : kNothing).number(s.cone ? s.plane_azimuth : kNothing);
+    row.number(clearance_of(scenario, run, s));
+    command_fields(row, s.step.a, s.step.demanded);
+    command_fields(row, s.step.b, std::nullopt);
+    row.text(to_string(s.step.status)).text(s.attended ? "1" : "0");
+  }
+  return table;
+}
+
+std::string planes_csv(const Scenario& scenario, const Run& run) {
+  std::string table = "t [s],agent,obstacle,azimuth [rad],y,psi [rad],theta_b [rad],V_r_hat [m/s]\n";
+  for (const PlaneSample& s : run.planes) {
+    CsvRow row(table);
+    row.number(s.t).text(scenario.bodies[s.agent].name).text(scenario.bodies[s.obstacle].name);
+    row.number(s.plane.azimuth).number(s.plane.y).number(s.plane.psi).number(s.plane.theta_b);
+    row.number(s.plane.v_r_hat);
+  }
+  return table;
+}
+
+std::string events_csv(const Scenario& scenario, const Run& run) {
+  std::string table = "t [s],event,agent,obstacle,value,unit\n";
+  for (const Event& event : run.events) {
+    const std::string unit = unit_of(scenario, event);
+    CsvRow row(table);
+    row.number(event.t).text(to_string(event.kind)).text(scenario.bodies[event.agent].name);
+    row.text(has_obstacle(event) ? scenario.bodies[event.obstacle].name : "");
+    row.number(unit.empty() ? kNothing : event.value).text(unit);
+  }
+  return table;
+}
+
+bool has_obstacle(const Event& event) { return event.agent != event.obstacle; }
+
+std::string unit_of(const Scenario& scenario, const Event& event) {
+  switch (event.kind) {
+    case EventKind::passes:
+      return "m";
+    case EventKind::contact:
+      return "s";
+    case EventKind::enters_cone:
+    case EventKind::leaves_cone: {
+      const auto& pilot = scenario.bodies[event.agent].pilot;
+      return pilot && pilot->guide.law == guidance::Law::clearance ? "m" : "1";
+    }
+    case EventKind::appears:
+    case EventKind::aligned:
+    case EventKind::reaches_goal:
+      break;
+  }
+  return "";
+}
+
+}  // namespace vericone::scenario

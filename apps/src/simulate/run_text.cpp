@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulate/run_text.h"
+
+#include <cstdio>
+#include <ostream>
+
+#include "simulate/run_files.h"
+
+namespace vericone::scenario {
+namespace {
+
+using namespace simulation;
+
+std::string brief(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.5g", x);
+  return text;
+}
+
+/// A label and what it is, in the columns of the other commands.
+void line(std::ostream& out, std::string label, const std::string& text) {
+  label.resize(20, ' ');
+  out << label << text << '\n';
+}
+
+std::string agent_text(const Scenario& scenario, const Body& body) {
+  const Pilot& pilot = *body.pilot;
+  const guidance::GuideOptions& guide = pilot.guide;
+  std::string text = body.name + ": " + guidance::to_string(guide.law);
+  if (guide.law == guidance::Law::clearance) {
+    text += " to " + brief(guide.clearance.required) + " m";
+  } else if (!planar(body.shape)) {
+    text += std::string(", ") + (guide.sector == guidance::SectorMethod::exact ? "true" : "slice") +
+            " sector, " + guidance::to_string(guide.plane.choice);
+  }
+  text += ", gain " + brief(guide.inversion.gain) + "/s";
+  if (std::isfinite(guide.inversion.most)) text += ", at most " + brief(guide.inversion.most) + " m/s^2";
+  std::string minds;
+  for (const std::string& name : pilot.minds) minds.append(minds.empty() ? "; minds " : ", ").append(name);
+  return text + (scenario.bodies.size() > 2 ? minds : "");
+}
+
+void print_bodies(const Scenario& scenario, std::ostream& out) {
+  std::string others;
+  bool first = true;
+  for (const Body& body : scenario.bodies) {
+    if (body.pilot) {
+      line(out, first ? "agents" : "", agent_text(scenario, body));
+      first = false;
+    } else {
+      others.append(others.empty() ? "" : ", ").append(body.name);
+      if (body.appears > 0) others.append(" from " + brief(body.appears) + " s");
+    }
+  }
+  if (!others.empty()) line(out, "other bodies", others);
+}
+
+std::string event_text(const Scenario& scenario, const Event& event) {
+  const std::string agent = scenario.bodies[event.agent].name, other = scenario.bodies[event.obstacle].name;
+  const std::string unit = unit_of(scenario, event);
+  switch (event.kind) {
+    case EventKind::appears:
+      return agent + " appears";
+    case EventKind::enters_cone:
+      return agent + " is on course to meet " + other;
+    case EventKind::leaves_cone:
+      return agent + " leaves the cone of " + other +
+             (unit == "m" ? ", m = " + brief(event.value) + " m" : "");
+    case EventKind::passes:
+      return agent + " passes " + other + ", centres " + brief(event.value) + " m apart";
+    case EventKind::aligned:
+      return agent + " points at its goal";
+    case EventKind::reaches_goal:
+      return agent + " reaches its goal";
+    case EventKind::contact:
+      return agent + " and " + other + " meet: apart before " + brief(event.value) + " s, proved";
+  }
+  return "";
+}
+
+void print_pair(const Scenario& scenario, const PairOutcome& pair, std::ostream& out) {
+  const PairProof& proof = pair.proof;
+  const std::string names = scenario.bodies[pair.a].name + ", " + scenario.bodies[pair.b].name + ": ";
+  const Eigen::Vector3d& x = proof.place;
+  const std::string place = " at (" + brief(x.x()) + ", " + brief(x.y()) + ", " + brief(x.z()) + ") m";
+  switch (proof.verdict) {
+    case ProofVerdict::avoided:
+      return line(out, "",
+                  names + "apart by " + brief(proof.least_distance) + " m or more, proved from " +
+                      brief(proof.from) + " to " + brief(proof.to) + " s; nearest at " +
+                      brief(proof.least_time) + " s");
+    case ProofVerdict::touched:
+      return line(out, "",
+                  names + "apart before " + to_text(proof.from) + " s, meeting at " + to_text(proof.to) +
+                      " s" + place + ", both proved");
+    case ProofVerdict::undecided:
+      return line(out, "",
+                  names + "closer than the proof resolves between " + to_text(proof.from) + " and " +
+                      to_text(proof.to) + " s, near" + place);
+  }
+}
+
+}  // namespace
+
+void print_run(const Scenario& scenario, const Run& run, double seconds, std::ostream& out) {
+  line(out, "scenario", scenario.name);
+  print_bodies(scenario, out);
+  line(out, "time",
+       brief(run.end) + " s in steps of " + brief(scenario.step) + " s, computed and proved in " +
+           brief(seconds) + " s: " + brief(run.end / seconds) + " times real time");
+  bool first = true;
+  for (const Event& event : run.events) {
+    char when[32];
+    std::snprintf(when, sizeof when, "%10.4f s  ", event.t);
+    line(out, first ? "events" : "", when + event_text(scenario, event));
+    first = false;
+  }
+  line(out, "verdict",
+       std::string(to_string(run.verdict())) + (run.verdict() == ProofVerdict::undecided ? "" : ", proved"));
+  for (const PairOutcome& pair : run.proofs) print_pair(scenario, pair, out);
+}
+
+}  // namespace vericone::scenario
