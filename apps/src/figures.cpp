@@ -22,7 +22,7 @@ std::filesystem::path scripts_folder() {
 
 std::vector<std::filesystem::path> draw_figures(const std::string& script,
                                                 const std::filesystem::path& folder) {
-  const std::filesystem::path file = scripts_folder() / script;
+  const std::filesystem::path scripts = scripts_folder(), file = scripts / script;
   if (!std::filesystem::exists(file)) throw std::runtime_error("figure script not found: " + file.string());
   std::array<int, 2> channel{};
   if (pipe(channel.data()) != 0) throw std::runtime_error("no pipe for the figure script");
@@ -34,6 +34,7 @@ std::vector<std::filesystem::path> draw_figures(const std::string& script,
     close(channel[0]);
     close(channel[1]);
     const std::string file_text = file.string(), folder_text = folder.string();
+    setenv("PYTHONPATH", scripts.c_str(), 1);
     // Debian's own interpreter: another python3 on the PATH need not have matplotlib.
     execl("/usr/bin/python3", "python3", file_text.c_str(), folder_text.c_str(), static_cast<char*>(nullptr));
     std::_Exit(127);

@@ -11,6 +11,8 @@
 #include "build_info.h"
 #include "cone.h"
 #include "fit/fit_command.h"
+#include "paper/claims_command.h"
+#include "paper/figures_command.h"
 #include "pieces/gallery.h"
 #include "query.h"
 #include "scan/run_scan.h"
@@ -275,6 +277,39 @@ int run(int argc, char** argv) {
 #else
     throw vericone::InputError("simulate", "a command without simulation",
                                "a build with VERICONE_SIMULATION");
+#endif
+  });
+
+  vericone::ClaimsOptions claims;
+  auto* claims_command =
+      app.add_subcommand("claims", "What the source prints in chapters 5 and 6 beside what is measured");
+  claims_command->add_option("--out", claims.out, "Also write claims.json to this folder")->default_str("");
+  claims_command->add_flag("--json", claims.json, "Print JSON");
+  claims_command->add_flag("--given", claims.given, "Also list the printed values that go into the runs");
+  claims_command->add_flag("--quiet", claims.quiet, "No progress");
+  claims_command->callback([&] {
+    for (int i = 0; i < argc; ++i) claims.command_line.append(i ? " " : "").append(i ? argv[i] : "vericone");
+#ifdef VERICONE_HAVE_SIMULATION
+    status = vericone::run_claims(claims, std::cout);
+#else
+    throw vericone::InputError("claims", "a command without simulation", "a build with VERICONE_SIMULATION");
+#endif
+  });
+
+  vericone::FiguresOptions figures;
+  auto* figures_command =
+      app.add_subcommand("figures", "The figures of the source's chapters 5 and 6, with a report");
+  figures_command->add_option("figures", figures.ids, "Their numbers (docs/papers.md); all if not given");
+  figures_command->add_option("--out", figures.out, "Folder for pictures, tables and report")
+      ->capture_default_str();
+  figures_command->add_flag("--list", figures.list, "Print numbers and captions, make nothing");
+  figures_command->add_flag("--quiet", figures.quiet, "No progress");
+  figures_command->callback([&] {
+    for (int i = 0; i < argc; ++i) figures.command_line.append(i ? " " : "").append(i ? argv[i] : "vericone");
+#ifdef VERICONE_HAVE_SIMULATION
+    status = vericone::run_figures(figures, std::cout);
+#else
+    throw vericone::InputError("figures", "a command without simulation", "a build with VERICONE_SIMULATION");
 #endif
   });
 

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "paper/figures_command.h"
+
+#include <vericone/geometry/error.h>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <ostream>
+#include <set>
+#include <sstream>
+
+#include "accuracy/accuracy.h"
+#include "claims.h"
+#include "figure.h"
+#include "figures.h"
+#include "interrupt.h"
+#include "paper/papers_folder.h"
+#include "progress.h"
+#include "provenance.h"
+#include "report.h"
+#include "simulate/run_files.h"
+#include "staged_folder.h"
+
+namespace vericone {
+namespace {
+
+namespace fs = std::filesystem;
+using dhal2022::Figure;
+using Json = nlohmann::ordered_json;
+
+constexpr std::uint64_t kEngagements = 1000;  // of Fig 6.5; `vericone accuracy` makes it of 10,000
+
+std::string content_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return in ? text.str() : std::string();
+}
+
+class Maker {
+ public:
+  Maker(const FiguresOptions& options, Progress& progress)
+      : options_(options),
+        progress_(progress),
+        out_(options.out),
+        show_(
+            [&](const std::string& what, double share) { return progress_.show("running " + what, share); }),
+        runs_(papers_folder() / "dhal2022" / "scenarios", show_) {}
+
+  void make(const Figure& figure, double share) {
+    for (const auto& [role, scenario] : figure.runs) write_run(scenario);
+    if (!progress_.show("figure " + figure.id, share)) throw dhal2022::Interrupted{};
+    StagedFolder folder(out_, "--out");
+    Json origin{{"figure", figure.id}, {"caption", figure.caption}};
+    if (figure.script.empty())
+      measure_accuracy(figure, folder.path(), origin);
+    else
+      draw(figure, folder.path(), origin);
+    origin["provenance"] = provenance(options_.command_line);
+    write_whole(folder.path() / (figure.name() + ".json"), origin.dump(1) + "\n");
+    folder.publish({});
+  }
+
+  /// Claims beside all figures that are there, also those of earlier commands.
+  void report() {
+    const std::vector<dhal2022::Claim> claims = dhal2022::measure_claims(runs_, show_);
+    progress_.show("report", 0);
+    std::vector<dhal2022::ReportFigure> shown;
+    for (const Figure& figure : dhal2022::all_figures()) {
+      dhal2022::ReportFigure entry{figure, content_of(out_ / (figure.name() + ".png")), Json()};
+      const std::string origin = content_of(out_ / (figure.name() + ".json"));
+      if (!entry.png.empty() && !origin.empty()) entry.provenance = Json::parse(origin, nullptr, false);
+      shown.push_back(std::move(entry));
+    }
+    Json list = Json::array();
+    for (const auto& claim : claims) list.push_back(dhal2022::to_json(claim));
+    const Json origin = provenance(options_.command_line);
+    StagedFolder folder(out_, "--out");
+    write_whole(
+        folder.path() / "claims.json",
+        Json{{"claims", list}, {"verdicts", dhal2022::count_verdicts(claims)}, {"provenance", origin}}.dump(
+            1) +
+            "\n");
+    write_whole(folder.path() / "report.html", dhal2022::report_html(shown, claims, origin));
+    folder.publish({});
+  }
+
+ private:
+  void write_run(const std::string& name) {
+    if (!written_.insert(name).second) return;
+    const dhal2022::PaperRun& run = runs_.run(name);
+    StagedFolder folder(out_ / "runs" / name, "--out");
+    const fs::path& to = folder.path();
+    write_whole(to / "bodies.csv", scenario::bodies_csv(run.scenario, run.run));
+    write_whole(to / "encounters.csv", scenario::encounters_csv(run.scenario, run.run));
+    if (run.scenario.planes_logged > 0)
+      write_whole(to / "planes.csv", scenario::planes_csv(run.scenario, run.run));
+    write_whole(to / "events.csv", scenario::events_csv(run.scenario, run.run));
+    write_whole(to / "proof.json", scenario::proof_json(run.scenario, run.run).dump(1) + "\n");
+    write_whole(to / "shapes.json", scenario::shapes_json(run.scenario).dump(1) + "\n");
+    write_whole(to / "scenario.yaml", content_of(run.file));
+    write_whole(to / "run.json", Json{{"scenario", run.scenario.name},
+                                      {"file", run.file.filename().string()},
+                                      {"verdict", simulation::to_string(run.run.verdict())},
+                                      {"end", run.run.end},
+                                      {"seconds", run.seconds},
+                                      {"real_time_factor", run.run.end / run.seconds},
+                                      {"provenance", provenance(options_.command_line)}}
+                                         .dump(1) +
+                                     "\n");
+    folder.publish({"planes.csv"});
+  }
+
+  void draw(const Figure& figure, const fs::path& stage, Json& origin) {
+    Json task = figure.parameters.is_null() ? Json::object() : figure.parameters;
+    task["name"] = figure.name();
+    task["runs"] = Json::object();
+    const fs::path name = fs::path(out_).lexically_normal();
+    const std::string folder = (name.has_filename() ? name : name.parent_path()).filename().string();
+    // The stage stands beside the folder.
+    for (const auto& [role, scenario] : figure.runs)
+      task["runs"][role] = (fs::path("..") / folder / "runs" / scenario).string();
+    write_whole(stage / "figure.json", task.dump(1) + "\n");
+    draw_figures((papers_folder() / "dhal2022" / "figures" / figure.script).string(), stage);
+    fs::remove(stage / "figure.json");
+    origin["script"] = "papers/dhal2022/figures/" + figure.script;
+    for (const auto& [role, scenario] : figure.runs) origin["runs"][role] = "runs/" + scenario;
+    if (!figure.parameters.is_null()) origin["parameters"] = figure.parameters;
+  }
+
+  void measure_accuracy(const Figure& figure, const fs::path& stage, Json& origin) {
+    accuracy::Options accuracy;
+    accuracy.engagements = kEngagements;
+    accuracy.out = (stage / "accuracy").string();
+    accuracy.quiet = true;
+    accuracy.command_line = options_.command_line;
+    std::ostringstream unused;
+    if (accuracy::run_accuracy(accuracy, unused) == kExitInterrupted) throw dhal2022::Interrupted{};
+    for (const char* extension : {".png", ".pdf"})
+      fs::rename(stage / "accuracy" / (std::string("accuracy") + extension),
+                 stage / (figure.name() + extension));
+    fs::rename(stage / "accuracy" / "engagements.csv", stage / (figure.name() + ".csv"));
+    fs::remove_all(stage / "accuracy");
+    origin["script"] = "apps/figures/accuracy.py";
+    origin["engagements"] = kEngagements;
+    origin["seed"] = accuracy.seed;
+  }
+
+  const FiguresOptions& options_;
+  Progress& progress_;
+  fs::path out_;
+  dhal2022::RunProgress show_;
+  dhal2022::PaperRuns runs_;
+  std::set<std::string> written_;
+};
+
+void print_list(const std::vector<Figure>& figures, std::ostream& out) {
+  for (const Figure& figure : figures) out << figure.id << "\t" << figure.caption << '\n';
+}
+
+}  // namespace
+
+int run_figures(const FiguresOptions& options, std::ostream& out) {
+  const std::vector<Figure> figures = dhal2022::choose_figures(options.ids);
+  if (options.list) {
+    print_list(figures, out);
+    return 0;
+  }
+  StagedFolder(options.out, "--out");
+  catch_interrupts();
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    Progress progress(options.quiet);
+    Maker maker(options, progress);
+    double made = 0;
+    for (const Figure& figure : figures) maker.make(figure, made++ / double(figures.size()));
+    maker.report();
+  } catch (const dhal2022::Interrupted&) {
+    return kExitInterrupted;
+  } catch (const std::runtime_error&) {
+    // A figure script gets the same signal and ends.
+    if (interrupted()) return kExitInterrupted;
+    throw;
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const fs::path folder = options.out;
+  out << "figures             " << figures.size() << ", as PDF, PNG, CSV and JSON, in " << folder.string()
+      << '\n'
+      << "claims              " << (folder / "claims.json").string() << '\n'
+      << "report              " << (folder / "report.html").string() << '\n'
+      << "time                " << dhal2022::short_text(seconds, 3) << " s\n";
+  return 0;
+}
+
+}  // namespace vericone

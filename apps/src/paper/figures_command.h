@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace vericone {
+
+struct FiguresOptions {
+  std::vector<std::string> ids;  // empty: all
+  std::string out = "out/dhal2022";
+  bool list = false;
+  bool quiet = false;
+  std::string command_line;
+};
+
+/// `vericone figures`: makes the figures of papers/dhal2022, each as PDF, PNG, CSV and JSON of its
+/// provenance, the runs they show, and report.html. Returns the exit status, 130 interrupted. Throws
+/// InputError.
+int run_figures(const FiguresOptions& options, std::ostream& out);
+
+}  // namespace vericone

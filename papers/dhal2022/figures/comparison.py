@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The source's law on slices beside the same law on the true cone and the clearance law, on the same engagement."""
+from runs import Sheet, figure
+from style import EXACT, GREY, SLICE, TWO_COLUMNS, plt, save
+
+LAWS = {"source": ("source's law, slices", SLICE, "-"), "exact": ("source's law, true cone", EXACT, (0, (4, 1.2))),
+        "clearance": ("clearance law", "#3a8f4d", "-")}
+data = figure()
+sheet = Sheet()
+panels = plt.figure(figsize=(TWO_COLUMNS, 4.4), constrained_layout=True).subplots(2, 2)
+bars = []
+for n, (key, run) in enumerate(data["runs"].items()):
+    label, color, dash = LAWS[key]
+    agent = run.agents()[0]
+    for i, obstacle in enumerate(o for a, o in run.encounters if a == agent):
+        e = run.engaged(agent, obstacle, after=0)
+        name = label if i == 0 else None
+        if key != "clearance":
+            sheet.line(panels[0, 0], "y", "%s, %s" % (label, obstacle), e["t [s]"], e["y"], color=color, linestyle=dash,
+                       label=name)
+        sheet.line(panels[0, 1], "m [m]", "%s, %s" % (label, obstacle), e["t [s]"], e["m [m]"], color=color, linestyle=dash,
+                   label=name)
+    b = run.bodies[agent]
+    sheet.line(panels[1, 0], "|a| [m/s^2]", label, b["t [s]"], b["a [m/s^2]"], color=color, linestyle=dash, label=label)
+    pairs = {}
+    for p in run.proof()["pairs"]:
+        if agent in (p["a"], p["b"]):
+            pairs[p["b"] if p["a"] == agent else p["a"]] = p
+    for i, (obstacle, p) in enumerate(pairs.items()):
+        distance = p["least_distance"] if p["verdict"] == "avoided" else 0.0
+        x = i + 0.26 * (n - 0.5 * (len(data["runs"]) - 1))
+        panels[1, 1].bar(x, distance, 0.24, color=color)
+        panels[1, 1].annotate("%.2g" % distance if p["verdict"] == "avoided" else p["verdict"], (x, distance), xytext=(0, 2),
+                              textcoords="offset points", fontsize=6, ha="center", va="bottom",
+                              rotation=0 if p["verdict"] == "avoided" else 90)
+        sheet.add("least distance proved [m]", "%s, %s" % (label, obstacle), [p["least_time"]], [distance])
+        bars.append((i, obstacle))
+panels[0, 0].axhline(0, color="k", linewidth=0.6)
+panels[0, 1].axhline(0, color="k", linewidth=0.6)
+if data.get("required"):
+    panels[0, 1].axhline(data["required"], color=GREY, linewidth=0.8, linestyle=":")
+    panels[0, 1].annotate("required", (1, data["required"]), xycoords=("axes fraction", "data"), xytext=(-2, 2),
+                          textcoords="offset points", fontsize=6.5, ha="right", color=GREY)
+panels[0, 0].set_ylabel("y on the plane chosen [1]")
+panels[0, 1].set_ylabel("miss distance m [m]")
+panels[1, 0].set_ylabel("acceleration |a| [m/s²]")
+panels[1, 1].set_ylabel("least distance, proved [m]")
+for axes in (panels[0, 0], panels[0, 1], panels[1, 0]):
+    axes.set_xlabel("t [s]")
+panels[1, 1].set_xticks([i for i, _ in sorted(set(bars))])
+panels[1, 1].set_xticklabels([o for _, o in sorted(set(bars))])
+panels[1, 1].set_xlabel("obstacle")
+panels[1, 1].margins(y=0.15)
+panels[1, 1].grid(False, axis="x")
+panels[1, 0].legend(loc="best")
+sheet.write(data["name"])
+save(panels[0, 0].figure, data["name"])

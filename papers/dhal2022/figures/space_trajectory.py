@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figs 6.8 and 6.14: ways of spatial bodies, with their surfaces at several times."""
+import numpy as np
+from matplotlib.colors import to_rgb
+from matplotlib.lines import Line2D
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+from bodies import surface
+from runs import Sheet, at, figure
+from style import TWO_COLUMNS, plt, save
+
+data = figure()
+run = data["runs"]["source"]
+sheet = Sheet()
+elevation, azimuth = data.get("view", [22, -62])
+axes = plt.figure(figsize=(TWO_COLUMNS, 4.6)).add_axes([0.0, 0.0, 0.98, 1.0], projection="3d", computed_zorder=False)
+e, a = np.radians([elevation, azimuth])
+eye = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
+light = eye + np.array([0.3 * np.sin(a), -0.3 * np.cos(a), 0.6])
+light /= np.linalg.norm(light)
+
+polygons, colors, everything = [], [], []
+for name, body in run.bodies.items():
+    way = np.stack([body["x [m]"], body["y [m]"], body["z [m]"]], axis=1)
+    everything.append(way)
+    base = np.array(to_rgb(run.color(name)))
+    for column, c in zip("xyz", way.T):
+        sheet.add("trajectory, %s against t" % column, name, body["t [s]"], c)
+    axes.plot(*way.T, color=base, linewidth=1.3, zorder=3)
+    shown = sorted({t for t in data["times"].get(name, []) if body["t [s]"][0] - 1e-6 <= t <= body["t [s]"][-1] + 1e-6})
+    for t in shown:
+        row = at(body, t)
+        faces, normals = surface(run.shapes[name], row)
+        strength = 0.45 + 0.55 * np.maximum(0, normals @ light)
+        facing = normals @ eye > 0
+        polygons += [f for f, seen in zip(faces, facing) if seen]
+        colors += [np.clip(base * s + 0.25 * (s - 0.45), 0, 1) for s, seen in zip(strength, facing) if seen]
+        everything.append(np.vstack(faces))
+        for column in "xyz":
+            sheet.add("centre of a body drawn, %s against t" % column, name, [row["t [s]"]], [row[column + " [m]"]])
+        p = np.array([row["x [m]"], row["y [m]"], row["z [m]"]])
+        axes.text(*(p + [0, 0, np.vstack(faces)[:, 2].max() - p[2] + 1.5]), "%g s" % t, fontsize=6, color="k", ha="center",
+                  zorder=10)
+if polygons:
+    axes.add_collection3d(Poly3DCollection(polygons, facecolors=colors, edgecolors=colors, linewidths=0.15, zorder=5))
+everything = np.vstack(everything)
+low, high = everything.min(axis=0) - 2, everything.max(axis=0) + 2
+axes.set_xlim(low[0], high[0])
+axes.set_ylim(low[1], high[1])
+axes.set_zlim(low[2], high[2])
+axes.set_box_aspect(high - low, zoom=1.02)
+axes.view_init(elev=elevation, azim=azimuth)
+axes.set_proj_type("ortho")
+axes.set_xlabel("x [m]")
+axes.set_ylabel("y [m]", labelpad=-2)
+axes.set_zlabel("z [m]", labelpad=-4)
+axes.tick_params(pad=-1)
+axes.legend(handles=[Line2D([], [], color=run.color(n), label=n) for n in run.bodies], loc="upper left",
+            bbox_to_anchor=(0.04, 0.93))
+sheet.write(data["name"])
+save(axes.figure, data["name"])
