@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plane_cones.h"
 
+#include <vericone/cones/cone_geometry.h>
 #include <cmath>
 #include <numbers>
 
 namespace vericone::guidance {
 
 using Eigen::Vector3d;
+
+Vector3d across_axis(const Vector3d& u, const Vector3d& v) {
+  Vector3d rest = v - v.dot(u) * u;
+  if (!(rest.norm() > 1e-12 * v.norm())) return AxisFrame(u).e1;
+  rest.normalize();
+  // Twice: what is left of a vector nearly along u is not perpendicular to it yet.
+  return (rest - rest.dot(u) * u).normalized();
+}
 
 PlaneCones::PlaneCones(const BodyState& a, const BodyState& b, SectorMethod method)
     : kind_(kind_of(a, b, method)) {}

@@ -20,6 +20,9 @@ struct Opening {
   double right() const { return theta_b - 0.5 * psi; }
 };
 
+/// The part of `v` across the unit vector `u`, unit; where there is none, some axis that `u` alone decides.
+Eigen::Vector3d across_axis(const Eigen::Vector3d& u, const Eigen::Vector3d& v);
+
 /// Rates of an opening beside the plane's own turning.
 struct OpeningRates {
   double psi = 0, theta_b = 0;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/guidance/plane_view.h>
 
-#include <vericone/cones/cone_geometry.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -14,15 +13,6 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-/// The part of `v` across the unit vector `u`, unit; where there is none, some axis that `u` alone decides.
-Vector3d across_axis(const Vector3d& u, const Vector3d& v) {
-  Vector3d rest = v - v.dot(u) * u;
-  if (!(rest.norm() > 1e-12 * v.norm())) return AxisFrame(u).e1;
-  rest.normalize();
-  // Twice: what is left of a vector nearly along u is not perpendicular to it yet.
-  return (rest - rest.dot(u) * u).normalized();
-}
 
 Vector3d lateral(const PlaneView& view, double heading) {
   return -std::sin(heading) * view.line_of_sight + std::cos(heading) * view.across;

@@ -12,9 +12,11 @@ namespace vericone::guidance {
 
 enum class PlaneChoice : std::uint8_t {
   largest_opening,     // maximum psi, the source's choice in 6.5
-  least_turn,          // the nearest edge is the least angle from the relative velocity's projection
+  least_turn,          // an edge is the least angle, in space, from the relative velocity w = v_A - v_B: the
+                       // plane through the direction of the cone's boundary that is nearest to w
   least_y,             // minimum y: the deepest inside
-  wind_aware,          // least turn among planes whose acceleration does not oppose the wind
+  wind_aware,          // least turn among the planes on which A's acceleration towards the edge (+-lateral_a)
+                       // has a part along the wind of at least -0.5; where there is none, the largest part
   steepest_clearance,  // spanned by the line of sight and the gradient of m(w): ellipsoids, or the ellipsoids
                        // around combined bodies and hulls
   of_motion,           // spanned by the line of sight and the relative velocity: y < 0 there iff it collides
@@ -23,8 +25,11 @@ const char* to_string(PlaneChoice choice);
 
 struct PlaneOptions {
   PlaneChoice choice = PlaneChoice::largest_opening;
-  int planes = 24;     // candidates at equal angles over half a turn
-  bool refine = true;  // go on from the best candidate to the optimum, to 1e-4 rad
+  int planes = 24;  // candidates at equal angles over half a turn
+  /// Go on to the optimum, to 1e-4 rad (1e-3 where edges come from oracles), from every candidate that is
+  /// better than its neighbours. Otherwise the best candidate is taken, as the source does, and nothing is
+  /// followed.
+  bool refine = true;
   Eigen::Vector3d wind = Eigen::Vector3d::Zero();  // m/s, for wind_aware
 };
 
@@ -38,10 +43,13 @@ struct PlaneCandidate {
 std::vector<PlaneCandidate> all_planes(const BodyState& a, const BodyState& b, SectorMethod method,
                                        int planes);
 
-/// The second axis of the plane chosen, unit. `previous`: that of the last call; where it is given the
-/// optimum is followed from it by a few evaluations, and all candidates are compared only where that fails.
-/// Nothing where no plane has a sector. Planar bodies: the plane itself. Deterministic: equally good planes
-/// are told apart by the least azimuth. No allocation. Cost: see docs/benchmarks.md.
+/// The second axis of the plane chosen, unit. `previous`: that of the last call, whose sign is kept; where it
+/// is given the optimum is followed from it by 3 to 8 evaluations, and all candidates are compared only where
+/// it is none any more. A local optimum is followed as long as it is one. Nothing where no plane has a
+/// sector. Planar bodies: the plane itself. Deterministic: planes equally good to rounding are told apart by
+/// the least azimuth. steepest_clearance and of_motion look at no sector; where w is zero or along the line
+/// of sight there is no such plane, and the largest opening is taken. No allocation with ellipsoids. Cost:
+/// see docs/guidance-planes.md.
 std::optional<Eigen::Vector3d> choose_plane(const BodyState& a, const BodyState& b, SectorMethod method,
                                             const PlaneOptions& options,
                                             const Eigen::Vector3d* previous = nullptr);

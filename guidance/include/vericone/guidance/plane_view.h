@@ -18,8 +18,9 @@ enum class SectorMethod : std::uint8_t {
 
 enum class RateMethod : std::uint8_t {
   analytic,     // closed form where there is one (below), else `differenced`
-  differenced,  // central differences of the cone along the bodies' momentary motion, h = 1e-4 s times r /
-                // |V|
+  differenced,  // central differences of the cone along the bodies' momentary motion: h = 1e-4 of the time
+                // r / |V| (turning and changing included), 1e-3 for hulls' and 5e-3 for combined bodies' true
+                // sectors, whose edges are right to 1e-9 and 1e-7 rad
   none,         // zero: for the source's backward differences see guide.h
 };
 
@@ -47,7 +48,9 @@ PlaneView plane_states(const BodyState& a, const BodyState& b, const Eigen::Vect
 /// or a hull.
 ///
 /// Closed-form rates: planar bodies; slices of combined bodies (ellipsoids among them); exact sectors of
-/// ellipsoids. Others (`exact` of combined bodies and hulls, slices of hulls) are differenced.
+/// ellipsoids. Others (`exact` of combined bodies and hulls, slices of hulls) are differenced. B's own
+/// acceleration is not known here: where B turns with its heading, only its omega counts. Edges of combined
+/// `exact` sectors are on the safe side: what cannot be decided counts as in.
 /// Cost with closed-form rates: ellipsoids exact 3 us, slices 3 us; combined `exact` milliseconds.
 bool fill_cone(PlaneView& view, const BodyState& a, const BodyState& b, SectorMethod method,
                RateMethod rates);
