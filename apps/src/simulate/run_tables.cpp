@@ -2,6 +2,7 @@
 #include <vericone/guidance/clearance_law.h>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -16,9 +17,12 @@ using namespace simulation;
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
-/// When commands were given, and the end.
-std::vector<double> command_times(const Run& run) {
+/// When commands were given, and the end. Arcs tell of bodies that appear between two steps; straight ones
+/// that follow each other are one.
+std::vector<double> command_times(const Scenario& scenario, const Run& run) {
   std::vector<double> times{run.end};
+  for (std::uint64_t k = 0; double(k) * scenario.step < run.end; ++k)
+    times.push_back(double(k) * scenario.step);
   for (const Track& track : run.tracks)
     for (const Arc& arc : track.arcs()) times.push_back(arc.from());
   std::sort(times.begin(), times.end());
@@ -76,7 +80,7 @@ std::string bodies_csv(const Scenario& scenario, const Run& run) {
       "ax [m/s^2],ay [m/s^2],az [m/s^2],a [m/s^2],lateral [m/s^2],qw,qx,qy,qz,k\n";
   std::vector<guidance::Direction> headings(run.tracks.size());
   std::vector<bool> seen(run.tracks.size(), false);
-  for (const double t : command_times(run))
+  for (const double t : command_times(scenario, run))
     for (std::size_t i = 0; i < run.tracks.size(); ++i) {
       if (t < run.tracks[i].appears() || t > run.tracks[i].end()) continue;
       body_row(table, scenario.bodies[i], run.tracks[i], t, headings[i], !seen[i]);

@@ -101,9 +101,8 @@ int carry_out(const SimulateOptions& options, std::ostream& out) {
   }
   scenario::print_run(scenario, *run, seconds, out);
   std::string list;
-  for (const fs::path& file : files)
-    list.append(list.empty() ? "" : ", ").append((fs::path(options.out) / file.filename()).string());
-  out << "written             " << list << '\n';
+  for (const fs::path& file : files) list.append(list.empty() ? "" : ", ").append(file.filename().string());
+  out << "written             " << options.out << ": " << list << '\n';
   return 0;
 }
 

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tables and shapes of a run as `vericone simulate` writes them (docs/scenarios.md), and bodies as curves and
+meshes in space."""
+import csv
+import itertools
+import os
+
+import numpy as np
+
+
+def number(text):
+    try:
+        return float(text)
+    except ValueError:
+        return float("nan") if text == "" else text
+
+
+def rows(folder, name):
+    """The rows of a table, by column name without the unit."""
+    path = os.path.join(folder, name)
+    if not os.path.exists(path):
+        return []
+    with open(path, newline="", encoding="utf-8") as f:
+        table = csv.reader(f)
+        names = [n.split(" [")[0] for n in next(table)]
+        texts = ("body", "agent", "obstacle", "event", "status", "unit")
+        return [{n: v if n in texts else number(v) for n, v in zip(names, row)} for row in table]
+
+
+def groups(table, *keys):
+    """Columns as arrays, one group for each different value of the keys, in order of appearance."""
+    found = {}
+    for row in table:
+        found.setdefault(tuple(row[k] for k in keys), []).append(row)
+    return {key: {n: np.array([r[n] for r in part]) for n in part[0]} for key, part in found.items()}
+
+
+def rotation(row):
+    w, x, y, z = (row[n] for n in ("qw", "qx", "qy", "qz"))
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+
+
+def regions(shape, k):
+    """Pairs (M, level): the body is where x.Mx <= level for all."""
+    if shape["kind"] in ("dented_conic", "dented_quadric"):
+        axes = np.array(shape.get("dented") or [shape["a_c"], shape["b_c"]])
+        signs = np.full(len(axes), -1.0)
+        signs[0] = 1
+        return [(np.diag(axes ** -2.0), 1 + k), (np.diag(signs * axes ** -2.0), 1 - k)]
+    inverse = np.linalg.inv(np.array(shape["factor"]))
+    return [(inverse.T @ inverse, 1.0)] + [(np.array(d["matrix"]), d["level"]) for d in shape.get("delimiters", [])]
+
+
+def radii(shape, k, directions):
+    """How far the body reaches from its centre."""
+    reach = np.full(directions.shape[:-1], np.inf)
+    for m, level in regions(shape, k):
+        form = np.einsum("...i,ij,...j->...", directions, m, directions)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            reach = np.minimum(reach, np.where(form > 0, np.sqrt(level / form), np.inf))
+    return reach
+
+
+def outline(shape, row, n=181):
+    """A planar body's boundary at a row of bodies.csv."""
+    angle = np.linspace(0, 2 * np.pi, n)
+    u = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    points = radii(shape, row["k"], u)[:, None] * u
+    return points @ rotation(row)[:2, :2].T + [row["x"], row["y"]]
+
+
+def surface(shape, row, n=25):
+    """A body's boundary in space as a grid; not of hulls."""
+    longitude, height = np.meshgrid(np.linspace(0, 2 * np.pi, 2 * n - 1), np.linspace(0, np.pi, n))
+    u = np.stack([np.cos(height), np.sin(height) * np.cos(longitude), np.sin(height) * np.sin(longitude)], axis=-1)
+    points = radii(shape, row["k"], u)[..., None] * u
+    return points @ rotation(row).T + [row["x"], row["y"], row["z"]]
+
+
+def hull_faces(points):
+    """Corners of the facets of the convex hull of few points, in order around each."""
+    points = np.unique(np.array(points), axis=0)
+    size, seen, faces = np.ptp(points, axis=0).max(), set(), []
+    for triple in itertools.combinations(range(len(points)), 3):
+        a, b, c = points[list(triple)]
+        normal = np.cross(b - a, c - a)
+        if np.linalg.norm(normal) < 1e-12 * size * size:
+            continue
+        normal /= np.linalg.norm(normal)
+        height = (points - a) @ normal
+        if height.max() > 1e-9 * size and height.min() < -1e-9 * size:
+            continue
+        on = tuple(np.nonzero(np.abs(height) <= 1e-9 * size)[0])
+        if on in seen:
+            continue
+        seen.add(on)
+        corners = points[list(on)] - points[list(on)].mean(axis=0)
+        e = np.cross(normal, corners[0])
+        order = np.argsort(np.arctan2(corners @ e / np.linalg.norm(e), corners @ corners[0] / np.linalg.norm(corners[0])))
+        faces.append(points[np.array(on)[order]])
+    return faces
+
+
+def posed(points, row):
+    return np.asarray(points) @ rotation(row).T + [row["x"], row["y"], row["z"]]
+
+
+def row_at(columns, t):
+    """The row of one body's columns nearest in time."""
+    i = int(np.argmin(np.abs(columns["t"] - t)))
+    return {n: v[i] for n, v in columns.items()}

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A run of `vericone simulate`: the bodies on their ways at several times; y, clearance and accelerations over time."""
+
+import numpy as np
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+from runs import groups, hull_faces, outline, posed, row_at, rows, surface
+from style import AGENT, BOUND, EXACT, GREY, OBSTACLE, SLICE, TWO_COLUMNS, folder, plt, read, save
+
+bodies = {name: columns for (name,), columns in groups(rows(folder(), "bodies.csv"), "body").items()}
+encounters = groups(rows(folder(), "encounters.csv"), "agent", "obstacle")
+events, proof, run = rows(folder(), "events.csv"), read("proof.json"), read("run.json")
+shapes = {s["name"]: s for s in read("shapes.json")}
+planar = all(s["kind"] in ("ellipse", "dented_conic") for s in shapes.values())
+agents = list(dict.fromkeys(agent for agent, _ in encounters))
+COLORS = [EXACT, SLICE, OBSTACLE, BOUND, "#b0894f", GREY]
+end = run["end"]
+instants = np.linspace(0, end, 5)
+has_y = any(np.isfinite(c["y"]).any() for c in encounters.values())
+
+
+def color_of(name):
+    return AGENT if name in agents else OBSTACLE
+
+
+figure = plt.figure(figsize=(TWO_COLUMNS, 4.3))
+if planar:
+    space = figure.add_axes([0.07, 0.1, 0.47, 0.78])
+    for name, columns in bodies.items():
+        space.plot(columns["x"], columns["y"], color=color_of(name), linewidth=0.8)
+        for t in instants[instants >= columns["t"][0]]:
+            space.fill(*outline(shapes[name], row_at(columns, t)).T, facecolor=color_of(name), edgecolor=color_of(name),
+                       alpha=0.15 + 0.5 * t / end, linewidth=0.6)
+        space.annotate(name, (columns["x"][0], columns["y"][0]), fontsize=7)
+    space.set_aspect("equal", adjustable="datalim")
+    space.set_xlabel("x (m)")
+    space.set_ylabel("y (m)")
+else:
+    space = figure.add_axes([-0.01, 0.02, 0.52, 0.88], projection="3d")
+    extent = []
+    for name, columns in bodies.items():
+        way = np.stack([columns[c] for c in "xyz"], axis=-1)
+        space.plot(*way.T, color=color_of(name), linewidth=0.9)
+        extent.append(way)
+        for t in instants[instants >= columns["t"][0]]:
+            row, alpha = row_at(columns, t), 0.12 + 0.4 * t / end
+            if shapes[name]["kind"] == "hull":
+                faces = [posed(f, row) for f in hull_faces(shapes[name]["points"])]
+                space.add_collection3d(Poly3DCollection(faces, facecolor=color_of(name), edgecolor="k", linewidth=0.2,
+                                                        alpha=alpha))
+                extent += faces
+            else:
+                points = surface(shapes[name], row)
+                space.plot_surface(*np.moveaxis(points, -1, 0), color=color_of(name), alpha=alpha, linewidth=0)
+                extent.append(points.reshape(-1, 3))
+        space.text(*way[0], name, fontsize=7)
+    extent = np.vstack(extent)
+    space.set_box_aspect(np.ptp(extent, axis=0))
+    for name, i in (("x", 0), ("y", 1), ("z", 2)):
+        getattr(space, "set_%slim" % name)(extent[:, i].min(), extent[:, i].max())
+        getattr(space, "set_%slabel" % name)("%s (m)" % name, labelpad=-4)
+    space.tick_params(pad=-2, labelsize=6)
+    space.locator_params(nbins=5)
+figure.text(0.01, 0.985, "%s: %s%s" % (run["scenario"], run["verdict"], "" if run["verdict"] == "undecided" else ", proved"),
+            fontsize=9, va="top")
+figure.text(0.01, 0.945, "bodies at t = %s s, later ones darker; agents green" % ", ".join("%.3g" % t for t in instants),
+            fontsize=7, va="top", color=GREY)
+
+if has_y:
+    upper, middle, lower = panels = [figure.add_axes([0.66, bottom, 0.33, 0.25]) for bottom in (0.71, 0.41, 0.11)]
+else:  # the clearance law has m alone
+    middle, lower = panels = [figure.add_axes([0.66, bottom, 0.33, 0.39]) for bottom in (0.57, 0.11)]
+for i, ((agent, obstacle), columns) in enumerate(encounters.items()):
+    color, label = COLORS[i % len(COLORS)], obstacle if len(agents) == 1 else "%s, %s" % (agent, obstacle)
+    if has_y:
+        upper.plot(columns["t"], columns["y"], color=color, label=label)
+    middle.plot(columns["t"], columns["m"], color=color, label=label)
+if has_y:
+    upper.set_ylabel("cone function y (1)")
+middle.set_ylabel("miss distance m (m)")
+lower.set_ylabel("lateral accel. (m/s²)" if planar else "acceleration (m/s²)")
+lower.set_xlabel("time (s)")
+for axis in panels:
+    axis.set_xlim(0, end)
+    axis.axhline(0, color="k", linewidth=0.5)
+    if axis is not lower:
+        axis.set_xticklabels([])
+if encounters:
+    panels[0].legend(frameon=False, loc="best")
+for i, name in enumerate(n for n in bodies if np.any(bodies[n]["a"] > 0) or n in agents):
+    columns = bodies[name]
+    value = columns["lateral"] if planar else columns["a"]
+    lower.step(columns["t"], value, where="post", color=COLORS[i % len(COLORS)], label=name)
+if len(lower.get_lines()) > 2:
+    lower.legend(frameon=False)
+for event in events:
+    if event["event"] in ("leaves-cone", "passes", "contact"):
+        style = {"leaves-cone": ":", "passes": "--", "contact": "-"}[event["event"]]
+        color = "red" if event["event"] == "contact" else GREY
+        for axis in panels:
+            axis.axvline(event["t"], color=color, linestyle=style, linewidth=0.7)
+figure.text(0.66, 0.985, "dotted: out of the cone, dashed: passes, red: meets", fontsize=6.5, va="top", color=GREY)
+for pair in proof["pairs"]:
+    if pair["verdict"] == "touched":
+        place = pair["place"][:2] if planar else pair["place"]
+        space.plot(*[[c] for c in place], "x", color="red", markersize=6, zorder=9)
+save(figure, "simulation")
