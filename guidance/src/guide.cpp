@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <limits>
 
 namespace vericone::guidance {
 namespace {
@@ -48,32 +49,27 @@ GuideStep by_clearance(const BodyState& a, const BodyState& b, const GuideOption
   return step;
 }
 
-}  // namespace
+bool avoids(Law law) { return law == Law::avoidance || law == Law::cooperative_avoidance; }
 
-const char* to_string(Law law) {
-  switch (law) {
-    case Law::avoidance:
-      return "avoidance";
-    case Law::cooperative_avoidance:
-      return "cooperative-avoidance";
-    case Law::cooperative_rendezvous:
-      return "cooperative-rendezvous";
-    case Law::matching_rendezvous:
-      return "matching-rendezvous";
-    case Law::clearance:
-      return "clearance";
-  }
-  return "?";
+bool done(LawStatus status) {
+  return status == LawStatus::clear || status == LawStatus::receding ||
+         status == LawStatus::no_relative_velocity;
 }
 
-std::optional<GuideStep> guide(const BodyState& a, const BodyState& b, const GuideOptions& options,
-                               GuideMemory& memory, double time) {
-  if (options.law == Law::clearance) return by_clearance(a, b, options);
+/// What is said of bodies that will not meet.
+GuideStep nothing_to_do(const BodyState& a, const BodyState& b) {
+  const Vector3d v = b.velocity - a.velocity;
+  GuideStep step;
+  step.status = v.isZero(0)                           ? LawStatus::no_relative_velocity
+                : v.dot(b.position - a.position) >= 0 ? LawStatus::receding
+                                                      : LawStatus::clear;
+  step.y = step.psi = step.theta_b = std::numeric_limits<double>::quiet_NaN();
+  return step;
+}
 
-  const std::optional<Vector3d> across =
-      choose_plane(a, b, options.sector, options.plane, memory.across ? &*memory.across : nullptr);
-  if (!across) return std::nullopt;
-  std::optional<PlaneView> view = plane_view(a, b, *across, options.sector, rate_method(options.rates));
+std::optional<GuideStep> on_plane(const BodyState& a, const BodyState& b, const Vector3d& across,
+                                  const GuideOptions& options, GuideMemory& memory, double time) {
+  std::optional<PlaneView> view = plane_view(a, b, across, options.sector, rate_method(options.rates));
   if (!view) return std::nullopt;
   if (options.rates == GuideRates::backward) difference_backward(*view, memory, time);
   memory.across = view->across;
@@ -119,6 +115,50 @@ std::optional<GuideStep> guide(const BodyState& a, const BodyState& b, const Gui
     case Law::clearance:
       break;
   }
+  return step;
+}
+
+}  // namespace
+
+const char* to_string(Law law) {
+  switch (law) {
+    case Law::avoidance:
+      return "avoidance";
+    case Law::cooperative_avoidance:
+      return "cooperative-avoidance";
+    case Law::cooperative_rendezvous:
+      return "cooperative-rendezvous";
+    case Law::matching_rendezvous:
+      return "matching-rendezvous";
+    case Law::clearance:
+      return "clearance";
+  }
+  return "?";
+}
+
+std::optional<GuideStep> guide(const BodyState& a, const BodyState& b, const GuideOptions& options,
+                               GuideMemory& memory, double time) {
+  if (options.law == Law::clearance) return by_clearance(a, b, options);
+  const bool in_space = avoids(options.law) && !a.planar();
+  if (in_space) {
+    const auto course = on_collision_course(a, b, options.sector, options.inversion.cease);
+    if (!course) return std::nullopt;
+    if (!*course) {
+      memory.past.reset();
+      return nothing_to_do(a, b);
+    }
+  }
+  const std::optional<Vector3d> across =
+      choose_plane(a, b, options.sector, options.plane, memory.across ? &*memory.across : nullptr);
+  if (!across) return std::nullopt;
+  std::optional<GuideStep> step = on_plane(a, b, *across, options, memory, time);
+  if (!step || !in_space || !done(step->status) || step->status == LawStatus::no_relative_velocity)
+    return step;
+  PlaneOptions of_motion;
+  of_motion.choice = PlaneChoice::of_motion;
+  memory.past.reset();  // of another plane
+  if (const auto plane = choose_plane(a, b, options.sector, of_motion))
+    step = on_plane(a, b, *plane, options, memory, time);
   return step;
 }
 

@@ -42,9 +42,24 @@ bool Engagement::demands() const { return step_ && !nothing_to_say(step_); }
 
 bool Engagement::inside() const {
   if (!step_ || passed_) return false;
-  if (pilot_->guide.law == Law::clearance)
-    return step_->m < pilot_->guide.clearance.required && step_->status != LawStatus::receding;
+  if (avoids(pilot_->guide.law)) return demands();
   return step_->y < pilot_->guide.inversion.cease && step_->v_r_hat < 0;
+}
+
+/// Where the law had nothing to say, the log still tells y and psi on the plane that it would have chosen.
+void Engagement::look(const guidance::BodyState& a, const guidance::BodyState& b, EncounterSample& sample) {
+  const guidance::GuideOptions& guide = pilot_->guide;
+  const auto across = guidance::choose_plane(a, b, guide.sector, guide.plane, looked_ ? &*looked_ : nullptr);
+  looked_ = across;
+  if (!across) return;
+  const auto view = guidance::plane_view(a, b, *across, guide.sector, guidance::RateMethod::none);
+  if (!view) return;
+  const guidance::ConeRates rates = guidance::cone_rates(view->state, view->cone);
+  sample.step.across = view->across;
+  sample.step.y = rates.y;
+  sample.step.v_r_hat = rates.v_r_hat;
+  sample.step.psi = view->cone.psi;
+  sample.step.theta_b = view->cone.theta_b;
 }
 
 EncounterSample Engagement::sample(const guidance::BodyState& a, const guidance::BodyState& b, double t,
@@ -60,6 +75,7 @@ EncounterSample Engagement::sample(const guidance::BodyState& a, const guidance:
   sample.cone = step_.has_value() && !passed_ && pilot_->guide.law != Law::clearance;
   if (step_) sample.step = *step_;
   if (passed_) sample.step.status = LawStatus::receding;
+  if (sample.cone && !demands()) look(a, b, sample);
   if (!sample.cone)
     sample.step.y = sample.step.psi = sample.step.theta_b = std::numeric_limits<double>::quiet_NaN();
   if (sample.step.across.any()) {

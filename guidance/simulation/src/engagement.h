@@ -24,17 +24,20 @@ class Engagement {
 
   /// The law wants an acceleration.
   bool demands() const;
-  /// On a collision course as the law sees it: y < cease and closing, or m < required and ahead.
+  /// On a collision course as the law sees it; of rendezvous, y < cease and closing.
   bool inside() const;
 
   EncounterSample sample(const guidance::BodyState& a, const guidance::BodyState& b, double t, bool attended);
 
  private:
+  void look(const guidance::BodyState& a, const guidance::BodyState& b, EncounterSample& sample);
+
   std::size_t agent_, obstacle_;
   const Pilot* pilot_;
   guidance::GuideMemory memory_;
   std::optional<guidance::GuideStep> step_;
   std::optional<guidance::SpatialState> last_state_;
+  std::optional<Eigen::Vector3d> looked_;
   double time_to_go_ = 0;
   bool passed_ = false;
 };

@@ -169,17 +169,15 @@ class Runner {
       const guidance::GuideOptions& guide = scenario_.bodies[i].pilot->guide;
       // Not a change of sides but the first look, or a passage: nothing is crossed.
       const bool first = !(before_ >= 0) || !present(i, before_) || !present(j, before_);
-      const bool closing = e.step()->v_r_hat < 0 || guide.law == guidance::Law::clearance;
+      const bool closing = e.step()->status != guidance::LawStatus::receding;
       double when = t;
       if (!first && closing)
-        when = sign_change(
-            [&](double s) {
-              return margin(run_.tracks[i], run_.tracks[j], guide, f.engagement.step()->across, s);
-            },
-            before_, t);
-      const double value = guide.law == guidance::Law::clearance ? e.step()->m : e.step()->y;
-      if (inside) event({when, EventKind::enters_cone, i, j, value});
-      if (!inside && closing) event({when, EventKind::leaves_cone, i, j, value});
+        when = sign_change([&](double s) { return margin(run_.tracks[i], run_.tracks[j], guide, s); },
+                           before_, t);
+      const bool metres = guide.law == guidance::Law::clearance;
+      const double edge = metres ? guide.clearance.required : guide.inversion.cease;
+      if (inside) event({when, EventKind::enters_cone, i, j, metres ? e.step()->m : e.step()->y});
+      if (!inside && closing) event({when, EventKind::leaves_cone, i, j, edge});
     }
     f.inside = inside;
   }

@@ -23,16 +23,12 @@ double closing_rate(const Track& a, const Track& b, double t) {
   return (at_b.position - at_a.position).dot(at_b.velocity - at_a.velocity);
 }
 
-double margin(const Track& a, const Track& b, const guidance::GuideOptions& options,
-              const Eigen::Vector3d& across, double t) {
+double margin(const Track& a, const Track& b, const guidance::GuideOptions& options, double t) {
   const guidance::BodyState at_a = a.state(t), at_b = b.state(t);
   if (options.law == guidance::Law::clearance)
     return guidance::law_clearance(at_a, at_b) - options.clearance.required;
-  const auto plane = guidance::choose_plane(at_a, at_b, options.sector, options.plane, &across);
-  if (!plane) return std::numeric_limits<double>::quiet_NaN();
-  const auto view = guidance::plane_view(at_a, at_b, *plane, options.sector, guidance::RateMethod::none);
-  if (!view) return std::numeric_limits<double>::quiet_NaN();
-  return guidance::cone_rates(view->state, view->cone).y - options.inversion.cease;
+  const auto course = guidance::on_collision_course(at_a, at_b, options.sector, options.inversion.cease);
+  return course ? (*course ? -1 : 1) : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace vericone::simulation

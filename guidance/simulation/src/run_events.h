@@ -15,9 +15,7 @@ double sign_change(const std::function<double(double)>& value, double from, doub
 /// c.V at time t: negative while the centres close.
 double closing_rate(const Track& a, const Track& b, double t);
 
-/// y on the plane the law chooses, or m - required: what leaves or enters the cone. `across`: of the plane at
-/// `from`.
-double margin(const Track& a, const Track& b, const guidance::GuideOptions& options,
-              const Eigen::Vector3d& across, double t);
+/// Negative on a collision course as the law sees it: m - required, or -1 and 1.
+double margin(const Track& a, const Track& b, const guidance::GuideOptions& options, double t);
 
 }  // namespace vericone::simulation

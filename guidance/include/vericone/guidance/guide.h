@@ -52,15 +52,26 @@ struct GuideStep {
   Eigen::Vector3d a = Eigen::Vector3d::Zero(), b = Eigen::Vector3d::Zero();  // accelerations of both, m/s^2
   LawStatus status = LawStatus::clear;
   double demanded = 0;          // |a| before saturation
-  double y = 0, v_r_hat = 0;    // on the plane chosen; of the clearance law 0
+  double y = 0, v_r_hat = 0;    // on the plane of `across`; of the clearance law 0
   double psi = 0, theta_b = 0;  // rad; theta_b from the line of sight
   double m = 0;                 // metres, clearance law only
   Eigen::Vector3d across = Eigen::Vector3d::Zero();
 };
 
+/// Whether they are on a collision course: the relative velocity lies in the cone (of the slices, or the true
+/// one), or its y on the plane that holds it and the line of sight is below `cease`. The true cone is asked
+/// by exact predicates where cease <= 0; what they leave undecided counts as colliding. Nothing where the
+/// bodies are not apart.
+std::optional<bool> on_collision_course(const BodyState& a, const BodyState& b, SectorMethod method,
+                                        double cease = 0);
+
+/// Avoidance in space first asks on_collision_course(): that decides whether anything is commanded, the plane
+/// chosen only how. Where the plane chosen says that all is well although it is not (the projection of the
+/// relative velocity on it has left its sector, the relative velocity has not left the cone) the plane of the
+/// relative velocity is taken. Where nothing is commanded, y, psi and theta_b are not computed: NaN.
+///
 /// Nothing where the bodies are not apart as the method sees them. `time`, seconds, for backward differences.
-/// No allocation and no throw with ellipsoids. Cost: ellipsoids, true sector, analytic rates, the plane
-/// followed: docs/benchmarks.md.
+/// No allocation and no throw with ellipsoids. Cost: docs/benchmarks.md.
 std::optional<GuideStep> guide(const BodyState& a, const BodyState& b, const GuideOptions& options,
                                GuideMemory& memory, double time);
 

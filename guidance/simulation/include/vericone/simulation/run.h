@@ -44,8 +44,9 @@ struct Event {
   double t = 0;
   EventKind kind = EventKind::appears;
   std::size_t agent = 0, obstacle = 0;  // equal where only one body is concerned
-  double value =
-      0;  // passes: distance of the centres, m; enters_cone, leaves_cone: y; contact: earliest possible time
+  /// passes: distance of the centres, m; enters_cone: y (or m, metres) at that command; leaves_cone: what it
+  /// had to reach, cease or required; contact: the earliest time, s.
+  double value = 0;
 };
 
 struct PairOutcome {
