@@ -87,9 +87,9 @@ RatioCommand avoid(const PlanarState& s, const ConeRates& f, const LawOptions& o
     command.a = command.demanded = the_most(options) / greater;
   } else {
     command.demanded = needed(f, options) / effect;
-    const double factor = limiting_factor(std::abs(command.demanded) * greater, options);
-    command.a = factor * command.demanded;
-    command.status = factor < 1 ? LawStatus::saturated : LawStatus::steering;
+    const bool limited = std::abs(command.demanded) * greater > options.most;
+    command.a = limited ? std::copysign(options.most / greater, command.demanded) : command.demanded;
+    command.status = limited ? LawStatus::saturated : LawStatus::steering;
   }
   return command;
 }

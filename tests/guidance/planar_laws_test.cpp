@@ -15,12 +15,9 @@ namespace {
 using testing::Equation, testing::Errors, testing::Form, testing::PlanarEngagement, testing::RandomBodies,
     testing::SourceTerms;
 
-constexpr int kStates = 1000;
+constexpr std::size_t kStates = 1000;
 
-/// Of a y' against the wanted one, in parts of the terms of which it is the sum.
-double relative_error(double rate, double wanted, const ConeRates& f) {
-  return std::abs(rate - wanted) / (std::abs(wanted) + std::abs(f.drift));
-}
+double relative_error(double rate, double wanted) { return std::abs(rate - wanted) / std::abs(wanted); }
 
 LawOptions random_options(RandomBodies& random) {
   LawOptions options;
@@ -45,7 +42,7 @@ TEST(PlanarLaws, BisectorQuantities) {
   RandomBodies random(5091);
   SCOPED_TRACE(random.trace());
   Errors hat, y, printed;
-  for (int i = 0; i < kStates; ++i) {
+  for (std::size_t i = 0; i < kStates; ++i) {
     const PlanarEngagement e = testing::random_planar_engagement(random, 3);
     const PlanarState s = e.state();
     const PlaneCone cone = e.cone();
@@ -71,7 +68,7 @@ TEST(PlanarLaws, TheRateOfYUnderAnyAccelerations) {
   RandomBodies random(5111);
   SCOPED_TRACE(random.trace());
   Errors errors;
-  for (int i = 0; i < kStates; ++i) {
+  for (std::size_t i = 0; i < kStates; ++i) {
     PlanarEngagement e = testing::random_planar_engagement(random, 6);
     const double a = random.uniform(-15, 15), b = random.uniform(-15, 15), p = random.uniform(-15, 15),
                  q = random.uniform(-15, 15);
@@ -95,13 +92,13 @@ TEST(PlanarLaws, AvoidanceDoesWhatItPromises) {
   RandomBodies random(5121);
   SCOPED_TRACE(random.trace());
   Errors errors, still, form;
-  for (int i = 0; i < kStates; ++i) {
+  for (std::size_t i = 0; i < kStates; ++i) {
     PlanarEngagement e = testing::random_planar_engagement(random, 0.95);
     const LawOptions options = random_options(random);
     const LawCommand command = avoidance(e.state(), e.cone(), options);
     ASSERT_EQ(command.status, LawStatus::steering) << i;
     e.apply(command.a, 0);
-    errors.add(relative_error(e.y_rate(), wanted_rate(command.rates, options), command.rates));
+    errors.add(relative_error(e.y_rate(), wanted_rate(command.rates, options)));
 
     PlanarEngagement plain = e;
     plain.a.with_heading = plain.b.with_heading = false;
@@ -113,7 +110,7 @@ TEST(PlanarLaws, AvoidanceDoesWhatItPromises) {
       PlaneCone left_out = e.cone();
       left_out.psi_rate_by_a = left_out.theta_b_rate_by_a = 0;
       e.apply(avoidance(e.state(), left_out, options).a, 0);
-      still.add(relative_error(e.y_rate(), wanted_rate(command.rates, options), command.rates));
+      still.add(relative_error(e.y_rate(), wanted_rate(command.rates, options)));
     }
   }
   std::printf("(5.12): worst relative error %.1e; own turning left out: median %.1e; N1, N2, D1, D2: %.1e\n",
@@ -128,15 +125,15 @@ TEST(PlanarLaws, CooperativeRendezvousDoesWhatItPromises) {
   RandomBodies random(5141);
   SCOPED_TRACE(random.trace());
   Errors errors, printed, equation;
-  for (int i = 0; i < kStates; ++i) {
+  while (errors.count() < kStates) {
     PlanarEngagement e = testing::random_planar_engagement(random, 1.4);
     const LawOptions options = random_options(random);
     const ConeRates f = cone_rates(e.state(), e.cone());
     if (f.v_r_hat >= 0) continue;
     const CooperativeCommand command = cooperative_rendezvous(e.state(), e.cone(), options);
-    ASSERT_EQ(command.status, LawStatus::steering) << i;
+    ASSERT_EQ(command.status, LawStatus::steering) << errors.count();
     e.apply(command.a, command.b);
-    errors.add(relative_error(e.y_rate(), wanted_rate(f, options), f));
+    errors.add(relative_error(e.y_rate(), wanted_rate(f, options)));
 
     PlanarEngagement plain = without_turning_by_acceleration(random);
     const SourceTerms terms(plain.state(), plain.cone(), options.gain, options.reference);
@@ -146,11 +143,10 @@ TEST(PlanarLaws, CooperativeRendezvousDoesWhatItPromises) {
     equation.add((Eigen::Vector2d(pair.a, pair.b) - least).norm() / least.norm());
     const Eigen::Vector2d wrong = equation_5_14(terms, Form::printed).least();
     plain.apply(wrong.x(), wrong.y());
-    printed.add(relative_error(plain.y_rate(), wanted_rate(pair.rates, options), pair.rates));
+    printed.add(relative_error(plain.y_rate(), wanted_rate(pair.rates, options)));
   }
   std::printf("(5.14): worst relative error %.1e, printed median %.1e; A11..C11 as corrected: %.1e\n",
               errors.worst(), printed.median(), equation.worst());
-  EXPECT_GE(errors.count(), kStates * 9 / 10);
   EXPECT_LT(errors.worst(), 1e-6);
   EXPECT_LT(equation.worst(), 1e-10);
   EXPECT_GT(printed.median(), 1e-2);
@@ -161,7 +157,7 @@ TEST(PlanarLaws, MatchingRendezvousDoesWhatItPromises) {
   RandomBodies random(5161);
   SCOPED_TRACE(random.trace());
   Errors of_y, of_speed, printed, equations;
-  for (int i = 0; i < kStates; ++i) {
+  for (std::size_t i = 0; i < kStates; ++i) {
     PlanarEngagement e = testing::random_planar_engagement(random, 0.95);
     const LawOptions options = random_options(random);
     const double k_2 = random.uniform(0.1, 3);
@@ -170,7 +166,7 @@ TEST(PlanarLaws, MatchingRendezvousDoesWhatItPromises) {
     e.apply(command.lateral, 0, command.longitudinal);
     const double v2 = e.relative(0).squaredNorm();
     ASSERT_NEAR(command.speed_squared, v2, 1e-12 * v2);
-    of_y.add(relative_error(e.y_rate(), wanted_rate(command.rates, options), command.rates));
+    of_y.add(relative_error(e.y_rate(), wanted_rate(command.rates, options)));
     of_speed.add(std::abs(e.speed_squared_rate() + k_2 * v2) / (k_2 * v2));
 
     PlanarEngagement plain = without_turning_by_acceleration(random);
@@ -195,7 +191,7 @@ TEST(PlanarLaws, CooperativeAvoidanceDoesWhatItPromises) {
   RandomBodies random(6191);
   SCOPED_TRACE(random.trace());
   Errors errors, printed, form;
-  for (int i = 0; i < kStates; ++i) {
+  for (std::size_t i = 0; i < kStates; ++i) {
     PlanarEngagement e = testing::random_planar_engagement(random, 0.95);
     const LawOptions options = random_options(random);
     const double mu = random.uniform(-2, 2);
@@ -203,7 +199,7 @@ TEST(PlanarLaws, CooperativeAvoidanceDoesWhatItPromises) {
     ASSERT_EQ(command.status, LawStatus::steering) << i;
     ASSERT_EQ(command.b, mu * command.a);
     e.apply(command.a, command.b);
-    errors.add(relative_error(e.y_rate(), wanted_rate(command.rates, options), command.rates));
+    errors.add(relative_error(e.y_rate(), wanted_rate(command.rates, options)));
 
     PlanarEngagement plain = without_turning_by_acceleration(random);
     const SourceTerms terms(plain.state(), plain.cone(), options.gain, options.reference);
@@ -211,7 +207,7 @@ TEST(PlanarLaws, CooperativeAvoidanceDoesWhatItPromises) {
     form.add(std::abs(pair.a - law_6_19(terms, mu, Form::corrected)) / std::abs(pair.a));
     const double wrong = law_6_19(terms, mu, Form::printed);
     plain.apply(wrong, mu * wrong);
-    printed.add(relative_error(plain.y_rate(), wanted_rate(pair.rates, options), pair.rates));
+    printed.add(relative_error(plain.y_rate(), wanted_rate(pair.rates, options)));
   }
   std::printf("(6.18), (6.19): worst relative error %.1e, printed median %.1e; as corrected: %.1e\n",
               errors.worst(), printed.median(), form.worst());
