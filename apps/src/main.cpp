@@ -11,6 +11,7 @@
 #include "build_info.h"
 #include "cone.h"
 #include "fit/fit_command.h"
+#include "montecarlo/campaign_command.h"
 #include "paper/claims_command.h"
 #include "paper/figures_command.h"
 #include "pieces/gallery.h"
@@ -310,6 +311,44 @@ int run(int argc, char** argv) {
     status = vericone::run_figures(figures, std::cout);
 #else
     throw vericone::InputError("figures", "a command without simulation", "a build with VERICONE_SIMULATION");
+#endif
+  });
+
+  vericone::montecarlo::CampaignOptions campaign;
+  auto* campaign_command = app.add_subcommand(
+      "campaign", "Guidance laws on random engagements, every outcome proved; 1: a word broken");
+  campaign_command->add_option("--out", campaign.out, "Folder for tables and picture")->capture_default_str();
+  campaign_command->add_option("-N,--engagements", campaign.engagements, "Random engagements")
+      ->capture_default_str();
+  campaign_command->add_option("--seed", campaign.seed, "Seed of all random numbers")->capture_default_str();
+  campaign_command->add_option("--threads", campaign.threads, "Threads, 0: one per processor")
+      ->capture_default_str();
+  campaign_command
+      ->add_option("--laws", campaign.laws,
+                   "slice, exact (largest opening), motion (true sector on the plane of motion), clearance")
+      ->delimiter(',')
+      ->capture_default_str();
+  campaign_command->add_option("--most", campaign.most, "Saturation, m/s^2; every law also flies without")
+      ->capture_default_str();
+  campaign_command->add_option("--gain", campaign.gain, "K of all laws, 1/s")->capture_default_str();
+  campaign_command->add_option("--reference", campaign.reference, "w, to which y is driven")
+      ->capture_default_str();
+  campaign_command->add_option("--required", campaign.required, "Of the clearance law, metres")
+      ->capture_default_str();
+  campaign_command->add_option("--step", campaign.step, "Between two commands, s")->capture_default_str();
+  bool no_campaign_figure = false;
+  campaign_command->add_flag("--no-figures", no_campaign_figure, "Tables only");
+  campaign_command->add_flag("--quiet", campaign.quiet, "No progress");
+  campaign_command->add_flag("--json", campaign.json, "Print JSON");
+  campaign_command->callback([&] {
+    campaign.figures = !no_campaign_figure;
+    for (int i = 0; i < argc; ++i)
+      campaign.command_line.append(i ? " " : "").append(i ? argv[i] : "vericone");
+#ifdef VERICONE_HAVE_SIMULATION
+    status = vericone::montecarlo::run_campaign(campaign, std::cout);
+#else
+    throw vericone::InputError("campaign", "a command without simulation",
+                               "a build with VERICONE_SIMULATION");
 #endif
   });
 

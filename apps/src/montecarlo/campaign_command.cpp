@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "montecarlo/campaign_command.h"
+
+#include <vericone/geometry/error.h>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <ostream>
+#include <thread>
+
+#include "figures.h"
+#include "interrupt.h"
+#include "montecarlo/summary.h"
+#include "provenance.h"
+#include "resumable_table.h"
+
+namespace vericone::montecarlo {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+void require_positive(const char* option, double value, const char* unit) {
+  if (!(value > 0) || !std::isfinite(value))
+    throw InputError(option, to_text(value), std::string("a positive number") + unit);
+}
+
+void validate(const CampaignOptions& o) {
+  if (o.engagements < 1 || o.engagements > 100'000'000)
+    throw InputError("--engagements", std::to_string(o.engagements), "between 1 and 100000000");
+  if (o.threads < 0 || o.threads > 1024)
+    throw InputError("--threads", std::to_string(o.threads), "between 1 and 1024, or 0 for all");
+  require_positive("--most", o.most, " (m/s^2)");
+  if (!(o.most < kUnlimited))
+    throw InputError("--most", to_text(o.most),
+                     "below " + to_text(kUnlimited) + " m/s^2, which is unlimited here");
+  require_positive("--gain", o.gain, " (1/s)");
+  if (!std::isfinite(o.reference)) throw InputError("--reference", to_text(o.reference), "a finite number");
+  require_positive("--required", o.required, " (m)");
+  require_positive("--step", o.step, " (s)");
+  if (o.step < 1e-4) throw InputError("--step", to_text(o.step), "0.0001 s or more");
+  for (std::size_t i = 0; i < o.laws.size(); ++i)
+    if (std::count(o.laws.begin(), o.laws.end(), o.laws[i]) > 1)
+      throw InputError("--laws", o.laws[i], "given once");
+  if (fs::exists(o.out) && !fs::is_directory(o.out)) throw InputError("--out", o.out, "a folder");
+}
+
+std::string settings_line(const CampaignOptions& o) {
+  std::string laws;
+  for (const std::string& name : o.laws) laws += (laws.empty() ? "" : "+") + name;
+  return "# vericone campaign, seed " + std::to_string(o.seed) + ", " + std::to_string(o.engagements) +
+         " engagements, laws " + laws + ", most " + to_text(o.most) + ", gain " + to_text(o.gain) +
+         ", reference " + to_text(o.reference) + ", required " + to_text(o.required) + ", step " +
+         to_text(o.step);
+}
+
+}  // namespace
+
+int run_campaign(const CampaignOptions& options, std::ostream& out) {
+  validate(options);
+  const FlightSettings settings{options.step, options.most, options.gain, options.reference,
+                                options.required};
+  const std::vector<Flown> laws = flown_laws(options.laws, settings);
+  const fs::path folder = options.out;
+  catch_interrupts();
+  const auto start = std::chrono::steady_clock::now();
+  ResumableTable table;
+  table.table = folder / "engagements.csv";
+  table.settings = settings_line(options);
+  table.header = csv_header(laws);
+  table.count = options.engagements;
+  table.threads = options.threads > 0 ? options.threads
+                                      : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  table.quiet = options.quiet;
+  table.label = "engagements";
+  table.row = [&](std::uint64_t i) { return csv_row(i, measure(options.seed, i, laws, settings)); };
+  if (run_table(table) == TableOutcome::interrupted) {
+    out << "interrupted; the same command goes on where it stopped (" << folder.string() << ")\n";
+    return kExitInterrupted;
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  Json summary = summarise(read_table(table.table, laws.size()), laws);
+  summary["settings"] = table.settings;
+  summary["seconds"] = seconds;
+  summary["violations"] = violations(summary);
+  write_whole(folder / "summary.json", summary.dump(1) + "\n");
+  write_whole(folder / "summary.csv", summary_csv(summary));
+  write_whole(folder / "provenance.json", provenance(options.command_line).dump(1) + "\n");
+  std::vector<fs::path> pictures;
+  if (options.figures) pictures = draw_figures("engagement_campaign.py", folder);
+  if (options.json) {
+    out << summary.dump(1) << '\n';
+  } else {
+    print_summary(summary, out);
+    if (const auto wrong = violations(summary))
+      out << "VIOLATED: " << wrong << " runs met that a proved statement had called safe\n";
+    out << "tables    " << table.table.string() << ", " << (folder / "summary.csv").string() << ", "
+        << (folder / "summary.json").string() << '\n';
+    for (const fs::path& picture : pictures) out << "picture   " << picture.string() << '\n';
+  }
+  return violations(summary) ? 1 : 0;
+}
+
+}  // namespace vericone::montecarlo

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <iosfwd>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "montecarlo/table.h"
+
+namespace vericone::montecarlo {
+
+/// Counts of outcomes, and what was called safe and met all the same.
+nlohmann::ordered_json summarise(const std::vector<Row>& rows, const std::vector<Flown>& laws);
+
+/// One row a law, the counts of `summarise`.
+std::string summary_csv(const nlohmann::ordered_json& summary);
+void print_summary(const nlohmann::ordered_json& summary, std::ostream& out);
+
+/// Runs that a statement proved to be right called safe and that met: there are none.
+std::uint64_t violations(const nlohmann::ordered_json& summary);
+
+}  // namespace vericone::montecarlo
