@@ -121,5 +121,139 @@ void rates_of_ellipsoids(SectorMethod method, std::uint64_t seed) {
 TEST(PlaneViewRates, EllipsoidsExact) { rates_of_ellipsoids(SectorMethod::exact, 7203); }
 TEST(PlaneViewRates, EllipsoidsSliced) { rates_of_ellipsoids(SectorMethod::slice, 7204); }
 
+TEST(PlaneView, EdgesAreWhereTheExactOracleSaysSo) {
+  RandomBodies random(7205);
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 500; ++i) {
+    const auto [moving_a, moving_b] = testing::moving_pair(random, 1.05, 4);
+    const BodyState a = moving_a.state(), b = moving_b.state();
+    const ConeOracle oracle(ellipsoid_of(a), ellipsoid_of(b));
+    const auto view = plane_view(a, b, random.direction(), SectorMethod::exact, RateMethod::none);
+    ASSERT_TRUE(view);
+    const PlaneCone& cone = view->cone;
+    const auto at = [&](double angle) {
+      return oracle.membership(std::cos(angle) * view->line_of_sight + std::sin(angle) * view->across);
+    };
+    for (const double side : {1., -1.}) {
+      const double edge = cone.theta_b + 0.5 * side * cone.psi;
+      EXPECT_EQ(at(edge - 1e-10 * side), Membership::in) << i;
+      EXPECT_EQ(at(edge + 1e-10 * side), Membership::out) << i;
+    }
+  }
+}
+
+TEST(PlaneView, TheOtherAxisMirrorsIt) {
+  RandomBodies random(7206);
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 200; ++i) {
+    auto [moving_a, moving_b] = testing::moving_pair(random, 1.2, 4);
+    moving_a.now.turning = Turning::with_heading;
+    const BodyState a = moving_a.state(), b = moving_b.state();
+    const Vector3d across = random.direction();
+    const double spin = random.uniform(-1, 1);
+    for (const SectorMethod method : {SectorMethod::exact, SectorMethod::slice}) {
+      const auto one = plane_view(a, b, across, method, RateMethod::analytic, spin);
+      const auto two = plane_view(a, b, -across, method, RateMethod::analytic, spin);
+      ASSERT_TRUE(one && two);
+      EXPECT_NEAR(one->cone.psi, two->cone.psi, 1e-12);
+      EXPECT_NEAR(one->cone.theta_b, -two->cone.theta_b, 1e-12);
+      EXPECT_NEAR(one->cone.psi_rate, two->cone.psi_rate, 1e-9);
+      EXPECT_NEAR(one->cone.theta_b_rate, -two->cone.theta_b_rate, 1e-9);
+      // A's lateral acceleration is the other way round.
+      EXPECT_NEAR(one->cone.psi_rate_by_a, -two->cone.psi_rate_by_a, 1e-9);
+      EXPECT_NEAR(one->cone.theta_b_rate_by_a, two->cone.theta_b_rate_by_a, 1e-9);
+    }
+  }
+}
+
+TEST(PlaneViewRates, DifferencesAgreeWithTheClosedForm) {
+  RandomBodies random(7207);
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 500; ++i) {
+    auto [moving_a, moving_b] = testing::moving_pair(random, 1.3, 4);
+    if (i % 2) moving_a.now.turning = Turning::with_heading;
+    const BodyState a = moving_a.state(), b = moving_b.state();
+    const Vector3d across = random.direction();
+    const double spin = random.uniform(-1, 1);
+    for (const SectorMethod method : {SectorMethod::exact, SectorMethod::slice}) {
+      const auto closed = plane_view(a, b, across, method, RateMethod::analytic, spin),
+                 differenced = plane_view(a, b, across, method, RateMethod::differenced, spin);
+      ASSERT_TRUE(closed && differenced);
+      const PlaneCone &c = closed->cone, &d = differenced->cone;
+      const double scale = 1e-6 * (1 + closed->state.speed_a + closed->state.speed_b);
+      EXPECT_NEAR(c.psi_rate, d.psi_rate, scale) << i;
+      EXPECT_NEAR(c.theta_b_rate, d.theta_b_rate, scale) << i;
+      EXPECT_NEAR(c.psi_rate_by_a, d.psi_rate_by_a, 1e-6) << i;
+      EXPECT_NEAR(c.theta_b_rate_by_a, d.theta_b_rate_by_a, 1e-6) << i;
+    }
+  }
+}
+
+TEST(PlaneView, EllipsoidsNeitherAllocateNorThrow) {
+  RandomBodies random(7208);
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 300; ++i) {
+    // Also overlapping ones, and one inside the other.
+    auto [moving_a, moving_b] = testing::moving_pair(random, 0, 3);
+    moving_a.now.turning = Turning::with_heading;
+    const BodyState a = moving_a.state(), b = moving_b.state();
+    const bool apart = relation<3>(ellipsoid_of(a), ellipsoid_of(b)) == Relation::disjoint;
+    const Vector3d across = random.direction();
+    for (const SectorMethod method : {SectorMethod::exact, SectorMethod::slice})
+      for (const RateMethod rates : {RateMethod::analytic, RateMethod::differenced, RateMethod::none}) {
+        PlaneView view = plane_states(a, b, across);
+        view.cone.psi = -1;
+        bool found = false;
+        const std::size_t before = testing::allocations();
+        EXPECT_NO_THROW(found = fill_cone(view, a, b, method, rates));
+        EXPECT_EQ(testing::allocations(), before);
+        if (method == SectorMethod::exact) {
+          EXPECT_EQ(found, apart) << i;
+        } else {
+          EXPECT_GE(found, apart) << i;
+        }
+        EXPECT_EQ(found, view.cone.psi >= 0);
+      }
+  }
+}
+
+TEST(PlaneView, TouchingBodiesAreNotApart) {
+  BodyState a, b;
+  a.shape = CombinedEllipsoid(Ellipsoid::from_axes({0, 0, 0}, {1, 2, 3}));
+  b.shape = CombinedEllipsoid(Ellipsoid::from_axes({3, 0, 0}, {2, 1, 1}));
+  b.position = {3, 0, 0};
+  a.velocity = {1, 0, 0};
+  for (const SectorMethod method : {SectorMethod::exact, SectorMethod::slice})
+    EXPECT_FALSE(plane_view(a, b, {0, 1, 0}, method, RateMethod::analytic));
+  EXPECT_FALSE(plane_view(a, a, {0, 1, 0}, SectorMethod::exact, RateMethod::analytic));
+}
+
+TEST(BodyState, AdvancedIsTheMotionToFirstOrder) {
+  RandomBodies random(7209);
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 200; ++i) {
+    testing::MovingBody m = testing::moving_body(random, random.in_box(5));
+    if (i % 2) testing::dent(random, m);
+    m.now.turning = Turning::with_heading;
+    m.acceleration = 3 * m.now.velocity.cross(random.direction()).normalized();
+    const double dt = 1e-4;
+    const auto change = [&](const BodyState& state) {
+      const auto& shape = std::get<CombinedEllipsoid>(state.shape);
+      Eigen::Matrix3d sum = shape.ellipsoid().shape();
+      for (const Delimiter<3>& d : shape.delimiters())
+        sum += d.matrix + d.level * Eigen::Matrix3d::Identity();
+      return sum;
+    };
+    const BodyState ahead = advanced(m.state(), dt, m.acceleration),
+                    behind = advanced(m.state(), -dt, m.acceleration);
+    EXPECT_LT((ahead.position - m.at(dt).position).norm(), 1e-14 * 10);
+    EXPECT_LT((ahead.velocity - m.at(dt).velocity).norm(), 1e-14 * 10);
+    EXPECT_EQ(ellipsoid_of(ahead).center(), ahead.position);
+    const Eigen::Matrix3d rate = (change(ahead) - change(behind)) / (2 * dt),
+                          truth = (change(m.at(dt)) - change(m.at(-dt))) / (2 * dt);
+    EXPECT_LT((rate - truth).norm(), 1e-6 * (1 + truth.norm())) << i;
+  }
+}
+
 }  // namespace
 }  // namespace vericone::guidance

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Views of convex hulls of points.
+#include <gtest/gtest.h>
+#include <vericone/cones/hull_oracle.h>
+#include <vericone/guidance/plane_view.h>
+
+#include <cmath>
+
+#include "guidance/engagements.h"
+
+namespace vericone::guidance {
+namespace {
+
+using Eigen::Vector2d, Eigen::Vector3d;
+using testing::RandomBodies;
+
+const Ellipsoid& ellipsoid_of(const BodyState& body) {
+  return std::get<CombinedEllipsoid>(body.shape).ellipsoid();
+}
+
+BodyState hull_state(RandomBodies& random, const Vector3d& position, int count) {
+  BodyState b;
+  b.position = position;
+  b.velocity = random.uniform(1, 5) * random.direction();
+  b.omega = random.in_box(1);
+  std::vector<Vector3d> points;
+  for (int i = 0; i < count; ++i) points.push_back(position + random.uniform(1, 3) * random.direction());
+  b.shape = HullBody(std::move(points));
+  return b;
+}
+
+TEST(PlaneView, TrueSectorsOfHulls) {
+  RandomBodies random(7226);
+  SCOPED_TRACE(random.trace());
+  int aside = 0, seen = 0;
+  for (int i = 0; i < 100; ++i) {
+    testing::MovingBody moving = testing::moving_body(random, random.in_box(5));
+    const BodyState a = moving.state();
+    BodyState b = hull_state(random, a.position + 9 * random.direction(), 12);
+    // The reference point may be anywhere.
+    if (i % 3 == 0) b.position += 6 * random.direction();
+    const HullOracle oracle(ellipsoid_of(a), std::get<HullBody>(b.shape));
+    const auto view = plane_view(a, b, random.direction(), SectorMethod::exact, RateMethod::none);
+    if (!view) continue;
+    ++seen;
+    for (const double side : {1., -1.}) {
+      const double edge = view->cone.theta_b + 0.5 * side * view->cone.psi;
+      aside += side * edge < 0;
+      const auto at = [&](double angle) {
+        return oracle.membership(std::cos(angle) * view->line_of_sight + std::sin(angle) * view->across);
+      };
+      EXPECT_EQ(at(edge - 3e-8 * side), Membership::in) << i;
+      EXPECT_EQ(at(edge + 3e-8 * side), Membership::out) << i;
+    }
+    const auto slice = plane_view(a, b, view->across, SectorMethod::slice, RateMethod::none);
+    if (slice) {
+      EXPECT_LE(slice->cone.psi, view->cone.psi + 1e-8);
+    }
+  }
+  EXPECT_GT(aside, 5);
+  EXPECT_GT(seen, 80);
+}
+
+TEST(PlaneViewRates, HullsOfOnePointAreTinyEllipsoids) {
+  RandomBodies random(7227);
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 50; ++i) {
+    testing::MovingBody moving = testing::moving_body(random, random.in_box(5));
+    moving.now.turning = Turning::with_heading;
+    const BodyState a = moving.state();
+    BodyState b;
+    b.position = a.position + random.uniform(4, 8) * random.direction();
+    b.velocity = random.uniform(1, 5) * random.direction();
+    BodyState ball = b;
+    b.shape = HullBody({b.position});
+    ball.shape = CombinedEllipsoid(Ellipsoid::from_axes(b.position, Vector3d::Constant(1e-10)));
+    const Vector3d across = random.direction();
+    const auto view = plane_view(a, b, across, SectorMethod::exact, RateMethod::analytic, 0.3);
+    const auto known = plane_view(a, ball, across, SectorMethod::exact, RateMethod::analytic, 0.3);
+    ASSERT_TRUE(view && known);
+    EXPECT_NEAR(view->cone.psi, known->cone.psi, 3e-9);
+    EXPECT_NEAR(view->cone.theta_b, known->cone.theta_b, 3e-9);
+    EXPECT_NEAR(view->cone.psi_rate, known->cone.psi_rate, 1e-4);
+    EXPECT_NEAR(view->cone.theta_b_rate, known->cone.theta_b_rate, 1e-4);
+    EXPECT_NEAR(view->cone.psi_rate_by_a, known->cone.psi_rate_by_a, 1e-4);
+    EXPECT_NEAR(view->cone.theta_b_rate_by_a, known->cone.theta_b_rate_by_a, 1e-4);
+  }
+}
+
+TEST(PlaneView, SlicesOfBoxes) {
+  RandomBodies random(7228);
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 200; ++i) {
+    testing::MovingBody moving = testing::moving_body(random, random.in_box(5));
+    const BodyState a = moving.state();
+    BodyState b;
+    b.position = a.position + 9 * random.direction();
+    const Vector3d half(random.uniform(0.5, 2), random.uniform(0.5, 2), random.uniform(0.5, 2));
+    const Eigen::Matrix3d r = random.rotation();
+    std::vector<Vector3d> points;
+    for (int k = 0; k < 8; ++k)
+      points.push_back(b.position + r * Vector3d(k & 1 ? half.x() : -half.x(), k & 2 ? half.y() : -half.y(),
+                                                 k & 4 ? half.z() : -half.z()));
+    b.shape = HullBody(points);
+    const auto view = plane_view(a, b, random.direction(), SectorMethod::slice, RateMethod::none);
+    ASSERT_TRUE(view);
+    const Vector3d &u = view->line_of_sight, &e = view->across;
+    // The twelve edges cut by the plane; the sections collide along d where their shadows overlap.
+    std::vector<Vector2d> corners;
+    for (int k = 0; k < 8; ++k)
+      for (int bit : {1, 2, 4})
+        if (!(k & bit)) {
+          const Vector3d x = points[k] - a.position, y = points[k | bit] - a.position;
+          const double hx = x.dot(view->normal()), hy = y.dot(view->normal());
+          if (hx * hy > 0) continue;
+          const Vector3d z = x + hx / (hx - hy) * (y - x);
+          corners.emplace_back(z.dot(u), z.dot(e));
+        }
+    const CombinedEllipse section =
+        central_section(std::get<CombinedEllipsoid>(a.shape), u, e, Vector2d::Zero());
+    const auto meet = [&](double angle) {
+      const Vector2d m(-std::sin(angle), std::cos(angle));
+      double low = 1e300, high = -1e300;
+      for (const Vector2d& x : corners) low = std::min(low, m.dot(x)), high = std::max(high, m.dot(x));
+      const double width = section.ellipsoid().radius(m);
+      return low <= width && high >= -width;
+    };
+    for (const double side : {1., -1.}) {
+      const double edge = view->cone.theta_b + 0.5 * side * view->cone.psi;
+      EXPECT_TRUE(meet(edge - 1e-9 * side)) << i;
+      EXPECT_FALSE(meet(edge + 1e-9 * side)) << i;
+    }
+  }
+}
+
+TEST(PlaneView, BodiesThatDoNotFitTogether) {
+  RandomBodies random(7229);
+  const BodyState hull = hull_state(random, {9, 0, 0}, 10);
+  const BodyState solid = testing::moving_body(random, {0, 0, 0}).state();
+  BodyState flat;
+  flat.shape = CombinedEllipse(Ellipse());
+  for (const SectorMethod method : {SectorMethod::exact, SectorMethod::slice}) {
+    EXPECT_FALSE(plane_view(hull, solid, {0, 1, 0}, method, RateMethod::analytic));
+    EXPECT_FALSE(plane_view(flat, hull, {0, 1, 0}, method, RateMethod::analytic));
+    EXPECT_TRUE(plane_view(solid, hull, {0, 1, 0}, method, RateMethod::analytic));
+    BodyState near = solid;
+    near.position = {8, 0, 0};
+    near.shape = CombinedEllipsoid(ellipsoid_of(solid).translated(near.position));
+    EXPECT_FALSE(plane_view(near, hull, {0, 1, 0}, method, RateMethod::analytic));
+  }
+}
+
+}  // namespace
+}  // namespace vericone::guidance
