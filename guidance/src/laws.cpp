@@ -40,7 +40,8 @@ double needed(const ConeRates& f, const LawOptions& options) {
 
 /// What one lateral acceleration can have as effect on y': turning V by 1 / |V|, turning A's body by these.
 double largest_effect(const PlanarState& s, double psi_rate_by, double theta_b_rate_by, double sin_psi) {
-  return 1 / relative_speed(s) + std::abs(theta_b_rate_by) + 0.5 * std::abs(sin_psi * psi_rate_by);
+  const double by_turning = at_rest(s) ? 0 : 1 / relative_speed(s);
+  return by_turning + std::abs(theta_b_rate_by) + 0.5 * std::abs(sin_psi * psi_rate_by);
 }
 double largest_effect_a(const PlanarState& s, const PlaneCone& c) {
   return largest_effect(s, c.psi_rate_by_a, c.theta_b_rate_by_a, std::sin(c.psi));

@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 
+#include "guidance/allocations.h"
 #include "support/random_bodies.h"
 
 namespace vericone::guidance {
@@ -299,6 +300,20 @@ TEST(LawSingularities, AxesTurnsAndMirrors) {
     const PlaneCone mirrored_cone{cone.psi, -cone.theta_b, cone.psi_rate, -cone.theta_b_rate};
     ASSERT_EQ(avoidance(mirrored, mirrored_cone, options).a, -a);
   }
+}
+
+TEST(LawSingularities, NoAllocation) {
+  const PlanarState states[] = {head_on(), head_on(2.5), PlanarState{}};
+  const LawOptions options = limited(15);
+  double sum = 0;
+  const std::size_t before = testing::allocations();
+  for (const PlanarState& s : states) {
+    const PlaneCone cone = opening(0.8);
+    sum += avoidance(s, cone, options).a + cooperative_avoidance(s, cone, options, 0.5).b +
+           cooperative_rendezvous(s, cone, options).b + matching_rendezvous(s, cone, options, 1).lateral;
+  }
+  EXPECT_EQ(testing::allocations(), before);
+  EXPECT_TRUE(std::isfinite(sum));
 }
 
 TEST(LawSingularities, EveryStatusHasAName) {
