@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Prints, in Markdown, what a step of guidance costs, piece by piece, and how often each choice of the plane
+// hides a collision. Times are medians over rounds, each item taken in turn in each round.
+#include <benchmarks/combined_pairs.h>
+#include <vericone/guidance/guide.h>
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <functional>
+#include <string>
+
+namespace vericone::benchmarks {
+namespace {
+
+using Eigen::Vector3d;
+using namespace guidance;
+
+double cpu_nanoseconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
+}
+
+struct Item {
+  std::string name;
+  std::function<double()> round;  // nanoseconds a call
+  std::vector<double> times = {};
+};
+
+template <typename Call>
+Item item(std::string name, std::size_t count, int repeats, Call call) {
+  return {std::move(name), [=] {
+            const double start = cpu_nanoseconds();
+            for (int r = 0; r < repeats; ++r)
+              for (std::size_t i = 0; i < count; ++i) {
+                auto result = call(i);
+                asm volatile("" : : "r,m"(result) : "memory");
+              }
+            return (cpu_nanoseconds() - start) / (static_cast<double>(count) * repeats);
+          }};
+}
+
+double median(std::vector<double> v) {
+  std::nth_element(v.begin(), v.begin() + v.size() / 2, v.end());
+  return v[v.size() / 2];
+}
+
+void print(std::vector<Item>& items, int rounds) {
+  for (Item& it : items) it.round();  // warm
+  for (int r = 0; r < rounds; ++r)
+    for (Item& it : items) it.times.push_back(it.round());
+  std::printf("| piece | median | least |\n| --- | --- | --- |\n");
+  for (const Item& it : items)
+    std::printf("| %s | %.2f us | %.2f us |\n", it.name.c_str(), 1e-3 * median(it.times),
+                1e-3 * *std::min_element(it.times.begin(), it.times.end()));
+}
+
+struct Pair {
+  BodyState a, b;
+  Vector3d along, widest;  // axes of the plane of motion and of the largest opening a step before
+};
+
+/// Agent with the relative velocity of the engagement; it turns with its heading, the obstacle turns.
+Pair pair_of(const Engagement& e, const CombinedEllipsoid& a, const CombinedEllipsoid& b) {
+  Pair p;
+  p.a.shape = a;
+  p.b.shape = b;
+  p.a.position = a.center();
+  p.b.position = b.center();
+  p.b.velocity = 5 * e.motion.v_b;
+  p.a.velocity = p.b.velocity + 10 * e.w;
+  p.a.turning = Turning::with_heading;
+  p.b.omega = 0.1 * e.motion.omega_b;
+  return p;
+}
+
+std::vector<Pair> ellipsoid_pairs(int count) {
+  std::vector<Pair> all;
+  PlaneOptions options;
+  for (const Engagement& e : engagements(count)) {
+    Pair p = pair_of(e, e.a, e.b);
+    options.choice = PlaneChoice::of_motion;
+    p.along = *choose_plane(p.a, p.b, SectorMethod::exact, options);
+    options.choice = PlaneChoice::largest_opening;
+    p.widest = *choose_plane(advanced(p.a, -0.01), advanced(p.b, -0.01), SectorMethod::exact, options);
+    all.push_back(p);
+  }
+  return all;
+}
+
+void ellipsoid_table() {
+  constexpr int kPairs = 500, kRounds = 21;
+  const std::vector<Pair> pairs = ellipsoid_pairs(kPairs);
+  std::vector<Item> items;
+  const auto ellipsoid = [&](const BodyState& s) -> const Ellipsoid& {
+    return std::get<CombinedEllipsoid>(s.shape).ellipsoid();
+  };
+  items.push_back(item("exact_sector", kPairs, 4, [&](std::size_t i) {
+    return exact_sector(ellipsoid(pairs[i].a), ellipsoid(pairs[i].b), pairs[i].along).psi();
+  }));
+  const auto add_view = [&](const char* name, SectorMethod method, RateMethod rates) {
+    items.push_back(item(name, kPairs, 4, [&pairs, method, rates](std::size_t i) {
+      return plane_view(pairs[i].a, pairs[i].b, pairs[i].along, method, rates)->cone.psi;
+    }));
+  };
+  add_view("plane_view, true sector, no rates", SectorMethod::exact, RateMethod::none);
+  add_view("plane_view, true sector, rates", SectorMethod::exact, RateMethod::analytic);
+  add_view("plane_view, true sector, differenced", SectorMethod::exact, RateMethod::differenced);
+  add_view("plane_view, slices, no rates", SectorMethod::slice, RateMethod::none);
+  add_view("plane_view, slices, rates", SectorMethod::slice, RateMethod::analytic);
+  items.push_back(item("plane_view, true sector, rates, and avoidance()", kPairs, 4, [&](std::size_t i) {
+    const auto view =
+        plane_view(pairs[i].a, pairs[i].b, pairs[i].along, SectorMethod::exact, RateMethod::analytic);
+    return avoidance(view->state, view->cone, {}).a;
+  }));
+  for (const PlaneChoice choice :
+       {PlaneChoice::of_motion, PlaneChoice::largest_opening, PlaneChoice::least_turn, PlaneChoice::least_y,
+        PlaneChoice::wind_aware, PlaneChoice::steepest_clearance}) {
+    PlaneOptions options;
+    options.choice = choice;
+    options.wind = Vector3d(3, 0, 0);
+    items.push_back(
+        item(std::string("choose_plane, ") + to_string(choice), kPairs, 1, [&pairs, options](std::size_t i) {
+          return choose_plane(pairs[i].a, pairs[i].b, SectorMethod::exact, options)->x();
+        }));
+  }
+  items.push_back(
+      item("choose_plane, largest-opening, followed from 0.01 s before", kPairs, 4, [&](std::size_t i) {
+        return choose_plane(pairs[i].a, pairs[i].b, SectorMethod::exact, {}, &pairs[i].widest)->x();
+      }));
+  const auto add_step = [&](const char* name, PlaneChoice choice, SectorMethod method) {
+    GuideOptions options;
+    options.plane.choice = choice;
+    options.sector = method;
+    options.inversion.most = 15;
+    items.push_back(item(name, kPairs, 4, [&pairs, options](std::size_t i) {
+      GuideMemory memory;
+      memory.across = pairs[i].widest;
+      const auto step = guide(pairs[i].a, pairs[i].b, options, memory, 0);
+      return step ? step->a.x() : 0;
+    }));
+  };
+  add_step("guide(): true sector, plane of motion", PlaneChoice::of_motion, SectorMethod::exact);
+  add_step("guide(): true sector, largest opening followed", PlaneChoice::largest_opening,
+           SectorMethod::exact);
+  add_step("guide(): slices, largest opening followed", PlaneChoice::largest_opening, SectorMethod::slice);
+  std::printf("%d pairs of ellipsoids (benchmarks/pairs.h), %d rounds.\n\n", kPairs, kRounds);
+  print(items, kRounds);
+}
+
+void other_bodies_table() {
+  constexpr int kPairs = 20;
+  std::vector<Pair> dented, hulls;
+  const auto plain = engagements(kPairs);
+  const auto combined = combined_engagements(kPairs, Family::ellipsoid, Family::biconcave);
+  for (int i = 0; i < kPairs; ++i) {
+    dented.push_back(pair_of(plain[i], combined[i].a, combined[i].b));
+    Pair p = pair_of(plain[i], plain[i].a, plain[i].b);
+    std::vector<Vector3d> points;
+    Dice dice(static_cast<std::uint64_t>(i) + 1);
+    for (int k = 0; k < 12; ++k) points.push_back(plain[i].b.support_point(dice.direction()));
+    p.b.shape = HullBody(points);
+    hulls.push_back(p);
+  }
+  std::vector<Item> items;
+  const auto add = [&](const char* name, const std::vector<Pair>& pairs, SectorMethod method,
+                       RateMethod rates, int repeats) {
+    items.push_back(item(name, kPairs, repeats, [&pairs, method, rates](std::size_t i) {
+      const auto view =
+          plane_view(pairs[i].a, pairs[i].b, pairs[i].a.velocity.unitOrthogonal(), method, rates);
+      return view ? view->cone.psi : 0;
+    }));
+  };
+  add("biconcave, slices, rates", dented, SectorMethod::slice, RateMethod::analytic, 100);
+  add("biconcave, true sector", dented, SectorMethod::exact, RateMethod::none, 1);
+  add("biconcave, true sector, rates (differenced)", dented, SectorMethod::exact, RateMethod::analytic, 1);
+  add("hull of 12 points, slices, rates (differenced)", hulls, SectorMethod::slice, RateMethod::analytic, 20);
+  add("hull of 12 points, true sector", hulls, SectorMethod::exact, RateMethod::none, 5);
+  add("hull of 12 points, true sector, rates (differenced)", hulls, SectorMethod::exact, RateMethod::analytic,
+      5);
+  std::printf("\nOther obstacles, %d pairs, agent an ellipsoid, 5 rounds.\n\n", kPairs);
+  print(items, 5);
+}
+
+/// Of colliding pairs: on how many the chosen plane says that nothing is to be done.
+void hidden_collisions() {
+  constexpr int kPairs = 20000;
+  const auto all = engagements(kPairs, 0.2, 7);
+  constexpr PlaneChoice kChoices[] = {
+      PlaneChoice::largest_opening, PlaneChoice::least_turn,         PlaneChoice::least_y,
+      PlaneChoice::wind_aware,      PlaneChoice::steepest_clearance, PlaneChoice::of_motion};
+  int colliding = 0, hidden[2][6] = {};
+  for (const Engagement& e : all) {
+    const Pair p = pair_of(e, e.a, e.b);
+    if (ConeOracle(e.a, e.b).membership(p.a.velocity, p.b.velocity) != Membership::in) continue;
+    ++colliding;
+    for (const SectorMethod method : {SectorMethod::slice, SectorMethod::exact})
+      for (int k = 0; k < 6; ++k) {
+        PlaneOptions options;
+        options.choice = kChoices[k];
+        options.wind = Vector3d(3, 0, 0);
+        const auto across = choose_plane(p.a, p.b, method, options);
+        const auto view = plane_view(p.a, p.b, *across, method, RateMethod::none);
+        hidden[method == SectorMethod::exact][k] += !cone_rates(view->state, view->cone).colliding();
+      }
+  }
+  std::printf("\nOf %d colliding pairs of %d, those whose chosen plane shows no collision:\n\n", colliding,
+              kPairs);
+  std::printf("| choice | slices | true sector |\n| --- | --- | --- |\n");
+  for (int k = 0; k < 6; ++k)
+    std::printf("| %s | %d | %d |\n", to_string(kChoices[k]), hidden[0][k], hidden[1][k]);
+}
+
+}  // namespace
+}  // namespace vericone::benchmarks
+
+int main() {
+  vericone::benchmarks::ellipsoid_table();
+  vericone::benchmarks::other_bodies_table();
+  vericone::benchmarks::hidden_collisions();
+}
