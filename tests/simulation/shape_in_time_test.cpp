@@ -5,7 +5,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
-#include <random>
+
+#include "random.h"
 
 namespace vericone::simulation {
 namespace {
@@ -13,25 +14,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double uniform(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine_);
-  }
-  Vector3d vector(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
-  Matrix3d rotation() {
-    return Eigen::AngleAxisd(uniform(-3, 3), Vector3d(vector(1) + Vector3d(0, 0, 1e-3)).normalized())
-        .toRotationMatrix();
-  }
-  Matrix3d rotation_about_z() {
-    return Eigen::AngleAxisd(uniform(-3, 3), Vector3d::UnitZ()).toRotationMatrix();
-  }
-
- private:
-  std::mt19937 engine_;
-};
 
 Oscillation random_k(Random& random) {
   Oscillation k;

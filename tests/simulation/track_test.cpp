@@ -4,29 +4,14 @@
 #include <vericone/simulation/track.h>
 #include <Eigen/Geometry>
 #include <cmath>
-#include <random>
+
+#include "random.h"
 
 namespace vericone::simulation {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double uniform(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine_);
-  }
-  Vector3d vector(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
-  Matrix3d rotation() {
-    return Eigen::AngleAxisd(uniform(-3, 3), Vector3d(vector(1) + Vector3d(0, 0, 1e-3)).normalized())
-        .toRotationMatrix();
-  }
-
- private:
-  std::mt19937 engine_;
-};
 
 /// Closed form of the motion in its plane: speed linear in time, turning at lateral / speed. x' = s cos(chi)
 /// with s = s0 exp(chi / kappa), dt = s dchi / lateral, so x = s0^2 / lateral times the integral of exp(2 chi

@@ -63,6 +63,7 @@ Arc::Arc(const Motion& start, const Vector3d& acceleration, Orientation orientat
   }
   end_ = at(to_);
   most_turn_rate_ = turn_rate_bound();
+  bound_turn_acceleration();
 }
 
 void Arc::integrate() {
@@ -167,6 +168,21 @@ double Arc::turn_rate_bound() const {
       passes ? peak : std::max(std::abs(ahead_.z()), std::abs(end_.velocity.z()) / end_.velocity.norm());
   const double level = std::sqrt(std::max(0.0, 1 - most * most));
   return level > 1e-6 ? heading / level * kUp * (1 + 1e-9) : kJump;
+}
+
+// Turning about one axis at omega = lateral / s: |(omega x (omega x e)) + omega' x e| <= omega^2 + |omega'|.
+void Arc::bound_turn_acceleration() {
+  if (most_turn_rate_ == 0) return;
+  if (orientation_ == Orientation::level || carried_ < to_ - from_) {
+    most_turn_acceleration_ = std::numeric_limits<double>::infinity();
+    return;
+  }
+  const Vector3d axis = ahead_.cross(aside_);
+  first_turn_ = lateral_ / speed_ * axis;
+  last_turn_ = lateral_ / speed(carried_) * axis;
+  const double slowest = std::min(speed_, speed(carried_));
+  most_turn_acceleration_ = most_turn_rate_ * most_turn_rate_ +
+                            lateral_ * std::abs(longitudinal_) / (slowest * slowest) * (1 + 1e-12);
 }
 
 }  // namespace vericone::simulation

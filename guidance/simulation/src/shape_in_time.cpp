@@ -140,7 +140,8 @@ void require_about_origin(const Eigen::VectorXd& center) {
 /// surfaces are planes and the distance is linear, so it is largest at (a, b sqrt(k)) or b sqrt(1 + k).
 double dented_reach(double a, double b, const Oscillation& k) {
   const double most = std::min(always(k).high * kUp, 1.0);
-  return std::sqrt(std::max(a * a + b * b * most, b * b * (1 + most))) * kUp;
+  // A plain ellipsoid is not cut.
+  return std::sqrt(std::max(a * a * (1 + 2 * kPlain) + b * b * most, b * b * (1 + most))) * kUp;
 }
 
 }  // namespace

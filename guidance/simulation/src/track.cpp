@@ -60,8 +60,12 @@ Track::Bounds Track::bounds(double from, double to) const {
   do {
     bounds.acceleration = std::max(bounds.acceleration, arc->most_acceleration());
     bounds.turn_rate = std::max(bounds.turn_rate, arc->most_turn_rate());
+    bounds.turn_acceleration = std::max(bounds.turn_acceleration, arc->most_turn_acceleration());
+    const Vector3d& before = arc->last_turn();
     ++arc;
-  } while (arc != arcs_.end() && arc->from() < to);
+    if (arc == arcs_.end() || !(arc->from() < to)) break;
+    bounds.turn_jumps += (arc->first_turn() - before).norm();
+  } while (true);
   return bounds;
 }
 

@@ -51,6 +51,12 @@ class Arc {
   /// at once (a vertical velocity, a start that was not level).
   double most_acceleration() const { return most_acceleration_; }
   double most_turn_rate() const { return most_turn_rate_; }
+  /// Bound of |d2/dt2| of a direction that is fixed in the body, rad/s^2; infinite where it is not known
+  /// (level bodies that turn, a body that comes to rest).
+  double most_turn_acceleration() const { return most_turn_acceleration_; }
+  /// Angular velocity at the start and at the end, rad/s.
+  const Eigen::Vector3d& first_turn() const { return first_turn_; }
+  const Eigen::Vector3d& last_turn() const { return last_turn_; }
 
  private:
   /// In the plane of the arc, from its start: along and across the first velocity, metres, and the angle that
@@ -68,6 +74,7 @@ class Arc {
   double speed(double elapsed) const { return speed_ + longitudinal_ * elapsed; }
   Eigen::Matrix3d rotation(const InPlane& state, const Eigen::Vector3d& velocity) const;
   double turn_rate_bound() const;
+  void bound_turn_acceleration();
 
   Motion start_, end_;
   Eigen::Vector3d acceleration_;
@@ -78,7 +85,8 @@ class Arc {
   double speed_ = 0, longitudinal_ = 0, lateral_ = 0;
   double carried_ = 0;  // seconds, until when the acceleration is carried along
   InPlane last_;        // then
-  double most_acceleration_ = 0, most_turn_rate_ = 0;
+  double most_acceleration_ = 0, most_turn_rate_ = 0, most_turn_acceleration_ = 0;
+  Eigen::Vector3d first_turn_ = Eigen::Vector3d::Zero(), last_turn_ = Eigen::Vector3d::Zero();
   // The second step and all that follow: none in most arcs, which are as short as a step of guidance.
   std::shared_ptr<const std::vector<Step>> steps_;
 };
@@ -109,6 +117,9 @@ class Track {
   struct Bounds {
     double acceleration = 0;  // m/s^2
     double turn_rate = 0;     // rad/s
+    /// Of directions fixed in the body: |d2/dt2| within arcs, and the sum of the jumps of d/dt between them.
+    double turn_acceleration = 0;  // rad/s^2
+    double turn_jumps = 0;         // rad/s
   };
   Bounds bounds(double from, double to) const;
 

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "meeting.h"
+
+#include <vericone/cones/combined_cone.h>
+#include <vericone/cones/combined_sector.h>
+#include <vericone/cones/hull_oracle.h>
+#include <vericone/geometry/error.h>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace vericone::simulation {
+namespace {
+
+using Eigen::Vector3d;
+using guidance::Shape;
+
+/// Boxes of the search are refined to this part of the bodies.
+constexpr double kTolerance = 1e-8;
+
+struct Posed {
+  Shape a, b;
+};
+
+Posed posed(const MovingPair& pair, const Moment& m) {
+  return {shape_at(pair.a().shape(), m.t, m.a.position, m.a.rotation),
+          shape_at(pair.b().shape(), m.t, m.b.position, m.b.rotation)};
+}
+
+Posed posed_over(const MovingPair& pair, const Piece& piece) {
+  const Moment& m = piece.middle;
+  return {shape_over(pair.a().shape(), piece.from.t, piece.to.t, m.a.position, m.a.rotation),
+          shape_over(pair.b().shape(), piece.from.t, piece.to.t, m.b.position, m.b.rotation)};
+}
+
+Meeting of_relation(Relation relation) {
+  return relation == Relation::disjoint ? Meeting::apart : Meeting::meet;
+}
+
+Meeting meeting_of(const CombinedEllipse& a, const CombinedEllipse& b) {
+  if (a.is_ellipsoid() && b.is_ellipsoid()) return of_relation(relation<2>(a.ellipsoid(), b.ellipsoid()));
+  return of_relation(combined_sector(a, b).sector.relation);
+}
+
+Meeting meeting_of(const CombinedEllipsoid& a, const CombinedEllipsoid& b) {
+  if (a.is_ellipsoid() && b.is_ellipsoid()) return of_relation(relation<3>(a.ellipsoid(), b.ellipsoid()));
+  const std::optional<Relation> relation = CombinedOracle(a, b, kTolerance).relation();
+  return relation ? of_relation(*relation) : Meeting::unknown;
+}
+
+Meeting meeting_of(const HullBody& a, const HullBody& b) { return of_relation(HullOracle(a, b).relation()); }
+
+[[noreturn]] void refuse() {
+  throw InputError("bodies",
+                   "a hull and a body delimited by hyperboloids, or bodies of the plane and of space",
+                   "a pair with a certified predicate: an ellipsoid and any other, two delimited bodies, two "
+                   "hulls, or two bodies of the plane");
+}
+
+Meeting meeting_of(const CombinedEllipsoid& a, const HullBody& b) {
+  if (!a.is_ellipsoid()) refuse();
+  return of_relation(HullOracle(a.ellipsoid(), b).relation());
+}
+
+Meeting meeting_of(const HullBody& a, const CombinedEllipsoid& b) { return meeting_of(b, a); }
+
+template <typename A, typename B>
+Meeting meeting_of(const A&, const B&) {
+  refuse();
+}
+
+/// A body that contains all points within `distance` of the given one. The ellipsoid: of the ellipsoids
+/// (1 + 1/p) S + (1 + p) distance^2, which all contain the sum with the ball, one that fits round bodies. A
+/// delimiter: (y + e)^T M (y + e) <= level + 2 |e| |M y| + |e|^2 |M| with y in the ellipsoid.
+template <int D>
+BasicCombined<D> inflated(const BasicCombined<D>& body, double distance) {
+  using Matrix = Eigen::Matrix<double, D, D>;
+  constexpr double kUp = 1 + 1e-12;
+  const BasicEllipsoid<D>& e = body.ellipsoid();
+  const double p = std::sqrt(e.shape().trace() / D) / distance;
+  Matrix shape = (1 + 1 / p) * kUp * e.shape();
+  shape.diagonal().array() += (1 + p) * kUp * distance * distance;
+  const auto ellipsoid = BasicEllipsoid<D>::from_shape(e.center(), shape);
+  std::vector<Delimiter<D>> delimiters;
+  for (const Delimiter<D>& d : body.delimiters()) {
+    const double level =
+        (d.level + 2 * distance * (d.matrix * e.factor()).norm() + distance * distance * d.matrix.norm()) *
+        kUp;
+    const Matrix seen = ellipsoid.factor().transpose() * d.matrix * ellipsoid.factor();
+    const double most =
+        Eigen::SelfAdjointEigenSolver<Matrix>(0.5 * (seen + seen.transpose()), Eigen::EigenvaluesOnly)
+            .eigenvalues()(D - 1);
+    // One that hardly cuts any more is left out: the body only grows.
+    if (most > level * (1 + 1e-9)) delimiters.push_back({d.matrix, level});
+  }
+  return BasicCombined<D>::trusted(ellipsoid, std::move(delimiters));
+}
+
+template <int D>
+bool apart_by(const BasicCombined<D>& a, const BasicCombined<D>& b, double distance) {
+  const bool inflate_b = b.is_ellipsoid() || !a.is_ellipsoid();
+  return (inflate_b ? meeting_of(a, inflated<D>(b, distance)) : meeting_of(inflated<D>(a, distance), b)) ==
+         Meeting::apart;
+}
+
+bool has_delimiters(const Shape& shape) {
+  if (const auto* flat = std::get_if<CombinedEllipse>(&shape)) return !flat->is_ellipsoid();
+  if (const auto* body = std::get_if<CombinedEllipsoid>(&shape)) return !body->is_ellipsoid();
+  return false;
+}
+
+/// Below 1 inside, above 1 outside; hulls know no such function.
+double gauge(const Shape& shape, const Vector3d& x) {
+  if (const auto* flat = std::get_if<CombinedEllipse>(&shape))
+    return flat->gauge(Eigen::Vector2d(x.head<2>() - flat->center()));
+  const auto& body = std::get<CombinedEllipsoid>(shape);
+  return body.gauge(x - body.center());
+}
+
+/// Where the larger of both gauges is least, by a pattern search: a common point where there is one. The
+/// pattern turns at every step, as the larger of two functions has ridges.
+Vector3d by_gauges(const Posed& bodies, const Vector3d& p_a, const Vector3d& p_b, const Vector3d& guess,
+                   bool planar) {
+  const auto value = [&](const Vector3d& x) { return std::max(gauge(bodies.a, x), gauge(bodies.b, x)); };
+  const double size = (p_b - p_a).norm() + 1e-9;
+  Vector3d best = guess;
+  double least = value(best);
+  for (int start = 0; start < 8; ++start) {
+    Vector3d x = start == 7 ? guess : Vector3d(p_a + (start % 3 + 1) * 0.25 * (p_b - p_a));
+    if (start >= 3 && start < 7) x(start % (planar ? 2 : 3)) += (start % 2 ? 0.25 : -0.25) * size;
+    double here = value(x), angle = 0;
+    for (double step = 0.25 * size; step > 1e-9 * size;) {
+      angle += 2.4;  // no whole part of a turn
+      const Vector3d about =
+          planar ? Vector3d::UnitZ() : Vector3d(std::sin(angle / 3), std::cos(angle / 3), 0.6);
+      const Eigen::Matrix3d axes = Eigen::AngleAxisd(angle, about.normalized()).toRotationMatrix();
+      bool better = false;
+      for (int axis = 0; axis < (planar ? 2 : 3); ++axis)
+        for (const double sign : {step, -step}) {
+          const Vector3d next = x + sign * axes.col(axis);
+          if (const double v = value(next); v < here) {
+            x = next;
+            here = v;
+            better = true;
+          }
+        }
+      step *= better ? 1.2 : 0.8;
+    }
+    if (here < least) {
+      least = here;
+      best = x;
+    }
+  }
+  return best;
+}
+
+/// The middle of all that lies next to the supporting plane along n, and how much that is.
+std::pair<Vector3d, std::size_t> face(const Shape& shape, const Vector3d& position, const Vector3d& n) {
+  if (const auto* hull = std::get_if<HullBody>(&shape)) {
+    const double most = hull->support(n);
+    double size = 0;
+    for (const Vector3d& x : hull->points()) size = std::max(size, (x - position).norm());
+    Vector3d sum = Vector3d::Zero();
+    std::size_t count = 0;
+    for (const Vector3d& x : hull->points())
+      if (n.dot(x) > most - 1e-6 * size) {
+        sum += x;
+        ++count;
+      }
+    return {sum / static_cast<double>(count), count};
+  }
+  if (const auto* flat = std::get_if<CombinedEllipse>(&shape)) {
+    const Eigen::Vector2d p = flat->ellipsoid().support_point(n.head<2>());
+    return {Vector3d(p.x(), p.y(), 0), 1};
+  }
+  return {std::get<CombinedEllipsoid>(shape).ellipsoid().support_point(n), 1};
+}
+
+}  // namespace
+
+Meeting meeting(const MovingPair& pair, const Moment& moment) {
+  const Posed bodies = posed(pair, moment);
+  return std::visit([](const auto& a, const auto& b) { return meeting_of(a, b); }, bodies.a, bodies.b);
+}
+
+bool delimited(const MovingPair& pair, const Moment& moment) {
+  const Posed bodies = posed(pair, moment);
+  return has_delimiters(bodies.a) || has_delimiters(bodies.b);
+}
+
+std::optional<double> apart_by_inflation(const MovingPair& pair, const Piece& piece, double padding) {
+  const double dt = piece.duration();
+  const Track::Bounds a = pair.a().bounds(piece.from.t, piece.to.t),
+                      b = pair.b().bounds(piece.from.t, piece.to.t);
+  const Vector3d c = piece.middle.between();
+  const double chord = std::max((piece.from.between() - c).norm(), (piece.to.between() - c).norm());
+  const double from = piece.from.t, to = piece.to.t;
+  const double sway = pair.swept_a(from, to, piece.middle.a.rotation, half_turn(a, piece)).sway() +
+                      pair.swept_b(from, to, piece.middle.b.rotation, half_turn(b, piece)).sway();
+  const double needed = (chord + (a.acceleration + b.acceleration) * dt * dt / 8 + sway) * (1 + 1e-12) +
+                        padding + 1e-9 * (reach(pair.a().shape()) + reach(pair.b().shape()));
+  if (!std::isfinite(needed)) return std::nullopt;
+  const Posed bodies = posed_over(pair, piece);
+  const auto proved = [&](double distance) {
+    if (const auto* p = std::get_if<CombinedEllipse>(&bodies.a))
+      return apart_by<2>(*p, std::get<CombinedEllipse>(bodies.b), distance);
+    return apart_by<3>(std::get<CombinedEllipsoid>(bodies.a), std::get<CombinedEllipsoid>(bodies.b),
+                       distance);
+  };
+  if (!proved(needed)) return std::nullopt;
+  return proved(2 * needed) ? needed : 0;
+}
+
+Vector3d place_between(const MovingPair& pair, const Moment& moment, const Vector3d& normal) {
+  const Posed bodies = posed(pair, moment);
+  const bool hulls = std::holds_alternative<HullBody>(bodies.a) || std::holds_alternative<HullBody>(bodies.b);
+  const bool dents = has_delimiters(bodies.a) || has_delimiters(bodies.b);
+  Vector3d n = normal;
+  if (n.isZero(0)) n = moment.between();
+  if (n.isZero(0)) return moment.a.position;
+  n.normalize();
+  const auto [on_a, count_a] = face(bodies.a, moment.a.position, n);
+  const auto [on_b, count_b] = face(bodies.b, moment.b.position, -n);
+  if (hulls && count_a != count_b) return count_a < count_b ? on_a : on_b;
+  const Vector3d between = 0.5 * (on_a + on_b);
+  if (hulls || (!dents && !normal.isZero(0))) return between;
+  return by_gauges(bodies, moment.a.position, moment.b.position, between, pair.planar());
+}
+
+}  // namespace vericone::simulation

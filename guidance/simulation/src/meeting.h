@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Two bodies at one time: whether they meet, by exact or certified predicates.
+#pragma once
+
+#include <cstdint>
+
+#include "separation.h"
+
+namespace vericone::simulation {
+
+enum class Meeting : std::uint8_t {
+  apart,    // proved; of planar delimited bodies right up to rounding
+  meet,     // touching or overlapping, proved
+  unknown,  // nearer than the predicate resolves
+};
+
+/// The bodies as posed in doubles at that time. Throws InputError naming "bodies" for a pair without a
+/// predicate.
+Meeting meeting(const MovingPair& pair, const Moment& moment);
+
+/// Whether a body is not convex, so that planes do not tell all.
+bool delimited(const MovingPair& pair, const Moment& moment);
+
+/// For delimited bodies: proves that they stay farther apart than the bound returned, over a whole piece, by
+/// inflating one of them by all that both can move, turn and change meanwhile. Nothing where that fails.
+/// `padding`: what is added.
+std::optional<double> apart_by_inflation(const MovingPair& pair, const Piece& piece, double padding);
+
+/// A point near both bodies, where they meet or come nearest. `normal`: of a plane between them, if known.
+Eigen::Vector3d place_between(const MovingPair& pair, const Moment& moment, const Eigen::Vector3d& normal);
+
+}  // namespace vericone::simulation

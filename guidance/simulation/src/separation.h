@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Certificates that two moving bodies stay apart during a piece of time (docs/proof-of-runs.md).
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "swept_body.h"
+
+namespace vericone::simulation {
+
+/// Both bodies at one time.
+struct Moment {
+  double t = 0;
+  Motion a, b;
+  Eigen::Vector3d between() const { return b.position - a.position; }
+};
+
+/// Two tracks and what is known of them for all times.
+class MovingPair {
+ public:
+  MovingPair(const Track& a, const Track& b);
+
+  const Track& a() const { return *a_; }
+  const Track& b() const { return *b_; }
+  bool planar() const { return planar_; }
+  Moment at(double t) const { return {t, a_->motion(t), b_->motion(t)}; }
+  /// All shapes of [from, to] at a rotation, and turned from it by at most `angle`.
+  SweptBody swept_a(double from, double to, const Eigen::Matrix3d& rotation, double angle) const;
+  SweptBody swept_b(double from, double to, const Eigen::Matrix3d& rotation, double angle) const;
+
+ private:
+  const Track *a_, *b_;
+  double reach_a_, reach_b_;
+  bool planar_;
+};
+
+/// A piece of time with its ends and a time between.
+struct Piece {
+  Moment from, middle, to;
+  double duration() const { return to.t - from.t; }
+};
+
+struct Certificate {
+  /// A lower bound of the distance all over the piece, proved, metres; not above 0: none.
+  double bound = -1;
+  /// The same at the middle alone, there nearly the distance of the bodies' convex hulls. Not proved.
+  double gap = 0;
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // unit, from A towards B
+};
+
+/// Half of what a body turns during a piece; nothing in no time, whatever the bound says.
+double half_turn(const Track::Bounds& bounds, const Piece& piece);
+
+/// By planes: one normal n with n.x smaller on A than on B by the bound at all times of the piece. Deviations
+/// from the chord, turning and changes of shape are allowed for. `previous`: a normal worth trying, or zero.
+Certificate separate(const MovingPair& pair, const Piece& piece, const Eigen::Vector3d& previous);
+
+}  // namespace vericone::simulation

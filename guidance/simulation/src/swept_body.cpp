@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "swept_body.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+#include <variant>
+
+namespace vericone::simulation {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// What a support function can round, relative: sums of a dozen products, and for delimited bodies the
+// solution of a system whose eigenvalues are at least kLeastPivot of their mean.
+constexpr double kRoundingPlain = 1e-14;
+constexpr double kRoundingDelimited = 1e-8;
+constexpr double kLeastPivot = 1e-6;
+
+/// The body in space whose section by z = 0 is the planar one; as thick as the planar one is narrow.
+CombinedEllipsoid in_space(const CombinedEllipse& body) {
+  const Eigen::Matrix2d& f = body.ellipsoid().factor();
+  const Eigen::Vector2d axes = f.colwise().norm().transpose();
+  Matrix3d rotation = Matrix3d::Identity();
+  rotation.topLeftCorner<2, 2>() = f * axes.cwiseInverse().asDiagonal();
+  const auto ellipsoid = Ellipsoid::from_axes({body.center().x(), body.center().y(), 0},
+                                              {axes(0), axes(1), axes.minCoeff()}, rotation);
+  if (body.is_ellipsoid()) return ellipsoid;
+  std::vector<Delimiter<3>> delimiters;
+  for (const Delimiter<2>& d : body.delimiters()) {
+    Matrix3d m = Matrix3d::Zero();
+    m.topLeftCorner<2, 2>() = d.matrix;
+    delimiters.push_back({m, d.level});
+  }
+  return CombinedEllipsoid::trusted(ellipsoid, std::move(delimiters));
+}
+
+}  // namespace
+
+// With the ellipsoid as the unit ball, |u|^2 <= 1 and u^T A_i u <= level_i, so for lambda >= 0 the body is in
+// the ellipsoid u^T M u <= level with M = I + sum lambda_i A_i, level = 1 + sum lambda_i level_i.
+struct SweptBody::Multipliers {
+  Matrix3d inverse = Matrix3d::Identity();  // of M
+  double level = 1;
+};
+
+SweptBody::SweptBody(const ShapeInTime& shape, double reach, double from, double to, const Matrix3d& rotation,
+                     double angle)
+    : reach_(reach), angle_(angle) {
+  guidance::Shape posed = shape_over(shape, from, to, Vector3d::Zero(), rotation);
+  if (auto* flat = std::get_if<CombinedEllipse>(&posed)) {
+    body_ = in_space(*flat);
+  } else if (auto* body = std::get_if<CombinedEllipsoid>(&posed)) {
+    body_ = std::move(*body);
+  } else {
+    hull_ = std::move(std::get<HullBody>(posed));
+  }
+}
+
+double SweptBody::sway() const {
+  return angle_ < std::numbers::pi ? 2 * reach_ * std::sin(0.5 * angle_) : 2 * reach_;
+}
+
+double SweptBody::extent() const {
+  // All shapes of the piece together may reach farther than any one of them.
+  return hull() || body_.is_ellipsoid() ? reach_ : body_.ellipsoid().factor().norm() * (1 + kRoundingPlain);
+}
+
+SweptBody::Multipliers SweptBody::multipliers(const Vector3d& n) const {
+  Multipliers best;
+  const auto& delimiters = body_.delimiters();
+  if (delimiters.empty()) return best;
+  const Matrix3d& f = body_.ellipsoid().factor();
+  const Vector3d m = f.transpose() * n;
+  Matrix3d sum = Matrix3d::Identity();
+  double level = 1;
+  const auto value = [&](const Matrix3d& a, double bound) {
+    const Eigen::LLT<Matrix3d> llt(a - kLeastPivot / 3 * a.trace() * Matrix3d::Identity());
+    if (!(a.trace() > 0)) return std::numeric_limits<double>::infinity();
+    if (llt.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
+    // The shift changes the value less than it matters where the best multipliers are looked for.
+    return bound * m.dot(llt.solve(m));
+  };
+  // Any multipliers give a bound; they are improved one after the other.
+  const int rounds = delimiters.size() == 1 ? 1 : 3;
+  std::vector<double> lambda(delimiters.size(), 0.0);
+  for (int round = 0; round < rounds; ++round)
+    for (std::size_t i = 0; i < delimiters.size(); ++i) {
+      Matrix3d a = f.transpose() * delimiters[i].matrix * f;
+      a = 0.5 * (a + a.transpose()).eval();
+      const Matrix3d rest = sum - lambda[i] * a;
+      const double rest_level = level - lambda[i] * delimiters[i].level;
+      constexpr double kGolden = 0.6180339887498949;
+      const auto at = [&](double x) {
+        const double l = x / (1 - x);
+        return value(rest + l * a, rest_level + l * delimiters[i].level);
+      };
+      double lo = 0, hi = 1 - 1e-6;
+      double x = hi - kGolden * (hi - lo), y = lo + kGolden * (hi - lo), fx = at(x), fy = at(y);
+      for (int step = 0; step < 45; ++step) {
+        if (fx <= fy) {
+          hi = y, y = x, fy = fx;
+          x = hi - kGolden * (hi - lo), fx = at(x);
+        } else {
+          lo = x, x = y, fx = fy;
+          y = lo + kGolden * (hi - lo), fy = at(y);
+        }
+      }
+      if (at(lo) < value(sum, level)) {
+        lambda[i] = lo / (1 - lo);
+        sum = rest + lambda[i] * a;
+        level = rest_level + lambda[i] * delimiters[i].level;
+      }
+    }
+  best.inverse = sum.llt().solve(Matrix3d::Identity());
+  best.inverse = 0.5 * (best.inverse + best.inverse.transpose()).eval();
+  best.level = level;
+  return best;
+}
+
+// Over all normals within `angle` of n, rho^2 = n'^T S n' is at most
+//   cos^2 n^T S n + 2 sin cos |S n - n (n^T S n)| + sin^2 (largest eigenvalue of S),
+// which grows with the angle up to a quarter of a right angle and beyond.
+double SweptBody::turned(double squared, double across, double largest) const {
+  if (!(angle_ < std::numbers::pi / 4)) return reach_;
+  const double c = std::cos(angle_), s = std::sin(angle_);
+  return std::min(reach_,
+                  std::sqrt(c * c * squared + 2 * s * c * across + s * s * std::max(largest, squared)));
+}
+
+double SweptBody::support(const Vector3d& n) const {
+  if (hull()) {
+    // A point at the angle phi from n comes nearer by at most `angle`.
+    const double c = std::cos(angle_), s = std::sin(angle_);
+    double most = -std::numeric_limits<double>::infinity();
+    if (!(angle_ < std::numbers::pi / 2)) return reach_;
+    for (const Vector3d& x : hull_->points()) {
+      const double along = n.dot(x);
+      if (angle_ == 0) {
+        most = std::max(most, along);
+        continue;
+      }
+      const double length = x.norm(), across = (x - along * n).norm();
+      most = std::max(most, along > c * length ? length : c * along + s * across);
+    }
+    return std::min(most + kRoundingPlain * reach_, reach_);
+  }
+  const Matrix3d& f = body_.ellipsoid().factor();
+  const Vector3d m = f.transpose() * n;
+  if (body_.is_ellipsoid()) {
+    if (angle_ == 0) return m.norm() * (1 + kRoundingPlain);
+    const Vector3d image = f * m;
+    const double squared = m.squaredNorm();
+    return turned(squared, (image - squared * n).norm(), reach_ * reach_) * (1 + kRoundingPlain);
+  }
+  const Multipliers multipliers = this->multipliers(n);
+  const Vector3d inside = multipliers.inverse * m;
+  const double squared = multipliers.level * m.dot(inside);
+  if (angle_ == 0) return std::sqrt(squared) * (1 + kRoundingDelimited);
+  const Vector3d image = multipliers.level * (f * inside);
+  const double trace = multipliers.level * (f * multipliers.inverse * f.transpose()).trace();
+  return turned(squared, (image - squared * n).norm(), trace) * (1 + kRoundingDelimited);
+}
+
+Vector3d SweptBody::support_point(const Vector3d& n) const {
+  if (hull()) {
+    const auto& points = hull_->points();
+    return *std::max_element(points.begin(), points.end(),
+                             [&](const Vector3d& x, const Vector3d& y) { return n.dot(x) < n.dot(y); });
+  }
+  return around(n).support_point(n);
+}
+
+Ellipsoid SweptBody::around(const Vector3d& n) const {
+  if (body_.is_ellipsoid()) return body_.ellipsoid();
+  const Multipliers multipliers = this->multipliers(n);
+  const Matrix3d root = multipliers.inverse.llt().matrixL();
+  const Matrix3d factor = std::sqrt(multipliers.level) * (body_.ellipsoid().factor() * root);
+  const Eigen::JacobiSVD<Matrix3d> svd(factor, Eigen::ComputeFullU);
+  Matrix3d directions = svd.matrixU();
+  if (directions.determinant() < 0) directions.col(0) = -directions.col(0);
+  return Ellipsoid::from_axes(Vector3d::Zero(), svd.singularValues(), directions);
+}
+
+}  // namespace vericone::simulation
