@@ -7,30 +7,61 @@
 namespace vericone::guidance {
 namespace {
 
-/// Below the least normal number the direction of V is not known.
-bool at_rest(const PlanarState& s) {
-  return !(std::hypot(s.v_r, s.v_theta) >= std::numeric_limits<double>::min());
-}
+/// The relative velocity's size and direction, and how accelerations turn it.
+struct RelativeMotion {
+  double speed, radial = 0, across = 0;  // V = speed (radial, across)
+  double by_lateral_a = 0, by_longitudinal_a = 0, by_lateral_b = 0, by_longitudinal_b = 0;  // rad/s per m/s^2
+  // Of A's accelerations on |V|.
+  double faster_by_lateral_a = 0, faster_by_longitudinal_a = 0;
 
-double relative_speed(const PlanarState& s) { return std::hypot(s.v_r, s.v_theta); }
+  explicit RelativeMotion(const PlanarState& s) : speed(std::hypot(s.v_r, s.v_theta)) {
+    if (at_rest()) return;
+    radial = s.v_r / speed;
+    across = s.v_theta / speed;
+    const double sine_a = std::sin(s.alpha - s.theta), cosine_a = std::cos(s.alpha - s.theta);
+    const double sine_b = std::sin(s.beta - s.theta), cosine_b = std::cos(s.beta - s.theta);
+    // V_r', V_theta' per acceleration: (5.8), (5.13), (5.15).
+    by_lateral_a = turning(sine_a, -cosine_a);
+    by_longitudinal_a = turning(-cosine_a, -sine_a);
+    by_lateral_b = turning(-sine_b, cosine_b);
+    by_longitudinal_b = turning(cosine_b, sine_b);
+    faster_by_lateral_a = radial * sine_a - across * cosine_a;
+    faster_by_longitudinal_a = -(radial * cosine_a + across * sine_a);
+  }
 
-/// How much an acceleration of V by (radial, across) turns V, rad/s.
-double turning(const PlanarState& s, double radial, double across) {
-  const double speed = relative_speed(s);
-  return (s.v_r / speed * across - s.v_theta / speed * radial) / speed;
-}
+  /// Below the least normal number the direction of V is not known.
+  bool at_rest() const { return !(speed >= std::numeric_limits<double>::min()); }
+  /// How much V turns where its components change at these rates, rad/s.
+  double turning(double v_r_rate, double v_theta_rate) const {
+    return (radial * v_theta_rate - across * v_r_rate) / speed;
+  }
+};
 
-double turning_by_lateral_a(const PlanarState& s) {
-  return turning(s, std::sin(s.alpha - s.theta), -std::cos(s.alpha - s.theta));
-}
-double turning_by_lateral_b(const PlanarState& s) {
-  return turning(s, -std::sin(s.beta - s.theta), std::cos(s.beta - s.theta));
-}
-double turning_by_longitudinal_a(const PlanarState& s) {
-  return turning(s, -std::cos(s.alpha - s.theta), -std::sin(s.alpha - s.theta));
-}
-double turning_by_longitudinal_b(const PlanarState& s) {
-  return turning(s, std::cos(s.beta - s.theta), std::sin(s.beta - s.theta));
+/// cone_rates() with the motion at hand.
+ConeRates rates_of(const PlanarState& s, const RelativeMotion& v, const PlaneCone& cone) {
+  ConeRates f;
+  const double half = std::sin(cone.psi / 2);
+  f.y = -half * half;
+  if (v.at_rest()) return f;
+  const double cosine = std::cos(s.theta - cone.theta_b), sine = std::sin(s.theta - cone.theta_b);
+  // (5.9) as corrected: the printed matrix is transposed. (5.10) is y = sin^2(lambda) - sin^2(psi / 2),
+  // lambda the angle from the bisector to V. Its only partial derivatives are those by the direction of V
+  // less that of the bisector, and by psi.
+  const double cosine_lambda = v.radial * cosine - v.across * sine,
+               sine_lambda = v.radial * sine + v.across * cosine;
+  f.v_r_hat = v.speed * cosine_lambda;
+  f.v_theta_hat = v.speed * sine_lambda;
+  f.y = sine_lambda * sine_lambda - half * half;
+  const double by_turning = 2 * sine_lambda * cosine_lambda, by_opening = -0.5 * std::sin(cone.psi);
+
+  // (5.11). Along (5.8) without inputs V keeps its direction; on a moving plane it does not.
+  const double moving_plane = v.turning(s.v_normal * s.v_normal / s.r, s.plane_spin * s.v_normal);
+  f.drift = by_turning * (moving_plane - cone.theta_b_rate) + by_opening * cone.psi_rate;
+  f.by_lateral_a = by_turning * (v.by_lateral_a - cone.theta_b_rate_by_a) + by_opening * cone.psi_rate_by_a;
+  f.by_lateral_b = by_turning * (v.by_lateral_b - cone.theta_b_rate_by_b) + by_opening * cone.psi_rate_by_b;
+  f.by_longitudinal_a = by_turning * v.by_longitudinal_a;
+  f.by_longitudinal_b = by_turning * v.by_longitudinal_b;
+  return f;
 }
 
 /// y' = -K (y - w) as an equation for the inputs: by_inputs = needed.
@@ -38,21 +69,21 @@ double needed(const ConeRates& f, const LawOptions& options) {
   return -options.gain * (f.y - options.reference) - f.drift;
 }
 
-/// What one lateral acceleration can have as effect on y': turning V by 1 / |V|, turning A's body by these.
-double largest_effect(const PlanarState& s, double psi_rate_by, double theta_b_rate_by, double sin_psi) {
-  const double by_turning = at_rest(s) ? 0 : 1 / relative_speed(s);
-  return by_turning + std::abs(theta_b_rate_by) + 0.5 * std::abs(sin_psi * psi_rate_by);
+/// What one lateral acceleration can have as effect on y': turning V by 1 / |V|, turning its body by these.
+double largest_effect(const RelativeMotion& v, double psi_rate_by, double theta_b_rate_by) {
+  const double by_turning = v.at_rest() ? 0 : 1 / v.speed;
+  return by_turning + std::abs(theta_b_rate_by) + 0.5 * std::abs(psi_rate_by);
 }
-double largest_effect_a(const PlanarState& s, const PlaneCone& c) {
-  return largest_effect(s, c.psi_rate_by_a, c.theta_b_rate_by_a, std::sin(c.psi));
+double largest_effect_a(const RelativeMotion& v, const PlaneCone& c) {
+  return largest_effect(v, c.psi_rate_by_a, c.theta_b_rate_by_a);
 }
-double largest_effect_b(const PlanarState& s, const PlaneCone& c) {
-  return largest_effect(s, c.psi_rate_by_b, c.theta_b_rate_by_b, std::sin(c.psi));
+double largest_effect_b(const RelativeMotion& v, const PlaneCone& c) {
+  return largest_effect(v, c.psi_rate_by_b, c.theta_b_rate_by_b);
 }
 
 /// Why inputs are without effect.
-LawStatus without_effect(const PlanarState& s, const ConeRates& f, const LawOptions& options) {
-  const bool on_bisector = std::abs(f.v_theta_hat) <= options.effect * relative_speed(s);
+LawStatus without_effect(const RelativeMotion& v, const ConeRates& f, const LawOptions& options) {
+  const bool on_bisector = std::abs(f.v_theta_hat) <= options.effect * v.speed;
   return on_bisector ? LawStatus::on_bisector : LawStatus::ineffective;
 }
 
@@ -73,18 +104,18 @@ struct RatioCommand {
   LawStatus status = LawStatus::clear;
 };
 
-RatioCommand avoid(const PlanarState& s, const ConeRates& f, const LawOptions& options, double ratio,
+RatioCommand avoid(const RelativeMotion& v, const ConeRates& f, const LawOptions& options, double ratio,
                    double effect, double largest) {
   RatioCommand command;
   const double greater = std::max(1.0, std::abs(ratio));  // of both accelerations in parts of a
-  if (at_rest(s)) {
+  if (v.at_rest()) {
     command.status = LawStatus::no_relative_velocity;
   } else if (f.y >= options.cease) {
     command.status = LawStatus::clear;
   } else if (f.v_r_hat >= 0) {
     command.status = LawStatus::receding;
   } else if (std::abs(effect) <= options.effect * largest) {
-    command.status = without_effect(s, f, options);
+    command.status = without_effect(v, f, options);
     command.a = command.demanded = the_most(options) / greater;
   } else {
     command.demanded = needed(f, options) / effect;
@@ -101,10 +132,10 @@ struct Shares {
   double a = 1, b = 0;
 };
 
-Shares shares_on_bisector(const PlanarState& s, LawStatus status, const LawOptions& options) {
-  const double a = turning_by_lateral_a(s), b = turning_by_lateral_b(s);
+Shares shares_on_bisector(const RelativeMotion& v, LawStatus status, const LawOptions& options) {
+  const double a = v.by_lateral_a, b = v.by_lateral_b;
   const double greater = std::max(std::abs(a), std::abs(b));
-  if (status != LawStatus::on_bisector || greater * relative_speed(s) <= options.effect) return {};
+  if (status != LawStatus::on_bisector || greater * v.speed <= options.effect) return {};
   const double divisor = a < 0 ? -greater : greater;
   return {a / divisor, b / divisor};
 }
@@ -131,38 +162,16 @@ const char* to_string(LawStatus status) {
   return "?";
 }
 
-ConeRates cone_rates(const PlanarState& s, const PlaneCone& cone) {
-  ConeRates f;
-  const double half = std::sin(cone.psi / 2);
-  f.y = -half * half;
-  if (at_rest(s)) return f;
-  const double cosine = std::cos(s.theta - cone.theta_b), sine = std::sin(s.theta - cone.theta_b);
-  f.v_r_hat = s.v_r * cosine - s.v_theta * sine;  // (5.9) as corrected: the printed matrix is transposed
-  f.v_theta_hat = s.v_r * sine + s.v_theta * cosine;
-  const double speed = relative_speed(s);
-  // (5.10) is y = sin^2(lambda) - sin^2(psi / 2), lambda the angle from the bisector to V. Its only partial
-  // derivatives are those by the direction of V less that of the bisector, and by psi.
-  const double sine_lambda = f.v_theta_hat / speed, cosine_lambda = f.v_r_hat / speed;
-  f.y = sine_lambda * sine_lambda - half * half;
-  const double by_turning = 2 * sine_lambda * cosine_lambda, by_opening = -0.5 * std::sin(cone.psi);
-
-  // (5.11). Along (5.8) without inputs V keeps its direction; on a moving plane it does not.
-  const double moving_plane = turning(s, s.v_normal * s.v_normal / s.r, s.plane_spin * s.v_normal);
-  f.drift = by_turning * (moving_plane - cone.theta_b_rate) + by_opening * cone.psi_rate;
-  f.by_lateral_a =
-      by_turning * (turning_by_lateral_a(s) - cone.theta_b_rate_by_a) + by_opening * cone.psi_rate_by_a;
-  f.by_lateral_b =
-      by_turning * (turning_by_lateral_b(s) - cone.theta_b_rate_by_b) + by_opening * cone.psi_rate_by_b;
-  f.by_longitudinal_a = by_turning * turning_by_longitudinal_a(s);
-  f.by_longitudinal_b = by_turning * turning_by_longitudinal_b(s);
-  return f;
+ConeRates cone_rates(const PlanarState& state, const PlaneCone& cone) {
+  return rates_of(state, RelativeMotion(state), cone);
 }
 
 LawCommand avoidance(const PlanarState& state, const PlaneCone& cone, const LawOptions& options) {
   LawCommand command;
-  command.rates = cone_rates(state, cone);
+  const RelativeMotion v(state);
+  command.rates = rates_of(state, v, cone);
   const RatioCommand of_a =
-      avoid(state, command.rates, options, 0, command.rates.by_lateral_a, largest_effect_a(state, cone));
+      avoid(v, command.rates, options, 0, command.rates.by_lateral_a, largest_effect_a(v, cone));
   command.a = of_a.a;
   command.demanded = of_a.demanded;
   command.status = of_a.status;
@@ -172,9 +181,10 @@ LawCommand avoidance(const PlanarState& state, const PlaneCone& cone, const LawO
 CooperativeCommand cooperative_avoidance(const PlanarState& state, const PlaneCone& cone,
                                          const LawOptions& options, double mu) {
   CooperativeCommand command;
-  command.rates = cone_rates(state, cone);
-  const double largest = largest_effect_a(state, cone) + std::abs(mu) * largest_effect_b(state, cone);
-  const RatioCommand of_a = avoid(state, command.rates, options, mu,
+  const RelativeMotion v(state);
+  command.rates = rates_of(state, v, cone);
+  const double largest = largest_effect_a(v, cone) + std::abs(mu) * largest_effect_b(v, cone);
+  const RatioCommand of_a = avoid(v, command.rates, options, mu,
                                   command.rates.by_lateral_a + mu * command.rates.by_lateral_b, largest);
   command.a = of_a.a;
   command.b = mu * of_a.a;
@@ -187,17 +197,18 @@ CooperativeCommand cooperative_avoidance(const PlanarState& state, const PlaneCo
 CooperativeCommand cooperative_rendezvous(const PlanarState& state, const PlaneCone& cone,
                                           const LawOptions& options) {
   CooperativeCommand command;
-  command.rates = cone_rates(state, cone);
+  const RelativeMotion v(state);
+  command.rates = rates_of(state, v, cone);
   const ConeRates& f = command.rates;
-  if (at_rest(state) || f.v_r_hat >= 0) {
-    command.status = at_rest(state) ? LawStatus::no_relative_velocity : LawStatus::receding;
+  if (v.at_rest() || f.v_r_hat >= 0) {
+    command.status = v.at_rest() ? LawStatus::no_relative_velocity : LawStatus::receding;
     return command;
   }
   const double effect = std::hypot(f.by_lateral_a, f.by_lateral_b);
-  const double largest = std::hypot(largest_effect_a(state, cone), largest_effect_b(state, cone));
+  const double largest = std::hypot(largest_effect_a(v, cone), largest_effect_b(v, cone));
   if (effect <= options.effect * largest) {
-    command.status = without_effect(state, f, options);
-    const Shares shares = shares_on_bisector(state, command.status, options);
+    command.status = without_effect(v, f, options);
+    const Shares shares = shares_on_bisector(v, command.status, options);
     command.a = command.demanded_a = the_most(options) * shares.a;
     command.b = command.demanded_b = the_most(options) * shares.b;
     return command;
@@ -216,25 +227,25 @@ CooperativeCommand cooperative_rendezvous(const PlanarState& state, const PlaneC
 MatchingCommand matching_rendezvous(const PlanarState& state, const PlaneCone& cone,
                                     const LawOptions& options, double gain_speed) {
   MatchingCommand command;
-  command.rates = cone_rates(state, cone);
+  const RelativeMotion v(state);
+  command.rates = rates_of(state, v, cone);
   const ConeRates& f = command.rates;
-  if (at_rest(state)) {
+  if (v.at_rest()) {
     command.status = LawStatus::no_relative_velocity;
     return command;
   }
-  const double speed = relative_speed(state), x = state.v_r / speed, z = state.v_theta / speed;
-  command.speed_squared = speed * speed;
-  // (5.17) divided by 2 |V|: the rate of |V|, x V_r' + z V_theta', is to be -K_2 |V| / 2.
-  const double sine = std::sin(state.alpha - state.theta), cosine = std::cos(state.alpha - state.theta);
-  const double by_lateral = x * sine - z * cosine, by_longitudinal = -(x * cosine + z * sine);
-  const double of_plane = state.v_normal * (x * state.v_normal / state.r + z * state.plane_spin);
-  const double needed_speed = -0.5 * gain_speed * speed - of_plane;
+  command.speed_squared = v.speed * v.speed;
+  // (5.17) divided by 2 |V|: |V|' is to be -K_2 |V| / 2.
+  const double by_lateral = v.faster_by_lateral_a, by_longitudinal = v.faster_by_longitudinal_a;
+  const double of_plane =
+      state.v_normal * (v.radial * state.v_normal / state.r + v.across * state.plane_spin);
+  const double needed_speed = -0.5 * gain_speed * v.speed - of_plane;
   const double determinant = f.by_lateral_a * by_longitudinal - f.by_longitudinal_a * by_lateral;
   bool both = false;
   if (f.v_r_hat >= 0) {
     command.status = LawStatus::receding;
-  } else if (std::abs(determinant) <= options.effect * largest_effect_a(state, cone)) {
-    command.status = without_effect(state, f, options);
+  } else if (std::abs(determinant) <= options.effect * largest_effect_a(v, cone)) {
+    command.status = without_effect(v, f, options);
   } else {
     command.status = LawStatus::steering;
     both = true;
