@@ -36,7 +36,7 @@ if planar:
     space.set_xlabel("x (m)")
     space.set_ylabel("y (m)")
 else:
-    space = figure.add_axes([-0.01, 0.02, 0.52, 0.88], projection="3d")
+    space = figure.add_axes([0.0, 0.02, 0.53, 0.88], projection="3d")
     extent = []
     for name, columns in bodies.items():
         way = np.stack([columns[c] for c in "xyz"], axis=-1)
@@ -55,11 +55,14 @@ else:
                 extent.append(points.reshape(-1, 3))
         space.text(*way[0], name, fontsize=7)
     extent = np.vstack(extent)
-    space.set_box_aspect(np.ptp(extent, axis=0))
+    sides = np.maximum(np.ptp(extent, axis=0), 0.25 * np.ptp(extent, axis=0).max())
+    middle_point = (extent.min(axis=0) + extent.max(axis=0)) / 2
+    space.set_box_aspect(sides, zoom=0.95)
     for name, i in (("x", 0), ("y", 1), ("z", 2)):
-        getattr(space, "set_%slim" % name)(extent[:, i].min(), extent[:, i].max())
-        getattr(space, "set_%slabel" % name)("%s (m)" % name, labelpad=-4)
+        getattr(space, "set_%slim" % name)(middle_point[i] - sides[i] / 2, middle_point[i] + sides[i] / 2)
+        getattr(space, "set_%slabel" % name)("%s (m)" % name, labelpad=-4 if i < 2 else -7)
     space.tick_params(pad=-2, labelsize=6)
+    space.tick_params(axis="z", pad=0)
     space.locator_params(nbins=5)
 figure.text(0.01, 0.985, "%s: %s%s" % (run["scenario"], run["verdict"], "" if run["verdict"] == "undecided" else ", proved"),
             fontsize=9, va="top")
@@ -76,7 +79,7 @@ for i, ((agent, obstacle), columns) in enumerate(encounters.items()):
         upper.plot(columns["t"], columns["y"], color=color, label=label)
     middle.plot(columns["t"], columns["m"], color=color, label=label)
 if has_y:
-    upper.set_ylabel("cone function y (1)")
+    upper.set_ylabel("y, plane chosen (1)")
 middle.set_ylabel("miss distance m (m)")
 lower.set_ylabel("lateral accel. (m/s²)" if planar else "acceleration (m/s²)")
 lower.set_xlabel("time (s)")

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 constexpr double kSlowest = 5, kFastest = 15;  // m/s
 constexpr double kLeastClosing = 3;            // m/s, of the relative velocity
 /// Squared offset of the aim, uniform up to this, in parts of the squared extent of both bodies across.
-constexpr double kFarthestAim = 1.5;
+constexpr double kFarthestAim = 1.85;
 
 simulation::Body body(const char* name, const Ellipsoid& ellipsoid, const Vector3d& velocity) {
   simulation::Body result;

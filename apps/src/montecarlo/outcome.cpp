@@ -6,6 +6,7 @@
 #include <vericone/guidance/plane_view.h>
 #include <vericone/simulation/run.h>
 #include <algorithm>
+#include <cmath>
 
 namespace vericone::montecarlo {
 namespace {
@@ -32,20 +33,23 @@ void settle(const PairProof& proof, const Track& a, const Track& b, double end, 
       std::min(proof.least_distance, clearance_ahead(oracle, at_a.velocity, at_b.velocity));
 }
 
-/// Whether the law wants nothing. A sample without a cone, of bodies that its sections see overlap, says
-/// nothing.
-bool says_safe(const EncounterSample& sample, const GuideOptions& guide) {
-  if (sample.step.status == LawStatus::receding) return true;
-  return sample.step.status == LawStatus::clear && (sample.cone || guide.law == guidance::Law::clearance);
+/// What the law says of the tracks at the last command not after `until`: nothing need be done. Where it sees
+/// no cone, because the sections overlap, it says nothing.
+bool last_word_safe(const Run& run, const GuideOptions& guide, double step, double until) {
+  double k = std::floor(until / step);
+  if (k * step > until) --k;
+  guidance::GuideMemory memory;
+  const double t = std::max(k, 0.0) * step;
+  const auto said = guidance::guide(run.tracks[0].state(t), run.tracks[1].state(t), guide, memory, t);
+  return said && (said->status == LawStatus::clear || said->status == LawStatus::receding);
 }
 
-Outcome judge(const Run& run, const GuideOptions& guide) {
+Outcome judge(const Run& run, const GuideOptions& guide, double step) {
   Outcome outcome;
   const PairProof& proof = run.proofs.front().proof;
   settle(proof, run.tracks[0], run.tracks[1], run.end, outcome);
   const double until = outcome.fate == Fate::met ? proof.from : run.end;
-  for (const EncounterSample& sample : run.encounters)
-    if (sample.t <= until) outcome.called_safe = says_safe(sample, guide);
+  outcome.called_safe = last_word_safe(run, guide, step, until);
   for (const Arc& arc : run.tracks[0].arcs())
     if (arc.from() <= until) outcome.peak = std::max(outcome.peak, arc.most_acceleration());
   for (const Event& event : run.events)
@@ -109,13 +113,15 @@ Outcome fly(const Encounter& encounter, const Flown& law, const FlightSettings& 
   scenario.step = settings.step;
   scenario.bodies = {encounter.agent, encounter.obstacle};
   scenario.bodies[0].pilot = Pilot{law.guide, {}, {}, {}};
+  RunOptions options;
+  options.log = false;
   // A run ends when the centres have passed. Long bodies may still be on course to meet then: it goes on.
   scenario.stop_when_passed = true;
   scenario.duration = 4 * encounter.scale() + 2;
-  Outcome outcome = judge(simulate(scenario), law.guide);
+  Outcome outcome = judge(simulate(scenario, options), law.guide, settings.step);
   scenario.stop_when_passed = false;
   for (int i = 0; i < 3 && outcome.fate == Fate::undecided; ++i, scenario.duration *= 2)
-    outcome = judge(simulate(scenario), law.guide);
+    outcome = judge(simulate(scenario, options), law.guide, settings.step);
   return outcome;
 }
 

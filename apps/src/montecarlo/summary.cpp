@@ -48,11 +48,9 @@ Json count(const std::vector<Row>& rows, Of of) {
           {"least_distances", histogram}};
 }
 
-/// Laws whose word is a theorem about the straight flight that follows it.
+/// Laws whose word is a theorem about the straight flight that follows it: they ask the true cone, or m.
 bool word_is_proof(const Flown& law) {
-  return law.guide.law == guidance::Law::clearance ||
-         (law.guide.sector == guidance::SectorMethod::exact &&
-          law.guide.plane.choice == guidance::PlaneChoice::of_motion);
+  return law.guide.law == guidance::Law::clearance || law.guide.sector == guidance::SectorMethod::exact;
 }
 
 }  // namespace
