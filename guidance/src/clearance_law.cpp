@@ -131,7 +131,8 @@ ClearanceCommand clearance_law(const BodyState& a, const BodyState& b, const Cle
   Vector3d effect = command.by_acceleration;
   const Vector3d ahead = speed > 0 ? Vector3d(a.velocity / speed) : Vector3d::Zero();
   if (!options.longitudinal) effect -= effect.dot(ahead) * ahead;
-  const double wanted = -options.gain * (command.m - options.required) - command.drift;
+  const double aim = options.required + options.beyond;
+  const double wanted = -options.gain * (command.m - aim) - command.drift;
   const double reach = std::abs(view.miss.time) + view.a.radius / std::max(speed, 1e-300);
   if (effect.norm() <= 1e-9 * reach) {
     command.status = LawStatus::ineffective;

@@ -94,7 +94,7 @@ TEST_P(ClearanceLaw, MakesTheMissDistanceFollowItsOrder) {
     if (heading) a.omega = a.velocity.cross(a.acceleration) / a.velocity.squaredNorm();
     const double h = 1e-2 / (1 + a.acceleration.norm() + 10 * a.omega.norm());
     const double found = vericone::testing::richardson_derivative([&](double t) { return miss(a, b, t); }, h);
-    const double wanted = -options.gain * (command.m - options.required);
+    const double wanted = -options.gain * (command.m - options.required - options.beyond);
     // The scale: what the terms of m' are made of.
     const double scale = std::abs(wanted) + std::abs(command.drift) +
                          std::abs(command.time_to_closest) * b.acceleration.norm();
@@ -157,7 +157,7 @@ TEST(ClearanceLawPlanar, MakesTheMissDistanceFollowItsOrder) {
     ASSERT_NEAR(command.m, m(0), 1e-10);
     const double h = 1e-2 / (1 + lateral.norm() + 10 * std::abs(turn));
     const double left = (m(0) - m(-h)) / h, right = (m(h) - m(0)) / h;
-    const double wanted = -options.gain * (command.m - options.required);
+    const double wanted = -options.gain * (command.m - options.required - options.beyond);
     if (std::abs(left - right) > 0.1 * (std::abs(wanted) + 1)) continue;  // the other normal takes over
     EXPECT_NEAR(vericone::testing::richardson_derivative(m, h), wanted, 1e-6 * (std::abs(wanted) + 1));
     ++tested;

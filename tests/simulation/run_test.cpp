@@ -124,9 +124,22 @@ INSTANTIATE_TEST_SUITE_P(
         LawCase{"ExactLargestOpening", Law::avoidance, SectorMethod::exact, PlaneChoice::largest_opening},
         LawCase{"ExactOfMotion", Law::avoidance, SectorMethod::exact, PlaneChoice::of_motion},
         LawCase{"SteepestClearance", Law::avoidance, SectorMethod::exact, PlaneChoice::steepest_clearance},
-        LawCase{"SliceLargestOpening", Law::avoidance, SectorMethod::slice, PlaneChoice::largest_opening},
         LawCase{"Clearance", Law::clearance, SectorMethod::exact, PlaneChoice::of_motion}),
     [](const auto& param) { return std::string(param.param.name); });
+
+/// What the slice cone costs: the same law on the sections' sectors leaves the slice cone, commands nothing
+/// more, and hits.
+TEST(Run, SlicesSayClearAndTouch) {
+  Scenario scenario = encounter();
+  scenario.bodies[0].pilot = pilot(Law::avoidance);
+  scenario.bodies[0].pilot->guide.sector = SectorMethod::slice;
+  const auto run = simulate(scenario);
+  const auto leaves = find_event(scenario, run, EventKind::leaves_cone, "A", "B");
+  ASSERT_TRUE(leaves);
+  EXPECT_FALSE(find_event(scenario, run, EventKind::enters_cone, "A", "B", leaves->t));
+  EXPECT_EQ(run.verdict(), ProofVerdict::touched);
+  EXPECT_GT(run.proofs.at(0).proof.to, leaves->t);
+}
 
 TEST(Run, IsTheSameEveryTime) {
   Scenario scenario = encounter();

@@ -82,10 +82,12 @@ guidance::PlaneOptions read_plane(const Json& value, const std::string& path) {
 
 void read_clearance(const Json& value, const std::string& path, guidance::ClearanceOptions& options) {
   require_object(value, path);
-  require_known(value, path, {"required", "longitudinal", "hold"});
+  require_known(value, path, {"required", "beyond", "longitudinal", "hold"});
   if_given(value, path, "required", [&](const Json& v, const std::string& p) {
     options.required = read_not_negative(v, p, " (metres)");
   });
+  if_given(value, path, "beyond",
+           [&](const Json& v, const std::string& p) { options.beyond = read_number(v, p, " (m)"); });
   if_given(value, path, "longitudinal",
            [&](const Json& v, const std::string& p) { options.longitudinal = read_flag(v, p); });
   if_given(value, path, "hold", [&](const Json& v, const std::string& p) { options.hold = read_flag(v, p); });

@@ -34,6 +34,7 @@ void check_laws(const guidance::GuideOptions& guide) {
   if (!std::isfinite(guide.mu)) throw InputError("mu", to_text(guide.mu), "a finite number");
   require_positive(guide.gain_speed, "gain_speed", " (1/s)");
   require_not_negative(guide.clearance.required, "clearance.required", " (m)");
+  require_not_negative(guide.clearance.beyond, "clearance.beyond", " (m)");
   if (guide.plane.planes < 1 || guide.plane.planes > 10000)
     throw InputError("plane.planes", std::to_string(guide.plane.planes), "from 1 to 10000");
   if (!guide.plane.wind.allFinite())
