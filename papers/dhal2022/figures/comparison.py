@@ -27,13 +27,14 @@ for n, (key, run) in enumerate(data["runs"].items()):
         if agent in (p["a"], p["b"]):
             pairs[p["b"] if p["a"] == agent else p["a"]] = p
     for i, (obstacle, p) in enumerate(pairs.items()):
-        distance = p["least_distance"] if p["verdict"] == "avoided" else 0.0
+        proved = p["verdict"] == "avoided"
         x = i + 0.26 * (n - 0.5 * (len(data["runs"]) - 1))
-        panels[1, 1].bar(x, distance, 0.24, color=color)
-        panels[1, 1].annotate("%.2g" % distance if p["verdict"] == "avoided" else p["verdict"], (x, distance), xytext=(0, 2),
-                              textcoords="offset points", fontsize=6, ha="center", va="bottom",
-                              rotation=0 if p["verdict"] == "avoided" else 90)
-        sheet.add("least distance proved [m]", "%s, %s" % (label, obstacle), [p["least_time"]], [distance])
+        panels[1, 1].bar(x, p["least_distance"] if proved else 0, 0.24, color=color)
+        panels[1, 1].annotate("%.2g" % p["least_distance"] if proved else p["verdict"],
+                              (x, p["least_distance"] if proved else 0), xytext=(0, 2), textcoords="offset points",
+                              fontsize=6, ha="center", va="bottom", rotation=0 if proved else 90)
+        if proved:
+            sheet.add("least distance proved [m]", "%s, %s" % (label, obstacle), [p["least_time"]], [p["least_distance"]])
         bars.append((i, obstacle))
 panels[0, 0].axhline(0, color="k", linewidth=0.6)
 panels[0, 1].axhline(0, color="k", linewidth=0.6)

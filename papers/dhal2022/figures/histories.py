@@ -48,7 +48,7 @@ def elevation(b):
 
 
 PANELS = {
-    "lateral": ("lateral acceleration of %s [m/s²]" % agent,
+    "lateral": ("lateral $a$ of %s [m/s²]" % agent,
                 lambda x, p: of_bodies(x, p, lambda b: b["lateral [m/s^2]"])),
     "heading": ("heading of %s [deg]" % agent, lambda x, p: of_bodies(x, p, lambda b: np.degrees(b["azimuth [rad]"]))),
     "psi": ("ψ [deg]", lambda x, p: of_encounters(x, p, lambda e: np.degrees(e["psi [rad]"]))),
@@ -74,8 +74,8 @@ for axes, name in zip(panels, names):
     draw(axes, label)
     axes.set_ylabel(label)
     low, high = axes.get_ylim()
-    if high - low < 0.2:  # constant up to rounding: no magnified noise
-        axes.set_ylim(low - 0.1, high + 0.1) if name not in ("y",) else None
+    if high - low < 1 and name not in ("y", "lateral", "acceleration"):  # constant up to rounding: no magnified noise
+        axes.set_ylim(low - 1, high + 1)
 starts = [b["t [s]"][0] for b in run.bodies.values()]
 end = data.get("until", max(b["t [s]"][-1] for b in run.bodies.values()))
 for axes in panels:

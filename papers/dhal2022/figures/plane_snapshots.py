@@ -12,11 +12,11 @@ sheet = Sheet()
 times = data["times"]
 columns = 4 if len(times) > 4 else len(times)
 rows = -(-len(times) // columns)
-panels = plt.figure(figsize=(TWO_COLUMNS, 2.05 * rows + 0.3), constrained_layout=True).subplots(
+panels = plt.figure(figsize=(TWO_COLUMNS, 1.95 * rows), constrained_layout=True).subplots(
     rows, columns, sharex=True, sharey=True, squeeze=False)
 curves = {(t, n): outline(run.shapes[n], at(b, t)) for t in times for n, b in run.bodies.items()}
 everything = np.vstack(list(curves.values()))
-low, high = everything.min(axis=0) - 3, everything.max(axis=0) + 3
+low, high = everything.min(axis=0) - [3, 3], everything.max(axis=0) + [3, 12]  # room for the text
 agent = run.agents()[0]
 for t, axes in zip(times, panels.flat):
     for name, body in run.bodies.items():
@@ -29,7 +29,7 @@ for t, axes in zip(times, panels.flat):
                                                              "shrinkA": 0, "shrinkB": 0, "mutation_scale": 7})
         sheet.add("velocity at %g s, over 0.5 s" % t, name, *np.stack([start, tip], axis=1))
         if np.isfinite(row["k"]):
-            axes.text(0.97, 0.03, "k = %.2f" % row["k"], transform=axes.transAxes, fontsize=6.5, ha="right")
+            axes.text(0.97, 0.84, "k = %.2f" % row["k"], transform=axes.transAxes, fontsize=6.5, ha="right", zorder=9)
     for (pilot, obstacle), e in run.encounters.items():
         now = at(e, t)
         if pilot != agent or abs(now["t [s]"] - t) > 1e-6 or not np.isfinite(now["psi [rad]"]):
@@ -43,7 +43,7 @@ for t, axes in zip(times, panels.flat):
                       np.sin(now["theta [rad]"]) * now["V_r [m/s]"] + np.cos(now["theta [rad]"]) * now["V_theta [m/s]"]])
         axes.annotate("", xy=start - 0.5 * v, xytext=start, arrowprops={
             "arrowstyle": "-|>", "lw": 0.8, "color": "k", "shrinkA": 0, "shrinkB": 0, "mutation_scale": 6})
-        axes.text(0.97, 0.12, "y = %.3f" % now["y"], transform=axes.transAxes, fontsize=6.5, ha="right")
+        axes.text(0.97, 0.92, "y = %.3f" % (now["y"] + 0.0), transform=axes.transAxes, fontsize=6.5, ha="right", zorder=9)
     axes.set_title("t = %g s" % t, fontsize=7.5)
     axes.set_xlim(low[0], high[0])
     axes.set_ylim(low[1], high[1])

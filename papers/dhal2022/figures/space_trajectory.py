@@ -3,6 +3,7 @@
 import numpy as np
 from matplotlib.colors import to_rgb
 from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from bodies import surface
@@ -13,7 +14,7 @@ data = figure()
 run = data["runs"]["source"]
 sheet = Sheet()
 elevation, azimuth = data.get("view", [22, -62])
-axes = plt.figure(figsize=(TWO_COLUMNS, 4.6)).add_axes([0.0, 0.0, 0.98, 1.0], projection="3d", computed_zorder=False)
+axes = plt.figure(figsize=(TWO_COLUMNS, 4.2)).add_axes([0.0, 0.03, 0.97, 0.97], projection="3d", computed_zorder=False)
 e, a = np.radians([elevation, azimuth])
 eye = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
 light = eye + np.array([0.3 * np.sin(a), -0.3 * np.cos(a), 0.6])
@@ -48,14 +49,15 @@ low, high = everything.min(axis=0) - 2, everything.max(axis=0) + 2
 axes.set_xlim(low[0], high[0])
 axes.set_ylim(low[1], high[1])
 axes.set_zlim(low[2], high[2])
-axes.set_box_aspect(high - low, zoom=1.02)
+axes.set_box_aspect(high - low, zoom=1.25)
 axes.view_init(elev=elevation, azim=azimuth)
 axes.set_proj_type("ortho")
+axes.yaxis.set_major_locator(MaxNLocator(4))
 axes.set_xlabel("x [m]")
 axes.set_ylabel("y [m]", labelpad=-2)
 axes.set_zlabel("z [m]", labelpad=-4)
 axes.tick_params(pad=-1)
 axes.legend(handles=[Line2D([], [], color=run.color(n), label=n) for n in run.bodies], loc="upper left",
-            bbox_to_anchor=(0.04, 0.93))
+            bbox_to_anchor=(0.02, 0.97))
 sheet.write(data["name"])
 save(axes.figure, data["name"])

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Section 6.5.
+#include <vericone/guidance/guide.h>
 #include <vericone/guidance/plane_view.h>
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,10 @@ using simulation::EncounterSample;
 using simulation::EventKind;
 
 const std::string kSection = "6.5";
-const std::string kOpen = "K, w, the limit of the acceleration and the sizes of C, D, E, B2 are not printed";
+const std::string kOpen =
+    "K, w, the limit of the acceleration and the sizes of C, D, E, B2 are not printed; ours were chosen so "
+    "that A "
+    "is on the courses of B, C and D when the source says so";
 
 /// From when on both y > 0 and V_r > 0 have been seen: out of the cone, and moving apart.
 std::optional<double> steered_away(const PaperRun& run, const std::string& agent,
@@ -50,14 +54,20 @@ double plane_behind_widest(const PaperRun& run) {
   return behind;
 }
 
+/// Whether the relative velocity is in the cone that the law sees, not only in its part on the plane chosen.
 Claim on_course(const PaperRun& run, const std::string& id, const std::vector<std::string>& figures,
                 const std::string& agent, const std::string& obstacle, double t, const std::string& text,
                 const std::string& note) {
   const EncounterSample sample = run.sample(agent, obstacle, t);
+  const auto course = guidance::on_collision_course(run.track(agent).state(t), run.track(obstacle).state(t),
+                                                    run.body(agent).pilot->guide.sector);
+  const bool holds = course.value_or(false);
+  std::string ours = holds ? "on course" : "not on course";
+  ours += "; y = " + short_text(sample.step.y, 3) +
+          " on the plane taken, V_r = " + short_text(sample.state.v_r, 3) + " m/s";
   return statement(
       {id, kSection, figures, agent + " and " + obstacle + " at " + short_text(t) + " s", note, true}, text,
-      sample.cone && sample.step.y < 0 && sample.step.v_r_hat < 0,
-      "y = " + short_text(sample.step.y, 3) + ", V_r = " + short_text(sample.state.v_r, 3) + " m/s");
+      holds, ours);
 }
 
 Claim avoided(const PaperRun& run, const std::string& id, const std::vector<std::string>& figures,
