@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "plane_axis.h"
 
@@ -14,25 +15,32 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// rho_A + rho_B along n = u + tau e + s p with u, e, p orthonormal, and its derivatives.
+/// A normal n = u + tau e + s p with u, e, p orthonormal.
+struct Tilt {
+  double tau = 0, s = 0;
+};
+
+/// rho_A + rho_B along n = u + tau e + s p, and its derivatives.
 class Width {
  public:
   Width(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& u, const Vector3d& e, const Vector3d& p)
       : bodies_{Part(a, u, e, p), Part(b, u, e, p)} {}
 
   struct Value {
-    double width, by_tau, by_s, by_ss;
+    double width = 0, by_tau = 0, by_s = 0, by_tau_tau = 0, by_tau_s = 0, by_ss = 0;
   };
 
   Value at(double tau, double s) const {
-    Value v{0, 0, 0, 0};
+    Value v;
     for (const Part& f : bodies_) {
       const Vector3d n = f.u + tau * f.e + s * f.p;
-      const double rho = n.norm(), slope = n.dot(f.p) / rho;
+      const double rho = n.norm(), inverse = 1 / rho, t = n.dot(f.e) * inverse, slope = n.dot(f.p) * inverse;
       v.width += rho;
-      v.by_tau += n.dot(f.e) / rho;
+      v.by_tau += t;
       v.by_s += slope;
-      v.by_ss += (f.p.squaredNorm() - slope * slope) / rho;
+      v.by_tau_tau += (f.ee - t * t) * inverse;
+      v.by_tau_s += (f.ep - t * slope) * inverse;
+      v.by_ss += (f.pp - slope * slope) * inverse;
     }
     return v;
   }
@@ -40,7 +48,7 @@ class Width {
   /// The s of least width for a tau: between the two bodies' own minimisers; convex, Newton kept in the
   /// bracket.
   double narrowest(double tau, double guess) const {
-    const auto own = [&](const Part& f) { return -(f.u + tau * f.e).dot(f.p) / f.p.squaredNorm(); };
+    const auto own = [&](const Part& f) { return -(f.u + tau * f.e).dot(f.p) / f.pp; };
     double lo = own(bodies_[0]), hi = own(bodies_[1]);
     if (lo > hi) std::swap(lo, hi);
     double s = std::clamp(guess, lo, hi);
@@ -60,13 +68,77 @@ class Width {
  private:
   struct Part {
     Vector3d u, e, p;
+    double ee, ep, pp;
     Part(const Ellipsoid& body, const Vector3d& u_in, const Vector3d& e_in, const Vector3d& p_in)
         : u(body.factor().transpose() * u_in),
           e(body.factor().transpose() * e_in),
-          p(body.factor().transpose() * p_in) {}
+          p(body.factor().transpose() * p_in),
+          ee(e.squaredNorm()),
+          ep(e.dot(p)),
+          pp(p.squaredNorm()) {}
   };
   Part bodies_[2];
 };
+
+/// The normal of largest side * tau with width <= distance, from one within, in some five evaluations;
+/// nothing where the iteration does not settle.
+///
+/// The square of one body's width is a quadratic form of (tau, s), and that of two is nearly one, so the
+/// extreme of the form that osculates width^2 is close from anywhere. From near by, Newton on width =
+/// distance and d width / ds = 0, whose residuals keep their digits.
+std::optional<Tilt> farthest_by_newton(const Width& width, double distance, Tilt at, double side) {
+  bool near = false;
+  double extent_tau = 0, extent_s = 0;
+  for (int iteration = 0; iteration < 16; ++iteration) {
+    const Width::Value v = width.at(at.tau, at.s);
+    double d_tau, d_s;
+    if (!near) {
+      // w^2 / 2 with gradient g and Hessian m; l is the level's height above the form's minimum.
+      const double tt = v.by_tau * v.by_tau + v.width * v.by_tau_tau,
+                   ts = v.by_tau * v.by_s + v.width * v.by_tau_s, ss = v.by_s * v.by_s + v.width * v.by_ss;
+      const double g_tau = v.width * v.by_tau, g_s = v.width * v.by_s, determinant = tt * ss - ts * ts;
+      const double c_tau = (ts * g_s - ss * g_tau) / determinant, c_s = (ts * g_tau - tt * g_s) / determinant;
+      const double l = 0.5 * ((distance - v.width) * (distance + v.width) - g_tau * c_tau - g_s * c_s);
+      if (!(determinant > 0) || !(l > 0)) return std::nullopt;
+      extent_tau = std::sqrt(2 * l * ss / determinant);
+      extent_s = std::sqrt(2 * l * tt / determinant);
+      d_tau = c_tau + side * extent_tau;
+      d_s = c_s - side * extent_tau * ts / ss;
+    } else {
+      const double rest = distance - v.width, determinant = v.by_tau * v.by_ss - v.by_s * v.by_tau_s;
+      d_tau = (v.by_ss * rest + v.by_s * v.by_s) / determinant;
+      d_s = -(v.by_tau * v.by_s + v.by_tau_s * rest) / determinant;
+    }
+    at.tau += d_tau;
+    at.s += d_s;
+    const double step = std::max(std::abs(d_tau) / extent_tau, std::abs(d_s) / extent_s);
+    if (!(step < 1e3)) return std::nullopt;
+    // Newton squares the last step.
+    if (near && step < 1e-8) return side * v.by_tau > 0 ? std::optional(at) : std::nullopt;
+    near = step < 0.03;
+  }
+  return std::nullopt;
+}
+
+/// The same by steps that cannot fail. G(tau) = distance - min_s width is concave and positive within; from a
+/// point beyond the root Newton comes down monotonically.
+Tilt farthest_in_brackets(const Width& width, double distance, Tilt at, double side) {
+  double reach = 1 + std::abs(at.tau);
+  for (int doubling = 0; doubling < 1100; ++doubling, reach *= 2) {
+    at.tau += side * reach;
+    at.s = width.narrowest(at.tau, at.s);
+    if (width.at(at.tau, at.s).width > distance) break;
+  }
+  for (int iteration = 0; iteration < 100; ++iteration) {
+    const Width::Value v = width.at(at.tau, at.s);
+    const double step = (distance - v.width) / v.by_tau;
+    if (!std::isfinite(step)) break;
+    at.tau += step;
+    at.s = width.narrowest(at.tau, at.s);
+    if (std::abs(step) <= 1e-15 * (1 + std::abs(at.tau))) break;
+  }
+  return at;
+}
 
 }  // namespace
 
@@ -100,25 +172,12 @@ PlaneSector SectorPlanes::on(const Vector3d& across) const {
   const Width width(a, b, u, e, p);
 
   // The plane's sector is polar to the projection of the separating normals N = { width <= |c| } (n.u = 1)
-  // onto the plane: its ends are the extreme tau of N. G(tau) = |c| - min_s width is concave and positive at
-  // the separating normal; from a point beyond the root Newton comes down monotonically.
-  const Vector3d start = separating_ / separating_.dot(u);
+  // onto the plane: its ends are the extreme tau of N.
+  const Vector3d normal = separating_ / separating_.dot(u);
+  const Tilt start{normal.dot(e), normal.dot(p)};
   const auto edge = [&](double side) {
-    double tau = start.dot(e), s = start.dot(p);
-    double reach = 1 + std::abs(tau);
-    for (int doubling = 0; doubling < 1100; ++doubling, reach *= 2) {
-      tau += side * reach;
-      s = width.narrowest(tau, s);
-      if (width.at(tau, s).width > distance) break;
-    }
-    for (int iteration = 0; iteration < 100; ++iteration) {
-      const Width::Value v = width.at(tau, s);
-      const double step = (distance - v.width) / v.by_tau;
-      if (!std::isfinite(step)) break;
-      tau += step;
-      s = width.narrowest(tau, s);
-      if (std::abs(step) <= 1e-15 * (1 + std::abs(tau))) break;
-    }
+    const auto quick = farthest_by_newton(width, distance, start, side);
+    const auto [tau, s] = quick ? *quick : farthest_in_brackets(width, distance, start, side);
     PlaneSector::Edge result;
     result.normal = (u + tau * e + s * p).normalized();
     const Vector3d ua = a.factor().transpose() * result.normal, ub = b.factor().transpose() * result.normal;
