@@ -47,9 +47,11 @@ Meeting meeting_of(const CombinedEllipse& a, const CombinedEllipse& b) {
 }
 
 Meeting meeting_of(const CombinedEllipsoid& a, const CombinedEllipsoid& b) {
-  if (a.is_ellipsoid() && b.is_ellipsoid()) return of_relation(relation<3>(a.ellipsoid(), b.ellipsoid()));
-  const std::optional<Relation> relation = CombinedOracle(a, b, kTolerance).relation();
-  return relation ? of_relation(*relation) : Meeting::unknown;
+  const Relation of_ellipsoids = relation<3>(a.ellipsoid(), b.ellipsoid());
+  if (of_ellipsoids == Relation::disjoint) return Meeting::apart;
+  if (a.is_ellipsoid() && b.is_ellipsoid()) return of_relation(of_ellipsoids);
+  const std::optional<Relation> certified = CombinedOracle(a, b, kTolerance).relation();
+  return certified ? of_relation(*certified) : Meeting::unknown;
 }
 
 Meeting meeting_of(const HullBody& a, const HullBody& b) { return of_relation(HullOracle(a, b).relation()); }
@@ -129,11 +131,13 @@ Vector3d by_gauges(const Posed& bodies, const Vector3d& p_a, const Vector3d& p_b
   const double size = (p_b - p_a).norm() + 1e-9;
   Vector3d best = guess;
   double least = value(best);
-  for (int start = 0; start < 8; ++start) {
-    Vector3d x = start == 7 ? guess : Vector3d(p_a + (start % 3 + 1) * 0.25 * (p_b - p_a));
-    if (start >= 3 && start < 7) x(start % (planar ? 2 : 3)) += (start % 2 ? 0.25 : -0.25) * size;
+  // Nearer than this to a common point is near enough.
+  constexpr double kNear = 1 + 1e-6;
+  for (int start = 0; start < 8 && least > kNear; ++start) {
+    Vector3d x = start == 0 ? guess : Vector3d(p_a + (start % 3 + 1) * 0.25 * (p_b - p_a));
+    if (start > 3) x(start % (planar ? 2 : 3)) += (start % 2 ? 0.25 : -0.25) * size;
     double here = value(x), angle = 0;
-    for (double step = 0.25 * size; step > 1e-9 * size;) {
+    for (double step = 0.25 * size; step > 1e-9 * size && here > kNear;) {
       angle += 2.4;  // no whole part of a turn
       const Vector3d about =
           planar ? Vector3d::UnitZ() : Vector3d(std::sin(angle / 3), std::cos(angle / 3), 0.6);
@@ -159,7 +163,8 @@ Vector3d by_gauges(const Posed& bodies, const Vector3d& p_a, const Vector3d& p_b
 }
 
 /// The middle of all that lies next to the supporting plane along n, and how much that is.
-std::pair<Vector3d, std::size_t> face(const Shape& shape, const Vector3d& position, const Vector3d& n) {
+std::pair<Vector3d, std::size_t> face(const Shape& shape, const SweptBody& swept, const Vector3d& position,
+                                      const Vector3d& n) {
   if (const auto* hull = std::get_if<HullBody>(&shape)) {
     const double most = hull->support(n);
     double size = 0;
@@ -173,11 +178,7 @@ std::pair<Vector3d, std::size_t> face(const Shape& shape, const Vector3d& positi
       }
     return {sum / static_cast<double>(count), count};
   }
-  if (const auto* flat = std::get_if<CombinedEllipse>(&shape)) {
-    const Eigen::Vector2d p = flat->ellipsoid().support_point(n.head<2>());
-    return {Vector3d(p.x(), p.y(), 0), 1};
-  }
-  return {std::get<CombinedEllipsoid>(shape).ellipsoid().support_point(n), 1};
+  return {position + swept.support_point(n), 1};
 }
 
 }  // namespace
@@ -217,17 +218,23 @@ std::optional<double> apart_by_inflation(const MovingPair& pair, const Piece& pi
 
 Vector3d place_between(const MovingPair& pair, const Moment& moment, const Vector3d& normal) {
   const Posed bodies = posed(pair, moment);
-  const bool hulls = std::holds_alternative<HullBody>(bodies.a) || std::holds_alternative<HullBody>(bodies.b);
-  const bool dents = has_delimiters(bodies.a) || has_delimiters(bodies.b);
   Vector3d n = normal;
   if (n.isZero(0)) n = moment.between();
   if (n.isZero(0)) return moment.a.position;
   n.normalize();
-  const auto [on_a, count_a] = face(bodies.a, moment.a.position, n);
-  const auto [on_b, count_b] = face(bodies.b, moment.b.position, -n);
-  if (hulls && count_a != count_b) return count_a < count_b ? on_a : on_b;
-  const Vector3d between = 0.5 * (on_a + on_b);
-  if (hulls || (!dents && !normal.isZero(0))) return between;
+  const double t = moment.t;
+  const auto [on_a, count_a] = face(bodies.a, pair.swept_a(t, t, moment.a.rotation, 0), moment.a.position, n);
+  const auto [on_b, count_b] =
+      face(bodies.b, pair.swept_b(t, t, moment.b.rotation, 0), moment.b.position, -n);
+  return count_a == count_b ? Vector3d(0.5 * (on_a + on_b)) : count_a < count_b ? on_a : on_b;
+}
+
+Vector3d place_of_meeting(const MovingPair& pair, const Moment& moment, const Vector3d& normal) {
+  const Posed bodies = posed(pair, moment);
+  const Vector3d between = place_between(pair, moment, normal);
+  const bool hulls = std::holds_alternative<HullBody>(bodies.a) || std::holds_alternative<HullBody>(bodies.b);
+  if (hulls) return between;
+  if (!has_delimiters(bodies.a) && !has_delimiters(bodies.b) && !normal.isZero(0)) return between;
   return by_gauges(bodies, moment.a.position, moment.b.position, between, pair.planar());
 }
 

@@ -27,7 +27,11 @@ bool delimited(const MovingPair& pair, const Moment& moment);
 /// `padding`: what is added.
 std::optional<double> apart_by_inflation(const MovingPair& pair, const Piece& piece, double padding);
 
-/// A point near both bodies, where they meet or come nearest. `normal`: of a plane between them, if known.
+/// The middle between the bodies' faces, edges or points next to a plane between them. `normal` of that
+/// plane; zero: along the line of centres.
 Eigen::Vector3d place_between(const MovingPair& pair, const Moment& moment, const Eigen::Vector3d& normal);
+
+/// A point near both bodies where they meet, or nearly; also where no plane is between them.
+Eigen::Vector3d place_of_meeting(const MovingPair& pair, const Moment& moment, const Eigen::Vector3d& normal);
 
 }  // namespace vericone::simulation

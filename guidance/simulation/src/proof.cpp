@@ -114,7 +114,7 @@ class Search {
     proof_.verdict = ProofVerdict::touched;
     proof_.from = apart_before;
     proof_.to = at.t;
-    proof_.place = place_between(pair_, at, normal);
+    proof_.place = place_of_meeting(pair_, at, normal);
     proof_.pieces = leaves_.size();
     return proof_;
   }
@@ -123,7 +123,7 @@ class Search {
     proof_.verdict = ProofVerdict::undecided;
     proof_.from = unresolved_->from.t;
     proof_.to = unresolved_->to.t;
-    proof_.place = place_between(pair_, unresolved_->from, unresolved_->normal);
+    proof_.place = place_of_meeting(pair_, unresolved_->from, unresolved_->normal);
     proof_.pieces = leaves_.size();
     return proof_;
   }
@@ -139,7 +139,8 @@ class Search {
     const Leaf& there = least.by_planes ? nearest : least;
     const Moment when = middle_of(there.span);
     proof_.least_time = when.t;
-    proof_.place = place_between(pair_, when, there.span.normal);
+    proof_.place = there.by_planes ? place_between(pair_, when, there.span.normal)
+                                   : place_of_meeting(pair_, when, there.span.normal);
     proof_.pieces = leaves_.size();
     return proof_;
   }

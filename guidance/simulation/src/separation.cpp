@@ -89,9 +89,18 @@ class Separator {
   /// improves.
   void by_fitting_ellipsoids(const Vector3d& previous) {
     by_ellipsoids(a_.body().ellipsoid(), b_.body().ellipsoid());
-    if (best_.bound > 0) return;
+    // Ellipsoids apart: what is missing is a shorter piece of time.
+    if (best_.bound > 0 || best_.gap > 0) return;
+    if (!previous.isZero(0)) {
+      attempt(previous);
+      if (best_.bound > 0) {
+        best_.gap = std::max(
+            best_.bound, best_.normal.dot(middle_) - a_.support(best_.normal) - b_.support(-best_.normal));
+        return;
+      }
+    }
     Vector3d n = !latest_.isZero(0) ? latest_ : !previous.isZero(0) ? previous : middle_;
-    constexpr int kMostRounds = 6;
+    constexpr int kMostRounds = 4;
     for (int round = 0; round < kMostRounds; ++round) {
       n.normalize();
       const double before = best_.gap;

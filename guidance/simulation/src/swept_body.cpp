@@ -2,6 +2,7 @@
 #include "swept_body.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -40,14 +41,24 @@ CombinedEllipsoid in_space(const CombinedEllipse& body) {
   return CombinedEllipsoid::trusted(ellipsoid, std::move(delimiters));
 }
 
-}  // namespace
+/// Where a function with one minimum is least.
+template <typename F>
+double golden_minimum(const F& f, double lo, double hi, int steps) {
+  constexpr double kGolden = 0.6180339887498949;
+  double x = hi - kGolden * (hi - lo), y = lo + kGolden * (hi - lo), fx = f(x), fy = f(y);
+  for (int step = 0; step < steps; ++step) {
+    if (fx <= fy) {
+      hi = y, y = x, fy = fx;
+      x = hi - kGolden * (hi - lo), fx = f(x);
+    } else {
+      lo = x, x = y, fx = fy;
+      y = lo + kGolden * (hi - lo), fy = f(y);
+    }
+  }
+  return lo;
+}
 
-// With the ellipsoid as the unit ball, |u|^2 <= 1 and u^T A_i u <= level_i, so for lambda >= 0 the body is in
-// the ellipsoid u^T M u <= level with M = I + sum lambda_i A_i, level = 1 + sum lambda_i level_i.
-struct SweptBody::Multipliers {
-  Matrix3d inverse = Matrix3d::Identity();  // of M
-  double level = 1;
-};
+}  // namespace
 
 SweptBody::SweptBody(const ShapeInTime& shape, double reach, double from, double to, const Matrix3d& rotation,
                      double angle)
@@ -59,6 +70,12 @@ SweptBody::SweptBody(const ShapeInTime& shape, double reach, double from, double
     body_ = std::move(*body);
   } else {
     hull_ = std::move(std::get<HullBody>(posed));
+  }
+  const Matrix3d& f = body_.ellipsoid().factor();
+  for (const Delimiter<3>& d : body_.delimiters()) {
+    const Matrix3d a = f.transpose() * d.matrix * f;
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(0.5 * (a + a.transpose()));
+    seen_.push_back({0.5 * (a + a.transpose()), solver.eigenvectors(), solver.eigenvalues(), d.level});
   }
 }
 
@@ -72,55 +89,60 @@ double SweptBody::extent() const {
 }
 
 SweptBody::Multipliers SweptBody::multipliers(const Vector3d& n) const {
-  Multipliers best;
-  const auto& delimiters = body_.delimiters();
-  if (delimiters.empty()) return best;
-  const Matrix3d& f = body_.ellipsoid().factor();
-  const Vector3d m = f.transpose() * n;
-  Matrix3d sum = Matrix3d::Identity();
-  double level = 1;
+  const Vector3d m = body_.ellipsoid().factor().transpose() * n;
+  return seen_.size() == 1 ? of_one(m) : of_several(m);
+}
+
+SweptBody::Multipliers SweptBody::of_one(const Vector3d& m) const {
+  const Seen& seen = seen_.front();
+  const Vector3d squares = (seen.directions.transpose() * m).cwiseAbs2();
+  const auto pivots = [&](double lambda) { return Vector3d(Vector3d::Ones() + lambda * seen.values); };
+  const auto value = [&](double lambda) {
+    return (1 + lambda * seen.level) * squares.cwiseQuotient(pivots(lambda)).sum();
+  };
+  // As far as all eigenvalues 1 + lambda alpha stay kLeastPivot of their mean.
+  double most = 1e6;
+  const double mean = seen.values.mean(), steepest = kLeastPivot * mean - seen.values.minCoeff();
+  if (steepest > 0) most = std::min(most, (1 - kLeastPivot) / steepest);
+  const double end = most / (1 + most);
+  const double x = golden_minimum([&](double at) { return value(at / (1 - at)); }, 0, end, 40);
+  double lambda = x / (1 - x);
+  for (const double other : {0.0, most})
+    if (value(other) < value(lambda)) lambda = other;
+  return {seen.directions * pivots(lambda).cwiseInverse().asDiagonal() * seen.directions.transpose(),
+          1 + lambda * seen.level};
+}
+
+// Any multipliers give a bound; they are improved one after the other.
+SweptBody::Multipliers SweptBody::of_several(const Vector3d& m) const {
+  const auto shifted = [](const Matrix3d& a) {
+    return Eigen::LLT<Matrix3d>(a - kLeastPivot / 3 * a.trace() * Matrix3d::Identity());
+  };
   const auto value = [&](const Matrix3d& a, double bound) {
-    const Eigen::LLT<Matrix3d> llt(a - kLeastPivot / 3 * a.trace() * Matrix3d::Identity());
-    if (!(a.trace() > 0)) return std::numeric_limits<double>::infinity();
-    if (llt.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
-    // The shift changes the value less than it matters where the best multipliers are looked for.
+    // The shift keeps away from singular matrices and changes the value less than matters here.
+    const Eigen::LLT<Matrix3d> llt = shifted(a);
+    if (!(a.trace() > 0) || llt.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
     return bound * m.dot(llt.solve(m));
   };
-  // Any multipliers give a bound; they are improved one after the other.
-  const int rounds = delimiters.size() == 1 ? 1 : 3;
-  std::vector<double> lambda(delimiters.size(), 0.0);
-  for (int round = 0; round < rounds; ++round)
-    for (std::size_t i = 0; i < delimiters.size(); ++i) {
-      Matrix3d a = f.transpose() * delimiters[i].matrix * f;
-      a = 0.5 * (a + a.transpose()).eval();
-      const Matrix3d rest = sum - lambda[i] * a;
-      const double rest_level = level - lambda[i] * delimiters[i].level;
-      constexpr double kGolden = 0.6180339887498949;
+  Matrix3d sum = Matrix3d::Identity();
+  double level = 1;
+  std::vector<double> lambda(seen_.size(), 0.0);
+  for (int round = 0; round < 3; ++round)
+    for (std::size_t i = 0; i < seen_.size(); ++i) {
+      const Matrix3d rest = sum - lambda[i] * seen_[i].matrix;
+      const double rest_level = level - lambda[i] * seen_[i].level;
       const auto at = [&](double x) {
         const double l = x / (1 - x);
-        return value(rest + l * a, rest_level + l * delimiters[i].level);
+        return value(rest + l * seen_[i].matrix, rest_level + l * seen_[i].level);
       };
-      double lo = 0, hi = 1 - 1e-6;
-      double x = hi - kGolden * (hi - lo), y = lo + kGolden * (hi - lo), fx = at(x), fy = at(y);
-      for (int step = 0; step < 45; ++step) {
-        if (fx <= fy) {
-          hi = y, y = x, fy = fx;
-          x = hi - kGolden * (hi - lo), fx = at(x);
-        } else {
-          lo = x, x = y, fx = fy;
-          y = lo + kGolden * (hi - lo), fy = at(y);
-        }
-      }
-      if (at(lo) < value(sum, level)) {
-        lambda[i] = lo / (1 - lo);
-        sum = rest + lambda[i] * a;
-        level = rest_level + lambda[i] * delimiters[i].level;
-      }
+      const double x = golden_minimum(at, 0, 1 - 1e-6, 40);
+      if (!(at(x) < value(sum, level))) continue;
+      lambda[i] = x / (1 - x);
+      sum = rest + lambda[i] * seen_[i].matrix;
+      level = rest_level + lambda[i] * seen_[i].level;
     }
-  best.inverse = sum.llt().solve(Matrix3d::Identity());
-  best.inverse = 0.5 * (best.inverse + best.inverse.transpose()).eval();
-  best.level = level;
-  return best;
+  const Matrix3d inverse = sum.llt().solve(Matrix3d::Identity());
+  return {0.5 * (inverse + inverse.transpose()), level};
 }
 
 // Over all normals within `angle` of n, rho^2 = n'^T S n' is at most

@@ -9,6 +9,7 @@
 #include <vericone/simulation/track.h>
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 namespace vericone::simulation {
 
@@ -43,12 +44,26 @@ class SweptBody {
   Ellipsoid around(const Eigen::Vector3d& n) const;
 
  private:
-  struct Multipliers;  // of the delimiters, for a normal
+  // With the ellipsoid as the unit ball, |u|^2 <= 1 and u^T A_i u <= level_i, so for lambda >= 0 the body is
+  // in the ellipsoid u^T M u <= level with M = I + sum lambda_i A_i, level = 1 + sum lambda_i level_i.
+  struct Multipliers {
+    Eigen::Matrix3d inverse;  // of M
+    double level;
+  };
+  struct Seen {  // A_i
+    Eigen::Matrix3d matrix, directions;
+    Eigen::Vector3d values;
+    double level;
+  };
+  /// The least of these ellipsoids along n, nearly.
   Multipliers multipliers(const Eigen::Vector3d& n) const;
+  Multipliers of_one(const Eigen::Vector3d& m) const;
+  Multipliers of_several(const Eigen::Vector3d& m) const;
   double turned(double squared, double across, double largest) const;
 
   CombinedEllipsoid body_;
   std::optional<HullBody> hull_;
+  std::vector<Seen> seen_;
   double reach_, angle_;
 };
 
