@@ -59,8 +59,12 @@ class Planes {
 
   /// Merits that differ by less are the same.
   double noise() const { return 1e-12 + 4 * cones_.tolerance(); }
-  /// Whether merits are smooth and exact to rounding.
+  /// Whether merits are exact to rounding.
   bool exact() const { return cones_.tolerance() == 0; }
+  /// Whether they have no kinks; the turn has one where both edges are as near.
+  bool smooth(PlaneChoice choice) const {
+    return cones_.smooth() && choice != PlaneChoice::least_turn && choice != PlaneChoice::wind_aware;
+  }
 
  private:
   struct Edge {
@@ -115,7 +119,7 @@ std::optional<double> followed(const Planes& planes, const PlaneOptions& options
     const double step = 0.5 * reach * (behind - ahead) / curvature;
     if (std::abs(step) <= reach) {
       // Where the merit has a kink, the parabola's vertex is none of its own.
-      return step == 0 || merit(x + step) <= here + planes.noise() ? x + step : x;
+      return planes.smooth(options.choice) || merit(x + step) <= here + planes.noise() ? x + step : x;
     }
     if (std::abs(step) > 5 * reach) return std::nullopt;
     x += step;

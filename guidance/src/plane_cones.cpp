@@ -74,4 +74,10 @@ double PlaneCones::tolerance() const {
   return 0;
 }
 
+bool PlaneCones::smooth() const {
+  const auto* slices = std::get_if<Slices>(&kind_);
+  return std::holds_alternative<SectorPlanes>(kind_) ||
+         (slices && slices->a.is_ellipsoid() && slices->b.is_ellipsoid());
+}
+
 }  // namespace vericone::guidance

@@ -91,6 +91,8 @@ class PlaneCones {
 
   /// Radians to which the edges are right, where that is not rounding.
   double tolerance() const;
+  /// Whether edges turn smoothly with the plane: those of ellipsoids, which pass from no contact to another.
+  bool smooth() const;
 
  private:
   struct None {};
