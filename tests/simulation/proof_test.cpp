@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/cones/clearance.h>
-#include <vericone/cones/combined_sector.h>
 #include <vericone/cones/contact_time_enclosure.h>
-#include <vericone/cones/hull_oracle.h>
 #include <vericone/geometry/error.h>
 #include <vericone/simulation/proof.h>
 #include <algorithm>
@@ -12,45 +10,13 @@
 #include <numbers>
 #include <utility>
 
-#include "random.h"
+#include "moving_pairs.h"
 
 namespace vericone::simulation {
 namespace {
 
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
-
-ShapeInTime ellipsoid(const Vector3d& axes) {
-  return RigidShape{CombinedEllipsoid(Ellipsoid::from_axes(Vector3d::Zero(), axes))};
-}
-ShapeInTime ball(double radius) { return ellipsoid(Vector3d::Constant(radius)); }
-
-Track straight(const ShapeInTime& shape, const Vector3d& position, const Vector3d& velocity, double end,
-               const Matrix3d& rotation = Matrix3d::Identity()) {
-  Track track(shape, {position, velocity, rotation}, Orientation::fixed, 0);
-  track.advance(Vector3d::Zero(), end);
-  return track;
-}
-
-/// Turns with its heading, a new acceleration every `step` seconds.
-Track turning(Random& random, const ShapeInTime& shape, const Motion& start, double most, double end,
-              double step = 0.05) {
-  Track track(shape, start, Orientation::heading, 0);
-  Vector3d a = Vector3d::Zero();
-  for (int i = 1; track.end() < end; ++i) {
-    if (i % 10 == 1) a = planar(shape) ? random.flat_vector(most) : random.vector(most);
-    track.advance(a, std::min(end, i * step));
-  }
-  return track;
-}
-
 const Ellipsoid& ellipsoid_of(const guidance::BodyState& state) {
   return std::get<CombinedEllipsoid>(state.shape).ellipsoid();
-}
-
-/// A velocity that brings the body near a point in about half of `end`.
-Vector3d towards(Random& random, const Vector3d& position, double end, double miss) {
-  return (random.vector(miss) - position) / (end * random.uniform(0.3, 0.9));
 }
 
 TEST(Proof, StraightMotionAgreesWithExactMembershipAndContactTimes) {
@@ -143,31 +109,6 @@ TEST(Proof, GrazingWithinThePaddingIsUndecided) {
   }
 }
 
-/// The verdict, held against what bodies are sampled to do; sampled overlap contradicts `avoided` and its
-/// absence `touched`.
-template <typename Overlap>
-void expect_sampled(const PairProof& proof, double end, const Overlap& overlap) {
-  bool any = false;
-  double first = end;
-  for (int j = 0; j <= 1000 && !any; ++j) {
-    const double t = end * j / 1000;
-    if (overlap(t)) {
-      any = true;
-      first = t;
-    }
-  }
-  if (any) {
-    EXPECT_EQ(proof.verdict, ProofVerdict::touched);
-    EXPECT_LE(proof.to, first);
-  }
-  if (proof.verdict == ProofVerdict::touched) {
-    EXPECT_TRUE(overlap(proof.to));
-    if (proof.from > 0) {
-      EXPECT_FALSE(overlap(proof.from));
-    }
-  }
-}
-
 TEST(Proof, TurningEllipsoids) {
   SCOPED_TRACE("seed 32");
   Random random(32);
@@ -198,152 +139,6 @@ TEST(Proof, TurningEllipsoids) {
   EXPECT_GT(counts[0], 30);
   EXPECT_GT(counts[1], 30);
   EXPECT_EQ(counts[2], 0);
-}
-
-TEST(Proof, PlanarBodiesThatChangeTheirShape) {
-  SCOPED_TRACE("seed 33");
-  Random random(33);
-  std::array<int, 3> counts{};
-  for (int i = 0; i < 150; ++i) {
-    const auto make = [&](bool changes) {
-      const Vector3d v = random.flat_vector(15);
-      const Motion start{random.flat_vector(20), v, rotation_from_heading(std::atan2(v.y(), v.x()), 0)};
-      Oscillation k;
-      if (changes) k = {0, 0.99, random.uniform(0.5, 4), random.uniform(0, 6), true};
-      return turning(random, DentedConic{random.uniform(1, 6), random.uniform(1, 4), k}, start, 15, 3);
-    };
-    const Track a = make(i % 2 == 0), b = make(true);
-    const PairProof proof = prove(a, b, 0, 3);
-    ++counts[static_cast<std::size_t>(proof.verdict)];
-    expect_sampled(proof, 3, [&](double t) {
-      return combined_sector(std::get<CombinedEllipse>(a.state(t).shape),
-                             std::get<CombinedEllipse>(b.state(t).shape))
-                 .sector.relation != Relation::disjoint;
-    });
-  }
-  EXPECT_GT(counts[0], 30);
-  EXPECT_GT(counts[1], 30);
-  EXPECT_EQ(counts[2], 0);
-}
-
-TEST(Proof, BodiesInSpaceThatChangeTheirShape) {
-  SCOPED_TRACE("seed 34");
-  Random random(34);
-  std::array<int, 3> counts{};
-  for (int i = 0; i < 60; ++i) {
-    const Vector3d p = random.vector(12), q = random.vector(12);
-    const Motion start_a{p, towards(random, p, 3, 4), random.rotation()};
-    const Motion start_b{q, towards(random, q, 3, 4), random.rotation()};
-    const Track a = turning(
-        random, ellipsoid({random.uniform(1, 3), random.uniform(1, 3), random.uniform(1, 3)}), start_a, 5, 3);
-    const Track b = turning(random,
-                            DentedQuadric{{random.uniform(1, 4), random.uniform(1, 4), random.uniform(1, 4)},
-                                          {0.5, 0.45, random.uniform(0.5, 4), random.uniform(0, 6), false}},
-                            start_b, 5, 3);
-    const PairProof proof = prove(a, b, 0, 3);
-    ++counts[static_cast<std::size_t>(proof.verdict)];
-    // Points of the surface of A inside B.
-    if (proof.verdict == ProofVerdict::touched && proof.to == 0) continue;  // met from the beginning
-    Random directions(99);
-    const double end = proof.verdict == ProofVerdict::touched ? proof.from : 3;
-    for (int j = 0; j < 200; ++j) {
-      const double t = random.uniform(0, end);
-      const auto body_a = std::get<CombinedEllipsoid>(a.state(t).shape);
-      const auto body_b = std::get<CombinedEllipsoid>(b.state(t).shape);
-      for (int m = 0; m < 50; ++m) {
-        const Vector3d x = body_a.ellipsoid().support_point(directions.vector(1));
-        EXPECT_GT(body_b.gauge(x - body_b.center()), 1);
-      }
-    }
-    if (proof.verdict == ProofVerdict::touched) {
-      const auto body_a = std::get<CombinedEllipsoid>(a.state(proof.to).shape);
-      const auto body_b = std::get<CombinedEllipsoid>(b.state(proof.to).shape);
-      EXPECT_LE(body_a.gauge(proof.place - body_a.center()), 1 + 1e-2);
-      EXPECT_LE(body_b.gauge(proof.place - body_b.center()), 1 + 1e-2);
-    }
-  }
-  EXPECT_GT(counts[0], 10);
-  EXPECT_GT(counts[1], 10);
-  EXPECT_LE(counts[2], 2);
-}
-
-TEST(Proof, ABallThatVisitsADentIsNotCalledTouched) {
-  // The dents are at x = +-1.2 on the axis and the ellipsoid's end, which they cut off, at 3.8.
-  const DentedQuadric dented{{4, 3, 3}, {0.91, 0, 0, 0, false}};
-  const Track b = straight(dented, {0, 0, 0}, {0, 0, 0}, 6);
-  for (const auto& [depth, verdict] :
-       {std::pair(1.9, ProofVerdict::avoided), std::pair(1.0, ProofVerdict::touched)}) {
-    // In along the axis until x = depth, then out.
-    Track a(ball(0.3), {{8, 0, 0}, {-2 * (8 - depth) / 3, 0, 0}, Matrix3d::Identity()}, Orientation::fixed,
-            0);
-    a.advance({2 * (8 - depth) / 9, 0, 0}, 6);
-    const PairProof proof = prove(a, b, 0, 6);
-    EXPECT_EQ(proof.verdict, verdict) << depth;
-    if (verdict == ProofVerdict::touched) {
-      // x(t) - 0.3 = 1.2: the time is where 8 - v t + a t^2 / 2 = 1.5.
-      const double rate = 7.0 * 2 / 9, when = 3 - std::sqrt(2 * (1.5 - 1.0) / rate);
-      EXPECT_NEAR(proof.to, when, 1e-4);
-      EXPECT_LE(proof.from, when);
-    }
-  }
-  // The same in the plane.
-  const DentedConic flat{4, 3, {0.91, 0, 0, 0, false}};
-  const Track fixed = straight(flat, {0, 0, 0}, {0, 0, 0}, 6);
-  for (const auto& [depth, verdict] :
-       {std::pair(1.9, ProofVerdict::avoided), std::pair(1.0, ProofVerdict::touched)}) {
-    Track a(DentedConic{0.3, 0.3, {}}, {{8, 0, 0}, {-2 * (8 - depth) / 3, 0, 0}, Matrix3d::Identity()},
-            Orientation::fixed, 0);
-    a.advance({2 * (8 - depth) / 9, 0, 0}, 6);
-    EXPECT_EQ(prove(a, fixed, 0, 6).verdict, verdict) << depth;
-    EXPECT_EQ(prove(fixed, a, 0, 6).verdict, verdict) << depth;
-  }
-}
-
-TEST(Proof, HullsAgainstExactTimes) {
-  SCOPED_TRACE("seed 35");
-  Random random(35);
-  std::array<int, 3> counts{};
-  for (int i = 0; i < 300; ++i) {
-    std::vector<Vector3d> points;
-    for (int j = 0; j < 12; ++j) points.push_back(random.vector(3));
-    const ShapeInTime hull = RigidShape{HullBody(points)};
-    const Vector3d axes(random.uniform(0.5, 4), random.uniform(0.5, 4), random.uniform(0.5, 4));
-    const ShapeInTime other =
-        i % 3 == 0 ? ShapeInTime(RigidShape{HullBody::box(-axes, axes)}) : ellipsoid(axes);
-    const Vector3d p = random.vector(15), q = random.vector(15);
-    const Track a = straight(other, p, towards(random, p, 5, 5), 5, random.rotation());
-    const Track b = straight(hull, q, towards(random, q, 5, 5), 5, random.rotation());
-    const PairProof proof = prove(a, b, 0, 5), exchanged = prove(b, a, 0, 5);
-    ++counts[static_cast<std::size_t>(proof.verdict)];
-    EXPECT_EQ(proof.verdict, exchanged.verdict);
-    const auto oracle = [&](double t) {
-      const auto shape_a = a.state(t).shape;
-      const HullBody body_b = std::get<HullBody>(b.state(t).shape);
-      if (const auto* points_a = std::get_if<HullBody>(&shape_a)) return HullOracle(*points_a, body_b);
-      return HullOracle(std::get<CombinedEllipsoid>(shape_a).ellipsoid(), body_b);
-    };
-    expect_sampled(proof, 5, [&](double t) { return oracle(t).relation() != Relation::disjoint; });
-    const HullOracle now = oracle(0);
-    if (now.relation() != Relation::disjoint) continue;
-    const Vector3d w = a.state(0).velocity - b.state(0).velocity;
-    // Never meeting at all must be proved; meeting for ever includes the time asked about.
-    if (now.membership(w) == Membership::out) {
-      EXPECT_EQ(proof.verdict, ProofVerdict::avoided);
-    }
-  }
-  EXPECT_GT(counts[0], 80);
-  EXPECT_GT(counts[1], 80);
-  EXPECT_EQ(counts[2], 0);
-}
-
-TEST(Proof, DistancesOfBoxesAreBounds) {
-  // Faces that pass at a distance of 0.25.
-  const Track a = straight(RigidShape{HullBody::box({-1, -1, -1}, {1, 1, 1})}, {-10, 0, 0}, {4, 0, 0}, 5);
-  const Track b = straight(RigidShape{HullBody::box({-1, -1, -1}, {1, 1, 1})}, {0, 0.5, 2.25}, {0, 0, 0}, 5);
-  const PairProof proof = prove(a, b, 0, 5);
-  ASSERT_EQ(proof.verdict, ProofVerdict::avoided);
-  EXPECT_LE(proof.least_distance, 0.25);
-  EXPECT_GE(proof.least_distance, 0.2474);
 }
 
 /// x -> M x of a motion.

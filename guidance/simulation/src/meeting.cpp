@@ -193,7 +193,8 @@ bool delimited(const MovingPair& pair, const Moment& moment) {
   return has_delimiters(bodies.a) || has_delimiters(bodies.b);
 }
 
-std::optional<double> apart_by_inflation(const MovingPair& pair, const Piece& piece, double padding) {
+std::optional<Inflation> apart_by_inflation(const MovingPair& pair, const Piece& piece, double padding,
+                                            bool measure) {
   const double dt = piece.duration();
   const Track::Bounds a = pair.a().bounds(piece.from.t, piece.to.t),
                       b = pair.b().bounds(piece.from.t, piece.to.t);
@@ -213,7 +214,17 @@ std::optional<double> apart_by_inflation(const MovingPair& pair, const Piece& pi
                        distance);
   };
   if (!proved(needed)) return std::nullopt;
-  return proved(2 * needed) ? needed : 0;
+  if (!measure) return Inflation{};
+  double lo = needed, hi = 2 * needed;
+  while (hi < 1e6 * needed && proved(hi)) {
+    lo = hi;
+    hi *= 2;
+  }
+  for (int step = 0; step < 4; ++step) {
+    const double half = 0.5 * (lo + hi);
+    (proved(half) ? lo : hi) = half;
+  }
+  return Inflation{lo - needed, hi};
 }
 
 Vector3d place_between(const MovingPair& pair, const Moment& moment, const Vector3d& normal) {

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
+#include <optional>
 
 #include "separation.h"
 
@@ -22,10 +24,18 @@ Meeting meeting(const MovingPair& pair, const Moment& moment);
 /// Whether a body is not convex, so that planes do not tell all.
 bool delimited(const MovingPair& pair, const Moment& moment);
 
-/// For delimited bodies: proves that they stay farther apart than the bound returned, over a whole piece, by
-/// inflating one of them by all that both can move, turn and change meanwhile. Nothing where that fails.
-/// `padding`: what is added.
-std::optional<double> apart_by_inflation(const MovingPair& pair, const Piece& piece, double padding);
+struct Inflation {
+  double bound = 0;  // the bodies stay farther apart than this, proved, metres
+  /// They come nearer than this at the middle of the piece, as far as inflated bodies tell; infinite: not
+  /// asked.
+  double gap = std::numeric_limits<double>::infinity();
+};
+
+/// For delimited bodies: proves that they stay apart over a whole piece, by inflating one of them by all that
+/// both can move, turn and change meanwhile. Nothing where that fails. `padding`: what is added. `measure`:
+/// by how much more they can be inflated, to a tenth; ten questions instead of one.
+std::optional<Inflation> apart_by_inflation(const MovingPair& pair, const Piece& piece, double padding,
+                                            bool measure);
 
 /// The middle between the bodies' faces, edges or points next to a plane between them. `normal` of that
 /// plane; zero: along the line of centres.

@@ -80,8 +80,8 @@ class Search {
       const Meeting now = meeting(pair_, piece.middle);
       if (now == Meeting::meet) return met(span, piece.middle, normal, halved);
       if (now == Meeting::apart && delimited(pair_, piece.middle))
-        if (const auto bound = apart_by_inflation(pair_, piece, padding_)) {
-          leaves_.push_back({span, *bound, kNone, false});
+        if (apart_by_inflation(pair_, piece, padding_, false)) {
+          leaves_.push_back({span, 0, kNone, false});
           return false;
         }
     }
@@ -136,7 +136,7 @@ class Search {
     const Leaf& least = *std::min_element(leaves_.begin(), leaves_.end(), lower);
     const Leaf& nearest = *std::min_element(leaves_.begin(), leaves_.end(), nearer);
     proof_.least_distance = least.bound;
-    const Leaf& there = least.by_planes ? nearest : least;
+    const Leaf& there = nearest.gap < kNone ? nearest : least;
     const Moment when = middle_of(there.span);
     proof_.least_time = when.t;
     proof_.place = there.by_planes ? place_between(pair_, when, there.span.normal)
@@ -154,7 +154,7 @@ class Search {
     double nearest = std::min_element(leaves_.begin(), leaves_.end(), nearer)->gap;
     for (int i = 0; i < kMostRefinements; ++i) {
       const auto least = std::min_element(leaves_.begin(), leaves_.end(), lower);
-      if (!least->by_planes || least->bound >= 0.99 * nearest - 1e-6) return;
+      if (least->bound >= (least->by_planes ? 0.99 : 0.8) * nearest - 1e-6) return;
       const Leaf parent = *least;
       const Moment middle = middle_of(parent.span);
       if (!(middle.t > parent.span.from.t) || !(middle.t < parent.span.to.t)) return;
@@ -168,6 +168,14 @@ class Search {
   /// What holds for the whole holds for the half.
   Leaf half(const Leaf& whole, const Moment& from, const Moment& to) const {
     const Piece piece{from, pair_.at(0.5 * (from.t + to.t)), to};
+    if (!whole.by_planes) {
+      Leaf leaf{{from, to, whole.span.normal}, whole.bound, kNone, false};
+      if (const auto inflation = apart_by_inflation(pair_, piece, padding_, true)) {
+        leaf.bound = std::max(leaf.bound, inflation->bound);
+        leaf.gap = inflation->gap;
+      }
+      return leaf;
+    }
     const Certificate c = separate(pair_, piece, whole.span.normal);
     const double bound = c.bound - padding_;
     Leaf leaf{{from, to, whole.span.normal}, std::max(bound, whole.bound), c.gap > 0 ? c.gap : kNone, true};
