@@ -23,6 +23,12 @@ using Eigen::Vector3d;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kOptimum = 1e-4;  // rad, to which the plane is right
 
+/// The choices that look at no sector fall back to the opening where they have no plane.
+bool by_opening(PlaneChoice choice) {
+  return choice != PlaneChoice::least_y && choice != PlaneChoice::least_turn &&
+         choice != PlaneChoice::wind_aware;
+}
+
 /// A pair seen on the planes through its line of sight, by azimuth from `e1`.
 class Planes {
  public:
@@ -40,6 +46,8 @@ class Planes {
         cone_function(opening->psi, opening->theta_b, flat(a_.velocity), flat(b_.velocity));
     return PlaneCandidate{azimuth, opening->psi, opening->theta_b, y.y, y.v_r_hat};
   }
+
+  std::optional<double> opening_slope(double azimuth) const { return cones_.opening_slope(across(azimuth)); }
 
   /// What the choice makes least; infinite where there is no sector.
   double merit(double azimuth, const PlaneOptions& options) const {
@@ -103,6 +111,26 @@ class Planes {
   PlaneCones cones_;
   Vector3d u_, e1_, e2_;
 };
+
+/// The largest opening near azimuth 0, by secants through its slope; nothing where it has been lost, or where
+/// there is no slope in closed form.
+std::optional<double> opening_followed(const Planes& planes) {
+  constexpr double kReach = 0.003, kNear = 0.01, kFar = 0.1;  // rad
+  constexpr double kFlat = 1e-10;
+  double x = 0;
+  for (int round = 0; round < 3; ++round) {
+    const auto here = planes.opening_slope(x), ahead = planes.opening_slope(x + kReach);
+    if (!here || !ahead) return std::nullopt;
+    if (std::abs(*here) < kFlat && std::abs(*ahead) < kFlat) return x;
+    const double curvature = *ahead - *here;
+    if (!(curvature < 0)) return std::nullopt;
+    const double step = -kReach * *here / curvature;
+    if (!(std::abs(step) < kFar)) return std::nullopt;
+    x += step;
+    if (std::abs(step) < kNear) return x;
+  }
+  return std::nullopt;
+}
 
 /// The optimum near azimuth 0, by parabolas through three planes; nothing where it has been lost.
 std::optional<double> followed(const Planes& planes, const PlaneOptions& options) {
@@ -215,6 +243,8 @@ std::optional<Vector3d> choose_plane(const BodyState& a, const BodyState& b, Sec
     if (const auto axis = axis_of_motion(a, b, options.choice, u)) return as_before(*axis);
   if (previous && options.refine) {
     const Planes near(a, b, method, u, across_axis(u, *previous));
+    if (by_opening(options.choice))
+      if (const auto azimuth = opening_followed(near)) return near.across(*azimuth);
     if (const auto azimuth = followed(near, options)) return near.across(*azimuth);
   }
   const Planes planes(a, b, method, u, frame.e1);

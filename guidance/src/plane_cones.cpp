@@ -68,6 +68,20 @@ std::optional<Opening> PlaneCones::on(const Vector3d& u, const Vector3d& e) cons
   return std::visit(Ask{u, e}, kind_);
 }
 
+std::optional<double> PlaneCones::opening_slope(const Vector3d& e) const {
+  const auto* planes = std::get_if<SectorPlanes>(&kind_);
+  if (!planes || !planes->disjoint()) return std::nullopt;
+  const PlaneSector sector = planes->on(e);
+  const Vector3d &u = sector.line_of_sight, p = u.cross(sector.across);
+  // The contact normal stays perpendicular to the edge d, which turns in the plane and with it, by
+  // u x d = +-sin p.
+  const auto slope = [&](const PlaneSector::Edge& edge, double side) {
+    const double cosine = std::cos(edge.angle), sine = std::sin(edge.angle);
+    return -sine * edge.normal.dot(p) / edge.normal.dot(cosine * sector.across - side * sine * u);
+  };
+  return slope(sector.left, 1) + slope(sector.right, -1);
+}
+
 double PlaneCones::tolerance() const {
   if (std::holds_alternative<ExactHull>(kind_)) return ExactHull::kEdge;
   if (std::holds_alternative<ExactCombined>(kind_)) return ExactCombined::kEdge;

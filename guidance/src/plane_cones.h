@@ -89,6 +89,10 @@ class PlaneCones {
   /// u: the line of sight; e perpendicular to it, unit. Nothing as fill_cone() says.
   std::optional<Opening> on(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
 
+  /// d psi / d azimuth as the plane turns about the line of sight, in closed form: true sectors of
+  /// ellipsoids; nothing for others.
+  std::optional<double> opening_slope(const Eigen::Vector3d& e) const;
+
   /// Radians to which the edges are right, where that is not rounding.
   double tolerance() const;
   /// Whether edges turn smoothly with the plane: those of ellipsoids, which pass from no contact to another.
