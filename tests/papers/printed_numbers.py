@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every number that the source prints in the sections of the registry, read from its pages in their order: what is
+printed of it must stand in the claims named."""
+
+PRINTED = {
+    "5.4.1": [
+        ("F1-position", "(0, 0)"), ("F1-axes", "(6, 2)"), ("F1-speed", "25"), ("F1-heading", "45"),
+        ("F2-position", "(45, 0)"), ("F2-speed", "20"), ("F2-heading", "120"), ("y-0", "-0.0452"), ("saturation", "15"),
+        ("out-of-F2", "0.80"), ("constant", "2.12"), ("F3-appears", "2.13"), ("F3-position", "(5, 75)"),
+        ("F3-heading", "0"), ("y-2.13", "-0.06"), ("psi-2.13", "36.91"), ("F3-axes", "(6, 2)"), ("F3-k", "0.9"),
+        ("out-of-F3", "2.70"), ("passes-F3", "3.74"), ("aligned", "4.88")],
+    "5.4.2": [
+        ("5.4.2/k", "|sin(2 t + pi/2)|"), ("F2-axes", "(6, 2)"), ("F2-k", "1"), ("F2-speed", "20"),
+        ("F2-heading", "120"), ("y-0", "-0.053"), ("out-of-F2", "0.84")],
+    "6.3.1": [("engagements", "10,000"), ("engagements", "360"), ("bound", "2/n")],
+    "6.5": [
+        ("noncooperative/A-position", "(10, 0, 0)"), ("noncooperative/A-axes", "(10, 5, 3)"),
+        ("noncooperative/A-speed", "8.5"), ("noncooperative/A-heading", "(0, 69)"),
+        ("noncooperative/B-position", "(0, 0, 20)"), ("noncooperative/B-axes", "(10, 5, 3)"),
+        ("noncooperative/B-speed", "5"), ("noncooperative/B-heading", "(0, 0)"), ("noncooperative/y-0", "negative"),
+        ("noncooperative/V_r-0", "negative"), ("noncooperative/plane", "maximum psi"),
+        ("noncooperative/signs-B", "greater than zero"), ("noncooperative/clear-of-B", "4.7"),
+        ("noncooperative/C-position", "(50, 15, 30)"), ("noncooperative/C-appears", "4.7"),
+        ("noncooperative/C-speed", "5.1"), ("noncooperative/C-heading", "(0, 34.5)"),
+        ("noncooperative/course-C", "collision course"), ("noncooperative/avoids-C", "out of the cone"),
+        ("noncooperative/D-appears", "8"), ("noncooperative/D-position", "(95, -5, 40)"),
+        ("noncooperative/D-speed", "3.61"), ("noncooperative/D-heading", "(5, 28)"),
+        ("noncooperative/avoids-D", "out of the cone"), ("noncooperative/E-appears", "10.5"),
+        ("noncooperative/faces", "10"), ("noncooperative/E-position", "(110, 30, 40)"),
+        ("noncooperative/E-speed", "5.1"), ("noncooperative/E-heading", "(0, 34.5)"),
+        ("noncooperative/avoids-E", "cleared"), ("/cooperative/course-B1", "collision course"),
+        ("/cooperative/mu", "-0.5"), ("/cooperative/clear-of-B1", "5.5"), ("6.5-cooperative/B2-appears", "5.5"),
+        ("6.5-cooperative/B2-position", "(60, 15, 40)"), ("6.5-cooperative/B2-speed", "5.1"),
+        ("6.5-cooperative/B2-heading", "(0, 34.5)"), ("/cooperative/course-B2", "collision course"),
+        ("/cooperative/clear-of-B2", "11")],
+}
