@@ -178,6 +178,26 @@ TEST(Proof, MirroredAndExchangedBodiesHaveTheSameVerdict) {
   }
 }
 
+TEST(Proof, ATurnThatIsReversedWithinAPieceCounts) {
+  // Nearly in place: 2 rad/s to the left for 0.25 s, then to the right. The tip comes nearest in between, and
+  // is farther away at both ends and in the middle of the time.
+  const double first = std::numbers::pi / 2 - 0.8;
+  Track a(ellipsoid({3, 0.5, 0.5}), {{0, 0, 0}, {0.01, 0, 0}, rotation_from_heading(first, 0)},
+          Orientation::heading, 0);
+  a.advance({0, 0.02, 0}, 0.25);
+  const Vector3d v = a.motion(0.25).velocity;
+  a.advance(2 * Vector3d(v.y(), -v.x(), 0), 0.6);
+  for (const auto& [gap, verdict] :
+       {std::pair(0.70, ProofVerdict::touched), std::pair(0.77, ProofVerdict::avoided)}) {
+    const double start = std::hypot(3 * std::cos(0.8), 0.5 * std::sin(0.8));
+    const Track b = straight(ball(100), {0, start + 100 + gap, 0}, {0, 0, 0}, 0.6);
+    const PairProof proof = prove(a, b, 0, 0.6);
+    ASSERT_EQ(proof.verdict, verdict) << gap;
+    const double when = verdict == ProofVerdict::touched ? proof.to : proof.least_time;
+    EXPECT_NEAR(when, 0.23, 0.04);
+  }
+}
+
 TEST(Proof, LevelBodiesOverTheTop) {
   // The frame turns about at the top: only a ball around the body tells, which is enough here and not there.
   for (const auto& [height, verdict] :
