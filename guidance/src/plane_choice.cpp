@@ -134,10 +134,12 @@ std::optional<double> opening_followed(const Planes& planes) {
 
 /// The optimum near azimuth 0, by parabolas through three planes; nothing where it has been lost.
 std::optional<double> followed(const Planes& planes, const PlaneOptions& options) {
-  const double reach = planes.exact() ? 0.01 : 0.05;
+  // Openings vary slowly from plane to plane. What the relative velocity has a part in does not where that is
+  // nearly along the line of sight, and gets a second, narrower parabola.
+  const double wide = planes.exact() ? 0.01 : 0.05, narrow = by_opening(options.choice) ? wide : wide / 8;
   const auto merit = [&](double x) { return planes.merit(x, options); };
-  double x = 0;
-  for (int round = 0; round < 2; ++round) {
+  double x = 0, reach = wide;
+  for (int round = 0; round < 4; ++round) {
     const double here = merit(x), ahead = merit(x + reach), behind = merit(x - reach);
     const double most = std::max({here, ahead, behind}), least = std::min({here, ahead, behind});
     if (!(most < kInfinity)) return std::nullopt;
@@ -145,12 +147,13 @@ std::optional<double> followed(const Planes& planes, const PlaneOptions& options
     const double curvature = ahead + behind - 2 * here;
     if (!(curvature > 0)) return std::nullopt;
     const double step = 0.5 * reach * (behind - ahead) / curvature;
-    if (std::abs(step) <= reach) {
+    if (std::abs(step) > 5 * reach) return std::nullopt;
+    if (std::abs(step) <= reach && reach == narrow) {
       // Where the merit has a kink, the parabola's vertex is none of its own.
       return planes.smooth(options.choice) || merit(x + step) <= here + planes.noise() ? x + step : x;
     }
-    if (std::abs(step) > 5 * reach) return std::nullopt;
     x += step;
+    if (std::abs(step) <= reach) reach = narrow;
   }
   return std::nullopt;
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/cones/cone_geometry.h>
-#include <vericone/cones/plane_sector.h>
-#include <vericone/cones/slice_cone.h>
 #include <vericone/guidance/plane_choice.h>
 
 #include <cmath>
@@ -11,58 +9,19 @@
 
 #include "guidance/allocations.h"
 #include "guidance/engagements.h"
+#include "guidance/plane_merit.h"
 
 namespace vericone::guidance {
 namespace {
 
 using Eigen::Vector3d;
-using testing::RandomBodies;
+using testing::ellipsoid_of, testing::line_of_sight, testing::merit, testing::RandomBodies;
 
 constexpr PlaneChoice kSearched[] = {PlaneChoice::largest_opening, PlaneChoice::least_turn,
                                      PlaneChoice::least_y, PlaneChoice::wind_aware};
 constexpr PlaneChoice kAll[] = {
     PlaneChoice::largest_opening, PlaneChoice::least_turn,         PlaneChoice::least_y,
     PlaneChoice::wind_aware,      PlaneChoice::steepest_clearance, PlaneChoice::of_motion};
-
-const Ellipsoid& ellipsoid_of(const BodyState& body) {
-  return std::get<CombinedEllipsoid>(body.shape).ellipsoid();
-}
-
-Vector3d line_of_sight(const BodyState& a, const BodyState& b) {
-  return (b.position - a.position).normalized();
-}
-
-/// What a choice makes least on the plane of `e`, from the sectors themselves.
-double merit(const BodyState& a, const BodyState& b, SectorMethod method, const PlaneOptions& options,
-             const Vector3d& e) {
-  const Vector3d u = line_of_sight(a, b), w = a.velocity - b.velocity;
-  double left, right;
-  if (method == SectorMethod::exact) {
-    const PlaneSector s = exact_sector(ellipsoid_of(a), ellipsoid_of(b), e);
-    left = s.left.angle, right = s.right.angle;
-  } else {
-    const Slice s = slice_sector(ellipsoid_of(a), ellipsoid_of(b), e);
-    left = s.left, right = s.right;
-  }
-  if (options.choice == PlaneChoice::largest_opening) return -(left + right);
-  if (options.choice == PlaneChoice::least_y) {
-    // (5.1): sin^2 of the angle from the bisector less that of half the opening.
-    const double angle = std::atan2(-w.dot(e), -w.dot(u)) - 0.5 * (left - right);
-    return std::pow(std::sin(angle), 2) - std::pow(std::sin(0.5 * (left + right)), 2);
-  }
-  const auto angle_to = [&](const Vector3d& d) { return std::atan2(w.cross(d).norm(), w.dot(d)); };
-  const double to_left = angle_to(std::cos(left) * u + std::sin(left) * e),
-               to_right = angle_to(std::cos(right) * u - std::sin(right) * e);
-  const double turn = std::min(to_left, to_right);
-  if (options.choice == PlaneChoice::least_turn) return turn;
-  // The acceleration of A, across its velocity, that turns w in this plane towards that edge.
-  const Vector3d n = u.cross(e), flat = a.velocity - a.velocity.dot(n) * n;
-  Vector3d push = n.cross(flat).normalized();
-  const Vector3d towards = to_left <= to_right ? n.cross(w) : -n.cross(w);
-  if (push.dot(towards) < 0) push = -push;
-  const double along = push.dot(options.wind) / options.wind.norm();
-  return along >= -0.5 ? turn : 2 * std::numbers::pi - along;
-}
 
 TEST(PlaneChoice, IsTheBestOf3600Planes) {
   RandomBodies random(7301);
@@ -145,60 +104,6 @@ TEST(PlaneChoice, EquallyGoodPlanesAreToldApartByTheAzimuth) {
       ASSERT_TRUE(next);
       EXPECT_LT((*next - (before - before.dot(frame.axis) * frame.axis).normalized()).norm(), 1e-13);
     }
-  }
-}
-
-TEST(PlaneChoice, FollowsTheOptimum) {
-  RandomBodies random(7304);
-  SCOPED_TRACE(random.trace());
-  int compared = 0, elsewhere = 0;
-  for (int i = 0; i < 40; ++i) {
-    auto [a, b] = testing::moving_pair(random, 2, 4);
-    b.now.velocity =
-        a.now.velocity - random.uniform(1, 5) * (line_of_sight(a.now, b.now) + 0.2 * random.in_box(1));
-    a.axes_rate *= 0.1, b.axes_rate *= 0.1;
-    std::optional<Vector3d> before;
-    for (int step = 0; step < 50; ++step) {
-      const double t = 0.005 * step;
-      const auto e = choose_plane(a.at(t), b.at(t), SectorMethod::exact, {}, before ? &*before : nullptr);
-      ASSERT_TRUE(e);
-      const auto afresh = choose_plane(a.at(t), b.at(t), SectorMethod::exact, {});
-      const PlaneOptions opening;
-      const double psi = -merit(a.at(t), b.at(t), SectorMethod::exact, opening, *e),
-                   most = -merit(a.at(t), b.at(t), SectorMethod::exact, opening, *afresh);
-      if (std::abs(most - psi) < 1e-6) {
-        ++compared;
-        EXPECT_LT(e->cross(*afresh).norm(), 1e-3) << i << " " << step;
-        EXPECT_GT(psi, most - 1e-8);
-      } else {
-        ++elsewhere;
-        EXPECT_LT(psi, most);
-        // A local optimum is kept.
-        const Vector3d side = 0.01 * line_of_sight(a.at(t), b.at(t)).cross(*e);
-        EXPECT_GT(psi, -merit(a.at(t), b.at(t), SectorMethod::exact, opening, *e + side));
-        EXPECT_GT(psi, -merit(a.at(t), b.at(t), SectorMethod::exact, opening, *e - side));
-      }
-      if (before) {
-        EXPECT_GT(e->dot(*before), 0);
-      }
-      before = e;
-    }
-  }
-  EXPECT_GT(compared, 1900);
-}
-
-TEST(PlaneChoice, AStaleAxisIsGivenUp) {
-  RandomBodies random(7305);
-  SCOPED_TRACE(random.trace());
-  for (int i = 0; i < 200; ++i) {
-    const auto [moving_a, moving_b] = testing::moving_pair(random, 1.5, 4);
-    const BodyState a = moving_a.state(), b = moving_b.state();
-    const auto best = choose_plane(a, b, SectorMethod::exact, {});
-    ASSERT_TRUE(best);
-    const Vector3d worst = line_of_sight(a, b).cross(*best);
-    const auto e = choose_plane(a, b, SectorMethod::exact, {}, &worst);
-    ASSERT_TRUE(e);
-    EXPECT_GT(-merit(a, b, SectorMethod::exact, {}, *e), -merit(a, b, SectorMethod::exact, {}, worst));
   }
 }
 

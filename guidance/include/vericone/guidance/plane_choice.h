@@ -44,7 +44,7 @@ std::vector<PlaneCandidate> all_planes(const BodyState& a, const BodyState& b, S
                                        int planes);
 
 /// The second axis of the plane chosen, unit. `previous`: that of the last call, whose sign is kept; where it
-/// is given the optimum is followed from it by 3 to 8 evaluations, and all candidates are compared only where
+/// is given the optimum is followed from it by 2 to 12 evaluations, and all candidates are compared only where
 /// it is none any more. A local optimum is followed as long as it is one. Nothing where no plane has a
 /// sector. Planar bodies: the plane itself. Deterministic: planes equally good to rounding are told apart by
 /// the least azimuth. steepest_clearance and of_motion look at no sector; where w is zero or along the line

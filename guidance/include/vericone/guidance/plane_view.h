@@ -51,7 +51,7 @@ PlaneView plane_states(const BodyState& a, const BodyState& b, const Eigen::Vect
 /// ellipsoids. Others (`exact` of combined bodies and hulls, slices of hulls) are differenced. B's own
 /// acceleration is not known here: where B turns with its heading, only its omega counts. Edges of combined
 /// `exact` sectors are on the safe side: what cannot be decided counts as in.
-/// Cost with rates: ellipsoids exact 2.5 us, slices 3.5 us, of hulls of 12 points 10 us; exact sectors of
+/// Cost with rates: ellipsoids exact 1.5 us, slices 3.5 us, of hulls of 12 points 10 us; exact sectors of
 /// hulls 0.4 ms, of combined bodies 4 ms.
 bool fill_cone(PlaneView& view, const BodyState& a, const BodyState& b, SectorMethod method,
                RateMethod rates);
