@@ -29,7 +29,7 @@ struct RigidShape {
   guidance::Shape shape;
 };
 
-/// The source's conic (5.5) with the dents ahead and behind, k(t) in [0, 1).
+/// The source's conic (5.5) with the dents ahead and behind, k(t) in [0, 1].
 struct DentedConic {
   double a_c = 1, b_c = 1;
   Oscillation k;
@@ -44,7 +44,7 @@ struct DentedQuadric {
 
 using ShapeInTime = std::variant<RigidShape, DentedConic, DentedQuadric>;
 
-/// Throws InputError naming "a_c", "b_c", "semi_axes[i]" or "k" (values outside [0, 1) at some time).
+/// Throws InputError naming "center", "a_c", "b_c", "semi_axes[i]" or "k" (values outside [0, 1] at some time).
 void check(const ShapeInTime& shape);
 
 bool planar(const ShapeInTime& shape);
