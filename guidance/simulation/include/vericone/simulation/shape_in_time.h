@@ -44,7 +44,7 @@ struct DentedQuadric {
 
 using ShapeInTime = std::variant<RigidShape, DentedConic, DentedQuadric>;
 
-/// Throws InputError naming "center", "a_c", "b_c", "semi_axes[i]" or "k" (values outside [0, 1] at some time).
+/// Throws InputError: "center", "a_c", "b_c", "semi_axes[i]" or "k" (values outside [0, 1] at some time).
 void check(const ShapeInTime& shape);
 
 bool planar(const ShapeInTime& shape);
