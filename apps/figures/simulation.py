@@ -57,7 +57,7 @@ else:
     extent = np.vstack(extent)
     sides = np.maximum(np.ptp(extent, axis=0), 0.25 * np.ptp(extent, axis=0).max())
     middle_point = (extent.min(axis=0) + extent.max(axis=0)) / 2
-    space.set_box_aspect(sides, zoom=0.95)
+    space.set_box_aspect(sides.copy(), zoom=0.95)  # it scales what it is given
     for name, i in (("x", 0), ("y", 1), ("z", 2)):
         getattr(space, "set_%slim" % name)(middle_point[i] - sides[i] / 2, middle_point[i] + sides[i] / 2)
         getattr(space, "set_%slabel" % name)("%s (m)" % name, labelpad=-4 if i < 2 else -7)

@@ -300,6 +300,82 @@ FITS = [
 ]
 
 
+BODY = "{name: B, shape: {semi_axes: [2, 2, 2]}, position: [20, 0, 0], velocity: [-1, 0, 0]}"
+PILOT = "{law: avoidance, most: 15}"
+
+
+def scenario(body=BODY, pilot=PILOT, agent="{semi_axes: [3, 1, 1]}", top="duration: 5\n"):
+    return ("%sbodies:\n  - {name: A, shape: %s, position: [0, 0, 0], speed: 5, heading: [0, 0], pilot: %s}\n  - %s\n"
+            % (top, agent, pilot, body))
+
+
+# What is wrong, the scenario.
+SCENARIOS = [
+    ("no bodies", "duration: 5\n"),
+    ("bodies that are a mapping", "bodies: {A: 1}\n"),
+    ("an unknown field of the scenario", scenario(top="durations: 5\n")),
+    ("a negative duration", scenario(top="duration: -5\n")),
+    ("a step of zero", scenario(top="duration: 5\nstep: 0\n")),
+    ("a step far too short", scenario(top="duration: 5\nstep: 1.0e-9\n")),
+    ("half a plane logged", scenario(top="duration: 5\nplanes_logged: 0.5\n")),
+    ("stopping by a number", scenario(top="duration: 5\nstop_when_passed: 1\n")),
+    ("a proof without resolution", scenario(top="duration: 5\nproof: {resolution: 0}\n")),
+    ("a body without name", scenario(BODY.replace("name: B, ", ""))),
+    ("a name given twice", scenario(BODY.replace("name: B", "name: A"))),
+    ("a body without shape", scenario(BODY.replace("shape: {semi_axes: [2, 2, 2]}, ", ""))),
+    ("one semi-axis", scenario(BODY.replace("[2, 2, 2]", "[2]"))),
+    ("a negative semi-axis", scenario(BODY.replace("[2, 2, 2]", "[2, -2, 2]"))),
+    ("two kinds of shape", scenario(BODY.replace("[2, 2, 2]", "[2, 2, 2], points: [[0, 0, 0]]"))),
+    ("an ellipsoid with k", scenario(BODY.replace("[2, 2, 2]", "[2, 2, 2], k: 0.5"))),
+    ("a planar body in space", scenario(BODY.replace("[2, 2, 2]", "[2, 2]").replace("[20, 0, 0]", "[20, 0]")
+                                        .replace("[-1, 0, 0]", "[-1, 0]"))),
+    ("dents without k", scenario(BODY.replace("semi_axes:", "dented:"))),
+    ("k above 1 at times", scenario(BODY.replace("semi_axes: [2, 2, 2]",
+                                                 "dented: [2, 2, 2], k: {offset: 0.5, amplitude: 0.6, rate: 1}"))),
+    ("k that changes by text", scenario(BODY.replace("semi_axes: [2, 2, 2]", "dented: [2, 2, 2], k: {rate: fast}"))),
+    ("a hull of nothing", scenario(BODY.replace("semi_axes: [2, 2, 2]", "points: []"))),
+    ("a position in the plane", scenario(BODY.replace("[20, 0, 0]", "[20, 0]"))),
+    ("no velocity", scenario(BODY.replace(", velocity: [-1, 0, 0]", ""))),
+    ("a velocity and a speed", scenario(BODY.replace("velocity:", "speed: 3, velocity:"))),
+    ("a speed without heading", scenario(BODY.replace("velocity: [-1, 0, 0]", "speed: 3"))),
+    ("a negative speed", scenario(BODY.replace("velocity: [-1, 0, 0]", "speed: -3, heading: [0, 0]"))),
+    ("a heading of one angle in space", scenario(BODY.replace("velocity: [-1, 0, 0]", "speed: 3, heading: 1"))),
+    ("an elevation of 100 degrees", scenario(BODY.replace("velocity: [-1, 0, 0]", "speed: 3, heading_deg: [0, 100]"))),
+    ("an unknown orientation", scenario(BODY.replace("velocity:", "orientation: upright, velocity:"))),
+    ("a level body with a rotation", scenario(BODY.replace("velocity:",
+                                                           "orientation: level, rotation: [1, 0, 0, 0], velocity:"))),
+    ("a body that appears after the end", scenario(BODY.replace("velocity:", "appears: 7, velocity:"))),
+    ("a law that is not there", scenario(pilot="{law: dodge}")),
+    ("a pilot without law", scenario(pilot="{most: 15}")),
+    ("a gain of zero", scenario(pilot="{law: avoidance, gain: 0}")),
+    ("a saturation of zero", scenario(pilot="{law: avoidance, most: 0}")),
+    ("both sides at once", scenario(pilot="{law: avoidance, side: 0}")),
+    ("an unknown choice of planes", scenario(pilot="{law: avoidance, plane: {choice: best}}")),
+    ("wind without wind", scenario(pilot="{law: avoidance, plane: {choice: wind-aware}}")),
+    ("mu for one", scenario(pilot="{law: avoidance, mu: -0.5}")),
+    ("a sector of the clearance law", scenario(pilot="{law: clearance, sector: exact}")),
+    ("a negative clearance", scenario(pilot="{law: clearance, clearance: {required: -1}}")),
+    ("minding nobody known", scenario(pilot="{law: avoidance, minds: [C]}")),
+    ("a partner with a pilot", scenario(BODY.replace("velocity:", "pilot: {law: avoidance}, velocity:"),
+                                        "{law: cooperative-avoidance, partners: [B]}")),
+    ("a goal without most", scenario(pilot="{law: avoidance, goal: {point: [9, 0, 0]}}")),
+    ("a goal after nobody", scenario(pilot="{law: avoidance, goal: {point: [9, 0, 0], most: 5, after: C}}")),
+    ("an agent that is a hull", scenario(agent="{points: [[0, 0, 0], [1, 0, 0]]}")),
+]
+# What is wrong, arguments after `campaign`.
+CAMPAIGNS = [
+    ("no engagements", ["-N", "0"]),
+    ("an unknown law", ["--laws", "slice,best"]),
+    ("a law twice", ["--laws", "slice,slice"]),
+    ("no saturation", ["--most", "0"]),
+    ("a saturation that is none", ["--most", "5000"]),
+    ("a negative gain", ["--gain", "-1"]),
+    ("no clearance", ["--required", "0"]),
+    ("a step of zero", ["--step", "0"]),
+    ("many threads", ["--threads", "5000"]),
+]
+
+
 def run_queries(vericone):
     lines = [q if isinstance(q, str) else json.dumps(q) for _, q in QUERIES]
     with tempfile.TemporaryDirectory() as folder:
@@ -333,6 +409,37 @@ def run_fit(vericone, arguments, files):
         return result, sorted(set(os.listdir(folder)) - set(files))
 
 
+def run_scenario(vericone, text):
+    with tempfile.TemporaryDirectory() as folder:
+        with open(os.path.join(folder, "scenario.yaml"), "w", encoding="utf-8") as f:
+            f.write(text)
+        result = subprocess.run([vericone, "simulate", "scenario.yaml", "--quiet"], capture_output=True, text=True,
+                                check=False, cwd=folder)
+        return result, sorted(set(os.listdir(folder)) - {"scenario.yaml"})
+
+
+def run_campaign(vericone, arguments):
+    with tempfile.TemporaryDirectory() as folder:
+        result = subprocess.run([vericone, "campaign", *arguments, "--quiet"], capture_output=True, text=True,
+                                check=False, cwd=folder)
+        return result, os.listdir(folder)
+
+
+def scenario_rows(vericone):
+    def cell(text):
+        return "`" + " ".join(text.split()).replace("|", "\\|") + "`"
+
+    text = ["", "## Scenarios", "", "| what | scenario | message |", "|---|---|---|"]
+    for what, given in SCENARIOS:
+        result, _ = run_scenario(vericone, given)
+        text.append("| %s | %s | %s |" % (what, cell(given), cell(result.stderr)))
+    text += ["", "## Campaigns", "", "| what | command | message |", "|---|---|---|"]
+    for what, arguments in CAMPAIGNS:
+        result, _ = run_campaign(vericone, arguments)
+        text.append("| %s | %s | %s |" % (what, cell("vericone campaign " + " ".join(arguments)), cell(result.stderr)))
+    return text
+
+
 def table(vericone):
     def cell(text):
         return "`" + text.replace("|", "\\|") + "`"
@@ -353,7 +460,7 @@ def table(vericone):
         result, _ = run_fit(vericone, arguments, files)
         text.append("| %s | %s | %s |" % (what, cell("vericone fit " + " ".join(arguments)),
                                                    cell(result.stderr.strip())))
-    return "\n".join(text) + "\n"
+    return "\n".join(text + scenario_rows(vericone)) + "\n"
 
 
 if __name__ == "__main__":

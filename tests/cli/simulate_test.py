@@ -1,0 +1,232 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""vericone simulate and vericone campaign as a user meets them: spheres in closed form, files, interruptions.
+Environment as for cli_test.py."""
+import csv
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import bad_input_cases  # noqa: E402
+from cli_test import SOURCE, VERICONE, run  # noqa: E402
+
+BALLS = """name: balls
+duration: 6
+step: 0.02
+bodies:
+  - name: A
+    shape: {semi_axes: [1, 1, 1]}
+    position: [0, 0, 0]
+    velocity: [5, 0, 0]
+    pilot: {law: LAW}
+  - name: B
+    shape: {semi_axes: [2, 2, 2]}
+    position: [20, ASIDE, 0]
+    velocity: [-1, 0, 0]
+"""
+
+
+def balls(law="avoidance, most: 1.0e-9", aside=0):
+    return BALLS.replace("LAW", law).replace("ASIDE", str(aside))
+
+
+class Files(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = self.temporary.name
+        self.out = os.path.join(self.folder, "out")
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+    def write(self, text):
+        path = os.path.join(self.folder, "scenario.yaml")
+        with open(path, "w", encoding="utf-8") as f:
+            f.write(text)
+        return path
+
+    def simulate(self, text, *arguments):
+        result = run("simulate", self.write(text), "--out", self.out, "--quiet", "--no-figures", "--json", *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stderr, "")
+        return json.loads(result.stdout)
+
+    def table(self, name):
+        with open(os.path.join(self.out, name), newline="", encoding="utf-8") as f:
+            return list(csv.DictReader(f))
+
+    def content(self, name):
+        with open(os.path.join(self.out, name), "rb") as f:
+            return f.read()
+
+
+class Simulate(Files):
+    def test_balls_that_cannot_turn_meet_when_they_must(self):
+        proof = self.simulate(balls())["proof"]
+        self.assertEqual(proof["verdict"], "touched")
+        pair, contact = proof["pairs"][0], 17 / 6
+        self.assertLessEqual(pair["from"], contact + 1e-6)
+        self.assertGreaterEqual(pair["to"], contact - 1e-6)
+        self.assertLess(pair["to"] - pair["from"], 1e-5)
+        self.assertLess(math.dist(pair["place"], [5 * contact + 1, 0, 0]), 1e-3)
+        event = [e for e in self.table("events.csv") if e["event"] == "contact"][0]
+        self.assertEqual((event["agent"], event["obstacle"], event["unit"]), ("A", "B", "s"))
+        self.assertAlmostEqual(float(event["t [s]"]), contact, 5)
+
+    def test_balls_that_miss_are_as_far_apart_as_they_are(self):
+        proof = self.simulate(balls(aside=5))["proof"]
+        self.assertEqual(proof["verdict"], "avoided")
+        pair = proof["pairs"][0]
+        self.assertLessEqual(pair["least_distance"], 2)
+        self.assertGreater(pair["least_distance"], 1.99)
+        self.assertEqual((pair["from"], pair["to"]), (0, 6))
+        for row in self.table("encounters.csv"):
+            self.assertAlmostEqual(float(row["m [m]"]), 2, 9)
+            self.assertEqual(float(row["a [m/s^2]"]), 0)
+        passed = [e for e in self.table("events.csv") if e["event"] == "passes"][0]
+        self.assertAlmostEqual(float(passed["t [s]"]), 20 / 6, 6)
+        self.assertAlmostEqual(float(passed["value"]), 5, 6)
+
+    def test_the_clearance_law_keeps_its_metres(self):
+        proof = self.simulate(balls("clearance, gain: 3, most: 30, clearance: {required: 1.5}", aside=1))["proof"]
+        self.assertEqual(proof["verdict"], "avoided")
+        bodies = self.table("bodies.csv")
+        place = {(r["body"], r["t [s]"]): [float(r[c + " [m]"]) for c in "xyz"] for r in bodies}
+        nearest = min(math.dist(p, place["B", t]) for (name, t), p in place.items() if name == "A") - 3
+        self.assertAlmostEqual(nearest, 1.5, delta=0.02)
+        self.assertLessEqual(proof["pairs"][0]["least_distance"], nearest + 1e-9)
+        for row in bodies:  # lateral: the speed stays
+            if row["body"] == "A":
+                self.assertAlmostEqual(float(row["speed [m/s]"]), 5, 8)
+
+    def test_the_example_scenarios(self):
+        for name in ("avoidance", "clearance"):
+            result = run("simulate", os.path.join(SOURCE, "docs", "examples", name + ".yaml"), "--out", self.out, "--quiet",
+                         "--no-figures")
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            self.assertIn("verdict             avoided, proved\n", result.stdout)
+            self.assertEqual(sorted(os.listdir(self.out)),
+                             ["bodies.csv", "encounters.csv", "events.csv", "proof.json", "run.json", "scenario.yaml",
+                              "shapes.json"])
+            times = {r["t [s]"] for r in self.table("bodies.csv")}
+            self.assertEqual(len(self.table("bodies.csv")), 3 * len(times))
+            with open(os.path.join(SOURCE, "docs", "examples", name + ".yaml"), "rb") as f:
+                self.assertEqual(self.content("scenario.yaml"), f.read())
+
+    def test_the_same_bytes_again_and_no_file_of_an_earlier_run(self):
+        names = ("bodies.csv", "encounters.csv", "events.csv", "proof.json", "shapes.json")
+        self.simulate("planes_logged: 5\n" + balls("avoidance, most: 20"))
+        self.assertEqual(len(self.table("planes.csv")) % 5, 0)
+        first = [self.content(n) for n in names]
+        self.simulate(balls("avoidance, most: 20"))
+        self.assertEqual(first, [self.content(n) for n in names])
+        self.assertFalse(os.path.exists(os.path.join(self.out, "planes.csv")))
+
+    def test_a_body_in_the_plane_that_changes_and_appears_late(self):
+        self.simulate("""name: "with, comma"
+duration: 3
+step: 0.1
+bodies:
+  - {name: "F, 1", shape: {semi_axes: [2, 1]}, position: [0, 0], speed: 10, heading_deg: 90,
+     pilot: {law: avoidance, most: 10, gain: 2, reference: 0.05}}
+  - {name: F2, shape: {a_c: 2, b_c: 1, k: {offset: 0.2, amplitude: 0.1, rate: 3}}, position: [0, 60], velocity: [0, -10],
+     appears: 0.25}
+""")
+        rows = self.table("bodies.csv")
+        late = [r for r in rows if r["body"] == "F2"]
+        self.assertEqual(float(late[0]["t [s]"]), 0.25)
+        self.assertAlmostEqual(float(late[3]["k"]), 0.2 + 0.1 * math.sin(3 * float(late[3]["t [s]"])), 12)
+        agent = [r for r in rows if r["body"] == "F, 1"]
+        self.assertAlmostEqual(float(agent[0]["azimuth [rad]"]), math.pi / 2, 12)
+        for row in agent:
+            self.assertEqual(float(row["z [m]"]), 0)
+            self.assertAlmostEqual(abs(float(row["lateral [m/s^2]"])), float(row["a [m/s^2]"]), 9)
+        self.assertTrue(any(float(r["a [m/s^2]"]) > 0 for r in agent))
+        shapes = json.loads(self.content("shapes.json"))
+        self.assertEqual([s["kind"] for s in shapes], ["ellipse", "dented_conic"])
+
+    def test_an_interrupted_run_leaves_nothing(self):
+        path = self.write(balls("avoidance, most: 1").replace("duration: 6", "duration: 900").replace("step: 0.02", "step: 0.0001"))
+        process = subprocess.Popen([VERICONE, "simulate", path, "--out", self.out, "--quiet"], stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE)
+        time.sleep(0.5)
+        self.assertIsNone(process.poll(), "too quick to be interrupted")
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(60), 130)
+        process.communicate()
+        self.assertEqual(os.listdir(self.folder), ["scenario.yaml"])
+
+    def test_every_bad_scenario_says_why(self):
+        self.assertGreaterEqual(len(bad_input_cases.SCENARIOS), 40)
+        for what, text in bad_input_cases.SCENARIOS:
+            with self.subTest(what):
+                result, left = bad_input_cases.run_scenario(VERICONE, text)
+                self.assertEqual((result.returncode, result.stdout, left), (2, "", []), result.stderr)
+                self.assertRegex(result.stderr, r"\Avericone: \S.*: got .+, must be .+\n\Z")
+
+
+class Campaign(Files):
+    def campaign(self, *arguments, out=None):
+        result = run("campaign", "--out", out or self.out, "--quiet", "--no-figures", "--json", *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr + result.stdout[-500:])
+        return json.loads(result.stdout)
+
+    def test_counts_are_those_of_the_table_and_no_word_is_broken(self):
+        summary = self.campaign("-N", "200", "--seed", "3")
+        self.assertEqual(summary["violations"], 0)
+        self.assertGreater(summary["straight"]["slice_called_safe_and_met"], 0)
+        with open(os.path.join(self.out, "engagements.csv"), newline="", encoding="utf-8") as f:
+            next(f)
+            rows = list(csv.DictReader(f))
+        self.assertEqual(len(rows), 200)
+        for row in rows:  # the proof of straight flight and the exact predicate agree
+            self.assertEqual(row["straight"] == "avoided", row["straight safe"] == "1")
+            self.assertEqual(row["straight safe"], row["exact safe"])
+        self.assertGreater(sum(r["straight"] == "met" for r in rows), 100)
+        self.assertEqual(len(summary["laws"]), 8)
+        for law in summary["laws"]:
+            fates = [(r[law["name"]], r[law["name"] + " safe"]) for r in rows]
+            self.assertEqual(law["avoided"], sum(f == "avoided" for f, _ in fates))
+            self.assertEqual(law["infeasible"], fates.count(("met", "0")))
+            self.assertEqual(law["called_safe_and_met"], fates.count(("met", "1")))
+            self.assertEqual(law["avoided"] + law["met"] + law["undecided"], 200)
+            if not law["name"].startswith("slice"):
+                self.assertGreater(law["avoided"], summary["straight"]["avoided"])
+            for row in rows:
+                self.assertLessEqual(float(row[law["name"] + " peak [m/s^2]"]), law["most"] * (1 + 1e-9))
+
+    def test_threads_and_interruptions_change_nothing(self):
+        other = os.path.join(self.folder, "other")
+        arguments = ("-N", "400", "--laws", "motion,clearance")
+        self.campaign(*arguments, "--threads", "2", out=other)
+        partial = os.path.join(self.out, "engagements.csv.partial")
+        process = subprocess.Popen([VERICONE, "campaign", "--out", self.out, "--quiet", "--no-figures", "--threads", "1",
+                                    *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        while process.poll() is None and not (os.path.exists(partial) and os.path.getsize(partial) > 20_000):
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        process.communicate()
+        self.assertEqual(process.returncode, 130)
+        refused = run("campaign", "--out", self.out, "-N", "400", "--seed", "9", "--quiet")
+        self.assertEqual(refused.returncode, 2)
+        self.assertRegex(refused.stderr, r"^vericone: --out: got .+, must be .+")
+        self.campaign(*arguments, "--threads", "1")
+        with open(os.path.join(other, "engagements.csv"), "rb") as f:
+            self.assertEqual(self.content("engagements.csv"), f.read())
+
+    def test_every_bad_campaign_says_why(self):
+        for what, arguments in bad_input_cases.CAMPAIGNS:
+            with self.subTest(what):
+                result, left = bad_input_cases.run_campaign(VERICONE, arguments)
+                self.assertEqual((result.returncode, result.stdout, left), (2, "", []), result.stderr)
+                self.assertRegex(result.stderr, r"\Avericone: \S.*: got .+, must be .+\n\Z")
+
+
+if __name__ == "__main__":
+    unittest.main()
