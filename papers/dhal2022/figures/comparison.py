@@ -3,11 +3,11 @@
 from runs import Sheet, figure
 from style import EXACT, GREY, SLICE, TWO_COLUMNS, plt, save
 
-LAWS = {"source": ("source's law, slices", SLICE, "-"), "exact": ("source's law, true cone", EXACT, (0, (4, 1.2))),
+LAWS = {"source": ("source's law", SLICE, "-"), "exact": ("source's law, true cone", EXACT, (0, (4, 1.2))),
         "clearance": ("clearance law", "#3a8f4d", "-")}
 data = figure()
 sheet = Sheet()
-panels = plt.figure(figsize=(TWO_COLUMNS, 4.4), constrained_layout=True).subplots(2, 2)
+panels = plt.figure(figsize=(TWO_COLUMNS, 4.6), constrained_layout=True).subplots(2, 2)
 bars = []
 for n, (key, run) in enumerate(data["runs"].items()):
     label, color, dash = LAWS[key]
@@ -48,11 +48,18 @@ panels[1, 0].set_ylabel("acceleration |a| [m/s²]")
 panels[1, 1].set_ylabel("least distance, proved [m]")
 for axes in (panels[0, 0], panels[0, 1], panels[1, 0]):
     axes.set_xlabel("t [s]")
+low, high = panels[0, 1].get_ylim()
+panels[0, 1].set_ylim(low, min(high, 8) + 0.8)  # far obstacles are of no interest
+largest = max(bar.get_height() for bar in panels[1, 1].patches)
+if largest > 5:
+    panels[1, 1].set_yscale("symlog", linthresh=1)
+    panels[1, 1].yaxis.set_major_formatter("{x:g}")
+panels[1, 1].set_ylim(0, (2 if largest > 5 else 1.12) * largest)
 panels[1, 1].set_xticks([i for i, _ in sorted(set(bars))])
 panels[1, 1].set_xticklabels([o for _, o in sorted(set(bars))])
 panels[1, 1].set_xlabel("obstacle")
-panels[1, 1].margins(y=0.15)
 panels[1, 1].grid(False, axis="x")
-panels[1, 0].legend(loc="best")
+figure_legend = panels[1, 0].get_legend_handles_labels()
+panels[0, 0].legend(*figure_legend, loc="best")
 sheet.write(data["name"])
 save(panels[0, 0].figure, data["name"])

@@ -18,8 +18,6 @@ def of_bodies(axes, panel, value, names=piloted):
         b = run.bodies[name]
         sheet.line(axes, panel, name, b["t [s]"], value(b), color=run.color(name), linestyle=dashes.get(name, "-"),
                    label=name)
-    if len(names) > 1:
-        axes.legend(loc="best")
 
 
 def of_encounters(axes, panel, value, zero=False):
@@ -30,8 +28,6 @@ def of_encounters(axes, panel, value, zero=False):
         sheet.line(axes, panel, obstacle, e["t [s]"], value(e), color=run.color(obstacle), label=obstacle)
     if zero:
         axes.axhline(0, color="k", linewidth=0.6)
-    if len([1 for pilot, _ in run.encounters if pilot == agent]) > 1:
-        axes.legend(loc="best")
 
 
 def commanded(b, angle):
@@ -76,6 +72,8 @@ for axes, name in zip(panels, names):
     low, high = axes.get_ylim()
     if high - low < 1 and name not in ("y", "lateral", "acceleration"):  # constant up to rounding: no magnified noise
         axes.set_ylim(low - 1, high + 1)
+if len(panels[0].get_legend_handles_labels()[0]) > 1:  # colours are the same in all panels
+    panels[0].legend(loc="best")
 starts = [b["t [s]"][0] for b in run.bodies.values()]
 end = data.get("until", max(b["t [s]"][-1] for b in run.bodies.values()))
 for axes in panels:

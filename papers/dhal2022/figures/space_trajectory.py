@@ -49,7 +49,8 @@ low, high = everything.min(axis=0) - 2, everything.max(axis=0) + 2
 axes.set_xlim(low[0], high[0])
 axes.set_ylim(low[1], high[1])
 axes.set_zlim(low[2], high[2])
-axes.set_box_aspect(high - low, zoom=1.25)
+# Wide scenes leave the frame's height free.
+axes.set_box_aspect(high - low, zoom=1.25 if high[0] - low[0] > 1.25 * (high[2] - low[2]) else 1.05)
 axes.view_init(elev=elevation, azim=azimuth)
 axes.set_proj_type("ortho")
 axes.yaxis.set_major_locator(MaxNLocator(4))

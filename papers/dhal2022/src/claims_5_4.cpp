@@ -37,6 +37,21 @@ int side(const PaperRun& run, const std::string& body, double from, double to) {
   return high > 0 ? 1 : low < 0 ? -1 : 0;
 }
 
+/// What the proof says of a pair.
+std::string outcome(const std::optional<simulation::PairProof>& proof) {
+  if (!proof) return "no proof";
+  const std::string verdict = simulation::to_string(proof->verdict);
+  switch (proof->verdict) {
+    case simulation::ProofVerdict::avoided:
+      return verdict + ", proved; never nearer than " + short_text(proof->least_distance, 3) + " m";
+    case simulation::ProofVerdict::touched:
+      return verdict + ", proved, at " + short_text(proof->to, 4) + " s";
+    case simulation::ProofVerdict::undecided:
+      break;
+  }
+  return verdict;
+}
+
 std::string side_text(int side) {
   return side > 0 ? "positive throughout" : side < 0 ? "negative throughout" : "of both signs, or none";
 }
@@ -135,10 +150,7 @@ void claims_5_4_1(PaperRuns& runs, std::vector<Claim>& claims) {
                    "later (3.74 s): if ours touches, its rear swings into F3"
              : proved,
          true},
-        "no collision", proof && proof->verdict == simulation::ProofVerdict::avoided,
-        proof ? std::string(simulation::to_string(proof->verdict)) + ", proved; never nearer than " +
-                    short_text(proof->least_distance, 3) + " m"
-              : "no proof"));
+        "no collision", proof && proof->verdict == simulation::ProofVerdict::avoided, outcome(proof)));
   }
 }
 
@@ -172,10 +184,7 @@ void claims_5_4_2(PaperRuns& runs, std::vector<Claim>& claims) {
   claims.push_back(statement({"5.4.2/avoids-F2", section, path, "F1 and F2",
                               "exactly disjoint at every step, with a margin proved in between", true},
                              "no collision", proof && proof->verdict == simulation::ProofVerdict::avoided,
-                             proof ? std::string(simulation::to_string(proof->verdict)) +
-                                         ", proved; never nearer than " +
-                                         short_text(proof->least_distance, 3) + " m"
-                                   : "no proof"));
+                             outcome(proof)));
 }
 
 }  // namespace vericone::dhal2022

@@ -79,8 +79,8 @@ Claim on_course(const PaperRun& run, const std::string& id, const std::vector<st
                                                     run.body(agent).pilot->guide.sector);
   const bool holds = course.value_or(false);
   std::string ours = holds ? "on course" : "not on course";
-  ours += "; y = " + short_text(sample.step.y, 3) +
-          " on the plane taken, V_r = " + short_text(sample.state.v_r, 3) + " m/s";
+  if (sample.cone) ours += "; y = " + short_text(sample.step.y, 3) + " on the plane taken";
+  ours += "; V_r = " + short_text(sample.state.v_r, 3) + " m/s";
   return statement(
       {id, kSection, figures, agent + " and " + obstacle + " at " + short_text(t) + " s", note, true}, text,
       holds, ours);

@@ -120,7 +120,9 @@ std::vector<Figure> make() {
       {"laws-5.4.1",
        "Ours: simulation 1 of 5.4 with the source's law and with the clearance law, which passes at a "
        "distance in "
-       "metres. m is the distance at which the bodies would pass with constant velocities.",
+       "metres. m is the distance at which the bodies, an ellipse around the dented one, would pass with "
+       "constant "
+       "velocities.",
        "comparison.py",
        {{"source", "5.4.1"}, {"clearance", "5.4.1-clearance"}},
        {{"required", 1}}},
