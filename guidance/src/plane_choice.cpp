@@ -196,7 +196,7 @@ std::optional<Vector3d> axis_of_motion(const BodyState& a, const BodyState& b, P
   if (w.isZero(0)) return std::nullopt;
   if (choice == PlaneChoice::steepest_clearance) {
     const Clearance m = clearance(containing_ellipsoid(a), containing_ellipsoid(b), w);
-    if (const auto axis = axis_towards(u, m.normal)) return axis;
+    if (auto axis = axis_towards(u, m.normal)) return axis;
   }
   return axis_towards(u, -w);
 }
