@@ -88,6 +88,9 @@ void read_clearance(const Json& value, const std::string& path, guidance::Cleara
   });
   if_given(value, path, "beyond",
            [&](const Json& v, const std::string& p) { options.beyond = read_number(v, p, " (m)"); });
+  if_given(value, path, "beyond", [&](const Json& v, const std::string& p) {
+    options.beyond = read_not_negative(v, p, " (metres)");
+  });
   if_given(value, path, "longitudinal",
            [&](const Json& v, const std::string& p) { options.longitudinal = read_flag(v, p); });
   if_given(value, path, "hold", [&](const Json& v, const std::string& p) { options.hold = read_flag(v, p); });

@@ -38,7 +38,7 @@ simulation::Oscillation read_oscillation(const Json& value, const std::string& p
 }
 
 simulation::Oscillation require_oscillation(const Json& value, const std::string& path) {
-  const char* requirement = "a number, 0 <= k < 1, or how it changes";
+  const char* requirement = "a number, 0 <= k <= 1, or how it changes";
   return read_oscillation(require_field(value, path, "k", requirement), path + ".k");
 }
 
