@@ -93,7 +93,9 @@ std::vector<Figure> make() {
        "histories.py", kAlone, panels({"acceleration", "delta", "gamma"})},
       {"6.12", "Non-cooperative case of 6.5: azimuth and elevation of the heading of A.", "histories.py",
        kAlone, panels({"azimuth", "elevation"})},
-      {"6.13", "Non-cooperative case of 6.5: y and psi on the plane chosen, where psi is largest.",
+      {"6.13",
+       "Non-cooperative case of 6.5: y and psi on the plane chosen, where psi is largest, "
+       "until each obstacle recedes.",
        "histories.py", kAlone, panels({"y", "psi"})},
       {"6.14",
        "Cooperative case of 6.5: ways of the agent A, the ellipsoid B1 and the biconcave B2, with the bodies "
@@ -115,7 +117,9 @@ std::vector<Figure> make() {
        "histories.py", kTogether, with_partners(panels({"acceleration", "delta", "gamma"}))},
       {"6.18", "Cooperative case of 6.5: azimuth and elevation of the headings of all.", "histories.py",
        kTogether, with_partners(panels({"azimuth", "elevation"}))},
-      {"6.19", "Cooperative case of 6.5: y and psi on the plane chosen, where psi is largest.",
+      {"6.19",
+       "Cooperative case of 6.5: y and psi on the plane chosen, where psi is largest, "
+       "until each obstacle recedes.",
        "histories.py", kTogether, panels({"y", "psi"})},
       {"laws-5.4.1",
        "Ours: simulation 1 of 5.4 with the source's law and with the clearance law, which passes at a "
@@ -128,10 +132,12 @@ std::vector<Figure> make() {
        {{"required", 1}}},
       {"laws-6.5",
        "Ours: the non-cooperative case of 6.5 with the source's law on slices, the same law on the true "
-       "cone, and the "
-       "clearance law. m is the distance at which the bodies (or ellipsoids around them) would pass with "
-       "constant "
-       "velocities; the bars are lower bounds of the distance over the whole run, proved.",
+       "cone, "
+       "and the clearance law. y is of the plane chosen: it may be negative when the relative velocity has "
+       "left "
+       "the cone. m is the distance at which the bodies, ellipsoids around those with dents or corners, "
+       "would "
+       "pass with constant velocities; the bars are lower bounds of the distance over the whole run, proved.",
        "comparison.py",
        {{"source", "6.5-noncooperative"},
         {"exact", "6.5-noncooperative-exact"},
