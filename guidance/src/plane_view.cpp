@@ -18,11 +18,12 @@ Vector3d lateral(const PlaneView& view, double heading) {
   return -std::sin(heading) * view.line_of_sight + std::cos(heading) * view.across;
 }
 
-/// Angular velocity of A for a unit lateral acceleration; zero where it does not turn with its heading.
-Vector3d turning_by_lateral(const PlaneView& view, const BodyState& a) {
-  const double square = a.velocity.squaredNorm();
-  if (a.turning == Turning::none || !(square > 0)) return Vector3d::Zero();
-  return a.velocity.cross(view.lateral_a()) / square;
+/// Angular velocity of a body for a unit acceleration along `lateral`; zero where it does not turn with its
+/// heading.
+Vector3d turning_by_lateral(const BodyState& body, const Vector3d& lateral) {
+  const double square = body.velocity.squaredNorm();
+  if (body.turning == Turning::none || !(square > 0)) return Vector3d::Zero();
+  return body.velocity.cross(lateral) / square;
 }
 
 /// Of the axes (u, e): with the line of sight, and about it.
@@ -63,12 +64,19 @@ bool planar_cone(const PlaneView& view, const BodyState& a, const BodyState& b, 
       combined_sector_rates(sector, shape_a, shape_b, motion, in_plane(a.rate), in_plane(b.rate));
   cone.psi_rate = rates.psi;
   cone.theta_b_rate = rates.theta_b;
-  if (const Vector3d turning = turning_by_lateral(view, a); !turning.isZero(0)) {
+  if (const Vector3d turning = turning_by_lateral(a, view.lateral_a()); !turning.isZero(0)) {
     PlanarMotion unit;
     unit.omega_a = turning.z();
     const SectorRates by_a = combined_sector_rates(sector, shape_a, shape_b, unit);
     cone.psi_rate_by_a = by_a.psi;
     cone.theta_b_rate_by_a = by_a.theta_b;
+  }
+  if (const Vector3d turning = turning_by_lateral(b, view.lateral_b()); !turning.isZero(0)) {
+    PlanarMotion unit;
+    unit.omega_b = turning.z();
+    const SectorRates by_b = combined_sector_rates(sector, shape_a, shape_b, unit);
+    cone.psi_rate_by_b = by_b.psi;
+    cone.theta_b_rate_by_b = by_b.theta_b;
   }
   return true;
 }
@@ -88,12 +96,19 @@ bool slice_cone(const PlaneView& view, const BodyState& a, const BodyState& b, b
   const OpeningRates rates = section_rates(sections, shape_a, shape_b, u, e, motion);
   cone.psi_rate = rates.psi;
   cone.theta_b_rate = rates.theta_b + v.dot(e) / c.norm();
-  if (const Vector3d turning = turning_by_lateral(view, a); !turning.isZero(0)) {
+  if (const Vector3d turning = turning_by_lateral(a, view.lateral_a()); !turning.isZero(0)) {
     TurningMotion unit;
     unit.omega_a = turning;
     const OpeningRates by_a = section_rates(sections, shape_a, shape_b, u, e, unit);
     cone.psi_rate_by_a = by_a.psi;
     cone.theta_b_rate_by_a = by_a.theta_b;
+  }
+  if (const Vector3d turning = turning_by_lateral(b, view.lateral_b()); !turning.isZero(0)) {
+    TurningMotion unit;
+    unit.omega_b = turning;
+    const OpeningRates by_b = section_rates(sections, shape_a, shape_b, u, e, unit);
+    cone.psi_rate_by_b = by_b.psi;
+    cone.theta_b_rate_by_b = by_b.theta_b;
   }
   return true;
 }
@@ -113,12 +128,19 @@ bool exact_cone(const PlaneView& view, const BodyState& a, const BodyState& b, b
       {a.velocity, b.velocity, a.omega, b.omega, a.rate.shape, b.rate.shape, view.state.plane_spin});
   cone.psi_rate = rates.psi();
   cone.theta_b_rate = rates.theta_b() + rates.line_of_sight;
-  if (const Vector3d turning = turning_by_lateral(view, a); !turning.isZero(0)) {
+  if (const Vector3d turning = turning_by_lateral(a, view.lateral_a()); !turning.isZero(0)) {
     SpatialMotion unit;
     unit.omega_a = turning;
     const PlaneSectorRates by_a = exact_sector_rates(sector, shape_a, shape_b, unit);
     cone.psi_rate_by_a = by_a.psi();
     cone.theta_b_rate_by_a = by_a.theta_b();
+  }
+  if (const Vector3d turning = turning_by_lateral(b, view.lateral_b()); !turning.isZero(0)) {
+    SpatialMotion unit;
+    unit.omega_b = turning;
+    const PlaneSectorRates by_b = exact_sector_rates(sector, shape_a, shape_b, unit);
+    cone.psi_rate_by_b = by_b.psi();
+    cone.theta_b_rate_by_b = by_b.theta_b();
   }
   return true;
 }
@@ -162,18 +184,25 @@ bool difference(const PlaneView& view, const BodyState& a, const BodyState& b, S
   cone.psi_rate = (after->psi - before->psi) / (2 * h);
   cone.theta_b_rate = std::remainder(after->theta_b - before->theta_b, 2 * std::numbers::pi) / (2 * h) +
                       view.state.v_theta / view.state.r;
-  if (const Vector3d turning = turning_by_lateral(view, a); !turning.isZero(0)) {
+  // By the turning that a unit command of one body causes.
+  const auto by_command = [&](const Vector3d& turning, bool of_a, double& psi_rate, double& theta_b_rate) {
+    if (turning.isZero(0)) return true;
     const double size = turning.norm();
     const auto by_turn = [&](double angle) {
-      return PlaneCones(turned(a, angle / size * turning), b, method).on(view.line_of_sight, view.across);
+      const Vector3d turn = angle / size * turning;
+      return PlaneCones(of_a ? turned(a, turn) : a, of_a ? b : turned(b, turn), method)
+          .on(view.line_of_sight, view.across);
     };
     const auto back = by_turn(-part), ahead = by_turn(part);
     if (!back || !ahead) return false;
-    cone.psi_rate_by_a = size * (ahead->psi - back->psi) / (2 * part);
-    cone.theta_b_rate_by_a =
-        size * std::remainder(ahead->theta_b - back->theta_b, 2 * std::numbers::pi) / (2 * part);
-  }
-  return true;
+    psi_rate = size * (ahead->psi - back->psi) / (2 * part);
+    theta_b_rate = size * std::remainder(ahead->theta_b - back->theta_b, 2 * std::numbers::pi) / (2 * part);
+    return true;
+  };
+  return by_command(turning_by_lateral(a, view.lateral_a()), true, cone.psi_rate_by_a,
+                    cone.theta_b_rate_by_a) &&
+         by_command(turning_by_lateral(b, view.lateral_b()), false, cone.psi_rate_by_b,
+                    cone.theta_b_rate_by_b);
 }
 
 }  // namespace

@@ -58,13 +58,27 @@ TEST(Guide, SpheresInClosedForm) {
   }
 }
 
-/// The plane stays, A turns with its heading, the command acts: dy/dt = -K (y - w), by differences of the
-/// exact sector along motion propagated here. The plane is carried along with the line of sight, as the law
-/// assumes.
-TEST(Guide, MakesYFollowItsOrder) {
+/// An ellipsoid on a parabola that turns with its heading, without roll.
+Ellipsoid flown(const Ellipsoid& shape, const Vector3d& velocity, const Vector3d& acceleration, double t) {
+  const Vector3d omega = velocity.cross(acceleration) / velocity.squaredNorm();
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(omega.norm() * t, omega.norm() > 0 ? Vector3d(omega.normalized()) : Vector3d::UnitX())
+          .toRotationMatrix();
+  const Eigen::Matrix3d factor = turn * shape.factor(), s = factor * factor.transpose();
+  return Ellipsoid::from_shape(shape.center() + velocity * t + 0.5 * t * t * acceleration,
+                               (s + s.transpose()) / 2);
+}
+
+class Inversion : public ::testing::TestWithParam<Law> {};
+
+/// Both turn with their headings, the commands act: dy/dt = -K (y - w), by differences of the exact sector
+/// along motion propagated here. The plane is carried along with the line of sight, as the law assumes.
+TEST_P(Inversion, MakesYFollowItsOrder) {
   RandomBodies random(72);
   SCOPED_TRACE(random.trace());
   GuideOptions options;
+  options.law = GetParam();
+  options.mu = -0.5;
   options.plane.choice = PlaneChoice::of_motion;
   options.inversion.gain = 1.3;
   options.inversion.reference = 0.02;
@@ -75,34 +89,32 @@ TEST(Guide, MakesYFollowItsOrder) {
     const Vector3d vb = 3 * random.direction();
     const Vector3d va = vb + random.uniform(5, 15) * (c.normalized() + 0.2 * random.in_box(1)).normalized();
     GuideMemory memory;
-    const auto step = guide(body(shape_a, va, Turning::with_heading), body(shape_b, vb), options, memory, 0);
+    const auto step = guide(body(shape_a, va, Turning::with_heading),
+                            body(shape_b, vb, Turning::with_heading), options, memory, 0);
     ASSERT_TRUE(step);
-    if (step->status != LawStatus::steering || step->demanded > 1e3) continue;
-    const Vector3d u0 = c.normalized(), e0 = step->across, omega = va.cross(step->a) / va.squaredNorm();
+    if (step->status != LawStatus::steering || step->demanded > 300) continue;
+    const Vector3d u0 = c.normalized(), e0 = step->across;
     const auto y = [&](double t) {
-      const Vector3d p = shape_a.center() + va * t + 0.5 * t * t * step->a;
-      const Eigen::Matrix3d turn =
-          Eigen::AngleAxisd(omega.norm() * t,
-                            omega.norm() > 0 ? Vector3d(omega.normalized()) : Vector3d::UnitX())
-              .toRotationMatrix();
-      const Eigen::Matrix3d factor = turn * shape_a.factor(), s = factor * factor.transpose();
-      const Ellipsoid a = Ellipsoid::from_shape(p, (s + s.transpose()) / 2);
-      const Ellipsoid b = shape_b.translated(vb * t);
-      const Vector3d u = (b.center() - p).normalized();
+      const Ellipsoid a = flown(shape_a, va, step->a, t), b = flown(shape_b, vb, step->b, t);
+      const Vector3d u = (b.center() - a.center()).normalized();
       const Vector3d e =
           Eigen::Quaterniond::FromTwoVectors(u0, u) * e0;  // parallel transport, to second order
       const PlaneSector sector = exact_sector(a, b, e);
-      const Vector3d v = vb - va - step->a * t;
+      const Vector3d v = vb + step->b * t - va - step->a * t;
       return cone_function_y(v.dot(u), v.dot(e), 0, sector.theta_b(), sector.psi());
     };
     ASSERT_NEAR(y(0), step->y, 1e-10);
-    const double h = 1e-4 / (1 + omega.norm() + step->a.norm() / va.norm());
+    const double h = 1e-4 / (1 + step->a.norm() / va.norm() + step->b.norm() / vb.norm());
     const double found = (8 * (y(h) - y(-h)) - (y(2 * h) - y(-2 * h))) / (12 * h);
     const double wanted = -options.inversion.gain * (step->y - options.inversion.reference);
     EXPECT_NEAR(found, wanted, 1e-5 * (1 + std::abs(wanted)));
     ++tested;
   }
 }
+INSTANTIATE_TEST_SUITE_P(Laws, Inversion, ::testing::Values(Law::avoidance, Law::cooperative_avoidance),
+                         [](const auto& param) {
+                           return param.param == Law::avoidance ? "Avoidance" : "Cooperation";
+                         });
 
 /// Backward differences are the same law in the limit of small steps.
 TEST(Guide, BackwardDifferencesApproachTheRates) {
