@@ -90,24 +90,7 @@ class Maker {
     if (!written_.insert(name).second) return;
     const dhal2022::PaperRun& run = runs_.run(name);
     StagedFolder folder(out_ / "runs" / name, "--out");
-    const fs::path& to = folder.path();
-    write_whole(to / "bodies.csv", scenario::bodies_csv(run.scenario, run.run));
-    write_whole(to / "encounters.csv", scenario::encounters_csv(run.scenario, run.run));
-    if (run.scenario.planes_logged > 0)
-      write_whole(to / "planes.csv", scenario::planes_csv(run.scenario, run.run));
-    write_whole(to / "events.csv", scenario::events_csv(run.scenario, run.run));
-    write_whole(to / "proof.json", scenario::proof_json(run.scenario, run.run).dump(1) + "\n");
-    write_whole(to / "shapes.json", scenario::shapes_json(run.scenario).dump(1) + "\n");
-    write_whole(to / "scenario.yaml", content_of(run.file));
-    write_whole(to / "run.json", Json{{"scenario", run.scenario.name},
-                                      {"file", run.file.filename().string()},
-                                      {"verdict", simulation::to_string(run.run.verdict())},
-                                      {"end", run.run.end},
-                                      {"seconds", run.seconds},
-                                      {"real_time_factor", run.run.end / run.seconds},
-                                      {"provenance", provenance(options_.command_line)}}
-                                         .dump(1) +
-                                     "\n");
+    scenario::write_run(run.scenario, run.run, {run.file, options_.command_line, run.seconds}, folder.path());
     folder.publish({"planes.csv"});
   }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <vericone/simulation/run.h>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -25,5 +26,21 @@ nlohmann::ordered_json shapes_json(const simulation::Scenario& scenario);
 /// What an event's value is: "m", "s" or "1"; empty where it has none.
 std::string unit_of(const simulation::Scenario& scenario, const simulation::Event& event);
 bool has_obstacle(const simulation::Event& event);
+
+/// Where a run came from and what it took.
+struct RunOrigin {
+  std::filesystem::path file;  // of the scenario
+  std::string command_line;
+  double seconds = 0;
+};
+
+/// Counts, verdict, times, provenance.
+nlohmann::ordered_json run_json(const simulation::Scenario& scenario, const simulation::Run& run,
+                                const RunOrigin& origin);
+
+/// All of these files and a copy of the scenario's into `folder`; planes.csv where planes are logged. Throws
+/// std::runtime_error naming the path.
+void write_run(const simulation::Scenario& scenario, const simulation::Run& run, const RunOrigin& origin,
+               const std::filesystem::path& folder);
 
 }  // namespace vericone::scenario

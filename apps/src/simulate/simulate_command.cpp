@@ -3,14 +3,11 @@
 
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <ostream>
-#include <sstream>
 
 #include "figures.h"
 #include "interrupt.h"
 #include "progress.h"
-#include "provenance.h"
 #include "simulate/read_scenario.h"
 #include "simulate/run_files.h"
 #include "simulate/run_text.h"
@@ -30,46 +27,6 @@ const std::vector<std::string>& names_of_files() {
   return names;
 }
 
-std::string content_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in) throw std::runtime_error("could not read " + file.string());
-  return text.str();
-}
-
-Json run_json(const SimulateOptions& options, const simulation::Scenario& scenario,
-              const simulation::Run& run, double seconds) {
-  std::size_t arcs = 0, agents = 0;
-  for (const simulation::Track& track : run.tracks) arcs += track.arcs().size();
-  for (const simulation::Body& body : scenario.bodies) agents += body.pilot.has_value();
-  return {{"scenario", scenario.name},
-          {"file", options.scenario},
-          {"verdict", simulation::to_string(run.verdict())},
-          {"bodies", scenario.bodies.size()},
-          {"agents", agents},
-          {"end", run.end},
-          {"step", scenario.step},
-          {"arcs", arcs},
-          {"encounters", run.encounters.size()},
-          {"events", run.events.size()},
-          {"seconds", seconds},
-          {"real_time_factor", run.end / seconds},
-          {"provenance", provenance(options.command_line)}};
-}
-
-void write_files(const SimulateOptions& options, const simulation::Scenario& scenario,
-                 const simulation::Run& run, const Json& summary, const fs::path& folder) {
-  write_whole(folder / "bodies.csv", scenario::bodies_csv(scenario, run));
-  write_whole(folder / "encounters.csv", scenario::encounters_csv(scenario, run));
-  if (scenario.planes_logged > 0) write_whole(folder / "planes.csv", scenario::planes_csv(scenario, run));
-  write_whole(folder / "events.csv", scenario::events_csv(scenario, run));
-  write_whole(folder / "proof.json", scenario::proof_json(scenario, run).dump(1) + "\n");
-  write_whole(folder / "shapes.json", scenario::shapes_json(scenario).dump(1) + "\n");
-  write_whole(folder / "run.json", summary.dump(1) + "\n");
-  write_whole(folder / "scenario.yaml", content_of(options.scenario));
-}
-
 int carry_out(const SimulateOptions& options, std::ostream& out) {
   StagedFolder folder(options.out, "--out");
   const simulation::Scenario scenario = scenario::read_scenario(options.scenario);
@@ -86,8 +43,9 @@ int carry_out(const SimulateOptions& options, std::ostream& out) {
     seconds = std::chrono::duration<double>(Clock::now() - start).count();
     if (run->interrupted || interrupted()) return kExitInterrupted;
     progress.show("writing", 0);
-    summary = run_json(options, scenario, *run, seconds);
-    write_files(options, scenario, *run, summary, folder.path());
+    const scenario::RunOrigin origin{options.scenario, options.command_line, seconds};
+    summary = scenario::run_json(scenario, *run, origin);
+    scenario::write_run(scenario, *run, origin, folder.path());
     if (options.figures) {
       progress.show("drawing", 0);
       draw_figures("simulation.py", folder.path());

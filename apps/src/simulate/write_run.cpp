@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fstream>
+#include <sstream>
+
+#include "provenance.h"
+#include "simulate/run_files.h"
+
+namespace vericone::scenario {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::string content_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in) throw std::runtime_error("could not read " + file.string());
+  return text.str();
+}
+
+}  // namespace
+
+Json run_json(const simulation::Scenario& scenario, const simulation::Run& run, const RunOrigin& origin) {
+  std::size_t arcs = 0, agents = 0;
+  for (const simulation::Track& track : run.tracks) arcs += track.arcs().size();
+  for (const simulation::Body& body : scenario.bodies) agents += body.pilot.has_value();
+  return {{"scenario", scenario.name},
+          {"file", origin.file.filename().string()},
+          {"verdict", simulation::to_string(run.verdict())},
+          {"bodies", scenario.bodies.size()},
+          {"agents", agents},
+          {"end", run.end},
+          {"step", scenario.step},
+          {"arcs", arcs},
+          {"encounters", run.encounters.size()},
+          {"events", run.events.size()},
+          {"seconds", origin.seconds},
+          {"real_time_factor", run.end / origin.seconds},
+          {"provenance", provenance(origin.command_line)}};
+}
+
+void write_run(const simulation::Scenario& scenario, const simulation::Run& run, const RunOrigin& origin,
+               const fs::path& folder) {
+  write_whole(folder / "bodies.csv", bodies_csv(scenario, run));
+  write_whole(folder / "encounters.csv", encounters_csv(scenario, run));
+  if (scenario.planes_logged > 0) write_whole(folder / "planes.csv", planes_csv(scenario, run));
+  write_whole(folder / "events.csv", events_csv(scenario, run));
+  write_whole(folder / "proof.json", proof_json(scenario, run).dump(1) + "\n");
+  write_whole(folder / "shapes.json", shapes_json(scenario).dump(1) + "\n");
+  write_whole(folder / "run.json", run_json(scenario, run, origin).dump(1) + "\n");
+  write_whole(folder / "scenario.yaml", content_of(origin.file));
+}
+
+}  // namespace vericone::scenario
