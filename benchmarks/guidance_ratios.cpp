@@ -3,11 +3,10 @@
 // Prints, in Markdown, what a step of guidance costs, piece by piece, and how often each choice of the plane
 // hides a collision. Times are medians over rounds, each item taken in turn in each round.
 #include <benchmarks/combined_pairs.h>
+#include <benchmarks/items.h>
 #include <vericone/guidance/guide.h>
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
-#include <functional>
 #include <string>
 
 namespace vericone::benchmarks {
@@ -16,40 +15,8 @@ namespace {
 using Eigen::Vector3d;
 using namespace guidance;
 
-double cpu_nanoseconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
-}
-
-struct Item {
-  std::string name;
-  std::function<double()> round;  // nanoseconds a call
-  std::vector<double> times = {};
-};
-
-template <typename Call>
-Item item(std::string name, std::size_t count, int repeats, Call call) {
-  return {std::move(name), [=] {
-            const double start = cpu_nanoseconds();
-            for (int r = 0; r < repeats; ++r)
-              for (std::size_t i = 0; i < count; ++i) {
-                auto result = call(i);
-                asm volatile("" : : "r,m"(result) : "memory");
-              }
-            return (cpu_nanoseconds() - start) / (static_cast<double>(count) * repeats);
-          }};
-}
-
-double median(std::vector<double> v) {
-  std::nth_element(v.begin(), v.begin() + v.size() / 2, v.end());
-  return v[v.size() / 2];
-}
-
 void print(std::vector<Item>& items, int rounds) {
-  for (Item& it : items) it.round();  // warm
-  for (int r = 0; r < rounds; ++r)
-    for (Item& it : items) it.times.push_back(it.round());
+  measure(items, rounds);
   std::printf("| piece | median | least |\n| --- | --- | --- |\n");
   for (const Item& it : items)
     std::printf("| %s | %.2f us | %.2f us |\n", it.name.c_str(), 1e-3 * median(it.times),

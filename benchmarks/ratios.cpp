@@ -5,57 +5,18 @@
 #include <benchmarks/accuracy.h>
 #include <benchmarks/agreement.h>
 #include <benchmarks/combined_pairs.h>
+#include <benchmarks/items.h>
 #include <vericone/cones/combined_cone.h>
 #include <vericone/cones/combined_slice_cone.h>
 #include <vericone/cones/slice_cone.h>
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
 #include <fstream>
-#include <functional>
 #include <map>
 #include <set>
 
 namespace vericone::benchmarks {
 namespace {
-
-/// Time this thread has spent running, so that other programs on the machine count less.
-double cpu_nanoseconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
-}
-
-struct Item {
-  std::string name;
-  std::function<double()> round;  // nanoseconds a call
-  std::vector<double> times = {};
-};
-
-/// `call(i)` for i below `count`, `repeats` times over.
-template <typename Call>
-Item item(std::string name, int count, int repeats, Call call) {
-  return {std::move(name), [=] {
-            const double start = cpu_nanoseconds();
-            for (int r = 0; r < repeats; ++r)
-              for (int i = 0; i < count; ++i) {
-                auto result = call(i);
-                asm volatile("" : : "r,m"(result) : "memory");
-              }
-            return (cpu_nanoseconds() - start) / (static_cast<double>(count) * repeats);
-          }};
-}
-
-double median(std::vector<double> v) {
-  std::nth_element(v.begin(), v.begin() + v.size() / 2, v.end());
-  return v[v.size() / 2];
-}
-
-void measure(std::vector<Item>& items, int rounds) {
-  for (Item& it : items) it.round();  // warm
-  for (int r = 0; r < rounds; ++r)
-    for (Item& it : items) it.times.push_back(it.round());
-}
 
 double median_ratio(const Item& over, const Item& under) {
   std::vector<double> ratios;
