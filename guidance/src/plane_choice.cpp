@@ -250,7 +250,9 @@ std::optional<Vector3d> choose_plane(const BodyState& a, const BodyState& b, Sec
       if (const auto azimuth = opening_followed(near)) return near.across(*azimuth);
     if (const auto azimuth = followed(near, options)) return near.across(*azimuth);
   }
-  const Planes planes(a, b, method, u, frame.e1);
+  // Candidates are counted from the plane of motion: planes equally good (of spheres, all) do not depend on
+  // the world's axes, and what is taken holds the relative velocity.
+  const Planes planes(a, b, method, u, axis_towards(u, a.velocity - b.velocity).value_or(frame.e1));
   const auto azimuth = best_of_all(planes, options);
   if (!azimuth) return std::nullopt;
   return as_before(planes.across(*azimuth));

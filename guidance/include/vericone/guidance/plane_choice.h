@@ -44,12 +44,12 @@ std::vector<PlaneCandidate> all_planes(const BodyState& a, const BodyState& b, S
                                        int planes);
 
 /// The second axis of the plane chosen, unit. `previous`: that of the last call, whose sign is kept; where it
-/// is given the optimum is followed from it by 2 to 12 evaluations, and all candidates are compared only where
-/// it is none any more. A local optimum is followed as long as it is one. Nothing where no plane has a
-/// sector. Planar bodies: the plane itself. Deterministic: planes equally good to rounding are told apart by
-/// the least azimuth. steepest_clearance and of_motion look at no sector; where w is zero or along the line
-/// of sight there is no such plane, and the largest opening is taken. No allocation with ellipsoids. Cost:
-/// see docs/guidance-planes.md.
+/// is given the optimum is followed from it by 2 to 12 evaluations, and all candidates are compared only
+/// where it is none any more. A local optimum is followed as long as it is one. Nothing where no plane has a
+/// sector. Planar bodies: the plane itself. Deterministic: of planes equally good to rounding the first
+/// is taken, counted from the plane of motion. steepest_clearance and of_motion look at no sector; where w is
+/// zero or along the line of sight there is no such plane, and the largest opening is taken. No allocation
+/// with ellipsoids. Cost: see docs/guidance-planes.md.
 std::optional<Eigen::Vector3d> choose_plane(const BodyState& a, const BodyState& b, SectorMethod method,
                                             const PlaneOptions& options,
                                             const Eigen::Vector3d* previous = nullptr);
