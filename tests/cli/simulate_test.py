@@ -107,7 +107,7 @@ class Simulate(Files):
 
     def test_the_example_scenarios(self):
         for name in ("avoidance", "clearance"):
-            result = run("simulate", os.path.join(SOURCE, "docs", "examples", name + ".yaml"), "--out", self.out, "--quiet",
+            result = run("simulate", os.path.join(SOURCE, "docs", "examples", "scenarios", name + ".yaml"), "--out", self.out, "--quiet",
                          "--no-figures")
             self.assertEqual((result.returncode, result.stderr), (0, ""))
             self.assertIn("verdict             avoided, proved\n", result.stdout)
@@ -116,7 +116,7 @@ class Simulate(Files):
                               "shapes.json"])
             times = {r["t [s]"] for r in self.table("bodies.csv")}
             self.assertEqual(len(self.table("bodies.csv")), 3 * len(times))
-            with open(os.path.join(SOURCE, "docs", "examples", name + ".yaml"), "rb") as f:
+            with open(os.path.join(SOURCE, "docs", "examples", "scenarios", name + ".yaml"), "rb") as f:
                 self.assertEqual(self.content("scenario.yaml"), f.read())
 
     def test_the_same_bytes_again_and_no_file_of_an_earlier_run(self):
