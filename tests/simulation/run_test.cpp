@@ -238,6 +238,33 @@ TEST(Run, PartnersCarryOutTheirPart) {
   EXPECT_NEAR(b.norm(), 0.5 * a.norm(), 1e-9 * a.norm());
 }
 
+/// Two agents, each with a mind of its own, exchange their places: mirror images of each other all the way,
+/// and each flies to its goal.
+TEST(Run, SeveralAgentsAvoidEachOther) {
+  Scenario scenario;
+  scenario.duration = 20;
+  scenario.step = 0.02;
+  scenario.bodies.push_back(ellipsoid("A", {2, 1, 1}, {-20, 0, 0}, {5, 0.2, 0.1}));
+  scenario.bodies.push_back(ellipsoid("B", {2, 1, 1}, {20, 0, 0}, {-5, -0.2, -0.1}));
+  for (const int i : {0, 1}) {
+    scenario.bodies[i].pilot = pilot(Law::clearance);
+    scenario.bodies[i].pilot->goal = Goal{-scenario.bodies[i].start.position, 3, "", 1};
+  }
+  const auto run = simulate(scenario);
+  EXPECT_EQ(run.verdict(), ProofVerdict::avoided);
+  ASSERT_EQ(run.proofs.size(), 1u);
+  // While they are clear they turn to their goals: for one step, 0.02 s at 3 m/s^2 each, until the law is
+  // asked again.
+  EXPECT_GE(run.proofs[0].proof.least_distance, 0.5 - 0.05);
+  const auto a = find_event(scenario, run, EventKind::reaches_goal, "A", "A"),
+             b = find_event(scenario, run, EventKind::reaches_goal, "B", "B");
+  ASSERT_TRUE(a && b);
+  EXPECT_NEAR(a->t, b->t, 1e-6);
+  EXPECT_LT(run.end, 10);
+  for (const double t : {1.0, 3.0, 5.0})
+    EXPECT_LT((run.tracks[0].motion(t).position + run.tracks[1].motion(t).position).norm(), 1e-6) << t;
+}
+
 TEST(Run, BodiesAppearWhenTheyAreSaidTo) {
   Scenario scenario = encounter();
   scenario.bodies[1].appears = 1.2345;

@@ -61,6 +61,7 @@ class Runner {
           engagements_.push_back({Engagement(i, j, pilot)});
     }
     aligned_.assign(scenario.bodies.size(), false);
+    reached_.assign(scenario.bodies.size(), false);
     states_.resize(scenario.bodies.size());
     accelerations_.assign(scenario.bodies.size(), Vector3d::Zero());
   }
@@ -153,6 +154,7 @@ class Runner {
   }
 
   bool goal_open(std::size_t agent, const Goal& goal) const {
+    if (reached_[agent]) return false;
     if (goal.after.empty()) return true;
     const std::size_t after = index_of(scenario_, goal.after);
     return std::any_of(engagements_.begin(), engagements_.end(), [&](const Followed& f) {
@@ -206,9 +208,10 @@ class Runner {
     };
     if (!(outside(t) < 0) || !(outside(to) >= 0)) return;
     event({sign_change(outside, t, to), EventKind::reaches_goal, agent, agent, goal.reached});
-    done_ = std::none_of(scenario_.bodies.begin(), scenario_.bodies.end(), [&](const Body& other) {
-      return other.pilot && other.pilot->goal && &other != &body;
-    });
+    reached_[agent] = true;
+    done_ = true;
+    for (std::size_t i = 0; i < scenario_.bodies.size(); ++i)
+      if (scenario_.bodies[i].pilot && scenario_.bodies[i].pilot->goal && !reached_[i]) done_ = false;
   }
 
   bool all_passed(double t) const {
@@ -243,7 +246,7 @@ class Runner {
   std::vector<Followed> engagements_;
   std::vector<BodyState> states_;
   std::vector<Vector3d> accelerations_;
-  std::vector<bool> aligned_;
+  std::vector<bool> aligned_, reached_;
   double before_ = -1;
   bool done_ = false;
 };
