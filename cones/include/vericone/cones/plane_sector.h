@@ -25,7 +25,8 @@ struct PlaneSector {
 };
 
 /// `across`: any vector not parallel to the line of centres; with it spans the plane. Requires disjoint
-/// bodies; throws InputError naming "across" or "bodies". Cost: about 1 us, 2 us where bodies are near each other.
+/// bodies; throws InputError naming "across" or "bodies". Cost: about 1 us, 2 us where bodies are near each
+/// other.
 PlaneSector exact_sector(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& across);
 
 /// Two bodies prepared for sectors on many planes. No allocation.

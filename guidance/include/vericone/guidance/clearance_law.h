@@ -10,7 +10,7 @@
 namespace vericone::guidance {
 
 struct ClearanceOptions {
-  double required = 1;                                    // metres to pass at, at least
+  double required = 1;  // metres to pass at, at least
   double beyond = 0.1;  // metres more that it aims at, so that `required` is reached in finite time
   double gain = 1;      // K, 1/s: m' = -K (m - required - beyond)
   double most = std::numeric_limits<double>::infinity();  // m/s^2, of the whole acceleration
@@ -29,8 +29,8 @@ struct ClearanceCommand {
   LawStatus status = LawStatus::clear;
 };
 
-/// The acceleration of least magnitude with m' = -K (m - required - beyond), the turning of A with its heading
-/// included. By the envelope theorem m' = -t n.(a_A - a_B) - (rates of both radii along n); n, t of
+/// The acceleration of least magnitude with m' = -K (m - required - beyond), the turning of A with its
+/// heading included. By the envelope theorem m' = -t n.(a_A - a_B) - (rates of both radii along n); n, t of
 /// clearance(). Combined bodies and hulls are replaced by ellipsoids that contain them, so the real distance
 /// is larger. Where the bodies' centres and velocity leave the direction open (spheres head on) it is that of
 /// clearance()'s own maximiser: deterministic. Moving apart: nothing commanded, `receding`. Planar bodies:
