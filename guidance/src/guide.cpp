@@ -51,11 +51,6 @@ GuideStep by_clearance(const BodyState& a, const BodyState& b, const GuideOption
 
 bool avoids(Law law) { return law == Law::avoidance || law == Law::cooperative_avoidance; }
 
-bool done(LawStatus status) {
-  return status == LawStatus::clear || status == LawStatus::receding ||
-         status == LawStatus::no_relative_velocity;
-}
-
 /// What is said of bodies that will not meet.
 GuideStep nothing_to_do(const BodyState& a, const BodyState& b) {
   const Vector3d v = b.velocity - a.velocity;
@@ -152,7 +147,8 @@ std::optional<GuideStep> guide(const BodyState& a, const BodyState& b, const Gui
       choose_plane(a, b, options.sector, options.plane, memory.across ? &*memory.across : nullptr);
   if (!across) return std::nullopt;
   std::optional<GuideStep> step = on_plane(a, b, *across, options, memory, time);
-  if (!step || !in_space || !done(step->status) || step->status == LawStatus::no_relative_velocity)
+  if (!step || !in_space || !commands_nothing(step->status) ||
+      step->status == LawStatus::no_relative_velocity)
     return step;
   PlaneOptions of_motion;
   of_motion.choice = PlaneChoice::of_motion;

@@ -162,6 +162,11 @@ const char* to_string(LawStatus status) {
   return "?";
 }
 
+bool commands_nothing(LawStatus status) {
+  return status == LawStatus::clear || status == LawStatus::receding ||
+         status == LawStatus::no_relative_velocity;
+}
+
 ConeRates cone_rates(const PlanarState& state, const PlaneCone& cone) {
   return rates_of(state, RelativeMotion(state), cone);
 }

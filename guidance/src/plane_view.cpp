@@ -64,20 +64,19 @@ bool planar_cone(const PlaneView& view, const BodyState& a, const BodyState& b, 
       combined_sector_rates(sector, shape_a, shape_b, motion, in_plane(a.rate), in_plane(b.rate));
   cone.psi_rate = rates.psi;
   cone.theta_b_rate = rates.theta_b;
-  if (const Vector3d turning = turning_by_lateral(a, view.lateral_a()); !turning.isZero(0)) {
+  const auto by_command = [&](const Vector3d& turning, double PlanarMotion::*omega, double& psi,
+                              double& theta_b) {
+    if (turning.isZero(0)) return;
     PlanarMotion unit;
-    unit.omega_a = turning.z();
-    const SectorRates by_a = combined_sector_rates(sector, shape_a, shape_b, unit);
-    cone.psi_rate_by_a = by_a.psi;
-    cone.theta_b_rate_by_a = by_a.theta_b;
-  }
-  if (const Vector3d turning = turning_by_lateral(b, view.lateral_b()); !turning.isZero(0)) {
-    PlanarMotion unit;
-    unit.omega_b = turning.z();
-    const SectorRates by_b = combined_sector_rates(sector, shape_a, shape_b, unit);
-    cone.psi_rate_by_b = by_b.psi;
-    cone.theta_b_rate_by_b = by_b.theta_b;
-  }
+    unit.*omega = turning.z();
+    const SectorRates by = combined_sector_rates(sector, shape_a, shape_b, unit);
+    psi = by.psi;
+    theta_b = by.theta_b;
+  };
+  by_command(turning_by_lateral(a, view.lateral_a()), &PlanarMotion::omega_a, cone.psi_rate_by_a,
+             cone.theta_b_rate_by_a);
+  by_command(turning_by_lateral(b, view.lateral_b()), &PlanarMotion::omega_b, cone.psi_rate_by_b,
+             cone.theta_b_rate_by_b);
   return true;
 }
 
@@ -96,20 +95,19 @@ bool slice_cone(const PlaneView& view, const BodyState& a, const BodyState& b, b
   const OpeningRates rates = section_rates(sections, shape_a, shape_b, u, e, motion);
   cone.psi_rate = rates.psi;
   cone.theta_b_rate = rates.theta_b + v.dot(e) / c.norm();
-  if (const Vector3d turning = turning_by_lateral(a, view.lateral_a()); !turning.isZero(0)) {
+  const auto by_command = [&](const Vector3d& turning, Vector3d TurningMotion::*omega, double& psi,
+                              double& theta_b) {
+    if (turning.isZero(0)) return;
     TurningMotion unit;
-    unit.omega_a = turning;
-    const OpeningRates by_a = section_rates(sections, shape_a, shape_b, u, e, unit);
-    cone.psi_rate_by_a = by_a.psi;
-    cone.theta_b_rate_by_a = by_a.theta_b;
-  }
-  if (const Vector3d turning = turning_by_lateral(b, view.lateral_b()); !turning.isZero(0)) {
-    TurningMotion unit;
-    unit.omega_b = turning;
-    const OpeningRates by_b = section_rates(sections, shape_a, shape_b, u, e, unit);
-    cone.psi_rate_by_b = by_b.psi;
-    cone.theta_b_rate_by_b = by_b.theta_b;
-  }
+    unit.*omega = turning;
+    const OpeningRates by = section_rates(sections, shape_a, shape_b, u, e, unit);
+    psi = by.psi;
+    theta_b = by.theta_b;
+  };
+  by_command(turning_by_lateral(a, view.lateral_a()), &TurningMotion::omega_a, cone.psi_rate_by_a,
+             cone.theta_b_rate_by_a);
+  by_command(turning_by_lateral(b, view.lateral_b()), &TurningMotion::omega_b, cone.psi_rate_by_b,
+             cone.theta_b_rate_by_b);
   return true;
 }
 
@@ -128,20 +126,19 @@ bool exact_cone(const PlaneView& view, const BodyState& a, const BodyState& b, b
       {a.velocity, b.velocity, a.omega, b.omega, a.rate.shape, b.rate.shape, view.state.plane_spin});
   cone.psi_rate = rates.psi();
   cone.theta_b_rate = rates.theta_b() + rates.line_of_sight;
-  if (const Vector3d turning = turning_by_lateral(a, view.lateral_a()); !turning.isZero(0)) {
+  const auto by_command = [&](const Vector3d& turning, Vector3d SpatialMotion::*omega, double& psi,
+                              double& theta_b) {
+    if (turning.isZero(0)) return;
     SpatialMotion unit;
-    unit.omega_a = turning;
-    const PlaneSectorRates by_a = exact_sector_rates(sector, shape_a, shape_b, unit);
-    cone.psi_rate_by_a = by_a.psi();
-    cone.theta_b_rate_by_a = by_a.theta_b();
-  }
-  if (const Vector3d turning = turning_by_lateral(b, view.lateral_b()); !turning.isZero(0)) {
-    SpatialMotion unit;
-    unit.omega_b = turning;
-    const PlaneSectorRates by_b = exact_sector_rates(sector, shape_a, shape_b, unit);
-    cone.psi_rate_by_b = by_b.psi();
-    cone.theta_b_rate_by_b = by_b.theta_b();
-  }
+    unit.*omega = turning;
+    const PlaneSectorRates by = exact_sector_rates(sector, shape_a, shape_b, unit);
+    psi = by.psi();
+    theta_b = by.theta_b();
+  };
+  by_command(turning_by_lateral(a, view.lateral_a()), &SpatialMotion::omega_a, cone.psi_rate_by_a,
+             cone.theta_b_rate_by_a);
+  by_command(turning_by_lateral(b, view.lateral_b()), &SpatialMotion::omega_b, cone.psi_rate_by_b,
+             cone.theta_b_rate_by_b);
   return true;
 }
 

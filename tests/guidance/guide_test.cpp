@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "guidance/allocations.h"
 #include "support/random_bodies.h"
 
 namespace vericone::guidance {
@@ -139,6 +140,31 @@ TEST(Guide, BackwardDifferencesApproachTheRates) {
   EXPECT_LT(errors[1], 0.2 * errors[0]);
   EXPECT_LT(errors[2], 0.2 * errors[1]);
   EXPECT_LT(errors[2], 1e-3);
+}
+
+/// Ellipsoids of ordinary shape, on and off a collision course: nothing is allocated, whatever the law.
+TEST(Guide, DoesNotAllocate) {
+  RandomBodies random(74);
+  SCOPED_TRACE(random.trace());
+  for (const Law law : {Law::avoidance, Law::cooperative_avoidance, Law::clearance}) {
+    for (const PlaneChoice choice : {PlaneChoice::of_motion, PlaneChoice::largest_opening}) {
+      GuideOptions options;
+      options.law = law;
+      options.plane.choice = choice;
+      GuideMemory memory;
+      for (int i = 0; i < 100; ++i) {
+        const auto [shape_a, shape_b] = random.separated_along_centers(1, 5, random.uniform(1.5, 3));
+        const Vector3d c = shape_b.center() - shape_a.center();
+        const BodyState a = body(shape_a, 9 * (c.normalized() + 0.5 * random.in_box(1)),
+                                 Turning::with_heading),
+                        b = body(shape_b, random.in_box(1), Turning::with_heading);
+        const std::size_t before = testing::allocations();
+        const auto step = guide(a, b, options, memory, i);
+        EXPECT_EQ(testing::allocations(), before) << to_string(law);
+        EXPECT_TRUE(step);
+      }
+    }
+  }
 }
 
 TEST(Guide, SaysNothingWithoutACone) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <vericone/guidance/laws.h>
 
+#include "guidance/law_promises.h"
 #include "guidance/planar_engagement.h"
 #include "guidance/printed_formulas.h"
 
@@ -14,21 +15,7 @@ namespace {
 
 using testing::Equation, testing::Errors, testing::Form, testing::PlanarEngagement, testing::RandomBodies,
     testing::SourceTerms;
-
-constexpr std::size_t kStates = 1000;
-
-double relative_error(double rate, double wanted) { return std::abs(rate - wanted) / std::abs(wanted); }
-
-LawOptions random_options(RandomBodies& random) {
-  LawOptions options;
-  options.gain = random.uniform(0.5, 5);
-  options.reference = random.uniform(0, 0.1);
-  return options;
-}
-
-double wanted_rate(const ConeRates& f, const LawOptions& options) {
-  return -options.gain * (f.y - options.reference);
-}
+using testing::kStates, testing::random_options, testing::relative_error, testing::wanted_rate;
 
 /// Bodies that neither turn by their accelerations nor are turned by them: what the source's forms cover.
 PlanarEngagement without_turning_by_acceleration(RandomBodies& random) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <vericone/guidance/laws.h>
 
+#include "guidance/law_promises.h"
 #include "guidance/printed_formulas.h"
 #include "guidance/spatial_engagement.h"
 
@@ -12,21 +13,7 @@ namespace vericone::guidance {
 namespace {
 
 using testing::Errors, testing::Form, testing::RandomBodies, testing::SourceTerms, testing::SpatialEngagement;
-
-constexpr std::size_t kStates = 1000;
-
-double relative_error(double rate, double wanted) { return std::abs(rate - wanted) / std::abs(wanted); }
-
-LawOptions random_options(RandomBodies& random) {
-  LawOptions options;
-  options.gain = random.uniform(0.5, 5);
-  options.reference = random.uniform(0, 0.1);
-  return options;
-}
-
-double wanted_rate(const ConeRates& f, const LawOptions& options) {
-  return -options.gain * (f.y - options.reference);
-}
+using testing::kStates, testing::random_options, testing::relative_error, testing::wanted_rate;
 
 /// An engagement that stays in a plane of symmetry of both bodies and of the motion: what the source's forms,
 /// which know nothing of the plane's motion, cover without error.

@@ -16,8 +16,7 @@ bool avoids(Law law) {
 }
 
 bool nothing_to_say(const std::optional<guidance::GuideStep>& step) {
-  return step && (step->status == LawStatus::clear || step->status == LawStatus::receding ||
-                  step->status == LawStatus::no_relative_velocity);
+  return step && guidance::commands_nothing(step->status);
 }
 
 }  // namespace

@@ -45,6 +45,8 @@ enum class LawStatus : std::uint8_t {
   no_relative_velocity,  // V = 0: nothing commanded (avoidance), or arrived (rendezvous)
 };
 const char* to_string(LawStatus status);
+/// clear, receding or no_relative_velocity: avoidance has nothing to say.
+bool commands_nothing(LawStatus status);
 
 struct LawOptions {
   double gain = 1;                                        // K, 1/s
