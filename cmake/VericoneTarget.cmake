@@ -6,10 +6,11 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   list(APPEND VERICONE_WARNINGS -Wno-restrict)
 endif()
 
-# ccache and mold are used where they are installed; neither is needed.
+# ccache and mold are used where they are installed; neither is needed. ccache keeps what is compiled with a
+# precompiled header only when told that the macros it was made with do not change behind its back.
 find_program(VERICONE_CCACHE ccache)
 if(VERICONE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${VERICONE_CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${VERICONE_CCACHE})
 endif()
 find_program(VERICONE_MOLD mold)
 if(VERICONE_MOLD)
@@ -20,6 +21,47 @@ if(VERICONE_SANITIZE)
   add_compile_options(-fsanitize=${VERICONE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${VERICONE_SANITIZE})
 endif()
+
+# One position-independent code for libraries and programs, so that they share precompiled headers.
+set(CMAKE_POSITION_INDEPENDENT_CODE OFF)
+add_compile_options(-fPIC)
+
+if(VERICONE_PCH AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  add_compile_options(-fpch-preprocess)  # for ccache
+endif()
+if(VERICONE_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # A type of an unnamed namespace in a source is no danger when that source is included into another.
+  add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>)
+endif()
+
+# vericone_precompile(TARGET SET): the target's sources start with the precompiled header cmake/precompiled/SET.h, which is
+# made once for all targets that ask for it (docs/building.md has what each set brings).
+function(vericone_precompile target set)
+  if(NOT VERICONE_PCH)
+    return()
+  endif()
+  if(NOT TARGET vericone_precompiled_${set})
+    file(WRITE ${PROJECT_BINARY_DIR}/precompiled/${set}.cpp "")
+    add_library(vericone_precompiled_${set} OBJECT ${PROJECT_BINARY_DIR}/precompiled/${set}.cpp)
+    target_compile_features(vericone_precompiled_${set} PRIVATE cxx_std_20)
+    # The warnings too: -Wpedantic takes away a macro that the header would remember.
+    target_compile_options(vericone_precompiled_${set} PRIVATE -ffp-contract=off ${VERICONE_WARNINGS})
+    target_link_libraries(vericone_precompiled_${set} PRIVATE Eigen3::Eigen Boost::boost)
+    if(ARGN)
+      target_link_libraries(vericone_precompiled_${set} PRIVATE ${ARGN})
+    endif()
+    target_precompile_headers(vericone_precompiled_${set} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled/${set}.h)
+  endif()
+  target_precompile_headers(${target} REUSE_FROM vericone_precompiled_${set})
+endfunction()
+
+# vericone_unity(TARGET N): compiles N sources at once. A source of large cost, or with macros or flags of its own, stays
+# apart by its property SKIP_UNITY_BUILD_INCLUSION.
+function(vericone_unity target batch)
+  if(VERICONE_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
+  endif()
+endfunction()
 
 # Adds the library vericone::NAME from SOURCES, with its headers under include/vericone/.
 # Contraction of a*b+c to a fused operation is off for the library and for all who use its headers:

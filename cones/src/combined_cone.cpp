@@ -11,22 +11,21 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kPi = std::numbers::pi;
 /// Half-planes to begin with, and the most there may be.
 constexpr int kFirstSectors = 12, kMostSectors = 4096;
 
 /// The end of the cone on one half-plane: angles from the axis that are in and out.
 struct End {
-  double azimuth = 0, in = 0, out = kPi;
+  double azimuth = 0, in = 0, out = std::numbers::pi;
 };
 
 /// Between two neighbouring half-planes: on both, how far the chords stand off the ends.
-struct Sector {
+struct Wedge {
   End first, last;
   double inwards = 0, outwards = 0;  // radians
   double inner = 0, outer = 0;       // solid angles of the triangles with the axis, steradian
   double gap() const { return outer - inner; }
-  bool operator<(const Sector& other) const { return gap() < other.gap(); }
+  bool operator<(const Wedge& other) const { return gap() < other.gap(); }
 };
 
 class Tracer {
@@ -43,7 +42,7 @@ class Tracer {
 
   /// By bisection: the axis is in and its opposite out, whatever the bodies (docs/theory.md, 7).
   End end(double azimuth, double guess, double spread) const {
-    End e{azimuth, 0, kPi};
+    End e{azimuth, 0, std::numbers::pi};
     const auto ask = [&](double angle) {
       const Certified answer = oracle_.membership(direction(azimuth, angle));
       if (answer == Certified::in) e.in = angle;
@@ -51,7 +50,7 @@ class Tracer {
       return answer;
     };
     // Closing in from the guess.
-    for (double step = spread; e.out == kPi && guess + step < kPi; step *= 4)
+    for (double step = spread; e.out == std::numbers::pi && guess + step < std::numbers::pi; step *= 4)
       if (ask(guess + step) != Certified::in) break;
     for (double step = spread; e.in == 0 && guess - step > 0; step *= 4)
       if (ask(guess - step) != Certified::out) break;
@@ -60,9 +59,9 @@ class Tracer {
     return e;
   }
 
-  Sector sector(const End& first, const End& last, double standoff) const {
-    Sector s{first, last, 0, 0, 0, 0};
-    s.outwards = least_standoff(standoff, kPi - 1e-6 - std::max(first.out, last.out), [&](double d) {
+  Wedge sector(const End& first, const End& last, double standoff) const {
+    Wedge s{first, last, 0, 0, 0, 0};
+    s.outwards = least_standoff(standoff, std::numbers::pi - 1e-6 - std::max(first.out, last.out), [&](double d) {
       return oracle_.all_out(direction(first.azimuth, first.out + d), direction(last.azimuth, last.out + d));
     });
     s.inwards = least_standoff(standoff, std::min(first.in, last.in), [&](double d) {
@@ -114,7 +113,7 @@ CombinedCone combined_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& 
   if (!c.isZero(0)) cone.axis = c.normalized();
   if (cone.relation != Relation::disjoint) {
     if (!cone.relation) return cone;
-    const double whole = (*cone.relation == Relation::touching ? 2 : 4) * kPi;
+    const double whole = (*cone.relation == Relation::touching ? 2 : 4) * std::numbers::pi;
     cone.solid_angle = cone.inner.solid_angle = cone.outer.solid_angle = whole;
     cone.cross_section_area = cone.inner.cross_section_area = cone.outer.cross_section_area =
         std::numeric_limits<double>::infinity();
@@ -126,13 +125,13 @@ CombinedCone combined_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& 
   // What the ellipsoids around would show is a fair first guess.
   double guess = std::atan2(a.ellipsoid().semi_axes()(1) + b.ellipsoid().semi_axes()(1), c.norm());
   for (int i = 0; i < kFirstSectors; ++i) {
-    ends.push_back(tracer.end(2 * kPi * i / kFirstSectors, guess, 0.1 * guess));
+    ends.push_back(tracer.end(2 * std::numbers::pi * i / kFirstSectors, guess, 0.1 * guess));
     guess = 0.5 * (ends.back().in + ends.back().out);
   }
-  std::vector<Sector> heap;
+  std::vector<Wedge> heap;
   double inner = 0, outer = 0;
   int unbounded = 0;
-  const auto count = [&](const Sector& s, int sign) {
+  const auto count = [&](const Wedge& s, int sign) {
     inner += sign * s.inner;
     if (std::isinf(s.outer)) {
       unbounded += sign;
@@ -140,21 +139,21 @@ CombinedCone combined_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& 
       outer += sign * s.outer;
     }
   };
-  const auto add = [&](const Sector& s) {
+  const auto add = [&](const Wedge& s) {
     count(s, 1);
     heap.push_back(s);
     std::push_heap(heap.begin(), heap.end());
   };
   for (int i = 0; i < kFirstSectors; ++i) {
     End last = ends[(i + 1) % kFirstSectors];
-    if (i + 1 == kFirstSectors) last.azimuth += 2 * kPi;
+    if (i + 1 == kFirstSectors) last.azimuth += 2 * std::numbers::pi;
     add(tracer.sector(ends[i], last, expected_standoff(ends[i], last)));
   }
-  std::vector<Sector> done;
+  std::vector<Wedge> done;
   while (!heap.empty() && heap.size() + done.size() < kMostSectors && oracle.boxes_searched() < most_boxes &&
          (unbounded > 0 || outer - inner > tolerance * outer)) {
     std::pop_heap(heap.begin(), heap.end());
-    const Sector s = heap.back();
+    const Wedge s = heap.back();
     heap.pop_back();
     // Too narrow to gain anything: the ends themselves are all the gap.
     if (s.last.azimuth - s.first.azimuth < 1e-5) {
@@ -170,12 +169,12 @@ CombinedCone combined_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& 
   }
   heap.insert(heap.end(), done.begin(), done.end());
   std::sort(heap.begin(), heap.end(),
-            [](const Sector& x, const Sector& y) { return x.first.azimuth < y.first.azimuth; });
+            [](const Wedge& x, const Wedge& y) { return x.first.azimuth < y.first.azimuth; });
 
-  for (const Sector& s : heap) {
+  for (const Wedge& s : heap) {
     // An outer chord that was not found: out is only what lies straight behind.
-    const double far_first = s.outwards < 0 ? kPi : s.first.out + s.outwards,
-                 far_last = s.outwards < 0 ? kPi : s.last.out + s.outwards;
+    const double far_first = s.outwards < 0 ? std::numbers::pi : s.first.out + s.outwards,
+                 far_last = s.outwards < 0 ? std::numbers::pi : s.last.out + s.outwards;
     const double near_first = s.inwards < 0 ? 0 : s.first.in - s.inwards,
                  near_last = s.inwards < 0 ? 0 : s.last.in - s.inwards;
     cone.inner.directions.push_back(tracer.direction(s.first.azimuth, near_first));
@@ -189,7 +188,7 @@ CombinedCone combined_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& 
     p->solid_angle = polygon_solid_angle(cone.axis, p->directions);
     p->cross_section_area = polygon_section_area(cone.axis, p->directions);
   }
-  if (unbounded > 0) cone.outer.solid_angle = 4 * kPi;
+  if (unbounded > 0) cone.outer.solid_angle = 4 * std::numbers::pi;
   cone.solid_angle = 0.5 * (cone.inner.solid_angle + cone.outer.solid_angle);
   cone.solid_angle_error =
       0.5 * (cone.outer.solid_angle - cone.inner.solid_angle) + kRounding * cone.outer.solid_angle;
@@ -233,7 +232,7 @@ std::vector<PlaneInterval> plane_intervals(const CombinedOracle& oracle, const V
   };
   constexpr int kFirst = 16;
   for (int i = 0; i < kFirst; ++i)
-    resolve(resolve, kPi * (2.0 * i / kFirst - 1), kPi * (2.0 * (i + 1) / kFirst - 1));
+    resolve(resolve, std::numbers::pi * (2.0 * i / kFirst - 1), std::numbers::pi * (2.0 * (i + 1) / kFirst - 1));
   return result;
 }
 

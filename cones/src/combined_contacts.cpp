@@ -29,8 +29,6 @@ IntervalVector3 operator*(const IntervalVector3& x, const Interval& s) {
 }
 IntervalVector3 exactly(const Vector3d& v) { return {Interval(v(0)), Interval(v(1)), Interval(v(2))}; }
 
-Interval norm(const IntervalVector3& v) { return sqrt(square(v[0]) + square(v[1]) + square(v[2])); }
-
 /// Whether q, a quadratic form about a centre, is at most its level on the whole segment from x to y
 /// (relative to that centre): a parabola's largest value is at an end or at its vertex.
 bool segment_inside(const EnclosedQuadric& q, const IntervalVector3& x, const IntervalVector3& y) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "combined_frame.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/scaled_inverse.h>
 
 namespace vericone {
@@ -66,7 +66,7 @@ EnclosedQuadric quadric(const IntervalMatrix3& m, double level) {
     for (int j = 0; j < 3; ++j) middles(i, j) = q.matrix[i][j].mid();
   if (middles.allFinite()) {
     const double least =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(middles, Eigen::EigenvaluesOnly).eigenvalues()(0);
+        symmetric_eigenvalues<3>(middles)(0);
     q.least_eigenvalue = std::min(least, 0.0) - 1e-14 * middles.norm();
   }
   return q;
@@ -84,20 +84,6 @@ IntervalMatrix3 ellipsoid_matrix(const Ellipsoid& body, const IntervalMatrix3& t
 }
 
 }  // namespace
-
-IntervalVector3 operator*(const IntervalMatrix3& m, const IntervalVector3& v) {
-  IntervalVector3 r;
-  for (int i = 0; i < 3; ++i) r[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
-  return r;
-}
-
-Interval dot(const IntervalVector3& x, const IntervalVector3& y) {
-  return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-}
-
-IntervalVector3 cross(const IntervalVector3& x, const IntervalVector3& y) {
-  return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
-}
 
 Eigen::Vector3d middle(const IntervalVector3& v) { return {v[0].mid(), v[1].mid(), v[2].mid()}; }
 

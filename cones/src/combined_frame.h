@@ -9,16 +9,11 @@
 #include <array>
 #include <vector>
 
+#include "interval_vector.h"
 #include "quadratic_search.h"
 
 namespace vericone {
 
-using IntervalVector3 = std::array<Interval, 3>;
-using IntervalMatrix3 = std::array<std::array<Interval, 3>, 3>;
-
-IntervalVector3 operator*(const IntervalMatrix3& m, const IntervalVector3& v);
-Interval dot(const IntervalVector3& x, const IntervalVector3& y);
-IntervalVector3 cross(const IntervalVector3& x, const IntervalVector3& y);
 Eigen::Vector3d middle(const IntervalVector3& v);
 
 /// The region (x - center)^T M (x - center) <= level of one quadric in the frame.

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "combined_relation.h"
+#include "elementary.h"
 #include "planar_boundary.h"
 #include "sector_parts.h"
 
@@ -17,7 +18,6 @@ namespace {
 using Eigen::Vector2d;
 using Corners = SmallList<PlanarBoundary::CornerPoint, 16>;
 
-double cross(const Vector2d& x, const Vector2d& y) { return x.x() * y.y() - x.y() * y.x(); }
 Vector2d turned_left(const Vector2d& x) { return {-x.y(), x.x()}; }
 
 /// A line along d from a point of A to one of B; the points as offsets from the centres.
@@ -28,7 +28,7 @@ struct Candidate {
 };
 
 /// The side of a sector that is looked for: +1 the counter-clockwise one, -1 the other.
-struct Side {
+struct SectorSide {
   double sign;
   Vector2d c;
   Candidate best;
@@ -75,7 +75,7 @@ class CombinedTangents {
   Candidate edge(double sign) {
     if (const auto tangent = arc_to_arc(sign)) return *tangent;
     collect_corners();
-    Side side{sign, c_, {}};
+    SectorSide side{sign, c_, {}};
     // On the left edge B lies locally on the right of the line and A on the left.
     for (const auto& p : corners_a_)
       for (const auto& round : b_.rounds())

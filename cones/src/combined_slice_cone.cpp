@@ -32,9 +32,9 @@ std::optional<Relation> relation_of(const CombinedEllipsoid& a, const CombinedEl
   return CombinedOracle(a, b).relation();
 }
 
-class Slicer {
+class CombinedSlicer {
  public:
-  Slicer(const CombinedEllipsoid& a, const CombinedEllipsoid& b, SliceSector sectors)
+  CombinedSlicer(const CombinedEllipsoid& a, const CombinedEllipsoid& b, SliceSector sectors)
       : a_(a),
         b_(b),
         frame_(b.center() - a.center()),
@@ -92,7 +92,7 @@ CombinedSliceCone combined_slice_cone(const CombinedEllipsoid& a, const Combined
   cone.relation = relation_of(a, b);
   cone.axis = (b.center() - a.center()).normalized();
   if (cone.relation != Relation::disjoint) return cone;
-  const Slicer slicer(a, b, sectors);
+  const CombinedSlicer slicer(a, b, sectors);
   cone.slices.reserve(planes);
   for (int j = 0; j < planes; ++j)
     if (!slicer.add(std::numbers::pi * j / planes, cone)) {

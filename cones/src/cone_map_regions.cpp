@@ -37,22 +37,22 @@ class Sets {
 std::uint64_t key(Index a, Index b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
 
 /// Part of an edge of a cell that no corner divides: every one has one cell on each side.
-struct Side {
+struct CellSide {
   std::uint64_t edge;
   Index cell;
   bool rising;  // the cell is to the left of the way from the smaller to the larger corner
-  bool operator<(const Side& other) const {
+  bool operator<(const CellSide& other) const {
     return std::pair(edge, rising) < std::pair(other.edge, other.rising);
   }
 };
 
 /// In pairs: those of one edge follow each other.
-std::vector<Side> sides_of(const ConeMap& map) {
+std::vector<CellSide> sides_of(const ConeMap& map) {
   std::unordered_map<std::uint64_t, Index> middles;
   middles.reserve(map.between.size());
   for (Index i = 0; i < map.between.size(); ++i)
     middles.emplace(key(map.between[i][0], map.between[i][1]), i);
-  std::vector<Side> sides;
+  std::vector<CellSide> sides;
   sides.reserve(4 * map.cells.size());
   std::vector<Edge> stack;
   for (Index c = 0; c < map.cells.size(); ++c) {
@@ -188,7 +188,7 @@ class Regions {
   void join_at_corners() {
     const auto none = static_cast<Index>(map_.cells.size());
     std::vector<std::array<Index, 2>> first(map_.corners.size(), {none, none});
-    for (const Side& s : sides_) {
+    for (const CellSide& s : sides_) {
       if (label(s.cell) == Certified::undecided) continue;
       for (const auto corner : {static_cast<Index>(s.edge >> 32), static_cast<Index>(s.edge)}) {
         Index& cell = first[corner][side(label(s.cell))];
@@ -208,7 +208,7 @@ class Regions {
   const ConeMap& map_;
   Sets own_;
   Sets possible_[2];
-  std::vector<Side> sides_;
+  std::vector<CellSide> sides_;
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "contact_polynomial.h"
+#include "elementary.h"
 #include "velocity_ladder.h"
 
 namespace vericone {
@@ -38,9 +39,6 @@ constexpr double kUnderflowBound = 1e-250;
 
 /// Position of entry (r, c) of a symmetric 3x3 matrix among its six.
 constexpr int kPacked[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-
-/// Exactly the power of two in [|x|, 2|x|), as an exponent; 0 for 0.
-int binary_exponent(double x) { return x == 0 ? 0 : std::ilogb(x) + 1; }
 
 /// The coordinate to project along, that of the largest entry of w, and the two after it. No branches: the
 /// directions of velocities are hard to predict.

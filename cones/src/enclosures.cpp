@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "enclosed_pair.h"
+#include "interval_vector.h"
 
 namespace vericone {
 namespace {
@@ -59,14 +60,6 @@ std::optional<DirectionEnclosure> enclose_edge(const SectorOracle& oracle, const
   return std::nullopt;
 }
 
-using Box = std::array<Interval, 3>;
-
-Interval dot(const Box& x, const Box& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
-Interval norm(const Box& x) { return sqrt(square(x[0]) + square(x[1]) + square(x[2])); }
-Box cross(const Box& x, const Box& y) {
-  return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
-}
-
 /// Normals that are exactly perpendicular to w: L^T z with the projection that needs no division,
 /// L x = (w_k x_i - w_i x_k, w_k x_j - w_j x_k).
 class NormalsAcross {
@@ -78,8 +71,8 @@ class NormalsAcross {
     w_ = w * std::ldexp(1.0, -std::ilogb(std::abs(w(k_))));
   }
 
-  Box normal(const Interval& x, const Interval& y) const {
-    Box n;
+  IntervalVector3 normal(const Interval& x, const Interval& y) const {
+    IntervalVector3 n;
     n[i_] = Interval(w_(k_)) * x;
     n[j_] = Interval(w_(k_)) * y;
     n[k_] = -(Interval(w_(i_)) * x + Interval(w_(j_)) * y);
@@ -87,7 +80,7 @@ class NormalsAcross {
   }
   /// The z of a normal about perpendicular to w.
   Vector2d coordinates(const Vector3d& n) const { return Vector2d(n(i_), n(j_)) / w_(k_); }
-  Box velocity() const { return {w_(0), w_(1), w_(2)}; }
+  IntervalVector3 velocity() const { return {w_(0), w_(1), w_(2)}; }
 
  private:
   int i_, j_, k_;
@@ -95,9 +88,9 @@ class NormalsAcross {
 };
 
 /// c minus the supporting points of n: the vector between a point of A and a point of B.
-Box between_supports(const EnclosedPair<3>& pair, const Box& n) {
-  const Box at_a = pair.a.support(n).point(), at_b = pair.b.support(n).point();
-  Box q;
+IntervalVector3 between_supports(const EnclosedPair<3>& pair, const IntervalVector3& n) {
+  const IntervalVector3 at_a = pair.a.support(n).point(), at_b = pair.b.support(n).point();
+  IntervalVector3 q;
   for (int r = 0; r < 3; ++r) q[r] = pair.c[r] - at_a[r] - at_b[r];
   return q;
 }
@@ -117,9 +110,9 @@ bool below_everywhere(const EnclosedPair<3>& pair, const NormalsAcross& across, 
     const double fixed = side < 2 ? 1 : -1;
     return side % 2 == 0 ? across.normal(fixed, t) : across.normal(t, fixed);
   };
-  const Box along = side % 2 == 0 ? across.normal(0.0, 1.0) : across.normal(1.0, 0.0);
+  const IntervalVector3 along = side % 2 == 0 ? across.normal(0.0, 1.0) : across.normal(1.0, 0.0);
   const Interval range = Interval::between(lo, hi);
-  const Box n = at(range), n0 = at(middle);
+  const IntervalVector3 n = at(range), n0 = at(middle);
   // h(t) = n.c - rho_A - rho_B - bound |n|
   const Interval value = pair.gap(n0) - Interval(bound) * norm(n0);
   const auto a = pair.a.support(n), b = pair.b.support(n);
@@ -163,11 +156,11 @@ Interval enclose_clearance(const Ellipsoid& a, const Ellipsoid& b, const Vector3
   if (!in_range(pair)) return {0, kInfinity};
   const NormalsAcross across(w);
   const Vector2d z = across.coordinates(near.normal);
-  const Box n = across.normal(z.x(), z.y());
+  const IntervalVector3 n = across.normal(z.x(), z.y());
   const Interval lower = pair.gap(n) / norm(n);
   if (lower.positive()) {
     // The two supporting points, projected along w, are points of the two shadows.
-    const Box v = across.velocity();
+    const IntervalVector3 v = across.velocity();
     const Interval upper = norm(cross(between_supports(pair, n), v)) / norm(v);
     return in_metres(pair, Interval::between(lower.lo(), std::max(lower.hi(), upper.hi())));
   }
@@ -187,7 +180,7 @@ Interval enclose_separation(const Ellipsoid& a, const Ellipsoid& b) {
   const Vector3d normal = separation(a, b).normal;
   const EnclosedPair<3> pair(a, b);
   if (!in_range(pair)) return {0, kInfinity};
-  const Box n{normal.x(), normal.y(), normal.z()};
+  const IntervalVector3 n{normal.x(), normal.y(), normal.z()};
   const Interval lower = pair.gap(n) / norm(n);
   return in_metres(pair, Interval::between(std::max(0.0, lower.lo()),
                                            std::max(lower.hi(), norm(between_supports(pair, n)).hi())));
@@ -198,7 +191,7 @@ std::optional<PlaneSectorEnclosure> enclose_plane_sector(const Ellipsoid& a, con
   const PlaneSector sector = exact_sector(a, b, across);
   const ConeOracle oracle(a, b);
   // u and e as boxes around the true ones: c / |c|, and what is left of `across` without its part along c.
-  Box u, e, towards{across.x(), across.y(), across.z()};
+  IntervalVector3 u, e, towards{across.x(), across.y(), across.z()};
   for (int r = 0; r < 3; ++r) u[r] = Interval(b.center()(r)) - Interval(a.center()(r));
   const Interval distance = norm(u);
   for (Interval& x : u) x = x / distance;
@@ -209,7 +202,7 @@ std::optional<PlaneSectorEnclosure> enclose_plane_sector(const Ellipsoid& a, con
   const auto enclose = [&](double angle, double side) -> std::optional<Interval> {
     const auto membership = [&](double phi) {
       const Interval c = rounded_by_library(std::cos(phi)), s = rounded_by_library(side * std::sin(phi));
-      Box w;
+      IntervalVector3 w;
       for (int r = 0; r < 3; ++r) w[r] = c * u[r] + s * e[r];
       return oracle.interval_membership(w);
     };

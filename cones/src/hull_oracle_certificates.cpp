@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hull_oracle_certificates.h"
+#include "elementary.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,6 @@
 namespace vericone {
 namespace {
 
-constexpr double kUnitRoundoff = 0x1p-53;
 
 Interval entry(const HullScene& scene, int r, int c) {
   return scene.enclosed_shape[HullScene::kPacked[r][c]];

@@ -8,6 +8,7 @@
 
 #include "contact_polynomial.h"
 #include "containment.h"
+#include "elementary.h"
 
 namespace vericone {
 
@@ -78,11 +79,11 @@ constexpr SymmetricForm<2, N> mapped(const Map& g, const SymmetricForm<2, N>& s)
   return r;
 }
 
-struct Counts {
+struct OrificeCounts {
   CertificateCounts<2> certificate;
   RoundingCount toward;
 };
-constexpr Counts kCounts = [] {
+constexpr OrificeCounts kOrificeCounts = [] {
   // F F^T takes three roundings, p_B - p_A and w_i / w_k one.
   const auto shape = [](int, int) { return RoundingCount{3}; };
   const auto line = [](int) { return RoundingCount{1}; };
@@ -96,7 +97,7 @@ constexpr Counts kCounts = [] {
     for (const RoundingCount& x : in_frame.entry)
       if (x.roundings > longest.roundings) longest = x;
   }
-  return Counts{CertificateCounts<2>::of(longest, {}, longest), pair.toward};
+  return OrificeCounts{CertificateCounts<2>::of(longest, {}, longest), pair.toward};
 }();
 
 double midpoint(const Tracked& x) { return x.value(); }
@@ -105,15 +106,12 @@ double midpoint(const Interval& x) { return x.mid(); }
 Tracked minus_quotient(double x, double y, const Tracked*) { return Tracked::minus(x / y); }
 Interval minus_quotient(double x, double y, const Interval*) { return -(Interval(x) / Interval(y)); }
 
-Tracked scaled(double x, double scale, const Tracked*) { return Tracked::of(x * scale); }
-Interval scaled(double x, double scale, const Interval*) { return {x * scale, Interval::kTiny}; }
-
 /// The frame in which the first form is the identity and the second diagonal, in plain doubles.
-struct PlanarFrame {
+struct ShadowFrame {
   Eigen::Matrix2d map;
   Eigen::Vector2d diagonal;
 
-  PlanarFrame(const SymmetricForm<2, double>& a, const SymmetricForm<2, double>& b) {
+  ShadowFrame(const SymmetricForm<2, double>& a, const SymmetricForm<2, double>& b) {
     const double l11 = std::sqrt(a(0, 0)), l21 = a(0, 1) / l11, l22 = std::sqrt(a(1, 1) - l21 * l21);
     Eigen::Matrix2d inverse;
     inverse << 1 / l11, 0, -l21 / (l11 * l22), 1 / l22;
@@ -192,8 +190,8 @@ std::optional<Membership> OrificeOracle::certified(const Eigen::Vector3d& w) con
       minus_quotient(w(i), w(k), tag), minus_quotient(w(j), w(k), tag), i, j, k);
 
   const N toward = (toward_ > 0) == (w(k) > 0) ? pair.toward : -pair.toward;
-  if (surely_positive(-toward, kCounts.toward)) return Membership::out;
-  if (!surely_positive(toward, kCounts.toward)) return std::nullopt;
+  if (surely_positive(-toward, kOrificeCounts.toward)) return Membership::out;
+  if (!surely_positive(toward, kOrificeCounts.toward)) return std::nullopt;
 
   SymmetricForm<2, double> mid_a, mid_b;
   double nn = 0;
@@ -202,7 +200,7 @@ std::optional<Membership> OrificeOracle::certified(const Eigen::Vector3d& w) con
     mid_b.entry[x] = midpoint(pair.forms.b.entry[x]);
     nn += midpoint(normal[x]) * midpoint(normal[x]);
   }
-  const PlanarFrame frame(mid_a, mid_b);
+  const ShadowFrame frame(mid_a, mid_b);
   const Eigen::Vector2d center =
       frame.map * Eigen::Vector2d(midpoint(pair.line[0]), midpoint(pair.line[1])) * std::sqrt(nn);
   const double stretch = frame.map.cwiseAbs().sum();
@@ -215,8 +213,8 @@ std::optional<Membership> OrificeOracle::certified(const Eigen::Vector3d& w) con
                               mapped<N>(g, pair.forms.c)};
   const auto guess = search_containment<2>(Eigen::Vector2d::Ones(), frame.diagonal, center);
   if (guess.inside) {
-    if (surely_inside<2, N>(forms, guess.s, kCounts.certificate)) return Membership::in;
-  } else if (surely_reaches_beyond<2, N>(forms, guess.normal, kCounts.certificate)) {
+    if (surely_inside<2, N>(forms, guess.s, kOrificeCounts.certificate)) return Membership::in;
+  } else if (surely_reaches_beyond<2, N>(forms, guess.normal, kOrificeCounts.certificate)) {
     return Membership::out;
   }
   return std::nullopt;

@@ -74,8 +74,8 @@ Vector2d polished(const CombinedEllipse& body, int i, int j, const Vector2d& u, 
       (2 / (level_j > 0 ? level_j : 1) * of_j * u).transpose();
   const Vector2d step = slopes.inverse() * Vector2d(residual(body, i, offset), residual(body, j, offset));
   // Conics that hardly cross have no better corner than this one.
-  constexpr double kRounding = 1e-5;
-  return step.norm() < kRounding * u.norm() ? Vector2d(offset - body.ellipsoid().factor() * step) : offset;
+  constexpr double kSmallStep = 1e-5;
+  return step.norm() < kSmallStep * u.norm() ? Vector2d(offset - body.ellipsoid().factor() * step) : offset;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "contact_polynomial.h"
 #include "containment.h"
+#include "elementary.h"
 
 namespace vericone {
 
@@ -99,9 +100,7 @@ constexpr CertificateCounts<D> kCounts = [] {
   return CertificateCounts<D>::of(shape, center, center * center);
 }();
 
-/// A number times a power of two.
-Tracked scaled(double x, double scale, const Tracked*) { return Tracked::of(x * scale); }
-Interval scaled(double x, double scale, const Interval*) { return {x * scale, Interval::kTiny}; }
+/// A difference times a power of two.
 Tracked scaled_difference(double x, double y, double scale, const Tracked*) {
   return Tracked::of(x * scale - y * scale);
 }
@@ -111,7 +110,7 @@ Interval scaled_difference(double x, double y, double scale, const Interval*) {
 
 /// The search of one pair, shared by the rungs: everything that needs no certainty.
 template <int D>
-struct Search {
+struct PositionSearch {
   using Vector = Eigen::Matrix<double, D, 1>;
   using Matrix = Eigen::Matrix<double, D, D>;
 
@@ -125,7 +124,7 @@ struct Search {
   ContainmentGuess<D> a_in_b, b_in_a;
 
   /// A is the larger body.
-  Search(const BasicEllipsoid<D>& body_a, const BasicEllipsoid<D>& body_b) : a(body_a), b(body_b) {
+  PositionSearch(const BasicEllipsoid<D>& body_a, const BasicEllipsoid<D>& body_b) : a(body_a), b(body_b) {
     const int e = std::ilogb(a.factor().cwiseAbs().maxCoeff());
     if (std::abs(e) > 510) return;
     scale = std::ldexp(1.0, -e);
@@ -211,8 +210,8 @@ bool a_first(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b) {
 
 template <int D, typename N>
 std::optional<Position> certified(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b) {
-  if (a_first<D>(a, b)) return Search<D>(a, b).template certified<N>();
-  const auto mirrored = Search<D>(b, a).template certified<N>();
+  if (a_first<D>(a, b)) return PositionSearch<D>(a, b).template certified<N>();
+  const auto mirrored = PositionSearch<D>(b, a).template certified<N>();
   if (!mirrored) return std::nullopt;
   return swapped(*mirrored);
 }
@@ -311,7 +310,7 @@ Position exact_position(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b) 
 template <int D>
 Position position(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b, Rung* rung) {
   const bool in_order = a_first<D>(a, b);
-  const Search<D> search = in_order ? Search<D>(a, b) : Search<D>(b, a);
+  const PositionSearch<D> search = in_order ? PositionSearch<D>(a, b) : PositionSearch<D>(b, a);
   const auto turned = [in_order](std::optional<Position> answer) {
     if (answer && !in_order) answer = swapped(*answer);
     return answer;

@@ -8,12 +8,12 @@
 #include <limits>
 
 #include "contact_polynomial.h"
+#include "elementary.h"
 #include "enclosed_pair.h"
 
 namespace vericone {
 namespace {
 
-constexpr double kUnitRoundoff = 0x1p-53;
 
 /// An upper bound of rho(n), from the matrix that defines the body; the other one is rounded.
 template <int D>

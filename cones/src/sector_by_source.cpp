@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "elementary.h"
 #include "pole_polar.h"
 #include "sector_parts.h"
 
@@ -14,14 +15,12 @@ namespace {
 
 using Eigen::Vector2d;
 
-double cross(const Vector2d& x, const Vector2d& y) { return x.x() * y.y() - x.y() * y.x(); }
-
 /// A tangent to A through a point of B, as an edge. All coordinates from A's centre.
-struct Line {
+struct TangentLine {
   SectorEdge edge;
   bool left = false;  // A on its left, seen from A to B
 
-  Line(const Vector2d& on_a, const Vector2d& on_b) {
+  TangentLine(const Vector2d& on_a, const Vector2d& on_b) {
     edge.point_on_a = on_a;
     edge.point_on_b = on_b;
     edge.direction = (on_b - on_a).normalized();
@@ -45,27 +44,27 @@ class SourceTangents {
 
   /// Steps 2 to 5 for one lost tangent, which was a left one or not, or for both where the ellipses
   /// intersect: the tangents that are left over.
-  std::vector<Line> printed(const Vector2d& near) const {
+  std::vector<TangentLine> printed(const Vector2d& near) const {
     std::vector<Vector2d> chosen = corners_;
     std::sort(chosen.begin(), chosen.end(), [&](const Vector2d& x, const Vector2d& y) {
       return (x - near).squaredNorm() < (y - near).squaredNorm();
     });
     chosen.resize(std::min<std::size_t>(chosen.size(), 2));
-    std::vector<Line> kept;
+    std::vector<TangentLine> kept;
     for (std::size_t i = 0; i < chosen.size(); ++i) {
-      const std::vector<Line> separating = tangents(chosen[i]);
+      const std::vector<TangentLine> separating = tangents(chosen[i]);
       if (separating.size() == 2 && (keep_both_ || grazes(chosen[i]))) return separating;  // without step 5
-      for (const Line& line : separating)
+      for (const TangentLine& line : separating)
         if (line.side(chosen[1 - i]) * line.side(center_b_) >= 0) kept.push_back(line);
     }
     return kept;
   }
 
   /// 6.3.2: from all corners, those with the centres on opposite sides and all corners on one.
-  std::vector<Line> by_sides() const {
-    std::vector<Line> kept;
+  std::vector<TangentLine> by_sides() const {
+    std::vector<TangentLine> kept;
     for (const Vector2d& corner : corners_)
-      for (const Line& line : tangents(corner)) {
+      for (const TangentLine& line : tangents(corner)) {
         double lowest = 0, highest = 0;
         for (const Vector2d& other : corners_)
           if (other != corner) {
@@ -79,11 +78,11 @@ class SourceTangents {
 
  private:
   /// Step 4: tangents to A through a corner with the centres on opposite sides.
-  std::vector<Line> tangents(const Vector2d& corner) const {
-    std::vector<Line> kept;
+  std::vector<TangentLine> tangents(const Vector2d& corner) const {
+    std::vector<TangentLine> kept;
     if (const auto both = tangents_by_polar(dual_, corner))
       for (const PolarTangent& t : *both) {
-        const Line line(t.point, corner);
+        const TangentLine line(t.point, corner);
         if (line.side(Vector2d::Zero()) * line.side(center_b_) < 0) kept.push_back(line);
       }
     return kept;
@@ -99,8 +98,8 @@ class SourceTangents {
 };
 
 /// The one wanted for the lost side where there is a choice.
-std::optional<SectorEdge> pick(const std::vector<Line>& lines, bool left) {
-  for (const Line& line : lines)
+std::optional<SectorEdge> pick(const std::vector<TangentLine>& lines, bool left) {
+  for (const TangentLine& line : lines)
     if (line.left == left) return line.edge;
   return std::nullopt;
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "contact_polynomial.h"
+#include "elementary.h"
 #include "velocity_ladder.h"
 
 namespace vericone {
@@ -31,14 +32,12 @@ struct LineTest {
 
 /// Roundings of the first rung: S 3 (at most: two products of factors summed), c 1, and each entry of w over
 /// the larger one 3 (two differences of velocities, the quotient).
-constexpr LineTest<RoundingCount> kCount = [] {
+constexpr LineTest<RoundingCount> kLineCount = [] {
   constexpr RoundingCount s{3}, c{1}, w{3};
   return LineTest<RoundingCount>({s, s, s}, {s, s, s}, c, c, w, w);
 }();
 constexpr RoundingCount kAhead = RoundingCount{0} * RoundingCount{3} + RoundingCount{0} * RoundingCount{3};
 constexpr double kUnderflow = 1e-250;
-
-int binary_exponent(double x) { return x == 0 ? 0 : std::ilogb(x) + 1; }
 
 exact::IntegerVector<2> exact_normal(const exact::PairOnGrid<2>& pair) {
   const exact::Dyadic x = exact::between_positive_roots(exact::contact_polynomial<2>(pair), 0);
@@ -129,7 +128,7 @@ std::optional<Membership> SectorOracle::triage_membership(const Eigen::Vector2d&
   if (ahead < 0) return Membership::out;
   const LineTest<Tracked> line(shape(shape_a_), shape(shape_b_), Tracked::of(c_[0]), Tracked::of(c_[1]), wx,
                                wy);
-  const int g = line.g.certain(kCount.g, kUnderflow), f = line.f.certain(kCount.f, kUnderflow);
+  const int g = line.g.certain(kLineCount.g, kUnderflow), f = line.f.certain(kLineCount.f, kUnderflow);
   if (g > 0 && f > 0) return Membership::out;
   if (ahead > 0 && (g < 0 || f < 0)) return Membership::in;
   return std::nullopt;

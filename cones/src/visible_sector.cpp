@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "elementary.h"
 #include "sector_parts.h"
 
 namespace vericone {
@@ -17,14 +18,12 @@ using Eigen::Vector2d;
 
 constexpr double kOnLine = 1e-13;  // radians, seen from the contact
 
-double cross(const Vector2d& x, const Vector2d& y) { return x.x() * y.y() - x.y() * y.x(); }
-
 /// A line through a point of the agent and one of the obstacle. Positive side: the left of the way there.
-struct Line {
+struct SightLine {
   Vector2d on_a, on_b, direction;
   std::size_t point = 0;  // index of on_b
 
-  Line(const Vector2d& a, const Vector2d& b, std::size_t index)
+  SightLine(const Vector2d& a, const Vector2d& b, std::size_t index)
       : on_a(a), on_b(b), direction((b - a).normalized()), point(index) {}
 
   /// 1 left, -1 right, 0 on the line, for a point seen from `from`.
@@ -37,7 +36,7 @@ struct Line {
 
 /// An agent's tangents through a point: the agent on the left of the first, on the right of the second, seen
 /// from the agent to the point.
-using Tangents = std::optional<std::array<Line, 2>>;
+using Tangents = std::optional<std::array<SightLine, 2>>;
 
 class EllipticAgent {
  public:
@@ -56,7 +55,7 @@ class EllipticAgent {
     const auto at = [&](double turn) -> Vector2d {
       return body_.center() + body_.factor() * ((v + turn * root * turned) / square);
     };
-    return std::array{Line(at(-1), p, index), Line(at(1), p, index)};
+    return std::array{SightLine(at(-1), p, index), SightLine(at(1), p, index)};
   }
 
  private:
@@ -109,7 +108,7 @@ class PointAgent {
     }
     if (leftmost == p || rightmost == p) return std::nullopt;
     // What is on the right seen from p is on the left seen to p.
-    const std::array both{Line(leftmost, p, index), Line(rightmost, p, index)};
+    const std::array both{SightLine(leftmost, p, index), SightLine(rightmost, p, index)};
     for (const Vector2d& a : corners_)
       if (both[0].side(a, p) < 0 || both[1].side(a, p) > 0) return std::nullopt;  // p in the hull
     return both;
@@ -121,13 +120,13 @@ class PointAgent {
 };
 
 /// left = true: the obstacle on the right of the line.
-bool separates(const Line& line, bool left, std::span<const Vector2d> chain) {
+bool separates(const SightLine& line, bool left, std::span<const Vector2d> chain) {
   const int wrong = left ? 1 : -1;
   return std::none_of(chain.begin(), chain.end(),
                       [&](const Vector2d& x) { return line.side(x, line.on_b) == wrong; });
 }
 
-SectorEdge edge(const Line& line, bool left) {
+SectorEdge edge(const SightLine& line, bool left) {
   SectorEdge e;
   e.direction = line.direction;
   e.normal = (left ? 1 : -1) * Vector2d(line.direction.y(), -line.direction.x());
@@ -136,7 +135,7 @@ SectorEdge edge(const Line& line, bool left) {
   return e;
 }
 
-void set_sector(VisibleSector& result, const Line& left, const Line& right) {
+void set_sector(VisibleSector& result, const SightLine& left, const SightLine& right) {
   Sector sector;
   sector.relation = Relation::disjoint;
   sector.left = edge(left, true);
@@ -175,14 +174,14 @@ VisibleSector search(const Agent& agent, std::span<const Vector2d> all, const Se
   }
   if (result.reason != NoSector::none) return result;
 
-  std::optional<Line> left, right;
+  std::optional<SightLine> left, right;
   const auto attempt = [&](std::size_t i) {
     ++result.tried;
     const Tangents tangents = agent.tangents(chain[i], index[i]);
     if (!tangents) return;
     for (const bool is_left : {true, false}) {
       auto& found = is_left ? left : right;
-      const Line& line = (*tangents)[is_left ? 0 : 1];
+      const SightLine& line = (*tangents)[is_left ? 0 : 1];
       const auto centers_apart = [&] {
         return line.side(agent.center(), line.on_b) * line.side(center, line.on_b) <= 0;
       };
@@ -242,12 +241,12 @@ VisibleSector sector_of_points(const Ellipse& agent, std::span<const Vector2d> p
       ++result.tried;
       return (*a.tangents(points[i], i))[left ? 0 : 1];
     };
-    Line best = tangent(0);
+    SightLine best = tangent(0);
     for (std::size_t i = 1; i < points.size(); ++i)
       if (cross(best.direction, points[i] - best.on_b) * (left ? 1 : -1) > 0) best = tangent(i);
     return best;
   };
-  const Line left = extreme(true), right = extreme(false);
+  const SightLine left = extreme(true), right = extreme(false);
   if (separates(left, true, points) && separates(right, false, points))
     set_sector(result, left, right);
   else
@@ -266,7 +265,7 @@ VisibleSector sector_of_points(std::span<const Vector2d> agent, std::span<const 
   const std::vector<std::size_t> corners = hull(points);
   // Left edge: no point of the obstacle on its left, none of the agent on its right. Each step turns the line
   // to the left, so while the hulls are disjoint it ends after at most as many steps as there are corners.
-  const auto extreme = [&](bool left) -> std::optional<Line> {
+  const auto extreme = [&](bool left) -> std::optional<SightLine> {
     const double turn = left ? 1 : -1;
     std::size_t on_a = 0, on_b = 0;
     for (std::size_t step = 0; step <= a.corners().size() + corners.size(); ++step) {
@@ -284,13 +283,13 @@ VisibleSector sector_of_points(std::span<const Vector2d> agent, std::span<const 
     }
     const Vector2d &p = a.corners()[on_a], &q = points[corners[on_b]];
     if (p == q) return std::nullopt;
-    const Line line(p, q, corners[on_b]);
+    const SightLine line(p, q, corners[on_b]);
     const bool agent_beside = std::none_of(a.corners().begin(), a.corners().end(), [&](const Vector2d& x) {
       return line.side(x, p) == (left ? -1 : 1);
     });
     return agent_beside && separates(line, left, points) ? std::optional(line) : std::nullopt;
   };
-  const std::optional<Line> left = extreme(true), right = extreme(false);
+  const std::optional<SightLine> left = extreme(true), right = extreme(false);
   if (left && right)
     set_sector(result, *left, *right);
   else

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/combined.h>
 
+#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,8 +24,7 @@ Eigen::Matrix<double, D, D> whitened(const Delimiter<D>& delimiter,
 
 template <int D>
 double largest_eigenvalue(const Eigen::Matrix<double, D, D>& m) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>>(m, Eigen::EigenvaluesOnly)
-      .eigenvalues()(D - 1);
+  return symmetric_eigenvalues<D>(m)(D - 1);
 }
 
 template <int D>
@@ -179,9 +176,9 @@ BasicEllipsoid<D> BasicCombined<D>::bounding_ellipsoid() const {
   Matrix sum = Matrix::Identity();
   double level = 1;
   const auto merit = [](const Matrix& m, double bound) {
-    const Eigen::LLT<Matrix> llt(m);
-    if (llt.info() != Eigen::Success) return -std::numeric_limits<double>::infinity();
-    return 2 * llt.matrixLLT().diagonal().array().log().sum() - D * std::log(bound);
+    const Cholesky<D> factor = cholesky<D>(m);
+    if (!factor.positive) return -std::numeric_limits<double>::infinity();
+    return 2 * factor.lower.diagonal().array().log().sum() - D * std::log(bound);
   };
   std::vector<double> lambda(a.size(), 0.0);
   for (int round = 0; round < 4; ++round)
@@ -220,12 +217,12 @@ std::optional<BasicEllipsoid<D>> BasicCombined<D>::inscribed_ellipsoid() const {
   Matrix n = Matrix::Identity();
   for (const Delimiter<D>& d : delimiters_) {
     if (d.level == 0) return std::nullopt;
-    const Matrix l = n.llt().matrixL();
+    const Matrix l = cholesky<D>(n).lower;
     const Matrix inverse = l.inverse();
     const Matrix a = whitened<D>(d, ellipsoid_.factor()) / d.level;
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(symmetric<D>(inverse * a * inverse.transpose()));
-    const Matrix v = l * solver.eigenvectors();
-    n = symmetric<D>(v * solver.eigenvalues().cwiseMax(1.0).asDiagonal() * v.transpose());
+    const auto solver = symmetric_eigen<D>(symmetric<D>(inverse * a * inverse.transpose()));
+    const Matrix v = l * solver.vectors;
+    n = symmetric<D>(v * solver.values.cwiseMax(1.0).asDiagonal() * v.transpose());
   }
   constexpr double kNarrowing = 1 - 1e-12;
   const Matrix f = ellipsoid_.factor();

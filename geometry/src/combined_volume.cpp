@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/combined_volume.h>
 
-#include <Eigen/Eigenvalues>
+#include <vericone/geometry/decompositions.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
@@ -78,12 +78,12 @@ struct Cap {
 };
 
 Cap cap(const Form3& form) {
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(form.matrix);
-  const Vector3d& l = solver.eigenvalues();
+  const auto solver = symmetric_eigen<3>(form.matrix);
+  const Vector3d& l = solver.values;
   // Dents: about the largest eigenvector. A waist is a belt; what it leaves is about the smallest.
   if (form.level > l(1))
-    return {solver.eigenvectors().col(2), std::atan(std::sqrt((l(2) - form.level) / (form.level - l(1))))};
-  return {solver.eigenvectors().col(0), std::atan(std::sqrt((form.level - l(0)) / (l(1) - form.level)))};
+    return {solver.vectors.col(2), std::atan(std::sqrt((l(2) - form.level) / (form.level - l(1))))};
+  return {solver.vectors.col(0), std::atan(std::sqrt((form.level - l(0)) / (l(1) - form.level)))};
 }
 
 struct Panel {

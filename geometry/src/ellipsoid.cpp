@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/ellipsoid.h>
 
+#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/quadric.h>
 #include <vericone/geometry/rational.h>
@@ -12,7 +13,6 @@
 namespace vericone {
 namespace {
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 template <typename Derived>
 std::string text(const Eigen::MatrixBase<Derived>& m) {
@@ -41,15 +41,14 @@ Eigen::Matrix<double, D, D> validated_rotation(const Eigen::Matrix<double, D, D>
   if (defect > 1e-6) throw InputError("rotation", text(r), "orthonormal to 1e-6 (R^T R = I)");
   if (r.determinant() < 0)
     throw InputError("rotation", text(r), "a rotation, determinant +1, not a reflection");
-  if (defect <= 4 * kEps) return r;  // as good as it gets: keep the caller's bits
-  const Eigen::JacobiSVD<Matrix> svd(r, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return svd.matrixU() * svd.matrixV().transpose();
+  if (defect <= 4 * std::numeric_limits<double>::epsilon()) return r;  // as good as it gets: keep the caller's bits
+  return nearest_orthogonal<D>(r);
 }
 
 /// Lower Cholesky factor of S, computed with 50 digits and rounded once: in double the thin axis of a body
 /// with axis ratio 1e6 would carry a relative error of 1e-4 (eps times the squared ratio).
 template <int D>
-Eigen::Matrix<double, D, D> cholesky(const Eigen::Matrix<double, D, D>& s) {
+Eigen::Matrix<double, D, D> wide_cholesky(const Eigen::Matrix<double, D, D>& s) {
   using Wide = boost::multiprecision::cpp_bin_float_50;
   std::array<std::array<Wide, D>, D> l;
   Eigen::Matrix<double, D, D> f = Eigen::Matrix<double, D, D>::Zero();
@@ -120,7 +119,7 @@ BasicEllipsoid<D> BasicEllipsoid<D>::from_shape(const Vector& center, const Matr
   BasicEllipsoid e;
   e.center_ = center;
   e.shape_ = shape;
-  e.factor_ = cholesky<D>(shape);
+  e.factor_ = wide_cholesky<D>(shape);
   e.defined_by_factor_ = false;
   if (!e.factor_.allFinite() || e.factor_.diagonal().minCoeff() <= 0)
     throw InputError("shape", text(shape), "that of a body with semi-axes between 1e-150 and 1e150");
@@ -179,12 +178,12 @@ BasicEllipsoid<D> BasicEllipsoid<D>::from_quadric(const BasicQuadric<D>& quadric
 
 template <int D>
 typename BasicEllipsoid<D>::Vector BasicEllipsoid<D>::semi_axes() const {
-  return Eigen::JacobiSVD<Matrix>(factor_).singularValues();
+  return singular_values<D>(factor_);
 }
 
 template <int D>
 typename BasicEllipsoid<D>::Matrix BasicEllipsoid<D>::axis_directions() const {
-  return Eigen::JacobiSVD<Matrix>(factor_, Eigen::ComputeFullU).matrixU();
+  return left_singular<D>(factor_).u;
 }
 
 template <int D>

@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Edge = std::uint64_t;  // its corners, the lesser one above
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kNoEdge = std::numeric_limits<std::uint32_t>::max();
 
 Edge edge(std::uint32_t i, std::uint32_t j) { return Edge(std::min(i, j)) << 32 | std::max(i, j); }
 
@@ -69,7 +69,7 @@ class Chains {
     // First what begins somewhere: edges with an odd number of cut triangles.
     for (std::size_t i = 0, next = 0; i < ends_.size(); i = next) {
       for (next = i; next < ends_.size() && ends_[next].at == ends_[i].at;) ++next;
-      if ((next - i) % 2 == 1 && unused(ends_[i].at, 0) != kNone) chains.push_back(walk(ends_[i].at));
+      if ((next - i) % 2 == 1 && unused(ends_[i].at, 0) != kNoEdge) chains.push_back(walk(ends_[i].at));
     }
     for (std::uint32_t s = 0; s < segments_.size(); ++s)
       if (!used_[s]) chains.push_back(walk(segments_[s].ends[0]));
@@ -85,7 +85,7 @@ class Chains {
   /// Index in ends_ of an unused segment at an edge, preferably one that has its end number `end` there.
   std::uint32_t unused(Edge at, std::uint32_t end) const {
     auto e = std::lower_bound(ends_.begin(), ends_.end(), at, [](const End& x, Edge y) { return x.at < y; });
-    std::uint32_t other = kNone;
+    std::uint32_t other = kNoEdge;
     for (; e != ends_.end() && e->at == at; ++e) {
       if (used_[e->segment]) continue;
       other = static_cast<std::uint32_t>(e - ends_.begin());
@@ -97,7 +97,7 @@ class Chains {
   Chain walk(Edge from) {
     Chain chain{{from}, {}};
     bool reversed = false;
-    for (std::uint32_t e = unused(from, 0); e != kNone; e = unused(chain.nodes.back(), reversed ? 1 : 0)) {
+    for (std::uint32_t e = unused(from, 0); e != kNoEdge; e = unused(chain.nodes.back(), reversed ? 1 : 0)) {
       const End& end = ends_[e];
       if (chain.triangles.empty()) reversed = end.end == 1;
       used_[end.segment] = true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/min_volume_ellipsoid.h>
 
+#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/rational.h>
 #include <Eigen/Dense>
@@ -169,14 +170,14 @@ class DualAscent {
   static constexpr int kNewtonSteps = 30;
   using Lifted = Eigen::Matrix<double, kN, Eigen::Dynamic>;
 
-  static Eigen::LLT<Square<kN>> decompose(const Lifted& q, const Eigen::VectorXd& u) {
-    return Eigen::LLT<Square<kN>>(q * u.asDiagonal() * q.transpose());
+  static Cholesky<kN> decompose(const Lifted& q, const Eigen::VectorXd& u) {
+    return cholesky<kN>(q * u.asDiagonal() * q.transpose());
   }
 
   void update() {
     u_ /= u_.sum();
     llt_ = decompose(q_, u_);
-    whitened_ = llt_.matrixL().solve(q_);
+    whitened_ = llt_.lower.template triangularView<Eigen::Lower>().solve(q_);
     g_ = whitened_.colwise().squaredNorm().transpose();
   }
 
@@ -222,7 +223,7 @@ class DualAscent {
     const double residual_before = gradient.cwiseAbs().maxCoeff();
     if (residual_before <= 8 * kN * kEps) return false;
     const Eigen::MatrixXd hessian = (w.transpose() * w).cwiseAbs2();
-    Eigen::VectorXd direction = hessian.completeOrthogonalDecomposition().solve(gradient);
+    Eigen::VectorXd direction = shortest_least_squares(hessian, gradient);
     // What the Hessian cannot reach is an ascent direction without curvature: follow it to the boundary.
     const Eigen::VectorXd flat = gradient - hessian * direction;
     if (!(flat.norm() < 0.1 * gradient.norm())) direction = flat / (flat.norm() * kEps);
@@ -243,7 +244,7 @@ class DualAscent {
       const bool hits = blocking >= 0 && step >= longest;
       if (hits) u_(face[blocking]) = 0;
       const auto llt = decompose(q_, u_);
-      if (llt.info() == Eigen::Success && value(llt, u_) >= old_value - 16 * kEps) {
+      if (llt.positive && value(llt, u_) >= old_value - 16 * kEps) {
         update();
         if (hits) return true;
         double after = 0;
@@ -256,14 +257,14 @@ class DualAscent {
     return false;
   }
 
-  static double value(const Eigen::LLT<Square<kN>>& llt, const Eigen::VectorXd& u) {
-    return 2 * llt.matrixLLT().diagonal().array().log().sum() - kN * (u.sum() - 1);
+  static double value(const Cholesky<kN>& llt, const Eigen::VectorXd& u) {
+    return 2 * llt.lower.diagonal().array().log().sum() - kN * (u.sum() - 1);
   }
 
   std::vector<Index> members_;
   Lifted q_, whitened_;
   Eigen::VectorXd u_, g_;
-  Eigen::LLT<Square<kN>> llt_;
+  Cholesky<kN> llt_;
 };
 
 /// Ladder of tests of points against the ellipsoid that a factor F defines: with G = F^{-1}, x is inside iff
@@ -398,10 +399,10 @@ double growth_needed(const ExactBody<D>& body, const Eigen::Ref<const Points<D>>
 template <int D>
 BasicEllipsoid<D> containing_body(const Vector<D>& center, const Square<D>& factor,
                                   const Eigen::Ref<const Points<D>>& points, double tolerance) {
-  const Eigen::JacobiSVD<Square<D>> svd(factor, Eigen::ComputeFullU);
-  Square<D> rotation = svd.matrixU();
+  const LeftSingular<D> svd = left_singular<D>(factor);
+  Square<D> rotation = svd.u;
   if (rotation.determinant() < 0) rotation.col(D - 1) *= -1;
-  Vector<D> axes = svd.singularValues();
+  Vector<D> axes = svd.values;
   for (double margin = 2 * kEps;; margin *= 2) {
     const ExactBody<D> trial(BasicEllipsoid<D>::from_axes(center, axes, rotation));
     axes *= growth_needed<D>(trial, points, std::max(1e-3 * tolerance, 64 * kEps)) * (1 + margin);
@@ -458,7 +459,7 @@ Violations<D> violations(const Points<D>& y, const Vector<D>& mean, const Square
   Violations<D> v;
   v.worst.fill(-1);
   v.g.fill(0);
-  const Square<D> inverse = covariance.llt().matrixL().solve(Square<D>::Identity());
+  const Square<D> inverse = cholesky<D>(covariance).lower_inverse();
   Eigen::Matrix<double, kBlock, D> z;
   Eigen::Matrix<double, kBlock, 1> g;
   for (Index first = 0; first < y.cols(); first += kBlock) {
@@ -531,7 +532,7 @@ MinVolumeResult<D> min_volume_ellipsoid(const Eigen::Ref<const Points<D>>& point
 
   // In y the body is (y-c)^T C^{-1} (y-c) <= max g - 1 (source, (4.3), where n should read D).
   const Square<D> to_space = frame.axes * frame.extents.asDiagonal();
-  const Square<D> root = dual.covariance().llt().matrixL();
+  const Square<D> root = cholesky<D>(dual.covariance()).lower;
   result.body = containing_body<D>(frame.origin + to_space * dual.mean(),
                                    to_space * root * std::sqrt(largest - 1), points, options.tolerance);
   result.volume_ratio_bound = volume_ratio_bound<D>(result.body, points, result.support, result.weights);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface_mesh.h"
 
-#include <Eigen/Eigenvalues>
+#include <vericone/geometry/decompositions.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -45,14 +45,14 @@ struct OnChord {
 SurfaceMesh::SurfaceMesh(std::vector<Form<3>> forms, double resolution)
     : forms_(std::move(forms)), resolution_(resolution) {
   for (std::size_t i = 1; i < forms_.size(); ++i) {
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(forms_[i].matrix);
-    const Vector3d& l = solver.eigenvalues();
+    const auto solver = symmetric_eigen<3>(forms_[i].matrix);
+    const Vector3d& l = solver.values;
     const double level = forms_[i].level;
     // The narrowest extent of a dent about its axis, or of an end that a waist leaves.
     const bool dent = level > l(1);
     const double radius =
         std::atan(std::sqrt(dent ? (l(2) - level) / (level - l(0)) : (level - l(0)) / (l(2) - level)));
-    const Vector3d axis = solver.eigenvectors().col(dent ? 2 : 0);
+    const Vector3d axis = solver.vectors.col(dent ? 2 : 0);
     for (const double s : {1.0, -1.0}) small_.push_back({s * axis, radius});
   }
   icosahedron();

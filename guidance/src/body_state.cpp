@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/guidance/body_state.h>
 
+#include <vericone/geometry/decompositions.h>
 #include <vericone/guidance/plane_view.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -29,10 +29,10 @@ BasicEllipsoid<D> changed(const BasicEllipsoid<D>& body, const Eigen::Matrix<dou
     const Matrix<D> inverse = factor.inverse();
     factor += 0.5 * dt * rate * inverse.transpose();
   }
-  const Eigen::JacobiSVD<Matrix<D>> svd(Matrix<D>(rotation * factor), Eigen::ComputeFullU);
-  Matrix<D> directions = svd.matrixU();
+  const LeftSingular<D> svd = left_singular<D>(rotation * factor);
+  Matrix<D> directions = svd.u;
   if (directions.determinant() < 0) directions.col(0) *= -1;
-  return BasicEllipsoid<D>::from_axes(center, svd.singularValues(), directions);
+  return BasicEllipsoid<D>::from_axes(center, svd.values, directions);
 }
 
 template <int D>

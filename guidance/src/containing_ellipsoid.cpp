@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "containing_ellipsoid.h"
 
-#include <Eigen/Cholesky>
+#include <vericone/geometry/decompositions.h>
 #include <algorithm>
 
 namespace vericone::guidance {
@@ -21,10 +21,10 @@ Ellipsoid containing(const HullBody& hull) {
   // Flat hulls, and single points, get a little thickness.
   const double thickness = 1e-6 * covariance.trace() + 1e-24;
   covariance += thickness * Eigen::Matrix3d::Identity();
-  const Eigen::LLT<Eigen::Matrix3d> factors(covariance);
+  const Cholesky<3> factors = cholesky<3>(covariance);
   double most = 0;
   for (const Eigen::Vector3d& x : hull.points())
-    most = std::max(most, factors.matrixL().solve(x - mean).squaredNorm());
+    most = std::max(most, factors.half_solve(x - mean).squaredNorm());
   const Eigen::Matrix3d shape = covariance * (most * (1 + 1e-12) + 1e-12);
   return Ellipsoid::from_shape(mean, (shape + shape.transpose()) / 2);
 }

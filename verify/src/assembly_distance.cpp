@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "assembly_distance.h"
 
+#include <vericone/geometry/decompositions.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -33,7 +34,7 @@ Least least(const std::vector<Vector3d>& points, const Vector3d& d) {
       for (int i = 0; i + 1 < static_cast<int>(chosen.size()); ++i) e.col(i) = chosen[i + 1] - chosen[0];
       if (ray) e.col(edges - 1) = d;
       Eigen::VectorXd s = Eigen::VectorXd::Zero(edges);
-      if (edges > 0) s = e.colPivHouseholderQr().solve(-chosen[0]);
+      if (edges > 0) s = least_squares(e, -chosen[0]);
       const double sum = s.head(edges - ray).sum();
       if ((s.array() < 0).any() || sum > 1) continue;
       const Vector3d v = chosen[0] + e * s;

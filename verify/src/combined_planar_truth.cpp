@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <vericone/verify/combined_planar_truth.h>
-#include <Eigen/Eigenvalues>
+#include <vericone/geometry/decompositions.h>
 #include <Eigen/LU>
 
 #include <cmath>
@@ -80,8 +80,8 @@ std::vector<Candidate<N>> support_points(const std::vector<Conic<N>>& conics, co
 /// Where A's ellipse is about a unit disc and B's axes are about the coordinate axes.
 Map simple_coordinates(const CombinedEllipse& a, const CombinedEllipse& b) {
   const Eigen::Matrix2d f = a.ellipsoid().factor(), g = f.inverse() * b.ellipsoid().factor();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(g * g.transpose());
-  return Map(f * solver.eigenvectors());
+  const auto solver = symmetric_eigen<2>(g * g.transpose());
+  return Map(f * solver.vectors);
 }
 
 template <class N>

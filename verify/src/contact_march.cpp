@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <vericone/verify/contact_march.h>
 
+#include <vericone/geometry/decompositions.h>
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <cmath>
 #include <stdexcept>
 
@@ -14,10 +14,10 @@ ContactMarch::ContactMarch(const Ellipsoid& a, const Ellipsoid& b) {
   to_ball_ = b.factor().inverse();
   line_of_centers_ = a.center() - b.center();
   center_ = to_ball_ * line_of_centers_;
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(to_ball_ * a.factor(), Eigen::ComputeFullU);
-  if (svd.info() != Eigen::Success) throw std::logic_error("ContactMarch: no singular values");
-  axes_ = svd.matrixU();
-  squares_ = svd.singularValues().cwiseAbs2();
+  const LeftSingular<3> svd = left_singular<3>(to_ball_ * a.factor());
+  if (!svd.values.allFinite()) throw std::logic_error("ContactMarch: no singular values");
+  axes_ = svd.u;
+  squares_ = svd.values.cwiseAbs2();
 }
 
 BallDistance ContactMarch::distance(const Vector3d& shift) const {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/fit_body.h"
 
+#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/quadric_side.h>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -21,8 +21,8 @@ using Json = nlohmann::ordered_json;
 /// Sheets, semi-axes and rotation of { y^T M y <= level }, whose axis is the eigenvector with the sign that
 /// the others have not.
 Json hyperboloid_fields(const Delimiter<3>& d, const Eigen::Matrix3d& body, double factor) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(d.matrix);
-  const int positive = static_cast<int>((eigen.eigenvalues().array() > 0).count());
+  const auto eigen = symmetric_eigen<3>(d.matrix);
+  const int positive = static_cast<int>((eigen.values.array() > 0).count());
   if (!(d.level > 0) || positive == 0 || positive == 3)
     throw std::runtime_error("a piece is delimited by what is no hyperboloid");
   // Eigenvalues increase: of two sheets the last, of one sheet the first is alone.
@@ -31,8 +31,8 @@ Json hyperboloid_fields(const Delimiter<3>& d, const Eigen::Matrix3d& body, doub
   Eigen::Vector3d semi_axes;
   for (int i = 0; i < 3; ++i) {
     const int k = (axis + i) % 3;
-    turn.col(i) = eigen.eigenvectors().col(k);
-    semi_axes(i) = factor * std::sqrt(d.level / std::abs(eigen.eigenvalues()(k)));
+    turn.col(i) = eigen.vectors.col(k);
+    semi_axes(i) = factor * std::sqrt(d.level / std::abs(eigen.values(k)));
   }
   if (turn.determinant() < 0) turn.col(2) = -turn.col(2);
   return {{"sheets", positive == 1 ? 2 : 1},

@@ -15,8 +15,6 @@ using namespace assembly;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// Of the plane sector between two rays.
 struct SectorResidual {
   Eigen::Vector3d first, last;
@@ -49,17 +47,17 @@ struct HalfPlane {
 };
 
 /// The directions of the half-plane between two angles.
-struct Sector {
+struct PlaneAngle {
   Eigen::Vector3d first, last;  // in space
   Directions directions;
-  Sector(const Frame& frame, const Eigen::Vector3d& from, const Eigen::Vector3d& to)
+  PlaneAngle(const Frame& frame, const Eigen::Vector3d& from, const Eigen::Vector3d& to)
       : first(from), last(to), directions(frame, {from, to}) {}
 };
 
 /// The largest angle between `from` and `to` at which a piece is met, so far.
-class Search {
+class ExtremeSearch {
  public:
-  Search(const Scene& scene, const HalfPlane& plane, double from, double to, double tolerance, Effort& effort)
+  ExtremeSearch(const Scene& scene, const HalfPlane& plane, double from, double to, double tolerance, Effort& effort)
       : scene_(scene),
         plane_(plane),
         to_(to),
@@ -154,7 +152,7 @@ class Search {
     return sum > 0 ? (along < 0 ? 2 - across / sum : across / sum) : 0;
   }
 
-  Sector sector(double from) const { return {scene_.frame(), plane_.at(from), last_}; }
+  PlaneAngle sector(double from) const { return {scene_.frame(), plane_.at(from), last_}; }
 
   static Eigen::Vector3d direction_of(const Eigen::Vector3d& v, const Eigen::Vector3d& otherwise) {
     if (!v.isZero(0)) return v;
@@ -162,7 +160,7 @@ class Search {
   }
 
   /// The angle of the direction that a search ended with.
-  double angle(const Gap& found, const Sector& sector, double from) const {
+  double angle(const Gap& found, const PlaneAngle& sector, double from) const {
     const double a = found.along[0] / sector.directions.length[0],
                  b = found.along[1] / sector.directions.length[1];
     if (!(a + b > 0)) return from;
@@ -222,7 +220,7 @@ class Search {
       const double middle = low + std::min(step, 0.5 * (high - low));
       if (middle <= low || middle >= high) break;
       step *= 4;
-      const Sector beyond = sector(middle);
+      const PlaneAngle beyond = sector(middle);
       const Gap at_middle = gap(core, beyond.directions, normal);
       normal = direction_of(at_middle.v, normal);
       if (at_middle.answer == Gap::Answer::apart) {
@@ -247,7 +245,7 @@ class Search {
   double to_, tolerance_;
   Effort& effort_;
   Eigen::Vector3d last_;  // direction at to_
-  Sector sector_;
+  PlaneAngle sector_;
   std::optional<BoxTest<SectorResidual>> test_;  // of sector_
   std::optional<Plane> edge_;                    // apart from the sector, at its beginning
   Eigen::Vector3d edge_normal_ = Eigen::Vector3d::Zero();
@@ -265,8 +263,8 @@ ExtremeDirection find_extreme(const Scene& scene, const HalfPlane& plane, double
   // Rays of a sector must not be opposite to each other, in the frame of a thin agent neither.
   constexpr int kParts = 4;
   for (int part = kParts - 1; part >= 0 && !result.any; --part) {
-    const double from = kPi * part / kParts, to = kPi * (part + 1) / kParts;
-    Search search(scene, plane, from, to, tolerance, effort);
+    const double from = std::numbers::pi * part / kParts, to = std::numbers::pi * (part + 1) / kParts;
+    ExtremeSearch search(scene, plane, from, to, tolerance, effort);
     if (guess) search.try_slot(*guess);
     search.run();
     result.any = search.found();
@@ -310,7 +308,7 @@ std::vector<ExtremeDirection> AssemblyOracle::extremes(const Eigen::Vector3d& ax
   std::vector<ExtremeDirection> result;
   result.reserve(std::size_t(half_planes));
   for (int i = 0; i < half_planes; ++i) {
-    const double azimuth = 2 * kPi * i / half_planes;
+    const double azimuth = 2 * std::numbers::pi * i / half_planes;
     const Eigen::Vector3d side = std::cos(azimuth) * basis.e1 + std::sin(azimuth) * basis.e2;
     result.push_back(find_extreme(*state_, {state_->to_body(basis.axis), state_->to_body(side)}, tolerance,
                                   effort != nullptr ? *effort : unused, guess));

@@ -14,11 +14,11 @@
 namespace vericone::files {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\v\f";
+constexpr std::string_view kBlanksInLine = " \t\r\v\f";
 
 std::string_view trimmed(std::string_view text) {
-  text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
-  return text.substr(0, text.find_last_not_of(kBlanks) + 1);
+  text.remove_prefix(std::min(text.find_first_not_of(kBlanksInLine), text.size()));
+  return text.substr(0, text.find_last_not_of(kBlanksInLine) + 1);
 }
 
 /// The fields of a line: parted by commas or by semicolons where one stands after the first field, else by
@@ -28,14 +28,14 @@ class Fields {
   explicit Fields(std::string_view line) : rest_(trimmed(line)) {
     const std::size_t at = rest_.find_first_of(",;");
     if (at != std::string_view::npos &&
-        trimmed(rest_.substr(0, at)).find_first_of(kBlanks) == std::string_view::npos)
+        trimmed(rest_.substr(0, at)).find_first_of(kBlanksInLine) == std::string_view::npos)
       separator_ = rest_[at];
   }
 
   std::optional<std::string_view> next() {
     if (rest_.empty()) return std::nullopt;
     const std::size_t end =
-        std::min(separator_ ? rest_.find(*separator_) : rest_.find_first_of(kBlanks), rest_.size());
+        std::min(separator_ ? rest_.find(*separator_) : rest_.find_first_of(kBlanksInLine), rest_.size());
     const std::string_view field = trimmed(rest_.substr(0, end));
     rest_ = trimmed(rest_.substr(std::min(end + 1, rest_.size())));
     return field;

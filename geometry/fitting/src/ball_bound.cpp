@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ball_bound.h"
 
-#include <Eigen/Eigenvalues>
+#include <vericone/geometry/decompositions.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "infinity.h"
+
 namespace vericone::fitting {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Not below the largest eigenvalue of A, nor below 0. With B = V^T A V and V nearly orthonormal, x^T A x =
 /// y^T B y for x = V y, |y|^2 <= |x|^2 / (1 - |V^T V - I|), and Gershgorin's discs bound B.
@@ -45,9 +45,9 @@ BallBound::BallBound(const QuadraticForm& form) : a_(form.second()) {
     largest_ = kInfinity;
     return;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(a);
-  lambda_ = solver.eigenvalues();
-  vectors_ = solver.eigenvectors();
+  const auto solver = symmetric_eigen<3>(a);
+  lambda_ = solver.values;
+  vectors_ = solver.vectors;
   largest_ = bound_of_eigenvalues(a_, vectors_);
 }
 

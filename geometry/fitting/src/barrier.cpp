@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "barrier.h"
 
+#include <vericone/geometry/decompositions.h>
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
 #include <algorithm>
@@ -133,10 +133,10 @@ int centre(const Barrier& barrier, double mu, VectorXd& x, VectorXd& multipliers
         multipliers.array() * (1 + 2 * slacks.array()) / (slacks.array() + slacks.array().square());
     hessian += rows.transpose() * stiffness.asDiagonal() * rows;
     // Where the function is concave its curvature is taken for that of a convex one.
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(hessian);
-    const VectorXd sizes = solver.eigenvalues().cwiseAbs();
+    const auto solver = symmetric_eigen<Eigen::Dynamic>(hessian);
+    const VectorXd sizes = solver.values.cwiseAbs();
     const VectorXd step =
-        -solver.eigenvectors() * (solver.eigenvectors().transpose() * gradient)
+        -solver.vectors * (solver.vectors.transpose() * gradient)
                                      .cwiseQuotient(sizes.cwiseMax(1e-12 * sizes.maxCoeff()));
     const double decrease = -gradient.dot(step);
     if (!(decrease > kCentred * mu)) break;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "body_distance.h"
 
+#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/scaled_inverse.h>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -125,20 +125,20 @@ Vector3d BodyDistance::rim_point(const Rim& rim, double angle) const {
 
 void BodyDistance::add_rim(std::size_t one, std::size_t other) {
   const Matrix3d h = forms_[other].level * forms_[one].matrix - forms_[one].level * forms_[other].matrix;
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(h);
-  const Vector3d& l = solver.eigenvalues();
+  const auto solver = symmetric_eigen<3>(h);
+  const Vector3d& l = solver.values;
   if (!(l(0) < 0 && l(2) > 0)) return;  // one surface is inside the other
   // The axis of the cone v^T h v = 0 belongs to the eigenvalue of the sign that occurs once.
   const int pole = l(1) > 0 ? 0 : 2;
   const int first = pole == 0 ? 1 : 0, second = pole == 0 ? 2 : 1;
   Rim rim;
-  rim.pole = solver.eigenvectors().col(pole);
+  rim.pole = solver.vectors.col(pole);
   rim.one = one;
   rim.other = other;
   // A cone that is nearly two planes: cut off where it is one to rounding.
   const auto ratio = [&](int k) { return std::sqrt(std::min(1e30, std::abs(l(pole) / l(k)))); };
-  rim.first = ratio(first) * solver.eigenvectors().col(first);
-  rim.second = ratio(second) * solver.eigenvectors().col(second);
+  rim.first = ratio(first) * solver.vectors.col(first);
+  rim.second = ratio(second) * solver.vectors.col(second);
 
   const std::vector<double> corners = rim_corners(rim);
   for (std::size_t k = 0; k + 1 < corners.size(); ++k) {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/fitting/containing.h>
 #include <vericone/geometry/combined_volume.h>
+#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
@@ -27,15 +26,15 @@ constexpr std::size_t kStartsOfStars = 2;   // for each further delimiter
 constexpr double kWorthwhile = 0.02;        // of log volume, for a further delimiter of a star
 
 Ellipsoid from_factor(const Vector3d& center, const Matrix3d& factor) {
-  const Eigen::JacobiSVD<Matrix3d> svd(factor, Eigen::ComputeFullU);
-  Matrix3d axes = svd.matrixU();
+  const LeftSingular<3> svd = left_singular<3>(factor);
+  Matrix3d axes = svd.u;
   if (axes.determinant() < 0) axes.col(2) = -axes.col(2);
-  return Ellipsoid::from_axes(center, svd.singularValues(), axes);
+  return Ellipsoid::from_axes(center, svd.values, axes);
 }
 
 /// Back from the coordinates in which the minimum-volume ellipsoid is the unit ball.
 CombinedEllipsoid to_sample(const StarBody& body, const Ellipsoid& unit) {
-  const Matrix3d lower = Eigen::LLT<Matrix3d>(body.ellipsoid).matrixL();
+  const Matrix3d lower = cholesky<3>(body.ellipsoid).lower;
   const Matrix3d root = lower.transpose().inverse();
   const Matrix3d back = unit.factor().inverse();
   std::vector<Delimiter<3>> delimiters;
@@ -97,12 +96,11 @@ Minimum best_of(const CanonicalSample& grid, const Ellipsoid& unit, double margi
 
 /// Delimiters that do not cut the ellipsoid.
 void drop_idle(StarBody& body) {
-  const Matrix3d lower = Eigen::LLT<Matrix3d>(body.ellipsoid).matrixL();
+  const Matrix3d lower = cholesky<3>(body.ellipsoid).lower;
   const Matrix3d inverse = lower.inverse();
   std::erase_if(body.delimiters, [&](const Matrix3d& m) {
     const Matrix3d form = inverse * m * inverse.transpose();
-    return !(Eigen::SelfAdjointEigenSolver<Matrix3d>((form + form.transpose()) / 2).eigenvalues()(2) >
-             1 + 1e-9);
+    return !(symmetric_eigenvalues<3>((form + form.transpose()) / 2)(2) > 1 + 1e-9);
   });
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "greatest_value.h"
+#include "infinity.h"
 #include "middle.h"
 #include "rational_quadric.h"
 
@@ -17,8 +18,6 @@ namespace {
 
 using exact::Rational;
 using exact::RationalMatrix;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Not below the square root.
 double root_up(double x) { return std::nextafter(std::sqrt(x), kInfinity); }

@@ -8,13 +8,12 @@
 #include <tuple>
 
 #include "ball_bound.h"
+#include "infinity.h"
 #include "rational_quadric.h"
 #include "triangle_form.h"
 
 namespace vericone::fitting {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Exact evaluations, tens of microseconds each, before intervals are taken at their word where they are
 /// within kClose of the truth, and anywhere.
@@ -26,11 +25,11 @@ double lower(const Interval& x) { return x.finite() ? x.lo() : -kInfinity; }
 
 using Polars = std::array<std::array<Interval, 3>, 3>;
 
-struct Candidate {
+struct Place {
   double bound = 0;  // not below its greatest value
   std::uint32_t index = 0;
 
-  bool operator<(const Candidate& other) const {
+  bool operator<(const Place& other) const {
     return std::tuple(-bound, index) < std::tuple(-other.bound, other.index);
   }
 };
@@ -44,14 +43,14 @@ class Candidates {
     if (bound >= certain_) all_.push_back({bound, index});
   }
 
-  const std::vector<Candidate>& sorted() {
-    std::erase_if(all_, [&](const Candidate& c) { return c.bound < certain_; });
+  const std::vector<Place>& sorted() {
+    std::erase_if(all_, [&](const Place& c) { return c.bound < certain_; });
     std::sort(all_.begin(), all_.end());
     return all_;
   }
 
  private:
-  std::vector<Candidate> all_;
+  std::vector<Place> all_;
   double certain_ = -kInfinity;
 };
 
@@ -87,7 +86,7 @@ class Search {
   double greatest_at_points() {
     double best = -kInfinity;
     int exact = 0;
-    for (const Candidate& c : points_.sorted()) {
+    for (const Place& c : points_.sorted()) {
       if (c.bound <= best) break;
       if (enough(exact++, c.bound - best, best) && c.bound < kInfinity) return c.bound;
       best = std::max(best, point_value(c.index));
@@ -97,7 +96,7 @@ class Search {
 
   double greatest_on_triangles(double best) {
     int exact = 0;
-    for (const Candidate& c : triangles_.sorted()) {
+    for (const Place& c : triangles_.sorted()) {
       if (c.bound <= best) break;
       const Polars p = polars(c.index);
       if (at_most(p, best)) continue;

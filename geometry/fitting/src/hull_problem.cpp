@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hull_problem.h"
 
-#include <Eigen/Eigenvalues>
+#include <vericone/geometry/decompositions.h>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -116,15 +116,15 @@ double HullProblem::value_at(const Vector3d& y, int surface, const StarBody& bod
     // later.
     const Vector3d pulled = to_unit_.transpose() * along;
     const double length = std::max(pulled.norm(), std::numeric_limits<double>::min());
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(to_unit_.transpose() * form * to_unit_);
-    const double largest = solver.eigenvalues()(2);
+    const auto solver = symmetric_eigen<3>(to_unit_.transpose() * form * to_unit_);
+    const double largest = solver.values(2);
     value += 2 * margin_ * length + margin_ * margin_ * std::max(largest, 0.0);
     if (gradient) {
       const Vector3d back = to_unit_ * (pulled / length);
       gradient->head<3>() -= 2 * factor * margin_ * (form * back);
       add_symmetric(back * y.transpose() + y * back.transpose(), surface, factor * margin_, *gradient);
       if (largest > 0) {
-        const Vector3d axis = to_unit_ * solver.eigenvectors().col(2);
+        const Vector3d axis = to_unit_ * solver.vectors.col(2);
         add_symmetric(axis * axis.transpose(), surface, factor * margin_ * margin_, *gradient);
       }
     }
@@ -143,13 +143,13 @@ double HullProblem::constraint(const Constraint& c, const StarBody& body, Variab
     case Constraint::cut:
       return value_at(cuts_[c.index].place - body.center, c.surface, body, gradient, factor);
     case Constraint::eigenvalue: {
-      const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(body.form(c.surface));
+      const auto solver = symmetric_eigen<3>(body.form(c.surface));
       const double sign = int(c.index) < negative_eigenvalues(c.surface) ? 1 : -1;
       if (gradient) {
-        const Vector3d axis = solver.eigenvectors().col(int(c.index));
+        const Vector3d axis = solver.vectors.col(int(c.index));
         add_symmetric(axis * axis.transpose(), c.surface, sign * factor, *gradient);
       }
-      return sign * solver.eigenvalues()(int(c.index)) +
+      return sign * solver.values(int(c.index)) +
              (sign > 0 || c.surface == 0 ? kLeastEigenvalue : kLeastPositive);
     }
   }
@@ -215,11 +215,11 @@ std::vector<double> HullProblem::greatest(
 
 void HullProblem::make_feasible(StarBody& body, double slack) const {
   for (std::size_t i = 0; i < body.delimiters.size(); ++i) {
-    Eigen::SelfAdjointEigenSolver<Matrix3d> solver(body.delimiters[i]);
-    Vector3d values = solver.eigenvalues();
+    const auto solver = symmetric_eigen<3>(body.delimiters[i]);
+    Vector3d values = solver.values;
     const int negative = negative_eigenvalues(int(i) + 1);
     for (int k = 0; k < negative; ++k) values(k) = std::min(values(k), -kLeastEigenvalue * (1 + 4 * slack));
-    body.delimiters[i] = solver.eigenvectors() * values.asDiagonal() * solver.eigenvectors().transpose();
+    body.delimiters[i] = solver.vectors * values.asDiagonal() * solver.vectors.transpose();
   }
   // Repeated, since eigenvalues end at their bounds and, with a margin, values are not homogeneous in the
   // forms.
@@ -230,12 +230,12 @@ void HullProblem::make_feasible(StarBody& body, double slack) const {
       const double factor = (1 - slack) / (1 + most[std::size_t(s)]);
       if (factor >= 1) continue;
       // Positive eigenvalues alone are made smaller: the region grows, and its kind stays.
-      Eigen::SelfAdjointEigenSolver<Matrix3d> solver(body.form(s));
-      Vector3d values = solver.eigenvalues();
+      const auto solver = symmetric_eigen<3>(body.form(s));
+      Vector3d values = solver.values;
       const double least = s == 0 ? (1 + slack + 1e-9) * kLeastEigenvalue : 2 * kLeastPositive;
       for (int k = 0; k < 3; ++k)
         if (values(k) > least) values(k) = std::max(values(k) * factor, least);
-      body.form(s) = solver.eigenvectors() * values.asDiagonal() * solver.eigenvectors().transpose();
+      body.form(s) = solver.vectors * values.asDiagonal() * solver.vectors.transpose();
       body.form(s) = ((body.form(s) + body.form(s).transpose()) / 2).eval();
     }
   }

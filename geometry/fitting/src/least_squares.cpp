@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/fitting/least_squares.h>
+#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -33,8 +33,8 @@ PlanarFrame to_plane(const CanonicalSample& sample, Cloud& cloud) {
     const Vector2d d = cloud.points[i].head<2>() - frame.origin;
     covariance += cloud.weights[i] * d * d.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix2d> solver(covariance);
-  frame.axes = solver.eigenvectors().rowwise().reverse();
+  const auto solver = symmetric_eigen<2>(covariance);
+  frame.axes = solver.vectors.rowwise().reverse();
   for (int k = 0; k < 2; ++k) {
     double third = 0;
     for (std::size_t i = 0; i < cloud.points.size(); ++i)
@@ -61,7 +61,7 @@ Eigen::VectorXd spread(const Cloud& cloud, bool planar) {
   for (std::size_t i = 0; i < cloud.points.size(); ++i)
     covariance += cloud.weights[i] * (cloud.points[i] - mean) * (cloud.points[i] - mean).transpose();
   const int d = planar ? 2 : 3;
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(covariance.topLeftCorner(d, d)).eigenvalues();
+  return symmetric_eigen<Eigen::Dynamic>(covariance.topLeftCorner(d, d)).values;
 }
 
 /// Refuses points that no ellipsoid (ellipse) can be told from.

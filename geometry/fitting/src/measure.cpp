@@ -74,7 +74,7 @@ struct Boundary {
   }
 };
 
-double fraction(double x) { return x - std::floor(x); }
+double fractional_part(double x) { return x - std::floor(x); }
 
 }  // namespace
 
@@ -115,7 +115,7 @@ std::optional<DistanceStatistics> hull_to_scan(const std::vector<Piece>& pieces,
     const double target = (k + 0.5) / samples * boundary.area.back();
     while (at + 1 < boundary.area.size() && boundary.area[at] < target) ++at;
     const auto& [corners, piece] = boundary.parts[at];
-    double u = fraction(0.5 + k * 0.7548776662466927), v = fraction(0.5 + k * 0.5698402909980532);
+    double u = fractional_part(0.5 + k * 0.7548776662466927), v = fractional_part(0.5 + k * 0.5698402909980532);
     if (u + v > 1) {
       u = 1 - u;
       v = 1 - v;

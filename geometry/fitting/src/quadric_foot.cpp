@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "quadric_foot.h"
 
-#include <Eigen/Eigenvalues>
+#include <vericone/geometry/decompositions.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -201,9 +201,9 @@ std::vector<double> roots_beyond_pole(const Secular& f, double first, double las
 }  // namespace
 
 CenteredQuadric::CenteredQuadric(const Eigen::Matrix3d& matrix, double level) : level_(level) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(matrix);
-  axes_ = solver.eigenvectors();
-  values_ = solver.eigenvalues();
+  const auto solver = symmetric_eigen<3>(matrix);
+  axes_ = solver.vectors;
+  values_ = solver.values;
 }
 
 CenteredQuadric CenteredQuadric::ellipsoid(const Eigen::Matrix3d& axes, const Vector3d& semi_axes) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/fitting/sample.h>
+#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -79,8 +79,8 @@ Frame principal_frame(const std::vector<Vector3d>& points) {
     const Vector3d y = (x - frame.origin) / reach;
     second += y * y.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(second / double(points.size()));
-  frame.axes = solver.eigenvectors().rowwise().reverse();
+  const auto solver = symmetric_eigen<3>(second / double(points.size()));
+  frame.axes = solver.vectors.rowwise().reverse();
   Vector3d third = Vector3d::Zero();
   for (const Vector3d& x : points)
     third += (frame.axes.transpose() * (x - frame.origin) / reach).array().cube().matrix();

@@ -11,7 +11,7 @@ using Eigen::Array3d, Eigen::Vector3d;
 
 /// sum l_i y_i^2 / w_i^2 where w = start + s * slope is the denominator of z_i = y_i / w_i. It is monotone in
 /// s between the poles that enclose the global minimum.
-struct Secular {
+struct SecularSum {
   Array3d weights, start, slope;
 
   double value(double s, double& derivative) const {
@@ -25,7 +25,7 @@ struct Secular {
 /// s in [low, high] where the sum is 1, from `s`. Newton's method on 1 / sqrt(sum), which is nearly linear
 /// (it is for one term), kept within the bracket. A step below 1e-9 times the natural unit leaves an error
 /// below rounding, since the next would be its square; `unit` is that of s, 0: s itself.
-double root(const Secular& f, double low, double high, double s, bool decreasing, double unit) {
+double root_of_sum(const SecularSum& f, double low, double high, double s, bool decreasing, double unit) {
   constexpr double kLast = 1e-9;
   for (int i = 0; i < 200; ++i) {
     double derivative = 0;
@@ -64,13 +64,13 @@ SecularFoot secular_foot(const Vector3d& l, const Vector3d& y) {
     double reach = 0;
     for (int i = 0; i < 3; ++i)
       if (l(i) > 0) reach += y(i) * y(i) / l(i);
-    const Secular f{weights, Array3d::Ones(), l.array()};
-    foot.multiplier = root(f, 0, std::sqrt(reach), 0, true, 1 / l(2));
+    const SecularSum f{weights, Array3d::Ones(), l.array()};
+    foot.multiplier = root_of_sum(f, 0, std::sqrt(reach), 0, true, 1 / l(2));
     foot.point = y.array() / (1 + foot.multiplier * l.array());
   } else {
     const int p = outside ? 0 : 2;
     const Array3d ratio = l.array() / l(p);
-    const Secular f{weights, 1 - ratio, ratio};
+    const SecularSum f{weights, 1 - ratio, ratio};
     // Where the term of the pole outweighs what the others can be.
     const double others = outside ? weights.max(0.0).sum() : 1 + (-weights).max(0.0).sum();
     double low = std::sqrt(std::abs(weights(p)) / others), derivative = 0;
@@ -78,7 +78,7 @@ SecularFoot secular_foot(const Vector3d& l, const Vector3d& y) {
     const bool far = low >= kPole;
     low = std::max(low * (1 - 1e-12), kPole);
     if (far || (f.value(low, derivative) > 1) != outside) {
-      s = root(f, low, 1, 1, !outside, 0);
+      s = root_of_sum(f, low, 1, 1, !outside, 0);
       foot.point = y.array() / (f.start + s * f.slope);
     } else {  // on the medial axis: y_p = 0, z_p is not
       for (int i = 0; i < 3; ++i) foot.point(i) = i == p ? 0 : y(i) / f.start(i);

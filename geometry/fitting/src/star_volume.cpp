@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "star_volume.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include <vericone/geometry/decompositions.h>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -113,9 +112,9 @@ class HalfCircle {
 /// eigenvalue is below 1 only azimuths up to asin(reach) do; with sin(azimuth) = reach * sin(tau) the angle
 /// is analytic in tau, and tan(tau) = stretch * tan(omega) evens out narrow bodies.
 Sums integrate_one(const Matrix3d& form) {
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(form);
-  const double low = solver.eigenvalues()(0), middle = solver.eigenvalues()(1),
-               high = solver.eigenvalues()(2);
+  const auto solver = symmetric_eigen<3>(form);
+  const double low = solver.values(0), middle = solver.values(1),
+               high = solver.values(2);
   Sums sums;
   sums.volume = 4 * pi;
   Vector3d ball(4 * pi / 3, 4 * pi / 3, 4 * pi / 3), active = Vector3d::Zero();
@@ -141,7 +140,7 @@ Sums integrate_one(const Matrix3d& form) {
     active +=
         weight / 3 * (Vector3d(c2 * c / side, 0, 0) + squares * (2 * c / (side * side) + c * s2 / side));
   }
-  const Matrix3d& axes = solver.eigenvectors();
+  const Matrix3d& axes = solver.vectors;
   sums.second = {axes * ball.asDiagonal() * axes.transpose(), axes * active.asDiagonal() * axes.transpose()};
   return sums;
 }
@@ -190,11 +189,10 @@ Sums integrate_all(std::span<const Matrix3d> forms) {
 }  // namespace
 
 bool star_volume(const Matrix3d& ellipsoid, std::span<const Matrix3d> delimiters, StarVolume& result) {
-  const Eigen::LLT<Matrix3d> factor(ellipsoid);
-  if (factor.info() != Eigen::Success) return false;
+  const Cholesky<3> factor = cholesky<3>(ellipsoid);
+  if (!factor.positive) return false;
   // y = L^-T u: A becomes the unit matrix.
-  const Matrix3d lower = factor.matrixL();
-  const Matrix3d inverse = lower.triangularView<Eigen::Lower>().solve(Matrix3d::Identity());
+  const Matrix3d inverse = factor.lower_inverse();
   std::vector<Matrix3d> forms;
   forms.reserve(delimiters.size());
   for (const Matrix3d& m : delimiters) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/fitting/convex_hull.h>
+#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -24,8 +24,8 @@ Matrix3d axes_about(const Vector3d& first, const Matrix3d& matrix) {
   Eigen::Matrix<double, 3, 2> across;
   across.col(0) = first.cross(Vector3d::Unit(least)).normalized();
   across.col(1) = first.cross(across.col(0));
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(across.transpose() * matrix * across);
-  across = (across * solver.eigenvectors()).eval();
+  const auto solver = symmetric_eigen<2>(across.transpose() * matrix * across);
+  across = (across * solver.vectors).eval();
   Matrix3d axes;
   axes << first, across;
   if (axes.determinant() < 0) axes.col(2) *= -1;
@@ -68,8 +68,8 @@ std::vector<Vector3d> directions(const Matrix3d& ellipsoid_axes, const Cloud& ne
   for (const Vector3d& x : near.points) mean += x / double(near.points.size());
   Matrix3d covariance = Matrix3d::Zero();
   for (const Vector3d& x : near.points) covariance += (x - mean) * (x - mean).transpose();
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(covariance);
-  for (int i = 0; i < 3; ++i) add(solver.eigenvectors().col(i));
+  const auto solver = symmetric_eigen<3>(covariance);
+  for (int i = 0; i < 3; ++i) add(solver.vectors.col(i));
   return all;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface_model.h"
 
+#include <vericone/geometry/decompositions.h>
 #include <ceres/jet.h>
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
@@ -77,9 +77,9 @@ Surfaces::Surface surface(const Parameters& parameters, int first, int count, co
     s.matrix(kRow[i], kColumn[i]) = s.matrix(kColumn[i], kRow[i]) = m(kRow[i], kColumn[i]).a;
     s.derivative.row(i) = (i < 3 ? 1 : 2) * m(kRow[i], kColumn[i]).v.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(s.matrix);
-  s.eigenvalues = solver.eigenvalues();
-  s.axes = solver.eigenvectors();
+  const auto solver = symmetric_eigen<3>(s.matrix);
+  s.eigenvalues = solver.values;
+  s.axes = solver.vectors;
   return s;
 }
 
@@ -245,10 +245,10 @@ CombinedEllipsoid Surfaces::body() const {
 }
 
 Ellipse Surfaces::footprint() const {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(all_[0].matrix.topLeftCorner<2, 2>());
-  Eigen::Matrix2d axes = solver.eigenvectors();
+  const auto solver = symmetric_eigen<2>(all_[0].matrix.topLeftCorner<2, 2>());
+  Eigen::Matrix2d axes = solver.vectors;
   if (axes.determinant() < 0) axes.col(1) *= -1;
-  return Ellipse::from_axes(center_.head<2>(), solver.eigenvalues().cwiseSqrt().cwiseInverse(), axes);
+  return Ellipse::from_axes(center_.head<2>(), solver.values.cwiseSqrt().cwiseInverse(), axes);
 }
 
 Vector3d Surfaces::semi_axes() const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface_report.h"
 
-#include <Eigen/Eigenvalues>
+#include <vericone/geometry/decompositions.h>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -140,11 +140,11 @@ void report(const FittedSurface& fit, const Cloud& cloud, const Matrix3d& axes, 
   result.center_error = result.center_covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   result.axes_error = (j * c * j.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
   const Vector3d a = surfaces.semi_axes();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(result.center_covariance.topLeftCorner(d, d));
+  const auto solver = symmetric_eigen<Eigen::Dynamic>(result.center_covariance.topLeftCorner(d, d));
   for (int k = d - 1; k >= 0; --k) {
     Vector3d along = Vector3d::Zero();
-    along.head(d) = solver.eigenvectors().col(k);
-    const double error = std::sqrt(std::max(0.0, solver.eigenvalues()(k)));
+    along.head(d) = solver.vectors.col(k);
+    const double error = std::sqrt(std::max(0.0, solver.values(k)));
     const double extent = 1 / std::sqrt(along.dot(surfaces.all()[0].matrix * along));
     if (!(error > kUnknown * extent)) continue;
     const Vector3d world = upright(axes * along);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface_solver.h"
 
+#include <vericone/geometry/decompositions.h>
 #include <ceres/ceres.h>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -200,15 +200,15 @@ void polish(const SurfaceModel& model, const Cloud& cloud, double cutoff, Soluti
       h.col(j) = (gradient(plus) - gradient(minus)) / (plus(i) - minus(i));
     }
     h = 0.5 * (h + h.transpose()).eval();
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(h);
-    positive = solver.eigenvalues()(0) > 1e-9 * solver.eigenvalues()(n - 1);
+    const auto solver = symmetric_eigen<Eigen::Dynamic>(h);
+    positive = solver.values(0) > 1e-9 * solver.values(n - 1);
     s.curvature = MatrixXd::Zero(model.size(), model.size());
     s.curvature(free, free) = h;
     if (!positive) break;
     for (int i = 0; i < 12; ++i) {
       const VectorXd g = gradient(s.parameters);
       const VectorXd step =
-          solver.eigenvectors() * (solver.eigenvectors().transpose() * g).cwiseQuotient(solver.eigenvalues());
+          solver.vectors * (solver.vectors.transpose() * g).cwiseQuotient(solver.values);
       const double size = step.norm() / (1 + s.parameters.norm());
       if (!(size < 0.1)) break;
       const bool slow = size > 0.3 * last;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface_start.h"
 
+#include <vericone/geometry/decompositions.h>
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -80,9 +80,9 @@ template <int D>
 std::optional<Candidate> algebraic(const Cloud& cloud, double k) {
   constexpr int n = D * (D + 1) / 2;
   const Moments<D> m = moments<D>(cloud);
-  const Eigen::LLT<MatrixD<D>> llt(m.covariance);
-  if (llt.info() != Eigen::Success) return std::nullopt;
-  const MatrixD<D> l = llt.matrixL();
+  const Cholesky<D> factor = cholesky<D>(m.covariance);
+  if (!factor.positive) return std::nullopt;
+  const MatrixD<D>& l = factor.lower;
   if (!(l.diagonal().minCoeff() > 1e-9 * l.diagonal().maxCoeff())) return std::nullopt;
 
   MatrixD<n> squares = MatrixD<n>::Zero();
@@ -90,7 +90,7 @@ std::optional<Candidate> algebraic(const Cloud& cloud, double k) {
   double sum = 0;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     const VectorD<D> u =
-        l.template triangularView<Eigen::Lower>().solve(cloud.points[i].template head<D>() - m.mean);
+        factor.half_solve(cloud.points[i].template head<D>() - m.mean);
     VectorD<n> q;
     q.template head<D>() = u.cwiseAbs2();
     if constexpr (D == 2)
@@ -110,9 +110,12 @@ std::optional<Candidate> algebraic(const Cloud& cloud, double k) {
   MatrixD<n> reduced = squares - mixed * inverse.asDiagonal() * mixed.transpose();
   // Singular where the points are on a quadric exactly; a start needs no more than half the digits.
   reduced += 1e-12 * squares.trace() * MatrixD<n>::Identity();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixD<n>> solver(constraint<D>(k), reduced);
-  if (solver.info() != Eigen::Success || !(solver.eigenvalues()(n - 1) > 0)) return std::nullopt;
-  VectorD<n> v = solver.eigenvectors().col(n - 1);
+  // Sizes of which the decompositions are compiled: 3 as it is, 6 as any.
+  constexpr int size = n == 3 ? 3 : Eigen::Dynamic;
+  SymmetricEigen<size> solver;
+  if (!generalized_eigen<size>(constraint<D>(k), reduced, solver) || !(solver.values(n - 1) > 0))
+    return std::nullopt;
+  VectorD<n> v = solver.vectors.col(n - 1);
   if (v.template head<D>().sum() < 0) v = -v;
   const VectorD<D + 1> linear = -inverse.cwiseProduct(mixed.transpose() * v);
   MatrixD<D> a;
@@ -120,8 +123,8 @@ std::optional<Candidate> algebraic(const Cloud& cloud, double k) {
     a << v(0), v(2), v(2), v(1);
   else
     a << v(0), v(5), v(4), v(5), v(1), v(3), v(4), v(3), v(2);
-  const Eigen::SelfAdjointEigenSolver<MatrixD<D>> spectrum(a);
-  if (!(spectrum.eigenvalues()(0) > 1e-6 * spectrum.eigenvalues()(D - 1))) return std::nullopt;
+  const VectorD<D> spectrum = symmetric_eigenvalues<D>(a);
+  if (!(spectrum(0) > 1e-6 * spectrum(D - 1))) return std::nullopt;
   const VectorD<D> p = linear.template head<D>(), center = -a.ldlt().solve(p);
   const double level = -p.dot(center) - linear(D);
   if (!(level > 0)) return std::nullopt;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trim.h"
 
+#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
 
-#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -104,11 +104,11 @@ class Trimmer {
       Eigen::Matrix<double, D, D> second = Eigen::Matrix<double, D, D>::Zero();
       for (std::size_t i = 0; i < size(); ++i)
         if (kept[i]) second += shares_[i] / total * (points_[i] - mean) * (points_[i] - mean).transpose();
-      const Eigen::LLT<Eigen::Matrix<double, D, D>> factor(second);
-      if (factor.info() != Eigen::Success) return kept;
+      const Cholesky<D> factor = cholesky<D>(second);
+      if (!factor.positive) return kept;
       std::vector<double> distance(size());
       for (std::size_t i = 0; i < size(); ++i)
-        distance[i] = factor.matrixL().solve(points_[i] - mean).squaredNorm();
+        distance[i] = factor.half_solve(points_[i] - mean).squaredNorm();
       std::vector<std::size_t> order(size());
       std::iota(order.begin(), order.end(), std::size_t(0));
       std::stable_sort(order.begin(), order.end(),

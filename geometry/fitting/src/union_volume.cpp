@@ -13,13 +13,13 @@
 #include <limits>
 #include <utility>
 
+#include "infinity.h"
+
 namespace vericone::fitting {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-struct Interval {
+struct Stretch {
   double from, to;
 };
 
@@ -43,15 +43,15 @@ struct Columns {
   Vector3d center;
   std::vector<Region> regions;  // the first is bounded
   bool upright = false;         // a cylinder: between these heights wherever the region is cut
-  Interval height{0, 0};
+  Stretch height{0, 0};
   Rectangle shadow;
 
   /// Adds the intervals of the column over p that are in the piece.
-  void cut(const Vector2d& p, std::vector<Interval>& found) const;
+  void cut(const Vector2d& p, std::vector<Stretch>& found) const;
 };
 
 /// Takes away where a t^2 + 2 b t + c > 0.
-void restrict_to(double a, double b, double c, std::vector<Interval>& intervals, std::size_t first) {
+void restrict_to(double a, double b, double c, std::vector<Stretch>& intervals, std::size_t first) {
   const double discriminant = b * b - a * c;
   if (!(discriminant > 0)) {
     if (a > 0 || (a == 0 && c > 0)) intervals.resize(first);
@@ -64,7 +64,7 @@ void restrict_to(double a, double b, double c, std::vector<Interval>& intervals,
   if (low > high) std::swap(low, high);
   const std::size_t count = intervals.size();
   for (std::size_t k = first; k < count; ++k) {
-    const Interval i = intervals[k];
+    const Stretch i = intervals[k];
     if (a >= 0) {
       intervals[k] = {std::max(i.from, low), std::min(i.to, high)};
     } else {
@@ -72,13 +72,13 @@ void restrict_to(double a, double b, double c, std::vector<Interval>& intervals,
       intervals.push_back({std::max(i.from, high), i.to});
     }
   }
-  const auto is_empty = [](const Interval& i) { return !(i.to > i.from); };
+  const auto is_empty = [](const Stretch& i) { return !(i.to > i.from); };
   intervals.erase(
       std::remove_if(intervals.begin() + static_cast<std::ptrdiff_t>(first), intervals.end(), is_empty),
       intervals.end());
 }
 
-void Columns::cut(const Vector2d& p, std::vector<Interval>& found) const {
+void Columns::cut(const Vector2d& p, std::vector<Stretch>& found) const {
   const Vector3d q(p.x() - center.x(), p.y() - center.y(), 0);
   if (upright) {
     if (q.dot(regions[0].matrix * q) <= regions[0].level) found.push_back(height);
@@ -126,13 +126,13 @@ Columns columns_of(const Piece& piece, const Vector3d& origin, const Matrix3d& a
 
 /// Length of the column over p that is in pieces, counted as often as there are pieces, less counted once.
 double counted_too_often(const std::vector<Columns>& pieces, const Vector2d& p,
-                         std::vector<Interval>& found) {
+                         std::vector<Stretch>& found) {
   found.clear();
   for (const Columns& c : pieces)
     if (c.shadow.contains(p)) c.cut(p, found);
-  std::sort(found.begin(), found.end(), [](const Interval& a, const Interval& b) { return a.from < b.from; });
+  std::sort(found.begin(), found.end(), [](const Stretch& a, const Stretch& b) { return a.from < b.from; });
   double excess = 0, reached = -kInfinity;
-  for (const Interval& i : found) {
+  for (const Stretch& i : found) {
     if (i.from < reached) excess += std::min(i.to, reached) - i.from;
     reached = std::max(reached, i.to);
   }
@@ -148,7 +148,7 @@ VolumeEstimate lattice(const std::vector<Columns>& pieces, const Rectangle& box,
   const Vector2d size = box.high - box.low;
   const double n = static_cast<double>(count);
   std::array<double, 4> sums{};
-  std::vector<Interval> found;
+  std::vector<Stretch> found;
   for (std::size_t s = 0; s < 4; ++s) {
     for (std::size_t k = 0; k < count; ++k) {
       // The index turns by whole numbers, so that no digit is lost.

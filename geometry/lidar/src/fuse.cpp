@@ -4,10 +4,10 @@
 #include <open3d/geometry/PointCloud.h>
 #include <open3d/pipelines/registration/Registration.h>
 #include <open3d/utility/Logging.h>
+#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
 #include <vericone/lidar/fuse.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -136,8 +136,7 @@ class Alignment {
       information += row * row.transpose() / double(pairs.size());
     }
     fit.weakest = std::max(
-        0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(information, Eigen::EigenvaluesOnly)
-                 .eigenvalues()(0));
+        0.0, symmetric_eigen<Eigen::Dynamic>(information).values(0));
     return fit;
   }
 

@@ -22,7 +22,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 using State = std::array<double, 3>;  // along, across, turned
 using Dopri5 = boost::numeric::odeint::runge_kutta_dopri5<State>;
@@ -52,7 +51,7 @@ Arc::Arc(const Motion& start, const Vector3d& acceleration, Orientation orientat
     // Twice is enough; what is left of an acceleration along the velocity is rounding.
     aside_ -= aside_.dot(ahead_) * ahead_;
     lateral_ = aside_.norm();
-    if (lateral_ > 8 * kEps * most_acceleration_) {
+    if (lateral_ > 8 * std::numeric_limits<double>::epsilon() * most_acceleration_) {
       aside_ /= lateral_;
       carried_ = to_ - from_;
       if (longitudinal_ < 0) carried_ = std::min(carried_, (speed_ - kRestSpeed) / -longitudinal_);
@@ -77,7 +76,7 @@ void Arc::integrate() {
     dt = std::min(dt, carried_ - t);
     if (stepper.try_step(motion, x, t, dt) != success || !(t < carried_)) continue;
     // Times that differ by rounding only are the end.
-    if (carried_ - t <= 4 * kEps * carried_) break;
+    if (carried_ - t <= 4 * std::numeric_limits<double>::epsilon() * carried_) break;
     steps.push_back({t, {x[0], x[1], x[2]}});
   }
   last_ = {x[0], x[1], x[2]};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "least_point.h"
 
-#include <Eigen/QR>
+#include <vericone/geometry/decompositions.h>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -26,10 +26,10 @@ struct Corral {
   std::vector<double> affine() const {
     const Eigen::Index n = static_cast<Eigen::Index>(points.size()) - 1;
     if (n == 0) return {1.0};
-    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 4> edges(3, n);
+    Eigen::MatrixXd edges(3, n);
     for (Eigen::Index i = 0; i < n; ++i)
       edges.col(i) = points[static_cast<std::size_t>(i) + 1] - points.front();
-    const Eigen::VectorXd w = edges.colPivHouseholderQr().solve(-points.front());
+    const Eigen::VectorXd w = least_squares(edges, -points.front());
     std::vector<double> all{1 - w.sum()};
     for (Eigen::Index i = 0; i < n; ++i) all.push_back(w(i));
     return all;

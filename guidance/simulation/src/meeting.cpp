@@ -4,8 +4,8 @@
 #include <vericone/cones/combined_cone.h>
 #include <vericone/cones/combined_sector.h>
 #include <vericone/cones/hull_oracle.h>
+#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -93,9 +93,7 @@ BasicCombined<D> inflated(const BasicCombined<D>& body, double distance) {
         (d.level + 2 * distance * (d.matrix * e.factor()).norm() + distance * distance * d.matrix.norm()) *
         kUp;
     const Matrix seen = ellipsoid.factor().transpose() * d.matrix * ellipsoid.factor();
-    const double most =
-        Eigen::SelfAdjointEigenSolver<Matrix>(0.5 * (seen + seen.transpose()), Eigen::EigenvaluesOnly)
-            .eigenvalues()(D - 1);
+    const double most = symmetric_eigenvalues<D>(0.5 * (seen + seen.transpose()))(D - 1);
     // One that hardly cuts any more is left out: the body only grows.
     if (most > level * (1 + 1e-9)) delimiters.push_back({d.matrix, level});
   }

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "swept_body.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
+#include <vericone/geometry/decompositions.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -74,8 +72,8 @@ SweptBody::SweptBody(const ShapeInTime& shape, double reach, double from, double
   const Matrix3d& f = body_.ellipsoid().factor();
   for (const Delimiter<3>& d : body_.delimiters()) {
     const Matrix3d a = f.transpose() * d.matrix * f;
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(0.5 * (a + a.transpose()));
-    seen_.push_back({0.5 * (a + a.transpose()), solver.eigenvectors(), solver.eigenvalues(), d.level});
+    const auto solver = symmetric_eigen<3>(0.5 * (a + a.transpose()));
+    seen_.push_back({0.5 * (a + a.transpose()), solver.vectors, solver.values, d.level});
   }
 }
 
@@ -116,12 +114,12 @@ SweptBody::Multipliers SweptBody::of_one(const Vector3d& m) const {
 // Any multipliers give a bound; they are improved one after the other.
 SweptBody::Multipliers SweptBody::of_several(const Vector3d& m) const {
   const auto shifted = [](const Matrix3d& a) {
-    return Eigen::LLT<Matrix3d>(a - kLeastPivot / 3 * a.trace() * Matrix3d::Identity());
+    return cholesky<3>(a - kLeastPivot / 3 * a.trace() * Matrix3d::Identity());
   };
   const auto value = [&](const Matrix3d& a, double bound) {
     // The shift keeps away from singular matrices and changes the value less than matters here.
-    const Eigen::LLT<Matrix3d> llt = shifted(a);
-    if (!(a.trace() > 0) || llt.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
+    const Cholesky<3> llt = shifted(a);
+    if (!(a.trace() > 0) || !llt.positive) return std::numeric_limits<double>::infinity();
     return bound * m.dot(llt.solve(m));
   };
   Matrix3d sum = Matrix3d::Identity();
@@ -141,7 +139,7 @@ SweptBody::Multipliers SweptBody::of_several(const Vector3d& m) const {
       sum = rest + lambda[i] * seen_[i].matrix;
       level = rest_level + lambda[i] * seen_[i].level;
     }
-  const Matrix3d inverse = sum.llt().solve(Matrix3d::Identity());
+  const Matrix3d inverse = cholesky<3>(sum).inverse();
   return {0.5 * (inverse + inverse.transpose()), level};
 }
 
@@ -201,12 +199,12 @@ Vector3d SweptBody::support_point(const Vector3d& n) const {
 Ellipsoid SweptBody::around(const Vector3d& n) const {
   if (body_.is_ellipsoid()) return body_.ellipsoid();
   const Multipliers multipliers = this->multipliers(n);
-  const Matrix3d root = multipliers.inverse.llt().matrixL();
+  const Matrix3d root = cholesky<3>(multipliers.inverse).lower;
   const Matrix3d factor = std::sqrt(multipliers.level) * (body_.ellipsoid().factor() * root);
-  const Eigen::JacobiSVD<Matrix3d> svd(factor, Eigen::ComputeFullU);
-  Matrix3d directions = svd.matrixU();
+  const LeftSingular<3> svd = left_singular<3>(factor);
+  Matrix3d directions = svd.u;
   if (directions.determinant() < 0) directions.col(0) = -directions.col(0);
-  return Ellipsoid::from_axes(Vector3d::Zero(), svd.singularValues(), directions);
+  return Ellipsoid::from_axes(Vector3d::Zero(), svd.values, directions);
 }
 
 }  // namespace vericone::simulation

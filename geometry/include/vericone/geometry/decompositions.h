@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Eigen's decompositions of small matrices, each compiled once. Every file that instantiates one itself pays
+// for it: 2 s for the eigenvalues of a 2 x 2 matrix, where a call of these functions costs nothing.
+// Answers are Eigen's bit for bit. No function throws; where no size is said, N is 2 or 3.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace vericone {
+
+/// a = vectors diag(values) vectors^T: values increase, vectors are orthonormal columns.
+template <int N>
+struct SymmetricEigen {
+  Eigen::Matrix<double, N, 1> values;
+  Eigen::Matrix<double, N, N> vectors;
+};
+
+/// Of a symmetric matrix, whose lower triangle is read. N may be Eigen::Dynamic.
+template <int N>
+SymmetricEigen<N> symmetric_eigen(const Eigen::Matrix<double, N, N>& a);
+
+/// Its values alone, the same bits, in half the time.
+template <int N>
+Eigen::Matrix<double, N, 1> symmetric_eigenvalues(const Eigen::Matrix<double, N, N>& a);
+
+/// a v = value b v for symmetric a and positive definite b; the values increase, v^T b v = 1. False: b is not
+/// positive definite. N is 3 or Eigen::Dynamic.
+template <int N>
+bool generalized_eigen(const Eigen::Matrix<double, N, N>& a, const Eigen::Matrix<double, N, N>& b,
+                       SymmetricEigen<N>& result);
+
+/// a = L L^T of a symmetric matrix, whose lower triangle is read. N is 2, 3 or 4.
+template <int N>
+struct Cholesky {
+  Eigen::Matrix<double, N, N> lower;  // zeros above the diagonal
+  bool positive = false;              // otherwise `lower` has no meaning
+
+  /// L^{-1} x.
+  Eigen::Matrix<double, N, 1> half_solve(const Eigen::Matrix<double, N, 1>& x) const;
+  /// a^{-1} x.
+  Eigen::Matrix<double, N, 1> solve(const Eigen::Matrix<double, N, 1>& x) const;
+  /// L^{-1}.
+  Eigen::Matrix<double, N, N> lower_inverse() const;
+  /// a^{-1}.
+  Eigen::Matrix<double, N, N> inverse() const;
+};
+template <int N>
+Cholesky<N> cholesky(const Eigen::Matrix<double, N, N>& a);
+
+/// a = u diag(values) v^T, v left out: values decrease, u is orthogonal.
+template <int N>
+struct LeftSingular {
+  Eigen::Matrix<double, N, 1> values;
+  Eigen::Matrix<double, N, N> u;
+};
+template <int N>
+LeftSingular<N> left_singular(const Eigen::Matrix<double, N, N>& a);
+template <int N>
+Eigen::Matrix<double, N, 1> singular_values(const Eigen::Matrix<double, N, N>& a);
+
+/// The orthogonal matrix nearest to `a`: u v^T of its singular vectors.
+template <int N>
+Eigen::Matrix<double, N, N> nearest_orthogonal(const Eigen::Matrix<double, N, N>& a);
+
+/// x of least |a x - b|, any size; of several the shortest, however the rank falls short.
+Eigen::VectorXd shortest_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+
+/// x of least |a x - b|, any size: quicker, one of several.
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+
+}  // namespace vericone
