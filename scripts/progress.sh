@@ -33,6 +33,7 @@ follow_install() {
         total=${line%% newly*}
         total=${total##* }
         ;;
+      "Waiting for "*) progress "packages: waiting for another installation" ;;
       Get:*) progress "packages [$((fetched += 1))/$total] downloading" ;;
       Unpacking\ *) progress "packages [$((unpacked += 1))/$total] unpacking" ;;
       "Setting up "*) progress "packages [$((ready += 1))/$total] setting up" ;;
