@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The program `vericone-fit`, which links Ceres (BSD-3-Clause) and Qhull (its own licence, free with notice).
+// Where Ceres brings SuiteSparse, the linked program is under the GPL by a part of CHOLMOD.
 #include <vericone/geometry/error.h>
 #include <iostream>
 
