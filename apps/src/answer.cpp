@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "json_value.h"
+
 namespace vericone {
 namespace {
-
-using input::Json;
 
 Json exact_answer(const input::Engagement& e, bool with_rung) {
   const ConeOracle oracle(e.agent.ellipsoid(), e.obstacle.ellipsoid());
@@ -53,11 +53,7 @@ Json certified_answer(const input::Engagement& e, bool with_rung) {
   return result;
 }
 
-Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-
 Json interval(double low, double high) { return {number_or_null(low), number_or_null(high)}; }
-
-Json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 /// A body of pieces: exact verdicts, enclosed lengths and times.
 Json assembly_answer(const input::AssemblyEngagement& e, bool with_rung) {

@@ -10,7 +10,7 @@
 namespace vericone {
 
 /// {"verdict", ["rung"], "clearance", "time_to_contact", ...} as docs/formats.md says.
-input::Json answer(const input::AnyEngagement& engagement, bool with_rung);
+Json answer(const input::AnyEngagement& engagement, bool with_rung);
 
 /// The agent and the body of an engagement, prepared for many velocities.
 AssemblyOracle assembly_oracle(const input::AssemblyEngagement& engagement);

@@ -9,32 +9,28 @@
 #include <vericone/cones/slice_cone.h>
 #include <vericone/geometry/error.h>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <ostream>
 
 #include "answer.h"
+#include "degrees.h"
 #include "figures.h"
 #include "input/scene.h"
+#include "json_value.h"
 #include "pieces/pieces_cone.h"
 #include "planar_cone.h"
 #include "provenance.h"
 #include "shape_engagements.h"
 #include "slice_json.h"
+#include "stopwatch.h"
 
 namespace vericone {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-
 Json exact_json(const Ellipsoid& a, const Ellipsoid& b, int samples) {
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   const ExactCone cone = exact_cone(a, b, samples);
   Json result{{"method", "exact"},
               {"samples", samples},
@@ -61,15 +57,15 @@ Json exact_json(const Ellipsoid& a, const Ellipsoid& b, int samples) {
     result["error_bound"] = 0.0;
     result["cross_section_area_error_bound"] = nullptr;
   }
-  result["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result["seconds"] = seconds_since(start);
   return result;
 }
 
 /// Inner and outer cone to a tolerance, of any bodies.
 Json certified_json(const CombinedEllipsoid& a, const CombinedEllipsoid& b, double tolerance) {
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   const CombinedCone cone = combined_cone(a, b, tolerance);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = seconds_since(start);
   const bool known = cone.relation.has_value();
   Json result{{"method", "certified"},
               {"tolerance", tolerance},
@@ -119,9 +115,9 @@ SliceSector sectors_of(const ConeOptions& options) {
 }
 
 Json slice_json(const input::Engagement& e, int planes, SliceSector choice) {
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   const Slices cone = slices_of(e, planes, choice);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = seconds_since(start);
   Json result{
       {"method", "slice"}, {"planes", planes}, {"relation", cone.relation}, {"axis", vector_json(cone.axis)}};
   result.update(polyhedral_json(cone.polyhedral));
@@ -138,8 +134,6 @@ Json slice_json(const input::Engagement& e, int planes, SliceSector choice) {
   result["seconds"] = seconds;
   return result;
 }
-
-double degrees(double x) { return x * 180 / std::numbers::pi; }
 
 std::string setting(const Json& cone) {
   if (cone.contains("planes")) return cone["planes"].dump() + " planes";

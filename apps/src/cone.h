@@ -3,10 +3,10 @@
 
 #include <vericone/geometry/ellipsoid.h>
 #include <iosfwd>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
+#include "json_forward.h"
 #include "map_answer.h"
 
 namespace vericone {
@@ -32,6 +32,6 @@ void run_cone(const ConeOptions& options, std::ostream& out);
 
 /// What the picture of one engagement shows: both bodies, the slice cone inside the exact one, and a velocity
 /// between the two with the contact it leads to. Requires disjoint bodies.
-nlohmann::ordered_json engagement_picture(const Ellipsoid& a, const Ellipsoid& b, int planes, int samples);
+Json engagement_picture(const Ellipsoid& a, const Ellipsoid& b, int planes, int samples);
 
 }  // namespace vericone

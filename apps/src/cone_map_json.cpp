@@ -3,12 +3,10 @@
 
 #include <vericone/cones/cone_map_regions.h>
 
-#include "shape_json.h"
+#include "json_value.h"
 
 namespace vericone {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json region_json(const std::optional<ConeMapRegion>& region) {
   if (!region) return nullptr;
@@ -24,7 +22,7 @@ Json region_json(const std::optional<ConeMapRegion>& region) {
 Json cone_map_json(const ConeMap& map, const Eigen::Vector3d& towards, double resolution,
                    const std::string& title) {
   Json corners = Json::array(), cells = Json::array();
-  for (const Eigen::Vector3d& x : map.corners) corners.push_back(to_json(x));
+  for (const Eigen::Vector3d& x : map.corners) corners.push_back(vector_json(x));
   std::string labels;
   for (const ConeMapCell& cell : map.cells) {
     cells.push_back(cell.corners);
@@ -36,13 +34,13 @@ Json cone_map_json(const ConeMap& map, const Eigen::Vector3d& towards, double re
     Json loops = Json::array();
     for (const auto& loop : region->boundary) {
       Json points = Json::array();
-      for (const Eigen::Vector3d& x : loop) points.push_back(to_json(x));
+      for (const Eigen::Vector3d& x : loop) points.push_back(vector_json(x));
       loops.push_back(std::move(points));
     }
     region_part["boundary"] = std::move(loops);
   }
   return {{"title", title},
-          {"towards", to_json(Eigen::Vector3d(towards.stableNormalized()))},
+          {"towards", vector_json(Eigen::Vector3d(towards.stableNormalized()))},
           {"colliding", map.colliding},
           {"safe", map.safe},
           {"undecided", map.undecided},

@@ -4,8 +4,9 @@
 #pragma once
 
 #include <vericone/cones/cone_map.h>
-#include <nlohmann/json.hpp>
 #include <string>
+
+#include "json_forward.h"
 
 namespace vericone {
 
@@ -14,7 +15,7 @@ namespace vericone {
 ///  "cells": [[i, j, k]], "labels": "ios...", "region": {...} or null}
 /// `towards` != 0: the direction of the middle of the picture, whose region is outlined. Solid angles in
 /// steradian, `labels` one letter a cell: i(n), o(ut), u(ndecided).
-nlohmann::ordered_json cone_map_json(const ConeMap& map, const Eigen::Vector3d& towards, double resolution,
-                                     const std::string& title = "");
+Json cone_map_json(const ConeMap& map, const Eigen::Vector3d& towards, double resolution,
+                   const std::string& title = "");
 
 }  // namespace vericone

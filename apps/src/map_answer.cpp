@@ -5,15 +5,14 @@
 #include <vericone/cones/cone_map_regions.h>
 #include <vericone/geometry/error.h>
 #include <algorithm>
-#include <chrono>
 #include <ostream>
 
 #include "cone_map_json.h"
+#include "json_value.h"
+#include "stopwatch.h"
 
 namespace vericone {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kShownRegions = 20;
 
@@ -41,12 +40,12 @@ MapAnswer map_answer(const DirectionClassifier& classifier, const MapRequest& re
     throw InputError("--map", to_text(request.resolution), "between 0.0001 and 1 radians");
   if (request.around && !(request.around->norm() > 0))
     throw InputError("--around", "0,0,0", "a direction x,y,z");
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   ConeMapOptions options;
   options.resolution = request.resolution;
   options.threads = 0;
   const ConeMap map = cone_map(classifier, options);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = seconds_since(start);
   Json list = Json::array();
   const auto all = regions(map);
   for (std::size_t i = 0; i < std::min(all.size(), kShownRegions); ++i)

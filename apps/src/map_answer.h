@@ -5,11 +5,11 @@
 
 #include <vericone/cones/cone_map.h>
 #include <iosfwd>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
 #include "input/body.h"
+#include "json_value.h"
 
 namespace vericone {
 
@@ -21,8 +21,8 @@ struct MapRequest {
 };
 
 struct MapAnswer {
-  nlohmann::ordered_json summary;  // docs/formats.md
-  nlohmann::ordered_json picture;  // for apps/figures/cone_map.py
+  Json summary;  // docs/formats.md
+  Json picture;  // for apps/figures/cone_map.py
 };
 
 /// `middle`: the direction of the middle of the picture where none is asked for. Throws InputError naming
@@ -34,6 +34,6 @@ MapAnswer map_answer(const DirectionClassifier& classifier, const MapRequest& re
 MapAnswer map_answer(const input::Engagement& engagement, const MapRequest& request, double tolerance,
                      const std::string& title);
 
-void print_map(const nlohmann::ordered_json& summary, std::ostream& out);
+void print_map(const Json& summary, std::ostream& out);
 
 }  // namespace vericone

@@ -3,18 +3,15 @@
 
 #include <vericone/cones/combined_sector.h>
 #include <vericone/geometry/error.h>
-#include <chrono>
 #include <numbers>
 #include <ostream>
 
 #include "answer.h"
+#include "json_value.h"
+#include "stopwatch.h"
 
 namespace vericone {
 namespace {
-
-using input::Json;
-
-Json vector_json(const Eigen::Vector2d& v) { return {v.x(), v.y()}; }
 
 /// Ellipses have exact relations, touching included.
 CombinedSector sector_of(const input::PlanarEngagement& e) {
@@ -42,9 +39,9 @@ Json edge_json(const SectorEdge& edge, const Touch& a, const Touch& b) {
 }  // namespace
 
 Json planar_cone_json(const input::PlanarEngagement& e) {
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   const CombinedSector found = sector_of(e);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = seconds_since(start);
   const Sector& s = found.sector;
   Json result{
       {"method", "planar"}, {"relation", to_string(s.relation)}, {"psi", s.psi}, {"theta_b", s.theta_b}};

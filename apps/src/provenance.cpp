@@ -8,7 +8,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "build_info.h"
+#include "command/build_info.h"
+#include "json_value.h"
 
 namespace vericone {
 namespace {
@@ -29,12 +30,12 @@ std::string now() {
 
 }  // namespace
 
-nlohmann::ordered_json provenance(const std::string& command_line) {
+Json provenance(const std::string& command_line) {
   return {{"command", command_line},
-          {"version", VERICONE_VERSION},
-          {"commit", VERICONE_COMMIT},
+          {"version", build_info::version()},
+          {"commit", build_info::commit()},
           {"compiler", "g++-compatible " __VERSION__},
-          {"flags", VERICONE_FLAGS},
+          {"flags", build_info::flags()},
           {"eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
                         std::to_string(EIGEN_MINOR_VERSION)},
           {"processor", processor()},

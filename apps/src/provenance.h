@@ -2,13 +2,14 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
+
+#include "json_forward.h"
 
 namespace vericone {
 
 /// What it takes to get the same result again: commit, version, compiler, flags, processor, command line.
-nlohmann::ordered_json provenance(const std::string& command_line);
+Json provenance(const std::string& command_line);
 
 /// Writes to a neighbouring file first and renames: a reader sees the old content or the new one, never half.
 /// Throws std::runtime_error naming the path.

@@ -7,11 +7,10 @@
 #include <iostream>
 
 #include "answer.h"
+#include "json_value.h"
 
 namespace vericone {
 namespace {
-
-using input::Json;
 
 /// Parses one line; a key given twice is refused, since only one of the two would be used.
 Json parse_line(const std::string& line, std::size_t number) {

@@ -44,9 +44,9 @@ std::uint64_t complete_rows(const std::filesystem::path& partial, const Resumabl
   return rows;
 }
 
-class Progress {
+class RowProgress {
  public:
-  Progress(const ResumableTable& work, std::uint64_t done)
+  RowProgress(const ResumableTable& work, std::uint64_t done)
       : work_(work), first_(done), terminal_(isatty(STDERR_FILENO) != 0) {}
 
   void show(std::uint64_t done, bool last) {
@@ -116,7 +116,7 @@ TableOutcome run_table(const ResumableTable& work) {
   std::vector<std::thread> threads;
   threads.reserve(static_cast<std::size_t>(work.threads));
   for (int i = 0; i < work.threads; ++i) threads.emplace_back(compute);
-  Progress progress(work, written);
+  RowProgress progress(work, written);
   {
     std::unique_lock lock(mutex);
     while (written < work.count && !failure && !interrupted()) {

@@ -11,13 +11,13 @@
 #include <stdexcept>
 #include <vector>
 
+#include "json_value.h"
 #include "shape_json.h"
 
 namespace vericone {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
-using Json = nlohmann::ordered_json;
 
 constexpr double kTolerance = 0.003;  // of the cones, in parts of their solid angle
 constexpr int kPlanes = 36;
@@ -35,7 +35,7 @@ CombinedEllipsoid placed(const CombinedEllipsoid& body, const Vector3d& center, 
 
 Json directions_json(const std::vector<Vector3d>& directions) {
   Json all = Json::array();
-  for (const Vector3d& d : directions) all.push_back(to_json(d));
+  for (const Vector3d& d : directions) all.push_back(vector_json(d));
   return all;
 }
 
@@ -46,7 +46,7 @@ Json engagement_json(const CombinedEllipsoid& a, const CombinedEllipsoid& b, con
   const CombinedSliceCone slices = combined_slice_cone(a, b, planes);
   return {{"a", solid_json(a, surface(a, resolution))},
           {"b", solid_json(b, surface(b, resolution))},
-          {"axis", to_json(cone.axis)},
+          {"axis", vector_json(cone.axis)},
           {"inner", directions_json(cone.inner.directions)},
           {"outer", directions_json(cone.outer.directions)},
           {"slices", directions_json(slices.polyhedral().directions)},
@@ -56,10 +56,10 @@ Json engagement_json(const CombinedEllipsoid& a, const CombinedEllipsoid& b, con
           {"slice_solid_angle", slices.polyhedral().solid_angle}};
 }
 
-Json edge_json(const SectorEdge& edge, const Touch& on_a, const Touch& on_b) {
-  return {{"on_a", to_json(edge.point_on_a)},
-          {"on_b", to_json(edge.point_on_b)},
-          {"direction", to_json(edge.direction)},
+Json contact_json(const SectorEdge& edge, const Touch& on_a, const Touch& on_b) {
+  return {{"on_a", vector_json(edge.point_on_a)},
+          {"on_b", vector_json(edge.point_on_b)},
+          {"direction", vector_json(edge.direction)},
           {"corner_a", on_a.corner},
           {"corner_b", on_b.corner}};
 }
@@ -73,7 +73,7 @@ Json scene_figure(const CombinedEllipsoid& a, const CombinedEllipsoid& b, const 
   if (!std::all_of(cone.outer.directions.begin(), cone.outer.directions.end(), ahead)) return nullptr;
   Json json = engagement_json(a, b, cone, kResolution, planes);
   if (ahead(w))
-    json["velocity"] = {{"w", to_json(w)}, {"verdict", to_string(CombinedOracle(a, b).membership(w))}};
+    json["velocity"] = {{"w", vector_json(w)}, {"verdict", to_string(CombinedOracle(a, b).membership(w))}};
   return json;
 }
 
@@ -92,11 +92,11 @@ Json section_figure(const CombinedEllipsoid& dented, double resolution) {
   if (sector.sector.relation != Relation::disjoint)
     throw std::runtime_error("the sections of a figure are not disjoint");
   Json json = engagement_json(a, b, combined_cone(a, b, kTolerance), resolution, kPlanes);
-  json["plane"] = {{"x_axis", to_json(along)}, {"y_axis", to_json(across)}};
+  json["plane"] = {{"x_axis", vector_json(along)}, {"y_axis", vector_json(across)}};
   json["section_a"] = outline_json(section_a);
   json["section_b"] = outline_json(section_b);
-  json["tangents"] = {edge_json(sector.sector.left, sector.left_a, sector.left_b),
-                      edge_json(sector.sector.right, sector.right_a, sector.right_b)};
+  json["tangents"] = {contact_json(sector.sector.left, sector.left_a, sector.left_b),
+                      contact_json(sector.sector.right, sector.right_a, sector.right_b)};
   json["psi"] = sector.sector.psi;
   json["theta_b"] = sector.sector.theta_b;
   return json;
@@ -113,9 +113,9 @@ Json notch_figure(const CombinedEllipsoid& waisted, double resolution) {
   // In the cone of the hulls: a mean of two velocities that collide.
   const Vector3d above = w + Vector3d(0, 0, 2.6), below = w - Vector3d(0, 0, 2.6);
   Json json = engagement_json(a, b, combined_cone(a, b, kTolerance), resolution, kPlanes);
-  json["velocity"] = {{"w", to_json(w)},         {"verdict", to_string(oracle.membership(w))},
-                      {"above", to_json(above)}, {"above_verdict", to_string(oracle.membership(above))},
-                      {"below", to_json(below)}, {"below_verdict", to_string(oracle.membership(below))}};
+  json["velocity"] = {{"w", vector_json(w)},         {"verdict", to_string(oracle.membership(w))},
+                      {"above", vector_json(above)}, {"above_verdict", to_string(oracle.membership(above))},
+                      {"below", vector_json(below)}, {"below_verdict", to_string(oracle.membership(below))}};
   return json;
 }
 

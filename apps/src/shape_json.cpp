@@ -1,41 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shape_json.h"
 
+#include "json_value.h"
+
 namespace vericone {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-template <int D>
-Json matrix_json(const Eigen::Matrix<double, D, D>& m) {
-  Json rows = Json::array();
-  for (int i = 0; i < D; ++i) rows.push_back(to_json(Eigen::Matrix<double, D, 1>(m.row(i).transpose())));
-  return rows;
-}
 
 template <int D>
 Json combined_json(const BasicCombined<D>& body) {
   Json delimiters = Json::array();
   for (const auto& d : body.delimiters())
-    delimiters.push_back({{"matrix", to_json(d.matrix)}, {"level", d.level}});
-  return {{"center", to_json(body.center())},
-          {"factor", to_json(body.ellipsoid().factor())},
+    delimiters.push_back({{"matrix", matrix_json(d.matrix)}, {"level", d.level}});
+  return {{"center", vector_json(body.center())},
+          {"factor", matrix_json(body.ellipsoid().factor())},
           {"delimiters", delimiters}};
 }
 
 }  // namespace
-
-Json to_json(const Eigen::Vector2d& v) { return {v.x(), v.y()}; }
-Json to_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-Json to_json(const Eigen::Matrix2d& m) { return matrix_json<2>(m); }
-Json to_json(const Eigen::Matrix3d& m) { return matrix_json<3>(m); }
 
 Json body_json(const CombinedEllipse& body) { return combined_json<2>(body); }
 Json body_json(const CombinedEllipsoid& body) { return combined_json<3>(body); }
 
 Json mesh_json(const CombinedSurface& surface) {
   Json vertices = Json::array(), triangles = Json::array(), quadrics = Json::array();
-  for (const auto& v : surface.vertices) vertices.push_back(to_json(v));
+  for (const auto& v : surface.vertices) vertices.push_back(vector_json(v));
   for (const auto& t : surface.triangles) {
     triangles.push_back(t.vertices);
     quadrics.push_back(t.quadric);
@@ -54,10 +42,10 @@ Json outline_json(const CombinedEllipse& body) {
   Json arcs = Json::array(), all = Json::array();
   for (const BoundaryArc& arc : outline(body)) {
     Json points = Json::array();
-    for (const auto& p : arc.points) points.push_back(to_json(p));
+    for (const auto& p : arc.points) points.push_back(vector_json(p));
     arcs.push_back({{"conic", arc.conic}, {"points", points}});
   }
-  for (const Corner& c : corners(body)) all.push_back(to_json(c.point));
+  for (const Corner& c : corners(body)) all.push_back(vector_json(c.point));
   Json json = body_json(body);
   json["arcs"] = arcs;
   json["corners"] = all;

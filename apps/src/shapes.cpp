@@ -11,6 +11,7 @@
 #include <set>
 
 #include "figures.h"
+#include "json_value.h"
 #include "provenance.h"
 #include "shape_engagements.h"
 #include "shape_json.h"
@@ -19,7 +20,6 @@ namespace vericone {
 namespace {
 
 using Eigen::Vector2d, Eigen::Vector3d;
-using Json = nlohmann::ordered_json;
 
 // The bodies of the pictures; the source prints no sizes. Lengths in metres.
 CombinedEllipsoid biconcave() {
@@ -130,14 +130,14 @@ Json dented_conic_figure() {
           {"family", family}};
 }
 
-struct Figure {
+struct ShapeFigure {
   const char* name;
   const char* script;
   Json (*data)(Shapes&);
 };
 
-const std::vector<Figure>& all_figures() {
-  static const std::vector<Figure> all{
+const std::vector<ShapeFigure>& shape_figures() {
+  static const std::vector<ShapeFigure> all{
       {"dented_conic", "combined_planar.py", [](Shapes&) { return dented_conic_figure(); }},
       {"biconcave", "combined_solids.py",
        [](Shapes& s) {
@@ -180,21 +180,21 @@ void run_shapes(const ShapesOptions& options, std::ostream& out) {
     throw InputError("--mesh", options.mesh, "obj or ply");
   if (!(options.resolution >= 0.02 && options.resolution <= 0.5))
     throw InputError("--resolution", to_text(options.resolution), "between 0.02 and 0.5");
-  std::vector<const Figure*> chosen;
+  std::vector<const ShapeFigure*> chosen;
   std::string names;
-  for (const Figure& f : all_figures()) {
+  for (const ShapeFigure& f : shape_figures()) {
     names.append(names.empty() ? "" : ", ").append(f.name);
     if (options.which.empty() || std::count(options.which.begin(), options.which.end(), f.name))
       chosen.push_back(&f);
   }
   for (const std::string& name : options.which)
-    if (std::none_of(chosen.begin(), chosen.end(), [&](const Figure* f) { return f->name == name; }))
+    if (std::none_of(chosen.begin(), chosen.end(), [&](const ShapeFigure* f) { return f->name == name; }))
       throw InputError("--figure", name, "one of " + names);
   const std::filesystem::path folder = options.out;
   std::filesystem::create_directories(folder);
   Shapes shapes(options, out);
   std::vector<std::string> written, scripts;
-  for (const Figure* f : chosen) {
+  for (const ShapeFigure* f : chosen) {
     const auto file = folder / (std::string(f->name) + ".json");
     write_whole(file, f->data(shapes).dump() + "\n");
     out << "data      " << file.string() << '\n';

@@ -15,13 +15,13 @@
 #include <vector>
 
 #include "figures.h"
+#include "json_value.h"
 #include "provenance.h"
 
 namespace vericone {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector3d;
-using Json = nlohmann::ordered_json;
 
 /// Two axes of the map are stretched by this: flat bodies, on which plain doubles are visibly wrong.
 constexpr double kFlatness = 0x1p4;
@@ -79,12 +79,8 @@ std::vector<double> neighbours(double x, int half) {
   return values;
 }
 
-Json numbers(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-Json body_json(const Ellipsoid& body) {
-  Json shape = Json::array();
-  for (int i = 0; i < 3; ++i) shape.push_back(numbers(body.shape().row(i).transpose()));
-  return {{"center", numbers(body.center())}, {"shape", shape}};
+Json ellipsoid_json(const Ellipsoid& body) {
+  return {{"center", vector_json(body.center())}, {"shape", matrix_json(body.shape())}};
 }
 
 }  // namespace
@@ -113,9 +109,9 @@ void run_signmap(const SignMapOptions& options, std::ostream& out) {
       table.append(to_string(naive)).append(",").append(to_string(library)).append(",");
       table.append(to_string(rung)).append("\n");
     }
-  Json summary = {{"agent", body_json(g.a)},
-                  {"obstacle", body_json(g.b)},
-                  {"velocity", numbers(g.w)},
+  Json summary = {{"agent", ellipsoid_json(g.a)},
+                  {"obstacle", ellipsoid_json(g.b)},
+                  {"velocity", vector_json(g.w)},
                   {"ulp",
                    {std::nextafter(std::abs(g.w.x()), 1e308) - std::abs(g.w.x()),
                     std::nextafter(std::abs(g.w.y()), 1e308) - std::abs(g.w.y())}},

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <map>
 #include <string>
+
+#include "command/program.h"
 
 namespace vericone {
 
-/// simulate, campaign, claims and figures, which need VERICONE_SIMULATION and say so without. `status`
-/// becomes the exit status.
-void add_simulation_commands(CLI::App& app, const std::string& command_line, int& status);
+/// simulate, campaign, claims and figures; none in a build without VERICONE_SIMULATION.
+std::map<std::string, Command> simulation_commands();
 
 }  // namespace vericone

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-namespace vericone {
+#include "json_value.h"
 
-using Json = nlohmann::ordered_json;
+namespace vericone {
 
 Json sector_json(const Slice& s, const Eigen::Vector3d& axis, const Eigen::Vector3d& agent_velocity,
                  const Eigen::Vector3d& obstacle_velocity) {
@@ -29,12 +29,11 @@ Json sector_json(const Slice& s, const Eigen::Vector3d& axis, const Eigen::Vecto
 }
 
 Json polyhedral_json(const PolyhedralCone& cone) {
-  const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
   Json directions = Json::array();
-  for (const auto& d : cone.directions) directions.push_back({d.x(), d.y(), d.z()});
+  for (const auto& d : cone.directions) directions.push_back(vector_json(d));
   return {{"directions", directions},
-          {"solid_angle", number(cone.solid_angle)},
-          {"cross_section_area", number(cone.cross_section_area)}};
+          {"solid_angle", number_or_null(cone.solid_angle)},
+          {"cross_section_area", number_or_null(cone.cross_section_area)}};
 }
 
 }  // namespace vericone

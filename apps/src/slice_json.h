@@ -2,17 +2,17 @@
 #pragma once
 
 #include <vericone/cones/slice_cone.h>
-#include <nlohmann/json.hpp>
+
+#include "json_forward.h"
 
 namespace vericone {
 
 /// One plane's sector with the source's y (6.14) and the velocities projected on the line of sight and across
 /// it (docs/formats.md).
-nlohmann::ordered_json sector_json(const Slice& slice, const Eigen::Vector3d& axis,
-                                   const Eigen::Vector3d& agent_velocity,
-                                   const Eigen::Vector3d& obstacle_velocity);
+Json sector_json(const Slice& slice, const Eigen::Vector3d& axis, const Eigen::Vector3d& agent_velocity,
+                 const Eigen::Vector3d& obstacle_velocity);
 
 /// {"directions", "solid_angle", "cross_section_area"}.
-nlohmann::ordered_json polyhedral_json(const PolyhedralCone& cone);
+Json polyhedral_json(const PolyhedralCone& cone);
 
 }  // namespace vericone

@@ -5,7 +5,6 @@
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -22,13 +21,14 @@
 #include "cone.h"
 #include "figures.h"
 #include "interrupt.h"
+#include "json_value.h"
 #include "provenance.h"
 #include "resumable_table.h"
+#include "stopwatch.h"
 
 namespace vericone::accuracy {
 namespace {
 
-using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 /// Everything the figures and the text show, from the rows of one table.
@@ -237,7 +237,7 @@ int run_accuracy(const Options& given, std::ostream& out) {
   std::vector<Scan> scans;
   for (const fs::path& file : scan_files(options.scans)) scans.push_back(read_scan(file));
   catch_interrupts();
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   const auto stopped = [&] {
     out << "interrupted; the same command goes on where it stopped (" << folder.string() << ")\n";
     return kExitInterrupted;
@@ -253,8 +253,7 @@ int run_accuracy(const Options& given, std::ostream& out) {
     return csv_row(std::to_string(i), measure(a, b, options.planes));
   };
   if (run_table(random) == TableOutcome::interrupted) return stopped();
-  const double random_seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double random_seconds = seconds_since(start);
 
   std::vector<Measurement> rows;
   for (auto& [id, m] : read_table(random.table, options.planes)) rows.push_back(std::move(m));
@@ -322,7 +321,7 @@ int run_accuracy(const Options& given, std::ostream& out) {
   origin["planes"] = options.planes;
   origin["scans"] = Json::array();
   for (const auto& file : scan_files(options.scans)) origin["scans"].push_back(file.string());
-  origin["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  origin["seconds"] = seconds_since(start);
   write_whole(folder / "provenance.json", origin.dump(1) + "\n");
   out << "tables    " << (folder / "engagements.csv").string();
   if (!scans.empty()) out << ", " << (folder / "scans.csv").string();

@@ -5,7 +5,6 @@
 #include <vericone/cones/combined_slice_cone.h>
 #include <vericone/geometry/error.h>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -18,13 +17,14 @@
 #include "accuracy/statistics.h"
 #include "figures.h"
 #include "interrupt.h"
+#include "json_value.h"
 #include "provenance.h"
 #include "resumable_table.h"
+#include "stopwatch.h"
 
 namespace vericone::accuracy {
 namespace {
 
-using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kDefaultEngagements = 1000;
@@ -141,7 +141,7 @@ Json summarise(const std::vector<Row>& rows, const std::vector<int>& planes) {
   return summary;
 }
 
-void print_summary(const Json& s, std::ostream& out) {
+void print_combined_summary(const Json& s, std::ostream& out) {
   const auto number = [](const Json& value) { return value.get<double>(); };
   const auto range = [&](const Json& value) {
     return percent(number(value[0])) + " to " + percent(number(value[1]));
@@ -175,10 +175,8 @@ int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostrea
   const std::uint64_t count = options.engagements.value_or(kDefaultEngagements);
   const fs::path folder = options.out;
   catch_interrupts();
-  const auto start = std::chrono::steady_clock::now();
-  const auto seconds = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  };
+  const auto start = Clock::now();
+  const auto seconds = [&] { return seconds_since(start); };
 
   ResumableTable campaign;
   campaign.table = folder / "engagements.csv";
@@ -208,7 +206,7 @@ int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostrea
   out << count << " random engagements with " << options.obstacle << " obstacles, " << options.planes.size()
       << " plane counts, true cones certified to " << percent(tolerance) << ", " << std::fixed
       << std::setprecision(1) << seconds() << " s\n";
-  print_summary(summary["random"], out);
+  print_combined_summary(summary["random"], out);
   write_whole(folder / "summary.json", summary.dump(1) + "\n");
   Json origin = provenance(options.command_line);
   origin["seed"] = options.seed;

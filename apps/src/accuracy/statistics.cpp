@@ -6,6 +6,8 @@
 #include <iomanip>
 #include <sstream>
 
+#include "json_value.h"
+
 namespace vericone::accuracy {
 
 Spread spread(std::vector<double> values) {
@@ -18,9 +20,7 @@ Spread spread(std::vector<double> values) {
   return s;
 }
 
-nlohmann::ordered_json spread_json(const Spread& s) {
-  return {{"median", s.median}, {"mean", s.mean}, {"worst", s.worst}};
-}
+Json spread_json(const Spread& s) { return {{"median", s.median}, {"mean", s.mean}, {"worst", s.worst}}; }
 
 double order(const std::vector<double>& n, const std::vector<double>& error) {
   double sx = 0, sy = 0, sxx = 0, sxy = 0;

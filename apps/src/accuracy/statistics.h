@@ -3,9 +3,10 @@
 // Summaries of tables and how they are written.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "json_forward.h"
 
 namespace vericone::accuracy {
 
@@ -14,7 +15,7 @@ struct Spread {
 };
 
 Spread spread(std::vector<double> values);
-nlohmann::ordered_json spread_json(const Spread& s);
+Json spread_json(const Spread& s);
 
 /// Slope of log(error) against log(n), by least squares.
 double order(const std::vector<double>& n, const std::vector<double>& error);

@@ -5,6 +5,7 @@
 #include "fit/cone_agent.h"
 #include "input/scene.h"
 #include "input/spatial_body.h"
+#include "json_value.h"
 
 namespace vericone {
 
@@ -13,7 +14,7 @@ ConeRequest read_cone_request(const std::string& argument) {
   if (!std::filesystem::is_regular_file(argument))
     throw InputError("--cone", argument, "x,y,z,radius, around:N, or the name of a file with an ellipsoid");
   try {
-    const input::Json fields = input::read_scene_fields(argument);
+    const Json fields = input::read_scene_fields(argument);
     const bool scene = fields.is_object() && fields.contains("agent");
     const CombinedEllipsoid body =
         scene ? input::read_spatial_body(fields["agent"], "agent") : input::read_spatial_body(fields, "body");

@@ -5,19 +5,18 @@
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "fit/cone_bodies.h"
+#include "stopwatch.h"
 
 namespace vericone {
 namespace {
 
 using Eigen::Vector3d;
 using std::numbers::pi;
-using Clock = std::chrono::steady_clock;
 
 constexpr double kFinest = 1e-8;  // radians, of cone maps
 
@@ -133,7 +132,7 @@ class Comparison {
             .low = cone.low,
             .high = cone.high,
             .volume = volume,
-            .seconds = std::chrono::duration<double>(Clock::now() - start).count(),
+            .seconds = seconds_since(start),
             .method = std::move(cone.method),
             .overlapping = cone.disjoint ? 0 : 1,
             .outline = std::move(cone.outline)};

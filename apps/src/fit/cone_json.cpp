@@ -7,23 +7,20 @@
 #include <iomanip>
 #include <ostream>
 
+#include "json_value.h"
+
 namespace vericone {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Eigen::Vector3d;
-
-Json vector_json(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 Json row_json(const ConeRow& row) {
   return {{"what", row.what},
           {"low", row.low},
           {"high", row.high},
-          {"excess_low", number(row.excess_low)},
-          {"excess_high", number(row.excess_high)},
-          {"volume", row.volume ? number(*row.volume) : Json(nullptr)},
+          {"excess_low", number_or_null(row.excess_low)},
+          {"excess_high", number_or_null(row.excess_high)},
+          {"volume", number_or_null(row.volume)},
           {"overlapping", row.overlapping},
           {"method", row.method},
           {"seconds", row.seconds}};

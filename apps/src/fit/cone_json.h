@@ -4,19 +4,19 @@
 #pragma once
 
 #include <iosfwd>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "fit/cone_comparison.h"
+#include "json_forward.h"
 
 namespace vericone {
 
 /// docs/fitting-cones.md has the fields.
-nlohmann::ordered_json cones_json(const ConeComparison& comparison);
+Json cones_json(const ConeComparison& comparison);
 
 void print_cones(const ConeComparison& comparison, std::ostream& out);
 
 /// To be written as `fit_cones.json` into the folder given to draw_figures("fit_cones.py", folder).
-nlohmann::ordered_json cones_picture(const ConeComparison& comparison, const std::string& title);
+Json cones_picture(const ConeComparison& comparison, const std::string& title);
 
 }  // namespace vericone

@@ -11,12 +11,11 @@
 
 #include "input/planar_body.h"
 #include "input/spatial_body.h"
+#include "json_value.h"
 #include "shape_json.h"
 
 namespace vericone::fit {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Sheets, semi-axes and rotation of { y^T M y <= level }, whose axis is the eigenvector with the sign that
 /// the others have not.
@@ -36,8 +35,8 @@ Json hyperboloid_fields(const Delimiter<3>& d, const Eigen::Matrix3d& body, doub
   }
   if (turn.determinant() < 0) turn.col(2) = -turn.col(2);
   return {{"sheets", positive == 1 ? 2 : 1},
-          {"semi_axes", to_json(semi_axes)},
-          {"rotation", to_json(Eigen::Matrix3d(body.transpose() * turn))}};
+          {"semi_axes", vector_json(semi_axes)},
+          {"rotation", matrix_json(Eigen::Matrix3d(body.transpose() * turn))}};
 }
 
 /// Of a surface that proofs moved off the ellipsoid nothing is left to say, and scenes refuse it.
@@ -56,16 +55,16 @@ Json spatial_fields(const CombinedEllipsoid& body, double factor) {
   Json hyperboloids = Json::array();
   for (const Delimiter<3>& d : body.delimiters())
     if (delimits(d, body.ellipsoid())) hyperboloids.push_back(hyperboloid_fields(d, rotation, factor));
-  return {{"center", to_json(body.center())},
-          {"semi_axes", to_json(Eigen::Vector3d(factor * body.ellipsoid().semi_axes()))},
-          {"rotation", to_json(rotation)},
+  return {{"center", vector_json(body.center())},
+          {"semi_axes", vector_json(Eigen::Vector3d(factor * body.ellipsoid().semi_axes()))},
+          {"rotation", matrix_json(rotation)},
           {"hyperboloids", hyperboloids}};
 }
 
 Json planar_fields(const Ellipse& footprint, double factor) {
   const Eigen::Vector2d x = footprint.axis_directions().col(0);
-  return {{"center", to_json(footprint.center())},
-          {"semi_axes", to_json(Eigen::Vector2d(factor * footprint.semi_axes()))},
+  return {{"center", vector_json(footprint.center())},
+          {"semi_axes", vector_json(Eigen::Vector2d(factor * footprint.semi_axes()))},
           {"rotation", std::atan2(x.y(), x.x())}};
 }
 

@@ -3,17 +3,15 @@
 
 #include <vericone/fitting/hull.h>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <ostream>
 #include <sstream>
 
 #include "fit/fit_sample.h"
 #include "input/fields.h"
+#include "json_value.h"
 
 namespace vericone {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// What a written result says of itself.
 struct Claim {

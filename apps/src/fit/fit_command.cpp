@@ -3,7 +3,6 @@
 
 #include <vericone/geometry/error.h>
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <iostream>
 
@@ -16,18 +15,16 @@
 #include "fit/fit_text.h"
 #include "fit/hull_files.h"
 #include "interrupt.h"
+#include "json_value.h"
 #include "progress.h"
 #include "provenance.h"
 #include "staged_folder.h"
+#include "stopwatch.h"
 
 namespace vericone {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 fitting::Mode mode_of(const std::string& text) {
   for (const auto mode : {fitting::Mode::least_squares, fitting::Mode::robust, fitting::Mode::containing})
@@ -116,7 +113,7 @@ Answer answer_of(const FitCommandOptions& given, Progress& progress) {
   a.scan = fit::read_scan(given.file);
   const auto start = Clock::now();
   a.result = fit_or_explain(a.scan, options);
-  const double seconds = since(start);
+  const double seconds = seconds_since(start);
   const auto inside = a.result.certified ? fit::points_inside(a.result.pieces, a.scan.sample)
                                          : std::vector<Eigen::Vector3d>();
   a.bodies = fit::enclosing_body_fields(a.result.pieces, inside);

@@ -4,22 +4,20 @@
 #include <vericone/geometry/error.h>
 #include <cmath>
 
+#include "json_value.h"
 #include "shape_json.h"
 
 namespace vericone::fit {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using fitting::Mode;
 
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-
-Json number(const std::optional<double>& x) { return x ? number(*x) : Json(nullptr); }
-
 /// Where 0 stands for "does not apply".
-Json positive(double x) { return x > 0 ? number(x) : Json(nullptr); }
+Json positive(double x) { return x > 0 ? number_or_null(x) : Json(nullptr); }
 
-Json vector(const Eigen::Vector3d& v) { return {number(v.x()), number(v.y()), number(v.z())}; }
+Json vector(const Eigen::Vector3d& v) {
+  return {number_or_null(v.x()), number_or_null(v.y()), number_or_null(v.z())};
+}
 
 Json quadrics_json(const std::vector<Quadric>& quadrics) {
   Json list = Json::array();
@@ -38,16 +36,17 @@ Json quadrics_json(const std::vector<Quadric>& quadrics) {
 Json unknown_json(const std::vector<fitting::Unknown>& unknown) {
   Json list = Json::array();
   for (const fitting::Unknown& u : unknown)
-    list.push_back({{"what", u.what}, {"value", number(u.value)}, {"error", number(u.error)}});
+    list.push_back(
+        {{"what", u.what}, {"value", number_or_null(u.value)}, {"error", number_or_null(u.error)}});
   return list;
 }
 
 /// What only surfaces near points have.
 Json surface_json(const fitting::SurfaceFit& fit) {
   return {{"converged", fit.converged},
-          {"noise", number(fit.noise)},
-          {"inliers", number(fit.inliers)},
-          {"seen", number(fit.seen)},
+          {"noise", number_or_null(fit.noise)},
+          {"inliers", number_or_null(fit.inliers)},
+          {"seen", number_or_null(fit.seen)},
           {"center_error", vector(fit.center_error)},
           {"axes_error", vector(fit.axes_error)},
           {"unknown", unknown_json(fit.unknown)}};
@@ -78,10 +77,10 @@ Json candidates_json(const std::vector<fitting::Candidate>& candidates, Mode mod
   for (const fitting::Candidate& c : candidates)
     list.push_back({{"shape", fitting::to_string(c.shape)},
                     {"converged", c.converged},
-                    {"volume", number(c.volume)},
-                    {"noise", mode == Mode::containing ? Json(nullptr) : number(c.noise)},
+                    {"volume", number_or_null(c.volume)},
+                    {"noise", mode == Mode::containing ? Json(nullptr) : number_or_null(c.noise)},
                     {"parameters", c.parameters},
-                    {"score", number(c.score)}});
+                    {"score", number_or_null(c.score)}});
   return list;
 }
 
@@ -101,7 +100,8 @@ Json certificate_json(const fitting::FitResult& result, const Scan& scan) {
 
 Json distance_json(const std::optional<fitting::DistanceStatistics>& d) {
   if (!d) return nullptr;
-  return {{"mean", number(d->mean)}, {"rms", number(d->rms)}, {"max", number(d->max)}};
+  return {
+      {"mean", number_or_null(d->mean)}, {"rms", number_or_null(d->rms)}, {"max", number_or_null(d->max)}};
 }
 
 std::string of_all(std::size_t part, std::size_t all, const std::string& what) {
@@ -148,20 +148,20 @@ Json fit_json(const Scan& scan, const fitting::FitOptions& options, const fittin
   json["margin"] = options.margin;
   json["seed"] = options.seed;
   json["pieces"] = pieces_json(result, bodies);
-  json["volume"] = result.volume ? number(result.volume->value) : Json(nullptr);
-  json["volume_error"] = result.volume ? number(result.volume->error) : Json(nullptr);
-  json["area"] = number(result.area);
-  json["scan_volume"] = number(result.scan_volume);
-  json["convex_hull_volume"] = number(result.convex_hull_volume);
-  json["ellipsoid_volume"] = number(result.ellipsoid_volume);
+  json["volume"] = result.volume ? number_or_null(result.volume->value) : Json(nullptr);
+  json["volume_error"] = result.volume ? number_or_null(result.volume->error) : Json(nullptr);
+  json["area"] = number_or_null(result.area);
+  json["scan_volume"] = number_or_null(result.scan_volume);
+  json["convex_hull_volume"] = number_or_null(result.convex_hull_volume);
+  json["ellipsoid_volume"] = number_or_null(result.ellipsoid_volume);
   json["volume_ratio_bound"] = positive(result.volume_ratio_bound);
-  json["stationarity"] = containing ? number(result.stationarity) : Json(nullptr);
+  json["stationarity"] = containing ? number_or_null(result.stationarity) : Json(nullptr);
   json["certified"] = result.certified;
   json["certificate"] = certificate_json(result, scan);
-  json["inflation"] = number(result.inflation);
-  json["mean_distance"] = number(result.scan_to_hull.mean);
-  json["rms_distance"] = number(result.scan_to_hull.rms);
-  json["max_distance"] = number(result.scan_to_hull.max);
+  json["inflation"] = number_or_null(result.inflation);
+  json["mean_distance"] = number_or_null(result.scan_to_hull.mean);
+  json["rms_distance"] = number_or_null(result.scan_to_hull.rms);
+  json["max_distance"] = number_or_null(result.scan_to_hull.max);
   json["hull_distance"] = distance_json(result.hull_to_scan);
   json["why"] = result.why.empty() ? Json(nullptr) : Json(result.why);
   json["candidates"] = candidates_json(result.candidates, result.mode);

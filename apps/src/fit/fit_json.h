@@ -4,9 +4,9 @@
 #pragma once
 
 #include <vericone/fitting/fit.h>
-#include <nlohmann/json.hpp>
 
 #include "fit/fit_sample.h"
+#include "json_forward.h"
 
 namespace vericone::fit {
 
@@ -17,8 +17,7 @@ std::string statement(const fitting::FitResult& result, const Scan& scan);
 
 /// Every field is always there; null: does not apply or is not known. `bodies`: the fields of each piece for
 /// scenes (fit_body.h).
-nlohmann::ordered_json fit_json(const Scan& scan, const fitting::FitOptions& options,
-                                const fitting::FitResult& result,
-                                const std::vector<nlohmann::ordered_json>& bodies);
+Json fit_json(const Scan& scan, const fitting::FitOptions& options, const fitting::FitResult& result,
+              const std::vector<Json>& bodies);
 
 }  // namespace vericone::fit

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/fit_picture.h"
 
+#include "json_value.h"
 #include "pieces/decimate.h"
 #include "shape_json.h"
 
@@ -8,13 +9,11 @@ namespace vericone::fit {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 Json footprint_json(const fitting::Piece& piece) {
   const Ellipse& e = *piece.footprint;
   Json rows = Json::array();
-  for (int i = 0; i < 2; ++i) rows.push_back(to_json(Eigen::Vector2d(e.factor().row(i).transpose())));
-  return {{"center", to_json(e.center())}, {"factor", rows}, {"low", piece.low}, {"high", piece.high}};
+  for (int i = 0; i < 2; ++i) rows.push_back(vector_json(Eigen::Vector2d(e.factor().row(i).transpose())));
+  return {{"center", vector_json(e.center())}, {"factor", rows}, {"low", piece.low}, {"high", piece.high}};
 }
 
 }  // namespace
@@ -35,7 +34,7 @@ Json fit_picture(const Scan& scan, const fitting::FitResult& result,
     }
   }
   if (result.mode == fitting::Mode::containing)
-    for (const std::size_t i : result.certificate.touching) touching.push_back(to_json(sample.points[i]));
+    for (const std::size_t i : result.certificate.touching) touching.push_back(vector_json(sample.points[i]));
   data["hull"] = hull;
   data["touching"] = touching;
   return data;

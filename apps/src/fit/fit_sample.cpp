@@ -4,10 +4,10 @@
 #include <vericone/files/triangle_mesh.h>
 #include <vericone/geometry/error.h>
 #include <algorithm>
-#include <chrono>
 
 #include "input/assembly_body.h"
 #include "input/octree_body.h"
+#include "stopwatch.h"
 
 namespace vericone::fit {
 namespace {
@@ -77,7 +77,7 @@ void read_mesh(Scan& scan, files::PointFile file) {
 }  // namespace
 
 Scan read_scan(const std::string& file) {
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   Scan scan;
   scan.file = file;
   const std::string extension = std::filesystem::path(file).extension().string();
@@ -97,7 +97,7 @@ Scan read_scan(const std::string& file) {
       read_mesh(scan, std::move(read));
     }
   }
-  scan.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  scan.seconds = seconds_since(start);
   return scan;
 }
 

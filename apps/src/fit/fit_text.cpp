@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <ostream>
 
+#include "json_value.h"
+
 namespace vericone::fit {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string number(const Json& x, const char* format = "%.6g") {
   char text[48];

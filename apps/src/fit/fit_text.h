@@ -2,12 +2,13 @@
 #pragma once
 
 #include <iosfwd>
-#include <nlohmann/json.hpp>
 #include <string>
+
+#include "json_forward.h"
 
 namespace vericone::fit {
 
 /// The table of `vericone fit` from its JSON. `scan`: what was fitted, in words.
-void print_fit(const nlohmann::ordered_json& fit, const std::string& scan, std::ostream& out);
+void print_fit(const Json& fit, const std::string& scan, std::ostream& out);
 
 }  // namespace vericone::fit

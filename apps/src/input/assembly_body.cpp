@@ -2,12 +2,13 @@
 #include "input/assembly_body.h"
 
 #include <vericone/files/read_points.h>
-#include <chrono>
 #include <list>
 
 #include "input/fields.h"
 #include "input/octree_body.h"
 #include "input/spatial_body.h"
+#include "json_value.h"
+#include "stopwatch.h"
 
 namespace vericone::input {
 namespace {
@@ -33,7 +34,7 @@ std::string kind_of(const Json& value, const std::string& path) {
 void require_fields_of(const std::string& kind, const Json& value, const std::string& path) {
   std::vector<std::string> known{kind, "center", "rotation", "scale"};
   if (kind == "cloud") known.emplace_back("radius");
-  if (kind == "octree") known.insert(known.end(), octree_fields().begin(), octree_fields().end());
+  if (kind == "octree") known.insert(known.end(), {"unknown", "free", "occupied_above", "region"});
   require_known(value, path, known);
 }
 
@@ -93,10 +94,6 @@ struct Pieces {
   Json notes;
 };
 
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
 /// `make` a body of what is in a file. What the two cost stands in the notes.
 template <typename Make>
 Pieces from_points(const std::filesystem::path& path, double scale, Make make) {
@@ -107,12 +104,12 @@ Pieces from_points(const std::filesystem::path& path, double scale, Make make) {
   if (read.dropped_faces) notes["dropped_faces"] = read.dropped_faces;
   if (read.unreferenced_points && !read.faces.empty())
     notes["unreferenced_points"] = read.unreferenced_points;
-  notes["seconds_read"] = since(start);
+  notes["seconds_read"] = seconds_since(start);
   if (scale != 1)
     for (Eigen::Vector3d& x : read.points) x *= scale;
   const auto built = Clock::now();
   Assembly pieces = make(read);
-  notes["seconds_built"] = since(built);
+  notes["seconds_built"] = seconds_since(built);
   return {std::move(pieces), std::move(notes)};
 }
 
@@ -190,6 +187,20 @@ std::vector<Eigen::Vector3d> read_point_list(const Json& value, const std::strin
   return points;
 }
 
+const char* plural(PieceKind kind) {
+  switch (kind) {
+    case PieceKind::triangle:
+      return "triangles";
+    case PieceKind::ball:
+      return "balls";
+    case PieceKind::box:
+      return "boxes";
+    case PieceKind::hull:
+      return "hull";
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string pieces_kinds() {
@@ -251,6 +262,16 @@ HullBody read_hull_agent(const Json& value, const std::string& path, const std::
   std::vector<Eigen::Vector3d> points = pieces.by_slot().hulls.front().points();
   for (Eigen::Vector3d& x : points) x = body.pose.to_world(x);
   return within(path, [&] { return HullBody(std::move(points)); });
+}
+
+std::string describe(const PiecesBody& body) {
+  std::string text = body.source == "points" ? "hull" : body.source;
+  if (body.pieces.kind() == PieceKind::hull) {
+    text += " of " + std::to_string(body.pieces.by_slot().hulls.front().size()) + " points";
+  } else {
+    text += " of " + std::to_string(body.pieces.size()) + " " + plural(body.pieces.kind());
+  }
+  return body.file.empty() ? text : text + " (" + std::filesystem::path(body.file).filename().string() + ")";
 }
 
 }  // namespace vericone::input

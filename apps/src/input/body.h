@@ -8,12 +8,11 @@
 #include <vericone/geometry/pose.h>
 #include <filesystem>
 #include <initializer_list>
-#include <nlohmann/json.hpp>
 #include <variant>
 
-namespace vericone::input {
+#include "json_value.h"
 
-using Json = nlohmann::ordered_json;
+namespace vericone::input {
 
 /// One engagement: two bodies and their velocities, m and m/s.
 template <int D>
@@ -36,7 +35,7 @@ struct PiecesBody {
   std::string file;    // as given; empty for points
   Assembly pieces;     // its own frame, scaled
   Pose pose;
-  nlohmann::ordered_json notes = nlohmann::ordered_json::object();  // what was left out in reading
+  Json notes = Json::object();  // what was left out in reading
 
   Eigen::Vector3d middle() const { return pose.to_world(pieces.bounds().center()); }  // of its bounds
 };

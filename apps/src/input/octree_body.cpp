@@ -1,26 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "input/octree_body.h"
 
-#include "input/fields.h"
-#ifdef VERICONE_HAVE_OCTOMAP
 #include <vericone/octomap/read_octree.h>
-#include <chrono>
-#endif
+
+#include "input/fields.h"
+
+#include "json_value.h"
+#include "stopwatch.h"
 
 namespace vericone::input {
 
-const std::vector<std::string>& octree_fields() {
-  static const std::vector<std::string> fields{"unknown", "free", "occupied_above", "region"};
-  return fields;
-}
-
-#ifdef VERICONE_HAVE_OCTOMAP
-
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 bool read_occupied(const Json& value, const std::string& path, const char* field, bool otherwise) {
   if (!value.contains(field)) return otherwise;
@@ -76,7 +66,7 @@ OctreePieces read_octree_pieces(const Json& value, const std::string& path, cons
              {"cell", scale * tree.resolution},
              {"map_nodes", tree.nodes},
              {"unknown", meaning.unknown_occupied ? "occupied" : "free"}};
-  notes["seconds_read"] = since(start);
+  notes["seconds_read"] = seconds_since(start);
   const auto built = Clock::now();
   std::vector<Box> boxes = octomap::obstacle_boxes(tree, meaning);
   if (boxes.empty())
@@ -85,20 +75,8 @@ OctreePieces read_octree_pieces(const Json& value, const std::string& path, cons
   if (scale != 1)
     for (Box& box : boxes) box = {scale * box.low, scale * box.high};
   Assembly pieces = Assembly::boxes(std::move(boxes));
-  notes["seconds_built"] = since(built);
+  notes["seconds_built"] = seconds_since(built);
   return {std::move(pieces), std::move(notes)};
 }
-
-#else
-
-bool have_octrees() { return false; }
-
-OctreePieces read_octree_pieces(const Json& value, const std::string& path, const std::filesystem::path&,
-                                double) {
-  throw InputError(path + ".octree", quoted(value["octree"]),
-                   "left out: this vericone was built without octree maps (VERICONE_OCTOMAP)");
-}
-
-#endif
 
 }  // namespace vericone::input

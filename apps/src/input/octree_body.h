@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "input/body.h"
 
@@ -15,9 +14,6 @@ struct OctreePieces {
 
 /// Whether this build reads octree maps.
 bool have_octrees();
-
-/// The fields of an octree map beside `octree`, `center`, `rotation` and `scale`.
-const std::vector<std::string>& octree_fields();
 
 /// The cells of a map that are obstacles by what `unknown`, `free`, `occupied_above` and `region` say. Throws
 /// InputError with `path` before the field.

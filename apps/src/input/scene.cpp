@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <set>
 
+#include "json_value.h"
+
 namespace vericone::input {
 namespace {
 

@@ -3,7 +3,6 @@
 
 #include <vericone/geometry/error.h>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <ostream>
@@ -11,15 +10,16 @@
 
 #include "figures.h"
 #include "interrupt.h"
+#include "json_value.h"
 #include "montecarlo/summary.h"
 #include "provenance.h"
 #include "resumable_table.h"
+#include "stopwatch.h"
 
 namespace vericone::montecarlo {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 void require_positive(const char* option, double value, const char* unit) {
   if (!(value > 0) || !std::isfinite(value))
@@ -64,7 +64,7 @@ int run_campaign(const CampaignOptions& options, std::ostream& out) {
   const std::vector<Flown> laws = flown_laws(options.laws, settings);
   const fs::path folder = options.out;
   catch_interrupts();
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   ResumableTable table;
   table.table = folder / "engagements.csv";
   table.settings = settings_line(options);
@@ -79,7 +79,7 @@ int run_campaign(const CampaignOptions& options, std::ostream& out) {
     out << "interrupted; the same command goes on where it stopped (" << folder.string() << ")\n";
     return kExitInterrupted;
   }
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = seconds_since(start);
   Json summary = summarise(read_table(table.table, laws.size()), laws);
   summary["settings"] = table.settings;
   summary["seconds"] = seconds;

@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <ostream>
 
+#include "json_value.h"
+
 namespace vericone::montecarlo {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr double kBin = 0.25, kLastBin = 15;  // m
 
@@ -20,7 +20,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-Json number_or_null(double x) { return std::isnan(x) ? Json(nullptr) : Json(x); }
+Json null_if_nan(double x) { return std::isnan(x) ? Json(nullptr) : Json(x); }
 
 /// Counts over the outcomes that `of` takes from the rows.
 template <typename Of>
@@ -43,8 +43,8 @@ Json count(const std::vector<Row>& rows, Of of) {
           {"infeasible", infeasible},
           {"called_safe_and_met", unsafe},
           {"undecided", undecided},
-          {"median_peak", number_or_null(median(peaks))},
-          {"median_left_cone", number_or_null(median(left))},
+          {"median_peak", null_if_nan(median(peaks))},
+          {"median_left_cone", null_if_nan(median(left))},
           {"least_distances", histogram}};
 }
 

@@ -7,6 +7,7 @@
 
 #include "claims.h"
 #include "interrupt.h"
+#include "json_value.h"
 #include "paper/papers_folder.h"
 #include "progress.h"
 #include "provenance.h"
@@ -17,7 +18,6 @@ namespace vericone {
 namespace {
 
 using dhal2022::Claim;
-using Json = nlohmann::ordered_json;
 
 Json claims_json(const std::vector<Claim>& claims, const std::string& command_line) {
   Json list = Json::array();

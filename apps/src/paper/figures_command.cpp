@@ -2,7 +2,6 @@
 #include "paper/figures_command.h"
 
 #include <vericone/geometry/error.h>
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <ostream>
@@ -14,19 +13,20 @@
 #include "figure.h"
 #include "figures.h"
 #include "interrupt.h"
+#include "json_value.h"
 #include "paper/papers_folder.h"
 #include "progress.h"
 #include "provenance.h"
 #include "report.h"
 #include "simulate/run_files.h"
 #include "staged_folder.h"
+#include "stopwatch.h"
 
 namespace vericone {
 namespace {
 
 namespace fs = std::filesystem;
 using dhal2022::Figure;
-using Json = nlohmann::ordered_json;
 
 constexpr std::uint64_t kEngagements = 1000;  // of Fig 6.5; `vericone accuracy` makes it of 10,000
 
@@ -151,7 +151,7 @@ int run_figures(const FiguresOptions& options, std::ostream& out) {
   }
   StagedFolder(options.out, "--out");
   catch_interrupts();
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   try {
     Progress progress(options.quiet);
     Maker maker(options, progress);
@@ -165,7 +165,7 @@ int run_figures(const FiguresOptions& options, std::ostream& out) {
     if (interrupted()) return kExitInterrupted;
     throw;
   }
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = seconds_since(start);
   const fs::path folder = options.out;
   out << "figures             " << figures.size() << ", as PDF, PNG, CSV and JSON, in " << folder.string()
       << '\n'

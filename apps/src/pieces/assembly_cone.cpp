@@ -3,26 +3,21 @@
 
 #include <vericone/geometry/error.h>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <ostream>
 
 #include "answer.h"
+#include "degrees.h"
+#include "input/assembly_body.h"
+#include "json_value.h"
+#include "stopwatch.h"
 
 namespace vericone {
 namespace {
 
 using std::numbers::pi;
-using Json = nlohmann::ordered_json;
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-double degrees(double x) { return x * 180 / pi; }
-
-Json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 Eigen::Vector3d axis_of(const input::AssemblyEngagement& e) {
   const Eigen::Vector3d axis = e.obstacle.middle() - agent_center(e);
@@ -35,20 +30,6 @@ double envelope_of(const std::vector<ExtremeDirection>& extremes) {
   for (const ExtremeDirection& x : extremes)
     if (x.any) sum += 1 - std::cos(0.5 * (x.low + x.high));
   return 2 * pi * sum / static_cast<double>(extremes.size());
-}
-
-const char* plural(PieceKind kind) {
-  switch (kind) {
-    case PieceKind::triangle:
-      return "triangles";
-    case PieceKind::ball:
-      return "balls";
-    case PieceKind::box:
-      return "boxes";
-    case PieceKind::hull:
-      return "hull";
-  }
-  return "";
 }
 
 }  // namespace
@@ -87,23 +68,13 @@ AssemblyCone assembly_cone(const input::AssemblyEngagement& e, int half_planes, 
   const auto start = Clock::now();
   AssemblyCone cone(assembly_oracle(e), axis_of(e), tolerance);
   cone.relation = cone.oracle.relation();
-  cone.seconds_prepared = since(start);
+  cone.seconds_prepared = seconds_since(start);
   if (cone.relation != Relation::disjoint) return cone;
   const auto prepared = Clock::now();
   cone.extremes = cone.oracle.extremes(cone.frame.axis, half_planes, tolerance, &cone.effort);
   cone.envelope = envelope_of(cone.extremes);
-  cone.seconds = since(prepared);
+  cone.seconds = seconds_since(prepared);
   return cone;
-}
-
-std::string describe(const input::PiecesBody& body) {
-  std::string text = body.source == "points" ? "hull" : body.source;
-  if (body.pieces.kind() == PieceKind::hull) {
-    text += " of " + std::to_string(body.pieces.by_slot().hulls.front().size()) + " points";
-  } else {
-    text += " of " + std::to_string(body.pieces.size()) + " " + plural(body.pieces.kind());
-  }
-  return body.file.empty() ? text : text + " (" + std::filesystem::path(body.file).filename().string() + ")";
 }
 
 Json to_json(const AssemblyCone& cone, const input::AssemblyEngagement& e) {

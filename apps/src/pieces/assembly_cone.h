@@ -43,10 +43,7 @@ struct AssemblyCone {
 AssemblyCone assembly_cone(const input::AssemblyEngagement& engagement, int half_planes, double tolerance);
 
 /// As docs/formats.md says; without the map and the verdict.
-nlohmann::ordered_json to_json(const AssemblyCone& cone, const input::AssemblyEngagement& engagement);
+Json to_json(const AssemblyCone& cone, const input::AssemblyEngagement& engagement);
 void print_text(const AssemblyCone& cone, const input::AssemblyEngagement& engagement, std::ostream& out);
-
-/// "mesh of 69451 triangles (bunny.obj)".
-std::string describe(const input::PiecesBody& body);
 
 }  // namespace vericone

@@ -6,16 +6,15 @@
 #include <set>
 #include <unordered_map>
 
+#include "json_value.h"
+
 namespace vericone {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Triangle = std::array<Eigen::Vector3d, 3>;
 
 constexpr std::size_t kMostTriangles = 24'000, kMostPoints = 30'000;
 constexpr double kColumns = 420;  // of the view from above
-
-Json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 Json triangle_json(const Triangle& t) {
   Json numbers = Json::array();

@@ -3,18 +3,17 @@
 // Fewer pieces for a picture; nothing else is computed with them.
 #pragma once
 
-#include <nlohmann/json.hpp>
-
 #include "input/body.h"
+#include "json_forward.h"
 
 namespace vericone {
 
 /// The pieces in world coordinates, thinned to what a picture shows: {"triangles": [[9 numbers]]} (corners of
 /// one cell of a grid joined), {"points": [[x, y, z]], "radius"} or {"boxes": [[x, y, z, half width]]}.
-nlohmann::ordered_json shown_pieces(const input::PiecesBody& body);
+Json shown_pieces(const input::PiecesBody& body);
 
 /// The body from above as rows of characters, south to north: {"low": [x, y], "cell": metres, "rows"};
 /// '#': it has something between `low` and `high` (m) there, '+': only below or above, '.': nothing.
-nlohmann::ordered_json top_view(const input::PiecesBody& body, double low, double high);
+Json top_view(const input::PiecesBody& body, double low, double high);
 
 }  // namespace vericone

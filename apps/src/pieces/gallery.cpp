@@ -4,7 +4,6 @@
 #include <vericone/files/read_points.h>
 #include <vericone/geometry/error.h>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -13,6 +12,7 @@
 
 #include "input/assembly_body.h"
 #include "interrupt.h"
+#include "json_value.h"
 #include "map_answer.h"
 #include "pieces/assembly_cone.h"
 #include "pieces/pieces_picture.h"
@@ -22,7 +22,6 @@ namespace vericone {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 bool is_map(const fs::path& file) { return file.extension() == ".bt" || file.extension() == ".ot"; }
 

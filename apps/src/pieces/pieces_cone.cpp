@@ -3,22 +3,22 @@
 
 #include <vericone/cones/visible_cone.h>
 #include <vericone/geometry/error.h>
-#include <chrono>
 #include <filesystem>
 #include <ostream>
 
 #include "answer.h"
 #include "figures.h"
+#include "input/assembly_body.h"
+#include "json_value.h"
 #include "pieces/assembly_cone.h"
 #include "pieces/pieces_picture.h"
 #include "pieces/world_mesh.h"
 #include "provenance.h"
 #include "slice_json.h"
+#include "stopwatch.h"
 
 namespace vericone {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 void refuse_options(const ConeOptions& options) {
   if (options.samples)
@@ -34,10 +34,10 @@ Json slices_json(const input::AssemblyEngagement& e, int planes) {
     throw InputError("--method", "slice",
                      "left out except for an ellipsoid and a mesh, a scene of ellipsoids, or scan");
   const WorldMesh mesh = world_mesh(e.obstacle);
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   const VisibleCone cone = visible_cone(*agent, mesh_section_points(mesh.points, mesh.triangles),
                                         e.obstacle.middle(), planes, {.search = {}, .by_search = false});
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = seconds_since(start);
   const AssemblyOracle oracle = assembly_oracle(e);
   Json result{{"method", "slice"},
               {"planes", planes},

@@ -9,19 +9,18 @@
 
 #include "answer.h"
 #include "figures.h"
+#include "input/assembly_body.h"
+#include "json_value.h"
 #include "pieces/decimate.h"
 #include "provenance.h"
 
 namespace vericone {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using std::numbers::pi;
 
 constexpr int kPixels = 201;                                // across the view along the axis
 constexpr int kPanoramaWidth = 360, kPanoramaHeight = 180;  // one degree a pixel
-
-Json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 Json agent_json(const input::AssemblyEngagement& e) {
   if (const auto* ellipsoid = std::get_if<Ellipsoid>(&e.agent)) {

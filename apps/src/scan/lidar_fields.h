@@ -15,6 +15,6 @@ struct SceneLidars {
 
 /// The fields `lidars` and `pose_error` of a scene (docs/formats.md). Throws InputError naming the
 /// field.
-SceneLidars read_lidars(const input::Json& scene);
+SceneLidars read_lidars(const Json& scene);
 
 }  // namespace vericone::scanning

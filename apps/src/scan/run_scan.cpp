@@ -9,9 +9,10 @@
 #include <sstream>
 
 #include "figures.h"
+#include "input/assembly_body.h"
 #include "input/scene.h"
 #include "input/spatial_body.h"
-#include "pieces/assembly_cone.h"
+#include "json_value.h"
 #include "pieces/world_mesh.h"
 #include "provenance.h"
 #include "scan/lidar_fields.h"
@@ -24,7 +25,6 @@ namespace {
 
 using namespace scanning;
 using Eigen::Vector3d;
-using Json = nlohmann::ordered_json;
 
 struct Scene {
   input::AssemblyEngagement engagement;

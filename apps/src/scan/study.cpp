@@ -6,7 +6,6 @@
 #include <vericone/geometry/error.h>
 #include <vericone/lidar/scan.h>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -14,20 +13,16 @@
 
 #include "scan/study_parts.h"
 #include "scan/visible_part.h"
+#include "stopwatch.h"
 
 namespace vericone::scanning {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Eigen::Vector3d;
 using std::numbers::pi;
 
 constexpr double kAngle = 1e-7;  // rad, to which the true cones are found
 constexpr int kMostLevels = 12;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// Between every two angles `factor` - 1 more at equal steps; after the last one of a full turn, too.
 std::vector<double> finer(const std::vector<double>& angles, int factor) {

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <ostream>
 
 #include "scan/study.h"
 
+#include "json_value.h"
+
 namespace vericone::scanning {
 namespace {
 
-using Json = nlohmann::ordered_json;  // NaN becomes null
+using Json = Json;  // NaN becomes null
 
 Json to_json(const Eigen::Vector2d& v) { return {v.x(), v.y()}; }
 Json to_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }

@@ -9,6 +9,6 @@ namespace vericone::scenario {
 
 /// The fields position, velocity (or speed with heading), orientation and rotation of a body into its `start`
 /// and `orientation`. Throws InputError with `path` before the field.
-void read_motion(const input::Json& value, const std::string& path, bool planar, simulation::Body& body);
+void read_motion(const Json& value, const std::string& path, bool planar, simulation::Body& body);
 
 }  // namespace vericone::scenario

@@ -8,6 +8,6 @@
 namespace vericone::scenario {
 
 /// Throws InputError with `path` before the field, also for fields that the law does not read.
-simulation::Pilot read_pilot(const input::Json& value, const std::string& path, bool planar);
+simulation::Pilot read_pilot(const Json& value, const std::string& path, bool planar);
 
 }  // namespace vericone::scenario

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "input/scene.h"
+#include "json_value.h"
 #include "simulate/read_motion.h"
 #include "simulate/read_pilot.h"
 #include "simulate/read_shape.h"

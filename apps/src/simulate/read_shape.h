@@ -8,6 +8,6 @@
 namespace vericone::scenario {
 
 /// The shape of a body in its own frame. Throws InputError with `path` before the field.
-simulation::ShapeInTime read_shape(const input::Json& value, const std::string& path);
+simulation::ShapeInTime read_shape(const Json& value, const std::string& path);
 
 }  // namespace vericone::scenario

@@ -6,8 +6,9 @@
 
 #include <vericone/simulation/run.h>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
+
+#include "json_value.h"
 
 namespace vericone::scenario {
 
@@ -19,9 +20,9 @@ std::string planes_csv(const simulation::Scenario& scenario, const simulation::R
 std::string events_csv(const simulation::Scenario& scenario, const simulation::Run& run);
 
 /// The verdict and what is proved of every pair.
-nlohmann::ordered_json proof_json(const simulation::Scenario& scenario, const simulation::Run& run);
+Json proof_json(const simulation::Scenario& scenario, const simulation::Run& run);
 /// What the bodies look like in their own frames.
-nlohmann::ordered_json shapes_json(const simulation::Scenario& scenario);
+Json shapes_json(const simulation::Scenario& scenario);
 
 /// What an event's value is: "m", "s" or "1"; empty where it has none.
 std::string unit_of(const simulation::Scenario& scenario, const simulation::Event& event);
@@ -35,8 +36,7 @@ struct RunOrigin {
 };
 
 /// Counts, verdict, times, provenance.
-nlohmann::ordered_json run_json(const simulation::Scenario& scenario, const simulation::Run& run,
-                                const RunOrigin& origin);
+Json run_json(const simulation::Scenario& scenario, const simulation::Run& run, const RunOrigin& origin);
 
 /// All of these files and a copy of the scenario's into `folder`; planes.csv where planes are logged. Throws
 /// std::runtime_error naming the path.

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulate/run_files.h"
 
+#include "json_value.h"
+
 namespace vericone::scenario {
 namespace {
 
 using namespace simulation;
-using Json = nlohmann::ordered_json;
-
-Json numbers(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 Json k_json(const Oscillation& k) {
   if (k.amplitude == 0) return k.absolute ? std::abs(k.offset) : k.offset;
@@ -18,17 +17,6 @@ Json k_json(const Oscillation& k) {
           {"absolute", k.absolute}};
 }
 
-template <int D>
-Json rows(const Eigen::Matrix<double, D, D>& m) {
-  Json list = Json::array();
-  for (int i = 0; i < D; ++i) {
-    Json row = Json::array();
-    for (int j = 0; j < D; ++j) row.push_back(m(i, j));
-    list.push_back(row);
-  }
-  return list;
-}
-
 /// Semi-axes in the order of the factor's columns, which a scenario writes along x, y, z.
 template <int D>
 Json combined_json(const BasicCombined<D>& body, const char* ellipsoid, const char* delimited) {
@@ -37,11 +25,11 @@ Json combined_json(const BasicCombined<D>& body, const char* ellipsoid, const ch
   Json axes = Json::array();
   for (int i = 0; i < D; ++i) axes.push_back(factor.col(i).norm());
   json["semi_axes"] = axes;
-  json["factor"] = rows<D>(factor);
+  json["factor"] = matrix_json(factor);
   if (body.is_ellipsoid()) return json;
   json["delimiters"] = Json::array();
   for (const Delimiter<D>& d : body.delimiters())
-    json["delimiters"].push_back({{"matrix", rows<D>(d.matrix)}, {"level", d.level}});
+    json["delimiters"].push_back({{"matrix", matrix_json(d.matrix)}, {"level", d.level}});
   return json;
 }
 
@@ -51,7 +39,7 @@ Json shape_json(const guidance::Shape& shape) {
   if (const auto* ellipsoid = std::get_if<CombinedEllipsoid>(&shape))
     return combined_json<3>(*ellipsoid, "ellipsoid", "combined");
   Json points = Json::array();
-  for (const Eigen::Vector3d& x : std::get<HullBody>(shape).points()) points.push_back(numbers(x));
+  for (const Eigen::Vector3d& x : std::get<HullBody>(shape).points()) points.push_back(vector_json(x));
   return {{"kind", "hull"}, {"points", points}};
 }
 
@@ -59,7 +47,8 @@ Json shape_json(const ShapeInTime& shape) {
   if (const auto* conic = std::get_if<DentedConic>(&shape))
     return {{"kind", "dented_conic"}, {"a_c", conic->a_c}, {"b_c", conic->b_c}, {"k", k_json(conic->k)}};
   if (const auto* quadric = std::get_if<DentedQuadric>(&shape))
-    return {{"kind", "dented_quadric"}, {"dented", numbers(quadric->semi_axes)}, {"k", k_json(quadric->k)}};
+    return {
+        {"kind", "dented_quadric"}, {"dented", vector_json(quadric->semi_axes)}, {"k", k_json(quadric->k)}};
   return shape_json(std::get<RigidShape>(shape).shape);
 }
 
@@ -82,7 +71,7 @@ Json proof_json(const Scenario& scenario, const Run& run) {
       entry["least_distance"] = proof.least_distance;
       entry["least_time"] = proof.least_time;
     } else {
-      entry["place"] = numbers(proof.place);
+      entry["place"] = vector_json(proof.place);
     }
     pairs.push_back(entry);
   }

@@ -10,7 +10,7 @@
 
 namespace vericone::scenario {
 
-using Json = input::Json;
+using Json = Json;
 
 inline std::string join(const std::string& path, const char* field) {
   return path.empty() ? field : path + "." + field;

@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulate/simulate_command.h"
 
-#include <chrono>
 #include <filesystem>
 #include <ostream>
 
 #include "figures.h"
 #include "interrupt.h"
+#include "json_value.h"
 #include "progress.h"
 #include "simulate/read_scenario.h"
 #include "simulate/run_files.h"
 #include "simulate/run_text.h"
 #include "staged_folder.h"
+#include "stopwatch.h"
 
 namespace vericone {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-using Clock = std::chrono::steady_clock;
 
 const std::vector<std::string>& names_of_files() {
   static const std::vector<std::string> names{
@@ -40,7 +39,7 @@ int carry_out(const SimulateOptions& options, std::ostream& out) {
     run_options.progress = [&](double t) { return progress.show(what, t / scenario.duration); };
     const auto start = Clock::now();
     run = simulation::simulate(scenario, run_options);
-    seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    seconds = seconds_since(start);
     if (run->interrupted || interrupted()) return kExitInterrupted;
     progress.show("writing", 0);
     const scenario::RunOrigin origin{options.scenario, options.command_line, seconds};

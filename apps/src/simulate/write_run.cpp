@@ -2,6 +2,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "json_value.h"
 #include "provenance.h"
 #include "simulate/run_files.h"
 
@@ -9,7 +10,6 @@ namespace vericone::scenario {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 std::string content_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);

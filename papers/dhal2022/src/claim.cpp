@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "json_value.h"
+
 namespace vericone::dhal2022 {
 namespace {
 
@@ -105,10 +107,8 @@ Claim given(const Printed& printed, const std::string& text, const std::vector<d
   return claim;
 }
 
-nlohmann::ordered_json to_json(const Claim& claim) {
-  const auto optional = [](const std::optional<double>& value) {
-    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
-  };
+Json to_json(const Claim& claim) {
+  const auto optional = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
   return {{"id", claim.id},
           {"section", claim.section},
           {"figures", claim.figures},

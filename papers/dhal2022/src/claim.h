@@ -4,10 +4,11 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "json_value.h"
 
 namespace vericone::dhal2022 {
 
@@ -62,7 +63,7 @@ Claim statement(const Printed& printed, const std::string& text, bool holds, con
 Claim given(const Printed& printed, const std::string& text, const std::vector<double>& values,
             const std::vector<double>& ours, const std::string& unit);
 
-nlohmann::ordered_json to_json(const Claim& claim);
+Json to_json(const Claim& claim);
 
 /// At most `digits` significant digits.
 std::string short_text(double value, int digits = 5);

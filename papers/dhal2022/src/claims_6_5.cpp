@@ -18,7 +18,7 @@ namespace {
 using simulation::EncounterSample;
 using simulation::EventKind;
 
-const std::string kSection = "6.5";
+constexpr const char* kSection = "6.5";
 const std::string kOpen =
     "K, w, the limit of the acceleration and the sizes of C, D, E, B2 are not printed; ours were chosen so "
     "that A "

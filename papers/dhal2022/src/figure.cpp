@@ -4,10 +4,10 @@
 #include <vericone/geometry/error.h>
 #include <algorithm>
 
+#include "json_value.h"
+
 namespace vericone::dhal2022 {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 const std::vector<std::pair<std::string, std::string>> kRun1{{"source", "5.4.1"}}, kRun2{{"source", "5.4.2"}},
     kAlone{{"source", "6.5-noncooperative"}}, kTogether{{"source", "6.5-cooperative"}};

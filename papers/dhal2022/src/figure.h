@@ -3,10 +3,11 @@
 // The registry of figures: how each is made.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "json_value.h"
 
 namespace vericone::dhal2022 {
 
@@ -15,7 +16,7 @@ struct Figure {
   std::string caption;  // in our words
   std::string script;   // of papers/dhal2022/figures; empty: Fig 6.5, from `vericone accuracy`
   std::vector<std::pair<std::string, std::string>> runs;  // role and scenario
-  nlohmann::ordered_json parameters;                      // what the script is told beyond the runs
+  Json parameters;                                        // what the script is told beyond the runs
 
   std::string name() const { return "fig-" + id; }  // of its files, without extension
 };

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <sstream>
 
+#include "json_value.h"
+
 namespace vericone::dhal2022 {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kStyle = R"(
 :root { color-scheme: light; }

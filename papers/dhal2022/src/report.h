@@ -13,15 +13,15 @@ namespace vericone::dhal2022 {
 
 struct ReportFigure {
   Figure figure;
-  std::string png;                    // the picture's bytes; empty: not made
-  nlohmann::ordered_json provenance;  // of this figure
+  std::string png;  // the picture's bytes; empty: not made
+  Json provenance;  // of this figure
 };
 
 /// `provenance`: of the claims.
 std::string report_html(const std::vector<ReportFigure>& figures, const std::vector<Claim>& claims,
-                        const nlohmann::ordered_json& provenance);
+                        const Json& provenance);
 
 /// How many results and given values got each verdict.
-nlohmann::ordered_json count_verdicts(const std::vector<Claim>& claims);
+Json count_verdicts(const std::vector<Claim>& claims);
 
 }  // namespace vericone::dhal2022

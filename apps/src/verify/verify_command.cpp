@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "verify.h"
+#include "verify/verify_command.h"
 
 #include <unistd.h>
 #include <vericone/verify/assembly_campaign.h>
@@ -10,18 +10,18 @@
 
 #include <chrono>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <ostream>
 #include <string>
 #include <vector>
 
 #include "interrupt.h"
+#include "json_value.h"
 
 namespace vericone {
 namespace {
 
 /// One line on standard error: rewritten on a terminal, elsewhere printed once a step.
-class Progress {
+class CaseProgress {
  public:
   void show(const std::string& what, std::uint64_t done, std::uint64_t total) {
     const auto now = std::chrono::steady_clock::now();
@@ -62,7 +62,7 @@ constexpr PieceKind kPieces[] = {PieceKind::triangle, PieceKind::ball, PieceKind
 
 Results run(const VerifyOptions& o) {
   Results results;
-  Progress progress;
+  CaseProgress progress;
   verify::PredicateOptions options;
   options.cases = o.cases;
   options.seed = o.seed;
@@ -159,11 +159,11 @@ nlohmann::json assembly_json(const std::vector<verify::AssemblyReport>& reports)
 }
 
 void print_json(const VerifyOptions& o, const Results& r, std::ostream& out) {
-  nlohmann::ordered_json j;
+  Json j;
   j["seed"] = o.seed;
   j["wrong"] = r.wrong();
   j["interrupted"] = interrupted();
-  j["predicates"] = nlohmann::ordered_json::parse(verify::to_json(r.predicates));
+  j["predicates"] = Json::parse(verify::to_json(r.predicates));
   j["sector_by_support"] = planar_json(r.by_support);
   j["sector_by_degenerate_conics"] = planar_json(r.by_conics);
   j["cones_in_space"] = spatial_json(r.spatial);

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "command/program.h"
+
+#include <unistd.h>
+#include <vericone/geometry/error.h>
+
+#include <iostream>
+
+#include "command/catalogue.h"
+#include "command/find_program.h"
+
+namespace vericone {
+namespace {
+
+/// The exit status of `work`, with the line on standard error where it fails.
+template <typename Work>
+int guarded(Work work) {
+  try {
+    const int status = work();
+    std::cout.flush();
+    if (std::cout) return status;
+    std::cerr << "vericone: could not write to standard output\n";
+    return 1;
+  } catch (const Answered&) {
+    return 0;
+  } catch (const UsageError& e) {
+    std::cerr << "vericone: " << e.what() << " (see vericone --help)\n";
+    return 2;
+  } catch (const InputError& e) {
+    std::cerr << "vericone: " << e.what() << '\n';
+    return 2;
+  } catch (const std::exception& e) {
+    std::cerr << "vericone: " << e.what() << '\n';
+    return 1;
+  }
+}
+
+int carry_out(Command command, const std::string& called, const std::string& name,
+              std::vector<std::string> words) {
+  const CatalogueEntry* entry = find_entry(name);
+  CommandLine line(called, name, entry ? entry->what : "", std::move(words));
+  return command(line);
+}
+
+/// The program goes on as `file`. It is told that it was called as "vericone NAME", so that its help and its
+/// provenance say what the user typed.
+[[noreturn]] void become(const std::filesystem::path& file, std::string called,
+                         std::vector<std::string> words) {
+  std::vector<char*> arguments{called.data()};
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  execv(file.c_str(), arguments.data());
+  throw std::runtime_error("could not start " + file.string());
+}
+
+/// The commands with what they do, and with what is missing of those that are not there.
+std::vector<std::pair<std::string, std::string>> listed(const std::map<std::string, Command>& commands) {
+  std::vector<std::pair<std::string, std::string>> list;
+  for (const CatalogueEntry& entry : catalogue()) {
+    const bool there = commands.contains(entry.name) || find_program(entry.name);
+    list.emplace_back(entry.name, there ? entry.what : entry.what + " (needs " + entry.needs + ")");
+  }
+  return list;
+}
+
+std::string program_of(int argc, char** argv) { return argc > 0 ? argv[0] : "vericone"; }
+
+std::vector<std::string> words_of(int argc, char** argv) {
+  return argc > 0 ? std::vector<std::string>(argv + 1, argv + argc) : std::vector<std::string>();
+}
+
+}  // namespace
+
+int run_family(int argc, char** argv, const std::map<std::string, Command>& commands) {
+  return guarded([&] {
+    const std::string program = program_of(argc, argv);
+    std::vector<std::string> words = words_of(argc, argv);
+    // `vericone --help NAME` is `vericone NAME --help`.
+    if (words.size() > 1 && (words[0] == "--help" || words[0] == "-h")) std::swap(words[0], words[1]);
+    if (words.empty() || words[0].starts_with("-")) answer_without_command(program, listed(commands), words);
+
+    const std::string name = words.front(), called = program + " " + name;
+    const std::vector<std::string> rest(words.begin() + 1, words.end());
+    if (const auto own = commands.find(name); own != commands.end())
+      return carry_out(own->second, called, name, rest);
+    if (const auto file = find_program(name)) become(*file, called, rest);
+    if (const CatalogueEntry* entry = find_entry(name)) throw InputError(name, entry->lacks, entry->needs);
+    answer_without_command(program, listed(commands), words);
+  });
+}
+
+int run_program(int argc, char** argv, const std::string& name, Command command) {
+  return guarded([&] { return carry_out(command, program_of(argc, argv), name, words_of(argc, argv)); });
+}
+
+}  // namespace vericone

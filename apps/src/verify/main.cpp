@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The program `vericone-verify`, which links CGAL.
+#include <iostream>
+
+#include "command/program.h"
+#include "verify/verify_command.h"
+
+namespace {
+
+int verify_command(vericone::CommandLine& line) {
+  vericone::VerifyOptions verify;
+  line.option("--cases", verify.cases, "Cases of each predicate, 0: none").within(0, 10'000'000'000);
+  line.option("--pairs", verify.pairs, "Pairs of each family of sectors and cones, 0: none")
+      .within(0, 10'000'000);
+  line.option("--seed", verify.seed, "Seed of all random numbers");
+  line.option("--threads", verify.threads, "Threads, 0: one per processor");
+  line.flag("--json", verify.json, "Print JSON");
+  line.read();
+  return vericone::run_verify(verify, std::cout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return vericone::run_program(argc, argv, "verify", verify_command); }

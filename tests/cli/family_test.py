@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`vericone NAME` finds the program `vericone-NAME`, and the programs behave as one. Environment, besides that of
+cli_test.py: VERICONE_PROGRAMS, the names of those that were built."""
+import os
+import shutil
+import stat
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from cli_test import VERICONE, run  # noqa: E402
+
+PROGRAMS = os.environ["VERICONE_PROGRAMS"].split()
+NEEDS = {"fit": "VERICONE_FITTING", "scan": "VERICONE_LIDAR", "verify": "VERICONE_VERIFY"}
+HEAVY = ("CGAL", "gmp", "mpfr", "ceres", "embree", "Open3D", "opencv", "qhull")
+
+
+def call(program, *arguments, **options):
+    return subprocess.run([program, *arguments], capture_output=True, text=True, check=False, **options)
+
+
+def program_beside(name):
+    return os.path.join(os.path.dirname(VERICONE), "vericone-" + name)
+
+
+class Family(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.prefix = folder.name
+        self.core = os.path.join(self.prefix, "bin", "vericone")
+        os.mkdir(os.path.dirname(self.core))
+        shutil.copy(VERICONE, self.core)
+
+    def add_program(self, folder, name="echo"):
+        """A script that prints where it stands and its arguments, one a line, and ends with 7."""
+        folder = os.path.join(self.prefix, folder)
+        os.makedirs(folder, exist_ok=True)
+        path = os.path.join(folder, "vericone-" + name)
+        with open(path, "w", encoding="utf-8") as f:
+            f.write('#!/bin/sh\nprintf "%s\\n" "$0" "$@"\nexit 7\n')
+        os.chmod(path, os.stat(path).st_mode | stat.S_IXUSR)
+        return path
+
+    def call_core(self, *arguments, path=""):
+        return call(self.core, *arguments, env={**os.environ, "PATH": path})
+
+    def test_one_version(self):
+        version = run("--version").stdout
+        self.assertRegex(version, r"^vericone \d+\.\d+\.\d+ \(.+\)\n$")
+        for name in PROGRAMS:
+            for result in (run(name, "--version"), call(program_beside(name), "--version")):
+                self.assertEqual((result.returncode, result.stdout), (0, version), name)
+
+    def test_one_help(self):
+        for name in PROGRAMS:
+            through, direct = run(name, "--help"), call(program_beside(name), "--help")
+            self.assertEqual((through.returncode, direct.returncode), (0, 0))
+            self.assertIn("Usage: %s %s [OPTIONS]" % (VERICONE, name), through.stdout)
+            self.assertEqual(through.stdout.replace("%s %s " % (VERICONE, name), program_beside(name) + " "),
+                             direct.stdout)
+            self.assertEqual(run("--help", name).stdout, through.stdout)
+            self.assertIn(through.stdout.splitlines()[0], run("--help").stdout)
+
+    def test_errors_are_those_of_the_family(self):
+        for name in PROGRAMS:
+            result = call(program_beside(name), "--such")
+            self.assertEqual(result.returncode, 2)
+            self.assertRegex(result.stderr, r"^vericone: .* \(see vericone --help\)\n$")
+            self.assertEqual(run(name, "--such").stderr, result.stderr)
+
+    def test_the_core_alone_says_what_is_missing(self):
+        listed = self.call_core("--help").stdout
+        for name, option in NEEDS.items():
+            self.assertRegex(listed, r"\n  %s .*\(needs a build with %s\)\n" % (name, option))
+            result = self.call_core(name, "x")
+            self.assertEqual((result.returncode, result.stdout), (2, ""))
+            self.assertRegex(result.stderr, r"^vericone: %s: got a command without .*, must be a build with %s\n$"
+                             % (name, option))
+
+    def test_no_command_that_is_there_needs_anything(self):
+        listed = run("--help").stdout
+        for name in PROGRAMS:
+            self.assertNotRegex(listed, r"\n  %s .*needs" % name)
+
+    def test_places_in_order(self):
+        first = self.add_program("bin")
+        second = self.add_program(os.path.join("libexec", "vericone"))
+        third = self.add_program("elsewhere")
+        for expected in (first, second, third):
+            result = self.call_core("echo", "a", "b c", "--json", path=os.path.dirname(third))
+            where, *arguments = result.stdout.splitlines()
+            self.assertTrue(os.path.samefile(where, expected), (where, expected))
+            self.assertEqual((result.returncode, arguments), (7, ["a", "b c", "--json"]))
+            os.remove(expected)
+        self.assertEqual(self.call_core("echo", path=os.path.dirname(third)).returncode, 2)
+
+    def test_only_names_are_looked_for(self):
+        self.add_program("bin")
+        self.add_program(os.path.join("bin", "vericone-x"), name="y")
+        for name in ("x/vericone-y", "./echo", "ECHO", "echo*", ""):
+            result = self.call_core(name)
+            self.assertEqual((result.returncode, result.stdout), (2, ""), name)
+
+    def test_core_commands_are_not_replaced(self):
+        self.add_program("bin", name="cone")
+        self.assertEqual(self.call_core("cone").stderr, run("cone").stderr)
+
+    def test_the_core_loads_little(self):
+        libraries = call("ldd", VERICONE).stdout
+        self.assertIn("libc.so", libraries)
+        for library in HEAVY:
+            self.assertNotIn(library.lower(), libraries.lower())
+        self.assertLess(len(libraries.splitlines()), 30)
+
+
+if __name__ == "__main__":
+    unittest.main()
