@@ -8,7 +8,7 @@
 #include <limits>
 #include "support/random_assemblies.h"
 
-namespace vericone {
+namespace vericone::assembly_oracle_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -263,4 +263,4 @@ TEST(AssemblyOracle, RefusesWhatHasNoAnswer) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::assembly_oracle_test

@@ -10,7 +10,7 @@
 #include <numbers>
 #include "support/random_assemblies.h"
 
-namespace vericone {
+namespace vericone::assembly_questions_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -262,4 +262,4 @@ TEST(AssemblyQuestions, CellsAreAllInOrAllOut) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::assembly_questions_test

@@ -13,7 +13,7 @@
 #include "geometry/meshes.h"
 #include "geometry/random.h"
 
-namespace vericone::fitting {
+namespace vericone::fitting::convex_hull_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector3d;
@@ -140,4 +140,4 @@ TEST(ConvexHull, RefusesFlatPoints) {
 }
 
 }  // namespace
-}  // namespace vericone::fitting
+}  // namespace vericone::fitting::convex_hull_test

@@ -5,7 +5,7 @@
 #include <limits>
 #include "support/random_assemblies.h"
 
-namespace vericone {
+namespace vericone::assembly_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -130,4 +130,4 @@ TEST(Assembly, RefusesWhatIsNoBody) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::assembly_test

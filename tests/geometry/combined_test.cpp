@@ -16,7 +16,7 @@
 #include "combined_bodies.h"
 #include "random.h"
 
-namespace vericone {
+namespace vericone::combined_test {
 namespace {
 
 using boost::multiprecision::cpp_rational;
@@ -410,4 +410,4 @@ TEST(CombinedErrors, NameTheField) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::combined_test

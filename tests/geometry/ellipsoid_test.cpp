@@ -13,7 +13,7 @@
 
 #include "geometry/random.h"
 
-namespace vericone {
+namespace vericone::ellipsoid_test {
 namespace {
 
 using Eigen::Matrix2d, Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
@@ -354,4 +354,4 @@ TEST(Rotations, QuaternionAgreesWithEigen) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::ellipsoid_test

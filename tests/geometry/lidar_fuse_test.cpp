@@ -15,7 +15,7 @@
 #include "geometry/meshes.h"
 #include "geometry/random.h"
 
-namespace vericone::lidar {
+namespace vericone::lidar::lidar_fuse_test {
 namespace {
 
 using Eigen::Isometry3d;
@@ -189,4 +189,4 @@ TEST(Fuse, RealPairOfScans) {
 }
 
 }  // namespace
-}  // namespace vericone::lidar
+}  // namespace vericone::lidar::lidar_fuse_test

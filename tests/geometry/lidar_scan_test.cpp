@@ -14,7 +14,7 @@
 #include "geometry/meshes.h"
 #include "geometry/random.h"
 
-namespace vericone::lidar {
+namespace vericone::lidar::lidar_scan_test {
 namespace {
 
 using Eigen::Isometry3d;
@@ -254,4 +254,4 @@ TEST(Lidar, PatternsPointWhereTheySay) {
 }
 
 }  // namespace
-}  // namespace vericone::lidar
+}  // namespace vericone::lidar::lidar_scan_test

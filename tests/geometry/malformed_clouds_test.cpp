@@ -10,7 +10,7 @@
 #include "geometry/refused_files.h"
 #include "geometry/written_clouds.h"
 
-namespace vericone::files {
+namespace vericone::files::malformed_clouds_test {
 namespace {
 
 using testing::BadFile, testing::LasFile, testing::little, testing::Random, testing::TemporaryDirectory;
@@ -240,4 +240,4 @@ TEST(DamagedClouds, NeverCrashTheReader) {
 }
 
 }  // namespace
-}  // namespace vericone::files
+}  // namespace vericone::files::malformed_clouds_test

@@ -11,7 +11,7 @@
 
 #include "geometry/random.h"
 
-namespace vericone {
+namespace vericone::quadric_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Matrix4d, Eigen::Vector2d, Eigen::Vector3d, Eigen::Vector4d;
@@ -235,4 +235,4 @@ TEST(PlaneFrame, DirectionsGoThereAndBack) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::quadric_test

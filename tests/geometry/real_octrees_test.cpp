@@ -15,7 +15,7 @@
 #include "geometry/random.h"
 #include "geometry/written_files.h"
 
-namespace vericone::octomap {
+namespace vericone::octomap::real_octrees_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -160,4 +160,4 @@ TEST(WrittenScanGraphs, HaveThePointsThatOctomapHas) {
 }
 
 }  // namespace
-}  // namespace vericone::octomap
+}  // namespace vericone::octomap::real_octrees_test

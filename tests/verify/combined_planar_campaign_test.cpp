@@ -6,19 +6,17 @@
 #include <vericone/verify/combined_planar_campaign.h>
 
 #include <cstdio>
-#include <cstdlib>
 
-namespace vericone::verify {
+#include "support/campaign.h"
+
+namespace vericone::verify::combined_planar_campaign_test {
 namespace {
 
 constexpr std::uint64_t kTotal = 100'000;
 
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text ? std::strtoull(text, nullptr, 10) : otherwise;
-}
+using testing::from_environment;
 
-class CombinedPlanar : public testing::TestWithParam<CombinedPlanarFamily> {};
+class CombinedPlanar : public ::testing::TestWithParam<CombinedPlanarFamily> {};
 
 TEST_P(CombinedPlanar, NoneWrong) {
   const std::uint64_t cases =
@@ -44,8 +42,8 @@ TEST_P(CombinedPlanar, NoneWrong) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, CombinedPlanar, testing::ValuesIn(kAllCombinedPlanarFamilies),
+INSTANTIATE_TEST_SUITE_P(Families, CombinedPlanar, ::testing::ValuesIn(kAllCombinedPlanarFamilies),
                          [](const auto& family) { return std::string(name(family.param)); });
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::combined_planar_campaign_test

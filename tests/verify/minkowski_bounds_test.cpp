@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace vericone::verify {
+namespace vericone::verify::minkowski_bounds_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -102,4 +102,4 @@ TEST(MinkowskiBounds, NearBodiesHaveNoOuterCone) {
 }
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::minkowski_bounds_test
