@@ -148,7 +148,7 @@ std::size_t real_files(const std::filesystem::path& folder) {
 
 TEST(MinEllipsoid, RealScans) {
   const char* given = std::getenv("VERICONE_DATA_DIR");
-  const std::filesystem::path folder(given ? given : VERICONE_HAVE_FILES);
+  const std::filesystem::path folder(given ? given : VERICONE_DEFAULT_DATA_DIR);
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
   EXPECT_GT(real_files(folder), 0);
 }
