@@ -11,7 +11,7 @@
 #include <map>
 
 #include "geometry/meshes.h"
-#include "geometry/random.h"
+#include "support/random.h"
 
 namespace vericone::fitting::convex_hull_test {
 namespace {

@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "body_distance.h"
-#include "geometry/random.h"
+#include "support/random.h"
 
 namespace vericone::fitting::distance_test {
 namespace {

@@ -12,8 +12,8 @@
 #include <numbers>
 
 #include "geometry/meshes.h"
-#include "geometry/random.h"
 #include "scan_distance.h"
+#include "support/random.h"
 #ifdef VERICONE_HAVE_FILES
 #include <vericone/files/triangle_mesh.h>
 #endif

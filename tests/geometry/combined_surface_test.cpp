@@ -16,7 +16,7 @@
 #include <string>
 
 #include "combined_bodies.h"
-#include "random.h"
+#include "support/random.h"
 
 namespace vericone::combined_surface_test {
 namespace {

@@ -14,7 +14,7 @@
 #include <numbers>
 
 #include "combined_bodies.h"
-#include "random.h"
+#include "support/random.h"
 
 namespace vericone::combined_test {
 namespace {

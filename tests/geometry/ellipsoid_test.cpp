@@ -11,7 +11,7 @@
 #include <limits>
 #include <numbers>
 
-#include "geometry/random.h"
+#include "support/random.h"
 
 namespace vericone::ellipsoid_test {
 namespace {

@@ -13,7 +13,7 @@
 #include <optional>
 
 #include "geometry/meshes.h"
-#include "geometry/random.h"
+#include "support/random.h"
 
 namespace vericone::lidar::lidar_fuse_test {
 namespace {

@@ -12,7 +12,7 @@
 #include <numbers>
 
 #include "geometry/meshes.h"
-#include "geometry/random.h"
+#include "support/random.h"
 
 namespace vericone::lidar::lidar_scan_test {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <limits>
 
-#include "geometry/random.h"
 #include "geometry/refused_files.h"
 #include "geometry/written_clouds.h"
+#include "support/random.h"
 
 namespace vericone::files::malformed_clouds_test {
 namespace {

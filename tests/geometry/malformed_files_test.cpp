@@ -4,9 +4,9 @@
 #include <vericone/files/read_points.h>
 #include <vericone/geometry/error.h>
 
-#include "geometry/random.h"
 #include "geometry/refused_files.h"
 #include "geometry/written_files.h"
+#include "support/random.h"
 
 namespace vericone::files::malformed_files_test {
 namespace {

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "geometry/meshes.h"
-#include "geometry/random.h"
+#include "support/random.h"
 
 namespace vericone::mesh_section_test {
 namespace {

@@ -12,7 +12,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "geometry/random.h"
+#include "support/random.h"
 
 namespace vericone::min_volume_ellipsoid_test {
 namespace {

@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-#include "geometry/random.h"
+#include "support/random.h"
 
 namespace vericone::quadric_test {
 namespace {

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/random.h"
 #include "geometry/written_clouds.h"
+#include "support/random.h"
 
 namespace vericone::files::read_clouds_test {
 namespace {

@@ -10,8 +10,8 @@
 #include <functional>
 #include <limits>
 
-#include "geometry/random.h"
 #include "geometry/written_files.h"
+#include "support/random.h"
 
 namespace vericone::files::read_points_test {
 namespace {

@@ -12,8 +12,8 @@
 #include <cstdlib>
 #include <optional>
 
-#include "geometry/random.h"
 #include "geometry/written_files.h"
+#include "support/random.h"
 
 namespace vericone::octomap::real_octrees_test {
 namespace {

@@ -9,7 +9,7 @@
 #include <map>
 #include <set>
 
-#include "geometry/random.h"
+#include "support/random.h"
 
 namespace vericone::files::triangle_mesh_test {
 namespace {
