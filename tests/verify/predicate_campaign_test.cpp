@@ -32,11 +32,11 @@ std::uint64_t exact_every(const std::string& predicate) {
 PredicateOptions options(const std::string& predicate) {
   PredicateOptions o;
   constexpr std::uint64_t kCampaign = 100'000'000;  // of all predicates
-  o.cases = from_environment(
-      "VERICONE_CASES", campaign_size<std::uint64_t>(1'000'000, kCampaign / predicate_names().size() + 1));
+  o.cases = from_environment("VERICONE_CASES",
+                             campaign_size<std::uint64_t>(200'000, kCampaign / predicate_names().size() + 1));
   o.seed = from_environment("VERICONE_SEED", campaign_size(1, 2));
   o.exact_every = campaign_size(1, 16) * exact_every(predicate);
-  o.truth_every = campaign_size(512, 8192);
+  o.truth_every = campaign_size(128, 8192);
   return o;
 }
 
@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Campaign, EveryPredicate, ::testing::ValuesIn(predicate
 
 PredicateOptions few() {
   PredicateOptions o;
-  o.cases = 3000;
+  o.cases = 1500;
   o.seed = from_environment("VERICONE_SEED", 5);
   o.exact_every = 1;
   o.truth_every = 0;
@@ -135,9 +135,9 @@ TEST_P(BrokenLibrary, AnAnswerChangedOnceIsFoundAndReplayed) {
 
 TEST_P(BrokenLibrary, CountsDoNotDependOnThreads) {
   PredicateOptions o = few();
-  o.cases = 20'000;
+  o.cases = 6000;
   o.exact_every = 4;
-  o.truth_every = 100;
+  o.truth_every = 30;
   o.threads = 1;
   const PredicateReport one = run_predicate(GetParam(), o);
   o.threads = 3;
