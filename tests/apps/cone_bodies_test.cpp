@@ -8,7 +8,7 @@
 
 #include "support/random_bodies.h"
 
-namespace vericone {
+namespace vericone::cone_bodies_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -91,4 +91,4 @@ TEST(ConeOfPieces, FootprintsThatAreApartAdd) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::cone_bodies_test

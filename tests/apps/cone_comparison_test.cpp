@@ -13,7 +13,7 @@
 #include "geometry/meshes.h"
 #include "support/random_bodies.h"
 
-namespace vericone {
+namespace vericone::cone_comparison_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -303,4 +303,4 @@ TEST(ConeRequest, AgentsAroundAreSpreadEvenly) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::cone_comparison_test

@@ -13,7 +13,7 @@
 #include "geometry/meshes.h"
 #include "support/random_bodies.h"
 
-namespace vericone::scanning {
+namespace vericone::scanning::scan_study_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -185,4 +185,4 @@ TEST(ScanStudy, WritesJson) {
 }
 
 }  // namespace
-}  // namespace vericone::scanning
+}  // namespace vericone::scanning::scan_study_test

@@ -8,11 +8,11 @@
 #include <limits>
 #include "support/random_assemblies.h"
 
-namespace vericone {
+namespace vericone::assembly_oracle_test {
 namespace {
 
 using Eigen::Vector3d;
-using test::Agent;
+using testing::Agent;
 
 AssemblyOracle oracle_of(const Agent& agent, const Assembly& body, const Pose& pose = {}) {
   return std::visit([&](const auto& a) { return AssemblyOracle(a, body, pose); }, agent);
@@ -67,9 +67,9 @@ class BruteForce {
 TEST(AssemblyOracle, AnswersAreThoseOfAllPiecesAlone) {
   constexpr int kScenes = 120, kVelocities = 60;
   int counts[3] = {}, relations[3] = {};
-  test::RandomAssemblies random(1);
+  testing::RandomAssemblies random(1);
   for (int scene = 0; scene < kScenes; ++scene) {
-    const PieceKind kind = test::kPieceKinds[scene % 4];
+    const PieceKind kind = testing::kPieceKinds[scene % 4];
     const Assembly body = random.body(kind, 60, scene % 8 < 4 ? 0 : 0.2);
     const Vector3d place = random.vector(scene % 3 == 0 ? 2 : 6);
     const Agent agent = random.agent(scene / 4 % 2 == 1, place);
@@ -81,7 +81,10 @@ TEST(AssemblyOracle, AnswersAreThoseOfAllPiecesAlone) {
     for (int i = 0; i < kVelocities; ++i) {
       // Towards the cube, towards a corner of a piece, anywhere.
       Vector3d w = random.vector(4) - place;
-      if (i % 3 == 1) w = body.piece(random.index(body.size())).points()[0] - place;
+      if (i % 3 == 1)
+        w = body.piece(static_cast<std::size_t>(random.integer(0, static_cast<int>(body.size()) - 1)))
+                .points()[0] -
+            place;
       if (i % 3 == 2) w = random.vector(1);
       ASSERT_EQ(oracle.membership(w), brute.membership(w)) << "scene " << scene << ", velocity " << i;
       ++counts[int(oracle.membership(w))];
@@ -161,7 +164,7 @@ TEST(AssemblyOracle, ARoomIsNotItsInside) {
                                                  {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
   const AssemblyOracle room(Ellipsoid::from_axes({0.5, 0, 0}, {1, 1, 1}), Assembly::mesh(corners, faces));
   EXPECT_EQ(room.relation(), Relation::disjoint);
-  test::RandomAssemblies random(2);
+  testing::RandomAssemblies random(2);
   for (int i = 0; i < 200; ++i) EXPECT_EQ(room.membership(random.vector(1)), Membership::in);
   // The solid box contains the agent.
   const AssemblyOracle solid(Ellipsoid::from_axes({0.5, 0, 0}, {1, 1, 1}),
@@ -179,9 +182,9 @@ TEST(AssemblyOracle, DegenerateTrianglesAreSegmentsAndPoints) {
 }
 
 TEST(AssemblyOracle, APoseMovesTheBody) {
-  test::RandomAssemblies random(3);
+  testing::RandomAssemblies random(3);
   for (int scene = 0; scene < 20; ++scene) {
-    const Assembly body = random.body(test::kPieceKinds[scene % 4], 40);
+    const Assembly body = random.body(testing::kPieceKinds[scene % 4], 40);
     const Pose pose{random.vector(3), random.rotation()};
     const Agent agent = random.agent(scene % 8 < 4, random.vector(5) + Vector3d(8, 0, 0));
     const AssemblyOracle posed = oracle_of(agent, body, pose);
@@ -217,7 +220,7 @@ TEST(AssemblyOracle, APoseMovesTheBody) {
 
 TEST(AssemblyOracle, AnswersDoNotDependOnTheUnitOfLength) {
   // Powers of two change nothing but the exponents; squares of the outer ones leave the range of doubles.
-  test::RandomAssemblies random(4);
+  testing::RandomAssemblies random(4);
   for (int scene = 0; scene < 8; ++scene) {
     const Vector3d place = random.vector(5);
     std::vector<Vector3d> points;
@@ -263,4 +266,4 @@ TEST(AssemblyOracle, RefusesWhatHasNoAnswer) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::assembly_oracle_test

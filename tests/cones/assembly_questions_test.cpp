@@ -10,12 +10,12 @@
 #include <numbers>
 #include "support/random_assemblies.h"
 
-namespace vericone {
+namespace vericone::assembly_questions_test {
 namespace {
 
 using Eigen::Vector3d;
-using test::Agent;
-using test::translated;
+using testing::Agent;
+using testing::translated;
 
 AssemblyOracle oracle_of(const Agent& agent, const Assembly& body) {
   return std::visit([&](const auto& a) { return AssemblyOracle(a, body); }, agent);
@@ -24,10 +24,10 @@ AssemblyOracle oracle_of(const Agent& agent, const Assembly& body) {
 /// Calls check(random, body, agent, oracle, place) for disjoint scenes of all kinds.
 template <class Check>
 void in_scenes(std::uint64_t seed, int count, Check check) {
-  test::RandomAssemblies random(seed);
+  testing::RandomAssemblies random(seed);
   for (int scene = 0; scene < count; ++scene) {
     SCOPED_TRACE("seed " + std::to_string(seed) + ", scene " + std::to_string(scene));
-    const Assembly body = random.body(test::kPieceKinds[scene % 4], 60, scene % 8 < 4 ? 0 : 0.2);
+    const Assembly body = random.body(testing::kPieceKinds[scene % 4], 60, scene % 8 < 4 ? 0 : 0.2);
     const Vector3d place = random.vector(6);
     const Agent agent = random.agent(scene / 4 % 2 == 1, place);
     const AssemblyOracle oracle = oracle_of(agent, body);
@@ -90,7 +90,7 @@ TEST(AssemblyQuestions, PolyhedraThatMeetSymmetrically) {
 
 TEST(AssemblyQuestions, AgentsOfManyPoints) {
   // The same body by its corners alone and with thousands of points inside.
-  test::RandomAssemblies random(17);
+  testing::RandomAssemblies random(17);
   std::vector<Vector3d> corners, many;
   for (int i = 0; i < 12; ++i) corners.push_back(random.vector(0.5) + Vector3d(7, 0, 0));
   many = corners;
@@ -98,7 +98,7 @@ TEST(AssemblyQuestions, AgentsOfManyPoints) {
     Vector3d inside = Vector3d::Zero();
     double sum = 0;
     for (const Vector3d& corner : corners) {
-      const double weight = random.number(0, 1);
+      const double weight = random.uniform(0, 1);
       inside += weight * corner;
       sum += weight;
     }
@@ -145,7 +145,7 @@ TEST(AssemblyQuestions, MissDistanceIsTheLeastOverTheWay) {
 }
 
 TEST(AssemblyQuestions, OneBallAgreesWithTwoEllipsoids) {
-  test::RandomAssemblies random(13);
+  testing::RandomAssemblies random(13);
   int out = 0;
   for (int i = 0; i < 400; ++i) {
     const Vector3d center = random.vector(1), place = random.vector(1) + Vector3d(3, 0, 0);
@@ -175,7 +175,7 @@ TEST(AssemblyQuestions, OneBallAgreesWithTwoEllipsoids) {
 }
 
 TEST(AssemblyQuestions, ExtremesOfOneBallAreTheBoundaryOfItsCone) {
-  test::RandomAssemblies random(14);
+  testing::RandomAssemblies random(14);
   for (int i = 0; i < 40; ++i) {
     const Vector3d center = random.vector(1), place = random.vector(1) + Vector3d(3, 0, 0);
     const Ellipsoid agent = std::get<Ellipsoid>(random.agent(false, place));
@@ -233,7 +233,7 @@ TEST(AssemblyQuestions, CellsAreAllInOrAllOut) {
       [&](auto& random, const Assembly&, const Agent&, const AssemblyOracle& oracle, const Vector3d& place) {
         for (int i = 0; i < 60; ++i) {
           const AxisFrame frame(random.vector(5) - place);
-          const double s = std::pow(10, random.number(-2.5, 0));
+          const double s = std::pow(10, random.uniform(-2.5, 0));
           const auto corner = [&](double x, double y) {
             return (frame.axis + s * (x * frame.e1 + y * frame.e2)).normalized();
           };
@@ -251,8 +251,8 @@ TEST(AssemblyQuestions, CellsAreAllInOrAllOut) {
             continue;
           }
           for (int k = 0; k < 20; ++k) {
-            const Vector3d d =
-                random.number(0, 1) * cell[0] + random.number(0, 1) * cell[1] + random.number(0, 1) * cell[2];
+            const Vector3d d = random.uniform(0, 1) * cell[0] + random.uniform(0, 1) * cell[1] +
+                               random.uniform(0, 1) * cell[2];
             ASSERT_EQ(oracle.membership(d) == Membership::out, label == Certified::out);
           }
         }
@@ -262,4 +262,4 @@ TEST(AssemblyQuestions, CellsAreAllInOrAllOut) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::assembly_questions_test

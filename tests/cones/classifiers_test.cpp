@@ -7,7 +7,7 @@
 #include "cone_map_checks.h"
 #include "support/random_combined.h"
 
-namespace vericone {
+namespace vericone::classifiers_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -209,4 +209,4 @@ TEST(MirroredClassifier, ExchangesTheBodies) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::classifiers_test

@@ -10,7 +10,7 @@
 #include "richardson.h"
 #include "support/random_bodies.h"
 
-namespace vericone {
+namespace vericone::clearance_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -264,4 +264,4 @@ TEST(ClearanceAhead, IsTheLeastSeparationOnTheWay) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::clearance_test

@@ -14,7 +14,7 @@
 
 #include "support/random_bodies.h"
 
-namespace vericone {
+namespace vericone::combined_cone_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector3d;
@@ -330,4 +330,4 @@ TEST(CombinedCone, BadToleranceIsRefused) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::combined_cone_test

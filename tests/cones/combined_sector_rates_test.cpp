@@ -8,7 +8,7 @@
 #include "richardson.h"
 #include "support/random_combined.h"
 
-namespace vericone {
+namespace vericone::combined_sector_rates_test {
 namespace {
 
 using Eigen::Matrix2d, Eigen::Vector2d;
@@ -174,4 +174,4 @@ TEST(CombinedSectorRates, EllipsesAsBefore) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::combined_sector_rates_test

@@ -8,7 +8,7 @@
 
 #include "support/random_combined.h"
 
-namespace vericone {
+namespace vericone::combined_sector_test {
 namespace {
 
 using Eigen::Matrix2d, Eigen::Vector2d;
@@ -307,4 +307,4 @@ TEST(CombinedSector, ContinuousInK) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::combined_sector_test

@@ -8,7 +8,7 @@
 
 #include "support/random_bodies.h"
 
-namespace vericone {
+namespace vericone::combined_slice_cone_test {
 namespace {
 
 using Eigen::Vector2d, Eigen::Vector3d;
@@ -248,4 +248,4 @@ TEST(CombinedSliceCone, RefusesWhatItCannotDo) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::combined_slice_cone_test

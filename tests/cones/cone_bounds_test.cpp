@@ -6,7 +6,7 @@
 
 #include "support/random_bodies.h"
 
-namespace vericone {
+namespace vericone::cone_bounds_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -172,4 +172,4 @@ TEST(ConeBounds, GapFallsWithTheSquareOfTheSamples) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::cone_bounds_test

@@ -15,7 +15,7 @@
 
 #include "cone_map_checks.h"
 
-namespace vericone {
+namespace vericone::cone_map_assembly_test {
 namespace {
 
 using Eigen::Vector2d, Eigen::Vector3d;
@@ -312,4 +312,4 @@ TEST(ConeMapOfAssemblies, AScannedObject) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::cone_map_assembly_test

@@ -8,7 +8,7 @@
 
 #include "cone_map_checks.h"
 
-namespace vericone {
+namespace vericone::cone_map_regions_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -214,4 +214,4 @@ TEST(ConeMapRegions, WhereARegionTouchesItselfInACorner) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::cone_map_regions_test

@@ -10,7 +10,7 @@
 
 #include "cone_map_checks.h"
 
-namespace vericone {
+namespace vericone::cone_map_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -258,4 +258,4 @@ TEST(ConeMap, RefusesBadOptions) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::cone_map_test

@@ -5,7 +5,7 @@
 #include "exact_tangency.h"
 #include "support/random_bodies.h"
 
-namespace vericone {
+namespace vericone::contact_time_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -167,4 +167,4 @@ TEST(ContactTime, AndClearanceAtEveryScale) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::contact_time_test

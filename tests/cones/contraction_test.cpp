@@ -5,7 +5,7 @@
 
 #include "contraction_probe.h"
 
-namespace vericone::testing {
+namespace vericone::testing::contraction_test {
 namespace {
 
 bool has_fma() {
@@ -38,4 +38,4 @@ TEST(Contraction, IsOffInThisBuild) {
 }
 
 }  // namespace
-}  // namespace vericone::testing
+}  // namespace vericone::testing::contraction_test

@@ -11,7 +11,7 @@
 
 #include "support/random_bodies.h"
 
-namespace vericone {
+namespace vericone::enclosures_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -175,4 +175,4 @@ TEST(EnclosePlaneSector, SpheresAndRandomPairs) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::enclosures_test

@@ -10,7 +10,7 @@
 #include "cone_by_bisection.h"
 #include "support/random_bodies.h"
 
-namespace vericone {
+namespace vericone::exact_cone_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
@@ -288,4 +288,4 @@ TEST(ExactCone, AxisRatioOfAMillion) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::exact_cone_test

@@ -11,7 +11,7 @@
 #include "hull_oracle_checks.h"
 #include "support/velocity_laws.h"
 
-namespace vericone::testing {
+namespace vericone::testing::hull_oracle_degenerate_test {
 namespace {
 
 // The ball of radius 3 flies along z past bodies whose nearest feature is at x = 3.
@@ -468,4 +468,4 @@ TEST(HullOracle, BodiesThatMeetHaveTheWholeSpaceAsCone) {
 }
 
 }  // namespace
-}  // namespace vericone::testing
+}  // namespace vericone::testing::hull_oracle_degenerate_test

@@ -10,7 +10,7 @@
 #include "hull_oracle_checks.h"
 #include "support/velocity_laws.h"
 
-namespace vericone::testing {
+namespace vericone::testing::hull_oracle_test {
 namespace {
 
 /// Small integers make touching, grazing, flat and repeated the rule; the reference needs 64 bits then.
@@ -225,4 +225,4 @@ TEST(HullOracle, BoxesAgreeWithSlabs) {
 }
 
 }  // namespace
-}  // namespace vericone::testing
+}  // namespace vericone::testing::hull_oracle_test

@@ -8,7 +8,7 @@
 
 #include "exact_tangency.h"
 
-namespace vericone {
+namespace vericone::membership_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector3d;
@@ -203,4 +203,4 @@ TEST(Membership, GeneralEllipsoidsThatGraze) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::membership_test

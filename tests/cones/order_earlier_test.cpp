@@ -13,11 +13,11 @@
 #include "order_rungs.h"
 #include "support/random_bodies.h"
 
-namespace vericone {
+namespace vericone::order_earlier_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector3d;
-using testing::ExactTangency, testing::RandomBodies, testing::Real, testing::Rungs, testing::sign_of,
+using testing::ExactTangency, testing::RandomBodies, testing::Real, testing::Rungs, testing::as_sign,
     testing::operator-;
 
 /// The image under an integer matrix, exact for small integers in shapes.
@@ -134,7 +134,7 @@ TEST(Earlier, DifferentBodiesAtTheSameTimeAndTheirNeighbours) {
     ASSERT_EQ(ties.earlier(p, q), Sign::zero) << "case " << i;
     Encounter other = p;
     other.w(2) = std::ldexp(i % 2 ? 1 : -1, i % 3 == 0 ? -30 : i % 3 == 1 ? -150 : -1000);
-    ASSERT_EQ(near.earlier(other, q), sign_of(-side * other.w(2))) << "case " << i;
+    ASSERT_EQ(near.earlier(other, q), as_sign(-side * other.w(2))) << "case " << i;
   }
   ties.print("earlier, different bodies");
   near.print("earlier, their neighbours");
@@ -222,7 +222,7 @@ TEST(Earlier, SymmetricBodies) {
     const auto& [t, p] = by_time[i];
     const auto& [u, q] = by_time[(7 * i + 3) % by_time.size()];
     // Times with denominators up to 3: equal as doubles exactly when they are equal.
-    ASSERT_EQ(rungs.earlier(p, q), sign_of(t - u)) << "case " << i;
+    ASSERT_EQ(rungs.earlier(p, q), as_sign(t - u)) << "case " << i;
     const auto exact = exact_time_to_contact(ConeOracle(p.a, p.b), p.w, Vector3d::Zero());
     ASSERT_TRUE(exact && exact->contains(t)) << "case " << i;
   }
@@ -448,7 +448,7 @@ TEST(Earlier, RandomEncountersAreOrderedLikeTheirTimes) {
     const double never = std::numeric_limits<double>::infinity(), x = t[0].value_or(never),
                  y = t[1].value_or(never);
     if (x == y || std::abs(x - y) > 1e-9) {
-      ASSERT_EQ(s, x == y ? Sign::zero : sign_of(x - y)) << "case " << i;
+      ASSERT_EQ(s, x == y ? Sign::zero : as_sign(x - y)) << "case " << i;
     }
   }
   rungs.print("earlier, random");
@@ -456,4 +456,4 @@ TEST(Earlier, RandomEncountersAreOrderedLikeTheirTimes) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::order_earlier_test

@@ -16,7 +16,7 @@ using Real =
     boost::multiprecision::number<boost::multiprecision::cpp_bin_float<80>, boost::multiprecision::et_off>;
 
 inline Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)); }
-inline Sign sign_of(double x) { return x > 0 ? Sign::positive : x < 0 ? Sign::negative : Sign::zero; }
+inline Sign as_sign(double x) { return x > 0 ? Sign::positive : x < 0 ? Sign::negative : Sign::zero; }
 
 /// How many decisions fell on each rung; checks that all rungs that answer agree.
 struct Rungs {

@@ -12,11 +12,11 @@
 #include "order_rungs.h"
 #include "support/random_bodies.h"
 
-namespace vericone {
+namespace vericone::order_turn_test {
 namespace {
 
 using Eigen::Matrix2d, Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
-using testing::ExactTangency, testing::RandomBodies, testing::Real, testing::Rungs, testing::sign_of,
+using testing::ExactTangency, testing::RandomBodies, testing::Real, testing::Rungs, testing::as_sign,
     testing::operator-;
 
 /// The direction with 80 digits: the root of g in an angle-free form by bisection from a separating normal.
@@ -122,7 +122,7 @@ TEST(Turn, RandomPairsAgreeWithEightyDigits) {
       const Vector2d d = direction(t[0]), e = direction(t[1]);
       const double cross = d.x() * e.y() - d.y() * e.x();
       if (std::abs(cross) > 1e-9) {
-        ASSERT_EQ(vericone::turn(t[0], t[1]), sign_of(cross)) << "case " << i;
+        ASSERT_EQ(vericone::turn(t[0], t[1]), as_sign(cross)) << "case " << i;
       }
     }
     rungs.print("turn, random, axes from " + std::to_string(low));
@@ -238,4 +238,4 @@ TEST(Turn, LinearMapsWithPositiveDeterminant) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::order_turn_test

@@ -9,14 +9,11 @@
 #include <iostream>
 #include <limits>
 #include <numbers>
-#include <ostream>
 
+#include "cones/print_answers.h"
 #include "support/random_bodies.h"
 
-namespace vericone {
-
-void PrintTo(Membership m, std::ostream* os) { *os << to_string(m); }
-
+namespace vericone::orifice_test {
 namespace {
 
 using Eigen::Matrix2d, Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
@@ -363,4 +360,4 @@ TEST(FacingOrifice, CallsSafeWhatCutsATiltedRim) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::orifice_test

@@ -7,7 +7,7 @@
 #include "richardson.h"
 #include "support/random_bodies.h"
 
-namespace vericone {
+namespace vericone::plane_sector_rates_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector3d;
@@ -114,4 +114,4 @@ TEST(PlaneSectorRates, ACommonMotionChangesNothingButTheLineOfSight) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::plane_sector_rates_test

@@ -9,7 +9,7 @@
 
 #include "support/random_bodies.h"
 
-namespace vericone {
+namespace vericone::plane_sector_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector3d;
@@ -189,4 +189,4 @@ TEST(PlaneSector, RefusesWhatHasNoSector) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::plane_sector_test

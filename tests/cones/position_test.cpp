@@ -7,15 +7,12 @@
 #include <array>
 #include <iostream>
 #include <limits>
-#include <ostream>
 #include <tuple>
 
+#include "cones/print_answers.h"
 #include "support/random_bodies.h"
 
-namespace vericone {
-
-void PrintTo(Position p, std::ostream* os) { *os << to_string(p); }
-
+namespace vericone::position_test {
 namespace {
 
 using Eigen::Matrix2d, Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
@@ -487,4 +484,4 @@ TEST(Position, RationalBodies) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::position_test

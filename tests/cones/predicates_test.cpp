@@ -12,7 +12,7 @@
 #include "support/random_bodies.h"
 #include "support/velocity_laws.h"
 
-namespace vericone {
+namespace vericone::predicates_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -194,4 +194,4 @@ TEST(PredicateLaws, AgreeWithSeparatingPlanes) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::predicates_test

@@ -9,7 +9,7 @@
 #include "../../cones/src/quadratic_search.h"
 #include "support/random_bodies.h"
 
-namespace vericone {
+namespace vericone::quadratic_search_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector3d;
@@ -131,4 +131,4 @@ TEST(QuadraticSearch, RandomListsAreNeverAnsweredWrong) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::quadratic_search_test

@@ -11,7 +11,7 @@
 
 #include "support/random_bodies.h"
 
-namespace vericone {
+namespace vericone::relation_rungs_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
@@ -225,4 +225,4 @@ TEST(RelationRungs, SeparatesIsStrict) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::relation_rungs_test

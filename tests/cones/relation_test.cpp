@@ -5,14 +5,11 @@
 #include <vericone/geometry/rational.h>
 
 #include <array>
-#include <ostream>
 
 #include "exact_tangency.h"
+#include "print_answers.h"
 
-namespace vericone {
-
-void PrintTo(Relation r, std::ostream* os) { *os << to_string(r); }
-
+namespace vericone::relation_test {
 namespace {
 
 using Eigen::Matrix2d, Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
@@ -179,4 +176,4 @@ TEST(Relation, DoesNotDependOnTheContactFrameGiven) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::relation_test

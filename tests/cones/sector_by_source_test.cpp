@@ -13,7 +13,7 @@
 #include "../../cones/src/pole_polar.h"
 #include "support/random_combined.h"
 
-namespace vericone {
+namespace vericone::sector_by_source_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
@@ -109,4 +109,4 @@ TEST(SectorBySource, KnowsOneHyperbolaOnly) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::sector_by_source_test

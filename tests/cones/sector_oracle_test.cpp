@@ -9,7 +9,7 @@
 #include "support/random_bodies.h"
 #include "support/velocity_laws.h"
 
-namespace vericone {
+namespace vericone::sector_oracle_test {
 namespace {
 
 using Eigen::Matrix2d;
@@ -184,4 +184,4 @@ TEST(SectorOracle, LawsAndTheSectorsEdges) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::sector_oracle_test

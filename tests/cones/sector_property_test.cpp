@@ -11,7 +11,7 @@
 #include "reference_sector.h"
 #include "support/random_bodies.h"
 
-namespace vericone {
+namespace vericone::sector_property_test {
 namespace {
 
 using Eigen::Matrix2d, Eigen::Vector2d;
@@ -200,4 +200,4 @@ TEST(SectorLaws, ScaleAndRotation) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::sector_property_test

@@ -8,7 +8,7 @@
 #include "richardson.h"
 #include "support/random_bodies.h"
 
-namespace vericone {
+namespace vericone::sector_rates_test {
 namespace {
 
 using Eigen::Matrix2d, Eigen::Vector2d;
@@ -119,4 +119,4 @@ TEST(SectorRates, ACommonMotionTurnsTheSectorAsAWhole) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::sector_rates_test

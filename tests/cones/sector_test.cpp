@@ -7,7 +7,7 @@
 
 #include "support/random_bodies.h"
 
-namespace vericone {
+namespace vericone::sector_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -171,4 +171,4 @@ TEST(ConeFunction, CollidingAgreesWithTheRay) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::sector_test

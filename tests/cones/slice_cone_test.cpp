@@ -11,7 +11,7 @@
 
 #include "support/random_bodies.h"
 
-namespace vericone {
+namespace vericone::slice_cone_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
@@ -229,4 +229,4 @@ TEST_F(TheSourcesEngagement, SlicesMissTwoAndAHalfDegreesAcrossTheSymmetryPlane)
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::slice_cone_test

@@ -10,7 +10,7 @@
 #include "geometry/meshes.h"
 #include "support/random_bodies.h"
 
-namespace vericone {
+namespace vericone::visible_cone_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -99,4 +99,4 @@ TEST(VisibleCone, PlanesWithoutAnswerAreSaid) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::visible_cone_test

@@ -12,7 +12,7 @@
 
 #include "support/random_bodies.h"
 
-namespace vericone {
+namespace vericone::visible_sector_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -246,4 +246,4 @@ TEST(VisibleSector, DegenerateInputHasAnAnswer) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::visible_sector_test

@@ -13,7 +13,7 @@
 #include "support/random_bodies.h"
 #include "triangle_form.h"
 
-namespace vericone::fitting {
+namespace vericone::fitting::certificate_test {
 namespace {
 
 using Eigen::Matrix4d;
@@ -429,4 +429,4 @@ TEST(Certificate, HoldsAtTheEndsOfTheRange) {
 }
 
 }  // namespace
-}  // namespace vericone::fitting
+}  // namespace vericone::fitting::certificate_test

@@ -12,7 +12,7 @@
 #include <numbers>
 #include <random>
 
-namespace vericone::fitting {
+namespace vericone::fitting::containing_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -188,4 +188,4 @@ TEST(ContainingFit, FootprintsAreMinimumAreaEllipses) {
 }
 
 }  // namespace
-}  // namespace vericone::fitting
+}  // namespace vericone::fitting::containing_test

@@ -11,9 +11,9 @@
 #include <map>
 
 #include "geometry/meshes.h"
-#include "geometry/random.h"
+#include "support/random.h"
 
-namespace vericone::fitting {
+namespace vericone::fitting::convex_hull_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector3d;
@@ -140,4 +140,4 @@ TEST(ConvexHull, RefusesFlatPoints) {
 }
 
 }  // namespace
-}  // namespace vericone::fitting
+}  // namespace vericone::fitting::convex_hull_test

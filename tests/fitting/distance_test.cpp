@@ -10,9 +10,9 @@
 #include <cmath>
 
 #include "body_distance.h"
-#include "geometry/random.h"
+#include "support/random.h"
 
-namespace vericone::fitting {
+namespace vericone::fitting::distance_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
@@ -221,4 +221,4 @@ TEST(SignedDistance, OfUnionsAndFootprints) {
 }
 
 }  // namespace
-}  // namespace vericone::fitting
+}  // namespace vericone::fitting::distance_test

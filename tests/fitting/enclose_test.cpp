@@ -12,7 +12,7 @@
 
 #include "support/random_bodies.h"
 
-namespace vericone::fitting {
+namespace vericone::fitting::enclose_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -375,4 +375,4 @@ TEST(Enclose, SaysWhatIsWrongWithItsInput) {
 }
 
 }  // namespace
-}  // namespace vericone::fitting
+}  // namespace vericone::fitting::enclose_test

@@ -10,7 +10,7 @@
 #include <functional>
 #include <random>
 
-namespace vericone::fitting {
+namespace vericone::fitting::fit_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -278,4 +278,4 @@ TEST(Fit, RefusesWithTheFieldNamed) {
 }
 
 }  // namespace
-}  // namespace vericone::fitting
+}  // namespace vericone::fitting::fit_test

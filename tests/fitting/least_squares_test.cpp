@@ -13,7 +13,7 @@
 #include "secular_foot.h"
 #include "surface_model.h"
 
-namespace vericone::fitting {
+namespace vericone::fitting::least_squares_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
@@ -373,4 +373,4 @@ TEST_P(LeastSquaresRefuse, AndSayWhatWasFound) {
 }
 
 }  // namespace
-}  // namespace vericone::fitting
+}  // namespace vericone::fitting::least_squares_test

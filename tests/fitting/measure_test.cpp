@@ -12,13 +12,13 @@
 #include <numbers>
 
 #include "geometry/meshes.h"
-#include "geometry/random.h"
 #include "scan_distance.h"
+#include "support/random.h"
 #ifdef VERICONE_HAVE_FILES
 #include <vericone/files/triangle_mesh.h>
 #endif
 
-namespace vericone::fitting {
+namespace vericone::fitting::measure_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
@@ -327,4 +327,4 @@ TEST(EnclosedVolume, OfRealMeshes) {
 #endif
 
 }  // namespace
-}  // namespace vericone::fitting
+}  // namespace vericone::fitting::measure_test

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/random.h"
+#include "support/random.h"
 
 namespace vericone::testing {
 

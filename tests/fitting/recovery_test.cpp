@@ -11,27 +11,22 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <iostream>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "fitting/noisy_surfaces.h"
+#include "support/campaign.h"
 #include "surface_model.h"
 
-namespace vericone::fitting {
+namespace vericone::fitting::recovery_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector3d;
+using testing::campaign_size, testing::from_environment;
 using testing::KnownSurface, testing::NoisySample, testing::Random;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
-
-#ifdef VERICONE_LONG_CAMPAIGN
-constexpr bool kLong = true;
-#else
-constexpr bool kLong = false;
-#endif
 
 struct Study {
   std::string name;
@@ -43,11 +38,6 @@ struct Study {
 };
 
 void PrintTo(const Study& study, std::ostream* out) { *out << study.name; }
-
-int setting(const char* name, int otherwise) {
-  const char* given = std::getenv(name);
-  return given ? std::atoi(given) : otherwise;
-}
 
 double quantile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
@@ -122,9 +112,10 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_P(Recovery, FindsTheBodyToItsOwnErrors) {
   constexpr double kFound = 6;
   Study study = GetParam();
-  study.seeds = setting("VERICONE_RECOVERY_SEEDS", kLong ? 200 : study.seeds);
-  const int first = setting("VERICONE_RECOVERY_FIRST", 1);
-  const bool tell = setting("VERICONE_RECOVERY_TELL", 0) != 0;
+  study.seeds =
+      static_cast<int>(from_environment("VERICONE_RECOVERY_SEEDS", campaign_size(study.seeds, 200)));
+  const auto first = static_cast<int>(from_environment("VERICONE_RECOVERY_FIRST", 1));
+  const bool tell = from_environment("VERICONE_RECOVERY_TELL", 0) != 0;
   std::vector<double> center, axes;
   double squares = 0, least_squares = 0, worst = 0, worst_least = 0;
   int refused = 0, open = 0, missed = 0;
@@ -184,4 +175,4 @@ TEST_P(Recovery, FindsTheBodyToItsOwnErrors) {
 }
 
 }  // namespace
-}  // namespace vericone::fitting
+}  // namespace vericone::fitting::recovery_test

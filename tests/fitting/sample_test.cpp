@@ -9,7 +9,7 @@
 #include <numeric>
 #include <random>
 
-namespace vericone::fitting {
+namespace vericone::fitting::sample_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -110,4 +110,4 @@ TEST(CanonicalSample, RefusesWhatIsNoSample) {
 }
 
 }  // namespace
-}  // namespace vericone::fitting
+}  // namespace vericone::fitting::sample_test

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <random>
 
-namespace vericone::fitting {
+namespace vericone::fitting::star_volume_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -147,4 +147,4 @@ TEST(StarVolume, IsAffinelyCovariant) {
 }
 
 }  // namespace
-}  // namespace vericone::fitting
+}  // namespace vericone::fitting::star_volume_test

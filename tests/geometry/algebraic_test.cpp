@@ -7,7 +7,7 @@
 
 #include "support/random_bodies.h"
 
-namespace vericone::exact {
+namespace vericone::exact::algebraic_test {
 namespace {
 
 Polynomial polynomial(std::initializer_list<long> lowest_first) {
@@ -221,4 +221,4 @@ TEST(Algebraic, RandomSignsAgreeWithFloatingPoint) {
 }
 
 }  // namespace
-}  // namespace vericone::exact
+}  // namespace vericone::exact::algebraic_test

@@ -5,7 +5,7 @@
 #include <limits>
 #include "support/random_assemblies.h"
 
-namespace vericone {
+namespace vericone::assembly_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -46,12 +46,12 @@ void expect_sound(const Hierarchy& tree, const std::vector<Box>& boxes) {
 }
 
 TEST(Hierarchy, OverBoxesOfAllSizes) {
-  test::RandomAssemblies random(1);
+  testing::RandomAssemblies random(1);
   for (const std::size_t count : {1, 2, 5, 100, 5000}) {
     std::vector<Box> boxes;
     for (std::size_t i = 0; i < count; ++i) {
       const Vector3d c = random.vector(100),
-                     half = random.vector(std::pow(10, random.number(-6, 1))).cwiseAbs();
+                     half = random.vector(std::pow(10, random.uniform(-6, 1))).cwiseAbs();
       boxes.push_back({c - half, c + half});
     }
     expect_sound(Hierarchy(boxes), boxes);
@@ -89,7 +89,7 @@ TEST(Hierarchy, MadeElsewhereIsChecked) {
 }
 
 TEST(Assembly, PiecesComeBackAsGiven) {
-  test::RandomAssemblies random(2);
+  testing::RandomAssemblies random(2);
   std::vector<Vector3d> points;
   for (int i = 0; i < 200; ++i) points.push_back(random.vector(3));
   const Assembly cloud = Assembly::cloud(points, 0.1);
@@ -130,4 +130,4 @@ TEST(Assembly, RefusesWhatIsNoBody) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::assembly_test

@@ -16,9 +16,9 @@
 #include <string>
 
 #include "combined_bodies.h"
-#include "random.h"
+#include "support/random.h"
 
-namespace vericone {
+namespace vericone::combined_surface_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
@@ -363,4 +363,4 @@ TEST(Surface, RefusesOtherResolutions) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::combined_surface_test

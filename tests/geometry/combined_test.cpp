@@ -14,9 +14,9 @@
 #include <numbers>
 
 #include "combined_bodies.h"
-#include "random.h"
+#include "support/random.h"
 
-namespace vericone {
+namespace vericone::combined_test {
 namespace {
 
 using boost::multiprecision::cpp_rational;
@@ -410,4 +410,4 @@ TEST(CombinedErrors, NameTheField) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::combined_test

@@ -11,9 +11,9 @@
 #include <limits>
 #include <numbers>
 
-#include "geometry/random.h"
+#include "support/random.h"
 
-namespace vericone {
+namespace vericone::ellipsoid_test {
 namespace {
 
 using Eigen::Matrix2d, Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
@@ -354,4 +354,4 @@ TEST(Rotations, QuaternionAgreesWithEigen) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::ellipsoid_test

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace vericone {
+namespace vericone::hull_body_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -52,4 +52,4 @@ TEST(HullBody, MovesAndScalesItsPoints) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::hull_body_test

@@ -10,7 +10,7 @@
 
 #include "support/random_bodies.h"
 
-namespace vericone {
+namespace vericone::interval_test {
 namespace {
 
 using exact::Rational;
@@ -143,4 +143,4 @@ TEST(Interval, ZeroIsNeverASign) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::interval_test

@@ -9,7 +9,7 @@
 
 #include <thread>
 
-namespace vericone {
+namespace vericone::ladder_test {
 namespace {
 
 struct FirstPredicate;
@@ -58,4 +58,4 @@ TEST(Ladder, CountsForEachPredicateAndThread) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::ladder_test

@@ -13,9 +13,9 @@
 #include <optional>
 
 #include "geometry/meshes.h"
-#include "geometry/random.h"
+#include "support/random.h"
 
-namespace vericone::lidar {
+namespace vericone::lidar::lidar_fuse_test {
 namespace {
 
 using Eigen::Isometry3d;
@@ -189,4 +189,4 @@ TEST(Fuse, RealPairOfScans) {
 }
 
 }  // namespace
-}  // namespace vericone::lidar
+}  // namespace vericone::lidar::lidar_fuse_test

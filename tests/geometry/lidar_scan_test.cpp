@@ -12,9 +12,9 @@
 #include <numbers>
 
 #include "geometry/meshes.h"
-#include "geometry/random.h"
+#include "support/random.h"
 
-namespace vericone::lidar {
+namespace vericone::lidar::lidar_scan_test {
 namespace {
 
 using Eigen::Isometry3d;
@@ -254,4 +254,4 @@ TEST(Lidar, PatternsPointWhereTheySay) {
 }
 
 }  // namespace
-}  // namespace vericone::lidar
+}  // namespace vericone::lidar::lidar_scan_test

@@ -6,11 +6,11 @@
 
 #include <limits>
 
-#include "geometry/random.h"
 #include "geometry/refused_files.h"
 #include "geometry/written_clouds.h"
+#include "support/random.h"
 
-namespace vericone::files {
+namespace vericone::files::malformed_clouds_test {
 namespace {
 
 using testing::BadFile, testing::LasFile, testing::little, testing::Random, testing::TemporaryDirectory;
@@ -240,4 +240,4 @@ TEST(DamagedClouds, NeverCrashTheReader) {
 }
 
 }  // namespace
-}  // namespace vericone::files
+}  // namespace vericone::files::malformed_clouds_test

@@ -4,11 +4,11 @@
 #include <vericone/files/read_points.h>
 #include <vericone/geometry/error.h>
 
-#include "geometry/random.h"
 #include "geometry/refused_files.h"
 #include "geometry/written_files.h"
+#include "support/random.h"
 
-namespace vericone::files {
+namespace vericone::files::malformed_files_test {
 namespace {
 
 using testing::BadFile, testing::bytes_of, testing::Random, testing::TemporaryDirectory;
@@ -220,4 +220,4 @@ TEST(DamagedFiles, NeverCrashTheReader) {
 }
 
 }  // namespace
-}  // namespace vericone::files
+}  // namespace vericone::files::malformed_files_test

@@ -12,7 +12,7 @@
 #include "geometry/written_files.h"
 #include "geometry/written_octrees.h"
 
-namespace vericone::octomap {
+namespace vericone::octomap::malformed_octrees_test {
 namespace {
 
 using testing::BadFile, testing::Random, testing::TemporaryDirectory;
@@ -150,4 +150,4 @@ TEST(DamagedOctrees, NeverCrashTheReader) {
 }
 
 }  // namespace
-}  // namespace vericone::octomap
+}  // namespace vericone::octomap::malformed_octrees_test

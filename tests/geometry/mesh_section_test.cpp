@@ -8,9 +8,9 @@
 #include <set>
 
 #include "geometry/meshes.h"
-#include "geometry/random.h"
+#include "support/random.h"
 
-namespace vericone {
+namespace vericone::mesh_section_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -197,4 +197,4 @@ TEST(MeshSection, SeveralPiecesAndHoles) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::mesh_section_test

@@ -12,9 +12,9 @@
 #include <numbers>
 #include <numeric>
 
-#include "geometry/random.h"
+#include "support/random.h"
 
-namespace vericone {
+namespace vericone::min_volume_ellipsoid_test {
 namespace {
 
 using Eigen::Matrix2Xd, Eigen::Matrix3d, Eigen::Matrix3Xd, Eigen::Vector2d, Eigen::Vector3d;
@@ -396,4 +396,4 @@ TEST(MinVolumeEllipsoid, FlatInThePlane) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::min_volume_ellipsoid_test

@@ -15,7 +15,7 @@
 #include "geometry/written_files.h"
 #include "geometry/written_octrees.h"
 
-namespace vericone::octomap {
+namespace vericone::octomap::octree_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -270,4 +270,4 @@ TEST_F(Octrees, MeaningsThatAreNoneAreRefused) {
 }
 
 }  // namespace
-}  // namespace vericone::octomap
+}  // namespace vericone::octomap::octree_test

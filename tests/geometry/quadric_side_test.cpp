@@ -8,7 +8,7 @@
 
 #include "support/random_bodies.h"
 
-namespace vericone {
+namespace vericone::quadric_side_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -150,4 +150,4 @@ TEST(Side, InThePlane) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::quadric_side_test

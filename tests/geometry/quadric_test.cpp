@@ -9,9 +9,9 @@
 #include <limits>
 #include <numbers>
 
-#include "geometry/random.h"
+#include "support/random.h"
 
-namespace vericone {
+namespace vericone::quadric_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Matrix4d, Eigen::Vector2d, Eigen::Vector3d, Eigen::Vector4d;
@@ -235,4 +235,4 @@ TEST(PlaneFrame, DirectionsGoThereAndBack) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::quadric_test

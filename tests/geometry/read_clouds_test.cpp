@@ -9,10 +9,10 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/random.h"
 #include "geometry/written_clouds.h"
+#include "support/random.h"
 
-namespace vericone::files {
+namespace vericone::files::read_clouds_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -283,4 +283,4 @@ TEST_F(ReadClouds, ScanGraphsAreInTheWorldFrame) {
 }
 
 }  // namespace
-}  // namespace vericone::files
+}  // namespace vericone::files::read_clouds_test

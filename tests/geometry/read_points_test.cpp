@@ -10,10 +10,10 @@
 #include <functional>
 #include <limits>
 
-#include "geometry/random.h"
 #include "geometry/written_files.h"
+#include "support/random.h"
 
-namespace vericone::files {
+namespace vericone::files::read_points_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -258,4 +258,4 @@ TEST_F(ReadPoints, NumbersTooSmallForADoubleAreZero) {
 }
 
 }  // namespace
-}  // namespace vericone::files
+}  // namespace vericone::files::read_points_test

@@ -16,7 +16,7 @@
 
 #include "geometry/written_files.h"
 
-namespace vericone::files {
+namespace vericone::files::real_files_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -260,4 +260,4 @@ TEST(CgalArchive, IsReadButForAFileWithAWrongHeader) {
 }
 
 }  // namespace
-}  // namespace vericone::files
+}  // namespace vericone::files::real_files_test

@@ -12,10 +12,10 @@
 #include <cstdlib>
 #include <optional>
 
-#include "geometry/random.h"
 #include "geometry/written_files.h"
+#include "support/random.h"
 
-namespace vericone::octomap {
+namespace vericone::octomap::real_octrees_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -160,4 +160,4 @@ TEST(WrittenScanGraphs, HaveThePointsThatOctomapHas) {
 }
 
 }  // namespace
-}  // namespace vericone::octomap
+}  // namespace vericone::octomap::real_octrees_test

@@ -8,7 +8,7 @@
 
 #include "support/random_bodies.h"
 
-namespace vericone {
+namespace vericone::tracked_test {
 namespace {
 
 using exact::Rational;
@@ -92,4 +92,4 @@ TEST(Tracked, ValueIsWithinTheBoundThroughRandomPolynomials) {
 }
 
 }  // namespace
-}  // namespace vericone
+}  // namespace vericone::tracked_test

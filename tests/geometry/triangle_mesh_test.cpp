@@ -9,9 +9,9 @@
 #include <map>
 #include <set>
 
-#include "geometry/random.h"
+#include "support/random.h"
 
-namespace vericone::files {
+namespace vericone::files::triangle_mesh_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -222,4 +222,4 @@ TEST(Collinear, IsExact) {
 }
 
 }  // namespace
-}  // namespace vericone::files
+}  // namespace vericone::files::triangle_mesh_test

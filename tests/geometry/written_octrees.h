@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-#include "geometry/random.h"
+#include "support/random.h"
 
 namespace vericone::testing {
 

@@ -12,7 +12,7 @@
 #include "cones/richardson.h"
 #include "support/random_bodies.h"
 
-namespace vericone::guidance {
+namespace vericone::guidance::clearance_law_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -208,4 +208,4 @@ TEST(ClearanceLawStates, SpheresInClosedForm) {
 }
 
 }  // namespace
-}  // namespace vericone::guidance
+}  // namespace vericone::guidance::clearance_law_test

@@ -11,7 +11,7 @@
 #include "guidance/planar_engagement.h"
 #include "guidance/spatial_engagement.h"
 
-namespace vericone::guidance {
+namespace vericone::guidance::closed_loop_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d, Eigen::VectorXd;
@@ -253,4 +253,4 @@ TEST(ClosedLoop, CooperativeAvoidanceInSpaceFollowsItsExponential) {
 }
 
 }  // namespace
-}  // namespace vericone::guidance
+}  // namespace vericone::guidance::closed_loop_test

@@ -12,7 +12,7 @@
 #include "guidance/allocations.h"
 #include "support/random_bodies.h"
 
-namespace vericone::guidance {
+namespace vericone::guidance::guide_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -213,4 +213,4 @@ TEST(Guide, CooperationKeepsItsRatio) {
 }
 
 }  // namespace
-}  // namespace vericone::guidance
+}  // namespace vericone::guidance::guide_test

@@ -8,7 +8,7 @@
 #include "guidance/motion.h"
 #include "guidance/printed_formulas.h"
 
-namespace vericone::guidance {
+namespace vericone::guidance::kinematics_test {
 namespace {
 
 using Eigen::Vector2d, Eigen::Vector3d;
@@ -309,4 +309,4 @@ TEST(Kinematics, OneCentreIsAMistakeOfTheObstacle) {
 }
 
 }  // namespace
-}  // namespace vericone::guidance
+}  // namespace vericone::guidance::kinematics_test

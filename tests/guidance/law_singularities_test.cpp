@@ -13,7 +13,7 @@
 #include "guidance/allocations.h"
 #include "support/random_bodies.h"
 
-namespace vericone::guidance {
+namespace vericone::guidance::law_singularities_test {
 namespace {
 
 using std::numbers::pi;
@@ -325,4 +325,4 @@ TEST(LawSingularities, EveryStatusHasAName) {
 }
 
 }  // namespace
-}  // namespace vericone::guidance
+}  // namespace vericone::guidance::law_singularities_test

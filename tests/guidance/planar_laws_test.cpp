@@ -10,7 +10,7 @@
 #include "guidance/planar_engagement.h"
 #include "guidance/printed_formulas.h"
 
-namespace vericone::guidance {
+namespace vericone::guidance::planar_laws_test {
 namespace {
 
 using testing::Equation, testing::Errors, testing::Form, testing::PlanarEngagement, testing::RandomBodies,
@@ -214,4 +214,4 @@ TEST(PlanarLaws, CooperativeAvoidanceDoesWhatItPromises) {
 }
 
 }  // namespace
-}  // namespace vericone::guidance
+}  // namespace vericone::guidance::planar_laws_test

@@ -11,7 +11,7 @@
 #include "guidance/engagements.h"
 #include "guidance/plane_merit.h"
 
-namespace vericone::guidance {
+namespace vericone::guidance::plane_choice_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -264,4 +264,4 @@ TEST(PlaneChoice, SingularCases) {
 }
 
 }  // namespace
-}  // namespace vericone::guidance
+}  // namespace vericone::guidance::plane_choice_test

@@ -9,7 +9,7 @@
 #include "guidance/engagements.h"
 #include "guidance/plane_merit.h"
 
-namespace vericone::guidance {
+namespace vericone::guidance::plane_follow_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -95,4 +95,4 @@ TEST(PlaneChoice, EveryOptimumIsFoundAgainFromNearby) {
 }
 
 }  // namespace
-}  // namespace vericone::guidance
+}  // namespace vericone::guidance::plane_follow_test

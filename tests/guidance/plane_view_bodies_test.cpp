@@ -12,7 +12,7 @@
 #include "cones/richardson.h"
 #include "guidance/engagements.h"
 
-namespace vericone::guidance {
+namespace vericone::guidance::plane_view_bodies_test {
 namespace {
 
 using Eigen::Matrix2d, Eigen::Vector2d, Eigen::Vector3d;
@@ -282,4 +282,4 @@ TEST(PlaneViewRates, TrueSectorsOfDentedBodiesAreDifferenced) {
 }
 
 }  // namespace
-}  // namespace vericone::guidance
+}  // namespace vericone::guidance::plane_view_bodies_test

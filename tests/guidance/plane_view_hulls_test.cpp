@@ -9,7 +9,7 @@
 
 #include "guidance/engagements.h"
 
-namespace vericone::guidance {
+namespace vericone::guidance::plane_view_hulls_test {
 namespace {
 
 using Eigen::Vector2d, Eigen::Vector3d;
@@ -152,4 +152,4 @@ TEST(PlaneView, BodiesThatDoNotFitTogether) {
 }
 
 }  // namespace
-}  // namespace vericone::guidance
+}  // namespace vericone::guidance::plane_view_hulls_test

@@ -11,7 +11,7 @@
 #include "guidance/allocations.h"
 #include "guidance/engagements.h"
 
-namespace vericone::guidance {
+namespace vericone::guidance::plane_view_test {
 namespace {
 
 using Eigen::Vector2d, Eigen::Vector3d;
@@ -256,4 +256,4 @@ TEST(BodyState, AdvancedIsTheMotionToFirstOrder) {
 }
 
 }  // namespace
-}  // namespace vericone::guidance
+}  // namespace vericone::guidance::plane_view_test

@@ -9,7 +9,7 @@
 #include "guidance/printed_formulas.h"
 #include "guidance/spatial_engagement.h"
 
-namespace vericone::guidance {
+namespace vericone::guidance::spatial_laws_test {
 namespace {
 
 using testing::Errors, testing::Form, testing::RandomBodies, testing::SourceTerms, testing::SpatialEngagement;
@@ -138,4 +138,4 @@ TEST(SpatialLaws, PrintedFormsOnAFixedPlane) {
 }
 
 }  // namespace
-}  // namespace vericone::guidance
+}  // namespace vericone::guidance::spatial_laws_test

@@ -13,7 +13,7 @@
 
 #include "moving_pairs.h"
 
-namespace vericone::simulation {
+namespace vericone::simulation::proof_bodies_test {
 namespace {
 
 TEST(Proof, PlanarBodiesThatChangeTheirShape) {
@@ -225,4 +225,4 @@ TEST(Proof, DistancesOfBoxesAreBounds) {
 }
 
 }  // namespace
-}  // namespace vericone::simulation
+}  // namespace vericone::simulation::proof_bodies_test

@@ -12,7 +12,7 @@
 
 #include "moving_pairs.h"
 
-namespace vericone::simulation {
+namespace vericone::simulation::proof_test {
 namespace {
 
 const Ellipsoid& ellipsoid_of(const guidance::BodyState& state) {
@@ -231,4 +231,4 @@ TEST(Proof, RefusesWhatItCannotProve) {
 }
 
 }  // namespace
-}  // namespace vericone::simulation
+}  // namespace vericone::simulation::proof_test

@@ -9,7 +9,7 @@
 
 #include "support/random_bodies.h"
 
-namespace vericone::simulation {
+namespace vericone::simulation::run_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -317,4 +317,4 @@ TEST(ScenarioCheck, NamesTheField) {
 }
 
 }  // namespace
-}  // namespace vericone::simulation
+}  // namespace vericone::simulation::run_test

@@ -8,7 +8,7 @@
 
 #include "random.h"
 
-namespace vericone::simulation {
+namespace vericone::simulation::shape_in_time_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -219,4 +219,4 @@ TEST(ShapeInTime, BadParametersAreNamed) {
 }
 
 }  // namespace
-}  // namespace vericone::simulation
+}  // namespace vericone::simulation::shape_in_time_test

@@ -7,7 +7,7 @@
 
 #include "random.h"
 
-namespace vericone::simulation {
+namespace vericone::simulation::track_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -234,4 +234,4 @@ TEST(Track, StraightArcsAreOne) {
 }
 
 }  // namespace
-}  // namespace vericone::simulation
+}  // namespace vericone::simulation::track_test

@@ -6,29 +6,24 @@
 #include <vericone/geometry/assembly.h>
 #include <vericone/geometry/ellipsoid.h>
 #include <Eigen/QR>
-#include <random>
 #include <variant>
 #include <vector>
 
-namespace vericone::test {
+#include "support/random.h"
+
+namespace vericone::testing {
 
 using Agent = std::variant<Ellipsoid, HullBody>;
 
-class RandomAssemblies {
+class RandomAssemblies : public Random {
  public:
-  explicit RandomAssemblies(std::uint64_t seed) : random_(seed) {}
+  using Random::Random;
 
-  double number(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random_);
-  }
-  std::size_t index(std::size_t count) {
-    return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_);
-  }
   Eigen::Vector3d vector(double size) {
-    return size * Eigen::Vector3d(number(-1, 1), number(-1, 1), number(-1, 1));
+    return size * Eigen::Vector3d(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
   }
   Eigen::Matrix3d rotation() {
-    const Eigen::Matrix3d any = Eigen::Matrix3d::NullaryExpr([&] { return number(-1, 1); });
+    const Eigen::Matrix3d any = Eigen::Matrix3d::NullaryExpr([&] { return uniform(-1, 1); });
     Eigen::Matrix3d q = Eigen::HouseholderQR<Eigen::Matrix3d>(any).householderQ();
     if (q.determinant() < 0) q.col(0) *= -1;
     return q;
@@ -75,14 +70,11 @@ class RandomAssemblies {
   Agent agent(bool hull, const Eigen::Vector3d& center) {
     if (!hull)
       return Ellipsoid::from_axes(
-          center, Eigen::Vector3d(number(0.05, 0.5), number(0.05, 0.5), number(0.05, 0.5)), rotation());
+          center, Eigen::Vector3d(uniform(0.05, 0.5), uniform(0.05, 0.5), uniform(0.05, 0.5)), rotation());
     std::vector<Eigen::Vector3d> points;
     for (int k = 0; k < 10; ++k) points.push_back(center + vector(0.4));
     return HullBody(points);
   }
-
- private:
-  std::mt19937_64 random_;
 };
 
 inline Agent translated(const Agent& agent, const Eigen::Vector3d& by) {
@@ -92,4 +84,4 @@ inline Agent translated(const Agent& agent, const Eigen::Vector3d& by) {
 inline const PieceKind kPieceKinds[] = {PieceKind::triangle, PieceKind::ball, PieceKind::box,
                                         PieceKind::hull};
 
-}  // namespace vericone::test
+}  // namespace vericone::testing

@@ -15,6 +15,8 @@
 #include <string>
 #include <utility>
 
+#include "support/campaign.h"
+
 namespace vericone::testing {
 
 /// x moved by `count` representable numbers.
@@ -27,10 +29,8 @@ inline double moved_by_ulps(double x, int count) {
 /// The environment variable VERICONE_SEED replaces the seed that a test names.
 class RandomBodies {
  public:
-  explicit RandomBodies(std::uint64_t seed) : seed_(seed) {
-    if (const char* given = std::getenv("VERICONE_SEED")) seed_ = std::strtoull(given, nullptr, 10);
-    engine_.seed(seed_);
-  }
+  explicit RandomBodies(std::uint64_t seed)
+      : seed_(from_environment("VERICONE_SEED", seed)), engine_(seed_) {}
 
   /// For SCOPED_TRACE, so that a failure tells how to repeat it.
   std::string trace() const { return "VERICONE_SEED=" + std::to_string(seed_); }

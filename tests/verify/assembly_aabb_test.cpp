@@ -15,7 +15,7 @@
 
 #include "verify/real_data.h"
 
-namespace vericone::verify {
+namespace vericone::verify::assembly_aabb_test {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -122,4 +122,4 @@ INSTANTIATE_TEST_SUITE_P(Real, AabbTrees,
                          });
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::assembly_aabb_test

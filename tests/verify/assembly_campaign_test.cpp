@@ -7,30 +7,23 @@
 #include <vericone/verify/assembly_campaign.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <tuple>
 #include <type_traits>
 
-namespace vericone::verify {
+#include "support/campaign.h"
+
+namespace vericone::verify::assembly_campaign_test {
 namespace {
 
-std::uint64_t from_environment(const char* variable, std::uint64_t otherwise) {
-  const char* text = std::getenv(variable);
-  return text ? std::strtoull(text, nullptr, 10) : otherwise;
-}
+using testing::campaign_size, testing::from_environment;
 
-class AssemblyFamilies : public testing::TestWithParam<std::tuple<AgentKind, PieceKind>> {};
+class AssemblyFamilies : public ::testing::TestWithParam<std::tuple<AgentKind, PieceKind>> {};
 
 TEST_P(AssemblyFamilies, NothingContradicts) {
   AssemblyOptions o;
-#ifdef VERICONE_LONG_CAMPAIGN
-  o.cases = from_environment("VERICONE_CASES", 2'000);
-  o.seed = from_environment("VERICONE_SEED", 2);
-#else
-  o.cases = from_environment("VERICONE_CASES", 48);
-  o.seed = from_environment("VERICONE_SEED", 1);
-#endif
+  o.cases = from_environment("VERICONE_CASES", campaign_size(48, 2'000));
+  o.seed = from_environment("VERICONE_SEED", campaign_size(1, 2));
   const auto [agent, pieces] = GetParam();
   SCOPED_TRACE("VERICONE_SEED=" + std::to_string(o.seed));
   const AssemblyReport r = run_assembly_family(agent, pieces, o);
@@ -50,7 +43,6 @@ TEST_P(AssemblyFamilies, NothingContradicts) {
   EXPECT_GT(r.extreme.tried, r.cases);
 }
 
-#ifndef VERICONE_LONG_CAMPAIGN
 TEST(AssemblyCampaign, NoticesAMissingPiece) {
   AssemblyOptions o;
   o.cases = 24;
@@ -103,15 +95,15 @@ TEST(AssemblyCampaign, PosesOfTheObstacle) {
   EXPECT_GT(on, 20);
   EXPECT_GT(out, 50);
 }
-#endif
-
-INSTANTIATE_TEST_SUITE_P(
-    Space, AssemblyFamilies,
-    testing::Combine(testing::Values(AgentKind::ball, AgentKind::ellipsoid, AgentKind::hull),
-                     testing::Values(PieceKind::triangle, PieceKind::ball, PieceKind::box, PieceKind::hull)),
-    [](const auto& family) {
-      return std::string(to_string(std::get<0>(family.param))) + "_" + to_string(std::get<1>(family.param));
-    });
+INSTANTIATE_TEST_SUITE_P(Space, AssemblyFamilies,
+                         ::testing::Combine(::testing::Values(AgentKind::ball, AgentKind::ellipsoid,
+                                                              AgentKind::hull),
+                                            ::testing::Values(PieceKind::triangle, PieceKind::ball,
+                                                              PieceKind::box, PieceKind::hull)),
+                         [](const auto& family) {
+                           return std::string(to_string(std::get<0>(family.param))) + "_" +
+                                  to_string(std::get<1>(family.param));
+                         });
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::assembly_campaign_test

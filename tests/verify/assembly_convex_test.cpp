@@ -15,7 +15,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace vericone::verify {
+namespace vericone::verify::assembly_convex_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -248,4 +248,4 @@ TEST(AssemblyConvex, BoxesTheirTrianglesAndTheirOctants) {
 }
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::assembly_convex_test

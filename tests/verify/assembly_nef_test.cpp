@@ -18,7 +18,7 @@
 #include <map>
 #include <vector>
 
-namespace vericone::verify {
+namespace vericone::verify::assembly_nef_test {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
@@ -230,4 +230,4 @@ TEST(AssemblyNef, TheConeThroughTheWindowIsSafe) {
 }
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::assembly_nef_test

@@ -17,17 +17,14 @@
 #include <cstdio>
 #include <numbers>
 
+#include "support/campaign.h"
 #include "verify/real_data.h"
 
-namespace vericone::verify {
+namespace vericone::verify::assembly_real_test {
 namespace {
 
 using Eigen::Vector3d;
-
-std::uint64_t from_environment(const char* variable, std::uint64_t otherwise) {
-  const char* text = std::getenv(variable);
-  return text ? std::strtoull(text, nullptr, 10) : otherwise;
-}
+using testing::campaign_size, testing::from_environment;
 
 struct Body {
   Assembly assembly;
@@ -144,11 +141,8 @@ TEST_P(Brute, EveryPieceAgrees) {
   if (!b) GTEST_SKIP() << not_here(name);
   const Box bounds = b->assembly.bounds();
   const double size = bounds.half_widths().maxCoeff();
-#ifdef VERICONE_LONG_CAMPAIGN
-  const std::uint64_t total = from_environment("VERICONE_CASES", 1000);
-#else
-  const std::uint64_t total = from_environment("VERICONE_CASES", shape == AgentShape::box ? 100 : 1000);
-#endif
+  const std::uint64_t total =
+      from_environment("VERICONE_CASES", campaign_size(shape == AgentShape::box ? 100 : 1000, 1000));
   constexpr int kOfOnePlace = 50;
   std::uint64_t asked = 0, place = 0;
   for (; asked < total && place < 10 * total; ++place) {
@@ -211,4 +205,4 @@ INSTANTIATE_TEST_SUITE_P(Ellipsoid, Brute,
                          test_name);
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::assembly_real_test

@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace vericone::verify {
+namespace vericone::verify::assembly_truth_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -171,4 +171,4 @@ TEST(AssemblyTruth, AgreesWithHullTruthAndWithItselfWithoutDoubles) {
 }
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::assembly_truth_test

@@ -6,38 +6,31 @@
 #include <vericone/verify/combined_campaign.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <string>
 
-namespace vericone::verify {
+#include "support/campaign.h"
+
+namespace vericone::verify::combined_campaign_test {
 namespace {
 
-std::uint64_t from_environment(const char* variable, std::uint64_t otherwise) {
-  const char* text = std::getenv(variable);
-  return text ? std::strtoull(text, nullptr, 10) : otherwise;
-}
+using testing::campaign_size, testing::from_environment, testing::long_campaign;
 
-CombinedOptions options([[maybe_unused]] CombinedFamily family) {
+CombinedOptions options(CombinedFamily family) {
   CombinedOptions o;
-#ifdef VERICONE_LONG_CAMPAIGN
-  o.cases = from_environment("VERICONE_CASES", 10'000);
-  o.seed = from_environment("VERICONE_SEED", 2);
-  o.directions = 5;
-  o.tolerance = 0.2;
-  o.most_boxes = 20'000;
-  o.bodies_every = 16;
-#else
   const bool cheap = family == CombinedFamily::biconcave || family == CombinedFamily::biconvex ||
                      family == CombinedFamily::star;
-  o.cases = from_environment("VERICONE_CASES", cheap ? 100 : 20);
-  o.seed = from_environment("VERICONE_SEED", 1);
-  o.tolerance = 0.1;
-  o.most_boxes = 50'000;
-#endif
+  o.cases = from_environment("VERICONE_CASES", campaign_size(cheap ? 100 : 20, 10'000));
+  o.seed = from_environment("VERICONE_SEED", campaign_size(1, 2));
+  o.tolerance = campaign_size(0.1, 0.2);
+  o.most_boxes = campaign_size(50'000, 20'000);
+  if (long_campaign()) {
+    o.directions = 5;
+    o.bodies_every = 16;
+  }
   return o;
 }
 
-class CombinedCampaign : public testing::TestWithParam<CombinedFamily> {};
+class CombinedCampaign : public ::testing::TestWithParam<CombinedFamily> {};
 
 TEST_P(CombinedCampaign, NothingContradicts) {
   const CombinedOptions o = options(GetParam());
@@ -56,8 +49,8 @@ TEST_P(CombinedCampaign, NothingContradicts) {
   EXPECT_LE(r.confirmed.failed, r.confirmed.tried / 200);
 }
 
-INSTANTIATE_TEST_SUITE_P(Space, CombinedCampaign, testing::ValuesIn(kAllCombinedFamilies),
+INSTANTIATE_TEST_SUITE_P(Space, CombinedCampaign, ::testing::ValuesIn(kAllCombinedFamilies),
                          [](const auto& family) { return std::string(name(family.param)); });
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::combined_campaign_test

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace vericone::verify {
+namespace vericone::verify::combined_nef_test {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
@@ -107,4 +107,4 @@ TEST(CombinedTruth, FacetsAgreeWithTheSumOfNefPolyhedra) {
 }
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::combined_nef_test

@@ -1,28 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// 10^5 pairs of planar combined quadrics against the exact truth: none wrong. VERICONE_CASES and
-// VERICONE_SEED replace the number of pairs of each family and the seed.
+// Planar combined quadrics against the exact truth, 10^4 pairs and in the campaign 10^5: none wrong.
+// VERICONE_CASES and VERICONE_SEED replace the number of pairs of each family and the seed.
 #include <gtest/gtest.h>
 #include <vericone/verify/combined_planar_campaign.h>
 
 #include <cstdio>
-#include <cstdlib>
 
-namespace vericone::verify {
+#include "support/campaign.h"
+
+namespace vericone::verify::combined_planar_campaign_test {
 namespace {
 
-constexpr std::uint64_t kTotal = 100'000;
+using testing::campaign_size, testing::from_environment;
 
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text ? std::strtoull(text, nullptr, 10) : otherwise;
-}
-
-class CombinedPlanar : public testing::TestWithParam<CombinedPlanarFamily> {};
+class CombinedPlanar : public ::testing::TestWithParam<CombinedPlanarFamily> {};
 
 TEST_P(CombinedPlanar, NoneWrong) {
-  const std::uint64_t cases =
-      from_environment("VERICONE_CASES", kTotal / kAllCombinedPlanarFamilies.size() + 1);
+  const std::uint64_t cases = from_environment(
+      "VERICONE_CASES", campaign_size(10'000, 100'000) / kAllCombinedPlanarFamilies.size() + 1);
   const CombinedPlanarReport r =
       run_combined_planar(GetParam(), cases, from_environment("VERICONE_SEED", 20250304));
   std::puts(to_markdown({&r, 1}).c_str());
@@ -44,8 +40,8 @@ TEST_P(CombinedPlanar, NoneWrong) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, CombinedPlanar, testing::ValuesIn(kAllCombinedPlanarFamilies),
+INSTANTIATE_TEST_SUITE_P(Families, CombinedPlanar, ::testing::ValuesIn(kAllCombinedPlanarFamilies),
                          [](const auto& family) { return std::string(name(family.param)); });
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::combined_planar_campaign_test

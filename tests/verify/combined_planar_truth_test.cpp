@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace vericone::verify {
+namespace vericone::verify::combined_planar_truth_test {
 namespace {
 
 using Eigen::Vector2d, Eigen::Vector3d;
@@ -239,4 +239,4 @@ TEST(SectorBySource, WhoIsRight) {
 }
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::combined_planar_truth_test

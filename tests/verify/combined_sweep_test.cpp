@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace vericone::verify {
+namespace vericone::verify::combined_sweep_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -82,4 +82,4 @@ TEST(CombinedSweep, HitsAreExactHits) {
 }
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::combined_sweep_test

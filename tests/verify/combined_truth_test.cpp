@@ -12,7 +12,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-namespace vericone::verify {
+namespace vericone::verify::combined_truth_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -266,4 +266,4 @@ TEST(CombinedFamilies, AreReplayedAndMostlyDisjoint) {
 }
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::combined_truth_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace vericone::verify {
+namespace vericone::verify::contact_march_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -83,4 +83,4 @@ TEST(ContactMarch, GoingAwayIsNoContact) {
 }
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::contact_march_test

@@ -15,7 +15,7 @@
 #include "verify/corpus_answers.h"
 #include "verify/corpus_seed.h"
 
-namespace vericone::verify {
+namespace vericone::verify::corpus_test {
 namespace {
 
 std::filesystem::path corpus_path(std::string_view predicate) {
@@ -243,4 +243,4 @@ TEST(CorpusFile, SaysWhatIsWrongAndWhere) {
 }
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::corpus_test

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace vericone::verify {
+namespace vericone::verify::enclosed_real_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -49,4 +49,4 @@ TEST(EnclosedReal, NotANumberStaysOne) {
 }
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::enclosed_real_test

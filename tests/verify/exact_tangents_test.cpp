@@ -10,7 +10,7 @@
 #include <numbers>
 #include <random>
 
-namespace vericone::verify {
+namespace vericone::verify::exact_tangents_test {
 namespace {
 
 using Wide = boost::multiprecision::cpp_bin_float_100;
@@ -55,7 +55,7 @@ Wide angle_between(const Wide& ax, const Wide& ay, const Wide& bx, const Wide& b
 
 /// Circles (0, 0; r1) and (dx, dy; r2): psi = 2 asin((r1 + r2) / d), bisector along the line of centres.
 void check_circles(double dx, double dy, double r1, double r2) {
-  SCOPED_TRACE(testing::Message() << "dx " << dx << " dy " << dy << " r1 " << r1 << " r2 " << r2);
+  SCOPED_TRACE(::testing::Message() << "dx " << dx << " dy " << dy << " r1 " << r1 << " r2 " << r2);
   const InnerTangents t = tangents_of(circle(0, 0, r1), circle(dx, dy, r2));
   const Wide x(dx), y(dy), d = sqrt(Wide(x * x + y * y)), half = asin(Wide((Wide(r1) + r2) / d)),
                            mid = atan2(y, x);
@@ -139,7 +139,7 @@ TEST(ExactTangents, EveryQuadrantAndOrder) {
   // infinity.
   for (const double x : {-2.0, 2.0})
     for (const double y : {-2.0, 2.0}) {
-      SCOPED_TRACE(testing::Message() << x << " " << y);
+      SCOPED_TRACE(::testing::Message() << x << " " << y);
       const InnerTangents t = tangents_of(circle(0, 0, 1), circle(x, y, 1));
       expect_encloses(t.psi, pi() / 2);
       expect_encloses(t.theta_b, atan2(Wide(y), Wide(x)));
@@ -181,8 +181,8 @@ TEST(ExactRelation, Decided) {
       {of_shape(0, 0, 2, 1, 1), of_shape(4, 2, 2, 1, 1), separated},
   };
   for (const Relations& c : cases) {
-    SCOPED_TRACE(testing::Message() << "A " << c.a.center().transpose() << " | " << c.a.shape() << "\nB "
-                                    << c.b.center().transpose() << " | " << c.b.shape());
+    SCOPED_TRACE(::testing::Message() << "A " << c.a.center().transpose() << " | " << c.a.shape() << "\nB "
+                                      << c.b.center().transpose() << " | " << c.b.shape());
     EXPECT_STREQ(name(exact_relation(c.a, c.b)), name(c.relation));
     EXPECT_STREQ(name(exact_relation(c.b, c.a)), name(c.relation));
     const ExactTangents exact = exact_inner_tangents(c.a, c.b);
@@ -203,7 +203,7 @@ TEST(ExactRelation, TakesTheFactorAsTheBody) {
 /// tangents to those of the ellipses.
 TEST(ExactTangents, AffineImagesOfCircles) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
-    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    SCOPED_TRACE(::testing::Message() << "seed " << seed);
     std::mt19937_64 random(seed);
     const auto integer = [&](int from, int to) {
       return from + static_cast<int>(random() % static_cast<std::uint64_t>(to - from + 1));
@@ -283,4 +283,4 @@ TEST(ExactTangents, TranslationChangesNoBit) {
 }
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::exact_tangents_test

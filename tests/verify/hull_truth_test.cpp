@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace vericone::verify {
+namespace vericone::verify::hull_truth_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -79,4 +79,4 @@ TEST(HullTruth, FlatBodies) {
 }
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::hull_truth_test

@@ -14,7 +14,7 @@
 
 #include "verify/real_data.h"
 
-namespace vericone::verify {
+namespace vericone::verify::mesh_section_truth_test {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
@@ -145,4 +145,4 @@ INSTANTIATE_TEST_SUITE_P(Real, Sections,
                          });
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::mesh_section_truth_test

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#ifdef VERICONE_DEFAULT_DATA_DIR
+#ifdef VERICONE_HAVE_FILES
 #include <vericone/files/read_points.h>
 #include <vericone/geometry/error.h>
 
@@ -18,7 +18,7 @@
 #include "geometry/written_files.h"
 #endif
 
-namespace vericone::verify {
+namespace vericone::verify::min_ellipsoid_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 20250301;
@@ -103,7 +103,7 @@ void on_ellipsoids() {
   std::printf("CGAL's volume is at least %.2g larger\n", nearest);
 }
 
-#ifdef VERICONE_DEFAULT_DATA_DIR
+#ifdef VERICONE_HAVE_FILES
 /// About their middle and within the unit cube, where CGAL's certificate holds.
 std::vector<Eigen::Vector3d> near_origin(std::vector<Eigen::Vector3d> points) {
   Eigen::Vector3d low = points.front(), high = low;
@@ -171,4 +171,4 @@ TEST(MinEllipsoid, PointsOnEllipses) { on_ellipsoids<2>(); }
 TEST(MinEllipsoid, PointsOnEllipsoids) { on_ellipsoids<3>(); }
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::min_ellipsoid_test

@@ -7,10 +7,11 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace vericone::verify {
+namespace vericone::verify::minkowski_bounds_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -41,6 +42,35 @@ TEST(MinkowskiSum, OfTwoBoxesIsABox) {
   const std::vector<Vector3d> sum = minkowski_sum_vertices(box, box);
   ASSERT_EQ(sum.size(), 8);
   for (const Vector3d& p : sum) EXPECT_EQ(p.cwiseAbs(), Vector3d(2, 4, 6));
+}
+
+/// In every direction the sum reaches as far as both bodies together, and it has no other vertices than sums
+/// of theirs. Points and directions on grids: nothing is rounded. The campaigns ask CGAL's Nef polyhedra.
+TEST(MinkowskiSum, ReachesAsFarAsBothBodies) {
+  SeededRandom random(421, 1, 0);
+  const auto cloud = [&](int count) {
+    std::vector<Vector3d> points;
+    for (int i = 0; i < count; ++i)
+      points.push_back((random.direction<3>() * 0x1p20).array().round() * 0x1p-20);
+    return points;
+  };
+  const std::vector<Vector3d> first = cloud(12), second = cloud(20),
+                              sum = minkowski_sum_vertices(first, second);
+  const auto farthest = [](const std::vector<Vector3d>& points, const Vector3d& n) {
+    double most = points.front().dot(n);
+    for (const Vector3d& p : points) most = std::max(most, p.dot(n));
+    return most;
+  };
+  std::vector<bool> reached(sum.size());
+  for (int k = 0; k < 20'000; ++k) {
+    const Vector3d n = (random.direction<3>() * 0x1p10).array().round();
+    const double most = farthest(sum, n);
+    ASSERT_EQ(most, farthest(first, n) + farthest(second, n)) << n.transpose();
+    for (std::size_t i = 0; i < sum.size(); ++i) reached[i] = reached[i] || sum[i].dot(n) == most;
+  }
+  EXPECT_GT(sum.size(), 40);
+  // All but vertices that nearly are none.
+  EXPECT_GT(std::count(reached.begin(), reached.end(), true), 0.9 * static_cast<double>(sum.size()));
 }
 
 TEST(MinkowskiBounds, ConesOfSpheresAreRight) {
@@ -102,4 +132,4 @@ TEST(MinkowskiBounds, NearBodiesHaveNoOuterCone) {
 }
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::minkowski_bounds_test

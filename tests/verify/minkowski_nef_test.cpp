@@ -15,7 +15,7 @@
 #include <array>
 #include <cmath>
 
-namespace vericone::verify {
+namespace vericone::verify::minkowski_nef_test {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
@@ -63,4 +63,4 @@ TEST(MinkowskiSum, HullOfSumsIsTheSumOfNefPolyhedra) {
 }
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::minkowski_nef_test

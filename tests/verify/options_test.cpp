@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace vericone::verify {
+namespace vericone::verify::options_test {
 namespace {
 
 /// Lines of one program by their first word.
@@ -127,4 +127,4 @@ TEST(ThisBuild, KeepsIeeeArithmetic) {
 }
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::options_test

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace vericone::verify {
+namespace vericone::verify::orifice_truth_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -53,4 +53,4 @@ TEST(OrificeTruth, BallAtAnAngle) {
 }
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::orifice_truth_test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-namespace vericone::verify {
+namespace vericone::verify::planar_campaign_test {
 namespace {
 
 PlanarAnswer truth(const Ellipse& a, const Ellipse& b) {
@@ -68,7 +68,7 @@ TEST(PlanarCampaign, NotANumberIsAnInfiniteError) {
   EXPECT_EQ(r.theta_b.error, std::numeric_limits<double>::infinity());
   EXPECT_EQ(r.edge.error, std::numeric_limits<double>::infinity());
   EXPECT_THAT(to_json_lines({&r, 1}),
-              testing::HasSubstr("\"psi_relative\": {\"error\": \"inf\", \"index\": 0}"));
+              ::testing::HasSubstr("\"psi_relative\": {\"error\": \"inf\", \"index\": 0}"));
 }
 
 TEST(PlanarCampaign, Prints) {
@@ -76,10 +76,10 @@ TEST(PlanarCampaign, Prints) {
   const std::string table = to_markdown(reports), rows = to_json_lines(reports);
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 2 + static_cast<long>(kAllPlanarFamilies.size()));
   EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), static_cast<long>(kAllPlanarFamilies.size()));
-  EXPECT_THAT(table, testing::HasSubstr("| far_from_origin | 9 | 2 | 2 | 0 | 0 | "));
+  EXPECT_THAT(table, ::testing::HasSubstr("| far_from_origin | 9 | 2 | 2 | 0 | 0 | "));
   EXPECT_THAT(rows,
-              testing::HasSubstr("{\"family\": \"thin\", \"seed\": 9, \"cases\": 2, \"separated\": 2, "));
+              ::testing::HasSubstr("{\"family\": \"thin\", \"seed\": 9, \"cases\": 2, \"separated\": 2, "));
 }
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::planar_campaign_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace vericone::verify {
+namespace vericone::verify::planar_families_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 20240611;
@@ -36,7 +36,7 @@ struct Sides {
   }
 };
 
-class EveryFamily : public testing::TestWithParam<PlanarFamily> {};
+class EveryFamily : public ::testing::TestWithParam<PlanarFamily> {};
 
 TEST_P(EveryFamily, TangentsLeaveTheBodiesOnOppositeSides) {
   for (std::uint64_t index = 0; index < kCases; ++index) {
@@ -107,7 +107,7 @@ TEST_P(EveryFamily, IsReplayed) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Planar, EveryFamily, testing::ValuesIn(kAllPlanarFamilies),
+INSTANTIATE_TEST_SUITE_P(Planar, EveryFamily, ::testing::ValuesIn(kAllPlanarFamilies),
                          [](const auto& family) { return std::string(name(family.param)); });
 
 TEST(PlanarFamilies, CongruentAndProportionalAreSoExactly) {
@@ -163,4 +163,4 @@ TEST(PlanarFamilies, WithinRoundingIsOnBothSides) {
 }
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::planar_families_test

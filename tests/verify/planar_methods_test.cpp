@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace vericone::verify {
+namespace vericone::verify::planar_methods_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 20250301;
@@ -29,7 +29,7 @@ double degenerate_conics_bound(PlanarFamily family) {
   }
 }
 
-class PlanarMethods : public testing::TestWithParam<PlanarFamily> {};
+class PlanarMethods : public ::testing::TestWithParam<PlanarFamily> {};
 
 TEST_P(PlanarMethods, SupportIsRightToAFewUlps) {
   const PlanarFamilyReport r = run_planar_family(answer_by_support, GetParam(), kCases, kSeed);
@@ -52,7 +52,7 @@ TEST_P(PlanarMethods, DegenerateConicsAreRightOrDecline) {
   EXPECT_LE(r.not_answered, GetParam() == PlanarFamily::within_rounding ? kCases / 2 : 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Planar, PlanarMethods, testing::ValuesIn(kAllPlanarFamilies),
+INSTANTIATE_TEST_SUITE_P(Planar, PlanarMethods, ::testing::ValuesIn(kAllPlanarFamilies),
                          [](const auto& family) { return std::string(name(family.param)); });
 
 /// A body that moves, turns and changes its semi-axes at constant rates.
@@ -137,4 +137,4 @@ TEST(SectorRates, AgreeWithDifferencesOfTheExactTangents) {
 }
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::planar_methods_test

@@ -8,22 +8,16 @@
 #include <atomic>
 #include <cctype>
 #include <cstdio>
-#include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-namespace vericone::verify {
+#include "support/campaign.h"
+
+namespace vericone::verify::predicate_campaign_test {
 namespace {
 
-#ifdef VERICONE_LONG_CAMPAIGN
-constexpr std::uint64_t kTotal = 100'000'000;
-#endif
-
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text ? std::strtoull(text, nullptr, 10) : otherwise;
-}
+using testing::campaign_size, testing::from_environment;
 
 /// How often the exact rung can be afforded: one block in so many. It costs a microsecond for points and
 /// planar sectors, ten for cones and hulls, up to a millisecond for the others.
@@ -37,19 +31,12 @@ std::uint64_t exact_every(const std::string& predicate) {
 
 PredicateOptions options(const std::string& predicate) {
   PredicateOptions o;
-#ifdef VERICONE_LONG_CAMPAIGN
-  o.cases = kTotal / predicate_names().size() + 1;
-  o.seed = 2;
-  o.exact_every = 16 * exact_every(predicate);
-  o.truth_every = 8192;
-#else
-  o.cases = 1'000'000;
-  o.seed = 1;
-  o.exact_every = exact_every(predicate);
-  o.truth_every = 512;
-#endif
-  o.cases = from_environment("VERICONE_CASES", o.cases);
-  o.seed = from_environment("VERICONE_SEED", o.seed);
+  constexpr std::uint64_t kCampaign = 100'000'000;  // of all predicates
+  o.cases = from_environment("VERICONE_CASES",
+                             campaign_size<std::uint64_t>(200'000, kCampaign / predicate_names().size() + 1));
+  o.seed = from_environment("VERICONE_SEED", campaign_size(1, 2));
+  o.exact_every = campaign_size(1, 16) * exact_every(predicate);
+  o.truth_every = campaign_size(128, 8192);
   return o;
 }
 
@@ -57,7 +44,7 @@ std::string trace(const PredicateReport& r) {
   return "VERICONE_SEED=" + std::to_string(r.seed) + "\n" + to_markdown({&r, 1});
 }
 
-class EveryPredicate : public testing::TestWithParam<std::string> {};
+class EveryPredicate : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EveryPredicate, IsNeverWrong) {
   const PredicateOptions o = options(GetParam());
@@ -80,26 +67,24 @@ TEST_P(EveryPredicate, IsNeverWrong) {
   }
 }
 
-std::string as_identifier(const testing::TestParamInfo<std::string>& info) {
+std::string as_identifier(const ::testing::TestParamInfo<std::string>& info) {
   std::string s = info.param;
   for (char& c : s)
     if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
   return s;
 }
-INSTANTIATE_TEST_SUITE_P(Campaign, EveryPredicate, testing::ValuesIn(predicate_names()), as_identifier);
-
-#ifndef VERICONE_LONG_CAMPAIGN
+INSTANTIATE_TEST_SUITE_P(Campaign, EveryPredicate, ::testing::ValuesIn(predicate_names()), as_identifier);
 
 PredicateOptions few() {
   PredicateOptions o;
-  o.cases = 3000;
+  o.cases = 1500;
   o.seed = from_environment("VERICONE_SEED", 5);
   o.exact_every = 1;
   o.truth_every = 0;
   return o;
 }
 
-class BrokenLibrary : public testing::TestWithParam<std::string> {};
+class BrokenLibrary : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(BrokenLibrary, OneRungThatIsWrongIsFoundWithoutCgal) {
   for (const Rung broken : {Rung::triage, Rung::exact}) {
@@ -150,9 +135,9 @@ TEST_P(BrokenLibrary, AnAnswerChangedOnceIsFoundAndReplayed) {
 
 TEST_P(BrokenLibrary, CountsDoNotDependOnThreads) {
   PredicateOptions o = few();
-  o.cases = 20'000;
+  o.cases = 6000;
   o.exact_every = 4;
-  o.truth_every = 100;
+  o.truth_every = 30;
   o.threads = 1;
   const PredicateReport one = run_predicate(GetParam(), o);
   o.threads = 3;
@@ -167,7 +152,7 @@ TEST_P(BrokenLibrary, CountsDoNotDependOnThreads) {
   EXPECT_EQ(one.exact, three.exact);
 }
 
-INSTANTIATE_TEST_SUITE_P(Campaign, BrokenLibrary, testing::ValuesIn(predicate_names()), as_identifier);
+INSTANTIATE_TEST_SUITE_P(Campaign, BrokenLibrary, ::testing::ValuesIn(predicate_names()), as_identifier);
 
 TEST(PredicateCampaign, StopsWhenAsked) {
   PredicateOptions o = few();
@@ -194,7 +179,5 @@ TEST(PredicateCampaign, JsonHasTheKeys) {
   for (const char* bad : {": nan", ": -nan", ": inf"}) EXPECT_EQ(json.find(bad), std::string::npos);
 }
 
-#endif
-
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::predicate_campaign_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace vericone::verify {
+namespace vericone::verify::predicate_truth_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -191,4 +191,4 @@ TEST(Truth, BodiesThatAreNotApartHaveNoCone) {
 }
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::predicate_truth_test

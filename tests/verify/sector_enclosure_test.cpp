@@ -10,7 +10,7 @@
 #include <iostream>
 #include <numbers>
 
-namespace vericone::verify {
+namespace vericone::verify::sector_enclosure_test {
 namespace {
 
 /// Whether the enclosure and [lo, hi], which holds the true value and is about one unit in the last place
@@ -52,4 +52,4 @@ INSTANTIATE_TEST_SUITE_P(Families, SectorEnclosures, ::testing::ValuesIn(kAllPla
                          [](const auto& test) { return std::string(name(test.param)); });
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::sector_enclosure_test

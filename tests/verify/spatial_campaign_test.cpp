@@ -5,13 +5,13 @@
 #include <vericone/verify/contact_march.h>
 #include <vericone/verify/spatial_campaign.h>
 
-namespace vericone::verify {
+namespace vericone::verify::spatial_campaign_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 20250301;
 constexpr std::uint64_t kPairs = 80;
 
-class SpatialCampaign : public testing::TestWithParam<SpatialFamily> {};
+class SpatialCampaign : public ::testing::TestWithParam<SpatialFamily> {};
 
 TEST_P(SpatialCampaign, NothingContradicts) {
   const SpatialFamilyReport r = run_spatial_family(GetParam(), kPairs, kSeed);
@@ -32,7 +32,7 @@ TEST_P(SpatialCampaign, NothingContradicts) {
   EXPECT_LE(r.gap.value, 0.05);
 }
 
-INSTANTIATE_TEST_SUITE_P(Space, SpatialCampaign, testing::ValuesIn(kAllSpatialFamilies),
+INSTANTIATE_TEST_SUITE_P(Space, SpatialCampaign, ::testing::ValuesIn(kAllSpatialFamilies),
                          [](const auto& family) { return std::string(name(family.param)); });
 
 TEST(SpatialFamilies, TheLineOfCentresOfSidewaysPairsDoesNotSeparateThem) {
@@ -57,4 +57,4 @@ TEST(SpatialFamilies, AreReplayed) {
 }
 
 }  // namespace
-}  // namespace vericone::verify
+}  // namespace vericone::verify::spatial_campaign_test

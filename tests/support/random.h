@@ -5,17 +5,16 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
-#include <cstdlib>
 #include <random>
+
+#include "support/campaign.h"
 
 namespace vericone::testing {
 
 /// Random input from a seed that the test names; the environment variable VERICONE_SEED replaces it.
 class Random {
  public:
-  explicit Random(std::uint64_t seed) : seed_(seed) {
-    if (const char* given = std::getenv("VERICONE_SEED")) seed_ = std::strtoull(given, nullptr, 10);
-    engine_.seed(seed_);
+  explicit Random(std::uint64_t seed) : seed_(from_environment("VERICONE_SEED", seed)), engine_(seed_) {
     ::testing::Test::RecordProperty("seed", std::to_string(seed_));
   }
 
