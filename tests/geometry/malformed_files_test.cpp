@@ -79,6 +79,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"off_huge_face", "a.off", "OFF\n3 1 0\n" + kCube + "1000000000000000000 0 1 2\n", "3 vertex",
                 "1000000000000000000"},
         BadFile{"off_four_dimensions", "a.off", "4OFF\n1 0 0\n0 0 0 0\n", "4OFF", "three dimensions"},
+        BadFile{"off_n_dimensions", "a.off", "nOFF\n1 0 0\n0 0 0\n", "nOFF", "three dimensions"},
         BadFile{"off_binary", "a.off", "OFF BINARY\n", "binary", "ascii"},
         BadFile{"off_all_nan", "a.off", "OFF\n2 0 0\nnan 0 0\n0 0 inf\n", "none of them finite",
                 "at least one finite"},

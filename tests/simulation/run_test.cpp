@@ -265,6 +265,25 @@ TEST(Run, SeveralAgentsAvoidEachOther) {
     EXPECT_LT((run.tracks[0].motion(t).position + run.tracks[1].motion(t).position).norm(), 1e-6) << t;
 }
 
+// The farther one is minded as well, and its law demands something; but first things first.
+TEST(Run, AttendsToWhatIsMetFirst) {
+  Scenario scenario;
+  scenario.duration = 8;
+  scenario.step = 0.02;
+  scenario.bodies.push_back(ellipsoid("A", {1, 1, 1}, {0, 0, 0}, {5, 0, 0}));
+  scenario.bodies.push_back(ellipsoid("far", {2, 2, 2}, {35, 0.5, 0}, {0, 0, 0}));
+  scenario.bodies.push_back(ellipsoid("near", {1, 1, 1}, {15, 0.5, 0}, {0, 0, 0}));
+  scenario.bodies[0].pilot = pilot(Law::clearance);
+  const auto run = simulate(scenario);
+  EXPECT_EQ(run.verdict(), ProofVerdict::avoided);
+  const auto near = sample_at(scenario, run, "A", "near", 0), far = sample_at(scenario, run, "A", "far", 0);
+  ASSERT_TRUE(near && far);
+  EXPECT_GT(near->step.a.norm(), 0);
+  EXPECT_GT(far->step.a.norm(), 0);
+  EXPECT_TRUE(near->attended);
+  EXPECT_FALSE(far->attended);
+}
+
 TEST(Run, BodiesAppearWhenTheyAreSaidTo) {
   Scenario scenario = encounter();
   scenario.bodies[1].appears = 1.2345;
