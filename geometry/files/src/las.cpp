@@ -19,7 +19,7 @@ constexpr std::array<std::size_t, 11> kRecordSize = {20, 28, 26, 34, 57, 63, 30,
 
 /// Places in the header.
 constexpr std::size_t kMajor = 24, kMinor = 25, kHeaderSize = 94, kOffsetToPoints = 96, kFormat = 104,
-                      kRecordLength = 105, kLegacyCount = 107, kScale = 131, kOffset = 155, kCount = 247;
+                      kRecordLength = 105, kLegacyCount = 107, kScale = 131, kOffset = 155, kPointCount = 247;
 
 struct Header {
   int minor = 0;
@@ -68,7 +68,7 @@ Header read_header(const Source& source) {
 
   h.count = little_endian<std::uint32_t>(head + kLegacyCount);
   if (h.minor >= 4) {
-    const auto count = little_endian<std::uint64_t>(head + kCount);
+    const auto count = little_endian<std::uint64_t>(head + kPointCount);
     if (h.count != 0 && count != h.count)
       source.refuse("two numbers of points, " + std::to_string(h.count) + " and " + std::to_string(count),
                     "one number, or zero in the place of versions before 1.4");

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "infinity.h"
+
 namespace vericone::fitting {
 
 using exact::Integer;
@@ -68,7 +70,6 @@ double nearly(const Rational& x) {
 }
 
 double rounded_up(const Rational& x) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   double d = nearly(x);
   if (!std::isfinite(d)) return d > 0 ? kInfinity : std::numeric_limits<double>::lowest();
   while (Rational(d) < x) {

@@ -201,7 +201,7 @@ bool star_volume(const Matrix3d& ellipsoid, std::span<const Matrix3d> delimiters
   }
   const Sums sums = forms.size() == 1 ? integrate_one(forms.front()) : integrate_all(forms);
   if (!std::isfinite(sums.volume) || !(sums.volume > 0)) return false;
-  result.log = std::log(sums.volume / 3) - std::log(lower.diagonal().prod());
+  result.log = std::log(sums.volume / 3) - std::log(factor.lower.diagonal().prod());
   result.by_delimiter.resize(forms.size());
   // d(form) = L^-1 dM L^-T - P form - form P^T, where P is the lower triangle of X = L^-1 dA L^-T with half
   // of its diagonal (that is dL = L P).
