@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "fit/cone_json.h"
+#include "json_value.h"
 #include "geometry/meshes.h"
 #include "support/random_bodies.h"
 

@@ -1,36 +1,32 @@
-# Equal answers with other compiler options: the same program three times, the library's own objects in one, its
-# sources compiled again in the others, six in a unit (22 in one: 71 s, 1.8 GB). (Never mixed: the alignment of Eigen's
-# matrices depends on -march.)
-find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(Boost 1.74 REQUIRED)
+# Equal answers with other compiler options: the same program three times, with the library's own predicates in one, with
+# their sources compiled again in the others, two units a set of options (one would take more than 30 s). What the
+# predicates need besides comes from the libraries, whose matrices the option of the alignment makes the same: with
+# -march=native Eigen would align them otherwise.
 add_executable(options_probe options_probe.cpp corpus_answers.cpp)
 target_link_libraries(options_probe PRIVATE vericone::verify vericone::cones)
+vericone_precompile(options_probe exact)
+vericone_unity(options_probe 2)
 set(options_probes options_probe)
+
+set(probe_geometry algebraic quadric_side)
+set(probe_cones contact_frame contact_polynomial relation cone_oracle sector_oracle containment position orifice
+  hull_oracle hull_oracle_certificates hull_oracle_exact hull_oracle_scene)
 set(probe_sources options_probe.cpp corpus_answers.cpp)
 foreach(library geometry cones)
-  get_target_property(sources vericone_${library} SOURCES)
-  list(TRANSFORM sources PREPEND ${PROJECT_SOURCE_DIR}/${library}/)
-  list(APPEND probe_sources ${sources})
-endforeach()
-# What the program does not ask.
-list(FILTER probe_sources EXCLUDE REGEX
-  "/(clearance|plane_sector|slice_cone|enclosures|order_|contact_time|moving_contact|entry_time)[a-z_]*.cpp$")
-list(FILTER probe_sources EXCLUDE REGEX
-  "/(min_volume|sector_degenerate|sector_by_source|combined|surface_mesh|planar_boundary|pole_polar)[a-z_]*.cpp$")
-list(FILTER probe_sources EXCLUDE REGEX "/(assembly|cone_map|hierarchy|mesh_section|visible)[a-z_/]*.cpp$")
-foreach(source corpus corpus_bodies corpus_build corpus_file corpus_points)
-  list(APPEND probe_sources ${PROJECT_SOURCE_DIR}/verify/src/${source}.cpp)
+  foreach(source IN LISTS probe_${library})
+    list(APPEND probe_sources ${PROJECT_SOURCE_DIR}/${library}/src/${source}.cpp)
+  endforeach()
 endforeach()
 function(vericone_options_probe name)
   add_executable(${name} ${probe_sources})
-  set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
-  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/verify/include)
-  foreach(library geometry cones)
-    target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/${library}/include)
-  endforeach()
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR}/cones/src)
+  target_compile_definitions(${name} PRIVATE EIGEN_MAX_STATIC_ALIGN_BYTES=16)
   # g++ says so of types of a file that is included, which every file of a unit is.
-  target_compile_options(${name} PRIVATE -ffp-contract=off $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage> ${ARGN})
-  target_link_libraries(${name} PRIVATE Eigen3::Eigen Boost::boost)
+  target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage> ${ARGN})
+  target_link_libraries(${name} PRIVATE vericone::verify vericone::cones)
+  # A unit of the libraries may hold a predicate beside what is needed of it: the program's own comes first.
+  target_link_options(${name} PRIVATE LINKER:--allow-multiple-definition)
   set(options_probes ${options_probes} ${name} PARENT_SCOPE)
 endfunction()
 vericone_options_probe(options_probe_O0 -O0)
@@ -39,9 +35,7 @@ check_cxx_compiler_flag(-march=native VERICONE_HAVE_MARCH_NATIVE)
 if(VERICONE_HAVE_MARCH_NATIVE)
   vericone_options_probe(options_probe_native -O3 -march=native)
 endif()
-foreach(probe IN LISTS options_probes)
-  target_include_directories(${probe} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-endforeach()
+target_include_directories(options_probe PRIVATE ${PROJECT_SOURCE_DIR}/tests)
 list(TRANSFORM options_probes REPLACE "(.+)" "\"$<TARGET_FILE:\\1>\"" OUTPUT_VARIABLE probe_files)
 list(GET probe_files 0 probe_first)
 list(JOIN probe_files "," probe_files)

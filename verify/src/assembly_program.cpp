@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "assembly_program.h"
 
-#include <CGAL/Gmpz.h>
 #include <CGAL/QP_functions.h>
 #include <CGAL/QP_models.h>
 
@@ -9,6 +8,7 @@
 #include <stdexcept>
 
 #include "algebra.h"
+#include "gmpz.h"
 
 namespace vericone::verify {
 namespace {
@@ -16,8 +16,6 @@ namespace {
 using namespace algebra;
 using Eigen::Vector3d;
 using Program = CGAL::Quadratic_program<CGAL::Gmpz>;
-
-CGAL::Gmpz gmpz(const Integer& x) { return CGAL::Gmpz(x.get_mpz_t()); }
 
 /// The unit of lengths on which the product t w lies as well.
 void include_motion(Unit& unit, const Motion& motion) {

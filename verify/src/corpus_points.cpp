@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t kSide = 0xc0505, kHull = 0xc0506, kOrifice = 0xc0507;
 
-CorpusCase start(const char* predicate, const std::string& family, const std::string& kind,
+CorpusCase start_point(const char* predicate, const std::string& family, const std::string& kind,
                  std::uint64_t index, const char* truth) {
   CorpusCase c;
   c.predicate = predicate;
@@ -61,7 +61,7 @@ void point_on_body(std::vector<CorpusCase>& cases, SeededRandom& random, std::ui
   const Body<D> body{{}, product<D>(identity<D>(n), random_factor<D>(random))};
   const Vec<D> on = apply<D>(body.factor, u);
   const auto add = [&](const char* family, const char* truth, const Rational& radius) {
-    CorpusCase c = start("side", family, map.kind, index, truth);
+    CorpusCase c = start_point("side", family, map.kind, index, truth);
     add_body<D>(c, "a", map, body);
     add_point<D>(c, "point", map, times<D>(radius, on));
     if (fits(c)) cases.push_back(std::move(c));
@@ -147,7 +147,7 @@ void point_on_quadric(std::vector<CorpusCase>& cases, SeededRandom& random, std:
   CorpusField field{"quadric", {}};
   for (int i = 0; i < 4; ++i)
     for (int j = i; j < 4; ++j) field.values.push_back(image[i][j]);
-  CorpusCase c = start("side", family, map.kind, index, "zero");
+  CorpusCase c = start_point("side", family, map.kind, index, "zero");
   c.fields.push_back(field);
   add_point<3>(c, "point", map, x);
   if (!fits(c)) return;
@@ -213,7 +213,7 @@ void grazed_hull(std::vector<CorpusCase>& cases, SeededRandom& random, std::uint
       agent_middle = sum<3>(agent_middle, times<3>(Rational(1, static_cast<int>(agent.size())), p));
   }
   const auto add = [&](const std::string& family, const char* truth, const Vec<3>& w) -> CorpusCase* {
-    CorpusCase c = start("hull", family, map.kind + (ellipsoid ? "/ellipsoid" : "/hull"), index, truth);
+    CorpusCase c = start_point("hull", family, map.kind + (ellipsoid ? "/ellipsoid" : "/hull"), index, truth);
     if (ellipsoid)
       add_body<3>(c, "a", map, body);
     else
@@ -294,7 +294,7 @@ void grazed_rim(std::vector<CorpusCase>& cases, SeededRandom& random, std::uint6
   // Far enough back that the ball is clear of the plane.
   const Rational back(random.integer(0, 2) + static_cast<int>(Rational(2 + (r + abs(foot[2])) / abs(w[2]))));
   const auto add = [&](const char* family, const char* truth, const Rational& outwards, int direction) {
-    CorpusCase c = start("orifice", family, map.kind, index, truth);
+    CorpusCase c = start_point("orifice", family, map.kind, index, truth);
     const Vec<3> center = sum<3>(sum<3>(foot, times<3>(outwards, d)), times<3>(-back, w));
     add_point<3>(c, "a.center", map, center);
     c.fields.push_back({"a.radius", {r * scale}});

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <CGAL/Gmpz.h>
 #include <CGAL/QP_functions.h>
 #include <CGAL/QP_models.h>
 #include <vericone/verify/hull_truth.h>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "algebra.h"
+#include "gmpz.h"
 
 namespace vericone::verify {
 namespace {
@@ -15,8 +15,6 @@ namespace {
 using namespace algebra;
 using Program = CGAL::Quadratic_program<CGAL::Gmpz>;
 using Solution = CGAL::Quadratic_program_solution<CGAL::Gmpz>;
-
-CGAL::Gmpz gmpz(const Integer& x) { return CGAL::Gmpz(x.get_mpz_t()); }
 
 /// All lower bounds 0, no upper ones, all relations equalities.
 Program program() { return Program(CGAL::EQUAL, true, CGAL::Gmpz(0), false, CGAL::Gmpz(0)); }

@@ -30,8 +30,8 @@ double scale_of(const SurfaceModel& model, const Parameters& parameters, const C
 
 bool is_open(const SurfaceModel& model, const Parameters& parameters, bool converged) {
   // A solver on its way to infinity does not arrive there.
-  constexpr double kLongest = 50, kLong = 10;
-  return !(Surfaces(model, parameters).semi_axes()(0) < (converged ? kLongest : kLong));
+  constexpr double kLongestKnown = 50, kLong = 10;
+  return !(Surfaces(model, parameters).semi_axes()(0) < (converged ? kLongestKnown : kLong));
 }
 
 /// Some steps from a start.
