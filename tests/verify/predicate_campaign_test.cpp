@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Campaign, EveryPredicate, ::testing::ValuesIn(predicate
 
 PredicateOptions few() {
   PredicateOptions o;
-  o.cases = 1500;
+  o.cases = 3000;
   o.seed = from_environment("VERICONE_SEED", 5);
   o.exact_every = 1;
   o.truth_every = 0;
@@ -135,9 +135,9 @@ TEST_P(BrokenLibrary, AnAnswerChangedOnceIsFoundAndReplayed) {
 
 TEST_P(BrokenLibrary, CountsDoNotDependOnThreads) {
   PredicateOptions o = few();
-  o.cases = 6000;
+  o.cases = 20'000;
   o.exact_every = 4;
-  o.truth_every = 30;
+  o.truth_every = 100;
   o.threads = 1;
   const PredicateReport one = run_predicate(GetParam(), o);
   o.threads = 3;
