@@ -58,9 +58,13 @@ Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b
   return a.colPivHouseholderQr().solve(b);
 }
 
-template struct Cholesky<2>;
-template struct Cholesky<3>;
-template struct Cholesky<4>;
+// Of the members what is used: each size of each costs half a second.
+template Eigen::Vector2d Cholesky<2>::half_solve(const Eigen::Vector2d&) const;
+template Eigen::Vector3d Cholesky<3>::half_solve(const Eigen::Vector3d&) const;
+template Eigen::Vector3d Cholesky<3>::solve(const Eigen::Vector3d&) const;
+template Eigen::Matrix2d Cholesky<2>::lower_inverse() const;
+template Eigen::Matrix3d Cholesky<3>::lower_inverse() const;
+template Eigen::Matrix3d Cholesky<3>::inverse() const;
 template Cholesky<2> cholesky<2>(const Eigen::Matrix2d&);
 template Cholesky<3> cholesky<3>(const Eigen::Matrix3d&);
 template Cholesky<4> cholesky<4>(const Eigen::Matrix4d&);
