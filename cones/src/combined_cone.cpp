@@ -61,9 +61,11 @@ class Tracer {
 
   Wedge sector(const End& first, const End& last, double standoff) const {
     Wedge s{first, last, 0, 0, 0, 0};
-    s.outwards = least_standoff(standoff, std::numbers::pi - 1e-6 - std::max(first.out, last.out), [&](double d) {
-      return oracle_.all_out(direction(first.azimuth, first.out + d), direction(last.azimuth, last.out + d));
-    });
+    s.outwards =
+        least_standoff(standoff, std::numbers::pi - 1e-6 - std::max(first.out, last.out), [&](double d) {
+          return oracle_.all_out(direction(first.azimuth, first.out + d),
+                                 direction(last.azimuth, last.out + d));
+        });
     s.inwards = least_standoff(standoff, std::min(first.in, last.in), [&](double d) {
       return oracle_.all_in(direction(first.azimuth, first.in - d), direction(last.azimuth, last.in - d));
     });
@@ -232,7 +234,8 @@ std::vector<PlaneInterval> plane_intervals(const CombinedOracle& oracle, const V
   };
   constexpr int kFirst = 16;
   for (int i = 0; i < kFirst; ++i)
-    resolve(resolve, std::numbers::pi * (2.0 * i / kFirst - 1), std::numbers::pi * (2.0 * (i + 1) / kFirst - 1));
+    resolve(resolve, std::numbers::pi * (2.0 * i / kFirst - 1),
+            std::numbers::pi * (2.0 * (i + 1) / kFirst - 1));
   return result;
 }
 

@@ -65,8 +65,7 @@ EnclosedQuadric quadric(const IntervalMatrix3& m, double level) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) middles(i, j) = q.matrix[i][j].mid();
   if (middles.allFinite()) {
-    const double least =
-        symmetric_eigenvalues<3>(middles)(0);
+    const double least = symmetric_eigenvalues<3>(middles)(0);
     q.least_eigenvalue = std::min(least, 0.0) - 1e-14 * middles.norm();
   }
   return q;

@@ -14,7 +14,9 @@ namespace vericone {
 inline constexpr double kUnitRoundoff = 0x1p-53;
 
 /// Positive where y is to the left of x.
-inline double cross(const Eigen::Vector2d& x, const Eigen::Vector2d& y) { return x.x() * y.y() - x.y() * y.x(); }
+inline double cross(const Eigen::Vector2d& x, const Eigen::Vector2d& y) {
+  return x.x() * y.y() - x.y() * y.x();
+}
 
 /// Exactly the power of two in [|x|, 2|x|), as an exponent; 0 for 0.
 inline int binary_exponent(double x) { return x == 0 ? 0 : std::ilogb(x) + 1; }

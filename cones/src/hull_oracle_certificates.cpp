@@ -9,7 +9,6 @@
 namespace vericone {
 namespace {
 
-
 Interval entry(const HullScene& scene, int r, int c) {
   return scene.enclosed_shape[HullScene::kPacked[r][c]];
 }

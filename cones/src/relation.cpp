@@ -14,7 +14,6 @@
 namespace vericone {
 namespace {
 
-
 /// An upper bound of rho(n), from the matrix that defines the body; the other one is rounded.
 template <int D>
 double radius_above(const BasicEllipsoid<D>& body, const Eigen::Matrix<double, D, 1>& n,

@@ -13,7 +13,6 @@
 namespace vericone {
 namespace {
 
-
 template <typename Derived>
 std::string text(const Eigen::MatrixBase<Derived>& m) {
   std::string out = "[";
@@ -41,7 +40,8 @@ Eigen::Matrix<double, D, D> validated_rotation(const Eigen::Matrix<double, D, D>
   if (defect > 1e-6) throw InputError("rotation", text(r), "orthonormal to 1e-6 (R^T R = I)");
   if (r.determinant() < 0)
     throw InputError("rotation", text(r), "a rotation, determinant +1, not a reflection");
-  if (defect <= 4 * std::numeric_limits<double>::epsilon()) return r;  // as good as it gets: keep the caller's bits
+  if (defect <= 4 * std::numeric_limits<double>::epsilon())
+    return r;  // as good as it gets: keep the caller's bits
   return nearest_orthogonal<D>(r);
 }
 

@@ -10,8 +10,8 @@
 #include <numbers>
 
 #include "fit/cone_json.h"
-#include "json_value.h"
 #include "geometry/meshes.h"
+#include "json_value.h"
 #include "support/random_bodies.h"
 
 namespace vericone::cone_comparison_test {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <vericone/verify/combined_planar_truth.h>
 #include <vericone/geometry/decompositions.h>
+#include <vericone/verify/combined_planar_truth.h>
 #include <Eigen/LU>
 
 #include <cmath>

@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint32_t kSide = 0xc0505, kHull = 0xc0506, kOrifice = 0xc0507;
 
 CorpusCase start_point(const char* predicate, const std::string& family, const std::string& kind,
-                 std::uint64_t index, const char* truth) {
+                       std::uint64_t index, const char* truth) {
   CorpusCase c;
   c.predicate = predicate;
   c.family = family;

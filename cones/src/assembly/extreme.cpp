@@ -57,7 +57,8 @@ struct PlaneAngle {
 /// The largest angle between `from` and `to` at which a piece is met, so far.
 class ExtremeSearch {
  public:
-  ExtremeSearch(const Scene& scene, const HalfPlane& plane, double from, double to, double tolerance, Effort& effort)
+  ExtremeSearch(const Scene& scene, const HalfPlane& plane, double from, double to, double tolerance,
+                Effort& effort)
       : scene_(scene),
         plane_(plane),
         to_(to),

@@ -136,8 +136,8 @@ int centre(const Barrier& barrier, double mu, VectorXd& x, VectorXd& multipliers
     const auto solver = symmetric_eigen<Eigen::Dynamic>(hessian);
     const VectorXd sizes = solver.values.cwiseAbs();
     const VectorXd step =
-        -solver.vectors * (solver.vectors.transpose() * gradient)
-                                     .cwiseQuotient(sizes.cwiseMax(1e-12 * sizes.maxCoeff()));
+        -solver.vectors *
+        (solver.vectors.transpose() * gradient).cwiseQuotient(sizes.cwiseMax(1e-12 * sizes.maxCoeff()));
     const double decrease = -gradient.dot(step);
     if (!(decrease > kCentred * mu)) break;
     // Slacks lose 99 % at most: on the boundary no direction would lead away any more.

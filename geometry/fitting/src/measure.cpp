@@ -115,7 +115,8 @@ std::optional<DistanceStatistics> hull_to_scan(const std::vector<Piece>& pieces,
     const double target = (k + 0.5) / samples * boundary.area.back();
     while (at + 1 < boundary.area.size() && boundary.area[at] < target) ++at;
     const auto& [corners, piece] = boundary.parts[at];
-    double u = fractional_part(0.5 + k * 0.7548776662466927), v = fractional_part(0.5 + k * 0.5698402909980532);
+    double u = fractional_part(0.5 + k * 0.7548776662466927),
+           v = fractional_part(0.5 + k * 0.5698402909980532);
     if (u + v > 1) {
       u = 1 - u;
       v = 1 - v;

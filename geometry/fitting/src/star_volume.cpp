@@ -113,8 +113,7 @@ class HalfCircle {
 /// is analytic in tau, and tan(tau) = stretch * tan(omega) evens out narrow bodies.
 Sums integrate_one(const Matrix3d& form) {
   const auto solver = symmetric_eigen<3>(form);
-  const double low = solver.values(0), middle = solver.values(1),
-               high = solver.values(2);
+  const double low = solver.values(0), middle = solver.values(1), high = solver.values(2);
   Sums sums;
   sums.volume = 4 * pi;
   Vector3d ball(4 * pi / 3, 4 * pi / 3, 4 * pi / 3), active = Vector3d::Zero();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface_model.h"
 
-#include <vericone/geometry/decompositions.h>
 #include <ceres/jet.h>
+#include <vericone/geometry/decompositions.h>
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <Eigen/LU>

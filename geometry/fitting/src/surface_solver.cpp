@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface_solver.h"
 
-#include <vericone/geometry/decompositions.h>
 #include <ceres/ceres.h>
+#include <vericone/geometry/decompositions.h>
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -207,8 +207,7 @@ void polish(const SurfaceModel& model, const Cloud& cloud, double cutoff, Soluti
     if (!positive) break;
     for (int i = 0; i < 12; ++i) {
       const VectorXd g = gradient(s.parameters);
-      const VectorXd step =
-          solver.vectors * (solver.vectors.transpose() * g).cwiseQuotient(solver.values);
+      const VectorXd step = solver.vectors * (solver.vectors.transpose() * g).cwiseQuotient(solver.values);
       const double size = step.norm() / (1 + s.parameters.norm());
       if (!(size < 0.1)) break;
       const bool slow = size > 0.3 * last;

@@ -89,8 +89,7 @@ std::optional<Candidate> algebraic(const Cloud& cloud, double k) {
   Eigen::Matrix<double, n, D + 1> mixed = Eigen::Matrix<double, n, D + 1>::Zero();
   double sum = 0;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    const VectorD<D> u =
-        factor.half_solve(cloud.points[i].template head<D>() - m.mean);
+    const VectorD<D> u = factor.half_solve(cloud.points[i].template head<D>() - m.mean);
     VectorD<n> q;
     q.template head<D>() = u.cwiseAbs2();
     if constexpr (D == 2)

@@ -5,7 +5,6 @@
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
 
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

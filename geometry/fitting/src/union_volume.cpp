@@ -125,8 +125,7 @@ Columns columns_of(const Piece& piece, const Vector3d& origin, const Matrix3d& a
 }
 
 /// Length of the column over p that is in pieces, counted as often as there are pieces, less counted once.
-double counted_too_often(const std::vector<Columns>& pieces, const Vector2d& p,
-                         std::vector<Stretch>& found) {
+double counted_too_often(const std::vector<Columns>& pieces, const Vector2d& p, std::vector<Stretch>& found) {
   found.clear();
   for (const Columns& c : pieces)
     if (c.shadow.contains(p)) c.cut(p, found);

@@ -135,8 +135,7 @@ class Alignment {
           target.normals_[pair(1)];
       information += row * row.transpose() / double(pairs.size());
     }
-    fit.weakest = std::max(
-        0.0, symmetric_eigen<Eigen::Dynamic>(information).values(0));
+    fit.weakest = std::max(0.0, symmetric_eigen<Eigen::Dynamic>(information).values(0));
     return fit;
   }
 

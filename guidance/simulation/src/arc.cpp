@@ -22,7 +22,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-
 using State = std::array<double, 3>;  // along, across, turned
 using Dopri5 = boost::numeric::odeint::runge_kutta_dopri5<State>;
 

@@ -30,8 +30,8 @@ template <int N>
 bool generalized_eigen(const Eigen::Matrix<double, N, N>& a, const Eigen::Matrix<double, N, N>& b,
                        SymmetricEigen<N>& result);
 
-/// a = L L^T of a symmetric matrix, whose lower triangle is read. N is 2, 3 or 4; the members that solve are there for
-/// 2 and 3, `solve` and `inverse` for 3.
+/// a = L L^T of a symmetric matrix, whose lower triangle is read. N is 2, 3 or 4; the members that solve are
+/// there for 2 and 3, `solve` and `inverse` for 3.
 template <int N>
 struct Cholesky {
   Eigen::Matrix<double, N, N> lower;  // zeros above the diagonal
