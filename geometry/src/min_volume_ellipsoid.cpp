@@ -30,6 +30,12 @@ using Vector = Eigen::Matrix<double, D, 1>;
 template <int D>
 using Square = Eigen::Matrix<double, D, D>;
 
+/// q diag(u) q^T. A function of its own: its products are most of what this file costs to compile.
+template <int R>
+Square<R> second_moment(const Points<R>& q, const Eigen::VectorXd& u) {
+  return q * u.asDiagonal() * q.transpose();
+}
+
 template <int D>
 void validate(const Eigen::Ref<const Points<D>>& points, const MinVolumeOptions& options) {
   if (!(options.tolerance > 0) || !(options.tolerance < 1))
@@ -162,7 +168,7 @@ class DualAscent {
   Vector<D> mean() const { return q_.template topRows<D>() * u_; }
   Square<D> covariance() const {
     const Points<D> y = q_.template topRows<D>().colwise() - mean();
-    return y * u_.asDiagonal() * y.transpose();
+    return second_moment<D>(y, u_);
   }
 
  private:
@@ -171,7 +177,7 @@ class DualAscent {
   using Lifted = Eigen::Matrix<double, kN, Eigen::Dynamic>;
 
   static Cholesky<kN> decompose(const Lifted& q, const Eigen::VectorXd& u) {
-    return cholesky<kN>(q * u.asDiagonal() * q.transpose());
+    return cholesky<kN>(second_moment<kN>(q, u));
   }
 
   void update() {

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "richardson.h"
+#include "support/campaign.h"
 #include "support/random_bodies.h"
 
 namespace vericone::clearance_test {
@@ -15,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 using std::numbers::pi;
-using testing::RandomBodies, testing::richardson_derivative;
+using testing::RandomBodies, testing::richardson_derivative, testing::share;
 
 const Vector3d kStill(0, 0, 0);
 
@@ -96,7 +97,7 @@ TEST(Clearance, IsTheLargestGapOverAllNormals) {
   RandomBodies random(602);
   SCOPED_TRACE(random.trace());
   int negative = 0;
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < share(400); ++i) {
     const double low = i % 4 == 0 ? 1e-3 : i % 4 == 1 ? 0.05 : 1;
     const auto [a, b] = random.scaled_from_touching(low, i % 4 < 2 ? 1 : 10, random.uniform(0, 2));
     const Vector3d w = random.direction();
@@ -107,7 +108,7 @@ TEST(Clearance, IsTheLargestGapOverAllNormals) {
     ASSERT_NEAR(gap(a, b, m.normal), m.distance, 1e-13 * size);
     negative += m.distance < 0;
   }
-  EXPECT_GT(negative, 100);
+  EXPECT_GT(negative, share(100));
   EXPECT_LT(negative, 300);
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "richardson.h"
+#include "support/campaign.h"
 #include "support/random_combined.h"
 
 namespace vericone::combined_sector_rates_test {
@@ -13,7 +14,7 @@ namespace {
 
 using Eigen::Matrix2d, Eigen::Vector2d;
 using std::numbers::pi;
-using testing::RandomBodies, testing::random_combined, testing::richardson_derivative;
+using testing::random_combined, testing::RandomBodies, testing::richardson_derivative, testing::share;
 
 /// The same arc, or the same corner: another one of the same two conics is not within `reach`.
 bool same_touches(const CombinedSector& x, const CombinedSector& y, double reach) {
@@ -94,7 +95,7 @@ TEST(CombinedSectorRates, EveryKindOfChange) {
   RandomBodies random(5231);
   SCOPED_TRACE(random.trace());
   int compared = 0, corners = 0, in_mouth = 0;
-  for (int i = 0; i < 6000; ++i) {
+  for (int i = 0; i < share(6000); ++i) {
     const CombinedEllipse a = random_combined(random, Vector2d::Zero());
     const CombinedEllipse b = random_combined(random, random.uniform(2, 14) * random.direction_2d());
     const Change change_a = random_change(random, a, i % 6), change_b = random_change(random, b, i / 6 % 6);
@@ -115,7 +116,7 @@ TEST(CombinedSectorRates, EveryKindOfChange) {
     ASSERT_NEAR(exact.psi, differences->psi, 1e-8 * scale) << "case " << i;
     ASSERT_NEAR(exact.theta_b, differences->theta_b, 1e-8 * scale) << "case " << i;
   }
-  EXPECT_GT(compared, 2000);
+  EXPECT_GT(compared, share(2000));
   EXPECT_GT(corners, 1000);
   EXPECT_GT(in_mouth, 10);
 }

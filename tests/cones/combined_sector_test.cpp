@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "support/campaign.h"
 #include "support/random_combined.h"
 
 namespace vericone::combined_sector_test {
@@ -13,7 +14,7 @@ namespace {
 
 using Eigen::Matrix2d, Eigen::Vector2d;
 using std::numbers::pi;
-using testing::RandomBodies, testing::random_combined;
+using testing::random_combined, testing::RandomBodies, testing::share;
 
 double cross(const Vector2d& x, const Vector2d& y) { return x.x() * y.y() - x.y() * y.x(); }
 double difference(double x, double y) { return std::abs(std::remainder(x - y, 2 * pi)); }
@@ -53,7 +54,7 @@ TEST(CombinedSector, AgainstAllPairsOfBoundaryPoints) {
   SCOPED_TRACE(random.trace());
   constexpr int kSamples = 240;
   int disjoint = 0, in_mouth = 0;
-  for (int i = 0; i < 1500; ++i) {
+  for (int i = 0; i < share(1500); ++i) {
     const CombinedEllipse a = random_combined(random, Vector2d(random.uniform(-3, 3), random.uniform(-3, 3)));
     const CombinedEllipse b =
         random_combined(random, a.center() + random.uniform(0.3, 14) * random.direction_2d());
@@ -75,7 +76,7 @@ TEST(CombinedSector, AgainstAllPairsOfBoundaryPoints) {
     ASSERT_LE(left, sampled.left + 0.03) << "case " << i;
     ASSERT_LE(right, sampled.right + 0.03) << "case " << i;
   }
-  EXPECT_GT(disjoint, 500);
+  EXPECT_GT(disjoint, share(500));
   EXPECT_GT(in_mouth, 5);
 }
 

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "support/campaign.h"
 #include "support/random_bodies.h"
 
 namespace vericone::cone_bounds_test {
@@ -11,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 using std::numbers::pi;
-using testing::RandomBodies;
+using testing::RandomBodies, testing::share;
 
 TEST(PolygonMeasures, OfKnownCones) {
   const Vector3d z(0, 0, 1);
@@ -125,7 +126,7 @@ TEST(ConeBounds, OfBodiesCloserThanRounding) {
   RandomBodies random(584);
   SCOPED_TRACE(random.trace());
   int cases = 0, unseen = 0;
-  for (int i = 0; i < 800; ++i) {
+  for (int i = 0; i < share(800); ++i) {
     const auto [a, b] = random.scaled_from_touching(1, 10, 1 + random.uniform(-3e-16, 6e-16));
     const int count = random.integer(3, 64);
     if (relation(a, b) != Relation::disjoint) continue;
@@ -149,8 +150,8 @@ TEST(ConeBounds, OfBodiesCloserThanRounding) {
     ASSERT_GE(bounds.solid_angle + bounds.solid_angle_error, 2 * pi - 1e-5);
     ASSERT_LE(bounds.solid_angle - bounds.solid_angle_error, 2 * pi);
   }
-  EXPECT_GT(cases, 300);
-  EXPECT_GT(unseen, 40);
+  EXPECT_GT(cases, share(300));
+  EXPECT_GT(unseen, share(40));
 }
 
 TEST(ConeBounds, GapFallsWithTheSquareOfTheSamples) {

@@ -7,12 +7,13 @@
 #include <set>
 
 #include "cone_map_checks.h"
+#include "support/campaign.h"
 
 namespace vericone::cone_map_regions_test {
 namespace {
 
 using Eigen::Vector3d;
-using testing::cap, testing::DistanceClassifier, testing::RandomBodies, testing::ring;
+using testing::cap, testing::DistanceClassifier, testing::RandomBodies, testing::ring, testing::share;
 
 ConeMapOptions at(double resolution) {
   ConeMapOptions options;
@@ -145,7 +146,7 @@ TEST(ConeMapRegions, AgreeWithSteppingOverEdges) {
   RandomBodies random(5);
   SCOPED_TRACE(random.trace());
   std::size_t found = 0;
-  for (int k = 0; k < 4; ++k) {
+  for (int k = 0; k < share(4); ++k) {
     std::vector<std::pair<Vector3d, double>> blobs;
     for (int i = 0; i < 12; ++i) blobs.emplace_back(random.direction(), random.uniform(0.05, 0.7));
     // Within an odd number of the blobs.
@@ -186,7 +187,7 @@ TEST(ConeMapRegions, AgreeWithSteppingOverEdges) {
     }
     EXPECT_NEAR(sum, map.safe + map.colliding, 1e-12);
   }
-  EXPECT_GT(found, 40);
+  EXPECT_GT(found, share(40));
 }
 
 TEST(ConeMapRegions, WhereARegionTouchesItselfInACorner) {

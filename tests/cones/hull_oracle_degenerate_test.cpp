@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "hull_oracle_checks.h"
+#include "support/campaign.h"
 #include "support/velocity_laws.h"
 
 namespace vericone::testing::hull_oracle_degenerate_test {
@@ -74,7 +75,7 @@ TEST(HullOracle, NeighboursOfGrazedEllipsoids) {
   SCOPED_TRACE(random.trace());
   RungTally tally;
   int on = 0, neighbours[3] = {};
-  for (int i = 0; i < 1500; ++i) {
+  for (int i = 0; i < share(1500); ++i) {
     const MappedBall ball(random);
     const int k = random.integer(0, 2);
     Vector3d along = lattice_vector(random, 9), off = kRest;
@@ -115,7 +116,7 @@ TEST(HullOracle, NeighboursOfGrazedEllipsoids) {
       tally.count(expect_membership(near, u, kRest, expected));
     }
   }
-  EXPECT_GT(on, 700);
+  EXPECT_GT(on, share(700));
   EXPECT_GT(neighbours[0], 350);
   EXPECT_GT(neighbours[2], 350);
   EXPECT_GT(tally.interval, 40);

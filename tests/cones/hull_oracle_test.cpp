@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "hull_oracle_checks.h"
+#include "support/campaign.h"
 #include "support/velocity_laws.h"
 
 namespace vericone::testing::hull_oracle_test {
@@ -24,7 +25,7 @@ TEST(HullOracle, HullsOfLatticePointsAgreeWithAllCombinations) {
   };
   RungTally tally;
   int relations[3] = {}, memberships[3] = {};
-  for (int i = 0; i < 12000; ++i) {
+  for (int i = 0; i < share(12000); ++i) {
     const int reach = random.integer(1, 3);
     const Points a = lattice_points(random, random.integer(1, 4), reach, kRest);
     const Points b =
@@ -51,8 +52,8 @@ TEST(HullOracle, HullsOfLatticePointsAgreeWithAllCombinations) {
       tally.count(expect_membership(oracle, w, kRest, expected));
     }
   }
-  for (const int n : relations) EXPECT_GT(n, 500);
-  for (const int n : memberships) EXPECT_GT(n, 500);
+  for (const int n : relations) EXPECT_GT(n, share(500));
+  for (const int n : memberships) EXPECT_GT(n, share(500));
   EXPECT_GT(tally.triage, 10000);
   EXPECT_GT(tally.exact, 5000);
 }
@@ -63,7 +64,7 @@ TEST(HullOracle, HullsNearLatticePointsAgreeWithAllCombinations) {
   SCOPED_TRACE(random.trace());
   RungTally tally;
   int relations[3] = {}, memberships[3] = {}, uncertified = 0;
-  for (int i = 0; i < 80; ++i) {
+  for (int i = 0; i < share(80); ++i) {
     const int reach = random.integer(1, 3);
     Points a = lattice_points(random, random.integer(1, 4), reach, kRest);
     Points b = lattice_points(random, random.integer(1, 4), reach, lattice_vector(random, i % 3 ? 1 : 4));
@@ -93,9 +94,9 @@ TEST(HullOracle, HullsNearLatticePointsAgreeWithAllCombinations) {
     }
   }
   for (const int n : relations) EXPECT_GT(n, 1);
-  for (const int n : memberships) EXPECT_GT(n, 20);
-  EXPECT_GT(tally.triage, 100);
-  EXPECT_GT(tally.exact, 40);
+  for (const int n : memberships) EXPECT_GT(n, share(20));
+  EXPECT_GT(tally.triage, share(100));
+  EXPECT_GT(tally.exact, share(40));
   EXPECT_LT(uncertified, 30);
 }
 
@@ -104,7 +105,7 @@ TEST(HullOracle, EllipsoidAndLatticePointsAgreeWithAllCombinations) {
   SCOPED_TRACE(random.trace());
   RungTally tally;
   int relations[3] = {}, memberships[3] = {};
-  for (int i = 0; i < 160; ++i) {
+  for (int i = 0; i < share(160); ++i) {
     const MappedBall ball(random);
     Points v = lattice_points(random, random.integer(1, 5), 2, lattice_vector(random, 4));
     for (Vector3d& x : v) x = ball.m * x + ball.center;
@@ -139,7 +140,7 @@ TEST(HullOracle, EllipsoidAndLatticePointsAgreeWithAllCombinations) {
   EXPECT_GT(memberships[0], 80);
   EXPECT_GT(memberships[1], 2);
   EXPECT_GT(memberships[2], 80);
-  EXPECT_GT(tally.triage, 300);
+  EXPECT_GT(tally.triage, share(300));
   EXPECT_GT(tally.exact, 2);
 }
 
@@ -196,7 +197,7 @@ TEST(HullOracle, BoxesAgreeWithSlabs) {
   RandomBodies random(303);
   SCOPED_TRACE(random.trace());
   int memberships[3] = {}, plates = 0;
-  for (int i = 0; i < 10000; ++i) {
+  for (int i = 0; i < share(10000); ++i) {
     const bool decimals = i % 3 == 0;  // ordinary doubles, else small integers
     const auto corner = [&](double reach) {
       return decimals ? random.in_box(reach) : lattice_vector(random, static_cast<int>(reach));
@@ -220,7 +221,7 @@ TEST(HullOracle, BoxesAgreeWithSlabs) {
       expect_membership(oracle, w, kRest, expected);
     }
   }
-  for (const int n : memberships) EXPECT_GT(n, 500);
+  for (const int n : memberships) EXPECT_GT(n, share(500));
   EXPECT_GT(plates, 50);
 }
 

@@ -7,13 +7,14 @@
 #include <limits>
 
 #include "exact_tangency.h"
+#include "support/campaign.h"
 
 namespace vericone::membership_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector3d;
 using exact::Rational;
-using testing::ExactTangency, testing::moved_by_ulps, testing::RandomBodies;
+using testing::ExactTangency, testing::moved_by_ulps, testing::RandomBodies, testing::share;
 
 Ellipsoid sphere(const Vector3d& center, double radius) {
   return Ellipsoid::from_axes(center, Vector3d::Constant(radius));
@@ -106,7 +107,7 @@ TEST(Membership, SpheresByRationalsAlone) {
   RandomBodies random(511);
   SCOPED_TRACE(random.trace());
   int counts[3] = {};
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < share(20000); ++i) {
     // w = (4, 3, 0) k turned by a signed permutation grazes c = 5 j e_x for reach 3 j.
     const int j = random.integer(1, 1000), k = random.integer(1, 1000), first = random.integer(0, 2);
     const int r = random.integer(1, 3 * j - 1);
@@ -124,7 +125,7 @@ TEST(Membership, SpheresByRationalsAlone) {
     const auto triage = oracle.triage_membership(w);
     ASSERT_TRUE(!triage || *triage == expected) << "case " << i;
   }
-  for (const int count : counts) EXPECT_GT(count, 2000);
+  for (const int count : counts) EXPECT_GT(count, share(2000));
 }
 
 // Bodies whose gap is below the rounding of the centres: the cone is a half-space to 1e-8, and its edge is
@@ -172,7 +173,7 @@ TEST(Membership, GeneralEllipsoidsThatGraze) {
     for (const double scale : {1.0, 0x1p332, 0x1p-332}) {
       RandomBodies random(513);
       SCOPED_TRACE(random.trace() + " stretch " + std::to_string(stretch));
-      for (int i = 0; i < 700; ++i) {
+      for (int i = 0; i < share(700); ++i) {
         const ExactTangency t = ExactTangency::random(random, stretch, scale);
         const ConeOracle oracle(t.a, t.b), swapped(t.b, t.a);
         ASSERT_EQ(oracle.relation(), Relation::disjoint) << "case " << i;
@@ -198,7 +199,7 @@ TEST(Membership, GeneralEllipsoidsThatGraze) {
         }
       }
     }
-  for (const int count : counts) EXPECT_GT(count, 2000);
+  for (const int count : counts) EXPECT_GT(count, share(2000));
   EXPECT_GT(undecided, asked / 2) << "neighbours of the boundary are what the last rung is for";
 }
 

@@ -11,14 +11,15 @@
 
 #include "exact_tangency.h"
 #include "order_rungs.h"
+#include "support/campaign.h"
 #include "support/random_bodies.h"
 
 namespace vericone::order_earlier_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector3d;
-using testing::ExactTangency, testing::RandomBodies, testing::Real, testing::Rungs, testing::as_sign,
-    testing::operator-;
+using testing::as_sign, testing::ExactTangency, testing::operator-, testing::RandomBodies, testing::Real,
+    testing::Rungs, testing::share;
 
 /// The image under an integer matrix, exact for small integers in shapes.
 Encounter image(const Encounter& e, const Matrix3d& m, const Vector3d& shift) {
@@ -365,7 +366,7 @@ TEST(Earlier, EnclosuresContainTheTime) {
   SCOPED_TRACE(random.trace());
   int by_intervals = 0, cases = 0;
   double widest = 0;
-  for (int i = 0; i < 8; ++i) {
+  for (int i = 0; i < share(8); ++i) {
     const double low = i % 2 ? 0.05 : 1;
     const auto [a, b] = random.scaled_from_touching(low, 10 * low, random.uniform(1.1, 5));
     const ConeOracle oracle(a, b);
@@ -385,7 +386,7 @@ TEST(Earlier, EnclosuresContainTheTime) {
     widest = std::max(widest, enclosure->rad() / enclosure->mid());
     by_intervals += interval_time_to_contact(a, b, {w(0), w(1), w(2)}).has_value();
   }
-  EXPECT_GE(cases, 4);
+  EXPECT_GE(cases, share(4));
   EXPECT_GT(by_intervals, cases / 2);
   EXPECT_LT(widest, 1e-9);
 }

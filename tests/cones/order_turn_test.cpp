@@ -10,14 +10,15 @@
 
 #include "exact_tangency.h"
 #include "order_rungs.h"
+#include "support/campaign.h"
 #include "support/random_bodies.h"
 
 namespace vericone::order_turn_test {
 namespace {
 
 using Eigen::Matrix2d, Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
-using testing::ExactTangency, testing::RandomBodies, testing::Real, testing::Rungs, testing::as_sign,
-    testing::operator-;
+using testing::as_sign, testing::ExactTangency, testing::operator-, testing::RandomBodies, testing::Real,
+    testing::Rungs, testing::share;
 
 /// The direction with 80 digits: the root of g in an angle-free form by bisection from a separating normal.
 struct WideDirection {
@@ -100,7 +101,7 @@ TEST(Turn, RandomPairsAgreeWithEightyDigits) {
   SCOPED_TRACE(random.trace());
   for (const double low : {1.0, 1e-3}) {
     Rungs rungs;
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < share(60); ++i) {
       TangentRef t[2];
       for (TangentRef& r : t) {
         std::tie(r.a, r.b) =
@@ -126,7 +127,7 @@ TEST(Turn, RandomPairsAgreeWithEightyDigits) {
       }
     }
     rungs.print("turn, random, axes from " + std::to_string(low));
-    EXPECT_GT(rungs.by[0], 50);
+    EXPECT_GT(rungs.by[0], share(50));
   }
 }
 
@@ -156,7 +157,7 @@ TEST(Turn, ParallelTangentsFromIntegersAndTheirNeighbours) {
   SCOPED_TRACE(random.trace());
   Rungs ties, near;
   int neighbours[3] = {};
-  for (int i = 0; i < 120; ++i) {
+  for (int i = 0; i < share(120); ++i) {
     Matrix2d m;
     do {
       for (int k = 0; k < 4; ++k) m(k) = random.integer(-5, 5);
@@ -181,8 +182,8 @@ TEST(Turn, ParallelTangentsFromIntegersAndTheirNeighbours) {
   ties.print("turn, parallel");
   near.print("turn, neighbours of parallel");
   EXPECT_EQ(ties.by[2], ties.cases);
-  EXPECT_GT(neighbours[0], 20);
-  EXPECT_GT(neighbours[2], 20);
+  EXPECT_GT(neighbours[0], share(20));
+  EXPECT_GT(neighbours[2], share(20));
 }
 
 TEST(Turn, EveryRungDecides) {

@@ -11,13 +11,14 @@
 #include <numbers>
 
 #include "cones/print_answers.h"
+#include "support/campaign.h"
 #include "support/random_bodies.h"
 
 namespace vericone::orifice_test {
 namespace {
 
 using Eigen::Matrix2d, Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
-using testing::moved_by_ulps, testing::RandomBodies;
+using testing::moved_by_ulps, testing::RandomBodies, testing::share;
 
 struct Shares {
   std::array<int, 3> rung{}, membership{};
@@ -208,7 +209,7 @@ TEST(Orifice, AgreesWithTheRimItself) {
   SCOPED_TRACE(random.trace());
   Shares shares;
   int near = 0;
-  for (int i = 0; i < 10000; ++i) {
+  for (int i = 0; i < share(10000); ++i) {
     const double low = i % 3 == 0 ? 0.01 : 0.3;
     const Ellipsoid agent =
         i % 2 ? sphere(random.in_box(5), random.uniform(low, 1)) : random.ellipsoid(random.in_box(5), low, 1);
@@ -228,7 +229,7 @@ TEST(Orifice, AgreesWithTheRimItself) {
   }
   shares.print("random agents and openings");
   EXPECT_LT(near, 50);
-  EXPECT_GT(shares.membership[0], 1000);
+  EXPECT_GT(shares.membership[0], share(1000));
   EXPECT_GT(shares.membership[2], 1000);
   EXPECT_GT(shares.rung[0], shares.total() * 999 / 1000);
 }
@@ -238,7 +239,7 @@ TEST(Orifice, RungsAgreeWithinRoundingsOfTheBoundary) {
   SCOPED_TRACE(random.trace());
   for (const double low : {0.3, 1e-5}) {
     Shares shares;
-    for (int i = 0; i < 150; ++i) {
+    for (int i = 0; i < share(150); ++i) {
       const double scale = std::ldexp(1.0, random.integer(-400, 400));
       const Ellipsoid agent = random.ellipsoid(random.in_box(5), low, 1);
       const Vector3d center = agent.center() + random.uniform(3, 10) * random.direction(),
@@ -262,7 +263,7 @@ TEST(Orifice, RungsAgreeWithinRoundingsOfTheBoundary) {
       if (HasFailure()) FAIL() << "case " << i;
     }
     shares.print("within 8 ulps of the boundary");
-    EXPECT_GT(shares.total(), 200);
+    EXPECT_GT(shares.total(), share(200));
   }
 }
 

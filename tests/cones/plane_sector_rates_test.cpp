@@ -5,13 +5,14 @@
 #include <cmath>
 
 #include "richardson.h"
+#include "support/campaign.h"
 #include "support/random_bodies.h"
 
 namespace vericone::plane_sector_rates_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector3d;
-using testing::RandomBodies, testing::richardson_derivative;
+using testing::RandomBodies, testing::richardson_derivative, testing::share;
 
 /// The body t seconds later.
 Ellipsoid moved(const Ellipsoid& body, const Vector3d& v, const Vector3d& omega, const Matrix3d& shape_rate,
@@ -43,7 +44,7 @@ Matrix3d symmetric(RandomBodies& random, double size) {
 TEST(PlaneSectorRates, EveryKindOfMotion) {
   RandomBodies random(631);
   SCOPED_TRACE(random.trace());
-  for (int i = 0; i < 880; ++i) {
+  for (int i = 0; i < share(880); ++i) {
     // Also pairs whose line of centres does not separate them.
     const auto [a, b] = random.scaled_from_touching(1, 3, random.uniform(1.3, 4));
     const PlaneSector s = exact_sector(a, b, random.direction());

@@ -10,13 +10,14 @@
 #include <tuple>
 
 #include "cones/print_answers.h"
+#include "support/campaign.h"
 #include "support/random_bodies.h"
 
 namespace vericone::position_test {
 namespace {
 
 using Eigen::Matrix2d, Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
-using testing::moved_by_ulps, testing::RandomBodies;
+using testing::moved_by_ulps, testing::RandomBodies, testing::share;
 
 template <int D>
 using Vector = Eigen::Matrix<double, D, 1>;
@@ -354,8 +355,8 @@ TEST(Position, AgreesWithTheSupportFunctions) {
   RandomBodies random(903);
   SCOPED_TRACE(random.trace());
   Shares plane, space;
-  ASSERT_NO_FATAL_FAILURE(compare_with_supports<2>(random, 2000, plane));
-  ASSERT_NO_FATAL_FAILURE(compare_with_supports<3>(random, 1500, space));
+  ASSERT_NO_FATAL_FAILURE(compare_with_supports<2>(random, share(2000), plane));
+  ASSERT_NO_FATAL_FAILURE(compare_with_supports<3>(random, share(1500), space));
   plane.print("random ellipses");
   space.print("random ellipsoids");
   for (const Shares* s : {&plane, &space}) {

@@ -9,6 +9,7 @@
 #include <array>
 #include <iostream>
 
+#include "support/campaign.h"
 #include "support/random_bodies.h"
 #include "support/velocity_laws.h"
 
@@ -16,7 +17,7 @@ namespace vericone::predicates_test {
 namespace {
 
 using Eigen::Vector3d;
-using testing::RandomBodies;
+using testing::RandomBodies, testing::share;
 
 /// How a pair is drawn: ordinary, nearly touching, thin, of very different sizes, far apart.
 RandomBodies::Pair draw_pair(RandomBodies& random, int kind) {
@@ -132,9 +133,9 @@ void check_laws(std::uint64_t seed, int pairs, int velocities, double near, Answ
 
 TEST(PredicateLaws, OnRandomVelocities) {
   AnswersByKind kinds;
-  check_laws(521, 2000, 40, 0, kinds);
+  check_laws(521, share(2000), 40, 0, kinds);
   const Answers answers = total(kinds, "random");
-  EXPECT_GE(answers.cases, 70000);
+  EXPECT_GE(answers.cases, share(70000));
   // What the first rung is for.
   for (const int ordinary : {0, 1}) EXPECT_LT(kinds[ordinary].undecided, kinds[ordinary].cases / 100);
   EXPECT_LT(answers.undecided, answers.cases / 4);
@@ -145,18 +146,18 @@ TEST(PredicateLaws, OnRandomVelocities) {
 
 TEST(PredicateLaws, WithinRoundingsOfTheBoundary) {
   AnswersByKind kinds;
-  check_laws(522, 1500, 20, 1e-12, kinds);
+  check_laws(522, share(1500), 20, 1e-12, kinds);
   const Answers answers = total(kinds, "near boundary");
-  EXPECT_GE(answers.cases, 25000);
+  EXPECT_GE(answers.cases, share(25000));
   // The set is hard, or the test would prove nothing.
   EXPECT_GT(answers.naive_wrong, answers.cases / 100);
 }
 
 TEST(PredicateLaws, WhereTheFirstRungStartsToAnswer) {
   AnswersByKind kinds;
-  check_laws(524, 1500, 20, 1, kinds);
+  check_laws(524, share(1500), 20, 1, kinds);
   const Answers answers = total(kinds, "around the reach of triage");
-  EXPECT_GE(answers.cases, 25000);
+  EXPECT_GE(answers.cases, share(25000));
   for (const Answers& a : kinds) {
     EXPECT_GT(a.undecided, a.cases / 20);
     EXPECT_GT(a.cases - a.undecided, a.cases / 50);

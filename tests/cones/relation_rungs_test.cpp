@@ -9,6 +9,7 @@
 
 #include <iostream>
 
+#include "support/campaign.h"
 #include "support/random_bodies.h"
 
 namespace vericone::relation_rungs_test {
@@ -16,7 +17,7 @@ namespace {
 
 using Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
 using exact::Rational;
-using testing::RandomBodies;
+using testing::RandomBodies, testing::share;
 
 struct Rates {
   int cases = 0, undecided = 0, naive_wrong = 0, by_relation[3] = {};
@@ -61,7 +62,7 @@ TEST(RelationRungs, AgreeWithinRoundingsOfTouching) {
     RandomBodies random(531);
     SCOPED_TRACE(random.trace());
     Rates space, plane;
-    for (int i = 0; i < 4000; ++i) {
+    for (int i = 0; i < share(4000); ++i) {
       const auto [a, b] = random.scaled_from_touching(shape.low, shape.high, near_one(random));
       ASSERT_NO_FATAL_FAILURE(compare<3>(a, b, space)) << "case " << i;
       const auto [p, q] = random.planar_scaled_from_touching(shape.low, shape.high, near_one(random));
@@ -69,10 +70,10 @@ TEST(RelationRungs, AgreeWithinRoundingsOfTouching) {
     }
     space.print(std::string("3-D ") + shape.name);
     plane.print(std::string("2-D ") + shape.name);
-    EXPECT_GT(space.naive_wrong, 10);
-    EXPECT_GT(space.by_relation[0], 1000);
-    EXPECT_GT(space.by_relation[2], 1000);
-    EXPECT_GT(space.cases - space.undecided, 1000);
+    EXPECT_GT(space.naive_wrong, share(10));
+    EXPECT_GT(space.by_relation[0], share(1000));
+    EXPECT_GT(space.by_relation[2], share(1000));
+    EXPECT_GT(space.cases - space.undecided, share(1000));
   }
 }
 
@@ -81,7 +82,7 @@ TEST(RelationRungs, AgreeAtEveryScale) {
     RandomBodies random(532);
     SCOPED_TRACE(random.trace());
     Rates rates;
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < share(1000); ++i) {
       const bool thin = i % 2 == 1;
       const auto [a, b] = random.scaled_from_touching(thin ? 1e-6 : 1, thin ? 1 : 10, near_one(random));
       const Ellipsoid sa = a.scaled(scale), sb = b.scaled(scale);
@@ -100,7 +101,7 @@ TEST(RelationRungs, ThinBodiesGivenByTheirShape) {
   RandomBodies random(533);
   SCOPED_TRACE(random.trace());
   Rates rates;
-  for (int i = 0; i < 2500; ++i) {
+  for (int i = 0; i < share(2500); ++i) {
     const auto [a, b] = random.scaled_from_touching(1e-5, 1, near_one(random));
     const Ellipsoid sa = Ellipsoid::from_shape(a.center(), a.shape());
     const double factor =
@@ -117,7 +118,7 @@ TEST(RelationRungs, AgreeOnBodiesOfEveryDepth) {
   RandomBodies random(534);
   SCOPED_TRACE(random.trace());
   Rates rates;
-  for (int i = 0; i < 4000; ++i) {
+  for (int i = 0; i < share(4000); ++i) {
     const double factor = random.integer(0, 9) == 0 ? 0 : random.uniform(0, 2);
     const auto [a, b] = random.scaled_from_touching(1e-3, 1, factor);
     ASSERT_NO_FATAL_FAILURE(compare<3>(a, b, rates)) << "case " << i;
@@ -152,7 +153,7 @@ TEST(RelationRungs, SeparatesAgreesWithRationals) {
   RandomBodies random(535);
   SCOPED_TRACE(random.trace());
   int yes = 0, no = 0, triage = 0;
-  for (int i = 0; i < 6000; ++i) {
+  for (int i = 0; i < share(6000); ++i) {
     const double low = i % 2 ? 1 : 1e-6;
     const auto [a, b] = random.scaled_from_touching(low, 10 * low, near_one(random));
     const Vector3d n = random.log_uniform(1e-9, 1e9) *
@@ -170,8 +171,8 @@ TEST(RelationRungs, SeparatesAgreesWithRationals) {
     const Vector2d m = ContactFrame<2>(p, q).separating_normal();
     ASSERT_EQ(separates<2>(p, q, m), separates_by_rationals<2>(p, q, m)) << "case " << i;
   }
-  EXPECT_GT(yes, 1500);
-  EXPECT_GT(no, 1500);
+  EXPECT_GT(yes, share(1500));
+  EXPECT_GT(no, share(1500));
   EXPECT_GT(triage, 100);
 }
 
@@ -181,7 +182,7 @@ TEST(RelationRungs, FlatBodiesDefinedByTheirShape) {
   RandomBodies random(536);
   SCOPED_TRACE(random.trace());
   int decided = 0, cases = 0;
-  for (int i = 0; i < 4000; ++i) {
+  for (int i = 0; i < share(4000); ++i) {
     const double thin = random.log_uniform(1e-9, 1e-6);
     const auto flat = [&] {
       for (;;) {

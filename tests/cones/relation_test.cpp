@@ -8,12 +8,13 @@
 
 #include "exact_tangency.h"
 #include "print_answers.h"
+#include "support/campaign.h"
 
 namespace vericone::relation_test {
 namespace {
 
 using Eigen::Matrix2d, Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
-using testing::ExactTangency, testing::moved_by_ulps, testing::RandomBodies;
+using testing::ExactTangency, testing::moved_by_ulps, testing::RandomBodies, testing::share;
 
 Ellipsoid sphere(const Vector3d& center, double radius) {
   return Ellipsoid::from_axes(center, Vector3d::Constant(radius));
@@ -84,7 +85,7 @@ TEST(Relation, PythagoreanSpheresAndTheirNeighbours) {
   int counts[3] = {};
   RandomBodies random(501);
   SCOPED_TRACE(random.trace());
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < share(20000); ++i) {
     const auto& q = kQuadruples[random.integer(0, 5)];
     const int k = random.integer(1, 1000), r = random.integer(1, k * q[3] - 1);
     const double scale = std::ldexp(1.0, random.integer(-300, 300));
@@ -104,7 +105,7 @@ TEST(Relation, PythagoreanSpheresAndTheirNeighbours) {
       ASSERT_EQ(expected, Relation::touching);
     }
   }
-  for (const int count : counts) EXPECT_GT(count, 2000);
+  for (const int count : counts) EXPECT_GT(count, share(2000));
 }
 
 TEST(Relation, TouchingEllipsoidsAndTheirNeighbours) {
@@ -113,7 +114,7 @@ TEST(Relation, TouchingEllipsoidsAndTheirNeighbours) {
     for (const double scale : {1.0, 0x1p332, 0x1p-332}) {
       RandomBodies random(502);
       SCOPED_TRACE(random.trace() + " stretch " + std::to_string(stretch));
-      for (int i = 0; i < 1000; ++i) {
+      for (int i = 0; i < share(1000); ++i) {
         const ExactTangency t = ExactTangency::random(random, stretch, scale);
         const Ellipsoid &a = t.touching_a, &b = t.touching_b;
         ASSERT_EQ(relation(a, b), Relation::touching) << "case " << i;
@@ -132,7 +133,7 @@ TEST(Relation, TouchingEllipsoidsAndTheirNeighbours) {
         ASSERT_EQ(relation(a, b.translated(moved - b.center())), expected) << "case " << i;
       }
     }
-  for (const int count : counts) EXPECT_GT(count, 1000);
+  for (const int count : counts) EXPECT_GT(count, share(1000));
 }
 
 TEST(Relation, FactorDefinedEllipsoidThatTouchesASphere) {

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "reference_sector.h"
+#include "support/campaign.h"
 #include "support/random_bodies.h"
 
 namespace vericone::sector_property_test {
@@ -16,7 +17,7 @@ namespace {
 
 using Eigen::Matrix2d, Eigen::Vector2d;
 using std::numbers::pi;
-using testing::RandomBodies, testing::ReferenceSector;
+using testing::RandomBodies, testing::ReferenceSector, testing::share;
 
 double turn_between(double x, double y) { return std::abs(std::remainder(x - y, 2 * pi)); }
 double cross(const Vector2d& x, const Vector2d& y) { return x.x() * y.y() - x.y() * y.x(); }
@@ -72,7 +73,7 @@ TEST_P(SectorFamilies, AgreeWithFiftyDigits) {
   SCOPED_TRACE(random.trace());
   double worst[2][2] = {};
   int missing = 0;
-  for (int i = 0; i < 150; ++i) {
+  for (int i = 0; i < share(150); ++i) {
     const auto [a, b] = GetParam().draw(random);
     const ReferenceSector exact(a, b);
     const Sector s = sector_by_support(a, b);

@@ -9,6 +9,7 @@
 
 #include <numbers>
 
+#include "support/campaign.h"
 #include "support/random_bodies.h"
 
 namespace vericone::slice_cone_test {
@@ -16,7 +17,7 @@ namespace {
 
 using Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
 using std::numbers::pi;
-using testing::RandomBodies;
+using testing::RandomBodies, testing::share;
 
 constexpr double kDegree = pi / 180;
 
@@ -32,7 +33,7 @@ Vector3d across(const SliceCone& cone, const Slice& s) {
 TEST(SliceCone, OfSpheresIsTheInscribedPolygon) {
   RandomBodies random(591);
   SCOPED_TRACE(random.trace());
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < share(300); ++i) {
     const double r1 = random.log_uniform(0.1, 10), r2 = random.log_uniform(0.1, 10);
     const Ellipsoid a = sphere(random.in_box(5), r1);
     const Ellipsoid b =

@@ -10,6 +10,7 @@
 #include <iostream>
 #include <numbers>
 
+#include "support/campaign.h"
 #include "support/random_bodies.h"
 
 namespace vericone::visible_sector_test {
@@ -17,7 +18,7 @@ namespace {
 
 using Eigen::Vector2d;
 using std::numbers::pi;
-using testing::RandomBodies;
+using testing::RandomBodies, testing::share;
 
 Vector2d unit(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
@@ -119,8 +120,8 @@ struct Counts {
     std::cout << answers << " sectors, " << none << " without tangents, " << undecided
               << " touching; off by at most " << worst << " rad; " << 100 * tried / points
               << " % of the points tried\n";
-    EXPECT_GT(answers, 1000);
-    EXPECT_GT(none, 100);
+    EXPECT_GT(answers, share(1000));
+    EXPECT_GT(none, share(100));
     EXPECT_LT(undecided, 10);
   }
 };
@@ -129,7 +130,7 @@ TEST(VisibleSector, SearchEqualsSeparatingLinesForEllipticAgents) {
   RandomBodies random(7601);
   SCOPED_TRACE(random.trace());
   Counts counts;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < share(2000); ++i) {
     const Ellipse agent = random.ellipse({0, 0}, 0.1, 1.5);
     const int n = random.integer(1, 60);
     const std::vector<Vector2d> chain =
@@ -157,7 +158,7 @@ TEST(VisibleSector, SearchEqualsSeparatingLinesForAgentsOfAnyShape) {
   RandomBodies random(7602);
   SCOPED_TRACE(random.trace());
   Counts counts;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < share(2000); ++i) {
     std::vector<Vector2d> agent(random.integer(1, 40));
     const double size = random.uniform(0.1, 1.2);
     for (Vector2d& p : agent) p = random.uniform(0, size) * random.direction_2d();
@@ -200,7 +201,7 @@ TEST(VisibleSector, DownSamplingStaysInside) {
   RandomBodies random(7604);
   SCOPED_TRACE(random.trace());
   int smaller = 0;
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < share(200); ++i) {
     const Ellipse agent = random.ellipse({0, 0}, 0.2, 0.8);
     const std::vector<Vector2d> chain = seen(random, 4 * random.direction_2d(), random.uniform(0.2, 2), 100);
     const VisibleSector all = visible_sector(agent, chain);
@@ -213,7 +214,7 @@ TEST(VisibleSector, DownSamplingStaysInside) {
       EXPECT_EQ(some.sector->left.point_on_b, chain[some.left_point]);
     }
   }
-  EXPECT_GT(smaller, 50);
+  EXPECT_GT(smaller, share(50));
 }
 
 TEST(VisibleSector, DegenerateInputHasAnAnswer) {

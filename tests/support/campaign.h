@@ -21,6 +21,10 @@ Size campaign_size(Size usual, Size in_campaign) {
   return long_campaign() ? in_campaign : usual;
 }
 
+/// What ./check runs of n cases: a quarter. The long campaign runs them all.
+constexpr int kShare = 4;
+inline int share(int n) { return campaign_size((n + kShare - 1) / kShare, n); }
+
 inline std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
   const char* given = std::getenv(name);
   return given ? std::strtoull(given, nullptr, 10) : otherwise;

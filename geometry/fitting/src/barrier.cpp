@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "barrier.h"
 
-#include <vericone/geometry/decompositions.h>
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 
@@ -11,6 +10,8 @@
 #include <map>
 #include <optional>
 #include <set>
+
+#include "dense_eigen.h"
 
 namespace vericone::fitting {
 namespace {
@@ -133,7 +134,7 @@ int centre(const Barrier& barrier, double mu, VectorXd& x, VectorXd& multipliers
         multipliers.array() * (1 + 2 * slacks.array()) / (slacks.array() + slacks.array().square());
     hessian += rows.transpose() * stiffness.asDiagonal() * rows;
     // Where the function is concave its curvature is taken for that of a convex one.
-    const auto solver = symmetric_eigen<Eigen::Dynamic>(hessian);
+    const auto solver = dense_eigen(hessian);
     const VectorXd sizes = solver.values.cwiseAbs();
     const VectorXd step =
         -solver.vectors *

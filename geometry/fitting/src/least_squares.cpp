@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "dense_eigen.h"
 #include "surface_search.h"
 
 namespace vericone::fitting {
@@ -61,7 +62,7 @@ Eigen::VectorXd spread(const Cloud& cloud, bool planar) {
   for (std::size_t i = 0; i < cloud.points.size(); ++i)
     covariance += cloud.weights[i] * (cloud.points[i] - mean) * (cloud.points[i] - mean).transpose();
   const int d = planar ? 2 : 3;
-  return symmetric_eigen<Eigen::Dynamic>(covariance.topLeftCorner(d, d)).values;
+  return dense_eigen(covariance.topLeftCorner(d, d)).values;
 }
 
 /// Refuses points that no ellipsoid (ellipse) can be told from.

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface_report.h"
 
-#include <vericone/geometry/decompositions.h>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+
+#include "dense_eigen.h"
 
 namespace vericone::fitting {
 namespace {
@@ -140,7 +141,7 @@ void report(const FittedSurface& fit, const Cloud& cloud, const Matrix3d& axes, 
   result.center_error = result.center_covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   result.axes_error = (j * c * j.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
   const Vector3d a = surfaces.semi_axes();
-  const auto solver = symmetric_eigen<Eigen::Dynamic>(result.center_covariance.topLeftCorner(d, d));
+  const auto solver = dense_eigen(result.center_covariance.topLeftCorner(d, d));
   for (int k = d - 1; k >= 0; --k) {
     Vector3d along = Vector3d::Zero();
     along.head(d) = solver.vectors.col(k);

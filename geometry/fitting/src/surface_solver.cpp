@@ -2,12 +2,13 @@
 #include "surface_solver.h"
 
 #include <ceres/ceres.h>
-#include <vericone/geometry/decompositions.h>
 #include <algorithm>
 #include <cmath>
 #include <deque>
 #include <limits>
 #include <memory>
+
+#include "dense_eigen.h"
 
 namespace vericone::fitting {
 namespace {
@@ -200,7 +201,7 @@ void polish(const SurfaceModel& model, const Cloud& cloud, double cutoff, Soluti
       h.col(j) = (gradient(plus) - gradient(minus)) / (plus(i) - minus(i));
     }
     h = 0.5 * (h + h.transpose()).eval();
-    const auto solver = symmetric_eigen<Eigen::Dynamic>(h);
+    const auto solver = dense_eigen(h);
     positive = solver.values(0) > 1e-9 * solver.values(n - 1);
     s.curvature = MatrixXd::Zero(model.size(), model.size());
     s.curvature(free, free) = h;

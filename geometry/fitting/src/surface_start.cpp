@@ -8,6 +8,7 @@
 #include <cmath>
 #include <random>
 
+#include "dense_eigen.h"
 #include "robust_scale.h"
 
 namespace vericone::fitting {

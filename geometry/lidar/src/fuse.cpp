@@ -4,10 +4,9 @@
 #include <open3d/geometry/PointCloud.h>
 #include <open3d/pipelines/registration/Registration.h>
 #include <open3d/utility/Logging.h>
-#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
 #include <vericone/lidar/fuse.h>
-
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -135,7 +134,7 @@ class Alignment {
           target.normals_[pair(1)];
       information += row * row.transpose() / double(pairs.size());
     }
-    fit.weakest = std::max(0.0, symmetric_eigen<Eigen::Dynamic>(information).values(0));
+    fit.weakest = std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(information).eigenvalues()(0));
     return fit;
   }
 

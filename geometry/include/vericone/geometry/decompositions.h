@@ -16,19 +16,13 @@ struct SymmetricEigen {
   Eigen::Matrix<double, N, N> vectors;
 };
 
-/// Of a symmetric matrix, whose lower triangle is read. N may be Eigen::Dynamic.
+/// Of a symmetric matrix, whose lower triangle is read.
 template <int N>
 SymmetricEigen<N> symmetric_eigen(const Eigen::Matrix<double, N, N>& a);
 
 /// Its values alone, the same bits, in half the time.
 template <int N>
 Eigen::Matrix<double, N, 1> symmetric_eigenvalues(const Eigen::Matrix<double, N, N>& a);
-
-/// a v = value b v for symmetric a and positive definite b; the values increase, v^T b v = 1. False: b is not
-/// positive definite. N is 3 or Eigen::Dynamic.
-template <int N>
-bool generalized_eigen(const Eigen::Matrix<double, N, N>& a, const Eigen::Matrix<double, N, N>& b,
-                       SymmetricEigen<N>& result);
 
 /// a = L L^T of a symmetric matrix, whose lower triangle is read. N is 2, 3 or 4; the members that solve are
 /// there for 2 and 3, `solve` and `inverse` for 3.
