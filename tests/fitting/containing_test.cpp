@@ -171,6 +171,21 @@ TEST(ContainingFit, MarginsKeepBallsInside) {
   }
 }
 
+TEST(ContainingFit, MarginsOfFootprintsKeepDiscsInside) {
+  const CanonicalSample sample = canonical(boundary(waisted(), 400));
+  const double margin = 0.3, in_world = margin * sample.frame.scale;
+  const ContainingFit fit = containing_fit(sample, Shape::ellipse, {.margin = margin});
+  ASSERT_TRUE(fit.piece.footprint);
+  const Ellipse& ellipse = *fit.piece.footprint;
+  for (const Vector3d& y : sample.points)
+    for (int k = 0; k < 720; ++k) {
+      const double a = std::numbers::pi / 360 * k;
+      const Eigen::Vector2d x =
+          sample.frame.to_world(y).head<2>() + in_world * Eigen::Vector2d(std::cos(a), std::sin(a));
+      ASSERT_LE((ellipse.factor().inverse() * (x - ellipse.center())).norm(), 1 + 1e-9);
+    }
+}
+
 TEST(ContainingFit, FootprintsAreMinimumAreaEllipses) {
   const CanonicalSample sample = canonical(boundary(waisted(), 500));
   const ContainingFit fit = containing_fit(sample, Shape::ellipse);

@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "fitting/noisy_surfaces.h"
+#include "robust_scale.h"
 #include "secular_foot.h"
 #include "surface_model.h"
 
@@ -370,6 +372,18 @@ TEST_P(LeastSquaresRefuse, AndSayWhatWasFound) {
     EXPECT_EQ(e.field(), "points");
     EXPECT_NE(std::string(e.what()).find(GetParam().says), std::string::npos) << e.what();
   }
+}
+
+TEST(RobustScale, IsThatOfTheMostWhateverTheRest) {
+  // Seven of ten residuals from a normal variable of deviation 0.1, the others about 1.5: a mean of squares
+  // would see 0.8.
+  std::mt19937_64 engine(31);
+  std::normal_distribution<double> normal(0, 0.1);
+  std::vector<Residual> residuals;
+  for (int i = 0; i < 1000; ++i)
+    residuals.push_back({i % 10 < 7 ? std::abs(normal(engine)) : 1.4 + 0.2 * (i % 7) / 7, 1});
+  EXPECT_NEAR(robust_scale(residuals, 0), 0.1, 0.01);
+  EXPECT_GE(robust_scale(residuals, 0.5), 0.5);
 }
 
 }  // namespace

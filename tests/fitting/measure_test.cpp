@@ -108,6 +108,14 @@ TEST(HullToScan, SamplesAreEvenOverTheArea) {
   EXPECT_NEAR(d->mean, sum / weights, 0.01 * sum / weights);
 }
 
+TEST(HullToScan, PiecesCountByTheirArea) {
+  // Every sample is its own ball's radius from the nearest of the two centres.
+  const Vector3d small(0, 0, 0), large(30, 0, 0);
+  const auto d = hull_to_scan({ball(small, 1), ball(large, 4)}, {{small, large}, {}}, 4000);
+  ASSERT_TRUE(d);
+  EXPECT_NEAR(d->mean, (1 * 1 + 16 * 4) / 17.0, 0.01);
+}
+
 TEST(HullToScan, OnlyTheBoundaryOfTheUnion) {
   Random random(920);
   SCOPED_TRACE(random.trace());

@@ -147,6 +147,10 @@ TEST(Side, InThePlane) {
   const Conic hyperbola(Eigen::Vector3d(1, -1, -1).asDiagonal().toDenseMatrix());
   expect_side<Conic, 2>(hyperbola, {1.25, 0.75}, Sign::zero, Rung::exact);
   expect_side<Conic, 2>(hyperbola, {2, 0}, Sign::positive, Rung::triage);
+  // Oblique: along the long axis and across it at the same distance; 10 lengths of (3, 1)/sqrt(10) are on it.
+  const Ellipse oblique = Ellipse::from_shape({0, 0}, Eigen::Matrix2d{{10, 6}, {6, 10}});
+  expect_side<Ellipse, 2>(oblique, {2, 2}, Sign::negative, Rung::triage);
+  expect_side<Ellipse, 2>(oblique, {2, -2}, Sign::positive, Rung::triage);
 }
 
 }  // namespace
