@@ -99,11 +99,43 @@ class Simulate(Files):
         bodies = self.table("bodies.csv")
         place = {(r["body"], r["t [s]"]): [float(r[c + " [m]"]) for c in "xyz"] for r in bodies}
         nearest = min(math.dist(p, place["B", t]) for (name, t), p in place.items() if name == "A") - 3
-        self.assertAlmostEqual(nearest, 1.5, delta=0.02)
+        # As its own law flies it; a guarded pilot keeps `beyond` besides, 0.1 m.
+        self.assertGreater(nearest, 1.5)
+        self.assertLess(nearest, 1.75)
+        self.assertTrue(proof["pairs"][0]["kept"])
+        by_law = self.simulate(balls("clearance, manner: source, gain: 3, most: 30, clearance: {required: 1.5}", aside=1))
+        self.assertAlmostEqual(by_law["proof"]["pairs"][0]["least_distance"], 1.5, delta=0.02)
         self.assertLessEqual(proof["pairs"][0]["least_distance"], nearest + 1e-9)
         for row in bodies:  # lateral: the speed stays
             if row["body"] == "A":
                 self.assertAlmostEqual(float(row["speed [m/s]"]), 5, 8)
+
+    def test_every_pair_counts(self):
+        """Two bodies without pilots fly through each other; two that fly together are named."""
+        two = """duration: 6
+bodies:
+  - {name: A, shape: {semi_axes: [1, 1, 1]}, position: [0, 0, 0], velocity: [5, 0, 0]}
+  - {name: B, shape: {semi_axes: [1, 1, 1]}, position: [20, 0, 0], velocity: [-5, 0, 0]}
+"""
+        proof = self.simulate(two)["proof"]
+        self.assertEqual((proof["verdict"], len(proof["pairs"]), proof["not_checked"]), ("touched", 1, []))
+        proof = self.simulate(two.replace("-5", "5"))["proof"]
+        self.assertEqual(proof, {"verdict": "none", "pairs": [], "not_checked": [{"a": "A", "b": "B", "why": "together"}]})
+
+    def test_what_was_not_kept_is_said(self):
+        # Gain 1/s is too little here: it passes nearer than 1 m.
+        text = balls("clearance, manner: source, gain: 0.3", aside=3.1)
+        pair = self.simulate(text)["proof"]["pairs"][0]
+        self.assertFalse(pair["kept"])
+        self.assertEqual(pair["required"], 1)
+        result = run("simulate", self.write(text), "--out", self.out, "--quiet", "--no-figures")
+        self.assertRegex(result.stdout, r"verdict +avoided, proved; nearer than required: 0\.\d+ of 1 m\n")
+        self.assertIn("A is on course to pass B at 0.", result.stdout)
+
+    def test_defaults_avoid_a_ball_at_rest(self):
+        for law in ("avoidance", "clearance"):
+            proof = self.simulate(balls(law).replace("[-1, 0, 0]", "[0, 0, 0]"))["proof"]
+            self.assertEqual(proof["verdict"], "avoided")
 
     def test_the_example_scenarios(self):
         for name in ("avoidance", "clearance"):

@@ -39,8 +39,10 @@ Body ellipse(const std::string& name, const Eigen::Vector2d& semi_axes, const Ei
   return body;
 }
 
+/// The laws themselves; guarded pilots have their own tests (guarded_test.cpp).
 Pilot pilot(Law law, double most = 10) {
   Pilot result;
+  result.manner = Manner::source;
   result.guide.law = law;
   result.guide.inversion.gain = result.guide.clearance.gain = 2;
   result.guide.inversion.reference = 0.05;
@@ -181,6 +183,7 @@ TEST(Run, PassesAtTheClosestApproach) {
   Scenario scenario = encounter();
   scenario.bodies[1].start.position = {30, 12, 1};
   scenario.bodies[0].pilot = pilot(Law::avoidance);
+  scenario.bodies[0].pilot->passing = Passing::centres;
   const auto run = simulate(scenario);
   EXPECT_FALSE(find_event(scenario, run, EventKind::enters_cone, "A", "B"));
   const auto passes = find_event(scenario, run, EventKind::passes, "A", "B");

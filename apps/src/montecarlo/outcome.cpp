@@ -112,7 +112,10 @@ Outcome fly(const Encounter& encounter, const Flown& law, const FlightSettings& 
   scenario.name = law.name;
   scenario.step = settings.step;
   scenario.bodies = {encounter.agent, encounter.obstacle};
-  scenario.bodies[0].pilot = Pilot{law.guide, {}, {}, {}};
+  Pilot& pilot = scenario.bodies[0].pilot.emplace();
+  pilot.guide = law.guide;
+  pilot.manner = Manner::source;
+  pilot.passing = Passing::centres;
   RunOptions options;
   options.log = false;
   // A run ends when the centres have passed. Long bodies may still be on course to meet then: it goes on.

@@ -38,6 +38,8 @@ const std::vector<OfLaws>& fields_of_laws() {
                                          {"mu", {cooperative_avoidance}},
                                          {"gain_speed", {matching_rendezvous}},
                                          {"clearance", {clearance}},
+                                         {"manner", {avoidance, clearance}},
+                                         {"passing", of_planes},
                                          {"partners", {cooperative_avoidance, cooperative_rendezvous}}};
   return table;
 }
@@ -152,7 +154,7 @@ simulation::Pilot read_pilot(const Json& value, const std::string& path, bool pl
   require_object(value, path);
   require_known(value, path,
                 {"law", "sector", "rates", "plane", "gain", "reference", "most", "cease", "side", "mu",
-                 "gain_speed", "clearance", "minds", "partners", "goal"});
+                 "gain_speed", "clearance", "minds", "partners", "goal", "manner", "passing"});
   simulation::Pilot pilot;
   guidance::GuideOptions& guide = pilot.guide;
   guide.law = read_choice<Law>(require_field(value, path, "law", "the name of a law, such as avoidance"),
@@ -172,6 +174,14 @@ simulation::Pilot read_pilot(const Json& value, const std::string& path, bool pl
   read_inversion(value, path, guide);
   if_given(value, path, "clearance",
            [&](const Json& v, const std::string& p) { read_clearance(v, p, guide.clearance); });
+  if_given(value, path, "manner", [&](const Json& v, const std::string& p) {
+    using enum simulation::Manner;
+    pilot.manner = read_choice<simulation::Manner>(v, p, {{"guarded", guarded}, {"source", source}});
+  });
+  if_given(value, path, "passing", [&](const Json& v, const std::string& p) {
+    using enum simulation::Passing;
+    pilot.passing = read_choice<simulation::Passing>(v, p, {{"bisector", bisector}, {"centres", centres}});
+  });
   if_given(value, path, "minds",
            [&](const Json& v, const std::string& p) { pilot.minds = read_names(v, p); });
   if_given(value, path, "partners",

@@ -67,6 +67,10 @@ Json proof_json(const Scenario& scenario, const Run& run) {
                {"least_distance", nullptr},
                {"least_time", nullptr},
                {"pieces", proof.pieces}};
+    if (pair.required > 0) {
+      entry["required"] = pair.required;
+      entry["kept"] = pair.kept();
+    }
     if (proof.verdict == ProofVerdict::avoided) {
       entry["least_distance"] = proof.least_distance;
       entry["least_time"] = proof.least_time;
@@ -75,7 +79,15 @@ Json proof_json(const Scenario& scenario, const Run& run) {
     }
     pairs.push_back(entry);
   }
-  return {{"verdict", to_string(run.verdict())}, {"pairs", pairs}};
+  Json not_checked = Json::array();
+  for (const NotChecked& pair : run.not_checked)
+    not_checked.push_back(
+        {{"a", scenario.bodies[pair.a].name},
+         {"b", scenario.bodies[pair.b].name},
+         {"why", pair.why == NotChecked::Why::together ? "together" : "no certified predicate"}});
+  return {{"verdict", run.proofs.empty() ? "none" : to_string(run.verdict())},
+          {"pairs", pairs},
+          {"not_checked", not_checked}};
 }
 
 Json shapes_json(const Scenario& scenario) {

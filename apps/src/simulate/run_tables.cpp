@@ -138,6 +138,7 @@ bool has_obstacle(const Event& event) { return event.agent != event.obstacle; }
 std::string unit_of(const Scenario& scenario, const Event& event) {
   switch (event.kind) {
     case EventKind::passes:
+    case EventKind::cannot_avoid:
       return "m";
     case EventKind::contact:
       return "s";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulate/run_text.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <ostream>
 
@@ -27,6 +28,7 @@ std::string agent_text(const Scenario& scenario, const Body& body) {
   const Pilot& pilot = *body.pilot;
   const guidance::GuideOptions& guide = pilot.guide;
   std::string text = body.name + ": " + guidance::to_string(guide.law);
+  if (guarded(pilot)) text += ", guarded";
   if (guide.law == guidance::Law::clearance) {
     text += " to " + brief(guide.clearance.required) + " m";
   } else if (!planar(body.shape)) {
@@ -62,20 +64,57 @@ std::string event_text(const Scenario& scenario, const Event& event) {
     case EventKind::appears:
       return agent + " appears";
     case EventKind::enters_cone:
+      if (unit == "m" && event.value >= 0)
+        return agent + " is on course to pass " + other + " at " + brief(event.value) + " m, nearer than " +
+               brief(scenario.bodies[event.agent].pilot->guide.clearance.required) + " m";
       return agent + " is on course to meet " + other;
     case EventKind::leaves_cone:
-      return agent + " leaves the cone of " + other +
-             (unit == "m" ? ", m = " + brief(event.value) + " m" : "");
+      if (unit == "m") return agent + " is on course to pass " + other + " at " + brief(event.value) + " m";
+      return agent + " leaves the cone of " + other;
     case EventKind::passes:
       return agent + " passes " + other + ", centres " + brief(event.value) + " m apart";
     case EventKind::aligned:
       return agent + " points at its goal";
     case EventKind::reaches_goal:
       return agent + " reaches its goal";
+    case EventKind::cannot_avoid:
+      return agent + " finds no course that avoids " + other;
     case EventKind::contact:
       return agent + " and " + other + " meet: apart before " + brief(event.value) + " s, proved";
   }
   return "";
+}
+
+std::string not_kept(const PairOutcome& pair) {
+  if (pair.kept()) return "";
+  return "; nearer than required: " + brief(pair.proof.least_distance) + " of " + brief(pair.required) + " m";
+}
+
+/// The worst of all pairs, and what it leaves out.
+std::string verdict_text(const Scenario& scenario, const Run& run) {
+  const ProofVerdict verdict = run.verdict();
+  std::string text = run.proofs.empty() ? "none: no pair of bodies could be checked" : to_string(verdict);
+  if (!run.proofs.empty() && verdict != ProofVerdict::undecided) text += ", proved";
+  const PairOutcome* worst = nullptr;
+  for (const PairOutcome& pair : run.proofs)
+    if (verdict == ProofVerdict::avoided && !pair.kept() &&
+        (worst == nullptr ||
+         pair.proof.least_distance - pair.required < worst->proof.least_distance - worst->required))
+      worst = &pair;
+  if (worst != nullptr) text += not_kept(*worst);
+  for (const auto why : {NotChecked::Why::uncertain, NotChecked::Why::together}) {
+    const auto count = std::count_if(run.not_checked.begin(), run.not_checked.end(),
+                                     [&](const NotChecked& pair) { return pair.why == why; });
+    if (count == 0) continue;
+    text += "; not checked: " + std::to_string(count) + (count == 1 ? " pair" : " pairs") +
+            (why == NotChecked::Why::together ? " that do not move against each other"
+                                              : " without a certified predicate");
+    if (why == NotChecked::Why::uncertain)
+      for (const NotChecked& pair : run.not_checked)
+        if (pair.why == why)
+          text += " (" + scenario.bodies[pair.a].name + ", " + scenario.bodies[pair.b].name + ")";
+  }
+  return text;
 }
 
 void print_pair(const Scenario& scenario, const PairOutcome& pair, std::ostream& out) {
@@ -88,7 +127,7 @@ void print_pair(const Scenario& scenario, const PairOutcome& pair, std::ostream&
       return line(out, "",
                   names + "apart by " + brief(proof.least_distance) + " m or more, proved from " +
                       brief(proof.from) + " to " + brief(proof.to) + " s; nearest at " +
-                      brief(proof.least_time) + " s");
+                      brief(proof.least_time) + " s" + not_kept(pair));
     case ProofVerdict::touched:
       return line(out, "",
                   names + "apart before " + to_text(proof.from) + " s, meeting at " + to_text(proof.to) +
@@ -115,8 +154,7 @@ void print_run(const Scenario& scenario, const Run& run, double seconds, std::os
     line(out, first ? "events" : "", when + event_text(scenario, event));
     first = false;
   }
-  line(out, "verdict",
-       std::string(to_string(run.verdict())) + (run.verdict() == ProofVerdict::undecided ? "" : ", proved"));
+  line(out, "verdict", verdict_text(scenario, run));
   for (const PairOutcome& pair : run.proofs) print_pair(scenario, pair, out);
 }
 

@@ -24,14 +24,19 @@ bool nothing_to_say(const std::optional<guidance::GuideStep>& step) {
 Engagement::Engagement(std::size_t agent, std::size_t obstacle, const Pilot& pilot)
     : agent_(agent), obstacle_(obstacle), pilot_(&pilot) {}
 
-void Engagement::observe(const guidance::BodyState& a, const guidance::BodyState& b, double t) {
+void Engagement::observe(const guidance::BodyState& a, const guidance::BodyState& b, double t, bool gone) {
   const Eigen::Vector3d c = b.position - a.position, v = b.velocity - a.velocity;
   const double closing = -c.dot(v);  // times r
-  if (passed_ && closing <= 0) return;
+  if (passed_ && gone) return;
   passed_ = false;
+  if (c.isZero(0)) {  // no line of sight, and nothing left to avoid
+    step_.reset();
+    time_to_go_ = 0;
+    return;
+  }
   step_ = guidance::guide(a, b, pilot_->guide, memory_, t);
   time_to_go_ = closing > 0 ? c.squaredNorm() / closing : std::numeric_limits<double>::infinity();
-  if (closing <= 0 && avoids(pilot_->guide.law) && nothing_to_say(step_)) {
+  if (gone && avoids(pilot_->guide.law) && nothing_to_say(step_)) {
     passed_ = true;
     memory_ = {};
   }
@@ -67,9 +72,10 @@ EncounterSample Engagement::sample(const guidance::BodyState& a, const guidance:
   sample.t = t;
   sample.agent = agent_;
   sample.obstacle = obstacle_;
-  sample.state = guidance::spatial_state({a.position, a.velocity, b.position, b.velocity},
-                                         last_state_ ? &*last_state_ : nullptr);
-  last_state_ = sample.state;
+  if (a.position != b.position)
+    last_state_ = guidance::spatial_state({a.position, a.velocity, b.position, b.velocity},
+                                          last_state_ ? &*last_state_ : nullptr);
+  if (last_state_) sample.state = *last_state_;
   sample.attended = attended;
   sample.cone = step_.has_value() && !passed_ && pilot_->guide.law != Law::clearance;
   if (step_) sample.step = *step_;

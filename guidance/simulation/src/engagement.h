@@ -14,9 +14,9 @@ class Engagement {
   std::size_t agent() const { return agent_; }
   std::size_t obstacle() const { return obstacle_; }
 
-  /// What the law says at time t. Once the bodies have passed each other and the law has nothing to say, it
-  /// is not asked again until they close.
-  void observe(const guidance::BodyState& a, const guidance::BodyState& b, double t);
+  /// What the law says at time t. Once B is `gone`, passed, and the law has nothing to say, it is not asked
+  /// again until that changes.
+  void observe(const guidance::BodyState& a, const guidance::BodyState& b, double t, bool gone);
 
   const std::optional<guidance::GuideStep>& step() const { return step_; }
   double time_to_go() const { return time_to_go_; }  // s, r / closing speed

@@ -2,6 +2,8 @@
 #include <vericone/simulation/run.h>
 
 #include <vericone/cones/cone_geometry.h>
+#include <vericone/geometry/error.h>
+#include <vericone/guidance/navigator.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -44,6 +46,17 @@ Homing towards(const Goal& goal, const Motion& motion, double step) {
   return {std::min(goal.most, missing) * side, missing <= goal.most};
 }
 
+guidance::NavigatorOptions courses_of(const Pilot& pilot) {
+  guidance::NavigatorOptions options;
+  options.most = pilot.guide.inversion.most;
+  if (pilot.guide.law == guidance::Law::clearance) {
+    options.required = pilot.guide.clearance.required;
+    options.beyond = pilot.guide.clearance.beyond;
+    options.most = pilot.guide.clearance.most;
+  }
+  return options;
+}
+
 class Runner {
  public:
   Runner(const Scenario& scenario, const RunOptions& options) : scenario_(scenario), options_(options) {
@@ -53,14 +66,17 @@ class Runner {
       if (body.appears > 0)
         event({body.appears, EventKind::appears, run_.tracks.size() - 1, run_.tracks.size() - 1, 0});
     }
+    navigators_.resize(scenario.bodies.size());
     for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
       if (!scenario.bodies[i].pilot) continue;
       const Pilot& pilot = *scenario.bodies[i].pilot;
+      if (guarded(pilot)) navigators_[i].emplace(courses_of(pilot));
       for (std::size_t j = 0; j < scenario.bodies.size(); ++j)
         if (j != i && (pilot.minds.empty() || contains(pilot.minds, scenario.bodies[j].name)))
           engagements_.push_back({Engagement(i, j, pilot)});
     }
     aligned_.assign(scenario.bodies.size(), false);
+    cannot_avoid_.assign(scenario.bodies.size(), false);
     reached_.assign(scenario.bodies.size(), false);
     states_.resize(scenario.bodies.size());
     accelerations_.assign(scenario.bodies.size(), Vector3d::Zero());
@@ -94,8 +110,9 @@ class Runner {
  private:
   struct Followed {
     Engagement engagement;
-    bool inside = false;   // at the command before
-    bool closing = false;  // at the command before
+    bool inside = false;  // at the command before
+    bool seen = false;    // both were there at the command before
+    bool gone = false;    // passed, at the time reached
     bool has_passed = false;
   };
 
@@ -110,7 +127,9 @@ class Runner {
     for (Followed& f : engagements_) {
       const Engagement& e = f.engagement;
       if (!present(e.agent(), t) || !present(e.obstacle(), t)) continue;
-      f.engagement.observe(states_[e.agent()], states_[e.obstacle()], t);
+      if (!f.seen) f.gone = passing_rate(f, t) >= 0;
+      f.seen = true;
+      f.engagement.observe(states_[e.agent()], states_[e.obstacle()], t, f.gone);
       crossed_cone(f, t);
     }
     for (std::size_t i = 0; i < scenario_.bodies.size(); ++i)
@@ -130,7 +149,9 @@ class Runner {
         continue;
       if (attended == nullptr || f.engagement.time_to_go() < attended->engagement.time_to_go()) attended = &f;
     }
-    if (attended != nullptr) {
+    if (navigators_[agent]) {
+      guarded_command(agent, t, to - t, attended);
+    } else if (attended != nullptr) {
       accelerations_[agent] = attended->engagement.step()->a;
       const std::size_t other = attended->engagement.obstacle();
       if (contains(pilot.partners, scenario_.bodies[other].name))
@@ -151,6 +172,31 @@ class Runner {
         for (const auto& plane : guidance::all_planes(a, b, pilot.guide.sector, scenario_.planes_logged))
           run_.planes.push_back({t, agent, f.engagement.obstacle(), plane});
     }
+  }
+
+  /// Of all that it minds, not of the one met first alone.
+  void guarded_command(std::size_t agent, double t, double step, const Followed*& attended) {
+    const Pilot& pilot = *scenario_.bodies[agent].pilot;
+    minded_.clear();
+    indices_.clear();
+    for (const Followed& f : engagements_) {
+      const std::size_t other = f.engagement.obstacle();
+      if (f.engagement.agent() != agent || !present(other, t)) continue;
+      minded_.push_back(states_[other]);
+      indices_.push_back(other);
+    }
+    std::optional<guidance::Destination> destination;
+    if (pilot.goal && goal_open(agent, *pilot.goal)) destination = {pilot.goal->point, pilot.goal->most};
+    using enum guidance::NavigatorStatus;
+    const guidance::NavigatorStep said =
+        navigators_[agent]->step(states_[agent], minded_, destination, t, step);
+    accelerations_[agent] = said.acceleration;
+    if (said.status == homing || said.status == straight) attended = nullptr;
+    if (said.status == cannot_avoid && !cannot_avoid_[agent])
+      event({t, EventKind::cannot_avoid, agent, indices_[said.nearest], said.least});
+    cannot_avoid_[agent] = said.status == cannot_avoid;
+    if (said.aligned && !aligned_[agent]) event({t + step, EventKind::aligned, agent, agent, 0});
+    aligned_[agent] = said.aligned;
   }
 
   bool goal_open(std::size_t agent, const Goal& goal) const {
@@ -188,14 +234,19 @@ class Runner {
     const std::size_t i = f.engagement.agent(), j = f.engagement.obstacle();
     if (!present(i, t) || !present(j, t)) return;
     const Track &a = run_.tracks[i], &b = run_.tracks[j];
-    const double now = closing_rate(a, b, t), then = closing_rate(a, b, to);
-    if (now < 0 && then >= 0) {
-      const double when = sign_change([&](double s) { return closing_rate(a, b, s); }, t, to);
+    const bool before = f.gone;
+    f.gone = passing_rate(f, to) >= 0;
+    if (!f.gone) return;
+    if (!before) {
+      const double when = sign_change([&](double s) { return passing_rate(f, s); }, t, to);
       event({when, EventKind::passes, i, j, (b.motion(when).position - a.motion(when).position).norm()});
-      f.has_passed = true;
-    } else if (now >= 0 && then >= 0) {
-      f.has_passed = true;
     }
+    f.has_passed = true;
+  }
+
+  double passing_rate(const Followed& f, double t) const {
+    const std::size_t i = f.engagement.agent(), j = f.engagement.obstacle();
+    return simulation::passing_rate(run_.tracks[i], run_.tracks[j], *scenario_.bodies[i].pilot, t);
   }
 
   void reaching(std::size_t agent, double t, double to) {
@@ -221,23 +272,54 @@ class Runner {
                        [](const Followed& f) { return f.has_passed; });
   }
 
-  void prove_pairs() {
-    const auto flown = [&](std::size_t i) {
-      if (scenario_.bodies[i].pilot) return true;
-      return std::any_of(scenario_.bodies.begin(), scenario_.bodies.end(), [&](const Body& other) {
-        return other.pilot && contains(other.pilot->partners, scenario_.bodies[i].name);
-      });
+  /// Whether two bodies stay as they are to each other: pieces of one, perhaps.
+  bool move_together(std::size_t i, std::size_t j) const {
+    const auto steady = [&](std::size_t k) {
+      const bool rigid = std::holds_alternative<RigidShape>(run_.tracks[k].shape());
+      return rigid && std::none_of(run_.tracks[k].arcs().begin(), run_.tracks[k].arcs().end(),
+                                   [](const Arc& arc) { return arc.accelerated(); });
     };
+    const Body &a = scenario_.bodies[i], &b = scenario_.bodies[j];
+    return !flown(i) && !flown(j) && a.start.velocity == b.start.velocity && steady(i) && steady(j);
+  }
+
+  /// Moved by a law, its own or a partner's.
+  bool flown(std::size_t i) const {
+    if (scenario_.bodies[i].pilot) return true;
+    return std::any_of(scenario_.bodies.begin(), scenario_.bodies.end(), [&](const Body& other) {
+      return other.pilot && contains(other.pilot->partners, scenario_.bodies[i].name);
+    });
+  }
+
+  void prove_pairs() {
     for (std::size_t i = 0; i < run_.tracks.size(); ++i)
       for (std::size_t j = i + 1; j < run_.tracks.size(); ++j) {
-        if (!flown(i) && !flown(j)) continue;
         const double from = std::max(run_.tracks[i].appears(), run_.tracks[j].appears());
         if (!(from < run_.end)) continue;
-        PairOutcome outcome{i, j, prove(run_.tracks[i], run_.tracks[j], from, run_.end, scenario_.proof)};
+        if (move_together(i, j)) {
+          run_.not_checked.push_back({i, j, NotChecked::Why::together});
+          continue;
+        }
+        PairOutcome outcome{i, j, {}, std::max(required(i, j), required(j, i))};
+        try {
+          outcome.proof = prove(run_.tracks[i], run_.tracks[j], from, run_.end, scenario_.proof);
+        } catch (const InputError& e) {
+          if (flown(i) || flown(j) || e.field() != "bodies") throw;
+          run_.not_checked.push_back({i, j, NotChecked::Why::uncertain});
+          continue;
+        }
         if (outcome.proof.verdict == ProofVerdict::touched)
           event({outcome.proof.to, EventKind::contact, i, j, outcome.proof.from});
         run_.proofs.push_back(outcome);
       }
+  }
+
+  /// Metres that `agent` is to keep from `other`.
+  double required(std::size_t agent, std::size_t other) const {
+    const auto& pilot = scenario_.bodies[agent].pilot;
+    if (!pilot || pilot->guide.law != guidance::Law::clearance) return 0;
+    const bool minds = pilot->minds.empty() || contains(pilot->minds, scenario_.bodies[other].name);
+    return minds ? pilot->guide.clearance.required : 0;
   }
 
   const Scenario& scenario_;
@@ -246,7 +328,10 @@ class Runner {
   std::vector<Followed> engagements_;
   std::vector<BodyState> states_;
   std::vector<Vector3d> accelerations_;
-  std::vector<bool> aligned_, reached_;
+  std::vector<bool> aligned_, reached_, cannot_avoid_;
+  std::vector<std::optional<guidance::Navigator>> navigators_;
+  std::vector<BodyState> minded_;
+  std::vector<std::size_t> indices_;
   double before_ = -1;
   bool done_ = false;
 };
@@ -269,6 +354,8 @@ const char* to_string(EventKind kind) {
       return "reaches-goal";
     case EventKind::contact:
       return "contact";
+    case EventKind::cannot_avoid:
+      return "cannot-avoid";
   }
   return "?";
 }

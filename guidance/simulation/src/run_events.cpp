@@ -23,6 +23,19 @@ double closing_rate(const Track& a, const Track& b, double t) {
   return (at_b.position - at_a.position).dot(at_b.velocity - at_a.velocity);
 }
 
+double passing_rate(const Track& a, const Track& b, const Pilot& pilot, double t) {
+  const double closing = closing_rate(a, b, t);
+  const guidance::GuideOptions& guide = pilot.guide;
+  if (!(closing >= 0) || pilot.passing == Passing::centres || guide.law == guidance::Law::clearance)
+    return closing;
+  const guidance::BodyState at_a = a.state(t), at_b = b.state(t);
+  if (at_a.position == at_b.position) return closing;
+  const auto across = guidance::choose_plane(at_a, at_b, guide.sector, guide.plane, nullptr);
+  if (!across) return closing;
+  const auto view = guidance::plane_view(at_a, at_b, *across, guide.sector, guidance::RateMethod::none);
+  return view ? guidance::cone_rates(view->state, view->cone).v_r_hat : closing;
+}
+
 double margin(const Track& a, const Track& b, const guidance::GuideOptions& options, double t) {
   const guidance::BodyState at_a = a.state(t), at_b = b.state(t);
   if (options.law == guidance::Law::clearance)

@@ -15,6 +15,10 @@ double sign_change(const std::function<double(double)>& value, double from, doub
 /// c.V at time t: negative while the centres close.
 double closing_rate(const Track& a, const Track& b, double t);
 
+/// Negative until B is passed: c.V, and once that is not negative V_r_hat of the plane chosen, where there is
+/// one.
+double passing_rate(const Track& a, const Track& b, const Pilot& pilot, double t);
+
 /// Negative on a collision course as the law sees it: m - required, or -1 and 1.
 double margin(const Track& a, const Track& b, const guidance::GuideOptions& options, double t);
 

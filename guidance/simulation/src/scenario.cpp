@@ -107,6 +107,12 @@ void check_body(const Body& body, const Scenario& scenario) {
 
 }  // namespace
 
+bool guarded(const Pilot& pilot) {
+  const guidance::Law law = pilot.guide.law;
+  return pilot.manner == Manner::guarded &&
+         (law == guidance::Law::avoidance || law == guidance::Law::clearance);
+}
+
 void check(const Scenario& scenario) {
   require_positive(scenario.duration, "duration", " (s)");
   require_positive(scenario.step, "step", " (s)");

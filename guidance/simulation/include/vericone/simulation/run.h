@@ -33,10 +33,11 @@ enum class EventKind : std::uint8_t {
   appears,      // body `agent`
   enters_cone,  // y < 0 and closing from now on, as the law sees it
   leaves_cone,  // y >= 0 (or m >= required) from now on; the last sample before it was inside
-  passes,       // closest approach of the centres, V_r = 0
+  passes,       // as the pilot's `passing` says
   aligned,      // the velocity points at the goal from now on
   reaches_goal,
-  contact,  // proved
+  contact,       // proved
+  cannot_avoid,  // every course tried meets `obstacle`, as far as a guarded pilot can foresee
 };
 const char* to_string(EventKind kind);
 
@@ -52,6 +53,19 @@ struct Event {
 struct PairOutcome {
   std::size_t a = 0, b = 0;
   PairProof proof;
+  double required = 0;  // metres, the most that a clearance law of either is to keep from the other
+
+  /// Proved never nearer than required.
+  bool kept() const { return proof.verdict == ProofVerdict::avoided && proof.least_distance >= required; }
+};
+
+/// A pair without a verdict, and why.
+struct NotChecked {
+  std::size_t a = 0, b = 0;
+  enum class Why : std::uint8_t {
+    together,   // without pilots, rigid, with one velocity: pieces of one body, which may overlap
+    uncertain,  // of passive bodies: prove() has no certified predicate of the two kinds
+  } why = Why::together;
 };
 
 struct Run {
@@ -60,10 +74,11 @@ struct Run {
   std::vector<EncounterSample> encounters;  // by time, agent, obstacle
   std::vector<PlaneSample> planes;
   std::vector<Event> events;        // by time
-  std::vector<PairOutcome> proofs;  // every pair of bodies of which one has a pilot or a partner
+  std::vector<PairOutcome> proofs;  // every pair of bodies that are there together, but:
+  std::vector<NotChecked> not_checked;
   bool interrupted = false;
 
-  /// touched if any pair touched; else undecided if any is; else avoided.
+  /// touched if any pair touched; else undecided if any is; else avoided, of no pairs too.
   ProofVerdict verdict() const;
 };
 

@@ -21,9 +21,30 @@ struct Goal {
   double reached = 1;  // metres; when all agents with goals have been this near the run ends
 };
 
+/// How a pilot avoids.
+enum class Manner : std::uint8_t {
+  /// On courses that no cone holds, tested against every body that it minds (guidance::Navigator), its goal
+  /// pursued on such a course only. Of the laws avoidance and clearance; the metres to keep are those of
+  /// `guide.clearance` for the clearance law, else a part of the agent's size.
+  guarded,
+  /// As the source does: the law's own command for the body met first, without regard of others; to the goal
+  /// whenever that is silent. The other laws know this manner alone.
+  source,
+};
+
+/// When a body is passed: from then on the law is not asked until they close again, and goals `after` it
+/// open.
+enum class Passing : std::uint8_t {
+  bisector,  // the centres recede, and so does the relative velocity along the cone's bisector, V_r_hat >= 0
+             // (5.1)
+  centres,   // V_r >= 0; always of the clearance law, which knows no cone
+};
+
 /// What flies a body. Bodies without one keep their velocity.
 struct Pilot {
   guidance::GuideOptions guide;
+  Manner manner = Manner::guarded;
+  Passing passing = Passing::bisector;
   /// Names of what is avoided (met, for rendezvous). Empty: all other bodies, except for a partner's own
   /// agent.
   std::vector<std::string> minds;
@@ -50,6 +71,9 @@ struct Scenario {
   std::vector<Body> bodies;
   ProofOptions proof;
 };
+
+/// Whether this pilot's courses are guarded: of the laws that can be.
+bool guarded(const Pilot& pilot);
 
 /// Throws InputError with the field's path: "bodies[2].shape.k", "bodies[0].pilot.minds[1]", ...
 void check(const Scenario& scenario);

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// One agent among many bodies: a course that no cone holds.
+#pragma once
+
+#include <vericone/geometry/ellipsoid.h>
+#include <vericone/guidance/body_state.h>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace vericone::guidance {
+
+struct NavigatorOptions {
+  std::optional<double>
+      required;  // metres to keep from every body; left out: a twentieth of the agent's half-length
+  std::optional<double>
+      beyond;  // metres more that a course must keep when it is taken; left out: a tenth of it
+  double most = std::numeric_limits<double>::infinity();  // m/s^2, across the velocity
+};
+
+/// Where the agent wants to go.
+struct Destination {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  double most = 0;  // m/s^2, with which it turns towards the point
+};
+
+enum class NavigatorStatus : std::uint8_t {
+  straight,      // nothing to avoid, nowhere to go
+  homing,        // turns to its destination, or points at it
+  avoiding,      // on a course beside the one that it wants
+  too_near,      // every course comes nearer to a body than required; this one the least
+  cannot_avoid,  // every course tried meets a body, as far as can be foreseen
+  no_course,     // at rest: there is no heading to change
+};
+const char* to_string(NavigatorStatus status);
+
+struct NavigatorStep {
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  // m/s^2, across the velocity
+  NavigatorStatus status = NavigatorStatus::straight;
+  bool aligned = false;  // points at the destination
+  /// Of the course flown, foreseen: metres to what it comes nearest to (negative: how deep it is hit;
+  /// infinite: nothing is near), and its index in `others`.
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t nearest = 0;
+};
+
+/// Flies by courses: turn to a direction on a circle, as hard as allowed, then straight on. A course is safe
+/// if on both parts the agent keeps away from every body, each going on as it does now, for ever (the way to
+/// the destination: until there). The straight part is judged by the cone in metres, clearance(); the turn by
+/// distances, so often that nothing can be passed over. Whoever flies a safe course and is among bodies that
+/// keep their velocities has a safe course at every later step: the one it is on. So it takes the way to its
+/// destination where that is safe, else stays on its course while that is, and looks for a better one twice a
+/// second; directions are tried outwards from the one it wants.
+///
+/// Bodies stand for themselves as ellipsoids that contain them; one that turns or changes its shape by the
+/// ball about it. The speed is never changed. Deterministic. No allocation after the first step. Cost: 5 to
+/// 20 us a body where the wanted course is safe; up to 400 courses otherwise.
+class Navigator {
+ public:
+  explicit Navigator(const NavigatorOptions& options) : options_(options) {}
+
+  /// At `time`; the command is held for `step` seconds. All bodies planar or all spatial.
+  NavigatorStep step(const BodyState& agent, std::span<const BodyState> others,
+                     const std::optional<Destination>& destination, double time, double step);
+
+ private:
+  struct Seen;
+  struct Course;
+  struct Foreseen;
+  struct Moment;
+
+  Foreseen foresee(const Moment& now, const Course& course, double extra, double floor) const;
+  std::optional<Course> to_destination(const Moment& now, const Destination& destination) const;
+  Course towards(const Moment& now, const Eigen::Vector3d& direction, double most) const;
+  void closer(const Moment& now, const Eigen::Vector3d& wanted, double most, Course& course,
+              Foreseen& foreseen) const;
+  bool search(const Moment& now, const Eigen::Vector3d& wanted, double less_than, Course& course,
+              Foreseen& foreseen);
+
+  NavigatorOptions options_;
+  std::optional<Eigen::Vector3d> held_;  // direction of the course taken
+  bool held_is_way_ = false;             // it is the way to the destination
+  double turn_ = 0;                      // m/s^2 with which it is turned to
+  double next_look_ = 0;                 // s
+  double required_ = 0, beyond_ = 0;     // metres
+  // Of the step; members to keep their memory.
+  struct Body {
+    Ellipsoid body;
+    Eigen::Vector3d velocity;
+    double reach, required;
+    bool near;  // nearer than required and beyond already
+  };
+  std::vector<Body> bodies_;
+  struct Candidate {
+    double cost;
+    Eigen::Vector3d direction;
+  };
+  std::vector<Candidate> candidates_;
+};
+
+}  // namespace vericone::guidance
