@@ -22,15 +22,31 @@ using testing::campaign_size, testing::from_environment, testing::RandomBodies;
 
 constexpr double kMost = 8;  // m/s^2
 
-Body ball_like(RandomBodies& random, const std::string& name, double least, double most) {
-  Body body;
-  body.name = name;
-  const Vector3d axes(random.uniform(least, most), random.uniform(least, most), random.uniform(least, most));
-  body.shape = RigidShape{CombinedEllipsoid(Ellipsoid::from_axes(Vector3d::Zero(), axes))};
-  body.orientation = Orientation::fixed;
-  body.start.rotation = random.rotation();
-  return body;
-}
+/// Directions and bodies of the plane or of space.
+struct World {
+  RandomBodies& random;
+  bool planar;
+
+  Vector3d direction() const {
+    if (!planar) return random.direction();
+    const Eigen::Vector2d d = random.direction_2d();
+    return {d.x(), d.y(), 0};
+  }
+  Body body(const std::string& name, double least, double most) const {
+    Body body;
+    body.name = name;
+    const Vector3d axes(random.uniform(least, most), random.uniform(least, most), random.uniform(least, most));
+    body.orientation = Orientation::fixed;
+    if (planar) {
+      body.shape = RigidShape{CombinedEllipse(Ellipse::from_axes(Eigen::Vector2d::Zero(), axes.head<2>()))};
+      body.start.rotation.topLeftCorner<2, 2>() = rotation_2d(random.uniform(-3, 3));
+    } else {
+      body.shape = RigidShape{CombinedEllipsoid(Ellipsoid::from_axes(Vector3d::Zero(), axes))};
+      body.start.rotation = random.rotation();
+    }
+    return body;
+  }
+};
 
 /// One to six bodies, most of them in the way to the goal, at rest or moving. A way round them is there by
 /// construction: each body that comes within half a metre of a witness is drawn again. The witness turns
@@ -40,11 +56,13 @@ Scenario flight(std::uint64_t seed) {
   Scenario scenario;
   scenario.step = 0.02;
   scenario.duration = 90;
-  Body agent = ball_like(random, "agent", 0.2, 0.5);
+  const World world{random, seed % 3 == 0};
+  const double largest = seed % 2 == 0 ? 0.5 : 1.5;  // long ones turn with their heading
+  Body agent = world.body("agent", 0.2, largest);
   agent.orientation = Orientation::heading;
   const double speed = random.uniform(2, 8), distance = random.uniform(30, 80);
-  agent.start.velocity = speed * random.direction();
-  const Vector3d to_goal = (agent.start.velocity / speed + 0.7 * random.direction()).normalized();
+  agent.start.velocity = speed * world.direction();
+  const Vector3d to_goal = (agent.start.velocity / speed + 0.7 * world.direction()).normalized();
   Pilot& pilot = agent.pilot.emplace();
   pilot.guide.law = Law::avoidance;
   pilot.guide.inversion.most = pilot.guide.clearance.most = kMost;
@@ -53,7 +71,7 @@ Scenario flight(std::uint64_t seed) {
   Body ghost = agent;
   ghost.pilot->manner = Manner::source;
   ghost.pilot->goal->point =
-      0.5 * distance * to_goal + random.uniform(0, 0.4) * distance * random.direction();
+      0.5 * distance * to_goal + random.uniform(0, 0.4) * distance * world.direction();
   Scenario alone = scenario;
   alone.bodies = {ghost};
   RunOptions quick;
@@ -69,16 +87,16 @@ Scenario flight(std::uint64_t seed) {
   scenario.bodies = {agent};
   const int count = random.integer(1, 6);
   for (int i = 0, tries = 0; i < count && tries < 1000; ++tries) {
-    Body body = ball_like(random, "b" + std::to_string(i), 0.5, 3);
-    if (random.coin()) body.start.velocity = random.uniform(0, 6) * random.direction();
+    Body body = world.body("b" + std::to_string(i), 0.5, 3);
+    if (random.coin()) body.start.velocity = random.uniform(0, 6) * world.direction();
     // Where the straight way to the goal would be at some time, more or less.
     const double when = random.uniform(0.15, 0.9) * distance / speed;
-    const Vector3d there = speed * when * to_goal + random.uniform(0, 4) * random.direction();
+    const Vector3d there = speed * when * to_goal + random.uniform(0, 4) * world.direction();
     body.start.position = there - when * body.start.velocity;
-    bool free = (body.start.position - agent.start.position).norm() > 3 + 0.5 + 2;
+    bool free = (body.start.position - agent.start.position).norm() > 3 + largest + 2;
     for (std::size_t k = 0; k < witness.size() && free; ++k)
       free =
-          (body.start.position + 0.05 * double(k) * body.start.velocity - witness[k]).norm() > 3 + 0.5 + 0.5;
+          (body.start.position + 0.05 * double(k) * body.start.velocity - witness[k]).norm() > 3 + largest + 0.5;
     if (!free) continue;
     scenario.bodies.push_back(body);
     ++i;

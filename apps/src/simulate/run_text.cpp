@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <ostream>
+#include <utility>
+#include <vector>
 
 #include "simulate/run_files.h"
 
@@ -28,14 +30,13 @@ std::string agent_text(const Scenario& scenario, const Body& body) {
   const Pilot& pilot = *body.pilot;
   const guidance::GuideOptions& guide = pilot.guide;
   std::string text = body.name + ": " + guidance::to_string(guide.law);
-  if (guarded(pilot)) text += ", guarded";
   if (guide.law == guidance::Law::clearance) {
     text += " to " + brief(guide.clearance.required) + " m";
-  } else if (!planar(body.shape)) {
+  } else if (!planar(body.shape) && !guarded(pilot)) {
     text += std::string(", ") + (guide.sector == guidance::SectorMethod::exact ? "true" : "slice") +
             " sector, " + guidance::to_string(guide.plane.choice);
   }
-  text += ", gain " + brief(guide.inversion.gain) + "/s";
+  text += guarded(pilot) ? ", guarded" : ", gain " + brief(guide.inversion.gain) + "/s";
   if (std::isfinite(guide.inversion.most)) text += ", at most " + brief(guide.inversion.most) + " m/s^2";
   std::string minds;
   for (const std::string& name : pilot.minds) minds.append(minds.empty() ? "; minds " : ", ").append(name);
@@ -139,6 +140,52 @@ void print_pair(const Scenario& scenario, const PairOutcome& pair, std::ostream&
   }
 }
 
+/// What a reader wants to see of many events.
+bool decisive(EventKind kind) {
+  return kind == EventKind::contact || kind == EventKind::cannot_avoid || kind == EventKind::reaches_goal;
+}
+
+constexpr std::size_t kMostEvents = 30, kMostPairs = 10, kNearestPairs = 5;
+
+void print_events(const Scenario& scenario, const Run& run, std::ostream& out) {
+  const bool all = run.events.size() <= kMostEvents;
+  std::size_t listed = 0;
+  for (const Event& event : run.events) {
+    if (!all && (!decisive(event.kind) || listed >= kMostEvents)) continue;
+    char when[32];
+    std::snprintf(when, sizeof when, "%10.4f s  ", event.t);
+    line(out, listed++ == 0 ? "events" : "", when + event_text(scenario, event));
+  }
+  if (!all)
+    line(out, listed == 0 ? "events" : "",
+         std::to_string(run.events.size()) + " in all, from " + brief(run.events.front().t) + " to " +
+             brief(run.events.back().t) + " s: events.csv");
+}
+
+/// All of a few; of many the worst.
+void print_pairs(const Scenario& scenario, const Run& run, std::ostream& out) {
+  if (run.proofs.size() <= kMostPairs) {
+    for (const PairOutcome& pair : run.proofs) print_pair(scenario, pair, out);
+    return;
+  }
+  std::vector<const PairOutcome*> worst;
+  for (const PairOutcome& pair : run.proofs) worst.push_back(&pair);
+  const auto rank = [](const PairOutcome* pair) {
+    const ProofVerdict verdict = pair->proof.verdict;
+    const int order = verdict == ProofVerdict::touched ? 0 : verdict == ProofVerdict::undecided ? 1 : 2;
+    return std::pair(order, order < 2 ? pair->proof.to : pair->proof.least_distance - pair->required);
+  };
+  std::stable_sort(worst.begin(), worst.end(),
+                   [&](const PairOutcome* x, const PairOutcome* y) { return rank(x) < rank(y); });
+  for (std::size_t k = 0; k < kNearestPairs; ++k) print_pair(scenario, *worst[k], out);
+  const auto apart = std::count_if(worst.begin() + kNearestPairs, worst.end(), [](const PairOutcome* pair) {
+    return pair->proof.verdict == ProofVerdict::avoided;
+  });
+  line(out, "",
+       "and " + std::to_string(worst.size() - kNearestPairs) + " more pairs, " + std::to_string(apart) +
+           " of them avoided, proved: proof.json");
+}
+
 }  // namespace
 
 void print_run(const Scenario& scenario, const Run& run, double seconds, std::ostream& out) {
@@ -147,15 +194,9 @@ void print_run(const Scenario& scenario, const Run& run, double seconds, std::os
   line(out, "time",
        brief(run.end) + " s in steps of " + brief(scenario.step) + " s, computed and proved in " +
            brief(seconds) + " s: " + brief(run.end / seconds) + " times real time");
-  bool first = true;
-  for (const Event& event : run.events) {
-    char when[32];
-    std::snprintf(when, sizeof when, "%10.4f s  ", event.t);
-    line(out, first ? "events" : "", when + event_text(scenario, event));
-    first = false;
-  }
+  print_events(scenario, run, out);
   line(out, "verdict", verdict_text(scenario, run));
-  for (const PairOutcome& pair : run.proofs) print_pair(scenario, pair, out);
+  print_pairs(scenario, run, out);
 }
 
 }  // namespace vericone::scenario

@@ -55,7 +55,7 @@ struct NavigatorStep {
 /// second; directions are tried outwards from the one it wants.
 ///
 /// Bodies stand for themselves as ellipsoids that contain them; one that turns or changes its shape by the
-/// ball about it. The speed is never changed. Deterministic. No allocation after the first step. Cost: 5 to
+/// ball about it. The speed is never changed. Deterministic. No allocation once it has searched. Cost: 5 to
 /// 20 us a body where the wanted course is safe; up to 400 courses otherwise.
 class Navigator {
  public:
