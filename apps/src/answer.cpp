@@ -11,6 +11,16 @@
 namespace vericone {
 namespace {
 
+/// For answers that take the difference as a vector of doubles.
+Eigen::Vector3d difference(const Eigen::Vector3d& agent, const Eigen::Vector3d& obstacle) {
+  const Eigen::Vector3d w = agent - obstacle;
+  for (int i = 0; i < 3; ++i)
+    if (!std::isfinite(w(i)))
+      throw InputError("agent_velocity[" + std::to_string(i) + "]", to_text(agent(i)),
+                       "at most 1.8e308 from the obstacle's, " + to_text(obstacle(i)));
+  return w;
+}
+
 Json exact_answer(const input::Engagement& e, bool with_rung) {
   const ConeOracle oracle(e.agent.ellipsoid(), e.obstacle.ellipsoid());
   Rung rung = oracle.relation_rung();  // of bodies that are not disjoint
@@ -18,9 +28,9 @@ Json exact_answer(const input::Engagement& e, bool with_rung) {
   Json result;
   result["verdict"] = to_string(verdict);
   if (with_rung) result["rung"] = to_string(rung);
-  result["clearance"] = clearance_ahead(oracle, e.agent_velocity, e.obstacle_velocity);
+  result["clearance"] = number_or_null(clearance_ahead(oracle, e.agent_velocity, e.obstacle_velocity));
   const auto time = time_to_contact(oracle, e.agent_velocity, e.obstacle_velocity);
-  result["time_to_contact"] = time ? Json(*time) : Json(nullptr);
+  result["time_to_contact"] = time ? number_or_null(*time) : Json(nullptr);
   return result;
 }
 
@@ -28,7 +38,7 @@ Json exact_answer(const input::Engagement& e, bool with_rung) {
 /// are not convex, and the signed distance of two such shadows is not what clearance() computes.
 Json certified_answer(const input::Engagement& e, bool with_rung) {
   const CombinedOracle oracle(e.agent, e.obstacle);
-  const Eigen::Vector3d w = e.agent_velocity - e.obstacle_velocity;
+  const Eigen::Vector3d w = difference(e.agent_velocity, e.obstacle_velocity);
   const auto relation = oracle.relation();
   Json result;
   std::string verdict = "undecided";
@@ -58,7 +68,7 @@ Json interval(double low, double high) { return {number_or_null(low), number_or_
 /// A body of pieces: exact verdicts, enclosed lengths and times.
 Json assembly_answer(const input::AssemblyEngagement& e, bool with_rung) {
   const AssemblyOracle oracle = assembly_oracle(e);
-  const Eigen::Vector3d w = e.agent_velocity - e.obstacle_velocity;
+  const Eigen::Vector3d w = difference(e.agent_velocity, e.obstacle_velocity);
   const Relation relation = oracle.relation();
   Effort effort;
   Membership membership = Membership::out;
@@ -82,10 +92,13 @@ Json assembly_answer(const input::AssemblyEngagement& e, bool with_rung) {
   } else {
     if (membership == Membership::on) clearance = 0.0, around = interval(0, 0);
     if (const auto contact = oracle.first_contact(w)) {
-      time = number_or_null(contact->time);
       enclosure = interval(contact->earliest, contact->latest);
-      point = vector_json(contact->point + contact->time * e.obstacle_velocity);
-      normal = vector_json(contact->normal);
+      // A contact that is proved and was not found: where sizes are too far apart for the search.
+      if (membership == Membership::on || std::isfinite(contact->latest)) {
+        time = number_or_null(contact->time);
+        point = vector_json(contact->point + contact->time * e.obstacle_velocity);
+        normal = vector_json(contact->normal);
+      }
     }
   }
   result["clearance"] = clearance;

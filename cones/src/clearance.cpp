@@ -3,6 +3,7 @@
 
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/cones/contact_frame.h>
+#include <vericone/cones/contact_time_enclosure.h>
 #include <vericone/geometry/error.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -20,6 +21,11 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using ShadowFactor = Eigen::Matrix<double, 2, 3>;
 
+constexpr double kDistant =
+    1e20;  // beyond these times the width of the bodies their distance is that of points
+
+constexpr double kFast = 0x1p1020;  // beyond, the length of a velocity may leave the doubles
+
 /// g on the unit circle of normals perpendicular to w, as a function of the angle.
 class ShadowGap {
  public:
@@ -29,14 +35,41 @@ class ShadowGap {
     a_ = e * a.factor();
     b_ = e * b.factor();
     c_ = e * (b.center() - a.center());
+    if (const double c = c_.cwiseAbs().maxCoeff(); c > kLargest && std::isfinite(c)) {
+      exponent_ = std::ilogb(c);
+      for (auto* entries : {a_.data(), b_.data()})
+        for (int i = 0; i < 6; ++i) entries[i] = std::ldexp(entries[i], -exponent_);
+      for (double& x : c_) x = std::ldexp(x, -exponent_);
+    }
+  }
+
+  /// g in metres.
+  double metres(double g) const { return std::ldexp(g, exponent_); }
+
+  /// What the bodies are wide is below the rounding of the distance between the shadows: the normal is along
+  /// it.
+  bool distant() const {
+    return c_.cwiseAbs().maxCoeff() > kDistant * (a_.cwiseAbs().maxCoeff() + b_.cwiseAbs().maxCoeff());
+  }
+  Vector2d center_line() const { return c_.stableNormalized(); }
+  double center_distance() const { return c_.stableNorm(); }
+
+  /// Whether doubles near the normal n resolve g to some nine digits. Of shadows with an axis ratio beyond
+  /// 1e16 they need not: the next normal may be one of a width that is larger by orders of magnitude.
+  bool resolves(const Vector2d& n) const {
+    const Value v = at(n);
+    return std::abs(v.slope) * std::numeric_limits<double>::epsilon() <=
+           1e-9 * std::abs(v.g) + 1e-15 * c_.cwiseAbs().maxCoeff();
   }
 
   struct Value {
     double g, slope, curvature;  // and derivatives by the angle
   };
 
-  Value at(double angle) const {
-    const Vector2d n(std::cos(angle), std::sin(angle)), t(-n.y(), n.x());
+  static Vector2d normal(double angle) { return {std::cos(angle), std::sin(angle)}; }
+  Value at(double angle) const { return at(normal(angle)); }
+  Value at(const Vector2d& n) const {
+    const Vector2d t(-n.y(), n.x());
     Value v{n.dot(c_), t.dot(c_), 0};
     for (const ShadowFactor* f : {&a_, &b_}) {
       const Vector3d u = f->transpose() * n, u_t = f->transpose() * t;
@@ -80,7 +113,7 @@ class ShadowGap {
 
   /// Global maximum where g may be negative: every sign change of the slope from + to - on a grid that
   /// contains the thin directions of both shadows, where rho has a narrow notch.
-  double search() const {
+  Vector2d search() const {
     constexpr int kUniform = 48;
     const auto wrapped = [](double angle) {
       return angle - 2 * std::numbers::pi * std::floor(angle / (2 * std::numbers::pi));
@@ -116,10 +149,26 @@ class ShadowGap {
         best = angle;
       }
     }
-    return best;
+    // An angle has too few digits for the notch of a very thin shadow; its direction is a column of the
+    // shape.
+    Vector2d best_normal = normal(best);
+    for (const ShadowFactor* f : {&a_, &b_}) {
+      const Matrix2d s = *f * f->transpose();
+      const Vector2d long_axis = s.col(s(0, 0) >= s(1, 1) ? 0 : 1).stableNormalized();
+      for (const double side : {1.0, -1.0}) {
+        const Vector2d n(-side * long_axis.y(), side * long_axis.x());
+        if (const double g = at(n).g; g > best_g + 1e-12 * std::abs(best_g)) {
+          best_g = g;
+          best_normal = n;
+        }
+      }
+    }
+    return best_normal;
   }
 
  private:
+  static constexpr double kLargest = 1e140;  // squares beyond leave the doubles
+
   /// A square factor with the same shape, by Gram-Schmidt on the rows.
   static Matrix2d square_factor(const ShadowFactor& f) {
     const double l11 = f.row(0).norm(), l21 = f.row(1).dot(f.row(0)) / l11;
@@ -131,6 +180,7 @@ class ShadowGap {
 
   ShadowFactor a_, b_;
   Vector2d c_;
+  int exponent_ = 0;  // of the unit of length
 };
 
 /// c - S_A n / rho_A - S_B n / rho_B: the vector between the supporting points, the gradient of g.
@@ -154,14 +204,26 @@ void require_direction(const Vector3d& w) {
 
 Clearance clearance(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& w) {
   require_direction(w);
+  if (w.cwiseAbs().maxCoeff() > kFast) {
+    Clearance m = clearance(a, b, 0.125 * w);
+    m.time *= 0.125;
+    return m;
+  }
   const double speed = w.stableNorm();
   const AxisFrame frame(w / speed);
   const ShadowGap shadows(a, b, frame);
-  const auto start = shadows.separating_angle();
-  const double angle = start ? shadows.climb(*start) : shadows.search();
   Clearance m;
-  m.distance = shadows.at(angle).g;
-  m.normal = std::cos(angle) * frame.e1 + std::sin(angle) * frame.e2;
+  Vector2d n;
+  if (shadows.distant()) {
+    n = shadows.center_line();
+    m.distance = shadows.metres(shadows.center_distance());
+  } else {
+    const auto start = shadows.separating_angle();
+    n = start ? shadows.normal(shadows.climb(*start)) : shadows.search();
+    m.distance = shadows.metres(shadows.at(n).g);
+    if (!start && !shadows.resolves(n)) m.distance = std::numeric_limits<double>::quiet_NaN();
+  }
+  m.normal = n.x() * frame.e1 + n.y() * frame.e2;
   m.time = support_difference(a, b, m.normal).dot(frame.axis) / speed;
   return m;
 }
@@ -170,6 +232,17 @@ Separation separation(const Ellipsoid& a, const Ellipsoid& b) {
   const ContactFrame<3> frame(a, b);
   const Relation rel = relation<3>(a, b, frame);
   if (rel == Relation::overlapping) return {};
+  const double far = frame.center_line.cwiseAbs().maxCoeff(),
+               width = a.factor().cwiseAbs().maxCoeff() + b.factor().cwiseAbs().maxCoeff();
+  if (far > kDistant * width) return {frame.center_line.stableNorm(), frame.center_line.stableNormalized()};
+  if (far > 1e140 && std::isfinite(far)) {
+    // The same in another unit of length, in which squares stay within the doubles.
+    const int e = std::ilogb(far);
+    const double scale = std::ldexp(1.0, -e);
+    Separation scaled = separation(a.scaled(scale), b.scaled(scale));
+    scaled.distance = std::ldexp(scaled.distance, e);
+    return scaled;
+  }
   Vector3d n = frame.separating_normal().normalized();
   double g = gap(a, b, n);
   if (rel == Relation::touching || !(g > 0)) return {0, n};
@@ -292,6 +365,40 @@ double contact_time(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& w) {
   return std::max(at.time, 0.0);
 }
 
+namespace {
+
+/// v_a - v_b, divided by 2^exponent where it is too long for doubles.
+struct Difference {
+  Vector3d w;
+  int exponent = 0;
+
+  Difference(const Vector3d& v_a, const Vector3d& v_b) : w(v_a - v_b) {
+    if (w.cwiseAbs().maxCoeff() < kFast) return;
+    exponent = 3;
+    w = 0.125 * v_a - 0.125 * v_b;
+  }
+};
+
+/// Of bodies that will overlap. Where squares of their ratios leave the doubles, or the gap is below rounding
+/// and the time zero, the exact time is asked for.
+double time_of_contact(const ConeOracle& oracle, const Vector3d& v_a, const Vector3d& v_b) {
+  const auto squares = [](double x) { return x > 1e-70 && x < 1e70; };
+  const double far = (oracle.b().center() - oracle.a().center()).cwiseAbs().maxCoeff();
+  if (squares(far / oracle.a().factor().cwiseAbs().maxCoeff()) &&
+      squares(far / oracle.b().factor().cwiseAbs().maxCoeff())) {
+    const Difference d(v_a, v_b);
+    const double speed = d.w.cwiseAbs().maxCoeff();
+    const int e = squares(speed) ? 0 : std::ilogb(speed);  // of the unit of speed
+    const Vector3d w = d.w.unaryExpr([e](double x) { return std::ldexp(x, -e); });
+    const double t = contact_time(oracle.a(), oracle.b(), w);
+    if (t > 0 && std::isfinite(t)) return std::ldexp(t, -e - d.exponent);
+  }
+  const auto exact = exact_time_to_contact(oracle, v_a, v_b);
+  return exact ? exact->mid() : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
 std::optional<double> time_to_contact(const ConeOracle& oracle, const Vector3d& v_a, const Vector3d& v_b) {
   switch (oracle.verdict(v_a, v_b)) {
     case Verdict::overlapping:
@@ -300,10 +407,12 @@ std::optional<double> time_to_contact(const ConeOracle& oracle, const Vector3d& 
     case Verdict::out:
       return std::nullopt;
     case Verdict::in:
-      return contact_time(oracle.a(), oracle.b(), v_a - v_b);
+      return time_of_contact(oracle, v_a, v_b);
     // A double root loses half the digits; the supporting points of the shadows do not.
-    case Verdict::on:
-      return std::max(clearance(oracle.a(), oracle.b(), v_a - v_b).time, 0.0);
+    case Verdict::on: {
+      const Difference d(v_a, v_b);
+      return std::max(std::ldexp(clearance(oracle.a(), oracle.b(), d.w).time, -d.exponent), 0.0);
+    }
   }
   return std::nullopt;
 }
@@ -314,7 +423,7 @@ std::optional<double> time_to_contact(const Ellipsoid& a, const Ellipsoid& b, co
 
 double clearance_ahead(const ConeOracle& oracle, const Vector3d& v_a, const Vector3d& v_b) {
   constexpr double kLeast = std::numeric_limits<double>::min();  // rounding must not contradict the verdict
-  const Vector3d w = v_a - v_b;
+  const Vector3d w = Difference(v_a, v_b).w;
   switch (oracle.verdict(v_a, v_b)) {
     case Verdict::touching:
     case Verdict::on:

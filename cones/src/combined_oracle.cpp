@@ -109,6 +109,7 @@ Certified CombinedOracle::membership(const Vector3d& w) const {
       throw InputError("relative_velocity[" + std::to_string(i) + "]", to_text(w(i)),
                        "a finite number (m/s)");
   if (w.isZero(0)) return Certified::out;
+  if (s.relation == Relation::overlapping) return Certified::in;
   if (s.relation != Relation::disjoint) return Certified::undecided;
   const Vector3d own = s.own(w);
   if (s.exact) return s.exact->membership(own) == Membership::out ? Certified::out : Certified::in;

@@ -57,6 +57,7 @@ SectorRates combined_sector_rates(const CombinedSector& combined, const Combined
                                   const CombinedEllipse& b, const PlanarMotion& motion,
                                   const std::vector<DelimiterRate>& rates_a,
                                   const std::vector<DelimiterRate>& rates_b) {
+  require_edges(combined.sector);
   const ChangingBody changing_a{a, motion.shape_rate_a, rates_a, motion.omega_a},
       changing_b{b, motion.shape_rate_b, rates_b, motion.omega_b};
   const auto edge_rate = [&](const SectorEdge& edge, const Touch& on_a, const Touch& on_b, double side) {

@@ -257,6 +257,12 @@ double solid_angle(const DirectionCell& cell) {
 }
 
 std::size_t cell_at(const ConeMap& map, const Vector3d& direction) {
+  if (map.cells.empty()) throw InputError("map.cells", "none", "those of cone_map()");
+  if (!direction.allFinite() || direction.isZero(0))
+    throw InputError(
+        "direction",
+        "[" + to_text(direction.x()) + ", " + to_text(direction.y()) + ", " + to_text(direction.z()) + "]",
+        "finite and not zero");
   std::size_t best = 0;
   double most = -std::numeric_limits<double>::infinity();
   const Vector3d d = direction.stableNormalized();

@@ -73,6 +73,8 @@ ConeOracle::ConeOracle(const Ellipsoid& a, const Ellipsoid& b) : a_(a), b_(b) {
       normal_certified_ = separates<3>(a, b, normal_);
     }
   }
+  // Every velocity is in the cone of overlapping bodies: the rungs have nothing to prepare.
+  if (relation_ == Relation::overlapping) return;
   // Powers of two: scaling is exact.
   const Eigen::Vector3d c = b.center() - a.center();
   const int e = binary_exponent(c.cwiseAbs().maxCoeff());
@@ -120,6 +122,7 @@ std::optional<Membership> ConeOracle::triage_membership(const Eigen::Vector3d& w
   const double wk = w(axis.k);
   if (!(std::abs(wk) > 0 && std::abs(wk) <= std::numeric_limits<double>::max() && usable_)) {
     if (w.x() == 0 && w.y() == 0 && w.z() == 0) return Membership::out;
+    if (relation_ == Relation::overlapping && w.allFinite()) return Membership::in;
     return std::nullopt;
   }
   const Scaled& scaled = scaled_[axis.k];
@@ -160,7 +163,8 @@ Membership ConeOracle::naive_membership(const Eigen::Vector3d& w) const noexcept
                                    c(1) + minus_v * c(2));
   const double d = cubic.discriminant();
   if (d > 0 && (cubic.k1 > 0 || cubic.k2 > 0)) return Membership::out;
-  if (!(normal_.dot(w) > 0)) return Membership::out;
+  if (!(normal_.dot(w) > 0))
+    return relation_ == Relation::overlapping && !w.isZero(0) ? Membership::in : Membership::out;
   return d == 0 ? Membership::on : Membership::in;
 }
 
@@ -174,7 +178,8 @@ std::optional<Membership> ConeOracle::interval_membership(const Eigen::Vector3d&
 std::optional<Membership> ConeOracle::interval_membership(const std::array<Interval, 3>& w) const noexcept {
   const DroppedAxis axis({w[0].mid(), w[1].mid(), w[2].mid()});
   const Interval& wk = w[axis.k];
-  if (!usable_ || wk.sign() == FilteredSign::uncertain) return std::nullopt;
+  if (wk.sign() == FilteredSign::uncertain) return std::nullopt;
+  if (!usable_) return relation_ == Relation::overlapping ? std::optional(Membership::in) : std::nullopt;
   const Interval minus_u = -w[axis.i] / wk, minus_v = -w[axis.j] / wk;
   int ahead = 0;
   if (normal_certified_) {
@@ -199,10 +204,11 @@ std::optional<Membership> ConeOracle::interval_membership(const std::array<Inter
 
 namespace {
 
-/// Membership of w != 0 by the signs of theory.md, 2. `normal`: any that separates the bodies strictly.
-template <typename Normal>
+/// Membership of w != 0 by the signs of theory.md, 2. `side`: the sign of n.w for any n that separates
+/// disjoint bodies strictly; for others as side_of_contact().
+template <typename Side>
 Membership decide_exactly(const exact::PairOnGrid<3>& pair, const exact::IntegerVector<3>& w,
-                          const Normal& normal) {
+                          const Side& side) {
   using exact::Integer;
   const int k = w[0] != 0 ? 0 : w[1] != 0 ? 1 : 2, i = (k + 1) % 3, j = (k + 2) % 3;
   const auto entry = [](const exact::IntegerMatrix<3>& s) {
@@ -216,14 +222,10 @@ Membership decide_exactly(const exact::PairOnGrid<3>& pair, const exact::Integer
   const bool positive_pair = cubic.k1 > 0 || cubic.k2 > 0;
   if (discriminant > 0 && positive_pair) return Membership::out;
   // The line meets K; on which side of the origin?
-  const exact::IntegerVector<3> n = normal();
-  const Integer ahead = n[0] * w[0] + n[1] * w[1] + n[2] * w[2];
-  if (ahead.sign() < 0) return Membership::out;
+  const std::optional<int> ahead = side();
+  if (!ahead) return Membership::in;
+  if (*ahead < 0) return Membership::out;
   return discriminant == 0 && positive_pair ? Membership::on : Membership::in;
-}
-
-exact::IntegerVector<3> exact_normal(const exact::PairOnGrid<3>& pair) {
-  return exact::contact_normal(pair, exact::between_positive_roots(exact::contact_polynomial<3>(pair), 0));
 }
 
 bool is_zero(const exact::IntegerVector<3>& w) { return w[0] == 0 && w[1] == 0 && w[2] == 0; }
@@ -231,11 +233,17 @@ bool is_zero(const exact::IntegerVector<3>& w) { return w[0] == 0 && w[1] == 0 &
 }  // namespace
 
 Membership ConeOracle::exact_membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const {
+  require_finite_velocity(v_a, "agent_velocity");
+  require_finite_velocity(v_b, "obstacle_velocity");
   const auto w = exact::difference_on_grid<3>(v_a, v_b);
   if (is_zero(w)) return Membership::out;
+  if (relation_ == Relation::overlapping) return Membership::in;
   const exact::PairOnGrid<3> pair(a_, b_);
-  return decide_exactly(
-      pair, w, [&] { return normal_certified_ ? exact::direction_on_grid<3>(normal_) : exact_normal(pair); });
+  return decide_exactly(pair, w, [&]() -> std::optional<int> {
+    if (!normal_certified_) return exact::side_of_contact<3>(pair, w);
+    const auto n = exact::direction_on_grid<3>(normal_);
+    return exact::Integer(n[0] * w[0] + n[1] * w[1] + n[2] * w[2]).sign();
+  });
 }
 
 namespace exact {
@@ -244,7 +252,7 @@ Membership membership(const RationalBody<3>& a, const RationalBody<3>& b, const 
   const IntegerVector<3> direction = direction_on_grid<3>(w);
   if (is_zero(direction)) return Membership::out;
   const PairOnGrid<3> pair(a, b);
-  return decide_exactly(pair, direction, [&] { return exact_normal(pair); });
+  return decide_exactly(pair, direction, [&] { return side_of_contact<3>(pair, direction); });
 }
 
 }  // namespace exact

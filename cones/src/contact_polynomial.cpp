@@ -99,4 +99,18 @@ IntegerVector<3> contact_normal(const PairOnGrid<3>& pair, const Dyadic& x) {
   return n;
 }
 
+template <int D>
+std::optional<int> side_of_contact(const PairOnGrid<D>& pair, const IntegerVector<D>& w) {
+  std::vector<RealRoot> roots = positive_roots(contact_polynomial<D>(pair));
+  if (roots.empty()) return std::nullopt;
+  const ShapePencil<D> pencil(pair.a, pair.b);
+  Polynomial along;  // n.w as a polynomial in x
+  for (int i = 0; i < D; ++i) along.push_back(bilinear_form<D>(pencil.adjugate[i], w, pair.c));
+  trim(along);
+  if (along.empty()) return 0;
+  return roots.size() == 1 ? sign_at(along, roots[0]) : sign_at(along, roots[0].hi());
+}
+template std::optional<int> side_of_contact<2>(const PairOnGrid<2>&, const IntegerVector<2>&);
+template std::optional<int> side_of_contact<3>(const PairOnGrid<3>&, const IntegerVector<3>&);
+
 }  // namespace vericone::exact

@@ -14,6 +14,7 @@
 #include <vericone/geometry/algebraic.h>
 #include <vericone/geometry/integer.h>
 #include <array>
+#include <optional>
 
 namespace vericone {
 
@@ -106,6 +107,11 @@ Dyadic between_positive_roots(const Polynomial& p, double guess);
 /// adj(A + x B) c, up to a positive factor: proportional to S_K^{-1} c, which separates the bodies where p(x)
 /// > 0.
 IntegerVector<3> contact_normal(const PairOnGrid<3>& pair, const Dyadic& x);
+
+/// Sign of n.w, with n a normal that separates disjoint bodies, or the common normal of touching ones, from A
+/// towards B. Nothing for overlapping bodies: they have none.
+template <int D>
+std::optional<int> side_of_contact(const PairOnGrid<D>& pair, const IntegerVector<D>& w);
 
 }  // namespace exact
 }  // namespace vericone

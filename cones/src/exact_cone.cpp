@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "azimuth_nodes.h"
+#include "require_disjoint.h"
 
 namespace vericone {
 namespace {
@@ -193,15 +194,33 @@ class Silhouette {
   Lanes radius_rate_ = Lanes::Zero(), previous_rate_ = Lanes::Zero();
 };
 
+void require_cone_of(const ExactCone& cone, const ConeOracle& oracle) {
+  require_disjoint(oracle.relation());
+  if (cone.relation != Relation::disjoint)
+    throw InputError("cone.relation", to_string(cone.relation), "disjoint, for a cone with edges");
+  if (cone.boundary.size() < 3)
+    throw InputError("cone.boundary", std::to_string(cone.boundary.size()) + " samples", "3 or more");
+  // The axis is taken to be inside, without a proof.
+  const Vector3d axis = (oracle.b().center() - oracle.a().center()).normalized();
+  if (!((cone.axis - axis).cwiseAbs().maxCoeff() <= 4 * std::numeric_limits<double>::epsilon()))
+    throw InputError(
+        "cone.axis",
+        "[" + to_text(cone.axis.x()) + ", " + to_text(cone.axis.y()) + ", " + to_text(cone.axis.z()) + "]",
+        "the direction from a to b: the cone of these two bodies");
+}
+
 /// Moves `v` towards `target`, which is certain, in steps of growing size until the predicate says yes. Its
 /// floating-point rung usually decides within a few of them; only where that would take steps that show
-/// beside the gap between inner and outer (`unnoticed`) is the whole ladder asked.
-template <typename Quick, typename Certain>
-Vector3d certified(const Vector3d& v, const Vector3d& target, double unnoticed, Quick&& quick,
-                   Certain&& certain) {
+/// beside the gap between inner and outer (`unnoticed`) are the intervals asked, which lose less for distant
+/// bodies, and then the whole ladder.
+template <typename Quick, typename Intervals, typename Certain>
+Vector3d certified(const Vector3d& v, const Vector3d& target, double unnoticed, const Quick& quick,
+                   const Intervals& intervals, const Certain& certain) {
   const auto moved = [&](double step) -> Vector3d { return ((1 - step) * v + step * target).normalized(); };
   for (double step = 0x1p-44; step < unnoticed; step *= 8)
     if (const Vector3d m = moved(step); quick(m)) return m;
+  for (double step = 0x1p-44; step < unnoticed; step *= 8)
+    if (const Vector3d m = moved(step); intervals(m)) return m;
   for (double step = 0x1p-48; step < 1; step *= 8)
     if (const Vector3d m = moved(step); certain(m)) return m;
   return target;
@@ -314,6 +333,7 @@ ExactCone exact_cone(const Ellipsoid& a, const Ellipsoid& b, int samples) {
 
 ConeBounds cone_bounds(const ExactCone& cone, const Ellipsoid& a, const Ellipsoid& b) {
   const ConeOracle oracle(a, b);
+  require_cone_of(cone, oracle);
   // Scaled by a power of two only: a rounding could lose the proof that it separates.
   const Vector3d inside_normal =
       oracle.separating_normal() *
@@ -329,10 +349,11 @@ ConeBounds cone_bounds(const ExactCone& cone, const Ellipsoid& a, const Ellipsoi
     bounds.inner.directions.push_back(certified(
         s.direction, cone.axis, unnoticed,
         [&](const Vector3d& w) { return oracle.triage_membership(w) == Membership::in; },
+        [&](const Vector3d& w) { return oracle.interval_membership(w, Vector3d::Zero()) == Membership::in; },
         [&](const Vector3d& w) { return oracle.membership(w) != Membership::out; }));
     normals.push_back(certified(
         s.normal, inside_normal, unnoticed, [&](const Vector3d& n) { return triage_separates<3>(a, b, n); },
-        [&](const Vector3d& n) { return separates<3>(a, b, n); }));
+        [](const Vector3d&) { return false; }, [&](const Vector3d& n) { return separates<3>(a, b, n); }));
   }
   bounds.outer = intersection(std::move(normals), cone.axis, inside_normal);
   measure(bounds.inner, cone.axis);

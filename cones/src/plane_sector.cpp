@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "plane_axis.h"
+#include "require_disjoint.h"
 
 namespace vericone {
 namespace {
@@ -158,16 +159,13 @@ SectorPlanes::SectorPlanes(const Ellipsoid& a, const Ellipsoid& b)
 }
 
 PlaneSector exact_sector(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& across) {
-  const SectorPlanes planes(a, b);
-  if (!planes.disjoint())
-    if (const Relation rel = relation<3>(a, b); rel != Relation::disjoint)
-      throw InputError("bodies", to_string(rel), "disjoint for a sector with two edges");
-  return planes.on(across);
+  return SectorPlanes(a, b).on(across);
 }
 
 PlaneSector SectorPlanes::on(const Vector3d& across) const {
   const Ellipsoid &a = a_, &b = b_;
   const Vector3d& c = c_;
+  if (!disjoint_) require_disjoint(a, b);
   PlaneSector sector;
   sector.line_of_sight = line_of_sight_;
   const Vector3d& u = sector.line_of_sight;
@@ -204,6 +202,8 @@ PlaneSectorRates exact_sector_rates(const PlaneSector& sector, const Ellipsoid& 
   const Vector3d &u = sector.line_of_sight, &e = sector.across;
   const Vector3d c_rate = motion.v_b - motion.v_a;
   const double distance = (b.center() - a.center()).norm();
+  if (u.isZero(0)) throw InputError("sector", "a sector without a plane", "exact_sector() of the two bodies");
+  if (!(distance > 0)) throw InputError("bodies", "the same centre", "disjoint");
   const Vector3d turning = u.cross(c_rate) / distance + motion.plane_spin * u;  // of the frame (u, e)
   const auto width_rate = [](const Ellipsoid& body, const Vector3d& n, const Vector3d& omega,
                              const Eigen::Matrix3d& extra) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/sector.h>
 
+#include <vericone/geometry/error.h>
 #include <cmath>
 #include <numbers>
 
@@ -43,11 +44,17 @@ Sector overlapping_sector(const Ellipse& a, const Ellipse& b) {
   return sector;
 }
 
+void require_edges(const Sector& sector) {
+  if (sector.relation != Relation::disjoint)
+    throw InputError("sector.relation", to_string(sector.relation), "disjoint, for edges that turn");
+}
+
 SectorRates sector_rates(const Sector& sector, const Ellipse& a, const Ellipse& b,
                          const PlanarMotion& motion) {
   // An edge direction d with inner normal n, n.d = 0, and q = kappa d the difference of the tangency points.
   // Along the motion n.q = g(n, t) stays 0 and grad g = q, so q.n' = -g_t; differentiating n.d = 0 gives
   // n.d' = g_t / kappa, and d' = phi' turned(d) = +- phi' n.
+  require_edges(sector);
   const Vector2d c_rate = motion.v_b - motion.v_a;
   const auto shape_rate = [](const Ellipse& body, double omega,
                              const Eigen::Matrix2d& extra) -> Eigen::Matrix2d {

@@ -47,9 +47,10 @@ exact::IntegerVector<2> exact_normal(const exact::PairOnGrid<2>& pair) {
   return {m[1][1] * pair.c[0] - m[0][1] * pair.c[1], m[0][0] * pair.c[1] - m[1][0] * pair.c[0]};
 }
 
-template <typename Normal>
+/// `side` as in ConeOracle.
+template <typename Side>
 Membership decide_exactly(const exact::PairOnGrid<2>& pair, const exact::IntegerVector<2>& w,
-                          const Normal& normal) {
+                          const Side& side) {
   using exact::Integer;
   const auto shape = [](const exact::IntegerMatrix<2>& s) {
     return Symmetric2<Integer>{s[0][0], s[0][1], s[1][1]};
@@ -57,8 +58,9 @@ Membership decide_exactly(const exact::PairOnGrid<2>& pair, const exact::Integer
   const LineTest<Integer> line(shape(pair.a), shape(pair.b), pair.c[0], pair.c[1], w[0], w[1]);
   const bool outside = line.g.sign() > 0;
   if (outside && line.f.sign() > 0) return Membership::out;
-  const exact::IntegerVector<2> n = normal();
-  if (Integer(n[0] * w[0] + n[1] * w[1]).sign() < 0) return Membership::out;
+  const std::optional<int> ahead = side();
+  if (!ahead) return Membership::in;
+  if (*ahead < 0) return Membership::out;
   return outside && line.f.sign() == 0 ? Membership::on : Membership::in;
 }
 
@@ -80,6 +82,8 @@ SectorOracle::SectorOracle(const Ellipse& a, const Ellipse& b) : a_(a), b_(b) {
     }
     normal_ *= std::ldexp(1.0, -binary_exponent(normal_.cwiseAbs().maxCoeff()));
   }
+  // Every velocity is in the sector of overlapping bodies: the rungs have nothing to prepare.
+  if (relation_ == Relation::overlapping) return;
   const Eigen::Vector2d c = b.center() - a.center();
   const int e = binary_exponent(c.cwiseAbs().maxCoeff());
   if (std::abs(e) > 510) return;
@@ -114,6 +118,7 @@ std::optional<Membership> SectorOracle::triage_membership(const Eigen::Vector2d&
   const double largest = w.cwiseAbs().maxCoeff();
   if (!(largest > 0 && largest <= std::numeric_limits<double>::max() && usable_)) {
     if (w.x() == 0 && w.y() == 0) return Membership::out;
+    if (relation_ == Relation::overlapping && w.allFinite()) return Membership::in;
     return std::nullopt;
   }
   // Both entries over the larger one: the scale is gone.
@@ -142,7 +147,8 @@ std::optional<Membership> SectorOracle::interval_membership(const Eigen::Vector2
 std::optional<Membership> SectorOracle::interval_membership(const std::array<Interval, 2>& w) const noexcept {
   const int larger = std::abs(w[1].mid()) > std::abs(w[0].mid()) ? 1 : 0;
   const Interval& over = w[larger];
-  if (!usable_ || over.sign() == FilteredSign::uncertain) return std::nullopt;
+  if (over.sign() == FilteredSign::uncertain) return std::nullopt;
+  if (!usable_) return relation_ == Relation::overlapping ? std::optional(Membership::in) : std::nullopt;
   const Interval length = over.positive() ? over : -over;
   Interval unit[2];
   unit[larger] = over.positive() ? 1.0 : -1.0;
@@ -165,16 +171,23 @@ Membership SectorOracle::naive_membership(const Eigen::Vector2d& w) const noexce
   const auto shape = [](const double(&s)[3][2]) { return Symmetric2<double>{s[0][0], s[1][0], s[2][0]}; };
   const LineTest<double> line(shape(shape_a_), shape(shape_b_), c_[0][0], c_[1][0], w.x(), w.y());
   if (line.g > 0 && line.f > 0) return Membership::out;
-  if (!(normal_.dot(w) > 0)) return Membership::out;
+  if (!(normal_.dot(w) > 0))
+    return relation_ == Relation::overlapping && !w.isZero(0) ? Membership::in : Membership::out;
   return line.g > 0 && line.f == 0 ? Membership::on : Membership::in;
 }
 
 Membership SectorOracle::exact_membership(const Eigen::Vector2d& v_a, const Eigen::Vector2d& v_b) const {
+  require_finite_velocity(v_a, "agent_velocity");
+  require_finite_velocity(v_b, "obstacle_velocity");
   const auto w = exact::difference_on_grid<2>(v_a, v_b);
   if (w[0] == 0 && w[1] == 0) return Membership::out;
+  if (relation_ == Relation::overlapping) return Membership::in;
   const exact::PairOnGrid<2> pair(a_, b_);
-  return decide_exactly(
-      pair, w, [&] { return normal_certified_ ? exact::direction_on_grid<2>(normal_) : exact_normal(pair); });
+  return decide_exactly(pair, w, [&]() -> std::optional<int> {
+    if (!normal_certified_) return exact::side_of_contact<2>(pair, w);
+    const auto n = exact::direction_on_grid<2>(normal_);
+    return exact::Integer(n[0] * w[0] + n[1] * w[1]).sign();
+  });
 }
 
 Membership SectorOracle::membership(const Eigen::Vector2d& w, Rung* rung) const {
@@ -196,7 +209,7 @@ Membership membership(const RationalBody<2>& a, const RationalBody<2>& b, const 
   const IntegerVector<2> direction = direction_on_grid<2>(w);
   if (direction[0] == 0 && direction[1] == 0) return Membership::out;
   const PairOnGrid<2> pair(a, b);
-  return decide_exactly(pair, direction, [&] { return exact_normal(pair); });
+  return decide_exactly(pair, direction, [&] { return side_of_contact<2>(pair, direction); });
 }
 
 }  // namespace exact

@@ -13,6 +13,9 @@ SectorEdge make_edge(const Ellipse& a, const Ellipse& b, const Eigen::Vector2d& 
 /// Direction of the bisector from that of the clockwise edge, in (-pi, pi].
 double bisector_angle(const Eigen::Vector2d& right_direction, double psi);
 
+/// Throws InputError naming "sector.relation" where there are none.
+void require_edges(const Sector& sector);
+
 Sector touching_sector(const Ellipse& a, const Ellipse& b, const Eigen::Vector2d& normal);
 Sector overlapping_sector(const Ellipse& a, const Ellipse& b);
 

@@ -13,6 +13,7 @@
 #include "degenerate_conics.h"
 #include "planar_frame.h"
 #include "plane_axis.h"
+#include "require_disjoint.h"
 
 namespace vericone {
 namespace {
@@ -96,6 +97,7 @@ SliceCone slice_cone(const Ellipsoid& a, const Ellipsoid& b, int planes) {
 }
 
 Slice slice_sector(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& across) {
+  require_disjoint(a, b);
   const Slicer slicer(a, b);
   const AxisFrame& frame = slicer.frame();
   const Vector3d second = second_axis(frame.axis, across);

@@ -11,6 +11,9 @@
 #include <numbers>
 
 namespace vericone {
+
+const char VERICONE_COMPILED_ALIKE = 0;
+
 namespace {
 
 template <typename Derived>

@@ -5,6 +5,8 @@
 #include <vericone/geometry/error.h>
 #include <Eigen/Geometry>
 
+#include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "richardson.h"
@@ -262,6 +264,83 @@ TEST(ClearanceAhead, IsTheLeastSeparationOnTheWay) {
     ++misses;
   }
   EXPECT_GT(misses, 100);
+}
+
+TEST(LengthsAndTimes, AtTheEndsOfTheDoubles) {
+  const Ellipsoid a = sphere(kStill, 1);
+  const double share_across = 1 / std::sqrt(17.0);  // of a distance along x, across (4, 1, 0)
+  for (const double x : {1e100, 1e139, 1e141, 1e155, 1e160, 1e200, 1e300, 1.7e308}) {
+    SCOPED_TRACE(x);
+    for (const double radius : {2.0, 1e-3 * x}) {
+      if (radius > 1e149) continue;  // no such body
+      const Ellipsoid b = sphere({x, 0, 0}, radius);
+      const ConeOracle oracle(a, b);
+      ASSERT_EQ(oracle.membership({4, 1, 0}), Membership::out);
+      EXPECT_NEAR(clearance_ahead(oracle, {4, 1, 0}, kStill) / (x * share_across - radius), 1, 1e-14);
+      EXPECT_NEAR(separation(a, b).distance / (x - radius), 1, 1e-14);
+      EXPECT_NEAR(separation(a, b).normal.x(), 1, 1e-15);
+      EXPECT_NEAR(clearance_ahead(oracle, {-4, 1, 0}, kStill) / (x - radius), 1, 1e-14) << "now nearest";
+      ASSERT_EQ(oracle.membership({1, 0, 0}), Membership::in);
+      EXPECT_NEAR(*time_to_contact(oracle, {1, 0, 0}, kStill) / (x - radius), 1, 1e-14);
+      EXPECT_NEAR(clearance_ahead(oracle, {1, 0, 0}, kStill) / (1 + radius), -1, 1e-14);
+    }
+  }
+  // Bodies of 1e149 m, ten of them apart.
+  const Ellipsoid big_a = sphere(kStill, 1e149), big_b = sphere({1e150, 0, 0}, 2e149);
+  EXPECT_NEAR(separation(big_a, big_b).distance, 7e149, 1e136);
+}
+
+TEST(LengthsAndTimes, OfSpeedsAtTheEndsOfTheDoubles) {
+  const ConeOracle oracle(sphere(kStill, 1), sphere({5, 0, 0}, 2));
+  for (const double speed : {1e-300, 1e-160, 1e-100, 1e100, 1e155, 1e200, 1e300}) {
+    SCOPED_TRACE(speed);
+    EXPECT_NEAR(*time_to_contact(oracle, {speed, 0, 0}, kStill) * speed, 2, 1e-14);
+    EXPECT_NEAR(clearance_ahead(oracle, {speed, 0, 0}, kStill), -3, 1e-14);
+    EXPECT_NEAR(clearance_ahead(oracle, {3 * speed, 4 * speed, 0}, kStill), 1, 1e-14);
+  }
+  EXPECT_TRUE(std::isinf(*time_to_contact(oracle, {5e-324, 0, 0}, kStill))) << "4e323 s";
+  // The difference is no double, the answers are.
+  const Vector3d fast(1.7e308, 0, 0);
+  EXPECT_NEAR(clearance_ahead(oracle, fast, -fast), -3, 1e-14);
+  EXPECT_NEAR(*time_to_contact(oracle, fast, -fast) * 1.7e308, 1, 1e-14);
+  EXPECT_NEAR(clearance_ahead(oracle, {1.5e308, 1.7e308, 0}, {-1.5e308, -1.7e308, 0}),
+              5 * 1.7 / std::hypot(1.5, 1.7) - 3, 1e-14);
+}
+
+TEST(LengthsAndTimes, OfAGapBelowRounding) {
+  // One unit in the last place of 3 apart: the time is not zero.
+  const double x = std::nextafter(3.0, 4.0);
+  const ConeOracle oracle(sphere(kStill, 1), sphere({x, 0, 0}, 2));
+  ASSERT_EQ(oracle.relation(), Relation::disjoint);
+  EXPECT_NEAR(*time_to_contact(oracle, {1, 0, 0}, kStill) / (x - 3), 1, 1e-12);
+}
+
+TEST(Clearance, OfVeryThinDiscs) {
+  // The disc's plane holds x; across (4, 3, 0) its thin direction is z, where both are one unit wide.
+  for (double length = 1e3; length < 1e60; length *= 10) {
+    const Ellipsoid disc = Ellipsoid::from_axes({5, 0, 0}, {length, 1e-3, 1});
+    const ConeOracle oracle(sphere(kStill, 1), disc);
+    ASSERT_EQ(oracle.relation(), Relation::overlapping);
+    EXPECT_NEAR(clearance_ahead(oracle, {4, 3, 0}, kStill), -2, 2e-5) << length;
+  }
+  // Turned, no double is the normal: a depth that is not there, or right.
+  RandomBodies random(612);
+  SCOPED_TRACE(random.trace());
+  int absent = 0;
+  for (int i = 0; i < 200; ++i) {
+    const double length = random.log_uniform(1e3, 1e30);
+    const Eigen::Matrix3d rotation = random.rotation();
+    const Ellipsoid disc = Ellipsoid::from_axes(kStill, {length, 1e-3, 1}, rotation);
+    const Vector3d w = random.direction(), z = rotation.col(0).cross(w).normalized();
+    // Normals across w and the long axis are the only ones that are not wide.
+    const double depth = -1 - std::hypot(1e-3 * rotation.col(1).dot(z), rotation.col(2).dot(z));
+    const double found = clearance(sphere(kStill, 1), disc, w).distance;
+    absent += std::isnan(found);
+    if (!std::isnan(found)) {
+      ASSERT_NEAR(found, depth, 1e-4) << length;
+    }
+  }
+  EXPECT_LT(absent, 150);
 }
 
 }  // namespace

@@ -22,10 +22,11 @@ struct Clearance {
   Eigen::Vector3d gradient_velocity() const { return -time * normal; }
 };
 
-/// Requires w != 0; throws InputError naming "relative_velocity" otherwise. Where m > 0 the maximiser is
-/// unique and found to rounding; where m < 0 the largest of several local maxima is searched for on a grid
-/// refined at the bodies' thin directions, so a reported depth is never too small. Cost: 1 us where m > 0, 5
-/// us where m < 0.
+/// Any two bodies; throws InputError naming "relative_velocity" where w is zero or not finite. Where m > 0
+/// the maximiser is unique and found to rounding; where m < 0 the largest of several local maxima is searched
+/// for on a grid refined at the bodies' thin directions, so a reported depth is never too small. NaN where
+/// doubles do not resolve the depth: shadows with an axis ratio beyond 1e15 may have it. Cost: 1 us where m >
+/// 0, 5 us where m < 0.
 Clearance clearance(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& w);
 
 /// Distance between two disjoint bodies and the unit normal of the closest points, from A towards B.
@@ -37,19 +38,23 @@ struct Separation {
 Separation separation(const Ellipsoid& a, const Ellipsoid& b);
 
 /// First t >= 0, in seconds, at which A moving by w t touches B; nothing when it never does, 0 when they
-/// touch or overlap now. Whether there is a contact is decided exactly; the time has a relative error of a
-/// few roundings away from grazing, where it grows like the square root of the rounding.
+/// touch or overlap now, infinite where it exceeds the doubles. Whether there is a contact is decided
+/// exactly; the time has a relative error of a few roundings away from grazing, where it grows like the
+/// square root of the rounding. Gaps below rounding and numbers whose squares leave the doubles take the
+/// exact time, 1 ms.
 std::optional<double> time_to_contact(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& w);
 
 /// The same for prepared bodies and w = v_a - v_b, whose verdict is that of the unrounded difference.
 std::optional<double> time_to_contact(const ConeOracle& oracle, const Eigen::Vector3d& v_a,
                                       const Eigen::Vector3d& v_b);
 
-/// The time alone, for a w known to be in the cone of disjoint bodies. Cost: about 1 us.
+/// The time alone, for a w known to be in the cone of disjoint bodies; NaN, or a number without a meaning,
+/// for others and where squares leave the doubles. Cost: about 1 us.
 double contact_time(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& w);
 
 /// Clearance of the motion that lies ahead: m(w) when the closest passage is still to come or a collision is,
-/// the present distance when the bodies are moving apart. Sign agrees with the exact verdict.
+/// the present distance when the bodies are moving apart. Sign agrees with the exact verdict; NaN as in
+/// clearance(). The difference of the velocities may exceed the doubles.
 double clearance_ahead(const ConeOracle& oracle, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b);
 
 }  // namespace vericone

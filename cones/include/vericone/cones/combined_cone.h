@@ -41,10 +41,11 @@ class CombinedOracle {
   /// both are ellipsoids, whose relation is decided exactly.
   std::optional<Relation> relation() const;
 
-  /// Where the relative velocity w = v_A - v_B lies. Requires relation() == disjoint. w = 0 is out. Two
-  /// ellipsoids are decided exactly (on the boundary: `in`, the cone is closed); otherwise bodies inside and
-  /// around the two are asked first, exactly, and only what lies between them is searched. Cost: 0.1 us where
-  /// they decide, else some 10 to 100 us.
+  /// Where the relative velocity w = v_A - v_B lies. Of overlapping bodies every w != 0 is in; undecided
+  /// where relation() is not known or touching. w = 0 is out. Two disjoint ellipsoids are decided exactly (on
+  /// the boundary: `in`, the cone is closed); otherwise bodies inside and around the two are asked first,
+  /// exactly, and only what lies between them is searched. Cost: 0.1 us where they decide, else some 10 to
+  /// 100 us.
   Certified membership(const Eigen::Vector3d& w) const;
 
   /// Whether all directions of the convex hull of two, less than a right angle apart and not zero, are in

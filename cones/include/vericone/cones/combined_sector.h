@@ -40,8 +40,8 @@ struct DelimiterRate {
 };
 
 /// Rates of psi and theta_b, rad/s, in closed form; an edge through a corner moves with the corner. The
-/// motion's shape rates are those of the ellipses; missing delimiter rates are zero. Requires a disjoint
-/// pair's sector.
+/// motion's shape rates are those of the ellipses; missing delimiter rates are zero. Throws
+/// InputError naming "sector.relation" where it is not that of disjoint bodies.
 SectorRates combined_sector_rates(const CombinedSector& sector, const CombinedEllipse& a,
                                   const CombinedEllipse& b, const PlanarMotion& motion,
                                   const std::vector<DelimiterRate>& rates_a = {},

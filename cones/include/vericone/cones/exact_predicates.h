@@ -12,7 +12,7 @@ namespace vericone::exact {
 template <int D>
 Relation relation(const RationalBody<D>& a, const RationalBody<D>& b);
 
-/// Membership of w = v_A - v_B in the cone of two disjoint bodies.
+/// Membership of w = v_A - v_B in the cone of two bodies, which need not be disjoint (ConeOracle).
 Membership membership(const RationalBody<3>& a, const RationalBody<3>& b, const RationalVector<3>& w);
 
 }  // namespace vericone::exact

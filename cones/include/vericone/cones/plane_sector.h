@@ -16,17 +16,18 @@ struct PlaneSector {
         Eigen::Vector3d::Zero();  // unit contact normal, from A towards B; not in the plane
     Eigen::Vector3d contact = Eigen::Vector3d::Zero();  // displacement of A that brings it to grazing contact
   };
-  Eigen::Vector3d line_of_sight, across;  // u and e, orthonormal
-  Edge left, right;                       // towards +e and -e
+  Eigen::Vector3d line_of_sight = Eigen::Vector3d::Zero(),
+                  across = Eigen::Vector3d::Zero();  // u, e, orthonormal
+  Edge left, right;                                  // towards +e and -e
 
   double psi() const { return left.angle + right.angle; }
   /// Bisector, radians from the line of sight towards e.
   double theta_b() const { return 0.5 * (left.angle - right.angle); }
 };
 
-/// `across`: any vector not parallel to the line of centres; with it spans the plane. Requires disjoint
-/// bodies; throws InputError naming "across" or "bodies". Cost: about 1 us, 2 us where bodies are near each
-/// other.
+/// `across`: any vector not parallel to the line of centres; with it spans the plane. Throws InputError
+/// naming "across", or "bodies" where they are not disjoint. Cost: about 1 us, 2 us where bodies are near
+/// each other.
 PlaneSector exact_sector(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& across);
 
 /// Two bodies prepared for sectors on many planes. No allocation.
@@ -38,7 +39,7 @@ class SectorPlanes {
   /// integers).
   bool disjoint() const { return disjoint_; }
 
-  /// As exact_sector(). Requires disjoint bodies. Throws InputError naming "across".
+  /// As exact_sector(), which it asks integers for where disjoint() is false.
   PlaneSector on(const Eigen::Vector3d& across) const;
 
  private:
@@ -66,6 +67,8 @@ struct PlaneSectorRates {
   /// Of the bisector against the line of sight; add line_of_sight for the rate against fixed axes.
   double theta_b() const { return 0.5 * (left - right); }
 };
+/// `sector`: of a and b. Throws InputError naming "sector" for a default-constructed one, which has no plane,
+/// and "bodies" for bodies with the same centre.
 PlaneSectorRates exact_sector_rates(const PlaneSector& sector, const Ellipsoid& a, const Ellipsoid& b,
                                     const SpatialMotion& motion);
 

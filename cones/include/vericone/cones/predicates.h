@@ -17,6 +17,10 @@
 //   (4) a rung that answers agrees with every later rung
 //   (5) both are unchanged by moving A and B together, as long as the centres remain exact
 //   (6) passage of w is the mirror image of passage of -w
+//
+// Every function here has an answer for every two bodies: disjoint, touching, overlapping, one inside the
+// other or the same, default-constructed ones (the unit ball about the origin) included
+// (tests/cones/total_functions_test.cpp).
 #pragma once
 
 #include <vericone/geometry/ellipsoid.h>
@@ -31,11 +35,11 @@ namespace vericone {
 /// How two solid bodies lie. One inside the other counts as overlapping, touching from inside too.
 enum class Relation : std::uint8_t { disjoint, touching, overlapping };
 
-/// Where a relative velocity lies with regard to the closed collision cone of two disjoint bodies.
+/// Where a relative velocity lies with regard to the closed collision cone of two bodies.
 enum class Membership : std::uint8_t {
-  in,   // interior: they will overlap
+  in,   // interior: they will overlap, or do so now
   on,   // boundary: they will touch without overlapping
-  out,  // they never meet, w = 0 included
+  out,  // they never meet, w = 0 included; touching bodies that part
 };
 
 /// The same with the past told from never: where the line of motion meets the other body.
@@ -105,14 +109,17 @@ class ConeOracle {
   /// The rung that decided the relation.
   Rung relation_rung() const { return relation_rung_; }
 
-  /// Exact. `w` = v_A - v_B is the velocity of A relative to B. Requires relation() == disjoint; for other
-  /// relations see verdict(). `rung`: where to write the rung that decided.
+  /// Exact. `w` = v_A - v_B is the velocity of A relative to B. Of overlapping bodies every w != 0 is `in`.
+  /// The cone of touching bodies is the half-space beyond their tangent plane: towards each other `in`, along
+  /// the plane `on`, away `out`. w = 0 is always `out`; see verdict(). Throws InputError naming
+  /// "agent_velocity[i]" or "obstacle_velocity[i]" where they are not finite. `rung`: where to write the rung
+  /// that decided.
   Membership membership(const Eigen::Vector3d& w, Rung* rung = nullptr) const;
 
   /// The same for w = v_A - v_B, the difference taken without rounding.
   Membership membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, Rung* rung = nullptr) const;
 
-  /// The same with the past told from never.
+  /// The same with the past told from never; `ahead` or `ahead_grazing` where both are true.
   Passage passage(const Eigen::Vector3d& w) const;
 
   /// Floating point with a proved error bound; nothing when it cannot decide. Never answers `on`.
@@ -125,7 +132,8 @@ class ConeOracle {
                                                 const Eigen::Vector3d& v_b) const noexcept;
   std::optional<Membership> interval_membership(const std::array<Interval, 3>& w) const noexcept;
 
-  /// Floating point without a bound, for comparison: what a program without this library would compute.
+  /// Floating point without a bound, for comparison: what a program without this library would compute. `out`
+  /// of touching bodies.
   Membership naive_membership(const Eigen::Vector3d& w) const noexcept;
 
   /// Last rung, in integers.
@@ -136,7 +144,7 @@ class ConeOracle {
   Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, Rung* rung = nullptr) const;
 
   /// A normal that separates the bodies strictly (certified) unless they are closer than double precision
-  /// tells apart; not normalised. Meaningful for disjoint bodies.
+  /// tells apart; not normalised. Zero for bodies that are not disjoint.
   const Eigen::Vector3d& separating_normal() const { return normal_; }
   bool normal_certified() const { return normal_certified_; }
 
@@ -154,7 +162,7 @@ class ConeOracle {
     double c[3][2];
     double normal[3][2];  // the first two negated
   };
-  Scaled scaled_[3];
+  Scaled scaled_[3] = {};
   bool usable_ = false;
   // What the second rung reads, at the same scale, in the order xx, xy, xz, yy, yz, zz.
   struct Enclosed {

@@ -70,7 +70,8 @@ struct SectorRates {
 
 /// Time derivatives of psi and theta_b in closed form. The source obtains them numerically (5.3); implicit
 /// differentiation of the tangency condition gives them exactly (docs/theory.md, 1).
-/// Requires a sector of disjoint bodies computed from the same a and b.
+/// `sector`: of disjoint bodies, computed from the same a and b. Throws InputError naming "sector.relation"
+/// where it is that of bodies that are not, which has no edges that turn, or a default-constructed one.
 SectorRates sector_rates(const Sector& sector, const Ellipse& a, const Ellipse& b,
                          const PlanarMotion& motion);
 

@@ -20,9 +20,9 @@ class SectorOracle {
   const Ellipse& b() const { return b_; }
   Relation relation() const { return relation_; }
 
-  /// Exact. `w` = v_A - v_B. Requires relation() == disjoint; for other relations see verdict(). Throws
-  /// InputError naming "agent_velocity[i]" or "obstacle_velocity[i]" where they are not finite. Cost: 13 ns
-  /// where the first rung decides (6 ns without a bound), 45 ns in the second, 2 us in the last.
+  /// Exact. `w` = v_A - v_B. Bodies that are not disjoint, w = 0 and velocities that are not finite as in
+  /// ConeOracle. Cost: 13 ns where the first rung decides (6 ns without a bound), 45 ns in the second, 2 us
+  /// in the last.
   Membership membership(const Eigen::Vector2d& w, Rung* rung = nullptr) const;
   Membership membership(const Eigen::Vector2d& v_a, const Eigen::Vector2d& v_b, Rung* rung = nullptr) const;
 
@@ -48,7 +48,7 @@ class SectorOracle {
   bool normal_certified_ = false;
   // Lengths divided by a power of two so that |c| is near one; each number of the first rung with a bound of
   // the terms it was summed from; xx, xy, yy.
-  double shape_a_[3][2], shape_b_[3][2], c_[2][2];
+  double shape_a_[3][2] = {}, shape_b_[3][2] = {}, c_[2][2] = {};
   Interval enclosed_a_[3], enclosed_b_[3], enclosed_c_[2];
   bool usable_ = false;
 };
@@ -57,7 +57,7 @@ class SectorOracle {
 struct SectorMembership;
 
 namespace exact {
-/// For rational input; requires disjoint bodies.
+/// For rational input; any two bodies, as SectorOracle::membership().
 Membership membership(const RationalBody<2>& a, const RationalBody<2>& b, const RationalVector<2>& w);
 }  // namespace exact
 

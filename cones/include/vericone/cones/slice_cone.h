@@ -42,7 +42,7 @@ struct SliceCone {
 SliceCone slice_cone(const Ellipsoid& a, const Ellipsoid& b, int planes);
 
 /// The sector of the sections on the plane spanned by the line of centres and `across` (any vector not
-/// parallel to it). Requires disjoint bodies. Throws InputError naming "across".
+/// parallel to it). Throws InputError naming "across", or "bodies" where they are not disjoint.
 Slice slice_sector(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& across);
 
 }  // namespace vericone

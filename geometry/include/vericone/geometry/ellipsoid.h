@@ -3,6 +3,7 @@
 // Ellipses and ellipsoids, the convex quadric bodies.
 #pragma once
 
+#include <vericone/geometry/alignment.h>
 #include <Eigen/Core>
 
 namespace vericone {
