@@ -119,9 +119,10 @@ class Maker {
     accuracy.command_line = options_.command_line;
     std::ostringstream unused;
     if (accuracy::run_accuracy(accuracy, unused) == kExitInterrupted) throw dhal2022::Interrupted{};
-    for (const char* extension : {".png", ".pdf"})
-      fs::rename(stage / "accuracy" / (std::string("accuracy") + extension),
-                 stage / (figure.name() + extension));
+    for (const char* extension : {".png", ".pdf"}) {
+      const fs::path picture = stage / "accuracy" / (std::string("accuracy") + extension);
+      if (fs::exists(picture)) fs::rename(picture, stage / (figure.name() + extension));
+    }
     fs::rename(stage / "accuracy" / "engagements.csv", stage / (figure.name() + ".csv"));
     fs::remove_all(stage / "accuracy");
     origin["script"] = "apps/figures/accuracy.py";
