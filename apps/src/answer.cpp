@@ -107,6 +107,9 @@ Json assembly_answer(const input::AssemblyEngagement& e, bool with_rung) {
   result["time_enclosure"] = enclosure;
   result["contact_point"] = point;
   result["contact_normal"] = normal;
+  // The body is then not quite what the file says.
+  for (const char* left_out : {"dropped_points", "dropped_faces"})
+    if (e.obstacle.notes.contains(left_out)) result[left_out] = e.obstacle.notes[left_out];
   return result;
 }
 

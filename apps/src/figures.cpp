@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "figures.h"
 
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
+#include <csignal>
 #include <cstdlib>
+#include <iostream>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 namespace vericone {
 namespace {
@@ -18,35 +23,70 @@ std::filesystem::path scripts_folder() {
   return VERICONE_INSTALLED_FIGURE_SCRIPTS;
 }
 
+/// Debian's own interpreter, by its full path: Python looks for its libraries from the name it is called by,
+/// and another python3 on the PATH (an active environment's) need not have matplotlib.
+std::string interpreter() {
+  const char* given = std::getenv("VERICONE_PYTHON");
+  return given && *given ? given : "/usr/bin/python3";
+}
+
+/// Runs a script with the modules beside it and those of the first folder. The interpreter is isolated (-I):
+/// variables, the user's own packages and the folder it is called in mean nothing to it.
+constexpr const char* kStart =
+    "import os, runpy, sys; modules, script = sys.argv[1:3]; "
+    "sys.path[:0] = [os.path.dirname(script), modules]; sys.argv = sys.argv[2:]; "
+    "runpy.run_path(script, run_name='__main__')";
+
+/// Whether the last line of a script that failed says that a package is missing.
+bool lacks_package(const std::string& line) {
+  constexpr std::string_view kMissing = "ModuleNotFoundError: No module named '";
+  return line.starts_with(kMissing);
+}
+
+constexpr int kNoInterpreter = 127;  // exit status of a child that could not become the interpreter
+
+void say_no_pictures(const std::string& why) {
+  static bool said = false;
+  if (!said)
+    std::cerr << "vericone: no pictures: " << why
+              << "; a Python with numpy and matplotlib draws them, another one than "
+                 "/usr/bin/python3 by VERICONE_PYTHON\n";
+  said = true;
+}
+
 }  // namespace
 
 std::vector<std::filesystem::path> draw_figures(const std::string& script,
                                                 const std::filesystem::path& folder) {
   const std::filesystem::path scripts = scripts_folder(), file = scripts / script;
   if (!std::filesystem::exists(file)) throw std::runtime_error("figure script not found: " + file.string());
+  const std::string python = interpreter(), scripts_text = scripts.string(), file_text = file.string(),
+                    folder_text = folder.string();
   std::array<int, 2> channel{};
   if (pipe(channel.data()) != 0) throw std::runtime_error("no pipe for the figure script");
-  const pid_t child = fork();
+  const pid_t parent = getpid(), child = fork();
   if (child < 0) throw std::runtime_error("could not start the figure script");
   if (child == 0) {
+    // A picture that nobody waits for is not drawn.
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (getppid() != parent) std::_Exit(kNoInterpreter);
     dup2(channel[1], STDOUT_FILENO);
     dup2(channel[1], STDERR_FILENO);
     close(channel[0]);
     close(channel[1]);
-    const std::string file_text = file.string(), folder_text = folder.string();
-    setenv("PYTHONPATH", scripts.c_str(), 1);
-    // Debian's own interpreter: another python3 on the PATH need not have matplotlib.
-    execl("/usr/bin/python3", "python3", file_text.c_str(), folder_text.c_str(), static_cast<char*>(nullptr));
-    std::_Exit(127);
+    execlp(python.c_str(), python.c_str(), "-I", "-c", kStart, scripts_text.c_str(), file_text.c_str(),
+           folder_text.c_str(), static_cast<char*>(nullptr));
+    std::_Exit(kNoInterpreter);
   }
   close(channel[1]);
   std::string output;
   std::array<char, 4096> buffer{};
-  for (ssize_t n = 0; (n = read(channel[0], buffer.data(), buffer.size())) > 0;)
-    output.append(buffer.data(), static_cast<std::size_t>(n));
+  for (ssize_t n = 0; (n = read(channel[0], buffer.data(), buffer.size())) > 0 || (n < 0 && errno == EINTR);)
+    if (n > 0) output.append(buffer.data(), static_cast<std::size_t>(n));
   close(channel[0]);
   int status = 0;
-  waitpid(child, &status, 0);
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
   std::istringstream lines(output);
   std::vector<std::filesystem::path> pictures;
   std::string line, last;
@@ -54,10 +94,15 @@ std::vector<std::filesystem::path> draw_figures(const std::string& script,
     if (!line.empty()) last = line;
     if (line.starts_with("picture ")) pictures.emplace_back(line.substr(8));
   }
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw std::runtime_error(script +
-                             " failed: " + (last.empty() ? "no /usr/bin/python3 with matplotlib" : last));
-  return pictures;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return pictures;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kNoInterpreter) {
+    say_no_pictures("no interpreter " + python);
+  } else if (lacks_package(last)) {
+    say_no_pictures(python + " says " + last);
+  } else {
+    throw std::runtime_error(script + " failed: " + (last.empty() ? python + " ended without a word" : last));
+  }
+  return {};
 }
 
 }  // namespace vericone

@@ -7,6 +7,10 @@ namespace vericone {
 void catch_interrupts();
 bool interrupted();
 
+/// The same for work that looks at the flag too seldom and has nothing to save: where it has not ended
+/// some tenths of a second after the flag was set, the program ends and leaves no unfinished files.
+void catch_interrupts_and_end();
+
 inline constexpr int kExitInterrupted = 130;
 
 }  // namespace vericone

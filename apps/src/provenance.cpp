@@ -10,6 +10,8 @@
 
 #include "command/build_info.h"
 #include "json_value.h"
+#include "output_file.h"
+#include "plain_text.h"
 
 namespace vericone {
 namespace {
@@ -31,7 +33,7 @@ std::string now() {
 }  // namespace
 
 Json provenance(const std::string& command_line) {
-  return {{"command", command_line},
+  return {{"command", plain_text(command_line)},
           {"version", build_info::version()},
           {"commit", build_info::commit()},
           {"compiler", "g++-compatible " __VERSION__},
@@ -46,13 +48,16 @@ Json provenance(const std::string& command_line) {
 void write_whole(const std::filesystem::path& path, const std::string& content) {
   std::filesystem::path partial = path;
   partial += ".partial";
-  {
-    std::ofstream out(partial, std::ios::binary);
-    out << content;
-    out.flush();
-    if (!out) throw std::runtime_error("could not write " + partial.string());
+  try {
+    OutputFile file(partial);
+    file.write(content);
+    file.close();
+    std::filesystem::rename(partial, path);
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(partial, ignored);
+    throw;
   }
-  std::filesystem::rename(partial, path);
 }
 
 }  // namespace vericone

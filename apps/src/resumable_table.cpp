@@ -13,11 +13,12 @@
 #include <fstream>
 #include <map>
 #include <mutex>
-#include <stdexcept>
 #include <thread>
 #include <vector>
 
 #include "interrupt.h"
+#include "output_file.h"
+#include "output_folder.h"
 
 namespace vericone {
 namespace {
@@ -82,25 +83,25 @@ class RowProgress {
 TableOutcome run_table(const ResumableTable& work) {
   std::filesystem::path partial = work.table;
   partial += ".partial";
-  std::filesystem::create_directories(work.table.parent_path());
+  const OutputFolder folder(work.table.parent_path(), "--out");
   std::uint64_t written = complete_rows(partial, work);
-  std::ofstream out(partial, written ? std::ios::binary | std::ios::app : std::ios::binary);
-  if (written == 0) out << work.settings << '\n' << work.header << '\n';
-  if (!out) throw InputError("--out", partial.string(), "a folder that can be written to");
+  OutputFile out(partial, written ? OutputFile::Start::at_end : OutputFile::Start::anew);
+  if (written == 0) out.write(work.settings + "\n" + work.header + "\n");
 
   std::mutex mutex;
   std::condition_variable ready;
   std::map<std::uint64_t, std::string> blocks;
   std::exception_ptr failure;
+  std::atomic<bool> failed{false};
   std::atomic<std::uint64_t> next{written};
   const auto compute = [&] {
     try {
-      while (!interrupted()) {
+      while (!interrupted() && !failed) {
         const std::uint64_t first = next.fetch_add(work.block);
         if (first >= work.count) return;
         std::string text;
         for (std::uint64_t i = first; i < std::min(first + work.block, work.count); ++i) {
-          if (interrupted()) return;
+          if (interrupted() || failed) return;
           text += work.row(i) + "\n";
         }
         const std::lock_guard lock(mutex);
@@ -122,19 +123,24 @@ TableOutcome run_table(const ResumableTable& work) {
     while (written < work.count && !failure && !interrupted()) {
       ready.wait_for(lock, std::chrono::milliseconds(100));
       while (!blocks.empty() && blocks.begin()->first == written) {
-        out << blocks.begin()->second << std::flush;
+        try {
+          out.write(blocks.begin()->second);
+        } catch (...) {
+          failure = std::current_exception();
+          break;
+        }
         written = std::min(written + work.block, work.count);
         blocks.erase(blocks.begin());
       }
       progress.show(written, false);
     }
   }
+  failed = failure != nullptr;
   next = work.count;
   for (auto& t : threads) t.join();
   if (failure) std::rethrow_exception(failure);
   progress.show(written, true);
   out.close();
-  if (!out) throw std::runtime_error("could not write " + partial.string());
   if (written < work.count) return TableOutcome::interrupted;
   std::filesystem::rename(partial, work.table);
   return TableOutcome::finished;

@@ -5,9 +5,11 @@
 #include <vericone/geometry/error.h>
 
 #include <iostream>
+#include <new>
 
 #include "command/catalogue.h"
 #include "command/find_program.h"
+#include "plain_text.h"
 
 namespace vericone {
 namespace {
@@ -24,13 +26,16 @@ int guarded(Work work) {
   } catch (const Answered&) {
     return 0;
   } catch (const UsageError& e) {
-    std::cerr << "vericone: " << e.what() << " (see vericone --help)\n";
+    std::cerr << "vericone: " << plain_text(e.what()) << " (see vericone --help)\n";
     return 2;
   } catch (const InputError& e) {
-    std::cerr << "vericone: " << e.what() << '\n';
+    std::cerr << "vericone: " << plain_text(e.what()) << '\n';
     return 2;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "vericone: not enough memory\n";
+    return 1;
   } catch (const std::exception& e) {
-    std::cerr << "vericone: " << e.what() << '\n';
+    std::cerr << "vericone: " << plain_text(e.what()) << '\n';
     return 1;
   }
 }

@@ -168,7 +168,7 @@ void print(const Answer& a, const FitCommandOptions& given, const std::vector<fs
 
 int run_fit(const FitCommandOptions& given, std::ostream& out) {
   if (!given.check.empty()) return check_fit(given.file, given.check, given.json, out);
-  catch_interrupts();
+  catch_interrupts_and_end();
   StagedFolder folder(given.out, "--out");
   try {
     std::vector<fs::path> files;

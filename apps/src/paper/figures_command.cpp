@@ -98,11 +98,9 @@ class Maker {
     Json task = figure.parameters.is_null() ? Json::object() : figure.parameters;
     task["name"] = figure.name();
     task["runs"] = Json::object();
-    const fs::path name = fs::path(out_).lexically_normal();
-    const std::string folder = (name.has_filename() ? name : name.parent_path()).filename().string();
-    // The stage stands beside the folder.
+    // The stage stands in the folder.
     for (const auto& [role, scenario] : figure.runs)
-      task["runs"][role] = (fs::path("..") / folder / "runs" / scenario).string();
+      task["runs"][role] = (fs::path("..") / "runs" / scenario).string();
     write_whole(stage / "figure.json", task.dump(1) + "\n");
     draw_figures((papers_folder() / "dhal2022" / "figures" / figure.script).string(), stage);
     fs::remove(stage / "figure.json");
@@ -119,9 +117,10 @@ class Maker {
     accuracy.command_line = options_.command_line;
     std::ostringstream unused;
     if (accuracy::run_accuracy(accuracy, unused) == kExitInterrupted) throw dhal2022::Interrupted{};
-    for (const char* extension : {".png", ".pdf"})
-      fs::rename(stage / "accuracy" / (std::string("accuracy") + extension),
-                 stage / (figure.name() + extension));
+    for (const char* extension : {".png", ".pdf"}) {
+      const fs::path picture = stage / "accuracy" / (std::string("accuracy") + extension);
+      if (fs::exists(picture)) fs::rename(picture, stage / (figure.name() + extension));
+    }
     fs::rename(stage / "accuracy" / "engagements.csv", stage / (figure.name() + ".csv"));
     fs::remove_all(stage / "accuracy");
     origin["script"] = "apps/figures/accuracy.py";
@@ -149,8 +148,8 @@ int run_figures(const FiguresOptions& options, std::ostream& out) {
     print_list(figures, out);
     return 0;
   }
-  StagedFolder(options.out, "--out");
-  catch_interrupts();
+  const OutputFolder whole(options.out, "--out");
+  catch_interrupts_and_end();
   const auto start = Clock::now();
   try {
     Progress progress(options.quiet);

@@ -35,7 +35,7 @@ struct Scene {
 Scene read(const std::string& path) {
   const Json fields = input::read_scene_fields(path);
   SceneLidars lidars = read_lidars(fields);
-  const input::AnyEngagement any = input::read_scene(path);
+  const input::AnyEngagement any = input::scene_of(fields, path);
   const auto* e = std::get_if<input::AssemblyEngagement>(&any);
   if (!e || e->obstacle.pieces.kind() != PieceKind::triangle)
     throw InputError("obstacle", "no mesh", "a mesh for the lidars to see");

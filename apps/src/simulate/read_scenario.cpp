@@ -5,6 +5,7 @@
 
 #include "input/scene.h"
 #include "json_value.h"
+#include "plain_text.h"
 #include "simulate/read_motion.h"
 #include "simulate/read_pilot.h"
 #include "simulate/read_shape.h"
@@ -72,8 +73,13 @@ simulation::Scenario read_scenario(const Json& fields, const std::string& name) 
   return scenario;
 }
 
+simulation::Scenario scenario_of_text(const std::string& text, const std::string& file) {
+  return read_scenario(input::scene_fields(text, file),
+                       plain_text(std::filesystem::path(file).stem().string()));
+}
+
 simulation::Scenario read_scenario(const std::string& file) {
-  return read_scenario(input::read_scene_fields(file), std::filesystem::path(file).stem().string());
+  return scenario_of_text(input::read_scene_text(file), file);
 }
 
 }  // namespace vericone::scenario

@@ -13,6 +13,8 @@ namespace vericone::scenario {
 /// Reads and checks a scenario. Throws InputError naming the file or the field, for example
 /// "bodies[1].shape.k". A scenario without name is called like the file.
 simulation::Scenario read_scenario(const std::string& file);
+/// `text`: what stands in the file.
+simulation::Scenario scenario_of_text(const std::string& text, const std::string& file);
 simulation::Scenario read_scenario(const Json& fields, const std::string& name);
 
 }  // namespace vericone::scenario

@@ -33,6 +33,7 @@ struct RunOrigin {
   std::filesystem::path file;  // of the scenario
   std::string command_line;
   double seconds = 0;
+  std::string text = {};  // of the file; empty: it is read
 };
 
 /// Counts, verdict, times, provenance.

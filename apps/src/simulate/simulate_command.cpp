@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "figures.h"
+#include "input/scene.h"
 #include "interrupt.h"
 #include "json_value.h"
 #include "progress.h"
@@ -28,7 +29,8 @@ const std::vector<std::string>& names_of_files() {
 
 int carry_out(const SimulateOptions& options, std::ostream& out) {
   StagedFolder folder(options.out, "--out");
-  const simulation::Scenario scenario = scenario::read_scenario(options.scenario);
+  const std::string text = input::read_scene_text(options.scenario);
+  const simulation::Scenario scenario = scenario::scenario_of_text(text, options.scenario);
   std::optional<simulation::Run> run;
   Json summary;
   double seconds = 0;
@@ -42,7 +44,7 @@ int carry_out(const SimulateOptions& options, std::ostream& out) {
     seconds = seconds_since(start);
     if (run->interrupted || interrupted()) return kExitInterrupted;
     progress.show("writing", 0);
-    const scenario::RunOrigin origin{options.scenario, options.command_line, seconds};
+    const scenario::RunOrigin origin{options.scenario, options.command_line, seconds, text};
     summary = scenario::run_json(scenario, *run, origin);
     scenario::write_run(scenario, *run, origin, folder.path());
     if (options.figures) {
@@ -66,7 +68,7 @@ int carry_out(const SimulateOptions& options, std::ostream& out) {
 }  // namespace
 
 int run_simulate(const SimulateOptions& options, std::ostream& out) {
-  catch_interrupts();
+  catch_interrupts_and_end();
   try {
     return carry_out(options, out);
   } catch (const std::runtime_error&) {

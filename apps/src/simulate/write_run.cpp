@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "json_value.h"
+#include "plain_text.h"
 #include "provenance.h"
 #include "simulate/run_files.h"
 
@@ -26,7 +27,7 @@ Json run_json(const simulation::Scenario& scenario, const simulation::Run& run, 
   for (const simulation::Track& track : run.tracks) arcs += track.arcs().size();
   for (const simulation::Body& body : scenario.bodies) agents += body.pilot.has_value();
   return {{"scenario", scenario.name},
-          {"file", origin.file.filename().string()},
+          {"file", plain_text(origin.file.filename().string())},
           {"verdict", simulation::to_string(run.verdict())},
           {"bodies", scenario.bodies.size()},
           {"agents", agents},
@@ -49,7 +50,7 @@ void write_run(const simulation::Scenario& scenario, const simulation::Run& run,
   write_whole(folder / "proof.json", proof_json(scenario, run).dump(1) + "\n");
   write_whole(folder / "shapes.json", shapes_json(scenario).dump(1) + "\n");
   write_whole(folder / "run.json", run_json(scenario, run, origin).dump(1) + "\n");
-  write_whole(folder / "scenario.yaml", content_of(origin.file));
+  write_whole(folder / "scenario.yaml", origin.text.empty() ? content_of(origin.file) : origin.text);
 }
 
 }  // namespace vericone::scenario
