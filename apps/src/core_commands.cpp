@@ -71,9 +71,22 @@ int accuracy_command(CommandLine& line) {
   line.option("--tolerance", options.tolerance,
               "Of the certified cone that slices are held against, with other obstacles than ellipsoids")
       .shown_default(to_text(accuracy::kReferenceTolerance));
+  line.option("--semi-axes", options.semi_axes, "Of the random bodies, metres")
+      .words(2, 2)
+      .shown_type("LOW HIGH")
+      .shown_default("1 10");
+  line.option("--distance", options.distance,
+              "Of their centres, metres; if not given, 1.5 to 3 times what just separates the bodies")
+      .words(2, 2)
+      .shown_type("LOW HIGH");
+  line.option("--cases", options.cases,
+              "Pairs of ellipsoids instead of random ones: a file of cases as of query, velocities left out "
+              "or ignored");
   line.option("--scan", options.scans, "Mesh or cloud files, or folders of them").words(1, -1);
   line.option("--approaches", options.approaches, "Engagements per scanned object");
-  line.option("--planes", options.planes, "Plane counts; the largest is the reference").commas();
+  line.option("--planes", options.planes, "Plane counts; the largest is the reference of the others")
+      .words(1, -1)
+      .commas();
   line.option("--seed", options.seed, "Seed of all random numbers");
   line.option("--out", options.out, "Folder for tables and pictures").shown_default("out/accuracy");
   line.option("--threads", options.threads, "Threads, 0: one per processor");
