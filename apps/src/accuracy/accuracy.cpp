@@ -14,7 +14,6 @@
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
-#include <thread>
 
 #include "accuracy/cases.h"
 #include "accuracy/combined_accuracy.h"
@@ -30,6 +29,7 @@
 #include "provenance.h"
 #include "resumable_table.h"
 #include "stopwatch.h"
+#include "threads.h"
 
 namespace vericone::accuracy {
 namespace {
@@ -229,7 +229,7 @@ ResumableTable base_campaign(const Options& o, const fs::path& table) {
   ResumableTable c;
   c.table = table;
   c.header = csv_header(o.planes);
-  c.threads = o.threads > 0 ? o.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  c.threads = threads_for(o.threads);
   c.quiet = o.quiet;
   return c;
 }
@@ -259,15 +259,16 @@ void validate(const Options& o) {
     throw InputError("--engagements", std::to_string(*o.engagements), "between 1 and 100000000");
   if (o.approaches < 1 || o.approaches > 1'000'000)
     throw InputError("--approaches", std::to_string(o.approaches), "between 1 and 1000000");
-  if (o.threads < 0 || o.threads > 1024)
-    throw InputError("--threads", std::to_string(o.threads), "between 1 and 1024, or 0 for all");
+  threads_for(o.threads);
 }
 
 }  // namespace
 
-int run_accuracy(const Options& given, std::ostream& out) {
+int run_accuracy(const Options& given, std::ostream& standard_output) {
   validate(given);
   Options options = given;
+  std::ostream silent(nullptr);
+  std::ostream& out = given.json ? silent : standard_output;
   std::sort(options.planes.begin(), options.planes.end());
   const ObstacleKind kind = obstacle_kind(options.obstacle);
   if (options.out.empty())
@@ -280,7 +281,7 @@ int run_accuracy(const Options& given, std::ostream& out) {
                                        std::pair(!options.distance.empty(), "--distance"),
                                        std::pair(kind != ObstacleKind::ellipsoid, "--obstacle")})
       if (used) throw InputError("--cases", options.cases, std::string("given without ") + option);
-  if (kind != ObstacleKind::ellipsoid) return run_combined_accuracy(options, kind, out);
+  if (kind != ObstacleKind::ellipsoid) return run_combined_accuracy(options, kind, standard_output);
   if (options.tolerance)
     throw InputError("--tolerance", to_text(*options.tolerance),
                      "left out for ellipsoids, whose cone is exact");
@@ -368,7 +369,10 @@ int run_accuracy(const Options& given, std::ostream& out) {
   picture["engagement"] = shown;
   write_whole(folder / "engagement.json", picture.dump(1) + "\n");
   write_whole(folder / "summary.json", summary.dump(1) + "\n");
-  Json origin = provenance(options.command_line);
+  if (given.json) standard_output << summary.dump(1) << '\n';
+  std::vector<fs::path> inputs = scan_files(options.scans);
+  if (!options.cases.empty()) inputs.emplace_back(options.cases);
+  Json origin = provenance(options.command_line, random.threads, inputs);
   origin["seed"] = options.seed;
   origin["engagements"] = engagements.count;
   origin["planes"] = options.planes;

@@ -24,6 +24,7 @@ struct Options {
   int threads = 0;                 // 0: one per processor
   bool figures = true;
   bool quiet = false;
+  bool json = false;
   std::string command_line;
 };
 

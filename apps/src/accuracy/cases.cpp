@@ -56,7 +56,9 @@ std::vector<Case> read_cases(const std::string& path) {
       if (!ids.insert(cases.back().id).second)
         throw InputError("id", cases.back().id, "different from those above");
     } catch (const InputError& e) {
-      throw InputError(path + ":" + std::to_string(line) + ": " + e.field(), e.value(), e.requirement());
+      const bool says_line = e.field() == "line " + std::to_string(line);
+      const std::string place = path + (says_line ? ": " : ":" + std::to_string(line) + ": ");
+      throw InputError(place + e.field(), e.value(), e.requirement());
     }
   }
   if (file.bad()) throw InputError("--cases", path, "a file that can be read to its end");

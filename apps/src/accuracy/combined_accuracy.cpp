@@ -12,7 +12,6 @@
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
-#include <thread>
 
 #include "accuracy/distribution.h"
 #include "accuracy/measure.h"
@@ -23,6 +22,7 @@
 #include "provenance.h"
 #include "resumable_table.h"
 #include "stopwatch.h"
+#include "threads.h"
 
 namespace vericone::accuracy {
 namespace {
@@ -171,7 +171,9 @@ void print_combined_summary(const Json& s, std::ostream& out) {
 
 }  // namespace
 
-int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostream& out) {
+int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostream& standard_output) {
+  std::ostream silent(nullptr);
+  std::ostream& out = options.json ? silent : standard_output;
   if (!options.scans.empty())
     throw InputError("--scan", options.scans.front(), "left out with --obstacle " + options.obstacle);
   const double tolerance = options.tolerance.value_or(kReferenceTolerance);
@@ -187,8 +189,7 @@ int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostrea
   ResumableTable campaign;
   campaign.table = folder / "engagements.csv";
   campaign.header = header(options.planes);
-  campaign.threads = options.threads > 0 ? options.threads
-                                         : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  campaign.threads = threads_for(options.threads);
   campaign.quiet = options.quiet;
   campaign.block = 5;
   campaign.label = options.obstacle + " obstacles";
@@ -216,7 +217,8 @@ int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostrea
       << std::setprecision(1) << seconds() << " s\n";
   print_combined_summary(summary["random"], out);
   write_whole(folder / "summary.json", summary.dump(1) + "\n");
-  Json origin = provenance(options.command_line);
+  if (options.json) standard_output << summary.dump(1) << '\n';
+  Json origin = provenance(options.command_line, campaign.threads, {});
   origin["seed"] = options.seed;
   origin["obstacle"] = options.obstacle;
   origin["tolerance"] = tolerance;
