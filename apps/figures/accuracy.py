@@ -9,7 +9,7 @@ def column(rows, *keys):
     values = []
     for row in rows:
         for key in keys:
-            row = row[key]
+            row = row[key] if row is not None else None
         values.append(row)
     return np.array(values, dtype=float)
 
@@ -65,7 +65,7 @@ def random_engagements(data):
     right.set_title("(c) exact: error and bound")
     right.set_ylim(1e-24, 10)
     right.legend(loc="lower left")
-    figure.suptitle("%d random engagements, semi-axes 1 to 10 m" % data["engagements"], fontsize=8)
+    figure.suptitle("%d %s" % (data["engagements"], data["drawn"]), fontsize=8)
     save(figure, "accuracy")
 
 

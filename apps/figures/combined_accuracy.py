@@ -15,8 +15,8 @@ figure, (left, middle, right) = plt.subplots(1, 3, figsize=(TWO_COLUMNS, 2.8), c
 coarse = planes < finest
 left.plot(planes, 2 / planes, "--", color=GREY, label="2/n")
 for measure, style in (("worst", {}), ("median", {"markerfacecolor": "white"})):
-    values = np.array([row["discretisation_error"][measure] for row in slices])
-    left.plot(planes[coarse], values[coarse], "v-" if measure == "worst" else "o-", color=SLICE, label=measure, **style)
+    values = np.array([row["discretisation_error"][measure] for row in slices if row["planes"] < finest])
+    left.plot(planes[coarse], values, "v-" if measure == "worst" else "o-", color=SLICE, label=measure, **style)
 left.set_yscale("log")
 left.set_ylabel("relative area error against n = %d" % finest)
 left.set_title("(a) discretisation error")
@@ -46,6 +46,6 @@ right.set_title("(c) bias of each engagement")
 right.legend(loc="upper left")
 right.set_xlim(0, 100)
 
-figure.suptitle("%d random engagements of an ellipsoid with a %s obstacle, semi-axes 1 to 10 m; reference certified to %g %%"
-                % (data["engagements"], data["obstacle"], 100 * data["tolerance"]), fontsize=8)
+figure.suptitle("%d random engagements of an ellipsoid with a %s obstacle, %s; reference certified to %g %%"
+                % (data["engagements"], data["obstacle"], data["drawn"], 100 * data["tolerance"]), fontsize=8)
 save(figure, "accuracy")

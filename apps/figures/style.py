@@ -33,7 +33,9 @@ def read(name):
 
 def plane_axis(axis, planes):
     axis.set_xscale("log")
-    shown = [n for n in (3, 6, 12, 24, 60, 180, 360) if planes.min() <= n <= planes.max()]
+    shown = sorted(int(n) for n in planes)
+    if len(shown) > 8:  # too many for numbers side by side
+        shown = [n for n in (3, 6, 12, 24, 60, 180, 360) if shown[0] <= n <= shown[-1]]
     axis.set_xticks(shown)
     axis.set_xticklabels([str(n) for n in shown])
     axis.minorticks_off()

@@ -202,7 +202,7 @@ void run_planar_cone(const ConeOptions& options, const input::PlanarEngagement& 
   if (options.tolerance)
     throw InputError("--tolerance", to_text(*options.tolerance), "left out for a planar scene");
   if (!options.picture_folder.empty())
-    throw InputError("--picture", options.picture_folder, "asked for in space only");
+    throw InputError("--out", options.picture_folder, "asked for in space only");
   if (options.map) throw InputError("--map", to_text(options.map->resolution), "asked for in space only");
   const Json cone = planar_cone_json(e);
   if (options.json) {
@@ -271,10 +271,10 @@ struct ConePicture {
   const char* script;
 };
 
-/// What --picture asks for, refused before anything is printed or written.
+/// What --out asks for, refused before anything is printed or written.
 ConePicture cone_picture(const ConeOptions& options, const input::Engagement& e, const Json& cone) {
   const auto refuse = [&](const char* requirement) {
-    throw InputError("--picture", options.picture_folder, requirement);
+    throw InputError("--out", options.picture_folder, requirement);
   };
   if (cone["relation"] != to_string(Relation::disjoint)) refuse("asked for disjoint bodies only");
   if (e.ellipsoids())
@@ -319,9 +319,10 @@ void run_cone(const ConeOptions& options, std::ostream& out) {
   std::filesystem::create_directories(folder);
   write_whole(folder / "engagement.json", picture.data.dump(1) + "\n");
   write_whole(folder / "shapes.json", Json{{"figures", {"engagement"}}}.dump(1) + "\n");
+  if (options.map) write_whole(folder / "cone_map.json", map.picture.dump() + "\n");
+  if (!options.figures) return;
   std::vector<std::filesystem::path> files = draw_figures(picture.script, folder);
   if (options.map) {
-    write_whole(folder / "cone_map.json", map.picture.dump() + "\n");
     const auto more = draw_figures("cone_map.py", folder);
     files.insert(files.end(), more.begin(), more.end());
   }

@@ -25,6 +25,8 @@ struct ConeOptions {
   std::optional<MapRequest> map;
   bool json = false;
   std::string picture_folder;  // empty: no picture
+  bool figures = true;         // false: only what a picture is drawn from
+  int threads = 0;             // of map and picture; 0: one per processor
 };
 
 /// `vericone cone`: the cone of one scene, as text or JSON (docs/formats.md), with a picture if asked for.

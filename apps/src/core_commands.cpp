@@ -11,6 +11,7 @@
 #include "query.h"
 #include "shapes.h"
 #include "signmap.h"
+#include "threads.h"
 
 namespace vericone {
 namespace {
@@ -41,10 +42,14 @@ int cone_command(CommandLine& line) {
       .words(3, 3)
       .needs(map);
   line.flag("--json", cone.json, "Print JSON");
-  line.option("--picture", cone.picture_folder, "Folder for a picture of bodies and cones");
+  line.option("--out,--picture", cone.picture_folder, "Folder for a picture of bodies and cones");
+  line.negative_flag("--no-figures", cone.figures, "Of the picture, its data only");
+  line.option("--threads", cone.threads, "Threads of map and picture, 0: one per processor");
+  line.quiet();
   line.read();
   if (map.given()) {
     cone.map.emplace();
+    cone.map->threads = threads_for(cone.threads);
     if (!resolution.empty()) cone.map->resolution = resolution.front();
     if (!around.empty()) cone.map->around = Eigen::Vector3d(around[0], around[1], around[2]);
   }
@@ -57,6 +62,9 @@ int query_command(CommandLine& line) {
   bool with_rung = false;
   line.option("cases", cases, "File of cases, or - for standard input").required();
   line.flag("--rung", with_rung, "Add the rung of the ladder that decided: triage, interval or exact");
+  bool json = true;
+  line.flag("--json", json, "Print JSON; this command prints nothing else");
+  line.quiet();
   line.read();
   return run_query(cases, with_rung, std::cout);
 }
@@ -71,14 +79,28 @@ int accuracy_command(CommandLine& line) {
   line.option("--tolerance", options.tolerance,
               "Of the certified cone that slices are held against, with other obstacles than ellipsoids")
       .shown_default(to_text(accuracy::kReferenceTolerance));
+  line.option("--semi-axes", options.semi_axes, "Of the random bodies, metres")
+      .words(2, 2)
+      .shown_type("LOW HIGH")
+      .shown_default("1 10");
+  line.option("--distance", options.distance,
+              "Of their centres, metres; if not given, 1.5 to 3 times what just separates the bodies")
+      .words(2, 2)
+      .shown_type("LOW HIGH");
+  line.option("--cases", options.cases,
+              "Pairs of ellipsoids instead of random ones: a file of cases as of query, velocities left out "
+              "or ignored");
   line.option("--scan", options.scans, "Mesh or cloud files, or folders of them").words(1, -1);
   line.option("--approaches", options.approaches, "Engagements per scanned object");
-  line.option("--planes", options.planes, "Plane counts; the largest is the reference").commas();
+  line.option("--planes", options.planes, "Plane counts; the largest is the reference of the others")
+      .words(1, -1)
+      .commas();
   line.option("--seed", options.seed, "Seed of all random numbers");
   line.option("--out", options.out, "Folder for tables and pictures").shown_default("out/accuracy");
   line.option("--threads", options.threads, "Threads, 0: one per processor");
   line.negative_flag("--no-figures", options.figures, "Tables only");
   line.flag("--quiet", options.quiet, "No progress");
+  line.flag("--json", options.json, "Print JSON: summary.json");
   line.read();
   options.command_line = line.text();
   return accuracy::run_accuracy(options, std::cout);
@@ -90,6 +112,8 @@ int signmap_command(CommandLine& line) {
   line.option("--cells", signmap.cells, "Doubles along each axis");
   line.option("--seed", signmap.seed, "Seed of the engagement");
   line.negative_flag("--no-figures", signmap.figures, "Tables only");
+  line.flag("--json", signmap.json, "Print JSON: signmap.json");
+  line.quiet();
   line.read();
   signmap.command_line = line.text();
   run_signmap(signmap, std::cout);
@@ -104,7 +128,10 @@ int gallery_command(CommandLine& line) {
   line.option("--tolerance", gallery.tolerance, "Of their angles, radians");
   line.option("--map", gallery.resolution, "Resolution of the cone maps, radians; 0: none");
   line.option("--radius", gallery.radius, "Of the points of clouds, in parts of the cloud's largest side");
+  line.option("--threads", gallery.threads, "Threads of maps and pictures, 0: one per processor");
   line.negative_flag("--no-figures", gallery.figures, "Tables only");
+  line.flag("--quiet", gallery.quiet, "No progress");
+  line.flag("--json", gallery.json, "Print JSON: gallery.json");
   line.read();
   gallery.command_line = line.text();
   return run_gallery(gallery, std::cout);
@@ -117,6 +144,8 @@ int shapes_command(CommandLine& line) {
   line.option("--mesh", shapes.mesh, "obj or ply: also write the surfaces as files");
   line.option("--resolution", shapes.resolution, "Edges of the surfaces, in parts of the semi-axes");
   line.negative_flag("--no-figures", shapes.figures, "Data only");
+  line.flag("--json", shapes.json, "Print JSON: the files written");
+  line.quiet();
   line.read();
   shapes.command_line = line.text();
   run_shapes(shapes, std::cout);

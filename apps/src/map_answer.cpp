@@ -43,7 +43,7 @@ MapAnswer map_answer(const DirectionClassifier& classifier, const MapRequest& re
   const auto start = Clock::now();
   ConeMapOptions options;
   options.resolution = request.resolution;
-  options.threads = 0;
+  options.threads = request.threads;
   const ConeMap map = cone_map(classifier, options);
   const double seconds = seconds_since(start);
   Json list = Json::array();

@@ -18,6 +18,7 @@ inline constexpr double kDefaultResolution = 0.02;  // radians
 struct MapRequest {
   double resolution = kDefaultResolution;
   std::optional<Eigen::Vector3d> around;  // the direction whose region is asked for
+  int threads = 0;                        // 0: one per processor
 };
 
 struct MapAnswer {

@@ -6,9 +6,9 @@
 #include <ctime>
 #include <fstream>
 #include <stdexcept>
-#include <thread>
 
 #include "command/build_info.h"
+#include "file_hash.h"
 #include "json_value.h"
 #include "output_file.h"
 #include "plain_text.h"
@@ -30,18 +30,44 @@ std::string now() {
   return text;
 }
 
+const char* compiler() {
+#if defined(__clang__)
+  return "Clang " __clang_version__;
+#elif defined(__GNUC__)
+  return "GNU " __VERSION__;
+#else
+  return "unknown";
+#endif
+}
+
+Json hashes(const std::vector<std::filesystem::path>& files) {
+  Json list = Json::array();
+  for (const auto& file : files) {
+    Json hash = nullptr;  // a pipe, or gone
+    try {
+      if (std::filesystem::is_regular_file(file)) hash = sha256_of_file(file);
+    } catch (const std::runtime_error&) {
+      hash = nullptr;
+    }
+    list.push_back({{"file", file.string()}, {"sha256", hash}});
+  }
+  return list;
+}
+
 }  // namespace
 
-Json provenance(const std::string& command_line) {
+Json provenance(const std::string& command_line, int threads,
+                const std::vector<std::filesystem::path>& inputs) {
   return {{"command", plain_text(command_line)},
           {"version", build_info::version()},
           {"commit", build_info::commit()},
-          {"compiler", "g++-compatible " __VERSION__},
+          {"compiler", compiler()},
           {"flags", build_info::flags()},
           {"eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
                         std::to_string(EIGEN_MINOR_VERSION)},
           {"processor", processor()},
-          {"threads", std::thread::hardware_concurrency()},
+          {"threads", threads},
+          {"inputs", hashes(inputs)},
           {"finished", now()}};
 }
 

@@ -3,13 +3,16 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "json_forward.h"
 
 namespace vericone {
 
-/// What it takes to get the same result again: commit, version, compiler, flags, processor, command line.
-Json provenance(const std::string& command_line);
+/// What it takes to get the same result again: commit, version, compiler, flags, processor, command line; how
+/// many threads computed, and each file that was read, with its SHA-256 (null where it cannot be read again).
+Json provenance(const std::string& command_line, int threads,
+                const std::vector<std::filesystem::path>& inputs);
 
 /// Writes to a neighbouring file first and renames: a reader sees the old content or the new one, never half.
 /// Throws std::runtime_error naming the path.

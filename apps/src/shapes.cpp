@@ -192,23 +192,31 @@ void run_shapes(const ShapesOptions& options, std::ostream& out) {
       throw InputError("--figure", name, "one of " + names);
   const std::filesystem::path folder = options.out;
   std::filesystem::create_directories(folder);
-  Shapes shapes(options, out);
+  std::ostream silent(nullptr);
+  std::ostream& text = options.json ? silent : out;
+  Shapes shapes(options, text);
+  Json files = Json::array();
   std::vector<std::string> written, scripts;
   for (const ShapeFigure* f : chosen) {
     const auto file = folder / (std::string(f->name) + ".json");
     write_whole(file, f->data(shapes).dump() + "\n");
-    out << "data      " << file.string() << '\n';
+    text << "data      " << file.string() << '\n';
+    files.push_back(file.string());
     written.emplace_back(f->name);
     if (std::find(scripts.begin(), scripts.end(), f->script) == scripts.end())
       scripts.emplace_back(f->script);
   }
   write_whole(folder / "shapes.json", Json{{"figures", written}}.dump(1) + "\n");
-  Json origin = provenance(options.command_line);
+  Json origin = provenance(options.command_line, 1, {});
   origin["resolution"] = options.resolution;
   write_whole(folder / "provenance.json", origin.dump(1) + "\n");
   if (options.figures)
     for (const std::string& script : scripts)
-      for (const auto& file : draw_figures(script, folder)) out << "picture   " << file.string() << '\n';
+      for (const auto& file : draw_figures(script, folder)) {
+        text << "picture   " << file.string() << '\n';
+        files.push_back(file.string());
+      }
+  if (options.json) out << Json{{"figures", written}, {"files", files}}.dump(1) << '\n';
 }
 
 }  // namespace vericone

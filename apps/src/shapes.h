@@ -13,6 +13,7 @@ struct ShapesOptions {
   std::string mesh;                // also the bodies' surfaces as files: "obj" or "ply"
   std::string out = "out/shapes";
   bool figures = true;
+  bool json = false;
   std::string command_line;
 };
 

@@ -125,15 +125,18 @@ void run_signmap(const SignMapOptions& options, std::ostream& out) {
     summary["rungs"][to_string(r)] = rungs.at(static_cast<std::size_t>(r));
   write_whole(folder / "signmap.csv", table);
   write_whole(folder / "signmap.json", summary.dump(1) + "\n");
-  Json origin = provenance(options.command_line);
+  Json origin = provenance(options.command_line, 1, {});
   origin["seed"] = options.seed;
   origin["cells"] = cells;
   write_whole(folder / "provenance.json", origin.dump(1) + "\n");
-  out << cells * cells << " velocities around an exactly grazing one: plain doubles wrong on " << wrong
-      << "; rungs " << summary["rungs"].dump() << "\ntables    " << (folder / "signmap.csv").string() << ", "
-      << (folder / "signmap.json").string() << ", " << (folder / "provenance.json").string() << '\n';
+  std::ostream silent(nullptr);
+  std::ostream& text = options.json ? silent : out;
+  if (options.json) out << summary.dump(1) << '\n';
+  text << cells * cells << " velocities around an exactly grazing one: plain doubles wrong on " << wrong
+       << "; rungs " << summary["rungs"].dump() << "\ntables    " << (folder / "signmap.csv").string() << ", "
+       << (folder / "signmap.json").string() << ", " << (folder / "provenance.json").string() << '\n';
   if (options.figures)
-    for (const auto& file : draw_figures("signmap.py", folder)) out << "picture   " << file.string() << '\n';
+    for (const auto& file : draw_figures("signmap.py", folder)) text << "picture   " << file.string() << '\n';
 }
 
 }  // namespace vericone

@@ -12,6 +12,7 @@ struct SignMapOptions {
   std::uint64_t seed = 12;  // of the engagement
   std::string out = "out/signmap";
   bool figures = true;
+  bool json = false;
   std::string command_line;
 };
 

@@ -62,6 +62,7 @@ int figures_command(CommandLine& line) {
   line.option("--out", figures.out, "Folder for pictures, tables and report");
   line.flag("--list", figures.list, "Print numbers and captions, make nothing");
   line.flag("--quiet", figures.quiet, "No progress");
+  line.flag("--json", figures.json, "Print JSON: figures and the files of the report");
   line.read();
   figures.command_line = line.text();
   return run_figures(figures, std::cout);

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The vericone command as a user meets it: real processes, real files. Environment: VERICONE (the program),
 VERICONE_SOURCE (the project)."""
+import hashlib
 import json
 import math
 import os
@@ -491,7 +492,9 @@ class Accuracy(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             self.assertEqual(run(*self.ARGUMENTS, "-N", "400", "--out", folder).returncode, 0)
             summary = json.loads(self.read(folder, "summary.json"))["random"]
-            self.assertEqual([row["above_two_over_n"] for row in summary["slice"]], [0] * len(summary["slice"]))
+            # The finest count is the reference, and has no error against itself.
+            self.assertEqual([row["above_two_over_n"] for row in summary["slice"]], [0, 0, 0, 0, None])
+            self.assertIsNone(summary["slice"][-1]["discretisation_error"])
             self.assertAlmostEqual(summary["slice_order"], -2, delta=0.3)
             self.assertEqual([row["bound_violations"] for row in summary["exact"]], [0] * len(summary["exact"]))
             self.assertGreater(summary["slice_bias"]["mean"], 0.08)  # errata: 8 to 12 % on average
@@ -499,6 +502,47 @@ class Accuracy(unittest.TestCase):
             origin = json.loads(self.read(folder, "provenance.json"))
             for key in ("command", "commit", "compiler", "flags", "processor", "seed"):
                 self.assertTrue(str(origin[key]))
+
+    def table(self, folder):
+        settings, header, *rows = self.read(folder, "engagements.csv").splitlines()
+        return settings, [dict(zip(header.split(","), row.split(","))) for row in rows]
+
+    def test_own_distribution(self):
+        with tempfile.TemporaryDirectory() as folder:
+            result = run("accuracy", "-N", "60", "--semi-axes", "0.2", "0.5", "--distance", "2", "20", "--planes", "8", "16",
+                         "32", "--no-figures", "--quiet", "--out", folder)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertRegex(result.stdout, r"\n +32 +- +- +6.2e-02 +- ")
+            settings, rows = self.table(folder)
+            self.assertIn("semi-axes 0.2 to 0.5, distance 2 to 20", settings)
+            self.assertEqual(len(rows), 60)
+            distances = [float(r["distance"]) for r in rows]
+            self.assertTrue(all(2 <= x <= 20 for x in distances))
+            self.assertTrue(min(distances) < 4 and max(distances) > 18, "not spread over the range")
+            for r in rows:
+                for body in ("agent", "obstacle"):
+                    axes = [float(r[body + "_semi_axis_" + k]) for k in "abc"]
+                    self.assertTrue(0.5 >= axes[0] >= axes[1] >= axes[2] >= 0.2, axes)
+                    trace = sum(float(r[body + "_shape_" + k]) for k in ("xx", "yy", "zz"))
+                    self.assertAlmostEqual(trace, sum(x * x for x in axes), 12)
+                self.assertAlmostEqual(math.hypot(*(float(r["to_obstacle_" + k]) for k in "xyz")), float(r["distance"]), 12)
+
+    def test_own_cases(self):
+        with tempfile.TemporaryDirectory() as folder:
+            cases = os.path.join(folder, "cases.jsonl")
+            with open(cases, "w", encoding="utf-8") as f:
+                f.write(json.dumps({"id": "balls", "agent": ball([1, 0, 0], 1), "obstacle": ball([6, 0, 0], 2)}) + "\n\n")
+                f.write(json.dumps({"agent": ball([0, 0, 0], 1), "obstacle": ball([0, 0, 9], 1)}) + "\n")
+            out = os.path.join(folder, "out")
+            result = run("accuracy", "--cases", cases, "--planes", "3,36", "--no-figures", "--quiet", "--out", out)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            settings, rows = self.table(out)
+            self.assertEqual([r["engagement"] for r in rows], ["balls", "3"])
+            self.assertEqual([r["distance"] for r in rows], ["5", "9"])
+            # Two balls: the section of the cone is a disc, sin(psi) = 3/5.
+            self.assertAlmostEqual(float(rows[0]["exact_area"]), math.pi * 9 / 16, 12)
+            digest = hashlib.sha256(open(cases, "rb").read()).hexdigest()
+            self.assertIn("cases " + digest, settings)
 
     def test_combined_obstacles(self):
         arguments = ("accuracy", "--obstacle", "biconcave", "-N", "16", "--planes", "3,6,12,96", "--tolerance", "0.1",
@@ -511,7 +555,7 @@ class Accuracy(unittest.TestCase):
             self.assertEqual(self.read(one, "engagements.csv"), self.read(two, "engagements.csv"))
             summary = json.loads(self.read(one, "summary.json"))["random"]
             self.assertEqual(summary["obstacle"], "biconcave")
-            self.assertEqual([row["above_two_over_n"] for row in summary["slice"]], [0] * len(summary["slice"]))
+            self.assertEqual([row["above_two_over_n"] for row in summary["slice"]], [0, 0, 0, None])
             self.assertLessEqual(summary["reference_gap"]["worst"], 0.1)
             low, high = summary["slice_bias"]["mean"]
             self.assertGreater(high, low)

@@ -2,6 +2,7 @@
 """`vericone NAME` finds the program `vericone-NAME`, and the programs behave as one. Environment, besides that of
 cli_test.py: VERICONE_PROGRAMS, the names of those that were built."""
 import os
+import re
 import shutil
 import stat
 import subprocess
@@ -68,8 +69,52 @@ class Family(unittest.TestCase):
         for name in PROGRAMS:
             result = call(program_beside(name), "--such")
             self.assertEqual(result.returncode, 2)
-            self.assertRegex(result.stderr, r"^vericone: .* \(see vericone --help\)\n$")
+            self.assertEqual(result.stderr, "vericone: no option --such (see vericone %s --help)\n" % name)
             self.assertEqual(run(name, "--such").stderr, result.stderr)
+
+    def test_every_help_has_examples_and_exit_statuses(self):
+        commands = [line.split()[0] for line in run("--help").stdout.split("Subcommands:\n")[1].split("\n\n")[0].splitlines()]
+        self.assertIn("cone", commands)
+        for name in commands:
+            if name in NEEDS and name not in PROGRAMS:
+                continue
+            text = run(name, "--help").stdout
+            examples = re.findall(r"\n  vericone (%s .*)" % name, text) + re.findall(r"\n  vericone (%s)\n" % name, text)
+            self.assertEqual(len(examples), 2, name)
+            for status in ("0  ", "1  ", "2  ", "130"):
+                self.assertEqual(len(re.findall(r"\n  %s  \S" % status, text)), 1, (name, status))
+            # Every option of an example is one of this help.
+            for option in re.findall(r" (--?[a-zA-Z][a-z-]*)", "\n".join(examples)):
+                self.assertRegex(text, r"[ ,]%s[ ,\n]" % option, name)
+
+    def test_options_mean_the_same_everywhere(self):
+        have = {"--quiet": "cone query accuracy signmap gallery shapes simulate campaign claims figures scan fit verify",
+                "--json": "cone query accuracy signmap gallery shapes simulate campaign claims figures scan fit verify",
+                "--out": "cone accuracy signmap gallery shapes simulate campaign claims figures scan fit",
+                "--no-figures": "cone accuracy signmap gallery shapes simulate campaign scan fit",
+                "--threads": "cone accuracy gallery campaign verify", "--seed": "accuracy signmap campaign scan fit verify"}
+        for option, commands in have.items():
+            for name in commands.split():
+                if name in NEEDS and name not in PROGRAMS:
+                    continue
+                self.assertRegex(run(name, "--help").stdout, r"\n  %s[ ,=]" % option, name)
+
+    def test_the_nearest_word_is_named(self):
+        for words, said in ((["querry"], "no subcommand querry, did you mean query (see vericone --help)"),
+                            (["simulte"], "no subcommand simulte, did you mean simulate (see vericone --help)"),
+                            (["cone", "--jsno"], "no option --jsno, did you mean --json (see vericone cone --help)"),
+                            (["cone", "x", "--plane=3"], "no option --plane, did you mean --planes (see vericone cone --help)"),
+                            (["query", "-z", "x"], "no option -z (see vericone query --help)")):
+            result = run(*words)
+            self.assertEqual((result.returncode, result.stdout, result.stderr), (2, "", "vericone: %s\n" % said))
+        self.assertRegex(run("bogus").stderr, r"^vericone: no subcommand bogus; there are cone, query, .*\n$")
+
+    def test_usage_without_words(self):
+        alone = run()
+        self.assertEqual((alone.returncode, alone.stdout), (2, ""))
+        self.assertEqual(alone.stderr, run("--help").stdout + "vericone: no command given\n")
+        self.assertEqual(run("help").stdout, run("--help").stdout)
+        self.assertEqual(run("help", "cone").stdout, run("cone", "--help").stdout)
 
     def test_the_core_alone_says_what_is_missing(self):
         listed = self.call_core("--help").stdout

@@ -255,7 +255,7 @@ class FitBadInput(unittest.TestCase):
                 self.assertEqual(result.returncode, 2, result.stderr)
                 self.assertEqual(result.stdout, "")
                 self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
-                self.assertRegex(result.stderr, r"^vericone: \S.*(: got .+, must be .+|see vericone --help)")
+                self.assertRegex(result.stderr, r"^vericone: \S.*(: got .+, must be .+|see vericone fit --help)")
                 self.assertEqual(left, [], "something half written")
 
 

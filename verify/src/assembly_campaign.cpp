@@ -77,9 +77,10 @@ std::string to_markdown(std::span<const AssemblyReport> reports) {
                 cell(r.contact_point), cell(r.miss), cell(r.extreme), cell(r.tight), cell(r.map_out),
                 cell(r.map_in), width});
   }
-  for (const AssemblyReport& r : reports)
-    for (const std::string& text : {r.first_failure, r.first_loose})
-      if (!text.empty()) out += "\n" + text + "\n";
+  for (const AssemblyReport& r : reports) {
+    if (!r.first_failure.empty()) out += "\nWRONG: " + r.first_failure + "\n";
+    if (!r.first_loose.empty()) out += "\nwider than asked, not wrong: " + r.first_loose + "\n";
+  }
   return out;
 }
 

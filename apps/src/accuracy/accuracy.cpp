@@ -8,23 +8,28 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iomanip>
+#include <memory>
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
-#include <thread>
 
+#include "accuracy/cases.h"
 #include "accuracy/combined_accuracy.h"
+#include "accuracy/distribution.h"
 #include "accuracy/engagements.h"
 #include "accuracy/measure.h"
 #include "accuracy/statistics.h"
 #include "cone.h"
 #include "figures.h"
+#include "file_hash.h"
 #include "interrupt.h"
 #include "json_value.h"
 #include "provenance.h"
 #include "resumable_table.h"
 #include "stopwatch.h"
+#include "threads.h"
 
 namespace vericone::accuracy {
 namespace {
@@ -52,13 +57,15 @@ Json summarise(const std::vector<Measurement>& rows, const std::vector<int>& pla
     const Spread missing =
         spread(collect([&](const Measurement& m) { return 1 - m.slice_areas[i] / m.exact_area; }));
     const double limit = 2.0 / planes[i];
+    // The finest count is the reference of the others, and has none itself.
+    const bool reference = i == finest;
     const auto above = std::count_if(rows.begin(), rows.end(), [&](const Measurement& m) {
       return std::abs(m.slice_areas[i] / m.slice_areas[finest] - 1) >= limit;
     });
     slices.push_back({{"planes", planes[i]},
-                      {"discretisation_error", spread_json(discretisation)},
+                      {"discretisation_error", reference ? Json() : spread_json(discretisation)},
                       {"two_over_n", limit},
-                      {"above_two_over_n", above},
+                      {"above_two_over_n", reference ? Json() : Json(above)},
                       {"error_against_true_cone", spread_json(missing)}});
     if (planes[i] >= 6 && planes[i] * 4 <= planes[finest] && discretisation.median > 0) {
       fit_n.push_back(planes[i]);
@@ -96,6 +103,36 @@ Json summarise(const std::vector<Measurement>& rows, const std::vector<int>& pla
   return summary;
 }
 
+/// The pairs whose cones are measured.
+struct Engagements {
+  std::uint64_t count = 0;
+  std::function<std::pair<Ellipsoid, Ellipsoid>(std::uint64_t)> pair;
+  std::function<std::string(std::uint64_t)> id;
+  std::string settings;  // what pins them down
+  std::string drawn;     // how they are called in text and pictures
+};
+
+Engagements engagements_of(const Options& o) {
+  Engagements e;
+  if (!o.cases.empty()) {
+    auto cases = std::make_shared<const std::vector<Case>>(read_cases(o.cases));
+    e.count = cases->size();
+    e.pair = [cases](std::uint64_t i) { return std::pair((*cases)[i].agent, (*cases)[i].obstacle); };
+    e.id = [cases](std::uint64_t i) { return (*cases)[i].id; };
+    e.settings = "cases " + sha256_of_file(o.cases) + ", " + std::to_string(e.count) + " engagements";
+    e.drawn = "engagements of " + fs::path(o.cases).filename().string();
+    return e;
+  }
+  const Distribution from = distribution(o);
+  e.count = o.engagements.value_or(10'000);
+  e.pair = [seed = o.seed, from](std::uint64_t i) { return random_engagement(seed, i, from); };
+  e.id = [](std::uint64_t i) { return std::to_string(i); };
+  e.settings = "seed " + std::to_string(o.seed) + ", " + std::to_string(e.count) + " engagements" +
+               distribution_settings(o);
+  e.drawn = "random engagements, " + distribution_text(from);
+  return e;
+}
+
 std::vector<std::pair<std::string, Measurement>> read_table(const fs::path& path,
                                                             const std::vector<int>& planes) {
   std::ifstream in(path);
@@ -120,11 +157,8 @@ void print_summary(const Json& s, std::ostream& out) {
   out << "  planes   discretisation error      2/n   above it   missing from the true cone\n"
       << "           median     worst                            mean       worst\n";
   for (const Json& row : s["slice"]) {
-    out << std::setw(8) << row["planes"].get<int>() << "   "
-        << scientific(number(row["discretisation_error"]["median"])) << "    "
-        << scientific(number(row["discretisation_error"]["worst"])) << "   "
-        << scientific(number(row["two_over_n"])) << std::setw(8) << row["above_two_over_n"].get<long>()
-        << std::setw(12) << percent(number(row["error_against_true_cone"]["mean"])) << "  " << std::setw(9)
+    out << std::setw(8) << row["planes"].get<int>() << "   " << discretisation_text(row) << std::setw(12)
+        << percent(number(row["error_against_true_cone"]["mean"])) << "  " << std::setw(9)
         << percent(number(row["error_against_true_cone"]["worst"])) << '\n';
   }
   if (s.contains("slice_order"))
@@ -195,7 +229,7 @@ ResumableTable base_campaign(const Options& o, const fs::path& table) {
   ResumableTable c;
   c.table = table;
   c.header = csv_header(o.planes);
-  c.threads = o.threads > 0 ? o.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  c.threads = threads_for(o.threads);
   c.quiet = o.quiet;
   return c;
 }
@@ -210,30 +244,48 @@ void validate(const Options& o) {
   std::sort(sorted.begin(), sorted.end());
   if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
     throw InputError("--planes", planes_text(o.planes), "without repetitions");
+  for (const auto& [option, range] :
+       {std::pair("--semi-axes", &o.semi_axes), std::pair("--distance", &o.distance)})
+    if (!range->empty() &&
+        !(range->front() >= 1e-9 && range->front() <= range->back() && range->back() <= 1e9))
+      throw InputError(option, to_text(range->front()) + " " + to_text(range->back()),
+                       "two numbers between 1e-9 and 1e9, the smaller one first (m)");
+  const double largest = distribution(o).semi_axes.high;
+  if (!o.distance.empty() && !(o.distance.front() > 2 * largest))
+    throw InputError("--distance", to_text(o.distance.front()) + " " + to_text(o.distance.back()),
+                     "from above " + to_text(2 * largest) +
+                         " m, twice the largest semi-axis: the bodies have to be apart");
   if (o.engagements && (*o.engagements < 1 || *o.engagements > 100'000'000))
     throw InputError("--engagements", std::to_string(*o.engagements), "between 1 and 100000000");
   if (o.approaches < 1 || o.approaches > 1'000'000)
     throw InputError("--approaches", std::to_string(o.approaches), "between 1 and 1000000");
-  if (o.threads < 0 || o.threads > 1024)
-    throw InputError("--threads", std::to_string(o.threads), "between 1 and 1024, or 0 for all");
+  threads_for(o.threads);
 }
 
 }  // namespace
 
-int run_accuracy(const Options& given, std::ostream& out) {
+int run_accuracy(const Options& given, std::ostream& standard_output) {
   validate(given);
   Options options = given;
+  std::ostream silent(nullptr);
+  std::ostream& out = given.json ? silent : standard_output;
   std::sort(options.planes.begin(), options.planes.end());
   const ObstacleKind kind = obstacle_kind(options.obstacle);
   if (options.out.empty())
     options.out = kind == ObstacleKind::ellipsoid ? "out/accuracy" : "out/accuracy-" + options.obstacle;
   const fs::path folder = options.out;
   if (fs::exists(folder) && !fs::is_directory(folder)) throw InputError("--out", options.out, "a folder");
-  if (kind != ObstacleKind::ellipsoid) return run_combined_accuracy(options, kind, out);
+  if (!options.cases.empty())
+    for (const auto& [used, option] : {std::pair(options.engagements.has_value(), "--engagements"),
+                                       std::pair(!options.semi_axes.empty(), "--semi-axes"),
+                                       std::pair(!options.distance.empty(), "--distance"),
+                                       std::pair(kind != ObstacleKind::ellipsoid, "--obstacle")})
+      if (used) throw InputError("--cases", options.cases, std::string("given without ") + option);
+  if (kind != ObstacleKind::ellipsoid) return run_combined_accuracy(options, kind, standard_output);
   if (options.tolerance)
     throw InputError("--tolerance", to_text(*options.tolerance),
                      "left out for ellipsoids, whose cone is exact");
-  const std::uint64_t engagements = options.engagements.value_or(10'000);
+  const Engagements engagements = engagements_of(options);
   std::vector<Scan> scans;
   for (const fs::path& file : scan_files(options.scans)) scans.push_back(read_scan(file));
   catch_interrupts();
@@ -244,13 +296,13 @@ int run_accuracy(const Options& given, std::ostream& out) {
   };
 
   ResumableTable random = base_campaign(options, folder / "engagements.csv");
-  random.label = "random engagements";
-  random.count = engagements;
-  random.settings = "# vericone accuracy, seed " + std::to_string(options.seed) + ", " +
-                    std::to_string(engagements) + " engagements, planes " + planes_text(options.planes);
+  random.label = options.cases.empty() ? "random engagements" : "engagements       ";
+  random.count = engagements.count;
+  random.settings =
+      "# vericone accuracy, " + engagements.settings + ", planes " + planes_text(options.planes);
   random.row = [&](std::uint64_t i) {
-    const auto [a, b] = random_engagement(options.seed, i);
-    return csv_row(std::to_string(i), measure(a, b, options.planes));
+    const auto [a, b] = engagements.pair(i);
+    return csv_row(engagements.id(i), measure(a, b, options.planes), a, b);
   };
   if (run_table(random) == TableOutcome::interrupted) return stopped();
   const double random_seconds = seconds_since(start);
@@ -259,8 +311,9 @@ int run_accuracy(const Options& given, std::ostream& out) {
   for (auto& [id, m] : read_table(random.table, options.planes)) rows.push_back(std::move(m));
   Json summary{{"random", summarise(rows, options.planes)}};
   summary["random"]["seconds"] = random_seconds;
-  out << engagements << " random engagements, " << options.planes.size() << " plane counts, " << std::fixed
-      << std::setprecision(1) << random_seconds << " s\n";
+  summary["random"]["drawn"] = engagements.drawn;
+  out << engagements.count << ' ' << engagements.drawn << ", " << options.planes.size() << " plane counts, "
+      << std::fixed << std::setprecision(1) << random_seconds << " s\n";
   print_summary(summary["random"], out);
 
   if (!scans.empty()) {
@@ -274,8 +327,9 @@ int run_accuracy(const Options& given, std::ostream& out) {
     approach.row = [&](std::uint64_t i) {
       const Scan& scan = scans[i / options.approaches];
       const std::uint64_t k = i % options.approaches;
-      return csv_row(scan.name + "#" + std::to_string(k),
-                     measure(random_agent(scan.hull, options.seed, k), scan.hull, options.planes));
+      const Ellipsoid agent = random_agent(scan.hull, options.seed, k);
+      return csv_row(scan.name + "#" + std::to_string(k), measure(agent, scan.hull, options.planes), agent,
+                     scan.hull);
     };
     if (run_table(approach) == TableOutcome::interrupted) return stopped();
     const auto table = read_table(approach.table, options.planes);
@@ -310,14 +364,17 @@ int run_accuracy(const Options& given, std::ostream& out) {
       shown = i;
       break;
     }
-  const auto [a, b] = random_engagement(options.seed, shown);
+  const auto [a, b] = engagements.pair(shown);
   Json picture = engagement_picture(a, b, 36, 192);
   picture["engagement"] = shown;
   write_whole(folder / "engagement.json", picture.dump(1) + "\n");
   write_whole(folder / "summary.json", summary.dump(1) + "\n");
-  Json origin = provenance(options.command_line);
+  if (given.json) standard_output << summary.dump(1) << '\n';
+  std::vector<fs::path> inputs = scan_files(options.scans);
+  if (!options.cases.empty()) inputs.emplace_back(options.cases);
+  Json origin = provenance(options.command_line, random.threads, inputs);
   origin["seed"] = options.seed;
-  origin["engagements"] = engagements;
+  origin["engagements"] = engagements.count;
   origin["planes"] = options.planes;
   origin["scans"] = Json::array();
   for (const auto& file : scan_files(options.scans)) origin["scans"].push_back(file.string());

@@ -14,6 +14,9 @@ struct Options {
   std::optional<std::uint64_t> engagements;  // 10,000; 1000 with other obstacles
   std::optional<double> tolerance;           // of the certified reference of other obstacles
   std::uint64_t approaches = 200;            // per scanned object
+  std::vector<double> semi_axes;             // least and greatest, m; empty: 1 and 10
+  std::vector<double> distance;              // of the centres, m; empty: by what just separates them
+  std::string cases;                         // a file of pairs, instead of random ones
   std::uint64_t seed = 1;
   std::vector<int> planes{3, 4, 6, 8, 12, 18, 24, 36, 60, 90, 180, 360};
   std::vector<std::string> scans;  // files, or folders of files
@@ -21,6 +24,7 @@ struct Options {
   int threads = 0;                 // 0: one per processor
   bool figures = true;
   bool quiet = false;
+  bool json = false;
   std::string command_line;
 };
 

@@ -12,8 +12,9 @@
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
-#include <thread>
 
+#include "accuracy/distribution.h"
+#include "accuracy/measure.h"
 #include "accuracy/statistics.h"
 #include "figures.h"
 #include "interrupt.h"
@@ -21,6 +22,7 @@
 #include "provenance.h"
 #include "resumable_table.h"
 #include "stopwatch.h"
+#include "threads.h"
 
 namespace vericone::accuracy {
 namespace {
@@ -52,15 +54,15 @@ Row measure(const Ellipsoid& a, const CombinedEllipsoid& b, const std::vector<in
 std::string header(const std::vector<int>& planes) {
   std::string text = "engagement,inner_area,outer_area,inner_solid_angle_sr,outer_solid_angle_sr";
   for (const int n : planes) text += ",slice_area_n" + std::to_string(n);
-  return text;
+  return text + body_columns();
 }
 
-std::string line(std::uint64_t index, const Row& row) {
+std::string line(std::uint64_t index, const Row& row, const Ellipsoid& a, const CombinedEllipsoid& b) {
   std::string text = std::to_string(index);
   for (const double x : {row.inner_area, row.outer_area, row.inner_solid_angle, row.outer_solid_angle})
     text += "," + to_text(x);
   for (const double x : row.slice_areas) text += "," + to_text(x);
-  return text;
+  return text + body_cells(a, b.ellipsoid());
 }
 
 std::vector<Row> read_table(const fs::path& path, std::size_t planes) {
@@ -73,9 +75,13 @@ std::vector<Row> read_table(const fs::path& path, std::size_t planes) {
     std::istringstream cells(text);
     std::vector<double> values;
     while (std::getline(cells, cell, ',')) values.push_back(std::stod(cell));
-    if (values.size() != 5 + planes)
+    if (values.size() != 5 + planes + kBodyColumns)
       throw std::runtime_error(path.string() + ": a row of " + std::to_string(values.size()) + " columns");
-    rows.push_back({values[1], values[2], values[3], values[4], {values.begin() + 5, values.end()}});
+    rows.push_back({values[1],
+                    values[2],
+                    values[3],
+                    values[4],
+                    {values.begin() + 5, values.begin() + 5 + static_cast<std::ptrdiff_t>(planes)}});
   }
   return rows;
 }
@@ -114,12 +120,14 @@ Json summarise(const std::vector<Row>& rows, const std::vector<int>& planes) {
     for (const Row& row : rows) errors.push_back(std::abs(row.slice_areas[i] / row.slice_areas[finest] - 1));
     const double limit = 2.0 / planes[i];
     const Spread discretisation = spread(errors);
-    slices.push_back({{"planes", planes[i]},
-                      {"discretisation_error", spread_json(discretisation)},
-                      {"two_over_n", limit},
-                      {"above_two_over_n",
-                       std::count_if(errors.begin(), errors.end(), [&](double x) { return x >= limit; })},
-                      {"error_against_true_cone", missing_json(rows, i)}});
+    slices.push_back(
+        {{"planes", planes[i]},
+         {"discretisation_error", i == finest ? Json() : spread_json(discretisation)},
+         {"two_over_n", limit},
+         {"above_two_over_n", i == finest ? Json()
+                                          : Json(std::count_if(errors.begin(), errors.end(),
+                                                               [&](double x) { return x >= limit; }))},
+         {"error_against_true_cone", missing_json(rows, i)}});
     if (planes[i] >= 6 && planes[i] * 4 <= planes[finest] && discretisation.median > 0) {
       fit_n.push_back(planes[i]);
       fit_error.push_back(discretisation.median);
@@ -149,11 +157,8 @@ void print_combined_summary(const Json& s, std::ostream& out) {
   out << "  planes   discretisation error      2/n   above it   missing from the true cone, between\n"
       << "           median     worst                           mean                   worst\n";
   for (const Json& row : s["slice"])
-    out << std::setw(8) << row["planes"].get<int>() << "   "
-        << scientific(number(row["discretisation_error"]["median"])) << "    "
-        << scientific(number(row["discretisation_error"]["worst"])) << "   "
-        << scientific(number(row["two_over_n"])) << std::setw(8) << row["above_two_over_n"].get<long>()
-        << "     " << std::left << std::setw(23) << range(row["error_against_true_cone"]["mean"])
+    out << std::setw(8) << row["planes"].get<int>() << "   " << discretisation_text(row) << "     "
+        << std::left << std::setw(23) << range(row["error_against_true_cone"]["mean"])
         << range(row["error_against_true_cone"]["worst"]) << std::right << '\n';
   if (s.contains("slice_order"))
     out << "  discretisation error falls as n^" << std::fixed << std::setprecision(2)
@@ -166,13 +171,16 @@ void print_combined_summary(const Json& s, std::ostream& out) {
 
 }  // namespace
 
-int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostream& out) {
+int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostream& standard_output) {
+  std::ostream silent(nullptr);
+  std::ostream& out = options.json ? silent : standard_output;
   if (!options.scans.empty())
     throw InputError("--scan", options.scans.front(), "left out with --obstacle " + options.obstacle);
   const double tolerance = options.tolerance.value_or(kReferenceTolerance);
   if (!(tolerance > 0 && tolerance < 1))
     throw InputError("--tolerance", to_text(tolerance), "between 0 and 1, both excluded");
   const std::uint64_t count = options.engagements.value_or(kDefaultEngagements);
+  const Distribution from = distribution(options);
   const fs::path folder = options.out;
   catch_interrupts();
   const auto start = Clock::now();
@@ -181,18 +189,18 @@ int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostrea
   ResumableTable campaign;
   campaign.table = folder / "engagements.csv";
   campaign.header = header(options.planes);
-  campaign.threads = options.threads > 0 ? options.threads
-                                         : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  campaign.threads = threads_for(options.threads);
   campaign.quiet = options.quiet;
   campaign.block = 5;
   campaign.label = options.obstacle + " obstacles";
   campaign.count = count;
   campaign.settings = "# vericone accuracy, obstacle " + options.obstacle + ", tolerance " +
                       to_text(tolerance) + ", seed " + std::to_string(options.seed) + ", " +
-                      std::to_string(count) + " engagements, planes " + planes_text(options.planes);
+                      std::to_string(count) + " engagements" + distribution_settings(options) + ", planes " +
+                      planes_text(options.planes);
   campaign.row = [&](std::uint64_t i) {
-    const auto [a, b] = random_combined_engagement(kind, options.seed, i);
-    return line(i, measure(a, b, options.planes, tolerance));
+    const auto [a, b] = random_combined_engagement(kind, options.seed, i, from);
+    return line(i, measure(a, b, options.planes, tolerance), a, b);
   };
   if (run_table(campaign) == TableOutcome::interrupted) {
     out << "interrupted; the same command goes on where it stopped (" << folder.string() << ")\n";
@@ -203,12 +211,14 @@ int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostrea
   summary["random"]["obstacle"] = options.obstacle;
   summary["random"]["tolerance"] = tolerance;
   summary["random"]["seconds"] = seconds();
+  summary["random"]["drawn"] = distribution_text(from);
   out << count << " random engagements with " << options.obstacle << " obstacles, " << options.planes.size()
       << " plane counts, true cones certified to " << percent(tolerance) << ", " << std::fixed
       << std::setprecision(1) << seconds() << " s\n";
   print_combined_summary(summary["random"], out);
   write_whole(folder / "summary.json", summary.dump(1) + "\n");
-  Json origin = provenance(options.command_line);
+  if (options.json) standard_output << summary.dump(1) << '\n';
+  Json origin = provenance(options.command_line, campaign.threads, {});
   origin["seed"] = options.seed;
   origin["obstacle"] = options.obstacle;
   origin["tolerance"] = tolerance;

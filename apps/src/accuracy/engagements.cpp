@@ -51,13 +51,17 @@ struct Drawn {
   Eigen::Matrix3d rotation_b;
 };
 
-Drawn draw(Random& random) {
-  const Eigen::Vector3d axes_a = semi_axes(random, 1, 10), axes_b = semi_axes(random, 1, 10);
+Drawn draw(Random& random, const Distribution& from) {
+  const auto [low, high] = from.semi_axes;
+  const Eigen::Vector3d axes_a = semi_axes(random, low, high), axes_b = semi_axes(random, low, high);
   const Eigen::Matrix3d rotation_a = random.rotation(), rotation_b = random.rotation();
   const Eigen::Vector3d d = random.direction();
   const Ellipsoid a = Ellipsoid::from_axes(Eigen::Vector3d::Zero(), axes_a, rotation_a);
   const Ellipsoid b = Ellipsoid::from_axes(Eigen::Vector3d::Zero(), axes_b, rotation_b);
-  return {a, b.translated((a.radius(d) + b.radius(d)) * random.uniform(1.5, 3) * d), axes_b, rotation_b};
+  const double distance =
+      from.distance ? random.uniform(from.distance->low, from.distance->high)
+                    : (a.radius(d) + b.radius(d)) * random.uniform(from.spacing.low, from.spacing.high);
+  return {a, b.translated(distance * d), axes_b, rotation_b};
 }
 
 std::vector<Delimiter<3>> random_delimiters(ObstacleKind kind, const Drawn& drawn, Random& random) {
@@ -81,9 +85,10 @@ std::vector<Delimiter<3>> random_delimiters(ObstacleKind kind, const Drawn& draw
 
 }  // namespace
 
-std::pair<Ellipsoid, Ellipsoid> random_engagement(std::uint64_t seed, std::uint64_t index) {
+std::pair<Ellipsoid, Ellipsoid> random_engagement(std::uint64_t seed, std::uint64_t index,
+                                                  const Distribution& from) {
   Random random(seed, index);
-  const Drawn drawn = draw(random);
+  const Drawn drawn = draw(random, from);
   return {drawn.a, drawn.b};
 }
 
@@ -96,9 +101,10 @@ ObstacleKind obstacle_kind(const std::string& name) {
 }
 
 std::pair<Ellipsoid, CombinedEllipsoid> random_combined_engagement(ObstacleKind kind, std::uint64_t seed,
-                                                                   std::uint64_t index) {
+                                                                   std::uint64_t index,
+                                                                   const Distribution& from) {
   Random random(seed, index);
-  const Drawn drawn = draw(random);
+  const Drawn drawn = draw(random, from);
   if (kind == ObstacleKind::ellipsoid) return {drawn.a, drawn.b};
   return {drawn.a, CombinedEllipsoid(drawn.b, random_delimiters(kind, drawn, random))};
 }

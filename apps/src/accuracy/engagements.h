@@ -3,6 +3,7 @@
 
 #include <vericone/geometry/combined.h>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -23,11 +24,23 @@ class Random {
   std::uint64_t state_;
 };
 
+struct Range {
+  double low, high;
+};
+
+/// What engagements are drawn from, uniformly.
+struct Distribution {
+  Range semi_axes{1, 10};         // of both bodies, m
+  Range spacing{1.5, 3};          // of the centres, in parts of the distance that just separates
+  std::optional<Range> distance;  // of the centres, m, instead; above twice the largest semi-axis
+};
+
 /// Engagement `index` of the campaign: semi-axes uniform in 1..10 m, uniform orientations, the centre of B in
 /// a uniform direction d at 1.5 to 3 times the distance rho_A(d) + rho_B(d) at which a plane perpendicular to
-/// d just separates the bodies. The line of centres then always separates them and the section area is
-/// finite. The source does not print its distribution (errata, 4.1).
-std::pair<Ellipsoid, Ellipsoid> random_engagement(std::uint64_t seed, std::uint64_t index);
+/// d just separates the bodies, unless `from` says otherwise. The line of centres then always separates them
+/// and the section area is finite. The source does not print its distribution (errata, 4.1).
+std::pair<Ellipsoid, Ellipsoid> random_engagement(std::uint64_t seed, std::uint64_t index,
+                                                  const Distribution& from = {});
 
 /// The obstacles of `vericone accuracy --obstacle`.
 enum class ObstacleKind { ellipsoid, biconcave, biconvex, star };
@@ -42,7 +55,8 @@ ObstacleKind obstacle_kind(const std::string& name);
 ///              their axes,
 /// u uniform in 0.3 to 0.8 (what the dents and the waist leave), v in 0.3 to 1.
 std::pair<Ellipsoid, CombinedEllipsoid> random_combined_engagement(ObstacleKind kind, std::uint64_t seed,
-                                                                   std::uint64_t index);
+                                                                   std::uint64_t index,
+                                                                   const Distribution& from = {});
 
 /// Approach `index` of an ellipsoidal agent to a given obstacle: the agent has semi-axes of 0.2 to 1 times
 /// the obstacle's mean one, and the rest is as above.

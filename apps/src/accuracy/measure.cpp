@@ -24,15 +24,38 @@ Measurement measure(const Ellipsoid& a, const Ellipsoid& b, const std::vector<in
   return m;
 }
 
+std::string body_columns() {
+  std::string columns;
+  for (const std::string body : {"agent", "obstacle"}) {
+    for (const char* axis : {"a", "b", "c"}) columns += "," + body + "_semi_axis_" + axis;
+    for (const char* entry : {"xx", "xy", "xz", "yy", "yz", "zz"}) columns += "," + body + "_shape_" + entry;
+  }
+  return columns + ",to_obstacle_x,to_obstacle_y,to_obstacle_z,distance";
+}
+
+std::string body_cells(const Ellipsoid& a, const Ellipsoid& b) {
+  std::string cells;
+  const auto add = [&](double x) { cells += "," + to_text(x); };
+  for (const Ellipsoid* body : {&a, &b}) {
+    for (const double axis : body->semi_axes()) add(axis);
+    for (int i = 0; i < 3; ++i)
+      for (int k = i; k < 3; ++k) add(body->shape()(i, k));
+  }
+  const Eigen::Vector3d to_obstacle = b.center() - a.center();
+  for (const double x : to_obstacle) add(x);
+  add(to_obstacle.norm());
+  return cells;
+}
+
 std::string csv_header(const std::vector<int>& planes) {
   std::string header = "engagement,exact_area,exact_solid_angle_sr";
   for (const int n : planes) header += ",slice_area_n" + std::to_string(n);
   for (const int m : kSampleCounts) header += ",exact_area_m" + std::to_string(m);
   for (const int m : kSampleCounts) header += ",exact_area_bound_m" + std::to_string(m);
-  return header;
+  return header + body_columns();
 }
 
-std::string csv_row(const std::string& id, const Measurement& m) {
+std::string csv_row(const std::string& id, const Measurement& m, const Ellipsoid& a, const Ellipsoid& b) {
   std::string row = id;
   const auto add = [&](double x) { row += "," + to_text(x); };
   add(m.exact_area);
@@ -40,7 +63,7 @@ std::string csv_row(const std::string& id, const Measurement& m) {
   for (const double x : m.slice_areas) add(x);
   for (const double x : m.areas) add(x);
   for (const double x : m.area_bounds) add(x);
-  return row;
+  return row + body_cells(a, b);
 }
 
 Measurement parse_row(const std::string& row, const std::vector<int>& planes, std::string& id) {
@@ -49,7 +72,7 @@ Measurement parse_row(const std::string& row, const std::vector<int>& planes, st
   std::string cell;
   std::getline(in, id, ',');
   while (std::getline(in, cell, ',')) values.push_back(std::stod(cell));
-  if (values.size() != 2 + planes.size() + 2 * kSampleCounts.size())
+  if (values.size() != 2 + planes.size() + 2 * kSampleCounts.size() + kBodyColumns)
     throw std::runtime_error("a row of " + std::to_string(values.size() + 1) + " columns");
   Measurement m;
   auto it = values.begin();

@@ -25,9 +25,15 @@ struct Measurement {
 
 Measurement measure(const Ellipsoid& a, const Ellipsoid& b, const std::vector<int>& planes);
 
+/// The columns that say which bodies these are: semi-axes in decreasing order, shape matrices, which hold the
+/// attitudes, the obstacle's centre seen from the agent's and its distance. Each with a comma before it.
+std::string body_columns();
+std::string body_cells(const Ellipsoid& a, const Ellipsoid& b);
+inline constexpr std::size_t kBodyColumns = 22;
+
 /// Column names and one row of the table of engagements; numbers with all their digits.
 std::string csv_header(const std::vector<int>& planes);
-std::string csv_row(const std::string& id, const Measurement& m);
+std::string csv_row(const std::string& id, const Measurement& m, const Ellipsoid& a, const Ellipsoid& b);
 /// Inverse of csv_row; throws std::runtime_error for a row with another number of columns.
 Measurement parse_row(const std::string& row, const std::vector<int>& planes, std::string& id);
 

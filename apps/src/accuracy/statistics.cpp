@@ -47,6 +47,22 @@ std::string scientific(double x) {
   return s.str();
 }
 
+std::string discretisation_text(const Json& row) {
+  const Json& error = row["discretisation_error"];
+  const auto number = [&](const Json& value, int width) {
+    std::ostringstream cell;
+    cell << std::setw(width)
+         << (value.is_null()           ? "-"
+             : value.is_number_float() ? scientific(value.get<double>())
+                                       : std::to_string(value.get<long>()));
+    return cell.str();
+  };
+  const Json none;
+  return number(error.is_null() ? none : error["median"], 7) + "    " +
+         number(error.is_null() ? none : error["worst"], 7) + "   " + number(row["two_over_n"], 7) +
+         number(row["above_two_over_n"], 8);
+}
+
 std::string planes_text(const std::vector<int>& planes) {
   std::string text;
   for (const int n : planes) text.append(text.empty() ? "" : " ").append(std::to_string(n));

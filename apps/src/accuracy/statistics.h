@@ -20,6 +20,10 @@ Json spread_json(const Spread& s);
 /// Slope of log(error) against log(n), by least squares.
 double order(const std::vector<double>& n, const std::vector<double>& error);
 
+/// Of a row of a summary: the errors against the finest count, 2/n and how many are above it; "-" for the
+/// finest count, which is the reference.
+std::string discretisation_text(const Json& row);
+
 std::string percent(double x);
 std::string scientific(double x);
 /// Numbers with a space between.

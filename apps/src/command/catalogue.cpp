@@ -6,32 +6,83 @@
 namespace vericone {
 namespace {
 
-CatalogueEntry core(const char* name, const char* what) { return {name, what, "", ""}; }
+using Examples = std::array<std::string, 2>;
 
-CatalogueEntry simulation(const char* name, const char* what) {
-  return {name, what, "a command without simulation", "a build with VERICONE_SIMULATION"};
+constexpr const char* kNothing = "nothing is written";
+constexpr const char* kGoesOn = "the same command goes on where it stopped";
+
+CatalogueEntry core(const char* name, const char* what, Examples examples, const char* failed,
+                    const char* bad, const char* stopped) {
+  return {name, what, std::move(examples), failed, bad, stopped, "", ""};
+}
+
+CatalogueEntry simulation(const char* name, const char* what, Examples examples, const char* failed,
+                          const char* stopped) {
+  return {name,
+          what,
+          std::move(examples),
+          failed,
+          "",
+          stopped,
+          "a command without simulation",
+          "a build with VERICONE_SIMULATION"};
 }
 
 }  // namespace
 
 const std::vector<CatalogueEntry>& catalogue() {
   static const std::vector<CatalogueEntry> entries{
-      core("cone", "The collision cone of one scene"),
-      core("query", "Exact verdicts on engagements, one JSON object a line"),
-      core("accuracy", "Accuracy of slice and exact cones against planes and samples"),
-      core("signmap", "Answers on the doubles around a velocity that grazes exactly"),
-      core("gallery", "The cone of every mesh, cloud and octree map given, with pictures"),
-      {"scan", "What simulated LiDARs on the agent see of a mesh, and the cone they get from it",
-       "a command without LiDARs", "a build with VERICONE_LIDAR"},
-      {"fit", "A quadric hull of a scan, with what is proved of it", "a command without fits",
+      core("cone", "The collision cone of one scene",
+           {"cone scene.yaml --out out/first", "cone scene.yaml --method slice --planes 72 --json"}, "", "",
+           ""),
+      core("query", "Exact verdicts on engagements, one JSON object a line",
+           {"query cases.jsonl", "query --rung - < cases.jsonl"}, "",
+           "of a line: it says so, the others are answered", ""),
+      core("accuracy", "Accuracy of slice and exact cones against planes and samples",
+           {"accuracy -N 1000 --planes 8,16,32 --semi-axes 0.2 0.5 --distance 2 20",
+            "accuracy --cases cases.jsonl --no-figures --out out/mine"},
+           "", "", kGoesOn),
+      core("signmap", "Answers on the doubles around a velocity that grazes exactly",
+           {"signmap --seed 12", "signmap --cells 401 --no-figures --out out/grazing"}, "", "", ""),
+      core("gallery", "The cone of every mesh, cloud and octree map given, with pictures",
+           {"gallery bunny.ply map.bt", "gallery scans --no-figures --map 0 --out out/scans"}, "",
+           "of a file: the table says so, the others are answered", "what was done by then is written"),
+      {"scan",
+       "What simulated LiDARs on the agent see of a mesh, and the cone they get from it",
+       {"scan scene.yaml", "scan scene.yaml --planes 72 --levels 6 --no-figures --quiet"},
+       "",
+       "",
+       "",
+       "a command without LiDARs",
+       "a build with VERICONE_LIDAR"},
+      {"fit",
+       "A quadric hull of a scan, with what is proved of it",
+       {"fit bunny.ply --mode containing --shape biconvex", "fit bunny.ply --check out/fit/fit.json"},
+       "a hull is not proved, a surface has not converged, a certificate does not hold",
+       "",
+       kNothing,
+       "a command without fits",
        "a build with VERICONE_FITTING"},
-      core("shapes", "Pictures and meshes of combined quadrics"),
-      simulation("simulate", "A scenario of moving bodies, with a proof of what was avoided"),
-      simulation("campaign", "Guidance laws on random engagements, every outcome proved; 1: a word broken"),
-      simulation("claims", "What the source prints in chapters 5 and 6 beside what is measured"),
-      simulation("figures", "The figures of the source's chapters 5 and 6, with a report"),
-      {"verify", "Hold the library against exact constructions (CGAL); 1: wrong answers",
-       "a command without CGAL", "a build with VERICONE_VERIFY"}};
+      core("shapes", "Pictures and meshes of combined quadrics",
+           {"shapes --figure notch,stars", "shapes --mesh obj --no-figures --out out/bodies"}, "", "", ""),
+      simulation("simulate", "A scenario of moving bodies, with a proof of what was avoided",
+                 {"simulate scenario.yaml", "simulate scenario.yaml --json --no-figures --out out/flight"},
+                 "", kNothing),
+      simulation("campaign", "Guidance laws on random engagements, every outcome proved",
+                 {"campaign -N 2000", "campaign -N 500 --laws clearance --required 0.5 --out out/clear"},
+                 "a body met that a proved statement had called safe", kGoesOn),
+      simulation("claims", "What the source prints in chapters 5 and 6 beside what is measured",
+                 {"claims", "claims --json --quiet --out out/claims"}, "", kNothing),
+      simulation("figures", "The figures of the source's chapters 5 and 6, with a report",
+                 {"figures --list", "figures 5.6 6.13 --out out/two"}, "", "figures done by then are there"),
+      {"verify",
+       "Hold the library against exact constructions (CGAL)",
+       {"verify --cases 1000 --pairs 10", "verify --cases 0 --pairs 100 --seed 7 --json"},
+       "an answer was wrong",
+       "",
+       "what was done by then is printed",
+       "a command without CGAL",
+       "a build with VERICONE_VERIFY"}};
   return entries;
 }
 
@@ -39,6 +90,23 @@ const CatalogueEntry* find_entry(const std::string& name) {
   const auto it = std::find_if(catalogue().begin(), catalogue().end(),
                                [&](const CatalogueEntry& entry) { return entry.name == name; });
   return it == catalogue().end() ? nullptr : &*it;
+}
+
+std::string help_end(const CatalogueEntry& entry) {
+  const auto also = [](const std::string& more) { return more.empty() ? "" : "; " + more; };
+  std::string text = "Examples:\n";
+  for (const std::string& words : entry.examples) text += "  vericone " + words + "\n";
+  return text +
+         "\nExit status:\n"
+         "  0    done\n"
+         "  1    something outside the program failed, such as a disk" +
+         (entry.failed.empty() ? "" : "; or " + entry.failed) +
+         "\n"
+         "  2    bad input, named in one line" +
+         also(entry.bad) +
+         "\n"
+         "  130  interrupted" +
+         also(entry.stopped) + "\n";
 }
 
 }  // namespace vericone

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <iostream>
 #include <list>
 #include <optional>
@@ -32,7 +33,63 @@ bool has_value(const std::vector<T>& value) {
   return !value.empty();
 }
 
+/// How many letters have to be typed anew, put in, left out or exchanged with the next to get from one word
+/// to the other.
+std::size_t letters_between(const std::string& a, const std::string& b) {
+  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i)
+    for (std::size_t k = 0; k <= b.size(); ++k) {
+      if (i == 0 || k == 0) {
+        d[i][k] = i + k;
+        continue;
+      }
+      d[i][k] = std::min({d[i - 1][k] + 1, d[i][k - 1] + 1, d[i - 1][k - 1] + (a[i - 1] != b[k - 1])});
+      if (i > 1 && k > 1 && a[i - 1] == b[k - 2] && a[i - 2] == b[k - 1])
+        d[i][k] = std::min(d[i][k], d[i - 2][k - 2] + 1);
+    }
+  return d[a.size()][b.size()];
+}
+
+/// ", did you mean ...", or nothing where no word is near.
+std::string nearest(const std::string& word, const std::vector<std::string>& known) {
+  constexpr std::size_t kLongest = 40;  // no command or option is longer
+  if (word.size() > kLongest) return "";
+  std::string best;
+  std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
+  for (const std::string& candidate : known) {
+    // The beginning of a word is near, however much follows.
+    const bool begins = word.size() > 3 && candidate.starts_with(word);
+    const std::size_t distance = begins ? 1 : letters_between(word, candidate);
+    if (distance >= least) continue;
+    least = distance;
+    best = candidate;
+  }
+  return best.empty() ? "" : ", did you mean " + best;
+}
+
+/// The first word that is written as an option and is none: it is the mistake, whatever else is missing then.
+void refuse_unknown_options(const CLI::App& app, const std::vector<std::string>& words) {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  for (const std::string& word : words) {
+    if (word == "--") return;
+    const bool is_long = word.size() > 2 && word.starts_with("--");
+    const bool is_short = !is_long && word.size() > 1 && word[0] == '-' &&
+                          std::isalpha(static_cast<unsigned char>(word[1])) != 0;
+    if (!is_long && !is_short) continue;
+    const std::string name = is_long ? word.substr(0, word.find('=')) : word.substr(0, 2);
+    if (app.get_option_no_throw(name) == nullptr) {
+      const std::string shown = is_long ? name : word;
+      throw UsageError("no option " + shown + nearest(is_long ? shown : "-" + shown, known));
+    }
+  }
+}
+
 void read_words(CLI::App& app, const std::vector<std::string>& words) {
+  const bool asks = std::any_of(words.begin(), words.end(),
+                                [](const std::string& word) { return word == "-h" || word == "--help"; });
+  if (!asks) refuse_unknown_options(app, words);
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::CallForHelp& e) {
@@ -100,8 +157,10 @@ struct CommandLine::Parser {
 };
 
 CommandLine::CommandLine(const std::string& called, std::string name, const std::string& what,
-                         std::vector<std::string> words)
-    : parser_(std::make_unique<Parser>(what, called)), name_(std::move(name)), words_(std::move(words)) {}
+                         const std::string& end, std::vector<std::string> words)
+    : parser_(std::make_unique<Parser>(what, called)), name_(std::move(name)), words_(std::move(words)) {
+  parser_->app.footer(end);
+}
 
 CommandLine::~CommandLine() = default;
 
@@ -136,13 +195,19 @@ void CommandLine::negative_flag(const std::string& name, bool& target, const std
   parser_->app.add_flag(name, parser_->negative.emplace_back(false, &target).first, what);
 }
 
+void CommandLine::quiet() { flag("--quiet", quiet_, "No progress; this command shows none"); }
+
 void CommandLine::read() {
   // Every program of the family knows its version; the help of the whole family says so once.
   if (words_ == std::vector<std::string>{"--version"}) {
     std::cout << version_line() << '\n';
     throw Answered{};
   }
-  read_words(parser_->app, words_);
+  try {
+    read_words(parser_->app, words_);
+  } catch (const UsageError& e) {
+    throw UsageError(e.what() + (" (see vericone " + name_) + " --help)");
+  }
   for (const auto& [given, target] : parser_->negative)
     if (given) *target = false;
 }
@@ -158,10 +223,28 @@ void answer_without_command(const std::string& called,
                             const std::vector<std::string>& words) {
   CLI::App app("Collision cones with certified bounds", called);
   app.set_version_flag("--version", version_line());
-  app.require_subcommand(1);
   for (const auto& [name, what] : commands) app.add_subcommand(name, what);
-  read_words(app, words);
-  throw UsageError("A subcommand is required");
+  app.footer("vericone COMMAND --help says what a command takes, with examples.");
+  if (words.empty()) {
+    std::cerr << app.help();
+    throw UsageError("no command given");
+  }
+  constexpr const char* kHint = " (see vericone --help)";
+  if (!words.front().starts_with("-")) {
+    std::vector<std::string> names;
+    names.reserve(commands.size());
+    for (const auto& [name, what] : commands) names.push_back(name);
+    std::string instead = nearest(words.front(), names);
+    for (const std::string& name : names)
+      if (!instead.starts_with(", did")) instead.append(instead.empty() ? "; there are " : ", ").append(name);
+    throw UsageError("no subcommand " + words.front() + instead + kHint);
+  }
+  try {
+    read_words(app, words);
+  } catch (const UsageError& e) {
+    throw UsageError(std::string(e.what()) + kHint);
+  }
+  throw UsageError(std::string("no command given") + kHint);
 }
 
 }  // namespace vericone

@@ -13,7 +13,7 @@
 
 namespace vericone {
 
-/// The words are wrong: exit status 2, with a hint to the help.
+/// The words are wrong: exit status 2. The text ends with a hint to the help that would have told.
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -43,8 +43,9 @@ class CommandLine {
     void* option_;  // belongs to the parser
   };
 
-  /// `called`: the words up to the command's name as they were typed. `what`: the command in one line.
-  CommandLine(const std::string& called, std::string name, const std::string& what,
+  /// `called`: the words up to the command's name as they were typed. `what`: the command in one line. `end`:
+  /// what its help ends with.
+  CommandLine(const std::string& called, std::string name, const std::string& what, const std::string& end,
               std::vector<std::string> words);
   ~CommandLine();
 
@@ -57,6 +58,9 @@ class CommandLine {
   /// A flag such as --no-figures, which makes `target` false.
   void negative_flag(const std::string& name, bool& target, const std::string& what);
 
+  /// --quiet of a command that shows no progress: the word is taken, so that scripts may say it to all.
+  void quiet();
+
   /// Fills what was declared. Throws UsageError, or Answered after a help or version.
   void read();
 
@@ -68,10 +72,11 @@ class CommandLine {
   std::unique_ptr<Parser> parser_;
   std::string name_;
   std::vector<std::string> words_;
+  bool quiet_ = false;
 };
 
 /// Answers words that do not begin with a command: the help that lists `commands` (names, and what they do),
-/// the version, or what is wrong. Throws UsageError or Answered.
+/// the version, or what is wrong, with the help where there are no words. Throws UsageError or Answered.
 [[noreturn]] void answer_without_command(const std::string& called,
                                          const std::vector<std::pair<std::string, std::string>>& commands,
                                          const std::vector<std::string>& words);

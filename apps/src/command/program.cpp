@@ -26,7 +26,7 @@ int guarded(Work work) {
   } catch (const Answered&) {
     return 0;
   } catch (const UsageError& e) {
-    std::cerr << "vericone: " << plain_text(e.what()) << " (see vericone --help)\n";
+    std::cerr << "vericone: " << plain_text(e.what()) << '\n';
     return 2;
   } catch (const InputError& e) {
     std::cerr << "vericone: " << plain_text(e.what()) << '\n';
@@ -43,7 +43,7 @@ int guarded(Work work) {
 int carry_out(Command command, const std::string& called, const std::string& name,
               std::vector<std::string> words) {
   const CatalogueEntry* entry = find_entry(name);
-  CommandLine line(called, name, entry ? entry->what : "", std::move(words));
+  CommandLine line(called, name, entry ? entry->what : "", entry ? help_end(*entry) : "", std::move(words));
   return command(line);
 }
 
@@ -80,7 +80,8 @@ int run_family(int argc, char** argv, const std::map<std::string, Command>& comm
   return guarded([&] {
     const std::string program = program_of(argc, argv);
     std::vector<std::string> words = words_of(argc, argv);
-    // `vericone --help NAME` is `vericone NAME --help`.
+    // `vericone help NAME` and `vericone --help NAME` are `vericone NAME --help`.
+    if (!words.empty() && words[0] == "help") words[0] = "--help";
     if (words.size() > 1 && (words[0] == "--help" || words[0] == "-h")) std::swap(words[0], words[1]);
     if (words.empty() || words[0].starts_with("-")) answer_without_command(program, listed(commands), words);
 

@@ -137,7 +137,9 @@ void write_files(const Answer& a, const FitCommandOptions& given, StagedFolder& 
   write_whole(stage / "body.yaml", fit::body_yaml(a.bodies, comment));
   write_whole(stage / "hull.obj", fit::hull_obj(surfaces));
   write_whole(stage / "hull.ply", fit::hull_ply(surfaces));
-  write_whole(stage / "provenance.json", provenance(given.command_line).dump(1) + "\n");
+  std::vector<fs::path> inputs{given.file};
+  if (fs::is_regular_file(given.cone)) inputs.emplace_back(given.cone);
+  write_whole(stage / "provenance.json", provenance(given.command_line, 1, inputs).dump(1) + "\n");
   if (!given.figures) return;
   progress.show("drawing", 0);
   const std::string title = title_of(a.scan, a.result);

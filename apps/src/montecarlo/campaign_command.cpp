@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <ostream>
-#include <thread>
 
 #include "figures.h"
 #include "interrupt.h"
@@ -15,6 +14,7 @@
 #include "provenance.h"
 #include "resumable_table.h"
 #include "stopwatch.h"
+#include "threads.h"
 
 namespace vericone::montecarlo {
 namespace {
@@ -29,8 +29,7 @@ void require_positive(const char* option, double value, const char* unit) {
 void validate(const CampaignOptions& o) {
   if (o.engagements < 1 || o.engagements > 100'000'000)
     throw InputError("--engagements", std::to_string(o.engagements), "between 1 and 100000000");
-  if (o.threads < 0 || o.threads > 1024)
-    throw InputError("--threads", std::to_string(o.threads), "between 1 and 1024, or 0 for all");
+  threads_for(o.threads);
   require_positive("--most", o.most, " (m/s^2)");
   if (!(o.most < kUnlimited))
     throw InputError("--most", to_text(o.most),
@@ -70,8 +69,7 @@ int run_campaign(const CampaignOptions& options, std::ostream& out) {
   table.settings = settings_line(options);
   table.header = csv_header(laws);
   table.count = options.engagements;
-  table.threads = options.threads > 0 ? options.threads
-                                      : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  table.threads = threads_for(options.threads);
   table.quiet = options.quiet;
   table.label = "engagements";
   table.row = [&](std::uint64_t i) { return csv_row(i, measure(options.seed, i, laws, settings)); };
@@ -86,7 +84,7 @@ int run_campaign(const CampaignOptions& options, std::ostream& out) {
   summary["violations"] = violations(summary);
   write_whole(folder / "summary.json", summary.dump(1) + "\n");
   write_whole(folder / "summary.csv", summary_csv(summary));
-  write_whole(folder / "provenance.json", provenance(options.command_line).dump(1) + "\n");
+  write_whole(folder / "provenance.json", provenance(options.command_line, table.threads, {}).dump(1) + "\n");
   std::vector<fs::path> pictures;
   if (options.figures) pictures = draw_figures("engagement_campaign.py", folder);
   if (options.json) {

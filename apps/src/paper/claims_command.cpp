@@ -24,7 +24,7 @@ Json claims_json(const std::vector<Claim>& claims, const std::string& command_li
   for (const Claim& claim : claims) list.push_back(dhal2022::to_json(claim));
   return {{"claims", list},
           {"verdicts", dhal2022::count_verdicts(claims)},
-          {"provenance", provenance(command_line)}};
+          {"provenance", provenance(command_line, 1, scenario_files())}};
 }
 
 void print_table(const std::vector<Claim>& claims, bool given, std::ostream& out) {

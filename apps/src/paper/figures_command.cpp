@@ -21,6 +21,7 @@
 #include "simulate/run_files.h"
 #include "staged_folder.h"
 #include "stopwatch.h"
+#include "threads.h"
 
 namespace vericone {
 namespace {
@@ -56,7 +57,11 @@ class Maker {
       measure_accuracy(figure, folder.path(), origin);
     else
       draw(figure, folder.path(), origin);
-    origin["provenance"] = provenance(options_.command_line);
+    std::vector<fs::path> inputs;
+    for (const auto& [role, scenario] : figure.runs) inputs.push_back(runs_.run(scenario).file);
+    // Fig 6.5 alone is computed in parallel.
+    origin["provenance"] =
+        provenance(options_.command_line, figure.script.empty() ? threads_for(0) : 1, inputs);
     write_whole(folder.path() / (figure.name() + ".json"), origin.dump(1) + "\n");
     folder.publish({});
   }
@@ -74,7 +79,7 @@ class Maker {
     }
     Json list = Json::array();
     for (const auto& claim : claims) list.push_back(dhal2022::to_json(claim));
-    const Json origin = provenance(options_.command_line);
+    const Json origin = provenance(options_.command_line, 1, scenario_files());
     StagedFolder folder(out_, "--out");
     write_whole(
         folder.path() / "claims.json",
@@ -136,7 +141,17 @@ class Maker {
   std::set<std::string> written_;
 };
 
-void print_list(const std::vector<Figure>& figures, std::ostream& out) {
+Json list_json(const std::vector<Figure>& figures) {
+  Json list = Json::array();
+  for (const Figure& figure : figures) list.push_back({{"figure", figure.id}, {"caption", figure.caption}});
+  return list;
+}
+
+void print_list(const std::vector<Figure>& figures, bool json, std::ostream& out) {
+  if (json) {
+    out << list_json(figures).dump(1) << '\n';
+    return;
+  }
   for (const Figure& figure : figures) out << figure.id << "\t" << figure.caption << '\n';
 }
 
@@ -145,7 +160,7 @@ void print_list(const std::vector<Figure>& figures, std::ostream& out) {
 int run_figures(const FiguresOptions& options, std::ostream& out) {
   const std::vector<Figure> figures = dhal2022::choose_figures(options.ids);
   if (options.list) {
-    print_list(figures, out);
+    print_list(figures, options.json, out);
     return 0;
   }
   const OutputFolder whole(options.out, "--out");
@@ -166,6 +181,16 @@ int run_figures(const FiguresOptions& options, std::ostream& out) {
   }
   const double seconds = seconds_since(start);
   const fs::path folder = options.out;
+  if (options.json) {
+    out << Json{{"figures", list_json(figures)},
+                {"folder", folder.string()},
+                {"claims", (folder / "claims.json").string()},
+                {"report", (folder / "report.html").string()},
+                {"seconds", seconds}}
+               .dump(1)
+        << '\n';
+    return 0;
+  }
   out << "figures             " << figures.size() << ", as PDF, PNG, CSV and JSON, in " << folder.string()
       << '\n'
       << "claims              " << (folder / "claims.json").string() << '\n'

@@ -12,6 +12,7 @@ struct FiguresOptions {
   std::string out = "out/dhal2022";
   bool list = false;
   bool quiet = false;
+  bool json = false;
   std::string command_line;
 };
 

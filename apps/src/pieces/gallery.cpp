@@ -10,6 +10,7 @@
 #include <numbers>
 #include <optional>
 
+#include "figures.h"
 #include "input/assembly_body.h"
 #include "interrupt.h"
 #include "json_value.h"
@@ -17,6 +18,7 @@
 #include "pieces/assembly_cone.h"
 #include "pieces/pieces_picture.h"
 #include "provenance.h"
+#include "threads.h"
 
 namespace vericone {
 namespace {
@@ -98,9 +100,15 @@ class Gallery {
     const fs::path folder = options_.out;
     write_whole(folder / "gallery.json", Json{{"rows", rows_}}.dump(1) + "\n");
     write_whole(folder / "gallery.md", table());
-    Json origin = provenance(options_.command_line);
+    std::vector<fs::path> inputs;
+    for (const Json& row : rows_) {
+      const fs::path file = row["file"].get<std::string>();
+      if (inputs.empty() || inputs.back() != file) inputs.push_back(file);
+    }
+    Json origin = provenance(options_.command_line, threads_, inputs);
     origin["radius"] = options_.radius;
     write_whole(folder / "provenance.json", origin.dump(1) + "\n");
+    if (options_.json) out_ << Json{{"rows", rows_}}.dump(1) << '\n';
   }
 
   bool failed() const { return failed_; }
@@ -118,14 +126,15 @@ class Gallery {
     Json whole = to_json(cone, e);
     if (options_.resolution > 0)
       whole["map"] =
-          map_answer(cone.oracle, {options_.resolution, std::nullopt}, cone.frame.axis, "").summary;
+          map_answer(cone.oracle, {options_.resolution, std::nullopt, threads_}, cone.frame.axis, "").summary;
     write_whole(folder / "cone.json", whole.dump(1) + "\n");
     row["cone"] = summary(whole, cone);
     Json pictures = Json::array();
     if (options_.figures)
-      for (const auto& picture : draw_pieces(cone, e, folder)) pictures.push_back(picture.string());
+      for (const auto& picture : draw_figures(write_pieces_picture(cone, e, folder, threads_), folder))
+        pictures.push_back(picture.string());
     row["pictures"] = pictures;
-    out_ << line(row) << '\n' << std::flush;
+    if (!options_.json) out_ << line(row) << '\n' << std::flush;
     rows_.push_back(row);
   }
 
@@ -189,6 +198,7 @@ class Gallery {
 
   const GalleryOptions& options_;
   std::ostream& out_;
+  int threads_ = threads_for(options_.threads);
   Json rows_ = Json::array();
   bool failed_ = false;
 };
@@ -205,7 +215,7 @@ int run_gallery(const GalleryOptions& options, std::ostream& out) {
   catch_interrupts();
   Gallery gallery(options, out);
   for (std::size_t i = 0; i < files.size() && !interrupted(); ++i) {
-    std::cerr << "[" << i + 1 << "/" << files.size() << "] " << files[i].string() << '\n';
+    if (!options.quiet) std::cerr << "[" << i + 1 << "/" << files.size() << "] " << files[i].string() << '\n';
     try {
       gallery.add(files[i]);
     } catch (const InputError& e) {

@@ -14,7 +14,10 @@ struct GalleryOptions {
   double tolerance = 1e-4;   // radians
   double resolution = 0.05;  // of the cone map, radians; 0: none
   double radius = 0.005;     // of a cloud's points, in parts of its largest side
+  int threads = 0;           // of maps and pictures; 0: one per processor
   bool figures = true;
+  bool quiet = false;
+  bool json = false;
   std::string command_line;
 };
 

@@ -16,6 +16,7 @@
 #include "provenance.h"
 #include "slice_json.h"
 #include "stopwatch.h"
+#include "threads.h"
 
 namespace vericone {
 namespace {
@@ -98,7 +99,7 @@ void run_pieces_cone(const ConeOptions& options, const input::AssemblyEngagement
                                           options.tolerance.value_or(kDefaultAngle));
   const bool drawn = !options.picture_folder.empty();
   if (drawn && cone.relation != Relation::disjoint)
-    throw InputError("--picture", options.picture_folder, "asked for disjoint bodies only");
+    throw InputError("--out", options.picture_folder, "asked for disjoint bodies only");
   MapAnswer map;
   if (options.map) map = map_answer(cone.oracle, *options.map, cone.frame.axis, describe(e.obstacle));
   if (options.json) {
@@ -115,9 +116,11 @@ void run_pieces_cone(const ConeOptions& options, const input::AssemblyEngagement
   if (!drawn) return;
   const std::filesystem::path folder = options.picture_folder;
   std::filesystem::create_directories(folder);
-  auto files = draw_pieces(cone, e, folder);
+  const std::string script = write_pieces_picture(cone, e, folder, threads_for(options.threads));
+  if (options.map) write_whole(folder / "cone_map.json", map.picture.dump() + "\n");
+  if (!options.figures) return;
+  auto files = draw_figures(script, folder);
   if (options.map) {
-    write_whole(folder / "cone_map.json", map.picture.dump() + "\n");
     const auto more = draw_figures("cone_map.py", folder);
     files.insert(files.end(), more.begin(), more.end());
   }

@@ -47,7 +47,7 @@ Box bounds_of(const input::AssemblyEngagement& e) {
 
 /// Metres to the first contact in each direction, row by row; null where none comes.
 template <typename Direction>
-Json distances(const AssemblyOracle& oracle, int rows, int columns, Direction direction) {
+Json distances(const AssemblyOracle& oracle, int rows, int columns, int thread_count, Direction direction) {
   std::vector<std::vector<double>> found(static_cast<std::size_t>(rows));
   std::atomic<int> next = 0;
   const auto work = [&] {
@@ -60,7 +60,7 @@ Json distances(const AssemblyOracle& oracle, int rows, int columns, Direction di
     }
   };
   std::vector<std::jthread> threads;
-  for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) threads.emplace_back(work);
+  for (int i = 1; i < thread_count; ++i) threads.emplace_back(work);
   work();
   threads.clear();
   Json all = Json::array();
@@ -75,7 +75,7 @@ Json distances(const AssemblyOracle& oracle, int rows, int columns, Direction di
 
 /// Directions around the axis, equally far from it as from the middle of the picture, whose upwards and right
 /// are those of who looks along the axis.
-Json view_along_axis(const AssemblyCone& cone, const Eigen::Vector3d& w) {
+Json view_along_axis(const AssemblyCone& cone, const Eigen::Vector3d& w, int threads) {
   const Eigen::Vector3d& axis = cone.frame.axis;
   Eigen::Vector3d right = axis.cross(Eigen::Vector3d::UnitZ());
   right = right.norm() > 1e-9 ? right.normalized() : Eigen::Vector3d(cone.frame.e1);
@@ -95,18 +95,18 @@ Json view_along_axis(const AssemblyCone& cone, const Eigen::Vector3d& w) {
   return {{"reach", reach},
           {"up", vector_json(up)},
           {"right", vector_json(right)},
-          {"distances", distances(cone.oracle, kPixels, kPixels, direction)}};
+          {"distances", distances(cone.oracle, kPixels, kPixels, threads, direction)}};
 }
 
 /// All directions by azimuth (-180 to 180 degrees from x towards y) and elevation (-90 to 90).
-Json panorama(const AssemblyCone& cone) {
+Json panorama(const AssemblyCone& cone, int threads) {
   const auto direction = [](int row, int column) -> Eigen::Vector3d {
     const double elevation = pi * ((row + 0.5) / kPanoramaHeight - 0.5),
                  azimuth = 2 * pi * ((column + 0.5) / kPanoramaWidth - 0.5);
     return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
             std::sin(elevation)};
   };
-  return distances(cone.oracle, kPanoramaHeight, kPanoramaWidth, direction);
+  return distances(cone.oracle, kPanoramaHeight, kPanoramaWidth, threads, direction);
 }
 
 Json velocity_json(const AssemblyCone& cone, const input::AssemblyEngagement& e) {
@@ -123,8 +123,8 @@ Json velocity_json(const AssemblyCone& cone, const input::AssemblyEngagement& e)
 
 }  // namespace
 
-std::vector<std::filesystem::path> draw_pieces(const AssemblyCone& cone, const input::AssemblyEngagement& e,
-                                               const std::filesystem::path& folder) {
+std::string write_pieces_picture(const AssemblyCone& cone, const input::AssemblyEngagement& e,
+                                 const std::filesystem::path& folder, int threads) {
   const Box agent = bounds_of(e);
   const bool within = e.obstacle.pieces.bounds().contains(e.obstacle.pose.to_body(agent.center()));
   Json data = to_json(cone, e);
@@ -134,13 +134,13 @@ std::vector<std::filesystem::path> draw_pieces(const AssemblyCone& cone, const i
   if (within) {
     data["top"] = top_view(e.obstacle, agent.low.z(), agent.high.z());
     data["heights"] = {agent.low.z(), agent.high.z()};
-    data["panorama"] = panorama(cone);
+    data["panorama"] = panorama(cone, threads);
   } else {
     data["body"] = shown_pieces(e.obstacle);
-    data["view"] = view_along_axis(cone, e.agent_velocity - e.obstacle_velocity);
+    data["view"] = view_along_axis(cone, e.agent_velocity - e.obstacle_velocity, threads);
   }
   write_whole(folder / "pieces.json", data.dump() + "\n");
-  return draw_figures(within ? "panorama.py" : "pieces.py", folder);
+  return within ? "panorama.py" : "pieces.py";
 }
 
 }  // namespace vericone

@@ -18,6 +18,7 @@ int scan_command(vericone::CommandLine& line) {
   line.option("--seed", scan.seed, "Seed of all random numbers");
   line.negative_flag("--no-figures", scan.figures, "Cloud and tables only");
   line.flag("--quiet", scan.quiet, "No progress");
+  line.flag("--json", scan.json, "Print JSON: scan.json");
   line.read();
   scan.command_line = line.text();
   vericone::run_scan(scan, std::cout);

@@ -19,6 +19,7 @@
 #include "scan/study.h"
 #include "scan/study_parts.h"
 #include "slice_json.h"
+#include "threads.h"
 
 namespace vericone {
 namespace {
@@ -143,15 +144,22 @@ void run_scan(const ScanOptions& options, std::ostream& out) {
   write_whole(folder / "cloud.ply", ply(seen.points));
   write_whole(folder / "scan.json", result.dump(1) + "\n");
   write_whole(folder / "section.json", parsed(plane_section_picture(setup, options.azimuth)).dump() + "\n");
-  write_whole(folder / "provenance.json", provenance(options.command_line).dump(1) + "\n");
-  out << "obstacle            " << describe(scene.engagement.obstacle) << '\n';
-  print(result, out);
-  out << "written             " << (folder / "cloud.ply").string() << ", " << (folder / "scan.json").string()
-      << '\n';
+  // The lidars' rays run on all processors.
+  const std::vector<std::filesystem::path> inputs{
+      options.scene, std::filesystem::path(options.scene).parent_path() / scene.engagement.obstacle.file};
+  write_whole(folder / "provenance.json",
+              provenance(options.command_line, threads_for(0), inputs).dump(1) + "\n");
+  std::ostream silent(nullptr);
+  std::ostream& text = options.json ? silent : out;
+  if (options.json) out << result.dump(1) << '\n';
+  text << "obstacle            " << describe(scene.engagement.obstacle) << '\n';
+  print(result, text);
+  text << "written             " << (folder / "cloud.ply").string() << ", " << (folder / "scan.json").string()
+       << '\n';
   if (options.figures)
     for (const char* script : {"visible_section.py", "scan_convergence.py"})
       for (const auto& file : draw_figures(script, folder))
-        out << "picture             " << file.string() << '\n';
+        text << "picture             " << file.string() << '\n';
 }
 
 }  // namespace vericone

@@ -16,6 +16,7 @@ struct ScanOptions {
   std::uint64_t seed = 1;
   bool figures = true;
   bool quiet = false;
+  bool json = false;
   std::string command_line;
 };
 

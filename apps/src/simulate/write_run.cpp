@@ -38,7 +38,7 @@ Json run_json(const simulation::Scenario& scenario, const simulation::Run& run, 
           {"events", run.events.size()},
           {"seconds", origin.seconds},
           {"real_time_factor", run.end / origin.seconds},
-          {"provenance", provenance(origin.command_line)}};
+          {"provenance", provenance(origin.command_line, 1, {origin.file})}};
 }
 
 void write_run(const simulation::Scenario& scenario, const simulation::Run& run, const RunOrigin& origin,

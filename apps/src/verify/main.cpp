@@ -15,6 +15,7 @@ int verify_command(vericone::CommandLine& line) {
       .within(0, 10'000'000);
   line.option("--seed", verify.seed, "Seed of all random numbers");
   line.option("--threads", verify.threads, "Threads, 0: one per processor");
+  line.flag("--quiet", verify.quiet, "No progress");
   line.flag("--json", verify.json, "Print JSON");
   line.read();
   return vericone::run_verify(verify, std::cout);

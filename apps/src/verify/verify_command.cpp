@@ -8,6 +8,7 @@
 #include <vericone/verify/predicate_campaign.h>
 #include <vericone/verify/spatial_campaign.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <ostream>
@@ -23,7 +24,10 @@ namespace {
 /// One line on standard error: rewritten on a terminal, elsewhere printed once a step.
 class CaseProgress {
  public:
+  explicit CaseProgress(bool quiet) : quiet_(quiet) {}
+
   void show(const std::string& what, std::uint64_t done, std::uint64_t total) {
+    if (quiet_) return;
     const auto now = std::chrono::steady_clock::now();
     if (!terminal_ && done < total) return;
     if (done < total && now - last_ < std::chrono::milliseconds(200)) return;
@@ -35,7 +39,7 @@ class CaseProgress {
   }
 
  private:
-  bool terminal_ = isatty(STDERR_FILENO) != 0;
+  bool quiet_, terminal_ = isatty(STDERR_FILENO) != 0;
   std::chrono::steady_clock::time_point last_;
 };
 
@@ -54,6 +58,30 @@ struct Results {
     for (const auto& r : assemblies) sum += r.failures();
     return sum;
   }
+
+  /// What was held against something exact.
+  std::uint64_t statements() const {
+    std::uint64_t sum = 0;
+    for (const auto& r : predicates) sum += r.compared_with_exact + r.checked_against_cgal;
+    for (const auto* reports : {&by_support, &by_conics})
+      for (const auto& r : *reports) sum += r.cases;
+    for (const auto& r : spatial)
+      for (const verify::Check* check : {&r.relation, &r.polyhedra, &r.march, &r.perturbed, &r.solid_angle,
+                                         &r.inner_bound, &r.outer_bound, &r.slices, &r.clearance})
+        sum += check->tried;
+    for (const auto& r : assemblies)
+      for (const verify::Check* check : {&r.relation, &r.membership, &r.contact, &r.contact_point, &r.miss,
+                                         &r.extreme, &r.map_out, &r.map_in})
+        sum += check->tried;
+    return sum;
+  }
+
+  /// True intervals that are not as narrow as they were asked to be.
+  std::uint64_t wider_than_asked() const {
+    std::uint64_t sum = 0;
+    for (const auto& r : assemblies) sum += r.tight.failed;
+    return sum;
+  }
 };
 
 constexpr verify::AgentKind kAgents[] = {verify::AgentKind::ball, verify::AgentKind::ellipsoid,
@@ -62,7 +90,7 @@ constexpr PieceKind kPieces[] = {PieceKind::triangle, PieceKind::ball, PieceKind
 
 Results run(const VerifyOptions& o) {
   Results results;
-  CaseProgress progress;
+  CaseProgress progress(o.quiet);
   verify::PredicateOptions options;
   options.cases = o.cases;
   options.seed = o.seed;
@@ -161,7 +189,11 @@ nlohmann::json assembly_json(const std::vector<verify::AssemblyReport>& reports)
 void print_json(const VerifyOptions& o, const Results& r, std::ostream& out) {
   Json j;
   j["seed"] = o.seed;
+  j["cases"] = o.cases;
+  j["pairs"] = o.pairs;
   j["wrong"] = r.wrong();
+  j["statements"] = r.statements();
+  j["wider_than_asked"] = r.wider_than_asked();
   j["interrupted"] = interrupted();
   j["predicates"] = Json::parse(verify::to_json(r.predicates));
   j["sector_by_support"] = planar_json(r.by_support);
@@ -171,7 +203,22 @@ void print_json(const VerifyOptions& o, const Results& r, std::ostream& out) {
   out << j.dump(2) << '\n';
 }
 
-void print_tables(const Results& r, std::ostream& out) {
+/// What was run for what was asked: predicates take whole blocks, and some a part of the cases.
+std::string what_ran(const VerifyOptions& o, const Results& r) {
+  std::string text;
+  if (!r.predicates.empty()) {
+    std::uint64_t least = r.predicates.front().cases, most = least;
+    for (const auto& p : r.predicates) least = std::min(least, p.cases), most = std::max(most, p.cases);
+    text += "--cases " + std::to_string(o.cases) + ": " + std::to_string(most) +
+            " of each predicate, in blocks of " + std::to_string(verify::kCasesPerBlock);
+    if (least < most) text += ", " + std::to_string(least) + " of the slowest";
+  }
+  if (o.pairs)
+    text += (text.empty() ? "" : "; ") + ("--pairs " + std::to_string(o.pairs)) + " of each family";
+  return text;
+}
+
+void print_tables(const VerifyOptions& o, const Results& r, std::ostream& out) {
   if (!r.predicates.empty()) out << "predicates\n\n" << verify::to_markdown(r.predicates) << '\n';
   if (!r.by_support.empty()) out << "sector_by_support\n\n" << verify::to_markdown(r.by_support) << '\n';
   if (!r.by_conics.empty())
@@ -183,6 +230,9 @@ void print_tables(const Results& r, std::ostream& out) {
     if (p.first_wrong)
       out << "WRONG: " << p.predicate << ", " << p.wrong << " cases, the first is replay_predicate(\""
           << p.predicate << "\", " << p.seed << ", " << *p.first_wrong << ")\n";
+  out << what_ran(o, r) << '\n'
+      << (interrupted() ? "interrupted; by then " : "") << r.wrong() << " wrong of " << r.statements()
+      << " statements; " << r.wider_than_asked() << " intervals wider than asked (not wrong)\n";
 }
 
 }  // namespace
@@ -190,7 +240,7 @@ void print_tables(const Results& r, std::ostream& out) {
 int run_verify(const VerifyOptions& options, std::ostream& out) {
   catch_interrupts();
   const Results results = run(options);
-  options.json ? print_json(options, results, out) : print_tables(results, out);
+  options.json ? print_json(options, results, out) : print_tables(options, results, out);
   out.flush();
   if (results.wrong()) return 1;
   return interrupted() ? kExitInterrupted : 0;

@@ -11,6 +11,7 @@ struct VerifyOptions {
   std::uint64_t pairs = 30;       // of each family of the sectors and cones; 0: none
   std::uint64_t seed = 1;
   unsigned threads = 0;  // 0: one per processor
+  bool quiet = false;
   bool json = false;
 };
 
