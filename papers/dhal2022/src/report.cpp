@@ -25,8 +25,10 @@ th { font-weight: 600; } td.n { color: #555; }
 .source { background: #eadff3; } .weak { background: #e3ebf3; }
 details { margin: .4rem 0; } summary { cursor: pointer; color: #333; } pre { font-size: .75rem; overflow-x: auto;
   background: #f7f7f7; padding: .6rem; }
-nav { font-size: .9rem; } nav a { margin-right: .6rem; white-space: nowrap; }
-.scroll { overflow-x: auto; }
+nav { font-size: .9rem; display: flex; flex-wrap: wrap; gap: .4rem .8rem; }
+.scroll { overflow-x: auto; max-width: 100%; } .scroll table { min-width: 44rem; }
+code { overflow-wrap: anywhere; }
+@media (max-width: 40rem) { body { margin: 1rem auto; padding: 0 .6rem; } nav { font-size: 1rem; gap: .6rem 1rem; } }
 )";
 
 std::string escaped(const std::string& text) {
