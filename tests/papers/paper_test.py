@@ -220,12 +220,18 @@ class Independent(unittest.TestCase):
 class Page(html.parser.HTMLParser):
     def __init__(self):
         super().__init__(convert_charrefs=True)
-        self.open, self.pictures, self.links, self.headings = [], [], [], 0
+        self.open, self.pictures, self.links, self.headings, self.viewport = [], [], [], 0, ""
+        self.scrolling, self.bare_tables = [], 0
 
     def handle_starttag(self, tag, attributes):
         if tag not in ("img", "meta", "link", "br"):
             self.open.append(tag)
         self.headings += tag == "h2"
+        if tag == "div":
+            self.scrolling.append(("class", "scroll") in attributes)
+        self.bare_tables += tag == "table" and not any(self.scrolling)
+        if tag == "meta" and ("name", "viewport") in attributes:
+            self.viewport = dict(attributes)["content"]
         for name, value in attributes:
             if name == "src":
                 self.pictures.append(value)
@@ -235,6 +241,8 @@ class Page(html.parser.HTMLParser):
     def handle_endtag(self, tag):
         assert self.open and self.open[-1] == tag, (tag, self.open)
         self.open.pop()
+        if tag == "div":
+            self.scrolling.pop()
 
 
 class Figures(unittest.TestCase):
@@ -269,6 +277,11 @@ class Figures(unittest.TestCase):
             page.close()
             self.assertEqual(page.open, [])
             self.assertEqual(len(page.pictures), 5)
+            # A narrow screen: tables scroll by themselves, links wrap.
+            self.assertEqual(page.bare_tables, 0)
+            self.assertIn("width=device-width", page.viewport)
+            self.assertRegex(text, r"nav \{[^}]*flex-wrap: wrap")
+            self.assertRegex(text, r"\.scroll \{[^}]*overflow-x: auto")
             self.assertTrue(all(p.startswith("data:image/png;base64,") for p in page.pictures))
             self.assertTrue(all(link.startswith("#") for link in page.links))  # nothing is loaded
             for c in claims().values():

@@ -51,7 +51,10 @@ std::string outcome(const std::optional<simulation::PairProof>& proof) {
   const std::string verdict = simulation::to_string(proof->verdict);
   switch (proof->verdict) {
     case simulation::ProofVerdict::avoided:
-      return verdict + ", proved; never nearer than " + short_text(proof->least_distance, 3) + " m";
+      return verdict + ", proved; " +
+             (proof->least_distance < 1e-4
+                  ? "apart by next to nothing"
+                  : "never nearer than " + short_text(proof->least_distance, 3) + " m");
     case simulation::ProofVerdict::touched:
       return verdict + ", proved, at " + short_text(proof->to, 4) + " s";
     case simulation::ProofVerdict::undecided:
