@@ -49,9 +49,9 @@ def random_engagements(data):
     inset.grid(False)
 
     tiny = 1e-17
-    right.plot(samples, column(exact, "certified_bound", "worst"), "v-", color=BOUND, label="certified bound, worst")
+    right.plot(samples, column(exact, "certified_bound", "worst"), "v-", color=BOUND, label="bound, worst")
     right.plot(samples, column(exact, "certified_bound", "median"), "o-", color=BOUND, markerfacecolor="white",
-               label="certified bound, median")
+               label="bound, median")
     right.plot(samples, np.maximum(column(exact, "error", "worst"), tiny), "v-", color=EXACT, label="error, worst")
     right.plot(samples, np.maximum(column(exact, "error", "median"), tiny), "o-", color=EXACT, markerfacecolor="white",
                label="error, median")
@@ -63,8 +63,8 @@ def random_engagements(data):
     right.set_xlabel("boundary samples m")
     right.set_ylabel("relative area error")
     right.set_title("(c) exact: error and bound")
-    right.set_ylim(1e-24, 10)
-    right.legend(loc="lower left")
+    right.set_ylim(1e-18, 10)
+    right.legend(loc="lower left", fontsize=6, handlelength=1.6, labelspacing=0.3)
     figure.suptitle("%d %s" % (data["engagements"], data["drawn"]), fontsize=8)
     save(figure, "accuracy")
 

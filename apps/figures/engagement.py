@@ -53,10 +53,13 @@ if "gap_contact_time" in data:
     space.scatter(*point, color="red", s=14, depthshade=False)
     extent.append(moved.reshape(3, -1).T)
 extent = np.vstack(extent)
-space.set_box_aspect(np.ptp(extent, axis=0))
+space.set_box_aspect(np.ptp(extent, axis=0), zoom=0.88)  # room for the labels
 for name, i in (("x", 0), ("y", 1), ("z", 2)):
     getattr(space, "set_%slim" % name)(extent[:, i].min(), extent[:, i].max())
-    getattr(space, "set_%slabel" % name)("%s (m)" % name, labelpad=-4)
+    scale = getattr(space, name + "axis")
+    scale.set_rotate_label(False)  # otherwise the view may turn it upside down
+    scale.set_label_text("%s (m)" % name, rotation=0)
+    scale.labelpad = -3
 space.tick_params(pad=-2, labelsize=6)
 # Look across the plane that holds the line of centres and the velocity: the contact is then in profile.
 normal = np.cross(axis, gap)

@@ -14,24 +14,46 @@ shapes = {s["name"]: s for s in read("shapes.json")}
 planar = all(s["kind"] in ("ellipse", "dented_conic") for s in shapes.values())
 agents = list(dict.fromkeys(agent for agent, _ in encounters))
 COLORS = [EXACT, SLICE, OBSTACLE, BOUND, "#b0894f", GREY]
+DASHES = ["-", (0, (4, 1.2)), (0, (1, 1)), (0, (5, 1, 1, 1))]
+MANY = 8  # of lines or verticals: more of them nobody can tell apart
 end = run["end"]
 instants = np.linspace(0, end, 5)
 has_y = any(np.isfinite(c["y"]).any() for c in encounters.values())
 
 
+def look(i):
+    """Colour and dash of line i: different for all that a legend names."""
+    return {"color": COLORS[i % len(COLORS)], "linestyle": DASHES[i // len(COLORS) % len(DASHES)]}
+
+
+def look_of(pair):
+    """One agent: a line of its own for each obstacle, of the obstacle's colour in space. Several: that of the agent."""
+    return look(agents.index(pair[0]) if len(agents) > 1 else [o for _, o in encounters].index(pair[1]))
+
+
 def color_of(name):
-    return AGENT if name in agents else OBSTACLE
+    """As in the plots: a single agent is green, obstacles that it minds have the colour of their line."""
+    if name in agents:
+        return AGENT if len(agents) == 1 else look(agents.index(name))["color"]
+    if len(agents) == 1 and (agents[0], name) in encounters:
+        return look_of((agents[0], name))["color"]
+    return OBSTACLE
+
+
+def way_of(name):
+    return look(agents.index(name)) if len(agents) > 1 and name in agents else {"color": color_of(name)}
 
 
 figure = plt.figure(figsize=(TWO_COLUMNS, 4.3))
 if planar:
     space = figure.add_axes([0.07, 0.1, 0.47, 0.78])
     for name, columns in bodies.items():
-        space.plot(columns["x"], columns["y"], color=color_of(name), linewidth=0.8)
+        space.plot(columns["x"], columns["y"], linewidth=0.8, **way_of(name))
         for t in instants[instants >= columns["t"][0]]:
             space.fill(*outline(shapes[name], row_at(columns, t)).T, facecolor=color_of(name), edgecolor=color_of(name),
                        alpha=0.15 + 0.5 * t / end, linewidth=0.6)
-        space.annotate(name, (columns["x"][0], columns["y"][0]), fontsize=7)
+        space.annotate(name, (columns["x"][0], columns["y"][0]), fontsize=7, xytext=(4, 3), textcoords="offset points",
+                       color=way_of(name)["color"] if len(agents) > 1 else "k")
     space.set_aspect("equal", adjustable="datalim")
     space.set_xlabel("x (m)")
     space.set_ylabel("y (m)")
@@ -40,7 +62,8 @@ else:
     extent = []
     for name, columns in bodies.items():
         way = np.stack([columns[c] for c in "xyz"], axis=-1)
-        space.plot(*way.T, color=color_of(name), linewidth=0.9)
+        space.plot(*way.T, linewidth=0.9, **way_of(name))
+        before = len(extent)
         extent.append(way)
         for t in instants[instants >= columns["t"][0]]:
             row, alpha = row_at(columns, t), 0.12 + 0.4 * t / end
@@ -53,7 +76,9 @@ else:
                 points = surface(shapes[name], row)
                 space.plot_surface(*np.moveaxis(points, -1, 0), color=color_of(name), alpha=alpha, linewidth=0)
                 extent.append(points.reshape(-1, 3))
-        space.text(*way[0], name, fontsize=7)
+        # Above the first pose, where no body hides it.
+        first = np.vstack([np.reshape(p, (-1, 3)) for p in extent[before + 1:before + 2] or [way[:1]]])
+        space.text(*way[0][:2], first[:, 2].max(), name, fontsize=7, va="bottom", color=way_of(name)["color"] if len(agents) > 1 else "k")
     extent = np.vstack(extent)
     sides = np.maximum(np.ptp(extent, axis=0), 0.25 * np.ptp(extent, axis=0).max())
     middle_point = (extent.min(axis=0) + extent.max(axis=0)) / 2
@@ -66,7 +91,7 @@ else:
     space.locator_params(nbins=5)
 figure.text(0.01, 0.985, "%s: %s%s" % (run["scenario"], run["verdict"], "" if run["verdict"] == "undecided" else ", proved"),
             fontsize=9, va="top")
-figure.text(0.01, 0.945, "bodies at t = %s s, later ones darker; agents green" % ", ".join("%.3g" % t for t in instants),
+figure.text(0.01, 0.945, "bodies at t = %s s, later ones darker%s" % (", ".join("%.3g" % t for t in instants), "; the agent green" if len(agents) == 1 else "; plots in the agents' colours and dashes"),
             fontsize=7, va="top", color=GREY)
 
 if has_y:
@@ -74,10 +99,14 @@ if has_y:
 else:  # the clearance law has m alone
     middle, lower = panels = [figure.add_axes([0.66, bottom, 0.33, 0.39]) for bottom in (0.57, 0.11)]
 for i, ((agent, obstacle), columns) in enumerate(encounters.items()):
-    color, label = COLORS[i % len(COLORS)], obstacle if len(agents) == 1 else "%s, %s" % (agent, obstacle)
+    # Of several agents the legend names each once: its lines are those to all others.
+    label = obstacle if len(agents) == 1 else agent
+    style = dict(look_of((agent, obstacle)), linewidth=1.2 if len(encounters) <= MANY else 0.6)
+    if i and label in [line.get_label() for line in middle.get_lines()]:
+        label = None
     if has_y:
-        upper.plot(columns["t"], columns["y"], color=color, label=label)
-    middle.plot(columns["t"], columns["m"], color=color, label=label)
+        upper.plot(columns["t"], columns["y"], label=label, **style)
+    middle.plot(columns["t"], columns["m"], label=label, **style)
 if has_y:
     upper.set_ylabel("y, plane chosen (1)")
 middle.set_ylabel("miss distance m (m)")
@@ -89,20 +118,31 @@ for axis in panels:
     if axis is not lower:
         axis.set_xticklabels([])
 if encounters:
-    panels[0].legend(frameon=False, loc="best")
+    shown = panels[0].get_legend_handles_labels()[1]
+    if len(agents) == 1 and len(shown) > 4:  # room above the lines
+        low, high = panels[0].get_ylim()
+        panels[0].set_ylim(low, high + 0.1 * (1 + len(shown) // (1 + len(shown) // 5)) * (high - low))
+    if len(agents) == 1 or len(shown) <= 4:  # more agents: their names stand at their ways, in their colours
+        panels[0].legend(frameon=False, loc="best" if len(shown) <= 4 else "upper left", ncol=1 + len(shown) // 5, fontsize=7 if len(shown) <= 4 else 5.5,
+                         title=None if len(agents) == 1 else "agent, to each other body", title_fontsize=5.5,
+                         handlelength=2.2, columnspacing=1, labelspacing=0.3)
 for i, name in enumerate(n for n in bodies if np.any(bodies[n]["a"] > 0) or n in agents):
     columns = bodies[name]
     value = columns["lateral"] if planar else columns["a"]
-    lower.step(columns["t"], value, where="post", color=COLORS[i % len(COLORS)], label=name)
-if len(lower.get_lines()) > 2:
+    lower.step(columns["t"], value, where="post", label=name, linewidth=1.2 if len(agents) <= MANY else 0.6,
+               **way_of(name))
+if len(lower.get_lines()) > 2 and len(agents) == 1:
     lower.legend(frameon=False)
-for event in events:
-    if event["event"] in ("leaves-cone", "passes", "contact"):
-        style = {"leaves-cone": ":", "passes": "--", "contact": "-"}[event["event"]]
-        color = "red" if event["event"] == "contact" else GREY
-        for axis in panels:
-            axis.axvline(event["t"], color=color, linestyle=style, linewidth=0.7)
-figure.text(0.66, 0.985, "dotted: out of the cone, dashed: passes, red: meets", fontsize=6.5, va="top", color=GREY)
+marked = [e for e in events if e["event"] in ("leaves-cone", "passes", "contact")]
+if len(marked) > 2 * MANY:  # a forest says nothing; contacts always do
+    marked = [e for e in marked if e["event"] == "contact"]
+for event in marked:
+    dash = {"leaves-cone": ":", "passes": "--", "contact": "-"}[event["event"]]
+    color = "red" if event["event"] == "contact" else GREY
+    for axis in panels:
+        axis.axvline(event["t"], color=color, linestyle=dash, linewidth=0.7)
+forest = not any(e["event"] != "contact" for e in marked)
+figure.text(0.66, 0.985, "red: meets" if forest else "dotted: out of the cone, dashed: passes, red: meets", fontsize=6.5, va="top", color=GREY)
 for pair in proof["pairs"]:
     if pair["verdict"] == "touched":
         place = pair["place"][:2] if planar else pair["place"]

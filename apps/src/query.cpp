@@ -141,7 +141,7 @@ std::string answer_line(const std::string& line, std::size_t number, bool with_r
 
 }  // namespace
 
-Json parse_case(const std::string& line, std::size_t number) { return parse_line(line, number); }
+Json parse_case(const std::string& line, std::size_t number) { return parse_line(line, number, outline_of(line).levels); }
 
 int run_query(const std::string& path, bool with_rung, std::ostream& out) {
   input::TextSource cases(path, "a file of cases, one JSON object a line, or - for standard input");

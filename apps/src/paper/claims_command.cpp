@@ -35,7 +35,11 @@ void print_table(const std::vector<Claim>& claims, bool given, std::ostream& out
         << "  ours        " << c.ours << '\n';
     if (c.tolerance)
       out << "  tolerance   " << dhal2022::short_text(*c.tolerance, 3) << " (" << c.tolerance_reason << ")\n";
-    out << "  verdict     " << to_string(c.verdict) << '\n' << "  note        " << c.note << '\n';
+    out << "  verdict     " << to_string(c.verdict) << '\n';
+    if (c.fit != nullptr)
+      out << "  fit         " << c.fit->text() << "; " << c.fit_explains << " of " << c.fit_claims
+          << " printed statements come out\n";
+    out << "  note        " << c.note << '\n';
   }
   const Json counts = dhal2022::count_verdicts(claims);
   for (const auto& [kind, row] : counts.items()) {

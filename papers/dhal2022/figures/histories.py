@@ -2,7 +2,7 @@
 """Quantities against time, one panel each; figure.json says which: Figs 5.7-5.9, 5.12, 6.10-6.13, 6.16-6.19."""
 import numpy as np
 
-from runs import Sheet, figure
+from runs import Sheet, figure, idle_note
 from style import GREY, ONE_COLUMN, TWO_COLUMNS, plt, save
 
 data = figure()
@@ -25,6 +25,8 @@ def of_encounters(axes, panel, value, zero=False):
         if pilot != agent:
             continue
         e = run.engaged(pilot, obstacle)
+        if not np.isfinite(value(e)).any():  # never in sight of a cone
+            continue
         sheet.line(axes, panel, obstacle, e["t [s]"], value(e), color=run.color(obstacle), label=obstacle)
     if zero:
         axes.axhline(0, color="k", linewidth=0.6)
@@ -74,6 +76,9 @@ for axes, name in zip(panels, names):
         axes.set_ylim(low - 1, high + 1)
 if len(panels[0].get_legend_handles_labels()[0]) > 1:  # colours are the same in all panels
     panels[0].legend(loc="best")
+note = idle_note(run, agent)
+if note:
+    panels[0].figure.suptitle(note, fontsize=7, color=GREY)
 starts = [b["t [s]"][0] for b in run.bodies.values()]
 end = data.get("until", max(b["t [s]"][-1] for b in run.bodies.values()))
 for axes in panels:

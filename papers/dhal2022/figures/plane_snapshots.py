@@ -6,6 +6,7 @@ from bodies import outline
 from runs import Sheet, at, figure
 from style import BOUND, ONE_COLUMN, TWO_COLUMNS, plt, save
 
+CLEAR = {"boxstyle": "round,pad=0.1", "facecolor": "white", "edgecolor": "none", "alpha": 0.85}
 data = figure()
 run = data["runs"]["source"]
 sheet = Sheet()
@@ -29,7 +30,8 @@ for t, axes in zip(times, panels.flat):
                                                              "shrinkA": 0, "shrinkB": 0, "mutation_scale": 7})
         sheet.add("velocity at %g s, over 0.5 s" % t, name, *np.stack([start, tip], axis=1))
         if np.isfinite(row["k"]):
-            axes.text(0.97, 0.84, "k = %.2f" % row["k"], transform=axes.transAxes, fontsize=6.5, ha="right", zorder=9)
+            axes.text(0.97, 0.84, "k = %.2f" % row["k"], transform=axes.transAxes, fontsize=6.5, ha="right", zorder=9,
+                      bbox=CLEAR)
     for (pilot, obstacle), e in run.encounters.items():
         now = at(e, t)
         if pilot != agent or abs(now["t [s]"] - t) > 1e-6 or not np.isfinite(now["psi [rad]"]):
@@ -43,7 +45,8 @@ for t, axes in zip(times, panels.flat):
                       np.sin(now["theta [rad]"]) * now["V_r [m/s]"] + np.cos(now["theta [rad]"]) * now["V_theta [m/s]"]])
         axes.annotate("", xy=start - 0.5 * v, xytext=start, arrowprops={
             "arrowstyle": "-|>", "lw": 0.8, "color": "k", "shrinkA": 0, "shrinkB": 0, "mutation_scale": 6})
-        axes.text(0.97, 0.92, "y = %.3f" % (now["y"] + 0.0), transform=axes.transAxes, fontsize=6.5, ha="right", zorder=9)
+        y = "%.3f" % now["y"] if abs(now["y"]) >= 5e-4 else "%.0e" % now["y"]
+        axes.text(0.97, 0.92, "y = " + y, transform=axes.transAxes, fontsize=6.5, ha="right", zorder=9, bbox=CLEAR)
     axes.set_title("t = %g s" % t, fontsize=7.5)
     axes.set_xlim(low[0], high[0])
     axes.set_ylim(low[1], high[1])

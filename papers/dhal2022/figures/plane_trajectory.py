@@ -3,8 +3,8 @@
 import numpy as np
 
 from bodies import outline
-from runs import Sheet, at, figure
-from style import GREY, ONE_COLUMN, TWO_COLUMNS, plt, save
+from runs import Sheet, at, dark, figure
+from style import ONE_COLUMN, TWO_COLUMNS, plt, save
 
 data = figure()
 run = data["runs"]["source"]
@@ -16,7 +16,7 @@ outlines = {name: [(t, outline(run.shapes[name], at(b, t))) for t in times
 everything = np.vstack([w.T for w in ways.values()] + [c for parts in outlines.values() for _, c in parts] +
                        ([np.array([data["goal"]])] if data.get("goal") else []))
 low, high = everything.min(axis=0), everything.max(axis=0)
-pad = 0.04 * (high - low).max()
+pad = 0.07 * (high - low).max()
 width = ONE_COLUMN if (high - low)[0] < 1.3 * (high - low)[1] else TWO_COLUMNS
 height = (width - 0.6) * (high - low + 2 * pad)[1] / (high - low + 2 * pad)[0] + 0.55
 axes = plt.figure(figsize=(width, min(height, 4.6)), constrained_layout=True).gca()
@@ -29,14 +29,10 @@ for name in run.bodies:
         sheet.line(axes, "outline", "%s at %g s" % (name, t), *curve.T, color=color, linewidth=0.8, alpha=strength, zorder=3)
     row = at(run.bodies[name], run.bodies[name]["t [s]"][0])
     axes.plot(row["x [m]"], row["y [m]"], "o", color=color, markersize=2.5, zorder=4)
-first = run.agents()[0]
-for t, curve in outlines[first]:
-    row = at(run.bodies[first], t)
-    heading = row["azimuth [rad]"]
-    side = np.array([-np.sin(heading), np.cos(heading)])
-    axes.annotate("%g s" % t, (row["x [m]"], row["y [m]"]), xytext=14 * side, textcoords="offset points", fontsize=6,
-                  color=GREY, ha="center", va="center", zorder=6,
-                  bbox={"boxstyle": "round,pad=0.1", "facecolor": "white", "edgecolor": "none", "alpha": 0.7})
+
+for t, where, pair in run.contacts():
+    axes.plot(*where[:2], "x", color="red", markersize=6, zorder=7, label="%s and %s touch, %.4g s" % (*pair, t))
+    sheet.add("trajectory", "contact", where[:1], where[1:2])
 if data.get("goal"):
     axes.plot(*data["goal"], "*", color="k", markersize=7, label="goal", zorder=5)
     sheet.add("trajectory", "goal", data["goal"][:1], data["goal"][1:2])
@@ -45,6 +41,33 @@ axes.set_ylim(low[1] - pad, high[1] + pad)
 axes.set_aspect("equal")
 axes.set_xlabel("x [m]")
 axes.set_ylabel("y [m]")
-axes.legend(loc="best")
+axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1), ncol=2, frameon=False)
+
+# Times beside the bodies, in their colours, where neither a body nor a way nor another time is.
+axes.figure.canvas.draw()
+points = 72 / axes.figure.dpi
+taken = points * axes.transData.transform(np.vstack([c for parts in outlines.values() for _, c in parts] +
+                                                    [w.T for w in ways.values()]))
+inside = points * np.array(axes.get_window_extent().get_points())
+boxes = []
+
+
+def is_free(low, high):
+    return (np.all(low > inside[0]) and np.all(high < inside[1]) and
+            not np.any(np.all((taken > low - 1) & (taken < high + 1), axis=1)) and
+            not any(np.all(low < h + 1) and np.all(high > l - 1) for l, h in boxes))
+
+
+for name in run.bodies:
+    for t, _ in outlines[name]:
+        row, text = at(run.bodies[name], t), "%g s" % t
+        here = points * axes.transData.transform((row["x [m]"], row["y [m]"]))
+        half = 0.5 * np.array([3.3 * len(text), 6.0])
+        angles = row["azimuth [rad]"] + np.pi / 2 + np.array([0, 1, 0.25, -0.25, 0.75, -0.75, 0.5, -0.5]) * np.pi
+        spots = [here + r * np.array([np.cos(q), np.sin(q)]) for r in (11, 14, 17, 21, 26, 32) for q in angles]
+        spot = next((s for s in spots if is_free(s - half, s + half)), spots[0])
+        boxes.append((spot - half, spot + half))
+        axes.annotate(text, (row["x [m]"], row["y [m]"]), xytext=spot - here, textcoords="offset points", fontsize=5.5,
+                      color=dark(run.color(name)), ha="center", va="center", zorder=6)
 sheet.write(data["name"])
 save(axes.figure, data["name"])

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 
-from runs import Sheet, figure
+from runs import Sheet, figure, idle_note
 from style import GREY, TWO_COLUMNS, plt, save
 
 data = figure()
@@ -61,5 +61,7 @@ panels[1].legend(loc="upper left")
 bar = panels[0].figure.colorbar(ScalarMappable(Normalize(0, 180), colors), ax=panels, pad=0.01)
 bar.set_label("azimuth of the plane from the horizontal [deg]")
 bar.set_ticks([0, 45, 90, 135, 180])
+if idle_note(run, agent):
+    panels[0].figure.suptitle(idle_note(run, agent), fontsize=7, color=GREY)
 sheet.write(data["name"])
 save(panels[0].figure, data["name"])

@@ -5,6 +5,7 @@ import json
 import os
 
 import numpy as np
+from matplotlib.colors import to_rgb
 
 import style
 
@@ -68,6 +69,15 @@ class Run:
         return [t for t, k, a, o in zip(e["t [s]"], e["event"], e["agent"], e["obstacle"])
                 if (k, a, o) == (kind, agent, obstacle)]
 
+    def idle(self, agent):
+        """Obstacles against which the agent never steered."""
+        return [o for (a, o), e in self.encounters.items()
+                if a == agent and not np.any((e["attended"] == 1) & (e["a [m/s^2]"] > 0))]
+
+    def contacts(self):
+        """(time, place, the two names) of each pair that is proved to touch."""
+        return [(p["to"], np.array(p["place"]), (p["a"], p["b"])) for p in self.proof()["pairs"] if p["verdict"] == "touched"]
+
     def engaged(self, agent, obstacle, after=0.4):
         """The encounter from the appearance until shortly after the bodies have passed."""
         e = self.encounters[agent, obstacle]
@@ -79,6 +89,17 @@ def at(body, t):
     """A row of a body's table as a dictionary: the nearest in time."""
     i = int(np.argmin(np.abs(body["t [s]"] - t)))
     return {n: c[i] for n, c in body.items()}
+
+
+def dark(color):
+    """For text: readable on white, and still the body's colour."""
+    return tuple(0.6 * c for c in to_rgb(color))
+
+
+def idle_note(run, agent):
+    """What a reader misses in the curves; empty where the agent steered against all."""
+    names = run.idle(agent)
+    return "nothing is commanded against %s" % " and ".join(names) if names else ""
 
 
 class Sheet:

@@ -7,8 +7,8 @@ from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from bodies import surface
-from runs import Sheet, at, figure
-from style import TWO_COLUMNS, plt, save
+from runs import Sheet, at, dark, figure, idle_note
+from style import GREY, TWO_COLUMNS, plt, save
 
 data = figure()
 run = data["runs"]["source"]
@@ -40,8 +40,9 @@ for name, body in run.bodies.items():
         for column in "xyz":
             sheet.add("centre of a body drawn, %s against t" % column, name, [row["t [s]"]], [row[column + " [m]"]])
         p = np.array([row["x [m]"], row["y [m]"], row["z [m]"]])
-        axes.text(*(p + [0, 0, np.vstack(faces)[:, 2].max() - p[2] + 1.5]), "%g s" % t, fontsize=6, color="k", ha="center",
-                  zorder=10)
+        axes.text(*(p + [0, 0, np.vstack(faces)[:, 2].max() - p[2] + 1.5]), "%g s" % t, fontsize=6, color=dark(run.color(name)),
+                  ha="center", zorder=10, bbox={"boxstyle": "round,pad=0.05", "facecolor": "white", "edgecolor": "none",
+                                                "alpha": 0.6})
 if polygons:
     axes.add_collection3d(Poly3DCollection(polygons, facecolors=colors, edgecolors=colors, linewidths=0.15, zorder=5))
 everything = np.vstack(everything)
@@ -60,5 +61,6 @@ axes.set_zlabel("z [m]", labelpad=-4)
 axes.tick_params(pad=-1)
 axes.legend(handles=[Line2D([], [], color=run.color(n), label=n) for n in run.bodies], loc="upper left",
             bbox_to_anchor=(0.02, 0.97))
+axes.text2D(0.98, 0.95, idle_note(run, run.agents()[0]), transform=axes.transAxes, fontsize=7, color=GREY, ha="right")
 sheet.write(data["name"])
 save(axes.figure, data["name"])

@@ -19,12 +19,13 @@ Claim claim_of(const Printed& printed, const std::string& text) {
   claim.figures = printed.figures;
   claim.what = printed.what;
   claim.note = printed.note;
+  claim.fit = printed.fit;
   claim.printed = text;
   return claim;
 }
 
 Verdict verdict_of(const Printed& printed, bool holds) {
-  if (holds) return Verdict::reproduced;
+  if (holds) return printed.fit ? Verdict::fitted : Verdict::reproduced;
   return printed.rests_on_assumed ? Verdict::not_decided : Verdict::differs;
 }
 
@@ -36,12 +37,18 @@ std::string with_unit(const std::string& text, const std::string& unit) {
 
 const char* to_string(Verdict verdict) {
   switch (verdict) {
+    case Verdict::given:
+      return "given";
     case Verdict::reproduced:
       return "reproduced";
-    case Verdict::differs:
-      return "differs";
+    case Verdict::fitted:
+      return "fitted";
+    case Verdict::not_engaged:
+      return "not engaged";
     case Verdict::not_decided:
       return "not decided by what is printed";
+    case Verdict::differs:
+      return "differs";
     case Verdict::source_wrong:
       return "source wrong";
   }
@@ -54,13 +61,16 @@ std::string short_text(double value, int digits) {
   return text;
 }
 
+std::string seconds_text(double t) { return short_text(t, 4) + " s"; }
+
 Tolerance half_a_digit(int digits) {
   return {0.5 * std::pow(10.0, -digits), "half a unit of the last printed digit"};
 }
 
 Tolerance half_a_digit_and_step(int digits, double step) {
   return {0.5 * std::pow(10.0, -digits) + step, "half a unit of the last printed digit, and one step of " +
-                                                    short_text(step) + " s between two looks at the cone"};
+                                                    short_text(step) +
+                                                    " s: one fitted value has to meet several"};
 }
 
 Claim number(const Printed& printed, double value, const std::string& text, const std::string& unit,
@@ -72,7 +82,9 @@ Claim number(const Printed& printed, double value, const std::string& text, cons
   claim.tolerance = tolerance.value;
   claim.tolerance_reason = tolerance.reason;
   // The bound itself is within: printed values are halves of digits away from it in decimals, not in doubles.
-  claim.verdict = verdict_of(printed, ours && std::abs(*ours - value) <= tolerance.value * (1 + 1e-9));
+  claim.later = tolerance.later;
+  const double most = tolerance.value * (1 + 1e-9), off = ours ? *ours - value : 0;
+  claim.verdict = verdict_of(printed, ours && off <= most && off >= (tolerance.later ? -1e-9 : -most));
   return claim;
 }
 
@@ -102,10 +114,62 @@ Claim given(const Printed& printed, const std::string& text, const std::vector<d
     claim.printed_value = values[0];
     claim.ours_value = ours[0];
   }
-  claim.verdict = same ? Verdict::reproduced : Verdict::differs;
+  claim.verdict = same ? Verdict::given : Verdict::differs;
   if (claim.note.empty()) claim.note = "given; taken as printed";
   return claim;
 }
+
+Claim ordered(const Printed& printed, const std::string& text, bool holds, const std::string& ours) {
+  Claim claim = statement(printed, text, holds, ours);
+  claim.given = true;
+  claim.verdict = holds ? Verdict::given : Verdict::differs;
+  return claim;
+}
+
+Claim printed_right(const Printed& printed, const std::string& text, bool holds, const std::string& ours) {
+  Claim claim = statement(printed, text, holds, ours);
+  if (!holds) claim.verdict = Verdict::source_wrong;
+  return claim;
+}
+
+int Fit::count() const {
+  int count = 0;
+  for (const auto& value : free) count += value.second;
+  return count;
+}
+
+std::string Fit::text() const {
+  std::string list;
+  for (const auto& value : free) list.append(list.empty() ? "" : ", ").append(value.first);
+  return list + ": " + std::to_string(count()) + (count() == 1 ? " free number" : " free numbers");
+}
+
+void count_fits(std::vector<Claim>& claims) {
+  for (Claim& claim : claims) {
+    if (claim.fit == nullptr) continue;
+    claim.fit_explains = claim.fit_claims = 0;
+    for (const Claim& other : claims) {
+      if (other.fit != claim.fit) continue;
+      ++claim.fit_claims;
+      claim.fit_explains += other.verdict == Verdict::fitted;
+    }
+  }
+}
+
+namespace {
+
+Json fit_json(const Claim& claim) {
+  if (claim.fit == nullptr) return {};
+  Json free = Json::object();
+  for (const auto& [name, numbers] : claim.fit->free) free[name] = numbers;
+  return {{"name", claim.fit->name},
+          {"free", free},
+          {"free_numbers", claim.fit->count()},
+          {"explains", claim.fit_explains},
+          {"of", claim.fit_claims}};
+}
+
+}  // namespace
 
 Json to_json(const Claim& claim) {
   const auto optional = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
@@ -119,8 +183,10 @@ Json to_json(const Claim& claim) {
           {"ours", claim.ours},
           {"ours_value", optional(claim.ours_value)},
           {"tolerance", optional(claim.tolerance)},
+          {"tolerance_one_sided", claim.later},
           {"tolerance_reason", claim.tolerance_reason},
           {"verdict", to_string(claim.verdict)},
+          {"fit", fit_json(claim)},
           {"note", claim.note}};
 }
 

@@ -10,6 +10,8 @@ std::vector<Claim> measure_claims(PaperRuns& runs, const RunProgress& progress) 
   claims_6_3_1(progress, claims);
   claims_6_5_noncooperative(runs, claims);
   claims_6_5_cooperative(runs, claims);
+  claims_of_equations(runs, claims);
+  count_fits(claims);
   return claims;
 }
 

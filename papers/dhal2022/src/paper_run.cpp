@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
 #include <stdexcept>
 
 #include "simulate/read_scenario.h"
@@ -38,6 +41,55 @@ std::optional<double> PaperRun::time_of(simulation::EventKind kind, const std::s
                                         const std::string& obstacle, double after) const {
   const auto event = simulation::find_event(scenario, run, kind, agent, obstacle, after);
   return event ? std::optional<double>(event->t) : std::nullopt;
+}
+
+const std::vector<Look>& PaperRun::looks(const std::string& agent, const std::string& obstacle) const {
+  const auto [it, fresh] = looks_.try_emplace({agent, obstacle});
+  std::vector<Look>& looks = it->second;
+  if (!fresh) return looks;
+  const simulation::Track &a = track(agent), &b = track(obstacle);
+  const double from = std::max(a.appears(), b.appears());
+  for (std::int64_t k = std::int64_t(std::ceil(from / scenario.step - 1e-9));; ++k) {
+    const double t = std::max(from, double(k) * scenario.step);
+    if (t > run.end || t > a.end() || t > b.end()) break;
+    const guidance::BodyState at_a = a.state(t), at_b = b.state(t);
+    const auto across = guidance::choose_plane(at_a, at_b, guidance::SectorMethod::slice, {});
+    if (!across) continue;
+    const auto view =
+        guidance::plane_view(at_a, at_b, *across, guidance::SectorMethod::slice, guidance::RateMethod::none);
+    if (!view) break;
+    const guidance::ConeRates rates = guidance::cone_rates(view->state, view->cone);
+    looks.push_back({t, rates.y, rates.v_r_hat, view->cone.psi, view->state.v_r});
+  }
+  if (looks.empty()) throw std::runtime_error(scenario.name + ": no cone of " + agent + " and " + obstacle);
+  return looks;
+}
+
+bool PaperRun::engaged(const std::string& agent, const std::string& obstacle) const {
+  const std::size_t i = index_of(scenario, agent), j = index_of(scenario, obstacle);
+  return std::any_of(run.encounters.begin(), run.encounters.end(), [&](const auto& sample) {
+    return sample.agent == i && sample.obstacle == j && sample.attended && sample.step.a.norm() > 0;
+  });
+}
+
+std::string reentries(const std::vector<Look>& looks) {
+  int times = 0;
+  double last_out = 0;
+  bool out = false, inside = true;
+  for (const Look& look : looks) {
+    if (look.inside()) {
+      times += out && !inside;
+    } else {
+      if (inside) last_out = look.t;
+      out = true;
+    }
+    inside = look.inside();
+  }
+  if (times == 0) return "";
+  char text[96];
+  std::snprintf(text, sizeof text, "; in the cone again %d %s, last out at %.4g s", times,
+                times == 1 ? "time" : "times", last_out);
+  return text;
 }
 
 double PaperRun::most_acceleration(const std::string& body, double from, double to) const {

@@ -22,11 +22,13 @@ th, td { text-align: left; vertical-align: top; padding: .25rem .6rem .25rem 0; 
 th { font-weight: 600; } td.n { color: #555; }
 .v { white-space: nowrap; padding: .05rem .4rem; border-radius: .3rem; }
 .reproduced { background: #dff1e2; } .differs { background: #fbe0d4; } .not { background: #f0ecda; }
-.source { background: #eadff3; }
+.source { background: #eadff3; } .weak { background: #e3ebf3; }
 details { margin: .4rem 0; } summary { cursor: pointer; color: #333; } pre { font-size: .75rem; overflow-x: auto;
   background: #f7f7f7; padding: .6rem; }
-nav { font-size: .9rem; } nav a { margin-right: .6rem; white-space: nowrap; }
-.scroll { overflow-x: auto; }
+nav { font-size: .9rem; display: flex; flex-wrap: wrap; gap: .4rem .8rem; }
+.scroll { overflow-x: auto; max-width: 100%; } .scroll table { min-width: 44rem; }
+code { overflow-wrap: anywhere; }
+@media (max-width: 40rem) { body { margin: 1rem auto; padding: 0 .6rem; } nav { font-size: 1rem; gap: .6rem 1rem; } }
 )";
 
 std::string escaped(const std::string& text) {
@@ -66,8 +68,12 @@ std::string base64(const std::string& bytes) {
 
 const char* css_class(Verdict verdict) {
   switch (verdict) {
+    case Verdict::given:
     case Verdict::reproduced:
       return "reproduced";
+    case Verdict::fitted:
+    case Verdict::not_engaged:
+      return "weak";
     case Verdict::differs:
       return "differs";
     case Verdict::not_decided:
@@ -85,9 +91,13 @@ void table(std::ostream& out, const std::vector<const Claim*>& claims) {
   for (const Claim* c : claims) {
     out << "<tr><td>" << escaped(c->what) << "</td><td>" << escaped(c->printed) << "</td><td>"
         << escaped(c->ours) << "</td><td>";
-    if (c->tolerance) out << "&plusmn; " << short_text(*c->tolerance, 3) << ": ";
+    if (c->tolerance) out << (c->later ? "+ " : "&plusmn; ") << short_text(*c->tolerance, 3) << ": ";
     out << escaped(c->tolerance_reason) << "</td><td><span class=\"v " << css_class(c->verdict) << "\">"
-        << to_string(c->verdict) << "</span></td><td class=\"n\">" << escaped(c->note) << "</td></tr>\n";
+        << to_string(c->verdict) << "</span></td><td class=\"n\">" << escaped(c->note);
+    if (c->fit != nullptr)
+      out << "; <i>fit</i>: " << escaped(c->fit->text()) << ", " << c->fit_explains << " of " << c->fit_claims
+          << " printed statements come out";
+    out << "</td></tr>\n";
   }
   out << "</tbody></table></div>\n";
 }
@@ -114,8 +124,7 @@ bool belongs(const Claim& claim, const std::string& figure) {
 Json count_verdicts(const std::vector<Claim>& claims) {
   Json counts;
   for (const char* kind : {"results", "given"})
-    for (const Verdict v :
-         {Verdict::reproduced, Verdict::differs, Verdict::not_decided, Verdict::source_wrong})
+    for (const Verdict v : kVerdicts)
       counts[kind][to_string(v)] = std::count_if(claims.begin(), claims.end(), [&](const Claim& c) {
         return c.verdict == v && c.given == (std::string(kind) == "given");
       });
@@ -132,13 +141,16 @@ std::string report_html(const std::vector<ReportFigure>& figures, const std::vec
       << "</style></head><body>\n<h1>K. Dhal, dissertation, University of Texas at Arlington, 2022: "
       << "figures of chapters 5 and 6, and what becomes of their claims</h1>\n"
       << "<p>Every value under <i>Ours</i> was measured from the run that the figures show. "
-         "<b>Reproduced</b>: ours agrees within the tolerance. <b>Differs</b>: it does not, and what is "
-         "printed "
-         "decides. <b>Not decided by what is printed</b>: it does not, and ours rests on values that the "
-         "source does "
-         "not print, named in the note. <b>Source wrong</b>: what is printed is shown wrong. <i>Given</i> "
-         "are values "
-         "that go into a run and were read back from it.</p>\n";
+         "<b>Reproduced</b>: ours agrees within the tolerance. <b>Fitted</b>: it agrees because values that "
+         "the "
+         "source does not print were chosen so; how many, and what else they explain, is in the note. <b>Not "
+         "engaged</b>: nothing was commanded against that obstacle, so the law was not tried. <b>Not decided "
+         "by "
+         "what is printed</b>: ours does not agree, and rests on values that are not printed, named in the "
+         "note. "
+         "<b>Differs</b>: it does not agree, and what is printed decides. <b>Source wrong</b>: what is "
+         "printed is "
+         "shown wrong. <b>Given</b>: goes into a run, and was read back from it as printed.</p>\n";
   summary(out, count_verdicts(claims));
   out << "<nav>";
   for (const ReportFigure& f : figures)
