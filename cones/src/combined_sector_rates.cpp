@@ -3,6 +3,8 @@
 #include <vericone/geometry/scaled_inverse.h>
 #include <Eigen/LU>
 
+#include "sector_parts.h"
+
 namespace vericone {
 namespace {
 

@@ -45,7 +45,7 @@ constexpr auto kHullCount = [] {
   constexpr RoundingCount kPoint{1}, kShape{3}, kSlope{3}, kInput{0};
   constexpr RoundingCount kDifference = kPoint - kPoint;
   constexpr std::array<RoundingCount, 3> kD{kDifference, kDifference, kDifference};
-  return Counts{shadow_depth<RoundingCount>([](int, int) { return kShape; }, {kD, kD, kD},
+  return Counts{shadow_depth<RoundingCount>([kShape](int, int) { return kShape; }, {kD, kD, kD},
                                             {kInput, kInput, kInput}, kSlope, kSlope),
                 shadow_cross<RoundingCount>(kD, kD, kSlope, kSlope)};
 }();

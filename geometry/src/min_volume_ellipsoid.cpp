@@ -100,7 +100,8 @@ Frame<D> core_set_frame(const Eigen::Ref<const Points<D>>& points) {
     rest -= axis * along;
   }
   std::ranges::sort(f.core_set);
-  f.core_set.erase(std::ranges::unique(f.core_set).begin(), f.core_set.end());
+  // Not std::ranges::unique, whose result clang 14 does not take from the headers of g++ 12.
+  f.core_set.erase(std::unique(f.core_set.begin(), f.core_set.end()), f.core_set.end());
   return f;
 }
 

@@ -85,6 +85,24 @@ class Query(unittest.TestCase):
                            engagement(a, b, [4, 3, 0], [0, tiny, 0]))
         self.assertEqual([x["verdict"] for x in answers], ["on", "out", "in"])
 
+    def test_numbers_at_the_ends_of_the_doubles(self):
+        a, b = ball([0, 0, 0], 1), ball([5, 0, 0], 2)
+        disc = {"center": [5, 0, 0], "semi_axes": [1e20, 1e-3, 1]}
+        result, answers = query(
+            engagement(a, ball([1e200, 0, 0], 2), [4, 1, 0]), engagement(a, b, [1e200, 0, 0]),
+            engagement(a, b, [5e-324, 0, 0]), engagement(a, disc, [4, 3, 0]),
+            engagement(a, b, [1.7e308, 0, 0], [-1.7e308, 0, 0]))
+        self.assertEqual(result.returncode, 0, result.stdout)
+        far, fast, slow, thin, faster = answers
+        self.assertAlmostEqual(far["clearance"] / 1e200, 1 / math.sqrt(17), 12)
+        self.assertAlmostEqual(fast["time_to_contact"] * 1e200, 2, 12)
+        self.assertEqual((slow["verdict"], slow["time_to_contact"]), ("in", None))
+        self.assertEqual(thin["verdict"], "overlapping")
+        self.assertIn(thin["clearance"], (None, -2))
+        self.assertEqual(faster["verdict"], "in")
+        self.assertAlmostEqual(faster["clearance"], -3, 12)
+        self.assertAlmostEqual(faster["time_to_contact"] * 1.7e308, 1, 12)
+
     def test_shape_and_axes_agree(self):
         q = [math.sqrt(0.5), 0, 0, math.sqrt(0.5)]
         body = {"center": [9, 1, 0], "semi_axes": [1, 2, 3], "rotation": q}

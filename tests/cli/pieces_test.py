@@ -148,6 +148,26 @@ class Pieces(unittest.TestCase):
         self.assertLess(c["map"]["undecided"], 0.3)
         self.assertEqual(c["obstacle"]["pieces"], 1)
 
+    def test_numbers_that_were_not_found_are_absent(self):
+        with tempfile.TemporaryDirectory() as folder:
+            write(folder, "big.obj", obj([[-1e12, -1e12, 0], [1e12, -1e12, 0], [0, 1e12, 0]], [[0, 1, 2]]))
+            mesh = {"mesh": os.path.join(folder, "big.obj")}
+            result, (hit, fast) = query(
+                engagement(ball([50, 50, 30], 1), mesh, [-5, -5, -3]),
+                engagement(ball([50, 50, 30], 1), mesh, [0, 0, -1.7e308], [0, 0, 1.7e308]))
+        self.assertEqual(hit["verdict"], "in")
+        low, high = hit["time_enclosure"]
+        time = (30 - 1) / 3
+        self.assertLessEqual(low, time)
+        if hit["time_to_contact"] is None:
+            self.assertIsNone(hit["contact_normal"])
+        else:
+            self.assertAlmostEqual(hit["time_to_contact"], time, 6)
+            self.assertAlmostEqual(hit["contact_normal"][2], -1, 6)
+        self.assertEqual(result.returncode, 2)
+        self.assertEqual(fast["error"], "agent_velocity[2]: got -1.7e+308, "
+                         "must be at most 1.8e308 from the obstacle's, 1.7e+308")
+
     def test_octree_maps(self):
         agent = ball([-3, 0.5, 0.5], 0.25)
         around = {"octree": self.map, "region": [[-1, 0, 0], [2, 1, 1]]}

@@ -381,7 +381,7 @@ void check_within_roundings(RandomBodies& random, double low, int cases, Shares&
     const Vector<D> p = a.center(), q = b.center();
     b = b.translated(-q).scaled(4).translated(q);
     // The largest factor by bisection on the answer itself; only the neighbourhood matters.
-    const auto grown = [&](double factor) { return a.translated(-p).scaled(factor).translated(p); };
+    const auto grown = [&a = a, &p](double factor) { return a.translated(-p).scaled(factor).translated(p); };
     double fits = 0, sticks_out = 8 / axes.maxCoeff() * b.semi_axes().maxCoeff();
     for (int k = 0; k < 60; ++k) {
       const double mid = 0.5 * (fits + sticks_out);

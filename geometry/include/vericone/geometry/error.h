@@ -11,7 +11,7 @@ namespace vericone {
 ///
 /// `what()` is one line, "FIELD: got VALUE, must be REQUIREMENT", for example
 /// "obstacle.semi_axes[1]: got -2, must be a positive finite number". Overlapping bodies, grazing
-/// velocities and receding bodies are answers and never thrown.
+/// velocities and receding bodies are answers; only what has no value for them, as the edges of a cone, throws.
 class InputError : public std::invalid_argument {
  public:
   InputError(std::string field, std::string value, std::string requirement);
