@@ -19,6 +19,7 @@
 #include "figures.h"
 #include "input/scene.h"
 #include "json_value.h"
+#include "output_folder.h"
 #include "pieces/pieces_cone.h"
 #include "planar_cone.h"
 #include "provenance.h"
@@ -301,6 +302,8 @@ void run_cone(const ConeOptions& options, std::ostream& out) {
   if (const auto* pieces = std::get_if<input::AssemblyEngagement>(&scene))
     return run_pieces_cone(options, *pieces, out);
   const auto& e = std::get<input::Engagement>(scene);
+  std::optional<OutputFolder> held;
+  if (!options.picture_folder.empty()) held.emplace(options.picture_folder, "--picture");
   Json cone = cone_json(options, e);
   const bool drawn = !options.picture_folder.empty();
   const ConePicture picture = drawn ? cone_picture(options, e, cone) : ConePicture{};
@@ -316,7 +319,6 @@ void run_cone(const ConeOptions& options, std::ostream& out) {
   }
   if (!drawn) return;
   const std::filesystem::path folder = options.picture_folder;
-  std::filesystem::create_directories(folder);
   write_whole(folder / "engagement.json", picture.data.dump(1) + "\n");
   write_whole(folder / "shapes.json", Json{{"figures", {"engagement"}}}.dump(1) + "\n");
   if (options.map) write_whole(folder / "cone_map.json", map.picture.dump() + "\n");

@@ -13,6 +13,8 @@ Json numbers_json(std::span<const double> numbers) {
   return list;
 }
 
+std::string json_text(const Json& value) { return value.dump(1, ' ', false, Json::error_handler_t::replace); }
+
 Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 Json number_or_null(const std::optional<double>& x) { return x ? number_or_null(*x) : Json(nullptr); }

@@ -31,6 +31,9 @@ Json matrix_json(const Eigen::MatrixBase<Matrix>& m) {
   return rows;
 }
 
+/// Indented by one, and good JSON whatever bytes the names of files have.
+std::string json_text(const Json& value);
+
 /// JSON has no infinities and no NaN: null stands for them.
 Json number_or_null(double x);
 Json number_or_null(const std::optional<double>& x);

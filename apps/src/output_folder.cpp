@@ -101,7 +101,7 @@ OutputFolder::OutputFolder(const fs::path& folder, const std::string& option)
       throw InputError(option, folder.string(), "a folder; " + above.string() + " is a link to nothing");
   }
   const std::lock_guard guard(appearing());
-  const fs::path whole = fs::weakly_canonical(path_);
+  const fs::path whole = fs::weakly_canonical(fs::absolute(path_));
   std::weak_ptr<Held>& known = Held::all()[whole];
   held_ = known.lock();
   if (held_) return;

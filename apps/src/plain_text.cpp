@@ -8,8 +8,8 @@ namespace {
 
 unsigned byte(std::string_view text, std::size_t i) { return static_cast<unsigned char>(text[i]); }
 
-/// Bytes of the character at the front; 0 where there is none. Neither surrogates nor longer forms than needed
-/// are characters.
+/// Bytes of the character at the front; 0 where there is none. Neither surrogates nor longer forms than
+/// needed are characters.
 std::size_t length_of_first(std::string_view text) {
   const unsigned first = byte(text, 0);
   if (first < 0x80) return 1;

@@ -57,8 +57,8 @@ Outline outline_of(std::string_view line) {
   return outline;
 }
 
-/// Builds the value of a line and looks at the keys of its mappings. (The parser's own callbacks look through a
-/// list again whenever one of its values ends.)
+/// Builds the value of a line and looks at the keys of its mappings. (The parser's own callbacks look through
+/// a list again whenever one of its values ends.)
 class LineBuilder : public nlohmann::detail::json_sax_dom_parser<Json> {
   using Base = nlohmann::detail::json_sax_dom_parser<Json>;
 
@@ -108,8 +108,7 @@ Json parse_line(const std::string& line, std::size_t number, int levels) {
                      "a text that breaks off or turns wrong at character " + std::to_string(e.byte),
                      "one JSON object");
   } catch (const Json::out_of_range&) {
-    throw InputError(name_of(number), "a number out of range",
-                     "one JSON object with numbers up to 1.8e308");
+    throw InputError(name_of(number), "a number out of range", "one JSON object with numbers up to 1.8e308");
   }
 }
 

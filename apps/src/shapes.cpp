@@ -12,6 +12,7 @@
 
 #include "figures.h"
 #include "json_value.h"
+#include "output_folder.h"
 #include "provenance.h"
 #include "shape_engagements.h"
 #include "shape_json.h"
@@ -191,7 +192,7 @@ void run_shapes(const ShapesOptions& options, std::ostream& out) {
     if (std::none_of(chosen.begin(), chosen.end(), [&](const ShapeFigure* f) { return f->name == name; }))
       throw InputError("--figure", name, "one of " + names);
   const std::filesystem::path folder = options.out;
-  std::filesystem::create_directories(folder);
+  const OutputFolder held(folder, "--out");
   std::ostream silent(nullptr);
   std::ostream& text = options.json ? silent : out;
   Shapes shapes(options, text);

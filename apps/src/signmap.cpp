@@ -16,6 +16,7 @@
 
 #include "figures.h"
 #include "json_value.h"
+#include "output_folder.h"
 #include "provenance.h"
 
 namespace vericone {
@@ -89,7 +90,7 @@ void run_signmap(const SignMapOptions& options, std::ostream& out) {
   if (options.cells < 3 || options.cells > 2001)
     throw InputError("--cells", std::to_string(options.cells), "between 3 and 2001");
   const std::filesystem::path folder = options.out;
-  std::filesystem::create_directories(folder);
+  const OutputFolder held(folder, "--out");
   const Grazing g = grazing_engagement(options.seed);
   const ConeOracle oracle(g.a, g.b);
   const int half = options.cells / 2, cells = 2 * half + 1;

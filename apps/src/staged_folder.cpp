@@ -14,8 +14,7 @@ StagedFolder::StagedFolder(const fs::path& folder, const std::string& option)
     : folder_(folder, option), option_(option), stage_(folder_.stage()) {
   std::error_code error;
   fs::create_directory(stage_, error);
-  if (error)
-    throw InputError(option, folder.string(), "a folder that can be written to; " + error.message());
+  if (error) throw InputError(option, folder.string(), "a folder that can be written to; " + error.message());
 }
 
 StagedFolder::~StagedFolder() {
@@ -30,9 +29,9 @@ std::vector<fs::path> StagedFolder::publish(const std::vector<std::string>& name
   const auto target = [&](const fs::path& file) { return folder_.path() / file.filename(); };
   for (const fs::path& file : files) {
     if (fs::is_directory(target(file)) && !fs::is_directory(file))
-      throw InputError(option_, folder_.path().string(),
-                       "a folder without one in it called " + file.filename().string() +
-                           ", which is to be a file");
+      throw InputError(
+          option_, folder_.path().string(),
+          "a folder without one in it called " + file.filename().string() + ", which is to be a file");
     sync_to_disk(file);
   }
   const std::lock_guard guard(appearing());

@@ -23,8 +23,8 @@ class StagedFolder {
   const std::filesystem::path& path() const { return stage_; }
 
   /// Moves what was written to the folder, and removes those files of `names` there that were not written
-  /// this time: they tell of an earlier run. Returns where the files are now, by name. Throws InputError, with
-  /// nothing moved, where a folder has the name of a file.
+  /// this time: they tell of an earlier run. Returns where the files are now, by name. Throws InputError,
+  /// with nothing moved, where a folder has the name of a file.
   std::vector<std::filesystem::path> publish(const std::vector<std::string>& names);
 
  private:

@@ -154,6 +154,7 @@ QUERIES = [
     ("not a number", '{"id": 7, "agent": {"center": [NaN, 0, 0]}}'),
     ("a number out of range", '{"id": 7, "agent": {"center": [1e999, 0, 0]}}'),
     ("a field given twice", '{"id": 7, "agent": 1, "agent": 2}'),
+    ("a line nested too deeply", "[" * 21 + "]" * 21),
 ]
 
 SCENE = "agent: {center: [0, 0, 0], semi_axes: [1, 2, 3]}\nobstacle: {center: [10, 0, 0], semi_axes: [1, 1, 1]}\n"
@@ -172,6 +173,16 @@ COMMANDS = [
     ("an unknown command", ["cones"], None),
     ("an unknown option", ["cone", "FILE", "--plane", "3"], SCENE),
     ("a scene that does not exist", ["cone", "nowhere.yaml"], None),
+    ("a scene that is a folder", ["cone", "."], None),
+    ("a scene without end", ["cone", "/dev/zero"], None),
+    ("two scenes in a file", ["cone", "FILE"], SCENE + "---\n" + SCENE),
+    ("a scene with an alias of itself", ["cone", "FILE"], "agent: &a [*a]\n"),
+    ("a name with a control character", ["cone", "FILE"], 'name: "a\\tb"\n' + SCENE),
+    ("cases that are a folder", ["query", "."], None),
+    ("cases without end", ["query", "/dev/zero"], None),
+    ("a negative seed", ["accuracy", "--seed", "-1"], None),
+    ("a seed that is too large", ["campaign", "--seed", "99999999999999999999"], None),
+    ("an output folder that cannot be made", ["signmap", "--out", "/proc/vericone"], None),
     ("a scene that is not YAML", ["cone", "FILE"], "agent: [1, 2\nobstacle: }"),
     ("an empty scene", ["cone", "FILE"], ""),
     ("a scene without obstacle", ["cone", "FILE"], SCENE.split("\n")[0]),
@@ -317,6 +328,7 @@ def scenario(body=BODY, pilot=PILOT, agent="{semi_axes: [3, 1, 1]}", top="durati
 
 # What is wrong, the scenario.
 SCENARIOS = [
+    ("steps that no memory holds", scenario(top="duration: 5\nstep: 0.000002\n")),
     ("no bodies", "duration: 5\n"),
     ("bodies that are a mapping", "bodies: {A: 1}\n"),
     ("an unknown field of the scenario", scenario(top="durations: 5\n")),

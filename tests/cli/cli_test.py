@@ -141,7 +141,7 @@ class BadInput(unittest.TestCase):
                 self.assertRegex(answer["error"], r"^\S.*: got .+, must be .+")
                 self.assertNotIn("\n", answer["error"])
                 if what not in ("a line that is a list", "a line that is a number", "a broken line", "not a number",
-                                "a number out of range", "a field given twice"):
+                                "a number out of range", "a field given twice", "a line nested too deeply"):
                     self.assertEqual(answer["id"], 7)
 
     def test_every_bad_command_says_why(self):

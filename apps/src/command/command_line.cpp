@@ -4,9 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <iostream>
+#include <limits>
 #include <list>
 #include <optional>
+#include <type_traits>
 
 #include "command/build_info.h"
 
@@ -84,6 +87,16 @@ void refuse_unknown_options(const CLI::App& app, const std::vector<std::string>&
       throw UsageError("no option " + shown + nearest(is_long ? shown : "-" + shown, known));
     }
   }
+}
+
+/// The parser takes -1 for the largest number there is.
+template <typename T>
+std::string not_a_count(const std::string& word) {
+  T count = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
+  if (error == std::errc() && end == word.data() + word.size()) return "";
+  return "got " + word + ", must be a whole number between 0 and " +
+         std::to_string(std::numeric_limits<T>::max());
 }
 
 void read_words(CLI::App& app, const std::vector<std::string>& words) {
@@ -168,6 +181,9 @@ template <typename T>
 CommandLine::Option CommandLine::option(const std::string& names, T& target, const std::string& what) {
   CLI::Option* option = parser_->app.add_option(names, target, what);
   if (has_value(target)) option->capture_default_str();
+  if constexpr (std::is_same_v<T, unsigned>) option->check(not_a_count<unsigned>);
+  if constexpr (std::is_same_v<T, std::uint64_t> || std::is_same_v<T, std::optional<std::uint64_t>>)
+    option->check(not_a_count<std::uint64_t>);
   return Option(option);
 }
 

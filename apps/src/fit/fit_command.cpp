@@ -133,7 +133,7 @@ void write_files(const Answer& a, const FitCommandOptions& given, StagedFolder& 
   const fs::path& stage = folder.path();
   const std::string comment = "Fitted to " + given.file + ": " + title_of(a.scan, a.result);
   const std::vector<CombinedSurface> surfaces = fit::hull_surfaces(a.result.pieces);
-  write_whole(stage / "fit.json", a.json.dump(1) + "\n");
+  write_whole(stage / "fit.json", json_text(a.json) + "\n");
   write_whole(stage / "body.yaml", fit::body_yaml(a.bodies, comment));
   write_whole(stage / "hull.obj", fit::hull_obj(surfaces));
   write_whole(stage / "hull.ply", fit::hull_ply(surfaces));
@@ -153,7 +153,7 @@ void write_files(const Answer& a, const FitCommandOptions& given, StagedFolder& 
 void print(const Answer& a, const FitCommandOptions& given, const std::vector<fs::path>& files,
            std::ostream& out) {
   if (given.json) {
-    out << a.json.dump(1) << '\n';
+    out << json_text(a.json) << '\n';
     return;
   }
   fit::print_fit(a.json, describe(a.scan), out);

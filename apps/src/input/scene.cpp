@@ -40,8 +40,8 @@ Json scalar(const std::string& tag, const std::string& text) {
                    "a scene of fewer, aliases counted wherever they stand");
 }
 
-/// Builds the value while the document is read, so that every limit holds before memory is taken: few lines of
-/// aliases can stand for more values than there are bytes.
+/// Builds the value while the document is read, so that every limit holds before memory is taken: few lines
+/// of aliases can stand for more values than there are bytes.
 class Builder : public YAML::EventHandler {
  public:
   Json take() { return std::move(root_); }
@@ -112,8 +112,7 @@ class Builder : public YAML::EventHandler {
 
   void count(std::size_t values) {
     values_ += values;
-    if (values_ > kMostValues)
-      refuse_values(path() + ", up to here");
+    if (values_ > kMostValues) refuse_values(path() + ", up to here");
   }
 
   void open(Json empty, YAML::anchor_t anchor) {
@@ -163,7 +162,9 @@ class Builder : public YAML::EventHandler {
 
 }  // namespace
 
-std::string read_scene_text(const std::string& path) { return TextSource(path, "a scene file (YAML)").whole(); }
+std::string read_scene_text(const std::string& path) {
+  return TextSource(path, "a scene file (YAML)").whole();
+}
 
 Json scene_fields(const std::string& text, const std::string& path) {
   // The parser looks ahead as far as lists and mappings may go on.

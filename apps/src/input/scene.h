@@ -10,8 +10,8 @@ namespace vericone::input {
 /// Reads a scene file, YAML (of which JSON is a part). Throws InputError naming the file or the field.
 AnyEngagement read_scene(const std::string& path);
 
-/// Its fields as they stand, unchecked but for the limits of text_source.h and for text that is no UTF-8 or that
-/// a terminal would obey.
+/// Its fields as they stand, unchecked but for the limits of text_source.h and for text that is no UTF-8 or
+/// that a terminal would obey.
 Json read_scene_fields(const std::string& path);
 
 /// The two in steps: a pipe can be read only once. `path` is named in errors, and files are relative to it.

@@ -15,6 +15,7 @@
 #include "interrupt.h"
 #include "json_value.h"
 #include "map_answer.h"
+#include "output_folder.h"
 #include "pieces/assembly_cone.h"
 #include "pieces/pieces_picture.h"
 #include "provenance.h"
@@ -37,8 +38,9 @@ std::vector<fs::path> all_files(const std::vector<std::string>& given) {
       continue;
     }
     std::vector<fs::path> inside;
+    std::error_code looping;
     for (const auto& entry : fs::recursive_directory_iterator(path))
-      if (entry.is_regular_file() &&
+      if (entry.is_regular_file(looping) &&  // a link may lead to itself
           std::find(known.begin(), known.end(), entry.path().extension()) != known.end())
         inside.push_back(entry.path());
     std::sort(inside.begin(), inside.end());
@@ -98,7 +100,7 @@ class Gallery {
 
   void write() const {
     const fs::path folder = options_.out;
-    write_whole(folder / "gallery.json", Json{{"rows", rows_}}.dump(1) + "\n");
+    write_whole(folder / "gallery.json", json_text({{"rows", rows_}}) + "\n");
     write_whole(folder / "gallery.md", table());
     std::vector<fs::path> inputs;
     for (const Json& row : rows_) {
@@ -127,7 +129,7 @@ class Gallery {
     if (options_.resolution > 0)
       whole["map"] =
           map_answer(cone.oracle, {options_.resolution, std::nullopt, threads_}, cone.frame.axis, "").summary;
-    write_whole(folder / "cone.json", whole.dump(1) + "\n");
+    write_whole(folder / "cone.json", json_text(whole) + "\n");
     row["cone"] = summary(whole, cone);
     Json pictures = Json::array();
     if (options_.figures)
@@ -211,7 +213,7 @@ int run_gallery(const GalleryOptions& options, std::ostream& out) {
                      "between 0 and 1, parts of the cloud's largest side");
   const std::vector<fs::path> files = all_files(options.files);
   if (files.empty()) throw InputError("files", "none", "meshes, clouds or octree maps, or folders of them");
-  fs::create_directories(options.out);
+  const OutputFolder folder(options.out, "--out");
   catch_interrupts();
   Gallery gallery(options, out);
   for (std::size_t i = 0; i < files.size() && !interrupted(); ++i) {

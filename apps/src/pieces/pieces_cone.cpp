@@ -10,6 +10,7 @@
 #include "figures.h"
 #include "input/assembly_body.h"
 #include "json_value.h"
+#include "output_folder.h"
 #include "pieces/assembly_cone.h"
 #include "pieces/pieces_picture.h"
 #include "pieces/world_mesh.h"
@@ -115,7 +116,7 @@ void run_pieces_cone(const ConeOptions& options, const input::AssemblyEngagement
   }
   if (!drawn) return;
   const std::filesystem::path folder = options.picture_folder;
-  std::filesystem::create_directories(folder);
+  const OutputFolder held(folder, "--picture");
   const std::string script = write_pieces_picture(cone, e, folder, threads_for(options.threads));
   if (options.map) write_whole(folder / "cone_map.json", map.picture.dump() + "\n");
   if (!options.figures) return;

@@ -13,6 +13,7 @@
 #include "input/scene.h"
 #include "input/spatial_body.h"
 #include "json_value.h"
+#include "output_folder.h"
 #include "pieces/world_mesh.h"
 #include "provenance.h"
 #include "scan/lidar_fields.h"
@@ -111,6 +112,7 @@ void print(const Json& scan, std::ostream& out) {
 
 void run_scan(const ScanOptions& options, std::ostream& out) {
   const Scene scene = read(options.scene);
+  const OutputFolder held(options.out, "--out");
   const Setup setup = setup_of(scene, options);
   std::ostream* log = options.quiet ? nullptr : &std::cerr;
   const lidar::MeshScene mesh(setup.points, setup.triangles);
@@ -140,7 +142,6 @@ void run_scan(const ScanOptions& options, std::ostream& out) {
   }
 
   const std::filesystem::path folder = options.out;
-  std::filesystem::create_directories(folder);
   write_whole(folder / "cloud.ply", ply(seen.points));
   write_whole(folder / "scan.json", result.dump(1) + "\n");
   write_whole(folder / "section.json", parsed(plane_section_picture(setup, options.azimuth)).dump() + "\n");

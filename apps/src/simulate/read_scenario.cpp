@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulate/read_scenario.h"
 
+#include <cmath>
 #include <filesystem>
 
 #include "input/scene.h"
@@ -44,6 +45,21 @@ void read_proof(const Json& value, const std::string& path, simulation::ProofOpt
            [&](const Json& v, const std::string& p) { proof.resolution = read_positive(v, p, " (s)"); });
 }
 
+/// Every row of the tables is kept until the run is over.
+void check_size(const simulation::Scenario& scenario) {
+  constexpr double kMostRows = 3e6;
+  double rows = double(scenario.bodies.size());  // a step
+  for (const simulation::Body& body : scenario.bodies)
+    if (body.pilot)
+      rows += double(body.pilot->minds.empty() ? scenario.bodies.size() - 1 : body.pilot->minds.size());
+  const double steps = std::ceil(scenario.duration / scenario.step);
+  if (steps * rows <= kMostRows) return;
+  throw InputError("step", to_text(scenario.step),
+                   "at least " + to_text(scenario.duration * rows / kMostRows) + " s: " + to_text(steps) +
+                       " steps of " + to_text(rows) +
+                       " rows (bodies, and pairs with an agent) are more than 3000000 rows");
+}
+
 }  // namespace
 
 simulation::Scenario read_scenario(const Json& fields, const std::string& name) {
@@ -70,6 +86,7 @@ simulation::Scenario read_scenario(const Json& fields, const std::string& name) 
   for (std::size_t i = 0; i < bodies.size(); ++i)
     scenario.bodies.push_back(read_body(bodies[i], at("bodies", i)));
   simulation::check(scenario);
+  check_size(scenario);
   return scenario;
 }
 
