@@ -169,7 +169,6 @@ PIECES_SCENE = ("agent: {center: [0, 0, 0], semi_axes: [1, 2, 3]}\n"
 LIDARS = "lidars: [{beams: {rows: 9, columns: 9, horizontal: 1, vertical: 1}}]\n"
 # What is wrong, arguments (FILE stands for the scene), scene.
 COMMANDS = [
-    ("no command", [], None),
     ("an unknown command", ["cones"], None),
     ("an unknown option", ["cone", "FILE", "--plane", "3"], SCENE),
     ("a scene that does not exist", ["cone", "nowhere.yaml"], None),

@@ -520,6 +520,8 @@ class Accuracy(unittest.TestCase):
             origin = json.loads(self.read(folder, "provenance.json"))
             for key in ("command", "commit", "compiler", "flags", "processor", "seed"):
                 self.assertTrue(str(origin[key]))
+            self.assertRegex(origin["compiler"], r"^(GNU|Clang) [0-9]+\.")
+            self.assertIn("-ffp-contract=off", origin["flags"].split())
 
     def table(self, folder):
         settings, header, *rows = self.read(folder, "engagements.csv").splitlines()
@@ -559,8 +561,28 @@ class Accuracy(unittest.TestCase):
             self.assertEqual([r["distance"] for r in rows], ["5", "9"])
             # Two balls: the section of the cone is a disc, sin(psi) = 3/5.
             self.assertAlmostEqual(float(rows[0]["exact_area"]), math.pi * 9 / 16, 12)
-            digest = hashlib.sha256(open(cases, "rb").read()).hexdigest()
+            with open(cases, "rb") as f:
+                digest = hashlib.sha256(f.read()).hexdigest()
             self.assertIn("cases " + digest, settings)
+            self.assertEqual(json.loads(self.read(out, "provenance.json"))["inputs"], [{"file": cases, "sha256": digest}])
+            # The same as JSON, and the threads that were asked for.
+            result = run("accuracy", "--cases", cases, "--planes", "3,36", "--no-figures", "--quiet", "--json", "--threads",
+                         "3", "--out", out)
+            self.assertEqual(json.loads(result.stdout), json.loads(self.read(out, "summary.json")))
+            self.assertEqual(json.loads(self.read(out, "provenance.json"))["threads"], 3)
+
+    def test_hashes_of_all_lengths(self):
+        # The end of a SHA-256 stands in the last block or in one more: lengths around the edges.
+        with tempfile.TemporaryDirectory() as folder:
+            cases = os.path.join(folder, "cases.jsonl")
+            line = json.dumps({"agent": ball([1, 0, 0], 1), "obstacle": ball([6, 0, 0], 2)}) + "\n"
+            for length in (119, 120, 127, 128, 129, 183, 184, 191, 192):
+                content = (line + " " * length)[:length].encode()
+                with open(cases, "wb") as f:
+                    f.write(content)
+                result = run("accuracy", "--cases", cases, "--planes", "3,4", "--no-figures", "--quiet", "--out", folder)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertIn(hashlib.sha256(content).hexdigest(), self.table(folder)[0], length)
 
     def test_combined_obstacles(self):
         arguments = ("accuracy", "--obstacle", "biconcave", "-N", "16", "--planes", "3,6,12,96", "--tolerance", "0.1",

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`vericone NAME` finds the program `vericone-NAME`, and the programs behave as one. Environment, besides that of
 cli_test.py: VERICONE_PROGRAMS, the names of those that were built."""
+import json
 import os
 import re
 import shutil
@@ -115,6 +116,18 @@ class Family(unittest.TestCase):
         self.assertEqual(alone.stderr, run("--help").stdout + "vericone: no command given\n")
         self.assertEqual(run("help").stdout, run("--help").stdout)
         self.assertEqual(run("help", "cone").stdout, run("cone", "--help").stdout)
+
+    @unittest.skipUnless("verify" in PROGRAMS, "no verify")
+    def test_verify_ends_with_its_verdict(self):
+        result = run("verify", "--cases", "20", "--pairs", "0", "--quiet")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        *_, ran, verdict = result.stdout.splitlines()
+        self.assertRegex(ran, r"^--cases 20: 32 of each predicate, in blocks of 16")
+        self.assertRegex(verdict, r"^0 wrong of \d+ statements; 0 intervals wider than asked \(not wrong\)$")
+        told = json.loads(run("verify", "--cases", "20", "--pairs", "0", "--quiet", "--json").stdout)
+        asked = sum(p["compared_with_exact"] + p["checked_against_cgal"] for p in told["predicates"])
+        self.assertEqual(told["statements"], asked)
+        self.assertIn(" %d statements" % asked, verdict)
 
     def test_the_core_alone_says_what_is_missing(self):
         listed = self.call_core("--help").stdout

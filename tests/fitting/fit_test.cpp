@@ -277,5 +277,27 @@ TEST(Fit, RefusesWithTheFieldNamed) {
   EXPECT_EQ(field(few, [](FitOptions& o) { o.mode = Mode::least_squares; }), "points");
 }
 
+// A cap of a long body: the rest would be invented.
+TEST(Fit, RefusesWhatThePointsDoNotDetermine) {
+  Sample cap;
+  for (int i = 0; i < 60; ++i)
+    for (int k = 0; k < 40; ++k) {
+      const double turn = 0.1047 * i, out = 0.012 * k, noise = 0.004 * ((i * 37 + k * 101) % 7 - 3);
+      const double height = 3 * std::sqrt(1 - out * out) + noise;
+      cap.points.emplace_back(out * std::cos(turn), out * std::sin(turn), height);
+    }
+  for (const Mode mode : {Mode::robust, Mode::least_squares}) {
+    FitOptions options;
+    options.mode = mode;
+    options.shape = Shape::ellipsoid;
+    try {
+      const FitResult result = fit(cap, options);
+      FAIL() << result.pieces.front().body.ellipsoid().semi_axes().transpose();
+    } catch (const InputError& e) {
+      EXPECT_NE(std::string(e.what()).find("not determined by these points"), std::string::npos) << e.what();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vericone::fitting::fit_test

@@ -316,6 +316,44 @@ TEST(LeastSquares, SayWhatAPatchLeavesOpen) {
   ASSERT_FALSE(some.unknown.empty());
   EXPECT_EQ(some.unknown[0].what.substr(0, 13), "center along ");
   EXPECT_GT(some.unknown[0].error, 0.05);
+  // 2 m along the axis where the points are 0.6 m wide.
+  EXPECT_FALSE(all.overreach);
+  ASSERT_TRUE(some.overreach);
+  EXPECT_GT(some.overreach->reach, 1.5);
+  EXPECT_NEAR(some.overreach->width, 0.6, 0.1);
+}
+
+// More points than a surface is first tried with; the half of a body is enough, also of a long one.
+TEST(LeastSquares, FindHalvesOfManyPoints) {
+  Random random(82);
+  SCOPED_TRACE(random.trace());
+  Sample half;
+  while (half.points.size() < 5000) {
+    const Vector3d u = random.vector<3>().normalized();
+    if (u.x() > 0) half.points.push_back(u.cwiseProduct(Vector3d(3, 1, 2)) + 0.01 * random.vector<3>());
+  }
+  const CanonicalSample sample = canonical(half);
+  for (const bool robust : {false, true}) {
+    const SurfaceFit fit = fit_surface(sample, Shape::ellipsoid, {.robust = robust});
+    ASSERT_TRUE(fit.converged);
+    EXPECT_FALSE(fit.overreach);
+    EXPECT_LT((sample.frame.scale * fit.piece.body.ellipsoid().semi_axes() - Vector3d(3, 2, 1)).norm(), 0.02);
+  }
+}
+
+// With all of the points the solver would take minutes on its way to infinity.
+TEST(LeastSquares, RefusePlanesAndCylindersOfManyPointsAtOnce) {
+  Random random(83);
+  SCOPED_TRACE(random.trace());
+  Sample plane, cylinder;
+  for (int i = 0; i < 20000; ++i) {
+    const double angle = random.uniform(-3.2, 3.2);
+    plane.points.emplace_back(random.uniform(-20, 20), random.uniform(-9, 9), 0.02 * random.normal());
+    cylinder.points.emplace_back(3 * std::cos(angle), 3 * std::sin(angle), random.uniform(-20, 20));
+  }
+  for (const Sample* sample : {&plane, &cylinder})
+    for (const bool robust : {false, true})
+      EXPECT_THROW(fit_surface(canonical(*sample), Shape::ellipsoid, {.robust = robust}), InputError);
 }
 
 struct Refused {

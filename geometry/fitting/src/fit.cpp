@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -197,6 +198,23 @@ class Progress {
   int steps_, done_ = 0;
 };
 
+std::string three_digits(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", x);
+  return text;
+}
+
+/// Throws where a surface goes on far beyond its points.
+void require_determined(const Trial& trial) {
+  for (const SurfaceFit& s : trial.surfaces)
+    if (s.overreach)
+      throw InputError("points",
+                       "a surface that is not determined by these points: it reaches " +
+                           three_digits(s.overreach->reach) + " m from its centre where they are " +
+                           three_digits(s.overreach->width) + " m wide",
+                       "points from more sides, another shape, or a containing fit");
+}
+
 /// A shape that does not apply to the points is no candidate where there is a choice.
 std::vector<Trial> try_all(const std::vector<Part>& parts, const CanonicalSample& sample,
                            const FitOptions& options, Progress& progress) {
@@ -205,6 +223,7 @@ std::vector<Trial> try_all(const std::vector<Part>& parts, const CanonicalSample
     progress.next("fitting " + to_string(*options.shape));
     require_enough(sample, *options.shape, options.pieces, options.mode);
     trials.push_back(try_shape(parts, *options.shape, options, sample.frame.scale));
+    require_determined(trials.front());
     return trials;
   }
   require_enough(sample, Shape::ellipsoid, options.pieces, options.mode);
@@ -217,7 +236,13 @@ std::vector<Trial> try_all(const std::vector<Part>& parts, const CanonicalSample
       if (shape == Shape::ellipsoid) throw;
     }
   }
-  return trials;
+  std::vector<Trial> determined;
+  for (Trial& trial : trials)
+    if (std::none_of(trial.surfaces.begin(), trial.surfaces.end(),
+                     [](const SurfaceFit& s) { return s.overreach.has_value(); }))
+      determined.push_back(std::move(trial));
+  if (determined.empty()) require_determined(trials.front());
+  return determined;
 }
 
 void measure(const Sample& sample, const CanonicalSample& canon, FitResult& result) {

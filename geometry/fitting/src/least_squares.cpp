@@ -54,17 +54,6 @@ PlanarFrame to_plane(const CanonicalSample& sample, Cloud& cloud) {
   return frame;
 }
 
-/// Mean squares about the mean along the principal axes, increasing.
-Eigen::VectorXd spread(const Cloud& cloud, bool planar) {
-  Vector3d mean = Vector3d::Zero();
-  for (std::size_t i = 0; i < cloud.points.size(); ++i) mean += cloud.weights[i] * cloud.points[i];
-  Matrix3d covariance = Matrix3d::Zero();
-  for (std::size_t i = 0; i < cloud.points.size(); ++i)
-    covariance += cloud.weights[i] * (cloud.points[i] - mean) * (cloud.points[i] - mean).transpose();
-  const int d = planar ? 2 : 3;
-  return dense_eigen(covariance.topLeftCorner(d, d)).values;
-}
-
 /// Refuses points that no ellipsoid (ellipse) can be told from.
 void require_extent(const Cloud& cloud, bool planar) {
   const Eigen::VectorXd squares = spread(cloud, planar);
@@ -75,17 +64,24 @@ void require_extent(const Cloud& cloud, bool planar) {
   throw InputError("points", flat >= 2 ? "points on one line" : "points in one plane", "spread in space");
 }
 
+/// How far the body reaches from its centre along each of these axes.
+Vector3d reach_along_axes(const CombinedEllipsoid& body, const Matrix3d& axes) {
+  Vector3d reach = Vector3d::Zero();
+  for (const Vector3d& d : directions(400, false)) {
+    const Vector3d along = axes.transpose() * d / body.gauge(d);
+    reach = reach.cwiseMax(along.cwiseAbs());
+  }
+  return reach;
+}
+
 /// Refuses what is no closed surface near the points but the limit of some.
 void require_closed(const FittedSurface& fit, const Cloud& cloud) {
   constexpr double kLong = 10;
   const bool planar = fit.model.planar;
   const int d = planar ? 2 : 3;
   const Vector3d a = Surfaces(fit.model, fit.solution.parameters).semi_axes();
-  const double thickness = std::sqrt(std::max(0.0, spread(cloud, planar)(0)));
   const std::string wanted = planar ? "near an ellipse" : "near an ellipsoid";
-  // What separates the two sides of the surface has to be seen through the noise.
-  const bool flat = thickness < 2.5 * fit.noise || a(d - 1) < 2 * fit.noise;
-  if (flat)
+  if (is_flat(fit, cloud))
     throw InputError("points", planar ? "points near a straight line" : "points near a plane",
                      wanted + ": they are no thicker than their noise");
   if (!is_open(fit)) return;
@@ -94,6 +90,35 @@ void require_closed(const FittedSurface& fit, const Cloud& cloud) {
                             : open == 1 ? "a paraboloid or a cylinder"
                                         : "a plane or a parabolic cylinder";
   throw InputError("points", "points near " + found, wanted);
+}
+
+std::optional<Overreach> overreach(const FittedSurface& fit, const Cloud& cloud, const SurfaceFit& told,
+                                   double unit) {
+  constexpr double kFar = 1.5, kFarUndetermined = 1.25, kUndetermined = 0.05;
+  const bool planar = fit.model.planar;
+  const int first = planar ? 1 : 0, d = 3 - first;
+  const Surfaces surfaces(fit.model, fit.solution.parameters);
+  const Surfaces::Surface& ellipsoid = surfaces.all()[0];
+  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const Vector3d& x : cloud.points) {
+    if (fit.cutoff > 0 && std::abs(surfaces.distance(x, nullptr)) > 3 * fit.noise + 1e-9) continue;
+    const Vector3d along = ellipsoid.axes.transpose() * (x - surfaces.center());
+    low = low.cwiseMin(along);
+    high = high.cwiseMax(along);
+  }
+  const Vector3d a = surfaces.semi_axes();
+  Vector3d reach = Vector3d::Zero();
+  if (planar)
+    reach.head<2>() = a.head<2>();
+  else
+    reach = reach_along_axes(surfaces.body(), ellipsoid.axes);
+  for (int k = 0; k < d; ++k) {
+    const double width = high(first + k) - low(first + k);
+    const bool undetermined = told.axes_error(k) > kUndetermined * a(k);
+    if (!(reach(k) > (undetermined ? kFarUndetermined : kFar) * width)) continue;
+    return Overreach{unit * reach(k), unit * width};
+  }
+  return std::nullopt;
 }
 
 void require_cut(const FittedSurface& fit) {
@@ -172,6 +197,7 @@ SurfaceFit fit_surface(const CanonicalSample& sample, Shape shape, const Surface
     unit *= plane.scale;
   }
   report(fit, cloud, axes, unit, result);
+  if (result.converged) result.overreach = overreach(fit, cloud, result, unit);
   if (planar)
     to_world(surfaces, plane, sample, result);
   else

@@ -14,18 +14,6 @@ namespace {
 
 using Eigen::Matrix3d, Eigen::MatrixXd, Eigen::Vector3d, Eigen::VectorXd;
 
-/// Even over the sphere: a spiral of equal turns. Planar: over the circle.
-std::vector<Vector3d> directions(int count, bool planar) {
-  const double turn = std::numbers::pi * (3 - std::sqrt(5.0));
-  std::vector<Vector3d> all;
-  for (int k = 0; k < count; ++k) {
-    const double height = planar ? 0 : 1 - (2 * k + 1.0) / count, r = std::sqrt(1 - height * height);
-    const double angle = planar ? 2 * std::numbers::pi * k / count : turn * k;
-    all.emplace_back(r * std::cos(angle), r * std::sin(angle), height);
-  }
-  return all;
-}
-
 std::string direction_text(const Vector3d& d) {
   char text[64];
   std::snprintf(text, sizeof text, "(%.2f, %.2f, %.2f)", d.x() + 0.0, d.y() + 0.0, d.z() + 0.0);
@@ -40,6 +28,17 @@ Vector3d upright(const Vector3d& d) {
 }
 
 }  // namespace
+
+std::vector<Vector3d> directions(int count, bool planar) {
+  const double turn = std::numbers::pi * (3 - std::sqrt(5.0));
+  std::vector<Vector3d> all;
+  for (int k = 0; k < count; ++k) {
+    const double height = planar ? 0 : 1 - (2 * k + 1.0) / count, r = std::sqrt(1 - height * height);
+    const double angle = planar ? 2 * std::numbers::pi * k / count : turn * k;
+    all.emplace_back(r * std::cos(angle), r * std::sin(angle), height);
+  }
+  return all;
+}
 
 double effective_points(const Cloud& cloud) {
   double squares = 0;

@@ -17,6 +17,9 @@ struct FittedSurface {
   double noise = 0;
 };
 
+/// Even over the sphere: a spiral of equal turns. Planar: over the circle.
+std::vector<Eigen::Vector3d> directions(int count, bool planar);
+
 /// Number of equally weighted points that tell as much.
 double effective_points(const Cloud& cloud);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dense_eigen.h"
 #include "robust_scale.h"
 
 namespace vericone::fitting {
@@ -15,7 +16,7 @@ using Eigen::Vector3d, Eigen::VectorXd;
 constexpr double kCutoff = 4.685;
 /// Exact points have no scale; this is far above rounding and far below what matters, in the unit ball.
 constexpr double kFloor = 1e-9;
-constexpr std::size_t kFew = 250, kMore = 600;
+constexpr std::size_t kFew = 250, kMore = 600, kPlenty = 1000;
 
 std::vector<Residual> sizes_of(const VectorXd& r, const Cloud& cloud) {
   std::vector<Residual> all(cloud.points.size());
@@ -177,6 +178,23 @@ bool is_open(const FittedSurface& fit) {
   return is_open(fit.model, fit.solution.parameters, fit.solution.converged);
 }
 
+VectorXd spread(const Cloud& cloud, bool planar) {
+  Vector3d mean = Vector3d::Zero();
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) mean += cloud.weights[i] * cloud.points[i];
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < cloud.points.size(); ++i)
+    covariance += cloud.weights[i] * (cloud.points[i] - mean) * (cloud.points[i] - mean).transpose();
+  const int d = planar ? 2 : 3;
+  return dense_eigen(covariance.topLeftCorner(d, d)).values;
+}
+
+bool is_flat(const FittedSurface& fit, const Cloud& cloud) {
+  const bool planar = fit.model.planar;
+  const double thickness = std::sqrt(std::max(0.0, spread(cloud, planar)(0)));
+  const Vector3d a = Surfaces(fit.model, fit.solution.parameters).semi_axes();
+  return thickness < 2.5 * fit.noise || a(planar ? 1 : 2) < 2 * fit.noise;
+}
+
 FittedSurface fit_ellipsoid(const Cloud& cloud, bool planar, const SurfaceFitOptions& options) {
   SurfaceModel model;
   model.planar = planar;
@@ -189,6 +207,14 @@ FittedSurface fit_ellipsoid(const Cloud& cloud, bool planar, const SurfaceFitOpt
   for (const Parameters& p : starts) all.push_back({model, p});
   all = best(all, thinned(cloud, options.robust ? kFew : kMore), options.robust, 3, 15, 3);
   if (options.robust) all = best(all, thinned(cloud, kMore), true, 2, 15, 1);
+  if (cloud.points.size() > kPlenty) {
+    // A plane or a cylinder shows in few of many points. With all of them the solver would creep to infinity.
+    const Cloud some = thinned(cloud, kPlenty);
+    SurfaceFitOptions short_way = options;
+    short_way.max_iterations = std::min(options.max_iterations, 60);
+    const FittedSurface few = refined(all.front(), some, short_way);
+    if (is_open(few) || is_flat(few, some)) return few;
+  }
   return refined_best({all.front()}, cloud, options);
 }
 

@@ -13,6 +13,12 @@ namespace vericone::fitting {
 /// A semi-axis so long beside the points (in the unit ball) that an open surface is meant.
 bool is_open(const FittedSurface& fit);
 
+/// What separates the two sides of the surface is not seen through the noise.
+bool is_flat(const FittedSurface& fit, const Cloud& cloud);
+
+/// Mean squares about the mean along the principal axes, increasing.
+Eigen::VectorXd spread(const Cloud& cloud, bool planar);
+
 /// An ellipsoid; planar: an ellipse.
 FittedSurface fit_ellipsoid(const Cloud& cloud, bool planar, const SurfaceFitOptions& options);
 

@@ -6,6 +6,7 @@
 
 #include <vericone/fitting/hull.h>
 #include <cstdint>
+#include <optional>
 
 namespace vericone::fitting {
 
@@ -19,6 +20,12 @@ struct SurfaceFitOptions {
 struct Unknown {
   std::string what;             // "center along (0.1, 0.2, 0.97)", "semi-axis 2", ...
   double value = 0, error = 0;  // metres, the centre's from the sample's mean; error: one standard deviation
+};
+
+/// A body that goes on far beyond the points: how far from its centre along one of its axes, and how wide the
+/// points are along that, metres.
+struct Overreach {
+  double reach = 0, width = 0;
 };
 
 struct SurfaceFit {
@@ -38,6 +45,9 @@ struct SurfaceFit {
   double seen = 1;
   /// What the points do not determine: standard deviation above a twentieth of the value.
   std::vector<Unknown> unknown;
+  /// There where a reach is above 1.5 times the width, or 1.25 times where the semi-axis is unknown: most of
+  /// the body is the model's, not the points'. The half of an ellipsoid shows each of its semi-axes in full.
+  std::optional<Overreach> overreach;
   int iterations = 0;
 };
 
