@@ -217,6 +217,38 @@ class Independent(unittest.TestCase):
         self.assertAlmostEqual(np.degrees(psi), claims()["5.4.1/psi-2.13"]["ours_value"], delta=2e-3)
 
 
+class Equations(unittest.TestCase):
+    """Numbers of the claims on misprints, from formulas of this file."""
+
+    def number(self, claim, pattern):
+        found = re.search(pattern, claims()[claim]["ours"])
+        self.assertTrue(found, claims()[claim]["ours"])
+        return float(found.group(1))
+
+    def test_foci(self):
+        a, b, k = 6, 2, 0.9
+        self.assertAlmostEqual(self.number("5.5/confocal", r"at ([\d.]+) m \(ellipse"),
+                               np.sqrt((1 + k) * (a * a - b * b)), delta=5e-4)
+        self.assertAlmostEqual(self.number("5.5/confocal", r"and ([\d.]+) m \(hyperbola"),
+                               np.sqrt((1 - k) * (a * a + b * b)), delta=5e-4)
+
+    def test_row_of_v_phi(self):
+        """V_phi = r phi' of straight motions, by differences."""
+        elevation = np.radians(69)
+        start, v = np.array([-10.0, 0, 20]), np.array([5, 0, 0]) - 8.5 * np.array([np.cos(elevation), 0, np.sin(elevation)])
+
+        def v_phi(t, h=1e-4):
+            r = [start + v * (t + s) for s in (-h, 0, h)]
+            phi = [np.arctan2(x[2], np.hypot(x[0], x[1])) for x in r]
+            return np.linalg.norm(r[1]) * (phi[2] - phi[0]) / (2 * h)
+        row = (v_phi(1e-3) - v_phi(-1e-3)) / 2e-3
+        self.assertAlmostEqual(self.number("6.10/V_phi", r"^(-?[\d.]+) m/s"), row, delta=1e-3)
+
+    def test_signs_of_determinants(self):
+        for name, signs in (("ellipsoid", (1, 1, 1)), ("one-sheeted", (1, 1, -1)), ("two-sheeted", (1, -1, -1))):
+            self.assertEqual(self.number("6.1/det", name + r" (-?\d+)"), round(np.linalg.det(np.diag(signs + (-1,)))))
+
+
 class Page(html.parser.HTMLParser):
     def __init__(self):
         super().__init__(convert_charrefs=True)

@@ -59,7 +59,8 @@ if largest > 5:
 panels[1, 1].set_ylim(0, (2 if largest > 5 else 1.12) * largest)
 panels[1, 1].set_xticks([i for i, _ in sorted(set(bars))])
 panels[1, 1].set_xticklabels([o for _, o in sorted(set(bars))])
-panels[1, 1].set_xlabel("obstacle (pale: never steered against)")
+panels[1, 1].set_xlabel("obstacle (pale: never steered against)" if any(r.idle(r.agents()[0]) for r in
+                        data["runs"].values()) else "obstacle")
 panels[1, 1].grid(False, axis="x")
 figure_legend = panels[1, 0].get_legend_handles_labels()
 panels[0, 0].legend(*figure_legend, loc="best")

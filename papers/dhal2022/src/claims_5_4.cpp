@@ -132,8 +132,8 @@ void claims_5_4_1(PaperRuns& runs, std::vector<Claim>& claims) {
   }
   const Look& spotted = last.at(0);
   claims.push_back(number({"5.4.1/y-2.13", section, y, "y(2.13) of F1 and F3",
-                           third + ". With it y is " + short_text(spotted.y, 3) +
-                               ", the printed value if digits are cut off instead of rounded, and only then",
+                           third + ". With its digits cut off instead of rounded ours is " +
+                               short_text(std::trunc(100 * spotted.y) / 100, 3),
                            false, &kThirdSpeed},
                           -0.06, "-0.06", "", spotted.y, half_a_digit(2)));
   claims.push_back(number(
