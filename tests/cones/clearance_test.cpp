@@ -122,11 +122,11 @@ TEST(Clearance, GradientsAndTime) {
     const Vector3d w = random.uniform(0.5, 3) * random.direction(), d = random.direction();
     const Clearance m = clearance(a, b, w);
     if (m.distance < 0.05) continue;  // smooth where it is positive
-    const double by_center =
-        richardson_derivative([&](double t) { return clearance(a, b.translated(t * d), w).distance; }, 0.01);
+    const double by_center = richardson_derivative(
+        [&, &a = a, &b = b](double t) { return clearance(a, b.translated(t * d), w).distance; }, 0.01);
     ASSERT_NEAR(m.gradient_center().dot(d), by_center, 1e-8) << "case " << i;
-    const double by_velocity =
-        richardson_derivative([&](double t) { return clearance(a, b, w + t * d).distance; }, 0.01 * w.norm());
+    const double by_velocity = richardson_derivative(
+        [&, &a = a, &b = b](double t) { return clearance(a, b, w + t * d).distance; }, 0.01 * w.norm());
     const double scale = 1 + std::abs(m.time);
     ASSERT_NEAR(m.gradient_velocity().dot(d), by_velocity, 1e-7 * scale) << "case " << i;
     // The supporting points pass each other: their difference at that time is along the normal.
