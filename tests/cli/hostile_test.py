@@ -144,6 +144,10 @@ class HostileCases(InFolder):
         self.assertEqual(result.returncode, 0)
         for given, line in zip(ids, result.stdout.splitlines(), strict=True):
             self.assertTrue(line.startswith('{"id":%s,"verdict":"on"' % given), line)
+        result = self.run_limited("query", "-", input='{"id":\t[1,\r{"a"\t: 2}] , ' + REST + "\n" + GOOD + "\0}\n")
+        first, second = result.stdout.split("\n")[:2]
+        self.assertTrue(first.startswith('{"id":[1, {"a" : 2}],"verdict":"on"'), first)
+        self.assertIn("a zero byte", second)
         _, (last, inner, escaped) = self.answers("{" + REST[:-1] + ', "id": 7}', '{"agent": {"id": 8}, "id": 9}',
                                                  '{"\\u0069d": 5, ' + REST)
         self.assertEqual((last["id"], inner["id"], escaped["id"]), (7, 9, 5))
