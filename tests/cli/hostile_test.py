@@ -277,6 +277,14 @@ class Writing(InFolder):
         other = self.run_limited("accuracy", "-N", "200", *arguments)
         self.refused(other, "--out", "unfinished run of other settings")
 
+    def test_a_link_to_itself_hides_no_other_file(self):
+        os.mkdir(os.path.join(self.folder, "scans"))
+        os.symlink("loop.obj", os.path.join(self.folder, "scans", "loop.obj"))
+        self.write("scans/t.off", "OFF\n4 4 0\n0 0 0\n3 0 0\n0 2 0\n0 0 1\n3 0 1 2\n3 0 1 3\n3 0 2 3\n3 1 2 3\n")
+        result = self.run_limited("gallery", "scans", "--out", "out", "--no-figures", "--map", "0")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.names("out"), ["gallery.json", "gallery.md", "provenance.json", "t-off"])
+
     def test_two_runs_in_one_folder(self):
         with subprocess.Popen([VERICONE, "campaign", "-N", "10000000", "--quiet", "--out", "out"], cwd=self.folder) as first:
             partial = os.path.join(self.folder, "out", "engagements.csv.partial")
