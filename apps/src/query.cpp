@@ -97,6 +97,10 @@ Json parse_line(const std::string& line, std::size_t number, int levels) {
   if (levels > input::kMostLevels)
     throw InputError(name_of(number), std::to_string(levels) + " levels of lists and mappings",
                      "nested at most " + std::to_string(input::kMostLevels) + " deep");
+  // The parser takes this character for the end.
+  if (const auto zero = line.find('\0'); zero != std::string::npos)
+    throw InputError(name_of(number), "a zero byte at character " + std::to_string(zero + 1),
+                     "one JSON object");
   try {
     Json value;
     LineBuilder builder(value, number);
@@ -112,10 +116,14 @@ Json parse_line(const std::string& line, std::size_t number, int levels) {
   }
 }
 
-/// A value as written, without the space around it.
+/// A value as written, on one line and without the space around it. (Within texts these characters are
+/// written as escapes.)
 std::string trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
-  return first == std::string_view::npos ? "" : std::string(text.substr(first, last - first + 1));
+  std::string value(text.substr(first, last - first + 1));
+  std::replace_if(
+      value.begin(), value.end(), [](char c) { return c == '\t' || c == '\r'; }, ' ');
+  return value;
 }
 
 std::string answer_line(const std::string& line, std::size_t number, bool with_rung,

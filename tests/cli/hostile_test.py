@@ -144,6 +144,10 @@ class HostileCases(InFolder):
         self.assertEqual(result.returncode, 0)
         for given, line in zip(ids, result.stdout.splitlines(), strict=True):
             self.assertTrue(line.startswith('{"id":%s,"verdict":"on"' % given), line)
+        result = self.run_limited("query", "-", input='{"id":\t[1,\r{"a"\t: 2}] , ' + REST + "\n" + GOOD + "\0}\n")
+        first, second = result.stdout.split("\n")[:2]
+        self.assertTrue(first.startswith('{"id":[1, {"a" : 2}],"verdict":"on"'), first)
+        self.assertIn("a zero byte", second)
         _, (last, inner, escaped) = self.answers("{" + REST[:-1] + ', "id": 7}', '{"agent": {"id": 8}, "id": 9}',
                                                  '{"\\u0069d": 5, ' + REST)
         self.assertEqual((last["id"], inner["id"], escaped["id"]), (7, 9, 5))
@@ -272,6 +276,14 @@ class Writing(InFolder):
         # What was written is used: the settings tell the number of engagements, so this one is refused.
         other = self.run_limited("accuracy", "-N", "200", *arguments)
         self.refused(other, "--out", "unfinished run of other settings")
+
+    def test_a_link_to_itself_hides_no_other_file(self):
+        os.mkdir(os.path.join(self.folder, "scans"))
+        os.symlink("loop.obj", os.path.join(self.folder, "scans", "loop.obj"))
+        self.write("scans/t.off", "OFF\n4 4 0\n0 0 0\n3 0 0\n0 2 0\n0 0 1\n3 0 1 2\n3 0 1 3\n3 0 2 3\n3 1 2 3\n")
+        result = self.run_limited("gallery", "scans", "--out", "out", "--no-figures", "--map", "0")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.names("out"), ["gallery.json", "gallery.md", "provenance.json", "t-off"])
 
     def test_two_runs_in_one_folder(self):
         with subprocess.Popen([VERICONE, "campaign", "-N", "10000000", "--quiet", "--out", "out"], cwd=self.folder) as first:

@@ -184,7 +184,7 @@ bodies:
         self.assertEqual([s["kind"] for s in shapes], ["ellipse", "dented_conic"])
 
     def test_an_interrupted_run_leaves_nothing(self):
-        path = self.write(balls("avoidance, most: 1").replace("duration: 6", "duration: 900").replace("step: 0.02", "step: 0.0001"))
+        path = self.write(balls("avoidance, most: 1").replace("duration: 6", "duration: 900").replace("step: 0.02", "step: 0.001"))
         process = subprocess.Popen([VERICONE, "simulate", path, "--out", self.out, "--quiet"], stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE)
         time.sleep(0.5)

@@ -99,7 +99,7 @@ class Builder : public YAML::EventHandler {
 
   void check_text(const std::string& text) const {
     const auto refuse = [&](const char* requirement) {
-      throw InputError(path(), input::quoted(plain_text(text)), requirement);
+      throw InputError(path(), "\"" + plain_text(text.substr(0, 60)) + "\"", requirement);
     };
     if (!is_utf8(text)) refuse("text in UTF-8");
     if (has_control_characters(text)) refuse("text on one line, without control characters");
