@@ -32,6 +32,12 @@
 namespace vericone::total_functions_test {
 namespace {
 
+ConeMapOptions coarse() {
+  ConeMapOptions options;
+  options.resolution = 1;
+  return options;
+}
+
 using Eigen::Vector2d, Eigen::Vector3d;
 using std::numbers::pi;
 
@@ -223,7 +229,7 @@ TEST(TotalFunctions, ConesInSpace) {
       refused([&] { oracle.time_to_contact(w); });
     }
     refused([&] { plane_intervals(oracle, {1, 0, 0}, {0, 1, 0}, 0.1); });
-    const ConeMap map = cone_map(EllipsoidClassifier(a, b), {.resolution = 1});
+    const ConeMap map = cone_map(EllipsoidClassifier(a, b), coarse());
     EXPECT_NEAR(map.colliding, 4 * pi, 1e-12);
   }
 }
@@ -338,14 +344,11 @@ TEST(TotalFunctions, ArgumentsOfOtherBodies) {
   EXPECT_EQ(SliceCone().polyhedral().solid_angle, 4 * pi);
   EXPECT_TRUE(CombinedSliceCone().polyhedral().directions.empty());
   EXPECT_TRUE(VisibleCone().polyhedral().directions.empty());
-  EXPECT_EQ(cone_map(CombinedClassifier(CombinedCone()), {.resolution = 1}).colliding, 0);
+  EXPECT_EQ(cone_map(CombinedClassifier(CombinedCone()), coarse()).colliding, 0);
   EXPECT_EQ(refused([] { cell_at(ConeMap(), {1, 0, 0}); }), "map.cells");
   EXPECT_EQ(refused([] { region_around(ConeMap(), {1, 0, 0}); }), "map.cells");
   EXPECT_TRUE(regions(ConeMap()).empty());
-  EXPECT_EQ(refused([&] {
-              cell_at(cone_map(EllipsoidClassifier(a, b), {.resolution = 1}), {0, 0, 0});
-            }),
-            "direction");
+  EXPECT_EQ(refused([&] { cell_at(cone_map(EllipsoidClassifier(a, b), coarse()), {0, 0, 0}); }), "direction");
   EXPECT_EQ(polygon_solid_angle({0, 0, 1}, {}), 0);
   EXPECT_EQ(polygon_section_area({0, 0, 1}, {}), 0);
   EXPECT_EQ(relation<3>(Ellipsoid(), Ellipsoid()), Relation::overlapping);

@@ -63,11 +63,13 @@ double largest_y_at_first(const PaperRun& run, const std::string& obstacle, doub
   return largest;
 }
 
-/// By how much the plane chosen opens less than the widest plane logged at that moment, at worst, rad.
+/// By how much the plane on which the law commands opens less than the widest plane logged at that moment, at
+/// worst, rad. Where it commands nothing the plane logged is that of the log.
 double plane_behind_widest(const PaperRun& run) {
   std::map<std::pair<double, std::size_t>, double> chosen;
   for (const EncounterSample& sample : run.run.encounters)
-    if (sample.cone) chosen[{sample.t, sample.obstacle}] = sample.step.psi;
+    if (sample.cone && !guidance::commands_nothing(sample.step.status))
+      chosen[{sample.t, sample.obstacle}] = sample.step.psi;
   double behind = 0;
   for (const simulation::PlaneSample& sample : run.run.planes)
     if (const auto it = chosen.find({sample.t, sample.obstacle}); it != chosen.end())
