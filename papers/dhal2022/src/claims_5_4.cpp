@@ -161,17 +161,24 @@ void claims_5_4_1(PaperRuns& runs, std::vector<Claim>& claims) {
                           3.74, "3.74", "s", past_3, half_a_digit_and_step(2, step)));
   // The goal opens where the run itself says that F3 has been passed.
   const double opened = run.time_of(EventKind::passes, "F1", "F3").value_or(0);
-  const auto aligned = run.time_of(EventKind::aligned, "F1", "F1", opened);
+  // The event is at the end of the step that turns the rest. The source applies the maximum until it is
+  // aligned: as it looks at samples, that is the first one at which the maximum is no longer needed.
+  const auto turned = run.time_of(EventKind::aligned, "F1", "F1", opened);
+  const std::optional<double> aligned = turned ? std::optional(*turned - step) : std::nullopt;
   claims.push_back(
       number({"5.4.1/aligned",
               section,
               {"5.6", "5.7"},
               "F1 is aligned with its goal",
-              "the goal is not printed in 5.4.1; (80, 100) m is, in 7.2 for this geometry. " + third,
+              "the first sample at which less than the maximum is left to turn; the last step then ends " +
+                  short_text(step) +
+                  " s later. The goal is not printed in 5.4.1; (80, 100) m is, in 7.2 for this "
+                  "geometry. " +
+                  third,
               true,
               &kThirdSpeed},
              4.88, "4.88", "s", aligned, half_a_digit_and_step(2, step)));
-  const double turning = run.most_acceleration("F1", opened + step, aligned.value_or(0) - 2 * step);
+  const double turning = run.most_acceleration("F1", opened + step, aligned.value_or(0) - step);
   claims.push_back(ordered({"5.4.1/maximum", section, command, "acceleration until then",
                             "the goal's limit in the scenario, that of the avoidance"},
                            "maximum (15 m/s^2)", std::abs(turning - 15) < 1e-9,
