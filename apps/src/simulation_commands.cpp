@@ -60,6 +60,9 @@ int figures_command(CommandLine& line) {
   FiguresOptions figures;
   line.option("figures", figures.ids, "Their numbers (docs/papers.md); all if not given");
   line.option("--out", figures.out, "Folder for pictures, tables and report");
+  line.option("--scenario", figures.scenario, "Scenario file in place of the one that these figures show");
+  line.option("--set", figures.set, "PATH=VALUE changes a field of their scenarios: bodies.F1.pilot.gain=8")
+      .one_each();
   line.flag("--list", figures.list, "Print numbers and captions, make nothing");
   line.flag("--quiet", figures.quiet, "No progress");
   line.flag("--json", figures.json, "Print JSON: figures and the files of the report");

@@ -321,6 +321,45 @@ class Figures(unittest.TestCase):
             self.assertEqual(page.headings, 1 + len(run("figures", "--list").stdout.splitlines()))
 
 
+class Changed(unittest.TestCase):
+    """Figures of other inputs say so."""
+    def test_a_value_and_a_file(self):
+        scenario = os.path.join(SOURCES, "papers", "dhal2022", "scenarios", "5.4.1.yaml")
+        with tempfile.TemporaryDirectory() as folder:
+            other = os.path.join(folder, "mine.yaml")
+            with open(scenario, encoding="utf-8") as f:
+                text = f.read()
+            with open(other, "w", encoding="utf-8") as f:
+                f.write(text.replace("speed: 18.8", "speed: 18.3"))
+            out = os.path.join(folder, "out")
+            result = run("figures", "5.6", "--scenario", other, "--set", "bodies.F1.pilot.gain=8",
+                         "--set", "bodies.0.pilot.goal.point=[80, 90]", "--out", out, "--quiet")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            with open(os.path.join(out, "fig-5.6.json"), encoding="utf-8") as f:
+                changed = json.load(f)["changed"]
+            self.assertEqual(changed, {"scenarios": ["5.4.1"], "file": other, "set": {
+                "bodies.F1.pilot.gain": "8", "bodies.0.pilot.goal.point": "[80, 90]"}})
+            with open(os.path.join(out, "runs", "5.4.1", "scenario.yaml"), encoding="utf-8") as f:
+                flown = json.load(f)  # what was flown, as JSON
+            self.assertEqual((flown["bodies"][0]["pilot"]["gain"], flown["bodies"][2]["speed"]), (8, 18.3))
+            self.assertEqual(flown["bodies"][0]["pilot"]["goal"]["point"], [80, 90])
+            with open(os.path.join(out, "report.html"), encoding="utf-8") as f:
+                self.assertIn("Changed inputs", f.read())
+
+    def test_what_is_not_there(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for arguments, message in (
+                    (("--set", "gain"), "--set: got gain, must be PATH=VALUE"),
+                    (("--set", "bodies.F9.pilot.gain=1"), "there is no bodies.F9"),
+                    (("--set", "bodies.F1.pilot.gian=1"), "bodies[0].pilot.gian: got an unknown field"),
+                    (("laws-5.4.1", "--scenario", "x.yaml"), "for figures of one scenario; these show 5.4.1, 5.4.1-clearance"),
+                    (("--scenario", folder + "/no.yaml"), "no such file")):
+                result = run("figures", "5.6", *arguments, "--out", folder + "/out", "--quiet")
+                self.assertEqual(result.returncode, 2, arguments)
+                self.assertIn(message, result.stderr)
+                self.assertEqual(os.listdir(folder), [])
+
+
 class BadInput(unittest.TestCase):
     def refused(self, *arguments):
         result = run(*arguments)

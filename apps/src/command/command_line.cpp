@@ -140,6 +140,11 @@ CommandLine::Option& CommandLine::Option::words(int least, int most) {
   return *this;
 }
 
+CommandLine::Option& CommandLine::Option::one_each() {
+  parsed(option_).allow_extra_args(false);
+  return *this;
+}
+
 CommandLine::Option& CommandLine::Option::commas() {
   parsed(option_).delimiter(',');
   return *this;

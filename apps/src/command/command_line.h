@@ -32,6 +32,7 @@ class CommandLine {
     Option& shown_type(const std::string& text);
     Option& words(int least, int most);  // how many it takes; most < 0: any number
     Option& commas();                    // several in one word
+    Option& one_each();                  // of a list: one word each time the option is given
     Option& needs(const Option& other);
     Option& within(std::uint64_t least, std::uint64_t most);
     Option& check(std::function<std::string(const std::string&)> complaint);  // empty: the word is good

@@ -38,15 +38,34 @@ std::string content_of(const fs::path& file) {
   return in ? text.str() : std::string();
 }
 
+dhal2022::Changes changes_of(const FiguresOptions& options, const std::vector<Figure>& figures) {
+  dhal2022::Changes changes;
+  for (const std::string& text : options.set) changes.values.push_back(dhal2022::read_change(text, "--set"));
+  changes.file = options.scenario;
+  if (!changes.any()) return changes;
+  for (const Figure& figure : figures)
+    for (const auto& [role, scenario] : figure.runs) changes.scenarios.insert(scenario);
+  std::string names;
+  for (const std::string& name : changes.scenarios) names.append(names.empty() ? "" : ", ").append(name);
+  if (changes.scenarios.empty())
+    throw InputError(options.set.empty() ? "--scenario" : "--set",
+                     options.set.empty() ? options.scenario : options.set.front(),
+                     "left out: these figures show no scenario");
+  if (!options.scenario.empty() && changes.scenarios.size() > 1)
+    throw InputError("--scenario", options.scenario, "for figures of one scenario; these show " + names);
+  return changes;
+}
+
 class Maker {
  public:
-  Maker(const FiguresOptions& options, Progress& progress)
+  Maker(const FiguresOptions& options, const std::vector<Figure>& figures, Progress& progress)
       : options_(options),
+        changes_(changes_of(options, figures)),
         progress_(progress),
         out_(options.out),
         show_(
             [&](const std::string& what, double share) { return progress_.show("running " + what, share); }),
-        runs_(papers_folder() / "dhal2022" / "scenarios", show_) {}
+        runs_(papers_folder() / "dhal2022" / "scenarios", show_, changes_) {}
 
   void make(const Figure& figure, double share) {
     for (const auto& [role, scenario] : figure.runs) write_run(scenario);
@@ -60,6 +79,7 @@ class Maker {
     std::vector<fs::path> inputs;
     for (const auto& [role, scenario] : figure.runs) inputs.push_back(runs_.run(scenario).file);
     // Fig 6.5 alone is computed in parallel.
+    if (changes_.any() && !figure.runs.empty()) origin["changed"] = changed();
     origin["provenance"] =
         provenance(options_.command_line, figure.script.empty() ? threads_for(0) : 1, inputs);
     write_whole(folder.path() / (figure.name() + ".json"), origin.dump(1) + "\n");
@@ -79,7 +99,8 @@ class Maker {
     }
     Json list = Json::array();
     for (const auto& claim : claims) list.push_back(dhal2022::to_json(claim));
-    const Json origin = provenance(options_.command_line, 1, scenario_files());
+    Json origin = provenance(options_.command_line, 1, scenario_files());
+    if (changes_.any()) origin["changed"] = changed();
     StagedFolder folder(out_, "--out");
     write_whole(
         folder.path() / "claims.json",
@@ -91,11 +112,19 @@ class Maker {
   }
 
  private:
+  Json changed() const {
+    Json result{{"scenarios", changes_.scenarios}};
+    if (!changes_.file.empty()) result["file"] = changes_.file.string();
+    for (const auto& [path, value] : changes_.values) result["set"][path] = value;
+    return result;
+  }
+
   void write_run(const std::string& name) {
     if (!written_.insert(name).second) return;
     const dhal2022::PaperRun& run = runs_.run(name);
     StagedFolder folder(out_ / "runs" / name, "--out");
-    scenario::write_run(run.scenario, run.run, {run.file, options_.command_line, run.seconds}, folder.path());
+    scenario::write_run(run.scenario, run.run, {run.file, options_.command_line, run.seconds, run.text},
+                        folder.path());
     folder.publish({"planes.csv"});
   }
 
@@ -134,6 +163,7 @@ class Maker {
   }
 
   const FiguresOptions& options_;
+  dhal2022::Changes changes_;
   Progress& progress_;
   fs::path out_;
   dhal2022::RunProgress show_;
@@ -168,7 +198,7 @@ int run_figures(const FiguresOptions& options, std::ostream& out) {
   const auto start = Clock::now();
   try {
     Progress progress(options.quiet);
-    Maker maker(options, progress);
+    Maker maker(options, figures, progress);
     double made = 0;
     for (const Figure& figure : figures) maker.make(figure, made++ / double(figures.size()));
     maker.report();

@@ -10,6 +10,8 @@ namespace vericone {
 struct FiguresOptions {
   std::vector<std::string> ids;  // empty: all
   std::string out = "out/dhal2022";
+  std::string scenario;  // file in place of the one scenario that the figures show; empty: the paper's
+  std::vector<std::string> set;  // PATH=VALUE, in the scenarios that the figures show
   bool list = false;
   bool quiet = false;
   bool json = false;

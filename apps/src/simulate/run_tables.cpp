@@ -21,8 +21,8 @@ constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 /// that follow each other are one.
 std::vector<double> command_times(const Scenario& scenario, const Run& run) {
   std::vector<double> times{run.end};
-  for (std::uint64_t k = 0; double(k) * scenario.step < run.end; ++k)
-    times.push_back(double(k) * scenario.step);
+  for (std::uint64_t k = 0; time_of_step(scenario, k) < run.end; ++k)
+    times.push_back(time_of_step(scenario, k));
   for (const Track& track : run.tracks)
     for (const Arc& arc : track.arcs()) times.push_back(arc.from());
   std::sort(times.begin(), times.end());

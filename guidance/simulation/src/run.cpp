@@ -86,7 +86,7 @@ class Runner {
     double t = 0;
     for (std::uint64_t k = 1; t < scenario_.duration; ++k) {
       // Commands at multiples of the step, and where a body appears.
-      const double next = std::min(double(k) * scenario_.step, scenario_.duration);
+      const double next = std::min(time_of_step(scenario_, k), scenario_.duration);
       while (t < next && !done_) {
         double to = next;
         for (const Body& body : scenario_.bodies)

@@ -113,6 +113,12 @@ bool guarded(const Pilot& pilot) {
          (law == guidance::Law::avoidance || law == guidance::Law::clearance);
 }
 
+double time_of_step(const Scenario& scenario, std::uint64_t k) {
+  const double in_a_second = std::round(1 / scenario.step);
+  const bool whole = std::abs(in_a_second * scenario.step - 1) < 1e-15;
+  return whole ? double(k) / in_a_second : double(k) * scenario.step;
+}
+
 void check(const Scenario& scenario) {
   require_positive(scenario.duration, "duration", " (s)");
   require_positive(scenario.step, "step", " (s)");

@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "input/scene.h"
+#include "json_value.h"
 #include "simulate/read_scenario.h"
 
 namespace vericone::dhal2022 {
@@ -50,7 +52,7 @@ const std::vector<Look>& PaperRun::looks(const std::string& agent, const std::st
   const simulation::Track &a = track(agent), &b = track(obstacle);
   const double from = std::max(a.appears(), b.appears());
   for (std::int64_t k = std::int64_t(std::ceil(from / scenario.step - 1e-9));; ++k) {
-    const double t = std::max(from, double(k) * scenario.step);
+    const double t = std::max(from, simulation::time_of_step(scenario, std::uint64_t(k)));
     if (t > run.end || t > a.end() || t > b.end()) break;
     const guidance::BodyState at_a = a.state(t), at_b = b.state(t);
     const auto across = guidance::choose_plane(at_a, at_b, guidance::SectorMethod::slice, {});
@@ -106,15 +108,62 @@ std::optional<simulation::PairProof> PaperRun::proof(const std::string& a, const
   return std::nullopt;
 }
 
-PaperRuns::PaperRuns(std::filesystem::path scenarios, RunProgress progress)
-    : scenarios_(std::move(scenarios)), progress_(std::move(progress)) {}
+namespace {
+
+/// The element of a mapping or list that a word names; nothing where there is none.
+Json* element(Json& value, const std::string& word) {
+  if (value.is_object()) return value.contains(word) ? &value[word] : nullptr;
+  if (!value.is_array()) return nullptr;
+  for (std::size_t i = 0; i < value.size(); ++i)
+    if (word == std::to_string(i) || (value[i].is_object() && value[i].value("name", Json()) == Json(word)))
+      return &value[i];
+  return nullptr;
+}
+
+void set_field(Json& fields, const std::string& path, const std::string& text) {
+  Json* at = &fields;
+  std::size_t begin = 0;
+  for (std::size_t dot; (dot = path.find('.', begin)) != std::string::npos; begin = dot + 1) {
+    at = element(*at, path.substr(begin, dot - begin));
+    if (at == nullptr)
+      throw InputError("--set", path, "a field of the scenario: there is no " + path.substr(0, dot));
+  }
+  const std::string last = path.substr(begin);
+  const Json value = input::scene_fields("value: " + text + "\n", "--set " + path)["value"];
+  if (Json* there = element(*at, last)) {
+    *there = value;
+  } else if (at->is_object()) {
+    (*at)[last] = value;
+  } else {
+    throw InputError("--set", path, "a field of the scenario: there is no " + path);
+  }
+}
+
+}  // namespace
+
+std::pair<std::string, std::string> read_change(const std::string& text, const std::string& option) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+    throw InputError(option, text, "PATH=VALUE, such as bodies.F1.pilot.gain=8");
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+PaperRuns::PaperRuns(std::filesystem::path scenarios, RunProgress progress, Changes changes)
+    : scenarios_(std::move(scenarios)), progress_(std::move(progress)), changes_(std::move(changes)) {}
 
 const PaperRun& PaperRuns::run(const std::string& name) {
   std::unique_ptr<PaperRun>& run = runs_[name];
   if (run) return *run;
   auto made = std::make_unique<PaperRun>();
-  made->file = scenarios_ / (name + ".yaml");
-  made->scenario = scenario::read_scenario(made->file.string());
+  const bool changed = changes_.scenarios.contains(name);
+  made->file = changed && !changes_.file.empty() ? changes_.file : scenarios_ / (name + ".yaml");
+  made->text = input::read_scene_text(made->file.string());
+  Json fields = input::scene_fields(made->text, made->file.string());
+  if (changed && !changes_.values.empty()) {
+    for (const auto& [path, value] : changes_.values) set_field(fields, path, value);
+    made->text = fields.dump(1) + "\n";  // JSON is YAML
+  }
+  made->scenario = scenario::read_scenario(fields, made->file.stem().string());
   simulation::RunOptions options;
   if (progress_) options.progress = [&](double t) { return progress_(name, t / made->scenario.duration); };
   const auto start = std::chrono::steady_clock::now();

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,6 +29,7 @@ struct Look {
 
 struct PaperRun {
   std::filesystem::path file;
+  std::string text;  // of the scenario: the file's, or what changes made of it
   simulation::Scenario scenario;
   simulation::Run run;
   double seconds = 0;  // that it took
@@ -73,15 +75,29 @@ std::string reentries(const std::vector<Look>& looks);
 struct Interrupted {};
 using RunProgress = std::function<bool(const std::string& scenario, double share)>;
 
+/// Inputs that are not the paper's, in some of its scenarios.
+struct Changes {
+  std::set<std::string> scenarios;
+  std::filesystem::path file;  // in place of theirs; empty: none
+  /// Paths of fields with their values as YAML: "bodies.F1.pilot.gain", "8". Elements of lists by their
+  /// number or by their name. The field's parent has to be there.
+  std::vector<std::pair<std::string, std::string>> values;
+
+  bool any() const { return !file.empty() || !values.empty(); }
+};
+/// PATH=VALUE. Throws InputError naming `option`.
+std::pair<std::string, std::string> read_change(const std::string& text, const std::string& option);
+
 class PaperRuns {
  public:
-  PaperRuns(std::filesystem::path scenarios, RunProgress progress);
+  PaperRuns(std::filesystem::path scenarios, RunProgress progress, Changes changes = {});
   /// By the scenario file's name without extension. Throws InputError of the scenario.
   const PaperRun& run(const std::string& scenario);
 
  private:
   std::filesystem::path scenarios_;
   RunProgress progress_;
+  Changes changes_;
   std::map<std::string, std::unique_ptr<PaperRun>> runs_;
 };
 

@@ -151,6 +151,9 @@ std::string report_html(const std::vector<ReportFigure>& figures, const std::vec
          "<b>Differs</b>: it does not agree, and what is printed decides. <b>Source wrong</b>: what is "
          "printed is "
          "shown wrong. <b>Given</b>: goes into a run, and was read back from it as printed.</p>\n";
+  if (provenance.contains("changed"))
+    out << "<p><b>Changed inputs</b>, not those of the paper: <code>" << escaped(provenance["changed"].dump())
+        << "</code>. Verdicts are of these; notes speak of the paper's.</p>\n";
   summary(out, count_verdicts(claims));
   out << "<nav>";
   for (const ReportFigure& f : figures)
@@ -158,7 +161,7 @@ std::string report_html(const std::vector<ReportFigure>& figures, const std::vec
   out << "</nav>\n";
   for (const ReportFigure& f : figures) {
     out << "<h2 id=\"" << escaped(f.figure.name()) << "\">Figure " << escaped(f.figure.id)
-        << "</h2>\n<figure>";
+        << (f.provenance.contains("changed") ? " (changed inputs)" : "") << "</h2>\n<figure>";
     if (f.png.empty())
       out << "<p>Not made: <code>vericone figures " << escaped(f.figure.id) << "</code></p>";
     else
