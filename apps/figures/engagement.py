@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One engagement in space, from engagement.json: both bodies, the slice cone inside the true cone, and a velocity
-between the two with the contact it leads to."""
+"""One engagement in space, from engagement.json: both bodies, the slice cone inside the true cone, the scene's velocity
+with where it leads, and a velocity between the two cones, which is shown in space where the scene has none."""
 import numpy as np
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
@@ -26,6 +26,8 @@ second = np.cross(axis, first)
 exact, slices = np.array(data["exact_directions"]), np.array(data["slice_directions"])
 gap = np.array(data["gap_velocity"])
 bounded = data["exact_area"] is not None
+course = data.get("course") or {k[4:]: v for k, v in data.items() if k.startswith("gap_")}
+SAYS = {"in": "collides", "on": "grazes", "out": "misses"}
 
 figure = plt.figure(figsize=(TWO_COLUMNS, 3.7))
 space = figure.add_axes([0.02, 0.04, 0.56, 0.86], projection="3d")
@@ -44,13 +46,19 @@ cone(slices, SLICE, 0.22)
 for body, color in ((data["agent"], AGENT), (data["obstacle"], OBSTACLE)):
     space.plot_surface(*surface(body), color=color, alpha=0.65, linewidth=0)
 extent = [tips, surface(data["agent"]).reshape(3, -1).T, surface(data["obstacle"]).reshape(3, -1).T]
-if "gap_contact_time" in data:
-    travel = gap * data["gap_contact_time"]
+velocity = np.array(course["velocity"])
+if "contact_time" in course:
+    travel = velocity * course["contact_time"]
+elif velocity @ axis > 0:  # to where the centres are nearest
+    travel = velocity * (velocity @ axis * distance / (velocity @ velocity))
+else:
+    travel = 0.5 * distance * velocity / np.linalg.norm(velocity)
+if travel.any():
     moved = surface(data["agent"], travel)
     space.plot_wireframe(*moved, color=AGENT, linewidth=0.25, rstride=3, cstride=3)
     space.plot(*np.vstack([agent, agent + travel]).T, color="k", linewidth=1.3)
-    point = np.array(data["gap_contact_point"])
-    space.scatter(*point, color="red", s=14, depthshade=False)
+    if "contact_point" in course:
+        space.scatter(*course["contact_point"], color="red", s=14, depthshade=False)
     extent.append(moved.reshape(3, -1).T)
 extent = np.vstack(extent)
 space.set_box_aspect(np.ptp(extent, axis=0), zoom=0.88)  # room for the labels
@@ -62,11 +70,15 @@ for name, i in (("x", 0), ("y", 1), ("z", 2)):
     scale.labelpad = -3
 space.tick_params(pad=-2, labelsize=6)
 # Look across the plane that holds the line of centres and the velocity: the contact is then in profile.
-normal = np.cross(axis, gap)
+normal = np.cross(axis, velocity)
+if np.linalg.norm(normal) < 1e-6 * np.linalg.norm(velocity):
+    normal = np.cross(axis, gap)
 normal /= np.linalg.norm(normal)
 if normal[2] < 0:
     normal = -normal
-space.view_init(elev=np.degrees(np.arcsin(normal[2])), azim=np.degrees(np.arctan2(normal[1], normal[0])))
+aside = 15 if np.abs(normal).max() > 0.95 else 0  # an axis seen from its end has no room for its numbers
+space.view_init(elev=np.degrees(np.arcsin(normal[2])) + aside,
+                azim=np.degrees(np.arctan2(normal[1], normal[0])) + aside)
 
 plane = figure.add_axes([0.67, 0.13, 0.31, 0.62])
 
@@ -85,7 +97,11 @@ if bounded:
                label="slice cone (n = %d)" % data["planes"])
     mark = gap / (gap @ axis)
     plane.plot([mark @ first], [mark @ second], "o", color="red", markersize=4,
-               label="velocity in the gap: really %s" % {"in": "collides", "on": "grazes"}.get(data["gap_verdict"], "misses"))
+               label="velocity in the gap: really %s" % SAYS[data["gap_verdict"]])
+    if "course" in data and velocity @ axis > 0:
+        mark = velocity / (velocity @ axis)
+        plane.plot([mark @ first], [mark @ second], "D", color="k", markersize=4,
+                   label="the scene's velocity: %s" % SAYS[course["verdict"]])
     plane.plot([0], [0], "+", color=GREY)
     plane.set_aspect("equal", adjustable="datalim")
     missing = 100 * (1 - data["slice_area"] / data["exact_area"])
@@ -97,7 +113,9 @@ else:
     plane.axis("off")
     plane.text(0.5, 0.5, "the cone reaches 90 degrees from its axis:\nno bounded section", ha="center")
 title = "Agent (green) and obstacle (violet)"
-if "gap_contact_time" in data:
+if "contact_time" in course:
     title += "\nred: first contact, %.3g m along the black line" % np.linalg.norm(travel)
+elif "course" in data:
+    title += "\nthe scene's velocity misses by %.3g m" % course["miss_distance"]
 figure.text(0.01, 0.98, title, fontsize=8, va="top")
 save(figure, "engagement")

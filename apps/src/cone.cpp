@@ -215,7 +215,8 @@ void run_planar_cone(const ConeOptions& options, const input::PlanarEngagement& 
 
 }  // namespace
 
-Json engagement_picture(const Ellipsoid& a, const Ellipsoid& b, int planes, int samples) {
+Json engagement_picture(const Ellipsoid& a, const Ellipsoid& b, int planes, int samples,
+                        const Eigen::Vector3d& velocity) {
   const auto body = [](const Ellipsoid& e) {
     Json factor = Json::array();
     for (int i = 0; i < 3; ++i) factor.push_back(vector_json(e.factor().row(i)));
@@ -253,15 +254,22 @@ Json engagement_picture(const Ellipsoid& a, const Ellipsoid& b, int planes, int 
       result["gap_angles_degrees"] = {degrees(inner), degrees(middle), degrees(outer)};
     }
   }
-  result["gap_velocity"] = vector_json(w);
-  result["gap_verdict"] = to_string(ConeOracle(a, b).membership(w));
-  if (const auto t = time_to_contact(a, b, w)) {
-    result["gap_contact_time"] = *t;
-    // At contact the supporting point of A towards B is the common one.
-    const Ellipsoid moved = a.translated(*t * w);
-    const Eigen::Vector3d n = ConeOracle(moved.translated(-1e-9 * *t * w), b).separating_normal();
-    result["gap_contact_point"] = vector_json(moved.support_point(n));
-  }
+  const auto followed = [&](const Eigen::Vector3d& v) {
+    Json course{{"velocity", vector_json(v)}, {"verdict", to_string(ConeOracle(a, b).membership(v))}};
+    if (const auto t = time_to_contact(a, b, v)) {
+      course["contact_time"] = *t;
+      // At contact the supporting point of A towards B is the common one.
+      const Ellipsoid moved = a.translated(*t * v);
+      const Eigen::Vector3d n = ConeOracle(moved.translated(-1e-9 * *t * v), b).separating_normal();
+      course["contact_point"] = vector_json(moved.support_point(n));
+    } else {
+      course["miss_distance"] = clearance(a, b, v).distance;
+    }
+    return course;
+  };
+  const Json gap = followed(w);
+  for (const auto& [name, value] : gap.items()) result["gap_" + name] = value;
+  if (!velocity.isZero(0)) result["course"] = followed(velocity);
   return result;
 }
 
@@ -279,9 +287,9 @@ ConePicture cone_picture(const ConeOptions& options, const input::Engagement& e,
   };
   if (cone["relation"] != to_string(Relation::disjoint)) refuse("asked for disjoint bodies only");
   if (e.ellipsoids())
-    return {engagement_picture(e.agent.ellipsoid(), e.obstacle.ellipsoid(),
-                               options.planes.value_or(kDefaultPlanes),
-                               options.samples.value_or(kDefaultSamples)),
+    return {engagement_picture(
+                e.agent.ellipsoid(), e.obstacle.ellipsoid(), options.planes.value_or(kDefaultPlanes),
+                options.samples.value_or(kDefaultSamples), e.agent_velocity - e.obstacle_velocity),
             "engagement.py"};
   ConePicture picture{
       scene_figure(e.agent, e.obstacle, e.agent_velocity - e.obstacle_velocity,

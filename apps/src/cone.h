@@ -33,7 +33,9 @@ struct ConeOptions {
 void run_cone(const ConeOptions& options, std::ostream& out);
 
 /// What the picture of one engagement shows: both bodies, the slice cone inside the exact one, and a velocity
-/// between the two with the contact it leads to. Requires disjoint bodies.
-Json engagement_picture(const Ellipsoid& a, const Ellipsoid& b, int planes, int samples);
+/// between the two with the contact it leads to; the scene's own relative velocity too, where it is not 0. Requires
+/// disjoint bodies.
+Json engagement_picture(const Ellipsoid& a, const Ellipsoid& b, int planes, int samples,
+                        const Eigen::Vector3d& velocity = Eigen::Vector3d::Zero());
 
 }  // namespace vericone

@@ -5,6 +5,7 @@ import hashlib
 import json
 import math
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -170,6 +171,20 @@ class Cone(unittest.TestCase):
             return json.loads(result.stdout)
 
     SPHERES = "agent: {center: [0, 0, 0], semi_axes: [1, 1, 1]}\nobstacle: {center: [5, 0, 0], semi_axes: [2, 2, 2]}\n"
+
+    def test_the_picture_shows_the_velocity_of_the_scene(self):
+        with open(os.path.join(SOURCE, "docs", "examples", "source-6.5.yaml"), encoding="utf-8") as f:
+            text = f.read()
+        with tempfile.TemporaryDirectory() as folder:
+            for velocity, verdict in (("[3.0461275, 0, 7.9354336]", "in"), ("[9, 0, 4]", "out")):
+                scene = os.path.join(folder, "scene.yaml")
+                with open(scene, "w", encoding="utf-8") as f:
+                    f.write(re.sub(r"agent_velocity: \[.*?\]", "agent_velocity: " + velocity, text))
+                self.assertEqual(run("cone", scene, "--json", "--no-figures", "--out", folder).returncode, 0)
+                with open(os.path.join(folder, "engagement.json"), encoding="utf-8") as f:
+                    course = json.load(f)["course"]
+                self.assertEqual(course["verdict"], verdict)
+                self.assertEqual("contact_point" in course, verdict == "in")
 
     def test_spheres_in_closed_form(self):
         half = math.asin(3 / 5)
