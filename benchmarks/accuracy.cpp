@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <benchmarks/accuracy.h>
-#include <vericone/cones/slice_cone.h>
+#include <vericone/cones/slices/slice_cone.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -22,7 +22,7 @@ Spread::Spread(std::vector<double> errors) {
 
 Accuracy::Accuracy(const std::vector<Engagement>& pairs) : pairs_(pairs) {
   constexpr int kReference = 512;
-  for (const Engagement& e : pairs) areas_.push_back(exact_cone(e.a, e.b, kReference).cross_section_area);
+  for (const Engagement& e : pairs) areas_.push_back(true_cone(e.a, e.b, kReference).cross_section_area);
 }
 
 const Spread& Accuracy::exact(int samples) const {
@@ -30,7 +30,7 @@ const Spread& Accuracy::exact(int samples) const {
   std::vector<double> errors;
   for (std::size_t i = 0; i < pairs_.size(); ++i)
     errors.push_back(
-        std::abs(exact_cone(pairs_[i].a, pairs_[i].b, samples).cross_section_area / areas_[i] - 1));
+        std::abs(true_cone(pairs_[i].a, pairs_[i].b, samples).cross_section_area / areas_[i] - 1));
   return exact_.emplace(samples, Spread(std::move(errors))).first->second;
 }
 

@@ -2,10 +2,10 @@
 #include <benchmark/benchmark.h>
 #include <benchmarks/accuracy.h>
 #include <benchmarks/suites.h>
-#include <vericone/cones/clearance.h>
-#include <vericone/cones/plane_sector.h>
-#include <vericone/cones/sector.h>
-#include <vericone/cones/slice_cone.h>
+#include <vericone/cones/ellipsoids/clearance.h>
+#include <vericone/cones/ellipsoids/plane_sector.h>
+#include <vericone/cones/planar/sector.h>
+#include <vericone/cones/slices/slice_cone.h>
 
 namespace vericone::benchmarks {
 namespace {
@@ -46,8 +46,8 @@ void add_cone_benchmarks() {
   static const Accuracy accuracy(pairs);
   const auto exact = [](const std::string& name, int samples) {
     add(
-        "exact_cone/" + name, pairs,
-        [samples](const Engagement& e) { return exact_cone(e.a, e.b, samples).solid_angle; },
+        "true_cone/" + name, pairs,
+        [samples](const Engagement& e) { return true_cone(e.a, e.b, samples).solid_angle; },
         label("samples", samples, accuracy.exact(samples)));
   };
   for (const int planes : {12, 36, 360})
@@ -60,12 +60,12 @@ void add_cone_benchmarks() {
   exact("median<1e-6", accuracy.fewest(1e-6, &Spread::median));
   exact("worst<1e-6", accuracy.fewest(1e-6, &Spread::worst));
   exact("48", 48);
-  static const std::vector<ExactCone> cones = [] {
-    std::vector<ExactCone> all;
-    for (const Engagement& e : pairs) all.push_back(exact_cone(e.a, e.b, 48));
+  static const std::vector<TrueCone> cones = [] {
+    std::vector<TrueCone> all;
+    for (const Engagement& e : pairs) all.push_back(true_cone(e.a, e.b, 48));
     return all;
   }();
-  add("cone_bounds/48", cones, [](const ExactCone& cone) {
+  add("cone_bounds/48", cones, [](const TrueCone& cone) {
     const Engagement& e = pairs[&cone - cones.data()];
     return cone_bounds(cone, e.a, e.b).solid_angle_error;
   });
@@ -76,9 +76,9 @@ void add_measure_benchmarks() {
   add("clearance", pairs, [](const Engagement& e) { return clearance(e.a, e.b, e.w); });
   add("separation", pairs, [](const Engagement& e) { return separation(e.a, e.b); });
   add("time_to_contact", pairs, [](const Engagement& e) { return time_to_contact(e.a, e.b, e.w); });
-  add("exact_sector", pairs, [](const Engagement& e) { return exact_sector(e.a, e.b, e.across); });
-  add("exact_sector+rates", pairs, [](const Engagement& e) {
-    return exact_sector_rates(exact_sector(e.a, e.b, e.across), e.a, e.b, e.motion);
+  add("true_sector", pairs, [](const Engagement& e) { return true_sector(e.a, e.b, e.across); });
+  add("true_sector+rates", pairs, [](const Engagement& e) {
+    return true_sector_rates(true_sector(e.a, e.b, e.across), e.a, e.b, e.motion);
   });
 }
 

@@ -4,8 +4,8 @@
 // keep.
 #include <benchmark/benchmark.h>
 #include <benchmarks/suites.h>
-#include <vericone/cones/predicates.h>
-#include <vericone/verify/corpus_file.h>
+#include <vericone/cones/ellipsoids/predicates.h>
+#include <vericone/verify/corpus/file.h>
 #include <string>
 #include <vector>
 

@@ -49,10 +49,10 @@ std::vector<Pair> ellipsoid_pairs(int count) {
   for (const Engagement& e : engagements(count)) {
     Pair p = pair_of(e, e.a, e.b);
     options.choice = PlaneChoice::of_motion;
-    p.along = *choose_plane(p.a, p.b, SectorMethod::exact, options);
+    p.along = *choose_plane(p.a, p.b, SectorMethod::true_cone, options);
     options.choice = PlaneChoice::largest_opening;
     const BodyState a = advanced(p.a, -0.01), b = advanced(p.b, -0.01);
-    p.widest = *choose_plane(a, b, SectorMethod::exact, options);
+    p.widest = *choose_plane(a, b, SectorMethod::true_cone, options);
     p.widest_slice = *choose_plane(a, b, SectorMethod::slice, options);
     all.push_back(p);
   }
@@ -66,22 +66,22 @@ void ellipsoid_table() {
   const auto ellipsoid = [&](const BodyState& s) -> const Ellipsoid& {
     return std::get<CombinedEllipsoid>(s.shape).ellipsoid();
   };
-  items.push_back(item("exact_sector", kPairs, 4, [&](std::size_t i) {
-    return exact_sector(ellipsoid(pairs[i].a), ellipsoid(pairs[i].b), pairs[i].along).psi();
+  items.push_back(item("true_sector", kPairs, 4, [&](std::size_t i) {
+    return true_sector(ellipsoid(pairs[i].a), ellipsoid(pairs[i].b), pairs[i].along).psi();
   }));
   const auto add_view = [&](const char* name, SectorMethod method, RateMethod rates) {
     items.push_back(item(name, kPairs, 4, [&pairs, method, rates](std::size_t i) {
       return plane_view(pairs[i].a, pairs[i].b, pairs[i].along, method, rates)->cone.psi;
     }));
   };
-  add_view("plane_view, true sector, no rates", SectorMethod::exact, RateMethod::none);
-  add_view("plane_view, true sector, rates", SectorMethod::exact, RateMethod::analytic);
-  add_view("plane_view, true sector, differenced", SectorMethod::exact, RateMethod::differenced);
+  add_view("plane_view, true sector, no rates", SectorMethod::true_cone, RateMethod::none);
+  add_view("plane_view, true sector, rates", SectorMethod::true_cone, RateMethod::analytic);
+  add_view("plane_view, true sector, differenced", SectorMethod::true_cone, RateMethod::differenced);
   add_view("plane_view, slices, no rates", SectorMethod::slice, RateMethod::none);
   add_view("plane_view, slices, rates", SectorMethod::slice, RateMethod::analytic);
   items.push_back(item("plane_view, true sector, rates, and avoidance()", kPairs, 4, [&](std::size_t i) {
     const auto view =
-        plane_view(pairs[i].a, pairs[i].b, pairs[i].along, SectorMethod::exact, RateMethod::analytic);
+        plane_view(pairs[i].a, pairs[i].b, pairs[i].along, SectorMethod::true_cone, RateMethod::analytic);
     return avoidance(view->state, view->cone, {}).a;
   }));
   for (const PlaneChoice choice :
@@ -92,12 +92,12 @@ void ellipsoid_table() {
     options.wind = Vector3d(3, 0, 0);
     items.push_back(
         item(std::string("choose_plane, ") + to_string(choice), kPairs, 1, [&pairs, options](std::size_t i) {
-          return choose_plane(pairs[i].a, pairs[i].b, SectorMethod::exact, options)->x();
+          return choose_plane(pairs[i].a, pairs[i].b, SectorMethod::true_cone, options)->x();
         }));
   }
   items.push_back(
       item("choose_plane, largest-opening, followed from 0.01 s before", kPairs, 4, [&](std::size_t i) {
-        return choose_plane(pairs[i].a, pairs[i].b, SectorMethod::exact, {}, &pairs[i].widest)->x();
+        return choose_plane(pairs[i].a, pairs[i].b, SectorMethod::true_cone, {}, &pairs[i].widest)->x();
       }));
   std::vector<Pair> engaged;
   for (const Pair& p : ellipsoid_pairs(4 * kPairs))
@@ -111,13 +111,13 @@ void ellipsoid_table() {
     items.push_back(item("guide(): " + name, engaged.size(), 4, [&engaged, options](std::size_t i) {
       const Pair& p = engaged[i];
       GuideMemory memory;
-      memory.across = options.sector == SectorMethod::exact ? p.widest : p.widest_slice;
+      memory.across = options.sector == SectorMethod::true_cone ? p.widest : p.widest_slice;
       const auto step = guide(p.a, p.b, options, memory, 0);
       return step ? step->a.x() : 0;
     }));
   };
-  add_step("true sector, plane of motion", PlaneChoice::of_motion, SectorMethod::exact);
-  add_step("true sector, largest opening followed", PlaneChoice::largest_opening, SectorMethod::exact);
+  add_step("true sector, plane of motion", PlaneChoice::of_motion, SectorMethod::true_cone);
+  add_step("true sector, largest opening followed", PlaneChoice::largest_opening, SectorMethod::true_cone);
   add_step("slices, largest opening followed", PlaneChoice::largest_opening, SectorMethod::slice);
   std::printf("guide() of the %zu colliding pairs of %d.\n", engaged.size(), 4 * kPairs);
   std::printf("%d pairs of ellipsoids (benchmarks/pairs.h), %d rounds.\n\n", kPairs, kRounds);
@@ -148,12 +148,13 @@ void other_bodies_table() {
     }));
   };
   add("biconcave, slices, rates", dented, SectorMethod::slice, RateMethod::analytic, 100);
-  add("biconcave, true sector", dented, SectorMethod::exact, RateMethod::none, 1);
-  add("biconcave, true sector, rates (differenced)", dented, SectorMethod::exact, RateMethod::analytic, 1);
+  add("biconcave, true sector", dented, SectorMethod::true_cone, RateMethod::none, 1);
+  add("biconcave, true sector, rates (differenced)", dented, SectorMethod::true_cone, RateMethod::analytic,
+      1);
   add("hull of 12 points, slices, rates (differenced)", hulls, SectorMethod::slice, RateMethod::analytic, 20);
-  add("hull of 12 points, true sector", hulls, SectorMethod::exact, RateMethod::none, 5);
-  add("hull of 12 points, true sector, rates (differenced)", hulls, SectorMethod::exact, RateMethod::analytic,
-      5);
+  add("hull of 12 points, true sector", hulls, SectorMethod::true_cone, RateMethod::none, 5);
+  add("hull of 12 points, true sector, rates (differenced)", hulls, SectorMethod::true_cone,
+      RateMethod::analytic, 5);
   std::printf("\nOther obstacles, %d pairs, agent an ellipsoid, 5 rounds.\n\n", kPairs);
   print(items, 5);
 }
@@ -170,14 +171,14 @@ void hidden_collisions() {
     const Pair p = pair_of(e, e.a, e.b);
     if (ConeOracle(e.a, e.b).membership(p.a.velocity, p.b.velocity) != Membership::in) continue;
     ++colliding;
-    for (const SectorMethod method : {SectorMethod::slice, SectorMethod::exact})
+    for (const SectorMethod method : {SectorMethod::slice, SectorMethod::true_cone})
       for (int k = 0; k < 6; ++k) {
         PlaneOptions options;
         options.choice = kChoices[k];
         options.wind = Vector3d(3, 0, 0);
         const auto across = choose_plane(p.a, p.b, method, options);
         const auto view = plane_view(p.a, p.b, *across, method, RateMethod::none);
-        hidden[method == SectorMethod::exact][k] += !cone_rates(view->state, view->cone).colliding();
+        hidden[method == SectorMethod::true_cone][k] += !cone_rates(view->state, view->cone).colliding();
       }
   }
   std::printf("\nOf %d colliding pairs of %d, those whose chosen plane shows no collision:\n\n", colliding,

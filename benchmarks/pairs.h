@@ -3,9 +3,9 @@
 // The engagements every benchmark is run on: the same for the library and for its peers.
 #pragma once
 
-#include <vericone/cones/exact_cone.h>
-#include <vericone/cones/plane_sector.h>
-#include <vericone/cones/sector.h>
+#include <vericone/cones/ellipsoids/plane_sector.h>
+#include <vericone/cones/ellipsoids/true_cone.h>
+#include <vericone/cones/planar/sector.h>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
@@ -93,7 +93,7 @@ inline std::vector<Engagement> engagements(int count, double aim = 0.2, std::uin
     e.aimed = i % 2 == 0;
     e.w = dice.direction();
     if (e.aimed) {
-      const ExactCone cone = exact_cone(e.a, e.b, 16);
+      const TrueCone cone = true_cone(e.a, e.b, 16);
       const BoundarySample& s = cone.boundary[static_cast<std::size_t>(dice.uniform(0, 16))];
       const double turn = aim * dice.uniform(-1, 1);
       e.w = (std::cos(turn) * s.direction + std::sin(turn) * s.normal).normalized();

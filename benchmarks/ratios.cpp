@@ -6,9 +6,9 @@
 #include <benchmarks/agreement.h>
 #include <benchmarks/combined_pairs.h>
 #include <benchmarks/items.h>
-#include <vericone/cones/combined_cone.h>
-#include <vericone/cones/combined_slice_cone.h>
-#include <vericone/cones/slice_cone.h>
+#include <vericone/cones/combined/cone.h>
+#include <vericone/cones/slices/combined_slice_cone.h>
+#include <vericone/cones/slices/slice_cone.h>
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
@@ -79,12 +79,12 @@ ConeFigures cone_table(int rounds) {
   for (const int samples : counts) {
     row[samples] = items.size();
     items.push_back(
-        item("exact_cone, " + std::to_string(samples) + " samples", kTimedPairs, 10,
-             [&, samples](int i) { return exact_cone(pairs[i].a, pairs[i].b, samples).solid_angle; }));
+        item("true_cone, " + std::to_string(samples) + " samples", kTimedPairs, 10,
+             [&, samples](int i) { return true_cone(pairs[i].a, pairs[i].b, samples).solid_angle; }));
     errors.push_back(accuracy.exact(samples));
   }
-  items.push_back(item("exact_cone, 48 samples, and cone_bounds", kTimedPairs, 2, [&](int i) {
-    return cone_bounds(exact_cone(pairs[i].a, pairs[i].b, 48), pairs[i].a, pairs[i].b).solid_angle_error;
+  items.push_back(item("true_cone, 48 samples, and cone_bounds", kTimedPairs, 2, [&](int i) {
+    return cone_bounds(true_cone(pairs[i].a, pairs[i].b, 48), pairs[i].a, pairs[i].b).solid_angle_error;
   }));
   errors.push_back(accuracy.exact(48));
   measure(items, rounds);
@@ -276,7 +276,7 @@ int main(int argc, char** argv) {
   std::printf("\nFCL's table of conservative advancement %s a pair of ellipsoids.\n",
               fcl_ellipsoids_in_table() ? "has an entry for" : "has no entry for");
   std::printf("\n| requirement | measured | |\n| --- | --- | --- |\n");
-  requirement("slice_cone(360) / exact_cone(48) at least 50", cone.ratio_48 >= 50, cone.ratio_48, "%.3g");
+  requirement("slice_cone(360) / true_cone(48) at least 50", cone.ratio_48 >= 50, cone.ratio_48, "%.3g");
   requirement("the same at slice_cone(360)'s own discretisation error", cone.ratio_matched >= 50,
               cone.ratio_matched, "%.3g");
   requirement("worst area error at 96 samples below 1e-6", cone.worst_96 < 1e-6, cone.worst_96, "%.1e");

@@ -3,8 +3,8 @@
 // Prints, in Markdown, what questions about meshes and maps cost beside brute force and beside FCL, all in
 // one run: vericone_scan_ratios [MAP.bt [MESH]].
 #include <benchmarks/fcl_map_peer.h>
-#include <vericone/cones/assembly_oracle.h>
-#include <vericone/cones/hull_oracle.h>
+#include <vericone/cones/assembly/assembly_oracle.h>
+#include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/files/read_points.h>
 #include <vericone/octomap/read_octree.h>
 #include <algorithm>

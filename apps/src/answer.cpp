@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "answer.h"
 
-#include <vericone/cones/clearance.h>
-#include <vericone/cones/combined_cone.h>
+#include <vericone/cones/combined/cone.h>
+#include <vericone/cones/ellipsoids/clearance.h>
 #include <algorithm>
 #include <cmath>
 

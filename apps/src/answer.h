@@ -3,7 +3,7 @@
 // What one engagement leads to: the verdict, the clearance and the time, for bodies of every kind.
 #pragma once
 
-#include <vericone/cones/assembly_oracle.h>
+#include <vericone/cones/assembly/assembly_oracle.h>
 
 #include "input/body.h"
 

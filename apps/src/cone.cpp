@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cone.h"
 
-#include <vericone/cones/clearance.h>
-#include <vericone/cones/combined_cone.h>
-#include <vericone/cones/combined_slice_cone.h>
-#include <vericone/cones/exact_cone.h>
-#include <vericone/cones/plane_sector.h>
-#include <vericone/cones/slice_cone.h>
+#include <vericone/cones/combined/cone.h>
+#include <vericone/cones/ellipsoids/clearance.h>
+#include <vericone/cones/ellipsoids/plane_sector.h>
+#include <vericone/cones/ellipsoids/true_cone.h>
+#include <vericone/cones/slices/combined_slice_cone.h>
+#include <vericone/cones/slices/slice_cone.h>
 #include <vericone/geometry/error.h>
 #include <algorithm>
 #include <cmath>
@@ -32,7 +32,7 @@ namespace {
 
 Json exact_json(const Ellipsoid& a, const Ellipsoid& b, int samples) {
   const auto start = Clock::now();
-  const ExactCone cone = exact_cone(a, b, samples);
+  const TrueCone cone = true_cone(a, b, samples);
   Json result{{"method", "exact"},
               {"samples", samples},
               {"relation", to_string(cone.relation)},
@@ -223,7 +223,7 @@ Json engagement_picture(const Ellipsoid& a, const Ellipsoid& b, int planes, int 
     return Json{{"center", vector_json(e.center())}, {"factor", factor}};
   };
   const SliceCone slices = slice_cone(a, b, planes);
-  const ExactCone exact = exact_cone(a, b, samples);
+  const TrueCone exact = true_cone(a, b, samples);
   const PolyhedralCone polygon = slices.polyhedral();
   Json result{{"agent", body(a)},
               {"obstacle", body(b)},
@@ -242,7 +242,7 @@ Json engagement_picture(const Ellipsoid& a, const Ellipsoid& b, int planes, int 
   Eigen::Vector3d w = slices.axis;
   for (const Slice& s : slices.slices) {
     const Eigen::Vector3d across = std::cos(s.azimuth) * frame.e1 + std::sin(s.azimuth) * frame.e2;
-    const PlaneSector sector = exact_sector(a, b, across);
+    const PlaneSector sector = true_sector(a, b, across);
     for (const double side : {1.0, -1.0}) {
       const double inner = side > 0 ? s.left : s.right,
                    outer = side > 0 ? sector.left.angle : sector.right.angle;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cone_map_json.h"
 
-#include <vericone/cones/cone_map_regions.h>
+#include <vericone/cones/map/regions.h>
 
 #include "json_value.h"
 

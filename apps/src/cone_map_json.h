@@ -3,7 +3,7 @@
 // Cone maps as JSON for apps/figures/cone_map.py.
 #pragma once
 
-#include <vericone/cones/cone_map.h>
+#include <vericone/cones/map/cone_map.h>
 #include <string>
 
 #include "json_forward.h"

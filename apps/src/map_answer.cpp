@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map_answer.h"
 
-#include <vericone/cones/classifiers.h>
-#include <vericone/cones/cone_map_regions.h>
+#include <vericone/cones/map/classifiers.h>
+#include <vericone/cones/map/regions.h>
 #include <vericone/geometry/error.h>
 #include <algorithm>
 #include <ostream>

@@ -3,7 +3,7 @@
 // The cone map that `vericone cone --map` adds to the answer, for bodies of every kind.
 #pragma once
 
-#include <vericone/cones/cone_map.h>
+#include <vericone/cones/map/cone_map.h>
 #include <iosfwd>
 #include <optional>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planar_cone.h"
 
-#include <vericone/cones/combined_sector.h>
+#include <vericone/cones/combined/sector.h>
 #include <vericone/geometry/error.h>
 #include <numbers>
 #include <ostream>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shape_engagements.h"
 
-#include <vericone/cones/combined_cone.h>
-#include <vericone/cones/combined_sector.h>
-#include <vericone/cones/combined_slice_cone.h>
+#include <vericone/cones/combined/cone.h>
+#include <vericone/cones/combined/sector.h>
+#include <vericone/cones/slices/combined_slice_cone.h>
 #include <vericone/geometry/combined_surface.h>
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "signmap.h"
 
-#include <vericone/cones/predicates.h>
+#include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/geometry/error.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>

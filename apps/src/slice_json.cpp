@@ -2,7 +2,7 @@
 #include "slice_json.h"
 
 #include <vericone/cones/cone_geometry.h>
-#include <vericone/cones/sector.h>
+#include <vericone/cones/planar/sector.h>
 #include <cmath>
 #include <numbers>
 

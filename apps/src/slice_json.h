@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vericone/cones/slice_cone.h>
+#include <vericone/cones/slices/slice_cone.h>
 
 #include "json_forward.h"
 

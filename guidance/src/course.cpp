@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Whether two bodies will meet if neither does anything: what laws ask before they say anything.
-#include <vericone/cones/combined_cone.h>
-#include <vericone/cones/hull_oracle.h>
+#include <vericone/cones/combined/cone.h>
+#include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/guidance/guide.h>
 
 namespace vericone::guidance {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/guidance/navigator.h>
 
-#include <vericone/cones/clearance.h>
 #include <vericone/cones/cone_geometry.h>
+#include <vericone/cones/ellipsoids/clearance.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

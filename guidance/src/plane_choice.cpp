@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/guidance/plane_choice.h>
 
-#include <vericone/cones/clearance.h>
 #include <vericone/cones/cone_geometry.h>
-#include <vericone/cones/sector.h>
+#include <vericone/cones/ellipsoids/clearance.h>
+#include <vericone/cones/planar/sector.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

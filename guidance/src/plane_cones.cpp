@@ -35,7 +35,7 @@ PlaneCones::Kind PlaneCones::kind_of(const BodyState& a, const BodyState& b, Sec
   if (method == SectorMethod::slice) return Slices{*agent, *obstacle};
   if (agent->is_ellipsoid() && obstacle->is_ellipsoid())
     return SectorPlanes(agent->ellipsoid(), obstacle->ellipsoid());
-  return ExactCombined(*agent, *obstacle);
+  return TrueCombined(*agent, *obstacle);
 }
 
 std::optional<Opening> PlaneCones::on(const Vector3d& u, const Vector3d& e) const {
@@ -63,7 +63,7 @@ std::optional<Opening> PlaneCones::on(const Vector3d& u, const Vector3d& e) cons
       return Opening{sector.psi(), sector.theta_b()};
     }
     std::optional<Opening> operator()(const ExactHull& exact) const { return exact.on(u, e); }
-    std::optional<Opening> operator()(const ExactCombined& exact) const { return exact.on(u, e); }
+    std::optional<Opening> operator()(const TrueCombined& exact) const { return exact.on(u, e); }
   };
   return std::visit(Ask{u, e}, kind_);
 }
@@ -84,7 +84,7 @@ std::optional<double> PlaneCones::opening_slope(const Vector3d& e) const {
 
 double PlaneCones::tolerance() const {
   if (std::holds_alternative<ExactHull>(kind_)) return ExactHull::kEdge;
-  if (std::holds_alternative<ExactCombined>(kind_)) return ExactCombined::kEdge;
+  if (std::holds_alternative<TrueCombined>(kind_)) return TrueCombined::kEdge;
   return 0;
 }
 

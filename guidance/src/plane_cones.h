@@ -3,9 +3,9 @@
 // Sectors of two bodies on planes through their line of sight, by kind of body.
 #pragma once
 
-#include <vericone/cones/assembly_oracle.h>
-#include <vericone/cones/combined_cone.h>
-#include <vericone/cones/plane_sector.h>
+#include <vericone/cones/assembly/assembly_oracle.h>
+#include <vericone/cones/combined/cone.h>
+#include <vericone/cones/ellipsoids/plane_sector.h>
 #include <vericone/guidance/plane_view.h>
 #include <optional>
 #include <variant>
@@ -68,11 +68,11 @@ class ExactHull {
   AssemblyOracle oracle_;
   bool disjoint_;
 };
-class ExactCombined {
+class TrueCombined {
  public:
   static constexpr double kEdge = 1e-7;  // rad
 
-  ExactCombined(const CombinedEllipsoid& a, const CombinedEllipsoid& b);
+  TrueCombined(const CombinedEllipsoid& a, const CombinedEllipsoid& b);
   std::optional<Opening> on(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
 
  private:
@@ -110,7 +110,7 @@ class PlaneCones {
     const Ellipsoid& agent;
     const HullBody& hull;
   };
-  using Kind = std::variant<None, Planar, Slices, HullSlices, SectorPlanes, ExactHull, ExactCombined>;
+  using Kind = std::variant<None, Planar, Slices, HullSlices, SectorPlanes, ExactHull, TrueCombined>;
   static Kind kind_of(const BodyState& a, const BodyState& b, SectorMethod method);
 
   Kind kind_;

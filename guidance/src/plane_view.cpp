@@ -111,8 +111,8 @@ bool slice_cone(const PlaneView& view, const BodyState& a, const BodyState& b, b
   return true;
 }
 
-bool exact_cone(const PlaneView& view, const BodyState& a, const BodyState& b, bool with_rates,
-                PlaneCone& cone) {
+bool true_cone(const PlaneView& view, const BodyState& a, const BodyState& b, bool with_rates,
+               PlaneCone& cone) {
   const Ellipsoid &shape_a = std::get<CombinedEllipsoid>(a.shape).ellipsoid(),
                   &shape_b = std::get<CombinedEllipsoid>(b.shape).ellipsoid();
   const SectorPlanes planes(shape_a, shape_b);
@@ -121,7 +121,7 @@ bool exact_cone(const PlaneView& view, const BodyState& a, const BodyState& b, b
   cone.psi = sector.psi();
   cone.theta_b = sector.theta_b();
   if (!with_rates) return true;
-  const PlaneSectorRates rates = exact_sector_rates(
+  const PlaneSectorRates rates = true_sector_rates(
       sector, shape_a, shape_b,
       {a.velocity, b.velocity, a.omega, b.omega, a.rate.shape, b.rate.shape, view.state.plane_spin});
   cone.psi_rate = rates.psi();
@@ -131,7 +131,7 @@ bool exact_cone(const PlaneView& view, const BodyState& a, const BodyState& b, b
     if (turning.isZero(0)) return;
     SpatialMotion unit;
     unit.*omega = turning;
-    const PlaneSectorRates by = exact_sector_rates(sector, shape_a, shape_b, unit);
+    const PlaneSectorRates by = true_sector_rates(sector, shape_a, shape_b, unit);
     psi = by.psi();
     theta_b = by.theta_b();
   };
@@ -241,7 +241,7 @@ bool fill_cone(PlaneView& view, const BodyState& a, const BodyState& b, SectorMe
   } else if (spatial_a && spatial_b && method == SectorMethod::slice) {
     found = slice_cone(view, a, b, analytic, cone);
   } else if (spatial_a && spatial_b && spatial_a->is_ellipsoid() && spatial_b->is_ellipsoid()) {
-    found = exact_cone(view, a, b, analytic, cone);
+    found = true_cone(view, a, b, analytic, cone);
   } else {
     closed_form = false;
     const PlaneCones cones(a, b, method);

@@ -2,7 +2,7 @@
 //
 // Sections of both bodies by one plane: the source's way to cones in space (6.3.1-6.3.3), with the rates it
 // leaves to numerical differences.
-#include <vericone/cones/visible_sector.h>
+#include <vericone/cones/slices/visible_sector.h>
 #include <vericone/geometry/scaled_inverse.h>
 #include <Eigen/Geometry>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <vericone/cones/assembly_oracle.h>
+#include <vericone/cones/assembly/assembly_oracle.h>
 #include <vericone/geometry/error.h>
 
 #include <cmath>

@@ -2,8 +2,8 @@
 //
 // Relation and membership against the exact predicates of each piece alone; degenerate cases by construction.
 #include <gtest/gtest.h>
-#include <vericone/cones/assembly_oracle.h>
-#include <vericone/cones/hull_oracle.h>
+#include <vericone/cones/assembly/assembly_oracle.h>
+#include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/geometry/error.h>
 #include <limits>
 #include "support/random_assemblies.h"

@@ -3,10 +3,10 @@
 // First contact, miss distance, extreme directions and cells: against moved agents, closed forms and
 // membership.
 #include <gtest/gtest.h>
-#include <vericone/cones/assembly_oracle.h>
-#include <vericone/cones/clearance.h>
+#include <vericone/cones/assembly/assembly_oracle.h>
 #include <vericone/cones/cone_geometry.h>
-#include <vericone/cones/exact_cone.h>
+#include <vericone/cones/ellipsoids/clearance.h>
+#include <vericone/cones/ellipsoids/true_cone.h>
 #include <numbers>
 #include "support/random_assemblies.h"
 
@@ -182,7 +182,7 @@ TEST(AssemblyQuestions, ExtremesOfOneBallAreTheBoundaryOfItsCone) {
     const Ellipsoid ball = Ellipsoid::from_axes(center, Vector3d::Constant(0.4));
     if (relation(agent, ball) != Relation::disjoint) continue;
     const AssemblyOracle oracle(agent, Assembly::cloud({center}, 0.4));
-    const ExactCone cone = exact_cone(agent, ball, 12);
+    const TrueCone cone = true_cone(agent, ball, 12);
     for (const BoundarySample& sample : cone.boundary) {
       const Vector3d side = (sample.direction - sample.direction.dot(cone.axis) * cone.axis).normalized();
       const double angle = std::acos(sample.direction.dot(cone.axis));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/classifiers.h>
-#include <vericone/cones/cone_map_regions.h>
-#include <vericone/cones/exact_cone.h>
+#include <vericone/cones/ellipsoids/true_cone.h>
+#include <vericone/cones/map/classifiers.h>
+#include <vericone/cones/map/regions.h>
 
 #include "cone_map_checks.h"
 #include "support/random_combined.h"
@@ -26,7 +26,7 @@ TEST(EllipsoidClassifier, ThinAndDistantBodiesLeaveOnlyTheRim) {
   SCOPED_TRACE(random.trace());
   for (int k = 0; k < 30; ++k) {
     const auto [a, b] = random.scaled_from_touching(1e-3, 1e2, k % 2 ? 1.001 : 30);
-    const ExactCone cone = exact_cone(a, b, 64);
+    const TrueCone cone = true_cone(a, b, 64);
     double around = 0;  // the rim, radians
     for (std::size_t i = 0; i < cone.boundary.size(); ++i)
       around += (cone.boundary[(i + 1) % cone.boundary.size()].direction - cone.boundary[i].direction).norm();
@@ -198,7 +198,7 @@ TEST(MirroredClassifier, ExchangesTheBodies) {
                   b = Ellipsoid::from_axes({3, 1, 2}, {1, 2, 0.3});
   const MirroredClassifier mirrored(std::make_shared<EllipsoidClassifier>(b, a));
   const ConeMap map = map_of(mirrored, 0.01);
-  const ExactCone cone = exact_cone(a, b, 128);
+  const TrueCone cone = true_cone(a, b, 128);
   EXPECT_LE(map.colliding, cone.solid_angle);
   EXPECT_GE(map.colliding + map.undecided, cone.solid_angle);
   RandomBodies random(15);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/clearance.h>
 #include <vericone/cones/cone_geometry.h>
+#include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/geometry/error.h>
 #include <Eigen/Geometry>
 

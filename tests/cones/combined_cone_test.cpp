@@ -3,10 +3,10 @@
 // The certified cones of combined quadrics against closed forms, exact predicates and laws. Against exact
 // polyhedra and sampling: tests/verify.
 #include <gtest/gtest.h>
-#include <vericone/cones/clearance.h>
-#include <vericone/cones/combined_cone.h>
-#include <vericone/cones/exact_cone.h>
-#include <vericone/cones/hull_oracle.h>
+#include <vericone/cones/combined/cone.h>
+#include <vericone/cones/ellipsoids/clearance.h>
+#include <vericone/cones/ellipsoids/true_cone.h>
+#include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/geometry/error.h>
 #include <Eigen/LU>
 
@@ -270,7 +270,7 @@ TEST(CombinedCone, BoundsHoldForEllipsoids) {
   SCOPED_TRACE(random.trace());
   for (int i = 0; i < 20; ++i) {
     const auto [a, b] = random.separated_along_centers(1, 10, random.uniform(1.2, 3));
-    const double exact = exact_cone(a, b, 192).solid_angle;
+    const double exact = true_cone(a, b, 192).solid_angle;
     for (const double tolerance : {0.1, 0.01, 0.001}) {
       const CombinedCone cone = combined_cone(a, b, tolerance);
       ASSERT_EQ(cone.relation, Relation::disjoint);

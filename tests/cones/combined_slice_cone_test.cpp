@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/combined_cone.h>
-#include <vericone/cones/combined_slice_cone.h>
+#include <vericone/cones/combined/cone.h>
+#include <vericone/cones/slices/combined_slice_cone.h>
 #include <vericone/geometry/error.h>
 
 #include <numbers>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/exact_cone.h>
+#include <vericone/cones/ellipsoids/true_cone.h>
 
 #include <numbers>
 
@@ -70,7 +70,7 @@ TEST_P(ConeBoundsOf, HoldTheTrueConeBetweenThem) {
     const auto [a, b] =
         random.scaled_from_touching(kind.low, kind.high, random.log_uniform(kind.nearest, kind.farthest));
     SCOPED_TRACE("case " + std::to_string(i) + ", " + std::to_string(count) + " samples");
-    const ExactCone cone = exact_cone(a, b, count);
+    const TrueCone cone = true_cone(a, b, count);
     const ConeBounds bounds = cone_bounds(cone, a, b);
     const ConeOracle oracle(a, b);
     ASSERT_EQ(static_cast<int>(bounds.inner.directions.size()), count);
@@ -99,7 +99,7 @@ TEST_P(ConeBoundsOf, HoldTheTrueConeBetweenThem) {
     }
 
     // Sizes, and the promise about the error.
-    const ExactCone truth = exact_cone(a, b, 2048);
+    const TrueCone truth = true_cone(a, b, 2048);
     ASSERT_LE(bounds.inner.solid_angle, truth.solid_angle * (1 + 1e-9));
     ASSERT_GE(bounds.outer.solid_angle, truth.solid_angle * (1 - 1e-9));
     ASSERT_LE(std::abs(bounds.solid_angle - truth.solid_angle),
@@ -133,7 +133,7 @@ TEST(ConeBounds, OfBodiesCloserThanRounding) {
     SCOPED_TRACE("case " + std::to_string(i) + ", " + std::to_string(count) + " samples");
     ++cases;
     unseen += !(ContactFrame<3>(a, b).contact > 1);
-    const ExactCone cone = exact_cone(a, b, count);
+    const TrueCone cone = true_cone(a, b, count);
     const Vector3d normal = ContactFrame<3>(a, b).separating_normal().normalized();
     for (const BoundarySample& s : cone.boundary) {
       ASSERT_NEAR(s.direction.norm(), 1, 1e-14);
@@ -161,7 +161,7 @@ TEST(ConeBounds, GapFallsWithTheSquareOfTheSamples) {
     const auto [a, b] = random.separated_along_centers(1, 4, random.uniform(1.5, 3));
     double last = 0;
     for (const int samples : {64, 128, 256}) {
-      const ConeBounds bounds = cone_bounds(exact_cone(a, b, samples), a, b);
+      const ConeBounds bounds = cone_bounds(true_cone(a, b, samples), a, b);
       const double width = bounds.outer.solid_angle - bounds.inner.solid_angle;
       ASSERT_GT(width, 0);
       if (last > 0) {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <vericone/cones/cone_geometry.h>
-#include <vericone/cones/predicates.h>
+#include <vericone/cones/ellipsoids/predicates.h>
 #include <numbers>
 
 namespace vericone::testing {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <vericone/cones/cone_map.h>
+#include <vericone/cones/map/cone_map.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

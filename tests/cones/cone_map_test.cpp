@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/classifiers.h>
-#include <vericone/cones/cone_map.h>
-#include <vericone/cones/exact_cone.h>
+#include <vericone/cones/ellipsoids/true_cone.h>
+#include <vericone/cones/map/classifiers.h>
+#include <vericone/cones/map/cone_map.h>
 #include <vericone/geometry/error.h>
 
 #include <atomic>
@@ -225,7 +225,7 @@ TEST(ConeMap, EllipsoidsAgainstTheExactCone) {
     const double factor = k % 3 == 0 ? 1 + random.log_uniform(1e-6, 1e-1) : random.uniform(1.05, 6);
     const auto [a, b] = random.scaled_from_touching(0.1, k % 2 ? 2 : 20, factor);
     const ConeMap map = cone_map(EllipsoidClassifier(a, b), at(0.02));
-    const ExactCone cone = exact_cone(a, b, 512);
+    const TrueCone cone = true_cone(a, b, 512);
     const ConeBounds bounds = cone_bounds(cone, a, b);
     EXPECT_LE(map.colliding, bounds.outer.solid_angle + 1e-11) << k;
     EXPECT_GE(map.colliding + map.undecided, bounds.inner.solid_angle - 1e-11) << k;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/clearance.h>
+#include <vericone/cones/ellipsoids/clearance.h>
 
 #include "exact_tangency.h"
 #include "support/random_bodies.h"

@@ -3,8 +3,9 @@
 // Enclosures against exact predicates: what lies between two doubles is proved by moving a body by each of
 // them and asking, without rounding, whether there still is a collision.
 #include <gtest/gtest.h>
-#include <vericone/cones/clearance.h>
-#include <vericone/cones/enclosures.h>
+#include <vericone/cones/ellipsoids/clearance.h>
+#include <vericone/cones/ellipsoids/enclosures.h>
+#include <vericone/cones/planar/enclose_sector.h>
 #include <vericone/geometry/error.h>
 
 #include <iostream>
@@ -151,7 +152,7 @@ TEST(EnclosePlaneSector, SpheresAndRandomPairs) {
   for (int i = 0; i < 1000; ++i) {
     const auto [a, b] = random.scaled_from_touching(1, 10, random.uniform(1.05, 3));
     const Vector3d across = random.direction();
-    const PlaneSector sector = exact_sector(a, b, across);
+    const PlaneSector sector = true_sector(a, b, across);
     const auto enclosure = enclose_plane_sector(a, b, across);
     ASSERT_TRUE(enclosure) << i;
     EXPECT_TRUE(enclosure->left.contains(sector.left.angle));

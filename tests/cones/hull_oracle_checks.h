@@ -4,7 +4,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <vericone/cones/hull_oracle.h>
+#include <vericone/cones/hulls/hull_oracle.h>
 #include <vector>
 
 #include "hull_reference.h"

@@ -4,7 +4,7 @@
 // the library's projections, metrics and searches.
 #pragma once
 
-#include <vericone/cones/predicates.h>
+#include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/geometry/rational.h>
 #include <algorithm>
 #include <vector>

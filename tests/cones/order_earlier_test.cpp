@@ -2,9 +2,9 @@
 //
 // Which of two contacts is earlier, and enclosures of their times.
 #include <gtest/gtest.h>
-#include <vericone/cones/clearance.h>
-#include <vericone/cones/contact_time_enclosure.h>
-#include <vericone/cones/order.h>
+#include <vericone/cones/ellipsoids/clearance.h>
+#include <vericone/cones/times/contact_time_enclosure.h>
+#include <vericone/cones/times/order.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/rational.h>
 #include <Eigen/LU>

@@ -2,8 +2,8 @@
 //
 // Order of two tangent directions.
 #include <gtest/gtest.h>
-#include <vericone/cones/order.h>
-#include <vericone/cones/sector.h>
+#include <vericone/cones/planar/sector.h>
+#include <vericone/cones/times/order.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/rational.h>
 #include <Eigen/LU>

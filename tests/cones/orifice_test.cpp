@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/orifice.h>
+#include <vericone/cones/opening/orifice.h>
 #include <vericone/geometry/error.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>

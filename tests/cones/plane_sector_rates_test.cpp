@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/plane_sector.h>
+#include <vericone/cones/ellipsoids/plane_sector.h>
 
 #include <cmath>
 
@@ -30,8 +30,8 @@ PlaneSector later(const PlaneSector& s, const Ellipsoid& a, const Ellipsoid& b, 
                   double t) {
   const Vector3d c = b.center() - a.center();
   const Vector3d turning = s.line_of_sight.cross(m.v_b - m.v_a) / c.norm() + m.plane_spin * s.line_of_sight;
-  return exact_sector(moved(a, m.v_a, m.omega_a, m.shape_rate_a, t),
-                      moved(b, m.v_b, m.omega_b, m.shape_rate_b, t), s.across + t * turning.cross(s.across));
+  return true_sector(moved(a, m.v_a, m.omega_a, m.shape_rate_a, t),
+                     moved(b, m.v_b, m.omega_b, m.shape_rate_b, t), s.across + t * turning.cross(s.across));
 }
 
 Matrix3d symmetric(RandomBodies& random, double size) {
@@ -47,7 +47,7 @@ TEST(PlaneSectorRates, EveryKindOfMotion) {
   for (int i = 0; i < share(880); ++i) {
     // Also pairs whose line of centres does not separate them.
     const auto [a, b] = random.scaled_from_touching(1, 3, random.uniform(1.3, 4));
-    const PlaneSector s = exact_sector(a, b, random.direction());
+    const PlaneSector s = true_sector(a, b, random.direction());
     const Vector3d out_of_plane = s.line_of_sight.cross(s.across);
     SpatialMotion m;
     const int kind = i % 11;
@@ -61,7 +61,7 @@ TEST(PlaneSectorRates, EveryKindOfMotion) {
     if (kind == 6 || all) m.shape_rate_a = symmetric(random, 0.2);
     if (kind == 7 || all) m.shape_rate_b = symmetric(random, 0.2);
     if (kind == 8 || all) m.plane_spin = random.uniform(-1, 1);
-    const PlaneSectorRates rates = exact_sector_rates(s, a, b, m);
+    const PlaneSectorRates rates = true_sector_rates(s, a, b, m);
     const auto rate = [&](auto&& of) {
       return richardson_derivative([&](double t) { return of(later(s, a, b, m, t)); }, 0.01);
     };
@@ -88,8 +88,8 @@ TEST(PlaneSectorRates, SpheresInClosedForm) {
     SpatialMotion m{random.direction(), random.direction(), random.in_box(3), random.in_box(3)};
     m.plane_spin = random.uniform(-2, 2);
     m.shape_rate_b = 2 * r2 * random.uniform(-1, 1) * Matrix3d::Identity();  // r' = S' / (2 r)
-    const PlaneSector s = exact_sector(a, b, random.direction());
-    const PlaneSectorRates rates = exact_sector_rates(s, a, b, m);
+    const PlaneSector s = true_sector(a, b, random.direction());
+    const PlaneSectorRates rates = true_sector_rates(s, a, b, m);
     const double d = c.norm(), d_rate = c.dot(m.v_b - m.v_a) / d,
                  reach_rate = m.shape_rate_b(0, 0) / (2 * r2);
     const double half_rate = (reach_rate - reach * d_rate / d) / std::sqrt(d * d - reach * reach);
@@ -104,10 +104,10 @@ TEST(PlaneSectorRates, ACommonMotionChangesNothingButTheLineOfSight) {
   for (int i = 0; i < 1000; ++i) {
     const auto [a, b] = random.scaled_from_touching(1, 3, random.uniform(1.1, 4));
     const Vector3d omega = random.in_box(2), drift = random.in_box(5);
-    const PlaneSector s = exact_sector(a, b, random.direction());
+    const PlaneSector s = true_sector(a, b, random.direction());
     SpatialMotion m{omega.cross(a.center()) + drift, omega.cross(b.center()) + drift, omega, omega};
     m.plane_spin = omega.dot(s.line_of_sight);  // the plane turns with everything else
-    const PlaneSectorRates rates = exact_sector_rates(s, a, b, m);
+    const PlaneSectorRates rates = true_sector_rates(s, a, b, m);
     ASSERT_NEAR(rates.left, 0, 1e-11) << "case " << i;
     ASSERT_NEAR(rates.right, 0, 1e-11) << "case " << i;
     ASSERT_NEAR(rates.line_of_sight, omega.dot(s.line_of_sight.cross(s.across)), 1e-12) << "case " << i;

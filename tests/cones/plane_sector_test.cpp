@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/exact_cone.h>
-#include <vericone/cones/plane_sector.h>
-#include <vericone/cones/slice_cone.h>
+#include <vericone/cones/ellipsoids/plane_sector.h>
+#include <vericone/cones/ellipsoids/true_cone.h>
+#include <vericone/cones/slices/slice_cone.h>
 #include <vericone/geometry/error.h>
 
 #include <numbers>
@@ -44,7 +44,7 @@ TEST(PlaneSector, EdgesAreTheBoundaryOfTheCone) {
   for (int i = 0; i < 4000; ++i) {
     const auto [a, b] = draw(random, i);
     const Vector3d across = random.direction();
-    const PlaneSector s = exact_sector(a, b, across);
+    const PlaneSector s = true_sector(a, b, across);
     const Vector3d c = b.center() - a.center();
     SCOPED_TRACE("case " + std::to_string(i));
     ASSERT_LT((s.line_of_sight - c.normalized()).norm(), 1e-15);
@@ -81,7 +81,7 @@ TEST(PlaneSector, ContainsTheSliceAndEqualsItForSpheres) {
   for (int i = 0; i < 2000; ++i) {
     const Vector3d across = random.direction();
     const auto [a, b] = random.scaled_from_touching(1, 10, random.uniform(1.05, 4));
-    const PlaneSector exact = exact_sector(a, b, across);
+    const PlaneSector exact = true_sector(a, b, across);
     const Slice slice = slice_sector(a, b, across);
     ASSERT_GE(exact.left.angle, slice.left * (1 - 1e-12)) << "case " << i;
     ASSERT_GE(exact.right.angle, slice.right * (1 - 1e-12)) << "case " << i;
@@ -91,7 +91,7 @@ TEST(PlaneSector, ContainsTheSliceAndEqualsItForSpheres) {
     const Ellipsoid q =
         sphere(p.center() + (r1 + r2) * (1 + random.log_uniform(1e-3, 1e6)) * random.direction(), r2);
     const double half = std::asin((r1 + r2) / (q.center() - p.center()).norm());
-    const PlaneSector round = exact_sector(p, q, across);
+    const PlaneSector round = true_sector(p, q, across);
     ASSERT_NEAR(round.left.angle / half, 1, 1e-13) << "case " << i;
     ASSERT_NEAR(round.right.angle / half, 1, 1e-13) << "case " << i;
     ASSERT_NEAR(slice_sector(p, q, across).left / half, 1, 1e-12) << "case " << i;
@@ -114,7 +114,7 @@ TEST(PlaneSector, EqualsTheSliceOnACommonPlaneOfSymmetry) {
     const Ellipsoid a = body({0, 0, 0}),
                     b = body(random.uniform(10.5, 30) * Vector3d(std::cos(angle), std::sin(angle), 0));
     const Vector3d across = r * Vector3d(-std::sin(angle), std::cos(angle), 0);
-    const PlaneSector exact = exact_sector(a, b, across);
+    const PlaneSector exact = true_sector(a, b, across);
     const Slice slice = slice_sector(a, b, across);
     ASSERT_NEAR(exact.left.angle, slice.left, 1e-12) << "case " << i;
     ASSERT_NEAR(exact.right.angle, slice.right, 1e-12) << "case " << i;
@@ -128,26 +128,26 @@ TEST(PlaneSector, Invariances) {
   for (int i = 0; i < 1000; ++i) {
     const auto [a, b] = random.scaled_from_touching(1, 5, random.uniform(1.1, 3));
     const Vector3d across = random.direction();
-    const PlaneSector s = exact_sector(a, b, across);
+    const PlaneSector s = true_sector(a, b, across);
     for (const double scale : {1e-100, 1e-6, 1e6, 1e100}) {
-      const PlaneSector t = exact_sector(a.scaled(scale), b.scaled(scale), across);
+      const PlaneSector t = true_sector(a.scaled(scale), b.scaled(scale), across);
       ASSERT_NEAR(t.left.angle, s.left.angle, 1e-12) << "case " << i << " scale " << scale;
       ASSERT_NEAR(t.right.angle, s.right.angle, 1e-12) << "case " << i << " scale " << scale;
     }
     // The other way round it is seen with the line of sight reversed and the same plane.
-    const PlaneSector swapped = exact_sector(b, a, -across);
+    const PlaneSector swapped = true_sector(b, a, -across);
     ASSERT_NEAR(swapped.left.angle, s.left.angle, 1e-12) << "case " << i;
-    const PlaneSector mirrored = exact_sector(a, b, -across);
+    const PlaneSector mirrored = true_sector(a, b, -across);
     ASSERT_NEAR(mirrored.left.angle, s.right.angle, 1e-12) << "case " << i;
     for (const double lean : {3.0, 1e6}) {
-      const PlaneSector oblique = exact_sector(a, b, s.across + lean * s.line_of_sight);
+      const PlaneSector oblique = true_sector(a, b, s.across + lean * s.line_of_sight);
       ASSERT_NEAR(oblique.left.angle, s.left.angle, 1e-13 * (10 + lean)) << "case " << i;
       ASSERT_NEAR(oblique.across.dot(oblique.line_of_sight), 0, 1e-15) << "case " << i;
       const Slice slice = slice_sector(a, b, s.across + lean * s.line_of_sight);
       ASSERT_NEAR(slice.left, slice_sector(a, b, s.across).left, 1e-13 * (10 + lean)) << "case " << i;
     }
     const Vector3d by = random.in_box(100);
-    const PlaneSector moved = exact_sector(a.translated(by), b.translated(by), across);
+    const PlaneSector moved = true_sector(a.translated(by), b.translated(by), across);
     ASSERT_NEAR(moved.psi(), s.psi(), 1e-11) << "case " << i;
     ASSERT_NEAR(moved.theta_b(), s.theta_b(), 1e-11) << "case " << i;
   }
@@ -158,9 +158,9 @@ TEST(PlaneSector, AgreesWithTheTracedCone) {
   SCOPED_TRACE(random.trace());
   for (int i = 0; i < 300; ++i) {
     const auto [a, b] = draw(random, i);
-    const ExactCone cone = exact_cone(a, b, 12);
+    const TrueCone cone = true_cone(a, b, 12);
     for (const BoundarySample& p : cone.boundary) {
-      const PlaneSector s = exact_sector(a, b, p.direction);
+      const PlaneSector s = true_sector(a, b, p.direction);
       const double angle = std::atan2(p.direction.cross(cone.axis).norm(), p.direction.dot(cone.axis));
       // The azimuth of a distant body's sample is as good as its direction, a rounded unit vector.
       ASSERT_NEAR(s.left.angle / angle, 1, 1e-10 + 1e-15 / angle / angle) << "case " << i;
@@ -171,7 +171,7 @@ TEST(PlaneSector, AgreesWithTheTracedCone) {
 TEST(PlaneSector, RefusesWhatHasNoSector) {
   const auto field = [](const Ellipsoid& a, const Ellipsoid& b, const Vector3d& across) -> std::string {
     try {
-      exact_sector(a, b, across);
+      true_sector(a, b, across);
     } catch (const InputError& error) {
       return error.field();
     }

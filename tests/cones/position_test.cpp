@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/exact_position.h>
-#include <vericone/cones/position.h>
+#include <vericone/cones/ellipsoids/exact_position.h>
+#include <vericone/cones/ellipsoids/position.h>
 #include <Eigen/LU>
 
 #include <array>

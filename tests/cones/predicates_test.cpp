@@ -3,8 +3,8 @@
 // The laws in predicates.h and the agreement of the rungs, on random velocities and on velocities within a
 // few roundings of the boundary.
 #include <gtest/gtest.h>
-#include <vericone/cones/exact_cone.h>
-#include <vericone/cones/predicates.h>
+#include <vericone/cones/ellipsoids/predicates.h>
+#include <vericone/cones/ellipsoids/true_cone.h>
 
 #include <array>
 #include <iostream>
@@ -36,7 +36,7 @@ RandomBodies::Pair draw_pair(RandomBodies& random, int kind) {
 }
 
 /// A boundary direction moved by a few roundings, or inwards or outwards by up to `farthest`.
-Vector3d near_boundary(RandomBodies& random, const ExactCone& cone, double farthest) {
+Vector3d near_boundary(RandomBodies& random, const TrueCone& cone, double farthest) {
   const auto& s = cone.boundary[random.integer(0, static_cast<int>(cone.boundary.size()) - 1)];
   Vector3d w = random.log_uniform(0.1, 10) * s.direction;
   if (random.coin()) {
@@ -117,7 +117,7 @@ void check_laws(std::uint64_t seed, int pairs, int velocities, double near, Answ
     ASSERT_EQ(ab.relation(), ba.relation()) << "law (1), pair " << i;
     ASSERT_EQ(ab.relation(), moved.relation()) << "law (5), pair " << i;
     if (ab.relation() != Relation::disjoint) continue;
-    const ExactCone cone = exact_cone(pair.a, pair.b, 24);
+    const TrueCone cone = true_cone(pair.a, pair.b, 24);
     for (int j = 0; j < velocities; ++j) {
       const Vector3d w =
           near > 0 ? near_boundary(random, cone, near)
@@ -174,7 +174,7 @@ TEST(PredicateLaws, AgreeWithSeparatingPlanes) {
     const auto [a, b] = draw_pair(random, i);
     const ConeOracle oracle(a, b);
     if (oracle.relation() != Relation::disjoint) continue;
-    const ExactCone cone = exact_cone(a, b, 24);
+    const TrueCone cone = true_cone(a, b, 24);
     for (int j = 0; j < 20; ++j) {
       const auto& s = cone.boundary[random.integer(0, 23)];
       const Vector3d n = s.normal + random.log_uniform(1e-15, 1e-1) * oracle.separating_normal().normalized();

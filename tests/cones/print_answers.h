@@ -3,8 +3,8 @@
 // Answers of predicates by name in failures of tests; beside their types, where GoogleTest looks for it.
 #pragma once
 
-#include <vericone/cones/position.h>
-#include <vericone/cones/predicates.h>
+#include <vericone/cones/ellipsoids/position.h>
+#include <vericone/cones/ellipsoids/predicates.h>
 #include <ostream>
 
 namespace vericone {

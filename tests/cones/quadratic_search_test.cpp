@@ -6,7 +6,7 @@
 
 #include <limits>
 
-#include "../../cones/src/quadratic_search.h"
+#include "../../cones/src/combined/quadratic_search.h"
 #include "support/random_bodies.h"
 
 namespace vericone::quadratic_search_test {

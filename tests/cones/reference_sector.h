@@ -3,7 +3,7 @@
 // The planar sector with 50 digits, by bisection of the tangency condition. Slow to compile and to run.
 #pragma once
 
-#include <vericone/cones/contact_frame.h>
+#include <vericone/cones/ellipsoids/contact_frame.h>
 #include <vericone/geometry/ellipsoid.h>
 #include <array>
 #include <boost/math/constants/constants.hpp>

@@ -2,8 +2,8 @@
 //
 // The rungs of relation() and separates() against each other where they are hardest.
 #include <gtest/gtest.h>
-#include <vericone/cones/contact_frame.h>
-#include <vericone/cones/predicates.h>
+#include <vericone/cones/ellipsoids/contact_frame.h>
+#include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/rational.h>
 

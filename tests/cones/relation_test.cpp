@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/contact_frame.h>
-#include <vericone/cones/predicates.h>
+#include <vericone/cones/ellipsoids/contact_frame.h>
+#include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/geometry/rational.h>
 
 #include <array>

@@ -2,7 +2,7 @@
 //
 // The source's procedure for an ellipse and its "confocal quadric" (5.2.2.2), and what is wrong in print.
 #include <gtest/gtest.h>
-#include <vericone/cones/combined_sector.h>
+#include <vericone/cones/combined/sector.h>
 #include <vericone/geometry/error.h>
 #include <Eigen/LU>
 
@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "../../cones/src/pole_polar.h"
+#include "../../cones/src/planar/pole_polar.h"
 #include "support/random_combined.h"
 
 namespace vericone::sector_by_source_test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/sector.h>
-#include <vericone/cones/sector_oracle.h>
+#include <vericone/cones/planar/sector.h>
+#include <vericone/cones/planar/sector_oracle.h>
 #include <vericone/geometry/error.h>
 
 #include <iostream>

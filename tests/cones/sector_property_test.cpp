@@ -2,7 +2,7 @@
 //
 // Both ways to a planar sector against each other, against 50 digits and under symmetries.
 #include <gtest/gtest.h>
-#include <vericone/cones/sector.h>
+#include <vericone/cones/planar/sector.h>
 #include <Eigen/LU>
 
 #include <iostream>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/sector.h>
+#include <vericone/cones/planar/sector.h>
 
 #include <cmath>
 #include <numbers>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/exact_cone.h>
-#include <vericone/cones/plane_sector.h>
-#include <vericone/cones/sector.h>
-#include <vericone/cones/slice_cone.h>
+#include <vericone/cones/ellipsoids/plane_sector.h>
+#include <vericone/cones/ellipsoids/true_cone.h>
+#include <vericone/cones/planar/sector.h>
+#include <vericone/cones/slices/slice_cone.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/quadric.h>
 
@@ -53,7 +53,7 @@ TEST(SliceCone, OfSpheresIsTheInscribedPolygon) {
     ASSERT_NEAR(cone.polyhedral().cross_section_area / (pi * tangent2 * std::sin(x) / x), 1,
                 1e-12 + 1e-14 / s)
         << "case " << i;
-    const ExactCone exact = exact_cone(a, b, 32);
+    const TrueCone exact = true_cone(a, b, 32);
     ASSERT_LT(cone.polyhedral().solid_angle, exact.solid_angle);
     const SliceCone fine = slice_cone(a, b, 2000);
     ASSERT_NEAR(fine.polyhedral().solid_angle / exact.solid_angle, 1, 1e-6);
@@ -119,7 +119,7 @@ TEST(SliceCone, IsContainedInTheExactCone) {
                   Membership::in)
             << "case " << i;
       }
-    const double exact = exact_cone(a, b, 256).cross_section_area,
+    const double exact = true_cone(a, b, 256).cross_section_area,
                  sliced = cone.polyhedral().cross_section_area;
     ASSERT_LT(sliced, exact) << "case " << i;
     const double missing = 1 - sliced / exact;
@@ -154,7 +154,7 @@ TEST(SliceCone, OfParallelSimilarEllipsoidsIsExactOnEveryPlane) {
         ASSERT_NEAR((std::pow(c.dot(m * w), 2) - w.dot(m * w) * (c.dot(m * c) - 1)) / scale, 0, 1e-11)
             << "case " << i;
       }
-    const double exact = exact_cone(a, b, 256).solid_angle;
+    const double exact = true_cone(a, b, 256).solid_angle;
     ASSERT_NEAR(slice_cone(a, b, 1000).polyhedral().solid_angle / exact, 1, 1e-3) << "case " << i;
   }
 }
@@ -218,7 +218,7 @@ TEST_F(TheSourcesEngagement, SlicesMissTwoAndAHalfDegreesAcrossTheSymmetryPlane)
   const Slice slice = slice_sector(a_, b_, e);
   EXPECT_NEAR(slice.left / kDegree, 25.31, 0.005);
   EXPECT_NEAR(slice.right / kDegree, 25.31, 0.005);
-  const PlaneSector exact = exact_sector(a_, b_, e);
+  const PlaneSector exact = true_sector(a_, b_, e);
   EXPECT_NEAR(exact.left.angle / kDegree, 28.25, 0.005);
   EXPECT_NEAR(exact.right.angle / kDegree, 28.25, 0.005);
   const ConeOracle oracle(a_, b_);

@@ -3,25 +3,26 @@
 // Every function of the cones has an answer, or an InputError that names a field, for bodies that are not
 // disjoint and for arguments that belong to other bodies or to none.
 #include <gtest/gtest.h>
-#include <vericone/cones/assembly_oracle.h>
-#include <vericone/cones/classifiers.h>
-#include <vericone/cones/clearance.h>
-#include <vericone/cones/combined_cone.h>
-#include <vericone/cones/combined_sector.h>
-#include <vericone/cones/combined_slice_cone.h>
-#include <vericone/cones/cone_map_regions.h>
-#include <vericone/cones/contact_time_enclosure.h>
-#include <vericone/cones/enclosures.h>
-#include <vericone/cones/exact_cone.h>
-#include <vericone/cones/exact_predicates.h>
-#include <vericone/cones/hull_oracle.h>
-#include <vericone/cones/order.h>
-#include <vericone/cones/plane_sector.h>
-#include <vericone/cones/position.h>
-#include <vericone/cones/sector.h>
-#include <vericone/cones/sector_oracle.h>
-#include <vericone/cones/slice_cone.h>
-#include <vericone/cones/visible_cone.h>
+#include <vericone/cones/assembly/assembly_oracle.h>
+#include <vericone/cones/combined/cone.h>
+#include <vericone/cones/combined/sector.h>
+#include <vericone/cones/ellipsoids/clearance.h>
+#include <vericone/cones/ellipsoids/enclosures.h>
+#include <vericone/cones/ellipsoids/exact_predicates.h>
+#include <vericone/cones/ellipsoids/plane_sector.h>
+#include <vericone/cones/ellipsoids/position.h>
+#include <vericone/cones/ellipsoids/true_cone.h>
+#include <vericone/cones/hulls/hull_oracle.h>
+#include <vericone/cones/map/classifiers.h>
+#include <vericone/cones/map/regions.h>
+#include <vericone/cones/planar/enclose_sector.h>
+#include <vericone/cones/planar/sector.h>
+#include <vericone/cones/planar/sector_oracle.h>
+#include <vericone/cones/slices/combined_slice_cone.h>
+#include <vericone/cones/slices/slice_cone.h>
+#include <vericone/cones/slices/visible_cone.h>
+#include <vericone/cones/times/contact_time_enclosure.h>
+#include <vericone/cones/times/order.h>
 #include <vericone/geometry/error.h>
 
 #include <cmath>
@@ -99,7 +100,7 @@ TEST(TotalFunctions, ReadmeWithBodiesThatOverlap) {
   const Ellipsoid obstacle = Ellipsoid::from_axes({2.5, 0, 0}, {2, 2, 2});
   const ConeOracle oracle(agent, obstacle);
   EXPECT_EQ(oracle.membership({4, 3, 0}), Membership::in);
-  const ExactCone cone = exact_cone(agent, obstacle, 48);
+  const TrueCone cone = true_cone(agent, obstacle, 48);
   EXPECT_EQ(cone.solid_angle, 4 * pi);
   EXPECT_EQ(refused([&] { cone_bounds(cone, agent, obstacle); }), "bodies");
   EXPECT_LT(clearance(agent, obstacle, {4, 3.5, 0}).distance, 0);
@@ -196,13 +197,13 @@ TEST(TotalFunctions, ConesInSpace) {
     const Ellipsoid a = agent(), b = obstacle(c);
     const double all = (c.relation == Relation::touching ? 2 : 4) * pi;
     EXPECT_EQ(relation_of(position<3>(a, b)), c.relation);
-    const ExactCone cone = exact_cone(a, b, 12);
+    const TrueCone cone = true_cone(a, b, 12);
     EXPECT_EQ(cone.relation, c.relation);
     EXPECT_EQ(cone.solid_angle, all);
     EXPECT_TRUE(cone.axis.allFinite());
     EXPECT_EQ(refused([&] { cone_bounds(cone, a, b); }), "bodies");
     EXPECT_EQ(refused([&] {
-                cone_bounds(exact_cone(a, Ellipsoid::from_axes({9, 0, 0}, {1, 1, 1}), 12), a, b);
+                cone_bounds(true_cone(a, Ellipsoid::from_axes({9, 0, 0}, {1, 1, 1}), 12), a, b);
               }),
               "bodies");
     const SliceCone slices = slice_cone(a, b, 5);
@@ -210,7 +211,7 @@ TEST(TotalFunctions, ConesInSpace) {
     EXPECT_TRUE(slices.axis.allFinite());
     EXPECT_EQ(slices.polyhedral().solid_angle, all);
     EXPECT_EQ(refused([&] { slice_sector(a, b, {0, 1, 1}); }), "bodies");
-    EXPECT_EQ(refused([&] { exact_sector(a, b, {0, 1, 1}); }), "bodies");
+    EXPECT_EQ(refused([&] { true_sector(a, b, {0, 1, 1}); }), "bodies");
     const SectorPlanes planes(a, b);
     EXPECT_FALSE(planes.disjoint());
     EXPECT_EQ(refused([&] { planes.on({0, 1, 1}); }), "bodies");
@@ -319,26 +320,26 @@ TEST(TotalFunctions, Hulls) {
 
 TEST(TotalFunctions, ArgumentsOfOtherBodies) {
   const Ellipsoid a = agent(), b = Ellipsoid::from_axes({5, 0, 0}, {2, 2, 2});
-  const ExactCone cone = exact_cone(a, b, 24);
+  const TrueCone cone = true_cone(a, b, 24);
   EXPECT_EQ(refused([&] { cone_bounds(cone, a, b); }), "");
-  EXPECT_EQ(refused([&] { cone_bounds(ExactCone(), a, b); }), "cone.relation");
-  EXPECT_EQ(refused([&] { cone_bounds(exact_cone(a, a, 24), a, b); }), "cone.relation");
+  EXPECT_EQ(refused([&] { cone_bounds(TrueCone(), a, b); }), "cone.relation");
+  EXPECT_EQ(refused([&] { cone_bounds(true_cone(a, a, 24), a, b); }), "cone.relation");
   EXPECT_EQ(refused([&] { cone_bounds(cone, a, a); }), "bodies");
   EXPECT_EQ(refused([&] { cone_bounds(cone, b, a); }), "cone.axis");
-  EXPECT_EQ(refused([&] { cone_bounds(exact_cone(a, b.translated({0, 1, 0}), 24), a, b); }), "cone.axis");
-  ExactCone empty = cone;
+  EXPECT_EQ(refused([&] { cone_bounds(true_cone(a, b.translated({0, 1, 0}), 24), a, b); }), "cone.axis");
+  TrueCone empty = cone;
   empty.boundary.clear();
   EXPECT_EQ(refused([&] { cone_bounds(empty, a, b); }), "cone.boundary");
   // The same centres, other shapes: wide, and true.
   for (const double radius : {0.5, 3.9}) {
     const ConeBounds wide =
-        cone_bounds(exact_cone(a, Ellipsoid::from_axes({5, 0, 0}, {radius, 1, 1}), 24), a, b);
+        cone_bounds(true_cone(a, Ellipsoid::from_axes({5, 0, 0}, {radius, 1, 1}), 24), a, b);
     EXPECT_LE(wide.inner.solid_angle, cone.solid_angle);
     EXPECT_GE(wide.outer.solid_angle, cone.solid_angle);
   }
-  EXPECT_EQ(refused([&] { exact_sector_rates(PlaneSector(), a, b, {}); }), "sector");
-  const PlaneSector sector = exact_sector(a, b, {0, 1, 0});
-  EXPECT_EQ(refused([&] { exact_sector_rates(sector, a, a, {}); }), "bodies");
+  EXPECT_EQ(refused([&] { true_sector_rates(PlaneSector(), a, b, {}); }), "sector");
+  const PlaneSector sector = true_sector(a, b, {0, 1, 0});
+  EXPECT_EQ(refused([&] { true_sector_rates(sector, a, a, {}); }), "bodies");
   EXPECT_EQ(refused([&] { combined_sector_rates(CombinedSector(), Ellipse(), Ellipse(), {}); }),
             "sector.relation");
   EXPECT_EQ(SliceCone().polyhedral().solid_angle, 4 * pi);

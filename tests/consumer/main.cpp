@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/exact_cone.h>
+#include <vericone/cones/ellipsoids/true_cone.h>
 #include <vericone/guidance/guide.h>
 #include <vericone/simulation/run.h>
 #include <cstdio>
@@ -10,7 +10,7 @@ int main() {
                   b = Ellipsoid::from_axes({5, 0, 0}, {2, 2, 2});
   const ConeOracle oracle(a, b);
   if (oracle.membership({4, 3, 0}) != Membership::on) return 1;
-  std::printf("%.15g\n", exact_cone(a, b, 48).solid_angle);
+  std::printf("%.15g\n", true_cone(a, b, 48).solid_angle);
 
   guidance::BodyState agent{CombinedEllipsoid(a)}, obstacle{CombinedEllipsoid(b)};
   agent.velocity = {4, 1, 0};

@@ -3,8 +3,8 @@
 // libFuzzer entry: 21 doubles are two bodies (centre, shape) and a velocity; all rungs must agree.
 #include "fuzz/fuzz_membership.h"
 
-#include <vericone/cones/exact_predicates.h>
-#include <vericone/cones/predicates.h>
+#include <vericone/cones/ellipsoids/exact_predicates.h>
+#include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/geometry/error.h>
 #include <cmath>
 #include <cstdio>

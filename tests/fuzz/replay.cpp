@@ -4,7 +4,7 @@
 //   replay CORPUS_FILE            every case of the corpus and eight mutations of each
 //   replay CORPUS_FILE FOLDER     writes the cases as seeds for libFuzzer
 //   replay CORPUS_FILE -- FILE... runs inputs that libFuzzer found
-#include <vericone/verify/corpus_file.h>
+#include <vericone/verify/corpus/file.h>
 #include <vericone/verify/seeded_random.h>
 
 #include <cmath>

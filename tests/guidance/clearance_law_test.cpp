@@ -2,7 +2,7 @@
 //
 // The clearance law against finite differences of m(w) along motion that the test propagates itself.
 #include <gtest/gtest.h>
-#include <vericone/cones/clearance.h>
+#include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/guidance/clearance_law.h>
 #include <Eigen/Geometry>
 #include <algorithm>

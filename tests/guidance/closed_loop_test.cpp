@@ -239,7 +239,7 @@ TEST(ClosedLoop, CooperativeAvoidanceInSpaceFollowsItsExponential) {
       commanded(x);
       if (!steers) break;
       const SpatialEngagement now = spatial_at(start, x);
-      if (exact_sector(now.a.at(0), now.b.at(0), now.across).psi() > 2.5) break;
+      if (true_sector(now.a.at(0), now.b.at(0), now.across).psi() > 2.5) break;
       const double left = std::exp(-options.gain * t);
       errors.add(std::abs(now.y(0) - options.reference - (y0 - options.reference) * left) /
                  std::abs((y0 - options.reference) * left));

@@ -2,8 +2,8 @@
 //
 // One step of guidance as a whole: what it commands makes y follow its order along real motion.
 #include <gtest/gtest.h>
-#include <vericone/cones/plane_sector.h>
-#include <vericone/cones/predicates.h>
+#include <vericone/cones/ellipsoids/plane_sector.h>
+#include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/guidance/guide.h>
 #include <Eigen/Geometry>
 #include <cmath>
@@ -36,7 +36,7 @@ BodyState ball(const Vector3d& center, const Vector3d& velocity, double radius) 
 TEST(Guide, SpheresInClosedForm) {
   RandomBodies random(71);
   SCOPED_TRACE(random.trace());
-  for (const SectorMethod method : {SectorMethod::exact, SectorMethod::slice}) {
+  for (const SectorMethod method : {SectorMethod::true_cone, SectorMethod::slice}) {
     for (int i = 0; i < 100; ++i) {
       const Vector3d c = random.uniform(8, 30) * random.direction();
       const Vector3d v = 5 * (c.normalized() + 0.1 * random.in_box(1)).normalized();
@@ -100,7 +100,7 @@ TEST_P(Inversion, MakesYFollowItsOrder) {
       const Vector3d u = (b.center() - a.center()).normalized();
       const Vector3d e =
           Eigen::Quaterniond::FromTwoVectors(u0, u) * e0;  // parallel transport, to second order
-      const PlaneSector sector = exact_sector(a, b, e);
+      const PlaneSector sector = true_sector(a, b, e);
       const Vector3d v = vb + step->b * t - va - step->a * t;
       return cone_function_y(v.dot(u), v.dot(e), 0, sector.theta_b(), sector.psi());
     };
@@ -183,13 +183,13 @@ TEST(Guide, DecidesByTheCone) {
     const Vector3d c = shape_b.center() - shape_a.center();
     const Vector3d v = 5 * (c.normalized() + 0.5 * random.in_box(1)).normalized();
     const BodyState a = body(shape_a, v), b = body(shape_b, Vector3d::Zero());
-    const auto exact = on_collision_course(a, b, SectorMethod::exact);
+    const auto exact = on_collision_course(a, b, SectorMethod::true_cone);
     const auto slice = on_collision_course(a, b, SectorMethod::slice);
     ASSERT_TRUE(exact && slice);
     EXPECT_EQ(*exact, ConeOracle(shape_a, shape_b).membership(v) != Membership::out);
     EXPECT_TRUE(*exact || !*slice);  // slices are contained in the cone
     missed += *exact && !*slice;
-    const auto margin = on_collision_course(a, b, SectorMethod::exact, 0.01);
+    const auto margin = on_collision_course(a, b, SectorMethod::true_cone, 0.01);
     EXPECT_TRUE(*margin || !*exact);
   }
   EXPECT_GT(missed, 20);  // and in general strictly

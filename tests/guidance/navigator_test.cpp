@@ -2,7 +2,7 @@
 //
 // What a navigator foresees, against the same flight sampled; what it decides, against symmetries.
 #include <gtest/gtest.h>
-#include <vericone/cones/clearance.h>
+#include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/guidance/navigator.h>
 
 #include <Eigen/Geometry>

@@ -3,7 +3,7 @@
 // Two planar bodies on Cartesian paths, y from scratch at any time, and what the laws read of them at t = 0.
 #pragma once
 
-#include <vericone/cones/sector.h>
+#include <vericone/cones/planar/sector.h>
 #include <vericone/guidance/laws.h>
 
 #include <limits>

@@ -30,7 +30,7 @@ TEST(PlaneChoice, IsTheBestOf3600Planes) {
     const auto [moving_a, moving_b] = testing::moving_pair(random, 1.2, 4);
     const BodyState a = moving_a.state(), b = moving_b.state();
     const AxisFrame frame(b.position - a.position);
-    for (const SectorMethod method : {SectorMethod::exact, SectorMethod::slice})
+    for (const SectorMethod method : {SectorMethod::true_cone, SectorMethod::slice})
       for (const PlaneChoice choice : kSearched) {
         PlaneOptions options;
         options.choice = choice;
@@ -62,14 +62,14 @@ TEST(PlaneChoice, TheUnrefinedChoiceIsTheBestCandidate) {
     PlaneOptions options;
     options.refine = false;
     options.planes = random.integer(1, 40);
-    const auto all = all_planes(a, b, SectorMethod::exact, options.planes);
+    const auto all = all_planes(a, b, SectorMethod::true_cone, options.planes);
     ASSERT_EQ(all.size(), std::size_t(options.planes));
     for (std::size_t j = 0; j < all.size(); ++j) {
       const PlaneCandidate& candidate = all[j];
       EXPECT_NEAR(candidate.azimuth, std::numbers::pi * double(j) / options.planes, 1e-15);
       const auto view =
           plane_view(a, b, std::cos(candidate.azimuth) * frame.e1 + std::sin(candidate.azimuth) * frame.e2,
-                     SectorMethod::exact, RateMethod::none);
+                     SectorMethod::true_cone, RateMethod::none);
       ASSERT_TRUE(view);
       EXPECT_NEAR(candidate.psi, view->cone.psi, 1e-12);
       EXPECT_NEAR(candidate.theta_b, view->cone.theta_b, 1e-12);
@@ -84,14 +84,14 @@ TEST(PlaneChoice, TheUnrefinedChoiceIsTheBestCandidate) {
     for (int j = 0; j < options.planes; ++j) {
       const double azimuth = std::numbers::pi * j / options.planes;
       const Vector3d across = std::cos(azimuth) * e1 + std::sin(azimuth) * frame.axis.cross(e1);
-      const auto view = plane_view(a, b, across, SectorMethod::exact, RateMethod::none);
+      const auto view = plane_view(a, b, across, SectorMethod::true_cone, RateMethod::none);
       ASSERT_TRUE(view);
       if (view->cone.psi > widest + 1e-12) {
         widest = view->cone.psi;
         best = across;
       }
     }
-    const auto e = choose_plane(a, b, SectorMethod::exact, options);
+    const auto e = choose_plane(a, b, SectorMethod::true_cone, options);
     ASSERT_TRUE(e);
     EXPECT_LT((*e - best).norm(), 1e-13);
   }
@@ -106,7 +106,7 @@ TEST(PlaneChoice, OfEquallyGoodPlanesThatOfMotionIsTaken) {
     moving_b.semi_axes.setConstant(random.uniform(1, 2));
     const BodyState a = moving_a.state(), b = moving_b.state();
     const AxisFrame frame(b.position - a.position);
-    for (const SectorMethod method : {SectorMethod::exact, SectorMethod::slice}) {
+    for (const SectorMethod method : {SectorMethod::true_cone, SectorMethod::slice}) {
       const auto e = choose_plane(a, b, method, {});
       ASSERT_TRUE(e);
       const Vector3d w = a.velocity - b.velocity;
@@ -134,16 +134,16 @@ TEST(PlaneChoice, ThePlaneOfMotionTellsCollisions) {
     colliding += truth == Membership::in;
     PlaneOptions options;
     options.choice = PlaneChoice::of_motion;
-    const auto e = choose_plane(a, b, SectorMethod::exact, options);
+    const auto e = choose_plane(a, b, SectorMethod::true_cone, options);
     ASSERT_TRUE(e);
-    const auto view = plane_view(a, b, *e, SectorMethod::exact, RateMethod::none);
+    const auto view = plane_view(a, b, *e, SectorMethod::true_cone, RateMethod::none);
     ASSERT_TRUE(view);
     EXPECT_NEAR(view->state.v_normal, 0, 1e-13 * (1 + a.velocity.norm()));
     EXPECT_EQ(cone_rates(view->state, view->cone).colliding(), truth == Membership::in) << i;
     // On the plane of least turn, too, a colliding pair looks colliding.
     options.choice = PlaneChoice::least_turn;
-    const auto least = choose_plane(a, b, SectorMethod::exact, options);
-    const auto nearest = plane_view(a, b, *least, SectorMethod::exact, RateMethod::none);
+    const auto least = choose_plane(a, b, SectorMethod::true_cone, options);
+    const auto nearest = plane_view(a, b, *least, SectorMethod::true_cone, RateMethod::none);
     ASSERT_TRUE(nearest);
     if (truth == Membership::in) {
       EXPECT_TRUE(cone_rates(nearest->state, nearest->cone).colliding()) << i;
@@ -183,7 +183,7 @@ TEST(PlaneChoice, SteepestClearanceHoldsItsGradient) {
     const BodyState a = moving_a.state(), b = moving_b.state();
     PlaneOptions options;
     options.choice = PlaneChoice::steepest_clearance;
-    const auto e = choose_plane(a, b, SectorMethod::exact, options);
+    const auto e = choose_plane(a, b, SectorMethod::true_cone, options);
     ASSERT_TRUE(e);
     const Vector3d u = line_of_sight(a, b), w = a.velocity - b.velocity;
     Vector3d gradient;
@@ -196,7 +196,7 @@ TEST(PlaneChoice, SteepestClearanceHoldsItsGradient) {
     if (i % 4 == 0) {
       // Of spheres it is the plane of motion.
       options.choice = PlaneChoice::of_motion;
-      EXPECT_LT(choose_plane(a, b, SectorMethod::exact, options)->cross(*e).norm(), 1e-7);
+      EXPECT_LT(choose_plane(a, b, SectorMethod::true_cone, options)->cross(*e).norm(), 1e-7);
     }
   }
 }
@@ -208,7 +208,7 @@ TEST(PlaneChoice, EveryChoiceIsDeterministicWithoutAllocation) {
     const auto [moving_a, moving_b] = testing::moving_pair(random, 1.5, 4);
     const BodyState a = moving_a.state(), b = moving_b.state();
     for (const PlaneChoice choice : kAll)
-      for (const SectorMethod method : {SectorMethod::exact, SectorMethod::slice}) {
+      for (const SectorMethod method : {SectorMethod::true_cone, SectorMethod::slice}) {
         PlaneOptions options;
         options.choice = choice;
         options.wind = Vector3d(0, 3, 0);
@@ -235,9 +235,9 @@ TEST(PlaneChoice, SingularCases) {
       options.choice = choice;
       // No relative velocity: the first plane, or the largest opening.
       moving_b.now.velocity = moving_a.now.velocity;
-      const auto still = choose_plane(moving_a.state(), moving_b.state(), SectorMethod::exact, options);
+      const auto still = choose_plane(moving_a.state(), moving_b.state(), SectorMethod::true_cone, options);
       ASSERT_TRUE(still);
-      const auto widest = choose_plane(moving_a.state(), moving_b.state(), SectorMethod::exact, {});
+      const auto widest = choose_plane(moving_a.state(), moving_b.state(), SectorMethod::true_cone, {});
       if (choice == PlaneChoice::of_motion || choice == PlaneChoice::steepest_clearance) {
         EXPECT_EQ(*still, *widest);
       }
@@ -246,7 +246,7 @@ TEST(PlaneChoice, SingularCases) {
       }
       // Straight at the centre: no plane of motion.
       moving_b.now.velocity = moving_a.now.velocity - 3 * frame.axis;
-      const auto head_on = choose_plane(moving_a.state(), moving_b.state(), SectorMethod::exact, options);
+      const auto head_on = choose_plane(moving_a.state(), moving_b.state(), SectorMethod::true_cone, options);
       ASSERT_TRUE(head_on);
       if (choice == PlaneChoice::of_motion) {
         EXPECT_EQ(*head_on, *widest);
@@ -255,10 +255,10 @@ TEST(PlaneChoice, SingularCases) {
       auto into = moving_b;
       into.now.position = moving_a.now.position + 0.5 * frame.axis;
       if (choice != PlaneChoice::of_motion && choice != PlaneChoice::steepest_clearance) {
-        EXPECT_FALSE(choose_plane(moving_a.state(), into.state(), SectorMethod::exact, options));
+        EXPECT_FALSE(choose_plane(moving_a.state(), into.state(), SectorMethod::true_cone, options));
       }
       into.now.position = moving_a.now.position;
-      EXPECT_FALSE(choose_plane(moving_a.state(), into.state(), SectorMethod::exact, options));
+      EXPECT_FALSE(choose_plane(moving_a.state(), into.state(), SectorMethod::true_cone, options));
     }
   }
 }

@@ -27,12 +27,12 @@ TEST(PlaneChoice, FollowsTheOptimum) {
     std::optional<Vector3d> before;
     for (int step = 0; step < 50; ++step) {
       const double t = 0.005 * step;
-      const auto e = choose_plane(a.at(t), b.at(t), SectorMethod::exact, {}, before ? &*before : nullptr);
+      const auto e = choose_plane(a.at(t), b.at(t), SectorMethod::true_cone, {}, before ? &*before : nullptr);
       ASSERT_TRUE(e);
-      const auto afresh = choose_plane(a.at(t), b.at(t), SectorMethod::exact, {});
+      const auto afresh = choose_plane(a.at(t), b.at(t), SectorMethod::true_cone, {});
       const PlaneOptions opening;
-      const double psi = -merit(a.at(t), b.at(t), SectorMethod::exact, opening, *e),
-                   most = -merit(a.at(t), b.at(t), SectorMethod::exact, opening, *afresh);
+      const double psi = -merit(a.at(t), b.at(t), SectorMethod::true_cone, opening, *e),
+                   most = -merit(a.at(t), b.at(t), SectorMethod::true_cone, opening, *afresh);
       if (std::abs(most - psi) < 1e-6) {
         ++compared;
         EXPECT_LT(e->cross(*afresh).norm(), 1e-3) << i << " " << step;
@@ -42,8 +42,8 @@ TEST(PlaneChoice, FollowsTheOptimum) {
         EXPECT_LT(psi, most);
         // A local optimum is kept.
         const Vector3d side = 0.01 * line_of_sight(a.at(t), b.at(t)).cross(*e);
-        EXPECT_GT(psi, -merit(a.at(t), b.at(t), SectorMethod::exact, opening, *e + side));
-        EXPECT_GT(psi, -merit(a.at(t), b.at(t), SectorMethod::exact, opening, *e - side));
+        EXPECT_GT(psi, -merit(a.at(t), b.at(t), SectorMethod::true_cone, opening, *e + side));
+        EXPECT_GT(psi, -merit(a.at(t), b.at(t), SectorMethod::true_cone, opening, *e - side));
       }
       if (before) {
         EXPECT_GT(e->dot(*before), 0);
@@ -60,12 +60,13 @@ TEST(PlaneChoice, AStaleAxisIsGivenUp) {
   for (int i = 0; i < 200; ++i) {
     const auto [moving_a, moving_b] = testing::moving_pair(random, 1.5, 4);
     const BodyState a = moving_a.state(), b = moving_b.state();
-    const auto best = choose_plane(a, b, SectorMethod::exact, {});
+    const auto best = choose_plane(a, b, SectorMethod::true_cone, {});
     ASSERT_TRUE(best);
     const Vector3d worst = line_of_sight(a, b).cross(*best);
-    const auto e = choose_plane(a, b, SectorMethod::exact, {}, &worst);
+    const auto e = choose_plane(a, b, SectorMethod::true_cone, {}, &worst);
     ASSERT_TRUE(e);
-    EXPECT_GT(-merit(a, b, SectorMethod::exact, {}, *e), -merit(a, b, SectorMethod::exact, {}, worst));
+    EXPECT_GT(-merit(a, b, SectorMethod::true_cone, {}, *e),
+              -merit(a, b, SectorMethod::true_cone, {}, worst));
   }
 }
 
@@ -75,7 +76,7 @@ TEST(PlaneChoice, EveryOptimumIsFoundAgainFromNearby) {
   for (int i = 0; i < 100; ++i) {
     const auto [moving_a, moving_b] = testing::moving_pair(random, 1.5, 4);
     const BodyState a = moving_a.state(), b = moving_b.state();
-    for (const SectorMethod method : {SectorMethod::exact, SectorMethod::slice})
+    for (const SectorMethod method : {SectorMethod::true_cone, SectorMethod::slice})
       for (const PlaneChoice choice :
            {PlaneChoice::largest_opening, PlaneChoice::least_turn, PlaneChoice::least_y}) {
         PlaneOptions options;

@@ -3,8 +3,8 @@
 // What the choices of a plane make least, from the sectors themselves.
 #pragma once
 
-#include <vericone/cones/plane_sector.h>
-#include <vericone/cones/slice_cone.h>
+#include <vericone/cones/ellipsoids/plane_sector.h>
+#include <vericone/cones/slices/slice_cone.h>
 #include <vericone/guidance/plane_choice.h>
 #include <cmath>
 #include <numbers>
@@ -24,8 +24,8 @@ inline double merit(const guidance::BodyState& a, const guidance::BodyState& b, 
                     const guidance::PlaneOptions& options, const Eigen::Vector3d& e) {
   const Eigen::Vector3d u = line_of_sight(a, b), w = a.velocity - b.velocity;
   double left, right;
-  if (method == guidance::SectorMethod::exact) {
-    const PlaneSector s = exact_sector(ellipsoid_of(a), ellipsoid_of(b), e);
+  if (method == guidance::SectorMethod::true_cone) {
+    const PlaneSector s = true_sector(ellipsoid_of(a), ellipsoid_of(b), e);
     left = s.left.angle, right = s.right.angle;
   } else {
     const Slice s = slice_sector(ellipsoid_of(a), ellipsoid_of(b), e);

@@ -2,8 +2,8 @@
 //
 // Views of planar bodies and of dented ones in space.
 #include <gtest/gtest.h>
-#include <vericone/cones/combined_cone.h>
-#include <vericone/cones/combined_slice_cone.h>
+#include <vericone/cones/combined/cone.h>
+#include <vericone/cones/slices/combined_slice_cone.h>
 #include <vericone/guidance/plane_view.h>
 
 #include <cmath>
@@ -114,7 +114,7 @@ TEST(PlaneViewRates, PlanarBodiesWithDents) {
       body_a.acceleration = lateral * plane_states(body_a.at(0), body_b.at(0), {}).lateral_a();
     }
     const BodyState a = body_a.at(0), b = body_b.at(0);
-    const auto view = plane_view(a, b, {}, SectorMethod::exact, RateMethod::analytic);
+    const auto view = plane_view(a, b, {}, SectorMethod::true_cone, RateMethod::analytic);
     ASSERT_TRUE(view);
     const auto sector = [&](double t) {
       return combined_sector(std::get<CombinedEllipse>(body_a.at(t).shape),
@@ -230,7 +230,7 @@ TEST(PlaneView, TrueSectorsOfDentedBodies) {
     const BodyState a = moving_a.state(), b = moving_b.state();
     const CombinedOracle oracle(std::get<CombinedEllipsoid>(a.shape), std::get<CombinedEllipsoid>(b.shape));
     const Vector3d across = random.direction();
-    const auto view = plane_view(a, b, across, SectorMethod::exact, RateMethod::none);
+    const auto view = plane_view(a, b, across, SectorMethod::true_cone, RateMethod::none);
     ASSERT_TRUE(view);
     const auto slice = plane_view(a, b, across, SectorMethod::slice, RateMethod::none);
     ASSERT_TRUE(slice);
@@ -238,7 +238,7 @@ TEST(PlaneView, TrueSectorsOfDentedBodies) {
     BodyState round_a = a, round_b = b;
     round_a.shape = CombinedEllipsoid(ellipsoid_of(a));
     round_b.shape = CombinedEllipsoid(ellipsoid_of(b));
-    const auto around = plane_view(round_a, round_b, across, SectorMethod::exact, RateMethod::none);
+    const auto around = plane_view(round_a, round_b, across, SectorMethod::true_cone, RateMethod::none);
     ASSERT_TRUE(around);
     EXPECT_LE(view->cone.psi, around->cone.psi + 1e-6);
     narrower += view->cone.psi < around->cone.psi - 1e-3;
@@ -269,8 +269,8 @@ TEST(PlaneViewRates, TrueSectorsOfDentedBodiesAreDifferenced) {
     round_b.shape = CombinedEllipsoid(ellipsoid_of(b));
     round_b.rate.delimiters.clear();
     const Vector3d across = random.direction();
-    const auto view = plane_view(a, b, across, SectorMethod::exact, RateMethod::analytic);
-    const auto around = plane_view(a, round_b, across, SectorMethod::exact, RateMethod::analytic);
+    const auto view = plane_view(a, b, across, SectorMethod::true_cone, RateMethod::analytic);
+    const auto around = plane_view(a, round_b, across, SectorMethod::true_cone, RateMethod::analytic);
     ASSERT_TRUE(view && around);
     // Where the dents are not touched the closed form for the ellipsoids is the truth.
     if (std::abs(view->cone.psi - around->cone.psi) > 1e-6) continue;

@@ -2,7 +2,7 @@
 //
 // Views of convex hulls of points.
 #include <gtest/gtest.h>
-#include <vericone/cones/hull_oracle.h>
+#include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/guidance/plane_view.h>
 
 #include <cmath>
@@ -41,7 +41,7 @@ TEST(PlaneView, TrueSectorsOfHulls) {
     // The reference point may be anywhere.
     if (i % 3 == 0) b.position += 6 * random.direction();
     const HullOracle oracle(ellipsoid_of(a), std::get<HullBody>(b.shape));
-    const auto view = plane_view(a, b, random.direction(), SectorMethod::exact, RateMethod::none);
+    const auto view = plane_view(a, b, random.direction(), SectorMethod::true_cone, RateMethod::none);
     if (!view) continue;
     ++seen;
     for (const double side : {1., -1.}) {
@@ -76,8 +76,8 @@ TEST(PlaneViewRates, HullsOfOnePointAreTinyEllipsoids) {
     b.shape = HullBody({b.position});
     ball.shape = CombinedEllipsoid(Ellipsoid::from_axes(b.position, Vector3d::Constant(1e-10)));
     const Vector3d across = random.direction();
-    const auto view = plane_view(a, b, across, SectorMethod::exact, RateMethod::analytic, 0.3);
-    const auto known = plane_view(a, ball, across, SectorMethod::exact, RateMethod::analytic, 0.3);
+    const auto view = plane_view(a, b, across, SectorMethod::true_cone, RateMethod::analytic, 0.3);
+    const auto known = plane_view(a, ball, across, SectorMethod::true_cone, RateMethod::analytic, 0.3);
     ASSERT_TRUE(view && known);
     EXPECT_NEAR(view->cone.psi, known->cone.psi, 3e-9);
     EXPECT_NEAR(view->cone.theta_b, known->cone.theta_b, 3e-9);
@@ -140,7 +140,7 @@ TEST(PlaneView, BodiesThatDoNotFitTogether) {
   const BodyState solid = testing::moving_body(random, {0, 0, 0}).state();
   BodyState flat;
   flat.shape = CombinedEllipse(Ellipse());
-  for (const SectorMethod method : {SectorMethod::exact, SectorMethod::slice}) {
+  for (const SectorMethod method : {SectorMethod::true_cone, SectorMethod::slice}) {
     EXPECT_FALSE(plane_view(hull, solid, {0, 1, 0}, method, RateMethod::analytic));
     EXPECT_FALSE(plane_view(flat, hull, {0, 1, 0}, method, RateMethod::analytic));
     EXPECT_TRUE(plane_view(solid, hull, {0, 1, 0}, method, RateMethod::analytic));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/combined_slice_cone.h>
-#include <vericone/cones/plane_sector.h>
-#include <vericone/cones/slice_cone.h>
+#include <vericone/cones/ellipsoids/plane_sector.h>
+#include <vericone/cones/slices/combined_slice_cone.h>
+#include <vericone/cones/slices/slice_cone.h>
 #include <vericone/guidance/plane_view.h>
 
 #include <cmath>
@@ -57,10 +57,10 @@ TEST(PlaneView, EllipsoidsAreTheSectorsOfTheCones) {
     const auto [moving_a, moving_b] = testing::moving_pair(random, 1.05, 4);
     const BodyState a = moving_a.state(), b = moving_b.state();
     const Vector3d across = random.direction();
-    const auto exact = plane_view(a, b, across, SectorMethod::exact, RateMethod::none);
+    const auto exact = plane_view(a, b, across, SectorMethod::true_cone, RateMethod::none);
     const auto slice = plane_view(a, b, across, SectorMethod::slice, RateMethod::none);
     ASSERT_TRUE(exact && slice);
-    const PlaneSector sector = exact_sector(ellipsoid_of(a), ellipsoid_of(b), across);
+    const PlaneSector sector = true_sector(ellipsoid_of(a), ellipsoid_of(b), across);
     EXPECT_NEAR(exact->cone.psi, sector.psi(), 1e-13);
     EXPECT_NEAR(exact->cone.theta_b, sector.theta_b(), 1e-13);
     const Slice known = slice_sector(ellipsoid_of(a), ellipsoid_of(b), across);
@@ -118,7 +118,7 @@ void rates_of_ellipsoids(SectorMethod method, std::uint64_t seed) {
   }
 }
 
-TEST(PlaneViewRates, EllipsoidsExact) { rates_of_ellipsoids(SectorMethod::exact, 7203); }
+TEST(PlaneViewRates, EllipsoidsExact) { rates_of_ellipsoids(SectorMethod::true_cone, 7203); }
 TEST(PlaneViewRates, EllipsoidsSliced) { rates_of_ellipsoids(SectorMethod::slice, 7204); }
 
 TEST(PlaneView, EdgesAreWhereTheExactOracleSaysSo) {
@@ -128,7 +128,7 @@ TEST(PlaneView, EdgesAreWhereTheExactOracleSaysSo) {
     const auto [moving_a, moving_b] = testing::moving_pair(random, 1.05, 4);
     const BodyState a = moving_a.state(), b = moving_b.state();
     const ConeOracle oracle(ellipsoid_of(a), ellipsoid_of(b));
-    const auto view = plane_view(a, b, random.direction(), SectorMethod::exact, RateMethod::none);
+    const auto view = plane_view(a, b, random.direction(), SectorMethod::true_cone, RateMethod::none);
     ASSERT_TRUE(view);
     const PlaneCone& cone = view->cone;
     const auto at = [&](double angle) {
@@ -151,7 +151,7 @@ TEST(PlaneView, TheOtherAxisMirrorsIt) {
     const BodyState a = moving_a.state(), b = moving_b.state();
     const Vector3d across = random.direction();
     const double spin = random.uniform(-1, 1);
-    for (const SectorMethod method : {SectorMethod::exact, SectorMethod::slice}) {
+    for (const SectorMethod method : {SectorMethod::true_cone, SectorMethod::slice}) {
       const auto one = plane_view(a, b, across, method, RateMethod::analytic, spin);
       const auto two = plane_view(a, b, -across, method, RateMethod::analytic, spin);
       ASSERT_TRUE(one && two);
@@ -175,7 +175,7 @@ TEST(PlaneViewRates, DifferencesAgreeWithTheClosedForm) {
     const BodyState a = moving_a.state(), b = moving_b.state();
     const Vector3d across = random.direction();
     const double spin = random.uniform(-1, 1);
-    for (const SectorMethod method : {SectorMethod::exact, SectorMethod::slice}) {
+    for (const SectorMethod method : {SectorMethod::true_cone, SectorMethod::slice}) {
       const auto closed = plane_view(a, b, across, method, RateMethod::analytic, spin),
                  differenced = plane_view(a, b, across, method, RateMethod::differenced, spin);
       ASSERT_TRUE(closed && differenced);
@@ -199,7 +199,7 @@ TEST(PlaneView, EllipsoidsNeitherAllocateNorThrow) {
     const BodyState a = moving_a.state(), b = moving_b.state();
     const bool apart = relation<3>(ellipsoid_of(a), ellipsoid_of(b)) == Relation::disjoint;
     const Vector3d across = random.direction();
-    for (const SectorMethod method : {SectorMethod::exact, SectorMethod::slice})
+    for (const SectorMethod method : {SectorMethod::true_cone, SectorMethod::slice})
       for (const RateMethod rates : {RateMethod::analytic, RateMethod::differenced, RateMethod::none}) {
         PlaneView view = plane_states(a, b, across);
         view.cone.psi = -1;
@@ -207,7 +207,7 @@ TEST(PlaneView, EllipsoidsNeitherAllocateNorThrow) {
         const std::size_t before = testing::allocations();
         EXPECT_NO_THROW(found = fill_cone(view, a, b, method, rates));
         EXPECT_EQ(testing::allocations(), before);
-        if (method == SectorMethod::exact) {
+        if (method == SectorMethod::true_cone) {
           EXPECT_EQ(found, apart) << i;
         } else {
           EXPECT_GE(found, apart) << i;
@@ -223,9 +223,9 @@ TEST(PlaneView, TouchingBodiesAreNotApart) {
   b.shape = CombinedEllipsoid(Ellipsoid::from_axes({3, 0, 0}, {2, 1, 1}));
   b.position = {3, 0, 0};
   a.velocity = {1, 0, 0};
-  for (const SectorMethod method : {SectorMethod::exact, SectorMethod::slice})
+  for (const SectorMethod method : {SectorMethod::true_cone, SectorMethod::slice})
     EXPECT_FALSE(plane_view(a, b, {0, 1, 0}, method, RateMethod::analytic));
-  EXPECT_FALSE(plane_view(a, a, {0, 1, 0}, SectorMethod::exact, RateMethod::analytic));
+  EXPECT_FALSE(plane_view(a, a, {0, 1, 0}, SectorMethod::true_cone, RateMethod::analytic));
 }
 
 TEST(BodyState, AdvancedIsTheMotionToFirstOrder) {

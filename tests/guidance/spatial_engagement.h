@@ -4,7 +4,7 @@
 // from scratch at any time, and what the laws read of it at t = 0.
 #pragma once
 
-#include <vericone/cones/plane_sector.h>
+#include <vericone/cones/ellipsoids/plane_sector.h>
 #include <vericone/guidance/laws.h>
 
 #include "guidance/motion.h"
@@ -45,7 +45,7 @@ struct SpatialEngagement {
   /// y by its meaning: the angle on the plane between the relative velocity's projection and the bisector.
   double y(double t) const {
     const Eigen::Vector3d u = sight(t), e = axis(t), v = relative(t);
-    const PlaneSector sector = exact_sector(a.at(t), b.at(t), e);
+    const PlaneSector sector = true_sector(a.at(t), b.at(t), e);
     const double lambda = std::atan2(v.dot(e), v.dot(u)) - sector.theta_b();
     return std::pow(std::sin(lambda), 2) - std::pow(std::sin(sector.psi() / 2), 2);
   }
@@ -76,7 +76,7 @@ struct SpatialEngagement {
 
   guidance::PlaneCone cone() const {
     const Ellipsoid body_a = a.at(0), body_b = b.at(0);
-    const PlaneSector sector = exact_sector(body_a, body_b, across);
+    const PlaneSector sector = true_sector(body_a, body_b, across);
     const auto rates = [&](double lateral_a, double lateral_b) {
       const auto omega = [&](const SpatialBody& body, double lateral) -> Eigen::Vector3d {
         if (!body.with_heading) return body.omega;
@@ -84,7 +84,7 @@ struct SpatialEngagement {
       };
       const SpatialMotion motion{a.path.v, b.path.v, omega(a, lateral_a), omega(b, lateral_b),
                                  a.growth, b.growth, plane_spin};
-      return exact_sector_rates(sector, body_a, body_b, motion);
+      return true_sector_rates(sector, body_a, body_b, motion);
     };
     const PlaneSectorRates now = rates(0, 0), by_a = rates(1, 0), by_b = rates(0, 1);
     return {sector.psi(),
@@ -104,7 +104,7 @@ struct SpatialEngagement {
   }
 
   double time_scale() const {
-    const PlaneSector sector = exact_sector(a.at(0), b.at(0), across);
+    const PlaneSector sector = true_sector(a.at(0), b.at(0), across);
     const double contact = std::min(sector.left.contact.norm(), sector.right.contact.norm());
     const double v = relative(0).norm(), a_a = a.path.a.norm(), a_b = b.path.a.norm();
     const double projected = std::hypot(relative(0).dot(sight(0)), relative(0).dot(across));
@@ -127,7 +127,7 @@ inline SpatialEngagement random_spatial_engagement(RandomBodies& random, double 
   e.b.at_start = body_b;
   e.a.path.p = body_a.center();
   e.b.path.p = body_b.center();
-  const PlaneSector sector = exact_sector(body_a, body_b, random.direction());
+  const PlaneSector sector = true_sector(body_a, body_b, random.direction());
   e.across = sector.across;
   e.plane_spin = random.uniform(-1, 1);
   e.theta = random.uniform(-10, 10);

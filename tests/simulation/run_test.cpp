@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/clearance.h>
+#include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/geometry/error.h>
 #include <vericone/simulation/run.h>
 #include <cmath>
@@ -120,14 +120,16 @@ TEST_P(Avoidance, IsProved) {
   // Speeds are kept: all accelerations are lateral.
   EXPECT_NEAR(run.tracks[0].motion(run.end).velocity.norm(), scenario.bodies[0].start.velocity.norm(), 1e-8);
 }
-INSTANTIATE_TEST_SUITE_P(
-    Laws, Avoidance,
-    ::testing::Values(
-        LawCase{"ExactLargestOpening", Law::avoidance, SectorMethod::exact, PlaneChoice::largest_opening},
-        LawCase{"ExactOfMotion", Law::avoidance, SectorMethod::exact, PlaneChoice::of_motion},
-        LawCase{"SteepestClearance", Law::avoidance, SectorMethod::exact, PlaneChoice::steepest_clearance},
-        LawCase{"Clearance", Law::clearance, SectorMethod::exact, PlaneChoice::of_motion}),
-    [](const auto& param) { return std::string(param.param.name); });
+INSTANTIATE_TEST_SUITE_P(Laws, Avoidance,
+                         ::testing::Values(LawCase{"ExactLargestOpening", Law::avoidance,
+                                                   SectorMethod::true_cone, PlaneChoice::largest_opening},
+                                           LawCase{"ExactOfMotion", Law::avoidance, SectorMethod::true_cone,
+                                                   PlaneChoice::of_motion},
+                                           LawCase{"SteepestClearance", Law::avoidance,
+                                                   SectorMethod::true_cone, PlaneChoice::steepest_clearance},
+                                           LawCase{"Clearance", Law::clearance, SectorMethod::true_cone,
+                                                   PlaneChoice::of_motion}),
+                         [](const auto& param) { return std::string(param.param.name); });
 
 /// What the slice cone costs: the same law on the sections' sectors leaves the slice cone, commands nothing
 /// more, and hits.

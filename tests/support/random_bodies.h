@@ -3,7 +3,7 @@
 // Random bodies that are the same on every platform for a seed: no std distributions.
 #pragma once
 
-#include <vericone/cones/contact_frame.h>
+#include <vericone/cones/ellipsoids/contact_frame.h>
 #include <vericone/geometry/ellipsoid.h>
 #include <Eigen/Geometry>
 #include <cmath>

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <vericone/cones/predicates.h>
+#include <vericone/cones/ellipsoids/predicates.h>
 
 namespace vericone::testing {
 

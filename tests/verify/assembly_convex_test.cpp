@@ -2,13 +2,13 @@
 //
 // Assemblies that are convex bodies in disguise against the exact predicates of those bodies.
 #include <gtest/gtest.h>
-#include <vericone/cones/assembly_oracle.h>
-#include <vericone/cones/clearance.h>
-#include <vericone/cones/cone_map.h>
-#include <vericone/cones/exact_cone.h>
-#include <vericone/cones/hull_oracle.h>
-#include <vericone/verify/minkowski_bounds.h>
+#include <vericone/cones/assembly/assembly_oracle.h>
+#include <vericone/cones/ellipsoids/clearance.h>
+#include <vericone/cones/ellipsoids/true_cone.h>
+#include <vericone/cones/hulls/hull_oracle.h>
+#include <vericone/cones/map/cone_map.h>
 #include <vericone/verify/seeded_random.h>
+#include <vericone/verify/spatial/minkowski_bounds.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -179,7 +179,7 @@ TEST(AssemblyConvex, FineMeshesBracketTheEllipsoid) {
     ConeMapOptions options;
     options.resolution = 0.02;
     const ConeMap inside = cone_map(inner, options), outside = cone_map(outer, options);
-    const double solid = exact_cone(agent, body, 192).solid_angle;
+    const double solid = true_cone(agent, body, 192).solid_angle;
     EXPECT_LE(inside.colliding, solid);
     EXPECT_GE(outside.colliding + outside.undecided, solid);
     EXPECT_LT(outside.colliding + outside.undecided - inside.colliding, 0.15 * solid);

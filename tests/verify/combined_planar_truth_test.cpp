@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
-#include <vericone/cones/combined_sector.h>
-#include <vericone/verify/combined_planar_families.h>
-#include <vericone/verify/combined_planar_truth.h>
-#include <vericone/verify/planar_families.h>
+#include <vericone/cones/combined/sector.h>
+#include <vericone/verify/combined/planar_families.h>
+#include <vericone/verify/combined/planar_truth.h>
+#include <vericone/verify/planar/families.h>
 #include <vericone/verify/seeded_random.h>
 #include <Eigen/Geometry>
 

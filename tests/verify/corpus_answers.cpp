@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "verify/corpus_answers.h"
 
-#include <vericone/cones/contact_frame.h>
-#include <vericone/cones/exact_position.h>
-#include <vericone/cones/exact_predicates.h>
-#include <vericone/cones/hull_oracle.h>
-#include <vericone/cones/orifice.h>
-#include <vericone/cones/position.h>
-#include <vericone/cones/predicates.h>
-#include <vericone/cones/sector_oracle.h>
+#include <vericone/cones/ellipsoids/contact_frame.h>
+#include <vericone/cones/ellipsoids/exact_position.h>
+#include <vericone/cones/ellipsoids/exact_predicates.h>
+#include <vericone/cones/ellipsoids/position.h>
+#include <vericone/cones/ellipsoids/predicates.h>
+#include <vericone/cones/hulls/hull_oracle.h>
+#include <vericone/cones/opening/orifice.h>
+#include <vericone/cones/planar/sector_oracle.h>
 #include <vericone/geometry/quadric_side.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>

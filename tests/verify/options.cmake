@@ -9,8 +9,8 @@ vericone_unity(options_probe 2)
 set(options_probes options_probe)
 
 set(probe_geometry algebraic quadric_side)
-set(probe_cones contact_frame contact_polynomial relation cone_oracle sector_oracle containment position orifice
-  hull_oracle hull_oracle_certificates hull_oracle_exact hull_oracle_scene)
+set(probe_cones ellipsoids/contact_frame ellipsoids/contact_polynomial ellipsoids/relation ellipsoids/cone_oracle planar/sector_oracle
+  ellipsoids/containment ellipsoids/position opening/orifice hulls/oracle hulls/certificates hulls/exact hulls/scene)
 set(probe_sources options_probe.cpp corpus_answers.cpp)
 foreach(library geometry cones)
   foreach(source IN LISTS probe_${library})

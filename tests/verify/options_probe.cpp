@@ -2,11 +2,11 @@
 //
 // Prints what must not depend on compiler options: the answer of every rung on every case of the corpus, and
 // constructions in hexadecimal. Built several times with different options; options_test.cpp compares.
-#include <vericone/cones/exact_cone.h>
-#include <vericone/cones/sector.h>
+#include <vericone/cones/ellipsoids/true_cone.h>
+#include <vericone/cones/planar/sector.h>
 #include <vericone/geometry/interval.h>
 #include <vericone/geometry/tracked.h>
-#include <vericone/verify/corpus_file.h>
+#include <vericone/verify/corpus/file.h>
 
 #include <cfloat>
 #include <cstdio>
@@ -58,7 +58,7 @@ void print_constructions(const CorpusCase& c) {
   if (c.predicate == "membership") {
     const auto a = c.body<3>("a"), b = c.body<3>("b");
     if (!a || !b) return;
-    const ExactCone cone = exact_cone(*a, *b, 8);
+    const TrueCone cone = true_cone(*a, *b, 8);
     for (const BoundarySample& s : cone.boundary)
       std::printf("direction %s | %a %a %a\n", c.label().c_str(), s.direction.x(), s.direction.y(),
                   s.direction.z());

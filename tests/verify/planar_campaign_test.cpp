@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <vericone/verify/planar_campaign.h>
+#include <vericone/verify/planar/campaign.h>
 
 #include <cmath>
 #include <limits>

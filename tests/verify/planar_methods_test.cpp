@@ -3,8 +3,8 @@
 // The library's planar sectors against the exact tangents. The bounds are those of docs/planar-accuracy.md,
 // which is to be renewed when one of them changes.
 #include <gtest/gtest.h>
-#include <vericone/cones/sector.h>
-#include <vericone/verify/planar_methods.h>
+#include <vericone/cones/planar/sector.h>
+#include <vericone/verify/planar/methods.h>
 #include <vericone/verify/seeded_random.h>
 
 #include <cmath>

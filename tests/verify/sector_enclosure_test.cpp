@@ -3,9 +3,10 @@
 // Enclosures of planar sectors against the exact inner tangents of CGAL, whose angles are known to the last
 // bit.
 #include <gtest/gtest.h>
-#include <vericone/cones/enclosures.h>
-#include <vericone/verify/exact_tangents.h>
-#include <vericone/verify/planar_families.h>
+#include <vericone/cones/ellipsoids/enclosures.h>
+#include <vericone/cones/planar/enclose_sector.h>
+#include <vericone/verify/planar/families.h>
+#include <vericone/verify/predicates/exact_tangents.h>
 
 #include <iostream>
 #include <numbers>

@@ -5,7 +5,7 @@
 
 #include <CGAL/Gmpz.h>
 
-#include "algebra.h"
+#include "predicates/algebra.h"
 
 namespace vericone::verify {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <vericone/verify/planar_methods.h>
+#include <vericone/verify/planar/methods.h>
 #include <vericone/verify/report.h>
-#include <vericone/verify/spatial_campaign.h>
+#include <vericone/verify/spatial/campaign.h>
 
 namespace vericone::verify {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "accuracy/combined_accuracy.h"
 
-#include <vericone/cones/combined_cone.h>
-#include <vericone/cones/combined_slice_cone.h>
+#include <vericone/cones/combined/cone.h>
+#include <vericone/cones/slices/combined_slice_cone.h>
 #include <vericone/geometry/error.h>
 #include <algorithm>
 #include <cmath>

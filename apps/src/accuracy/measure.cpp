@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "accuracy/measure.h"
 
-#include <vericone/cones/exact_cone.h>
-#include <vericone/cones/slice_cone.h>
+#include <vericone/cones/ellipsoids/true_cone.h>
+#include <vericone/cones/slices/slice_cone.h>
 #include <vericone/geometry/error.h>
 #include <sstream>
 #include <stdexcept>
@@ -11,12 +11,12 @@ namespace vericone::accuracy {
 
 Measurement measure(const Ellipsoid& a, const Ellipsoid& b, const std::vector<int>& planes) {
   Measurement m;
-  const ExactCone reference = exact_cone(a, b, kReferenceSamples);
+  const TrueCone reference = true_cone(a, b, kReferenceSamples);
   m.exact_area = reference.cross_section_area;
   m.exact_solid_angle = reference.solid_angle;
   for (const int n : planes) m.slice_areas.push_back(slice_cone(a, b, n).polyhedral().cross_section_area);
   for (std::size_t i = 0; i < kSampleCounts.size(); ++i) {
-    const ExactCone cone = exact_cone(a, b, kSampleCounts[i]);
+    const TrueCone cone = true_cone(a, b, kSampleCounts[i]);
     const ConeBounds bounds = cone_bounds(cone, a, b);
     m.areas[i] = bounds.cross_section_area;
     m.area_bounds[i] = bounds.cross_section_area_error;

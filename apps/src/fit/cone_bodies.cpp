@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/cone_bodies.h"
 
-#include <vericone/cones/classifiers.h>
-#include <vericone/cones/cone_map_regions.h>
-#include <vericone/cones/exact_cone.h>
+#include <vericone/cones/ellipsoids/true_cone.h>
+#include <vericone/cones/map/classifiers.h>
+#include <vericone/cones/map/regions.h>
 #include <vericone/fitting/fit.h>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -126,7 +126,7 @@ BodyCone cone_by_map(const DirectionClassifier& classifier, const MapSettings& s
 
 BodyCone cone_of_ellipsoid(const Ellipsoid& agent, const Ellipsoid& body) {
   const char* method = "exact cone";
-  const ExactCone exact = exact_cone(agent, body, kSamples);
+  const TrueCone exact = true_cone(agent, body, kSamples);
   if (exact.relation != Relation::disjoint) return everywhere(method);
   ConeBounds bounds = cone_bounds(exact, agent, body);
   BodyCone cone{.low = bounds.solid_angle - bounds.solid_angle_error,

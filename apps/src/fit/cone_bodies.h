@@ -4,7 +4,7 @@
 // method there is for the body.
 #pragma once
 
-#include <vericone/cones/assembly_oracle.h>
+#include <vericone/cones/assembly/assembly_oracle.h>
 #include <vericone/fitting/hull.h>
 #include <functional>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "montecarlo/outcome.h"
 
-#include <vericone/cones/clearance.h>
+#include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/geometry/error.h>
 #include <vericone/guidance/plane_view.h>
 #include <vericone/simulation/run.h>
@@ -150,7 +150,7 @@ StraightOutcome fly_straight(const Encounter& encounter) {
     return !rates.colliding();
   };
   straight.slice_called_safe = look(guidance::SectorMethod::slice, straight.y_slice);
-  straight.exact_called_safe = look(guidance::SectorMethod::exact, straight.y_exact);
+  straight.exact_called_safe = look(guidance::SectorMethod::true_cone, straight.y_exact);
   return straight;
 }
 

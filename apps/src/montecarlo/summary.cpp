@@ -50,7 +50,7 @@ Json count(const std::vector<Row>& rows, Of of) {
 
 /// Laws whose word is a theorem about the straight flight that follows it: they ask the true cone, or m.
 bool word_is_proof(const Flown& law) {
-  return law.guide.law == guidance::Law::clearance || law.guide.sector == guidance::SectorMethod::exact;
+  return law.guide.law == guidance::Law::clearance || law.guide.sector == guidance::SectorMethod::true_cone;
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 // The cone of an agent and a body of pieces: how far it reaches around the line between them.
 #pragma once
 
-#include <vericone/cones/assembly_oracle.h>
+#include <vericone/cones/assembly/assembly_oracle.h>
 #include <vericone/cones/cone_geometry.h>
 #include <iosfwd>
 #include <string>

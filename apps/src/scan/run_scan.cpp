@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scan/run_scan.h"
 
-#include <vericone/cones/visible_cone.h>
+#include <vericone/cones/slices/visible_cone.h>
 #include <vericone/geometry/error.h>
 #include <vericone/lidar/scan.h>
 #include <filesystem>

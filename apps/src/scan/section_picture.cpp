@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/visible_cone.h>
+#include <vericone/cones/slices/visible_cone.h>
 #include <vericone/geometry/combined.h>
 #include <vericone/geometry/mesh_section.h>
 #include <cmath>

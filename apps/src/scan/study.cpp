@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scan/study.h"
 
-#include <vericone/cones/assembly_oracle.h>
-#include <vericone/cones/visible_cone.h>
+#include <vericone/cones/assembly/assembly_oracle.h>
+#include <vericone/cones/slices/visible_cone.h>
 #include <vericone/geometry/error.h>
 #include <vericone/lidar/scan.h>
 #include <algorithm>

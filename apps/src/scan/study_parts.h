@@ -3,7 +3,7 @@
 // What the study and the picture of one plane share.
 #pragma once
 
-#include <vericone/cones/assembly_oracle.h>
+#include <vericone/cones/assembly/assembly_oracle.h>
 #include <vericone/lidar/scan.h>
 #include <string>
 #include <vector>

@@ -33,7 +33,7 @@ std::string agent_text(const Scenario& scenario, const Body& body) {
   if (guide.law == guidance::Law::clearance) {
     text += " to " + brief(guide.clearance.required) + " m";
   } else if (!planar(body.shape) && !guarded(pilot)) {
-    text += std::string(", ") + (guide.sector == guidance::SectorMethod::exact ? "true" : "slice") +
+    text += std::string(", ") + (guide.sector == guidance::SectorMethod::true_cone ? "true" : "slice") +
             " sector, " + guidance::to_string(guide.plane.choice);
   }
   text += guarded(pilot) ? ", guarded" : ", gain " + brief(guide.inversion.gain) + "/s";

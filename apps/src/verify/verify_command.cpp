@@ -2,11 +2,11 @@
 #include "verify/verify_command.h"
 
 #include <unistd.h>
-#include <vericone/verify/assembly_campaign.h>
-#include <vericone/verify/planar_campaign.h>
-#include <vericone/verify/planar_methods.h>
-#include <vericone/verify/predicate_campaign.h>
-#include <vericone/verify/spatial_campaign.h>
+#include <vericone/verify/assembly/campaign.h>
+#include <vericone/verify/planar/campaign.h>
+#include <vericone/verify/planar/methods.h>
+#include <vericone/verify/predicates/campaign.h>
+#include <vericone/verify/spatial/campaign.h>
 
 #include <algorithm>
 #include <chrono>

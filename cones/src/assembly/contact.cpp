@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <optional>
 
+#include "answers/velocity_ladder.h"
 #include "assembly/contact.h"
 #include "assembly/gap.h"
 #include "assembly/state.h"
-#include "velocity_ladder.h"
 
 namespace vericone::assembly {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/assembly_oracle.h>
+#include <vericone/cones/assembly/assembly_oracle.h>
 
+#include "answers/velocity_ladder.h"
 #include "assembly/gap.h"
 #include "assembly/state.h"
-#include "velocity_ladder.h"
 
 namespace vericone {
 using namespace assembly;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "assembly/scene.h"
 
-#include <vericone/cones/hull_oracle.h>
+#include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/geometry/error.h>
 #include <string>
 

@@ -14,10 +14,10 @@
 #include <numeric>
 #include <string>
 
+#include "containing/partition.h"
+#include "containing/trim.h"
 #include "explain.h"
-#include "partition.h"
 #include "to_world.h"
-#include "trim.h"
 
 namespace vericone::fitting {
 namespace {

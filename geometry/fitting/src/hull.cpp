@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/fitting/hull.h>
 
-#include "rounded_quadric.h"
+#include "proof/rounded_quadric.h"
 
 namespace vericone::fitting {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meeting.h"
 
-#include <vericone/cones/combined_cone.h>
-#include <vericone/cones/combined_sector.h>
-#include <vericone/cones/hull_oracle.h>
+#include <vericone/cones/combined/cone.h>
+#include <vericone/cones/combined/sector.h>
+#include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
 #include <Eigen/Geometry>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "separation.h"
 
-#include <vericone/cones/clearance.h>
+#include <vericone/cones/ellipsoids/clearance.h>
 #include <algorithm>
 #include <cmath>
 

@@ -3,7 +3,7 @@
 // Triangles of directions, and who can say of all the directions in one whether they collide.
 #pragma once
 
-#include <vericone/cones/combined_cone.h>
+#include <vericone/cones/answers.h>
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>

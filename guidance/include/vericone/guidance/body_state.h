@@ -3,7 +3,7 @@
 // A body at an instant, as guidance sees it.
 #pragma once
 
-#include <vericone/cones/combined_sector.h>
+#include <vericone/cones/combined/sector.h>
 #include <vericone/geometry/combined.h>
 #include <vericone/geometry/hull_body.h>
 #include <Eigen/Core>

@@ -29,7 +29,7 @@ enum class GuideRates : std::uint8_t {
 
 struct GuideOptions {
   Law law = Law::avoidance;
-  SectorMethod sector = SectorMethod::exact;
+  SectorMethod sector = SectorMethod::true_cone;
   GuideRates rates = GuideRates::analytic;
   PlaneOptions plane;
   LawOptions inversion;

@@ -12,8 +12,8 @@ namespace vericone::guidance {
 
 /// Which cone the plane is cut from. Planar bodies have one sector, whatever is asked.
 enum class SectorMethod : std::uint8_t {
-  slice,  // the source's: both bodies' sections by the plane (6.11); too small
-  exact,  // the true cone's section: contacts outside the plane count
+  slice,      // the source's: both bodies' sections by the plane (6.11); too small
+  true_cone,  // the true cone's section: contacts outside the plane count
 };
 
 enum class RateMethod : std::uint8_t {

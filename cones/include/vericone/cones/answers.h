@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The words of all answers about two bodies and a relative velocity w = v_agent - v_obstacle.
+#pragma once
+
+#include <cstdint>
+
+namespace vericone {
+
+/// How two solid bodies lie. One inside the other counts as overlapping, touching from inside too.
+enum class Relation : std::uint8_t { disjoint, touching, overlapping };
+
+/// Where a relative velocity lies with regard to the closed collision cone of two bodies.
+enum class Membership : std::uint8_t {
+  in,   // interior: they will overlap, or do so now
+  on,   // boundary: they will touch without overlapping
+  out,  // they never meet, w = 0 included; touching bodies that part
+};
+
+/// The same with the past told from never: where the line of motion meets the other body.
+enum class Passage : std::uint8_t {
+  ahead,           // they will overlap: `in`
+  ahead_grazing,   // they will touch: `on`
+  never,           // the line misses, or w = 0
+  behind_grazing,  // moving backwards they would touch
+  behind,          // moving backwards they would overlap
+};
+
+/// Whole answer of one engagement. `undecided` of certified families alone: the truth is one of the others.
+enum class Verdict : std::uint8_t { in, on, out, overlapping, touching, undecided };
+
+/// Whether two bodies may be in contact now or later: all but `out`. What is not decided counts as yes.
+constexpr bool may_collide(Verdict verdict) { return verdict != Verdict::out; }
+
+/// What is known about a direction at the tolerance asked for.
+enum class Certified : std::uint8_t { in, out, undecided };
+
+const char* to_string(Relation relation);
+const char* to_string(Membership membership);
+const char* to_string(Passage passage);
+const char* to_string(Verdict verdict);
+const char* to_string(Certified answer);
+
+}  // namespace vericone

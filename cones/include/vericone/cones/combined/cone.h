@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The true collision cone of two combined quadrics (combined.h), certified. An answer other than `undecided`
+// is proved: `in` by a point of A and a point of B that meet, `out` by nonnegative multipliers of the
+// quadrics for which no point of a box can satisfy them all, box by box (docs/theory.md, 7).
+//
+// Both bodies are star-shaped about their centres, so K = B + (-A) is star-shaped about c = p_B - p_A, and
+// the cone contains with every direction all directions between it and c: on each half-plane bounded by the
+// line of centres it is *one* interval that begins at c. On other planes through the apex it may be several
+// intervals.
+#pragma once
+
+#include <vericone/cones/cone_geometry.h>
+#include <vericone/cones/ellipsoids/predicates.h>
+#include <vericone/geometry/combined.h>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace vericone {
+
+/// Two bodies prepared for many directions. Not for several threads at once: scratch memory is kept between
+/// calls.
+class CombinedOracle {
+ public:
+  /// `tolerance` (0 < tolerance < 1): boxes are refined to this part of A's extent before `undecided` is
+  /// said. Throws InputError naming "tolerance".
+  CombinedOracle(const CombinedEllipsoid& a, const CombinedEllipsoid& b, double tolerance = 1e-6);
+  ~CombinedOracle();
+  CombinedOracle(CombinedOracle&&) noexcept;
+  CombinedOracle& operator=(CombinedOracle&&) noexcept;
+
+  const CombinedEllipsoid& a() const;
+  const CombinedEllipsoid& b() const;
+
+  /// Disjoint or overlapping, proved; nothing where the bodies touch or nearly do. Never `touching`, unless
+  /// both are ellipsoids, whose relation is decided exactly.
+  std::optional<Relation> relation() const;
+
+  /// Where the relative velocity w = v_A - v_B lies. Of overlapping bodies every w != 0 is in; undecided
+  /// where relation() is not known or touching. w = 0 is out. Two disjoint ellipsoids are decided exactly (on
+  /// the boundary: `in`, the cone is closed); otherwise bodies inside and around the two are asked first,
+  /// exactly, and only what lies between them is searched. Cost: 0.1 us where they decide, else some 10 to
+  /// 100 us.
+  Certified membership(const Eigen::Vector3d& w) const;
+
+  /// Whether all directions of the convex hull of two, less than a right angle apart and not zero, are in
+  /// (out): true is certain, false says nothing.
+  bool all_in(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
+  bool all_out(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
+
+  /// First contact of A moving by w t: an interval that contains the time, seconds. Nothing where
+  /// membership(w) is not `in`, and for bodies so thin that nothing can be searched. `width`: of the
+  /// interval, relative to the time needed to cross |c| and both bodies; wider where a contact is so flat
+  /// that boxes do not tell. Cost: about 1 ms.
+  std::optional<Interval> time_to_contact(const Eigen::Vector3d& w, double width = 1e-8) const;
+
+  /// Boxes searched since the construction: a measure of effort that is the same on every machine.
+  std::uint64_t boxes_searched() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Certified inner and outer cone, star-shaped about the line of centres, with the true cone between.
+struct CombinedCone {
+  /// Nothing where it could not be decided whether the bodies touch: then there is no cone either.
+  std::optional<Relation> relation;
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();  // unit, from A to B
+
+  /// Both closed polygons of unit directions, counter-clockwise about the axis, star-shaped about it;
+  /// successive directions may have the same azimuth. Empty unless disjoint. Where nothing could be proved
+  /// out, outer has the directions -axis and the solid angle 4 pi.
+  PolyhedralCone inner, outer;
+
+  double solid_angle = 0;        // steradian, the middle of the two
+  double solid_angle_error = 0;  // half their difference: a bound, not an estimate
+  /// The same for the section at distance 1 along the axis; infinite where outer reaches 90 degrees.
+  double cross_section_area = 0;
+  double cross_section_area_error = 0;
+};
+
+/// Refined until the solid angles of inner and outer cone differ by at most `tolerance` (0 < tolerance < 1)
+/// of the outer one, or until `most_boxes` have been searched (by default a few seconds); the bound returned
+/// says what was reached.
+/// Overlapping bodies: every velocity (4 pi, no directions). Throws InputError naming "tolerance". Cost: see
+/// docs/benchmarks.md.
+CombinedCone combined_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& b, double tolerance = 0.01,
+                           std::uint64_t most_boxes = 2'000'000);
+
+/// A range of directions cos(t) x_axis + sin(t) y_axis on a plane through the apex.
+struct PlaneInterval {
+  double from = 0, to = 0;  // radians, from < to
+  Certified answer = Certified::undecided;
+};
+
+/// The section of the cone by a plane, as intervals that cover the full turn from -pi to pi: adjacent ones of
+/// the same answer are joined, so `in` intervals number as the truth does at this resolution (radians).
+/// x_axis, y_axis orthonormal.
+std::vector<PlaneInterval> plane_intervals(const CombinedOracle& oracle, const Eigen::Vector3d& x_axis,
+                                           const Eigen::Vector3d& y_axis, double resolution = 1e-3);
+
+}  // namespace vericone

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The last rung of position() for input in rational numbers.
+#pragma once
+
+#include <vericone/cones/ellipsoids/position.h>
+#include <vericone/geometry/rational.h>
+
+namespace vericone::exact {
+
+/// Position of two bodies given by centre and shape matrix (symmetric, positive definite; not checked).
+/// D = 2 or 3.
+template <int D>
+Position position(const RationalBody<D>& a, const RationalBody<D>& b);
+
+}  // namespace vericone::exact

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The last rung for input in rational numbers: data that doubles cannot hold, and truths for tests.
+#pragma once
+
+#include <vericone/cones/ellipsoids/predicates.h>
+#include <vericone/geometry/rational.h>
+
+namespace vericone::exact {
+
+/// Relation of two bodies given by centre and shape matrix (symmetric, positive definite; not checked).
+template <int D>
+Relation relation(const RationalBody<D>& a, const RationalBody<D>& b);
+
+/// Membership of w = v_A - v_B in the cone of two bodies, which need not be disjoint (ConeOracle).
+Membership membership(const RationalBody<3>& a, const RationalBody<3>& b, const RationalVector<3>& w);
+
+}  // namespace vericone::exact

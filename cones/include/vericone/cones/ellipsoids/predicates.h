@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Exact answers about two convex quadric bodies: relation now, and whether a relative velocity makes them
+// collide. Inputs are doubles taken as exact numbers. An answer is never wrong; it is found by a rung of the
+// ladder
+//
+//   triage_...    doubles with a bound fixed by the formula: an answer or none, tens of nanoseconds
+//   interval_...  doubles with the bound of each operation carried along (interval.h): an answer or none
+//   exact_...     integers (rational input included): always an answer, some ten microseconds
+//
+// A function without a prefix climbs it and, on request, says which rung decided.
+//
+// Laws, for all bodies A, B and velocities w (tests/cones/predicates_test.cpp):
+//   (1) relation(A, B) == relation(B, A)
+//   (2) membership of w for (A, B) == membership of -w for (B, A)
+//   (3) membership of w == membership of s w for s > 0 a power of two
+//   (4) a rung that answers agrees with every later rung
+//   (5) both are unchanged by moving A and B together, as long as the centres remain exact
+//   (6) passage of w is the mirror image of passage of -w
+//
+// Every function here has an answer for every two bodies: disjoint, touching, overlapping, one inside the
+// other or the same, default-constructed ones (the unit ball about the origin) included
+// (tests/cones/total_functions_test.cpp).
+#pragma once
+
+#include <vericone/cones/answers.h>
+#include <vericone/geometry/ellipsoid.h>
+#include <vericone/geometry/interval.h>
+#include <vericone/geometry/sign.h>
+#include <array>
+#include <optional>
+
+namespace vericone {
+
+template <int D>
+struct ContactFrame;
+
+/// Exact relation of two bodies. `rung`: where to write the rung that decided. Cost: about 0.7 us where no
+/// integers are needed.
+template <int D>
+Relation relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b, Rung* rung = nullptr);
+
+/// The same where the contact frame of the pair is at hand; the answer does not depend on its accuracy.
+template <int D>
+Relation relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b, const ContactFrame<D>& frame,
+                  Rung* rung = nullptr);
+
+/// First two rungs: a plane that separates the bodies, or a point inside of both, found in floating point and
+/// certified. Nothing when rounding could matter. Never answer `touching`.
+template <int D>
+std::optional<Relation> triage_relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
+                                        const ContactFrame<D>& frame);
+template <int D>
+std::optional<Relation> interval_relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
+                                          const ContactFrame<D>& frame);
+
+/// Last rung.
+template <int D>
+Relation exact_relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b);
+
+/// Whether n.x separates the bodies strictly: n.c > rho_A(n) + rho_B(n), for the n given, exactly.
+template <int D>
+bool separates(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b, const Eigen::Matrix<double, D, 1>& n);
+
+/// First rung of separates(): true is certain, false says nothing. No allocation, about 20 ns.
+template <int D>
+bool triage_separates(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
+                      const Eigen::Matrix<double, D, 1>& n);
+
+/// Two ellipsoids prepared for many velocities.
+///
+/// The constructor finds their relation exactly and, for disjoint bodies, a normal n with n.c > rho_A + rho_B
+/// (certified). Each velocity is then decided by the sign of a cubic's discriminant: project along w without
+/// dividing, and test whether the two shadows are apart (docs/theory.md, 2).
+class ConeOracle {
+ public:
+  ConeOracle(const Ellipsoid& a, const Ellipsoid& b);
+
+  const Ellipsoid& a() const { return a_; }
+  const Ellipsoid& b() const { return b_; }
+  Relation relation() const { return relation_; }
+  /// The rung that decided the relation.
+  Rung relation_rung() const { return relation_rung_; }
+
+  /// Exact. `w` = v_A - v_B is the velocity of A relative to B. Of overlapping bodies every w != 0 is `in`.
+  /// The cone of touching bodies is the half-space beyond their tangent plane: towards each other `in`, along
+  /// the plane `on`, away `out`. w = 0 is always `out`; see verdict(). Throws InputError naming
+  /// "agent_velocity[i]" or "obstacle_velocity[i]" where they are not finite. `rung`: where to write the rung
+  /// that decided.
+  Membership membership(const Eigen::Vector3d& w, Rung* rung = nullptr) const;
+
+  /// The same for w = v_A - v_B, the difference taken without rounding.
+  Membership membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, Rung* rung = nullptr) const;
+
+  /// The same with the past told from never; `ahead` or `ahead_grazing` where both are true.
+  Passage passage(const Eigen::Vector3d& w) const;
+
+  /// Floating point with a proved error bound; nothing when it cannot decide. Never answers `on`.
+  /// No allocation, no throw.
+  std::optional<Membership> triage_membership(const Eigen::Vector3d& w) const noexcept;
+
+  /// Second rung: decides nearly all that the first leaves, distant and thin pairs above all. Never answers
+  /// `on`. No allocation, no throw. An answer for an interval vector holds for every w in it.
+  std::optional<Membership> interval_membership(const Eigen::Vector3d& v_a,
+                                                const Eigen::Vector3d& v_b) const noexcept;
+  std::optional<Membership> interval_membership(const std::array<Interval, 3>& w) const noexcept;
+
+  /// Floating point without a bound, for comparison: what a program without this library would compute. `out`
+  /// of touching bodies.
+  Membership naive_membership(const Eigen::Vector3d& w) const noexcept;
+
+  /// Last rung, in integers.
+  Membership exact_membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+
+  /// Relation and membership in one. `rung` is that of the membership; bodies that are not disjoint need none
+  /// and leave it alone.
+  Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, Rung* rung = nullptr) const;
+
+  /// A normal that separates the bodies strictly (certified) unless they are closer than double precision
+  /// tells apart; not normalised. Zero for bodies that are not disjoint.
+  const Eigen::Vector3d& separating_normal() const { return normal_; }
+  bool normal_certified() const { return normal_certified_; }
+
+ private:
+  Ellipsoid a_, b_;
+  Relation relation_;
+  Rung relation_rung_{};
+  Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();
+  bool normal_certified_ = false;
+  // What the first rung reads, once for each coordinate k that a velocity may be projected along: lengths
+  // divided by a power of two so that |c| is near one, in the order i, j, k of the coordinates, each number
+  // followed by a bound of the terms it was summed from.
+  struct Scaled {
+    alignas(16) double shape_a[6][2], shape_b[6][2];  // ii, ij, ik, jj, jk, kk
+    double c[3][2];
+    double normal[3][2];  // the first two negated
+  };
+  Scaled scaled_[3] = {};
+  bool usable_ = false;
+  // What the second rung reads, at the same scale, in the order xx, xy, xz, yy, yz, zz.
+  struct Enclosed {
+    Interval shape_a[6], shape_b[6], c[3];
+  };
+  Enclosed enclosed_;
+};
+
+/// Tags of relation() and of ConeOracle::membership for rung_counts().
+struct EllipsoidRelation;
+struct ConeMembership;
+
+}  // namespace vericone

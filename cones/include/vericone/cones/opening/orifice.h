@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The orifice cone: which relative velocities carry an agent through a circular opening in a thin flat wall.
+// Exact, by the ladder of predicates.h; the mathematics is in docs/predicates/orifice.md.
+//
+// Laws, for all agents, openings and velocities w (tests/cones/orifice_test.cpp):
+//   (1) membership of w == membership of s w for s > 0 a power of two
+//   (2) the length and the sign of the opening's normal do not matter
+//   (3) a rung that answers agrees with every later rung
+//   (4) unchanged by scaling, and by moving, agent and opening together, as long as numbers stay exact
+//
+//   (5) at most one of w and -w is not `out`
+#pragma once
+
+#include <vericone/cones/ellipsoids/predicates.h>
+#include <vericone/geometry/ellipsoid.h>
+#include <vericone/geometry/sign.h>
+#include <cstdint>
+#include <optional>
+
+namespace vericone {
+
+/// A flat circular opening in a plane wall of no thickness; lengths in metres. Its rim is the circle about
+/// `center` in the plane normal.(x - center) = 0.
+struct Orifice {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // of any length but zero, of either sign
+  double radius = 1;                                  // positive
+};
+
+/// Where the agent is now with regard to the plane of the opening.
+enum class WallSide : std::uint8_t {
+  clear,     // strictly on one side
+  touching,  // on one side, with one point in the plane
+  cut,       // the plane cuts the agent
+};
+
+const char* to_string(WallSide side);
+
+/// An agent (a sphere or any ellipsoid) and an opening, prepared for many velocities.
+class OrificeOracle {
+ public:
+  /// Throws InputError naming "orifice.center[i]", "orifice.normal[i]", "orifice.normal" or "orifice.radius".
+  OrificeOracle(const Ellipsoid& agent, const Orifice& orifice);
+
+  const Ellipsoid& agent() const { return agent_; }
+  const Orifice& orifice() const { return orifice_; }
+
+  /// Exact. An agent that is cut by the plane is already in the opening or in the wall: then membership() is
+  /// `out` for every velocity. One that touches the plane counts as being on its side of it.
+  WallSide side() const { return side_; }
+
+  /// Exact. `w` = v_A - v_B, the velocity of the agent relative to the opening; only its direction counts.
+  ///   in   the agent passes through the opening without touching the rim
+  ///   on   it passes touching the rim without cutting it
+  ///   out  it hits the rim or the wall, moves away, moves along the wall, or w = 0
+  /// `rung`: where to write the rung that decided. Throws InputError naming "agent_velocity[i]".
+  Membership membership(const Eigen::Vector3d& w, Rung* rung = nullptr) const;
+
+  /// First rung: nothing where rounding could matter. Never answers `on`. No allocation, no throw.
+  std::optional<Membership> triage_membership(const Eigen::Vector3d& w) const noexcept;
+
+  /// Second rung, in intervals. Never answers `on`. No allocation, no throw.
+  std::optional<Membership> interval_membership(const Eigen::Vector3d& w) const noexcept;
+
+  /// Last rung, in integers. w is finite.
+  Membership exact_membership(const Eigen::Vector3d& w) const;
+
+ private:
+  template <typename N>
+  std::optional<Membership> certified(const Eigen::Vector3d& w) const noexcept;
+
+  Ellipsoid agent_;
+  Orifice orifice_;
+  WallSide side_ = WallSide::cut;
+  int toward_ = 0;  // sign of normal.c, exact
+  bool usable_ = false;
+  double scale_ = 1, normal_scale_ = 1;  // powers of two
+};
+
+/// Tag of OrificeOracle::membership for rung_counts().
+struct OrificeMembership;
+
+/// The source's criterion (2.2) for a sphere: |c x w|^2 < (R_B - R_A)^2 |w|^2 and c.w > 0. It takes the
+/// opening as if it always faced the velocity, that is as a sphere's great circle perpendicular to w: for an
+/// opening tilted against w it says `in` of velocities that cut the rim (docs/predicates/orifice.md has the
+/// rate; use OrificeOracle for a real opening).
+///
+/// `center_line` = p_B - p_A from the agent to the centre of the opening; radii in metres, positive. Exact
+/// for the numbers given. An agent larger than the opening is `out`. Throws InputError naming
+/// "center_line[i]", "agent_radius", "opening_radius" or "agent_velocity[i]".
+Membership facing_orifice_membership(const Eigen::Vector3d& center_line, double agent_radius,
+                                     double opening_radius, const Eigen::Vector3d& w, Rung* rung = nullptr);
+
+/// Its rungs, for checked input.
+std::optional<Membership> triage_facing_orifice_membership(const Eigen::Vector3d& center_line,
+                                                           double agent_radius, double opening_radius,
+                                                           const Eigen::Vector3d& w) noexcept;
+std::optional<Membership> interval_facing_orifice_membership(const Eigen::Vector3d& center_line,
+                                                             double agent_radius, double opening_radius,
+                                                             const Eigen::Vector3d& w) noexcept;
+Membership exact_facing_orifice_membership(const Eigen::Vector3d& center_line, double agent_radius,
+                                           double opening_radius, const Eigen::Vector3d& w);
+
+/// Tag of facing_orifice_membership for rung_counts().
+struct FacingOrificeMembership;
+
+}  // namespace vericone

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Contacts of two disjoint combined quadrics along directions, searched for with proofs.
+#pragma once
+
+#include <vericone/cones/ellipsoids/predicates.h>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "combined/frame.h"
+
+namespace vericone {
+
+/// A contact along a direction w of the frame.
+struct CombinedContact {
+  SearchOutcome outcome = SearchOutcome::undecided;
+  Eigen::Vector3d on_b = Eigen::Vector3d::Zero();  // A an ellipsoid: the point of B, in B's own coordinates
+  Eigen::Vector3d on_a = Eigen::Vector3d::Zero();  // otherwise: the point of A, in the frame,
+  double way = 0;                                  // and way w from there to that of B
+};
+
+/// Where A is an ellipsoid, the points z of B are searched, A being the unit ball: three unknowns. Otherwise
+/// a point of A and the way along the direction, four unknowns for one direction and five for all between
+/// two. Directions are those of CombinedFrame::direction. Not for several threads at once: lists and stacks
+/// are kept between calls.
+class CombinedContacts {
+ public:
+  CombinedContacts(const CombinedEllipsoid& a, const CombinedEllipsoid& b, double tolerance);
+
+  const CombinedFrame& frame() const { return frame_; }
+  bool usable() const { return frame_.usable(); }
+
+  /// Whether the bodies have a point in common; nothing where they touch or nearly do.
+  std::optional<Relation> relation() const;
+
+  /// Contacts of disjoint bodies along w within the ways [0, longest].
+  CombinedContact along(const IntervalVector3& w, double longest) const;
+  /// No way is longer.
+  double extent() const { return extent_; }
+
+  /// Whether no direction between two, less than a right angle apart, leads to a contact (all of them do):
+  /// true is certain, false says nothing.
+  bool none_between(const IntervalVector3& from, const IntervalVector3& to) const;
+  bool all_between(const IntervalVector3& from, const IntervalVector3& to) const;
+
+  std::uint64_t boxes_searched() const { return boxes_; }
+
+ private:
+  template <int N>
+  SearchResult<N> search(QuadraticSearch<N>& searcher, const std::vector<QuadraticConstraint<N>>& list,
+                         const SearchBox<N>& box, const SearchLimits& most) const;
+  IntervalVector3 in_own(const IntervalVector3& l) const;
+  void add_half_space(const IntervalVector3& l, const Interval& l0) const;
+  double ball_slack() const;
+  template <int N>
+  void add_bodies(const std::array<IntervalVector3, N>& to_y, const IntervalVector3& k, double squares,
+                  const Eigen::Matrix<double, N, 1>& room, std::vector<QuadraticConstraint<N>>& list) const;
+  void contact_inequalities(const IntervalVector3& w, double way) const;
+  SearchLimits chord_limits() const;
+
+  CombinedContact of_ball(const IntervalVector3& w, double longest) const;
+  CombinedContact of_both(const IntervalVector3& w, double longest) const;
+  CombinedContact deepened(const IntervalVector3& w, const CombinedContact& near) const;
+  SearchOutcome ball_between(const IntervalVector3& from, const IntervalVector3& to) const;
+  SearchOutcome both_between(const IntervalVector3& from, const IntervalVector3& to) const;
+  bool ball_meets(const CombinedContact& found, const IntervalVector3& from, const IntervalVector3& to) const;
+  bool ball_meets_all(const IntervalVector3& from, const IntervalVector3& to, int depth) const;
+  bool joined(const IntervalVector3& from, const CombinedContact& first, const IntervalVector3& to,
+              const CombinedContact& last) const;
+  bool both_meet_all(const IntervalVector3& from, const CombinedContact& first, const IntervalVector3& to,
+                     const CombinedContact& last, int depth) const;
+
+  CombinedFrame frame_;
+  bool ball_;  // A is an ellipsoid
+  SearchLimits limits_;
+  std::vector<QuadraticConstraint<3>> surfaces_b_;  // of z, B's own coordinates
+  double extent_ = 0;                               // |x| is at most this
+  double columns_square_ = 0;                       // squared columns of G, summed
+
+  mutable std::uint64_t boxes_ = 0;
+  mutable QuadraticSearch<3> search3_;
+  mutable QuadraticSearch<4> search4_;
+  mutable QuadraticSearch<5> search5_;
+  mutable std::vector<QuadraticConstraint<3>> list3_;
+  mutable std::vector<QuadraticConstraint<4>> list4_;
+  mutable std::vector<QuadraticConstraint<5>> list5_;
+};
+
+}  // namespace vericone

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/cones/combined/cone.h>
+#include <vericone/geometry/error.h>
+#include <algorithm>
+#include <cmath>
+
+#include "combined/contacts.h"
+
+namespace vericone {
+
+using Eigen::Vector3d;
+
+struct CombinedOracle::State {
+  CombinedEllipsoid given_a, given_b;
+  bool swapped;
+  CombinedEllipsoid a, b;  // a is an ellipsoid whenever one of the two is
+  CombinedContacts contacts;
+  std::optional<Relation> relation;
+  std::optional<ConeOracle> exact;   // two ellipsoids
+  std::optional<ConeOracle> around;  // the ellipsoids, which contain the bodies
+  std::optional<ConeOracle> inside;  // ellipsoids inside the bodies
+  // Where neither body is an ellipsoid: one of them replaced by its ellipsoid (what misses that misses the
+  // body) or by one inside of it (what meets that meets the body). Fewer unknowns, so tried first.
+  std::vector<CombinedOracle> wider, narrower;
+
+  State(const CombinedEllipsoid& first, const CombinedEllipsoid& second, double tolerance)
+      : given_a(first),
+        given_b(second),
+        swapped(!first.is_ellipsoid() && second.is_ellipsoid()),
+        a(swapped ? second : first),
+        b(swapped ? first : second),
+        contacts(a, b, tolerance) {
+    ConeOracle outer(a.ellipsoid(), b.ellipsoid());
+    if (a.is_ellipsoid() && b.is_ellipsoid()) {
+      relation = outer.relation();
+      exact.emplace(std::move(outer));
+      return;
+    }
+    if (outer.relation() == Relation::disjoint) {
+      relation = Relation::disjoint;
+      around.emplace(std::move(outer));
+    } else if (contacts.usable()) {
+      relation = contacts.relation();
+    }
+    if (relation != Relation::disjoint) return;
+    // Narrower by so much that intervals can prove it inside, though it touches all around.
+    const auto core = [](const CombinedEllipsoid& body) -> std::optional<Ellipsoid> {
+      if (body.is_ellipsoid()) return body.ellipsoid();
+      const auto inscribed = body.inscribed_ellipsoid();
+      if (!inscribed) return std::nullopt;
+      const Ellipsoid inner = Ellipsoid::from_shape(body.center(), inscribed->shape() * (1 - 1e-4));
+      return surely_contains(body, inner) ? std::optional(inner) : std::nullopt;
+    };
+    const auto core_a = core(a), core_b = core(b);
+    if (core_a && core_b) inside.emplace(*core_a, *core_b);
+    if (a.is_ellipsoid()) return;
+    const auto add = [&](std::vector<CombinedOracle>& list, const CombinedEllipsoid& p,
+                         const CombinedEllipsoid& q) {
+      CombinedOracle oracle(p, q, tolerance);
+      if (oracle.relation() == Relation::disjoint) list.push_back(std::move(oracle));
+    };
+    add(wider, a.ellipsoid(), b);
+    add(wider, a, b.ellipsoid());
+    if (core_a) add(narrower, *core_a, b);
+    if (core_b) add(narrower, a, *core_b);
+  }
+
+  std::uint64_t boxes_searched() const {
+    std::uint64_t sum = contacts.boxes_searched();
+    for (const auto* list : {&wider, &narrower})
+      for (const CombinedOracle& oracle : *list) sum += oracle.boxes_searched();
+    return sum;
+  }
+
+  Vector3d own(const Vector3d& w) const { return swapped ? Vector3d(-w) : w; }
+  IntervalVector3 direction(const Vector3d& w) const { return contacts.frame().direction(own(w)); }
+};
+
+CombinedOracle::CombinedOracle(const CombinedEllipsoid& a, const CombinedEllipsoid& b, double tolerance) {
+  if (!(tolerance > 0) || !(tolerance < 1))
+    throw InputError("tolerance", to_text(tolerance), "between 0 and 1");
+  state_ = std::make_unique<State>(a, b, std::max(tolerance, 1e-12));
+}
+CombinedOracle::~CombinedOracle() = default;
+CombinedOracle::CombinedOracle(CombinedOracle&&) noexcept = default;
+CombinedOracle& CombinedOracle::operator=(CombinedOracle&&) noexcept = default;
+
+const CombinedEllipsoid& CombinedOracle::a() const { return state_->given_a; }
+const CombinedEllipsoid& CombinedOracle::b() const { return state_->given_b; }
+std::uint64_t CombinedOracle::boxes_searched() const { return state_->boxes_searched(); }
+std::optional<Relation> CombinedOracle::relation() const { return state_->relation; }
+
+Certified CombinedOracle::membership(const Vector3d& w) const {
+  const State& s = *state_;
+  for (int i = 0; i < 3; ++i)
+    if (!std::isfinite(w(i)))
+      throw InputError("relative_velocity[" + std::to_string(i) + "]", to_text(w(i)),
+                       "a finite number (m/s)");
+  if (w.isZero(0)) return Certified::out;
+  if (s.relation == Relation::overlapping) return Certified::in;
+  if (s.relation != Relation::disjoint) return Certified::undecided;
+  const Vector3d own = s.own(w);
+  if (s.exact) return s.exact->membership(own) == Membership::out ? Certified::out : Certified::in;
+  if (s.around && s.around->membership(own) == Membership::out) return Certified::out;
+  if (s.inside && s.inside->membership(own) != Membership::out) return Certified::in;
+  if (!s.contacts.usable()) return Certified::undecided;
+  for (const CombinedOracle& oracle : s.wider)
+    if (oracle.membership(own) == Certified::out) return Certified::out;
+  for (const CombinedOracle& oracle : s.narrower)
+    if (oracle.membership(own) == Certified::in) return Certified::in;
+  switch (s.contacts.along(s.direction(w), s.contacts.extent()).outcome) {
+    case SearchOutcome::empty:
+      return Certified::out;
+    case SearchOutcome::found:
+      return Certified::in;
+    case SearchOutcome::undecided:
+      break;
+  }
+  return Certified::undecided;
+}
+
+bool CombinedOracle::all_in(const Vector3d& from, const Vector3d& to) const {
+  const State& s = *state_;
+  if (s.relation != Relation::disjoint || !s.contacts.usable()) return false;
+  const auto of_inside = [&](const Vector3d& w) { return s.inside->membership(s.own(w)) != Membership::out; };
+  if (s.inside && of_inside(from) && of_inside(to)) return true;  // the cone of convex bodies is convex
+  for (const CombinedOracle& oracle : s.narrower)
+    if (oracle.all_in(s.own(from), s.own(to))) return true;
+  const IntervalVector3 first = s.direction(from), last = s.direction(to);
+  return dot(first, last).positive() && s.contacts.all_between(first, last);
+}
+
+bool CombinedOracle::all_out(const Vector3d& from, const Vector3d& to) const {
+  const State& s = *state_;
+  if (s.relation != Relation::disjoint || !s.contacts.usable()) return false;
+  for (const CombinedOracle& oracle : s.wider)
+    if (oracle.all_out(s.own(from), s.own(to))) return true;
+  if (membership(from.normalized() + to.normalized()) != Certified::out) return false;
+  const IntervalVector3 first = s.direction(from), last = s.direction(to);
+  return dot(first, last).positive() && s.contacts.none_between(first, last);
+}
+
+std::optional<Interval> CombinedOracle::time_to_contact(const Vector3d& w, double width) const {
+  const State& s = *state_;
+  if (s.relation == Relation::overlapping) return Interval(0);
+  if (!s.contacts.usable() || membership(w) != Certified::in) return std::nullopt;
+  const IntervalVector3 direction = s.direction(w);
+  // Ways in the frame, in units of the direction's length; monotone: a contact by one way is one by any
+  // longer.
+  double lo = 0, hi = s.contacts.extent();
+  while (hi - lo > std::max(width, 1e-12) * s.contacts.extent()) {
+    const double half = 0.5 * (lo + hi);
+    const SearchOutcome outcome = s.contacts.along(direction, half).outcome;
+    if (outcome == SearchOutcome::undecided) break;
+    (outcome == SearchOutcome::found ? hi : lo) = half;
+  }
+  // direction = k F^{-1} w: t w = way F (k F^{-1} w), so t = way k.
+  const Vector3d in_space = s.a.ellipsoid().factor() * middle(direction);
+  const double k = in_space.norm() / w.norm();
+  // The way of a contact is not negative, whatever rounding says.
+  const Interval time = Interval::between(lo * k * (1 - 1e-9), hi * k * (1 + 1e-9));
+  return lo > 0 ? time : Interval::between(0, time.hi());
+}
+
+}  // namespace vericone

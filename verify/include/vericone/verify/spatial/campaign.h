@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The library's cones in space held against polyhedra and against a march through time.
+#pragma once
+
+#include <vericone/verify/spatial/families.h>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace vericone::verify {
+
+/// How often a statement was put to the test, how often it failed, and the first pair where it did.
+struct Check {
+  std::uint64_t tried = 0, failed = 0;
+  std::uint64_t first_failed_index = 0;
+
+  void note(bool holds, std::uint64_t index) {
+    ++tried;
+    if (!holds && failed++ == 0) first_failed_index = index;
+  }
+};
+
+struct WorstFigure {
+  double value = 0;
+  std::uint64_t index = 0;
+
+  void raise(double x, std::uint64_t i) {
+    if (!(x <= value)) value = x, index = i;
+  }
+};
+
+/// Numbers of boundary samples at which the gap between inner and outer bound is measured.
+inline constexpr std::array kGapSamples = {24, 48, 96, 192};
+
+/// One family, pairs with indices 0 .. cases - 1. Directions: around the line of centres, all over the
+/// sphere, and boundary directions of true_cone moved in and out by 1e-6.
+struct SpatialFamilyReport {
+  SpatialFamily family = SpatialFamily::regular;
+  std::uint64_t seed = 0, cases = 0;
+  /// Pairs whose enlarged polyhedra overlap, so that nothing is known from outside.
+  std::uint64_t no_outer_polyhedron = 0;
+  /// Directions left out of `march`: within 1e-9 of grazing there.
+  std::uint64_t march_grazing = 0;
+
+  Check relation;     // relation() is disjoint, and so says the distance at time 0
+  Check polyhedra;    // in the inner polyhedral cone: not `out`; not in the outer one: `out`
+  Check march;        // membership against whether the march finds a contact
+  Check perturbed;    // boundary directions moved in by 1e-6 are in, moved out are out
+  Check solid_angle;  // true_cone between the polyhedral cones, cone_bounds consistent with both
+  Check inner_bound;  // every edge of cone_bounds' inner cone is in or on
+  Check outer_bound;  // every edge of its outer cone, moved away from the axis by 1e-9, is out
+  Check slices;       // edges of the slice cone, moved to the axis by 1e-9, are in or on
+  /// B shifted by the clearance less 1e-6 of it, against its normal or elsewhere across the line of motion:
+  /// the line hits or misses as before; by 1e-6 more against the normal: the contrary.
+  Check clearance;
+
+  WorstFigure time;     // relative difference of contact_time and the march, where they do not nearly graze
+  WorstFigure surface;  // distance of A from B's surface at contact_time, in eps of the coordinates
+  WorstFigure value;    // relative error of cone_bounds' solid angle at 96 samples, against 3072 samples
+  WorstFigure gap;      // (outer - inner) / solid angle at 96 samples
+  std::array<double, kGapSamples.size()> gap_medians = {};
+  double gap_slope = 0;  // of log gap against log samples, of the medians
+
+  std::uint64_t failures() const;
+};
+
+/// About 40 ms a pair.
+SpatialFamilyReport run_spatial_family(SpatialFamily family, std::uint64_t cases, std::uint64_t seed);
+
+/// All families, `cases` pairs of each.
+std::vector<SpatialFamilyReport> run_spatial_campaign(std::uint64_t cases, std::uint64_t seed);
+
+/// Two Markdown tables: checks as failed/tried, with the first pair that failed after a #, and figures.
+std::string to_markdown(std::span<const SpatialFamilyReport> reports);
+
+}  // namespace vericone::verify
