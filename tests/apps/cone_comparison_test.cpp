@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <vericone/cones/assembly/assembly_oracle.h>
+#include <vericone/cones/combined/cone.h>
 #include <vericone/geometry/error.h>
 
 #include <cmath>

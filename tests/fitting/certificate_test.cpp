@@ -9,9 +9,9 @@
 #include <cmath>
 #include <limits>
 
-#include "quadratic_form.h"
+#include "proof/quadratic_form.h"
 #include "support/random_bodies.h"
-#include "triangle_form.h"
+#include "proof/triangle_form.h"
 
 namespace vericone::fitting::certificate_test {
 namespace {

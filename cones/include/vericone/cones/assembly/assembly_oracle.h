@@ -45,7 +45,9 @@ struct AssemblyContact {
 struct AssemblyMiss {
   double least = 0, most = 0;  // metres; the true distance lies between, least = 0 where they meet
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  // of the body, where they pass nearest
-  double time = 0;                                  // when, seconds >= 0
+  /// Unit, from the agent towards the body where they are nearest or first touch; zero where they meet now.
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  double time = 0;  // when, seconds >= 0
   std::uint32_t piece = 0;
 };
 

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Two ellipsoids: exact.
+#include <vericone/cones/ellipsoids/clearance.h>
+#include <vericone/cones/ellipsoids/enclosures.h>
+#include <vericone/cones/map/classifiers.h>
+#include <vericone/cones/times/contact_time_enclosure.h>
+#include <algorithm>
+#include <cmath>
+
+#include "pairs/cones.h"
+
+namespace vericone::pairs {
+namespace {
+
+using Eigen::Vector3d;
+
+class Ellipsoids : public Family {
+ public:
+  Ellipsoids(const Ellipsoid& agent, const Ellipsoid& obstacle) : oracle_(agent, obstacle) {}
+
+  Guarantee guarantee() const override { return {true, 0, "ellipsoids"}; }
+  const ConeOracle* ellipsoids() const override { return &oracle_; }
+  std::optional<Relation> relation() const override { return oracle_.relation(); }
+  Verdict verdict(const Vector3d& v_a, const Vector3d& v_b) const override {
+    return oracle_.verdict(v_a, v_b);
+  }
+
+  Contact contact(const Vector3d& v_a, const Vector3d& v_b) const override {
+    Contact contact;
+    const auto enclosure = enclose_time_to_contact(oracle_, v_a, v_b);
+    contact.earliest = enclosure ? std::max(enclosure->lo(), 0.0) : 0;
+    contact.latest = enclosure ? enclosure->hi() : std::numeric_limits<double>::infinity();
+    const auto time = time_to_contact(oracle_, v_a, v_b);
+    contact.time = std::clamp(time.value_or(contact.earliest), contact.earliest, contact.latest);
+    const Vector3d w = v_a - v_b;
+    // The closest points just before: at the contact itself rounding may make them overlap.
+    for (double before = 0x1p-50; before < 1e-3 && std::isfinite(contact.time); before *= 32) {
+      const Separation near =
+          separation(oracle_.a().translated((1 - before) * contact.time * w), oracle_.b());
+      if (near.normal.isZero(0)) continue;
+      contact.normal = near.normal;
+      contact.point = in_world_at(oracle_.b().support_point(-near.normal), contact.time, v_b);
+      break;
+    }
+    return contact;
+  }
+
+  Miss miss(const Vector3d& v_a, const Vector3d& v_b) const override {
+    Miss miss;
+    const Vector3d w = relative_velocity(v_a, v_b);
+    const Verdict verdict = oracle_.verdict(v_a, v_b);
+    if (verdict != Verdict::out) {
+      if (w.isZero(0)) {
+        miss.depth = std::numeric_limits<double>::quiet_NaN();
+        return miss;
+      }
+      const Clearance c = clearance(oracle_.a(), oracle_.b(), w);
+      miss.depth = std::max(-c.distance, 0.0);
+      miss.normal = c.normal;
+      miss.time = std::max(c.time, 0.0);
+      return miss;
+    }
+    const Separation now = separation(oracle_.a(), oracle_.b());
+    const bool receding = w.isZero(0) || !(now.normal.dot(w) > 0);
+    const Interval bracket = receding ? enclose_separation(oracle_.a(), oracle_.b())
+                                      : enclose_clearance(oracle_.a(), oracle_.b(), w);
+    miss.least = std::max(bracket.lo(), 0.0);
+    miss.most = bracket.hi();
+    miss.normal = now.normal;
+    if (!receding) {
+      const Clearance c = clearance(oracle_.a(), oracle_.b(), w);
+      miss.normal = c.normal;
+      miss.time = std::max(c.time, 0.0);
+    }
+    return miss;
+  }
+
+  std::shared_ptr<const DirectionClassifier> directions() const override {
+    return std::make_shared<EllipsoidClassifier>(oracle_.a(), oracle_.b());
+  }
+
+  Cone cone(const ConeOptions& options) const override {
+    return cone_of_ellipsoids(oracle_.a(), oracle_.b(), options);
+  }
+  Vector3d axis() const override { return oracle_.b().center() - oracle_.a().center(); }
+
+ private:
+  ConeOracle oracle_;
+};
+
+}  // namespace
+
+FamilyPointer ellipsoid_family(const Ellipsoid& agent, const Ellipsoid& obstacle) {
+  return std::make_shared<Ellipsoids>(agent, obstacle);
+}
+
+}  // namespace vericone::pairs
