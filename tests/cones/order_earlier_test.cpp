@@ -6,7 +6,8 @@
 #include <vericone/cones/times/contact_time_enclosure.h>
 #include <vericone/cones/times/order.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/rational.h>
+#include <vericone/geometry/exact/body.h>
+#include <vericone/geometry/exact/rational.h>
 #include <Eigen/LU>
 
 #include "exact_tangency.h"

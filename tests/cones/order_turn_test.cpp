@@ -5,7 +5,8 @@
 #include <vericone/cones/planar/sector.h>
 #include <vericone/cones/times/order.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/rational.h>
+#include <vericone/geometry/exact/body.h>
+#include <vericone/geometry/exact/rational.h>
 #include <Eigen/LU>
 
 #include "exact_tangency.h"

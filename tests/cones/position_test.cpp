@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/exact_position.h>
 #include <vericone/cones/ellipsoids/position.h>
+#include <vericone/geometry/exact/body.h>
 #include <Eigen/LU>
 
 #include <array>

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <vericone/cones/ellipsoids/exact_predicates.h>
 #include <vericone/cones/planar/sector.h>
 #include <vericone/cones/planar/sector_oracle.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/exact/body.h>
 
 #include <iostream>
 

@@ -24,6 +24,7 @@
 #include <vericone/cones/times/contact_time_enclosure.h>
 #include <vericone/cones/times/order.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/exact/body.h>
 
 #include <cmath>
 #include <numbers>

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <vericone/fitting/hull.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/exact/quadric_side.h>
+#include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/quadric_side.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -10,8 +12,8 @@
 #include <limits>
 
 #include "proof/quadratic_form.h"
-#include "support/random_bodies.h"
 #include "proof/triangle_form.h"
+#include "support/random_bodies.h"
 
 namespace vericone::fitting::certificate_test {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/geometry/algebraic.h>
+#include <vericone/geometry/exact/algebraic.h>
 
 #include <algorithm>
 #include <cmath>

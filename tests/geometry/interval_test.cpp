@@ -3,8 +3,8 @@
 // Intervals carry an exact rational number through random chains of operations and must contain it after
 // each.
 #include <gtest/gtest.h>
+#include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/interval.h>
-#include <vericone/geometry/rational.h>
 
 #include <limits>
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/ellipsoids/predicates.h>
+#include <vericone/geometry/exact/body.h>
+#include <vericone/geometry/exact/quadric_side.h>
 
 #include <vericone/cones/ellipsoids/contact_frame.h>
 #include <vericone/cones/ellipsoids/exact_predicates.h>
@@ -13,6 +15,7 @@
 #include "answers/elementary.h"
 #include "answers/velocity_ladder.h"
 #include "ellipsoids/contact_polynomial.h"
+#include "ellipsoids/pair_on_grid.h"
 
 namespace vericone {
 namespace {

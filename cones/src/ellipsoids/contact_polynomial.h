@@ -11,10 +11,11 @@
 // double, or two simple positive roots: overlapping, touching, disjoint.
 #pragma once
 
-#include <vericone/geometry/algebraic.h>
-#include <vericone/geometry/integer.h>
+#include <vericone/geometry/exact/algebraic.h>
+#include <vericone/geometry/exact/integer.h>
 #include <array>
 #include <optional>
+#include "ellipsoids/pair_on_grid.h"
 
 namespace vericone {
 

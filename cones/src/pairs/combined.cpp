@@ -120,6 +120,7 @@ class Combined : public Family {
     Miss miss = around_->miss(v_a, v_b);
     if (own != Verdict::out && own != Verdict::undecided) {
       miss.least = miss.most = 0;
+      miss.distance = -miss.depth;
       return miss;
     }
     miss.depth = 0;
@@ -131,6 +132,7 @@ class Combined : public Family {
       miss.most = (c - ahead * w).norm() * (1 + 1e-12);
     }
     miss.most = std::max(miss.most, miss.least);
+    miss.distance = 0.5 * (miss.least + miss.most);
     return miss;
   }
 
