@@ -13,6 +13,14 @@
 
 namespace vericone::assembly {
 
+/// The piece in a slot, in the coordinates of a frame; `radius`: by which it is rounded besides its own.
+Core piece_core(const Frame& frame, const Assembly& body, std::uint32_t slot, double radius = 0);
+Box piece_box(const Assembly& body, std::uint32_t slot);
+
+/// A body in the frame of an obstacle that stands in `pose`. Throws InputError naming "pose".
+bool is_upright(const Pose& pose);
+Ellipsoid in_obstacle_frame(const Ellipsoid& agent, const Pose& pose);
+
 /// An agent in the obstacle's own frame, and the obstacle.
 class Scene {
  public:
@@ -41,8 +49,8 @@ class Scene {
 
   Core core(std::uint32_t slot) const { return core(frame_, slot); }
   /// The same for another frame of the same agent or a point.
-  Core core(const Frame& frame, std::uint32_t slot) const;
-  Box slot_box(std::uint32_t slot) const;
+  Core core(const Frame& frame, std::uint32_t slot) const { return piece_core(frame, body_, slot); }
+  Box slot_box(std::uint32_t slot) const { return piece_box(body_, slot); }
 
   /// The piece's own exact predicates. `w` = v_a - v_b in the obstacle's frame.
   Membership exact_membership(std::uint32_t slot, const Eigen::Vector3d& v_a,
