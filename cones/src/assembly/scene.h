@@ -161,6 +161,29 @@ struct RayResidual {
   Eigen::Vector3d operator()(const Eigen::Vector3d& y) const { return y - std::max(0.0, y.dot(ray)) * ray; }
 };
 
+/// Of the circular cone around the rays.
+struct CircularResidual {
+  Eigen::Vector3d axis;
+  double cosine, sine;
+
+  explicit CircularResidual(const Directions& directions)
+      : axis(directions.middle),
+        cosine(directions.least_cosine * (1 - 4 * kUlp)),
+        sine(std::sqrt(std::max(0.0, 1 - cosine * cosine))) {}
+
+  Eigen::Vector3d operator()(const Eigen::Vector3d& y) const {
+    const double along = y.dot(axis);
+    const Eigen::Vector3d across = y - along * axis;
+    const double radius = across.norm();
+    if (radius * cosine <= along * sine) return Eigen::Vector3d::Zero();
+    if (along * cosine + radius * sine <= 0) return y;  // nearest to the apex
+    return across * (cosine / radius) - sine * axis;
+  }
+};
+
+/// Whether one piece is met in all three directions, and so in all between them: its cone is convex.
+bool meets_all(const Core& core, const Directions (&rays)[3]);
+
 /// A ray from the apex against boxes, each widened by the box around the agent. Conservative: no widened
 /// piece that is met is missed.
 class Slabs {

@@ -23,8 +23,22 @@ class CellSearch {
  public:
   static constexpr std::size_t kMostPairs = 400'000;
 
-  CellSearch(const State& state, const assembly::Directions& directions, const Apart& apart)
-      : state_(state), cells_(*state.cells), directions_(directions), apart_(apart) {}
+  /// `most_pairs`: of a cell and a box that are looked at.
+  CellSearch(const State& state, const assembly::Directions& directions, const Apart& apart,
+             std::size_t most_pairs = kMostPairs)
+      : state_(state),
+        cells_(*state.cells),
+        directions_(directions),
+        apart_(apart),
+        most_pairs_(most_pairs) {}
+
+  /// A convex part of the body, and the piece that it meets.
+  struct Witness {
+    HullBody part;
+    std::uint32_t slot = 0;
+  };
+  /// What run() found where it said `in`.
+  const Witness& witness() const { return witness_; }
 
   /// `in`: they meet, interior to interior; `out`: they do not.
   Certified run() {
@@ -35,7 +49,7 @@ class CellSearch {
       later_.clear();
       levels_ = std::min(levels, cells_.most_levels());
       while (!stack_.empty()) {
-        if (++asked_ > kMostPairs) return Certified::undecided;
+        if (++asked_ > most_pairs_) return Certified::undecided;
         const CellPair pair = stack_.back();
         stack_.pop_back();
         const Outcome outcome = visit(pair);
@@ -75,6 +89,7 @@ class CellSearch {
   /// open: some piece may be met.
   Outcome against_pieces(const CellPair& pair, const Box& cell, const Hierarchy::Node& node) {
     std::optional<assembly::Frame> own, inner;
+    std::optional<Eigen::Vector3d> point;
     bool full = false, inside_known = false, any = false;
     for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot) {
       if (apart_(difference(cell, assembly::piece_box(state_.obstacle, slot)))) continue;
@@ -86,15 +101,22 @@ class CellSearch {
       if (!inside_known) {
         inside_known = true;
         full = cells_.full(pair.cell);
-        if (!full)
-          if (const auto point = cells_.witness(pair.cell)) inner = state_.frame(HullBody({*point}));
+        if (!full) {
+          point = cells_.witness(pair.cell);
+          if (point) inner = state_.frame(HullBody({*point}));
+        }
       }
-      if (full && found.answer == assembly::Gap::Answer::met) return Outcome::met;
+      if (full && found.answer == assembly::Gap::Answer::met) {
+        witness_ = {HullBody::box(cell.low, cell.high), slot};
+        return Outcome::met;
+      }
       if (!inner) continue;
       const assembly::Core seen = assembly::piece_core(*inner, state_.obstacle, slot);
       if (assembly::gap(seen, directions_, first_normal(seen, directions_)).answer ==
-          assembly::Gap::Answer::met)
+          assembly::Gap::Answer::met) {
+        witness_ = {HullBody({*point}), slot};
         return Outcome::met;
+      }
     }
     return any ? Outcome::open : Outcome::done;
   }
@@ -105,7 +127,8 @@ class CellSearch {
   const Apart& apart_;
   std::vector<CellPair> stack_, later_;
   std::uint32_t levels_ = 0;
-  std::size_t asked_ = 0;
+  std::size_t asked_ = 0, most_pairs_;
+  Witness witness_;
 };
 
 }  // namespace vericone::composite
