@@ -117,11 +117,8 @@ bool one_pair_meets(const State& state, const DirectionCell& cell, bool& middle_
   const auto enter = [&](const Box& box) { return slabs.enter(box.low.data(), box.high.data()); };
   if (state.cells) {
     const auto apart = [&](const Box& box) { return std::isinf(enter(box)); };
-    CellSearch search(state, ray, apart, 4000);
-    middle_met = search.run() == Certified::in;
-    if (!middle_met) return false;
-    const Frame frame = state.frame(search.witness().part);
-    return meets_all(piece_core(frame, state.obstacle, search.witness().slot), rays);
+    middle_met = true;
+    return CellSearch(state, ray, apart, 2000, &rays).run() == Certified::in;
   }
   bool found = false;
   int tries = 0;
@@ -185,7 +182,7 @@ Certified CompositePair::classify(const DirectionCell& cell, const Frontier& par
   own.assign(1, static_cast<std::uint32_t>(inner.size()));
   own.insert(own.end(), inner.begin(), inner.end());
   for (const NodePair& pair : pairs) own.insert(own.end(), {pair.a, pair.b});
-  return pairs_meet(state, turned, 2) ? Certified::in : Certified::undecided;
+  return pairs_meet(state, turned, state.cells ? 0 : 3) ? Certified::in : Certified::undecided;
 }
 
 }  // namespace vericone

@@ -13,6 +13,7 @@ namespace vericone::composite {
 struct CellPair {
   Cell cell;
   std::uint32_t node = 0;  // of the obstacle's hierarchy
+  bool full = false;       // the cell is inside the body: it meets the obstacle or not, as it is
 };
 
 /// Whether the body meets the obstacle in some of the directions (none: now). `apart`: proves of a difference
@@ -23,22 +24,16 @@ class CellSearch {
  public:
   static constexpr std::size_t kMostPairs = 400'000;
 
-  /// `most_pairs`: of a cell and a box that are looked at.
+  /// `most_pairs`: of a cell and a box that are looked at. `all`: where given, three directions in each of
+  /// which one cell inside the body has to meet one piece; nothing else counts.
   CellSearch(const State& state, const assembly::Directions& directions, const Apart& apart,
-             std::size_t most_pairs = kMostPairs)
+             std::size_t most_pairs = kMostPairs, const assembly::Directions (*all)[3] = nullptr)
       : state_(state),
         cells_(*state.cells),
         directions_(directions),
         apart_(apart),
-        most_pairs_(most_pairs) {}
-
-  /// A convex part of the body, and the piece that it meets.
-  struct Witness {
-    HullBody part;
-    std::uint32_t slot = 0;
-  };
-  /// What run() found where it said `in`.
-  const Witness& witness() const { return witness_; }
+        most_pairs_(most_pairs),
+        all_(all) {}
 
   /// `in`: they meet, interior to interior; `out`: they do not.
   Certified run() {
@@ -68,9 +63,9 @@ class CellSearch {
     const Box cell = cells_.box(pair.cell), box = node.box();
     if (apart_(difference(cell, box))) return Outcome::done;
     const bool last = pair.cell.level == cells_.most_levels();
-    if (!node.is_leaf() && (last || size(box) >= size(cell))) {
-      stack_.push_back({pair.cell, node.first + 1});
-      stack_.push_back({pair.cell, node.first});
+    if (!node.is_leaf() && (last || pair.full || size(box) >= size(cell))) {
+      stack_.push_back({pair.cell, node.first + 1, pair.full});
+      stack_.push_back({pair.cell, node.first, pair.full});
       return Outcome::done;
     }
     if (node.is_leaf()) {
@@ -81,7 +76,9 @@ class CellSearch {
     if (pair.cell.level >= levels_) {
       later_.push_back(pair);
     } else {
-      cells_.divide(pair.cell, [&](const Cell& part) { stack_.push_back({part, pair.node}); });
+      cells_.divide(pair.cell, [&](const Cell& part) {
+        stack_.push_back({part, pair.node, pair.full || cells_.full(part)});
+      });
     }
     return Outcome::done;
   }
@@ -89,34 +86,29 @@ class CellSearch {
   /// open: some piece may be met.
   Outcome against_pieces(const CellPair& pair, const Box& cell, const Hierarchy::Node& node) {
     std::optional<assembly::Frame> own, inner;
-    std::optional<Eigen::Vector3d> point;
-    bool full = false, inside_known = false, any = false;
+    bool sought = false, any = false;
     for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot) {
       if (apart_(difference(cell, assembly::piece_box(state_.obstacle, slot)))) continue;
       if (!own) own = state_.frame(HullBody::box(cell.low, cell.high));
       const assembly::Core core = assembly::piece_core(*own, state_.obstacle, slot);
       const assembly::Gap found = assembly::gap(core, directions_, first_normal(core, directions_));
       if (found.answer == assembly::Gap::Answer::apart) continue;
+      if (pair.full && all_ != nullptr) {
+        // What a cell does not meet in all directions, no part of it does.
+        if (assembly::meets_all(core, *all_)) return Outcome::met;
+        continue;
+      }
       any = true;
-      if (!inside_known) {
-        inside_known = true;
-        full = cells_.full(pair.cell);
-        if (!full) {
-          point = cells_.witness(pair.cell);
-          if (point) inner = state_.frame(HullBody({*point}));
-        }
-      }
-      if (full && found.answer == assembly::Gap::Answer::met) {
-        witness_ = {HullBody::box(cell.low, cell.high), slot};
-        return Outcome::met;
-      }
+      if (pair.full && found.answer == assembly::Gap::Answer::met) return Outcome::met;
+      if (pair.full || all_ != nullptr) continue;
+      if (!sought)
+        if (const auto point = cells_.witness(pair.cell)) inner = state_.frame(HullBody({*point}));
+      sought = true;
       if (!inner) continue;
       const assembly::Core seen = assembly::piece_core(*inner, state_.obstacle, slot);
       if (assembly::gap(seen, directions_, first_normal(seen, directions_)).answer ==
-          assembly::Gap::Answer::met) {
-        witness_ = {HullBody({*point}), slot};
+          assembly::Gap::Answer::met)
         return Outcome::met;
-      }
     }
     return any ? Outcome::open : Outcome::done;
   }
@@ -128,7 +120,7 @@ class CellSearch {
   std::vector<CellPair> stack_, later_;
   std::uint32_t levels_ = 0;
   std::size_t asked_ = 0, most_pairs_;
-  Witness witness_;
+  const assembly::Directions (*all_)[3];
 };
 
 }  // namespace vericone::composite

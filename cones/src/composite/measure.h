@@ -46,6 +46,7 @@ class ContactMeasure {
 class MissMeasure {
  public:
   MissMeasure(const State& state, const Eigen::Vector3d& w, double tolerance);
+  MissMeasure(const MissMeasure&) = delete;  // the test refers to the directions
 
   double of_box(const Box& difference) const {
     return std::max(0.0, test_.distance(difference.low, difference.high));
@@ -71,7 +72,7 @@ class CellDescent {
       : state_(state), cells_(*state.cells), measure_(measure), width_(width), best_(known) {}
 
   Found run() {
-    push_node({}, 0, 0);
+    push_node({}, 0, 0, false);
     for (std::size_t asked = 0; !heap_.empty(); ++asked) {
       std::pop_heap(heap_.begin(), heap_.end(), later);
       const Item item = heap_.back();
@@ -79,13 +80,13 @@ class CellDescent {
       if (item.least >= best_.most) break;
       const bool last = item.slot != kNone && item.cell.level == cells_.most_levels();
       if (last || item.least >= best_.most - width_ || asked > kMostItems) {
-        best_.least = item.least;
         if (std::isinf(best_.most)) take_place(item);
+        best_.least = std::min(item.least, floor_);
         return best_;
       }
       item.slot == kNone ? divide_node(item) : divide_cell(item);
     }
-    best_.least = best_.most;
+    best_.least = std::min(best_.most, floor_);
     return best_;
   }
 
@@ -95,6 +96,7 @@ class CellDescent {
     double least;
     Cell cell;
     std::uint32_t node, slot;  // slot: of a piece, then the node does not count
+    bool full;                 // the cell is inside the body
   };
   static bool later(const Item& a, const Item& b) { return a.least > b.least; }
 
@@ -103,12 +105,12 @@ class CellDescent {
     heap_.push_back(item);
     std::push_heap(heap_.begin(), heap_.end(), later);
   }
-  void push_node(const Cell& cell, std::uint32_t node, double at_least) {
+  void push_node(const Cell& cell, std::uint32_t node, double at_least, bool full) {
     const Box box = state_.obstacle.hierarchy().nodes()[node].box();
     const double least = measure_.of_box(difference(cells_.box(cell), box));
-    push({std::max(least, at_least), cell, node, kNone});
+    push({std::max(least, at_least), cell, node, kNone, full});
   }
-  void push_piece(const Cell& cell, std::uint32_t slot, double at_least) {
+  void push_piece(const Cell& cell, std::uint32_t slot, double at_least, bool full) {
     const Box box = cells_.box(cell);
     const double rough = measure_.of_box(difference(box, assembly::piece_box(state_.obstacle, slot)));
     if (!(rough < best_.most)) return;
@@ -116,31 +118,40 @@ class CellDescent {
     const Found found =
         measure_.of_piece(frame, assembly::piece_core(frame, state_.obstacle, slot), best_.most);
     if (std::isinf(found.least)) return;
-    if (cells_.full(cell)) {
+    if (full) {
       take(found, slot);
+      // Known as well as can be: nothing is learned from its parts.
+      if (std::isfinite(found.most)) {
+        floor_ = std::min(floor_, found.least);
+        return;
+      }
     } else if (const auto point = cells_.witness(cell)) {
       const assembly::Frame inner = state_.frame(HullBody({*point}));
       take(measure_.of_piece(inner, assembly::piece_core(inner, state_.obstacle, slot), best_.most), slot);
     }
-    push({std::max({found.least, rough, at_least}), cell, 0, slot});
+    push({std::max({found.least, rough, at_least}), cell, 0, slot, full});
   }
 
   void divide_node(const Item& item) {
     const Hierarchy::Node& node = state_.obstacle.hierarchy().nodes()[item.node];
     const Box cell = cells_.box(item.cell);
-    const bool cell_larger = item.cell.level < cells_.most_levels() && size(cell) > size(node.box());
-    if (cell_larger && !node.is_leaf()) {
-      cells_.divide(item.cell, [&](const Cell& part) { push_node(part, item.node, item.least); });
+    const bool divide_cell =
+        !item.full && item.cell.level < cells_.most_levels() && size(cell) > size(node.box());
+    if (divide_cell) {
+      cells_.divide(item.cell,
+                    [&](const Cell& part) { push_node(part, item.node, item.least, cells_.full(part)); });
     } else if (!node.is_leaf()) {
-      push_node(item.cell, node.first, item.least);
-      push_node(item.cell, node.first + 1, item.least);
+      push_node(item.cell, node.first, item.least, item.full);
+      push_node(item.cell, node.first + 1, item.least, item.full);
     } else {
       for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot)
-        push_piece(item.cell, slot, item.least);
+        push_piece(item.cell, slot, item.least, item.full);
     }
   }
   void divide_cell(const Item& item) {
-    cells_.divide(item.cell, [&](const Cell& part) { push_piece(part, item.slot, item.least); });
+    cells_.divide(item.cell, [&](const Cell& part) {
+      push_piece(part, item.slot, item.least, item.full || cells_.full(part));
+    });
   }
 
   /// Of something that is part of the body.
@@ -158,7 +169,7 @@ class CellDescent {
         item.slot != kNone ? item.slot : state_.obstacle.hierarchy().nodes()[item.node].first;
     const double never = std::numeric_limits<double>::infinity();
     best_ = measure_.of_piece(frame, assembly::piece_core(frame, state_.obstacle, slot), never);
-    best_.least = best_.best = least;
+    best_.best = least;
     best_.most = never;
     best_.slot = slot;
   }
@@ -167,6 +178,7 @@ class CellDescent {
   const CellTree& cells_;
   const Measure& measure_;
   double width_;
+  double floor_ = std::numeric_limits<double>::infinity();  // of the cells inside the body
   Found best_;
   std::vector<Item> heap_;
 };
