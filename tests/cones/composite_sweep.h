@@ -6,12 +6,15 @@
 
 #include <vericone/geometry/assembly.h>
 #include <vericone/geometry/combined.h>
+#include <vericone/geometry/error.h>
 #include <vericone/geometry/pose.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
+
+#include "support/random_assemblies.h"
 
 namespace vericone::testing {
 
@@ -118,6 +121,58 @@ inline std::vector<Eigen::Vector3d> surface_points(const CombinedEllipsoid& body
   }
   if (spacing != nullptr) *spacing = 8 * axes(0) / std::sqrt(count);  // walls of dents stand steeply
   return points;
+}
+
+class RandomPairs : public RandomAssemblies {
+ public:
+  using RandomAssemblies::RandomAssemblies;
+
+  /// Dents, waists or both, so deep that other bodies fit into them.
+  CombinedEllipsoid delimited(const Eigen::Vector3d& center) {
+    const Eigen::Vector3d axes(uniform(1, 3), uniform(1, 3), uniform(1, 3));
+    const Ellipsoid ellipsoid = Ellipsoid::from_axes(center, axes, rotation());
+    for (;;) {
+      std::vector<Delimiter<3>> delimiters;
+      const int count = integer(1, 2);
+      for (int i = 0; i < count; ++i)
+        delimiters.push_back(
+            hyperboloid(integer(1, 2), Eigen::Vector3d(uniform(0.3, 1), uniform(0.3, 1.5), uniform(0.3, 1.5)),
+                        rotation()));
+      try {
+        return CombinedEllipsoid(ellipsoid, delimiters);
+      } catch (const InputError&) {  // one of them misses the ellipsoid
+      }
+    }
+  }
+
+  /// A few pieces of the kind about the origin.
+  Assembly few(PieceKind kind, int count) {
+    if (kind != PieceKind::hull) return body(kind, static_cast<std::size_t>(count), 0.3);
+    std::vector<HullBody> hulls;
+    for (int i = 0; i < count; ++i) {
+      std::vector<Eigen::Vector3d> points;
+      const Eigen::Vector3d c = vector(4);
+      for (int k = 0; k < 6; ++k) points.push_back(c + vector(0.5));
+      hulls.emplace_back(points);
+    }
+    return Assembly::polyhedra(hulls);
+  }
+};
+
+inline bool sweep_hits(const std::vector<Eigen::Vector3d>& points, const std::vector<SweptPiece>& pieces,
+                       const Eigen::Vector3d& w) {
+  for (const SweptPiece& piece : pieces)
+    for (const Eigen::Vector3d& p : points)
+      if (std::isfinite(ray_meets(p, w, piece))) return true;
+  return false;
+}
+
+inline double sweep_distance(const std::vector<Eigen::Vector3d>& points,
+                             const std::vector<SweptPiece>& pieces, const Eigen::Vector3d& w) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const SweptPiece& piece : pieces)
+    for (const Eigen::Vector3d& p : points) least = std::min(least, ray_distance(p, w, piece));
+  return least;
 }
 
 }  // namespace vericone::testing
