@@ -3,6 +3,7 @@
 #include <vericone/cones/ellipsoids/exact_position.h>
 #include <vericone/cones/ellipsoids/position.h>
 #include <vericone/geometry/exact/body.h>
+#include <vericone/testing/random_bodies.h>
 #include <Eigen/LU>
 
 #include <array>
@@ -12,7 +13,6 @@
 
 #include "cones/print_answers.h"
 #include "support/campaign.h"
-#include "support/random_bodies.h"
 
 namespace vericone::position_test {
 namespace {

@@ -7,11 +7,11 @@
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/exact/body.h>
 #include <vericone/geometry/exact/rational.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <iostream>
 
 #include "support/campaign.h"
-#include "support/random_bodies.h"
 
 namespace vericone::relation_rungs_test {
 namespace {

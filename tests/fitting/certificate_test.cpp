@@ -6,6 +6,7 @@
 #include <vericone/geometry/exact/quadric_side.h>
 #include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/quadric_side.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
@@ -13,7 +14,6 @@
 
 #include "proof/quadratic_form.h"
 #include "proof/triangle_form.h"
-#include "support/random_bodies.h"
 
 namespace vericone::fitting::certificate_test {
 namespace {

@@ -5,10 +5,9 @@
 #include <gtest/gtest.h>
 #include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/interval.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <limits>
-
-#include "support/random_bodies.h"
 
 namespace vericone::interval_test {
 namespace {

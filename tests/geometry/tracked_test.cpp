@@ -5,8 +5,7 @@
 #include <gtest/gtest.h>
 #include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/tracked.h>
-
-#include "support/random_bodies.h"
+#include <vericone/testing/random_bodies.h>
 
 namespace vericone::tracked_test {
 namespace {

@@ -37,8 +37,9 @@ class Ellipsoids : public Family {
     const Vector3d w = v_a - v_b;
     // The closest points just before: at the contact itself rounding may make them overlap.
     for (double before = 0x1p-50; before < 1e-3 && std::isfinite(contact.time); before *= 32) {
-      const Separation near =
-          separation(oracle_.a().translated((1 - before) * contact.time * w), oracle_.b());
+      const Vector3d way = (1 - before) * contact.time * w;
+      if (!way.allFinite()) break;
+      const Separation near = separation(oracle_.a().translated(way), oracle_.b());
       if (near.normal.isZero(0)) continue;
       contact.normal = near.normal;
       contact.point = in_world_at(oracle_.b().support_point(-near.normal), contact.time, v_b);

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/geometry/error.h>
+#include <vericone/testing/any_body.h>
+#include <vericone/testing/laws.h>
 #include <cmath>
 #include <string>
 #include <thread>
@@ -11,23 +13,18 @@
 
 #include "cones/pairs/sampled_body.h"
 #include "support/campaign.h"
-#include "support/random_bodies.h"
 
 namespace vericone::pair_test {
 namespace {
 
 using Eigen::Vector3d;
+using testing::any_body;
+using testing::any_pose;
 using testing::RandomBodies;
+using testing::sampled;
 using testing::SampledPlaced;
 using testing::share;
 using testing::Swept;
-
-Pose random_pose(RandomBodies& random, double distance) {
-  Pose pose;
-  pose.rotation = random.rotation();
-  pose.position = distance * random.direction();
-  return pose;
-}
 
 /// At the obstacle, or beside it by up to twice what both bodies measure.
 Vector3d aimed(RandomBodies& random, const SampledPlaced& a, const SampledPlaced& b) {
@@ -35,6 +32,14 @@ Vector3d aimed(RandomBodies& random, const SampledPlaced& a, const SampledPlaced
   const Vector3d beside = random.direction();
   return (c + random.uniform(0, 5) * beside) * random.log_uniform(0.1, 10);
 }
+
+/// Pair as a family, for the laws that all families obey.
+struct PairPredicate {
+  const Pair& pair;
+  std::optional<Relation> relation() const { return pair.relation(); }
+  Verdict membership(const Vector3d& v_a, const Vector3d& v_b) const { return pair.verdict(v_a, v_b); }
+  Verdict verdict(const Vector3d& v_a, const Vector3d& v_b) const { return pair.verdict(v_a, v_b); }
+};
 
 class EveryPair : public ::testing::TestWithParam<std::tuple<BodyKind, BodyKind>> {};
 
@@ -44,12 +49,14 @@ TEST_P(EveryPair, AgreesWithSampledSweepsAndItsMirrorImage) {
   SCOPED_TRACE(random.trace());
   int decided = 0, asked = 0, clear = 0;
   for (int i = 0; i < share(1000); ++i) {
-    const auto a = stand(random_body(random, first), random_pose(random, 0.5));
-    const auto b = stand(random_body(random, second), random_pose(random, random.uniform(4, 9)));
+    const auto a = stand(sampled(any_body(random, first)), any_pose(random, 0.5));
+    const auto b = stand(sampled(any_body(random, second)), any_pose(random, random.uniform(4, 9)));
     const Pair pair(a.placed, b.placed), mirrored(b.placed, a.placed);
     const Vector3d w = aimed(random, a, b), v_b = random.direction(), v_a = w + v_b;
     const Verdict verdict = pair.verdict(v_a, v_b);
     ASSERT_EQ(mirrored.verdict(v_b, v_a), verdict) << "pair " << i;
+    ASSERT_EQ(testing::broken_velocity_law(PairPredicate{pair}, PairPredicate{mirrored}, w), "")
+        << "pair " << i;
     ASSERT_EQ(mirrored.relation(), pair.relation());
     ASSERT_TRUE(!pair.guarantee().exact || verdict != Verdict::undecided);
     ++asked;
