@@ -66,26 +66,32 @@ class MissMeasure {
 template <class Measure>
 class CellDescent {
  public:
-  static constexpr std::size_t kMostItems = 100'000;
+  static constexpr std::size_t kMostItems = 100'000, kMoreItems = 2'000;
 
   CellDescent(const State& state, const Measure& measure, double width, const Found& known)
       : state_(state), cells_(*state.cells), measure_(measure), width_(width), best_(known) {}
 
   Found run() {
     push_node({}, 0, 0, false);
+    std::size_t stop = kMostItems;
     for (std::size_t asked = 0; !heap_.empty(); ++asked) {
       std::pop_heap(heap_.begin(), heap_.end(), later);
       const Item item = heap_.back();
       heap_.pop_back();
       if (item.least >= best_.most) break;
-      const bool last = item.slot != kNone && item.cell.level == cells_.most_levels();
-      if (last || item.least >= best_.most - width_ || asked > kMostItems) {
-        if (std::isinf(best_.most)) take_place(item);
-        best_.least = std::min(item.least, floor_);
-        return best_;
+      if (item.least >= best_.most - width_ || asked > stop) return ended(item);
+      if (item.slot == kNone) {
+        divide_node(item);
+      } else if (item.cell.level < cells_.most_levels()) {
+        divide_cell(item);
+      } else {
+        // The least is what it is now; for the most it is worth looking a little further.
+        if (std::isinf(floor_)) place_ = item;
+        floor_ = std::min(floor_, item.least);
+        stop = std::min(stop, asked + kMoreItems);
       }
-      item.slot == kNone ? divide_node(item) : divide_cell(item);
     }
+    if (std::isinf(best_.most) && std::isfinite(floor_)) return ended(place_);
     best_.least = std::min(best_.most, floor_);
     return best_;
   }
@@ -160,6 +166,11 @@ class CellDescent {
     best_ = found;
     best_.slot = slot;
   }
+  Found ended(const Item& item) {
+    if (std::isinf(best_.most)) take_place(std::isfinite(floor_) ? place_ : item);
+    best_.least = std::min(item.least, floor_);
+    return best_;
+  }
   /// Where it may be, if it is at all.
   void take_place(const Item& item) {
     const double least = item.least;
@@ -178,8 +189,9 @@ class CellDescent {
   const CellTree& cells_;
   const Measure& measure_;
   double width_;
-  double floor_ = std::numeric_limits<double>::infinity();  // of the cells inside the body
+  double floor_ = std::numeric_limits<double>::infinity();  // of what is not looked at again
   Found best_;
+  Item place_{};  // that of the first cell that could not be divided
   std::vector<Item> heap_;
 };
 
