@@ -16,9 +16,10 @@ namespace vericone::composite {
 /// A number and where it is attained, in the obstacle's frame.
 struct Found {
   double least = std::numeric_limits<double>::infinity(), most = least, best = least;
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();   // of the obstacle
-  Eigen::Vector3d other = Eigen::Vector3d::UnitX();  // contact: the normal; distance: the agent's point
-  double time = 0;                                   // distance: when
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();    // of the obstacle
+  Eigen::Vector3d other = Eigen::Vector3d::UnitX();   // contact: the normal; distance: the agent's point
+  double time = 0;                                    // distance: when
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  // of the plane that proves `least`
   std::uint32_t agent_slot = 0, slot = 0;
 };
 
@@ -35,6 +36,13 @@ class ContactMeasure {
     return slabs_.enter(difference.low.data(), difference.high.data());
   }
   Found of_piece(const assembly::Frame& frame, const assembly::Core& core, double limit) const;
+  /// What the plane with unit normal n says at least, see beyond_plane().
+  double by_plane(const assembly::Core& core, const Eigen::Vector3d& n, double room) const {
+    const double above = beyond_plane(core, {}, n, room),
+                 closing = n.dot(d_) + 8 * assembly::kUlp * d_.norm();
+    if (!(above > 0)) return 0;
+    return closing > 0 ? above / closing * (1 - 8 * assembly::kUlp) : std::numeric_limits<double>::infinity();
+  }
 
  private:
   const State& state_;
@@ -52,6 +60,9 @@ class MissMeasure {
     return std::max(0.0, test_.distance(difference.low, difference.high));
   }
   Found of_piece(const assembly::Frame& frame, const assembly::Core& core, double limit) const;
+  double by_plane(const assembly::Core& core, const Eigen::Vector3d& n, double room) const {
+    return beyond_plane(core, directions_, n, room);
+  }
 
  private:
   const State& state_;
@@ -121,9 +132,14 @@ class CellDescent {
     const double rough = measure_.of_box(difference(box, assembly::piece_box(state_.obstacle, slot)));
     if (!(rough < best_.most)) return;
     const assembly::Frame frame = state_.frame(HullBody::box(box.low, box.high));
-    const Found found =
-        measure_.of_piece(frame, assembly::piece_core(frame, state_.obstacle, slot), best_.most);
+    const assembly::Core core = assembly::piece_core(frame, state_.obstacle, slot);
+    Found found = measure_.of_piece(frame, core, best_.most);
     if (std::isinf(found.least)) return;
+    if (!full) {
+      found.least =
+          std::max(found.least, measure_.by_plane(core, found.normal, cells_.room(cell, found.normal)));
+      if (!(found.least < best_.most)) return;
+    }
     if (full) {
       take(found, slot);
       // Known as well as can be: nothing is learned from its parts.
