@@ -87,6 +87,56 @@ bool CellTree::full(const Cell& cell) const {
   return true;
 }
 
+CellTree::Quadratic CellTree::quadratic(std::size_t i, const Eigen::Vector3d& m,
+                                        const Eigen::Vector3d& h) const {
+  const Eigen::Vector3d reach = m.cwiseAbs() + h;
+  if (i == 0) {
+    const Eigen::Vector3d y = round_.to_frame() * m;
+    const double far = round_.norm() * reach.norm(), outer = round_.outer();
+    const double slack = 64 * kUlp * (far * far + outer * outer) + round_.beyond_range();
+    return {2 * (round_.to_frame().transpose() * y), y.squaredNorm() - outer * outer, slack};
+  }
+  const Delimiter<3>& d = body_.delimiters()[i - 1];
+  const Eigen::Vector3d slope = d.matrix * m;
+  double bend = 64 * kUlp * (reach.dot(d.matrix.cwiseAbs() * reach) + d.level) + 1e-280;
+  for (int j = 0; j < 3; ++j) {
+    bend += std::max(0.0, -d.matrix(j, j)) * h(j) * h(j);
+    for (int k = 0; k < j; ++k) bend += 2 * std::abs(d.matrix(j, k)) * h(j) * h(k);
+  }
+  return {2 * slope, m.dot(slope) - d.level, bend};
+}
+
+double CellTree::room(const Cell& cell, const Eigen::Vector3d& n) const {
+  const Eigen::Vector3d m = middle(cell), h = half(cell);
+  const double all = n.cwiseAbs().dot(h);
+  double best = 0;
+  for (std::size_t i = 0; i <= body_.delimiters().size(); ++i) {
+    const Quadratic q = quadratic(i, m, h);
+    // Linear in l between the values where an entry of n - l slope vanishes: the best is one of those.
+    for (int k = 0; k < 3; ++k) {
+      const double l = n(k) / q.slope(k);
+      if (!(l > 0) || !std::isfinite(l)) continue;
+      const Eigen::Vector3d rest = n - l * q.slope;
+      const double cut = rest.cwiseAbs().dot(h) - l * (q.value - q.bend);
+      const double slack = 64 * kUlp * (all + l * q.slope.cwiseAbs().dot(h) + l * std::abs(q.value));
+      best = std::max(best, all - cut - slack);
+    }
+  }
+  return best;
+}
+
+int CellTree::normals(const Cell& cell, Eigen::Vector3d (&out)[3]) const {
+  const Eigen::Vector3d m = middle(cell), h = half(cell);
+  int count = 0;
+  for (std::size_t i = 0; i <= body_.delimiters().size() && count < 3; ++i) {
+    const Quadratic q = quadratic(i, m, h);
+    // Those whose surface may pass through the cell.
+    if (q.value + q.slope.cwiseAbs().dot(h) + q.bend < 0 || q.slope.isZero(0)) continue;
+    out[count++] = q.slope;
+  }
+  return count;
+}
+
 std::optional<Eigen::Vector3d> CellTree::witness(const Cell& cell) const {
   const Eigen::Vector3d m = middle(cell), at = body_.center() + m;
   if (!at.allFinite()) return std::nullopt;

@@ -38,6 +38,13 @@ class CellTree {
   /// Proved that box(cell) is in the interior of the body.
   bool full(const Cell& cell) const;
 
+  /// By how much less than the cell the body in it reaches along n, at least; unit n. A quadric q that is not
+  /// positive on the body bounds n.x by n.x - l q(x) for every l >= 0, which falls short of the body by the
+  /// square of the cell's size only.
+  double room(const Cell& cell, const Eigen::Vector3d& n) const;
+  /// Outward normals of the quadrics about the cell, not zero; how many.
+  int normals(const Cell& cell, Eigen::Vector3d (&out)[3]) const;
+
   /// A point of the body's interior, proved, in the cell or near it.
   std::optional<Eigen::Vector3d> witness(const Cell& cell) const;
 
@@ -52,6 +59,13 @@ class CellTree {
   }
 
  private:
+  /// q(m + e) >= value + slope.e - bend for |e| <= h, where q <= 0 on the body.
+  struct Quadratic {
+    Eigen::Vector3d slope;
+    double value, bend;
+  };
+  /// 0: the ellipsoid's.
+  Quadratic quadratic(std::size_t i, const Eigen::Vector3d& m, const Eigen::Vector3d& h) const;
   Eigen::Vector3d middle(const Cell& cell) const;
   Eigen::Vector3d half(const Cell& cell) const;
 

@@ -88,7 +88,7 @@ Found ContactMeasure::of_piece(const Frame& frame, const Core& core, double limi
   found.most = contact->latest;
   found.best = contact->time;
   found.point = contact->point;
-  found.other = contact->normal;
+  found.other = found.normal = contact->normal;
   return found;
 }
 
@@ -109,6 +109,7 @@ Found MissMeasure::of_piece(const Frame& frame, const Core& core, double limit) 
   found.most = found.best = std::max(0.0, far - core.inner_rounding());
   found.least = std::max(0.0, near.least - radius);
   const Eigen::Vector3d n = near.v.isZero(0) ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : near.v.normalized();
+  if (!n.isZero(0)) found.normal = n;
   found.point = frame.to_space(near.on_piece) - state_.obstacle.radius() * n;
   found.other = frame.to_space(near.on_piece - near.k) + (state_.agent ? state_.agent->radius() : 0) * n;
   if (speed_ > 0) found.time = near.along[0] / speed_;

@@ -98,6 +98,7 @@ class CellSearch {
         if (assembly::meets_all(core, *all_)) return Outcome::met;
         continue;
       }
+      if (!pair.full && apart_by_quadrics(pair.cell, core)) continue;
       any = true;
       if (pair.full && found.answer == assembly::Gap::Answer::met) return Outcome::met;
       if (pair.full || all_ != nullptr) continue;
@@ -111,6 +112,23 @@ class CellSearch {
         return Outcome::met;
     }
     return any ? Outcome::open : Outcome::done;
+  }
+
+  /// Whether the piece is above a plane that the quadrics hold the body below.
+  bool apart_by_quadrics(const Cell& cell, const assembly::Core& core) const {
+    Eigen::Vector3d normals[3];
+    const int count = cells_.normals(cell, normals);
+    for (int i = 0; i < count; ++i) {
+      Eigen::Vector3d n = normals[i];
+      // Twice, so that what rounding leaves along the ray is less than what planes are forgiven.
+      if (directions_.count > 0)
+        for (int k = 0; k < 2; ++k) n -= std::max(0.0, n.dot(directions_.middle)) * directions_.middle;
+      const double length = n.norm();
+      if (!(length > 0)) continue;
+      n /= length;
+      if (beyond_plane(core, directions_, n, cells_.room(cell, n)) > 0) return true;
+    }
+    return false;
   }
 
   const State& state_;

@@ -16,9 +16,10 @@ namespace vericone::composite {
 /// A number and where it is attained, in the obstacle's frame.
 struct Found {
   double least = std::numeric_limits<double>::infinity(), most = least, best = least;
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();   // of the obstacle
-  Eigen::Vector3d other = Eigen::Vector3d::UnitX();  // contact: the normal; distance: the agent's point
-  double time = 0;                                   // distance: when
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();    // of the obstacle
+  Eigen::Vector3d other = Eigen::Vector3d::UnitX();   // contact: the normal; distance: the agent's point
+  double time = 0;                                    // distance: when
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  // of the plane that proves `least`
   std::uint32_t agent_slot = 0, slot = 0;
 };
 
@@ -35,6 +36,13 @@ class ContactMeasure {
     return slabs_.enter(difference.low.data(), difference.high.data());
   }
   Found of_piece(const assembly::Frame& frame, const assembly::Core& core, double limit) const;
+  /// What the plane with unit normal n says at least, see beyond_plane().
+  double by_plane(const assembly::Core& core, const Eigen::Vector3d& n, double room) const {
+    const double above = beyond_plane(core, {}, n, room),
+                 closing = n.dot(d_) + 8 * assembly::kUlp * d_.norm();
+    if (!(above > 0)) return 0;
+    return closing > 0 ? above / closing * (1 - 8 * assembly::kUlp) : std::numeric_limits<double>::infinity();
+  }
 
  private:
   const State& state_;
@@ -52,6 +60,9 @@ class MissMeasure {
     return std::max(0.0, test_.distance(difference.low, difference.high));
   }
   Found of_piece(const assembly::Frame& frame, const assembly::Core& core, double limit) const;
+  double by_plane(const assembly::Core& core, const Eigen::Vector3d& n, double room) const {
+    return beyond_plane(core, directions_, n, room);
+  }
 
  private:
   const State& state_;
@@ -66,26 +77,32 @@ class MissMeasure {
 template <class Measure>
 class CellDescent {
  public:
-  static constexpr std::size_t kMostItems = 100'000;
+  static constexpr std::size_t kMostItems = 100'000, kMoreItems = 2'000;
 
   CellDescent(const State& state, const Measure& measure, double width, const Found& known)
       : state_(state), cells_(*state.cells), measure_(measure), width_(width), best_(known) {}
 
   Found run() {
     push_node({}, 0, 0, false);
+    std::size_t stop = kMostItems;
     for (std::size_t asked = 0; !heap_.empty(); ++asked) {
       std::pop_heap(heap_.begin(), heap_.end(), later);
       const Item item = heap_.back();
       heap_.pop_back();
       if (item.least >= best_.most) break;
-      const bool last = item.slot != kNone && item.cell.level == cells_.most_levels();
-      if (last || item.least >= best_.most - width_ || asked > kMostItems) {
-        if (std::isinf(best_.most)) take_place(item);
-        best_.least = std::min(item.least, floor_);
-        return best_;
+      if (item.least >= best_.most - width_ || asked > stop) return ended(item);
+      if (item.slot == kNone) {
+        divide_node(item);
+      } else if (item.cell.level < cells_.most_levels()) {
+        divide_cell(item);
+      } else {
+        // The least is what it is now; for the most it is worth looking a little further.
+        if (std::isinf(floor_)) place_ = item;
+        floor_ = std::min(floor_, item.least);
+        stop = std::min(stop, asked + kMoreItems);
       }
-      item.slot == kNone ? divide_node(item) : divide_cell(item);
     }
+    if (std::isinf(best_.most) && std::isfinite(floor_)) return ended(place_);
     best_.least = std::min(best_.most, floor_);
     return best_;
   }
@@ -115,9 +132,14 @@ class CellDescent {
     const double rough = measure_.of_box(difference(box, assembly::piece_box(state_.obstacle, slot)));
     if (!(rough < best_.most)) return;
     const assembly::Frame frame = state_.frame(HullBody::box(box.low, box.high));
-    const Found found =
-        measure_.of_piece(frame, assembly::piece_core(frame, state_.obstacle, slot), best_.most);
+    const assembly::Core core = assembly::piece_core(frame, state_.obstacle, slot);
+    Found found = measure_.of_piece(frame, core, best_.most);
     if (std::isinf(found.least)) return;
+    if (!full) {
+      found.least =
+          std::max(found.least, measure_.by_plane(core, found.normal, cells_.room(cell, found.normal)));
+      if (!(found.least < best_.most)) return;
+    }
     if (full) {
       take(found, slot);
       // Known as well as can be: nothing is learned from its parts.
@@ -160,6 +182,11 @@ class CellDescent {
     best_ = found;
     best_.slot = slot;
   }
+  Found ended(const Item& item) {
+    if (std::isinf(best_.most)) take_place(std::isfinite(floor_) ? place_ : item);
+    best_.least = std::min(item.least, floor_);
+    return best_;
+  }
   /// Where it may be, if it is at all.
   void take_place(const Item& item) {
     const double least = item.least;
@@ -178,8 +205,9 @@ class CellDescent {
   const CellTree& cells_;
   const Measure& measure_;
   double width_;
-  double floor_ = std::numeric_limits<double>::infinity();  // of the cells inside the body
+  double floor_ = std::numeric_limits<double>::infinity();  // of what is not looked at again
   Found best_;
+  Item place_{};  // that of the first cell that could not be divided
   std::vector<Item> heap_;
 };
 
