@@ -136,16 +136,19 @@ Cone cone_by_map(const Family& family, const Vector3d& axis, const ConeOptions& 
 }
 
 Cone mirror_image(Cone cone) {
-  const auto turn = [](DirectionLoop& loop) {  // through the origin: what was to the left still is
+  // Through the origin: what turned counter-clockwise turns clockwise.
+  const auto reflect = [](DirectionLoop& loop) {
     for (Vector3d& d : loop) d = -d;
+    std::reverse(loop.begin(), loop.end());
   };
   cone.axis = -cone.axis;
   for (auto* loops : {&cone.inner, &cone.outer})
-    for (DirectionLoop& loop : *loops) turn(loop);
-  for (PolyhedralCone* star : {&cone.star_inner, &cone.star_outer}) turn(star->directions);
+    for (DirectionLoop& loop : *loops) reflect(loop);
+  for (PolyhedralCone* star : {&cone.star_inner, &cone.star_outer}) reflect(star->directions);
   if (cone.map) {
     auto map = std::make_shared<ConeMap>(*cone.map);
     for (Vector3d& d : map->corners) d = -d;
+    for (ConeMapCell& cell : map->cells) std::swap(cell.corners[1], cell.corners[2]);
     cone.map = std::move(map);
   }
   return cone;
