@@ -33,7 +33,8 @@ int side_of_star(const Vector3d& axis, const DirectionLoop& loop, const Vector3d
     // In the wedge of half-planes from `first` to `next`, edges included a little.
     const Vector3d from = axis.cross(first), to = next.cross(axis);
     if (from.dot(u) < -kMargin * from.norm() || to.dot(u) < -kMargin * to.norm()) continue;
-    if (from.dot(next) <= 0) continue;  // no wedge: a radial step
+    // A radial step, or a wedge so narrow that those beside it hold all of it too.
+    if (from.dot(next) <= 0.5 * kMargin * from.norm() * to.norm()) continue;
     found = true;
     const Vector3d edge = first.cross(next);
     const double height = edge.dot(u), margin = kMargin * edge.norm() + 4e-16;

@@ -133,6 +133,19 @@ TEST(ConeOfPair, SeveralObstaclesMakeOneMap) {
   EXPECT_EQ(both.cells[cell_at(both, {1, 1, 0})].label, Certified::out);
 }
 
+/// Polygons that are symmetric have corners at these azimuths, and steps along the radius.
+TEST(ConeOfPair, KnowsDirectionsAtItsCorners) {
+  const CombinedEllipsoid dented(Ellipsoid::from_axes({8, 0, 0}, {2, 3, 3}), {hyperboloid(2, {0.5, 1, 1})});
+  const Cone cone = Pair(ball({0, 0, 0}, 1), Placed(dented)).cone({.tolerance = 0.02});
+  EXPECT_EQ(cone.contains({1, 0, 0}), Certified::in);
+  EXPECT_EQ(cone.contains({-1, 0, 0}), Certified::out);
+  for (int i = 0; i < 16; ++i) {
+    const double azimuth = 2 * pi * i / 16;
+    EXPECT_EQ(cone.contains({1, std::cos(azimuth), std::sin(azimuth)}), Certified::out) << i;
+    EXPECT_EQ(cone.contains({1, 0.1 * std::cos(azimuth), 0.1 * std::sin(azimuth)}), Certified::in) << i;
+  }
+}
+
 TEST(ConeOfPair, RefusesATolerance) {
   const Pair pair(ball({0, 0, 0}, 1), ball({5, 0, 0}, 2));
   try {
