@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-#include "guidance/allocations.h"
+#include "support/allocations.h"
 #include "support/random_bodies.h"
 
 namespace vericone::guidance::law_singularities_test {

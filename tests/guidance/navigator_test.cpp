@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-#include "guidance/allocations.h"
+#include "support/allocations.h"
 #include "support/random_bodies.h"
 
 namespace vericone::guidance::navigator_test {
