@@ -60,11 +60,11 @@ Drawn draw(RandomBodies& random, int kind) {
 
 /// On the edge, within roundings of it or near it, or anywhere; at one length or of any size a double has.
 Vector3d velocity(RandomBodies& random, const Vector3d& edge) {
-  const int kind = random.integer(0, 9);
+  const int kind = random.integer(0, 19);
   if (kind == 0 && random.integer(0, 20) == 0) return Vector3d::Zero();
   Vector3d w = kind == 0   ? edge
                : kind == 1 ? random.ulps(edge, 2)
-               : kind < 6  ? Vector3d(edge + random.log_uniform(1e-12, 2) * edge.norm() * random.direction())
+               : kind < 10 ? Vector3d(edge + random.log_uniform(1e-12, 2) * edge.norm() * random.direction())
                            : random.direction();
   if (random.coin()) return w;
   return w * std::ldexp(1.0, random.coin() ? random.integer(-40, 40) : random.integer(-1100, 960));
