@@ -11,7 +11,7 @@
 #include <set>
 #include <string>
 
-#include "guidance/allocations.h"
+#include "support/allocations.h"
 
 namespace vericone::guidance::law_singularities_test {
 namespace {

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <vector>
 
-#include "guidance/allocations.h"
+#include "support/allocations.h"
 
 namespace vericone::guidance::navigator_test {
 namespace {
