@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "input/assembly_body.h"
 #include "json_value.h"
 
 namespace vericone {
@@ -63,6 +64,19 @@ Json certified_answer(const input::Engagement& e, bool with_rung) {
   return result;
 }
 
+/// Whether the contact is known to a thousandth of the time or a hundredth of the agent's size. It is not
+/// where a piece is so large that its coordinates are rounded by more.
+bool is_found(const AssemblyContact& contact, Membership membership, const Eigen::Vector3d& w,
+              const input::AssemblyEngagement& e) {
+  constexpr double kOfTime = 1e-3, kOfSize = 1e-2, kLargest = 1e7;
+  const double size = input::bounds_of_agent(e).half_widths().maxCoeff();
+  // What grazes has no time at which they surely overlap.
+  if (membership == Membership::on)
+    return e.obstacle.pieces.bounds().half_widths().maxCoeff() <= kLargest * size;
+  const double open = contact.latest - contact.earliest;
+  return open <= kOfTime * contact.latest || open * w.norm() <= kOfSize * size;
+}
+
 Json interval(double low, double high) { return {number_or_null(low), number_or_null(high)}; }
 
 /// A body of pieces: exact verdicts, enclosed lengths and times.
@@ -93,8 +107,7 @@ Json assembly_answer(const input::AssemblyEngagement& e, bool with_rung) {
     if (membership == Membership::on) clearance = 0.0, around = interval(0, 0);
     if (const auto contact = oracle.first_contact(w)) {
       enclosure = interval(contact->earliest, contact->latest);
-      // A contact that is proved and was not found: where sizes are too far apart for the search.
-      if (membership == Membership::on || std::isfinite(contact->latest)) {
+      if (is_found(*contact, membership, w, e)) {
         time = number_or_null(contact->time);
         point = vector_json(contact->point + contact->time * e.obstacle_velocity);
         normal = vector_json(contact->normal);
