@@ -164,7 +164,7 @@ TEST(PiecesQuestions, ContactsAndMissesAreThoseOfEachPieceAlone) {
 
 void expect_map_agrees(const CompositePair& pair, RandomPairs& random, double least_decided) {
   ConeMapOptions options;
-  options.resolution = 0.15;
+  options.resolution = 0.2;
   const ConeMap map = cone_map(pair, options);
   int known = 0, asked = 0;
   for (int i = 0; i < 300; ++i) {
@@ -184,7 +184,7 @@ TEST(CompositeCells, AgreeWithMembership) {
   RandomPairs random(53);
   SCOPED_TRACE(random.trace());
   double colliding = 0;
-  for (int scene = 0; scene < share(32); ++scene) {
+  for (int scene = 0; scene < share(16); ++scene) {
     const Assembly obstacle = random.few(testing::kPieceKinds[scene % 4], 4);
     const Vector3d place = random.vector(2) + Vector3d(7, 0, 0);
     if (scene % 2 == 0) {

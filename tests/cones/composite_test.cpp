@@ -236,6 +236,34 @@ TEST(DelimitedPairLaws, LengthPlaceAndFrameDoNotMatter) {
   EXPECT_GT(decided, share(120) * 4 * 0.95);
 }
 
+TEST(DelimitedPairLaws, OfAnySizeTheAnswersAreNeverWrong) {
+  RandomPairs random(31);
+  SCOPED_TRACE(random.trace());
+  int decided = 0, asked = 0;
+  for (int scene = 0; scene < share(40); ++scene) {
+    std::vector<HullBody> hulls;
+    const Assembly loose = random.few(PieceKind::hull, 4);
+    const CombinedEllipsoid body = random.delimited(random.vector(5));
+    const CompositePair pair(body, loose, {}, 1e-2);
+    const Vector3d w = random.vector(4) - body.center();
+    const auto answer = pair.membership(w, Vector3d::Zero());
+    for (const int exponent : {-480, -300, -60, 60, 110, 300, 480}) {
+      const double scale = std::ldexp(1.0, exponent);
+      hulls.clear();
+      for (std::size_t i = 0; i < loose.size(); ++i) hulls.push_back(loose.piece(i).scaled(scale));
+      const CompositePair scaled(body.scaled(scale), Assembly::polyhedra(hulls), {}, 1e-2);
+      ASSERT_TRUE(!scaled.relation() || !pair.relation() || *scaled.relation() == *pair.relation())
+          << exponent;
+      const auto other = scaled.membership(w, Vector3d::Zero());
+      ASSERT_TRUE(!answer || !other || *answer == *other) << exponent;
+      if (std::abs(exponent) > 60) continue;
+      ++asked;
+      decided += other.has_value();
+    }
+  }
+  EXPECT_GT(decided, 0.9 * asked);
+}
+
 TEST(PiecesPair, TouchingAndGrazingAreExact) {
   const Assembly cube = Assembly::boxes({{{0, 0, 0}, {1, 1, 1}}});
   const auto at = [](double x, double y) { return Assembly::boxes({{{x, y, 0}, {x + 1, y + 1, 1}}}); };

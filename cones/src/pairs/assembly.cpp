@@ -70,11 +70,13 @@ class AssemblyFamily : public Family {
   Vector3d axis() const override { return axis_; }
 
  protected:
-  /// Whether the contact is known to a thousandth of the time or a hundredth of the agent's size. It is not where a
-  /// piece is so large that its coordinates are rounded by more. What grazes has no time at which they surely overlap.
+  /// Whether the contact is known to a thousandth of the time or a hundredth of the agent's size. It is not
+  /// where a piece is so large that its coordinates are rounded by more. What grazes has no time at which
+  /// they surely overlap.
   bool is_known(const AssemblyContact& contact, const Vector3d& w) const {
     constexpr double kOfTime = 1e-3, kOfSize = 1e-2, kLargest = 1e7;
-    if (std::isinf(contact.latest)) return oracle_->obstacle().bounds().half_widths().maxCoeff() <= kLargest * size_;
+    if (std::isinf(contact.latest))
+      return oracle_->obstacle().bounds().half_widths().maxCoeff() <= kLargest * size_;
     const double open = contact.latest - contact.earliest;
     return open <= kOfTime * contact.latest || open * w.norm() <= kOfSize * size_;
   }
