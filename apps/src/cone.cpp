@@ -19,12 +19,13 @@
 #include "figures.h"
 #include "input/scene.h"
 #include "json_value.h"
-#include "output_folder.h"
+#include "pieces/pair_cone.h"
 #include "pieces/pieces_cone.h"
 #include "planar_cone.h"
 #include "provenance.h"
 #include "shape_engagements.h"
 #include "slice_json.h"
+#include "staged_folder.h"
 #include "stopwatch.h"
 
 namespace vericone {
@@ -108,7 +109,7 @@ Slices slices_of(const input::Engagement& e, int planes, SliceSector sectors) {
           extra};
 }
 
-SliceSector sectors_of(const ConeOptions& options) {
+SliceSector sectors_of(const ConeCommand& options) {
   if (options.tangents == "all") return SliceSector::all_candidates;
   if (options.tangents == "by-sides") return SliceSector::source_by_sides;
   if (options.tangents == "printed") return SliceSector::source_printed;
@@ -179,7 +180,7 @@ void print_text(const Json& cone, const input::Engagement& e, std::ostream& out)
   out << "time                " << cone["seconds"].dump() << " s\n";
 }
 
-Json cone_json(const ConeOptions& options, const input::Engagement& e) {
+Json cone_json(const ConeCommand& options, const input::Engagement& e) {
   if (options.samples && options.tolerance)
     throw InputError("--samples", std::to_string(*options.samples), "left out where --tolerance is given");
   const SliceSector sectors = sectors_of(options);
@@ -195,7 +196,7 @@ Json cone_json(const ConeOptions& options, const input::Engagement& e) {
   return exact_json(e.agent.ellipsoid(), e.obstacle.ellipsoid(), options.samples.value_or(kDefaultSamples));
 }
 
-void run_planar_cone(const ConeOptions& options, const input::PlanarEngagement& e, std::ostream& out) {
+void run_planar_cone(const ConeCommand& options, const input::PlanarEngagement& e, std::ostream& out) {
   if (options.method != "exact")
     throw InputError("--method", options.method, "left out for a planar scene, whose cone is one sector");
   if (options.tangents != "all")
@@ -281,7 +282,7 @@ struct ConePicture {
 };
 
 /// What --out asks for, refused before anything is printed or written.
-ConePicture cone_picture(const ConeOptions& options, const input::Engagement& e, const Json& cone) {
+ConePicture cone_picture(const ConeCommand& options, const input::Engagement& e, const Json& cone) {
   const auto refuse = [&](const char* requirement) {
     throw InputError("--out", options.picture_folder, requirement);
   };
@@ -301,7 +302,20 @@ ConePicture cone_picture(const ConeOptions& options, const input::Engagement& e,
 
 }  // namespace
 
-void run_cone(const ConeOptions& options, std::ostream& out) {
+void publish_cone(const ConeCommand& options, StagedFolder& folder, const Json& map,
+                  const std::string& script, const std::string& picture, std::ostream& out) {
+  if (options.map) write_whole(folder.path() / "cone_map.json", map.dump() + "\n");
+  if (options.figures) {
+    draw_figures(script, folder.path());
+    if (options.map) draw_figures("cone_map.py", folder.path());
+  }
+  const auto files =
+      folder.publish({"cone_map.json", "cone_map.pdf", "cone_map.png", picture + ".pdf", picture + ".png"});
+  if (options.json) return;
+  for (const auto& file : pictures_of(files)) out << "picture             " << file.string() << '\n';
+}
+
+void run_cone(const ConeCommand& options, std::ostream& out) {
   if (options.method != "exact" && options.method != "slice")
     throw InputError("--method", options.method, "slice or exact");
   const input::AnyEngagement scene = input::read_scene(options.scene);
@@ -309,12 +323,13 @@ void run_cone(const ConeOptions& options, std::ostream& out) {
     return run_planar_cone(options, *planar, out);
   if (const auto* pieces = std::get_if<input::AssemblyEngagement>(&scene))
     return run_pieces_cone(options, *pieces, out);
+  if (const auto* placed = std::get_if<input::PlacedEngagement>(&scene))
+    return run_pair_cone(options, *placed, out);
   const auto& e = std::get<input::Engagement>(scene);
-  std::optional<OutputFolder> held;
-  if (!options.picture_folder.empty()) held.emplace(options.picture_folder, "--picture");
+  std::optional<StagedFolder> folder;
+  if (!options.picture_folder.empty()) folder.emplace(options.picture_folder, "--out");
   Json cone = cone_json(options, e);
-  const bool drawn = !options.picture_folder.empty();
-  const ConePicture picture = drawn ? cone_picture(options, e, cone) : ConePicture{};
+  const ConePicture picture = folder ? cone_picture(options, e, cone) : ConePicture{};
   MapAnswer map;
   if (options.map)
     map = map_answer(e, *options.map, options.tolerance.value_or(kDefaultTolerance), options.scene);
@@ -325,19 +340,10 @@ void run_cone(const ConeOptions& options, std::ostream& out) {
     print_text(cone, e, out);
     if (options.map) print_map(map.summary, out);
   }
-  if (!drawn) return;
-  const std::filesystem::path folder = options.picture_folder;
-  write_whole(folder / "engagement.json", picture.data.dump(1) + "\n");
-  write_whole(folder / "shapes.json", Json{{"figures", {"engagement"}}}.dump(1) + "\n");
-  if (options.map) write_whole(folder / "cone_map.json", map.picture.dump() + "\n");
-  if (!options.figures) return;
-  std::vector<std::filesystem::path> files = draw_figures(picture.script, folder);
-  if (options.map) {
-    const auto more = draw_figures("cone_map.py", folder);
-    files.insert(files.end(), more.begin(), more.end());
-  }
-  if (!options.json)
-    for (const auto& file : files) out << "picture             " << file.string() << '\n';
+  if (!folder) return;
+  write_whole(folder->path() / "engagement.json", picture.data.dump(1) + "\n");
+  write_whole(folder->path() / "shapes.json", Json{{"figures", {"engagement"}}}.dump(1) + "\n");
+  publish_cone(options, *folder, map.picture, picture.script, "engagement", out);
 }
 
 }  // namespace vericone

@@ -56,8 +56,7 @@ void say_no_pictures(const std::string& why) {
 
 }  // namespace
 
-std::vector<std::filesystem::path> draw_figures(const std::string& script,
-                                                const std::filesystem::path& folder) {
+void draw_figures(const std::string& script, const std::filesystem::path& folder) {
   const std::filesystem::path scripts = scripts_folder(), file = scripts / script;
   if (!std::filesystem::exists(file)) throw std::runtime_error("figure script not found: " + file.string());
   const std::string python = interpreter(), scripts_text = scripts.string(), file_text = file.string(),
@@ -88,13 +87,10 @@ std::vector<std::filesystem::path> draw_figures(const std::string& script,
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   std::istringstream lines(output);
-  std::vector<std::filesystem::path> pictures;
   std::string line, last;
-  while (std::getline(lines, line)) {
+  while (std::getline(lines, line))
     if (!line.empty()) last = line;
-    if (line.starts_with("picture ")) pictures.emplace_back(line.substr(8));
-  }
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return pictures;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
   if (WIFEXITED(status) && WEXITSTATUS(status) == kNoInterpreter) {
     say_no_pictures("no interpreter " + python);
   } else if (lacks_package(last)) {
@@ -102,7 +98,13 @@ std::vector<std::filesystem::path> draw_figures(const std::string& script,
   } else {
     throw std::runtime_error(script + " failed: " + (last.empty() ? python + " ended without a word" : last));
   }
-  return {};
+}
+
+std::vector<std::filesystem::path> pictures_of(const std::vector<std::filesystem::path>& files) {
+  std::vector<std::filesystem::path> pictures;
+  for (const auto& file : files)
+    if (file.extension() == ".png" || file.extension() == ".pdf") pictures.push_back(file);
+  return pictures;
 }
 
 }  // namespace vericone

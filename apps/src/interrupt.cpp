@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "interrupt.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -16,6 +18,7 @@ namespace vericone {
 namespace {
 
 volatile std::sig_atomic_t flag = 0;
+std::atomic<bool> ends_itself{false};
 std::array<int, 2> wake = {-1, -1};
 
 extern "C" void set_flag(int signal) {
@@ -32,6 +35,7 @@ void end_when_interrupted() {
   }
   constexpr auto kGrace = std::chrono::milliseconds(300);
   std::this_thread::sleep_for(kGrace);
+  if (ends_itself) return;
   const std::lock_guard guard(appearing());
   abandon_output();
   std::_Exit(kExitInterrupted);
@@ -40,15 +44,13 @@ void end_when_interrupted() {
 }  // namespace
 
 void catch_interrupts() {
+  if (pipe2(wake.data(), O_CLOEXEC) == 0) std::thread(end_when_interrupted).detach();
   std::signal(SIGINT, set_flag);
   std::signal(SIGTERM, set_flag);
 }
 
-void catch_interrupts_and_end() {
-  if (wake[1] < 0 && pipe(wake.data()) == 0) std::thread(end_when_interrupted).detach();
-  catch_interrupts();
-}
-
 bool interrupted() { return flag != 0; }
+
+void end_by_ourselves() { ends_itself = true; }
 
 }  // namespace vericone

@@ -3,13 +3,14 @@
 
 namespace vericone {
 
-/// From here on, Ctrl-C and a termination request only set a flag; a second one ends the program.
+/// From here on, Ctrl-C and a termination request set a flag. Where the program has not ended some tenths of
+/// a second after that, it is ended and leaves no unfinished files: most work looks at the flag too seldom,
+/// or never. A second request ends it at once.
 void catch_interrupts();
 bool interrupted();
 
-/// The same for work that looks at the flag too seldom and has nothing to save: where it has not ended
-/// some tenths of a second after the flag was set, the program ends and leaves no unfinished files.
-void catch_interrupts_and_end();
+/// For a command that looks at the flag often and then tells what it has: it is not ended.
+void end_by_ourselves();
 
 inline constexpr int kExitInterrupted = 130;
 

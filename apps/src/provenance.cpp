@@ -72,18 +72,9 @@ Json provenance(const std::string& command_line, int threads,
 }
 
 void write_whole(const std::filesystem::path& path, const std::string& content) {
-  std::filesystem::path partial = path;
-  partial += ".partial";
-  try {
-    OutputFile file(partial);
-    file.write(content);
-    file.close();
-    std::filesystem::rename(partial, path);
-  } catch (...) {
-    std::error_code ignored;
-    std::filesystem::remove(partial, ignored);
-    throw;
-  }
+  OutputFile file(path);
+  file.write(content);
+  file.close();
 }
 
 }  // namespace vericone

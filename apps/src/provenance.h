@@ -14,8 +14,8 @@ namespace vericone {
 Json provenance(const std::string& command_line, int threads,
                 const std::vector<std::filesystem::path>& inputs);
 
-/// Writes to a neighbouring file first and renames: a reader sees the old content or the new one, never half.
-/// Throws std::runtime_error naming the path.
+/// For files in a StagedFolder, which nobody sees before they are whole. Throws std::runtime_error naming the
+/// path.
 void write_whole(const std::filesystem::path& path, const std::string& content);
 
 }  // namespace vericone

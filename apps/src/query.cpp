@@ -10,6 +10,7 @@
 
 #include "answer.h"
 #include "input/text_source.h"
+#include "interrupt.h"
 #include "json_value.h"
 
 namespace vericone {
@@ -148,7 +149,9 @@ std::string answer_line(const std::string& line, std::size_t number, bool with_r
 
 }  // namespace
 
-Json parse_case(const std::string& line, std::size_t number) { return parse_line(line, number, outline_of(line).levels); }
+Json parse_case(const std::string& line, std::size_t number) {
+  return parse_line(line, number, outline_of(line).levels);
+}
 
 int run_query(const std::string& path, bool with_rung, std::ostream& out) {
   input::TextSource cases(path, "a file of cases, one JSON object a line, or - for standard input");
@@ -157,12 +160,13 @@ int run_query(const std::string& path, bool with_rung, std::ostream& out) {
   std::string line;
   // A consumer that feeds line by line waits for each answer.
   const auto flush = [&] { out.flush(); };
-  for (std::size_t number = 1; cases.next_line(line, flush); ++number) {
+  for (std::size_t number = 1; !interrupted() && cases.next_line(line, flush); ++number) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     out << answer_line(line, number, with_rung, folder, bad) << '\n';
     if (!out) throw std::runtime_error("standard output was closed");
   }
   out.flush();
+  if (interrupted()) return kExitInterrupted;
   return bad ? 2 : 0;
 }
 

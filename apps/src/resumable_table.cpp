@@ -18,7 +18,6 @@
 
 #include "interrupt.h"
 #include "output_file.h"
-#include "output_folder.h"
 
 namespace vericone {
 namespace {
@@ -30,7 +29,7 @@ std::uint64_t complete_rows(const std::filesystem::path& partial, const Resumabl
   std::string line;
   if (!std::getline(in, line) || in.eof()) return 0;  // not even the first line: start anew
   if (line != work.settings)
-    throw InputError("--out", work.table.parent_path().string(),
+    throw InputError("--out", partial.parent_path().string(),
                      "a folder without the unfinished run of other settings that " +
                          partial.filename().string() + " holds; delete that file to give it up");
   if (!std::getline(in, line) || in.eof() || line != work.header) return 0;
@@ -81,9 +80,7 @@ class RowProgress {
 }  // namespace
 
 TableOutcome run_table(const ResumableTable& work) {
-  std::filesystem::path partial = work.table;
-  partial += ".partial";
-  const OutputFolder folder(work.table.parent_path(), "--out");
+  const std::filesystem::path partial = work.folder.resumable(work.name);
   std::uint64_t written = complete_rows(partial, work);
   OutputFile out(partial, written ? OutputFile::Start::at_end : OutputFile::Start::anew);
   if (written == 0) out.write(work.settings + "\n" + work.header + "\n");
@@ -141,9 +138,7 @@ TableOutcome run_table(const ResumableTable& work) {
   if (failure) std::rethrow_exception(failure);
   progress.show(written, true);
   out.close();
-  if (written < work.count) return TableOutcome::interrupted;
-  std::filesystem::rename(partial, work.table);
-  return TableOutcome::finished;
+  return written < work.count ? TableOutcome::interrupted : TableOutcome::finished;
 }
 
 }  // namespace vericone

@@ -12,10 +12,10 @@
 
 #include "figures.h"
 #include "json_value.h"
-#include "output_folder.h"
 #include "provenance.h"
 #include "shape_engagements.h"
 #include "shape_json.h"
+#include "staged_folder.h"
 
 namespace vericone {
 namespace {
@@ -68,16 +68,18 @@ CombinedEllipse six_pointed() {
 /// What the figures share: the options, and which surfaces have been written as files.
 class Shapes {
  public:
-  Shapes(const ShapesOptions& options, std::ostream& out) : options_(options), out_(out) {}
+  Shapes(const ShapesOptions& options, const StagedFolder& folder, std::ostream& out)
+      : options_(options), folder_(folder), out_(out) {}
 
   Json solid(const std::string& name, const CombinedEllipsoid& body, const std::string& part = "whole") {
     const CombinedSurface whole = surface(body, options_.resolution);
     if (!options_.mesh.empty() && files_.insert(name).second) {
-      const std::filesystem::path file = std::filesystem::path(options_.out) / (name + "." + options_.mesh);
+      const std::filesystem::path file = folder_.path() / (name + "." + options_.mesh);
       write_whole(file, options_.mesh == "obj" ? to_obj(whole) : to_ply(whole));
       const VolumeEstimate v = volume(body);
-      out_ << "surface   " << file.string() << ": " << whole.triangles.size() << " triangles, volume "
-           << to_text(enclosed_volume(whole)) << " of " << to_text(v.value) << " m^3\n";
+      out_ << "surface   " << folder_.published(file).string() << ": " << whole.triangles.size()
+           << " triangles, volume " << to_text(enclosed_volume(whole)) << " of " << to_text(v.value)
+           << " m^3\n";
     }
     return solid_json(body, whole, part);
   }
@@ -93,6 +95,7 @@ class Shapes {
 
  private:
   const ShapesOptions& options_;
+  const StagedFolder& folder_;
   std::ostream& out_;
   std::set<std::string> files_;
 };
@@ -191,33 +194,31 @@ void run_shapes(const ShapesOptions& options, std::ostream& out) {
   for (const std::string& name : options.which)
     if (std::none_of(chosen.begin(), chosen.end(), [&](const ShapeFigure* f) { return f->name == name; }))
       throw InputError("--figure", name, "one of " + names);
-  const std::filesystem::path folder = options.out;
-  const OutputFolder held(folder, "--out");
+  StagedFolder folder(options.out, "--out");
   std::ostream silent(nullptr);
   std::ostream& text = options.json ? silent : out;
-  Shapes shapes(options, text);
-  Json files = Json::array();
-  std::vector<std::string> written, scripts;
+  Shapes shapes(options, folder, text);
+  std::vector<std::string> written, scripts, old;
   for (const ShapeFigure* f : chosen) {
-    const auto file = folder / (std::string(f->name) + ".json");
-    write_whole(file, f->data(shapes).dump() + "\n");
-    text << "data      " << file.string() << '\n';
-    files.push_back(file.string());
+    write_whole(folder.path() / (std::string(f->name) + ".json"), f->data(shapes).dump() + "\n");
+    for (const char* end : {".pdf", ".png"}) old.push_back(std::string(f->name) + end);
     written.emplace_back(f->name);
     if (std::find(scripts.begin(), scripts.end(), f->script) == scripts.end())
       scripts.emplace_back(f->script);
   }
-  write_whole(folder / "shapes.json", Json{{"figures", written}}.dump(1) + "\n");
+  write_whole(folder.path() / "shapes.json", Json{{"figures", written}}.dump(1) + "\n");
   Json origin = provenance(options.command_line, 1, {});
   origin["resolution"] = options.resolution;
-  write_whole(folder / "provenance.json", origin.dump(1) + "\n");
+  write_whole(folder.path() / "provenance.json", origin.dump(1) + "\n");
   if (options.figures)
-    for (const std::string& script : scripts)
-      for (const auto& file : draw_figures(script, folder)) {
-        text << "picture   " << file.string() << '\n';
-        files.push_back(file.string());
-      }
-  if (options.json) out << Json{{"figures", written}, {"files", files}}.dump(1) << '\n';
+    for (const std::string& script : scripts) draw_figures(script, folder.path());
+  const auto files = folder.publish(old);
+  for (const std::string& name : written)
+    text << "data      " << (std::filesystem::path(options.out) / (name + ".json")).string() << '\n';
+  for (const auto& picture : pictures_of(files)) text << "picture   " << picture.string() << '\n';
+  Json list = Json::array();
+  for (const auto& file : files) list.push_back(file.string());
+  if (options.json) out << Json{{"figures", written}, {"files", list}}.dump(1) << '\n';
 }
 
 }  // namespace vericone

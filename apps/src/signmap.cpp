@@ -16,8 +16,8 @@
 
 #include "figures.h"
 #include "json_value.h"
-#include "output_folder.h"
 #include "provenance.h"
+#include "staged_folder.h"
 
 namespace vericone {
 namespace {
@@ -89,8 +89,7 @@ Json ellipsoid_json(const Ellipsoid& body) {
 void run_signmap(const SignMapOptions& options, std::ostream& out) {
   if (options.cells < 3 || options.cells > 2001)
     throw InputError("--cells", std::to_string(options.cells), "between 3 and 2001");
-  const std::filesystem::path folder = options.out;
-  const OutputFolder held(folder, "--out");
+  StagedFolder folder(options.out, "--out");
   const Grazing g = grazing_engagement(options.seed);
   const ConeOracle oracle(g.a, g.b);
   const int half = options.cells / 2, cells = 2 * half + 1;
@@ -124,20 +123,23 @@ void run_signmap(const SignMapOptions& options, std::ostream& out) {
     summary["answers"][to_string(m)] = answers.at(static_cast<std::size_t>(m));
   for (const Rung r : {Rung::triage, Rung::interval, Rung::exact})
     summary["rungs"][to_string(r)] = rungs.at(static_cast<std::size_t>(r));
-  write_whole(folder / "signmap.csv", table);
-  write_whole(folder / "signmap.json", summary.dump(1) + "\n");
+  write_whole(folder.path() / "signmap.csv", table);
+  write_whole(folder.path() / "signmap.json", summary.dump(1) + "\n");
   Json origin = provenance(options.command_line, 1, {});
   origin["seed"] = options.seed;
   origin["cells"] = cells;
-  write_whole(folder / "provenance.json", origin.dump(1) + "\n");
+  write_whole(folder.path() / "provenance.json", origin.dump(1) + "\n");
+  if (options.figures) draw_figures("signmap.py", folder.path());
+  const auto files =
+      folder.publish({"signmap.csv", "signmap.json", "provenance.json", "signmap.pdf", "signmap.png"});
   std::ostream silent(nullptr);
   std::ostream& text = options.json ? silent : out;
+  const std::filesystem::path shown = options.out;
   if (options.json) out << summary.dump(1) << '\n';
   text << cells * cells << " velocities around an exactly grazing one: plain doubles wrong on " << wrong
-       << "; rungs " << summary["rungs"].dump() << "\ntables    " << (folder / "signmap.csv").string() << ", "
-       << (folder / "signmap.json").string() << ", " << (folder / "provenance.json").string() << '\n';
-  if (options.figures)
-    for (const auto& file : draw_figures("signmap.py", folder)) text << "picture   " << file.string() << '\n';
+       << "; rungs " << summary["rungs"].dump() << "\ntables    " << (shown / "signmap.csv").string() << ", "
+       << (shown / "signmap.json").string() << ", " << (shown / "provenance.json").string() << '\n';
+  for (const auto& file : pictures_of(files)) text << "picture   " << file.string() << '\n';
 }
 
 }  // namespace vericone

@@ -5,11 +5,13 @@
 #include <iosfwd>
 #include <string>
 
+#include "default_seed.h"
+
 namespace vericone {
 
 struct SignMapOptions {
-  int cells = 193;          // along each axis, 3 to 2001; an even number means one more
-  std::uint64_t seed = 12;  // of the engagement
+  int cells = 193;                    // along each axis, 3 to 2001; an even number means one more
+  std::uint64_t seed = kDefaultSeed;  // of the engagement
   std::string out = "out/signmap";
   bool figures = true;
   bool json = false;

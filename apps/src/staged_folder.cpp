@@ -3,7 +3,10 @@
 
 #include <vericone/geometry/error.h>
 #include <algorithm>
+#include <set>
+#include <stdexcept>
 
+#include "interrupt.h"
 #include "output_file.h"
 
 namespace vericone {
@@ -22,28 +25,57 @@ StagedFolder::~StagedFolder() {
   fs::remove_all(stage_, ignored);
 }
 
+fs::path StagedFolder::published(const fs::path& file) const {
+  return folder_.path() / file.lexically_relative(stage_);
+}
+
+fs::path StagedFolder::resumable(const std::string& name) {
+  if (std::find(resumable_.begin(), resumable_.end(), name) == resumable_.end()) resumable_.push_back(name);
+  return folder_.path() / (name + ".partial");
+}
+
+std::vector<StagedFolder::Move> StagedFolder::moves() const {
+  std::vector<Move> all;
+  for (const auto& entry : fs::recursive_directory_iterator(stage_))
+    if (!entry.is_directory()) all.push_back({entry.path(), published(entry.path())});
+  for (const std::string& name : resumable_)
+    if (const fs::path to = folder_.path() / name; fs::exists(to.string() + ".partial"))
+      all.push_back({to.string() + ".partial", to});
+  std::sort(all.begin(), all.end(), [](const Move& a, const Move& b) { return a.to < b.to; });
+  return all;
+}
+
 std::vector<fs::path> StagedFolder::publish(const std::vector<std::string>& names) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(stage_)) files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  const auto target = [&](const fs::path& file) { return folder_.path() / file.filename(); };
-  for (const fs::path& file : files) {
-    if (fs::is_directory(target(file)) && !fs::is_directory(file))
+  const std::vector<Move> all = moves();
+  std::set<fs::path> folders{folder_.path()};
+  for (const Move& move : all) {
+    if (fs::is_directory(move.to))
       throw InputError(
           option_, folder_.path().string(),
-          "a folder without one in it called " + file.filename().string() + ", which is to be a file");
-    sync_to_disk(file);
+          "a folder without one in it called " + move.to.filename().string() + ", which is to be a file");
+    const fs::path parent = move.to.parent_path();
+    if (fs::exists(parent) && !fs::is_directory(parent))
+      throw InputError(
+          option_, folder_.path().string(),
+          "a folder without a file in it called " + parent.filename().string() + ", which is to be a folder");
+    folders.insert(parent);
+    sync_to_disk(move.from);
   }
   const std::lock_guard guard(appearing());
-  for (const std::string& name : names)
-    if (std::none_of(files.begin(), files.end(), [&](const fs::path& f) { return f.filename() == name; }) &&
-        !fs::is_directory(folder_.path() / name))
-      fs::remove(folder_.path() / name);
-  for (fs::path& file : files) {
-    fs::rename(file, target(file));
-    file = target(file);
+  if (interrupted()) throw std::runtime_error("interrupted");
+  for (const std::string& name : names) {
+    const fs::path old = folder_.path() / name;
+    if (std::none_of(all.begin(), all.end(), [&](const Move& move) { return move.to == old; }) &&
+        !fs::is_directory(old))
+      fs::remove(old);
   }
-  sync_to_disk(folder_.path());
+  std::vector<fs::path> files;
+  for (const fs::path& folder : folders) fs::create_directories(folder);
+  for (const Move& move : all) {
+    fs::rename(move.from, move.to);
+    files.push_back(move.to);
+  }
+  for (const fs::path& folder : folders) sync_to_disk(folder);
   return files;
 }
 

@@ -6,11 +6,11 @@
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/ellipsoids/enclosures.h>
 #include <vericone/cones/planar/enclose_sector.h>
+#include <vericone/cones/planar/sector_oracle.h>
 #include <vericone/geometry/error.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <iostream>
-
-#include "support/random_bodies.h"
 
 namespace vericone::enclosures_test {
 namespace {

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "body_distance.h"
+#include "distance/body_distance.h"
 #include "support/random.h"
 
 namespace vericone::fitting::distance_test {

@@ -12,7 +12,7 @@
 #include <numbers>
 
 #include "geometry/meshes.h"
-#include "scan_distance.h"
+#include "distance/scan_distance.h"
 #include "support/random.h"
 #ifdef VERICONE_HAVE_FILES
 #include <vericone/files/triangle_mesh.h>

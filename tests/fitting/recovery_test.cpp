@@ -18,7 +18,7 @@
 
 #include "fitting/noisy_surfaces.h"
 #include "support/campaign.h"
-#include "surface_model.h"
+#include "surface/model.h"
 
 namespace vericone::fitting::recovery_test {
 namespace {

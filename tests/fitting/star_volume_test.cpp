@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "star_volume.h"
+#include "containing/star_volume.h"
 
 #include <gtest/gtest.h>
 #include <vericone/geometry/combined_volume.h>

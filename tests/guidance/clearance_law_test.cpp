@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/guidance/clearance_law.h>
+#include <vericone/testing/random_bodies.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "cones/richardson.h"
-#include "support/random_bodies.h"
 
 namespace vericone::guidance::clearance_law_test {
 namespace {

@@ -203,6 +203,17 @@ const char* plural(PieceKind kind) {
 
 }  // namespace
 
+Box bounds_of_agent(const AssemblyEngagement& e) {
+  if (const auto* ellipsoid = std::get_if<Ellipsoid>(&e.agent)) {
+    const Eigen::Vector3d half = ellipsoid->factor().rowwise().norm();
+    return {ellipsoid->center() - half, ellipsoid->center() + half};
+  }
+  const auto& points = std::get<HullBody>(e.agent).points();
+  Box bounds{points.front(), points.front()};
+  for (const Eigen::Vector3d& x : points) bounds.include({x, x});
+  return bounds;
+}
+
 std::string pieces_kinds() {
   std::string list;
   for (const char* kind : kKinds)

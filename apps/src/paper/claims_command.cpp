@@ -54,7 +54,6 @@ void print_table(const std::vector<Claim>& claims, bool given, std::ostream& out
 }  // namespace
 
 int run_claims(const ClaimsOptions& options, std::ostream& out) {
-  catch_interrupts_and_end();
   std::optional<StagedFolder> folder;
   if (!options.out.empty()) folder.emplace(options.out, "--out");
   std::vector<Claim> claims;

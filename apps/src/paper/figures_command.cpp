@@ -194,7 +194,6 @@ int run_figures(const FiguresOptions& options, std::ostream& out) {
     return 0;
   }
   const OutputFolder whole(options.out, "--out");
-  catch_interrupts_and_end();
   const auto start = Clock::now();
   try {
     Progress progress(options.quiet);
@@ -204,10 +203,6 @@ int run_figures(const FiguresOptions& options, std::ostream& out) {
     maker.report();
   } catch (const dhal2022::Interrupted&) {
     return kExitInterrupted;
-  } catch (const std::runtime_error&) {
-    // A figure script gets the same signal and ends.
-    if (interrupted()) return kExitInterrupted;
-    throw;
   }
   const double seconds = seconds_since(start);
   const fs::path folder = options.out;

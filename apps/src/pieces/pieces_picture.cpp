@@ -33,18 +33,6 @@ Json agent_json(const input::AssemblyEngagement& e) {
   return {{"center", vector_json(agent_center(e))}, {"points", points}};
 }
 
-/// Around the agent, axis-aligned.
-Box bounds_of(const input::AssemblyEngagement& e) {
-  if (const auto* ellipsoid = std::get_if<Ellipsoid>(&e.agent)) {
-    const Eigen::Vector3d half = ellipsoid->factor().rowwise().norm();
-    return {ellipsoid->center() - half, ellipsoid->center() + half};
-  }
-  const auto& points = std::get<HullBody>(e.agent).points();
-  Box bounds{points.front(), points.front()};
-  for (const Eigen::Vector3d& x : points) bounds.include({x, x});
-  return bounds;
-}
-
 /// Metres to the first contact in each direction, row by row; null where none comes.
 template <typename Direction>
 Json distances(const AssemblyOracle& oracle, int rows, int columns, int thread_count, Direction direction) {
@@ -125,7 +113,7 @@ Json velocity_json(const AssemblyCone& cone, const input::AssemblyEngagement& e)
 
 std::string write_pieces_picture(const AssemblyCone& cone, const input::AssemblyEngagement& e,
                                  const std::filesystem::path& folder, int threads) {
-  const Box agent = bounds_of(e);
+  const Box agent = input::bounds_of_agent(e);
   const bool within = e.obstacle.pieces.bounds().contains(e.obstacle.pose.to_body(agent.center()));
   Json data = to_json(cone, e);
   data["title"] = describe(e.obstacle);

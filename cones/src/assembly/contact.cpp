@@ -178,6 +178,7 @@ AssemblyMiss miss_distance(const Scene& scene, const Frame& space, const Eigen::
         Eigen::Vector3d point = found.on_piece;
         if (scene.body().radius() > 0) point -= scene.body().radius() * found.v.normalized();
         miss.point = scene.point_to_world(space.to_space(point));
+        miss.normal = found.v.isZero(0) ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : scene.to_world(found.v.normalized());
         miss.time = moving ? found.along[0] / w.norm() : 0;
         miss.piece = scene.piece(slot);
       }
@@ -220,12 +221,16 @@ AssemblyMiss AssemblyOracle::miss_distance(const Eigen::Vector3d& w, double tole
     if (const std::optional<AssemblyContact> contact = first_contact(w, effort)) {
       AssemblyMiss met;
       met.point = contact->point;
+      met.normal = contact->normal;
       met.time = contact->time;
       met.piece = contact->piece;
       return met;
     }
   AssemblyMiss miss = assembly::miss_distance(scene, state_->space, scene.to_body(w), tolerance, count);
-  if (state_->relation != Relation::disjoint) miss.least = miss.most = 0;
+  if (state_->relation != Relation::disjoint) {
+    miss.least = miss.most = 0;
+    miss.normal.setZero();
+  }
   return miss;
 }
 

@@ -138,6 +138,10 @@ IntervalVector3 CombinedFrame::direction(const Eigen::Vector3d& w) const {
     const double x = std::ldexp(w(i), -e);
     v[i] = Interval(x, std::abs(x) < 0x1p-1000 ? Interval::kTiny : 0);
   }
+  return direction(v);
+}
+
+IntervalVector3 CombinedFrame::direction(IntervalVector3 v) const {
   v = inverse_a_ * v;
   // Any positive factor will do.
   const Interval scale(1 / middle(v).norm());

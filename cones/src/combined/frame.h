@@ -33,6 +33,8 @@ class CombinedFrame {
 
   /// A velocity, or a direction, in the frame; scaled to about unit length.
   IntervalVector3 direction(const Eigen::Vector3d& w) const;
+  /// Of a velocity known to lie in a box of a size that doubles hold.
+  IntervalVector3 direction(IntervalVector3 w) const;
 
   const IntervalVector3& center() const { return center_; }  // c = p_B - p_A
   const std::vector<EnclosedQuadric>& a() const {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "answers/velocity_ladder.h"
 #include "combined/contacts.h"
 
 namespace vericone {
@@ -74,6 +75,18 @@ struct CombinedOracle::State {
 
   Vector3d own(const Vector3d& w) const { return swapped ? Vector3d(-w) : w; }
   IntervalVector3 direction(const Vector3d& w) const { return contacts.frame().direction(own(w)); }
+  /// Of first - second, without rounding, in the order of a and b.
+  IntervalVector3 direction(const Vector3d& first, const Vector3d& second) const {
+    if (second.isZero(0)) return contacts.frame().direction(first);
+    const double largest = std::max(first.cwiseAbs().maxCoeff(), second.cwiseAbs().maxCoeff());
+    const int e = std::ilogb(largest);
+    IntervalVector3 w;
+    for (int i = 0; i < 3; ++i) {
+      const Interval tiny(0, Interval::kTiny);  // what may be lost in scaling
+      w[i] = Interval(std::ldexp(first(i), -e)) - Interval(std::ldexp(second(i), -e)) + tiny;
+    }
+    return contacts.frame().direction(w);
+  }
 };
 
 CombinedOracle::CombinedOracle(const CombinedEllipsoid& a, const CombinedEllipsoid& b, double tolerance) {
@@ -91,24 +104,30 @@ std::uint64_t CombinedOracle::boxes_searched() const { return state_->boxes_sear
 std::optional<Relation> CombinedOracle::relation() const { return state_->relation; }
 
 Certified CombinedOracle::membership(const Vector3d& w) const {
-  const State& s = *state_;
   for (int i = 0; i < 3; ++i)
     if (!std::isfinite(w(i)))
       throw InputError("relative_velocity[" + std::to_string(i) + "]", to_text(w(i)),
                        "a finite number (m/s)");
-  if (w.isZero(0)) return Certified::out;
+  return membership(w, Vector3d::Zero());
+}
+
+Certified CombinedOracle::membership(const Vector3d& v_a, const Vector3d& v_b) const {
+  const State& s = *state_;
+  require_finite_velocity(v_a, "agent_velocity");
+  require_finite_velocity(v_b, "obstacle_velocity");
+  if (v_a == v_b) return Certified::out;
   if (s.relation == Relation::overlapping) return Certified::in;
   if (s.relation != Relation::disjoint) return Certified::undecided;
-  const Vector3d own = s.own(w);
-  if (s.exact) return s.exact->membership(own) == Membership::out ? Certified::out : Certified::in;
-  if (s.around && s.around->membership(own) == Membership::out) return Certified::out;
-  if (s.inside && s.inside->membership(own) != Membership::out) return Certified::in;
+  const Vector3d &first = s.swapped ? v_b : v_a, &second = s.swapped ? v_a : v_b;
+  if (s.exact) return s.exact->membership(first, second) == Membership::out ? Certified::out : Certified::in;
+  if (s.around && s.around->membership(first, second) == Membership::out) return Certified::out;
+  if (s.inside && s.inside->membership(first, second) != Membership::out) return Certified::in;
   if (!s.contacts.usable()) return Certified::undecided;
   for (const CombinedOracle& oracle : s.wider)
-    if (oracle.membership(own) == Certified::out) return Certified::out;
+    if (oracle.membership(first, second) == Certified::out) return Certified::out;
   for (const CombinedOracle& oracle : s.narrower)
-    if (oracle.membership(own) == Certified::in) return Certified::in;
-  switch (s.contacts.along(s.direction(w), s.contacts.extent()).outcome) {
+    if (oracle.membership(first, second) == Certified::in) return Certified::in;
+  switch (s.contacts.along(s.direction(first, second), s.contacts.extent()).outcome) {
     case SearchOutcome::empty:
       return Certified::out;
     case SearchOutcome::found:
@@ -117,6 +136,23 @@ Certified CombinedOracle::membership(const Vector3d& w) const {
       break;
   }
   return Certified::undecided;
+}
+
+Verdict CombinedOracle::verdict(const Vector3d& v_a, const Vector3d& v_b) const {
+  require_finite_velocity(v_a, "agent_velocity");
+  require_finite_velocity(v_b, "obstacle_velocity");
+  if (!state_->relation) return Verdict::undecided;
+  if (*state_->relation == Relation::touching) return Verdict::touching;
+  if (*state_->relation == Relation::overlapping) return Verdict::overlapping;
+  switch (membership(v_a, v_b)) {
+    case Certified::in:
+      return Verdict::in;
+    case Certified::out:
+      return Verdict::out;
+    case Certified::undecided:
+      break;
+  }
+  return Verdict::undecided;
 }
 
 bool CombinedOracle::all_in(const Vector3d& from, const Vector3d& to) const {

@@ -43,6 +43,12 @@ class CombinedOracle {
   /// exactly, and only what lies between them is searched. Cost: 0.1 us where they decide, else some 10 to
   /// 100 us.
   Certified membership(const Eigen::Vector3d& w) const;
+  /// The same for w = v_a - v_b, the difference taken without rounding. Throws InputError naming
+  /// "agent_velocity[i]" or "obstacle_velocity[i]".
+  Certified membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+
+  /// Relation and membership in one.
+  Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 
   /// Whether all directions of the convex hull of two, less than a right angle apart and not zero, are in
   /// (out): true is certain, false says nothing.

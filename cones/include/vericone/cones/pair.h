@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Any two bodies: whether they will meet, when and where, and by how much they miss. The front door; the
+// families behind it (ellipsoids/, combined/, hulls/, assembly/, composite/) are for those who want their
+// rungs.
+#pragma once
+
+#include <vericone/cones/answers.h>
+#include <vericone/cones/direction_cell.h>
+#include <vericone/cones/ellipsoids/predicates.h>
+#include <vericone/geometry/body.h>
+#include <limits>
+#include <memory>
+#include <optional>
+
+namespace vericone {
+
+struct Cone;
+struct ConeOptions;
+namespace pairs {
+class Family;
+}
+
+struct PairOptions {
+  /// Of pairs that are certified and not exact: features below this part of a body's size may stay undecided.
+  /// Left out: 1e-6 for two combined quadrics, 1e-3 for others.
+  std::optional<double> tolerance;
+};
+
+/// What can be relied on.
+struct Guarantee {
+  /// True: every verdict is right and none is `undecided`. False: verdicts are right or `undecided`.
+  bool exact = true;
+  double tolerance = 0;  // where not exact: see PairOptions
+  const char* family =
+      "";  // who answers: "ellipsoids", "combined", "hulls", "assembly", "composite", "union"
+};
+
+/// The first contact.
+struct Contact {
+  /// Seconds from now. Nothing is touched before `earliest`; where verdict() is not `undecided` they touch or
+  /// overlap at `latest`. Both are proved.
+  double earliest = 0, latest = std::numeric_limits<double>::infinity();
+  double time = 0;  // the best estimate; NaN where there is none
+  /// Rounded, at that time, in the world: the point of the obstacle, and the unit normal from the agent
+  /// towards it. Nothing where the pair does not say (two combined quadrics; bodies that overlap now).
+  std::optional<Eigen::Vector3d> point, normal;
+};
+
+/// How near they come from now on.
+struct Miss {
+  /// Metres; the least distance lies between, proved. Both 0 where verdict() is not `out` or `undecided`.
+  double least = 0, most = 0;
+  /// Where they meet: how far along -normal the agent must be shifted, at least, to avoid it (metres; of
+  /// bodies that are not ellipsoids: of ellipsoids that contain them, so it is enough and may be more than is
+  /// needed). 0 where they miss. NaN where doubles do not tell.
+  double depth = 0;
+  /// Unit, from the agent towards the obstacle where they are nearest: the gradient of the distance (and of
+  /// -depth) to the obstacle's position. Zero where there is none.
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  double time = 0;  // seconds >= 0, when they are nearest
+  /// Metres, the best estimate: the distance where they miss (not outside the bracket), -depth where they
+  /// meet.
+  double distance = 0;
+
+  /// Its derivative to w = v_agent - v_obstacle.
+  Eigen::Vector3d gradient_velocity() const { return -time * normal; }
+};
+
+/// Two placed bodies of any kinds, prepared for many velocities. Immutable; a copy shares what was prepared;
+/// may be used by several threads at once. Velocities are m/s in the world; w = v_agent - v_obstacle, and
+/// nothing turns.
+///
+/// Bodies with a pose are taken into the world or into the other's frame, their numbers rounded once; answers
+/// hold for the rounded bodies (without a rotation only positions are added).
+///
+/// Laws, for every pair of kinds (tests/cones/pair_test.cpp):
+///   (1) Pair(a, b).verdict(v, u) == Pair(b, a).verdict(u, v)
+///   (2) verdicts depend on v_a - v_b and its direction only
+///   (3) contact() is there iff verdict is not `out`; miss().most == 0 iff they surely meet
+class Pair {
+ public:
+  /// Throws InputError naming "agent", "obstacle", "pose" or "tolerance". Cost: docs/pairs.md has a table.
+  Pair(Placed agent, Placed obstacle, PairOptions options = {});
+
+  /// Bodies in the plane z = 0, raised so far that all answers are those of the planar bodies (raised() in
+  /// body.h).
+  Pair(const CombinedEllipse& agent, const CombinedEllipse& obstacle, PairOptions options = {});
+
+  const Placed& agent() const { return *agent_; }
+  const Placed& obstacle() const { return *obstacle_; }
+  Guarantee guarantee() const;
+
+  /// Now. Nothing where it could not be decided.
+  std::optional<Relation> relation() const;
+
+  /// The whole answer. Bodies that overlap or touch now are that, whatever their velocities. Throws
+  /// InputError naming "agent_velocity[i]" or "obstacle_velocity[i]" where they are not finite.
+  Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const {
+    return ellipsoids_ ? ellipsoids_->verdict(v_a, v_b) : other_verdict(v_a, v_b);
+  }
+
+  /// The rung of the ladder that decided verdict(); nothing of certified pairs. For measurements.
+  std::optional<Rung> rung(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+
+  /// With the past told from never; nothing where a verdict is undecided. Of bodies that are not apart now:
+  /// `ahead` for every w != 0.
+  std::optional<Passage> passage(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+
+  /// Nothing where verdict() is `out`.
+  std::optional<Contact> contact(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+
+  Miss miss(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+
+  /// The cone by the sharpest method there is for these kinds (cone.h). Throws InputError naming "tolerance",
+  /// "resolution" or "threads". Cost: two ellipsoids 40 us; combined quadrics milliseconds
+  /// (docs/benchmarks.md); hulls 1 ms; others are drawn as a map, seconds.
+  Cone cone() const;
+  Cone cone(const ConeOptions& options) const;
+
+  /// Whole triangles of directions of w, for cone_map(); lives as long as someone holds it. Prepared on the
+  /// first call.
+  std::shared_ptr<const DirectionClassifier> directions() const;
+
+ private:
+  Verdict other_verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+
+  std::shared_ptr<const Placed> agent_, obstacle_;
+  std::shared_ptr<const pairs::Family> family_;
+  const ConeOracle* ellipsoids_ = nullptr;  // of two ellipsoids: no call goes through the family
+};
+
+}  // namespace vericone

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A convex agent against hulls and assemblies: exact.
+#include <vericone/cones/assembly/assembly_oracle.h>
+#include <vericone/cones/hulls/hull_oracle.h>
+#include <cmath>
+
+#include "pairs/cones.h"
+
+namespace vericone::pairs {
+namespace {
+
+using Eigen::Vector3d;
+
+class AssemblyFamily : public Family {
+ public:
+  template <typename Agent>
+  AssemblyFamily(const Agent& agent, const Assembly& obstacle, const Pose& pose)
+      : oracle_(std::make_shared<AssemblyOracle>(agent, obstacle, pose)),
+        axis_(pose.to_world(obstacle.bounds().center()) - middle(agent)),
+        size_(size_of(agent)) {}
+
+  Guarantee guarantee() const override { return {true, 0, "assembly"}; }
+  std::optional<Relation> relation() const override { return oracle_->relation(); }
+  Verdict verdict(const Vector3d& v_a, const Vector3d& v_b) const override {
+    return oracle_->verdict(v_a, v_b);
+  }
+  std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
+    Effort effort;
+    if (oracle_->relation() != Relation::disjoint) return Rung::exact;
+    oracle_->membership(v_a, v_b, &effort);
+    return effort.exact > 0 ? Rung::exact : Rung::triage;
+  }
+
+  Contact contact(const Vector3d& v_a, const Vector3d& v_b) const override {
+    Contact contact;
+    if (oracle_->relation() != Relation::disjoint) {
+      contact.latest = 0;
+      return contact;
+    }
+    contact.time = std::numeric_limits<double>::quiet_NaN();
+    // A verdict of the unrounded difference may be known where the rounded one misses.
+    const Vector3d w = relative_velocity(v_a, v_b);
+    const auto found = oracle_->first_contact(w);
+    if (!found) return contact;
+    contact.earliest = found->earliest;
+    contact.latest = found->latest;
+    if (!is_known(*found, w)) return contact;
+    contact.time = found->time;
+    contact.normal = found->normal;
+    contact.point = in_world_at(found->point, found->time, v_b);
+    return contact;
+  }
+
+  Miss miss(const Vector3d& v_a, const Vector3d& v_b) const override {
+    const AssemblyMiss found = oracle_->miss_distance(relative_velocity(v_a, v_b));
+    Miss miss;
+    miss.least = found.least;
+    miss.most = found.most;
+    miss.distance = 0.5 * (found.least + found.most);
+    miss.normal = found.normal;
+    miss.time = found.time;
+    if (!(miss.most > 0)) miss.depth = std::numeric_limits<double>::quiet_NaN();
+    return miss;
+  }
+
+  std::shared_ptr<const DirectionClassifier> directions() const override { return oracle_; }
+
+  Cone cone(const ConeOptions& options) const override { return cone_by_map(*this, axis_, options); }
+  Vector3d axis() const override { return axis_; }
+
+ protected:
+  /// Whether the contact is known to a thousandth of the time or a hundredth of the agent's size. It is not where a
+  /// piece is so large that its coordinates are rounded by more. What grazes has no time at which they surely overlap.
+  bool is_known(const AssemblyContact& contact, const Vector3d& w) const {
+    constexpr double kOfTime = 1e-3, kOfSize = 1e-2, kLargest = 1e7;
+    if (std::isinf(contact.latest)) return oracle_->obstacle().bounds().half_widths().maxCoeff() <= kLargest * size_;
+    const double open = contact.latest - contact.earliest;
+    return open <= kOfTime * contact.latest || open * w.norm() <= kOfSize * size_;
+  }
+
+  static double size_of(const Ellipsoid& agent) { return agent.factor().rowwise().norm().maxCoeff(); }
+  static double size_of(const HullBody& agent) {
+    Vector3d low = agent.points().front(), high = low;
+    for (const Vector3d& x : agent.points()) low = low.cwiseMin(x), high = high.cwiseMax(x);
+    return 0.5 * (high - low).maxCoeff();
+  }
+
+  static Vector3d middle(const Ellipsoid& agent) { return agent.center(); }
+  /// In the hull, even where it has few points.
+  static Vector3d middle(const HullBody& agent) {
+    Vector3d sum = Vector3d::Zero();
+    for (const Vector3d& x : agent.points()) sum += x / static_cast<double>(agent.size());
+    return sum;
+  }
+
+  std::shared_ptr<const AssemblyOracle> oracle_;
+  Vector3d axis_;  // from the agent towards the obstacle
+  double size_;    // half the agent's largest width
+};
+
+/// Verdicts by the hulls' own predicate, which is several times faster; all else as an assembly of one hull.
+class Hulls : public AssemblyFamily {
+ public:
+  template <typename Agent>
+  Hulls(const Agent& agent, const HullBody& obstacle)
+      : AssemblyFamily(agent, Assembly::polyhedra({obstacle}), Pose{}), hulls_(agent, obstacle) {
+    axis_ = middle(obstacle) - middle(agent);
+  }
+
+  Guarantee guarantee() const override { return {true, 0, "hulls"}; }
+  std::optional<Relation> relation() const override { return hulls_.relation(); }
+  Verdict verdict(const Vector3d& v_a, const Vector3d& v_b) const override {
+    return hulls_.verdict(v_a, v_b);
+  }
+  std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
+    Rung rung = hulls_.relation_rung();
+    hulls_.verdict(v_a, v_b, &rung);
+    return rung;
+  }
+  Cone cone(const ConeOptions& options) const override { return cone_of_hulls(*oracle_, axis_, options); }
+
+ private:
+  HullOracle hulls_;
+};
+
+}  // namespace
+
+FamilyPointer hull_family(const Ellipsoid& agent, const HullBody& obstacle) {
+  return std::make_shared<Hulls>(agent, obstacle);
+}
+FamilyPointer hull_family(const HullBody& agent, const HullBody& obstacle) {
+  return std::make_shared<Hulls>(agent, obstacle);
+}
+FamilyPointer assembly_family(const Ellipsoid& agent, const Assembly& obstacle, const Pose& pose) {
+  return std::make_shared<AssemblyFamily>(agent, obstacle, pose);
+}
+FamilyPointer assembly_family(const HullBody& agent, const Assembly& obstacle, const Pose& pose) {
+  return std::make_shared<AssemblyFamily>(agent, obstacle, pose);
+}
+
+}  // namespace vericone::pairs

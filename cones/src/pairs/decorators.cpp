@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Pairs made of pairs: exchanged, and the union of several.
+#include <vericone/cones/map/classifiers.h>
+#include <algorithm>
+
+#include "pairs/cones.h"
+
+namespace vericone::pairs {
+namespace {
+
+using Eigen::Vector3d;
+
+class Mirrored : public Family {
+ public:
+  explicit Mirrored(FamilyPointer exchanged) : exchanged_(std::move(exchanged)) {}
+
+  Guarantee guarantee() const override { return exchanged_->guarantee(); }
+  std::optional<Relation> relation() const override { return exchanged_->relation(); }
+  Verdict verdict(const Vector3d& v_a, const Vector3d& v_b) const override {
+    return exchanged_->verdict(v_b, v_a);
+  }
+  std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
+    return exchanged_->rung(v_b, v_a);
+  }
+  Contact contact(const Vector3d& v_a, const Vector3d& v_b) const override {
+    Contact contact = exchanged_->contact(v_b, v_a);
+    if (contact.normal) *contact.normal *= -1;
+    return contact;
+  }
+  Miss miss(const Vector3d& v_a, const Vector3d& v_b) const override {
+    Miss miss = exchanged_->miss(v_b, v_a);
+    miss.normal *= -1;
+    return miss;
+  }
+  std::shared_ptr<const DirectionClassifier> directions() const override {
+    return std::make_shared<MirroredClassifier>(exchanged_->directions());
+  }
+  Cone cone(const ConeOptions& options) const override { return mirror_image(exchanged_->cone(options)); }
+  Vector3d axis() const override { return -exchanged_->axis(); }
+
+ private:
+  FamilyPointer exchanged_;
+};
+
+class AnyOf : public Family {
+ public:
+  explicit AnyOf(std::vector<FamilyPointer> all) : all_(std::move(all)) {
+    bool unknown = false, touching = false, overlapping = false;
+    for (const FamilyPointer& pair : all_) {
+      const auto relation = pair->relation();
+      unknown = unknown || !relation;
+      touching = touching || relation == Relation::touching;
+      overlapping = overlapping || relation == Relation::overlapping;
+      const Guarantee own = pair->guarantee();
+      guarantee_.exact = guarantee_.exact && own.exact;
+      guarantee_.tolerance = std::max(guarantee_.tolerance, own.tolerance);
+    }
+    guarantee_.family = "union";
+    if (overlapping)
+      relation_ = Relation::overlapping;
+    else if (!unknown)
+      relation_ = touching ? Relation::touching : Relation::disjoint;
+  }
+
+  Guarantee guarantee() const override { return guarantee_; }
+  std::optional<Relation> relation() const override { return relation_; }
+
+  Verdict verdict(const Vector3d& v_a, const Vector3d& v_b) const override {
+    relative_velocity(v_a, v_b);  // names what is not finite
+    if (!relation_) return Verdict::undecided;
+    if (*relation_ != Relation::disjoint)
+      return *relation_ == Relation::touching ? Verdict::touching : Verdict::overlapping;
+    Verdict whole = Verdict::out;
+    for (const FamilyPointer& pair : all_) {
+      const Verdict one = pair->verdict(v_a, v_b);
+      if (one == Verdict::in) return one;
+      if (one == Verdict::undecided || whole == Verdict::out) whole = one;
+    }
+    return whole;
+  }
+
+  Contact contact(const Vector3d& v_a, const Vector3d& v_b) const override {
+    Contact first;
+    if (relation_ && *relation_ != Relation::disjoint) {
+      first.latest = 0;
+      return first;
+    }
+    first.earliest = first.time = first.latest;  // none yet
+    for (const FamilyPointer& pair : all_) {
+      if (pair->verdict(v_a, v_b) == Verdict::out) continue;
+      const Contact own = pair->contact(v_a, v_b);
+      if (own.time < first.time) {
+        first.time = own.time;
+        first.point = own.point;
+        first.normal = own.normal;
+      }
+      first.earliest = std::min(first.earliest, own.earliest);
+      first.latest = std::min(first.latest, own.latest);
+    }
+    if (!(first.time <= first.latest)) first.time = std::numeric_limits<double>::quiet_NaN();
+    return first;
+  }
+
+  Miss miss(const Vector3d& v_a, const Vector3d& v_b) const override {
+    Miss nearest = all_.front()->miss(v_a, v_b);
+    double least = nearest.least;
+    for (std::size_t i = 1; i < all_.size(); ++i) {
+      const Miss own = all_[i]->miss(v_a, v_b);
+      least = std::min(least, own.least);
+      if (own.most < nearest.most || (own.most == 0 && own.depth > nearest.depth)) nearest = own;
+    }
+    nearest.least = least;
+    nearest.distance = std::max(nearest.distance, nearest.most > 0 ? least : nearest.distance);
+    // To avoid one piece may be to meet another: the whole's depth is for Pair to say.
+    if (!(nearest.most > 0) && all_.size() > 1) nearest.depth = std::numeric_limits<double>::quiet_NaN();
+    return nearest;
+  }
+
+  std::shared_ptr<const DirectionClassifier> directions() const override {
+    std::vector<std::shared_ptr<const DirectionClassifier>> classifiers;
+    for (const FamilyPointer& pair : all_) classifiers.push_back(pair->directions());
+    return std::make_shared<AnyOfClassifier>(std::move(classifiers));
+  }
+  Cone cone(const ConeOptions& options) const override { return cone_by_map(*this, axis(), options); }
+  Vector3d axis() const override {
+    Vector3d sum = Vector3d::Zero();
+    for (const FamilyPointer& pair : all_) sum += pair->axis() / static_cast<double>(all_.size());
+    return sum;
+  }
+
+ private:
+  std::vector<FamilyPointer> all_;
+  Guarantee guarantee_;
+  std::optional<Relation> relation_;
+};
+
+}  // namespace
+
+FamilyPointer mirrored(FamilyPointer exchanged) { return std::make_shared<Mirrored>(std::move(exchanged)); }
+FamilyPointer any_of(std::vector<FamilyPointer> all) {
+  return all.size() == 1 ? all.front() : std::make_shared<AnyOf>(std::move(all));
+}
+
+}  // namespace vericone::pairs

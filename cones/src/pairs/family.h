@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What each family of pairs does behind Pair, and who serves which kinds.
+#pragma once
+
+#include <vericone/cones/pair.h>
+#include <memory>
+#include <vector>
+
+namespace vericone::pairs {
+
+class Family {
+ public:
+  virtual ~Family() = default;
+
+  virtual Guarantee guarantee() const = 0;
+  virtual std::optional<Relation> relation() const = 0;
+  virtual Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const = 0;
+  virtual std::optional<Rung> rung(const Eigen::Vector3d&, const Eigen::Vector3d&) const {
+    return std::nullopt;
+  }
+  /// Of a pair whose verdict is not `out`.
+  virtual Contact contact(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const = 0;
+  /// Without the depth, which Pair adds where a family leaves it NaN.
+  virtual Miss miss(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const = 0;
+  virtual std::shared_ptr<const DirectionClassifier> directions() const = 0;
+  virtual Cone cone(const ConeOptions& options) const = 0;
+  /// From the middle of the agent to that of the obstacle.
+  virtual Eigen::Vector3d axis() const = 0;
+
+  /// The prepared pair of two ellipsoids; none of others.
+  virtual const ConeOracle* ellipsoids() const { return nullptr; }
+};
+
+using FamilyPointer = std::shared_ptr<const Family>;
+
+FamilyPointer ellipsoid_family(const Ellipsoid& agent, const Ellipsoid& obstacle);
+FamilyPointer combined_family(const CombinedEllipsoid& agent, const CombinedEllipsoid& obstacle,
+                              double tolerance);
+/// At least one is a hull; all in the world.
+FamilyPointer hull_family(const Ellipsoid& agent, const HullBody& obstacle);
+FamilyPointer hull_family(const HullBody& agent, const HullBody& obstacle);
+FamilyPointer assembly_family(const Ellipsoid& agent, const Assembly& obstacle, const Pose& pose);
+FamilyPointer assembly_family(const HullBody& agent, const Assembly& obstacle, const Pose& pose);
+FamilyPointer composite_family(const CombinedEllipsoid& agent, const Assembly& obstacle, const Pose& pose,
+                               double tolerance);
+FamilyPointer composite_family(const Assembly& agent, const Pose& agent_pose, const Assembly& obstacle,
+                               const Pose& pose);
+
+/// Agent and obstacle exchanged.
+FamilyPointer mirrored(FamilyPointer exchanged);
+/// The union of the pairs: of a body of several parts.
+FamilyPointer any_of(std::vector<FamilyPointer> all);
+
+/// Who serves two bodies: the one place that asks for their kinds.
+FamilyPointer family_of(const Placed& agent, const Placed& obstacle, const PairOptions& options);
+
+/// v_a - v_b; throws InputError naming the velocity that is not finite, or whose difference is not.
+Eigen::Vector3d relative_velocity(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b);
+
+/// A contact of an agent that moves by w, seen where the obstacle moves by v_b.
+inline Eigen::Vector3d in_world_at(const Eigen::Vector3d& point, double time, const Eigen::Vector3d& v_b) {
+  return point + time * v_b;
+}
+
+}  // namespace vericone::pairs

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/cones/pair.h>
+
+#include <vericone/cones/ellipsoids/clearance.h>
+#include <vericone/geometry/error.h>
+#include <algorithm>
+#include <cmath>
+
+#include "pairs/family.h"
+
+namespace vericone {
+namespace pairs {
+
+using Eigen::Vector3d;
+
+Vector3d relative_velocity(const Vector3d& v_a, const Vector3d& v_b) {
+  const Vector3d w = v_a - v_b;
+  if (w.allFinite()) return w;
+  for (int i = 0; i < 3; ++i) {
+    const std::string index = "[" + std::to_string(i) + "]";
+    if (!std::isfinite(v_a(i)))
+      throw InputError("agent_velocity" + index, to_text(v_a(i)), "a finite number (m/s)");
+    if (!std::isfinite(v_b(i)))
+      throw InputError("obstacle_velocity" + index, to_text(v_b(i)), "a finite number (m/s)");
+    if (!std::isfinite(w(i)))
+      throw InputError("agent_velocity" + index, to_text(v_a(i)),
+                       "at most 1.8e308 from the obstacle's, " + to_text(v_b(i)));
+  }
+  return w;
+}
+
+namespace {
+
+/// A certified tolerance, or the family's own.
+double tolerance_or(const PairOptions& options, double usual) {
+  const double tolerance = options.tolerance.value_or(usual);
+  if (!(tolerance >= 1e-12 && tolerance < 1))
+    throw InputError("tolerance", to_text(tolerance), "at least 1e-12 and below 1");
+  return tolerance;
+}
+
+constexpr double kCombinedTolerance = 1e-6, kCompositeTolerance = 1e-3;
+
+/// One of each kind of shape against the other, agents that are no simpler than the obstacle first.
+struct Choose {
+  const Pose &agent_pose, &obstacle_pose;
+  const PairOptions& options;
+
+  using Parts = std::vector<CombinedEllipsoid>;
+
+  FamilyPointer operator()(const CombinedEllipsoid& agent, const CombinedEllipsoid& obstacle) const {
+    const CombinedEllipsoid a = in_world(agent, agent_pose), b = in_world(obstacle, obstacle_pose);
+    if (a.is_ellipsoid() && b.is_ellipsoid()) return ellipsoid_family(a.ellipsoid(), b.ellipsoid());
+    return combined_family(a, b, tolerance_or(options, kCombinedTolerance));
+  }
+  FamilyPointer operator()(const CombinedEllipsoid& agent, const HullBody& obstacle) const {
+    if (agent.is_ellipsoid())
+      return hull_family(in_world(agent.ellipsoid(), agent_pose), in_world(obstacle, obstacle_pose));
+    return (*this)(agent, Assembly::polyhedra({obstacle}));
+  }
+  FamilyPointer operator()(const CombinedEllipsoid& agent, const Assembly& obstacle) const {
+    const CombinedEllipsoid a = in_world(agent, agent_pose);
+    if (a.is_ellipsoid()) return assembly_family(a.ellipsoid(), obstacle, obstacle_pose);
+    return composite_family(a, obstacle, obstacle_pose, tolerance_or(options, kCompositeTolerance));
+  }
+  FamilyPointer operator()(const HullBody& agent, const HullBody& obstacle) const {
+    return hull_family(in_world(agent, agent_pose), in_world(obstacle, obstacle_pose));
+  }
+  FamilyPointer operator()(const HullBody& agent, const Assembly& obstacle) const {
+    return assembly_family(in_world(agent, agent_pose), obstacle, obstacle_pose);
+  }
+  FamilyPointer operator()(const Assembly& agent, const Assembly& obstacle) const {
+    return composite_family(agent, agent_pose, obstacle, obstacle_pose);
+  }
+  template <typename Obstacle>
+  FamilyPointer operator()(const Parts& agent, const Obstacle& obstacle) const {
+    std::vector<FamilyPointer> all;
+    for (const CombinedEllipsoid& part : agent) all.push_back((*this)(part, obstacle));
+    return any_of(std::move(all));
+  }
+  FamilyPointer operator()(const CombinedEllipsoid& agent, const Parts& obstacle) const {
+    std::vector<FamilyPointer> all;
+    for (const CombinedEllipsoid& part : obstacle) all.push_back((*this)(agent, part));
+    return any_of(std::move(all));
+  }
+  /// The rest: the obstacle is the simpler one.
+  template <typename Agent, typename Obstacle>
+  FamilyPointer operator()(const Agent& agent, const Obstacle& obstacle) const {
+    return mirrored(Choose{obstacle_pose, agent_pose, options}(obstacle, agent));
+  }
+};
+
+}  // namespace
+
+FamilyPointer family_of(const Placed& agent, const Placed& obstacle, const PairOptions& options) {
+  return std::visit(Choose{agent.pose, obstacle.pose, options}, agent.body.shape(), obstacle.body.shape());
+}
+
+}  // namespace pairs
+
+using Eigen::Vector3d;
+
+namespace {
+
+Body raised_to(const CombinedEllipse& body, const CombinedEllipse& other) {
+  return raised(body,
+                std::max(body.ellipsoid().semi_axes().maxCoeff(), other.ellipsoid().semi_axes().maxCoeff()));
+}
+
+}  // namespace
+
+Pair::Pair(Placed agent, Placed obstacle, PairOptions options)
+    : agent_(std::make_shared<Placed>(std::move(agent))),
+      obstacle_(std::make_shared<Placed>(std::move(obstacle))),
+      family_(pairs::family_of(*agent_, *obstacle_, options)),
+      ellipsoids_(family_->ellipsoids()) {}
+
+Pair::Pair(const CombinedEllipse& agent, const CombinedEllipse& obstacle, PairOptions options)
+    : Pair(raised_to(agent, obstacle), raised_to(obstacle, agent), options) {}
+
+Guarantee Pair::guarantee() const { return family_->guarantee(); }
+std::optional<Relation> Pair::relation() const { return family_->relation(); }
+
+Verdict Pair::other_verdict(const Vector3d& v_a, const Vector3d& v_b) const {
+  return family_->verdict(v_a, v_b);
+}
+
+std::optional<Rung> Pair::rung(const Vector3d& v_a, const Vector3d& v_b) const {
+  return family_->rung(v_a, v_b);
+}
+
+std::optional<Passage> Pair::passage(const Vector3d& v_a, const Vector3d& v_b) const {
+  if (v_a == v_b) return Passage::never;
+  switch (verdict(v_a, v_b)) {
+    case Verdict::in:
+    case Verdict::overlapping:
+    case Verdict::touching:
+      return Passage::ahead;
+    case Verdict::on:
+      return Passage::ahead_grazing;
+    case Verdict::undecided:
+      return std::nullopt;
+    case Verdict::out:
+      break;
+  }
+  switch (verdict(v_b, v_a)) {
+    case Verdict::in:
+      return Passage::behind;
+    case Verdict::on:
+      return Passage::behind_grazing;
+    case Verdict::undecided:
+      return std::nullopt;
+    default:
+      break;
+  }
+  return Passage::never;
+}
+
+std::optional<Contact> Pair::contact(const Vector3d& v_a, const Vector3d& v_b) const {
+  if (verdict(v_a, v_b) == Verdict::out) return std::nullopt;
+  return family_->contact(v_a, v_b);
+}
+
+Miss Pair::miss(const Vector3d& v_a, const Vector3d& v_b) const {
+  Miss miss = family_->miss(v_a, v_b);
+  if (!std::isnan(miss.depth) || ellipsoids_ || v_a == v_b) return miss;
+  const Clearance around =
+      clearance(agent_->containing_ellipsoid(), obstacle_->containing_ellipsoid(), v_a - v_b);
+  miss.depth = std::max(-around.distance, 0.0);
+  miss.distance = -miss.depth;
+  miss.normal = around.normal;
+  miss.time = std::max(around.time, 0.0);
+  return miss;
+}
+
+std::shared_ptr<const DirectionClassifier> Pair::directions() const { return family_->directions(); }
+
+}  // namespace vericone

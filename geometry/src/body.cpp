@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/geometry/body.h>
+#include <vericone/geometry/error.h>
+#include <vericone/geometry/min_volume_ellipsoid.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+namespace vericone {
+
+using Eigen::Vector3d;
+
+const char* to_string(BodyKind kind) {
+  switch (kind) {
+    case BodyKind::ellipsoid:
+      return "ellipsoid";
+    case BodyKind::combined:
+      return "combined";
+    case BodyKind::hull:
+      return "hull";
+    case BodyKind::mesh:
+      return "mesh";
+    case BodyKind::cloud:
+      return "cloud";
+    case BodyKind::boxes:
+      return "boxes";
+    case BodyKind::pieces:
+      return "pieces";
+  }
+  return "";
+}
+
+namespace {
+
+double support_of(const CombinedEllipsoid& body, const Vector3d& n) { return body.ellipsoid().support(n); }
+double support_of(const HullBody& hull, const Vector3d& n) { return hull.support(n); }
+double support_of(const std::vector<CombinedEllipsoid>& pieces, const Vector3d& n) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const CombinedEllipsoid& piece : pieces) most = std::max(most, support_of(piece, n));
+  return most;
+}
+
+double of_slot(const Assembly& body, std::size_t slot, const Vector3d& n) {
+  const Assembly::Storage& pieces = body.by_slot();
+  switch (body.kind()) {
+    case PieceKind::triangle: {
+      const auto& corners = pieces.triangles[slot];
+      return std::max({n.dot(corners[0]), n.dot(corners[1]), n.dot(corners[2])});
+    }
+    case PieceKind::ball:
+      return n.dot(pieces.balls[slot]) + body.radius() * n.norm();
+    case PieceKind::box:
+      return n.dot(pieces.boxes[slot].center()) + n.cwiseAbs().dot(pieces.boxes[slot].half_widths());
+    case PieceKind::hull:
+      break;
+  }
+  return pieces.hulls[slot].support(n);
+}
+
+/// A descent that leaves out what cannot reach farther.
+double support_of(const Assembly& body, const Vector3d& n) {
+  const auto nodes = body.hierarchy().nodes();
+  const auto reach = [&](const Hierarchy::Node& node) {
+    const Box box = node.box();
+    return n.dot(box.center()) + n.cwiseAbs().dot(box.half_widths());
+  };
+  double most = -std::numeric_limits<double>::infinity();
+  std::uint32_t stack[128];  // an assembly's tree is at most 64 deep (hierarchy.cpp)
+  int size = 0;
+  stack[size++] = 0;
+  while (size > 0) {
+    const Hierarchy::Node& node = nodes[stack[--size]];
+    if (reach(node) <= most) continue;
+    if (node.is_leaf()) {
+      for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot)
+        most = std::max(most, of_slot(body, slot, n));
+      continue;
+    }
+    const bool first_is_farther = reach(nodes[node.first]) > reach(nodes[node.first + 1]);
+    stack[size++] = node.first + (first_is_farther ? 1 : 0);
+    stack[size++] = node.first + (first_is_farther ? 0 : 1);
+  }
+  return most;
+}
+
+/// E and a ball of radius r about each of its points: (1 + 1/b) S + (1 + b) r^2 1 contains the sum for every
+/// b > 0.
+Ellipsoid widened(const Ellipsoid& body, double r) {
+  if (!(r > 0)) return body;
+  const double b = body.semi_axes().mean() / r;
+  const Eigen::Matrix3d shape =
+      (1 + 1e-12) * ((1 + 1 / b) * body.shape() + (1 + b) * r * r * Eigen::Matrix3d::Identity());
+  return Ellipsoid::from_shape(body.center(), 0.5 * (shape + shape.transpose()));
+}
+
+/// The least ellipsoid of points; flat ones and few get corners a little beside them.
+Ellipsoid containing_points(std::vector<Vector3d> points) {
+  Vector3d low = points.front(), high = points.front();
+  for (const Vector3d& x : points) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  MinVolumeOptions options;
+  options.tolerance = 1e-4;
+  try {
+    return min_volume_ellipsoid<3>(points, options).body;
+  } catch (const InputError&) {  // flat, or a single point
+  }
+  const double size = (high - low).maxCoeff();
+  const double beside =
+      std::max({1e-6 * size, 1e-9 * low.cwiseAbs().maxCoeff(), 1e-9 * high.cwiseAbs().maxCoeff(),
+                std::numeric_limits<double>::min() * 1e30});
+  const std::size_t count = points.size();
+  for (std::size_t i = 0; i < count; ++i)
+    for (int k = 0; k < 3; ++k)
+      for (const double side : {-beside, beside}) points.push_back(points[i] + side * Vector3d::Unit(k));
+  return min_volume_ellipsoid<3>(points, options).body;
+}
+
+Ellipsoid containing(const CombinedEllipsoid& body) {
+  return body.is_ellipsoid() ? body.ellipsoid() : body.bounding_ellipsoid();
+}
+
+Ellipsoid containing(const HullBody& hull) { return containing_points(hull.points()); }
+
+void add_corners(const Box& box, std::vector<Vector3d>& points) {
+  const HullBody corners = HullBody::box(box.low, box.high);
+  points.insert(points.end(), corners.points().begin(), corners.points().end());
+}
+
+Ellipsoid containing(const Assembly& body) {
+  const Assembly::Storage& pieces = body.by_slot();
+  std::vector<Vector3d> points;
+  for (const auto& corners : pieces.triangles) points.insert(points.end(), corners.begin(), corners.end());
+  for (const Vector3d& center : pieces.balls) points.push_back(center);
+  for (const Box& box : pieces.boxes) add_corners(box, points);
+  for (const HullBody& hull : pieces.hulls)
+    points.insert(points.end(), hull.points().begin(), hull.points().end());
+  return widened(containing_points(std::move(points)), body.radius());
+}
+
+/// The box around each piece's ellipsoid decides: at worst its corners are sqrt(3) too far out.
+Ellipsoid containing(const std::vector<CombinedEllipsoid>& pieces) {
+  if (pieces.size() == 1) return containing(pieces.front());
+  std::vector<Vector3d> points;
+  for (const CombinedEllipsoid& piece : pieces) {
+    const Ellipsoid around = containing(piece);
+    const Vector3d axes = around.semi_axes();
+    const Eigen::Matrix3d directions = around.axis_directions();
+    for (int i = 0; i < 8; ++i) {
+      const Vector3d corner((i & 1 ? 1 : -1) * axes.x(), (i & 2 ? 1 : -1) * axes.y(),
+                            (i & 4 ? 1 : -1) * axes.z());
+      points.push_back(around.center() + directions * (corner * (1 + 1e-12)));
+    }
+  }
+  return containing_points(std::move(points));
+}
+
+}  // namespace
+
+struct Body::Data {
+  explicit Data(Shape what) : shape(std::move(what)) {}
+
+  Shape shape;
+  mutable std::once_flag asked;
+  mutable Ellipsoid containing;
+};
+
+Body::Body() : Body(Ellipsoid()) {}
+Body::Body(const Ellipsoid& ellipsoid) : Body(CombinedEllipsoid(ellipsoid)) {}
+Body::Body(const CombinedEllipsoid& body) : data_(std::make_shared<Data>(body)) {}
+Body::Body(HullBody hull) : data_(std::make_shared<Data>(std::move(hull))) {}
+Body::Body(Assembly assembly) : data_(std::make_shared<Data>(std::move(assembly))) {}
+
+Body Body::pieces(std::vector<CombinedEllipsoid> pieces) {
+  if (pieces.empty()) throw InputError("pieces", "none", "one piece or more");
+  Body result;
+  result.data_ = std::make_shared<Data>(std::move(pieces));
+  return result;
+}
+
+const Body::Shape& Body::shape() const { return data_->shape; }
+
+BodyKind Body::kind() const {
+  struct Name {
+    BodyKind operator()(const CombinedEllipsoid& body) const {
+      return body.is_ellipsoid() ? BodyKind::ellipsoid : BodyKind::combined;
+    }
+    BodyKind operator()(const HullBody&) const { return BodyKind::hull; }
+    BodyKind operator()(const Assembly& body) const {
+      switch (body.kind()) {
+        case PieceKind::triangle:
+          return BodyKind::mesh;
+        case PieceKind::ball:
+          return BodyKind::cloud;
+        case PieceKind::box:
+          return BodyKind::boxes;
+        case PieceKind::hull:
+          break;
+      }
+      return BodyKind::pieces;
+    }
+    BodyKind operator()(const std::vector<CombinedEllipsoid>&) const { return BodyKind::pieces; }
+  };
+  return std::visit(Name{}, data_->shape);
+}
+
+double Body::support(const Vector3d& n) const {
+  return std::visit([&](const auto& shape) { return support_of(shape, n); }, data_->shape);
+}
+
+Box Body::bounds() const {
+  Box box;
+  for (int k = 0; k < 3; ++k) {
+    box.high(k) = support(Vector3d::Unit(k));
+    box.low(k) = -support(-Vector3d::Unit(k));
+  }
+  return box;
+}
+
+const Ellipsoid& Body::containing_ellipsoid() const {
+  std::call_once(data_->asked, [&] {
+    data_->containing = std::visit([](const auto& shape) { return containing(shape); }, data_->shape);
+  });
+  return data_->containing;
+}
+
+Ellipsoid Placed::containing_ellipsoid() const { return in_world(body.containing_ellipsoid(), pose); }
+
+}  // namespace vericone
