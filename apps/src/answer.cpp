@@ -74,6 +74,7 @@ bool is_found(const AssemblyContact& contact, Membership membership, const Eigen
   if (membership == Membership::on)
     return e.obstacle.pieces.bounds().half_widths().maxCoeff() <= kLargest * size;
   const double open = contact.latest - contact.earliest;
+  if (!std::isfinite(open)) return false;
   return open <= kOfTime * contact.latest || open * w.norm() <= kOfSize * size;
 }
 
