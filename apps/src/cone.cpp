@@ -262,7 +262,9 @@ Json engagement_picture(const Ellipsoid& a, const Ellipsoid& b, int planes, int 
       // At contact the supporting point of A towards B is the common one.
       const Ellipsoid moved = a.translated(*t * v);
       const Eigen::Vector3d n = ConeOracle(moved.translated(-1e-9 * *t * v), b).separating_normal();
-      course["contact_point"] = vector_json(moved.support_point(n));
+      // Where they graze, no plane may separate them by then.
+      const Eigen::Vector3d point = moved.support_point(n);
+      if (point.allFinite()) course["contact_point"] = vector_json(point);
     } else {
       course["miss_distance"] = clearance(a, b, v).distance;
     }

@@ -40,7 +40,10 @@ struct OutputFolder::Held {
 
   void clear() const {
     std::error_code ignored;
-    fs::remove_all(folder / (kStage + std::to_string(getpid())), ignored);
+    // By another name, so that whoever is still writing there finds it gone and adds nothing meanwhile.
+    const fs::path stage = folder / (kStage + std::to_string(getpid())), gone = stage.string() + "0";
+    fs::rename(stage, gone, ignored);
+    fs::remove_all(gone, ignored);
     // Only where nothing is in them.
     for (auto path = made.rbegin(); path != made.rend(); ++path) fs::remove(*path, ignored);
   }
@@ -120,10 +123,8 @@ std::mutex& appearing() {
 }
 
 void abandon_output() {
-  // What is being written meanwhile may keep a folder from being removed at the first try.
-  for (int tries = 0; tries < 3; ++tries)
-    for (const auto& [path, held] : OutputFolder::Held::all())
-      if (const auto folder = held.lock()) folder->clear();
+  for (const auto& [path, held] : OutputFolder::Held::all())
+    if (const auto folder = held.lock()) folder->clear();
 }
 
 }  // namespace vericone

@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 StagedFolder::StagedFolder(const fs::path& folder, const std::string& option)
     : folder_(folder, option), option_(option), stage_(folder_.stage()) {
   std::error_code error;
+  const std::lock_guard guard(appearing());  // none appears once an interruption has removed them
   fs::create_directory(stage_, error);
   if (error) throw InputError(option, folder.string(), "a folder that can be written to; " + error.message());
 }

@@ -117,6 +117,9 @@ class InPreparedFolder(InFolder):
                     found[relative] = self.digest(name, f.read())
         return found, sorted(unfinished)
 
+    def run_limited(self, *arguments, **options):
+        return super().run_limited(*arguments, **{"timeout": 280, **options})
+
     def start(self, words, **options):
         return subprocess.Popen([VERICONE, *words], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                 text=True, **options)
@@ -234,6 +237,32 @@ class WritersRefused(InPreparedFolder):
                     left = [n for n in os.listdir(self.out) if n.endswith(".png")]
                     self.assertIn("mine.png", left)
                     self.assertLess(len(left), len(names) + 1)
+
+
+class WritersDraw(InPreparedFolder):
+    def test_pictures_in_an_active_environment(self):
+        if subprocess.run(["/usr/bin/python3", "-c", "import matplotlib"], capture_output=True, check=False).returncode:
+            self.skipTest("no /usr/bin/python3 with matplotlib")
+        environment = os.path.join(self.folder, "v")  # without packages
+        subprocess.run(["/usr/bin/python3", "-m", "venv", "--without-pip", environment], check=True)
+        active = {**os.environ, "PATH": os.path.join(environment, "bin") + ":" + os.environ["PATH"],
+                  "VIRTUAL_ENV": environment, "PYTHONPATH": self.folder}
+        for name, words in WRITERS.items():
+            if not there(words) or name == "claims":
+                continue
+            with self.subTest(command=name):
+                shutil.rmtree(self.out, ignore_errors=True)
+                result = self.run_limited(*(w for w in words if w != "--no-figures"), "--out", "out", preexec_fn=None,
+                                          env=active)
+                self.assertEqual((result.returncode, result.stderr), (0, ""))
+                found, unfinished = self.listing()
+                pictures = [n for n in found if n.endswith(".png")]
+                self.assertGreater(len(pictures), 0)
+                self.assertEqual(unfinished, [])
+                for picture in pictures:
+                    self.assertIn(picture[:-4] + ".pdf", found)
+                    with open(os.path.join(self.out, picture), "rb") as f:
+                        self.assertEqual(f.read(4), b"\x89PNG")
 
 
 class Interruptions(InPreparedFolder):

@@ -45,7 +45,7 @@ class AssemblyFamily : public Family {
     if (!found) return contact;
     contact.earliest = found->earliest;
     contact.latest = found->latest;
-    if (!is_known(*found, w)) return contact;
+    if (!is_known(*found, w, oracle_->verdict(v_a, v_b) == Verdict::on)) return contact;
     contact.time = found->time;
     contact.normal = found->normal;
     contact.point = in_world_at(found->point, found->time, v_b);
@@ -73,12 +73,11 @@ class AssemblyFamily : public Family {
   /// Whether the contact is known to a thousandth of the time or a hundredth of the agent's size. It is not
   /// where a piece is so large that its coordinates are rounded by more. What grazes has no time at which
   /// they surely overlap.
-  bool is_known(const AssemblyContact& contact, const Vector3d& w) const {
+  bool is_known(const AssemblyContact& contact, const Vector3d& w, bool grazes) const {
     constexpr double kOfTime = 1e-3, kOfSize = 1e-2, kLargest = 1e7;
-    if (std::isinf(contact.latest))
-      return oracle_->obstacle().bounds().half_widths().maxCoeff() <= kLargest * size_;
+    if (grazes) return oracle_->obstacle().bounds().half_widths().maxCoeff() <= kLargest * size_;
     const double open = contact.latest - contact.earliest;
-    return open <= kOfTime * contact.latest || open * w.norm() <= kOfSize * size_;
+    return std::isfinite(open) && (open <= kOfTime * contact.latest || open * w.norm() <= kOfSize * size_);
   }
 
   static double size_of(const Ellipsoid& agent) { return agent.factor().rowwise().norm().maxCoeff(); }
