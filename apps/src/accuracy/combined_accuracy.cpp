@@ -16,14 +16,14 @@
 #include "accuracy/distribution.h"
 #include "accuracy/measure.h"
 #include "accuracy/statistics.h"
-#include "figures.h"
-#include "interrupt.h"
-#include "json_value.h"
-#include "provenance.h"
-#include "resumable_table.h"
-#include "staged_folder.h"
-#include "stopwatch.h"
-#include "threads.h"
+#include "output/figures.h"
+#include "output/interrupt.h"
+#include "json/json_value.h"
+#include "output/provenance.h"
+#include "output/resumable_table.h"
+#include "output/staged_folder.h"
+#include "output/stopwatch.h"
+#include "output/threads.h"
 
 namespace vericone::accuracy {
 namespace {

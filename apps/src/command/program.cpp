@@ -10,8 +10,8 @@
 
 #include "command/catalogue.h"
 #include "command/find_program.h"
-#include "interrupt.h"
-#include "plain_text.h"
+#include "output/interrupt.h"
+#include "output/plain_text.h"
 
 namespace vericone {
 namespace {

@@ -6,20 +6,20 @@
 #include <filesystem>
 #include <iostream>
 
-#include "figures.h"
-#include "fit/cone_json.h"
+#include "output/figures.h"
+#include "fit/cone/cone_json.h"
 #include "fit/fit_body.h"
 #include "fit/fit_check.h"
 #include "fit/fit_json.h"
 #include "fit/fit_picture.h"
 #include "fit/fit_text.h"
 #include "fit/hull_files.h"
-#include "interrupt.h"
-#include "json_value.h"
-#include "progress.h"
-#include "provenance.h"
-#include "staged_folder.h"
-#include "stopwatch.h"
+#include "output/interrupt.h"
+#include "json/json_value.h"
+#include "output/progress.h"
+#include "output/provenance.h"
+#include "output/staged_folder.h"
+#include "output/stopwatch.h"
 
 namespace vericone {
 namespace {

@@ -7,8 +7,8 @@
 #include "input/fields.h"
 #include "input/octree_body.h"
 #include "input/spatial_body.h"
-#include "json_value.h"
-#include "stopwatch.h"
+#include "json/json_value.h"
+#include "output/stopwatch.h"
 
 namespace vericone::input {
 namespace {

@@ -7,15 +7,15 @@
 #include <filesystem>
 #include <ostream>
 
-#include "figures.h"
-#include "interrupt.h"
-#include "json_value.h"
+#include "output/figures.h"
+#include "output/interrupt.h"
+#include "json/json_value.h"
 #include "montecarlo/summary.h"
-#include "provenance.h"
-#include "resumable_table.h"
-#include "staged_folder.h"
-#include "stopwatch.h"
-#include "threads.h"
+#include "output/provenance.h"
+#include "output/resumable_table.h"
+#include "output/staged_folder.h"
+#include "output/stopwatch.h"
+#include "output/threads.h"
 
 namespace vericone::montecarlo {
 namespace {

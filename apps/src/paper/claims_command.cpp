@@ -6,13 +6,13 @@
 #include <ostream>
 
 #include "claims.h"
-#include "interrupt.h"
-#include "json_value.h"
+#include "output/interrupt.h"
+#include "json/json_value.h"
 #include "paper/papers_folder.h"
-#include "progress.h"
-#include "provenance.h"
+#include "output/progress.h"
+#include "output/provenance.h"
 #include "report.h"
-#include "staged_folder.h"
+#include "output/staged_folder.h"
 
 namespace vericone {
 namespace {

@@ -10,17 +10,17 @@
 #include <numbers>
 #include <optional>
 
-#include "figures.h"
+#include "output/figures.h"
 #include "input/assembly_body.h"
-#include "interrupt.h"
-#include "json_value.h"
-#include "map_answer.h"
-#include "output_folder.h"
+#include "output/interrupt.h"
+#include "json/json_value.h"
+#include "cone/map_answer.h"
+#include "output/output_folder.h"
 #include "pieces/assembly_cone.h"
 #include "pieces/pieces_picture.h"
-#include "provenance.h"
-#include "staged_folder.h"
-#include "threads.h"
+#include "output/provenance.h"
+#include "output/staged_folder.h"
+#include "output/threads.h"
 
 namespace vericone {
 namespace {

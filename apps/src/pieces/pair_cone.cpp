@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <ostream>
 
-#include "answer.h"
-#include "figures.h"
-#include "json_value.h"
-#include "staged_folder.h"
-#include "stopwatch.h"
+#include "cone/answer.h"
+#include "output/figures.h"
+#include "json/json_value.h"
+#include "output/staged_folder.h"
+#include "output/stopwatch.h"
 
 namespace vericone {
 namespace {

@@ -6,16 +6,16 @@
 #include <optional>
 #include <ostream>
 
-#include "answer.h"
+#include "cone/answer.h"
 #include "input/assembly_body.h"
-#include "json_value.h"
+#include "json/json_value.h"
 #include "pieces/assembly_cone.h"
 #include "pieces/pieces_picture.h"
 #include "pieces/world_mesh.h"
-#include "slice_json.h"
-#include "staged_folder.h"
-#include "stopwatch.h"
-#include "threads.h"
+#include "json/slice_json.h"
+#include "output/staged_folder.h"
+#include "output/stopwatch.h"
+#include "output/threads.h"
 
 namespace vericone {
 namespace {

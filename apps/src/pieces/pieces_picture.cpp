@@ -7,12 +7,12 @@
 #include <numbers>
 #include <thread>
 
-#include "answer.h"
-#include "figures.h"
+#include "cone/answer.h"
+#include "output/figures.h"
 #include "input/assembly_body.h"
-#include "json_value.h"
+#include "json/json_value.h"
 #include "pieces/decimate.h"
-#include "provenance.h"
+#include "output/provenance.h"
 
 namespace vericone {
 namespace {

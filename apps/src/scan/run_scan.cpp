@@ -8,19 +8,19 @@
 #include <iostream>
 #include <sstream>
 
-#include "figures.h"
+#include "output/figures.h"
 #include "input/assembly_body.h"
 #include "input/scene.h"
 #include "input/spatial_body.h"
-#include "json_value.h"
+#include "json/json_value.h"
 #include "pieces/world_mesh.h"
-#include "provenance.h"
+#include "output/provenance.h"
 #include "scan/lidar_fields.h"
 #include "scan/study.h"
 #include "scan/study_parts.h"
-#include "slice_json.h"
-#include "staged_folder.h"
-#include "threads.h"
+#include "json/slice_json.h"
+#include "output/staged_folder.h"
+#include "output/threads.h"
 
 namespace vericone {
 namespace {

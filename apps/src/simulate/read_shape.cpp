@@ -3,7 +3,7 @@
 
 #include "input/planar_body.h"
 #include "input/spatial_body.h"
-#include "json_value.h"
+#include "json/json_value.h"
 #include "simulate/scenario_fields.h"
 
 namespace vericone::scenario {

@@ -4,16 +4,16 @@
 #include <filesystem>
 #include <ostream>
 
-#include "figures.h"
+#include "output/figures.h"
 #include "input/scene.h"
-#include "interrupt.h"
-#include "json_value.h"
-#include "progress.h"
+#include "output/interrupt.h"
+#include "json/json_value.h"
+#include "output/progress.h"
 #include "simulate/read_scenario.h"
 #include "simulate/run_files.h"
 #include "simulate/run_text.h"
-#include "staged_folder.h"
-#include "stopwatch.h"
+#include "output/staged_folder.h"
+#include "output/stopwatch.h"
 
 namespace vericone {
 namespace {

@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "interrupt.h"
-#include "json_value.h"
+#include "output/interrupt.h"
+#include "json/json_value.h"
 
 namespace vericone {
 namespace {
