@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "cones/pairs/sampled_body.h"
+#include "support/allocations.h"
 #include "support/campaign.h"
 
 namespace vericone::pair_test {
@@ -20,6 +21,7 @@ namespace {
 using Eigen::Vector3d;
 using testing::any_body;
 using testing::any_pose;
+using testing::campaign_size;
 using testing::RandomBodies;
 using testing::sampled;
 using testing::SampledPlaced;
@@ -48,7 +50,7 @@ TEST_P(EveryPair, AgreesWithSampledSweepsAndItsMirrorImage) {
   RandomBodies random(1600 + 7 * static_cast<std::uint64_t>(first) + static_cast<std::uint64_t>(second));
   SCOPED_TRACE(random.trace());
   int decided = 0, asked = 0, clear = 0, normals = 0, turned = 0;
-  for (int i = 0; i < share(1000); ++i) {
+  for (int i = 0; i < campaign_size(100, 1000); ++i) {
     const auto a = stand(sampled(any_body(random, first)), any_pose(random, 0.5));
     const auto b = stand(sampled(any_body(random, second)), any_pose(random, random.uniform(4, 9)));
     const Pair pair(a.placed, b.placed), mirrored(b.placed, a.placed);
@@ -245,6 +247,22 @@ TEST(PairAnswers, TheVerdictOfTwoEllipsoidsIsTheOracles) {
                           Ellipsoid::from_axes({5, 0, 0}, {2, 2, 2}));
   EXPECT_EQ(pair.verdict({4, 3, 0}, {0, 0, 0}), oracle.verdict({4, 3, 0}, {0, 0, 0}));
   EXPECT_EQ(pair.verdict({4, 3, 0}, {0, 0, 0}), Verdict::on);
+}
+
+/// Of exact pairs where the first rungs decide: the control loop of a robot asks this.
+TEST(PairAnswers, VerdictsDoNotAllocate) {
+  RandomBodies random(1904);
+  for (const BodyKind kind :
+       {BodyKind::ellipsoid, BodyKind::hull, BodyKind::mesh, BodyKind::cloud, BodyKind::boxes}) {
+    const Pair pair(Placed(any_body(random, BodyKind::ellipsoid)),
+                    Placed(any_body(random, kind), {{9, 0, 0}}));
+    const std::size_t before = testing::allocations();
+    int meet = 0;
+    for (int i = 0; i < 200; ++i)
+      meet += pair.verdict(Vector3d(9, 0, 0) + random.in_box(5), Vector3d::Zero()) == Verdict::in;
+    EXPECT_EQ(testing::allocations(), before) << to_string(kind);
+    EXPECT_GT(meet, 0) << to_string(kind);
+  }
 }
 
 }  // namespace
