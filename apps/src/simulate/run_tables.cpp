@@ -36,7 +36,7 @@ double k_at(const ShapeInTime& shape, double t) {
   return kNothing;
 }
 
-void body_row(std::string& table, const Body& body, const Track& track, double t,
+void body_row(std::string& table, const simulation::Body& body, const Track& track, double t,
               guidance::Direction& heading, bool first) {
   const Motion motion = track.motion(t);
   const Eigen::Vector3d a = track.acceleration(t);
