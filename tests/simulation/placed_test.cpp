@@ -154,20 +154,21 @@ Scenario through_the_wall(guidance::Law law, const Vector3d& aim, const Vector3d
 TEST(GuardedAmongPlaced, FliesThroughTheWindow) {
   for (const guidance::Law law : {guidance::Law::clearance, guidance::Law::avoidance}) {
     const Scenario scenario = through_the_wall(law, {6, 0, 0});
-    const Run run = simulate(scenario);
+    const simulation::Run run = simulate(scenario);
     EXPECT_EQ(run.verdict(), ProofVerdict::avoided);
     EXPECT_TRUE(find_event(scenario, run, EventKind::reaches_goal, "A", "A"));
     // Through the window and not around the wall.
     const Track& way = run.tracks[0];
     for (double t = 0; t < way.end(); t += 0.01)
-      if (const Vector3d x = way.motion(t).position; std::abs(x.x()) < 0.2)
+      if (const Vector3d x = way.motion(t).position; std::abs(x.x()) < 0.2) {
         EXPECT_LT(std::max(std::abs(x.y()), std::abs(x.z())), 1);
+      }
   }
 }
 
 TEST(GuardedAmongPlaced, GoesBesideWhereTheWayIsBlocked) {
   const Scenario scenario = through_the_wall(guidance::Law::clearance, {7, 3, 0}, {-0.2, 0, 0});
-  const Run run = simulate(scenario);
+  const simulation::Run run = simulate(scenario);
   EXPECT_EQ(run.verdict(), ProofVerdict::avoided);
   ASSERT_EQ(run.proofs.size(), 1u);
   EXPECT_TRUE(run.proofs[0].kept()) << run.proofs[0].proof.least_distance;

@@ -56,8 +56,7 @@ Json placed_json(const Placed& placed) {
         json["pieces"].push_back({{"kind", "hull"}, {"points", points}});
       }
     } else {
-      for (const auto& [key, value] : shown_pieces({"", "", *assembly, placed.pose}).items())
-        json[key] = value;
+      json.update(shown_pieces({"", "", *assembly, placed.pose}));
     }
   }
   return json;
