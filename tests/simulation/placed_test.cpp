@@ -35,7 +35,7 @@ vericone::Body wall_with_window() {
 }
 
 Track moving(Random& random, const ShapeInTime& shape, const Vector3d& position, bool turns) {
-  const Vector3d velocity = towards(random, position, 5, 4);
+  const Vector3d velocity = towards(random, position, 5, 2);
   const Matrix3d rotation = random.rotation();
   return turns ? turning(random, shape, {position, velocity, rotation}, 4, 5)
                : straight(shape, position, velocity, 5, rotation);
@@ -65,7 +65,9 @@ TEST(ProofOfPlaced, ShellsAreSolidBoxesFromOutside) {
       EXPECT_LE((by_distance.place - by_planes.place).norm(), 1e-2) << i;
     } else {
       const double scale = by_planes.least_distance;
-      EXPECT_NEAR(by_distance.least_distance, scale, 0.02 * scale + 1e-5) << i;
+      // Turning costs the bound by distances a part of the first order of a piece's length.
+      const bool turns = i % 2 == 0 || i % 4 < 2;
+      EXPECT_NEAR(by_distance.least_distance, scale, (turns ? 0.1 : 0.02) * scale + 1e-5) << i;
     }
   }
   EXPECT_GT(counts[0], 25);

@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
 /// Pieces tried at most to raise the bound on the least distance.
-constexpr int kMostRefinements = 60;
+constexpr int kMostRefinements = 60, kMostByDistances = 200;
 
 struct Span {
   Moment from, to;
@@ -163,7 +163,7 @@ class Search {
   /// Halves the piece of the least bound until that is near a distance that the bodies do come to.
   void refine() {
     double nearest = std::min_element(leaves_.begin(), leaves_.end(), nearer)->gap;
-    for (int i = 0; i < kMostRefinements; ++i) {
+    for (int i = 0; i < (distances_ ? kMostByDistances : kMostRefinements); ++i) {
       const auto least = std::min_element(leaves_.begin(), leaves_.end(), lower);
       if (least->bound >= (least->by_planes ? 0.99 : 0.8) * nearest - 1e-6) return;
       const Leaf parent = *least;

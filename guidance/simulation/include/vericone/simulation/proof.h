@@ -33,7 +33,7 @@ struct PairProof {
   Eigen::Vector3d place = Eigen::Vector3d::Zero();
   /// avoided: the distance was never below this, proved, metres; and when they came nearest, about. Within 1
   /// % of the least distance of the convex hulls (1e-6 m) in nearly all runs; a rougher bound where one is in
-  /// the other's dent.
+  /// the other's dent, and by a few % for placed bodies that turn.
   double least_distance = 0, least_time = 0;
   std::uint64_t pieces = 0;  // pieces of time that were proved separately
 };
