@@ -14,6 +14,7 @@
 #include <fstream>
 #include <map>
 #include <set>
+#include <tuple>
 
 namespace vericone::benchmarks {
 namespace {
@@ -260,6 +261,55 @@ MembershipFigures membership_table(int rounds) {
   return figures;
 }
 
+/// 10^6 velocities against one pair in one call, half of them aimed near its cone. Returns nanoseconds a
+/// velocity by width of the registers, as far as the machine has them.
+std::map<VectorWidth, double> batch_table(int rounds) {
+  constexpr std::size_t kVelocities = 1'000'000, kExact = 10'000;
+  const Engagement pair = engagements(1).front();
+  const ConeOracle oracle(pair.a, pair.b);
+  const TrueCone cone = true_cone(pair.a, pair.b, 64);
+  Dice dice(3);
+  std::vector<Eigen::Vector3d> w(kVelocities);
+  for (std::size_t i = 0; i < kVelocities; ++i) {
+    const BoundarySample& s = cone.boundary[i / 2 % 64];
+    w[i] = i % 2 == 0 ? dice.direction() : Eigen::Vector3d(s.direction + dice.uniform(-0.2, 0.2) * s.normal);
+  }
+  std::vector<Membership> single(kVelocities), at_once(kVelocities);
+  std::vector<Item> items = {item("membership, one after the other", 1, 1, [&](int) {
+    for (std::size_t i = 0; i < kVelocities; ++i) single[i] = oracle.membership(w[i]);
+    return single[0];
+  })};
+  std::vector<VectorWidth> widths;
+  for (const auto& [width, name] : {std::pair(VectorWidth::two, "plain x86-64"),
+                                    {VectorWidth::four, "AVX2"},
+                                    {VectorWidth::eight, "AVX-512"}}) {
+    if (width > widest_vectors()) continue;
+    widths.push_back(width);
+    items.push_back(item(std::string("memberships, ") + name, 1, 1, [&, at_most = width](int) {
+      oracle.memberships(w, at_once, at_most);
+      return at_once[0];
+    }));
+  }
+  measure(items, rounds);
+  std::printf("| 10^6 velocities against one pair | time of each | membership / this | wrong |\n");
+  std::printf("| --- | --- | --- | --- |\n");
+  for (std::size_t k = 0; k < items.size(); ++k) {
+    if (k > 0) oracle.memberships(w, at_once, widths[k - 1]);
+    const std::vector<Membership>& answers = k > 0 ? at_once : single;
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < kVelocities; ++i)
+      wrong += answers[i] != (i % (kVelocities / kExact) == 0
+                                  ? oracle.exact_membership(w[i], Eigen::Vector3d::Zero())
+                                  : single[i]);
+    std::printf("| %s | %s | %.3g | %zu |\n", items[k].name.c_str(),
+                nanoseconds(median(items[k].times) / kVelocities).c_str(), median_ratio(items[0], items[k]),
+                wrong);
+  }
+  std::map<VectorWidth, double> times;
+  for (std::size_t k = 0; k < widths.size(); ++k) times[widths[k]] = median(items[k + 1].times) / kVelocities;
+  return times;
+}
+
 }  // namespace
 }  // namespace vericone::benchmarks
 
@@ -273,6 +323,8 @@ int main(int argc, char** argv) {
   const double combined = combined_table(rounds);
   std::printf("\n");
   const MembershipFigures membership = membership_table(rounds);
+  std::printf("\n");
+  const auto batch = batch_table(rounds);
   std::printf("\nFCL's table of conservative advancement %s a pair of ellipsoids.\n",
               fcl_ellipsoids_in_table() ? "has an entry for" : "has no entry for");
   std::printf("\n| requirement | measured | |\n| --- | --- | --- |\n");
@@ -286,10 +338,14 @@ int main(int argc, char** argv) {
   requirement("membership in plain double below 40 ns", membership.plain < 40, membership.plain, "%.1f ns");
   requirement("exact membership, all rungs, below 40 ns", membership.ladder < 40, membership.ladder,
               "%.1f ns");
-  requirement("the same at most twice plain double", membership.over_plain <= 2, membership.over_plain,
-              "%.2f");
+  requirement("the same at most 1.15 times plain double", membership.over_plain <= 1.15,
+              membership.over_plain, "%.2f");
   requirement("the first rung decides at least 99.9 % of them", membership.passed >= 99.9, membership.passed,
               "%.1f %%");
+  for (const auto& [width, name, most] :
+       {std::tuple(vericone::VectorWidth::four, "10^6 velocities in one call below 8 ns each with AVX2", 8.0),
+        {vericone::VectorWidth::eight, "the same below 5.5 ns with AVX-512", 5.5}})
+    if (batch.contains(width)) requirement(name, batch.at(width) < most, batch.at(width), "%.1f ns");
   requirement("fastest FCL call for the same question / membership at least 15", membership.least_ratio >= 15,
               membership.least_ratio, "%.3g");
 }

@@ -20,6 +20,7 @@
 #include "input/scene.h"
 #include "json_value.h"
 #include "output_folder.h"
+#include "pieces/pair_cone.h"
 #include "pieces/pieces_cone.h"
 #include "planar_cone.h"
 #include "provenance.h"
@@ -108,7 +109,7 @@ Slices slices_of(const input::Engagement& e, int planes, SliceSector sectors) {
           extra};
 }
 
-SliceSector sectors_of(const ConeOptions& options) {
+SliceSector sectors_of(const ConeCommand& options) {
   if (options.tangents == "all") return SliceSector::all_candidates;
   if (options.tangents == "by-sides") return SliceSector::source_by_sides;
   if (options.tangents == "printed") return SliceSector::source_printed;
@@ -179,7 +180,7 @@ void print_text(const Json& cone, const input::Engagement& e, std::ostream& out)
   out << "time                " << cone["seconds"].dump() << " s\n";
 }
 
-Json cone_json(const ConeOptions& options, const input::Engagement& e) {
+Json cone_json(const ConeCommand& options, const input::Engagement& e) {
   if (options.samples && options.tolerance)
     throw InputError("--samples", std::to_string(*options.samples), "left out where --tolerance is given");
   const SliceSector sectors = sectors_of(options);
@@ -195,7 +196,7 @@ Json cone_json(const ConeOptions& options, const input::Engagement& e) {
   return exact_json(e.agent.ellipsoid(), e.obstacle.ellipsoid(), options.samples.value_or(kDefaultSamples));
 }
 
-void run_planar_cone(const ConeOptions& options, const input::PlanarEngagement& e, std::ostream& out) {
+void run_planar_cone(const ConeCommand& options, const input::PlanarEngagement& e, std::ostream& out) {
   if (options.method != "exact")
     throw InputError("--method", options.method, "left out for a planar scene, whose cone is one sector");
   if (options.tangents != "all")
@@ -281,7 +282,7 @@ struct ConePicture {
 };
 
 /// What --out asks for, refused before anything is printed or written.
-ConePicture cone_picture(const ConeOptions& options, const input::Engagement& e, const Json& cone) {
+ConePicture cone_picture(const ConeCommand& options, const input::Engagement& e, const Json& cone) {
   const auto refuse = [&](const char* requirement) {
     throw InputError("--out", options.picture_folder, requirement);
   };
@@ -301,7 +302,7 @@ ConePicture cone_picture(const ConeOptions& options, const input::Engagement& e,
 
 }  // namespace
 
-void run_cone(const ConeOptions& options, std::ostream& out) {
+void run_cone(const ConeCommand& options, std::ostream& out) {
   if (options.method != "exact" && options.method != "slice")
     throw InputError("--method", options.method, "slice or exact");
   const input::AnyEngagement scene = input::read_scene(options.scene);
@@ -309,6 +310,8 @@ void run_cone(const ConeOptions& options, std::ostream& out) {
     return run_planar_cone(options, *planar, out);
   if (const auto* pieces = std::get_if<input::AssemblyEngagement>(&scene))
     return run_pieces_cone(options, *pieces, out);
+  if (const auto* placed = std::get_if<input::PlacedEngagement>(&scene))
+    return run_pair_cone(options, *placed, out);
   const auto& e = std::get<input::Engagement>(scene);
   std::optional<OutputFolder> held;
   if (!options.picture_folder.empty()) held.emplace(options.picture_folder, "--picture");

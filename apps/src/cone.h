@@ -15,7 +15,7 @@ inline constexpr int kDefaultSamples = 96;
 inline constexpr double kDefaultTolerance = 0.01;
 inline constexpr int kDefaultPlanes = 36;
 
-struct ConeOptions {
+struct ConeCommand {
   std::string scene;
   std::string method = "exact";     // or "slice"
   std::optional<int> planes;        // slice; half-planes of a body of pieces
@@ -30,11 +30,11 @@ struct ConeOptions {
 };
 
 /// `vericone cone`: the cone of one scene, as text or JSON (docs/formats.md), with a picture if asked for.
-void run_cone(const ConeOptions& options, std::ostream& out);
+void run_cone(const ConeCommand& options, std::ostream& out);
 
 /// What the picture of one engagement shows: both bodies, the slice cone inside the exact one, and a velocity
-/// between the two with the contact it leads to; the scene's own relative velocity too, where it is not 0. Requires
-/// disjoint bodies.
+/// between the two with the contact it leads to; the scene's own relative velocity too, where it is not 0.
+/// Requires disjoint bodies.
 Json engagement_picture(const Ellipsoid& a, const Ellipsoid& b, int planes, int samples,
                         const Eigen::Vector3d& velocity = Eigen::Vector3d::Zero());
 

@@ -17,7 +17,7 @@ namespace vericone {
 namespace {
 
 int cone_command(CommandLine& line) {
-  ConeOptions cone;
+  ConeCommand cone;
   line.option("scene", cone.scene, "Scene file, YAML (docs/formats.md)").required();
   line.option("--method", cone.method,
               "exact: the true cone with its error bound; slice: the source's, too small");

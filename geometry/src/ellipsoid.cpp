@@ -3,8 +3,8 @@
 
 #include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/quadric.h>
-#include <vericone/geometry/rational.h>
 #include <Eigen/Dense>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/geometry/integer.h>
+#include <vericone/geometry/exact/integer.h>
 #include <vericone/geometry/mesh_section.h>
 
 #include <algorithm>

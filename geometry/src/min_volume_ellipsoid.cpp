@@ -3,7 +3,7 @@
 
 #include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/rational.h>
+#include <vericone/geometry/exact/rational.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 #include <vericone/geometry/quadric.h>
 
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/rational.h>
+#include <vericone/geometry/exact/rational.h>
 
 namespace vericone {
 namespace {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/cone_bodies.h"
+#include <vericone/testing/random_bodies.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
-
-#include "support/random_bodies.h"
 
 namespace vericone::cone_bodies_test {
 namespace {

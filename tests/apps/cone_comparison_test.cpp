@@ -6,6 +6,7 @@
 #include <vericone/cones/assembly/assembly_oracle.h>
 #include <vericone/cones/combined/cone.h>
 #include <vericone/geometry/error.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <cmath>
 #include <numbers>
@@ -13,7 +14,7 @@
 #include "fit/cone_json.h"
 #include "geometry/meshes.h"
 #include "json_value.h"
-#include "support/random_bodies.h"
+#include "support/campaign.h"
 
 namespace vericone::cone_comparison_test {
 namespace {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -11,7 +12,6 @@
 #include <sstream>
 
 #include "geometry/meshes.h"
-#include "support/random_bodies.h"
 
 namespace vericone::scanning::scan_study_test {
 namespace {

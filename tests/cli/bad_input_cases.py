@@ -144,10 +144,7 @@ QUERIES = [
     ("a cube with a centre in the plane", pieces(**CUBE, center=[1, 2])),
     ("a cube turned by a shear", pieces(**CUBE, rotation=[[1, 0.1, 0], [0, 1, 0], [0, 0, 1]])),
     ("an agent that is a mesh", pieces({"mesh": "points.xyz"}, **CUBE)),
-    ("an agent with hyperboloids before pieces", pieces(
-        {"center": [0, 0, 0], "semi_axes": [1, 2, 3], "hyperboloids": [GOOD_HYPERBOLOID]}, **CUBE)),
     ("a planar agent before pieces", pieces({"center": [0, 0], "semi_axes": [1, 2]}, **CUBE)),
-    ("a hull before an ellipsoid", pieces(CUBE, center=[20, 0, 0], semi_axes=[1, 1, 1])),
     ("a line that is a list", [1, 2, 3]),
     ("a line that is a number", 7),
     ("a broken line", '{"id": 7, "agent": {'),

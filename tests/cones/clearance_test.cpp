@@ -3,6 +3,7 @@
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/geometry/error.h>
+#include <vericone/testing/random_bodies.h>
 #include <Eigen/Geometry>
 
 #include <cmath>
@@ -11,7 +12,6 @@
 
 #include "richardson.h"
 #include "support/campaign.h"
-#include "support/random_bodies.h"
 
 namespace vericone::clearance_test {
 namespace {

@@ -8,11 +8,10 @@
 #include <vericone/cones/ellipsoids/true_cone.h>
 #include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/geometry/error.h>
+#include <vericone/testing/random_bodies.h>
 #include <Eigen/LU>
 
 #include <numbers>
-
-#include "support/random_bodies.h"
 
 namespace vericone::combined_cone_test {
 namespace {

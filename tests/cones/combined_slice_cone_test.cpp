@@ -3,10 +3,9 @@
 #include <vericone/cones/combined/cone.h>
 #include <vericone/cones/slices/combined_slice_cone.h>
 #include <vericone/geometry/error.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <numbers>
-
-#include "support/random_bodies.h"
 
 namespace vericone::combined_slice_cone_test {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/true_cone.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <numbers>
 
 #include "support/campaign.h"
-#include "support/random_bodies.h"
 
 namespace vericone::cone_bounds_test {
 namespace {

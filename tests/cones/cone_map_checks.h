@@ -5,14 +5,14 @@
 
 #include <gtest/gtest.h>
 #include <vericone/cones/map/cone_map.h>
+#include <vericone/testing/random_bodies.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 #include <vector>
-
-#include "support/random_bodies.h"
+#include "support/campaign.h"
 
 namespace vericone::testing {
 

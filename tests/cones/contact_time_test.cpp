@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/clearance.h>
+#include <vericone/testing/random_bodies.h>
 
 #include "exact_tangency.h"
-#include "support/random_bodies.h"
 
 namespace vericone::contact_time_test {
 namespace {

@@ -8,10 +8,9 @@
 #include <vericone/cones/planar/enclose_sector.h>
 #include <vericone/cones/planar/sector_oracle.h>
 #include <vericone/geometry/error.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <iostream>
-
-#include "support/random_bodies.h"
 
 namespace vericone::enclosures_test {
 namespace {

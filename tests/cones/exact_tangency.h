@@ -4,10 +4,9 @@
 #pragma once
 
 #include <vericone/geometry/ellipsoid.h>
+#include <vericone/testing/random_bodies.h>
 #include <Eigen/LU>
 #include <cmath>
-
-#include "support/random_bodies.h"
 
 namespace vericone::testing {
 

@@ -5,10 +5,11 @@
 
 #include <gtest/gtest.h>
 #include <vericone/cones/hulls/hull_oracle.h>
+#include <vericone/testing/random_bodies.h>
 #include <vector>
 
 #include "hull_reference.h"
-#include "support/random_bodies.h"
+#include "support/campaign.h"
 
 namespace vericone::testing {
 

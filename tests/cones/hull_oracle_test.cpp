@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <vericone/testing/laws.h>
 #include "hull_oracle_checks.h"
 #include "support/campaign.h"
-#include "support/velocity_laws.h"
 
 namespace vericone::testing::hull_oracle_test {
 namespace {

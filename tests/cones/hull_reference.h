@@ -5,7 +5,7 @@
 #pragma once
 
 #include <vericone/cones/ellipsoids/predicates.h>
-#include <vericone/geometry/rational.h>
+#include <vericone/geometry/exact/rational.h>
 #include <algorithm>
 #include <vector>
 

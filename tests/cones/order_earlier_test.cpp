@@ -6,13 +6,14 @@
 #include <vericone/cones/times/contact_time_enclosure.h>
 #include <vericone/cones/times/order.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/rational.h>
+#include <vericone/geometry/exact/body.h>
+#include <vericone/geometry/exact/rational.h>
+#include <vericone/testing/random_bodies.h>
 #include <Eigen/LU>
 
 #include "exact_tangency.h"
 #include "order_rungs.h"
 #include "support/campaign.h"
-#include "support/random_bodies.h"
 
 namespace vericone::order_earlier_test {
 namespace {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/opening/orifice.h>
 #include <vericone/geometry/error.h>
+#include <vericone/testing/random_bodies.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -12,7 +13,6 @@
 
 #include "cones/print_answers.h"
 #include "support/campaign.h"
-#include "support/random_bodies.h"
 
 namespace vericone::orifice_test {
 namespace {

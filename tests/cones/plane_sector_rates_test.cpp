@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/plane_sector.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <cmath>
 
 #include "richardson.h"
 #include "support/campaign.h"
-#include "support/random_bodies.h"
 
 namespace vericone::plane_sector_rates_test {
 namespace {

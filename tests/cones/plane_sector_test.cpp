@@ -4,10 +4,9 @@
 #include <vericone/cones/ellipsoids/true_cone.h>
 #include <vericone/cones/slices/slice_cone.h>
 #include <vericone/geometry/error.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <numbers>
-
-#include "support/random_bodies.h"
 
 namespace vericone::plane_sector_test {
 namespace {

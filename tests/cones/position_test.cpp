@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/exact_position.h>
 #include <vericone/cones/ellipsoids/position.h>
+#include <vericone/geometry/exact/body.h>
+#include <vericone/testing/random_bodies.h>
 #include <Eigen/LU>
 
 #include <array>
@@ -11,7 +13,6 @@
 
 #include "cones/print_answers.h"
 #include "support/campaign.h"
-#include "support/random_bodies.h"
 
 namespace vericone::position_test {
 namespace {

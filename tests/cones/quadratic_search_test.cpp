@@ -3,11 +3,11 @@
 // The search that certified cones rest on: `empty` and `found` are never wrong, and near a tangency it needs
 // boxes of the square root of the gap only.
 #include <gtest/gtest.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <limits>
 
 #include "../../cones/src/combined/quadratic_search.h"
-#include "support/random_bodies.h"
 
 namespace vericone::quadratic_search_test {
 namespace {

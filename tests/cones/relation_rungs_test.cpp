@@ -5,12 +5,13 @@
 #include <vericone/cones/ellipsoids/contact_frame.h>
 #include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/rational.h>
+#include <vericone/geometry/exact/body.h>
+#include <vericone/geometry/exact/rational.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <iostream>
 
 #include "support/campaign.h"
-#include "support/random_bodies.h"
 
 namespace vericone::relation_rungs_test {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/contact_frame.h>
 #include <vericone/cones/ellipsoids/predicates.h>
-#include <vericone/geometry/rational.h>
+#include <vericone/geometry/exact/rational.h>
 
 #include <array>
 

@@ -3,6 +3,7 @@
 // Both ways to a planar sector against each other, against 50 digits and under symmetries.
 #include <gtest/gtest.h>
 #include <vericone/cones/planar/sector.h>
+#include <vericone/testing/random_bodies.h>
 #include <Eigen/LU>
 
 #include <iostream>
@@ -10,7 +11,6 @@
 
 #include "reference_sector.h"
 #include "support/campaign.h"
-#include "support/random_bodies.h"
 
 namespace vericone::sector_property_test {
 namespace {

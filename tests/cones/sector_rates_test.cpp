@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/cones/planar/sector.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "richardson.h"
-#include "support/random_bodies.h"
 
 namespace vericone::sector_rates_test {
 namespace {

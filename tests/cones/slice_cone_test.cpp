@@ -6,11 +6,11 @@
 #include <vericone/cones/slices/slice_cone.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/quadric.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <numbers>
 
 #include "support/campaign.h"
-#include "support/random_bodies.h"
 
 namespace vericone::slice_cone_test {
 namespace {

@@ -24,11 +24,11 @@
 #include <vericone/cones/times/contact_time_enclosure.h>
 #include <vericone/cones/times/order.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/exact/body.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <cmath>
 #include <numbers>
-
-#include "support/random_bodies.h"
 
 namespace vericone::total_functions_test {
 namespace {

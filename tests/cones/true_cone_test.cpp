@@ -2,13 +2,13 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/true_cone.h>
 #include <vericone/geometry/error.h>
+#include <vericone/testing/random_bodies.h>
 #include <Eigen/LU>
 
 #include <iostream>
 #include <numbers>
 
 #include "cone_by_bisection.h"
-#include "support/random_bodies.h"
 
 namespace vericone::true_cone_test {
 namespace {

@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/slices/visible_cone.h>
 #include <vericone/geometry/error.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "geometry/meshes.h"
-#include "support/random_bodies.h"
 
 namespace vericone::visible_cone_test {
 namespace {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/slices/visible_sector.h>
 #include <vericone/geometry/error.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,6 @@
 #include <numbers>
 
 #include "support/campaign.h"
-#include "support/random_bodies.h"
 
 namespace vericone::visible_sector_test {
 namespace {

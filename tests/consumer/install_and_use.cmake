@@ -1,13 +1,28 @@
-# Installs the build into a fresh prefix, builds the consumer against it and runs it.
+# Installs the build into a fresh prefix, builds the consumer and the README's examples against it and runs them: each
+# stands in the README word for word, and prints what the README says.
 file(REMOVE_RECURSE ${WORK})
-foreach(step
-    "${CMAKE_COMMAND};--install;${BUILD};--prefix;${WORK}/prefix"
-    "${CMAKE_COMMAND};-S;${SOURCE};-B;${WORK}/build;-G;${GENERATOR};-DCMAKE_MAKE_PROGRAM=${MAKE_PROGRAM};-DCMAKE_PREFIX_PATH=${WORK}/prefix;-DCMAKE_CXX_FLAGS=${FLAGS};-DCMAKE_CXX_COMPILER=${COMPILER}"
-    "${CMAKE_COMMAND};--build;${WORK}/build"
-    "${WORK}/build/consumer"
-    "${WORK}/prefix/bin/vericone;--version")
-  execute_process(COMMAND ${step} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
   if(NOT status EQUAL 0)
-    message(FATAL_ERROR "${step} ended with ${status}:\n${output}")
+    message(FATAL_ERROR "${ARGN} ended with ${status}:\n${output}${errors}")
   endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
+run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G ${GENERATOR} -DCMAKE_MAKE_PROGRAM=${MAKE_PROGRAM}
+  -DCMAKE_PREFIX_PATH=${WORK}/prefix -DEXAMPLES=${ROOT}/docs/examples/cpp "-DCMAKE_CXX_FLAGS=${FLAGS}"
+  -DCMAKE_CXX_COMPILER=${COMPILER})
+run(${CMAKE_COMMAND} --build ${WORK}/build)
+run(${WORK}/build/consumer)
+run(${WORK}/prefix/bin/vericone --version)
+file(READ ${ROOT}/README.md readme)
+foreach(example verdict cone step)
+  run(${WORK}/build/${example})
+  file(READ ${ROOT}/docs/examples/cpp/${example}.cpp code)
+  foreach(text "```cpp\n${code}```" "```\n${output}```")
+    string(FIND "${readme}" "${text}" found)
+    if(found EQUAL -1)
+      message(FATAL_ERROR "README.md does not have this of docs/examples/cpp/${example}.cpp:\n${text}")
+    endif()
+  endforeach()
 endforeach()

@@ -3,14 +3,16 @@
 #include <gtest/gtest.h>
 #include <vericone/fitting/hull.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/exact/quadric_side.h>
+#include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/quadric_side.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <limits>
 
 #include "proof/quadratic_form.h"
-#include "support/random_bodies.h"
 #include "proof/triangle_form.h"
 
 namespace vericone::fitting::certificate_test {

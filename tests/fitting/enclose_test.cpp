@@ -4,13 +4,12 @@
 #include <vericone/fitting/hull.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/quadric_side.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <span>
-
-#include "support/random_bodies.h"
 
 namespace vericone::fitting::enclose_test {
 namespace {

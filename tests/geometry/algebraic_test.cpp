@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/geometry/algebraic.h>
+#include <vericone/geometry/exact/algebraic.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <algorithm>
 #include <cmath>
-
-#include "support/random_bodies.h"
 
 namespace vericone::exact::algebraic_test {
 namespace {

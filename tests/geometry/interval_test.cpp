@@ -3,12 +3,11 @@
 // Intervals carry an exact rational number through random chains of operations and must contain it after
 // each.
 #include <gtest/gtest.h>
+#include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/interval.h>
-#include <vericone/geometry/rational.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <limits>
-
-#include "support/random_bodies.h"
 
 namespace vericone::interval_test {
 namespace {

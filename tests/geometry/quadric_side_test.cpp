@@ -2,11 +2,10 @@
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/quadric_side.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <iostream>
 #include <limits>
-
-#include "support/random_bodies.h"
 
 namespace vericone::quadric_side_test {
 namespace {

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/quadric.h>
-#include <vericone/geometry/rational.h>
 
 #include <cmath>
 #include <limits>

@@ -5,13 +5,13 @@
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/pair.h>
 #include <vericone/guidance/clearance_law.h>
+#include <vericone/testing/random_bodies.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "cones/richardson.h"
-#include "support/random_bodies.h"
 
 namespace vericone::guidance::clearance_law_test {
 namespace {

@@ -4,10 +4,10 @@
 #pragma once
 
 #include <vericone/guidance/plane_view.h>
+#include <vericone/testing/random_bodies.h>
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "support/random_bodies.h"
 #include "support/random_combined.h"
 
 namespace vericone::testing {

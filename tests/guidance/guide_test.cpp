@@ -5,12 +5,12 @@
 #include <vericone/cones/ellipsoids/plane_sector.h>
 #include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/guidance/guide.h>
+#include <vericone/testing/random_bodies.h>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <vector>
 
-#include "guidance/allocations.h"
-#include "support/random_bodies.h"
+#include "support/allocations.h"
 
 namespace vericone::guidance::guide_test {
 namespace {

@@ -4,10 +4,9 @@
 #pragma once
 
 #include <vericone/guidance/laws.h>
+#include <vericone/testing/random_bodies.h>
 #include <cmath>
 #include <cstddef>
-
-#include "support/random_bodies.h"
 
 namespace vericone::testing {
 

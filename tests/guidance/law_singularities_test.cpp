@@ -3,6 +3,7 @@
 // What each law does where it has nothing to do, no effect, no limit, or too much to demand.
 #include <gtest/gtest.h>
 #include <vericone/guidance/laws.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <cmath>
 #include <initializer_list>
@@ -10,8 +11,7 @@
 #include <set>
 #include <string>
 
-#include "guidance/allocations.h"
-#include "support/random_bodies.h"
+#include "support/allocations.h"
 
 namespace vericone::guidance::law_singularities_test {
 namespace {

@@ -4,13 +4,13 @@
 // of the library's kinematics is used. Random states for laws.
 #pragma once
 
+#include <vericone/testing/random_bodies.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "cones/richardson.h"
-#include "support/random_bodies.h"
 
 namespace vericone::testing {
 

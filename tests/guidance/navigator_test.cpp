@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/guidance/navigator.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <vector>
 
-#include "guidance/allocations.h"
-#include "support/random_bodies.h"
+#include "support/allocations.h"
 
 namespace vericone::guidance::navigator_test {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "guidance/allocations.h"
+#include "support/allocations.h"
 #include "guidance/engagements.h"
 #include "guidance/plane_merit.h"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "cones/richardson.h"
-#include "guidance/allocations.h"
+#include "support/allocations.h"
 #include "guidance/engagements.h"
 
 namespace vericone::guidance::plane_view_test {

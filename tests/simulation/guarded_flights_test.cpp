@@ -4,6 +4,7 @@
 // arrive.
 #include <gtest/gtest.h>
 #include <vericone/simulation/run.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -11,7 +12,6 @@
 #include <iostream>
 
 #include "support/campaign.h"
-#include "support/random_bodies.h"
 
 namespace vericone::simulation::guarded_flights_test {
 namespace {
@@ -35,7 +35,8 @@ struct World {
   Body body(const std::string& name, double least, double most) const {
     Body body;
     body.name = name;
-    const Vector3d axes(random.uniform(least, most), random.uniform(least, most), random.uniform(least, most));
+    const Vector3d axes(random.uniform(least, most), random.uniform(least, most),
+                        random.uniform(least, most));
     body.orientation = Orientation::fixed;
     if (planar) {
       body.shape = RigidShape{CombinedEllipse(Ellipse::from_axes(Eigen::Vector2d::Zero(), axes.head<2>()))};
@@ -70,8 +71,7 @@ Scenario flight(std::uint64_t seed) {
 
   Body ghost = agent;
   ghost.pilot->manner = Manner::source;
-  ghost.pilot->goal->point =
-      0.5 * distance * to_goal + random.uniform(0, 0.4) * distance * world.direction();
+  ghost.pilot->goal->point = 0.5 * distance * to_goal + random.uniform(0, 0.4) * distance * world.direction();
   Scenario alone = scenario;
   alone.bodies = {ghost};
   RunOptions quick;
@@ -95,8 +95,8 @@ Scenario flight(std::uint64_t seed) {
     body.start.position = there - when * body.start.velocity;
     bool free = (body.start.position - agent.start.position).norm() > 3 + largest + 2;
     for (std::size_t k = 0; k < witness.size() && free; ++k)
-      free =
-          (body.start.position + 0.05 * double(k) * body.start.velocity - witness[k]).norm() > 3 + largest + 0.5;
+      free = (body.start.position + 0.05 * double(k) * body.start.velocity - witness[k]).norm() >
+             3 + largest + 0.5;
     if (!free) continue;
     scenario.bodies.push_back(body);
     ++i;

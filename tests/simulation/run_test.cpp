@@ -3,11 +3,10 @@
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/geometry/error.h>
 #include <vericone/simulation/run.h>
+#include <vericone/testing/random_bodies.h>
 #include <cmath>
 #include <limits>
 #include <numbers>
-
-#include "support/random_bodies.h"
 
 namespace vericone::simulation::run_test {
 namespace {

@@ -5,9 +5,8 @@
 
 #include <vericone/geometry/combined.h>
 #include <vericone/geometry/error.h>
+#include <vericone/testing/random_bodies.h>
 #include <Eigen/LU>
-
-#include "support/random_bodies.h"
 
 namespace vericone::testing {
 

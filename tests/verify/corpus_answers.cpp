@@ -9,6 +9,8 @@
 #include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/cones/opening/orifice.h>
 #include <vericone/cones/planar/sector_oracle.h>
+#include <vericone/geometry/exact/quadric_side.h>
+#include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/quadric_side.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>

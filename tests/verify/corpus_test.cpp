@@ -3,6 +3,7 @@
 // The corpus of tests/corpus: that its generators still write it, that it says what is wrong with a damaged
 // file, and that every rung of every predicate holds on it.
 #include <gtest/gtest.h>
+#include <vericone/geometry/exact/rational.h>
 #include <vericone/verify/corpus/file.h>
 
 #include <algorithm>

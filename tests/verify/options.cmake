@@ -8,7 +8,7 @@ vericone_precompile(options_probe exact)
 vericone_unity(options_probe 2)
 set(options_probes options_probe)
 
-set(probe_geometry algebraic quadric_side)
+set(probe_geometry exact/algebraic quadric_side)
 set(probe_cones ellipsoids/contact_frame ellipsoids/contact_polynomial ellipsoids/relation ellipsoids/cone_oracle planar/sector_oracle
   ellipsoids/containment ellipsoids/position opening/orifice hulls/oracle hulls/certificates hulls/exact hulls/scene)
 set(probe_sources options_probe.cpp corpus_answers.cpp)

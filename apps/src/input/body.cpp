@@ -55,26 +55,42 @@ BasicEngagement<D> read_bodies(const Json& value, Velocities velocities) {
   return e;
 }
 
-AssemblyEngagement read_assembly_engagement(const Json& value, Velocities velocities,
-                                            const std::filesystem::path& folder) {
+/// Of any kind, where it stands, and what to call it.
+std::pair<Placed, std::string> read_any(const Json& value, const std::string& path,
+                                        const std::filesystem::path& folder) {
+  if (!is_pieces_body(value)) {
+    const CombinedEllipsoid body = read_spatial_body(value, path);
+    return {Placed(body), body.is_ellipsoid() ? "ellipsoid" : "combined quadric"};
+  }
+  PiecesBody body = read_pieces_body(value, path, folder);
+  std::string name = describe(body);
+  return {Placed(std::move(body.pieces), body.pose), std::move(name)};
+}
+
+/// At least one body is made of pieces.
+AnyEngagement read_pieces_engagement(const Json& value, Velocities velocities,
+                                     const std::filesystem::path& folder) {
   const Json& agent = require_field(value, "", "agent", kSpatialBody);
   const Json& obstacle = require_field(value, "", "obstacle", kSpatialBody);
-  const auto read_agent = [&]() -> std::variant<Ellipsoid, HullBody> {
-    if (is_pieces_body(agent)) return read_hull_agent(agent, "agent", folder);
-    const CombinedEllipsoid body = read_spatial_body(agent, "agent");
-    if (!body.is_ellipsoid())
-      throw InputError("agent.hyperboloids", quoted(agent["hyperboloids"]),
-                       "left out: bodies of pieces meet ellipsoids and convex hulls");
-    return body.ellipsoid();
+  const auto v_a = [&] { return read_velocity<3>(value, "agent_velocity", velocities); };
+  const auto v_b = [&] { return read_velocity<3>(value, "obstacle_velocity", velocities); };
+  const auto pieces_before = [&](std::variant<Ellipsoid, HullBody> body) {
+    const Eigen::Vector3d velocity = v_a(), of_obstacle = v_b();
+    return AssemblyEngagement{std::move(body), read_pieces_body(obstacle, "obstacle", folder), velocity,
+                              of_obstacle};
   };
-  auto body = read_agent();
-  if (!is_pieces_body(obstacle))
-    throw InputError("obstacle", quoted(obstacle),
-                     "made of pieces where the agent is (" + pieces_kinds() +
-                         "); exchange the bodies and their velocities");
-  const Eigen::Vector3d v_a = read_velocity<3>(value, "agent_velocity", velocities),
-                        v_b = read_velocity<3>(value, "obstacle_velocity", velocities);
-  return {std::move(body), read_pieces_body(obstacle, "obstacle", folder), v_a, v_b};
+  if (is_pieces_body(obstacle)) {
+    if (is_pieces_body(agent)) {
+      if (agent.contains("hull") || agent.contains("points"))
+        return pieces_before(read_hull_agent(agent, "agent", folder));
+    } else if (const CombinedEllipsoid body = read_spatial_body(agent, "agent"); body.is_ellipsoid()) {
+      return pieces_before(body.ellipsoid());
+    }
+  }
+  auto [first, first_name] = read_any(agent, "agent", folder);
+  auto [second, second_name] = read_any(obstacle, "obstacle", folder);
+  return PlacedEngagement{
+      std::move(first), std::move(second), std::move(first_name), std::move(second_name), v_a(), v_b()};
 }
 
 }  // namespace
@@ -94,12 +110,51 @@ AnyEngagement read_engagement(const Json& value, Velocities velocities,
   require_known(value, "", known);
   for (const char* body : {"agent", "obstacle"})
     if (value.contains(body) && is_pieces_body(value[body]))
-      return read_assembly_engagement(value, velocities, folder);
+      return read_pieces_engagement(value, velocities, folder);
   const Dimension agent = dimension(value, "agent"), obstacle = dimension(value, "obstacle");
   if (agent != Dimension::spatial && obstacle != Dimension::spatial &&
       (agent == Dimension::planar || obstacle == Dimension::planar))
     return read_bodies<2>(value, velocities);
   return read_bodies<3>(value, velocities);
+}
+
+Pair pair_of(const AnyEngagement& engagement) {
+  struct Prepare {
+    Pair operator()(const Engagement& e) const { return {Placed(e.agent), Placed(e.obstacle)}; }
+    Pair operator()(const PlanarEngagement& e) const { return {e.agent, e.obstacle}; }
+    Pair operator()(const AssemblyEngagement& e) const {
+      const Placed obstacle(e.obstacle.pieces, e.obstacle.pose);
+      return std::visit([&](const auto& agent) { return Pair(Placed(agent), obstacle); }, e.agent);
+    }
+    Pair operator()(const PlacedEngagement& e) const { return {e.agent, e.obstacle}; }
+  };
+  return std::visit(Prepare{}, engagement);
+}
+
+AssemblyOracle oracle_of(const AssemblyEngagement& e) {
+  return std::visit(
+      [&](const auto& agent) { return AssemblyOracle(agent, e.obstacle.pieces, e.obstacle.pose); }, e.agent);
+}
+
+std::array<Eigen::Vector3d, 2> velocities_of(const AnyEngagement& engagement) {
+  const auto in_space = [](const auto& v) {
+    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+    velocity.head(v.size()) = v;
+    return velocity;
+  };
+  return std::visit(
+      [&](const auto& e) {
+        return std::array<Eigen::Vector3d, 2>{in_space(e.agent_velocity), in_space(e.obstacle_velocity)};
+      },
+      engagement);
+}
+
+Json left_out(const AnyEngagement& engagement) {
+  Json notes = Json::object();
+  if (const auto* e = std::get_if<AssemblyEngagement>(&engagement))
+    for (const char* what : {"dropped_points", "dropped_faces"})
+      if (e->obstacle.notes.contains(what)) notes[what] = e->obstacle.notes[what];
+  return notes;
 }
 
 }  // namespace vericone::input

@@ -3,9 +3,12 @@
 // Bodies and velocities from JSON values; the fields are described in docs/formats.md.
 #pragma once
 
+#include <vericone/cones/assembly/assembly_oracle.h>
+#include <vericone/cones/pair.h>
 #include <vericone/geometry/assembly.h>
 #include <vericone/geometry/combined.h>
 #include <vericone/geometry/pose.h>
+#include <array>
 #include <filesystem>
 #include <initializer_list>
 #include <variant>
@@ -48,7 +51,27 @@ struct AssemblyEngagement {
   Eigen::Vector3d obstacle_velocity = Eigen::Vector3d::Zero();
 };
 
-using AnyEngagement = std::variant<Engagement, PlanarEngagement, AssemblyEngagement>;
+/// One engagement of any other two kinds: delimited bodies against bodies of pieces, pieces against pieces.
+struct PlacedEngagement {
+  Placed agent, obstacle;
+  std::string agent_name, obstacle_name;  // "mesh of 69451 triangles (bunny.obj)"
+  Eigen::Vector3d agent_velocity = Eigen::Vector3d::Zero();
+  Eigen::Vector3d obstacle_velocity = Eigen::Vector3d::Zero();
+};
+
+using AnyEngagement = std::variant<Engagement, PlanarEngagement, AssemblyEngagement, PlacedEngagement>;
+
+/// The bodies, prepared; planar ones raised (Pair).
+Pair pair_of(const AnyEngagement& engagement);
+
+/// For what a pair does not tell: how far the cone reaches on half-planes.
+AssemblyOracle oracle_of(const AssemblyEngagement& engagement);
+
+/// Of agent and obstacle, m/s, in space.
+std::array<Eigen::Vector3d, 2> velocities_of(const AnyEngagement& engagement);
+
+/// What reading left out of the obstacle, as far as an answer tells it; an object.
+Json left_out(const AnyEngagement& engagement);
 
 enum class Velocities { required, optional };
 

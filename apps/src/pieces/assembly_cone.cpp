@@ -66,7 +66,7 @@ AssemblyCone assembly_cone(const input::AssemblyEngagement& e, int half_planes, 
   if (!(tolerance >= 1e-13 && tolerance <= 1))
     throw InputError("--tolerance", to_text(tolerance), "between 1e-13 and 1 radians for a body of pieces");
   const auto start = Clock::now();
-  AssemblyCone cone(assembly_oracle(e), axis_of(e), tolerance);
+  AssemblyCone cone(input::oracle_of(e), axis_of(e), tolerance);
   cone.relation = cone.oracle.relation();
   cone.seconds_prepared = seconds_since(start);
   if (cone.relation != Relation::disjoint) return cone;

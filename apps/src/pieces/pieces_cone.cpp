@@ -22,7 +22,7 @@
 namespace vericone {
 namespace {
 
-void refuse_options(const ConeOptions& options) {
+void refuse_options(const ConeCommand& options) {
   if (options.samples)
     throw InputError("--samples", std::to_string(*options.samples), "left out for a body of pieces");
   if (options.tangents != "all")
@@ -40,7 +40,7 @@ Json slices_json(const input::AssemblyEngagement& e, int planes) {
   const VisibleCone cone = visible_cone(*agent, mesh_section_points(mesh.points, mesh.triangles),
                                         e.obstacle.middle(), planes, {.search = {}, .by_search = false});
   const double seconds = seconds_since(start);
-  const AssemblyOracle oracle = assembly_oracle(e);
+  const AssemblyOracle oracle = input::oracle_of(e);
   Json result{{"method", "slice"},
               {"planes", planes},
               {"relation", to_string(oracle.relation())},
@@ -83,7 +83,7 @@ void print_verdict(const input::AssemblyEngagement& e, std::ostream& out) {
 
 }  // namespace
 
-void run_pieces_cone(const ConeOptions& options, const input::AssemblyEngagement& e, std::ostream& out) {
+void run_pieces_cone(const ConeCommand& options, const input::AssemblyEngagement& e, std::ostream& out) {
   refuse_options(options);
   if (options.method == "slice") {
     if (options.map || !options.picture_folder.empty())

@@ -9,7 +9,7 @@
 namespace vericone {
 
 /// `vericone cone` of a body of pieces: a mesh, a cloud, an octree map or the convex hull of points.
-void run_pieces_cone(const ConeOptions& options, const input::AssemblyEngagement& engagement,
+void run_pieces_cone(const ConeCommand& options, const input::AssemblyEngagement& engagement,
                      std::ostream& out);
 
 }  // namespace vericone

@@ -3,9 +3,11 @@
 // What all oracles of velocities share: the climb, the past told from never, and the whole answer.
 #pragma once
 
-#include <vericone/cones/ellipsoids/predicates.h>
+#include <vericone/cones/answers.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/sign.h>
 #include <cmath>
+#include <optional>
 #include <string>
 
 namespace vericone {

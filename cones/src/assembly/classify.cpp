@@ -6,32 +6,8 @@
 #include "assembly/gap.h"
 #include "assembly/state.h"
 
-namespace vericone {
-using namespace assembly;
+namespace vericone::assembly {
 
-namespace {
-
-/// Of the circular cone around the rays.
-struct CircularResidual {
-  Eigen::Vector3d axis;
-  double cosine, sine;
-
-  explicit CircularResidual(const Directions& directions)
-      : axis(directions.middle),
-        cosine(directions.least_cosine * (1 - 4 * kUlp)),
-        sine(std::sqrt(std::max(0.0, 1 - cosine * cosine))) {}
-
-  Eigen::Vector3d operator()(const Eigen::Vector3d& y) const {
-    const double along = y.dot(axis);
-    const Eigen::Vector3d across = y - along * axis;
-    const double radius = across.norm();
-    if (radius * cosine <= along * sine) return Eigen::Vector3d::Zero();
-    if (along * cosine + radius * sine <= 0) return y;  // nearest to the apex
-    return across * (cosine / radius) - sine * axis;
-  }
-};
-
-/// Whether one piece is met in all three directions, and so in all between them: its cone is convex.
 bool meets_all(const Core& core, const Directions (&rays)[3]) {
   for (const Directions& ray : rays) {
     const Eigen::Vector3d away = RayResidual{ray.ray[0]}(core.center());
@@ -39,6 +15,13 @@ bool meets_all(const Core& core, const Directions (&rays)[3]) {
   }
   return true;
 }
+
+}  // namespace vericone::assembly
+
+namespace vericone {
+using namespace assembly;
+
+namespace {
 
 /// The piece that meets all of the cell is looked for where the middles of boxes come nearest to the middle
 /// of the cell; only so far.

@@ -16,12 +16,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMostNewtonSteps = 60;
 
-/// Contact of one piece; times in multiples of the scaled velocity.
-struct PieceContact {
-  double earliest = 0, latest = kInfinity, time = 0;
-  Eigen::Vector3d point = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::UnitX();
-};
-
 /// Whether the apex is proved to be inside. Where polyhedra meet symmetrically, a simplex of their corners
 /// may hold it on a face; then the four corners of a tetrahedron of size `around` about it are asked for, in
 /// no particular direction. The core is convex.
@@ -39,13 +33,34 @@ bool overlaps(const Core& core, const Eigen::Vector3d& normal, double around) {
   return true;
 }
 
-/// Newton's method on the distance between the moving apex and the core, which is convex in time: from the
-/// left it never passes the contact, and every step is a plane that the agent has to reach first. `d`: the
-/// velocity in the frame. Nothing where a plane proves that there is no contact before `limit`.
-std::optional<PieceContact> piece_contact(const Scene& scene, std::uint32_t slot, const Eigen::Vector3d& d,
-                                          double limit) {
+/// Closed under the whole set of questions: whether the ray meets the piece, by proof or by its exact
+/// predicate.
+bool meets(const Scene& scene, std::uint32_t slot, const Directions& ray, const Eigen::Vector3d& w,
+           Effort& effort) {
+  const Core core = scene.core(slot);
+  const Eigen::Vector3d away = RayResidual{ray.ray[0]}(core.center());
+  const Gap found = gap(core, ray, away.isZero(0) ? core.center() : away);
+  if (found.answer != Gap::Answer::close) return found.answer == Gap::Answer::met;
+  ++effort.exact;
+  return scene.exact_membership(slot, w, Eigen::Vector3d::Zero()) != Membership::out;
+}
+
+AssemblyContact in_world(const Scene& scene, const PieceContact& contact, std::uint32_t slot, double scale) {
+  AssemblyContact result;
+  result.earliest = contact.earliest / scale * (1 - 2 * kUlp);
+  result.latest = contact.latest / scale * (1 + 2 * kUlp);
+  result.time = std::clamp(contact.time / scale, result.earliest, result.latest);
+  result.point = scene.point_to_world(contact.point);
+  result.normal = scene.to_world(contact.normal);
+  result.piece = scene.piece(slot);
+  return result;
+}
+
+}  // namespace
+
+std::optional<PieceContact> piece_contact(const Frame& frame, Core core, double radius,
+                                          const Eigen::Vector3d& d, double limit) {
   const Directions apex{};
-  Core core = scene.core(slot);
   PieceContact contact;
   Eigen::Vector3d normal = core.center().isZero(0) ? d : core.center();
   Eigen::Vector3d on_piece = core.center();
@@ -79,37 +94,12 @@ std::optional<PieceContact> piece_contact(const Scene& scene, std::uint32_t slot
     if (overlaps(core, normal, 0.25 * step * d.norm())) contact.latest = (t + step) * (1 + 4 * kUlp);
   }
   contact.time = std::clamp(contact.time, contact.earliest, contact.latest);
-  contact.normal = scene.frame().to_frame().transpose() * normal;
+  contact.normal = frame.to_frame().transpose() * normal;
   contact.normal.normalize();
-  contact.point = scene.frame().to_space(on_piece);
-  if (scene.frame().is_space()) contact.point -= scene.body().radius() * contact.normal;
+  contact.point = frame.to_space(on_piece);
+  if (frame.is_space()) contact.point -= radius * contact.normal;
   return contact;
 }
-
-/// Closed under the whole set of questions: whether the ray meets the piece, by proof or by its exact
-/// predicate.
-bool meets(const Scene& scene, std::uint32_t slot, const Directions& ray, const Eigen::Vector3d& w,
-           Effort& effort) {
-  const Core core = scene.core(slot);
-  const Eigen::Vector3d away = RayResidual{ray.ray[0]}(core.center());
-  const Gap found = gap(core, ray, away.isZero(0) ? core.center() : away);
-  if (found.answer != Gap::Answer::close) return found.answer == Gap::Answer::met;
-  ++effort.exact;
-  return scene.exact_membership(slot, w, Eigen::Vector3d::Zero()) != Membership::out;
-}
-
-AssemblyContact in_world(const Scene& scene, const PieceContact& contact, std::uint32_t slot, double scale) {
-  AssemblyContact result;
-  result.earliest = contact.earliest / scale * (1 - 2 * kUlp);
-  result.latest = contact.latest / scale * (1 + 2 * kUlp);
-  result.time = std::clamp(contact.time / scale, result.earliest, result.latest);
-  result.point = scene.point_to_world(contact.point);
-  result.normal = scene.to_world(contact.normal);
-  result.piece = scene.piece(slot);
-  return result;
-}
-
-}  // namespace
 
 std::optional<AssemblyContact> first_contact(const Scene& scene, const Eigen::Vector3d& w, Effort& effort) {
   const Slabs slabs(scene.frame(), scene.body().bounds(), w);
@@ -126,7 +116,8 @@ std::optional<AssemblyContact> first_contact(const Scene& scene, const Eigen::Ve
     if (!(slabs.enter(box.low.data(), box.high.data()) < limit) || test.apart(box.low, box.high)) return true;
     ++effort.pieces;
     if (!meets(scene, slot, ray, w, effort)) return true;
-    const std::optional<PieceContact> contact = piece_contact(scene, slot, d, limit);
+    const std::optional<PieceContact> contact =
+        piece_contact(scene.frame(), scene.core(slot), scene.body().radius(), d, limit);
     if (!contact) return true;
     if (contact->earliest < first.earliest) {
       first = *contact;

@@ -6,9 +6,8 @@
 #include <string>
 
 namespace vericone::assembly {
-namespace {
 
-bool upright(const Pose& pose) {
+bool is_upright(const Pose& pose) {
   for (int i = 0; i < 3; ++i) {
     if (!std::isfinite(pose.position(i)))
       throw InputError("pose.position[" + std::to_string(i) + "]", to_text(pose.position(i)),
@@ -21,8 +20,8 @@ bool upright(const Pose& pose) {
   return r == Eigen::Matrix3d::Identity();
 }
 
-Ellipsoid in_body(const Ellipsoid& agent, const Pose& pose) {
-  if (upright(pose)) return pose.position.isZero(0) ? agent : agent.translated(-pose.position);
+Ellipsoid in_obstacle_frame(const Ellipsoid& agent, const Pose& pose) {
+  if (is_upright(pose)) return pose.position.isZero(0) ? agent : agent.translated(-pose.position);
   const Eigen::Vector3d center = pose.to_body(agent.center());
   const Eigen::Matrix3d turn = pose.rotation.transpose();
   if (!agent.defined_by_factor()) {
@@ -34,8 +33,10 @@ Ellipsoid in_body(const Ellipsoid& agent, const Pose& pose) {
   return Ellipsoid::from_axes(center, agent.semi_axes(), axes);
 }
 
+namespace {
+
 HullBody in_body(const HullBody& agent, const Pose& pose) {
-  const bool turned = !upright(pose);
+  const bool turned = !is_upright(pose);
   std::vector<Eigen::Vector3d> points = agent.points();
   for (Eigen::Vector3d& x : points) {
     if (turned) {
@@ -81,18 +82,14 @@ auto with_oracle(const Scene& scene, std::uint32_t slot, Ask&& ask) {
 Scene::Scene(const Ellipsoid& agent, const Assembly& body, const Pose& pose)
     : body_(body),
       pose_(pose),
-      upright_(assembly::upright(pose)),
-      ellipsoid_(in_body(agent, pose)),
+      upright_(is_upright(pose)),
+      ellipsoid_(in_obstacle_frame(agent, pose)),
       frame_(*ellipsoid_) {
   check_range();
 }
 
 Scene::Scene(const HullBody& agent, const Assembly& body, const Pose& pose)
-    : body_(body),
-      pose_(pose),
-      upright_(assembly::upright(pose)),
-      hull_(in_body(agent, pose)),
-      frame_(*hull_) {
+    : body_(body), pose_(pose), upright_(is_upright(pose)), hull_(in_body(agent, pose)), frame_(*hull_) {
   check_range();
 }
 
@@ -103,32 +100,37 @@ double Scene::largest() const {
   return bounds.low.cwiseAbs().sum() + bounds.high.cwiseAbs().sum() + frame_.origin().cwiseAbs().sum();
 }
 
-Core Scene::core(const Frame& frame, std::uint32_t slot) const {
-  const Assembly::Storage& storage = body_.by_slot();
-  switch (body_.kind()) {
+Core piece_core(const Frame& frame, const Assembly& body, std::uint32_t slot, double radius) {
+  const Assembly::Storage& storage = body.by_slot();
+  switch (body.kind()) {
     case PieceKind::triangle:
-      return Core::of_points(frame, storage.triangles[slot].data(), 3);
+      return Core::of_points(frame, storage.triangles[slot].data(), 3, radius);
     case PieceKind::ball:
-      return Core::of_ball(frame, storage.balls[slot], body_.radius());
-    case PieceKind::box:
-      return Core::of_box(frame, storage.boxes[slot].low, storage.boxes[slot].high);
+      return Core::of_ball(frame, storage.balls[slot], body.radius() + radius);
+    case PieceKind::box: {
+      const Box& box = storage.boxes[slot];
+      if (radius == 0) return Core::of_box(frame, box.low, box.high);
+      const HullBody corners = HullBody::box(box.low, box.high);
+      return Core::of_points(frame, corners.points().data(), 8, radius);
+    }
     case PieceKind::hull:
       break;
   }
-  return Core::of_points(frame, storage.hulls[slot].points().data(), storage.hulls[slot].size());
+  return Core::of_points(frame, storage.hulls[slot].points().data(), storage.hulls[slot].size(), radius);
 }
 
-Box Scene::slot_box(std::uint32_t slot) const {
-  const Assembly::Storage& storage = body_.by_slot();
-  switch (body_.kind()) {
+Box piece_box(const Assembly& body, std::uint32_t slot) {
+  const Assembly::Storage& storage = body.by_slot();
+  switch (body.kind()) {
     case PieceKind::triangle: {
       Box box{storage.triangles[slot][0], storage.triangles[slot][0]};
       for (const Eigen::Vector3d& x : storage.triangles[slot]) box.include({x, x});
       return box;
     }
     case PieceKind::ball: {
-      const double wide = body_.radius() * (1 + 4 * kUlp);
-      return {storage.balls[slot].array() - wide, storage.balls[slot].array() + wide};
+      const Eigen::Vector3d& c = storage.balls[slot];
+      const Eigen::Vector3d wide = (c.cwiseAbs() * (2 * kUlp)).array() + body.radius() * (1 + 4 * kUlp);
+      return {c - wide, c + wide};
     }
     case PieceKind::box:
       return storage.boxes[slot];

@@ -13,6 +13,14 @@
 
 namespace vericone::assembly {
 
+/// The piece in a slot, in the coordinates of a frame; `radius`: by which it is rounded besides its own.
+Core piece_core(const Frame& frame, const Assembly& body, std::uint32_t slot, double radius = 0);
+Box piece_box(const Assembly& body, std::uint32_t slot);
+
+/// A body in the frame of an obstacle that stands in `pose`. Throws InputError naming "pose".
+bool is_upright(const Pose& pose);
+Ellipsoid in_obstacle_frame(const Ellipsoid& agent, const Pose& pose);
+
 /// An agent in the obstacle's own frame, and the obstacle.
 class Scene {
  public:
@@ -41,8 +49,8 @@ class Scene {
 
   Core core(std::uint32_t slot) const { return core(frame_, slot); }
   /// The same for another frame of the same agent or a point.
-  Core core(const Frame& frame, std::uint32_t slot) const;
-  Box slot_box(std::uint32_t slot) const;
+  Core core(const Frame& frame, std::uint32_t slot) const { return piece_core(frame, body_, slot); }
+  Box slot_box(std::uint32_t slot) const { return piece_box(body_, slot); }
 
   /// The piece's own exact predicates. `w` = v_a - v_b in the obstacle's frame.
   Membership exact_membership(std::uint32_t slot, const Eigen::Vector3d& v_a,
@@ -152,6 +160,29 @@ struct RayResidual {
   Eigen::Vector3d ray;
   Eigen::Vector3d operator()(const Eigen::Vector3d& y) const { return y - std::max(0.0, y.dot(ray)) * ray; }
 };
+
+/// Of the circular cone around the rays.
+struct CircularResidual {
+  Eigen::Vector3d axis;
+  double cosine, sine;
+
+  explicit CircularResidual(const Directions& directions)
+      : axis(directions.middle),
+        cosine(directions.least_cosine * (1 - 4 * kUlp)),
+        sine(std::sqrt(std::max(0.0, 1 - cosine * cosine))) {}
+
+  Eigen::Vector3d operator()(const Eigen::Vector3d& y) const {
+    const double along = y.dot(axis);
+    const Eigen::Vector3d across = y - along * axis;
+    const double radius = across.norm();
+    if (radius * cosine <= along * sine) return Eigen::Vector3d::Zero();
+    if (along * cosine + radius * sine <= 0) return y;  // nearest to the apex
+    return across * (cosine / radius) - sine * axis;
+  }
+};
+
+/// Whether one piece is met in all three directions, and so in all between them: its cone is convex.
+bool meets_all(const Core& core, const Directions (&rays)[3]);
 
 /// A ray from the apex against boxes, each widened by the box around the agent. Conservative: no widened
 /// piece that is met is missed.

@@ -138,6 +138,23 @@ Certified CombinedOracle::membership(const Vector3d& v_a, const Vector3d& v_b) c
   return Certified::undecided;
 }
 
+Verdict CombinedOracle::verdict(const Vector3d& v_a, const Vector3d& v_b) const {
+  require_finite_velocity(v_a, "agent_velocity");
+  require_finite_velocity(v_b, "obstacle_velocity");
+  if (!state_->relation) return Verdict::undecided;
+  if (*state_->relation == Relation::touching) return Verdict::touching;
+  if (*state_->relation == Relation::overlapping) return Verdict::overlapping;
+  switch (membership(v_a, v_b)) {
+    case Certified::in:
+      return Verdict::in;
+    case Certified::out:
+      return Verdict::out;
+    case Certified::undecided:
+      break;
+  }
+  return Verdict::undecided;
+}
+
 bool CombinedOracle::all_in(const Vector3d& from, const Vector3d& to) const {
   const State& s = *state_;
   if (s.relation != Relation::disjoint || !s.contacts.usable()) return false;

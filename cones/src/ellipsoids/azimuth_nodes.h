@@ -17,10 +17,11 @@ namespace vericone {
 /// within a small angle. In the coordinates that make a body round its tangency
 /// point moves evenly, so each body X has its own best angle theta_X(t), the
 /// azimuth of L_X e(t) with L_X^2 the body's shape in the plane of e. Nodes are
-/// placed evenly in s = (t + theta_A + theta_B) / 3, which is an analytic
-/// change of variable of the circle and keeps the rule's convergence faster
-/// than any power. For semi-axes 1..10 it turns a worst relative error of 1e-4
-/// at 96 samples into 7e-8 (docs/theory.md, 4). s(t + pi) = s(t) + pi: nodes
+/// placed evenly in s = (theta_A + theta_B) / 2, which is an analytic change of
+/// variable of the circle and keeps the rule's convergence faster than any
+/// power. Where neither angle moves, neither point of tangency does, so t itself
+/// needs no nodes. For semi-axes 1..10 it turns a worst relative error of 1e-4
+/// at 96 samples into 1e-7 (docs/theory.md, 4). s(t + pi) = s(t) + pi: nodes
 /// half a turn apart are opposite and weigh the same.
 ///
 /// Two walks start from s = 0 in step, one forward and one backward; the latter
@@ -39,8 +40,8 @@ class AzimuthNodes {
       : a_(shape_a),
         b_(shape_b),
         ds_(2 * std::numbers::pi / count),
-        turn_x_(std::cos(3 * ds_)),
-        turn_y_(std::sin(3 * ds_)) {}
+        turn_x_(std::cos(2 * ds_)),
+        turn_y_(std::sin(2 * ds_)) {}
 
   struct Nodes {
     Walks x, y;    // unit vectors e at the azimuth t
@@ -55,8 +56,8 @@ class AzimuthNodes {
   Nodes at(int k) {
     constexpr int kExact = 16;  // steps of the recurrence for the target before it is set afresh
     if (k % kExact == 0) {
-      target_x_ = std::cos(3 * ds_ * k);
-      target_y_ = std::sin(3 * ds_ * k);
+      target_x_ = std::cos(2 * ds_ * k);
+      target_y_ = std::sin(2 * ds_ * k);
     } else {
       const double x = target_x_;
       target_x_ = x * turn_x_ - target_y_ * turn_y_;
@@ -75,16 +76,16 @@ class AzimuthNodes {
     }
     weight_before_ = weight;
     bend_before_ = bend;
-    turn_ = turn_.max(0.0).min(3 * ds_);
+    turn_ = turn_.max(0.0).min(3 * ds_ * weight);
     advance(turn_);
     Walks room = Walks::Constant(newton() ? 0 : -1);
     if (k > 0) {
-      // The product of the three complex numbers fixes s only up to a third of
-      // a turn. On the right branch each of the three angles went forward by at
-      // most 3 ds; for count > 6 no other branch can do that.
+      // The product of the two complex numbers fixes s only up to half a turn. On the right branch both
+      // angles went forward by at most 2 ds, and the azimuth by less than half a turn; for count > 4 no other
+      // branch can do that.
       room = room.min(forward(ax, ay, a_.x, a_.y)).min(forward(bx, by, b_.x, b_.y));
-      room = room.min(turn_ + 1e-9).min(3 * ds_ + 1e-9 - turn_);
-      if (ds_ > std::numbers::pi / 3 - 1e-9) room = -1;
+      room = room.min(turn_ + 1e-9).min(std::numbers::pi - turn_);
+      if (ds_ > std::numbers::pi / 2 - 1e-9) room = -1;
     }
     if (!(room.minCoeff() >= 0)) {
       bisect(ds_ * k);
@@ -126,26 +127,23 @@ class AzimuthNodes {
   void evaluate() {
     a_.set(x_, y_);
     b_.set(x_, y_);
-    // ds/dt = (1 + det L_A / |L_A e|^2 + det L_B / |L_B e|^2) / 3
+    // ds/dt = (det L_A / |L_A e|^2 + det L_B / |L_B e|^2) / 2
     const Walks over_a = a_.square.inverse(), over_b = b_.square.inverse();
     const Walks rate_a = a_.determinant * over_a, rate_b = b_.determinant * over_b;
-    weight_ = 3 / (1 + rate_a + rate_b);
-    bend_ =
-        weight_ * weight_.square() * (2.0 / 3) * (rate_a * over_a * a_.mixed + rate_b * over_b * b_.mixed);
+    weight_ = 2 / (rate_a + rate_b);
+    bend_ = weight_ * weight_.square() * (rate_a * over_a * a_.mixed + rate_b * over_b * b_.mixed);
   }
 
   bool newton() {
     for (int iteration = 0; iteration < 12; ++iteration) {
       evaluate();
-      // Angles add up in a product of complex numbers: e . L_A e . L_B e has
-      // the argument 3 s(t).
-      const Walks abx = a_.x * b_.x - a_.y * b_.y, aby = a_.x * b_.y + a_.y * b_.x;
-      const Walks px = abx * x_ - aby * y_, py = abx * y_ + aby * x_;
+      // Angles add up in a product of complex numbers: L_A e . L_B e has the argument 2 s(t).
+      const Walks px = a_.x * b_.x - a_.y * b_.y, py = a_.x * b_.y + a_.y * b_.x;
       const Walks sine = py * target_x_ - px * target_y_, cosine = px * target_x_ + py * target_y_;
       const Walks x = sine / cosine, x2 = x.square();
       const double largest = x2.maxCoeff();
       if (largest < 0.01 && cosine.minCoeff() > 0) {
-        const Walks back = x * (x2 * (1.0 / 9 - x2 * (1.0 / 15)) - 1.0 / 3);  // of s: -atan(x) / 3
+        const Walks back = x * (x2 * (1.0 / 6 - x2 * (1.0 / 10)) - 1.0 / 2);  // of s: -atan(x) / 2
         // Of second order, so the error left is of the third.
         const Walks step = back * (weight_ + 0.5 * back * bend_);
         turn_ += step;
@@ -156,7 +154,7 @@ class AzimuthNodes {
         }
       } else {
         Walks step;
-        for (int i = 0; i < 2; ++i) step(i) = -std::atan2(sine(i), cosine(i)) / 3 * weight_(i);
+        for (int i = 0; i < 2; ++i) step(i) = -std::atan2(sine(i), cosine(i)) / 2 * weight_(i);
         turn_ += step;
         advance(step);
       }
@@ -164,16 +162,16 @@ class AzimuthNodes {
     return false;
   }
 
-  /// Not negative where `to` is ahead of `from` by an angle from 0 to 3 ds.
+  /// Not negative where `to` is ahead of `from` by an angle from 0 to 2 ds.
   Walks forward(const Walks& from_x, const Walks& from_y, const Walks& to_x, const Walks& to_y) const {
     const Walks end_x = from_x * turn_x_ - from_y * turn_y_, end_y = from_x * turn_y_ + from_y * turn_x_;
     const Walks cross = from_x * to_y - from_y * to_x, dot = from_x * to_x + from_y * to_y;
     return cross.min(to_x * end_y - to_y * end_x) + 1e-9 * (cross.abs() + dot.abs());
   }
 
-  /// s(t) - t stays within pi / 3, so the root is bracketed from the start.
+  /// s(t) - t stays within pi / 2, so the root is bracketed from the start.
   void bisect(double s) {
-    Walks lo = Walks::Constant(s - std::numbers::pi / 3), hi = Walks::Constant(s + std::numbers::pi / 3);
+    Walks lo = Walks::Constant(s - std::numbers::pi / 2), hi = Walks::Constant(s + std::numbers::pi / 2);
     Walks t = Walks::Constant(s);
     const auto angle = [this](const Body& body, int i) {
       return std::atan2(x_(i) * body.y(i) - y_(i) * body.x(i), x_(i) * body.x(i) + y_(i) * body.y(i));
@@ -184,7 +182,7 @@ class AzimuthNodes {
       evaluate();
       bool settled = true;
       for (int i = 0; i < 2; ++i) {
-        const double value = t(i) + (angle(a_, i) + angle(b_, i)) / 3;
+        const double value = t(i) + (angle(a_, i) + angle(b_, i)) / 2;
         (value < s ? lo : hi)(i) = t(i);
         double next = t(i) + (s - value) * weight_(i);
         if (!(next > lo(i) && next < hi(i))) next = 0.5 * (lo(i) + hi(i));
@@ -220,8 +218,8 @@ class AzimuthNodes {
   }
 
   Body a_, b_;
-  double ds_ = 1, turn_x_ = 1, turn_y_ = 0;  // step in s; (cos, sin) of 3 ds
-  double target_x_ = 1, target_y_ = 0;       // (cos, sin) of 3 s
+  double ds_ = 1, turn_x_ = 1, turn_y_ = 0;  // step in s; (cos, sin) of 2 ds
+  double target_x_ = 1, target_y_ = 0;       // (cos, sin) of 2 s
   Walks x_ = Walks::Ones(), y_ = Walks::Zero();
   Walks weight_ = Walks::Ones(),
         bend_ = Walks::Zero();  // |dt/ds| and d|dt/ds|/ds

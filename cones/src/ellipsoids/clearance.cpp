@@ -3,7 +3,6 @@
 
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/cones/ellipsoids/contact_frame.h>
-#include <vericone/cones/times/contact_time_enclosure.h>
 #include <vericone/geometry/error.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -12,6 +11,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "ellipsoids/velocity_difference.h"
 
 namespace vericone {
 namespace {
@@ -24,7 +25,7 @@ using ShadowFactor = Eigen::Matrix<double, 2, 3>;
 constexpr double kDistant =
     1e20;  // beyond these times the width of the bodies their distance is that of points
 
-constexpr double kFast = 0x1p1020;  // beyond, the length of a velocity may leave the doubles
+constexpr double kFast = VelocityDifference::kFast;
 
 /// g on the unit circle of normals perpendicular to w, as a function of the angle.
 class ShadowGap {
@@ -365,66 +366,9 @@ double contact_time(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& w) {
   return std::max(at.time, 0.0);
 }
 
-namespace {
-
-/// v_a - v_b, divided by 2^exponent where it is too long for doubles.
-struct Difference {
-  Vector3d w;
-  int exponent = 0;
-
-  Difference(const Vector3d& v_a, const Vector3d& v_b) : w(v_a - v_b) {
-    if (w.cwiseAbs().maxCoeff() < kFast) return;
-    exponent = 3;
-    w = 0.125 * v_a - 0.125 * v_b;
-  }
-};
-
-/// Of bodies that will overlap. Where squares of their ratios leave the doubles, or the gap is below rounding
-/// and the time zero, the exact time is asked for.
-double time_of_contact(const ConeOracle& oracle, const Vector3d& v_a, const Vector3d& v_b) {
-  const auto squares = [](double x) { return x > 1e-70 && x < 1e70; };
-  const double far = (oracle.b().center() - oracle.a().center()).cwiseAbs().maxCoeff();
-  if (squares(far / oracle.a().factor().cwiseAbs().maxCoeff()) &&
-      squares(far / oracle.b().factor().cwiseAbs().maxCoeff())) {
-    const Difference d(v_a, v_b);
-    const double speed = d.w.cwiseAbs().maxCoeff();
-    const int e = squares(speed) ? 0 : std::ilogb(speed);  // of the unit of speed
-    const Vector3d w = d.w.unaryExpr([e](double x) { return std::ldexp(x, -e); });
-    const double t = contact_time(oracle.a(), oracle.b(), w);
-    if (t > 0 && std::isfinite(t)) return std::ldexp(t, -e - d.exponent);
-  }
-  const auto exact = exact_time_to_contact(oracle, v_a, v_b);
-  return exact ? exact->mid() : std::numeric_limits<double>::quiet_NaN();
-}
-
-}  // namespace
-
-std::optional<double> time_to_contact(const ConeOracle& oracle, const Vector3d& v_a, const Vector3d& v_b) {
-  switch (oracle.verdict(v_a, v_b)) {
-    case Verdict::overlapping:
-    case Verdict::touching:
-      return 0.0;
-    case Verdict::out:
-    case Verdict::undecided:  // never of ellipsoids
-      return std::nullopt;
-    case Verdict::in:
-      return time_of_contact(oracle, v_a, v_b);
-    // A double root loses half the digits; the supporting points of the shadows do not.
-    case Verdict::on: {
-      const Difference d(v_a, v_b);
-      return std::max(std::ldexp(clearance(oracle.a(), oracle.b(), d.w).time, -d.exponent), 0.0);
-    }
-  }
-  return std::nullopt;
-}
-
-std::optional<double> time_to_contact(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& w) {
-  return time_to_contact(ConeOracle(a, b), w, Vector3d::Zero());
-}
-
 double clearance_ahead(const ConeOracle& oracle, const Vector3d& v_a, const Vector3d& v_b) {
   constexpr double kLeast = std::numeric_limits<double>::min();  // rounding must not contradict the verdict
-  const Vector3d w = Difference(v_a, v_b).w;
+  const Vector3d w = VelocityDifference(v_a, v_b).w;
   switch (oracle.verdict(v_a, v_b)) {
     case Verdict::touching:
     case Verdict::on:

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/ellipsoids/predicates.h>
+#include <vericone/geometry/exact/body.h>
+#include <vericone/geometry/exact/quadric_side.h>
 
 #include <vericone/cones/ellipsoids/contact_frame.h>
 #include <vericone/cones/ellipsoids/exact_predicates.h>
@@ -13,29 +15,11 @@
 #include "answers/elementary.h"
 #include "answers/velocity_ladder.h"
 #include "ellipsoids/contact_polynomial.h"
+#include "ellipsoids/pair_on_grid.h"
+#include "ellipsoids/velocity_forms.h"
 
 namespace vericone {
 namespace {
-
-// Roundings of the inputs of the first rung. c: 1 (difference of the centres). S: 3 (three products of
-// factors summed). u, v = w_i / w_k, w_j / w_k: 3 (two differences of velocities, the quotient). The normal
-// is taken as it is.
-constexpr RoundingCount kCenter{1}, kShape{3}, kSlope{3}, kNormal{0};
-
-/// Roundings on the way to the quantities of the first rung, from the formulas themselves.
-constexpr auto kCount = [] {
-  struct Counts {
-    RoundingCount ahead, k1, k2, discriminant;
-  };
-  const auto s = [](int, int) { return kShape; };
-  const ContactCubic<RoundingCount> cubic(affine_shadow<RoundingCount>(s, kSlope, kSlope, 0, 1, 2),
-                                          affine_shadow<RoundingCount>(s, kSlope, kSlope, 0, 1, 2),
-                                          kCenter + kSlope * kCenter, kCenter + kSlope * kCenter);
-  return Counts{kNormal * kSlope + kNormal * kSlope + kNormal, cubic.k1, cubic.k2, cubic.discriminant()};
-}();
-// Products below the smallest normal number lose more than a relative rounding. Inputs are scaled so that no
-// intermediate factor exceeds about 2^150, hence all such losses together stay far below this.
-constexpr double kUnderflowBound = 1e-250;
 
 /// Position of entry (r, c) of a symmetric 3x3 matrix among its six.
 constexpr int kPacked[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
@@ -50,6 +34,33 @@ struct DroppedAxis {
     k = z > std::max(x, y) ? 2 : static_cast<int>(y > x);
     i = kNext[k];
     j = kNext[k + 1];
+  }
+};
+
+/// The six entries of a shape, each with the sum of the terms on absolute values, and as intervals.
+struct ScaledShape {
+  Tracked tracked[6];
+  bool usable = true;
+
+  const Tracked& operator()(int row, int column) const { return tracked[kPacked[row][column]]; }
+
+  ScaledShape(const Ellipsoid& body, double scale, Interval (&enclosed)[6]) {
+    const Eigen::Matrix3d f = body.factor() * scale, f_abs = f.cwiseAbs();
+    for (int row = 0; row < 3; ++row)
+      for (int column = row; column < 3; ++column) {
+        double value = body.shape()(row, column) * (scale * scale), magnitude = std::abs(value);
+        Interval& interval = enclosed[kPacked[row][column]];
+        if (body.defined_by_factor()) {
+          value = f.row(row).dot(f.row(column));
+          magnitude = f_abs.row(row).dot(f_abs.row(column));
+          interval = 0;
+          for (int k = 0; k < 3; ++k) interval = interval + Interval(f(row, k)) * Interval(f(column, k));
+        } else {
+          interval = Interval(value, Interval::kTiny);
+        }
+        tracked[kPacked[row][column]] = Tracked::of(value, magnitude);
+        usable = usable && magnitude < 0x1p20 && (row != column || magnitude > 1e-40);
+      }
   }
 };
 
@@ -79,88 +90,49 @@ ConeOracle::ConeOracle(const Ellipsoid& a, const Ellipsoid& b) : a_(a), b_(b) {
   const Eigen::Vector3d c = b.center() - a.center();
   const int e = binary_exponent(c.cwiseAbs().maxCoeff());
   if (std::abs(e) > 510) return;
-  const double scale = std::ldexp(1.0, -e), scale2 = scale * scale;
-  usable_ = true;
-  const auto fill = [&](const Ellipsoid& body, double(Scaled::*entries)[6][2], Interval(&enclosed)[6]) {
-    const Eigen::Matrix3d f = body.factor() * scale, f_abs = f.cwiseAbs();
-    for (int row = 0; row < 3; ++row)
-      for (int column = row; column < 3; ++column) {
-        double value = body.shape()(row, column) * scale2, magnitude = std::abs(value);
-        Interval& interval = enclosed[kPacked[row][column]];
-        if (body.defined_by_factor()) {
-          value = f.row(row).dot(f.row(column));
-          magnitude = f_abs.row(row).dot(f_abs.row(column));
-          interval = 0;
-          for (int k = 0; k < 3; ++k) interval = interval + Interval(f(row, k)) * Interval(f(column, k));
-        } else {
-          interval = Interval(value, Interval::kTiny);
-        }
-        for (int k = 0; k < 3; ++k) {
-          auto& entry = (scaled_[k].*entries)[kPacked[(row + 2 - k) % 3][(column + 2 - k) % 3]];
-          entry[0] = value;
-          entry[1] = magnitude;
-        }
-        usable_ = usable_ && magnitude < 0x1p20 && (row != column || magnitude > 1e-40);
-      }
-  };
-  fill(a, &Scaled::shape_a, enclosed_.shape_a);
-  fill(b, &Scaled::shape_b, enclosed_.shape_b);
+  const double scale = std::ldexp(1.0, -e);
+  const ScaledShape scaled_a(a, scale, enclosed_.shape_a), scaled_b(b, scale, enclosed_.shape_b);
   for (int i = 0; i < 3; ++i)
     enclosed_.c[i] = Interval(b.center()(i) * scale) - Interval(a.center()(i) * scale);
-  for (int k = 0; k < 3; ++k)
-    for (int r = 0; r < 3; ++r) {
-      const int row = (k + 1 + r) % 3;
-      scaled_[k].c[r][0] = c(row) * scale;
-      scaled_[k].c[r][1] = std::abs(c(row)) * scale;
-      scaled_[k].normal[r][0] = r < 2 ? -normal_(row) : normal_(row);
-      scaled_[k].normal[r][1] = std::abs(normal_(row));
-    }
+  usable_ = scaled_a.usable && scaled_b.usable;
+  if (!usable_) return;
+  forms_ = bounded_forms(
+      scaled_a, scaled_b, [&](int i) { return Tracked::of(c(i) * scale); }, normal_, normal_certified_);
 }
 
 std::optional<Membership> ConeOracle::triage_membership(const Eigen::Vector3d& w) const noexcept {
-  const DroppedAxis axis(w);
-  const double wk = w(axis.k);
-  if (!(std::abs(wk) > 0 && std::abs(wk) <= std::numeric_limits<double>::max() && usable_)) {
-    if (w.x() == 0 && w.y() == 0 && w.z() == 0) return Membership::out;
-    if (relation_ == Relation::overlapping && w.allFinite()) return Membership::in;
-    return std::nullopt;
-  }
-  const Scaled& scaled = scaled_[axis.k];
-  const Tracked::Pair quotients = Tracked::Pair{w(axis.i), w(axis.j)} / Tracked::Pair{wk, wk};
-  const Tracked minus_u = Tracked::minus(quotients[0]), minus_v = Tracked::minus(quotients[1]);
-  // The side of a plane that separates the bodies: K lies on the positive one.
-  const auto n = [&scaled](int r) { return Tracked::of(scaled.normal[r]); };
-  const Tracked height = n(0) * minus_u + n(1) * minus_v + n(2);
-  const int ahead = normal_certified_ ? (wk > 0 ? 1 : -1) * height.certain(kCount.ahead, kUnderflowBound) : 0;
-  if (ahead < 0) return Membership::out;
+  const auto side = certain_side(forms_, w);
+  if (side == 0) return triage_rest(w);
+  return membership_of(side);
+}
 
-  const auto a = [&scaled](int r, int col) { return Tracked::of(scaled.shape_a[kPacked[r][col]]); };
-  const auto b = [&scaled](int r, int col) { return Tracked::of(scaled.shape_b[kPacked[r][col]]); };
-  const auto c = [&scaled](int r) { return Tracked::of(scaled.c[r]); };
-  const ContactCubic<Tracked> cubic(affine_shadow<Tracked>(a, minus_u, minus_v, 0, 1, 2),
-                                    affine_shadow<Tracked>(b, minus_u, minus_v, 0, 1, 2),
-                                    c(0) + minus_u * c(2), c(1) + minus_v * c(2));
-  const int discriminant = cubic.discriminant().certain(kCount.discriminant, kUnderflowBound);
-  const int k1 = cubic.k1.certain(kCount.k1, kUnderflowBound),
-            k2 = cubic.k2.certain(kCount.k2, kUnderflowBound);
-  // No sign change in the coefficients, no positive root, whatever the discriminant: bodies that meet head
-  // on.
-  const bool apart = (discriminant > 0) & ((k1 > 0) | (k2 > 0));
-  const bool meets = (ahead > 0) & ((discriminant < 0) | ((k1 < 0) & (k2 < 0)));
-  if (!(apart | meets)) return std::nullopt;
-  return apart ? Membership::out : Membership::in;
+std::optional<Membership> ConeOracle::triage_rest(const Eigen::Vector3d& w) const noexcept {
+  const double largest = w.cwiseAbs().maxCoeff();
+  if (!w.allFinite()) return std::nullopt;
+  if (largest == 0) return Membership::out;
+  if (relation_ == Relation::overlapping) return Membership::in;
+  const int e = binary_exponent(largest);
+  if (std::abs(e) < kMostExponent) return std::nullopt;
+  // Far too fast or too slow: by a power of two. What is lost below the normal numbers counts as the forms'
+  // own underflow does.
+  const auto side = certain_side(forms_, w.unaryExpr([e](double x) { return std::ldexp(x, -e); }));
+  return side == 0 ? std::nullopt : std::optional(membership_of(side));
 }
 
 Membership ConeOracle::naive_membership(const Eigen::Vector3d& w) const noexcept {
   const DroppedAxis axis(w);
-  const Scaled& scaled = scaled_[axis.k];
   const double minus_u = -w(axis.i) / w(axis.k), minus_v = -w(axis.j) / w(axis.k);
-  const auto a = [&scaled](int r, int col) { return scaled.shape_a[kPacked[r][col]][0]; };
-  const auto b = [&scaled](int r, int col) { return scaled.shape_b[kPacked[r][col]][0]; };
-  const auto c = [&scaled](int r) { return scaled.c[r][0]; };
+  // The entries in the order ii, ij, ik, jj, jk, kk.
+  constexpr int kOrder[3][3][3] = {{{3, 4, 1}, {4, 5, 2}, {1, 2, 0}},
+                                   {{5, 2, 4}, {2, 0, 1}, {4, 1, 3}},
+                                   {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}};
+  const auto& order = kOrder[axis.k];
+  const auto a = [&](int r, int col) { return enclosed_.shape_a[order[r][col]].mid(); };
+  const auto b = [&](int r, int col) { return enclosed_.shape_b[order[r][col]].mid(); };
+  const auto c = [this](int r) { return enclosed_.c[r].mid(); };
   const ContactCubic<double> cubic(affine_shadow<double>(a, minus_u, minus_v, 0, 1, 2),
-                                   affine_shadow<double>(b, minus_u, minus_v, 0, 1, 2), c(0) + minus_u * c(2),
-                                   c(1) + minus_v * c(2));
+                                   affine_shadow<double>(b, minus_u, minus_v, 0, 1, 2),
+                                   c(axis.i) + minus_u * c(axis.k), c(axis.j) + minus_v * c(axis.k));
   const double d = cubic.discriminant();
   if (d > 0 && (cubic.k1 > 0 || cubic.k2 > 0)) return Membership::out;
   if (!(normal_.dot(w) > 0))
@@ -257,11 +229,25 @@ Membership membership(const RationalBody<3>& a, const RationalBody<3>& b, const 
 
 }  // namespace exact
 
+// The forms decide nearly all: they stand here without a call, and what they leave climbs from the start.
 Membership ConeOracle::membership(const Eigen::Vector3d& w, Rung* rung) const {
-  return climb_membership<ConeMembership>(*this, w, Eigen::Vector3d(Eigen::Vector3d::Zero()), rung);
+  const auto side = certain_side(forms_, w);
+  if (side == 0) [[unlikely]]
+    return climb_all(w, Eigen::Vector3d::Zero(), rung);
+  decided_by<ConeMembership>(Rung::triage, rung);
+  return membership_of(side);
 }
 
 Membership ConeOracle::membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, Rung* rung) const {
+  const auto side = certain_side(forms_, v_a - v_b);
+  if (side == 0) [[unlikely]]
+    return climb_all(v_a, v_b, rung);
+  decided_by<ConeMembership>(Rung::triage, rung);
+  return membership_of(side);
+}
+
+[[gnu::noinline]] Membership ConeOracle::climb_all(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                                                   Rung* rung) const {
   return climb_membership<ConeMembership>(*this, v_a, v_b, rung);
 }
 

@@ -2,6 +2,7 @@
 #include "ellipsoids/contact_polynomial.h"
 
 #include <cmath>
+#include "ellipsoids/pair_on_grid.h"
 
 namespace vericone::exact {
 namespace {

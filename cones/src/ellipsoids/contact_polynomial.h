@@ -11,10 +11,11 @@
 // double, or two simple positive roots: overlapping, touching, disjoint.
 #pragma once
 
-#include <vericone/geometry/algebraic.h>
-#include <vericone/geometry/integer.h>
+#include <vericone/geometry/exact/algebraic.h>
+#include <vericone/geometry/exact/integer.h>
 #include <array>
 #include <optional>
+#include "ellipsoids/pair_on_grid.h"
 
 namespace vericone {
 
@@ -23,6 +24,16 @@ template <typename N>
 struct Symmetric2 {
   N a, b, c;
 };
+
+/// Discriminant of k3 x^3 - k2 x^2 - k1 x + k0. The cubic has two distinct positive roots iff it is positive
+/// and k1 > 0 or k2 > 0: with k3, k0 > 0 one root is negative, and by Descartes' rule the others are positive
+/// exactly when the signs (+, -k2, -k1, +) change.
+template <typename N>
+constexpr N cubic_discriminant(const N& k0, const N& k1, const N& k2, const N& k3) {
+  const N k12 = k1 * k2, k03 = k0 * k3;
+  const N u = (k2 * k2) * (k2 * k0) + (k1 * k1) * (k1 * k3);
+  return (k12 * (k12 + k03 * 18) + u * 4) - k03 * k03 * 27;
+}
 
 /// Coefficients of -p for two ellipses with shapes A and B, centre line d: k3 x^3 - k2 x^2 - k1 x + k0, where
 /// k3 = det B > 0 and k0 = det A > 0.
@@ -42,14 +53,7 @@ struct ContactCubic {
     k2 = (xx * b.c + yy * b.a + xy2 * nbb) - (mixed + k3);
   }
 
-  /// Discriminant. The cubic has two distinct positive roots iff it is positive and k1 > 0 or k2 > 0: with
-  /// k3, k0 > 0 one root is negative, and by Descartes' rule the others are positive exactly when the signs
-  /// (+, -k2, -k1, +) change.
-  constexpr N discriminant() const {
-    const N k12 = k1 * k2, k03 = k0 * k3;
-    const N u = (k2 * k2) * (k2 * k0) + (k1 * k1) * (k1 * k3);
-    return (k12 * (k12 + k03 * 18) + u * 4) - k03 * k03 * 27;
-  }
+  constexpr N discriminant() const { return cubic_discriminant(k0, k1, k2, k3); }
 };
 
 /// Shadow of the quadratic form S along w: L S L^T with L dropping coordinate k, (L x)_1 = w_k x_i - w_i x_k

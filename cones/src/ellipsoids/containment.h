@@ -6,8 +6,8 @@
 // Bodies are given by quadratic forms S_A, S_B and C = c c^T, c = p_B - p_A; only their ratios count.
 #pragma once
 
-#include <vericone/geometry/algebraic.h>
 #include <vericone/geometry/ellipsoid.h>
+#include <vericone/geometry/exact/algebraic.h>
 #include <vericone/geometry/interval.h>
 #include <vericone/geometry/tracked.h>
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/ellipsoids/position.h>
+#include <vericone/geometry/exact/body.h>
 
 #include <vericone/cones/ellipsoids/contact_frame.h>
 #include <vericone/cones/ellipsoids/exact_position.h>
@@ -8,6 +9,7 @@
 #include "answers/elementary.h"
 #include "ellipsoids/contact_polynomial.h"
 #include "ellipsoids/containment.h"
+#include "ellipsoids/pair_on_grid.h"
 
 namespace vericone {
 

@@ -2,7 +2,8 @@
 #include <vericone/cones/ellipsoids/contact_frame.h>
 #include <vericone/cones/ellipsoids/exact_predicates.h>
 #include <vericone/cones/ellipsoids/predicates.h>
-#include <vericone/geometry/integer.h>
+#include <vericone/geometry/exact/body.h>
+#include <vericone/geometry/exact/integer.h>
 #include <vericone/geometry/quadric_side.h>
 #include <cmath>
 #include <limits>
@@ -10,6 +11,7 @@
 #include "answers/elementary.h"
 #include "ellipsoids/contact_polynomial.h"
 #include "ellipsoids/enclosed_pair.h"
+#include "ellipsoids/pair_on_grid.h"
 
 namespace vericone {
 namespace {

@@ -5,8 +5,8 @@
 #pragma once
 
 #include <vericone/geometry/ellipsoid.h>
+#include <vericone/geometry/exact/integer.h>
 #include <vericone/geometry/hull_body.h>
-#include <vericone/geometry/integer.h>
 #include <vericone/geometry/interval.h>
 #include <cstdint>
 #include <optional>

@@ -9,6 +9,7 @@
 #include "answers/elementary.h"
 #include "ellipsoids/contact_polynomial.h"
 #include "ellipsoids/containment.h"
+#include "ellipsoids/pair_on_grid.h"
 
 namespace vericone {
 

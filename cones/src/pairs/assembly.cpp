@@ -23,6 +23,12 @@ class AssemblyFamily : public Family {
   Verdict verdict(const Vector3d& v_a, const Vector3d& v_b) const override {
     return oracle_->verdict(v_a, v_b);
   }
+  std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
+    Effort effort;
+    if (oracle_->relation() != Relation::disjoint) return Rung::exact;
+    oracle_->membership(v_a, v_b, &effort);
+    return effort.exact > 0 ? Rung::exact : Rung::triage;
+  }
 
   Contact contact(const Vector3d& v_a, const Vector3d& v_b) const override {
     Contact contact;
@@ -47,6 +53,7 @@ class AssemblyFamily : public Family {
     Miss miss;
     miss.least = found.least;
     miss.most = found.most;
+    miss.distance = 0.5 * (found.least + found.most);
     miss.normal = found.normal;
     miss.time = found.time;
     if (!(miss.most > 0)) miss.depth = std::numeric_limits<double>::quiet_NaN();
@@ -84,6 +91,11 @@ class Hulls : public AssemblyFamily {
   std::optional<Relation> relation() const override { return hulls_.relation(); }
   Verdict verdict(const Vector3d& v_a, const Vector3d& v_b) const override {
     return hulls_.verdict(v_a, v_b);
+  }
+  std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
+    Rung rung = hulls_.relation_rung();
+    hulls_.verdict(v_a, v_b, &rung);
+    return rung;
   }
   Cone cone(const ConeOptions& options) const override { return cone_of_hulls(*oracle_, axis_, options); }
 

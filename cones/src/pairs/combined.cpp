@@ -76,21 +76,7 @@ class Combined : public Family {
   std::optional<Relation> relation() const override { return relation_; }
 
   Verdict verdict(const Vector3d& v_a, const Vector3d& v_b) const override {
-    relative_velocity(v_a, v_b);  // names what is not finite
-    if (!relation_) return Verdict::undecided;
-    if (*relation_ != Relation::disjoint)
-      return *relation_ == Relation::touching ? Verdict::touching : Verdict::overlapping;
-    const Certified answer =
-        pool_.with([&](const CombinedOracle& oracle) { return oracle.membership(v_a, v_b); });
-    switch (answer) {
-      case Certified::in:
-        return Verdict::in;
-      case Certified::out:
-        return Verdict::out;
-      case Certified::undecided:
-        break;
-    }
-    return Verdict::undecided;
+    return pool_.with([&](const CombinedOracle& oracle) { return oracle.verdict(v_a, v_b); });
   }
 
   Contact contact(const Vector3d& v_a, const Vector3d& v_b) const override {
@@ -120,6 +106,7 @@ class Combined : public Family {
     Miss miss = around_->miss(v_a, v_b);
     if (own != Verdict::out && own != Verdict::undecided) {
       miss.least = miss.most = 0;
+      miss.distance = -miss.depth;
       return miss;
     }
     miss.depth = 0;
@@ -131,6 +118,7 @@ class Combined : public Family {
       miss.most = (c - ahead * w).norm() * (1 + 1e-12);
     }
     miss.most = std::max(miss.most, miss.least);
+    miss.distance = 0.5 * (miss.least + miss.most);
     return miss;
   }
 

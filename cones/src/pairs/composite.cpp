@@ -1,15 +1,86 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/geometry/error.h>
+//
+// Bodies of many parts against each other: pieces exactly, delimited bodies certified.
+#include <vericone/cones/composite/composite_pair.h>
+#include <cmath>
 
-#include "pairs/family.h"
+#include "pairs/cones.h"
 
 namespace vericone::pairs {
+namespace {
 
-FamilyPointer composite_family(const CombinedEllipsoid&, const Assembly&, const Pose&, double) {
-  throw InputError("obstacle", "a body of pieces", "not yet");
+using Eigen::Vector3d;
+
+class Composite : public Family {
+ public:
+  Composite(std::shared_ptr<const CompositePair> pair, double tolerance, const Vector3d& axis)
+      : pair_(std::move(pair)), tolerance_(tolerance), axis_(axis) {}
+
+  Guarantee guarantee() const override {
+    return {pair_->exact(), pair_->exact() ? 0 : tolerance_, "composite"};
+  }
+  std::optional<Relation> relation() const override { return pair_->relation(); }
+  Verdict verdict(const Vector3d& v_a, const Vector3d& v_b) const override {
+    return pair_->verdict(v_a, v_b);
+  }
+
+  Contact contact(const Vector3d& v_a, const Vector3d& v_b) const override {
+    Contact contact;
+    const auto relation = pair_->relation();
+    if (relation && *relation != Relation::disjoint) {
+      contact.latest = 0;
+      return contact;
+    }
+    contact.time = std::numeric_limits<double>::quiet_NaN();
+    const auto found = pair_->first_contact(relative_velocity(v_a, v_b));
+    if (!found) return contact;
+    contact.earliest = found->earliest;
+    contact.latest = found->latest;
+    contact.time = found->time;
+    if (found->normal.isZero(0) || !std::isfinite(found->time)) return contact;
+    contact.normal = found->normal;
+    contact.point = in_world_at(found->point, found->time, v_b);
+    return contact;
+  }
+
+  Miss miss(const Vector3d& v_a, const Vector3d& v_b) const override {
+    const Vector3d w = relative_velocity(v_a, v_b);
+    const CompositeMiss found = pair_->miss_distance(w);
+    Miss miss;
+    miss.least = found.least;
+    miss.most = found.most;
+    miss.distance = 0.5 * (found.least + found.most);
+    miss.time = found.time;
+    const Vector3d between = found.point - (found.agent_point + found.time * w);
+    if (!between.isZero(0)) miss.normal = between.normalized();
+    if (!(miss.most > 0)) miss.depth = std::numeric_limits<double>::quiet_NaN();
+    return miss;
+  }
+
+  std::shared_ptr<const DirectionClassifier> directions() const override { return pair_; }
+  Cone cone(const ConeOptions& options) const override { return cone_by_map(*this, axis_, options); }
+  Vector3d axis() const override { return axis_; }
+
+ private:
+  std::shared_ptr<const CompositePair> pair_;
+  double tolerance_;
+  Vector3d axis_;
+};
+
+Vector3d middle(const Assembly& body, const Pose& pose) { return pose.to_world(body.bounds().center()); }
+
+}  // namespace
+
+FamilyPointer composite_family(const CombinedEllipsoid& agent, const Assembly& obstacle, const Pose& pose,
+                               double tolerance) {
+  return std::make_shared<Composite>(std::make_shared<CompositePair>(agent, obstacle, pose, tolerance),
+                                     tolerance, middle(obstacle, pose) - agent.center());
 }
-FamilyPointer composite_family(const Assembly&, const Pose&, const Assembly&, const Pose&) {
-  throw InputError("obstacle", "a body of pieces", "not yet");
+
+FamilyPointer composite_family(const Assembly& agent, const Pose& agent_pose, const Assembly& obstacle,
+                               const Pose& pose) {
+  return std::make_shared<Composite>(std::make_shared<CompositePair>(agent, agent_pose, obstacle, pose), 0,
+                                     middle(obstacle, pose) - middle(agent, agent_pose));
 }
 
 }  // namespace vericone::pairs

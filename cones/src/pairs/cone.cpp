@@ -33,7 +33,8 @@ int side_of_star(const Vector3d& axis, const DirectionLoop& loop, const Vector3d
     // In the wedge of half-planes from `first` to `next`, edges included a little.
     const Vector3d from = axis.cross(first), to = next.cross(axis);
     if (from.dot(u) < -kMargin * from.norm() || to.dot(u) < -kMargin * to.norm()) continue;
-    if (from.dot(next) <= 0) continue;  // no wedge: a radial step
+    // A radial step, or a wedge so narrow that those beside it hold all of it too.
+    if (from.dot(next) <= 0.5 * kMargin * from.norm() * to.norm()) continue;
     found = true;
     const Vector3d edge = first.cross(next);
     const double height = edge.dot(u), margin = kMargin * edge.norm() + 4e-16;
@@ -136,16 +137,19 @@ Cone cone_by_map(const Family& family, const Vector3d& axis, const ConeOptions& 
 }
 
 Cone mirror_image(Cone cone) {
-  const auto turn = [](DirectionLoop& loop) {  // through the origin: what was to the left still is
+  // Through the origin: what turned counter-clockwise turns clockwise.
+  const auto reflect = [](DirectionLoop& loop) {
     for (Vector3d& d : loop) d = -d;
+    std::reverse(loop.begin(), loop.end());
   };
   cone.axis = -cone.axis;
   for (auto* loops : {&cone.inner, &cone.outer})
-    for (DirectionLoop& loop : *loops) turn(loop);
-  for (PolyhedralCone* star : {&cone.star_inner, &cone.star_outer}) turn(star->directions);
+    for (DirectionLoop& loop : *loops) reflect(loop);
+  for (PolyhedralCone* star : {&cone.star_inner, &cone.star_outer}) reflect(star->directions);
   if (cone.map) {
     auto map = std::make_shared<ConeMap>(*cone.map);
     for (Vector3d& d : map->corners) d = -d;
+    for (ConeMapCell& cell : map->cells) std::swap(cell.corners[1], cell.corners[2]);
     cone.map = std::move(map);
   }
   return cone;

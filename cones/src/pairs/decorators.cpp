@@ -20,6 +20,9 @@ class Mirrored : public Family {
   Verdict verdict(const Vector3d& v_a, const Vector3d& v_b) const override {
     return exchanged_->verdict(v_b, v_a);
   }
+  std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
+    return exchanged_->rung(v_b, v_a);
+  }
   Contact contact(const Vector3d& v_a, const Vector3d& v_b) const override {
     Contact contact = exchanged_->contact(v_b, v_a);
     if (contact.normal) *contact.normal *= -1;
@@ -108,6 +111,7 @@ class AnyOf : public Family {
       if (own.most < nearest.most || (own.most == 0 && own.depth > nearest.depth)) nearest = own;
     }
     nearest.least = least;
+    nearest.distance = std::max(nearest.distance, nearest.most > 0 ? least : nearest.distance);
     // To avoid one piece may be to meet another: the whole's depth is for Pair to say.
     if (!(nearest.most > 0) && all_.size() > 1) nearest.depth = std::numeric_limits<double>::quiet_NaN();
     return nearest;

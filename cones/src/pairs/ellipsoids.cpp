@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ellipsoids/velocity_difference.h"
 #include "pairs/cones.h"
 
 namespace vericone::pairs {
@@ -32,12 +33,13 @@ class Ellipsoids : public Family {
     contact.earliest = enclosure ? std::max(enclosure->lo(), 0.0) : 0;
     contact.latest = enclosure ? enclosure->hi() : std::numeric_limits<double>::infinity();
     const auto time = time_to_contact(oracle_, v_a, v_b);
-    contact.time = std::clamp(time.value_or(contact.earliest), contact.earliest, contact.latest);
+    contact.time = time.value_or(contact.earliest);
     const Vector3d w = v_a - v_b;
     // The closest points just before: at the contact itself rounding may make them overlap.
     for (double before = 0x1p-50; before < 1e-3 && std::isfinite(contact.time); before *= 32) {
-      const Separation near =
-          separation(oracle_.a().translated((1 - before) * contact.time * w), oracle_.b());
+      const Vector3d way = (1 - before) * contact.time * w;
+      if (!way.allFinite()) break;
+      const Separation near = separation(oracle_.a().translated(way), oracle_.b());
       if (near.normal.isZero(0)) continue;
       contact.normal = near.normal;
       contact.point = in_world_at(oracle_.b().support_point(-near.normal), contact.time, v_b);
@@ -46,33 +48,49 @@ class Ellipsoids : public Family {
     return contact;
   }
 
+  std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
+    Rung rung = oracle_.relation_rung();  // of bodies that are not disjoint
+    oracle_.verdict(v_a, v_b, &rung);
+    return rung;
+  }
+
+  /// The numbers of clearance_ahead() and of its brackets.
   Miss miss(const Vector3d& v_a, const Vector3d& v_b) const override {
-    Miss miss;
-    const Vector3d w = relative_velocity(v_a, v_b);
+    const Ellipsoid &a = oracle_.a(), &b = oracle_.b();
+    constexpr double kLeast = std::numeric_limits<double>::min();  // rounding must not contradict the verdict
     const Verdict verdict = oracle_.verdict(v_a, v_b);
+    const Vector3d w = VelocityDifference(v_a, v_b).w;  // its length does not matter but for the time
+    const double stretched = std::ldexp(1.0, VelocityDifference(v_a, v_b).exponent);
+    Miss miss;
     if (verdict != Verdict::out) {
       if (w.isZero(0)) {
         miss.depth = std::numeric_limits<double>::quiet_NaN();
         return miss;
       }
-      const Clearance c = clearance(oracle_.a(), oracle_.b(), w);
-      miss.depth = std::max(-c.distance, 0.0);
+      const Clearance c = clearance(a, b, w);
+      miss.distance = verdict == Verdict::in            ? std::min(c.distance, -kLeast)
+                      : verdict == Verdict::overlapping ? std::min(c.distance, 0.0)
+                                                        : 0;
+      miss.depth = -miss.distance;
       miss.normal = c.normal;
-      miss.time = std::max(c.time, 0.0);
+      miss.time = std::max(c.time, 0.0) / stretched;
       return miss;
     }
-    const Separation now = separation(oracle_.a(), oracle_.b());
+    const Separation now = separation(a, b);
     const bool receding = w.isZero(0) || !(now.normal.dot(w) > 0);
-    const Interval bracket = receding ? enclose_separation(oracle_.a(), oracle_.b())
-                                      : enclose_clearance(oracle_.a(), oracle_.b(), w);
-    miss.least = std::max(bracket.lo(), 0.0);
-    miss.most = bracket.hi();
-    miss.normal = now.normal;
-    if (!receding) {
-      const Clearance c = clearance(oracle_.a(), oracle_.b(), w);
+    if (receding) {
+      miss.distance = now.distance;
+      miss.normal = now.normal;
+    } else {
+      const Clearance c = clearance(a, b, w);
+      miss.distance = c.distance;
       miss.normal = c.normal;
-      miss.time = std::max(c.time, 0.0);
+      miss.time = std::max(c.time, 0.0) / stretched;
     }
+    miss.distance = std::max(miss.distance, kLeast);
+    const Interval bracket = receding ? enclose_separation(a, b) : enclose_clearance(a, b, w);
+    miss.least = std::max(bracket.lo(), 0.0);
+    miss.most = std::max(bracket.hi(), kLeast);
     return miss;
   }
 

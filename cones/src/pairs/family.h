@@ -16,6 +16,9 @@ class Family {
   virtual Guarantee guarantee() const = 0;
   virtual std::optional<Relation> relation() const = 0;
   virtual Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const = 0;
+  virtual std::optional<Rung> rung(const Eigen::Vector3d&, const Eigen::Vector3d&) const {
+    return std::nullopt;
+  }
   /// Of a pair whose verdict is not `out`.
   virtual Contact contact(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const = 0;
   /// Without the depth, which Pair adds where a family leaves it NaN.

@@ -125,6 +125,10 @@ Verdict Pair::other_verdict(const Vector3d& v_a, const Vector3d& v_b) const {
   return family_->verdict(v_a, v_b);
 }
 
+std::optional<Rung> Pair::rung(const Vector3d& v_a, const Vector3d& v_b) const {
+  return family_->rung(v_a, v_b);
+}
+
 std::optional<Passage> Pair::passage(const Vector3d& v_a, const Vector3d& v_b) const {
   if (v_a == v_b) return Passage::never;
   switch (verdict(v_a, v_b)) {
@@ -163,6 +167,7 @@ Miss Pair::miss(const Vector3d& v_a, const Vector3d& v_b) const {
   const Clearance around =
       clearance(agent_->containing_ellipsoid(), obstacle_->containing_ellipsoid(), v_a - v_b);
   miss.depth = std::max(-around.distance, 0.0);
+  miss.distance = -miss.depth;
   miss.normal = around.normal;
   miss.time = std::max(around.time, 0.0);
   return miss;

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/cones/ellipsoids/exact_predicates.h>
 #include <vericone/cones/planar/sector_oracle.h>
+#include <vericone/geometry/exact/body.h>
+#include <vericone/geometry/exact/quadric_side.h>
 
 #include <vericone/cones/ellipsoids/contact_frame.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/integer.h>
+#include <vericone/geometry/exact/integer.h>
 #include <vericone/geometry/tracked.h>
 #include <cmath>
 
 #include "answers/elementary.h"
 #include "answers/velocity_ladder.h"
 #include "ellipsoids/contact_polynomial.h"
+#include "ellipsoids/pair_on_grid.h"
 
 namespace vericone {
 namespace {

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "ellipsoids/contact_polynomial.h"
+#include "ellipsoids/pair_on_grid.h"
 
 namespace vericone::exact {
 namespace {

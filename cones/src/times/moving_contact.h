@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vericone/geometry/algebraic.h>
-#include <vericone/geometry/integer.h>
+#include <vericone/geometry/exact/algebraic.h>
+#include <vericone/geometry/exact/integer.h>
 #include <array>
+#include "ellipsoids/pair_on_grid.h"
 
 namespace vericone::exact {
 

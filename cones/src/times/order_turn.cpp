@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/ellipsoids/contact_frame.h>
 #include <vericone/cones/times/order.h>
-#include <vericone/geometry/algebraic.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/exact/algebraic.h>
 
 #include "ellipsoids/enclosed_pair.h"
+#include "ellipsoids/pair_on_grid.h"
 #include "planar/planar_frame.h"
 
 namespace vericone {

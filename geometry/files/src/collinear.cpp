@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/files/triangle_mesh.h>
-#include <vericone/geometry/integer.h>
+#include <vericone/geometry/exact/integer.h>
 #include <vericone/geometry/tracked.h>
 
 #include <cmath>

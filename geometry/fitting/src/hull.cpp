@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/fitting/hull.h>
+#include <vericone/geometry/exact/rational.h>
 
 #include "proof/rounded_quadric.h"
 

@@ -88,29 +88,6 @@ bool ray_hits(const Forms& forms, const Vector3d& x, const Vector3d& d) {
   return false;
 }
 
-CombinedEllipsoid random_combined_body(RandomBodies& random) {
-  for (;;) {
-    const double a = random.uniform(0.4, 1.5), b = random.uniform(0.4, 1.5), c = random.uniform(0.4, 1.5);
-    const Ellipsoid around = Ellipsoid::from_axes(Vector3d::Zero(), {a, b, c}, random.rotation());
-    std::vector<Delimiter<3>> delimiters;
-    const int count = random.integer(1, 3);
-    for (int i = 0; i < count; ++i) {
-      const double x = random.uniform(0.2, 1.2), y = random.uniform(0.2, 1.2), z = random.uniform(0.2, 1.2);
-      const int sheets = random.integer(1, 2);
-      delimiters.push_back(hyperboloid(sheets, {x, y, z}, random.rotation()));
-    }
-    try {
-      return {around, delimiters};
-    } catch (const InputError&) {  // one of them delimits nothing
-    }
-  }
-}
-
-Ellipsoid random_ellipsoid_body(RandomBodies& random, const Vector3d& center) {
-  const double a = random.uniform(0.2, 1.5), b = random.uniform(0.2, 1.5), c = random.uniform(0.2, 1.5);
-  return Ellipsoid::from_axes(center, {a, b, c}, random.rotation());
-}
-
 bool slab_hit(const Box& box, const Vector3d& x, const Vector3d& d) {
   double from = kClear, to = 1e9;
   for (int k = 0; k < 3; ++k) {
@@ -203,135 +180,64 @@ void add_forms(SampledBody& sampled, const CombinedEllipsoid& body, std::vector<
   hits.push_back([forms](const Vector3d& x, const Vector3d& d) { return ray_hits(forms, x, d); });
 }
 
-std::vector<Vector3d> hull_points(RandomBodies& random, const Vector3d& center, double size) {
-  std::vector<Vector3d> points;
-  const int count = random.integer(6, 12);
-  for (int i = 0; i < count; ++i) points.push_back(center + random.in_box(size));
-  return points;
-}
-
-SampledBody random_mesh(RandomBodies& random, std::vector<Hit>& hits) {
-  SampledBody sampled;
-  std::vector<Vector3d> points;
-  std::vector<Assembly::Triangle> triangles;
-  for (std::uint32_t i = 0; i < 7; ++i) {
-    const Vector3d c = random.in_box(1);
-    std::array<Vector3d, 3> p;
-    for (Vector3d& x : p) points.push_back(x = c + random.in_box(0.8));
-    triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
-    hits.push_back([p](const Vector3d& x, const Vector3d& d) { return triangle_hit(p, x, d); });
-    constexpr int kParts = 5;
-    const double side = std::max({(p[1] - p[0]).norm(), (p[2] - p[1]).norm(), (p[0] - p[2]).norm()}) / kParts;
-    for (int j = 0; j <= kParts; ++j)
-      for (int k = 0; j + k <= kParts; ++k) {
-        const Vector3d x = p[0] + (p[1] - p[0]) * j / kParts + (p[2] - p[0]) * k / kParts;
-        sampled.cover.push_back({x, side});
-        sampled.inside.push_back(x);
-      }
-  }
-  sampled.body = Assembly::mesh(points, triangles);
-  return sampled;
-}
-
-SampledBody random_cloud(RandomBodies& random, std::vector<Hit>& hits) {
-  SampledBody sampled;
-  std::vector<Vector3d> points;
-  const double radius = random.coin() ? 0.3 : random.uniform(0.05, 0.3);
-  for (int i = 0; i < 9; ++i) {
-    const Vector3d c = random.in_box(1.2);
-    points.push_back(c);
-    sampled.cover.push_back({c, radius * (1 + 1e-12)});
-    sampled.inside.push_back(c);
-    for (int k = 0; k < 6; ++k)
-      sampled.inside.push_back(c + (k % 2 ? 1 : -1) * radius * (1 - 1e-9) * Vector3d::Unit(k / 2));
-    hits.push_back([c, radius](const Vector3d& x, const Vector3d& d) {
-      const Vector3d y = x - c;
-      const double t = -y.dot(d) / d.squaredNorm();
-      return t > kClear && (y + t * d).norm() < radius - kClear;
-    });
-  }
-  sampled.body = Assembly::cloud(points, radius);
-  return sampled;
-}
-
-SampledBody random_boxes(RandomBodies& random, std::vector<Hit>& hits) {
-  SampledBody sampled;
-  std::vector<Box> boxes;
-  for (int i = 0; i < 6; ++i) {
-    const Vector3d c = random.in_box(1), half = random.in_box(0.4).cwiseAbs() + Vector3d::Constant(0.02);
-    const Box box{c - half, c + half};
-    boxes.push_back(box);
-    for (int j = 0; j < 27; ++j) {
-      const Vector3d x = c + half.cwiseProduct(Vector3d(j % 3 - 1, j / 3 % 3 - 1, j / 9 - 1)) * (2.0 / 3);
-      sampled.cover.push_back({x, half.norm() / 3 * (1 + 1e-12)});
-      sampled.inside.push_back(c +
-                               half.cwiseProduct(Vector3d(j % 3 - 1, j / 3 % 3 - 1, j / 9 - 1)) * (1 - 1e-9));
+void add_triangle(SampledBody& sampled, const std::array<Vector3d, 3>& p, std::vector<Hit>& hits) {
+  hits.push_back([p](const Vector3d& x, const Vector3d& d) { return triangle_hit(p, x, d); });
+  constexpr int kParts = 5;
+  const double side = std::max({(p[1] - p[0]).norm(), (p[2] - p[1]).norm(), (p[0] - p[2]).norm()}) / kParts;
+  for (int j = 0; j <= kParts; ++j)
+    for (int k = 0; j + k <= kParts; ++k) {
+      const Vector3d x = p[0] + (p[1] - p[0]) * j / kParts + (p[2] - p[0]) * k / kParts;
+      sampled.cover.push_back({x, side});
+      sampled.inside.push_back(x);
     }
-    hits.push_back([box](const Vector3d& x, const Vector3d& d) { return slab_hit(box, x, d); });
-  }
-  sampled.body = Assembly::boxes(boxes);
-  return sampled;
 }
 
-SampledBody random_pieces(RandomBodies& random, std::vector<Hit>& hits) {
-  SampledBody sampled;
-  if (random.coin()) {
-    std::vector<HullBody> hulls;
-    for (int i = 0; i < 4; ++i) {
-      const auto points = hull_points(random, random.in_box(1), 0.5);
-      hulls.emplace_back(points);
-      add_hull(sampled, points, hits);
-    }
-    sampled.body = Assembly::polyhedra(std::move(hulls));
-    return sampled;
+void add_ball(SampledBody& sampled, const Vector3d& c, double radius, std::vector<Hit>& hits) {
+  sampled.cover.push_back({c, radius * (1 + 1e-12)});
+  sampled.inside.push_back(c);
+  for (int k = 0; k < 6; ++k)
+    sampled.inside.push_back(c + (k % 2 ? 1 : -1) * radius * (1 - 1e-9) * Vector3d::Unit(k / 2));
+  hits.push_back([c, radius](const Vector3d& x, const Vector3d& d) {
+    const Vector3d y = x - c;
+    const double t = -y.dot(d) / d.squaredNorm();
+    return t > kClear && (y + t * d).norm() < radius - kClear;
+  });
+}
+
+void add_box(SampledBody& sampled, const Box& box, std::vector<Hit>& hits) {
+  const Vector3d c = box.center(), half = box.half_widths();
+  for (int j = 0; j < 27; ++j) {
+    const Vector3d step = half.cwiseProduct(Vector3d(j % 3 - 1, j / 3 % 3 - 1, j / 9 - 1));
+    sampled.cover.push_back({c + step * (2.0 / 3), half.norm() / 3 * (1 + 1e-12)});
+    sampled.inside.push_back(c + step * (1 - 1e-9));
   }
-  std::vector<CombinedEllipsoid> parts;
-  for (int i = 0; i < 2; ++i) {
-    const Vector3d center = random.in_box(1);
-    parts.push_back(random.coin() ? CombinedEllipsoid(random_ellipsoid_body(random, center))
-                                  : random_combined_body(random).translated(center));
-    add_forms(sampled, parts.back(), hits);
-  }
-  sampled.body = Body::pieces(std::move(parts));
-  return sampled;
+  hits.push_back([box](const Vector3d& x, const Vector3d& d) { return slab_hit(box, x, d); });
 }
 
 }  // namespace
 
-SampledBody random_body(RandomBodies& random, BodyKind kind) {
-  SampledBody sampled;
+SampledBody sampled(const Body& body) {
+  struct Add {
+    SampledBody& result;
+    std::vector<Hit>& hits;
+    void operator()(const CombinedEllipsoid& part) const { add_forms(result, part, hits); }
+    void operator()(const HullBody& hull) const { add_hull(result, hull.points(), hits); }
+    void operator()(const std::vector<CombinedEllipsoid>& parts) const {
+      for (const CombinedEllipsoid& part : parts) add_forms(result, part, hits);
+    }
+    void operator()(const Assembly& assembly) const {
+      const Assembly::Storage& pieces = assembly.by_slot();
+      for (const auto& corners : pieces.triangles) add_triangle(result, corners, hits);
+      for (const Vector3d& center : pieces.balls) add_ball(result, center, assembly.radius(), hits);
+      for (const Box& box : pieces.boxes) add_box(result, box, hits);
+      for (const HullBody& hull : pieces.hulls) add_hull(result, hull.points(), hits);
+    }
+  };
+  SampledBody result{body, {}, {}, {}};
   std::vector<Hit> hits;
-  switch (kind) {
-    case BodyKind::ellipsoid:
-    case BodyKind::combined: {
-      const CombinedEllipsoid body = kind == BodyKind::combined
-                                         ? random_combined_body(random)
-                                         : CombinedEllipsoid(random_ellipsoid_body(random, Vector3d::Zero()));
-      add_forms(sampled, body, hits);
-      sampled.body = body;
-      break;
-    }
-    case BodyKind::hull: {
-      const auto points = hull_points(random, Vector3d::Zero(), 1);
-      add_hull(sampled, points, hits);
-      sampled.body = HullBody(points);
-      break;
-    }
-    case BodyKind::mesh:
-      sampled = random_mesh(random, hits);
-      break;
-    case BodyKind::cloud:
-      sampled = random_cloud(random, hits);
-      break;
-    case BodyKind::boxes:
-      sampled = random_boxes(random, hits);
-      break;
-    case BodyKind::pieces:
-      sampled = random_pieces(random, hits);
-      break;
-  }
-  sampled.hit = any(std::move(hits));
-  return sampled;
+  std::visit(Add{result, hits}, body.shape());
+  result.hit = any(std::move(hits));
+  return result;
 }
 
 SampledPlaced stand(const SampledBody& body, const Pose& pose) {

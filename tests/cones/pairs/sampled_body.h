@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Random bodies of every kind, and what plain code knows of them without the library: balls that cover the
+// What plain code knows of a body without the library: balls that cover the
 // body, points that are in it, and whether a ray surely hits it. With these a sweep says "they meet" or "they
 // miss" wherever that is clear, for the answers of Pair to be held against.
 #pragma once
@@ -9,8 +9,6 @@
 #include <Eigen/Geometry>
 #include <functional>
 #include <vector>
-
-#include "support/random_bodies.h"
 
 namespace vericone::testing {
 
@@ -27,7 +25,8 @@ struct SampledBody {
   std::function<bool(const Eigen::Vector3d& x, const Eigen::Vector3d& d)> hit;
 };
 
-SampledBody random_body(RandomBodies& random, BodyKind kind);
+/// About 1 m large.
+SampledBody sampled(const Body& body);
 
 /// The same, standing somewhere.
 struct SampledPlaced {

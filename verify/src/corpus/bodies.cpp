@@ -4,6 +4,7 @@
 // constructions: the common normal is the last axis e; a factor G from random_factor() has its support point
 // along e in its last column, at the height k = G(D, D). (docs/corpus.md)
 #include <vericone/cones/ellipsoids/exact_predicates.h>
+#include <vericone/geometry/exact/rational.h>
 
 #include "corpus/build.h"
 

@@ -3,6 +3,7 @@
 // What the generators of the corpus are made of: rational linear algebra, random integer frames, and cases.
 #pragma once
 
+#include <vericone/geometry/exact/rational.h>
 #include <vericone/verify/corpus.h>
 #include <vericone/verify/seeded_random.h>
 #include <string>

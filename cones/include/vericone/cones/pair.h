@@ -59,9 +59,10 @@ struct Miss {
   /// -depth) to the obstacle's position. Zero where there is none.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double time = 0;  // seconds >= 0, when they are nearest
+  /// Metres, the best estimate: the distance where they miss (not outside the bracket), -depth where they
+  /// meet.
+  double distance = 0;
 
-  /// Metres: the distance, or less the depth.
-  double signed_distance() const { return most > 0 ? 0.5 * (least + most) : -depth; }
   /// Its derivative to w = v_agent - v_obstacle.
   Eigen::Vector3d gradient_velocity() const { return -time * normal; }
 };
@@ -98,6 +99,9 @@ class Pair {
   Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const {
     return ellipsoids_ ? ellipsoids_->verdict(v_a, v_b) : other_verdict(v_a, v_b);
   }
+
+  /// The rung of the ladder that decided verdict(); nothing of certified pairs. For measurements.
+  std::optional<Rung> rung(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 
   /// With the past told from never; nothing where a verdict is undecided. Of bodies that are not apart now:
   /// `ahead` for every w != 0.

@@ -2,6 +2,7 @@
 #include "proof/greatest_value.h"
 
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/exact/rational.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -4,8 +4,8 @@
 #pragma once
 
 #include <vericone/geometry/combined.h>
+#include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/interval.h>
-#include <vericone/geometry/rational.h>
 
 namespace vericone::fitting {
 

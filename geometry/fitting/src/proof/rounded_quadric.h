@@ -5,6 +5,7 @@
 // are therefore chosen together.
 #pragma once
 
+#include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/quadric.h>
 #include "proof/rational_quadric.h"
 

@@ -4,8 +4,8 @@
 // d^T A d are larger than their sum by the square of the ratio of axes, here by the ratio.
 #pragma once
 
+#include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/interval.h>
-#include <vericone/geometry/rational.h>
 #include <array>
 
 namespace vericone::fitting {

@@ -18,9 +18,9 @@
 // that are not negative.
 #pragma once
 
-#include <vericone/geometry/integer.h>
+#include <vericone/geometry/exact/integer.h>
+#include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/interval.h>
-#include <vericone/geometry/rational.h>
 #include <array>
 
 namespace vericone::fitting {

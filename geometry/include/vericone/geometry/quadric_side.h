@@ -9,7 +9,6 @@
 
 #include <vericone/geometry/combined.h>
 #include <vericone/geometry/quadric.h>
-#include <vericone/geometry/rational.h>
 #include <vericone/geometry/sign.h>
 #include <span>
 
@@ -50,14 +49,6 @@ template <int D>
 FilteredSign interval_side(const BasicEllipsoid<D>& body, const Eigen::Matrix<double, D, 1>& point) noexcept;
 template <int D>
 Sign exact_side(const BasicEllipsoid<D>& body, const Eigen::Matrix<double, D, 1>& point);
-
-namespace exact {
-/// For rational coordinates.
-template <int D>
-Sign side(const RationalMatrix<D + 1>& quadric, const RationalVector<D>& point);
-template <int D>
-Sign side(const RationalBody<D>& body, const RationalVector<D>& point);
-}  // namespace exact
 
 /// Tags of the ladders for rung_counts().
 struct PointQuadric;

@@ -45,27 +45,30 @@ RungCounts rung_counts() {
   return detail::rung_counts<Predicate>();
 }
 
+/// Decisions of `Predicate` by a rung: written to `*rung` unless null, and counted.
+template <typename Predicate>
+void decided_by(Rung by, Rung* rung, [[maybe_unused]] std::uint64_t count = 1) {
+  if (rung) *rung = by;
+#ifdef VERICONE_COUNT_RUNGS
+  RungCounts& counts = detail::rung_counts<Predicate>();
+  (by == Rung::triage ? counts.triage : by == Rung::interval ? counts.interval : counts.exact) += count;
+#endif
+}
+
 /// The ladder: `triage` and `interval` return optionals, `exact` an answer. The rung that decided is written
 /// to `*rung` unless null.
 template <typename Predicate, typename Triage, typename Interval, typename Exact>
 auto climb(Rung* rung, const Triage& triage, const Interval& interval, const Exact& exact)
     -> decltype(exact()) {
-  const auto decided_by = [rung](Rung by) {
-    if (rung) *rung = by;
-#ifdef VERICONE_COUNT_RUNGS
-    RungCounts& counts = detail::rung_counts<Predicate>();
-    ++(by == Rung::triage ? counts.triage : by == Rung::interval ? counts.interval : counts.exact);
-#endif
-  };
   if (const auto answer = triage()) {
-    decided_by(Rung::triage);
+    decided_by<Predicate>(Rung::triage, rung);
     return *answer;
   }
   if (const auto answer = interval()) {
-    decided_by(Rung::interval);
+    decided_by<Predicate>(Rung::interval, rung);
     return *answer;
   }
-  decided_by(Rung::exact);
+  decided_by<Predicate>(Rung::exact, rung);
   return exact();
 }
 

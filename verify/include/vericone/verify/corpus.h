@@ -6,7 +6,8 @@
 #pragma once
 
 #include <vericone/geometry/ellipsoid.h>
-#include <vericone/geometry/rational.h>
+#include <vericone/geometry/exact/body.h>
+#include <vericone/geometry/exact/rational.h>
 #include <array>
 #include <cstdint>
 #include <optional>

@@ -47,6 +47,9 @@ class CombinedOracle {
   /// "agent_velocity[i]" or "obstacle_velocity[i]".
   Certified membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 
+  /// Relation and membership in one.
+  Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+
   /// Whether all directions of the convex hull of two, less than a right angle apart and not zero, are in
   /// (out): true is certain, false says nothing.
   bool all_in(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;

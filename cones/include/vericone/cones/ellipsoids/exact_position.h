@@ -4,7 +4,8 @@
 #pragma once
 
 #include <vericone/cones/ellipsoids/position.h>
-#include <vericone/geometry/rational.h>
+#include <vericone/geometry/exact/body.h>
+#include <vericone/geometry/exact/rational.h>
 
 namespace vericone::exact {
 

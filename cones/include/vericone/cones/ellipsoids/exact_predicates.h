@@ -4,7 +4,8 @@
 #pragma once
 
 #include <vericone/cones/ellipsoids/predicates.h>
-#include <vericone/geometry/rational.h>
+#include <vericone/geometry/exact/body.h>
+#include <vericone/geometry/exact/rational.h>
 
 namespace vericone::exact {
 
@@ -14,5 +15,8 @@ Relation relation(const RationalBody<D>& a, const RationalBody<D>& b);
 
 /// Membership of w = v_A - v_B in the cone of two bodies, which need not be disjoint (ConeOracle).
 Membership membership(const RationalBody<3>& a, const RationalBody<3>& b, const RationalVector<3>& w);
+
+/// In the plane (SectorOracle).
+Membership membership(const RationalBody<2>& a, const RationalBody<2>& b, const RationalVector<2>& w);
 
 }  // namespace vericone::exact

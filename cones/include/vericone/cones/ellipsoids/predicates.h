@@ -28,7 +28,10 @@
 #include <vericone/geometry/interval.h>
 #include <vericone/geometry/sign.h>
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <optional>
+#include <span>
 
 namespace vericone {
 
@@ -67,6 +70,28 @@ template <int D>
 bool triage_separates(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
                       const Eigen::Matrix<double, D, 1>& n);
 
+namespace detail {
+/// What the first rung reads first: the coefficients of four quadratic forms of w, a separating normal, and
+/// one bound of the error of each quantity for all velocities with |w| = 1
+/// (cones/src/ellipsoids/velocity_forms.h). Where nothing was prepared the bounds are infinite, so nothing is
+/// certain.
+struct VelocityForms {
+  alignas(64) double outer[6][2] = {};  // of k0, k3, at xx, xy, xz, yy, yz, zz
+  double inner[6][2] = {};              // of k1, k2
+  double normal[3] = {};
+  double ahead = kNothing;  // of (n.w)^2
+  double discriminant = kNothing, inner_bound[2] = {kNothing, kNothing};
+
+  static constexpr double kNothing = std::numeric_limits<double>::infinity();
+};
+}  // namespace detail
+
+/// How many doubles the vector registers hold that ConeOracle::memberships() may use.
+enum class VectorWidth : std::uint8_t { two = 2, four = 4, eight = 8 };
+
+/// The most that this machine has and the library knows: eight with AVX-512, four with AVX2, else two.
+VectorWidth widest_vectors();
+
 /// Two ellipsoids prepared for many velocities.
 ///
 /// The constructor finds their relation exactly and, for disjoint bodies, a normal n with n.c > rho_A + rho_B
@@ -94,6 +119,13 @@ class ConeOracle {
 
   /// The same with the past told from never; `ahead` or `ahead_grazing` where both are true.
   Passage passage(const Eigen::Vector3d& w) const;
+
+  /// membership() of each w[i], written to out[i]: many at a time through vector registers, a few nanoseconds
+  /// each. No allocation. Throws InputError naming "out" where it has another size than `w`, and "w[i][j]" at
+  /// the first number that is not finite; what then stands in `out` from i on is no answer. The answers do
+  /// not depend on `at_most`, the widest registers to use of those the machine has.
+  void memberships(std::span<const Eigen::Vector3d> w, std::span<Membership> out,
+                   VectorWidth at_most = VectorWidth::eight) const;
 
   /// Floating point with a proved error bound; nothing when it cannot decide. Never answers `on`.
   /// No allocation, no throw.
@@ -127,17 +159,14 @@ class ConeOracle {
   Rung relation_rung_{};
   Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();
   bool normal_certified_ = false;
-  // What the first rung reads, once for each coordinate k that a velocity may be projected along: lengths
-  // divided by a power of two so that |c| is near one, in the order i, j, k of the coordinates, each number
-  // followed by a bound of the terms it was summed from.
-  struct Scaled {
-    alignas(16) double shape_a[6][2], shape_b[6][2];  // ii, ij, ik, jj, jk, kk
-    double c[3][2];
-    double normal[3][2];  // the first two negated
-  };
-  Scaled scaled_[3] = {};
+  // Of velocities that the forms leave.
+  std::optional<Membership> triage_rest(const Eigen::Vector3d& w) const noexcept;
+  Membership climb_all(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, Rung* rung) const;
+
+  detail::VelocityForms forms_;
   bool usable_ = false;
-  // What the second rung reads, at the same scale, in the order xx, xy, xz, yy, yz, zz.
+  // What the second rung reads: lengths divided by a power of two so that |c| is near one; shapes in the
+  // order xx, xy, xz, yy, yz, zz.
   struct Enclosed {
     Interval shape_a[6], shape_b[6], c[3];
   };

@@ -3,7 +3,7 @@
 // Exact membership of a velocity in the planar sector of two ellipses.
 #pragma once
 
-#include <vericone/cones/ellipsoids/exact_predicates.h>
+#include <vericone/cones/ellipsoids/predicates.h>
 
 namespace vericone {
 
@@ -55,10 +55,5 @@ class SectorOracle {
 
 /// Tag of SectorOracle::membership for rung_counts().
 struct SectorMembership;
-
-namespace exact {
-/// For rational input; any two bodies, as SectorOracle::membership().
-Membership membership(const RationalBody<2>& a, const RationalBody<2>& b, const RationalVector<2>& w);
-}  // namespace exact
 
 }  // namespace vericone

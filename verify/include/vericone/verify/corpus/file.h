@@ -3,6 +3,7 @@
 // The corpus as text: one case a line, numbers exact. The format is described in tests/corpus/README.md.
 #pragma once
 
+#include <vericone/geometry/exact/rational.h>
 #include <vericone/verify/corpus.h>
 #include <filesystem>
 #include <iosfwd>

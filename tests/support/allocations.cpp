@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "guidance/allocations.h"
+#include "support/allocations.h"
 
 #include <atomic>
 #include <cstdlib>

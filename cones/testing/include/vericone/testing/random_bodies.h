@@ -15,8 +15,6 @@
 #include <string>
 #include <utility>
 
-#include "support/campaign.h"
-
 namespace vericone::testing {
 
 /// x moved by `count` representable numbers.
@@ -29,8 +27,7 @@ inline double moved_by_ulps(double x, int count) {
 /// The environment variable VERICONE_SEED replaces the seed that a test names.
 class RandomBodies {
  public:
-  explicit RandomBodies(std::uint64_t seed)
-      : seed_(from_environment("VERICONE_SEED", seed)), engine_(seed_) {}
+  explicit RandomBodies(std::uint64_t seed) : seed_(replaced(seed)), engine_(seed_) {}
 
   /// For SCOPED_TRACE, so that a failure tells how to repeat it.
   std::string trace() const { return "VERICONE_SEED=" + std::to_string(seed_); }
@@ -108,6 +105,11 @@ class RandomBodies {
   }
 
  private:
+  static std::uint64_t replaced(std::uint64_t seed) {
+    const char* given = std::getenv("VERICONE_SEED");
+    return given ? std::strtoull(given, nullptr, 10) : seed;
+  }
+
   std::uint64_t seed_;
   std::mt19937_64 engine_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/geometry/algebraic.h>
+#include <vericone/geometry/exact/algebraic.h>
 
 #include <algorithm>
 #include <cmath>

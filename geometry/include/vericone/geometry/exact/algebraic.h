@@ -4,7 +4,7 @@
 // and comparisons are exact; equality is decided by greatest common divisors, never by a tolerance.
 #pragma once
 
-#include <vericone/geometry/integer.h>
+#include <vericone/geometry/exact/integer.h>
 #include <vericone/geometry/interval.h>
 #include <memory>
 #include <vector>

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pieces/pair_cone.h"
+
+#include <vericone/cones/cone.h>
+#include <vericone/geometry/error.h>
+#include <filesystem>
+#include <ostream>
+
+#include "answer.h"
+#include "figures.h"
+#include "json_value.h"
+#include "output_folder.h"
+#include "stopwatch.h"
+
+namespace vericone {
+namespace {
+
+void refuse_options(const ConeCommand& options) {
+  const auto refuse = [](const char* option, const std::string& value, const char* why) {
+    throw InputError(option, value, std::string("left out for these bodies") + why);
+  };
+  if (options.method != "exact") refuse("--method", options.method, ": there are no slices of them");
+  if (options.planes) refuse("--planes", std::to_string(*options.planes), "");
+  if (options.samples) refuse("--samples", std::to_string(*options.samples), "");
+  if (options.tolerance)
+    refuse("--tolerance", to_text(*options.tolerance), ": their cone is a map, --map RADIANS");
+  if (options.tangents != "all") refuse("--tangents", options.tangents, "");
+  if (!options.picture_folder.empty() && !options.map)
+    throw InputError("--out", options.picture_folder,
+                     "given with --map: the picture of these bodies' cone is its map");
+}
+
+}  // namespace
+
+void run_pair_cone(const ConeCommand& options, const input::PlacedEngagement& e, std::ostream& out) {
+  refuse_options(options);
+  std::optional<OutputFolder> held;
+  if (!options.picture_folder.empty()) held.emplace(options.picture_folder, "--picture");
+  const auto start = Clock::now();
+  const Pair pair(e.agent, e.obstacle);
+  const double seconds = seconds_since(start);
+  const auto relation = pair.relation();
+  const Guarantee guarantee = pair.guarantee();
+  Json cone{{"method", guarantee.exact ? "exact" : "certified"},
+            {"tolerance", guarantee.exact ? Json(nullptr) : Json(guarantee.tolerance)},
+            {"relation", relation ? to_string(*relation) : "undecided"},
+            {"agent", e.agent_name},
+            {"obstacle", e.obstacle_name},
+            {"answer", answer(e, false)},
+            {"map", nullptr},
+            {"seconds", seconds}};
+  MapAnswer map;
+  if (options.map) {
+    const auto& [from, to] =
+        std::pair(e.agent.containing_ellipsoid().center(), e.obstacle.containing_ellipsoid().center());
+    map = map_answer(*pair.directions(), *options.map, to - from, e.obstacle_name);
+    cone["map"] = map.summary;
+  }
+  if (options.json) {
+    out << cone.dump(1) << '\n';
+  } else {
+    const Json& now = cone["answer"];
+    out << "agent               " << e.agent_name << '\n'
+        << "obstacle            " << e.obstacle_name << '\n'
+        << "bodies              " << cone["relation"].get<std::string>() << '\n'
+        << "verdict             " << now["verdict"].get<std::string>() << " (of the scene's velocities, "
+        << (guarantee.exact ? "exact" : "certified") << ")\n";
+    if (now["time_to_contact"].is_number())
+      out << "first contact       after " << now["time_to_contact"].dump() << " s at "
+          << now["contact_point"].dump() << '\n';
+    if (now["clearance"].is_number() && now["verdict"] == "out")
+      out << "passes at           " << now["clearance"].dump() << " m\n";
+    if (options.map)
+      print_map(map.summary, out);
+    else
+      out << "note                --map draws all directions that collide\n";
+    out << "time                " << cone["seconds"].dump() << " s to prepare\n";
+  }
+  if (!held) return;
+  const std::filesystem::path folder = options.picture_folder;
+  write_whole(folder / "cone_map.json", map.picture.dump() + "\n");
+  if (!options.figures) return;
+  for (const auto& file : draw_figures("cone_map.py", folder))
+    if (!options.json) out << "picture             " << file.string() << '\n';
+}
+
+}  // namespace vericone

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/cones/composite/composite_pair.h>
+
+#include <vericone/geometry/error.h>
+#include <string>
+
+#include "answers/velocity_ladder.h"
+#include "combined/frame.h"
+#include "composite/state.h"
+
+namespace vericone {
+using composite::CellTree;
+
+namespace {
+
+CombinedEllipsoid in_obstacle_frame(const CombinedEllipsoid& body, const Pose& pose) {
+  std::vector<Delimiter<3>> delimiters = body.delimiters();
+  if (!assembly::is_upright(pose))
+    for (Delimiter<3>& d : delimiters) {
+      const Eigen::Matrix3d turned = pose.rotation.transpose() * d.matrix * pose.rotation;
+      d.matrix = 0.5 * (turned + turned.transpose());
+    }
+  return CombinedEllipsoid::trusted(assembly::in_obstacle_frame(body.ellipsoid(), pose), delimiters);
+}
+
+/// The assembly with every point moved; boxes stay boxes where nothing is turned.
+Assembly moved(const Assembly& body, const Pose& from, const Pose& to) {
+  const bool upright = assembly::is_upright(from) && assembly::is_upright(to);
+  if (from.position == to.position && from.rotation == to.rotation) return body;
+  const auto place = [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
+    return upright ? Eigen::Vector3d((x + from.position) - to.position) : to.to_body(from.to_world(x));
+  };
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Assembly::Triangle> triangles;
+  std::vector<Box> boxes;
+  std::vector<HullBody> hulls;
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    std::vector<Eigen::Vector3d> piece = body.piece(i).points();
+    for (Eigen::Vector3d& x : piece) x = place(x);
+    if (body.kind() == PieceKind::triangle) {
+      const auto first = static_cast<std::uint32_t>(points.size());
+      triangles.push_back({first, first + 1, first + 2});
+    }
+    if (body.kind() == PieceKind::triangle || body.kind() == PieceKind::ball) {
+      points.insert(points.end(), piece.begin(), piece.end());
+    } else if (body.kind() == PieceKind::box && upright) {
+      boxes.push_back({piece.front(), piece.back()});
+    } else {
+      hulls.emplace_back(std::move(piece));
+    }
+  }
+  if (body.kind() == PieceKind::triangle) return Assembly::mesh(std::move(points), std::move(triangles));
+  if (body.kind() == PieceKind::ball) return Assembly::cloud(std::move(points), body.radius());
+  if (!boxes.empty()) return Assembly::boxes(std::move(boxes));
+  return Assembly::polyhedra(std::move(hulls));
+}
+
+double largest_coordinate(const Box& box) { return box.low.cwiseAbs().sum() + box.high.cwiseAbs().sum(); }
+
+}  // namespace
+
+CompositePair::State::State(const Assembly& body, const Pose& place)
+    : obstacle(body), pose(place), upright(assembly::is_upright(place)), zero(HullBody()) {}
+
+CompositePair::CompositePair(const CombinedEllipsoid& agent, const Assembly& obstacle, const Pose& pose,
+                             double tolerance) {
+  if (!(tolerance >= 1e-6 && tolerance <= 0.5))
+    throw InputError("tolerance", to_text(tolerance), "a number between 1e-6 and 0.5");
+  auto state = std::make_unique<State>(obstacle, pose);
+  const CombinedEllipsoid body = in_obstacle_frame(agent, pose);
+  state->cells.emplace(body, tolerance);
+  state->around.emplace(body.ellipsoid(), obstacle);
+  if (const std::optional<Ellipsoid> inscribed = body.inscribed_ellipsoid()) {
+    const Ellipsoid within = Ellipsoid::from_shape(body.center(), inscribed->shape() * (1 - 1e-4));
+    if (surely_contains(body, within)) state->within.emplace(within, obstacle);
+  }
+  state->largest = largest_coordinate(obstacle.bounds()) + largest_coordinate(state->agent_bounds());
+  state->zero.check_range(state->largest);
+  state->relation = composite::delimited_relation(*state);
+  state_ = std::move(state);
+}
+
+CompositePair::CompositePair(const Assembly& agent, const Pose& agent_pose, const Assembly& obstacle,
+                             const Pose& obstacle_pose) {
+  auto state = std::make_unique<State>(obstacle, obstacle_pose);
+  state->agent = moved(agent, agent_pose, obstacle_pose);
+  state->largest = largest_coordinate(obstacle.bounds()) + largest_coordinate(state->agent_bounds());
+  state->zero.check_range(state->largest);
+  if (state->agent->kind() == PieceKind::hull) {
+    state->frames.reserve(state->agent->size());
+    for (const HullBody& hull : state->agent->by_slot().hulls) state->frames.push_back(state->frame(hull));
+  }
+  state->relation = composite::pieces_relation(*state);
+  state_ = std::move(state);
+}
+
+CompositePair::~CompositePair() = default;
+CompositePair::CompositePair(CompositePair&&) noexcept = default;
+CompositePair& CompositePair::operator=(CompositePair&&) noexcept = default;
+
+bool CompositePair::exact() const { return state_->agent.has_value(); }
+const Assembly& CompositePair::obstacle() const { return state_->obstacle; }
+std::optional<Relation> CompositePair::relation() const { return state_->relation; }
+
+std::optional<Membership> CompositePair::membership(const Eigen::Vector3d& v_a,
+                                                    const Eigen::Vector3d& v_b) const {
+  require_finite_velocity(v_a, "agent_velocity");
+  require_finite_velocity(v_b, "obstacle_velocity");
+  const State& state = *state_;
+  // Differences of doubles vanish only where they are equal.
+  if (v_a == v_b) return Membership::out;
+  if (state.relation && *state.relation != Relation::disjoint) return Membership::in;
+  const Eigen::Vector3d w = composite::relative_velocity(v_a, v_b);
+  const Eigen::Vector3d a = state.upright ? v_a : state.to_obstacle(w);
+  const Eigen::Vector3d b = state.upright ? v_b : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  if (state.cells) return composite::delimited_membership(state, a, b);
+  return composite::pieces_membership(state, a, b);
+}
+
+Verdict CompositePair::verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const {
+  if (!state_->relation) return Verdict::undecided;
+  if (*state_->relation != Relation::disjoint)
+    return *state_->relation == Relation::touching ? Verdict::touching : Verdict::overlapping;
+  const std::optional<Membership> answer = membership(v_a, v_b);
+  return answer ? verdict_of(Relation::disjoint, [&] { return *answer; }) : Verdict::undecided;
+}
+
+}  // namespace vericone

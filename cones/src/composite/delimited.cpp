@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "composite/delimited.h"
+
+namespace vericone::composite {
+using namespace assembly;
+
+std::optional<Relation> delimited_relation(const State& state) {
+  if (state.around->relation() == Relation::disjoint) return Relation::disjoint;
+  if (state.within && state.within->relation() == Relation::overlapping) return Relation::overlapping;
+  const Directions apex{};
+  const auto apart = [](const Box& box) { return !holds_origin(box); };
+  switch (CellSearch(state, apex, apart).run()) {
+    case Certified::in:
+      return Relation::overlapping;
+    case Certified::out:
+      return Relation::disjoint;
+    case Certified::undecided:
+      break;
+  }
+  return std::nullopt;
+}
+
+std::optional<Membership> delimited_membership(const State& state, const Eigen::Vector3d& v_a,
+                                               const Eigen::Vector3d& v_b) {
+  if (state.around->relation() == Relation::disjoint && state.around->membership(v_a, v_b) == Membership::out)
+    return Membership::out;
+  if (state.within && state.within->membership(v_a, v_b) == Membership::in) return Membership::in;
+  const Eigen::Vector3d w = relative_velocity(v_a, v_b);
+  const Slabs slabs(state.zero, difference(state.agent_bounds(), state.obstacle.bounds()), w);
+  const Directions ray(state.zero, {w});
+  const auto apart = [&](const Box& box) { return std::isinf(slabs.enter(box.low.data(), box.high.data())); };
+  switch (CellSearch(state, ray, apart).run()) {
+    case Certified::in:
+      return Membership::in;
+    case Certified::out:
+      return Membership::out;
+    case Certified::undecided:
+      break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace vericone::composite

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What a pair of composite bodies keeps, and the boxes that all its searches compare.
+#pragma once
+
+#include <vericone/cones/composite/composite_pair.h>
+#include <optional>
+#include <vector>
+
+#include "assembly/core.h"
+#include "assembly/frame.h"
+#include "assembly/gap.h"
+#include "assembly/scene.h"
+#include "composite/cells.h"
+
+namespace vericone {
+
+struct CompositePair::State {
+  State(const Assembly& body, const Pose& place);
+
+  Assembly obstacle;
+  Pose pose;             // of the obstacle
+  bool upright = true;   // the pose is not turned
+  assembly::Frame zero;  // of the origin: where differences of boxes are compared with directions
+  std::optional<Relation> relation;
+
+  // One of the two, in the obstacle's frame.
+  std::optional<Assembly> agent;
+  std::optional<composite::CellTree> cells;
+
+  std::vector<assembly::Frame> frames;           // of the agent's pieces by slot, where they are hulls
+  std::optional<AssemblyOracle> around, within;  // ellipsoids that hold the cells' body, or that it holds
+  double largest = 1;                            // of all coordinates, at most
+
+  Eigen::Vector3d to_obstacle(const Eigen::Vector3d& direction) const {
+    return upright ? direction : Eigen::Vector3d(pose.rotation.transpose() * direction);
+  }
+  Eigen::Vector3d to_world(const Eigen::Vector3d& direction) const {
+    return upright ? direction : Eigen::Vector3d(pose.rotation * direction);
+  }
+  Eigen::Vector3d point_to_world(const Eigen::Vector3d& x) const {
+    return upright ? Eigen::Vector3d(x + pose.position) : pose.to_world(x);
+  }
+
+  Box agent_bounds() const { return agent ? agent->bounds() : cells->box(composite::Cell{}); }
+  /// A frame about a convex body of the agent, ready for any piece of the obstacle.
+  assembly::Frame frame(const HullBody& body) const {
+    assembly::Frame made(body);
+    made.check_range(largest);
+    return made;
+  }
+};
+
+namespace composite {
+
+using State = CompositePair::State;
+
+/// All y - x with x in `agent` and y in `obstacle`; rounded, the signs exactly.
+inline Box difference(const Box& agent, const Box& obstacle) {
+  return {obstacle.low - agent.high, obstacle.high - agent.low};
+}
+inline bool holds_origin(const Box& box) {
+  return (box.low.array() <= 0).all() && (box.high.array() >= 0).all();
+}
+inline double size(const Box& box) { return (box.high - box.low).sum(); }
+
+/// The normal with which to begin the search for a plane between a core and a ray, or the apex.
+inline Eigen::Vector3d first_normal(const assembly::Core& core, const assembly::Directions& directions) {
+  Eigen::Vector3d away = core.center();
+  if (directions.count > 0) away = assembly::RayResidual{directions.middle}(away);
+  if (!away.isZero(0)) return away;
+  return core.center().isZero(0) ? Eigen::Vector3d(Eigen::Vector3d::UnitX()) : core.center();
+}
+
+/// How far a core stays from the apex along n and from all that is asked about, at least; not positive where
+/// the plane tells nothing. `room`: by how much the agent's part is farther away than the core knows.
+inline double beyond_plane(const assembly::Core& core, const assembly::Directions& directions,
+                           const Eigen::Vector3d& n, double room) {
+  Eigen::Vector3d on_piece;
+  const double reach = core.reach(), slack = 64 * assembly::kUlp * (reach + room);
+  return n.dot(core.support(n, on_piece)) + room -
+         (core.error() + slack + directions.slant(n) * reach + core.outer_rounding());
+}
+
+/// How the two lie (delimited bodies: nothing where it is not decided).
+std::optional<Relation> delimited_relation(const State& state);
+Relation pieces_relation(const State& state);
+
+/// v_a - v_b, or half of it where that is beyond the range of doubles. Directions have room for its rounding.
+inline Eigen::Vector3d relative_velocity(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) {
+  const Eigen::Vector3d w = v_a - v_b;
+  return w.allFinite() ? w : Eigen::Vector3d(0.5 * v_a - 0.5 * v_b);
+}
+
+/// Velocities in the obstacle's frame, not equal, where the relation is disjoint or not known.
+std::optional<Membership> delimited_membership(const State& state, const Eigen::Vector3d& v_a,
+                                               const Eigen::Vector3d& v_b);
+Membership pieces_membership(const State& state, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b);
+
+}  // namespace composite
+}  // namespace vericone

@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the folders promise (docs/architecture.md), read from the includes of all sources."""
+
+import os
+import re
+import sys
+import unittest
+from pathlib import Path
+
+ROOT = Path(os.environ.get("VERICONE_SOURCE", Path(__file__).resolve().parents[2]))
+SOURCES = ("geometry", "cones", "guidance", "verify", "apps", "papers", "benchmarks", "tests")
+
+# Libraries, and within them folders, each of which may include itself and what stands before it.
+LIBRARIES = ["geometry", "files", "octomap", "fitting", "lidar", "cones", "guidance", "simulation", "verify"]
+BESIDE = {("fitting", "octomap"), ("fitting", "files"), ("fitting", "lidar"), ("lidar", "octomap"), ("lidar", "fitting"),
+          ("cones", "files"), ("cones", "octomap"), ("cones", "fitting"), ("cones", "lidar"),
+          ("guidance", "files"), ("guidance", "octomap"), ("guidance", "fitting"), ("guidance", "lidar"),
+          ("simulation", "files"), ("simulation", "octomap"), ("simulation", "fitting"), ("simulation", "lidar"),
+          ("verify", "octomap"), ("verify", "fitting"), ("verify", "lidar"), ("verify", "guidance"),
+          ("verify", "simulation"), ("octomap", "fitting"), ("octomap", "lidar")}
+FAMILIES = ["", "answers", "ellipsoids", "planar", "combined", "hulls", "opening", "times", "assembly", "composite",
+            "slices", "map", "pairs"]
+MOST_FILES = 25
+
+
+def library_of(path):
+    parts = path.relative_to(ROOT).parts
+    if parts[0] == "geometry" and parts[1] in ("files", "octomap", "fitting", "lidar"):
+        return parts[1]
+    if parts[0] == "guidance" and parts[1] == "simulation":
+        return "simulation"
+    return parts[0]
+
+
+def sources(*folders):
+    for folder in folders or SOURCES:
+        for path in sorted((ROOT / folder).rglob("*")):
+            if path.suffix in (".h", ".cpp"):
+                yield path
+
+
+def includes(path):
+    return re.findall(r'^#include [<"]([^>"]+)[>"]', path.read_text(encoding="utf-8"), re.MULTILINE)
+
+
+def public_headers():
+    return {str(path).split("/include/", 1)[1]: path
+            for folder in ("geometry", "cones", "guidance", "verify")
+            for path in (ROOT / folder).rglob("include/**/*.h")}
+
+
+class House(unittest.TestCase):
+    def test_libraries_include_only_those_below(self):
+        wrong = []
+        for path in sources("geometry", "cones", "guidance", "verify"):
+            own = library_of(path)
+            for name in includes(path):
+                parts = name.split("/")
+                if parts[0] in ("apps", "papers", "benchmarks"):
+                    wrong.append(f"{path}: {name}")
+                if parts[0] != "vericone" or parts[1] not in LIBRARIES:
+                    continue
+                if LIBRARIES.index(parts[1]) > LIBRARIES.index(own) or (own, parts[1]) in BESIDE:
+                    wrong.append(f"{path.relative_to(ROOT)}: {name}")
+        self.assertEqual(wrong, [])
+
+    def test_families_of_cones_include_only_those_below(self):
+        wrong = []
+        for path in sources("cones"):
+            text = str(path.relative_to(ROOT))
+            inner = text.split("/src/" if "/src/" in text else "/vericone/cones/", 1)[1]
+            own = inner.split("/")[0] if "/" in inner else ""
+            if own == "":
+                # What users read: it stands on the families, and answers.h and the like below them.
+                continue
+            for name in includes(path):
+                other = name.removeprefix("vericone/cones/")
+                if "/" not in other or other.split("/")[0] not in FAMILIES:
+                    continue
+                if FAMILIES.index(other.split("/")[0]) > FAMILIES.index(own):
+                    wrong.append(f"{text}: {name}")
+        self.assertEqual(wrong, [])
+
+    def test_headers_bring_no_integers_of_any_length_unasked(self):
+        """boost::multiprecision is 60,000 lines: only headers that are called exact bring it."""
+        headers = public_headers()
+
+        def brings(name, seen):
+            if "multiprecision" in name:
+                return True
+            if name in seen or name not in headers:
+                return False
+            seen.add(name)
+            return any(brings(other, seen) for other in includes(headers[name]))
+
+        heavy = sorted(name for name in headers
+                       if not name.startswith("vericone/verify/") and "exact" not in name and brings(name, set()))
+        self.assertEqual(heavy, [])
+
+    def test_folders_are_small_enough_to_read(self):
+        large = []
+        for top in SOURCES:
+            for folder, _, files in os.walk(ROOT / top):
+                count = sum(name.endswith((".h", ".cpp", ".py")) for name in files)
+                if count > MOST_FILES:
+                    large.append(f"{Path(folder).relative_to(ROOT)}: {count}")
+        self.assertEqual(large, [])
+
+    def test_kinds_of_bodies_are_asked_for_in_three_folders(self):
+        """geometry/src (what a body is), cones/src/pairs (who serves a pair), apps/src/input (who reads and writes)."""
+        allowed = ("geometry/src/", "cones/src/pairs/", "apps/src/input/")
+        shape = r"(shape\(\)|\.shape\b|->shape\b|agent\.shape|\bengagement\b|\bkind_of_body\b)"
+        pattern = re.compile(r"(std::visit\([^;]*?" + shape + r"|(get_if|holds_alternative|std::get)<[^;]*?>\([^;]*?" +
+                             shape + ")", re.DOTALL)
+        wrong = []
+        for path in sources("geometry", "cones", "guidance", "apps", "papers"):
+            text = str(path.relative_to(ROOT))
+            if not text.startswith(allowed) and pattern.search(path.read_text(encoding="utf-8")):
+                wrong.append(text)
+        self.assertEqual(wrong, [])
+
+    def test_headers_name_themselves_once(self):
+        wrong = [str(path) for path in sources("geometry", "cones", "guidance", "verify")
+                 if path.suffix == ".h" and "#pragma once" not in path.read_text(encoding="utf-8")]
+        self.assertEqual(wrong, [])
+
+
+if __name__ == "__main__":
+    sys.exit(unittest.main())
