@@ -92,7 +92,7 @@ View view_of_pair(const BodyState& a, const BodyState& b) {
   const Vector3d& n = found.normal;
   const bool meet = !(found.most > 0);
   View view;
-  view.miss = {found.signed_distance(), found.time, n, meet || found.time > 0};
+  view.miss = {found.distance, found.time, n, meet || found.time > 0};
   if (n.isZero(0)) {
     view.a = view.b = side_about(Vector3d::Zero());
     return view;

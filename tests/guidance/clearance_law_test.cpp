@@ -255,7 +255,7 @@ TEST(ClearanceLawOfPlaced, RatesAreThoseOfTheNearestPoints) {
     const auto m = [&](double t) {
       const Miss miss =
           Pair(Placed(Body(a.body(t))), b.at(t)).miss(a.velocity_at(t), b.velocity + b.acceleration * t);
-      return miss.most > 0 && miss.time > 0 ? miss.signed_distance() : std::nan("");
+      return miss.most > 0 && miss.time > 0 ? miss.distance : std::nan("");
     };
     BodyState obstacle;
     obstacle.shape = b.at(0);

@@ -80,7 +80,7 @@ Certificate by_distance(const MovingPair& pair, const Piece& piece) {
 Vector3d place_of_nearest(const MovingPair& pair, const Moment& moment) {
   const Posed bodies = posed(pair, moment);
   const Miss miss = certified_pair(bodies).miss(Vector3d::Zero(), Vector3d::Zero());
-  const Vector3d half = 0.5 * miss.signed_distance() * miss.normal;
+  const Vector3d half = 0.5 * miss.distance * miss.normal;
   if (miss.normal.isZero(0)) return moment.a.position;
   if (const auto on_a = guidance::support_point(bodies.a, miss.normal)) return *on_a + half;
   if (const auto on_b = guidance::support_point(bodies.b, -miss.normal)) return *on_b - half;
