@@ -261,52 +261,66 @@ MembershipFigures membership_table(int rounds) {
   return figures;
 }
 
-/// 10^6 velocities against one pair in one call, half of them aimed near its cone. Returns nanoseconds a
-/// velocity by width of the registers, as far as the machine has them.
-std::map<VectorWidth, double> batch_table(int rounds) {
-  constexpr std::size_t kVelocities = 1'000'000, kExact = 10'000;
-  const Engagement pair = engagements(1).front();
-  const ConeOracle oracle(pair.a, pair.b);
+/// Many velocities against one pair: anywhere, and every second one near its cone.
+std::vector<Eigen::Vector3d> velocities_of(const Engagement& pair, std::size_t count) {
   const TrueCone cone = true_cone(pair.a, pair.b, 64);
   Dice dice(3);
-  std::vector<Eigen::Vector3d> w(kVelocities);
-  for (std::size_t i = 0; i < kVelocities; ++i) {
+  std::vector<Eigen::Vector3d> w(count);
+  for (std::size_t i = 0; i < count; ++i) {
     const BoundarySample& s = cone.boundary[i / 2 % 64];
     w[i] = i % 2 == 0 ? dice.direction() : Eigen::Vector3d(s.direction + dice.uniform(-0.2, 0.2) * s.normal);
   }
-  std::vector<Membership> single(kVelocities), at_once(kVelocities);
-  std::vector<Item> items = {item("membership, one after the other", 1, 1, [&](int) {
-    for (std::size_t i = 0; i < kVelocities; ++i) single[i] = oracle.membership(w[i]);
-    return single[0];
-  })};
-  std::vector<VectorWidth> widths;
+  return w;
+}
+
+/// 10^6 velocities against one pair in one call. Returns nanoseconds a velocity by width of the registers, as
+/// far as the machine has them.
+std::map<VectorWidth, double> batch_table(int rounds) {
+  constexpr std::size_t kVelocities = 1'000'000, kToOneExact = 100;
+  const Engagement pair = engagements(1).front();
+  const ConeOracle oracle(pair.a, pair.b);
+  const std::vector<Eigen::Vector3d> w = velocities_of(pair, kVelocities);
+  std::vector<Membership> truth(kVelocities), out(kVelocities);
+  for (std::size_t i = 0; i < kVelocities; ++i)
+    truth[i] = i % kToOneExact == 0 ? oracle.exact_membership(w[i], Eigen::Vector3d::Zero())
+                                    : oracle.membership(w[i]);
+
+  std::vector<Item> items;
+  const auto add = [&](const std::string& name, auto answer) {
+    items.push_back(item(name, 1, 1, [&out, answer](int) {
+      answer();
+      return out[0];
+    }));
+  };
+  add("membership, one after the other", [&] {
+    for (std::size_t i = 0; i < kVelocities; ++i) out[i] = oracle.membership(w[i]);
+  });
+  add("plain double, one after the other", [&] {
+    for (std::size_t i = 0; i < kVelocities; ++i) out[i] = oracle.naive_membership(w[i]);
+  });
+  std::map<VectorWidth, std::size_t> row;
   for (const auto& [width, name] : {std::pair(VectorWidth::two, "plain x86-64"),
                                     {VectorWidth::four, "AVX2"},
                                     {VectorWidth::eight, "AVX-512"}}) {
     if (width > widest_vectors()) continue;
-    widths.push_back(width);
-    items.push_back(item(std::string("memberships, ") + name, 1, 1, [&, at_most = width](int) {
-      oracle.memberships(w, at_once, at_most);
-      return at_once[0];
-    }));
+    row[width] = items.size();
+    add(std::string("memberships in one call, ") + name,
+        [&, at_most = width] { oracle.memberships(w, out, at_most); });
   }
   measure(items, rounds);
+
   std::printf("| 10^6 velocities against one pair | time of each | membership / this | wrong |\n");
   std::printf("| --- | --- | --- | --- |\n");
-  for (std::size_t k = 0; k < items.size(); ++k) {
-    if (k > 0) oracle.memberships(w, at_once, widths[k - 1]);
-    const std::vector<Membership>& answers = k > 0 ? at_once : single;
+  for (const Item& it : items) {
+    std::fill(out.begin(), out.end(), Membership::on);
+    it.round();
     std::size_t wrong = 0;
-    for (std::size_t i = 0; i < kVelocities; ++i)
-      wrong += answers[i] != (i % (kVelocities / kExact) == 0
-                                  ? oracle.exact_membership(w[i], Eigen::Vector3d::Zero())
-                                  : single[i]);
-    std::printf("| %s | %s | %.3g | %zu |\n", items[k].name.c_str(),
-                nanoseconds(median(items[k].times) / kVelocities).c_str(), median_ratio(items[0], items[k]),
-                wrong);
+    for (std::size_t i = 0; i < kVelocities; ++i) wrong += out[i] != truth[i];
+    std::printf("| %s | %s | %.3g | %zu |\n", it.name.c_str(),
+                nanoseconds(median(it.times) / kVelocities).c_str(), median_ratio(items[0], it), wrong);
   }
   std::map<VectorWidth, double> times;
-  for (std::size_t k = 0; k < widths.size(); ++k) times[widths[k]] = median(items[k + 1].times) / kVelocities;
+  for (const auto& [width, k] : row) times[width] = median(items[k].times) / kVelocities;
   return times;
 }
 

@@ -2,8 +2,8 @@
 //
 // The program `vericone`: the core commands, and the way to the programs of the others.
 #include "command/program.h"
-#include "core_commands.h"
-#include "simulation_commands.h"
+#include "command/core_commands.h"
+#include "command/simulation_commands.h"
 
 int main(int argc, char** argv) {
   auto commands = vericone::core_commands();

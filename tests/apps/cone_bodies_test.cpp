@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fit/cone_bodies.h"
+#include "fit/cone/cone_bodies.h"
 #include <vericone/testing/random_bodies.h>
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fit/cone_comparison.h"
+#include "fit/cone/cone_comparison.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,9 +11,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "fit/cone_json.h"
+#include "fit/cone/cone_json.h"
 #include "geometry/meshes.h"
-#include "json_value.h"
+#include "json/json_value.h"
 #include "support/campaign.h"
 
 namespace vericone::cone_comparison_test {

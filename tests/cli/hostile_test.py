@@ -168,6 +168,31 @@ class HostileCases(InFolder):
         self.assertEqual((answer["verdict"], answer["dropped_faces"]), ("in", 1))
 
 
+    def test_a_triangle_of_any_size(self):
+        """The plane 0.6 x + 0.8 y = 5, or x = 5, in triangles that are exact in doubles: the time is right, or not told."""
+        told = 0
+        for size in (1, 1e3, 1e6, 1e9, 1e12, 1e15, 1e50, 1e300):
+            for tilted in (False, True) if size < 1e13 else (False,):
+                across = (-4, 3) if tilted else (0, 5)
+                corners = [((3 if tilted else 5) + a * size * across[0], (4 if tilted else 0) + a * size * across[1], b * size)
+                           for a, b in ((-1, -1), (1, -1), (0, 2))]
+                self.write("t.off", "OFF\n3 1 0\n" + "".join("%r %r %r\n" % tuple(map(float, c)) for c in corners) + "3 0 1 2\n")
+                for w in ((1, 0, 0), (0.5, 1, 0.25)):
+                    _, (answer,) = self.answers(json.dumps({
+                        "agent": {"center": [0, 0, 0], "semi_axes": [1, 1, 1]}, "obstacle": {"mesh": "t.off"},
+                        "agent_velocity": w, "obstacle_velocity": [0, 0, 0]}))
+                    if answer["verdict"] == "out":
+                        self.assertEqual(size, 1)
+                        continue
+                    true = 4 / (0.6 * w[0] + 0.8 * w[1] if tilted else w[0])
+                    low, high = answer["time_enclosure"]
+                    self.assertTrue(low <= true * (1 + 1e-15) and (high is None or true <= high * (1 + 1e-15)), answer)
+                    if answer["time_to_contact"] is not None:
+                        told += 1
+                        self.assertAlmostEqual(answer["time_to_contact"], true, delta=1e-9 * true)
+        self.assertGreaterEqual(told, 10)  # up to 1000 km they are
+
+
 class Mutations(InFolder):
     """Good lines with bytes changed, cut, doubled and moved: one answer a line, no crash, in bounded memory."""
     COUNT = 3000

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/ellipsoids/true_cone.h>
 #include <vericone/guidance/guide.h>
-#include <vericone/simulation/run.h>
 #include <cstdio>
 
+using namespace vericone;
+
+#ifdef WITH_SIMULATION
+const char* simulated(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& velocity);
+#endif
+
 int main() {
-  using namespace vericone;
   const Ellipsoid a = Ellipsoid::from_axes({0, 0, 0}, {1, 1, 1}),
                   b = Ellipsoid::from_axes({5, 0, 0}, {2, 2, 2});
   const ConeOracle oracle(a, b);
@@ -19,12 +23,7 @@ int main() {
   const auto step = guidance::guide(agent, obstacle, {}, memory, 0);
   if (!step || !(step->a.y() > 0)) return 2;
 
-  simulation::Scenario scenario;
-  scenario.duration = 1;
-  scenario.bodies.resize(2);
-  scenario.bodies[0] = {"A", simulation::RigidShape{CombinedEllipsoid(a)}, {{0, 0, 0}, agent.velocity}};
-  scenario.bodies[1] = {
-      "B", simulation::RigidShape{CombinedEllipsoid(b.translated(-b.center()))}, {b.center()}};
-  scenario.bodies[0].pilot.emplace().guide.inversion.most = 50;
-  std::printf("%s\n", to_string(simulation::simulate(scenario).verdict()));
+#ifdef WITH_SIMULATION
+  std::printf("%s\n", simulated(a, b, agent.velocity));
+#endif
 }

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <vector>
 
-#include "cones/richardson.h"
+#include "cones/ellipsoids/richardson.h"
 
 namespace vericone::guidance::clearance_law_test {
 namespace {

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <vector>
 
-#include "cones/richardson.h"
+#include "cones/ellipsoids/richardson.h"
 
 namespace vericone::testing {
 

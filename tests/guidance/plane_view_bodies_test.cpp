@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "cones/richardson.h"
+#include "cones/ellipsoids/richardson.h"
 #include "guidance/engagements.h"
 
 namespace vericone::guidance::plane_view_bodies_test {

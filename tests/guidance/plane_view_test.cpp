@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "cones/richardson.h"
+#include "cones/ellipsoids/richardson.h"
 #include "support/allocations.h"
 #include "guidance/engagements.h"
 

@@ -2,7 +2,7 @@
 # their sources compiled again in the others, two units a set of options (one would take more than 30 s). What the
 # predicates need besides comes from the libraries, whose matrices the option of the alignment makes the same: with
 # -march=native Eigen would align them otherwise.
-add_executable(options_probe options_probe.cpp corpus_answers.cpp)
+add_executable(options_probe corpus/options_probe.cpp corpus/corpus_answers.cpp)
 target_link_libraries(options_probe PRIVATE vericone::verify vericone::cones)
 vericone_precompile(options_probe exact)
 vericone_unity(options_probe 2)
@@ -11,7 +11,7 @@ set(options_probes options_probe)
 set(probe_geometry exact/algebraic quadric_side)
 set(probe_cones ellipsoids/contact_frame ellipsoids/contact_polynomial ellipsoids/relation ellipsoids/cone_oracle planar/sector_oracle
   ellipsoids/containment ellipsoids/position opening/orifice hulls/oracle hulls/certificates hulls/exact hulls/scene)
-set(probe_sources options_probe.cpp corpus_answers.cpp)
+set(probe_sources corpus/options_probe.cpp corpus/corpus_answers.cpp)
 foreach(library geometry cones)
   foreach(source IN LISTS probe_${library})
     list(APPEND probe_sources ${PROJECT_SOURCE_DIR}/${library}/src/${source}.cpp)
@@ -39,7 +39,7 @@ target_include_directories(options_probe PRIVATE ${PROJECT_SOURCE_DIR}/tests)
 list(TRANSFORM options_probes REPLACE "(.+)" "\"$<TARGET_FILE:\\1>\"" OUTPUT_VARIABLE probe_files)
 list(GET probe_files 0 probe_first)
 list(JOIN probe_files "," probe_files)
-target_sources(test_verify PRIVATE options_test.cpp)
+target_sources(test_verify PRIVATE corpus/options_test.cpp)
 add_dependencies(vericone_tests ${options_probes})
 target_compile_definitions(test_verify PRIVATE VERICONE_OPTIONS_PROBE=${probe_first}
   "VERICONE_OPTIONS_PROBES=${probe_files}")

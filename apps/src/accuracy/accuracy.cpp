@@ -21,15 +21,16 @@
 #include "accuracy/engagements.h"
 #include "accuracy/measure.h"
 #include "accuracy/statistics.h"
-#include "cone.h"
-#include "figures.h"
-#include "file_hash.h"
-#include "interrupt.h"
-#include "json_value.h"
-#include "provenance.h"
-#include "resumable_table.h"
-#include "stopwatch.h"
-#include "threads.h"
+#include "cone/cone.h"
+#include "output/figures.h"
+#include "output/file_hash.h"
+#include "output/interrupt.h"
+#include "json/json_value.h"
+#include "output/provenance.h"
+#include "output/resumable_table.h"
+#include "output/staged_folder.h"
+#include "output/stopwatch.h"
+#include "output/threads.h"
 
 namespace vericone::accuracy {
 namespace {
@@ -225,9 +226,8 @@ Scan read_scan(const fs::path& path) {
   }
 }
 
-ResumableTable base_campaign(const Options& o, const fs::path& table) {
-  ResumableTable c;
-  c.table = table;
+ResumableTable base_campaign(const Options& o, StagedFolder& folder, const std::string& name) {
+  ResumableTable c{folder, name};
   c.header = csv_header(o.planes);
   c.threads = threads_for(o.threads);
   c.quiet = o.quiet;
@@ -273,8 +273,6 @@ int run_accuracy(const Options& given, std::ostream& standard_output) {
   const ObstacleKind kind = obstacle_kind(options.obstacle);
   if (options.out.empty())
     options.out = kind == ObstacleKind::ellipsoid ? "out/accuracy" : "out/accuracy-" + options.obstacle;
-  const fs::path folder = options.out;
-  if (fs::exists(folder) && !fs::is_directory(folder)) throw InputError("--out", options.out, "a folder");
   if (!options.cases.empty())
     for (const auto& [used, option] : {std::pair(options.engagements.has_value(), "--engagements"),
                                        std::pair(!options.semi_axes.empty(), "--semi-axes"),
@@ -288,14 +286,14 @@ int run_accuracy(const Options& given, std::ostream& standard_output) {
   const Engagements engagements = engagements_of(options);
   std::vector<Scan> scans;
   for (const fs::path& file : scan_files(options.scans)) scans.push_back(read_scan(file));
-  catch_interrupts();
+  StagedFolder folder(options.out, "--out");
   const auto start = Clock::now();
   const auto stopped = [&] {
-    out << "interrupted; the same command goes on where it stopped (" << folder.string() << ")\n";
+    out << "interrupted; the same command goes on where it stopped (" << options.out << ")\n";
     return kExitInterrupted;
   };
 
-  ResumableTable random = base_campaign(options, folder / "engagements.csv");
+  ResumableTable random = base_campaign(options, folder, "engagements.csv");
   random.label = options.cases.empty() ? "random engagements" : "engagements       ";
   random.count = engagements.count;
   random.settings =
@@ -308,7 +306,8 @@ int run_accuracy(const Options& given, std::ostream& standard_output) {
   const double random_seconds = seconds_since(start);
 
   std::vector<Measurement> rows;
-  for (auto& [id, m] : read_table(random.table, options.planes)) rows.push_back(std::move(m));
+  for (auto& [id, m] : read_table(folder.resumable(random.name), options.planes))
+    rows.push_back(std::move(m));
   Json summary{{"random", summarise(rows, options.planes)}};
   summary["random"]["seconds"] = random_seconds;
   summary["random"]["drawn"] = engagements.drawn;
@@ -317,7 +316,7 @@ int run_accuracy(const Options& given, std::ostream& standard_output) {
   print_summary(summary["random"], out);
 
   if (!scans.empty()) {
-    ResumableTable approach = base_campaign(options, folder / "scans.csv");
+    ResumableTable approach = base_campaign(options, folder, "scans.csv");
     approach.label = "scanned objects   ";
     approach.count = scans.size() * options.approaches;
     approach.settings = "# vericone accuracy, seed " + std::to_string(options.seed) + ", " +
@@ -332,7 +331,7 @@ int run_accuracy(const Options& given, std::ostream& standard_output) {
                      scan.hull);
     };
     if (run_table(approach) == TableOutcome::interrupted) return stopped();
-    const auto table = read_table(approach.table, options.planes);
+    const auto table = read_table(folder.resumable(approach.name), options.planes);
     out << scans.size() << " scanned objects in their minimum-volume ellipsoids, " << options.approaches
         << " approaches each\n  object                      points   semi-axes a, b, c (unit of the file)   "
            "slice bias mean    worst\n";
@@ -367,9 +366,8 @@ int run_accuracy(const Options& given, std::ostream& standard_output) {
   const auto [a, b] = engagements.pair(shown);
   Json picture = engagement_picture(a, b, 36, 192);
   picture["engagement"] = shown;
-  write_whole(folder / "engagement.json", picture.dump(1) + "\n");
-  write_whole(folder / "summary.json", summary.dump(1) + "\n");
-  if (given.json) standard_output << summary.dump(1) << '\n';
+  write_whole(folder.path() / "engagement.json", picture.dump(1) + "\n");
+  write_whole(folder.path() / "summary.json", summary.dump(1) + "\n");
   std::vector<fs::path> inputs = scan_files(options.scans);
   if (!options.cases.empty()) inputs.emplace_back(options.cases);
   Json origin = provenance(options.command_line, random.threads, inputs);
@@ -379,13 +377,18 @@ int run_accuracy(const Options& given, std::ostream& standard_output) {
   origin["scans"] = Json::array();
   for (const auto& file : scan_files(options.scans)) origin["scans"].push_back(file.string());
   origin["seconds"] = seconds_since(start);
-  write_whole(folder / "provenance.json", origin.dump(1) + "\n");
-  out << "tables    " << (folder / "engagements.csv").string();
-  if (!scans.empty()) out << ", " << (folder / "scans.csv").string();
-  out << ", " << (folder / "summary.json").string() << ", " << (folder / "provenance.json").string() << '\n';
+  write_whole(folder.path() / "provenance.json", origin.dump(1) + "\n");
   if (options.figures)
-    for (const char* script : {"accuracy.py", "engagement.py"})
-      for (const auto& file : draw_figures(script, folder)) out << "picture   " << file.string() << '\n';
+    for (const char* script : {"accuracy.py", "engagement.py"}) draw_figures(script, folder.path());
+  const auto files = folder.publish({"accuracy.pdf", "accuracy.png", "engagement.pdf", "engagement.png",
+                                     "scans.csv", "scans.pdf", "scans.png"});
+  if (given.json) standard_output << summary.dump(1) << '\n';
+  const fs::path shown_folder = options.out;
+  out << "tables    " << (shown_folder / "engagements.csv").string();
+  if (!scans.empty()) out << ", " << (shown_folder / "scans.csv").string();
+  out << ", " << (shown_folder / "summary.json").string() << ", "
+      << (shown_folder / "provenance.json").string() << '\n';
+  for (const auto& file : pictures_of(files)) out << "picture   " << file.string() << '\n';
   return 0;
 }
 

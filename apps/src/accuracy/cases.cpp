@@ -9,8 +9,8 @@
 #include <variant>
 
 #include "input/body.h"
-#include "json_value.h"
-#include "query.h"
+#include "json/json_value.h"
+#include "cone/query.h"
 
 namespace vericone::accuracy {
 namespace {

@@ -16,13 +16,14 @@
 #include "accuracy/distribution.h"
 #include "accuracy/measure.h"
 #include "accuracy/statistics.h"
-#include "figures.h"
-#include "interrupt.h"
-#include "json_value.h"
-#include "provenance.h"
-#include "resumable_table.h"
-#include "stopwatch.h"
-#include "threads.h"
+#include "output/figures.h"
+#include "output/interrupt.h"
+#include "json/json_value.h"
+#include "output/provenance.h"
+#include "output/resumable_table.h"
+#include "output/staged_folder.h"
+#include "output/stopwatch.h"
+#include "output/threads.h"
 
 namespace vericone::accuracy {
 namespace {
@@ -181,13 +182,11 @@ int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostrea
     throw InputError("--tolerance", to_text(tolerance), "between 0 and 1, both excluded");
   const std::uint64_t count = options.engagements.value_or(kDefaultEngagements);
   const Distribution from = distribution(options);
-  const fs::path folder = options.out;
-  catch_interrupts();
+  StagedFolder folder(options.out, "--out");
   const auto start = Clock::now();
   const auto seconds = [&] { return seconds_since(start); };
 
-  ResumableTable campaign;
-  campaign.table = folder / "engagements.csv";
+  ResumableTable campaign{folder, "engagements.csv"};
   campaign.header = header(options.planes);
   campaign.threads = threads_for(options.threads);
   campaign.quiet = options.quiet;
@@ -203,11 +202,12 @@ int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostrea
     return line(i, measure(a, b, options.planes, tolerance), a, b);
   };
   if (run_table(campaign) == TableOutcome::interrupted) {
-    out << "interrupted; the same command goes on where it stopped (" << folder.string() << ")\n";
+    out << "interrupted; the same command goes on where it stopped (" << options.out << ")\n";
     return kExitInterrupted;
   }
 
-  Json summary{{"random", summarise(read_table(campaign.table, options.planes.size()), options.planes)}};
+  Json summary{{"random", summarise(read_table(folder.resumable(campaign.name), options.planes.size()),
+                                    options.planes)}};
   summary["random"]["obstacle"] = options.obstacle;
   summary["random"]["tolerance"] = tolerance;
   summary["random"]["seconds"] = seconds();
@@ -216,8 +216,7 @@ int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostrea
       << " plane counts, true cones certified to " << percent(tolerance) << ", " << std::fixed
       << std::setprecision(1) << seconds() << " s\n";
   print_combined_summary(summary["random"], out);
-  write_whole(folder / "summary.json", summary.dump(1) + "\n");
-  if (options.json) standard_output << summary.dump(1) << '\n';
+  write_whole(folder.path() / "summary.json", summary.dump(1) + "\n");
   Json origin = provenance(options.command_line, campaign.threads, {});
   origin["seed"] = options.seed;
   origin["obstacle"] = options.obstacle;
@@ -225,12 +224,14 @@ int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostrea
   origin["engagements"] = count;
   origin["planes"] = options.planes;
   origin["seconds"] = seconds();
-  write_whole(folder / "provenance.json", origin.dump(1) + "\n");
-  out << "tables    " << campaign.table.string() << ", " << (folder / "summary.json").string() << ", "
-      << (folder / "provenance.json").string() << '\n';
-  if (options.figures)
-    for (const auto& file : draw_figures("combined_accuracy.py", folder))
-      out << "picture   " << file.string() << '\n';
+  write_whole(folder.path() / "provenance.json", origin.dump(1) + "\n");
+  if (options.figures) draw_figures("combined_accuracy.py", folder.path());
+  const auto files = folder.publish({"accuracy.pdf", "accuracy.png"});
+  if (options.json) standard_output << summary.dump(1) << '\n';
+  const fs::path shown = options.out;
+  out << "tables    " << (shown / campaign.name).string() << ", " << (shown / "summary.json").string() << ", "
+      << (shown / "provenance.json").string() << '\n';
+  for (const auto& file : pictures_of(files)) out << "picture   " << file.string() << '\n';
   return 0;
 }
 

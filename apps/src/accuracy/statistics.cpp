@@ -6,7 +6,7 @@
 #include <iomanip>
 #include <sstream>
 
-#include "json_value.h"
+#include "json/json_value.h"
 
 namespace vericone::accuracy {
 

@@ -4,25 +4,24 @@
 #include <unistd.h>
 #include <vericone/geometry/error.h>
 
+#include <exception>
 #include <iostream>
 #include <new>
 
 #include "command/catalogue.h"
 #include "command/find_program.h"
-#include "plain_text.h"
+#include "output/interrupt.h"
+#include "output/plain_text.h"
 
 namespace vericone {
 namespace {
 
-/// The exit status of `work`, with the line on standard error where it fails.
-template <typename Work>
-int guarded(Work work) {
+/// The exit status of what ended so, with its line on standard error.
+int told(const std::exception_ptr& failure) {
+  // What breaks because of an interruption, such as the script of a picture that gets it too, is not told.
+  if (interrupted()) return kExitInterrupted;
   try {
-    const int status = work();
-    std::cout.flush();
-    if (std::cout) return status;
-    std::cerr << "vericone: could not write to standard output\n";
-    return 1;
+    std::rethrow_exception(failure);
   } catch (const Answered&) {
     return 0;
   } catch (const UsageError& e) {
@@ -40,8 +39,23 @@ int guarded(Work work) {
   }
 }
 
+/// The exit status of `work`, with the line on standard error where it fails.
+template <typename Work>
+int guarded(Work work) {
+  try {
+    const int status = work();
+    std::cout.flush();
+    if (std::cout) return status;
+    std::cerr << "vericone: could not write to standard output\n";
+    return 1;
+  } catch (...) {
+    return told(std::current_exception());
+  }
+}
+
 int carry_out(Command command, const std::string& called, const std::string& name,
               std::vector<std::string> words) {
+  catch_interrupts();
   const CatalogueEntry* entry = find_entry(name);
   CommandLine line(called, name, entry ? entry->what : "", entry ? help_end(*entry) : "", std::move(words));
   return command(line);

@@ -11,8 +11,8 @@
 
 #include "input/planar_body.h"
 #include "input/spatial_body.h"
-#include "json_value.h"
-#include "shape_json.h"
+#include "json/json_value.h"
+#include "json/shape_json.h"
 
 namespace vericone::fit {
 namespace {

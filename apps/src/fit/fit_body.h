@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "json_forward.h"
+#include "json/json_forward.h"
 
 namespace vericone::fit {
 

@@ -8,7 +8,7 @@
 
 #include "fit/fit_sample.h"
 #include "input/fields.h"
-#include "json_value.h"
+#include "json/json_value.h"
 
 namespace vericone {
 namespace {

@@ -6,20 +6,20 @@
 #include <filesystem>
 #include <iostream>
 
-#include "figures.h"
-#include "fit/cone_json.h"
+#include "output/figures.h"
+#include "fit/cone/cone_json.h"
 #include "fit/fit_body.h"
 #include "fit/fit_check.h"
 #include "fit/fit_json.h"
 #include "fit/fit_picture.h"
 #include "fit/fit_text.h"
 #include "fit/hull_files.h"
-#include "interrupt.h"
-#include "json_value.h"
-#include "progress.h"
-#include "provenance.h"
-#include "staged_folder.h"
-#include "stopwatch.h"
+#include "output/interrupt.h"
+#include "json/json_value.h"
+#include "output/progress.h"
+#include "output/provenance.h"
+#include "output/staged_folder.h"
+#include "output/stopwatch.h"
 
 namespace vericone {
 namespace {
@@ -161,16 +161,14 @@ void print(const Answer& a, const FitCommandOptions& given, const std::vector<fs
   const fs::path folder = given.out;
   out << "written             " << shown(folder, "fit.json") << ", " << shown(folder, "body.yaml") << ", "
       << shown(folder, "hull.obj") << ", " << shown(folder, "hull.ply") << '\n';
-  for (const fs::path& file : files)
-    if (file.extension() == ".png" || file.extension() == ".pdf")
-      out << "picture             " << shown(folder, file) << '\n';
+  for (const fs::path& file : pictures_of(files))
+    out << "picture             " << shown(folder, file) << '\n';
 }
 
 }  // namespace
 
 int run_fit(const FitCommandOptions& given, std::ostream& out) {
   if (!given.check.empty()) return check_fit(given.file, given.check, given.json, out);
-  catch_interrupts_and_end();
   StagedFolder folder(given.out, "--out");
   try {
     std::vector<fs::path> files;
@@ -178,18 +176,13 @@ int run_fit(const FitCommandOptions& given, std::ostream& out) {
     {
       Progress progress(given.quiet);
       a = answer_of(given, progress);
-      if (!interrupted()) write_files(a, given, folder, progress);
+      write_files(a, given, folder, progress);
     }
-    if (interrupted()) return kExitInterrupted;
     files = folder.publish(names_of_files());
     print(a, given, files, out);
     return succeeded(a.result, given) ? 0 : 1;
   } catch (const fitting::Interrupted&) {
     return kExitInterrupted;
-  } catch (const std::runtime_error&) {
-    // A figure script gets the same signal and ends.
-    if (interrupted()) return kExitInterrupted;
-    throw;
   }
 }
 

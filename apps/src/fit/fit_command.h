@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "default_seed.h"
+
 namespace vericone {
 
 struct FitCommandOptions {
@@ -15,7 +17,7 @@ struct FitCommandOptions {
   std::optional<double> coverage;
   double margin = 0;  // metres
   int pieces = 1;
-  std::uint64_t seed = 0;
+  std::uint64_t seed = kDefaultSeed;
   std::string cone;   // the agent of a comparison of cones; empty: none
   std::string check;  // the written result to check instead of fitting; empty: none
   bool json = false;

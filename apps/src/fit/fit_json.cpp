@@ -4,8 +4,8 @@
 #include <vericone/geometry/error.h>
 #include <cmath>
 
-#include "json_value.h"
-#include "shape_json.h"
+#include "json/json_value.h"
+#include "json/shape_json.h"
 
 namespace vericone::fit {
 namespace {

@@ -6,7 +6,7 @@
 #include <vericone/fitting/fit.h>
 
 #include "fit/fit_sample.h"
-#include "json_forward.h"
+#include "json/json_forward.h"
 
 namespace vericone::fit {
 

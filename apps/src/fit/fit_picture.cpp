@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/fit_picture.h"
 
-#include "json_value.h"
+#include "json/json_value.h"
 #include "pieces/decimate.h"
-#include "shape_json.h"
+#include "json/shape_json.h"
 
 namespace vericone::fit {
 

@@ -5,7 +5,7 @@
 #include <vericone/geometry/combined_surface.h>
 
 #include "fit/fit_sample.h"
-#include "json_forward.h"
+#include "json/json_forward.h"
 
 namespace vericone::fit {
 

@@ -7,7 +7,7 @@
 
 #include "input/assembly_body.h"
 #include "input/octree_body.h"
-#include "stopwatch.h"
+#include "output/stopwatch.h"
 
 namespace vericone::fit {
 namespace {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <ostream>
 
-#include "json_value.h"
+#include "json/json_value.h"
 
 namespace vericone::fit {
 namespace {

@@ -4,7 +4,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "json_forward.h"
+#include "json/json_forward.h"
 
 namespace vericone::fit {
 

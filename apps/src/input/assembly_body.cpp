@@ -7,8 +7,8 @@
 #include "input/fields.h"
 #include "input/octree_body.h"
 #include "input/spatial_body.h"
-#include "json_value.h"
-#include "stopwatch.h"
+#include "json/json_value.h"
+#include "output/stopwatch.h"
 
 namespace vericone::input {
 namespace {
@@ -202,6 +202,17 @@ const char* plural(PieceKind kind) {
 }
 
 }  // namespace
+
+Box bounds_of_agent(const AssemblyEngagement& e) {
+  if (const auto* ellipsoid = std::get_if<Ellipsoid>(&e.agent)) {
+    const Eigen::Vector3d half = ellipsoid->factor().rowwise().norm();
+    return {ellipsoid->center() - half, ellipsoid->center() + half};
+  }
+  const auto& points = std::get<HullBody>(e.agent).points();
+  Box bounds{points.front(), points.front()};
+  for (const Eigen::Vector3d& x : points) bounds.include({x, x});
+  return bounds;
+}
 
 std::string pieces_kinds() {
   std::string list;

@@ -22,6 +22,9 @@ PiecesBody read_any_body(const std::filesystem::path& file, double radius, const
 /// An agent given by hull or points, in world coordinates, rounded. Throws InputError.
 HullBody read_hull_agent(const Json& value, const std::string& path, const std::filesystem::path& folder);
 
+/// Around the agent, axis-aligned.
+Box bounds_of_agent(const AssemblyEngagement& e);
+
 /// "mesh, cloud, octree, hull, points", without those that this build lacks.
 std::string pieces_kinds();
 

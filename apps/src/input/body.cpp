@@ -5,7 +5,7 @@
 #include "input/fields.h"
 #include "input/planar_body.h"
 #include "input/spatial_body.h"
-#include "json_value.h"
+#include "json/json_value.h"
 
 namespace vericone::input {
 namespace {

@@ -13,7 +13,7 @@
 #include <initializer_list>
 #include <variant>
 
-#include "json_value.h"
+#include "json/json_value.h"
 
 namespace vericone::input {
 

@@ -5,8 +5,8 @@
 
 #include "input/fields.h"
 
-#include "json_value.h"
-#include "stopwatch.h"
+#include "json/json_value.h"
+#include "output/stopwatch.h"
 
 namespace vericone::input {
 

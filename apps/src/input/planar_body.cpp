@@ -2,7 +2,7 @@
 #include "input/planar_body.h"
 
 #include "input/fields.h"
-#include "json_value.h"
+#include "json/json_value.h"
 
 namespace vericone::input {
 namespace {

@@ -15,8 +15,8 @@
 
 #include "input/fields.h"
 #include "input/text_source.h"
-#include "json_value.h"
-#include "plain_text.h"
+#include "json/json_value.h"
+#include "output/plain_text.h"
 
 namespace vericone::input {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "input/assembly_body.h"
 #include "input/fields.h"
-#include "json_value.h"
+#include "json/json_value.h"
 
 namespace vericone::input {
 namespace {

@@ -7,14 +7,15 @@
 #include <filesystem>
 #include <ostream>
 
-#include "figures.h"
-#include "interrupt.h"
-#include "json_value.h"
+#include "output/figures.h"
+#include "output/interrupt.h"
+#include "json/json_value.h"
 #include "montecarlo/summary.h"
-#include "provenance.h"
-#include "resumable_table.h"
-#include "stopwatch.h"
-#include "threads.h"
+#include "output/provenance.h"
+#include "output/resumable_table.h"
+#include "output/staged_folder.h"
+#include "output/stopwatch.h"
+#include "output/threads.h"
 
 namespace vericone::montecarlo {
 namespace {
@@ -42,7 +43,6 @@ void validate(const CampaignOptions& o) {
   for (std::size_t i = 0; i < o.laws.size(); ++i)
     if (std::count(o.laws.begin(), o.laws.end(), o.laws[i]) > 1)
       throw InputError("--laws", o.laws[i], "given once");
-  if (fs::exists(o.out) && !fs::is_directory(o.out)) throw InputError("--out", o.out, "a folder");
 }
 
 std::string settings_line(const CampaignOptions& o) {
@@ -61,11 +61,9 @@ int run_campaign(const CampaignOptions& options, std::ostream& out) {
   const FlightSettings settings{options.step, options.most, options.gain, options.reference,
                                 options.required};
   const std::vector<Flown> laws = flown_laws(options.laws, settings);
-  const fs::path folder = options.out;
-  catch_interrupts();
+  StagedFolder folder(options.out, "--out");
   const auto start = Clock::now();
-  ResumableTable table;
-  table.table = folder / "engagements.csv";
+  ResumableTable table{folder, "engagements.csv"};
   table.settings = settings_line(options);
   table.header = csv_header(laws);
   table.count = options.engagements;
@@ -74,28 +72,30 @@ int run_campaign(const CampaignOptions& options, std::ostream& out) {
   table.label = "engagements";
   table.row = [&](std::uint64_t i) { return csv_row(i, measure(options.seed, i, laws, settings)); };
   if (run_table(table) == TableOutcome::interrupted) {
-    out << "interrupted; the same command goes on where it stopped (" << folder.string() << ")\n";
+    out << "interrupted; the same command goes on where it stopped (" << options.out << ")\n";
     return kExitInterrupted;
   }
   const double seconds = seconds_since(start);
-  Json summary = summarise(read_table(table.table, laws.size()), laws);
+  Json summary = summarise(read_table(folder.resumable(table.name), laws.size()), laws);
   summary["settings"] = table.settings;
   summary["seconds"] = seconds;
   summary["violations"] = violations(summary);
-  write_whole(folder / "summary.json", summary.dump(1) + "\n");
-  write_whole(folder / "summary.csv", summary_csv(summary));
-  write_whole(folder / "provenance.json", provenance(options.command_line, table.threads, {}).dump(1) + "\n");
-  std::vector<fs::path> pictures;
-  if (options.figures) pictures = draw_figures("engagement_campaign.py", folder);
+  write_whole(folder.path() / "summary.json", summary.dump(1) + "\n");
+  write_whole(folder.path() / "summary.csv", summary_csv(summary));
+  write_whole(folder.path() / "provenance.json",
+              provenance(options.command_line, table.threads, {}).dump(1) + "\n");
+  if (options.figures) draw_figures("engagement_campaign.py", folder.path());
+  const std::vector<fs::path> files = folder.publish({"campaign.pdf", "campaign.png"});
   if (options.json) {
     out << summary.dump(1) << '\n';
   } else {
     print_summary(summary, out);
     if (const auto wrong = violations(summary))
       out << "VIOLATED: " << wrong << " runs met that a proved statement had called safe\n";
-    out << "tables    " << table.table.string() << ", " << (folder / "summary.csv").string() << ", "
-        << (folder / "summary.json").string() << '\n';
-    for (const fs::path& picture : pictures) out << "picture   " << picture.string() << '\n';
+    const fs::path shown = options.out;
+    out << "tables    " << (shown / table.name).string() << ", " << (shown / "summary.csv").string() << ", "
+        << (shown / "summary.json").string() << '\n';
+    for (const fs::path& picture : pictures_of(files)) out << "picture   " << picture.string() << '\n';
   }
   return violations(summary) ? 1 : 0;
 }

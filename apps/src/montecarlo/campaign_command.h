@@ -6,12 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "default_seed.h"
+
 namespace vericone::montecarlo {
 
 struct CampaignOptions {
   std::string out = "out/campaign";
   std::uint64_t engagements = 10'000;
-  std::uint64_t seed = 1;
+  std::uint64_t seed = kDefaultSeed;
   int threads = 0;  // one per processor
   std::vector<std::string> laws{"slice", "exact", "motion", "clearance"};
   double most = 15;         // m/s^2

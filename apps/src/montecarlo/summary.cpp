@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <ostream>
 
-#include "json_value.h"
+#include "json/json_value.h"
 
 namespace vericone::montecarlo {
 namespace {

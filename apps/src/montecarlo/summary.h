@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "json_forward.h"
+#include "json/json_forward.h"
 #include "montecarlo/table.h"
 
 namespace vericone::montecarlo {

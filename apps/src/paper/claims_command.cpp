@@ -6,13 +6,13 @@
 #include <ostream>
 
 #include "claims.h"
-#include "interrupt.h"
-#include "json_value.h"
+#include "output/interrupt.h"
+#include "json/json_value.h"
 #include "paper/papers_folder.h"
-#include "progress.h"
-#include "provenance.h"
+#include "output/progress.h"
+#include "output/provenance.h"
 #include "report.h"
-#include "staged_folder.h"
+#include "output/staged_folder.h"
 
 namespace vericone {
 namespace {
@@ -54,7 +54,6 @@ void print_table(const std::vector<Claim>& claims, bool given, std::ostream& out
 }  // namespace
 
 int run_claims(const ClaimsOptions& options, std::ostream& out) {
-  catch_interrupts_and_end();
   std::optional<StagedFolder> folder;
   if (!options.out.empty()) folder.emplace(options.out, "--out");
   std::vector<Claim> claims;

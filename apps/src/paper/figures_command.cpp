@@ -11,17 +11,17 @@
 #include "accuracy/accuracy.h"
 #include "claims.h"
 #include "figure.h"
-#include "figures.h"
-#include "interrupt.h"
-#include "json_value.h"
+#include "output/figures.h"
+#include "output/interrupt.h"
+#include "json/json_value.h"
 #include "paper/papers_folder.h"
-#include "progress.h"
-#include "provenance.h"
+#include "output/progress.h"
+#include "output/provenance.h"
 #include "report.h"
 #include "simulate/run_files.h"
-#include "staged_folder.h"
-#include "stopwatch.h"
-#include "threads.h"
+#include "output/staged_folder.h"
+#include "output/stopwatch.h"
+#include "output/threads.h"
 
 namespace vericone {
 namespace {
@@ -194,7 +194,6 @@ int run_figures(const FiguresOptions& options, std::ostream& out) {
     return 0;
   }
   const OutputFolder whole(options.out, "--out");
-  catch_interrupts_and_end();
   const auto start = Clock::now();
   try {
     Progress progress(options.quiet);
@@ -204,10 +203,6 @@ int run_figures(const FiguresOptions& options, std::ostream& out) {
     maker.report();
   } catch (const dhal2022::Interrupted&) {
     return kExitInterrupted;
-  } catch (const std::runtime_error&) {
-    // A figure script gets the same signal and ends.
-    if (interrupted()) return kExitInterrupted;
-    throw;
   }
   const double seconds = seconds_since(start);
   const fs::path folder = options.out;

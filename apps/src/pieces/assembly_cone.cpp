@@ -8,11 +8,11 @@
 #include <numbers>
 #include <ostream>
 
-#include "answer.h"
-#include "degrees.h"
+#include "cone/answer.h"
+#include "cone/degrees.h"
 #include "input/assembly_body.h"
-#include "json_value.h"
-#include "stopwatch.h"
+#include "json/json_value.h"
+#include "output/stopwatch.h"
 
 namespace vericone {
 namespace {

@@ -6,7 +6,7 @@
 #include <set>
 #include <unordered_map>
 
-#include "json_value.h"
+#include "json/json_value.h"
 
 namespace vericone {
 namespace {

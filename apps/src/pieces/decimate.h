@@ -4,7 +4,7 @@
 #pragma once
 
 #include "input/body.h"
-#include "json_forward.h"
+#include "json/json_forward.h"
 
 namespace vericone {
 

@@ -10,16 +10,17 @@
 #include <numbers>
 #include <optional>
 
-#include "figures.h"
+#include "output/figures.h"
 #include "input/assembly_body.h"
-#include "interrupt.h"
-#include "json_value.h"
-#include "map_answer.h"
-#include "output_folder.h"
+#include "output/interrupt.h"
+#include "json/json_value.h"
+#include "cone/map_answer.h"
+#include "output/output_folder.h"
 #include "pieces/assembly_cone.h"
 #include "pieces/pieces_picture.h"
-#include "provenance.h"
-#include "threads.h"
+#include "output/provenance.h"
+#include "output/staged_folder.h"
+#include "output/threads.h"
 
 namespace vericone {
 namespace {
@@ -82,7 +83,8 @@ std::optional<input::AssemblyEngagement> within(input::PiecesBody body, double r
 
 class Gallery {
  public:
-  Gallery(const GalleryOptions& options, std::ostream& out) : options_(options), out_(out) {}
+  Gallery(const GalleryOptions& options, const std::vector<fs::path>& files, std::ostream& out)
+      : options_(options), out_(out), inputs_(provenance("", 0, files)["inputs"]) {}
 
   void add(const fs::path& file) {
     add(file, before(input::read_any_body(file, options_.radius, "free")), "");
@@ -94,23 +96,13 @@ class Gallery {
 
   void fail(const fs::path& file, const std::string& why) {
     std::cerr << (why.starts_with(file.string()) ? "" : file.string() + ": ") << why << '\n';
-    rows_.push_back({{"file", file.string()}, {"error", why}});
     failed_ = true;
+    StagedFolder folder(options_.out, "--out");
+    publish(folder, {{"file", file.string()}, {"error", why}}, {});
   }
 
-  void write() const {
-    const fs::path folder = options_.out;
-    write_whole(folder / "gallery.json", json_text({{"rows", rows_}}) + "\n");
-    write_whole(folder / "gallery.md", table());
-    std::vector<fs::path> inputs;
-    for (const Json& row : rows_) {
-      const fs::path file = row["file"].get<std::string>();
-      if (inputs.empty() || inputs.back() != file) inputs.push_back(file);
-    }
-    Json origin = provenance(options_.command_line, threads_, inputs);
-    origin["radius"] = options_.radius;
-    write_whole(folder / "provenance.json", origin.dump(1) + "\n");
-    if (options_.json) out_ << Json{{"rows", rows_}}.dump(1) << '\n';
+  void print() const {
+    if (options_.json) out_ << json_text({{"rows", rows_}}) << '\n';
   }
 
   bool failed() const { return failed_; }
@@ -120,8 +112,10 @@ class Gallery {
     const AssemblyCone cone = assembly_cone(e, options_.half_planes, options_.tolerance);
     if (cone.relation != Relation::disjoint)
       throw std::runtime_error("agent and body are " + std::string(to_string(cone.relation)));
-    const fs::path folder = fs::path(options_.out) / folder_name(file, suffix);
-    fs::create_directories(folder);
+    StagedFolder folder(options_.out, "--out");
+    const std::string name = folder_name(file, suffix);
+    const fs::path own = folder.path() / name;
+    fs::create_directory(own);
     Json row{{"file", file.string()},
              {"what", describe(e.obstacle)},
              {"agent", suffix.empty() ? "before it" : "within it"}};
@@ -129,15 +123,32 @@ class Gallery {
     if (options_.resolution > 0)
       whole["map"] =
           map_answer(cone.oracle, {options_.resolution, std::nullopt, threads_}, cone.frame.axis, "").summary;
-    write_whole(folder / "cone.json", json_text(whole) + "\n");
+    write_whole(own / "cone.json", json_text(whole) + "\n");
     row["cone"] = summary(whole, cone);
     Json pictures = Json::array();
-    if (options_.figures)
-      for (const auto& picture : draw_figures(write_pieces_picture(cone, e, folder, threads_), folder))
-        pictures.push_back(picture.string());
+    if (options_.figures) {
+      draw_figures(write_pieces_picture(cone, e, own, threads_), own);
+      for (const char* picture : {"cone.pdf", "cone.png"})
+        if (fs::exists(own / picture)) pictures.push_back(folder.published(own / picture).string());
+    }
     row["pictures"] = pictures;
+    publish(folder, row, {name + "/pieces.json", name + "/cone.pdf", name + "/cone.png"});
     if (!options_.json) out_ << line(row) << '\n' << std::flush;
-    rows_.push_back(row);
+  }
+
+  /// What a body has appears with the tables of all bodies so far: an interruption leaves what was done by
+  /// then.
+  void publish(StagedFolder& folder, const Json& row, const std::vector<std::string>& names) {
+    Json rows = rows_;
+    rows.push_back(row);
+    write_whole(folder.path() / "gallery.json", json_text({{"rows", rows}}) + "\n");
+    write_whole(folder.path() / "gallery.md", table(rows));
+    Json origin = provenance(options_.command_line, threads_, {});
+    origin["inputs"] = inputs_;
+    origin["radius"] = options_.radius;
+    write_whole(folder.path() / "provenance.json", origin.dump(1) + "\n");
+    folder.publish(names);
+    rows_ = std::move(rows);
   }
 
   /// A name of its own for each file, also where files of several folders have the same one.
@@ -166,13 +177,13 @@ class Gallery {
     return result;
   }
 
-  std::string table() const {
+  static std::string table(const Json& rows) {
     std::string text =
         "| file | body | agent | read (s) | hierarchy (s) | half-planes (ms) | boxes a half-plane | farthest "
         "(deg) | "
         "within extremes (sr) | colliding (sr) | undecided (sr) | map (s) "
         "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
-    for (const Json& row : rows_) text += line(row) + "\n";
+    for (const Json& row : rows) text += line(row) + "\n";
     return text;
   }
 
@@ -200,6 +211,7 @@ class Gallery {
 
   const GalleryOptions& options_;
   std::ostream& out_;
+  Json inputs_;
   int threads_ = threads_for(options_.threads);
   Json rows_ = Json::array();
   bool failed_ = false;
@@ -214,21 +226,19 @@ int run_gallery(const GalleryOptions& options, std::ostream& out) {
   const std::vector<fs::path> files = all_files(options.files);
   if (files.empty()) throw InputError("files", "none", "meshes, clouds or octree maps, or folders of them");
   const OutputFolder folder(options.out, "--out");
-  catch_interrupts();
-  Gallery gallery(options, out);
-  for (std::size_t i = 0; i < files.size() && !interrupted(); ++i) {
+  Gallery gallery(options, files, out);
+  for (std::size_t i = 0; i < files.size(); ++i) {
     if (!options.quiet) std::cerr << "[" << i + 1 << "/" << files.size() << "] " << files[i].string() << '\n';
     try {
       gallery.add(files[i]);
     } catch (const InputError& e) {
       gallery.fail(files[i], e.what());
     } catch (const std::exception& e) {
-      if (interrupted()) break;
+      if (interrupted()) throw;
       gallery.fail(files[i], e.what());
     }
   }
-  gallery.write();
-  if (interrupted()) return kExitInterrupted;
+  gallery.print();
   return gallery.failed() ? 2 : 0;
 }
 

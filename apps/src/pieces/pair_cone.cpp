@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <ostream>
 
-#include "answer.h"
-#include "figures.h"
-#include "json_value.h"
-#include "output_folder.h"
-#include "stopwatch.h"
+#include "cone/answer.h"
+#include "output/figures.h"
+#include "json/json_value.h"
+#include "output/staged_folder.h"
+#include "output/stopwatch.h"
 
 namespace vericone {
 namespace {
@@ -34,8 +34,8 @@ void refuse_options(const ConeCommand& options) {
 
 void run_pair_cone(const ConeCommand& options, const input::PlacedEngagement& e, std::ostream& out) {
   refuse_options(options);
-  std::optional<OutputFolder> held;
-  if (!options.picture_folder.empty()) held.emplace(options.picture_folder, "--picture");
+  std::optional<StagedFolder> folder;
+  if (!options.picture_folder.empty()) folder.emplace(options.picture_folder, "--out");
   const auto start = Clock::now();
   const Pair pair(e.agent, e.obstacle);
   const double seconds = seconds_since(start);
@@ -76,12 +76,12 @@ void run_pair_cone(const ConeCommand& options, const input::PlacedEngagement& e,
       out << "note                --map draws all directions that collide\n";
     out << "time                " << cone["seconds"].dump() << " s to prepare\n";
   }
-  if (!held) return;
-  const std::filesystem::path folder = options.picture_folder;
-  write_whole(folder / "cone_map.json", map.picture.dump() + "\n");
-  if (!options.figures) return;
-  for (const auto& file : draw_figures("cone_map.py", folder))
-    if (!options.json) out << "picture             " << file.string() << '\n';
+  if (!folder) return;
+  write_whole(folder->path() / "cone_map.json", map.picture.dump() + "\n");
+  if (options.figures) draw_figures("cone_map.py", folder->path());
+  const auto files = folder->publish({"cone_map.json", "cone_map.pdf", "cone_map.png"});
+  if (options.json) return;
+  for (const auto& file : pictures_of(files)) out << "picture             " << file.string() << '\n';
 }
 
 }  // namespace vericone

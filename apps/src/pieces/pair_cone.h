@@ -6,7 +6,7 @@
 
 #include <iosfwd>
 
-#include "cone.h"
+#include "cone/cone.h"
 
 namespace vericone {
 

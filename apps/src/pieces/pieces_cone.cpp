@@ -3,21 +3,19 @@
 
 #include <vericone/cones/slices/visible_cone.h>
 #include <vericone/geometry/error.h>
-#include <filesystem>
+#include <optional>
 #include <ostream>
 
-#include "answer.h"
-#include "figures.h"
+#include "cone/answer.h"
 #include "input/assembly_body.h"
-#include "json_value.h"
-#include "output_folder.h"
+#include "json/json_value.h"
 #include "pieces/assembly_cone.h"
 #include "pieces/pieces_picture.h"
 #include "pieces/world_mesh.h"
-#include "provenance.h"
-#include "slice_json.h"
-#include "stopwatch.h"
-#include "threads.h"
+#include "json/slice_json.h"
+#include "output/staged_folder.h"
+#include "output/stopwatch.h"
+#include "output/threads.h"
 
 namespace vericone {
 namespace {
@@ -96,10 +94,11 @@ void run_pieces_cone(const ConeCommand& options, const input::AssemblyEngagement
     }
     return;
   }
+  std::optional<StagedFolder> folder;
+  if (!options.picture_folder.empty()) folder.emplace(options.picture_folder, "--out");
   const AssemblyCone cone = assembly_cone(e, options.planes.value_or(kDefaultHalfPlanes),
                                           options.tolerance.value_or(kDefaultAngle));
-  const bool drawn = !options.picture_folder.empty();
-  if (drawn && cone.relation != Relation::disjoint)
+  if (folder && cone.relation != Relation::disjoint)
     throw InputError("--out", options.picture_folder, "asked for disjoint bodies only");
   MapAnswer map;
   if (options.map) map = map_answer(cone.oracle, *options.map, cone.frame.axis, describe(e.obstacle));
@@ -114,19 +113,9 @@ void run_pieces_cone(const ConeCommand& options, const input::AssemblyEngagement
     out << "time                " << to_text(cone.seconds) << " s, after " << to_text(cone.seconds_prepared)
         << " s to prepare\n";
   }
-  if (!drawn) return;
-  const std::filesystem::path folder = options.picture_folder;
-  const OutputFolder held(folder, "--picture");
-  const std::string script = write_pieces_picture(cone, e, folder, threads_for(options.threads));
-  if (options.map) write_whole(folder / "cone_map.json", map.picture.dump() + "\n");
-  if (!options.figures) return;
-  auto files = draw_figures(script, folder);
-  if (options.map) {
-    const auto more = draw_figures("cone_map.py", folder);
-    files.insert(files.end(), more.begin(), more.end());
-  }
-  if (!options.json)
-    for (const auto& file : files) out << "picture             " << file.string() << '\n';
+  if (!folder) return;
+  const std::string script = write_pieces_picture(cone, e, folder->path(), threads_for(options.threads));
+  publish_cone(options, *folder, map.picture, script, "cone", out);
 }
 
 }  // namespace vericone

@@ -3,7 +3,7 @@
 
 #include <iosfwd>
 
-#include "cone.h"
+#include "cone/cone.h"
 #include "input/body.h"
 
 namespace vericone {

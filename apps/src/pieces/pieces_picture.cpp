@@ -7,12 +7,12 @@
 #include <numbers>
 #include <thread>
 
-#include "answer.h"
-#include "figures.h"
+#include "cone/answer.h"
+#include "output/figures.h"
 #include "input/assembly_body.h"
-#include "json_value.h"
+#include "json/json_value.h"
 #include "pieces/decimate.h"
-#include "provenance.h"
+#include "output/provenance.h"
 
 namespace vericone {
 namespace {
@@ -31,18 +31,6 @@ Json agent_json(const input::AssemblyEngagement& e) {
   Json points = Json::array();
   for (const Eigen::Vector3d& x : std::get<HullBody>(e.agent).points()) points.push_back(vector_json(x));
   return {{"center", vector_json(agent_center(e))}, {"points", points}};
-}
-
-/// Around the agent, axis-aligned.
-Box bounds_of(const input::AssemblyEngagement& e) {
-  if (const auto* ellipsoid = std::get_if<Ellipsoid>(&e.agent)) {
-    const Eigen::Vector3d half = ellipsoid->factor().rowwise().norm();
-    return {ellipsoid->center() - half, ellipsoid->center() + half};
-  }
-  const auto& points = std::get<HullBody>(e.agent).points();
-  Box bounds{points.front(), points.front()};
-  for (const Eigen::Vector3d& x : points) bounds.include({x, x});
-  return bounds;
 }
 
 /// Metres to the first contact in each direction, row by row; null where none comes.
@@ -125,7 +113,7 @@ Json velocity_json(const AssemblyCone& cone, const input::AssemblyEngagement& e)
 
 std::string write_pieces_picture(const AssemblyCone& cone, const input::AssemblyEngagement& e,
                                  const std::filesystem::path& folder, int threads) {
-  const Box agent = bounds_of(e);
+  const Box agent = input::bounds_of_agent(e);
   const bool within = e.obstacle.pieces.bounds().contains(e.obstacle.pose.to_body(agent.center()));
   Json data = to_json(cone, e);
   data["title"] = describe(e.obstacle);

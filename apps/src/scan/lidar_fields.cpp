@@ -3,7 +3,7 @@
 
 #include "input/fields.h"
 #include "input/spatial_body.h"
-#include "json_value.h"
+#include "json/json_value.h"
 
 namespace vericone::scanning {
 namespace {

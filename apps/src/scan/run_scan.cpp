@@ -8,19 +8,19 @@
 #include <iostream>
 #include <sstream>
 
-#include "figures.h"
+#include "output/figures.h"
 #include "input/assembly_body.h"
 #include "input/scene.h"
 #include "input/spatial_body.h"
-#include "json_value.h"
-#include "output_folder.h"
+#include "json/json_value.h"
 #include "pieces/world_mesh.h"
-#include "provenance.h"
+#include "output/provenance.h"
 #include "scan/lidar_fields.h"
 #include "scan/study.h"
 #include "scan/study_parts.h"
-#include "slice_json.h"
-#include "threads.h"
+#include "json/slice_json.h"
+#include "output/staged_folder.h"
+#include "output/threads.h"
 
 namespace vericone {
 namespace {
@@ -112,7 +112,7 @@ void print(const Json& scan, std::ostream& out) {
 
 void run_scan(const ScanOptions& options, std::ostream& out) {
   const Scene scene = read(options.scene);
-  const OutputFolder held(options.out, "--out");
+  StagedFolder folder(options.out, "--out");
   const Setup setup = setup_of(scene, options);
   std::ostream* log = options.quiet ? nullptr : &std::cerr;
   const lidar::MeshScene mesh(setup.points, setup.triangles);
@@ -141,26 +141,28 @@ void run_scan(const ScanOptions& options, std::ostream& out) {
     result["sectors"] = sectors;
   }
 
-  const std::filesystem::path folder = options.out;
-  write_whole(folder / "cloud.ply", ply(seen.points));
-  write_whole(folder / "scan.json", result.dump(1) + "\n");
-  write_whole(folder / "section.json", parsed(plane_section_picture(setup, options.azimuth)).dump() + "\n");
+  const std::filesystem::path& stage = folder.path();
+  write_whole(stage / "cloud.ply", ply(seen.points));
+  write_whole(stage / "scan.json", result.dump(1) + "\n");
+  write_whole(stage / "section.json", parsed(plane_section_picture(setup, options.azimuth)).dump() + "\n");
   // The lidars' rays run on all processors.
   const std::vector<std::filesystem::path> inputs{
       options.scene, std::filesystem::path(options.scene).parent_path() / scene.engagement.obstacle.file};
-  write_whole(folder / "provenance.json",
+  write_whole(stage / "provenance.json",
               provenance(options.command_line, threads_for(0), inputs).dump(1) + "\n");
+  if (options.figures)
+    for (const char* script : {"visible_section.py", "scan_convergence.py"}) draw_figures(script, stage);
+  const auto files = folder.publish(
+      {"visible_section.pdf", "visible_section.png", "scan_convergence.pdf", "scan_convergence.png"});
   std::ostream silent(nullptr);
   std::ostream& text = options.json ? silent : out;
   if (options.json) out << result.dump(1) << '\n';
   text << "obstacle            " << describe(scene.engagement.obstacle) << '\n';
   print(result, text);
-  text << "written             " << (folder / "cloud.ply").string() << ", " << (folder / "scan.json").string()
+  const std::filesystem::path shown = options.out;
+  text << "written             " << (shown / "cloud.ply").string() << ", " << (shown / "scan.json").string()
        << '\n';
-  if (options.figures)
-    for (const char* script : {"visible_section.py", "scan_convergence.py"})
-      for (const auto& file : draw_figures(script, folder))
-        text << "picture             " << file.string() << '\n';
+  for (const auto& file : pictures_of(files)) text << "picture             " << file.string() << '\n';
 }
 
 }  // namespace vericone

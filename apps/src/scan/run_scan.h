@@ -5,6 +5,8 @@
 #include <iosfwd>
 #include <string>
 
+#include "default_seed.h"
+
 namespace vericone {
 
 struct ScanOptions {
@@ -13,7 +15,7 @@ struct ScanOptions {
   int planes = 36;
   int levels = 5;
   double azimuth = 0;  // of the plane of the picture, radians
-  std::uint64_t seed = 1;
+  std::uint64_t seed = kDefaultSeed;
   bool figures = true;
   bool quiet = false;
   bool json = false;

@@ -13,7 +13,7 @@
 
 #include "scan/study_parts.h"
 #include "scan/visible_part.h"
-#include "stopwatch.h"
+#include "output/stopwatch.h"
 
 namespace vericone::scanning {
 namespace {

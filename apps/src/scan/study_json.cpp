@@ -4,7 +4,7 @@
 
 #include "scan/study.h"
 
-#include "json_value.h"
+#include "json/json_value.h"
 
 namespace vericone::scanning {
 namespace {

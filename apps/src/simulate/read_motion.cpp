@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "input/spatial_body.h"
-#include "json_value.h"
+#include "json/json_value.h"
 #include "simulate/scenario_fields.h"
 
 namespace vericone::scenario {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "json_value.h"
+#include "json/json_value.h"
 #include "simulate/scenario_fields.h"
 
 namespace vericone::scenario {

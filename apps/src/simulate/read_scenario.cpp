@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "input/scene.h"
-#include "json_value.h"
-#include "plain_text.h"
+#include "json/json_value.h"
+#include "output/plain_text.h"
 #include "simulate/read_motion.h"
 #include "simulate/read_pilot.h"
 #include "simulate/read_shape.h"

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string>
 
-#include "json_value.h"
+#include "json/json_value.h"
 
 namespace vericone::scenario {
 

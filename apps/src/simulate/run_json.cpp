@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulate/run_files.h"
 
-#include "json_value.h"
+#include "json/json_value.h"
 #include "pieces/decimate.h"
 
 namespace vericone::scenario {

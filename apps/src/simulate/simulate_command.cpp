@@ -4,16 +4,16 @@
 #include <filesystem>
 #include <ostream>
 
-#include "figures.h"
+#include "output/figures.h"
 #include "input/scene.h"
-#include "interrupt.h"
-#include "json_value.h"
-#include "progress.h"
+#include "output/interrupt.h"
+#include "json/json_value.h"
+#include "output/progress.h"
 #include "simulate/read_scenario.h"
 #include "simulate/run_files.h"
 #include "simulate/run_text.h"
-#include "staged_folder.h"
-#include "stopwatch.h"
+#include "output/staged_folder.h"
+#include "output/stopwatch.h"
 
 namespace vericone {
 namespace {
@@ -27,7 +27,9 @@ const std::vector<std::string>& names_of_files() {
   return names;
 }
 
-int carry_out(const SimulateOptions& options, std::ostream& out) {
+}  // namespace
+
+int run_simulate(const SimulateOptions& options, std::ostream& out) {
   StagedFolder folder(options.out, "--out");
   const std::string text = input::read_scene_text(options.scenario);
   const simulation::Scenario scenario = scenario::scenario_of_text(text, options.scenario);
@@ -42,7 +44,7 @@ int carry_out(const SimulateOptions& options, std::ostream& out) {
     const auto start = Clock::now();
     run = simulation::simulate(scenario, run_options);
     seconds = seconds_since(start);
-    if (run->interrupted || interrupted()) return kExitInterrupted;
+    if (run->interrupted) return kExitInterrupted;
     progress.show("writing", 0);
     const scenario::RunOrigin origin{options.scenario, options.command_line, seconds, text};
     summary = scenario::run_json(scenario, *run, origin);
@@ -51,7 +53,6 @@ int carry_out(const SimulateOptions& options, std::ostream& out) {
       progress.show("drawing", 0);
       draw_figures("simulation.py", folder.path());
     }
-    if (interrupted()) return kExitInterrupted;
   }
   const std::vector<fs::path> files = folder.publish(names_of_files());
   if (options.json) {
@@ -63,19 +64,6 @@ int carry_out(const SimulateOptions& options, std::ostream& out) {
   for (const fs::path& file : files) list.append(list.empty() ? "" : ", ").append(file.filename().string());
   out << "written             " << options.out << ": " << list << '\n';
   return 0;
-}
-
-}  // namespace
-
-int run_simulate(const SimulateOptions& options, std::ostream& out) {
-  catch_interrupts_and_end();
-  try {
-    return carry_out(options, out);
-  } catch (const std::runtime_error&) {
-    // A figure script gets the same signal and ends.
-    if (interrupted()) return kExitInterrupted;
-    throw;
-  }
 }
 
 }  // namespace vericone

@@ -2,9 +2,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "json_value.h"
-#include "plain_text.h"
-#include "provenance.h"
+#include "json/json_value.h"
+#include "output/plain_text.h"
+#include "output/provenance.h"
 #include "simulate/run_files.h"
 
 namespace vericone::scenario {

@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "interrupt.h"
-#include "json_value.h"
+#include "output/interrupt.h"
+#include "json/json_value.h"
 
 namespace vericone {
 namespace {
@@ -114,12 +114,13 @@ Results run(const VerifyOptions& o) {
   for (const Method& method : methods)
     for (const auto family : verify::kAllPlanarFamilies) {
       if (interrupted()) return results;
-      method.reports->push_back(verify::run_planar_family(method.answer, family, o.pairs, o.seed));
+      method.reports->push_back(
+          verify::run_planar_family(method.answer, family, o.pairs, o.seed, interrupted));
       progress.show(method.name, method.reports->size(), std::size(verify::kAllPlanarFamilies));
     }
   for (const auto family : verify::kAllSpatialFamilies) {
     if (interrupted()) return results;
-    results.spatial.push_back(verify::run_spatial_family(family, o.pairs, o.seed));
+    results.spatial.push_back(verify::run_spatial_family(family, o.pairs, o.seed, interrupted));
     progress.show("cones in space", results.spatial.size(), std::size(verify::kAllSpatialFamilies));
   }
   for (const auto agent : kAgents)
@@ -128,6 +129,7 @@ Results run(const VerifyOptions& o) {
       verify::AssemblyOptions assembly;
       assembly.cases = o.pairs;
       assembly.seed = o.seed;
+      assembly.stop = interrupted;
       results.assemblies.push_back(verify::run_assembly_family(agent, pieces, assembly));
       progress.show("meshes, clouds and maps", results.assemblies.size(),
                     std::size(kAgents) * std::size(kPieces));
@@ -238,7 +240,7 @@ void print_tables(const VerifyOptions& o, const Results& r, std::ostream& out) {
 }  // namespace
 
 int run_verify(const VerifyOptions& options, std::ostream& out) {
-  catch_interrupts();
+  end_by_ourselves();
   const Results results = run(options);
   options.json ? print_json(options, results, out) : print_tables(options, results, out);
   out.flush();

@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <iosfwd>
 
+#include "default_seed.h"
+
 namespace vericone {
 
 struct VerifyOptions {
   std::uint64_t cases = 200'000;  // of each predicate; 0: none
   std::uint64_t pairs = 30;       // of each family of the sectors and cones; 0: none
-  std::uint64_t seed = 1;
+  std::uint64_t seed = kDefaultSeed;
   unsigned threads = 0;  // 0: one per processor
   bool quiet = false;
   bool json = false;

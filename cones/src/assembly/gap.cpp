@@ -132,18 +132,25 @@ struct Corral {
     }
   }
 
-  /// Whether 0 is a combination of the four generators with positive weights even if each of them is off by
-  /// `error`. With M the matrix of the generators over a row that adds up the points' weights, M x = (0, 1);
-  /// a change E of M moves x by no more than |M^-1| |E| |x| / (1 - |M^-1| |E|).
-  bool surely_around_zero(double error) const {
+  /// Whether 0 is a combination of the four generators with positive weights even if each point is off by
+  /// `error` and each ray by `ray_error`. Points are divided by the length of the longest, so that the size
+  /// of the scene does not matter. With M the matrix of the generators over a row that adds up the points'
+  /// weights, M x = (0, 1); a change E of M moves x by no more than |M^-1| |E| |x| / (1 - |M^-1| |E|).
+  bool surely_around_zero(double error, double ray_error) const {
+    double longest = 0;
+    for (int i = 0; i < 4; ++i)
+      if (ray[i] < 0) longest = std::max(longest, of[i].norm());
+    if (!(longest > 0)) return false;
     Eigen::Matrix4d m;
     Eigen::Vector4d x;
     double change = 0;
     for (int i = 0; i < 4; ++i) {
       const bool point = ray[i] < 0;
-      m.col(i) << of[i], (point ? 1.0 : 0.0);
-      x(i) = weight[i];
-      change += error * error;
+      const double unit = point ? longest : 1;
+      m.col(i) << of[i] / unit, (point ? 1.0 : 0.0);
+      x(i) = weight[i] * unit / longest;
+      const double off = (point ? error / longest : ray_error) + 4 * kUlp;
+      change += off * off;
     }
     const Eigen::Matrix4d inverse = m.inverse();
     if (!inverse.allFinite()) return false;
@@ -218,7 +225,7 @@ Gap gap(const Core& core, const Directions& directions, const Eigen::Vector3d& f
     }
     if (corral.size == 4) {
       if (goal == GapGoal::decide &&
-          corral.surely_around_zero(core.error() + directions.error + 64 * kUlp * core.reach()))
+          corral.surely_around_zero(core.error() + 64 * kUlp * core.reach(), directions.error + 64 * kUlp))
         result.answer = Gap::Answer::met;
       return result;
     }

@@ -31,11 +31,16 @@ Range range_of_form(const Eigen::Matrix3d& form, const Eigen::Vector3d& m, const
   return {value - linear + low - slack, value + linear + high + slack};
 }
 
+/// A number of 24 bits, not below x > 0.
+double few_bits_above(double x) {
+  const int exponent = std::ilogb(x) - 22;
+  return std::ldexp(std::ceil(std::ldexp(x, -exponent)), exponent);
+}
+
 }  // namespace
 
 CellTree::CellTree(const CombinedEllipsoid& body, double tolerance) : body_(body), round_(body.ellipsoid()) {
-  for (int k = 0; k < 3; ++k)
-    root_(k) = std::nextafter(static_cast<float>(round_.reach()(k)), std::numeric_limits<float>::infinity());
+  for (int k = 0; k < 3; ++k) root_(k) = few_bits_above(round_.reach()(k));
   pad_ = 8 * kUlp * (body.center().cwiseAbs() + root_);
   round_.check_range(2 * root_.sum());
   most_levels_ = static_cast<std::uint32_t>(std::clamp(std::ceil(-std::log2(tolerance)), 1.0, 20.0));

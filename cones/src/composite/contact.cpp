@@ -156,6 +156,9 @@ std::optional<CompositeContact> CompositePair::first_contact(const Eigen::Vector
   const Found found =
       state.agent ? contact_of_pieces(state, measure, along) : contact_of_cells(state, measure, along);
   if (std::isinf(found.least)) return std::nullopt;
+  // What the search for the time leaves open, that for the answer alone may decide.
+  if (std::isinf(found.most) && membership(w, Eigen::Vector3d::Zero()) == Membership::out)
+    return std::nullopt;
   answer.earliest = found.least / measure.scale() * (1 - 2 * assembly::kUlp);
   answer.latest = found.most / measure.scale() * (1 + 2 * assembly::kUlp);
   answer.time = std::clamp(found.best / measure.scale(), answer.earliest, answer.latest);

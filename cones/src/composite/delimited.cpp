@@ -7,6 +7,7 @@ using namespace assembly;
 std::optional<Relation> delimited_relation(const State& state) {
   if (state.around->relation() == Relation::disjoint) return Relation::disjoint;
   if (state.within && state.within->relation() == Relation::overlapping) return Relation::overlapping;
+  if (!state.within_range()) return std::nullopt;
   const Directions apex{};
   const auto apart = [](const Box& box) { return !holds_origin(box); };
   switch (CellSearch(state, apex, apart).run()) {
@@ -25,6 +26,7 @@ std::optional<Membership> delimited_membership(const State& state, const Eigen::
   if (state.around->relation() == Relation::disjoint && state.around->membership(v_a, v_b) == Membership::out)
     return Membership::out;
   if (state.within && state.within->membership(v_a, v_b) == Membership::in) return Membership::in;
+  if (!state.within_range()) return std::nullopt;
   const Eigen::Vector3d w = relative_velocity(v_a, v_b);
   const Slabs slabs(state.zero, difference(state.agent_bounds(), state.obstacle.bounds()), w);
   const Directions ray(state.zero, {w});

@@ -42,6 +42,9 @@ struct CompositePair::State {
     return upright ? Eigen::Vector3d(x + pose.position) : pose.to_world(x);
   }
 
+  /// Whether doubles can prove anything: squares of lengths are doubles.
+  bool within_range() const { return zero.beyond_range() == 0; }
+
   Box agent_bounds() const { return agent ? agent->bounds() : cells->box(composite::Cell{}); }
   /// A frame about a convex body of the agent, ready for any piece of the obstacle.
   assembly::Frame frame(const HullBody& body) const {
@@ -59,8 +62,9 @@ using State = CompositePair::State;
 inline Box difference(const Box& agent, const Box& obstacle) {
   return {obstacle.low - agent.high, obstacle.high - agent.low};
 }
+/// Boxes that are not numbers may hold it.
 inline bool holds_origin(const Box& box) {
-  return (box.low.array() <= 0).all() && (box.high.array() >= 0).all();
+  return !((box.low.array() > 0).any() || (box.high.array() < 0).any());
 }
 inline double size(const Box& box) { return (box.high - box.low).sum(); }
 

@@ -3,6 +3,7 @@
 // A convex agent against hulls and assemblies: exact.
 #include <vericone/cones/assembly/assembly_oracle.h>
 #include <vericone/cones/hulls/hull_oracle.h>
+#include <cmath>
 
 #include "pairs/cones.h"
 
@@ -16,7 +17,8 @@ class AssemblyFamily : public Family {
   template <typename Agent>
   AssemblyFamily(const Agent& agent, const Assembly& obstacle, const Pose& pose)
       : oracle_(std::make_shared<AssemblyOracle>(agent, obstacle, pose)),
-        axis_(pose.to_world(obstacle.bounds().center()) - middle(agent)) {}
+        axis_(pose.to_world(obstacle.bounds().center()) - middle(agent)),
+        size_(size_of(agent)) {}
 
   Guarantee guarantee() const override { return {true, 0, "assembly"}; }
   std::optional<Relation> relation() const override { return oracle_->relation(); }
@@ -38,10 +40,12 @@ class AssemblyFamily : public Family {
     }
     contact.time = std::numeric_limits<double>::quiet_NaN();
     // A verdict of the unrounded difference may be known where the rounded one misses.
-    const auto found = oracle_->first_contact(relative_velocity(v_a, v_b));
+    const Vector3d w = relative_velocity(v_a, v_b);
+    const auto found = oracle_->first_contact(w);
     if (!found) return contact;
     contact.earliest = found->earliest;
     contact.latest = found->latest;
+    if (!is_known(*found, w, oracle_->verdict(v_a, v_b) == Verdict::on)) return contact;
     contact.time = found->time;
     contact.normal = found->normal;
     contact.point = in_world_at(found->point, found->time, v_b);
@@ -66,6 +70,23 @@ class AssemblyFamily : public Family {
   Vector3d axis() const override { return axis_; }
 
  protected:
+  /// Whether the contact is known to a thousandth of the time or a hundredth of the agent's size. It is not
+  /// where a piece is so large that its coordinates are rounded by more. What grazes has no time at which
+  /// they surely overlap.
+  bool is_known(const AssemblyContact& contact, const Vector3d& w, bool grazes) const {
+    constexpr double kOfTime = 1e-3, kOfSize = 1e-2, kLargest = 1e7;
+    if (grazes) return oracle_->obstacle().bounds().half_widths().maxCoeff() <= kLargest * size_;
+    const double open = contact.latest - contact.earliest;
+    return std::isfinite(open) && (open <= kOfTime * contact.latest || open * w.norm() <= kOfSize * size_);
+  }
+
+  static double size_of(const Ellipsoid& agent) { return agent.factor().rowwise().norm().maxCoeff(); }
+  static double size_of(const HullBody& agent) {
+    Vector3d low = agent.points().front(), high = low;
+    for (const Vector3d& x : agent.points()) low = low.cwiseMin(x), high = high.cwiseMax(x);
+    return 0.5 * (high - low).maxCoeff();
+  }
+
   static Vector3d middle(const Ellipsoid& agent) { return agent.center(); }
   /// In the hull, even where it has few points.
   static Vector3d middle(const HullBody& agent) {
@@ -76,6 +97,7 @@ class AssemblyFamily : public Family {
 
   std::shared_ptr<const AssemblyOracle> oracle_;
   Vector3d axis_;  // from the agent towards the obstacle
+  double size_;    // half the agent's largest width
 };
 
 /// Verdicts by the hulls' own predicate, which is several times faster; all else as an assembly of one hull.

@@ -25,6 +25,10 @@ constexpr double kNone = std::numeric_limits<double>::infinity();
 /// Pieces tried at most to raise the bound on the least distance.
 constexpr int kMostRefinements = 60, kMostByDistances = 200;
 
+/// Of one pair. Of bodies as long as a town that turn, pieces of any length prove little; without an end the
+/// search takes all memory.
+constexpr std::size_t kMostPieces = 200'000;
+
 struct Span {
   Moment from, to;
   Vector3d normal = Vector3d::Zero();  // that of the piece it was cut from
@@ -83,7 +87,8 @@ class Search {
       return false;
     }
     const bool halved = piece.middle.t > span.from.t && piece.middle.t < span.to.t &&
-                        piece.duration() > shortest(span.from.t);
+                        piece.duration() > shortest(span.from.t) &&
+                        (leaves_.size() < kMostPieces || unresolved_);
     if (found.gap <= padding_) {
       const Meeting now = meeting(pair_, piece.middle);
       if (now == Meeting::meet) return met(span, piece.middle, normal, halved);

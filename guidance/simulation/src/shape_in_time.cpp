@@ -29,6 +29,8 @@ template <typename... F>
 struct Overloaded : F... {
   using F::operator()...;
 };
+template <typename... F>
+Overloaded(F...) -> Overloaded<F...>;  // clang 14 does not find it by itself
 
 /// What a planar shape sees of a rotation.
 Matrix2d about_z(const Matrix3d& rotation) {

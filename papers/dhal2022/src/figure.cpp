@@ -4,7 +4,7 @@
 #include <vericone/geometry/error.h>
 #include <algorithm>
 
-#include "json_value.h"
+#include "json/json_value.h"
 
 namespace vericone::dhal2022 {
 namespace {

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "input/scene.h"
-#include "json_value.h"
+#include "json/json_value.h"
 #include "simulate/read_scenario.h"
 
 namespace vericone::dhal2022 {

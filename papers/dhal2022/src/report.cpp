@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <sstream>
 
-#include "json_value.h"
+#include "json/json_value.h"
 
 namespace vericone::dhal2022 {
 namespace {

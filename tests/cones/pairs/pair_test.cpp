@@ -47,7 +47,7 @@ TEST_P(EveryPair, AgreesWithSampledSweepsAndItsMirrorImage) {
   const auto [first, second] = GetParam();
   RandomBodies random(1600 + 7 * static_cast<std::uint64_t>(first) + static_cast<std::uint64_t>(second));
   SCOPED_TRACE(random.trace());
-  int decided = 0, asked = 0, clear = 0;
+  int decided = 0, asked = 0, clear = 0, normals = 0, turned = 0;
   for (int i = 0; i < share(1000); ++i) {
     const auto a = stand(sampled(any_body(random, first)), any_pose(random, 0.5));
     const auto b = stand(sampled(any_body(random, second)), any_pose(random, random.uniform(4, 9)));
@@ -80,14 +80,28 @@ TEST_P(EveryPair, AgreesWithSampledSweepsAndItsMirrorImage) {
       ASSERT_EQ(miss.most, 0);
       ASSERT_LE(contact->earliest, contact->latest);
       ASSERT_GT(contact->earliest, 0);
+      ASSERT_GE(miss.depth, 0);
+      ASSERT_EQ(miss.distance, -miss.depth);
+      // A shift by the depth is enough.
+      Placed beside = a.placed;
+      beside.pose.position -= (1.001 * miss.depth + 1e-6) * miss.normal;
+      const Verdict shifted = Pair(beside, b.placed).verdict(v_a, v_b);
+      ASSERT_TRUE(shifted == Verdict::out || shifted == Verdict::undecided) << "pair " << i;
     }
     if (verdict == Verdict::out) {
       ASSERT_GT(miss.most, 0);
+    }
+    const auto seen = mirrored.contact(v_b, v_a);
+    if (contact && contact->normal && seen->normal && verdict == Verdict::in && contact->latest < 1e3) {
+      // The same contact seen from the other body; pieces may be met at the same time, to the tolerance.
+      turned += contact->normal->dot(*seen->normal) < 0;
+      ++normals;
     }
     const Miss reversed = mirrored.miss(v_b, v_a);
     ASSERT_NEAR(reversed.least, miss.least, 1e-6 * (1 + miss.least)) << "pair " << i;
   }
   EXPECT_GE(decided, 0.95 * asked);
+  EXPECT_GE(turned, 0.95 * normals);
   EXPECT_GE(clear, asked / 2);
 }
 

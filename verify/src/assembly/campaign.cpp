@@ -40,7 +40,7 @@ AssemblyReport run_assembly_family(AgentKind agent, PieceKind pieces, const Asse
   report.agent = agent;
   report.pieces = pieces;
   report.seed = options.seed;
-  for (std::uint64_t index = 0; index < options.cases; ++index) {
+  for (std::uint64_t index = 0; index < options.cases && !(options.stop && options.stop()); ++index) {
     ++report.cases;
     const AssemblyCase c = assembly_case(agent, pieces, options.seed, index);
     AssemblyCase told = c;

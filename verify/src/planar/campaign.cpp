@@ -54,13 +54,13 @@ std::string json_pair(const char* key, const WorstError& worst) {
 }  // namespace
 
 PlanarFamilyReport run_planar_family(const PlanarMethod& method, PlanarFamily family, std::uint64_t cases,
-                                     std::uint64_t seed) {
+                                     std::uint64_t seed, const std::function<bool()>& stop) {
   PlanarFamilyReport report;
   report.family = family;
   report.seed = seed;
-  report.cases = cases;
   std::vector<double> psi_errors;
-  for (std::uint64_t index = 0; index < cases; ++index) {
+  for (std::uint64_t index = 0; index < cases && !(stop && stop()); ++index) {
+    ++report.cases;
     const auto [a, b] = planar_pair(family, seed, index);
     const ExactTangents exact = exact_inner_tangents(a, b);
     if (exact.relation == PlanarRelation::separated) ++report.separated;

@@ -97,7 +97,9 @@ void run_quadric(std::uint64_t seed, std::uint64_t number, Depth depth, Block& b
   using Vector = Eigen::Matrix<double, D, 1>;
   SeededRandom random(320 + D, seed, number);
   const Kind kind = kind_of(number);
-  const auto [q, on] = quadric<D>(random, kind);
+  const auto made = quadric<D>(random, kind);
+  const BasicQuadric<D>& q = made.first;  // a lambda of clang 14 has no structured bindings
+  const Vector& on = made.second;
   std::array<Vector, kCasesPerBlock> x;
   for (int i = 0; i < kCasesPerBlock; ++i)
     x[i] = place<D>(random, on, Vector::Zero(), kind, i, block.cases[i].random);

@@ -207,13 +207,14 @@ std::uint64_t SpatialFamilyReport::failures() const {
   return sum;
 }
 
-SpatialFamilyReport run_spatial_family(SpatialFamily family, std::uint64_t cases, std::uint64_t seed) {
+SpatialFamilyReport run_spatial_family(SpatialFamily family, std::uint64_t cases, std::uint64_t seed,
+                                       const std::function<bool()>& stop) {
   SpatialFamilyReport report;
   report.family = family;
   report.seed = seed;
-  report.cases = cases;
   std::array<std::vector<double>, kGapSamples.size()> gaps;
-  for (std::uint64_t index = 0; index < cases; ++index) {
+  for (std::uint64_t index = 0; index < cases && !(stop && stop()); ++index) {
+    ++report.cases;
     const auto [a, b] = spatial_pair(family, seed, index);
     PairChecks checks(a, b, index, report);
     if (!checks.disjoint()) continue;

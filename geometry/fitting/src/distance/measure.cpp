@@ -114,7 +114,8 @@ std::optional<DistanceStatistics> hull_to_scan(const std::vector<Piece>& pieces,
   for (int k = 0; k < samples; ++k) {
     const double target = (k + 0.5) / samples * boundary.area.back();
     while (at + 1 < boundary.area.size() && boundary.area[at] < target) ++at;
-    const auto& [corners, piece] = boundary.parts[at];
+    const auto& [corners, of] = boundary.parts[at];
+    const auto piece = of;  // a lambda cannot have the other
     double u = fractional_part(0.5 + k * 0.7548776662466927),
            v = fractional_part(0.5 + k * 0.5698402909980532);
     if (u + v > 1) {

@@ -35,7 +35,9 @@ struct AssemblyContact {
   /// Seconds. Nothing is touched before `earliest`; at `latest` the agent overlaps the body, proved both.
   /// Infinite where the contact grazes closer than rounding tells.
   double earliest = 0, latest = 0;
-  double time = 0;                                   // the best estimate, earliest <= time <= latest
+  /// The best estimate, earliest <= time <= latest; nothing is known of it, nor of the point, beyond these:
+  /// they are far apart where a piece is 1e8 times as large as the agent.
+  double time = 0;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();   // of the body that is touched first, at that time
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // unit, from the agent towards the body
   std::uint32_t piece = 0;                           // its index in the order the pieces were given

@@ -4,7 +4,7 @@
 // rounded number. An approximation is found in floating point and a bracket around it is proved by exact
 // predicates or by interval arithmetic; the bracket grows until the proof succeeds. Times to contact:
 // times/contact_time_enclosure.h. Sectors of ellipses: planar/enclose_sector.h. Proofs against exact
-// arithmetic: tests/cones/enclosures_test.cpp.
+// arithmetic: tests/cones/ellipsoids/enclosures_test.cpp.
 //
 // One assumption beyond IEEE 754: the mathematics library's sin, cos and atan2 are off by at most two units
 // in the last place (glibc documents one).

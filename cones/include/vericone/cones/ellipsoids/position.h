@@ -3,7 +3,7 @@
 // How two ellipses or two ellipsoids lie, nesting included: exact, by the ladder of predicates.h. The
 // mathematics is in docs/predicates/position.md.
 //
-// Laws, for all bodies A, B (tests/cones/position_test.cpp):
+// Laws, for all bodies A, B (tests/cones/ellipsoids/position_test.cpp):
 //   (1) position(B, A) == swapped(position(A, B))
 //   (2) relation_of(position(A, B)) == relation(A, B)
 //   (3) a rung that answers agrees with every later rung

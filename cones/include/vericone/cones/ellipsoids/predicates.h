@@ -10,7 +10,7 @@
 //
 // A function without a prefix climbs it and, on request, says which rung decided.
 //
-// Laws, for all bodies A, B and velocities w (tests/cones/predicates_test.cpp):
+// Laws, for all bodies A, B and velocities w (tests/cones/ellipsoids/predicates_test.cpp):
 //   (1) relation(A, B) == relation(B, A)
 //   (2) membership of w for (A, B) == membership of -w for (B, A)
 //   (3) membership of w == membership of s w for s > 0 a power of two

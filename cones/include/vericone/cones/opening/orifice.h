@@ -3,7 +3,7 @@
 // The orifice cone: which relative velocities carry an agent through a circular opening in a thin flat wall.
 // Exact, by the ladder of predicates.h; the mathematics is in docs/predicates/orifice.md.
 //
-// Laws, for all agents, openings and velocities w (tests/cones/orifice_test.cpp):
+// Laws, for all agents, openings and velocities w (tests/cones/opening/orifice_test.cpp):
 //   (1) membership of w == membership of s w for s > 0 a power of two
 //   (2) the length and the sign of the opening's normal do not matter
 //   (3) a rung that answers agrees with every later rung

@@ -3,7 +3,7 @@
 // Exact order of two tangent directions, and of two times to contact: numbers that are roots of polynomials,
 // compared without computing them (docs/predicates/order.md). Ladder and conventions as in predicates.h.
 //
-// Laws, for all arguments (tests/cones/order_turn_test.cpp, order_earlier_test.cpp):
+// Laws, for all arguments (tests/cones/times/order_turn_test.cpp, order_earlier_test.cpp):
 //   (1) turn(q, p) == -turn(p, q), earlier(q, p) == -earlier(p, q); both are zero for p = q
 //   (2) exchanging the bodies of p turns its direction about: turn(p', q) == -turn(p, q)
 //   (3) turn is unchanged by translations and scalings of either pair, and by a linear map of both with a

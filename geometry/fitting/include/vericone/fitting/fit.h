@@ -26,7 +26,7 @@ struct FitOptions {
   /// Radius of balls about the points that are to be inside, metres; containing, or with coverage.
   double margin = 0;
   int pieces = 1;  // bodies whose union is the hull, 1 to 64
-  std::uint64_t seed = 0;
+  std::uint64_t seed = 1;
   /// Told what is being done and the share done; returns false to stop, which throws Interrupted.
   std::function<bool(const std::string& what, double share)> progress;
 };

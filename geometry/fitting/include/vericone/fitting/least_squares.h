@@ -12,7 +12,7 @@ namespace vericone::fitting {
 
 struct SurfaceFitOptions {
   bool robust = false;       // else least squares
-  std::uint64_t seed = 0;    // of the trial samples of the robust start
+  std::uint64_t seed = 1;    // of the trial samples of the robust start
   int max_iterations = 200;  // of each refinement
 };
 

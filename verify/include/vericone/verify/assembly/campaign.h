@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ struct AssemblyOptions {
   std::uint64_t extremes_every = 2;  // one case in so many with half-planes
   std::uint64_t maps_every = 16;     // one case in so many with a cone map
   bool without_last_piece = false;   // a broken library: what it is told lacks a piece
+  std::function<bool()> stop;  // asked between cases; true ends the run early, with a report on those done
 };
 
 /// One kind of agent and of pieces, cases with indices 0 .. cases - 1.

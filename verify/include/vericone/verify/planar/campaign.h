@@ -51,9 +51,9 @@ struct PlanarFamilyReport {
 };
 
 /// Runs `method` on the pairs 0 .. cases - 1 of one family. Exceptions of the method pass through. About 2 ms
-/// a pair plus the method.
+/// a pair plus the method. Where `stop`, asked between pairs, says so, the report is on those done.
 PlanarFamilyReport run_planar_family(const PlanarMethod& method, PlanarFamily family, std::uint64_t cases,
-                                     std::uint64_t seed);
+                                     std::uint64_t seed, const std::function<bool()>& stop = {});
 
 /// All families, `cases` pairs of each.
 std::vector<PlanarFamilyReport> run_planar_campaign(const PlanarMethod& method, std::uint64_t cases,

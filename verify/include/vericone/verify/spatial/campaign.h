@@ -67,8 +67,9 @@ struct SpatialFamilyReport {
   std::uint64_t failures() const;
 };
 
-/// About 40 ms a pair.
-SpatialFamilyReport run_spatial_family(SpatialFamily family, std::uint64_t cases, std::uint64_t seed);
+/// About 40 ms a pair. Where `stop`, asked between pairs, says so, the report is on those done.
+SpatialFamilyReport run_spatial_family(SpatialFamily family, std::uint64_t cases, std::uint64_t seed,
+                                       const std::function<bool()>& stop = {});
 
 /// All families, `cases` pairs of each.
 std::vector<SpatialFamilyReport> run_spatial_campaign(std::uint64_t cases, std::uint64_t seed);

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "command/simulation_commands.h"
+
+#include <iostream>
+
+#include "montecarlo/campaign_command.h"
+#include "paper/claims_command.h"
+#include "paper/figures_command.h"
+#include "simulate/simulate_command.h"
+
+namespace vericone {
+namespace {
+
+int simulate_command(CommandLine& line) {
+  SimulateOptions simulate;
+  line.option("scenario", simulate.scenario, "Scenario file, YAML (docs/scenarios.md)").required();
+  line.option("--out", simulate.out, "Folder for tables, proof and picture");
+  line.negative_flag("--no-figures", simulate.figures, "Tables and proof only");
+  line.flag("--quiet", simulate.quiet, "No progress");
+  line.flag("--json", simulate.json, "Print JSON");
+  line.read();
+  simulate.command_line = line.text();
+  return run_simulate(simulate, std::cout);
+}
+
+int campaign_command(CommandLine& line) {
+  montecarlo::CampaignOptions campaign;
+  line.option("--out", campaign.out, "Folder for tables and picture");
+  line.option("-N,--engagements", campaign.engagements, "Random engagements");
+  line.option("--seed", campaign.seed, "Seed of all random numbers");
+  line.option("--threads", campaign.threads, "Threads, 0: one per processor");
+  line.option("--laws", campaign.laws,
+              "slice, exact (largest opening), motion (true sector on the plane of motion), clearance")
+      .commas();
+  line.option("--most", campaign.most, "Saturation, m/s^2; every law also flies without");
+  line.option("--gain", campaign.gain, "K of all laws, 1/s");
+  line.option("--reference", campaign.reference, "w, to which y is driven");
+  line.option("--required", campaign.required, "Of the clearance law, metres");
+  line.option("--step", campaign.step, "Between two commands, s");
+  line.negative_flag("--no-figures", campaign.figures, "Tables only");
+  line.flag("--quiet", campaign.quiet, "No progress");
+  line.flag("--json", campaign.json, "Print JSON");
+  line.read();
+  campaign.command_line = line.text();
+  return montecarlo::run_campaign(campaign, std::cout);
+}
+
+int claims_command(CommandLine& line) {
+  ClaimsOptions claims;
+  line.option("--out", claims.out, "Also write claims.json to this folder");
+  line.flag("--json", claims.json, "Print JSON");
+  line.flag("--given", claims.given, "Also list the printed values that go into the runs");
+  line.flag("--quiet", claims.quiet, "No progress");
+  line.read();
+  claims.command_line = line.text();
+  return run_claims(claims, std::cout);
+}
+
+int figures_command(CommandLine& line) {
+  FiguresOptions figures;
+  line.option("figures", figures.ids, "Their numbers (docs/papers.md); all if not given");
+  line.option("--out", figures.out, "Folder for pictures, tables and report");
+  line.option("--scenario", figures.scenario, "Scenario file in place of the one that these figures show");
+  line.option("--set", figures.set, "PATH=VALUE changes a field of their scenarios: bodies.F1.pilot.gain=8")
+      .one_each();
+  line.flag("--list", figures.list, "Print numbers and captions, make nothing");
+  line.flag("--quiet", figures.quiet, "No progress");
+  line.flag("--json", figures.json, "Print JSON: figures and the files of the report");
+  line.read();
+  figures.command_line = line.text();
+  return run_figures(figures, std::cout);
+}
+
+}  // namespace
+
+std::map<std::string, Command> simulation_commands() {
+  return {{"simulate", simulate_command},
+          {"campaign", campaign_command},
+          {"claims", claims_command},
+          {"figures", figures_command}};
+}
+
+}  // namespace vericone

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cone/answer.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "json/json_value.h"
+
+namespace vericone {
+namespace {
+
+Json interval(double low, double high) { return {number_or_null(low), number_or_null(high)}; }
+
+/// Two ellipsoids: exact verdicts, rounded lengths and times.
+void add_numbers(Json& result, const Pair& pair, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) {
+  result["clearance"] = number_or_null(pair.miss(v_a, v_b).distance);
+  const auto contact = pair.contact(v_a, v_b);
+  result["time_to_contact"] = contact ? number_or_null(contact->time) : Json(nullptr);
+}
+
+/// Bodies delimited by hyperboloids: there is no clearance, as the shadows of these bodies are not convex,
+/// and the signed distance of two such shadows is not what the miss distance of ellipsoids is.
+void add_enclosed_time(Json& result, const Pair& pair, Verdict verdict, const Eigen::Vector3d& v_a,
+                       const Eigen::Vector3d& v_b) {
+  Json time = nullptr, enclosure = nullptr;
+  const auto contact = pair.contact(v_a, v_b);
+  if (contact && verdict != Verdict::undecided && std::isfinite(contact->time)) {
+    time = contact->time;
+    enclosure = {contact->earliest, contact->latest};
+  }
+  result["clearance"] = nullptr;
+  result["time_to_contact"] = time;
+  result["time_enclosure"] = enclosure;
+}
+
+/// Bodies of pieces: enclosed lengths and times, and where they meet.
+void add_enclosures(Json& result, const Pair& pair, Verdict verdict, const Eigen::Vector3d& v_a,
+                    const Eigen::Vector3d& v_b) {
+  Json clearance = nullptr, around = nullptr, time = nullptr, enclosure = nullptr, point = nullptr,
+       normal = nullptr;
+  if (verdict == Verdict::on || verdict == Verdict::touching) clearance = 0.0, around = interval(0, 0);
+  if (verdict == Verdict::out) {
+    const Miss miss = pair.miss(v_a, v_b);
+    clearance = miss.distance;
+    around = interval(miss.least, miss.most);
+  } else if (verdict != Verdict::undecided) {
+    const Contact contact = *pair.contact(v_a, v_b);
+    // Proved, and not found where sizes are too far apart for the search.
+    if (contact.earliest > 0 || std::isfinite(contact.latest)) enclosure = interval(contact.earliest, contact.latest);
+    if (!std::isnan(contact.time)) time = number_or_null(contact.time);
+    if (contact.point) point = vector_json(*contact.point);
+    if (contact.normal) normal = vector_json(*contact.normal);
+  }
+  result["clearance"] = clearance;
+  result["clearance_enclosure"] = around;
+  result["time_to_contact"] = time;
+  result["time_enclosure"] = enclosure;
+  result["contact_point"] = point;
+  result["contact_normal"] = normal;
+}
+
+}  // namespace
+
+Json answer(const input::AnyEngagement& engagement, bool with_rung) {
+  const Pair pair = input::pair_of(engagement);
+  const auto [v_a, v_b] = input::velocities_of(engagement);
+  const Verdict verdict = pair.verdict(v_a, v_b);
+  Json result;
+  result["verdict"] = to_string(verdict);
+  if (with_rung) {
+    const auto rung = pair.rung(v_a, v_b);
+    result["rung"] = rung ? to_string(*rung) : "certified";
+  }
+  const char* family = pair.guarantee().family;
+  if (std::strcmp(family, "ellipsoids") == 0) {
+    add_numbers(result, pair, v_a, v_b);
+  } else if (std::strcmp(family, "combined") == 0) {
+    add_enclosed_time(result, pair, verdict, v_a, v_b);
+  } else {
+    add_enclosures(result, pair, verdict, v_a, v_b);
+    result.update(input::left_out(engagement));  // the body is then not quite what the file says
+  }
+  return result;
+}
+
+const char* verdict_kind(const input::AnyEngagement& engagement) {
+  return input::pair_of(engagement).guarantee().exact ? "exact" : "certified";
+}
+
+}  // namespace vericone

@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cone/cone.h"
+
+#include <vericone/cones/combined/cone.h>
+#include <vericone/cones/ellipsoids/clearance.h>
+#include <vericone/cones/ellipsoids/plane_sector.h>
+#include <vericone/cones/ellipsoids/true_cone.h>
+#include <vericone/cones/slices/combined_slice_cone.h>
+#include <vericone/cones/slices/slice_cone.h>
+#include <vericone/geometry/error.h>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <ostream>
+
+#include "cone/answer.h"
+#include "cone/degrees.h"
+#include "output/figures.h"
+#include "input/scene.h"
+#include "json/json_value.h"
+#include "pieces/pair_cone.h"
+#include "pieces/pieces_cone.h"
+#include "cone/planar_cone.h"
+#include "output/provenance.h"
+#include "cone/shape_engagements.h"
+#include "json/slice_json.h"
+#include "output/staged_folder.h"
+#include "output/stopwatch.h"
+
+namespace vericone {
+namespace {
+
+Json exact_json(const Ellipsoid& a, const Ellipsoid& b, int samples) {
+  const auto start = Clock::now();
+  const TrueCone cone = true_cone(a, b, samples);
+  Json result{{"method", "exact"},
+              {"samples", samples},
+              {"relation", to_string(cone.relation)},
+              {"axis", vector_json(cone.axis)}};
+  Json directions = Json::array();
+  for (const auto& s : cone.boundary) directions.push_back(vector_json(s.direction));
+  result["directions"] = directions;
+  if (cone.relation == Relation::disjoint) {
+    const ConeBounds bounds = cone_bounds(cone, a, b);
+    result["solid_angle"] = bounds.solid_angle;
+    result["cross_section_area"] = number_or_null(bounds.cross_section_area);
+    result["inner"] = polyhedral_json(bounds.inner);
+    result["outer"] = polyhedral_json(bounds.outer);
+    result["error_bound"] = bounds.solid_angle_error;
+    result["cross_section_area_error_bound"] = number_or_null(bounds.cross_section_area_error);
+  } else {
+    // Half-space and full space are known exactly; they have no edges.
+    result["solid_angle"] = cone.solid_angle;
+    result["cross_section_area"] = nullptr;
+    for (const char* side : {"inner", "outer"})
+      result[side] = {
+          {"directions", Json::array()}, {"solid_angle", cone.solid_angle}, {"cross_section_area", nullptr}};
+    result["error_bound"] = 0.0;
+    result["cross_section_area_error_bound"] = nullptr;
+  }
+  result["seconds"] = seconds_since(start);
+  return result;
+}
+
+/// Inner and outer cone to a tolerance, of any bodies.
+Json certified_json(const CombinedEllipsoid& a, const CombinedEllipsoid& b, double tolerance) {
+  const auto start = Clock::now();
+  const CombinedCone cone = combined_cone(a, b, tolerance);
+  const double seconds = seconds_since(start);
+  const bool known = cone.relation.has_value();
+  Json result{{"method", "certified"},
+              {"tolerance", tolerance},
+              {"relation", known ? to_string(*cone.relation) : "undecided"},
+              {"axis", vector_json(cone.axis)},
+              {"directions", nullptr}};  // the boundary is somewhere between inner and outer
+  result["solid_angle"] = known ? number_or_null(cone.solid_angle) : Json(nullptr);
+  result["cross_section_area"] = known ? number_or_null(cone.cross_section_area) : Json(nullptr);
+  result["inner"] = known ? polyhedral_json(cone.inner) : Json(nullptr);
+  result["outer"] = known ? polyhedral_json(cone.outer) : Json(nullptr);
+  result["error_bound"] = known ? number_or_null(cone.solid_angle_error) : Json(nullptr);
+  result["cross_section_area_error_bound"] =
+      known ? number_or_null(cone.cross_section_area_error) : Json(nullptr);
+  result["seconds"] = seconds;
+  return result;
+}
+
+/// What a slice cone of either kind is put into words from.
+struct Slices {
+  std::string relation;
+  Eigen::Vector3d axis;
+  std::vector<Slice> slices;
+  PolyhedralCone polyhedral;
+  Json extra = Json::object();
+};
+
+Slices slices_of(const input::Engagement& e, int planes, SliceSector sectors) {
+  if (e.ellipsoids() && sectors == SliceSector::all_candidates) {
+    const SliceCone cone = slice_cone(e.agent.ellipsoid(), e.obstacle.ellipsoid(), planes);
+    return {to_string(cone.relation), cone.axis, cone.slices, cone.polyhedral()};
+  }
+  const CombinedSliceCone cone = combined_slice_cone(e.agent, e.obstacle, planes, sectors);
+  Json extra{{"planes_with_overlapping_hulls", cone.hulls_overlap}};
+  if (sectors != SliceSector::all_candidates) {
+    extra["planes_without_tangents"] = cone.source_failures;
+    extra["planes_with_wrong_tangents"] = cone.source_differences;
+  }
+  return {cone.relation ? to_string(*cone.relation) : "undecided", cone.axis, cone.slices, cone.polyhedral(),
+          extra};
+}
+
+SliceSector sectors_of(const ConeCommand& options) {
+  if (options.tangents == "all") return SliceSector::all_candidates;
+  if (options.tangents == "by-sides") return SliceSector::source_by_sides;
+  if (options.tangents == "printed") return SliceSector::source_printed;
+  throw InputError("--tangents", options.tangents, "all, by-sides or printed");
+}
+
+Json slice_json(const input::Engagement& e, int planes, SliceSector choice) {
+  const auto start = Clock::now();
+  const Slices cone = slices_of(e, planes, choice);
+  const double seconds = seconds_since(start);
+  Json result{
+      {"method", "slice"}, {"planes", planes}, {"relation", cone.relation}, {"axis", vector_json(cone.axis)}};
+  result.update(polyhedral_json(cone.polyhedral));
+  if (cone.relation == "undecided") result["solid_angle"] = nullptr;
+  result.update(cone.extra);
+  Json sectors = Json::array();
+  for (const Slice& s : cone.slices)
+    sectors.push_back(sector_json(s, cone.axis, e.agent_velocity, e.obstacle_velocity));
+  result["sectors"] = sectors;
+  // Slices miss part of the cone and cannot tell how much: no bound, no outer cone.
+  result["inner"] = nullptr;
+  result["outer"] = nullptr;
+  result["error_bound"] = nullptr;
+  result["seconds"] = seconds;
+  return result;
+}
+
+std::string setting(const Json& cone) {
+  if (cone.contains("planes")) return cone["planes"].dump() + " planes";
+  if (cone.contains("samples")) return cone["samples"].dump() + " samples";
+  return "tolerance " + cone["tolerance"].dump();
+}
+
+void print_widest_plane(const Json& sectors, std::ostream& out) {
+  const auto widest = *std::max_element(sectors.begin(), sectors.end(), [](const Json& x, const Json& y) {
+    return x["psi"].get<double>() < y["psi"].get<double>();
+  });
+  out << "widest plane        psi " << to_text(degrees(widest["psi"].get<double>())) << " degrees, y "
+      << (widest["y"].is_null() ? "not defined" : to_text(widest["y"].get<double>())) << '\n';
+}
+
+void print_text(const Json& cone, const input::Engagement& e, std::ostream& out) {
+  const auto area = [](const Json& value) {
+    return value.is_null() ? std::string("unbounded (the cone reaches 90 degrees from its axis)")
+                           : to_text(value.get<double>());
+  };
+  out << "method              " << cone["method"].get<std::string>() << ", " << setting(cone) << '\n'
+      << "bodies              " << cone["relation"].get<std::string>() << '\n';
+  if (cone["solid_angle"].is_number())
+    out << "solid angle         " << cone["solid_angle"].dump() << " sr\n"
+        << "cross-section area  " << area(cone["cross_section_area"]) << " (at distance 1)\n";
+  if (cone["error_bound"].is_number())
+    out << "error bound         " << cone["error_bound"].dump() << " sr, certified: inner "
+        << cone["inner"]["solid_angle"].dump() << " sr, outer " << cone["outer"]["solid_angle"].dump()
+        << " sr\n";
+  if (cone["method"] == "slice" && !cone["sectors"].empty()) print_widest_plane(cone["sectors"], out);
+  if (cone.contains("planes_without_tangents"))
+    out << "source's tangents   none on " << cone["planes_without_tangents"].dump() << " planes, wrong on "
+        << cone["planes_with_wrong_tangents"].dump() << '\n';
+  if (cone["method"] == "slice")
+    out << (e.ellipsoids() ? "note                slices see only contacts within their planes: the true "
+                             "cone is larger\n"
+                           : "note                slices see only contacts within their planes: they are in "
+                             "the true cone, "
+                             "what lies between them need not be\n");
+  out << "verdict             " << answer(e, false)["verdict"].get<std::string>()
+      << " (of the scene's velocities, " << verdict_kind(e) << ")\n";
+  out << "time                " << cone["seconds"].dump() << " s\n";
+}
+
+Json cone_json(const ConeCommand& options, const input::Engagement& e) {
+  if (options.samples && options.tolerance)
+    throw InputError("--samples", std::to_string(*options.samples), "left out where --tolerance is given");
+  const SliceSector sectors = sectors_of(options);
+  if (options.method == "slice") return slice_json(e, options.planes.value_or(kDefaultPlanes), sectors);
+  if (sectors != SliceSector::all_candidates)
+    throw InputError("--tangents", options.tangents, "left out where --method is not slice");
+  if (options.tolerance || !e.ellipsoids()) {
+    if (options.samples)
+      throw InputError("--samples", std::to_string(*options.samples),
+                       "left out for combined quadrics, whose cone is refined to --tolerance");
+    return certified_json(e.agent, e.obstacle, options.tolerance.value_or(kDefaultTolerance));
+  }
+  return exact_json(e.agent.ellipsoid(), e.obstacle.ellipsoid(), options.samples.value_or(kDefaultSamples));
+}
+
+void run_planar_cone(const ConeCommand& options, const input::PlanarEngagement& e, std::ostream& out) {
+  if (options.method != "exact")
+    throw InputError("--method", options.method, "left out for a planar scene, whose cone is one sector");
+  if (options.tangents != "all")
+    throw InputError("--tangents", options.tangents, "left out for a planar scene");
+  if (options.tolerance)
+    throw InputError("--tolerance", to_text(*options.tolerance), "left out for a planar scene");
+  if (!options.picture_folder.empty())
+    throw InputError("--out", options.picture_folder, "asked for in space only");
+  if (options.map) throw InputError("--map", to_text(options.map->resolution), "asked for in space only");
+  const Json cone = planar_cone_json(e);
+  if (options.json) {
+    out << cone.dump(1) << '\n';
+  } else {
+    print_planar_cone(cone, e, out);
+  }
+}
+
+}  // namespace
+
+Json engagement_picture(const Ellipsoid& a, const Ellipsoid& b, int planes, int samples,
+                        const Eigen::Vector3d& velocity) {
+  const auto body = [](const Ellipsoid& e) {
+    Json factor = Json::array();
+    for (int i = 0; i < 3; ++i) factor.push_back(vector_json(e.factor().row(i)));
+    return Json{{"center", vector_json(e.center())}, {"factor", factor}};
+  };
+  const SliceCone slices = slice_cone(a, b, planes);
+  const TrueCone exact = true_cone(a, b, samples);
+  const PolyhedralCone polygon = slices.polyhedral();
+  Json result{{"agent", body(a)},
+              {"obstacle", body(b)},
+              {"planes", planes},
+              {"samples", samples},
+              {"slice_directions", polyhedral_json(polygon)["directions"]},
+              {"slice_area", number_or_null(polygon.cross_section_area)},
+              {"exact_area", number_or_null(exact.cross_section_area)}};
+  Json directions = Json::array();
+  for (const auto& s : exact.boundary) directions.push_back(vector_json(s.direction));
+  result["exact_directions"] = directions;
+
+  // The velocity in the gap: half-way between both edges on the plane where they are farthest apart.
+  const AxisFrame frame(slices.axis);
+  double widest = -1;
+  Eigen::Vector3d w = slices.axis;
+  for (const Slice& s : slices.slices) {
+    const Eigen::Vector3d across = std::cos(s.azimuth) * frame.e1 + std::sin(s.azimuth) * frame.e2;
+    const PlaneSector sector = true_sector(a, b, across);
+    for (const double side : {1.0, -1.0}) {
+      const double inner = side > 0 ? s.left : s.right,
+                   outer = side > 0 ? sector.left.angle : sector.right.angle;
+      if (outer - inner <= widest) continue;
+      widest = outer - inner;
+      const double middle = 0.5 * (inner + outer);
+      w = std::cos(middle) * sector.line_of_sight + side * std::sin(middle) * sector.across;
+      result["gap_degrees"] = degrees(widest);
+      result["gap_angles_degrees"] = {degrees(inner), degrees(middle), degrees(outer)};
+    }
+  }
+  const auto followed = [&](const Eigen::Vector3d& v) {
+    Json course{{"velocity", vector_json(v)}, {"verdict", to_string(ConeOracle(a, b).membership(v))}};
+    if (const auto t = time_to_contact(a, b, v)) {
+      course["contact_time"] = *t;
+      // At contact the supporting point of A towards B is the common one.
+      const Ellipsoid moved = a.translated(*t * v);
+      const Eigen::Vector3d n = ConeOracle(moved.translated(-1e-9 * *t * v), b).separating_normal();
+      // Where they graze, no plane may separate them by then.
+      const Eigen::Vector3d point = moved.support_point(n);
+      if (point.allFinite()) course["contact_point"] = vector_json(point);
+    } else {
+      course["miss_distance"] = clearance(a, b, v).distance;
+    }
+    return course;
+  };
+  const Json gap = followed(w);
+  for (const auto& [name, value] : gap.items()) result["gap_" + name] = value;
+  if (!velocity.isZero(0)) result["course"] = followed(velocity);
+  return result;
+}
+
+namespace {
+
+struct ConePicture {
+  Json data;
+  const char* script;
+};
+
+/// What --out asks for, refused before anything is printed or written.
+ConePicture cone_picture(const ConeCommand& options, const input::Engagement& e, const Json& cone) {
+  const auto refuse = [&](const char* requirement) {
+    throw InputError("--out", options.picture_folder, requirement);
+  };
+  if (cone["relation"] != to_string(Relation::disjoint)) refuse("asked for disjoint bodies only");
+  if (e.ellipsoids())
+    return {engagement_picture(
+                e.agent.ellipsoid(), e.obstacle.ellipsoid(), options.planes.value_or(kDefaultPlanes),
+                options.samples.value_or(kDefaultSamples), e.agent_velocity - e.obstacle_velocity),
+            "engagement.py"};
+  ConePicture picture{
+      scene_figure(e.agent, e.obstacle, e.agent_velocity - e.obstacle_velocity,
+                   options.tolerance.value_or(kDefaultTolerance), options.planes.value_or(kDefaultPlanes)),
+      "combined_engagement.py"};
+  if (picture.data.is_null()) refuse("asked for a cone within 90 degrees of the line of centres");
+  return picture;
+}
+
+}  // namespace
+
+void publish_cone(const ConeCommand& options, StagedFolder& folder, const Json& map,
+                  const std::string& script, const std::string& picture, std::ostream& out) {
+  if (options.map) write_whole(folder.path() / "cone_map.json", map.dump() + "\n");
+  if (options.figures) {
+    draw_figures(script, folder.path());
+    if (options.map) draw_figures("cone_map.py", folder.path());
+  }
+  const auto files =
+      folder.publish({"cone_map.json", "cone_map.pdf", "cone_map.png", picture + ".pdf", picture + ".png"});
+  if (options.json) return;
+  for (const auto& file : pictures_of(files)) out << "picture             " << file.string() << '\n';
+}
+
+void run_cone(const ConeCommand& options, std::ostream& out) {
+  if (options.method != "exact" && options.method != "slice")
+    throw InputError("--method", options.method, "slice or exact");
+  const input::AnyEngagement scene = input::read_scene(options.scene);
+  if (const auto* planar = std::get_if<input::PlanarEngagement>(&scene))
+    return run_planar_cone(options, *planar, out);
+  if (const auto* pieces = std::get_if<input::AssemblyEngagement>(&scene))
+    return run_pieces_cone(options, *pieces, out);
+  if (const auto* placed = std::get_if<input::PlacedEngagement>(&scene))
+    return run_pair_cone(options, *placed, out);
+  const auto& e = std::get<input::Engagement>(scene);
+  std::optional<StagedFolder> folder;
+  if (!options.picture_folder.empty()) folder.emplace(options.picture_folder, "--out");
+  Json cone = cone_json(options, e);
+  const ConePicture picture = folder ? cone_picture(options, e, cone) : ConePicture{};
+  MapAnswer map;
+  if (options.map)
+    map = map_answer(e, *options.map, options.tolerance.value_or(kDefaultTolerance), options.scene);
+  if (options.json) {
+    if (options.map) cone["map"] = map.summary;
+    out << cone.dump(1) << '\n';
+  } else {
+    print_text(cone, e, out);
+    if (options.map) print_map(map.summary, out);
+  }
+  if (!folder) return;
+  write_whole(folder->path() / "engagement.json", picture.data.dump(1) + "\n");
+  write_whole(folder->path() / "shapes.json", Json{{"figures", {"engagement"}}}.dump(1) + "\n");
+  publish_cone(options, *folder, map.picture, picture.script, "engagement", out);
+}
+
+}  // namespace vericone

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vericone/geometry/ellipsoid.h>
+#include <iosfwd>
+#include <optional>
+#include <string>
+
+#include "json/json_forward.h"
+#include "cone/map_answer.h"
+
+namespace vericone {
+
+class StagedFolder;
+
+inline constexpr int kDefaultSamples = 96;
+inline constexpr double kDefaultTolerance = 0.01;
+inline constexpr int kDefaultPlanes = 36;
+
+struct ConeCommand {
+  std::string scene;
+  std::string method = "exact";     // or "slice"
+  std::optional<int> planes;        // slice; half-planes of a body of pieces
+  std::string tangents = "all";     // slice: or the source's choices, "by-sides", "printed"
+  std::optional<int> samples;       // exact, two ellipsoids; kDefaultSamples
+  std::optional<double> tolerance;  // exact, certified to it; kDefaultTolerance for combined quadrics; pieces
+  std::optional<MapRequest> map;
+  bool json = false;
+  std::string picture_folder;  // empty: no picture
+  bool figures = true;         // false: only what a picture is drawn from
+  int threads = 0;             // of map and picture; 0: one per processor
+};
+
+/// `vericone cone`: the cone of one scene, as text or JSON (docs/formats.md), with a picture if asked for.
+void run_cone(const ConeCommand& options, std::ostream& out);
+
+/// The end of a picture: the map's data, both drawn by their scripts, all of it published and told.
+/// `picture`: the name of what `script` draws.
+void publish_cone(const ConeCommand& options, StagedFolder& folder, const Json& map,
+                  const std::string& script, const std::string& picture, std::ostream& out);
+
+/// What the picture of one engagement shows: both bodies, the slice cone inside the exact one, and a velocity
+/// between the two with the contact it leads to; the scene's own relative velocity too, where it is not 0.
+/// Requires disjoint bodies.
+Json engagement_picture(const Ellipsoid& a, const Ellipsoid& b, int planes, int samples,
+                        const Eigen::Vector3d& velocity = Eigen::Vector3d::Zero());
+
+}  // namespace vericone

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cone/shape_engagements.h"
+
+#include <vericone/cones/combined/cone.h>
+#include <vericone/cones/combined/sector.h>
+#include <vericone/cones/slices/combined_slice_cone.h>
+#include <vericone/geometry/combined_surface.h>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "json/json_value.h"
+#include "json/shape_json.h"
+
+namespace vericone {
+namespace {
+
+using Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
+
+constexpr double kTolerance = 0.003;  // of the cones, in parts of their solid angle
+constexpr int kPlanes = 36;
+constexpr double kResolution = 0.09;  // of surfaces
+
+CombinedEllipsoid placed(const CombinedEllipsoid& body, const Vector3d& center, const Matrix3d& r) {
+  const Ellipsoid& e = body.ellipsoid();
+  std::vector<Delimiter<3>> delimiters;
+  for (const auto& d : body.delimiters()) {
+    const Matrix3d m = r * d.matrix * r.transpose();
+    delimiters.push_back({0.5 * (m + m.transpose()), d.level});
+  }
+  return {Ellipsoid::from_axes(center, e.semi_axes(), r * e.axis_directions()), delimiters};
+}
+
+Json directions_json(const std::vector<Vector3d>& directions) {
+  Json all = Json::array();
+  for (const Vector3d& d : directions) all.push_back(vector_json(d));
+  return all;
+}
+
+Json engagement_json(const CombinedEllipsoid& a, const CombinedEllipsoid& b, const CombinedCone& cone,
+                     double resolution, int planes) {
+  if (cone.relation != Relation::disjoint)
+    throw std::runtime_error("the bodies of a figure are not disjoint");
+  const CombinedSliceCone slices = combined_slice_cone(a, b, planes);
+  return {{"a", solid_json(a, surface(a, resolution))},
+          {"b", solid_json(b, surface(b, resolution))},
+          {"axis", vector_json(cone.axis)},
+          {"inner", directions_json(cone.inner.directions)},
+          {"outer", directions_json(cone.outer.directions)},
+          {"slices", directions_json(slices.polyhedral().directions)},
+          {"planes", planes},
+          {"solid_angle", cone.solid_angle},
+          {"solid_angle_error", cone.solid_angle_error},
+          {"slice_solid_angle", slices.polyhedral().solid_angle}};
+}
+
+Json contact_json(const SectorEdge& edge, const Touch& on_a, const Touch& on_b) {
+  return {{"on_a", vector_json(edge.point_on_a)},
+          {"on_b", vector_json(edge.point_on_b)},
+          {"direction", vector_json(edge.direction)},
+          {"corner_a", on_a.corner},
+          {"corner_b", on_b.corner}};
+}
+
+}  // namespace
+
+Json scene_figure(const CombinedEllipsoid& a, const CombinedEllipsoid& b, const Vector3d& w, double tolerance,
+                  int planes) {
+  const CombinedCone cone = combined_cone(a, b, tolerance);
+  const auto ahead = [&](const Vector3d& d) { return d.dot(b.center() - a.center()) > 0; };
+  if (!std::all_of(cone.outer.directions.begin(), cone.outer.directions.end(), ahead)) return nullptr;
+  Json json = engagement_json(a, b, cone, kResolution, planes);
+  if (ahead(w))
+    json["velocity"] = {{"w", vector_json(w)}, {"verdict", to_string(CombinedOracle(a, b).membership(w))}};
+  return json;
+}
+
+Json section_figure(const CombinedEllipsoid& dented, double resolution) {
+  const CombinedEllipsoid a =
+      Ellipsoid::from_axes({0, 0, 0}, {1.6, 1.0, 0.8}, rotation_from_heading(0.6, 0.3));
+  const Vector3d center(8.5, 1.5, 1);
+  const CombinedEllipsoid b = placed(dented, center, rotation_from_heading(1.3, 0.1));
+  // The plane that holds the line of centres and comes nearest to the axis of the dents.
+  const Vector3d along = center.normalized();
+  const Vector3d axis = rotation_from_heading(1.3, 0.1).col(0);
+  const Vector3d across = (axis - axis.dot(along) * along).normalized();
+  const CombinedEllipse section_a = central_section(a, along, across, Vector2d::Zero()),
+                        section_b = central_section(b, along, across, Vector2d(center.norm(), 0));
+  const CombinedSector sector = combined_sector(section_a, section_b);
+  if (sector.sector.relation != Relation::disjoint)
+    throw std::runtime_error("the sections of a figure are not disjoint");
+  Json json = engagement_json(a, b, combined_cone(a, b, kTolerance), resolution, kPlanes);
+  json["plane"] = {{"x_axis", vector_json(along)}, {"y_axis", vector_json(across)}};
+  json["section_a"] = outline_json(section_a);
+  json["section_b"] = outline_json(section_b);
+  json["tangents"] = {contact_json(sector.sector.left, sector.left_a, sector.left_b),
+                      contact_json(sector.sector.right, sector.right_a, sector.right_b)};
+  json["psi"] = sector.sector.psi;
+  json["theta_b"] = sector.sector.theta_b;
+  return json;
+}
+
+Json notch_figure(const CombinedEllipsoid& waisted, double resolution) {
+  const CombinedEllipsoid a = Ellipsoid::from_axes({0, 0, 0}, {0.4, 0.4, 0.4});
+  // Its long axis upright, 10 m before the ball.
+  Matrix3d upright;
+  upright << 0, 0, -1, 0, 1, 0, 1, 0, 0;
+  const CombinedEllipsoid b = placed(waisted, {10, 0, 0}, upright);
+  const Vector3d w(10, 1.55, 0);
+  const CombinedOracle oracle(a, b);
+  // In the cone of the hulls: a mean of two velocities that collide.
+  const Vector3d above = w + Vector3d(0, 0, 2.6), below = w - Vector3d(0, 0, 2.6);
+  Json json = engagement_json(a, b, combined_cone(a, b, kTolerance), resolution, kPlanes);
+  json["velocity"] = {{"w", vector_json(w)},         {"verdict", to_string(oracle.membership(w))},
+                      {"above", vector_json(above)}, {"above_verdict", to_string(oracle.membership(above))},
+                      {"below", vector_json(below)}, {"below_verdict", to_string(oracle.membership(below))}};
+  return json;
+}
+
+}  // namespace vericone
