@@ -96,8 +96,9 @@ else:
                 space.plot_surface(*np.moveaxis(points, -1, 0), color=color_of(name), alpha=0.5 if shape["kind"] in WHOLE else alpha,
                                    linewidth=0)
                 extent.append(points.reshape(-1, 3))
-        # Above the first pose, where no body hides it.
-        first = np.vstack([np.reshape(p, (-1, 3)) for p in extent[before + 1:before + 2] or [way[:1]]])
+        # Above the first pose, or all of a body that is drawn once, where no body hides it; not above a whole map.
+        high = shape["kind"] in WHOLE and shape["kind"] != "boxes"
+        first = np.vstack([np.reshape(p, (-1, 3)) for p in extent[before + 1:None if high else before + 2] or [way[:1]]])
         space.text(*way[0][:2], first[:, 2].max(), name, fontsize=7, va="bottom", color=way_of(name)["color"] if len(agents) > 1 else "k")
     extent = np.vstack(extent)
     sides = np.maximum(np.ptp(extent, axis=0), 0.25 * np.ptp(extent, axis=0).max())

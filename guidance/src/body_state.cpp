@@ -124,6 +124,10 @@ struct Farthest {
 
 Placed placed(const Shape& shape) { return std::visit(AsPlaced{}, shape); }
 
+const Placed* if_placed(const Shape& shape) { return std::get_if<Placed>(&shape); }
+
+bool is_hull(const Shape& shape) { return std::holds_alternative<HullBody>(shape); }
+
 Pair pair_of(const Shape& agent, const Shape& obstacle, const PairOptions& options) {
   const auto* flat_agent = std::get_if<CombinedEllipse>(&agent);
   const auto* flat_obstacle = std::get_if<CombinedEllipse>(&obstacle);

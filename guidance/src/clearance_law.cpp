@@ -78,8 +78,7 @@ Side side_of(const Eigen::Matrix3d& factor, const Vector3d& n) {
 
 /// Placed bodies, and hulls that fly. Other hulls are seen as ellipsoids around them.
 bool as_they_are(const BodyState& a, const BodyState& b) {
-  return std::holds_alternative<Placed>(a.shape) || std::holds_alternative<Placed>(b.shape) ||
-         std::holds_alternative<HullBody>(a.shape);
+  return if_placed(a.shape) || if_placed(b.shape) || is_hull(a.shape);
 }
 
 Side side_about(const Vector3d& reach) { return {reach, std::max(reach.norm(), 1e-300)}; }

@@ -87,7 +87,7 @@ const char* to_string(NavigatorStatus status) {
 }
 
 Navigator::Body Navigator::body_of(const BodyState& other, bool planar) {
-  if (const auto* placed = std::get_if<Placed>(&other.shape)) {
+  if (const Placed* placed = if_placed(other.shape)) {
     Body body{ball_about(*placed), other.velocity, 0, 0, false};
     body.reach = reach_of(body.body, body.body.center(), planar);
     if (rigid(other)) body.itself = *placed;

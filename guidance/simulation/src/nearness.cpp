@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 bool is_placed(const ShapeInTime& shape) {
   const auto* rigid = std::get_if<RigidShape>(&shape);
-  return rigid && std::holds_alternative<Placed>(rigid->shape);
+  return rigid && guidance::if_placed(rigid->shape) != nullptr;
 }
 
 /// What no point of a body moves more than by turning, about its position.

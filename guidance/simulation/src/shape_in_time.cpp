@@ -151,8 +151,7 @@ double placed_reach(const Placed& body) {
   const Box bounds = body.body.bounds();
   const HullBody corners = HullBody::box(bounds.low, bounds.high);
   double most = 0;
-  for (const Vector3d& corner : corners.points())
-    most = std::max(most, body.pose.to_world(corner).norm());
+  for (const Vector3d& corner : corners.points()) most = std::max(most, body.pose.to_world(corner).norm());
   return most * (1 + 1e-12);
 }
 

@@ -24,6 +24,10 @@ using Shape = std::variant<CombinedEllipse, CombinedEllipsoid, HullBody, Placed>
 /// What Pair takes. Requires a spatial body; allocates where it is not placed already.
 Placed placed(const Shape& shape);
 
+/// The body where it is a placed one; otherwise null.
+const Placed* if_placed(const Shape& shape);
+bool is_hull(const Shape& shape);
+
 /// Two bodies of any kinds. Throws InputError like Pair, and naming "bodies" for one of the plane and one of
 /// space.
 Pair pair_of(const Shape& agent, const Shape& obstacle, const PairOptions& options = {});
