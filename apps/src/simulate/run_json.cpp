@@ -51,7 +51,8 @@ Json placed_json(const Placed& placed) {
       json["pieces"] = Json::array();
       for (std::size_t i = 0; i < assembly->size(); ++i) {
         Json points = Json::array();
-        for (const Eigen::Vector3d& x : assembly->piece(i).points())
+        const HullBody piece = assembly->piece(i);
+        for (const Eigen::Vector3d& x : piece.points())
           points.push_back(vector_json(placed.pose.to_world(x)));
         json["pieces"].push_back({{"kind", "hull"}, {"points", points}});
       }
