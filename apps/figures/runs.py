@@ -6,6 +6,7 @@ import itertools
 import os
 
 import numpy as np
+from matplotlib.colors import to_rgb
 
 
 def number(text):
@@ -75,7 +76,7 @@ def surface(shape, row, n=25):
     """A body's boundary in space as a grid; not of hulls."""
     longitude, height = np.meshgrid(np.linspace(0, 2 * np.pi, 2 * n - 1), np.linspace(0, np.pi, n))
     u = np.stack([np.cos(height), np.sin(height) * np.cos(longitude), np.sin(height) * np.sin(longitude)], axis=-1)
-    points = radii(shape, row["k"], u)[..., None] * u
+    points = radii(shape, row["k"], u)[..., None] * u + np.array(shape.get("center", [0, 0, 0]))
     return points @ rotation(row).T + [row["x"], row["y"], row["z"]]
 
 
@@ -101,6 +102,39 @@ def hull_faces(points):
         order = np.argsort(np.arctan2(corners @ e / np.linalg.norm(e), corners @ corners[0] / np.linalg.norm(corners[0])))
         faces.append(points[np.array(on)[order]])
     return faces
+
+
+def polygons(shape, near=None):
+    """Faces of a mesh, a map or a union of hulls in the body's own frame, and the points of a cloud as small squares;
+    nothing of shapes that surface() draws. `near`: two corners of the box beyond which a map is left out, own frame."""
+    if "triangles" in shape:
+        return list(np.array(shape["triangles"]).reshape(-1, 3, 3))
+    if "boxes" in shape:
+        boxes = np.array(shape["boxes"])
+        if near is not None:
+            boxes = boxes[np.all((boxes[:, :3] >= near[0]) & (boxes[:, :3] <= near[1]), axis=1)]
+        faces = []
+        for axis, side in itertools.product(range(3), (-1, 1)):
+            u, v = np.eye(3)[(axis + 1) % 3], np.eye(3)[(axis + 2) % 3]
+            corners = np.stack([side * np.eye(3)[axis] + i * u + j * v for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
+            faces += list(boxes[:, None, :3] + boxes[:, 3][:, None, None] * corners[None])
+        return faces
+    if "points" in shape and shape["kind"] == "cloud":
+        points, half = np.array(shape["points"]), max(shape["radius"], 0.002 * np.ptp(np.array(shape["points"]), axis=0).max())
+        square = half * np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
+        return list(points[:, None] + square[None])
+    if shape["kind"] == "hull":
+        return hull_faces(shape["points"])
+    return [face for piece in shape.get("pieces", []) if piece["kind"] == "hull" for face in hull_faces(piece["points"])]
+
+
+def lit(faces, color):
+    """The colour of each face under a light from above; both sides of a face are the same."""
+    corners = np.array([f[:3] for f in faces])
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    length = np.linalg.norm(normal, axis=1)
+    light = np.abs(normal @ [-0.35, -0.45, 0.82]) / np.where(length > 0, length, 1)
+    return np.clip(np.array(to_rgb(color)) * (0.45 + 0.55 * light[:, None]), 0, 1)
 
 
 def posed(points, row):

@@ -4,7 +4,7 @@
 import numpy as np
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-from runs import groups, hull_faces, outline, posed, row_at, rows, surface
+from runs import groups, lit, outline, polygons, posed, rotation, row_at, rows, surface
 from style import AGENT, BOUND, EXACT, GREY, OBSTACLE, SLICE, TWO_COLUMNS, folder, plt, read, save
 
 bodies = {name: columns for (name,), columns in groups(rows(folder(), "bodies.csv"), "body").items()}
@@ -44,6 +44,17 @@ def way_of(name):
     return look(agents.index(name)) if len(agents) > 1 and name in agents else {"color": color_of(name)}
 
 
+WHOLE = ("mesh", "cloud", "boxes", "pieces")  # drawn once where they stand still
+
+
+def around_the_run(row):
+    """Of a map: what is around the agents' ways, cut open a little above them; in its own frame."""
+    ways = np.vstack([np.stack([bodies[n][c] for c in "xyz"], axis=-1) for n in agents or bodies])
+    own = (ways - [row["x"], row["y"], row["z"]]) @ rotation(row)
+    aside = 0.15 * np.ptp(own, axis=0).max() + 1
+    return own.min(axis=0) - [aside, aside, 1], own.max(axis=0) + [aside, aside, 0.2]
+
+
 figure = plt.figure(figsize=(TWO_COLUMNS, 4.3))
 if planar:
     space = figure.add_axes([0.07, 0.1, 0.47, 0.78])
@@ -65,19 +76,29 @@ else:
         space.plot(*way.T, linewidth=0.9, **way_of(name))
         before = len(extent)
         extent.append(way)
-        for t in instants[instants >= columns["t"][0]]:
+        shape, shown = shapes[name], instants[instants >= columns["t"][0]]
+        still = all(np.ptp(columns[c]) == 0 for c in ("x", "y", "z", "qw", "qx", "qy", "qz"))
+        for t in shown[-1:] if still and shape["kind"] in WHOLE else shown:
             row, alpha = row_at(columns, t), 0.12 + 0.4 * t / end
-            if shapes[name]["kind"] == "hull":
-                faces = [posed(f, row) for f in hull_faces(shapes[name]["points"])]
+            faces = [posed(f, row) for f in polygons(shape, around_the_run(row))]
+            if faces and shape["kind"] in WHOLE:
+                space.add_collection3d(Poly3DCollection(faces, facecolor=lit(faces, color_of(name)), linewidth=0,
+                                                        alpha=0.5 if shape["kind"] == "boxes" else 0.9))
+                extent += faces
+            elif faces:
                 space.add_collection3d(Poly3DCollection(faces, facecolor=color_of(name), edgecolor="k", linewidth=0.2,
                                                         alpha=alpha))
                 extent += faces
-            else:
-                points = surface(shapes[name], row)
-                space.plot_surface(*np.moveaxis(points, -1, 0), color=color_of(name), alpha=alpha, linewidth=0)
+            for piece in [p for p in shape["pieces"] if p["kind"] != "hull"] if "pieces" in shape else [] if faces else [shape]:
+                if "factor" not in piece and "k" not in piece:
+                    continue  # of a map nothing is near
+                points = surface(piece, row)
+                space.plot_surface(*np.moveaxis(points, -1, 0), color=color_of(name), alpha=0.5 if shape["kind"] in WHOLE else alpha,
+                                   linewidth=0)
                 extent.append(points.reshape(-1, 3))
-        # Above the first pose, where no body hides it.
-        first = np.vstack([np.reshape(p, (-1, 3)) for p in extent[before + 1:before + 2] or [way[:1]]])
+        # Above the first pose, or all of a body that is drawn once, where no body hides it; not above a whole map.
+        high = shape["kind"] in WHOLE and shape["kind"] != "boxes"
+        first = np.vstack([np.reshape(p, (-1, 3)) for p in extent[before + 1:None if high else before + 2] or [way[:1]]])
         space.text(*way[0][:2], first[:, 2].max(), name, fontsize=7, va="bottom", color=way_of(name)["color"] if len(agents) > 1 else "k")
     extent = np.vstack(extent)
     sides = np.maximum(np.ptp(extent, axis=0), 0.25 * np.ptp(extent, axis=0).max())

@@ -2,6 +2,7 @@
 #include <vericone/guidance/body_state.h>
 
 #include <vericone/geometry/decompositions.h>
+#include <vericone/geometry/error.h>
 #include <vericone/guidance/plane_view.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -76,9 +77,67 @@ struct Later {
     for (Eigen::Vector3d& x : points) x = position + r * (x - body.position);
     return HullBody(std::move(points));
   }
+  Shape operator()(const Placed& shape) const {
+    const Eigen::Matrix3d r = rotation();
+    Placed later = shape;
+    later.pose = {position + r * (shape.pose.position - body.position), r * shape.pose.rotation};
+    return later;
+  }
+};
+
+[[noreturn]] void refuse_mixed() {
+  throw InputError("bodies", "one of the plane and one of space", "both of the plane or both of space");
+}
+
+struct AsPlaced {
+  Placed operator()(const CombinedEllipse&) const { refuse_mixed(); }
+  Placed operator()(const CombinedEllipsoid& body) const { return Body(body); }
+  Placed operator()(const HullBody& hull) const { return Body(hull); }
+  Placed operator()(const Placed& body) const { return body; }
+};
+
+using Point = std::optional<Eigen::Vector3d>;
+
+struct Farthest {
+  const Eigen::Vector3d& n;
+
+  Point operator()(const CombinedEllipsoid& body) const {
+    return body.is_ellipsoid() ? Point(body.ellipsoid().support_point(n)) : std::nullopt;
+  }
+  Point operator()(const HullBody& hull) const {
+    return *std::max_element(
+        hull.points().begin(), hull.points().end(),
+        [this](const Eigen::Vector3d& x, const Eigen::Vector3d& y) { return n.dot(x) < n.dot(y); });
+  }
+  Point operator()(const Placed& body) const {
+    const Eigen::Vector3d seen = body.pose.rotation.transpose() * n;
+    const Point own = std::visit(Farthest{seen}, body.body.shape());
+    return own ? Point(body.pose.to_world(*own)) : std::nullopt;
+  }
+  template <typename Other>
+  Point operator()(const Other&) const {
+    return std::nullopt;
+  }
 };
 
 }  // namespace
+
+Placed placed(const Shape& shape) { return std::visit(AsPlaced{}, shape); }
+
+const Placed* if_placed(const Shape& shape) { return std::get_if<Placed>(&shape); }
+
+bool is_hull(const Shape& shape) { return std::holds_alternative<HullBody>(shape); }
+
+Pair pair_of(const Shape& agent, const Shape& obstacle, const PairOptions& options) {
+  const auto* flat_agent = std::get_if<CombinedEllipse>(&agent);
+  const auto* flat_obstacle = std::get_if<CombinedEllipse>(&obstacle);
+  if (flat_agent && flat_obstacle) return Pair(*flat_agent, *flat_obstacle, options);
+  return Pair(placed(agent), placed(obstacle), options);
+}
+
+std::optional<Eigen::Vector3d> support_point(const Shape& shape, const Eigen::Vector3d& n) {
+  return std::visit(Farthest{n}, shape);
+}
 
 Eigen::Vector3d angular_velocity(const BodyState& body, const Eigen::Vector3d& acceleration) {
   const double square = body.velocity.squaredNorm();

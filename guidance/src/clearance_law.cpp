@@ -3,6 +3,7 @@
 
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/cones/ellipsoids/clearance.h>
+#include <vericone/cones/pair.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -17,15 +18,15 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 /// What the law needs of m(w): the value, the normal and when its supporting points pass.
-struct Miss {
+struct Passing {
   double m = 0, time = 0;
   Vector3d normal = Vector3d::Zero();
   bool ahead = false;  // the passage, or the collision, is still to come
 };
 
-Miss spatial_miss(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& w) {
+Passing spatial_passing(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& w) {
   const Clearance c = clearance(a, b, w);
-  Miss miss{c.distance, c.time, c.normal, c.time > 0};
+  Passing miss{c.distance, c.time, c.normal, c.time > 0};
   // The supporting points of a line that hits may lie behind although the hit lies ahead: the cone knows.
   if (c.distance < 0) {
     const ConeOracle oracle(a, b);
@@ -38,9 +39,9 @@ Miss spatial_miss(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& w) {
 }
 
 /// In the plane two normals are perpendicular to w.
-Miss planar_miss(const Ellipse& a, const Ellipse& b, const Vector2d& w) {
+Passing planar_passing(const Ellipse& a, const Ellipse& b, const Vector2d& w) {
   const Vector2d c = b.center() - a.center(), along = w.normalized();
-  Miss best;
+  Passing best;
   for (const double side : {1.0, -1.0}) {
     const Vector2d n(-side * along.y(), side * along.x());
     const double m = n.dot(c) - a.radius(n) - b.radius(n);
@@ -65,7 +66,7 @@ struct Side {
 };
 
 struct View {
-  Miss miss;
+  Passing miss;
   Side a, b;
 };
 
@@ -75,17 +76,58 @@ Side side_of(const Eigen::Matrix3d& factor, const Vector3d& n) {
   return {factor * u / rho, rho};
 }
 
+/// Placed bodies, and hulls that fly. Other hulls are seen as ellipsoids around them.
+bool as_they_are(const BodyState& a, const BodyState& b) {
+  return if_placed(a.shape) || if_placed(b.shape) || is_hull(a.shape);
+}
+
+Side side_about(const Vector3d& reach) { return {reach, std::max(reach.norm(), 1e-300)}; }
+
+/// Meshes, clouds, maps and unions as they are. m is the distance of the point of one from the point
+/// of the other that come nearest, so m' is that of these two points moving with their bodies. Where the
+/// bodies will meet, m is how deep ellipsoids around them do, and the points are those of the ellipsoids.
+View view_of_pair(const BodyState& a, const BodyState& b) {
+  const Miss found = pair_of(a.shape, b.shape).miss(a.velocity, b.velocity);
+  const Vector3d& n = found.normal;
+  const bool meet = !(found.most > 0);
+  View view;
+  view.miss = {found.distance, found.time, n, meet || found.time > 0};
+  if (n.isZero(0)) {
+    view.a = view.b = side_about(Vector3d::Zero());
+    return view;
+  }
+  const Vector3d w = a.velocity - b.velocity;
+  std::optional<Vector3d> on_a, on_b;
+  if (meet) {
+    on_a = containing_ellipsoid(a).support_point(n);
+    on_b = containing_ellipsoid(b).support_point(-n);
+  } else {
+    on_a = support_point(a.shape, n);
+    on_b = support_point(b.shape, -n);
+    // Of a body with many points that are as far along n the one that comes nearest, seen from the other.
+    const Vector3d passed = view.miss.time * w + view.miss.m * n;
+    if (on_a)
+      on_b = *on_a + passed;
+    else if (on_b)
+      on_a = *on_b - passed;
+  }
+  view.a = side_about(on_a ? Vector3d(*on_a - a.position) : Vector3d::Zero());
+  view.b = side_about(on_b ? Vector3d(b.position - *on_b) : Vector3d::Zero());
+  return view;
+}
+
 View view_of(const BodyState& a, const BodyState& b) {
+  if (as_they_are(a, b)) return view_of_pair(a, b);
   const Vector3d w = a.velocity - b.velocity;
   View view;
   if (a.planar()) {
     const Ellipse body_a = containing_ellipse(a), body_b = containing_ellipse(b);
-    view.miss = planar_miss(body_a, body_b, w.head<2>());
+    view.miss = planar_passing(body_a, body_b, w.head<2>());
     view.a = side_of(raised(body_a.factor()), view.miss.normal);
     view.b = side_of(raised(body_b.factor()), view.miss.normal);
   } else {
     const Ellipsoid body_a = containing_ellipsoid(a), body_b = containing_ellipsoid(b);
-    view.miss = spatial_miss(body_a, body_b, w);
+    view.miss = spatial_passing(body_a, body_b, w);
     view.a = side_of(body_a.factor(), view.miss.normal);
     view.b = side_of(body_b.factor(), view.miss.normal);
   }

@@ -37,7 +37,8 @@ Ellipse containing_ellipse(const BodyState& body) {
 
 Ellipsoid containing_ellipsoid(const BodyState& body) {
   if (const auto* combined = std::get_if<CombinedEllipsoid>(&body.shape)) return containing(*combined);
-  return containing(std::get<HullBody>(body.shape));
+  if (const auto* hull = std::get_if<HullBody>(&body.shape)) return containing(*hull);
+  return placed(body.shape).containing_ellipsoid();
 }
 
 }  // namespace vericone::guidance

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Whether two bodies will meet if neither does anything: what laws ask before they say anything.
-#include <vericone/cones/combined/cone.h>
-#include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/guidance/guide.h>
 
 namespace vericone::guidance {
@@ -22,36 +20,27 @@ std::optional<bool> by_sector(const BodyState& a, const BodyState& b, SectorMeth
   return rates.y < cease && rates.v_r_hat < 0;
 }
 
-std::optional<bool> exactly(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& v_a,
-                            const Vector3d& v_b) {
-  const ConeOracle oracle(a, b);
-  if (oracle.relation() != Relation::disjoint) return std::nullopt;
-  return oracle.membership(v_a, v_b) != Membership::out;
-}
-
-std::optional<bool> exactly(const BodyState& a, const BodyState& b) {
-  const auto& agent = std::get<CombinedEllipsoid>(a.shape);
-  if (const auto* hull = std::get_if<HullBody>(&b.shape)) {
-    const HullOracle oracle(agent.ellipsoid(), *hull);
+/// By the true cone. Ellipsoids are asked without a Pair, which would allocate.
+std::optional<bool> truly(const BodyState& a, const BodyState& b) {
+  const auto* agent = std::get_if<CombinedEllipsoid>(&a.shape);
+  const auto* obstacle = std::get_if<CombinedEllipsoid>(&b.shape);
+  if (agent && obstacle && agent->is_ellipsoid() && obstacle->is_ellipsoid()) {
+    const ConeOracle oracle(agent->ellipsoid(), obstacle->ellipsoid());
     if (oracle.relation() != Relation::disjoint) return std::nullopt;
     return oracle.membership(a.velocity, b.velocity) != Membership::out;
   }
-  const auto& obstacle = std::get<CombinedEllipsoid>(b.shape);
-  if (agent.is_ellipsoid() && obstacle.is_ellipsoid())
-    return exactly(agent.ellipsoid(), obstacle.ellipsoid(), a.velocity, b.velocity);
-  const CombinedOracle oracle(agent, obstacle);
-  if (oracle.relation() != Relation::disjoint) return std::nullopt;
-  return oracle.membership(a.velocity - b.velocity) != Certified::out;
+  const Pair pair = pair_of(a.shape, b.shape);
+  if (pair.relation() != Relation::disjoint) return std::nullopt;
+  return pair.verdict(a.velocity, b.velocity) != Verdict::out;
 }
 
 }  // namespace
 
 std::optional<bool> on_collision_course(const BodyState& a, const BodyState& b, SectorMethod method,
                                         double cease) {
-  const bool hull_agent = std::holds_alternative<HullBody>(a.shape);
-  if (a.planar() || hull_agent || method == SectorMethod::slice || cease > 0)
-    return by_sector(a, b, method, cease);
-  const std::optional<bool> course = exactly(a, b);
+  if (!has_sectors(a, b)) return truly(a, b);
+  if (a.planar() || method == SectorMethod::slice || cease > 0) return by_sector(a, b, method, cease);
+  const std::optional<bool> course = truly(a, b);
   // Below 0 the law is to let go before the cone is left.
   return course && *course && cease < 0 ? by_sector(a, b, method, cease) : course;
 }

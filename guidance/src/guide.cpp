@@ -62,6 +62,14 @@ GuideStep nothing_to_do(const BodyState& a, const BodyState& b) {
   return step;
 }
 
+/// They will meet; how to turn, these bodies do not say.
+GuideStep without_sector() {
+  GuideStep step;
+  step.status = LawStatus::no_sector;
+  step.y = step.psi = step.theta_b = std::numeric_limits<double>::quiet_NaN();
+  return step;
+}
+
 std::optional<GuideStep> on_plane(const BodyState& a, const BodyState& b, const Vector3d& across,
                                   const GuideOptions& options, GuideMemory& memory, double time) {
   std::optional<PlaneView> view = plane_view(a, b, across, options.sector, rate_method(options.rates));
@@ -142,6 +150,7 @@ std::optional<GuideStep> guide(const BodyState& a, const BodyState& b, const Gui
       memory.past.reset();
       return nothing_to_do(a, b);
     }
+    if (!has_sectors(a, b)) return without_sector();
   }
   const std::optional<Vector3d> across =
       choose_plane(a, b, options.sector, options.plane, memory.across ? &*memory.across : nullptr);

@@ -158,6 +158,8 @@ const char* to_string(LawStatus status) {
       return "ineffective";
     case LawStatus::no_relative_velocity:
       return "no-relative-velocity";
+    case LawStatus::no_sector:
+      return "no_sector";
   }
   return "?";
 }

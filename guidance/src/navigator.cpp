@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "containing_ellipsoid.h"
+#include "foresight.h"
 
 namespace vericone::guidance {
 namespace {
@@ -16,11 +17,9 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr double kPi = std::numbers::pi;
 constexpr double kLookAgain = 0.5;      // s
 constexpr double kWorthChanging = 0.1;  // rad nearer to what is wanted
-constexpr double kAligned = 1e-6;       // rad
 constexpr double kUnhurriedTurn = 2;    // rad/s, where no acceleration is too much
 constexpr double kHurriedTurn = 32;     // rad/s, there, where that does not help
 
@@ -39,8 +38,22 @@ Ellipsoid seen(const BodyState& body) {
   return body.planar() ? raised(containing_ellipse(body)) : containing_ellipsoid(body);
 }
 
+/// The ball about the bounds, which costs little even of a map.
+Ellipsoid ball_about(const Placed& body) {
+  const Box bounds = body.body.bounds();
+  const double radius = bounds.half_widths().norm() * (1 + 1e-12);
+  return Ellipsoid::from_axes(body.pose.to_world(bounds.center()),
+                              Vector3d::Constant(std::max(radius, std::numeric_limits<double>::min())));
+}
+
 bool rigid(const BodyState& body) {
   return body.omega.isZero(0) && body.rate.shape.isZero(0) && body.rate.delimiters.empty();
+}
+
+/// Of the farthest point of a body from a point, at most; in the plane the raised height does not count.
+double reach_of(const Ellipsoid& body, const Vector3d& about, bool planar) {
+  const Vector3d axes = body.semi_axes();
+  return (planar ? std::max(axes(1), axes(2)) : axes(0)) + (body.center() - about).norm();
 }
 
 double angle_between(const Vector3d& u, const Vector3d& v) { return std::atan2(u.cross(v).norm(), u.dot(v)); }
@@ -54,35 +67,6 @@ Vector3d side_of(const Vector3d& ahead, const Vector3d& direction, bool planar) 
 }
 
 }  // namespace
-
-struct Navigator::Moment {
-  Vector3d position, velocity, ahead;
-  double speed, step;
-  Ellipsoid body;
-  double reach;  // of the agent about its position
-  bool planar, carried;
-};
-
-/// A turn about a circle by `angle`, then straight on.
-struct Navigator::Course {
-  Vector3d direction, aside;  // unit vectors: at the end; towards the centre of the circle, at the start
-  double angle = 0, radius = 0;
-  double until = kFar;  // s from now, when it ends
-};
-
-struct Navigator::Foreseen {
-  bool safe = true;
-  double least = kFar;    // metres
-  double lacking = kFar;  // least of (metres kept - metres required)
-  std::size_t nearest = 0;
-  void see(double distance, double required, std::size_t body) {
-    if (distance < least) {
-      least = distance;
-      nearest = body;
-    }
-    lacking = std::min(lacking, distance - required);
-  }
-};
 
 const char* to_string(NavigatorStatus status) {
   switch (status) {
@@ -100,6 +84,19 @@ const char* to_string(NavigatorStatus status) {
       return "no_course";
   }
   return "?";
+}
+
+Navigator::Body Navigator::body_of(const BodyState& other, bool planar) {
+  if (const Placed* placed = if_placed(other.shape)) {
+    Body body{ball_about(*placed), other.velocity, 0, 0, false};
+    body.reach = reach_of(body.body, body.body.center(), planar);
+    if (rigid(other)) body.itself = *placed;
+    return body;
+  }
+  Body body{seen(other), other.velocity, 0, 0, false};
+  body.reach = reach_of(body.body, body.body.center(), planar);
+  if (!rigid(other)) body.body = Ellipsoid::from_axes(body.body.center(), Vector3d::Constant(body.reach));
+  return body;
 }
 
 Navigator::Course Navigator::towards(const Moment& now, const Vector3d& direction, double most) const {
@@ -131,91 +128,6 @@ std::optional<Navigator::Course> Navigator::to_destination(const Moment& now,
   course.direction = std::cos(course.angle) * now.ahead + std::sin(course.angle) * course.aside;
   course.until = (course.radius * course.angle + length) / now.speed;
   return course;
-}
-
-/// Whether the course keeps `extra` more than required from every body. Ends early where it lacks more than
-/// `floor`.
-Navigator::Foreseen Navigator::foresee(const Moment& now, const Course& course, double extra,
-                                       double floor) const {
-  Foreseen result;
-  const double turning = course.angle > kAligned ? course.radius * course.angle / now.speed : 0;
-  const double rate = turning > 0 ? course.angle / turning : 0;  // rad/s
-  const Vector3d axis = now.ahead.cross(course.aside);
-  const auto agent_at = [&](double t) {
-    const double turned = rate * t, r = course.radius;
-    const Vector3d moved =
-        turning > 0 ? Vector3d(r * (std::sin(turned) * now.ahead + (1 - std::cos(turned)) * course.aside))
-                    : Vector3d(now.speed * t * now.ahead);
-    return moved;
-  };
-  const auto body_at = [&](double t) {
-    if (!now.carried || turning == 0) return now.body.translated(agent_at(t));
-    const Matrix3d rotation = Eigen::AngleAxisd(rate * t, axis).toRotationMatrix();
-    const Vector3d center = now.position + rotation * (now.body.center() - now.position) + agent_at(t);
-    Matrix3d directions = rotation * now.body.axis_directions();
-    if (directions.determinant() < 0) directions.col(2) *= -1;
-    return Ellipsoid::from_axes(center, now.body.semi_axes(), directions);
-  };
-  std::optional<Ellipsoid> after_turn;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const Body& other = bodies_[i];
-    const double required = other.required + (other.near ? 0 : extra);
-    const auto apart = [&](double t) {  // metres; a lower bound where that is enough
-      const Vector3d shift = other.velocity * t, c = other.body.center() + shift - now.position - agent_at(t);
-      const double balls = c.norm() - other.reach - now.reach;
-      if (balls > required) return balls;
-      return separation(body_at(t), other.body.translated(shift)).distance;
-    };
-    // The turn. Between two looks nothing moves farther than this.
-    const double closing = now.speed + other.velocity.norm() + (now.carried ? rate * now.reach : 0);
-    const double least_step = 0.25 * now.step, end = std::min(turning, course.until);
-    for (double t = 0; end > 0;) {
-      const double d = apart(t);
-      result.see(d, required, i);
-      if (d < required && t > 0) break;
-      if (t >= end) break;
-      t = std::min(end, t + std::max(least_step, (d - required) / closing));
-    }
-    if (!(result.lacking >= floor)) break;
-    if (course.until <= turning) continue;
-    // Straight on.
-    const Vector3d w = now.speed * course.direction - other.velocity;
-    const Vector3d shift = other.velocity * turning;
-    if (!(w.norm() > 1e-9 * (now.speed + other.velocity.norm()))) {
-      result.see(apart(turning), required, i);
-      continue;
-    }
-    const Vector3d c = other.body.center() + shift - now.position - agent_at(turning);
-    const double along = c.dot(w) / w.norm(), across = (c - along / w.norm() * w).norm();
-    const double reach = other.reach + now.reach;
-    if (across - reach > required || (along < 0 && c.norm() - reach > required)) continue;  // of the balls
-    if (!after_turn) after_turn = body_at(turning);
-    const Ellipsoid there = other.body.translated(shift);
-    const Clearance pass = clearance(*after_turn, there, w);
-    if (pass.distance >= required) {
-      if (pass.time > 0) result.see(pass.distance, required, i);
-      continue;
-    }
-    const Separation gap = separation(*after_turn, there);
-    if (gap.distance > 0 && gap.normal.dot(w) <= 0) {  // moving apart
-      result.see(gap.distance, required, i);
-      continue;
-    }
-    if (pass.distance >= 0 && pass.time <= 0) continue;
-    const double left = course.until - turning;
-    if (along / w.norm() > left && (pass.distance < 0 || pass.time > left)) {
-      // Not met before the course ends: then nearest at its end.
-      const double d = separation(after_turn->translated(now.speed * left * course.direction),
-                                  there.translated(other.velocity * left))
-                           .distance;
-      result.see(d, required, i);
-    } else {
-      result.see(pass.distance, required, i);
-    }
-    if (!(result.lacking >= floor)) break;
-  }
-  result.safe = result.lacking >= 0;
-  return result;
 }
 
 /// Moves a safe course towards the one that is wanted, as far as it stays safe: the directions tried are some
@@ -304,11 +216,7 @@ NavigatorStep Navigator::step(const BodyState& agent, std::span<const BodyState>
   now.ahead = agent.velocity / now.speed;
   now.planar = agent.planar();
   now.body = seen(agent);
-  const auto reach_of = [&](const Ellipsoid& body, const Vector3d& about) {
-    const Vector3d axes = body.semi_axes();
-    return (now.planar ? std::max(axes(1), axes(2)) : axes(0)) + (body.center() - about).norm();
-  };
-  now.reach = reach_of(now.body, now.position);
+  now.reach = reach_of(now.body, now.position, now.planar);
   const Vector3d axes = now.body.semi_axes();
   now.carried =
       agent.turning == Turning::with_heading && (now.planar ? axes(1) : axes(0)) > axes(2) * (1 + 1e-12);
@@ -316,13 +224,14 @@ NavigatorStep Navigator::step(const BodyState& agent, std::span<const BodyState>
   beyond_ = options_.beyond.value_or(now.reach / 10);
   bodies_.clear();
   for (const BodyState& other : others) {
-    Body body{seen(other), other.velocity, 0, required_, false};
-    body.reach = reach_of(body.body, body.body.center());
-    if (!rigid(other)) body.body = Ellipsoid::from_axes(body.body.center(), Vector3d::Constant(body.reach));
+    Body body = body_of(other, now.planar);
+    body.required = required_;
+    if (destination && body.holds(now.position, now.reach + required_ + beyond_))
+      body.until = (destination->point - now.position).norm() / now.speed;
     // Who is nearer than required already may stay so, but not come much nearer.
     const double apart = (body.body.center() - now.position).norm() - body.reach - now.reach;
     if (apart < required_ + beyond_) {
-      const double distance = separation(now.body, body.body).distance;
+      const double distance = body.distance(now.body, 0);
       body.near = distance < required_ + beyond_;
       body.required = std::min(required_, 0.8 * distance);
     }

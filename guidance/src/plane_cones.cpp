@@ -17,6 +17,13 @@ Vector3d across_axis(const Vector3d& u, const Vector3d& v) {
   return (rest - rest.dot(u) * u).normalized();
 }
 
+bool has_sectors(const BodyState& a, const BodyState& b) {
+  if (a.planar() || b.planar()) return a.planar() && b.planar();
+  const auto* agent = std::get_if<CombinedEllipsoid>(&a.shape);
+  return agent && (std::holds_alternative<CombinedEllipsoid>(b.shape) ||
+                   (agent->is_ellipsoid() && std::holds_alternative<HullBody>(b.shape)));
+}
+
 PlaneCones::PlaneCones(const BodyState& a, const BodyState& b, SectorMethod method)
     : kind_(kind_of(a, b, method)) {}
 

@@ -374,7 +374,12 @@ SCENARIOS = [
                                         "{law: cooperative-avoidance, partners: [B]}")),
     ("a goal without most", scenario(pilot="{law: avoidance, goal: {point: [9, 0, 0]}}")),
     ("a goal after nobody", scenario(pilot="{law: avoidance, goal: {point: [9, 0, 0], most: 5, after: C}}")),
-    ("an agent that is a hull", scenario(agent="{points: [[0, 0, 0], [1, 0, 0]]}")),
+    ("a hull that flies by sectors", scenario(agent="{points: [[0, 0, 0], [1, 0, 0]]}",
+                                              pilot="{law: avoidance, manner: source}")),
+    ("a mesh that is not there", scenario(BODY.replace("semi_axes: [2, 2, 2]", "mesh: none.off"))),
+    ("a shape of no pieces", scenario(BODY.replace("semi_axes: [2, 2, 2]", "pieces: []"))),
+    ("pieces of two kinds", scenario(BODY.replace("semi_axes: [2, 2, 2]", "pieces: [{center: [0, 0, 0], "
+                                                  "semi_axes: [1, 1, 1]}, {points: [[0, 0, 0]]}]"))),
 ]
 # What is wrong, arguments after `campaign`.
 CAMPAIGNS = [

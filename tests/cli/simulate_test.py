@@ -5,9 +5,11 @@ import csv
 import json
 import math
 import os
+import re
 import signal
 import subprocess
 import sys
+import tarfile
 import tempfile
 import time
 import unittest
@@ -150,6 +152,65 @@ bodies:
             self.assertEqual(len(self.table("bodies.csv")), 3 * len(times))
             with open(os.path.join(SOURCE, "docs", "examples", "scenarios", name + ".yaml"), "rb") as f:
                 self.assertEqual(self.content("scenario.yaml"), f.read())
+
+    def scenario_of_placed(self, name, unpacked=None):
+        """An example scenario, its files found from a folder elsewhere; the same without its pilot."""
+        folder = os.path.join(SOURCE, "docs", "examples", "scenarios")
+        with open(os.path.join(folder, name + ".yaml"), encoding="utf-8") as f:
+            text = f.read()
+        text = text.replace("../../../build/scans/elephant.off", unpacked or "none.off")
+        text = text.replace("../elephant-pieces.yaml", os.path.join(SOURCE, "docs", "examples", "elephant-pieces.yaml"))
+        guided = re.compile(r"^    pilot:\n(      .*\n)+", re.MULTILINE)
+        self.assertEqual(len(guided.findall(text)), 1)
+        return text, guided.sub("", text)
+
+    def avoided_and_touched(self, name, unpacked=None):
+        """With guidance avoided and arrived, without it touched: both proved. The two proofs."""
+        guided, unguided = self.scenario_of_placed(name, unpacked)
+        avoided = self.simulate(guided)["proof"]
+        self.assertEqual(avoided["verdict"], "avoided")
+        self.assertTrue(avoided["pairs"][0]["kept"])
+        self.assertIn("reaches-goal", [r["event"] for r in self.table("events.csv")])
+        self.way = [[float(r[c + " [m]"]) for c in "xyz"] for r in self.table("bodies.csv")
+                    if r["body"] == avoided["pairs"][0]["a"]]
+        touched = self.simulate(unguided)["proof"]
+        self.assertEqual(touched["verdict"], "touched")
+        return avoided["pairs"][0], touched["pairs"][0]
+
+    def test_a_mesh_is_avoided_and_touched_without_guidance(self):
+        if not os.path.exists("/usr/share/doc/libcgal-dev/data.tar.gz"):
+            self.skipTest("libcgal-demo is not installed")
+        with tarfile.open("/usr/share/doc/libcgal-dev/data.tar.gz") as archive:
+            member = next(m for m in archive.getmembers() if m.name.endswith("meshes/elephant.off"))
+            data = archive.extractfile(member).read()
+        path = os.path.join(self.folder, "elephant.off")
+        with open(path, "wb") as f:
+            f.write(data)
+        avoided, touched = self.avoided_and_touched("elephant", path)
+        # The corners of the mesh, upright, by code of its own: none is nearer to the centre than the distance proved and
+        # the ball of the least half-length, which the aircraft contains.
+        words = data.decode().split()
+        corners = [[float(x) for x in words[4 + 3 * i:7 + 3 * i]] for i in range(int(words[1]))]
+        nearest = min(math.dist(p, (x, -z, y)) for p in self.way[::4] for x, y, z in corners)
+        self.assertGreaterEqual(nearest, avoided["least_distance"] + 0.03)
+        self.assertLess(nearest, 0.4)
+        self.assertGreater(avoided["least_distance"], 0.1)
+        # Without guidance: straight ahead at 1 m/s, which has a corner within the largest half-length and an edge.
+        at = (-2 + touched["to"], 0.1, 0.05)
+        self.assertLess(min(math.dist(at, (x, -z, y)) for x, y, z in corners), 0.15)
+
+    def test_a_union_of_fitted_pieces_is_avoided_and_touched_without_guidance(self):
+        avoided, touched = self.avoided_and_touched("union")
+        self.assertGreater(avoided["least_distance"], 0.1)
+        # The pieces contain the elephant: they are met no later than it.
+        self.assertLess(touched["to"], 2)
+
+    def test_a_map_is_avoided_and_touched_without_guidance(self):
+        if not os.path.exists("/usr/share/doc/liboctomap-dev/examples/data/geb079.bt"):
+            self.skipTest("liboctomap-dev is not installed")
+        avoided, touched = self.avoided_and_touched("corridor")
+        self.assertGreater(avoided["least_distance"], 0.1)
+        self.assertAlmostEqual(touched["to"], 1.142, delta=1e-3)
 
     def test_the_same_bytes_again_and_no_file_of_an_earlier_run(self):
         names = ("bodies.csv", "encounters.csv", "events.csv", "proof.json", "shapes.json")

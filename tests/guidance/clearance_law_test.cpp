@@ -3,6 +3,7 @@
 // The clearance law against finite differences of m(w) along motion that the test propagates itself.
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/clearance.h>
+#include <vericone/cones/pair.h>
 #include <vericone/guidance/clearance_law.h>
 #include <vericone/testing/random_bodies.h>
 #include <Eigen/Geometry>
@@ -205,6 +206,78 @@ TEST(ClearanceLawStates, SpheresInClosedForm) {
     const double m = c.cross(v).norm() / v.norm() - 3;
     EXPECT_NEAR(law_clearance(ball({0, 0, 0}, v, 1), ball(c, {0, 0, 0}, 2)), m, 1e-10);
   }
+}
+
+/// A mesh that is no box of an ellipsoid's, as it stands at a time.
+struct MeshFlight {
+  Vector3d position, velocity, acceleration, omega;
+  Matrix3d rotation;
+  Body body;
+
+  Placed at(double t) const {
+    const double angle = omega.norm() * t;
+    const Matrix3d turned =
+        angle == 0 ? rotation : Matrix3d(Eigen::AngleAxisd(angle, omega.normalized()) * rotation);
+    return {body, {position + velocity * t + 0.5 * t * t * acceleration, turned}};
+  }
+};
+
+Body random_mesh(RandomBodies& random) {
+  std::vector<Vector3d> points;
+  std::vector<Assembly::Triangle> triangles;
+  for (std::uint32_t i = 0; i < 12; ++i) {
+    const Vector3d x = random.in_box(3);
+    for (int k = 0; k < 3; ++k) points.push_back(x + random.in_box(1.5));
+    triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  return Assembly::mesh(std::move(points), std::move(triangles));
+}
+
+/// m' = drift + by_acceleration . a of an ellipsoid, turning with its heading or not, that passes a mesh that
+/// turns and is accelerated; seen along the motion by Pair::miss.
+TEST(ClearanceLawOfPlaced, RatesAreThoseOfTheNearestPoints) {
+  RandomBodies random(63);
+  SCOPED_TRACE(random.trace());
+  std::vector<double> errors;
+  while (errors.size() < 150) {
+    const bool heading = errors.size() % 2 == 0;
+    Flight a = random_flight(random, Vector3d::Zero());
+    a.growth.setZero();
+    if (heading) a.omega.setZero();
+    const MeshFlight b{random.uniform(14, 25) * random.direction(),
+                       random.in_box(3),
+                       random.in_box(2),
+                       0.4 * random.in_box(1),
+                       random.rotation(),
+                       random_mesh(random)};
+    a.velocity = b.velocity + random.uniform(5, 15) * (b.position + random.in_box(9)).normalized();
+    a.acceleration = random.in_box(3);
+    const auto m = [&](double t) {
+      const Miss miss =
+          Pair(Placed(Body(a.body(t))), b.at(t)).miss(a.velocity_at(t), b.velocity + b.acceleration * t);
+      return miss.most > 0 && miss.time > 0 ? miss.distance : std::nan("");
+    };
+    BodyState obstacle;
+    obstacle.shape = b.at(0);
+    obstacle.position = b.position;
+    obstacle.velocity = b.velocity;
+    obstacle.omega = b.omega;
+    ClearanceOptions options;
+    options.required = 1e3;
+    const ClearanceCommand command = clearance_law(a.state(heading ? Turning::with_heading : Turning::none),
+                                                   obstacle, options, b.acceleration);
+    if (heading) a.omega = a.velocity.cross(a.acceleration) / a.velocity.squaredNorm();
+    const double h = 1e-4, left = (m(0) - m(-h)) / h, right = (m(h) - m(0)) / h;
+    if (std::isnan(left + right)) continue;  // they meet, or recede
+    EXPECT_NEAR(command.m, m(0), 1e-9);
+    const double scale = 1 + std::abs(command.drift) + command.by_acceleration.norm() * a.acceleration.norm();
+    if (std::abs(left - right) > 0.02 * scale) continue;  // another corner or triangle takes over
+    const double wanted = command.drift + command.by_acceleration.dot(a.acceleration);
+    errors.push_back(std::abs(0.5 * (left + right) - wanted) / scale);
+  }
+  std::sort(errors.begin(), errors.end());
+  EXPECT_LT(errors[errors.size() * 9 / 10], 1e-4);
+  EXPECT_LT(errors.back(), 2e-2);
 }
 
 }  // namespace

@@ -318,7 +318,7 @@ TEST(LawSingularities, NoAllocation) {
 
 TEST(LawSingularities, EveryStatusHasAName) {
   std::set<std::string> names;
-  for (int i = 0; i <= static_cast<int>(LawStatus::no_relative_velocity); ++i)
+  for (int i = 0; i <= static_cast<int>(LawStatus::no_sector); ++i)
     names.insert(to_string(static_cast<LawStatus>(i)));
   EXPECT_EQ(names.size(), 7u);
   EXPECT_FALSE(names.contains("?"));

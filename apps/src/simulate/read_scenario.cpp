@@ -17,7 +17,7 @@ namespace {
 
 using input::at, input::quoted, input::require_field, input::require_known, input::require_object;
 
-simulation::Body read_body(const Json& value, const std::string& path) {
+simulation::Body read_body(const Json& value, const std::string& path, const std::filesystem::path& folder) {
   require_object(value, path);
   require_known(value, path,
                 {"name", "shape", "position", "velocity", "speed", "heading", "heading_deg", "orientation",
@@ -25,7 +25,7 @@ simulation::Body read_body(const Json& value, const std::string& path) {
   simulation::Body body;
   body.name = read_text(require_field(value, path, "name", "a name, as text"), path + ".name", "a name");
   body.shape = read_shape(require_field(value, path, "shape", "a mapping, such as {semi_axes: [3, 2, 1]}"),
-                          path + ".shape");
+                          path + ".shape", folder);
   const bool planar = simulation::planar(body.shape);
   read_motion(value, path, planar, body);
   if_given(value, path, "appears",
@@ -62,7 +62,8 @@ void check_size(const simulation::Scenario& scenario) {
 
 }  // namespace
 
-simulation::Scenario read_scenario(const Json& fields, const std::string& name) {
+simulation::Scenario read_scenario(const Json& fields, const std::string& name,
+                                   const std::filesystem::path& folder) {
   if (!fields.is_object()) throw InputError("scenario", quoted(fields), "a mapping with bodies");
   require_known(fields, "",
                 {"name", "duration", "step", "stop_when_passed", "planes_logged", "proof", "bodies"});
@@ -84,7 +85,7 @@ simulation::Scenario read_scenario(const Json& fields, const std::string& name) 
   const Json& bodies = require_field(fields, "", "bodies", "a list of bodies");
   if (!bodies.is_array() || bodies.empty()) throw InputError("bodies", quoted(bodies), "a list of bodies");
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    scenario.bodies.push_back(read_body(bodies[i], at("bodies", i)));
+    scenario.bodies.push_back(read_body(bodies[i], at("bodies", i), folder));
   simulation::check(scenario);
   check_size(scenario);
   return scenario;
@@ -92,7 +93,8 @@ simulation::Scenario read_scenario(const Json& fields, const std::string& name) 
 
 simulation::Scenario scenario_of_text(const std::string& text, const std::string& file) {
   return read_scenario(input::scene_fields(text, file),
-                       plain_text(std::filesystem::path(file).stem().string()));
+                       plain_text(std::filesystem::path(file).stem().string()),
+                       std::filesystem::path(file).parent_path());
 }
 
 simulation::Scenario read_scenario(const std::string& file) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <vericone/simulation/scenario.h>
+#include <filesystem>
 #include <string>
 
 #include "input/body.h"
@@ -15,6 +16,8 @@ namespace vericone::scenario {
 simulation::Scenario read_scenario(const std::string& file);
 /// `text`: what stands in the file.
 simulation::Scenario scenario_of_text(const std::string& text, const std::string& file);
-simulation::Scenario read_scenario(const Json& fields, const std::string& name);
+/// Names of files in it are relative to `folder`.
+simulation::Scenario read_scenario(const Json& fields, const std::string& name,
+                                   const std::filesystem::path& folder = {});
 
 }  // namespace vericone::scenario

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulate/read_shape.h"
 
+#include "input/assembly_body.h"
 #include "input/planar_body.h"
+#include "input/scene.h"
 #include "input/spatial_body.h"
 #include "json/json_value.h"
 #include "simulate/scenario_fields.h"
@@ -12,8 +14,10 @@ namespace {
 using input::at, input::quoted, input::read_number, input::read_vector, input::require_field,
     input::require_known, input::require_object;
 
-constexpr const char* kShapeKinds =
-    "given by exactly one of semi_axes (2 or 3 numbers), a_c (with b_c, k), dented (with k), points";
+std::string shape_kinds() {
+  return "given by exactly one of semi_axes (2 or 3 numbers), a_c (with b_c, k), dented (with k), pieces, " +
+         input::pieces_kinds();
+}
 
 /// k: a number, or how it changes in time.
 simulation::Oscillation read_oscillation(const Json& value, const std::string& path) {
@@ -69,14 +73,66 @@ simulation::RigidShape read_points(const Json& list, const std::string& path) {
   return {HullBody(std::move(points))};
 }
 
+/// A mesh, cloud or map as it stands in the body's frame; the hull of a file's points.
+simulation::RigidShape read_file_body(const Json& value, const std::string& path,
+                                      const std::filesystem::path& folder) {
+  if (value.contains("hull")) return {input::read_hull_agent(value, path, folder)};
+  const input::PiecesBody body = input::read_pieces_body(value, path, folder);
+  return {Placed(body.pieces, body.pose)};
+}
+
+/// The list of a file that `vericone fit` wrote: its pieces, or its one obstacle.
+Json pieces_of_file(const std::string& name, const std::string& path, const std::filesystem::path& folder) {
+  Json fields;
+  try {
+    fields = input::read_scene_fields((folder / name).string());
+  } catch (const InputError& e) {
+    throw InputError(path, name + ": " + e.value(), e.requirement());
+  }
+  if (fields.is_object() && fields.contains("pieces")) return fields["pieces"];
+  if (fields.is_object() && fields.contains("obstacle")) return Json::array({fields["obstacle"]});
+  throw InputError(path, name, "a file with a list of pieces, as vericone fit --pieces writes it");
+}
+
+/// The union of ellipsoids and delimited ones, or of convex hulls.
+simulation::RigidShape read_union(const Json& value, const std::string& path,
+                                  const std::filesystem::path& folder) {
+  require_known(value, path, {"pieces"});
+  const std::string field = path + ".pieces";
+  const Json list = value["pieces"].is_string()
+                        ? pieces_of_file(value["pieces"].get<std::string>(), field, folder)
+                        : value["pieces"];
+  if (!list.is_array() || list.empty())
+    throw InputError(field, quoted(list), "a list of bodies, or the name of a file that has one");
+  std::vector<CombinedEllipsoid> quadrics;
+  std::vector<HullBody> hulls;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    require_object(list[i], at(field, i));
+    if (input::is_pieces_body(list[i]))
+      hulls.push_back(input::read_hull_agent(list[i], at(field, i), folder));
+    else
+      quadrics.push_back(input::read_spatial_body(list[i], at(field, i)));
+    if (!hulls.empty() && !quadrics.empty())
+      throw InputError(at(field, i), quoted(list[i]), "like the pieces before it: hulls, or none");
+  }
+  if (!hulls.empty()) return {Placed(Assembly::polyhedra(std::move(hulls)))};
+  return {Placed(Body::pieces(std::move(quadrics)))};
+}
+
 }  // namespace
 
-simulation::ShapeInTime read_shape(const Json& value, const std::string& path) {
+simulation::ShapeInTime read_shape(const Json& value, const std::string& path,
+                                   const std::filesystem::path& folder) {
   require_object(value, path);
-  require_known(value, path, {"semi_axes", "hyperboloids", "a_c", "b_c", "dented", "k", "points"});
+  const bool from_file = input::is_pieces_body(value) && !value.contains("points");
+  if (!from_file && !value.contains("pieces"))
+    require_known(value, path, {"semi_axes", "hyperboloids", "a_c", "b_c", "dented", "k", "points"});
   const int kinds = value.contains("semi_axes") + (value.contains("a_c") || value.contains("b_c")) +
-                    value.contains("dented") + value.contains("points");
-  if (kinds != 1) throw InputError(path, kinds == 0 ? "no shape" : "more than one shape", kShapeKinds);
+                    value.contains("dented") + value.contains("points") + value.contains("pieces") +
+                    from_file;
+  if (kinds != 1) throw InputError(path, kinds == 0 ? "no shape" : "more than one shape", shape_kinds());
+  if (from_file) return read_file_body(value, path, folder);
+  if (value.contains("pieces")) return read_union(value, path, folder);
   if (value.contains("k") && (value.contains("semi_axes") || value.contains("points")))
     throw InputError(path + ".k", quoted(value["k"]), "left out, or the body given by a_c or dented");
   if (value.contains("hyperboloids") && !value.contains("semi_axes"))

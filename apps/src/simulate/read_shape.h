@@ -2,12 +2,16 @@
 #pragma once
 
 #include <vericone/simulation/shape_in_time.h>
+#include <filesystem>
+#include <string>
 
 #include "input/body.h"
 
 namespace vericone::scenario {
 
-/// The shape of a body in its own frame. Throws InputError with `path` before the field.
-simulation::ShapeInTime read_shape(const Json& value, const std::string& path);
+/// The shape of a body in its own frame. Names of files are relative to `folder`. Throws InputError with
+/// `path` before the field.
+simulation::ShapeInTime read_shape(const Json& value, const std::string& path,
+                                   const std::filesystem::path& folder);
 
 }  // namespace vericone::scenario

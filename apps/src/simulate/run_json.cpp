@@ -2,6 +2,7 @@
 #include "simulate/run_files.h"
 
 #include "json/json_value.h"
+#include "pieces/decimate.h"
 
 namespace vericone::scenario {
 namespace {
@@ -33,11 +34,41 @@ Json combined_json(const BasicCombined<D>& body, const char* ellipsoid, const ch
   return json;
 }
 
+/// With what a picture shows of it: a mesh, a cloud or a map thinned, each piece of a union as it is.
+Json placed_json(const Placed& placed) {
+  Json json{{"kind", to_string(placed.body.kind())}};
+  if (const auto* pieces = std::get_if<std::vector<CombinedEllipsoid>>(&placed.body.shape())) {
+    json["pieces"] = Json::array();
+    for (const CombinedEllipsoid& piece : *pieces) {
+      const CombinedEllipsoid own = in_world(piece, placed.pose);
+      Json entry = combined_json<3>(own, "ellipsoid", "combined");
+      entry["center"] = vector_json(own.center());
+      json["pieces"].push_back(entry);
+    }
+  } else if (const auto* assembly = std::get_if<Assembly>(&placed.body.shape())) {
+    json["size"] = assembly->size();
+    if (assembly->kind() == PieceKind::hull) {
+      json["pieces"] = Json::array();
+      for (std::size_t i = 0; i < assembly->size(); ++i) {
+        Json points = Json::array();
+        const HullBody piece = assembly->piece(i);
+        for (const Eigen::Vector3d& x : piece.points())
+          points.push_back(vector_json(placed.pose.to_world(x)));
+        json["pieces"].push_back({{"kind", "hull"}, {"points", points}});
+      }
+    } else {
+      json.update(shown_pieces({"", "", *assembly, placed.pose}));
+    }
+  }
+  return json;
+}
+
 Json shape_json(const guidance::Shape& shape) {
   if (const auto* ellipse = std::get_if<CombinedEllipse>(&shape))
     return combined_json<2>(*ellipse, "ellipse", "combined");
   if (const auto* ellipsoid = std::get_if<CombinedEllipsoid>(&shape))
     return combined_json<3>(*ellipsoid, "ellipsoid", "combined");
+  if (const auto* placed = std::get_if<Placed>(&shape)) return placed_json(*placed);
   Json points = Json::array();
   for (const Eigen::Vector3d& x : std::get<HullBody>(shape).points()) points.push_back(vector_json(x));
   return {{"kind", "hull"}, {"points", points}};
@@ -92,7 +123,7 @@ Json proof_json(const Scenario& scenario, const Run& run) {
 
 Json shapes_json(const Scenario& scenario) {
   Json list = Json::array();
-  for (const Body& body : scenario.bodies) {
+  for (const simulation::Body& body : scenario.bodies) {
     Json entry{{"name", body.name}};
     const Json shape = shape_json(body.shape);
     for (const auto& [key, value] : shape.items()) entry[key] = value;

@@ -26,7 +26,7 @@ void line(std::ostream& out, std::string label, const std::string& text) {
   out << label << text << '\n';
 }
 
-std::string agent_text(const Scenario& scenario, const Body& body) {
+std::string agent_text(const Scenario& scenario, const simulation::Body& body) {
   const Pilot& pilot = *body.pilot;
   const guidance::GuideOptions& guide = pilot.guide;
   std::string text = body.name + ": " + guidance::to_string(guide.law);
@@ -46,7 +46,7 @@ std::string agent_text(const Scenario& scenario, const Body& body) {
 void print_bodies(const Scenario& scenario, std::ostream& out) {
   std::string others;
   bool first = true;
-  for (const Body& body : scenario.bodies) {
+  for (const simulation::Body& body : scenario.bodies) {
     if (body.pilot) {
       line(out, first ? "agents" : "", agent_text(scenario, body));
       first = false;

@@ -4,6 +4,7 @@
 #include <vericone/cones/combined/cone.h>
 #include <vericone/cones/combined/sector.h>
 #include <vericone/cones/hulls/hull_oracle.h>
+#include <vericone/cones/pair.h>
 #include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
 #include <Eigen/Geometry>
@@ -12,6 +13,8 @@
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include "nearness.h"
 
 namespace vericone::simulation {
 namespace {
@@ -22,28 +25,16 @@ using guidance::Shape;
 /// Boxes of the search are refined to this part of the bodies.
 constexpr double kTolerance = 1e-8;
 
-struct Posed {
-  Shape a, b;
-};
-
-Posed posed(const MovingPair& pair, const Moment& m) {
-  return {shape_at(pair.a().shape(), m.t, m.a.position, m.a.rotation),
-          shape_at(pair.b().shape(), m.t, m.b.position, m.b.rotation)};
-}
-
-Posed posed_over(const MovingPair& pair, const Piece& piece) {
-  const Moment& m = piece.middle;
-  return {shape_over(pair.a().shape(), piece.from.t, piece.to.t, m.a.position, m.a.rotation),
-          shape_over(pair.b().shape(), piece.from.t, piece.to.t, m.b.position, m.b.rotation)};
-}
-
 Meeting of_relation(Relation relation) {
   return relation == Relation::disjoint ? Meeting::apart : Meeting::meet;
 }
 
 Meeting meeting_of(const CombinedEllipse& a, const CombinedEllipse& b) {
   if (a.is_ellipsoid() && b.is_ellipsoid()) return of_relation(relation<2>(a.ellipsoid(), b.ellipsoid()));
-  return of_relation(combined_sector(a, b).sector.relation);
+  // The sector is fast and right unless nearer than rounding: that they are apart is proved of the raised
+  // bodies, whose relation is theirs.
+  if (combined_sector(a, b).sector.relation != Relation::disjoint) return Meeting::meet;
+  return Pair(a, b, {kTolerance}).relation() == Relation::disjoint ? Meeting::apart : Meeting::unknown;
 }
 
 Meeting meeting_of(const CombinedEllipsoid& a, const CombinedEllipsoid& b) {
@@ -183,6 +174,10 @@ std::pair<Vector3d, std::size_t> face(const Shape& shape, const SweptBody& swept
 
 Meeting meeting(const MovingPair& pair, const Moment& moment) {
   const Posed bodies = posed(pair, moment);
+  if (by_distances(pair)) {
+    const std::optional<Relation> relation = certified_pair(bodies).relation();
+    return relation ? of_relation(*relation) : Meeting::unknown;
+  }
   return std::visit([](const auto& a, const auto& b) { return meeting_of(a, b); }, bodies.a, bodies.b);
 }
 

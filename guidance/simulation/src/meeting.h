@@ -12,7 +12,7 @@
 namespace vericone::simulation {
 
 enum class Meeting : std::uint8_t {
-  apart,    // proved; of planar delimited bodies right up to rounding
+  apart,    // proved
   meet,     // touching or overlapping, proved
   unknown,  // nearer than the predicate resolves
 };

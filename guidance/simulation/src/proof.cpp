@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "meeting.h"
+#include "nearness.h"
 #include "separation.h"
 
 namespace vericone::simulation {
@@ -22,7 +23,7 @@ using Eigen::Vector3d;
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
 /// Pieces tried at most to raise the bound on the least distance.
-constexpr int kMostRefinements = 60;
+constexpr int kMostRefinements = 60, kMostByDistances = 200;
 
 /// Of one pair. Of bodies as long as a town that turn, pieces of any length prove little; without an end the
 /// search takes all memory.
@@ -38,13 +39,16 @@ struct Leaf {
   Span span;
   double bound = 0;  // of the distance, metres
   double gap = kNone;
-  bool by_planes = true;
+  bool by_planes = true;  // or by distances; not by inflation
 };
 
 class Search {
  public:
   Search(const MovingPair& pair, const ProofOptions& options)
-      : pair_(pair), resolution_(options.resolution), padding_(2 * options.padding) {}
+      : pair_(pair),
+        distances_(by_distances(pair)),
+        resolution_(options.resolution),
+        padding_(2 * options.padding) {}
 
   PairProof run(double from, double to) {
     const Moment first = pair_.at(from), last = pair_.at(to);
@@ -68,23 +72,27 @@ class Search {
     return std::max(resolution_, since / 16);
   }
 
+  Certificate certificate(const Piece& piece, const Vector3d& previous) const {
+    return distances_ ? by_distance(pair_, piece) : separate(pair_, piece, previous);
+  }
+
   /// One piece. True: the answer is there.
   bool step(const Span& span) {
     const Piece piece{span.from, pair_.at(0.5 * (span.from.t + span.to.t)), span.to};
-    const Certificate by_planes = separate(pair_, piece, span.normal);
-    const Vector3d normal = by_planes.normal.isZero(0) ? span.normal : by_planes.normal;
-    if (by_planes.bound > padding_) {
-      leaves_.push_back({span, by_planes.bound - padding_, by_planes.gap, true});
+    const Certificate found = certificate(piece, span.normal);
+    const Vector3d normal = found.normal.isZero(0) ? span.normal : found.normal;
+    if (found.bound > padding_) {
+      leaves_.push_back({span, found.bound - padding_, found.gap, true});
       leaves_.back().span.normal = normal;
       return false;
     }
     const bool halved = piece.middle.t > span.from.t && piece.middle.t < span.to.t &&
                         piece.duration() > shortest(span.from.t) &&
                         (leaves_.size() < kMostPieces || unresolved_);
-    if (by_planes.gap <= padding_) {
+    if (found.gap <= padding_) {
       const Meeting now = meeting(pair_, piece.middle);
       if (now == Meeting::meet) return met(span, piece.middle, normal, halved);
-      if (now == Meeting::apart && delimited(pair_, piece.middle))
+      if (now == Meeting::apart && !distances_ && delimited(pair_, piece.middle))
         if (apart_by_inflation(pair_, piece, padding_, false)) {
           leaves_.push_back({span, 0, kNone, false});
           return false;
@@ -119,7 +127,8 @@ class Search {
     proof_.verdict = ProofVerdict::touched;
     proof_.from = apart_before;
     proof_.to = at.t;
-    proof_.place = place_of_meeting(pair_, at, normal);
+    proof_.place =
+        distances_ ? place_of_touch(pair_, pair_.at(apart_before), at) : place_of_meeting(pair_, at, normal);
     proof_.pieces = leaves_.size();
     return proof_;
   }
@@ -128,7 +137,8 @@ class Search {
     proof_.verdict = ProofVerdict::undecided;
     proof_.from = unresolved_->from.t;
     proof_.to = unresolved_->to.t;
-    proof_.place = place_of_meeting(pair_, unresolved_->from, unresolved_->normal);
+    proof_.place = distances_ ? place_of_nearest(pair_, unresolved_->from)
+                              : place_of_meeting(pair_, unresolved_->from, unresolved_->normal);
     proof_.pieces = leaves_.size();
     return proof_;
   }
@@ -144,8 +154,9 @@ class Search {
     const Leaf& there = nearest.gap < kNone ? nearest : least;
     const Moment when = middle_of(there.span);
     proof_.least_time = when.t;
-    proof_.place = there.by_planes ? place_between(pair_, when, there.span.normal)
-                                   : place_of_meeting(pair_, when, there.span.normal);
+    proof_.place = distances_        ? place_of_nearest(pair_, when)
+                   : there.by_planes ? place_between(pair_, when, there.span.normal)
+                                     : place_of_meeting(pair_, when, there.span.normal);
     proof_.pieces = leaves_.size();
     return proof_;
   }
@@ -157,7 +168,7 @@ class Search {
   /// Halves the piece of the least bound until that is near a distance that the bodies do come to.
   void refine() {
     double nearest = std::min_element(leaves_.begin(), leaves_.end(), nearer)->gap;
-    for (int i = 0; i < kMostRefinements; ++i) {
+    for (int i = 0; i < (distances_ ? kMostByDistances : kMostRefinements); ++i) {
       const auto least = std::min_element(leaves_.begin(), leaves_.end(), lower);
       if (least->bound >= (least->by_planes ? 0.99 : 0.8) * nearest - 1e-6) return;
       const Leaf parent = *least;
@@ -181,7 +192,7 @@ class Search {
       }
       return leaf;
     }
-    const Certificate c = separate(pair_, piece, whole.span.normal);
+    const Certificate c = certificate(piece, whole.span.normal);
     const double bound = c.bound - padding_;
     Leaf leaf{{from, to, whole.span.normal}, std::max(bound, whole.bound), c.gap > 0 ? c.gap : kNone, true};
     if (bound > whole.bound) leaf.span.normal = c.normal;
@@ -189,6 +200,7 @@ class Search {
   }
 
   const MovingPair& pair_;
+  bool distances_;  // certificates by distances, not by planes
   double resolution_;
   double padding_;          // of both bodies together
   std::vector<Span> open_;  // the earliest last

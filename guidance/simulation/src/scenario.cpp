@@ -2,6 +2,7 @@
 #include <vericone/simulation/scenario.h>
 
 #include <vericone/geometry/error.h>
+#include <vericone/guidance/plane_view.h>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -45,6 +46,35 @@ bool cooperates(guidance::Law law) {
   return law == guidance::Law::cooperative_avoidance || law == guidance::Law::cooperative_rendezvous;
 }
 
+/// What a law, or a guarded pilot, can see; and whether meetings of the kinds can be proved.
+void check_kinds(const Pilot& pilot, const Body& self, const Scenario& scenario) {
+  const auto state = [](const Body& body) {
+    guidance::BodyState at;
+    at.shape = shape_at(body.shape, body.appears, body.start.position, body.start.rotation);
+    return at;
+  };
+  const bool by_sector = !guarded(pilot) && pilot.guide.law != guidance::Law::clearance;
+  const guidance::BodyState agent = state(self);
+  for (const Body& other : scenario.bodies) {
+    const bool minded = pilot.minds.empty() ||
+                        std::find(pilot.minds.begin(), pilot.minds.end(), other.name) != pilot.minds.end();
+    if (other.name == self.name || !minded || planar(other.shape) != planar(self.shape)) continue;
+    const guidance::BodyState obstacle = state(other);
+    if (guidance::has_sectors(agent, obstacle)) continue;
+    if (by_sector)
+      throw InputError("law",
+                       std::string(guidance::to_string(pilot.guide.law)) + " by sectors, which " + self.name +
+                           " and " + other.name + " do not have",
+                       "clearance, or avoidance with the manner guarded");
+    try {
+      guidance::pair_of(agent.shape, obstacle.shape);
+    } catch (const InputError& e) {
+      throw InputError("minds", other.name + " (" + e.value() + ")",
+                       "bodies of kinds that are certified against that of " + self.name);
+    }
+  }
+}
+
 void check_pilot(const Pilot& pilot, const Body& self, const Scenario& scenario) {
   check_laws(pilot.guide);
   const auto find = [&](const std::string& name) {
@@ -64,6 +94,7 @@ void check_pilot(const Pilot& pilot, const Body& self, const Scenario& scenario)
                        "a body without a pilot of its own: it carries out what this law says");
   if (!pilot.partners.empty() && !cooperates(pilot.guide.law))
     throw InputError("partners", pilot.partners.front(), "no partners with this law, or a cooperative one");
+  check_kinds(pilot, self, scenario);
   if (!pilot.goal) return;
   if (!pilot.goal->point.allFinite())
     throw InputError("goal.point", "a number that is not finite", "finite (m)");
@@ -99,9 +130,6 @@ void check_body(const Body& body, const Scenario& scenario) {
                      "before the end, duration = " + to_text(scenario.duration));
   if (!body.pilot) return;
   if (!body.start.velocity.any()) throw InputError("velocity", "0", "a heading: a body with a pilot moves");
-  if (const auto* rigid = std::get_if<RigidShape>(&body.shape);
-      rigid != nullptr && std::holds_alternative<HullBody>(rigid->shape))
-    throw InputError("shape", "a hull", "an ellipsoid: a hull has no pilot");
   within("pilot", [&] { check_pilot(*body.pilot, body, scenario); });
 }
 

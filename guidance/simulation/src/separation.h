@@ -25,6 +25,9 @@ class MovingPair {
   const Track& a() const { return *a_; }
   const Track& b() const { return *b_; }
   bool planar() const { return planar_; }
+  /// No point of the body is ever farther from its reference point.
+  double reach_a() const { return reach_a_; }
+  double reach_b() const { return reach_b_; }
   Moment at(double t) const { return {t, a_->motion(t), b_->motion(t)}; }
   /// All shapes of [from, to] at a rotation, and turned from it by at most `angle`.
   SweptBody swept_a(double from, double to, const Eigen::Matrix3d& rotation, double angle) const;

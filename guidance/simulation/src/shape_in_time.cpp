@@ -146,6 +146,15 @@ double dented_reach(double a, double b, const Oscillation& k) {
   return std::sqrt(std::max(a * a * (1 + 2 * kPlain) + b * b * most, b * b * (1 + most))) * kUp;
 }
 
+/// To the farthest corner of the bounds, which may be farther than any point of the body.
+double placed_reach(const Placed& body) {
+  const Box bounds = body.body.bounds();
+  const HullBody corners = HullBody::box(bounds.low, bounds.high);
+  double most = 0;
+  for (const Vector3d& corner : corners.points()) most = std::max(most, body.pose.to_world(corner).norm());
+  return most * (1 + 1e-12);
+}
+
 }  // namespace
 
 void check(const ShapeInTime& shape) {
@@ -188,6 +197,8 @@ guidance::Shape shape_at(const ShapeInTime& shape, double t, const Vector3d& pos
   if (const auto* body = std::get_if<CombinedEllipse>(&rigid))
     return posed<2>(*body, position.head<2>(), about_z(rotation));
   if (const auto* body = std::get_if<CombinedEllipsoid>(&rigid)) return posed<3>(*body, position, rotation);
+  if (const auto* body = std::get_if<Placed>(&rigid))
+    return Placed(body->body, composed({position, orthonormal<3>(rotation)}, body->pose));
   std::vector<Vector3d> points = std::get<HullBody>(rigid).points();
   for (Vector3d& x : points) x = position + rotation * x;
   return HullBody(std::move(points));
@@ -236,6 +247,7 @@ double reach(const ShapeInTime& shape) {
     return body->ellipsoid().semi_axes().maxCoeff() * kUp;
   if (const auto* body = std::get_if<CombinedEllipsoid>(&rigid))
     return body->ellipsoid().semi_axes().maxCoeff() * kUp;
+  if (const auto* body = std::get_if<Placed>(&rigid)) return placed_reach(*body);
   double most = 0;
   for (const Vector3d& x : std::get<HullBody>(rigid).points()) most = std::max(most, x.norm());
   return most * kUp;

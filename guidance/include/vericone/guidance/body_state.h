@@ -4,18 +4,36 @@
 #pragma once
 
 #include <vericone/cones/combined/sector.h>
+#include <vericone/cones/pair.h>
+#include <vericone/geometry/body.h>
 #include <vericone/geometry/combined.h>
 #include <vericone/geometry/hull_body.h>
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <variant>
 #include <vector>
 
 namespace vericone::guidance {
 
 /// In world coordinates. Planar bodies lie in the plane z = 0 and move in it. An ellipsoid is a combined body
-/// without delimiters.
-using Shape = std::variant<CombinedEllipse, CombinedEllipsoid, HullBody>;
+/// without delimiters. Rigid bodies of any kind (meshes, clouds, maps, unions) are placed: moving and turning
+/// them copies no points.
+using Shape = std::variant<CombinedEllipse, CombinedEllipsoid, HullBody, Placed>;
+
+/// What Pair takes. Requires a spatial body; allocates where it is not placed already.
+Placed placed(const Shape& shape);
+
+/// The body where it is a placed one; otherwise null.
+const Placed* if_placed(const Shape& shape);
+bool is_hull(const Shape& shape);
+
+/// Two bodies of any kinds. Throws InputError like Pair, and naming "bodies" for one of the plane and one of
+/// space.
+Pair pair_of(const Shape& agent, const Shape& obstacle, const PairOptions& options = {});
+
+/// The point farthest along n of an ellipsoid or a hull, in space, rounded; nothing of other bodies.
+std::optional<Eigen::Vector3d> support_point(const Shape& shape, const Eigen::Vector3d& n);
 
 /// How a spatial delimiter changes beyond moving and turning with its body.
 struct SpatialDelimiterRate {

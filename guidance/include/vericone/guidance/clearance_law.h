@@ -32,9 +32,11 @@ struct ClearanceCommand {
 /// The acceleration of least magnitude with m' = -K (m - required - beyond), the turning of A with its
 /// heading included. By the envelope theorem m' = -t n.(a_A - a_B) - (rates of both radii along n); n, t of
 /// clearance(). Combined bodies and hulls are replaced by ellipsoids that contain them, so the real distance
-/// is larger. Where the bodies' centres and velocity leave the direction open (spheres head on) it is that of
-/// clearance()'s own maximiser: deterministic. Moving apart: nothing commanded, `receding`. Planar bodies:
-/// within the plane. Cost: 1.5 us where m > 0, 6 us where m < 0.
+/// is larger; pairs with a placed body or a hull as the agent are seen as they are (Pair::miss), by
+/// ellipsoids around them only where they will meet. Where the bodies' centres and velocity leave the
+/// direction open (spheres head on) it is that of clearance()'s own maximiser: deterministic. Moving apart:
+/// nothing commanded, `receding`. Planar bodies: within the plane. Cost: ellipsoids 1.5 us where m > 0, 6 us
+/// where m < 0; others that of a Pair and its miss().
 ClearanceCommand clearance_law(const BodyState& a, const BodyState& b, const ClearanceOptions& options,
                                const Eigen::Vector3d& acceleration_b = Eigen::Vector3d::Zero());
 

@@ -43,6 +43,7 @@ enum class LawStatus : std::uint8_t {
   on_bisector,  // V_theta_hat = 0 within rounding, no first-order effect: the most on the chosen side
   ineffective,  // the inputs do not turn the relative velocity: the most, which turns the heading
   no_relative_velocity,  // V = 0: nothing commanded (avoidance), or arrived (rendezvous)
+  no_sector,  // they will meet, but bodies of these kinds have no sector to command by: nothing commanded
 };
 const char* to_string(LawStatus status);
 /// clear, receding or no_relative_velocity: avoidance has nothing to say.

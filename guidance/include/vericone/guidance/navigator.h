@@ -54,9 +54,12 @@ struct NavigatorStep {
 /// destination where that is safe, else stays on its course while that is, and looks for a better one twice a
 /// second; directions are tried outwards from the one it wants.
 ///
-/// Bodies stand for themselves as ellipsoids that contain them; one that turns or changes its shape by the
-/// ball about it. The speed is never changed. Deterministic. No allocation once it has searched. Cost: 5 to
-/// 20 us a body where the wanted course is safe; up to 400 courses otherwise.
+/// Placed bodies that do not turn are judged as they are, by Pair::miss, so that an agent can fly through
+/// them; within the bounds of one, where every straight line may end at a wall, a course is judged for as
+/// long as the way to the destination takes. Other bodies stand for themselves as ellipsoids that contain
+/// them; one that turns or changes its shape by the ball about it. The speed is never changed. Deterministic.
+/// No allocation once it has searched. Cost: 5 to 20 us a body where the wanted course is safe, up to
+/// milliseconds for a placed one; up to 400 courses otherwise.
 class Navigator {
  public:
   explicit Navigator(const NavigatorOptions& options) : options_(options) {}
@@ -70,6 +73,26 @@ class Navigator {
   struct Course;
   struct Foreseen;
   struct Moment;
+
+  struct Flight;
+
+  struct Body {
+    Ellipsoid body;
+    Eigen::Vector3d velocity;
+    double reach, required;
+    bool near;                                               // nearer than required and beyond already
+    std::optional<Placed> itself = std::nullopt;             // judged as it is; `body` is a ball about it
+    double until = std::numeric_limits<double>::infinity();  // s on a straight course, as long as it matters
+
+    Placed at(double t) const;
+    /// Metres from an agent `t` seconds from now; negative or 0 where they meet.
+    double distance(const Ellipsoid& agent, double t) const;
+    /// Whether the point is nearer than `margin` to the bounds of a body that is judged as it is.
+    bool holds(const Eigen::Vector3d& point, double margin) const;
+  };
+  static Body body_of(const BodyState& other, bool planar);
+  static void see_passing(const Flight& flight, const Ellipsoid& after_turn, const Body& other, std::size_t i,
+                          double required, Foreseen& result);
 
   Foreseen foresee(const Moment& now, const Course& course, double extra, double floor) const;
   std::optional<Course> to_destination(const Moment& now, const Destination& destination) const;
@@ -86,12 +109,6 @@ class Navigator {
   double next_look_ = 0;                 // s
   double required_ = 0, beyond_ = 0;     // metres
   // Of the step; members to keep their memory.
-  struct Body {
-    Ellipsoid body;
-    Eigen::Vector3d velocity;
-    double reach, required;
-    bool near;  // nearer than required and beyond already
-  };
   std::vector<Body> bodies_;
   struct Candidate {
     double cost;

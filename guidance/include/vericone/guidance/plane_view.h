@@ -43,6 +43,10 @@ struct PlaneView {
 PlaneView plane_states(const BodyState& a, const BodyState& b, const Eigen::Vector3d& across,
                        double plane_spin = 0);
 
+/// Whether there are sectors of bodies of these kinds: of two planar ones, of two combined ones, and of an
+/// ellipsoid and a hull.
+bool has_sectors(const BodyState& a, const BodyState& b);
+
 /// The cone at `view`, filled in; false where the bodies are not apart (on the plane, for slices) or an
 /// oracle does not decide, and nothing is written. A is planar or an ellipsoid; the obstacle planar, combined
 /// or a hull.

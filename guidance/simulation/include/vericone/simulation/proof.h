@@ -33,16 +33,18 @@ struct PairProof {
   Eigen::Vector3d place = Eigen::Vector3d::Zero();
   /// avoided: the distance was never below this, proved, metres; and when they came nearest, about. Within 1
   /// % of the least distance of the convex hulls (1e-6 m) in nearly all runs; a rougher bound where one is in
-  /// the other's dent.
+  /// the other's dent, and by a few % for placed bodies that turn.
   double least_distance = 0, least_time = 0;
   std::uint64_t pieces = 0;  // pieces of time that were proved separately
 };
 
 /// Over [from, to], within the life of both tracks. Pairs: two planar bodies; ellipsoids, combined bodies and
 /// hulls in any combination that has a certified predicate (an ellipsoid and any other; two combined; two
-/// hulls); throws InputError naming "bodies" for others. A planar and a spatial body do not mix. Throws
-/// InputError naming "from", "to", "padding" or "resolution". Method: docs/proof-of-runs.md. Cost: 0.1 ms for
-/// two ellipsoids, 0.3 ms with hulls and delimited bodies, milliseconds to tens of them where those meet.
+/// hulls); a placed body and any that Pair serves; throws InputError naming "bodies" for others. A planar and
+/// a spatial body do not mix. Throws InputError naming "from", "to", "padding" or "resolution". Method:
+/// docs/proof-of-runs.md. Cost: 0.1 ms for two ellipsoids, 0.3 ms with hulls and delimited bodies,
+/// milliseconds to tens of them where those meet; a placed body a distance and at most two misses of the Pair
+/// a piece.
 PairProof prove(const Track& a, const Track& b, double from, double to, const ProofOptions& options = {});
 
 }  // namespace vericone::simulation

@@ -24,7 +24,8 @@ struct Oscillation {
   Range range(double from, double to) const;
 };
 
-/// About the origin of the body's own frame, its x axis ahead. Hulls: the origin is the reference point.
+/// About the origin of the body's own frame, its x axis ahead. Hulls and placed bodies: the origin is the
+/// reference point.
 struct RigidShape {
   guidance::Shape shape;
 };
