@@ -6,6 +6,7 @@
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/ellipsoids/enclosures.h>
 #include <vericone/cones/planar/enclose_sector.h>
+#include <vericone/cones/planar/sector_oracle.h>
 #include <vericone/geometry/error.h>
 
 #include <iostream>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The extreme direction of a body on a half-plane.
+#include <vericone/cones/cone_geometry.h>
 #include <vericone/geometry/error.h>
 #include <algorithm>
 #include <numbers>
