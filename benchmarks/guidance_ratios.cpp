@@ -149,12 +149,10 @@ void other_bodies_table() {
   };
   add("biconcave, slices, rates", dented, SectorMethod::slice, RateMethod::analytic, 100);
   add("biconcave, true sector", dented, SectorMethod::true_cone, RateMethod::none, 1);
-  add("biconcave, true sector, rates (differenced)", dented, SectorMethod::true_cone, RateMethod::analytic,
-      1);
+  add("biconcave, true sector, rates", dented, SectorMethod::true_cone, RateMethod::analytic, 1);
   add("hull of 12 points, slices, rates (differenced)", hulls, SectorMethod::slice, RateMethod::analytic, 20);
   add("hull of 12 points, true sector", hulls, SectorMethod::true_cone, RateMethod::none, 5);
-  add("hull of 12 points, true sector, rates (differenced)", hulls, SectorMethod::true_cone,
-      RateMethod::analytic, 5);
+  add("hull of 12 points, true sector, rates", hulls, SectorMethod::true_cone, RateMethod::analytic, 5);
   std::printf("\nOther obstacles, %d pairs, agent an ellipsoid, 5 rounds.\n\n", kPairs);
   print(items, 5);
 }

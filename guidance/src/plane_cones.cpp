@@ -35,7 +35,7 @@ PlaneCones::Kind PlaneCones::kind_of(const BodyState& a, const BodyState& b, Sec
   if (const auto* hull = std::get_if<HullBody>(&b.shape)) {
     if (!agent->is_ellipsoid()) return None{};
     if (method == SectorMethod::slice) return HullSlices{agent->ellipsoid(), *hull};
-    return ExactHull(agent->ellipsoid(), *hull);
+    return TrueHull(agent->ellipsoid(), *hull, b.position);
   }
   const auto* obstacle = std::get_if<CombinedEllipsoid>(&b.shape);
   if (!obstacle) return None{};
@@ -69,10 +69,20 @@ std::optional<Opening> PlaneCones::on(const Vector3d& u, const Vector3d& e) cons
       const PlaneSector sector = planes.on(e);
       return Opening{sector.psi(), sector.theta_b()};
     }
-    std::optional<Opening> operator()(const ExactHull& exact) const { return exact.on(u, e); }
-    std::optional<Opening> operator()(const TrueCombined& exact) const { return exact.on(u, e); }
+    std::optional<Opening> operator()(const TrueHull& cone) const { return opening(cone.on(u, e)); }
+    std::optional<Opening> operator()(const TrueCombined& cone) const { return opening(cone.on(u, e)); }
+
+    static std::optional<Opening> opening(const std::optional<TrueEdges>& edges) {
+      return edges ? std::optional(edges->opening()) : std::nullopt;
+    }
   };
   return std::visit(Ask{u, e}, kind_);
+}
+
+std::optional<TrueEdges> PlaneCones::true_edges(const Vector3d& u, const Vector3d& e) const {
+  if (const auto* hull = std::get_if<TrueHull>(&kind_)) return hull->on(u, e);
+  if (const auto* combined = std::get_if<TrueCombined>(&kind_)) return combined->on(u, e);
+  return std::nullopt;
 }
 
 std::optional<double> PlaneCones::opening_slope(const Vector3d& e) const {
@@ -90,7 +100,7 @@ std::optional<double> PlaneCones::opening_slope(const Vector3d& e) const {
 }
 
 double PlaneCones::tolerance() const {
-  if (std::holds_alternative<ExactHull>(kind_)) return ExactHull::kEdge;
+  if (std::holds_alternative<TrueHull>(kind_)) return TrueHull::kEdge;
   if (std::holds_alternative<TrueCombined>(kind_)) return TrueCombined::kEdge;
   return 0;
 }

@@ -3,9 +3,10 @@
 // Sectors of two bodies on planes through their line of sight, by kind of body.
 #pragma once
 
-#include <vericone/cones/assembly/assembly_oracle.h>
 #include <vericone/cones/combined/cone.h>
+#include <vericone/cones/combined/edge.h>
 #include <vericone/cones/ellipsoids/plane_sector.h>
+#include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/guidance/plane_view.h>
 #include <optional>
 #include <variant>
@@ -56,28 +57,61 @@ OpeningRates section_rates(const Sections& sections, const CombinedEllipsoid& a,
 std::optional<Opening> hull_section(const Ellipsoid& agent, const HullBody& hull, const Eigen::Vector3d& u,
                                     const Eigen::Vector3d& e);
 
-/// The true sector where an oracle says of each direction whether it is in.
-class ExactHull {
+/// Both edges with the contacts there, angles from the line of sight towards +e and -e.
+struct TrueEdges {
+  CombinedEdge left, right;
+
+  Opening opening() const { return {left.angle + right.angle, 0.5 * (left.angle - right.angle)}; }
+  /// Whether rates follow from them.
+  bool contacts() const { return !left.normal.isZero(0) && !right.normal.isZero(0); }
+};
+
+/// Closed form, from the contacts: the edge stays perpendicular to their normal, and only how fast the points
+/// in contact move along it counts. `velocity`: of B from A; `motion`: without `closing`, turning as seen
+/// from fixed axes.
+OpeningRates contact_rates(const TrueEdges& edges, const BodyState& a, const BodyState& b,
+                           const Eigen::Vector3d& u, const Eigen::Vector3d& e,
+                           const Eigen::Vector3d& velocity, const Eigen::Vector3d& plane_turning,
+                           const TurningMotion& motion);
+
+/// The true sector of a hull: each edge is that of the agent against a corner or between two, found by a
+/// search for the plane that turns farthest, and asked of the exact oracle; where that denies it, by the
+/// assembly's. Refers to the bodies.
+class TrueHull {
  public:
   static constexpr double kEdge = 1e-9;  // rad
 
-  ExactHull(const Ellipsoid& agent, const HullBody& hull);
-  std::optional<Opening> on(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
+  TrueHull(const Ellipsoid& agent, const HullBody& hull, const Eigen::Vector3d& position);
+  std::optional<TrueEdges> on(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
 
  private:
-  AssemblyOracle oracle_;
-  bool disjoint_;
+  std::optional<CombinedEdge> edge(const Eigen::Vector3d& u, const Eigen::Vector3d& side) const;
+  std::optional<TrueEdges> by_assembly(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
+
+  const Ellipsoid& agent_;
+  const HullBody& hull_;
+  HullOracle oracle_;
+  Eigen::Vector3d position_;
+  Eigen::Matrix3d inverse_;  // of the agent's factor
 };
+
+/// The true sector of dented bodies: edges by Newton's method from the ones before, asked of the certified
+/// oracle; where that denies them, by bisection of its answers.
 class TrueCombined {
  public:
   static constexpr double kEdge = 1e-7;  // rad
 
   TrueCombined(const CombinedEllipsoid& a, const CombinedEllipsoid& b);
-  std::optional<Opening> on(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
+  std::optional<TrueEdges> on(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
 
  private:
+  CombinedEdge edge(const Eigen::Vector3d& u, const Eigen::Vector3d& side,
+                    std::optional<CombinedEdge>& before) const;
+
   CombinedOracle oracle_;
+  CombinedEdges edges_;
   bool disjoint_;
+  mutable std::optional<CombinedEdge> left_, right_;  // of the plane before
 };
 
 /// Two bodies at an instant, prepared to be seen on many planes through their line of sight. Refers to the
@@ -88,6 +122,9 @@ class PlaneCones {
 
   /// u: the line of sight; e perpendicular to it, unit. Nothing as fill_cone() says.
   std::optional<Opening> on(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
+
+  /// With the contacts, for true sectors of hulls and dented bodies; nothing for others.
+  std::optional<TrueEdges> true_edges(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
 
   /// d psi / d azimuth as the plane turns about the line of sight, in closed form: true sectors of
   /// ellipsoids; nothing for others.
@@ -110,7 +147,7 @@ class PlaneCones {
     const Ellipsoid& agent;
     const HullBody& hull;
   };
-  using Kind = std::variant<None, Planar, Slices, HullSlices, SectorPlanes, ExactHull, TrueCombined>;
+  using Kind = std::variant<None, Planar, Slices, HullSlices, SectorPlanes, TrueHull, TrueCombined>;
   static Kind kind_of(const BodyState& a, const BodyState& b, SectorMethod method);
 
   Kind kind_;

@@ -142,6 +142,31 @@ bool true_cone(const PlaneView& view, const BodyState& a, const BodyState& b, bo
   return true;
 }
 
+/// From the contacts at the edges: true sectors of hulls and of dented bodies.
+void contact_cone_rates(const TrueEdges& edges, const PlaneView& view, const BodyState& a, const BodyState& b,
+                        PlaneCone& cone) {
+  const Vector3d &u = view.line_of_sight, &e = view.across;
+  const Vector3d c = b.position - a.position, v = b.velocity - a.velocity;
+  const TurningMotion motion{a.omega, b.omega, 0, &a.rate, &b.rate};
+  const Vector3d turning = plane_turning(view, c, v);
+  const OpeningRates rates = contact_rates(edges, a, b, u, e, v, turning, motion);
+  cone.psi_rate = rates.psi;
+  cone.theta_b_rate = rates.theta_b + v.dot(e) / c.norm();
+  const auto by_command = [&](const Vector3d& by, Vector3d TurningMotion::*omega, double& psi,
+                              double& theta_b) {
+    if (by.isZero(0)) return;
+    TurningMotion unit;
+    unit.*omega = by;
+    const OpeningRates one = contact_rates(edges, a, b, u, e, Vector3d::Zero(), Vector3d::Zero(), unit);
+    psi = one.psi;
+    theta_b = one.theta_b;
+  };
+  by_command(turning_by_lateral(a, view.lateral_a()), &TurningMotion::omega_a, cone.psi_rate_by_a,
+             cone.theta_b_rate_by_a);
+  by_command(turning_by_lateral(b, view.lateral_b()), &TurningMotion::omega_b, cone.psi_rate_by_b,
+             cone.theta_b_rate_by_b);
+}
+
 /// Inverse of the time in which the engagement changes by its own size, 1/s.
 double rate_scale(const BodyState& a, const BodyState& b) {
   const double r = (b.position - a.position).norm();
@@ -246,10 +271,16 @@ bool fill_cone(PlaneView& view, const BodyState& a, const BodyState& b, SectorMe
     closed_form = false;
     const PlaneCones cones(a, b, method);
     tolerance = cones.tolerance();
-    if (const auto opening = cones.on(view.line_of_sight, view.across)) {
+    const auto edges = cones.true_edges(view.line_of_sight, view.across);
+    const auto opening = edges ? std::optional(edges->opening()) : cones.on(view.line_of_sight, view.across);
+    if (opening) {
       cone.psi = opening->psi;
       cone.theta_b = opening->theta_b;
       found = true;
+    }
+    if (edges && edges->contacts() && analytic) {
+      contact_cone_rates(*edges, view, a, b, cone);
+      closed_form = true;
     }
   }
   if (!found) return false;

@@ -7,7 +7,9 @@
 #include <vericone/testing/random_bodies.h>
 #include <Eigen/Geometry>
 #include <cmath>
+#include <optional>
 
+#include "cones/ellipsoids/richardson.h"
 #include "support/random_combined.h"
 
 namespace vericone::testing {
@@ -105,6 +107,14 @@ inline void dent(RandomBodies& random, MovingBody& m) {
                                  random.uniform(-0.1, 0.1));
     m.delimiter_rates.push_back({Eigen::Matrix3d(change.asDiagonal()), random.uniform(-0.1, 0.1)});
   }
+}
+
+/// f'(0); nothing where differences over steps twice as long say another one, as where f has a kink nearby.
+template <typename Function>
+std::optional<double> settled_derivative(const Function& f, double h, double tolerance) {
+  const double once = richardson_derivative(f, h), again = richardson_derivative(f, 2 * h);
+  if (!(std::abs(once - again) < tolerance)) return std::nullopt;
+  return once;
 }
 
 }  // namespace vericone::testing

@@ -88,6 +88,43 @@ TEST(PlaneViewRates, HullsOfOnePointAreTinyEllipsoids) {
   }
 }
 
+/// Against differences of sectors along the motion.
+TEST(PlaneViewRates, TrueSectorsOfHulls) {
+  RandomBodies random(7230);
+  SCOPED_TRACE(random.trace());
+  int compared = 0;
+  for (int i = 0; i < 60; ++i) {
+    testing::MovingBody moving = testing::moving_body(random, random.in_box(5));
+    const double spin = random.uniform(-1, 1);
+    const BodyState a = moving.state();
+    const BodyState b = hull_state(random, a.position + random.uniform(8, 12) * random.direction(), 12);
+    const auto view =
+        plane_view(a, b, random.direction(), SectorMethod::true_cone, RateMethod::analytic, spin);
+    if (!view) continue;
+    const Vector3d c = b.position - a.position, v = b.velocity - a.velocity;
+    const auto at = [&](double t) {
+      BodyState later = b;
+      later.position += t * b.velocity;
+      std::vector<Vector3d> points;
+      for (const Vector3d& x : std::get<HullBody>(b.shape).points())
+        points.push_back(later.position + testing::turn(t * b.omega) * (x - b.position));
+      later.shape = HullBody(std::move(points));
+      const auto seen = plane_view(moving.at(t), later, testing::carried_axis(c, v, t, view->across, spin),
+                                   SectorMethod::true_cone, RateMethod::none);
+      return seen ? seen->cone : PlaneCone{};
+    };
+    const double scale = v.norm() / c.norm() + a.omega.norm() + b.omega.norm() + std::abs(spin);
+    const double h = 0.003 / scale, close = 1e-6 * scale;
+    const auto psi = testing::settled_derivative([&](double t) { return at(t).psi; }, h, close),
+               theta_b = testing::settled_derivative([&](double t) { return at(t).theta_b; }, h, close);
+    if (!psi || !theta_b) continue;
+    ++compared;
+    EXPECT_NEAR(view->cone.psi_rate, *psi, 2 * close) << i;
+    EXPECT_NEAR(view->cone.theta_b_rate, *theta_b + view->state.v_theta / view->state.r, 2 * close) << i;
+  }
+  EXPECT_GT(compared, 40);
+}
+
 TEST(PlaneView, SlicesOfBoxes) {
   RandomBodies random(7228);
   SCOPED_TRACE(random.trace());

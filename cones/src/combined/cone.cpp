@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "combined/tracer.h"
+
 namespace vericone {
 namespace {
 
@@ -13,94 +15,6 @@ using Eigen::Vector3d;
 
 /// Half-planes to begin with, and the most there may be.
 constexpr int kFirstSectors = 12, kMostSectors = 4096;
-
-/// The end of the cone on one half-plane: angles from the axis that are in and out.
-struct End {
-  double azimuth = 0, in = 0, out = std::numbers::pi;
-};
-
-/// Between two neighbouring half-planes: on both, how far the chords stand off the ends.
-struct Wedge {
-  End first, last;
-  double inwards = 0, outwards = 0;  // radians
-  double inner = 0, outer = 0;       // solid angles of the triangles with the axis, steradian
-  double gap() const { return outer - inner; }
-  bool operator<(const Wedge& other) const { return gap() < other.gap(); }
-};
-
-class Tracer {
- public:
-  Tracer(const CombinedOracle& oracle, double tolerance)
-      : oracle_(oracle), frame_(oracle.b().center() - oracle.a().center()), tolerance_(tolerance) {}
-
-  const AxisFrame& frame() const { return frame_; }
-
-  Vector3d direction(double azimuth, double angle) const {
-    return std::cos(angle) * frame_.axis +
-           std::sin(angle) * (std::cos(azimuth) * frame_.e1 + std::sin(azimuth) * frame_.e2);
-  }
-
-  /// By bisection: the axis is in and its opposite out, whatever the bodies (docs/theory.md, 7).
-  End end(double azimuth, double guess, double spread) const {
-    End e{azimuth, 0, std::numbers::pi};
-    const auto ask = [&](double angle) {
-      const Certified answer = oracle_.membership(direction(azimuth, angle));
-      if (answer == Certified::in) e.in = angle;
-      if (answer == Certified::out) e.out = angle;
-      return answer;
-    };
-    // Closing in from the guess.
-    for (double step = spread; e.out == std::numbers::pi && guess + step < std::numbers::pi; step *= 4)
-      if (ask(guess + step) != Certified::in) break;
-    for (double step = spread; e.in == 0 && guess - step > 0; step *= 4)
-      if (ask(guess - step) != Certified::out) break;
-    for (int step = 0; step < 60 && e.out - e.in > tolerance_ * 0.05 * std::sin(0.5 * (e.in + e.out)); ++step)
-      if (ask(0.5 * (e.in + e.out)) == Certified::undecided) break;
-    return e;
-  }
-
-  Wedge sector(const End& first, const End& last, double standoff) const {
-    Wedge s{first, last, 0, 0, 0, 0};
-    s.outwards =
-        least_standoff(standoff, std::numbers::pi - 1e-6 - std::max(first.out, last.out), [&](double d) {
-          return oracle_.all_out(direction(first.azimuth, first.out + d),
-                                 direction(last.azimuth, last.out + d));
-        });
-    s.inwards = least_standoff(standoff, std::min(first.in, last.in), [&](double d) {
-      return oracle_.all_in(direction(first.azimuth, first.in - d), direction(last.azimuth, last.in - d));
-    });
-    // What could not be proved at any distance: nothing is known to be out, nothing but the axis to be in.
-    s.outer = s.outwards < 0 ? std::numeric_limits<double>::infinity()
-                             : triangle(first, last, first.out + s.outwards, last.out + s.outwards);
-    s.inner = s.inwards < 0 ? 0 : triangle(first, last, first.in - s.inwards, last.in - s.inwards);
-    return s;
-  }
-
- private:
-  /// The least of a few distances at which the chord is certified; -1 for none up to `most`.
-  template <typename Holds>
-  static double least_standoff(double first, double most, const Holds& holds) {
-    for (double d = 0.5 * first; d < most; d *= 2)
-      if (holds(d)) return d;
-    return -1;
-  }
-
-  double triangle(const End& first, const End& last, double angle_first, double angle_last) const {
-    const Vector3d b = direction(first.azimuth, angle_first), c = direction(last.azimuth, angle_last);
-    const Vector3d& a = frame_.axis;
-    return 2 * std::atan2(a.dot((b - a).cross(c - a)), 1 + a.dot(b) + b.dot(c) + c.dot(a));
-  }
-
-  const CombinedOracle& oracle_;
-  AxisFrame frame_;
-  double tolerance_;
-};
-
-/// Where a chord stands off little, the ends are what matters; where it bends, its sagitta.
-double expected_standoff(const End& first, const End& last) {
-  const double width = last.azimuth - first.azimuth, angle = 0.5 * (first.in + last.in);
-  return std::max({0.125 * width * width * std::sin(angle), first.out - first.in, last.out - last.in, 1e-9});
-}
 
 }  // namespace
 
@@ -122,18 +36,11 @@ CombinedCone combined_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& 
     return cone;
   }
 
-  const Tracer tracer(oracle, tolerance);
-  std::vector<End> ends;
-  // What the ellipsoids around would show is a fair first guess.
-  double guess = std::atan2(a.ellipsoid().semi_axes()(1) + b.ellipsoid().semi_axes()(1), c.norm());
-  for (int i = 0; i < kFirstSectors; ++i) {
-    ends.push_back(tracer.end(2 * std::numbers::pi * i / kFirstSectors, guess, 0.1 * guess));
-    guess = 0.5 * (ends.back().in + ends.back().out);
-  }
-  std::vector<Wedge> heap;
+  Tracer tracer(oracle, tolerance, kFirstSectors);
+  std::vector<ConeWedge> heap, done;
   double inner = 0, outer = 0;
   int unbounded = 0;
-  const auto count = [&](const Wedge& s, int sign) {
+  const auto count = [&](const ConeWedge& s, int sign) {
     inner += sign * s.inner;
     if (std::isinf(s.outer)) {
       unbounded += sign;
@@ -141,48 +48,69 @@ CombinedCone combined_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& 
       outer += sign * s.outer;
     }
   };
-  const auto add = [&](const Wedge& s) {
-    count(s, 1);
-    heap.push_back(s);
-    std::push_heap(heap.begin(), heap.end());
+  const auto add = [&](int first, int last) {
+    std::vector<std::pair<int, int>> waiting{{first, last}};
+    while (!waiting.empty()) {
+      const auto [from, to] = waiting.back();
+      waiting.pop_back();
+      const ConeWedge s = tracer.wedge(from, to);
+      const std::vector<int> moved = tracer.take_moved();
+      if (!moved.empty()) {
+        // The wedges on both sides of an end that has moved are others now.
+        waiting.emplace_back(from, to);
+        for (std::vector<ConeWedge>* list : {&heap, &done}) {
+          const auto touched = [&](const ConeWedge& other) {
+            return std::any_of(moved.begin(), moved.end(),
+                               [&](int k) { return other.first == k || other.last == k; });
+          };
+          for (const ConeWedge& other : *list)
+            if (touched(other)) {
+              count(other, -1);
+              waiting.emplace_back(other.first, other.last);
+            }
+          list->erase(std::remove_if(list->begin(), list->end(), touched), list->end());
+        }
+        std::make_heap(heap.begin(), heap.end());
+        continue;
+      }
+      count(s, 1);
+      heap.push_back(s);
+      std::push_heap(heap.begin(), heap.end());
+    }
   };
-  for (int i = 0; i < kFirstSectors; ++i) {
-    End last = ends[(i + 1) % kFirstSectors];
-    if (i + 1 == kFirstSectors) last.azimuth += 2 * std::numbers::pi;
-    add(tracer.sector(ends[i], last, expected_standoff(ends[i], last)));
-  }
-  std::vector<Wedge> done;
+  for (int i = 0; i < kFirstSectors; ++i) add(i, (i + 1) % kFirstSectors);
   while (!heap.empty() && heap.size() + done.size() < kMostSectors && oracle.boxes_searched() < most_boxes &&
          (unbounded > 0 || outer - inner > tolerance * outer)) {
     std::pop_heap(heap.begin(), heap.end());
-    const Wedge s = heap.back();
+    const ConeWedge s = heap.back();
     heap.pop_back();
     // Too narrow to gain anything: the ends themselves are all the gap.
-    if (s.last.azimuth - s.first.azimuth < 1e-5) {
+    const double width = tracer.ends()[s.last].azimuth - tracer.ends()[s.first].azimuth;
+    if (width >= 0 && width < 1e-5) {
       done.push_back(s);
       continue;
     }
     count(s, -1);
-    const double between = 0.5 * (s.first.azimuth + s.last.azimuth);
-    const double around = 0.25 * (s.first.in + s.first.out + s.last.in + s.last.out);
-    const End middle = tracer.end(between, around, std::max(expected_standoff(s.first, s.last), 1e-6));
-    add(tracer.sector(s.first, middle, expected_standoff(s.first, middle)));
-    add(tracer.sector(middle, s.last, expected_standoff(middle, s.last)));
+    const int middle = tracer.divide(s);
+    add(s.first, middle);
+    add(middle, s.last);
   }
   heap.insert(heap.end(), done.begin(), done.end());
-  std::sort(heap.begin(), heap.end(),
-            [](const Wedge& x, const Wedge& y) { return x.first.azimuth < y.first.azimuth; });
+  std::sort(heap.begin(), heap.end(), [&](const ConeWedge& x, const ConeWedge& y) {
+    return tracer.ends()[x.first].azimuth < tracer.ends()[y.first].azimuth;
+  });
 
-  for (const Wedge& s : heap) {
+  for (const ConeWedge& s : heap) {
+    const ConeEnd &first = tracer.ends()[s.first], &last = tracer.ends()[s.last];
     // An outer chord that was not found: out is only what lies straight behind.
-    const double far_first = s.outwards < 0 ? std::numbers::pi : s.first.out + s.outwards,
-                 far_last = s.outwards < 0 ? std::numbers::pi : s.last.out + s.outwards;
-    const double near_first = s.inwards < 0 ? 0 : s.first.in - s.inwards,
-                 near_last = s.inwards < 0 ? 0 : s.last.in - s.inwards;
-    cone.inner.directions.push_back(tracer.direction(s.first.azimuth, near_first));
-    cone.inner.directions.push_back(tracer.direction(s.last.azimuth, near_last));
-    cone.outer.directions.push_back(tracer.direction(s.first.azimuth, far_first));
-    cone.outer.directions.push_back(tracer.direction(s.last.azimuth, far_last));
+    const double far_first = s.outwards < 0 ? std::numbers::pi : first.out + s.outwards,
+                 far_last = s.outwards < 0 ? std::numbers::pi : last.out + s.outwards;
+    const double near_first = s.inwards < 0 ? 0 : first.in - s.inwards,
+                 near_last = s.inwards < 0 ? 0 : last.in - s.inwards;
+    cone.inner.directions.push_back(tracer.direction(first.azimuth, near_first));
+    cone.inner.directions.push_back(tracer.direction(last.azimuth, near_last));
+    cone.outer.directions.push_back(tracer.direction(first.azimuth, far_first));
+    cone.outer.directions.push_back(tracer.direction(last.azimuth, far_last));
   }
   // Areas are rounded; what they may lose is a part of the bound.
   constexpr double kRounding = 1e-12;

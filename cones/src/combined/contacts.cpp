@@ -10,6 +10,10 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// A chord that needs more is better divided.
+constexpr int kMostPairs = 5000;
+constexpr double kLeastWidth = 1e-3;
+
 const SearchBox<3> kBox{Vector3d::Zero(), Vector3d::Constant(1.001)};
 /// With room for what boxes are widened by.
 const Vector3d kRoom = Vector3d::Constant(1.002);
@@ -45,9 +49,10 @@ bool segment_inside(const EnclosedQuadric& q, const IntervalVector3& x, const In
 
 /// Steps against what is violated most, until all inequalities hold with the margin.
 template <int N>
-bool descend(const std::vector<QuadraticConstraint<N>>& list, double margin, Eigen::Matrix<double, N, 1>& z) {
+bool descend(const std::vector<QuadraticConstraint<N>>& list, double margin, Eigen::Matrix<double, N, 1>& z,
+             int most_steps = 30) {
   Eigen::Matrix<double, N, 1> x = z;
-  for (int step = 0; step < 30; ++step) {
+  for (int step = 0; step < most_steps; ++step) {
     double worst = 0;
     Eigen::Matrix<double, N, 1> gradient = Eigen::Matrix<double, N, 1>::Zero();
     for (const QuadraticConstraint<N>& q : list) {
@@ -78,6 +83,7 @@ CombinedContacts::CombinedContacts(const CombinedEllipsoid& a, const CombinedEll
     surfaces_b_.push_back(
         quadratic_constraint<3>(q.matrix, kIdentity, kZero, Interval(q.level), -q.least_eigenvalue, kRoom));
   for (const IntervalVector3& column : frame_.columns_b()) columns_square_ += dot(column, column).hi();
+  if (!ball_) pairs_ = std::make_unique<PairSearch>(frame_);
   extent_ = (middle(frame_.center()).norm() + std::sqrt(columns_square_) + 1) * (1 + 1e-6);
   limits_.least_width = tolerance / std::max(1.0, std::sqrt(columns_square_));
 }
@@ -201,7 +207,8 @@ CombinedContact CombinedContacts::deepened(const IntervalVector3& w, const Combi
   CombinedContact best = near;
   best.outcome = SearchOutcome::undecided;
   for (double margin = 1e-6; margin < 1; margin *= 2) {
-    if (!descend<4>(list4_, margin, z)) break;
+    // The first contact is the hardest to find: near corners the steps go to and fro.
+    if (!descend<4>(list4_, margin, z, best.outcome == SearchOutcome::found ? 30 : 200)) break;
     best = {SearchOutcome::found, Vector3d::Zero(), z.head<3>(), z(3)};
   }
   return best;
@@ -236,40 +243,10 @@ SearchOutcome CombinedContacts::ball_between(const IntervalVector3& from, const 
   return search(search3_, list3_, kBox, chord_limits()).outcome;
 }
 
-/// Unknowns: the point a of A and two coordinates of that of B; the third makes b - a lie in the plane of
-/// the directions.
-SearchOutcome CombinedContacts::both_between(const IntervalVector3& from, const IntervalVector3& to) const {
-  const IntervalVector3 n = cross(from, to);
-  const Vector3d axis = middle(n).normalized(), u = middle(from).normalized(), v = axis.cross(u).normalized();
-  const IntervalVector3 &c = frame_.center(), across = n * (Interval(1) / dot(n, exactly(axis)));
-  // y = p u + q v + axis (across.(a - c - p u - q v)), relative to the centre of B.
-  std::array<IntervalVector3, 5> to_y;
-  double square_sum = 0;
-  for (int j = 0; j < 3; ++j) to_y[j] = exactly(axis) * across[j];
-  to_y[3] = exactly(u) + (-(exactly(axis) * dot(across, exactly(u))));
-  to_y[4] = exactly(v) + (-(exactly(axis) * dot(across, exactly(v))));
-  const IntervalVector3 k = -(exactly(axis) * dot(across, c));
-  for (const IntervalVector3& column : to_y) square_sum += dot(column, column).hi();
-
-  using Vector5 = Eigen::Matrix<double, 5, 1>;
-  Vector5 room;
-  room << 1.001, 1.001, 1.001, frame_.reach_b(u), frame_.reach_b(v);
-  const SearchBox<5> box{Vector5::Zero(), room};
-  room *= 1.0001;
-  add_bodies<5>(to_y, k, square_sum, room, list5_);
-  // Between the two rays: l.(b - a) >= 0 for both sides, b - a = c + y - a.
-  for (const IntervalVector3& l : {cross(across, from), cross(to, across)}) {
-    std::array<Interval, 5> row;
-    for (int j = 0; j < 5; ++j) row[j] = -dot(l, to_y[j]);
-    for (int j = 0; j < 3; ++j) row[j] = row[j] + l[j];
-    list5_.push_back(linear_constraint<5>(row, -dot(l, c + k), room));
-  }
-  return search(search5_, list5_, box, chord_limits()).outcome;
-}
-
 bool CombinedContacts::none_between(const IntervalVector3& from, const IntervalVector3& to) const {
   if (!(middle(cross(from, to)).norm() > 1e-9)) return false;
-  return (ball_ ? ball_between(from, to) : both_between(from, to)) == SearchOutcome::empty;
+  if (!ball_) return pairs_->none_between(from, to, kMostPairs, kLeastWidth);
+  return ball_between(from, to) == SearchOutcome::empty;
 }
 
 /// Whether one point of B is met along all directions between two: those along which the ball meets it are
@@ -317,37 +294,39 @@ bool CombinedContacts::joined(const IntervalVector3& from, const CombinedContact
 }
 
 bool CombinedContacts::both_meet_all(const IntervalVector3& from, const CombinedContact& first,
-                                     const IntervalVector3& to, const CombinedContact& last,
+                                     const IntervalVector3& to, const CombinedContact& last, bool search,
                                      int depth) const {
   if (joined(from, first, to, last)) return true;
   if (depth == 0) return false;
   const IntervalVector3 half = (from + to) * Interval(0.5);
   CombinedContact between = deepened(half, first);
-  if (between.outcome != SearchOutcome::found) between = deepened(half, last);
-  if (between.outcome != SearchOutcome::found) {
-    between = of_both(half, 1e300);
-    if (between.outcome != SearchOutcome::found) return false;
-    const CombinedContact deeper = deepened(half, between);
-    if (deeper.outcome == SearchOutcome::found) between = deeper;
-  }
-  return both_meet_all(from, first, half, between, depth - 1) &&
-         both_meet_all(half, between, to, last, depth - 1);
+  if (between.outcome != SearchOutcome::found) between = deep_contact(half, last, search);
+  if (between.outcome != SearchOutcome::found) return false;
+  return both_meet_all(from, first, half, between, search, depth - 1) &&
+         both_meet_all(half, between, to, last, search, depth - 1);
 }
 
-bool CombinedContacts::all_between(const IntervalVector3& from, const IntervalVector3& to) const {
-  if (ball_) return ball_meets_all(from, to, 5);
-  CombinedContact first = of_both(from, 1e300);
-  if (first.outcome != SearchOutcome::found) return false;
-  CombinedContact deeper = deepened(from, first);
-  if (deeper.outcome == SearchOutcome::found) first = deeper;
-  CombinedContact last = deepened(to, first);
-  if (last.outcome != SearchOutcome::found) {
-    last = of_both(to, 1e300);
-    if (last.outcome != SearchOutcome::found) return false;
-    deeper = deepened(to, last);
-    if (deeper.outcome == SearchOutcome::found) last = deeper;
+/// Deep inside, from a contact nearby; searched for where there is none and it may be.
+CombinedContact CombinedContacts::deep_contact(const IntervalVector3& w, const CombinedContact& near,
+                                               bool search) const {
+  if (near.outcome == SearchOutcome::found) {
+    const CombinedContact deeper = deepened(w, near);
+    if (deeper.outcome == SearchOutcome::found || !search) return deeper;
   }
-  return both_meet_all(from, first, to, last, 5);
+  const CombinedContact found = of_both(w, 1e300);
+  if (found.outcome != SearchOutcome::found) return found;
+  const CombinedContact deeper = deepened(w, found);
+  return deeper.outcome == SearchOutcome::found ? deeper : found;
+}
+
+bool CombinedContacts::all_between(const IntervalVector3& from, const IntervalVector3& to,
+                                   const CombinedContact* near) const {
+  if (ball_) return ball_meets_all(from, to, 5);
+  const CombinedContact first = deep_contact(from, near ? *near : CombinedContact{}, !near);
+  if (first.outcome != SearchOutcome::found) return false;
+  const CombinedContact last = deep_contact(to, first, !near);
+  if (last.outcome != SearchOutcome::found) return false;
+  return both_meet_all(from, first, to, last, !near, 5);
 }
 
 }  // namespace vericone

@@ -5,10 +5,12 @@
 
 #include <vericone/cones/ellipsoids/predicates.h>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "combined/frame.h"
+#include "combined/pair_search.h"
 
 namespace vericone {
 
@@ -21,9 +23,9 @@ struct CombinedContact {
 };
 
 /// Where A is an ellipsoid, the points z of B are searched, A being the unit ball: three unknowns. Otherwise
-/// a point of A and the way along the direction, four unknowns for one direction and five for all between
-/// two. Directions are those of CombinedFrame::direction. Not for several threads at once: lists and stacks
-/// are kept between calls.
+/// a point of A and the way along the direction, four unknowns for one direction, and pairs of boxes of both
+/// for all between two. Directions are those of CombinedFrame::direction. Not for several threads at once:
+/// lists and stacks are kept between calls.
 class CombinedContacts {
  public:
   CombinedContacts(const CombinedEllipsoid& a, const CombinedEllipsoid& b, double tolerance);
@@ -42,9 +44,14 @@ class CombinedContacts {
   /// Whether no direction between two, less than a right angle apart, leads to a contact (all of them do):
   /// true is certain, false says nothing.
   bool none_between(const IntervalVector3& from, const IntervalVector3& to) const;
-  bool all_between(const IntervalVector3& from, const IntervalVector3& to) const;
+  /// Where neither is an ellipsoid and the last answer of none_between() was false: points of A, in the
+  /// frame, and of B, in its own coordinates, that were in the way.
+  std::pair<Eigen::Vector3d, Eigen::Vector3d> left() const { return pairs_->left(); }
+  /// `near`: a contact from which others are looked for by steps alone, where neither is an ellipsoid.
+  bool all_between(const IntervalVector3& from, const IntervalVector3& to,
+                   const CombinedContact* near = nullptr) const;
 
-  std::uint64_t boxes_searched() const { return boxes_; }
+  std::uint64_t boxes_searched() const { return boxes_ + (pairs_ ? pairs_->pairs() : 0); }
 
  private:
   template <int N>
@@ -61,15 +68,15 @@ class CombinedContacts {
 
   CombinedContact of_ball(const IntervalVector3& w, double longest) const;
   CombinedContact of_both(const IntervalVector3& w, double longest) const;
+  CombinedContact deep_contact(const IntervalVector3& w, const CombinedContact& near, bool search) const;
   CombinedContact deepened(const IntervalVector3& w, const CombinedContact& near) const;
   SearchOutcome ball_between(const IntervalVector3& from, const IntervalVector3& to) const;
-  SearchOutcome both_between(const IntervalVector3& from, const IntervalVector3& to) const;
   bool ball_meets(const CombinedContact& found, const IntervalVector3& from, const IntervalVector3& to) const;
   bool ball_meets_all(const IntervalVector3& from, const IntervalVector3& to, int depth) const;
   bool joined(const IntervalVector3& from, const CombinedContact& first, const IntervalVector3& to,
               const CombinedContact& last) const;
   bool both_meet_all(const IntervalVector3& from, const CombinedContact& first, const IntervalVector3& to,
-                     const CombinedContact& last, int depth) const;
+                     const CombinedContact& last, bool search, int depth) const;
 
   CombinedFrame frame_;
   bool ball_;  // A is an ellipsoid
@@ -78,13 +85,12 @@ class CombinedContacts {
   double extent_ = 0;                               // |x| is at most this
   double columns_square_ = 0;                       // squared columns of G, summed
 
+  std::unique_ptr<PairSearch> pairs_;  // neither is an ellipsoid
   mutable std::uint64_t boxes_ = 0;
   mutable QuadraticSearch<3> search3_;
   mutable QuadraticSearch<4> search4_;
-  mutable QuadraticSearch<5> search5_;
   mutable std::vector<QuadraticConstraint<3>> list3_;
   mutable std::vector<QuadraticConstraint<4>> list4_;
-  mutable std::vector<QuadraticConstraint<5>> list5_;
 };
 
 }  // namespace vericone

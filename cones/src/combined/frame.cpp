@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include <vericone/geometry/decompositions.h>
-#include <vericone/geometry/scaled_inverse.h>
 
 namespace vericone {
 namespace {
@@ -91,7 +90,7 @@ CombinedFrame::CombinedFrame(const CombinedEllipsoid& a, const CombinedEllipsoid
   const double largest =
       std::max(a.ellipsoid().factor().cwiseAbs().maxCoeff(), b.ellipsoid().factor().cwiseAbs().maxCoeff());
   if (!(largest > 1e-140) || !(largest < 1e140)) return;
-  const double unit = std::ldexp(1.0, std::ilogb(largest));
+  const double unit = unit_ = std::ldexp(1.0, std::ilogb(largest));
   const Eigen::Matrix3d factor = a.ellipsoid().factor() / unit;
   const IntervalMatrix3 t = enclosed(factor);
   inverse_a_ = inverse(t);
@@ -122,8 +121,7 @@ CombinedFrame::CombinedFrame(const CombinedEllipsoid& a, const CombinedEllipsoid
         e = std::max(e, (a_[0].matrix[i][j] - Interval(i == j ? 1.0 : 0.0)).magnitude());
     defect_ = 4 * e;
   }
-  map_b_ = scaled_inverse<3>(factor) * (b.ellipsoid().factor() / unit);
-  usable_ = finite(inverse_a_) && finite(columns_b_) && defect_ < 1e-3 && map_b_.allFinite();
+  usable_ = finite(inverse_a_) && finite(columns_b_) && defect_ < 1e-3;
   for (const auto* list : {&a_, &b_, &own_b_})
     for (const EnclosedQuadric& q : *list) usable_ = usable_ && finite(q.matrix);
   for (const Interval& x : center_) usable_ = usable_ && x.finite();
@@ -239,7 +237,6 @@ void add_side(QuadraticConstraint<3>& constraint, const IntervalVector3& u, cons
                                                        const Eigen::Matrix<double, N, 1>&);
 VERICONE_INSTANTIATE(3)
 VERICONE_INSTANTIATE(4)
-VERICONE_INSTANTIATE(5)
 #undef VERICONE_INSTANTIATE
 
 }  // namespace vericone

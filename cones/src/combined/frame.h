@@ -36,6 +36,14 @@ class CombinedFrame {
   /// Of a velocity known to lie in a box of a size that doubles hold.
   IntervalVector3 direction(IntervalVector3 w) const;
 
+  /// Of a point about A's centre, metres; rounded.
+  Eigen::Vector3d in_frame(const Eigen::Vector3d& on_a) const {
+    Eigen::Vector3d x = Eigen::Vector3d::Zero();
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) x(i) += inverse_a_[i][j].mid() * (on_a(j) / unit_);
+    return x;
+  }
+
   const IntervalVector3& center() const { return center_; }  // c = p_B - p_A
   const std::vector<EnclosedQuadric>& a() const {
     return a_;
@@ -46,20 +54,17 @@ class CombinedFrame {
   const std::vector<EnclosedQuadric>& own_b() const { return own_b_; }
   const std::array<IntervalVector3, 3>& columns_b() const { return columns_b_; }
 
-  /// Half the width of B's ellipsoid along u, rounded up.
-  double reach_b(const Eigen::Vector3d& u) const { return (map_b_.transpose() * u).norm() * (1 + 1e-6); }
-
   /// How far A's ellipsoid may stand out of the unit ball or fall short of it, as a part of the radius: 0
   /// where A is defined by its factor.
   double defect() const { return defect_; }
 
  private:
   bool usable_ = false;
+  double unit_ = 1;  // metres
   IntervalMatrix3 inverse_a_;
   IntervalVector3 center_;
   std::vector<EnclosedQuadric> a_, b_, own_b_;
   std::array<IntervalVector3, 3> columns_b_;
-  Eigen::Matrix3d map_b_;  // unit ball to B's ellipsoid, rounded
   double defect_ = 0;
 };
 

@@ -73,6 +73,13 @@ struct CombinedOracle::State {
     return sum;
   }
 
+  /// Of an edge, in the frame; not for swapped bodies.
+  CombinedContact contact(const CombinedEdge& edge) const {
+    const Vector3d on_a = contacts.frame().in_frame(edge.on_a);
+    const Vector3d apart = contacts.frame().in_frame(given_b.center() - given_a.center() + edge.on_b) - on_a;
+    return {SearchOutcome::found, Vector3d::Zero(), on_a, apart.norm()};
+  }
+
   Vector3d own(const Vector3d& w) const { return swapped ? Vector3d(-w) : w; }
   IntervalVector3 direction(const Vector3d& w) const { return contacts.frame().direction(own(w)); }
   /// Of first - second, without rounding, in the order of a and b.
@@ -155,25 +162,36 @@ Verdict CombinedOracle::verdict(const Vector3d& v_a, const Vector3d& v_b) const 
   return Verdict::undecided;
 }
 
-bool CombinedOracle::all_in(const Vector3d& from, const Vector3d& to) const {
+bool CombinedOracle::all_in(const Vector3d& from, const Vector3d& to, const CombinedEdge* near) const {
   const State& s = *state_;
   if (s.relation != Relation::disjoint || !s.contacts.usable()) return false;
   const auto of_inside = [&](const Vector3d& w) { return s.inside->membership(s.own(w)) != Membership::out; };
   if (s.inside && of_inside(from) && of_inside(to)) return true;  // the cone of convex bodies is convex
+  const IntervalVector3 first = s.direction(from), last = s.direction(to);
+  if (!dot(first, last).positive()) return false;
+  if (near && !s.a.is_ellipsoid()) {
+    const CombinedContact contact = s.contact(*near);
+    return s.contacts.all_between(first, last, &contact);
+  }
   for (const CombinedOracle& oracle : s.narrower)
     if (oracle.all_in(s.own(from), s.own(to))) return true;
-  const IntervalVector3 first = s.direction(from), last = s.direction(to);
-  return dot(first, last).positive() && s.contacts.all_between(first, last);
+  return s.contacts.all_between(first, last);
 }
 
-bool CombinedOracle::all_out(const Vector3d& from, const Vector3d& to) const {
+bool CombinedOracle::all_out(const Vector3d& from, const Vector3d& to, CombinedEdge* left) const {
   const State& s = *state_;
   if (s.relation != Relation::disjoint || !s.contacts.usable()) return false;
-  for (const CombinedOracle& oracle : s.wider)
-    if (oracle.all_out(s.own(from), s.own(to))) return true;
-  if (membership(from.normalized() + to.normalized()) != Certified::out) return false;
+  // Pairs of boxes are quicker than all that leads to single directions.
+  if (s.a.is_ellipsoid() && membership(from.normalized() + to.normalized()) != Certified::out) return false;
   const IntervalVector3 first = s.direction(from), last = s.direction(to);
-  return dot(first, last).positive() && s.contacts.none_between(first, last);
+  if (!dot(first, last).positive()) return false;
+  if (s.contacts.none_between(first, last)) return true;
+  if (left && !s.a.is_ellipsoid()) {
+    const auto [on_a, on_b] = s.contacts.left();
+    left->on_a = s.a.ellipsoid().factor() * on_a;
+    left->on_b = s.b.ellipsoid().factor() * on_b;
+  }
+  return false;
 }
 
 std::optional<Interval> CombinedOracle::time_to_contact(const Vector3d& w, double width) const {

@@ -10,6 +10,7 @@
 // intervals.
 #pragma once
 
+#include <vericone/cones/combined/edge.h>
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/geometry/combined.h>
@@ -52,8 +53,12 @@ class CombinedOracle {
 
   /// Whether all directions of the convex hull of two, less than a right angle apart and not zero, are in
   /// (out): true is certain, false says nothing.
-  bool all_in(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
-  bool all_out(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
+  /// `near`: an edge to look for contacts from, which is faster where neither body is an ellipsoid.
+  bool all_in(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+              const CombinedEdge* near = nullptr) const;
+  /// `left`: where to write the points that were in the way of a proof, for two bodies neither of which is an
+  /// ellipsoid.
+  bool all_out(const Eigen::Vector3d& from, const Eigen::Vector3d& to, CombinedEdge* left = nullptr) const;
 
   /// First contact of A moving by w t: an interval that contains the time, seconds. Nothing where
   /// membership(w) is not `in`, and for bodies so thin that nothing can be searched. `width`: of the
