@@ -45,8 +45,8 @@ void add_enclosures(Json& result, const Pair& pair, Verdict verdict, const Eigen
     around = interval(miss.least, miss.most);
   } else if (verdict != Verdict::undecided) {
     const Contact contact = *pair.contact(v_a, v_b);
-    // Proved, and not found where sizes are too far apart for the search.
-    if (contact.earliest > 0 || std::isfinite(contact.latest)) enclosure = interval(contact.earliest, contact.latest);
+    enclosure = interval(contact.earliest, contact.latest);
+    // The contact is proved, and its time not found where sizes are too far apart for the search.
     if (!std::isnan(contact.time)) time = number_or_null(contact.time);
     if (contact.point) point = vector_json(*contact.point);
     if (contact.normal) normal = vector_json(*contact.normal);
