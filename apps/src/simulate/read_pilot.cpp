@@ -162,7 +162,7 @@ simulation::Pilot read_pilot(const Json& value, const std::string& path, bool pl
   require_of_law(value, path, guide.law);
   if_given(value, path, "sector", [&](const Json& v, const std::string& p) {
     using enum guidance::SectorMethod;
-    guide.sector = read_choice<guidance::SectorMethod>(v, p, {{"exact", exact}, {"slice", slice}});
+    guide.sector = read_choice<guidance::SectorMethod>(v, p, {{"exact", true_cone}, {"slice", slice}});
   });
   if_given(value, path, "rates", [&](const Json& v, const std::string& p) {
     using enum guidance::GuideRates;
