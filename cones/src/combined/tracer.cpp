@@ -36,7 +36,7 @@ Vector3d Tracer::direction(double azimuth, double angle) const {
 
 /// The axis is in and its opposite out, whatever the bodies (docs/theory.md, 7).
 ConeEnd Tracer::bisected(double azimuth, double guess, double spread) const {
-  ConeEnd e{azimuth, 0, std::numbers::pi, {}, true};
+  ConeEnd e{azimuth, 0, std::numbers::pi, {}, true, 0};
   const auto ask = [&](double angle) {
     const Certified answer = oracle_.membership(direction(azimuth, angle));
     if (answer == Certified::in) e.in = angle;
@@ -79,7 +79,7 @@ std::optional<CombinedEdge> Tracer::highest(double azimuth, const ConeEnd& first
 }
 
 ConeEnd Tracer::end_at(double azimuth, const CombinedEdge& edge) const {
-  return {azimuth, edge.angle, edge.angle, edge, false};
+  return {azimuth, edge.angle, edge.angle, edge, false, 0};
 }
 
 ConeEnd Tracer::end_between(double azimuth, const ConeEnd& first, const ConeEnd& last, double guess,
@@ -113,9 +113,14 @@ int Tracer::divide(const ConeWedge& wedge) {
 void Tracer::learn(const CombinedEdge& hint, int first, int last) {
   for (const int k : {first, last}) {
     ConeEnd& end = ends_[k];
+    // What is proved stays, and steps without end are cut short: bisection is next.
+    constexpr int kMostMoves = 8;
+    if (end.proved || end.moves >= kMostMoves) continue;
     const auto edge = edge_near(end.azimuth, hint);
     if (!edge || edge->angle < end.in + 1e-3 * tolerance_ * std::sin(end.in)) continue;
+    const int moves = end.moves + 1;
     end = end_at(end.azimuth, *edge);
+    end.moves = moves;
     moved_.push_back(k);
   }
 }

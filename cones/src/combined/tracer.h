@@ -18,6 +18,7 @@ struct ConeEnd {
   double azimuth = 0, in = 0, out = std::numbers::pi;
   std::optional<CombinedEdge> edge;
   bool proved = false;  // `in` and `out` are
+  int moves = 0;        // how often it was moved outwards since
 };
 
 /// Between two neighbouring half-planes: on both, how far the chords stand off the ends; -1 where nothing was
