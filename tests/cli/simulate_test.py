@@ -159,7 +159,7 @@ bodies:
         with open(os.path.join(folder, name + ".yaml"), encoding="utf-8") as f:
             text = f.read()
         text = text.replace("../../../build/scans/elephant.off", unpacked or "none.off")
-        text = text.replace("../elephant-pieces.yaml", os.path.join(SOURCE, "docs", "examples", "elephant-pieces.yaml"))
+        text = text.replace("../bodies/elephant-pieces.yaml", os.path.join(SOURCE, "docs", "examples", "bodies", "elephant-pieces.yaml"))
         guided = re.compile(r"^    pilot:\n(      .*\n)+", re.MULTILINE)
         self.assertEqual(len(guided.findall(text)), 1)
         return text, guided.sub("", text)

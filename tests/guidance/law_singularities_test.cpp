@@ -320,7 +320,7 @@ TEST(LawSingularities, EveryStatusHasAName) {
   std::set<std::string> names;
   for (int i = 0; i <= static_cast<int>(LawStatus::no_sector); ++i)
     names.insert(to_string(static_cast<LawStatus>(i)));
-  EXPECT_EQ(names.size(), 7u);
+  EXPECT_EQ(names.size(), 8u);
   EXPECT_FALSE(names.contains("?"));
 }
 

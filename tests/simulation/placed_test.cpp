@@ -80,7 +80,7 @@ TEST(ProofOfPlaced, UnionsAndCloudsAgainstSampledRelations) {
   SCOPED_TRACE("seed 72");
   Random random(72);
   std::array<int, 3> counts{};
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 90; ++i) {
     std::vector<CombinedEllipsoid> pieces;
     std::vector<Vector3d> points;
     for (int j = 0; j < 4; ++j) {
