@@ -167,8 +167,9 @@ double median(std::vector<double>& values) {
 /// Least-squares slope of log gap against log samples.
 double slope(const std::array<double, kGapSamples.size()>& gaps) {
   double x = 0, y = 0, xx = 0, xy = 0;
-  const double n = static_cast<double>(kGapSamples.size());
-  for (std::size_t i = 0; i < kGapSamples.size(); ++i) {
+  // From 48 samples on: 24 are too few for the law to hold of bodies that lie sideways.
+  const double n = static_cast<double>(kGapSamples.size() - 1);
+  for (std::size_t i = 1; i < kGapSamples.size(); ++i) {
     const double u = std::log(kGapSamples[i]), v = std::log(gaps[i]);
     x += u, y += v, xx += u * u, xy += u * v;
   }

@@ -62,7 +62,7 @@ struct SpatialFamilyReport {
   WorstFigure value;    // relative error of cone_bounds' solid angle at 96 samples, against 3072 samples
   WorstFigure gap;      // (outer - inner) / solid angle at 96 samples
   std::array<double, kGapSamples.size()> gap_medians = {};
-  double gap_slope = 0;  // of log gap against log samples, of the medians
+  double gap_slope = 0;  // of log gap against log samples, of the medians from 48 samples on
 
   std::uint64_t failures() const;
 };
