@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/cone/cone_bodies.h"
 
+#include <vericone/cones/assembly/convex_reach.h>
 #include <vericone/cones/ellipsoids/true_cone.h>
 #include <vericone/cones/map/classifiers.h>
 #include <vericone/cones/map/regions.h>
@@ -23,35 +24,6 @@ constexpr double kAngle = 1e-10;  // radians, on half-planes
 
 BodyCone everywhere(std::string method) {
   return {.low = 4 * pi, .high = 4 * pi, .disjoint = false, .method = std::move(method), .outline = {}};
-}
-
-/// The direction at angle t from the axis towards `side` on the great circle with this normal, 0 < t < pi.
-Vector3d on_half_plane(const Vector3d& normal, const Vector3d& axis, const Vector3d& side) {
-  Vector3d d = -normal.dot(side) * axis + normal.dot(axis) * side;
-  if (d.dot(side) < 0) d = -d;
-  return d.normalized();
-}
-
-/// Corners of the outer cone from the half-plane `from` on, up to but without the next one. Beyond a
-/// half-plane a convex cone stays below the great circle through what it reaches on the one before (`low`,
-/// proved to collide) and what it does not exceed on this one (`high`): if x were above, the arc from x to
-/// `low` would cross this half-plane above `high`. The same from the other side; where the two great circles
-/// do not meet in between, or are the same to rounding, the first alone.
-void append_outer(std::vector<Vector3d>& outer, const Vector3d& axis, const std::array<Vector3d, 4>& low,
-                  const std::array<Vector3d, 4>& high) {
-  constexpr double kSame = 1e-9;
-  const Vector3d before = low[0].cross(high[1]).normalized(), after = high[2].cross(low[3]).normalized();
-  Vector3d meet = before.cross(after);
-  if (meet.dot(high[1] + high[2]) < 0) meet = -meet;
-  outer.push_back(high[1]);
-  const bool between = axis.dot(high[1].cross(meet)) >= 0 && axis.dot(meet.cross(high[2])) >= 0;
-  if (meet.norm() > kSame && between) {
-    outer.push_back(meet.normalized());
-  } else {
-    const Vector3d side = (high[2] - high[2].dot(axis) * axis).normalized();
-    const Vector3d end = on_half_plane(before, axis, side);
-    if (axis.dot(end) < axis.dot(high[2])) outer.push_back(end);
-  }
 }
 
 std::shared_ptr<const DirectionClassifier> classifier_of(const Ellipsoid& agent,
@@ -161,28 +133,13 @@ BodyCone cone_of_polyhedron(const Ellipsoid& agent, const HullBody& body, const 
   const std::string method = std::to_string(kHalfPlanes) + " half-planes of a convex cone";
   const AssemblyOracle oracle(agent, Assembly::polyhedra({body}));
   if (oracle.relation() != Relation::disjoint) return everywhere(method);
-  const AxisFrame frame(inside - agent.center());
-  const auto reached = oracle.extremes(frame.axis, kHalfPlanes, kAngle);
-  std::vector<Vector3d> low, high, outer;
-  for (std::size_t i = 0; i < reached.size(); ++i) {
-    const double azimuth = 2 * pi * static_cast<double>(i) / kHalfPlanes;
-    const Vector3d side = std::cos(azimuth) * frame.e1 + std::sin(azimuth) * frame.e2;
-    low.push_back(std::cos(reached[i].low) * frame.axis + std::sin(reached[i].low) * side);
-    high.push_back(std::cos(reached[i].high) * frame.axis + std::sin(reached[i].high) * side);
-  }
-  const std::size_t n = reached.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto around = [&](const std::vector<Vector3d>& v) {
-      return std::array<Vector3d, 4>{v[(i + n - 1) % n], v[i], v[(i + 1) % n], v[(i + 2) % n]};
-    };
-    append_outer(outer, frame.axis, around(low), around(high));
-  }
-  BodyCone cone{.low = polygon_solid_angle(frame.axis, low),
-                .high = polygon_solid_angle(frame.axis, outer),
+  ConvexReach reach = convex_reach(oracle, inside - agent.center(), kHalfPlanes, kAngle);
+  BodyCone cone{.low = reach.inner.solid_angle,
+                .high = reach.outer.solid_angle,
                 .disjoint = true,
                 .method = method,
                 .outline = {}};
-  cone.outline.push_back(std::move(outer));
+  cone.outline.push_back(std::move(reach.outer.directions));
   return cone;
 }
 
