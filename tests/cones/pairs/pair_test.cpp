@@ -191,6 +191,10 @@ TEST(PairAnswers, OfPlanarBodiesAreTheirOwn) {
   const Pair ellipses(agent, Ellipse::from_axes({5, 0}, {1, 1}));
   EXPECT_TRUE(ellipses.guarantee().exact);
   EXPECT_NEAR(ellipses.contact({1, 0, 0}, {0, 0, 0})->time, 3, 1e-12);
+  // By the distance of the line of motion, 1.524 and 1.694 m, and the bodies' radii across it, 1.565
+  // and 1.580 m.
+  EXPECT_EQ(ellipses.verdict({5, 1.6, 0}, {0, 0, 0}), Verdict::in);
+  EXPECT_EQ(ellipses.verdict({5, 1.8, 0}, {0, 0, 0}), Verdict::out);
 }
 
 TEST(PairAnswers, SeveralThreadsShareAPair) {
