@@ -59,12 +59,12 @@ void add_fcl_benchmarks() {
   for (const auto& [name, solver] : {std::pair("libccd", FclSolver::libccd), {"indep", FclSolver::indep}}) {
     const std::string text = name;
     add(
-        "fcl/distance/" + text, [solver](int i) { return pairs[i].distance(solver); }, false);
+        "fcl/distance/" + text, [solver = solver](int i) { return pairs[i].distance(solver); }, false);
     add(
-        "fcl/collide/" + text, [solver](int i) { return pairs[i].collide(solver); }, false);
-    add("fcl/advancement/" + text, [solver](int i) { return pairs[i].advancement(solver); });
+        "fcl/collide/" + text, [solver = solver](int i) { return pairs[i].collide(solver); }, false);
+    add("fcl/advancement/" + text, [solver = solver](int i) { return pairs[i].advancement(solver); });
     add("fcl/polytope_advancement/" + text,
-        [solver](int i) { return pairs[i].polytope_advancement(solver); });
+        [solver = solver](int i) { return pairs[i].polytope_advancement(solver); });
   }
   add("fcl/naive/10", [](int i) { return pairs[i].naive(10); });
   add("fcl/naive/100", [](int i) { return pairs[i].naive(100); });

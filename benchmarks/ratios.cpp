@@ -217,13 +217,13 @@ MembershipFigures membership_table(int rounds) {
   for (const auto& [name, solver] : {std::pair("libccd", FclSolver::libccd), {"indep", FclSolver::indep}}) {
     const std::string text = std::string(", GJK ") + name;
     add("FCL conservative advancement" + text, true, kPairs, 1,
-        [solver](const Prepared& p, int i) { return p.fcl[i].advancement(solver); });
+        [solver = solver](const Prepared& p, int i) { return p.fcl[i].advancement(solver); });
     add("FCL continuousCollide, CCDC_CONSERVATIVE_ADVANCEMENT on polytopes" + text, true, kPairs, 1,
-        [solver](const Prepared& p, int i) { return p.fcl[i].polytope_advancement(solver); });
+        [solver = solver](const Prepared& p, int i) { return p.fcl[i].polytope_advancement(solver); });
     add("FCL distance now" + text, false, kPairs, 1,
-        [solver](const Prepared& p, int i) { return p.fcl[i].distance(solver) > 0; });
+        [solver = solver](const Prepared& p, int i) { return p.fcl[i].distance(solver) > 0; });
     add("FCL collide now" + text, false, kPairs, 1,
-        [solver](const Prepared& p, int i) { return p.fcl[i].collide(solver); });
+        [solver = solver](const Prepared& p, int i) { return p.fcl[i].collide(solver); });
   }
   measure(items, rounds);
 
