@@ -8,9 +8,9 @@
 #include <set>
 #include <variant>
 
+#include "cone/query.h"
 #include "input/body.h"
 #include "json/json_value.h"
-#include "cone/query.h"
 
 namespace vericone::accuracy {
 namespace {

@@ -7,11 +7,11 @@
 #include "accuracy/accuracy.h"
 #include "accuracy/combined_accuracy.h"
 #include "cone/cone.h"
-#include "pieces/gallery.h"
 #include "cone/query.h"
 #include "cone/shapes.h"
 #include "cone/signmap.h"
 #include "output/threads.h"
+#include "pieces/gallery.h"
 
 namespace vericone {
 namespace {

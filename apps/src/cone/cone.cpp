@@ -16,17 +16,17 @@
 
 #include "cone/answer.h"
 #include "cone/degrees.h"
-#include "output/figures.h"
+#include "cone/planar_cone.h"
+#include "cone/shape_engagements.h"
 #include "input/scene.h"
 #include "json/json_value.h"
-#include "pieces/pair_cone.h"
-#include "pieces/pieces_cone.h"
-#include "cone/planar_cone.h"
-#include "output/provenance.h"
-#include "cone/shape_engagements.h"
 #include "json/slice_json.h"
+#include "output/figures.h"
+#include "output/provenance.h"
 #include "output/staged_folder.h"
 #include "output/stopwatch.h"
+#include "pieces/pair_cone.h"
+#include "pieces/pieces_cone.h"
 
 namespace vericone {
 namespace {

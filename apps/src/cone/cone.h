@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "json/json_forward.h"
 #include "cone/map_answer.h"
+#include "json/json_forward.h"
 
 namespace vericone {
 

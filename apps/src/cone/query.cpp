@@ -10,8 +10,8 @@
 
 #include "cone/answer.h"
 #include "input/text_source.h"
-#include "output/interrupt.h"
 #include "json/json_value.h"
+#include "output/interrupt.h"
 
 namespace vericone {
 namespace {

@@ -10,11 +10,11 @@
 #include <ostream>
 #include <set>
 
-#include "output/figures.h"
-#include "json/json_value.h"
-#include "output/provenance.h"
 #include "cone/shape_engagements.h"
+#include "json/json_value.h"
 #include "json/shape_json.h"
+#include "output/figures.h"
+#include "output/provenance.h"
 #include "output/staged_folder.h"
 
 namespace vericone {

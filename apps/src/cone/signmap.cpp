@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "output/figures.h"
 #include "json/json_value.h"
+#include "output/figures.h"
 #include "output/provenance.h"
 #include "output/staged_folder.h"
 

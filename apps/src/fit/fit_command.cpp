@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <iostream>
 
-#include "output/figures.h"
 #include "fit/cone/cone_json.h"
 #include "fit/fit_body.h"
 #include "fit/fit_check.h"
@@ -14,8 +13,9 @@
 #include "fit/fit_picture.h"
 #include "fit/fit_text.h"
 #include "fit/hull_files.h"
-#include "output/interrupt.h"
 #include "json/json_value.h"
+#include "output/figures.h"
+#include "output/interrupt.h"
 #include "output/progress.h"
 #include "output/provenance.h"
 #include "output/staged_folder.h"

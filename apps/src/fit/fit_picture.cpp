@@ -2,8 +2,8 @@
 #include "fit/fit_picture.h"
 
 #include "json/json_value.h"
-#include "pieces/decimate.h"
 #include "json/shape_json.h"
+#include "pieces/decimate.h"
 
 namespace vericone::fit {
 

@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <ostream>
 
-#include "output/figures.h"
-#include "output/interrupt.h"
 #include "json/json_value.h"
 #include "montecarlo/summary.h"
+#include "output/figures.h"
+#include "output/interrupt.h"
 #include "output/provenance.h"
 #include "output/resumable_table.h"
 #include "output/staged_folder.h"

@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "command/build_info.h"
-#include "output/file_hash.h"
 #include "json/json_value.h"
+#include "output/file_hash.h"
 #include "output/output_file.h"
 #include "output/plain_text.h"
 

@@ -6,13 +6,13 @@
 #include <ostream>
 
 #include "claims.h"
-#include "output/interrupt.h"
 #include "json/json_value.h"
-#include "paper/papers_folder.h"
+#include "output/interrupt.h"
 #include "output/progress.h"
 #include "output/provenance.h"
-#include "report.h"
 #include "output/staged_folder.h"
+#include "paper/papers_folder.h"
+#include "report.h"
 
 namespace vericone {
 namespace {

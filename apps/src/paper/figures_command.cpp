@@ -11,17 +11,17 @@
 #include "accuracy/accuracy.h"
 #include "claims.h"
 #include "figure.h"
+#include "json/json_value.h"
 #include "output/figures.h"
 #include "output/interrupt.h"
-#include "json/json_value.h"
-#include "paper/papers_folder.h"
 #include "output/progress.h"
 #include "output/provenance.h"
-#include "report.h"
-#include "simulate/run_files.h"
 #include "output/staged_folder.h"
 #include "output/stopwatch.h"
 #include "output/threads.h"
+#include "paper/papers_folder.h"
+#include "report.h"
+#include "simulate/run_files.h"
 
 namespace vericone {
 namespace {

@@ -10,17 +10,17 @@
 #include <numbers>
 #include <optional>
 
-#include "output/figures.h"
-#include "input/assembly_body.h"
-#include "output/interrupt.h"
-#include "json/json_value.h"
 #include "cone/map_answer.h"
+#include "input/assembly_body.h"
+#include "json/json_value.h"
+#include "output/figures.h"
+#include "output/interrupt.h"
 #include "output/output_folder.h"
-#include "pieces/assembly_cone.h"
-#include "pieces/pieces_picture.h"
 #include "output/provenance.h"
 #include "output/staged_folder.h"
 #include "output/threads.h"
+#include "pieces/assembly_cone.h"
+#include "pieces/pieces_picture.h"
 
 namespace vericone {
 namespace {

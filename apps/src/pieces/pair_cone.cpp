@@ -7,8 +7,8 @@
 #include <ostream>
 
 #include "cone/answer.h"
-#include "output/figures.h"
 #include "json/json_value.h"
+#include "output/figures.h"
 #include "output/staged_folder.h"
 #include "output/stopwatch.h"
 

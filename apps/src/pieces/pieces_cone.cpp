@@ -9,13 +9,13 @@
 #include "cone/answer.h"
 #include "input/assembly_body.h"
 #include "json/json_value.h"
-#include "pieces/assembly_cone.h"
-#include "pieces/pieces_picture.h"
-#include "pieces/world_mesh.h"
 #include "json/slice_json.h"
 #include "output/staged_folder.h"
 #include "output/stopwatch.h"
 #include "output/threads.h"
+#include "pieces/assembly_cone.h"
+#include "pieces/pieces_picture.h"
+#include "pieces/world_mesh.h"
 
 namespace vericone {
 namespace {

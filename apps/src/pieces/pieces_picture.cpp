@@ -8,11 +8,11 @@
 #include <thread>
 
 #include "cone/answer.h"
-#include "output/figures.h"
 #include "input/assembly_body.h"
 #include "json/json_value.h"
-#include "pieces/decimate.h"
+#include "output/figures.h"
 #include "output/provenance.h"
+#include "pieces/decimate.h"
 
 namespace vericone {
 namespace {

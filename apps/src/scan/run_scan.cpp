@@ -8,19 +8,19 @@
 #include <iostream>
 #include <sstream>
 
-#include "output/figures.h"
 #include "input/assembly_body.h"
 #include "input/scene.h"
 #include "input/spatial_body.h"
 #include "json/json_value.h"
-#include "pieces/world_mesh.h"
+#include "json/slice_json.h"
+#include "output/figures.h"
 #include "output/provenance.h"
+#include "output/staged_folder.h"
+#include "output/threads.h"
+#include "pieces/world_mesh.h"
 #include "scan/lidar_fields.h"
 #include "scan/study.h"
 #include "scan/study_parts.h"
-#include "json/slice_json.h"
-#include "output/staged_folder.h"
-#include "output/threads.h"
 
 namespace vericone {
 namespace {

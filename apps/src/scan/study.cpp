@@ -11,9 +11,9 @@
 #include <numbers>
 #include <ostream>
 
+#include "output/stopwatch.h"
 #include "scan/study_parts.h"
 #include "scan/visible_part.h"
-#include "output/stopwatch.h"
 
 namespace vericone::scanning {
 namespace {

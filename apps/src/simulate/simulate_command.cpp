@@ -4,16 +4,16 @@
 #include <filesystem>
 #include <ostream>
 
-#include "output/figures.h"
 #include "input/scene.h"
-#include "output/interrupt.h"
 #include "json/json_value.h"
+#include "output/figures.h"
+#include "output/interrupt.h"
 #include "output/progress.h"
+#include "output/staged_folder.h"
+#include "output/stopwatch.h"
 #include "simulate/read_scenario.h"
 #include "simulate/run_files.h"
 #include "simulate/run_text.h"
-#include "output/staged_folder.h"
-#include "output/stopwatch.h"
 
 namespace vericone {
 namespace {

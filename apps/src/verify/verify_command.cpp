@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "output/interrupt.h"
 #include "json/json_value.h"
+#include "output/interrupt.h"
 
 namespace vericone {
 namespace {
