@@ -107,7 +107,8 @@ class Pair {
   /// `ahead` for every w != 0.
   std::optional<Passage> passage(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 
-  /// Nothing where verdict() is `out`.
+  /// Nothing where verdict() is `out`. Times and lengths, here and in miss(), are those of v_a - v_b rounded to doubles;
+  /// whether there is a contact is decided without rounding.
   std::optional<Contact> contact(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 
   Miss miss(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
