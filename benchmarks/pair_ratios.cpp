@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Prints, in Markdown, what the front door costs: verdicts by Pair beside those of the families themselves,
-// in one run.
+// in one run; and sectors on planes.
 //
 // Usage: vericone_pair_ratios [ROUNDS [MAP.bt]]   (an octree map; boxes in rows without it)
 #include <vericone/cones/assembly/assembly_oracle.h>
@@ -64,6 +64,12 @@ void row(const char* name, const std::vector<Family>& own, const std::vector<Pai
   std::printf("| %s | %.1f ns | %.1f ns | %.3f |\n", name, of_family, of_pair, of_pair / of_family);
 }
 
+/// A body of that kind and a mesh 7 m from it.
+Pair mesh_pair(testing::RandomBodies& random, BodyKind kind) {
+  return {Placed(testing::any_body(random, kind)),
+          Placed(testing::any_body(random, BodyKind::mesh), {{7, 1, 0}, Eigen::Matrix3d::Identity()})};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -103,4 +109,21 @@ int main(int argc, char** argv) {
   row("an ellipsoid and a hull of 6 to 12 points", hulls, of_hulls, velocities, rounds, 2);
   const std::string name = "an ellipsoid and a map of " + std::to_string(map.size()) + " boxes";
   row(name.c_str(), octree, of_octree, over, rounds, 2);
+
+  const std::vector<Pair> meshes{mesh_pair(random, BodyKind::mesh)},
+      dented{mesh_pair(random, BodyKind::combined)};
+  std::vector<Item> sectors;
+  const auto add = [&](const char* what, const std::vector<Pair>& pairs) {
+    sectors.push_back(item(what, std::size_t{32}, 1, [&](std::size_t i) {
+      return pairs[i % pairs.size()].sector(velocities[i].cross(Vector3d(6, 1, 0)));
+    }));
+  };
+  add("two ellipsoids", of_ellipsoids);
+  add("an ellipsoid and a hull of 6 to 12 points", of_hulls);
+  add(name.c_str(), of_octree);
+  add("two meshes of 7 triangles", meshes);
+  add("a dented body and a mesh of 7 triangles", dented);
+  measure(sectors, std::max(rounds / 4, 1));
+  std::printf("\n| Pair::sector of | on one plane |\n| --- | --- |\n");
+  for (const Item& it : sectors) std::printf("| %s | %.1f us |\n", it.name.c_str(), median(it.times) / 1000);
 }

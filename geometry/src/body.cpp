@@ -216,6 +216,21 @@ Box Body::bounds() const {
   return box;
 }
 
+Vector3d Body::middle() const {
+  struct Middle {
+    const Body& body;
+    Vector3d operator()(const CombinedEllipsoid& one) const { return one.center(); }
+    Vector3d operator()(const HullBody& hull) const {
+      Vector3d sum = Vector3d::Zero();
+      for (const Vector3d& x : hull.points()) sum += x / static_cast<double>(hull.size());
+      return sum;
+    }
+    Vector3d operator()(const Assembly& assembly) const { return assembly.bounds().center(); }
+    Vector3d operator()(const std::vector<CombinedEllipsoid>&) const { return body.bounds().center(); }
+  };
+  return std::visit(Middle{*this}, data_->shape);
+}
+
 const Ellipsoid& Body::containing_ellipsoid() const {
   std::call_once(data_->asked, [&] {
     data_->containing = std::visit([](const auto& shape) { return containing(shape); }, data_->shape);

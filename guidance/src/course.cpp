@@ -38,7 +38,7 @@ std::optional<bool> truly(const BodyState& a, const BodyState& b) {
 
 std::optional<bool> on_collision_course(const BodyState& a, const BodyState& b, SectorMethod method,
                                         double cease) {
-  if (!has_sectors(a, b)) return truly(a, b);
+  if (!has_sectors(a, b, method)) return truly(a, b);
   if (a.planar() || method == SectorMethod::slice || cease > 0) return by_sector(a, b, method, cease);
   const std::optional<bool> course = truly(a, b);
   // Below 0 the law is to let go before the cone is left.

@@ -150,7 +150,7 @@ std::optional<GuideStep> guide(const BodyState& a, const BodyState& b, const Gui
       memory.past.reset();
       return nothing_to_do(a, b);
     }
-    if (!has_sectors(a, b)) return without_sector();
+    if (!has_sectors(a, b, options.sector)) return without_sector();
   }
   const std::optional<Vector3d> across =
       choose_plane(a, b, options.sector, options.plane, memory.across ? &*memory.across : nullptr);

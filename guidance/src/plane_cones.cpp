@@ -2,6 +2,7 @@
 #include "plane_cones.h"
 
 #include <vericone/cones/cone_geometry.h>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -17,8 +18,9 @@ Vector3d across_axis(const Vector3d& u, const Vector3d& v) {
   return (rest - rest.dot(u) * u).normalized();
 }
 
-bool has_sectors(const BodyState& a, const BodyState& b) {
+bool has_sectors(const BodyState& a, const BodyState& b, SectorMethod method) {
   if (a.planar() || b.planar()) return a.planar() && b.planar();
+  if (method == SectorMethod::true_cone) return true;
   const auto* agent = std::get_if<CombinedEllipsoid>(&a.shape);
   return agent && (std::holds_alternative<CombinedEllipsoid>(b.shape) ||
                    (agent->is_ellipsoid() && std::holds_alternative<HullBody>(b.shape)));
@@ -30,15 +32,20 @@ PlaneCones::PlaneCones(const BodyState& a, const BodyState& b, SectorMethod meth
 PlaneCones::Kind PlaneCones::kind_of(const BodyState& a, const BodyState& b, SectorMethod method) {
   if (a.planar() && b.planar())
     return Planar{std::get<CombinedEllipse>(a.shape), std::get<CombinedEllipse>(b.shape)};
+  if (a.planar() || b.planar()) return None{};
   const auto* agent = std::get_if<CombinedEllipsoid>(&a.shape);
-  if (!agent) return None{};
+  const auto any_two = [&]() -> Kind {
+    if (method == SectorMethod::slice) return None{};
+    return TruePair{pair_of(a.shape, b.shape), a.position, b.position};
+  };
+  if (!agent) return any_two();
   if (const auto* hull = std::get_if<HullBody>(&b.shape)) {
-    if (!agent->is_ellipsoid()) return None{};
+    if (!agent->is_ellipsoid()) return any_two();
     if (method == SectorMethod::slice) return HullSlices{agent->ellipsoid(), *hull};
     return TrueHull(agent->ellipsoid(), *hull, b.position);
   }
   const auto* obstacle = std::get_if<CombinedEllipsoid>(&b.shape);
-  if (!obstacle) return None{};
+  if (!obstacle) return any_two();
   if (method == SectorMethod::slice) return Slices{*agent, *obstacle};
   if (agent->is_ellipsoid() && obstacle->is_ellipsoid())
     return SectorPlanes(agent->ellipsoid(), obstacle->ellipsoid());
@@ -69,18 +76,22 @@ std::optional<Opening> PlaneCones::on(const Vector3d& u, const Vector3d& e) cons
       const PlaneSector sector = planes.on(e);
       return Opening{sector.psi(), sector.theta_b()};
     }
-    std::optional<Opening> operator()(const TrueHull& cone) const { return opening(cone.on(u, e)); }
+    std::optional<Opening> operator()(const TrueHull& cone) const { return opening(cone.on(e)); }
     std::optional<Opening> operator()(const TrueCombined& cone) const { return opening(cone.on(u, e)); }
+    std::optional<Opening> operator()(const TruePair& seen) const {
+      return opening(seen.pair.sector(seen.from, seen.to, e));
+    }
 
-    static std::optional<Opening> opening(const std::optional<TrueEdges>& edges) {
-      return edges ? std::optional(edges->opening()) : std::nullopt;
+    static std::optional<Opening> opening(const std::optional<PlaneSector>& sector) {
+      return sector ? std::optional(Opening{sector->psi(), sector->theta_b()}) : std::nullopt;
     }
   };
   return std::visit(Ask{u, e}, kind_);
 }
 
-std::optional<TrueEdges> PlaneCones::true_edges(const Vector3d& u, const Vector3d& e) const {
-  if (const auto* hull = std::get_if<TrueHull>(&kind_)) return hull->on(u, e);
+std::optional<PlaneSector> PlaneCones::true_sector(const Vector3d& u, const Vector3d& e) const {
+  if (const auto* hull = std::get_if<TrueHull>(&kind_)) return hull->on(e);
+  if (const auto* seen = std::get_if<TruePair>(&kind_)) return seen->pair.sector(seen->from, seen->to, e);
   if (const auto* combined = std::get_if<TrueCombined>(&kind_)) return combined->on(u, e);
   return std::nullopt;
 }
@@ -100,7 +111,9 @@ std::optional<double> PlaneCones::opening_slope(const Vector3d& e) const {
 }
 
 double PlaneCones::tolerance() const {
-  if (std::holds_alternative<TrueHull>(kind_)) return TrueHull::kEdge;
+  if (std::holds_alternative<TrueHull>(kind_)) return HullSectors::kEdge;
+  if (const auto* seen = std::get_if<TruePair>(&kind_))
+    return std::max(1e-9, seen->pair.guarantee().tolerance);
   if (std::holds_alternative<TrueCombined>(kind_)) return TrueCombined::kEdge;
   return 0;
 }

@@ -6,7 +6,7 @@
 #include <vericone/cones/combined/cone.h>
 #include <vericone/cones/combined/edge.h>
 #include <vericone/cones/ellipsoids/plane_sector.h>
-#include <vericone/cones/hulls/hull_oracle.h>
+#include <vericone/cones/hulls/hull_sectors.h>
 #include <vericone/guidance/plane_view.h>
 #include <optional>
 #include <variant>
@@ -57,42 +57,23 @@ OpeningRates section_rates(const Sections& sections, const CombinedEllipsoid& a,
 std::optional<Opening> hull_section(const Ellipsoid& agent, const HullBody& hull, const Eigen::Vector3d& u,
                                     const Eigen::Vector3d& e);
 
-/// Both edges with the contacts there, angles from the line of sight towards +e and -e.
-struct TrueEdges {
-  CombinedEdge left, right;
+/// Closed form, from the contacts: only how fast the points in contact move along their normal counts.
+/// Requires contacts. `velocity`: of B from A; `motion`: without `closing`, turning as seen from fixed axes.
+OpeningRates contact_rates(const PlaneSector& sector, const BodyState& a, const BodyState& b,
+                           const Eigen::Vector3d& velocity, double plane_spin, const TurningMotion& motion);
 
-  Opening opening() const { return {left.angle + right.angle, 0.5 * (left.angle - right.angle)}; }
-  /// Whether rates follow from them.
-  bool contacts() const { return !left.normal.isZero(0) && !right.normal.isZero(0); }
-};
-
-/// Closed form, from the contacts: the edge stays perpendicular to their normal, and only how fast the points
-/// in contact move along it counts. `velocity`: of B from A; `motion`: without `closing`, turning as seen
-/// from fixed axes.
-OpeningRates contact_rates(const TrueEdges& edges, const BodyState& a, const BodyState& b,
-                           const Eigen::Vector3d& u, const Eigen::Vector3d& e,
-                           const Eigen::Vector3d& velocity, const Eigen::Vector3d& plane_turning,
-                           const TurningMotion& motion);
-
-/// The true sector of a hull: each edge is that of the agent against a corner or between two, found by a
-/// search for the plane that turns farthest, and asked of the exact oracle; where that denies it, by the
-/// assembly's. Refers to the bodies.
+/// The true sector of a hull; by the assembly's search where that of hulls says nothing. Refers to the
+/// bodies.
 class TrueHull {
  public:
-  static constexpr double kEdge = 1e-9;  // rad
-
   TrueHull(const Ellipsoid& agent, const HullBody& hull, const Eigen::Vector3d& position);
-  std::optional<TrueEdges> on(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
+  std::optional<PlaneSector> on(const Eigen::Vector3d& e) const;
 
  private:
-  std::optional<CombinedEdge> edge(const Eigen::Vector3d& u, const Eigen::Vector3d& side) const;
-  std::optional<TrueEdges> by_assembly(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
-
   const Ellipsoid& agent_;
   const HullBody& hull_;
   HullOracle oracle_;
   Eigen::Vector3d position_;
-  Eigen::Matrix3d inverse_;  // of the agent's factor
 };
 
 /// The true sector of dented bodies: edges by Newton's method from the ones before, asked of the certified
@@ -102,7 +83,7 @@ class TrueCombined {
   static constexpr double kEdge = 1e-7;  // rad
 
   TrueCombined(const CombinedEllipsoid& a, const CombinedEllipsoid& b);
-  std::optional<TrueEdges> on(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
+  std::optional<PlaneSector> on(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
 
  private:
   CombinedEdge edge(const Eigen::Vector3d& u, const Eigen::Vector3d& side,
@@ -123,8 +104,8 @@ class PlaneCones {
   /// u: the line of sight; e perpendicular to it, unit. Nothing as fill_cone() says.
   std::optional<Opening> on(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
 
-  /// With the contacts, for true sectors of hulls and dented bodies; nothing for others.
-  std::optional<TrueEdges> true_edges(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
+  /// With the contacts, for true sectors of all but two ellipsoids; nothing for others.
+  std::optional<PlaneSector> true_sector(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
 
   /// d psi / d azimuth as the plane turns about the line of sight, in closed form: true sectors of
   /// ellipsoids; nothing for others.
@@ -147,7 +128,12 @@ class PlaneCones {
     const Ellipsoid& agent;
     const HullBody& hull;
   };
-  using Kind = std::variant<None, Planar, Slices, HullSlices, SectorPlanes, TrueHull, TrueCombined>;
+  /// The rest: meshes, clouds, maps, unions, and agents that are hulls or these.
+  struct TruePair {
+    Pair pair;
+    Eigen::Vector3d from, to;
+  };
+  using Kind = std::variant<None, Planar, Slices, HullSlices, SectorPlanes, TrueHull, TrueCombined, TruePair>;
   static Kind kind_of(const BodyState& a, const BodyState& b, SectorMethod method);
 
   Kind kind_;

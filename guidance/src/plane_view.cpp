@@ -142,22 +142,20 @@ bool true_cone(const PlaneView& view, const BodyState& a, const BodyState& b, bo
   return true;
 }
 
-/// From the contacts at the edges: true sectors of hulls and of dented bodies.
-void contact_cone_rates(const TrueEdges& edges, const PlaneView& view, const BodyState& a, const BodyState& b,
-                        PlaneCone& cone) {
-  const Vector3d &u = view.line_of_sight, &e = view.across;
-  const Vector3d c = b.position - a.position, v = b.velocity - a.velocity;
+/// From the contacts at the edges: true sectors of all but two ellipsoids.
+void contact_cone_rates(const PlaneSector& sector, const PlaneView& view, const BodyState& a,
+                        const BodyState& b, PlaneCone& cone) {
+  const Vector3d v = b.velocity - a.velocity;
   const TurningMotion motion{a.omega, b.omega, 0, &a.rate, &b.rate};
-  const Vector3d turning = plane_turning(view, c, v);
-  const OpeningRates rates = contact_rates(edges, a, b, u, e, v, turning, motion);
+  const OpeningRates rates = contact_rates(sector, a, b, v, view.state.plane_spin, motion);
   cone.psi_rate = rates.psi;
-  cone.theta_b_rate = rates.theta_b + v.dot(e) / c.norm();
+  cone.theta_b_rate = rates.theta_b + v.dot(view.across) / sector.distance;
   const auto by_command = [&](const Vector3d& by, Vector3d TurningMotion::*omega, double& psi,
                               double& theta_b) {
     if (by.isZero(0)) return;
     TurningMotion unit;
     unit.*omega = by;
-    const OpeningRates one = contact_rates(edges, a, b, u, e, Vector3d::Zero(), Vector3d::Zero(), unit);
+    const OpeningRates one = contact_rates(sector, a, b, Vector3d::Zero(), 0, unit);
     psi = one.psi;
     theta_b = one.theta_b;
   };
@@ -271,16 +269,16 @@ bool fill_cone(PlaneView& view, const BodyState& a, const BodyState& b, SectorMe
     closed_form = false;
     const PlaneCones cones(a, b, method);
     tolerance = cones.tolerance();
-    const auto edges = cones.true_edges(view.line_of_sight, view.across);
-    const auto opening = edges ? std::optional(edges->opening()) : cones.on(view.line_of_sight, view.across);
-    if (opening) {
+    if (const auto sector = cones.true_sector(view.line_of_sight, view.across)) {
+      cone.psi = sector->psi();
+      cone.theta_b = sector->theta_b();
+      found = true;
+      closed_form = sector->has_contacts();
+      if (closed_form && analytic) contact_cone_rates(*sector, view, a, b, cone);
+    } else if (const auto opening = cones.on(view.line_of_sight, view.across)) {
       cone.psi = opening->psi;
       cone.theta_b = opening->theta_b;
       found = true;
-    }
-    if (edges && edges->contacts() && analytic) {
-      contact_cone_rates(*edges, view, a, b, cone);
-      closed_form = true;
     }
   }
   if (!found) return false;

@@ -173,6 +173,8 @@ PlaneSector SectorPlanes::on(const Vector3d& across) const {
   const Vector3d& e = sector.across;
   const Vector3d p = u.cross(e);
   const double distance = c.norm();
+  sector.distance = distance;
+  sector.distance = distance;
   const Width width(a, b, u, e, p);
 
   // The plane's sector is polar to the projection of the separating normals N = { width <= |c| } (n.u = 1)
@@ -185,8 +187,9 @@ PlaneSector SectorPlanes::on(const Vector3d& across) const {
     PlaneSector::Edge result;
     result.normal = (u + tau * e + s * p).normalized();
     const Vector3d ua = a.factor().transpose() * result.normal, ub = b.factor().transpose() * result.normal;
-    const Vector3d reach_ab = a.factor() * (ua / ua.norm()) + b.factor() * (ub / ub.norm());
-    result.contact = c - reach_ab;
+    result.on_a = a.factor() * (ua / ua.norm());
+    result.on_b = -(b.factor() * (ub / ub.norm()));
+    result.contact = c - (result.on_a - result.on_b);
     // The edge is perpendicular to (1, tau) in the plane; 1 is written as width / |c|, which is what it
     // equals.
     result.angle = std::atan2(width.at(tau, s).width / distance, side * tau);
@@ -199,30 +202,23 @@ PlaneSector SectorPlanes::on(const Vector3d& across) const {
 
 PlaneSectorRates true_sector_rates(const PlaneSector& sector, const Ellipsoid& a, const Ellipsoid& b,
                                    const SpatialMotion& motion) {
-  const Vector3d &u = sector.line_of_sight, &e = sector.across;
+  const Vector3d& u = sector.line_of_sight;
   const Vector3d c_rate = motion.v_b - motion.v_a;
-  const double distance = (b.center() - a.center()).norm();
   if (u.isZero(0)) throw InputError("sector", "a sector without a plane", "true_sector() of the two bodies");
-  if (!(distance > 0)) throw InputError("bodies", "the same centre", "disjoint");
-  const Vector3d turning = u.cross(c_rate) / distance + motion.plane_spin * u;  // of the frame (u, e)
+  if (a.center() == b.center()) throw InputError("bodies", "the same centre", "disjoint");
   const auto width_rate = [](const Ellipsoid& body, const Vector3d& n, const Vector3d& omega,
                              const Eigen::Matrix3d& extra) {
     // Turning: S' = W S - S W with W = [omega x], so n.S'n / 2 = (S n).(n x omega).
     const Vector3d sn = body.factor() * (body.factor().transpose() * n);
     return (sn.dot(n.cross(omega)) + 0.5 * n.dot(extra * n)) / body.radius(n);
   };
-  // On the boundary n.q = g(n, t) stays 0 with q = kappa d, and grad g = q: q.n' = -g_t. Differentiating n.d
-  // = 0 gives n.d' = g_t / kappa, where d' is phi' along the turned direction plus the turning of the frame.
-  const auto edge_rate = [&](const PlaneSector::Edge& edge, double side) {
-    const double cosine = std::cos(edge.angle), sine = side * std::sin(edge.angle);
-    const Vector3d d = cosine * u + sine * e, turned = -sine * u + cosine * e;
-    const Vector3d& n = edge.normal;
-    const double kappa = edge.contact.dot(d);
-    const double g_t = n.dot(c_rate) - width_rate(a, n, motion.omega_a, motion.shape_rate_a) -
-                       width_rate(b, n, motion.omega_b, motion.shape_rate_b);
-    return side * (g_t / kappa - n.dot(turning.cross(d))) / n.dot(turned);
+  // n.(S n)/rho is where the contact is, so the turning of a shape is that of the contact point.
+  const auto speed = [&](const Vector3d& n) {
+    return n.dot(c_rate) - width_rate(a, n, motion.omega_a, motion.shape_rate_a) -
+           width_rate(b, n, motion.omega_b, motion.shape_rate_b);
   };
-  return {edge_rate(sector.left, 1), edge_rate(sector.right, -1), c_rate.dot(e) / distance};
+  return sector_rates(sector, speed(sector.left.normal), speed(sector.right.normal), c_rate,
+                      motion.plane_spin);
 }
 
 }  // namespace vericone

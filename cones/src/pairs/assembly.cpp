@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // A convex agent against hulls and assemblies: exact.
-#include <vericone/cones/assembly/assembly_oracle.h>
-#include <vericone/cones/hulls/hull_oracle.h>
+#include <vericone/cones/assembly/assembly_sectors.h>
+#include <vericone/cones/hulls/hull_sectors.h>
 #include <cmath>
+#include <type_traits>
 
+#include "assembly/passing.h"
 #include "pairs/cones.h"
 
 namespace vericone::pairs {
@@ -64,6 +66,11 @@ class AssemblyFamily : public Family {
     return miss;
   }
 
+  std::optional<PlaneSector> sector(const SightLine& line, const Vector3d& e) const override {
+    return assembly_sector(*oracle_, line.from, line.to, e);
+  }
+  std::optional<Passing> passing(const Vector3d& w) const override { return assembly_passing(*oracle_, w); }
+
   std::shared_ptr<const DirectionClassifier> directions() const override { return oracle_; }
 
   Cone cone(const ConeOptions& options) const override { return cone_by_map(*this, axis_, options); }
@@ -100,12 +107,16 @@ class AssemblyFamily : public Family {
   double size_;    // half the agent's largest width
 };
 
-/// Verdicts by the hulls' own predicate, which is several times faster; all else as an assembly of one hull.
+/// Verdicts and sectors by the hulls' own predicate, which is several times faster; all else as an assembly
+/// of one hull.
+template <typename Agent>
 class Hulls : public AssemblyFamily {
  public:
-  template <typename Agent>
   Hulls(const Agent& agent, const HullBody& obstacle)
-      : AssemblyFamily(agent, Assembly::polyhedra({obstacle}), Pose{}), hulls_(agent, obstacle) {
+      : AssemblyFamily(agent, Assembly::polyhedra({obstacle}), Pose{}),
+        agent_(agent),
+        obstacle_(obstacle),
+        hulls_(agent_, obstacle_) {
     axis_ = middle(obstacle) - middle(agent);
   }
 
@@ -119,19 +130,28 @@ class Hulls : public AssemblyFamily {
     hulls_.verdict(v_a, v_b, &rung);
     return rung;
   }
+  std::optional<PlaneSector> sector(const SightLine& line, const Vector3d& e) const override {
+    if constexpr (std::is_same_v<Agent, Ellipsoid>) {
+      if (line.from == agent_.center())
+        if (auto own = HullSectors(agent_, obstacle_, hulls_).on(line.to, e)) return own;
+    }
+    return AssemblyFamily::sector(line, e);
+  }
   Cone cone(const ConeOptions& options) const override { return cone_of_hulls(*oracle_, axis_, options); }
 
  private:
+  Agent agent_;
+  HullBody obstacle_;
   HullOracle hulls_;
 };
 
 }  // namespace
 
 FamilyPointer hull_family(const Ellipsoid& agent, const HullBody& obstacle) {
-  return std::make_shared<Hulls>(agent, obstacle);
+  return std::make_shared<Hulls<Ellipsoid>>(agent, obstacle);
 }
 FamilyPointer hull_family(const HullBody& agent, const HullBody& obstacle) {
-  return std::make_shared<Hulls>(agent, obstacle);
+  return std::make_shared<Hulls<HullBody>>(agent, obstacle);
 }
 FamilyPointer assembly_family(const Ellipsoid& agent, const Assembly& obstacle, const Pose& pose) {
   return std::make_shared<AssemblyFamily>(agent, obstacle, pose);

@@ -122,6 +122,8 @@ class Combined : public Family {
     return miss;
   }
 
+  std::optional<Passing> passing(const Vector3d&) const override { return std::nullopt; }
+
   std::shared_ptr<const DirectionClassifier> directions() const override {
     return std::make_shared<CombinedClassifier>(combined_cone(a_, b_));
   }

@@ -3,6 +3,8 @@
 // Bodies of many parts against each other: pieces exactly, delimited bodies certified.
 #include <vericone/cones/composite/composite_pair.h>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 
 #include "pairs/cones.h"
 
@@ -13,8 +15,12 @@ using Eigen::Vector3d;
 
 class Composite : public Family {
  public:
-  Composite(std::shared_ptr<const CompositePair> pair, double tolerance, const Vector3d& axis)
-      : pair_(std::move(pair)), tolerance_(tolerance), axis_(axis) {}
+  /// Of pieces against pieces: the pair of two of them.
+  using PieceOfEach = std::function<FamilyPointer(std::uint32_t agent, std::uint32_t obstacle)>;
+
+  Composite(std::shared_ptr<const CompositePair> pair, double tolerance, const Vector3d& axis,
+            PieceOfEach piece = {})
+      : pair_(std::move(pair)), tolerance_(tolerance), axis_(axis), piece_(std::move(piece)) {}
 
   Guarantee guarantee() const override {
     return {pair_->exact(), pair_->exact() ? 0 : tolerance_, "composite"};
@@ -57,6 +63,14 @@ class Composite : public Family {
     return miss;
   }
 
+  /// A delimited body is not resolved finely enough.
+  std::optional<Passing> passing(const Vector3d& w) const override {
+    if (!pair_->exact()) return std::nullopt;
+    const CompositeMiss found = pair_->miss_distance(w);
+    if (!(found.most > 0)) return std::nullopt;
+    return piece_(found.agent_piece, found.piece)->passing(w);
+  }
+
   std::shared_ptr<const DirectionClassifier> directions() const override { return pair_; }
   Cone cone(const ConeOptions& options) const override { return cone_by_map(*this, axis_, options); }
   Vector3d axis() const override { return axis_; }
@@ -65,7 +79,15 @@ class Composite : public Family {
   std::shared_ptr<const CompositePair> pair_;
   double tolerance_;
   Vector3d axis_;
+  PieceOfEach piece_;
 };
+
+/// One of its pieces as a body of its own.
+Body piece_of(const Assembly& assembly, std::uint32_t i) {
+  HullBody points = assembly.piece(i);
+  if (!(assembly.radius() > 0)) return points;
+  return Ellipsoid::from_axes(points.points().front(), Vector3d::Constant(assembly.radius()));
+}
 
 Vector3d middle(const Assembly& body, const Pose& pose) { return pose.to_world(body.bounds().center()); }
 
@@ -79,8 +101,11 @@ FamilyPointer composite_family(const CombinedEllipsoid& agent, const Assembly& o
 
 FamilyPointer composite_family(const Assembly& agent, const Pose& agent_pose, const Assembly& obstacle,
                                const Pose& pose) {
+  const auto piece = [=](std::uint32_t i, std::uint32_t j) {
+    return family_of({piece_of(agent, i), agent_pose}, {piece_of(obstacle, j), pose}, {});
+  };
   return std::make_shared<Composite>(std::make_shared<CompositePair>(agent, agent_pose, obstacle, pose), 0,
-                                     middle(obstacle, pose) - middle(agent, agent_pose));
+                                     middle(obstacle, pose) - middle(agent, agent_pose), piece);
 }
 
 }  // namespace vericone::pairs

@@ -3,6 +3,8 @@
 // Pairs made of pairs: exchanged, and the union of several.
 #include <vericone/cones/map/classifiers.h>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "pairs/cones.h"
 
@@ -32,6 +34,15 @@ class Mirrored : public Family {
     Miss miss = exchanged_->miss(v_b, v_a);
     miss.normal *= -1;
     return miss;
+  }
+  std::optional<PlaneSector> sector(const SightLine& line, const Vector3d& e) const override {
+    auto own = exchanged_->sector({line.to, line.from}, -e);
+    if (own) *own = mirror_image(std::move(*own));
+    return own;
+  }
+  std::optional<Passing> passing(const Vector3d& w) const override {
+    const auto own = exchanged_->passing(-w);
+    return own ? std::optional(Passing{own->on_b, own->on_a, -own->normal}) : std::nullopt;
   }
   std::shared_ptr<const DirectionClassifier> directions() const override {
     return std::make_shared<MirroredClassifier>(exchanged_->directions());
@@ -114,6 +125,46 @@ class AnyOf : public Family {
     nearest.distance = std::max(nearest.distance, nearest.most > 0 ? least : nearest.distance);
     // To avoid one piece may be to meet another: the whole's depth is for Pair to say.
     if (!(nearest.most > 0) && all_.size() > 1) nearest.depth = std::numeric_limits<double>::quiet_NaN();
+    return nearest;
+  }
+
+  /// That of each pair on its own line of centres, which keeps its closed form, would be on other planes; so
+  /// on each side the farthest edge of the pairs is taken.
+  std::optional<PlaneSector> sector(const SightLine& line, const Vector3d& e) const override {
+    std::optional<PlaneSector> whole;
+    for (const FamilyPointer& pair : all_) {
+      const auto own = pair->sector(line, e);
+      if (!own) continue;
+      if (!whole) {
+        whole = own;
+        continue;
+      }
+      const auto farther = [](GrazingEdge& edge, const GrazingEdge& other) {
+        const double beyond = std::max(edge.angle + edge.error, other.angle + other.error),
+                     inside = std::max(edge.angle - edge.error, other.angle - other.error);
+        if (other.angle > edge.angle) edge = other;
+        // Where two edges cannot be told apart, the contact may be of either.
+        if (std::abs(0.5 * (beyond + inside) - edge.angle) > 1e-9) edge = {};
+        edge.angle = 0.5 * (beyond + inside);
+        edge.error = 0.5 * (beyond - inside);
+      };
+      farther(whole->left, own->left);
+      farther(whole->right, own->right);
+    }
+    return whole;
+  }
+  std::optional<Passing> passing(const Vector3d& w) const override {
+    std::optional<Passing> nearest;
+    double least = std::numeric_limits<double>::infinity();
+    for (const FamilyPointer& pair : all_) {
+      const auto own = pair->passing(w);
+      if (!own) return std::nullopt;
+      const double distance = (own->on_b - own->on_a).dot(own->normal);
+      if (distance < least) {
+        least = distance;
+        nearest = own;
+      }
+    }
     return nearest;
   }
 

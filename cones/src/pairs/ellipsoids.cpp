@@ -3,6 +3,7 @@
 // Two ellipsoids: exact.
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/ellipsoids/enclosures.h>
+#include <vericone/cones/ellipsoids/plane_sector.h>
 #include <vericone/cones/map/classifiers.h>
 #include <vericone/cones/times/contact_time_enclosure.h>
 #include <algorithm>
@@ -46,6 +47,18 @@ class Ellipsoids : public Family {
       break;
     }
     return contact;
+  }
+
+  std::optional<PlaneSector> sector(const SightLine& line, const Vector3d& e) const override {
+    const Ellipsoid &a = oracle_.a(), &b = oracle_.b();
+    if (line.from == a.center() && line.to == b.center()) return true_sector(a, b, e);
+    return sector_by_arcs(*this, line, e);
+  }
+
+  std::optional<Passing> passing(const Vector3d& w) const override {
+    const Clearance c = clearance(oracle_.a(), oracle_.b(), w);
+    const Vector3d on_b = oracle_.b().support_point(-c.normal);
+    return Passing{oracle_.a().support_point(c.normal), on_b, c.normal};
   }
 
   std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {

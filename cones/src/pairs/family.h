@@ -7,6 +7,8 @@
 #include <memory>
 #include <vector>
 
+#include "pairs/sectors.h"
+
 namespace vericone::pairs {
 
 class Family {
@@ -27,6 +29,12 @@ class Family {
   virtual Cone cone(const ConeOptions& options) const = 0;
   /// From the middle of the agent to that of the obstacle.
   virtual Eigen::Vector3d axis() const = 0;
+  /// On the plane of a line of sight and e, a unit vector perpendicular to it. Of bodies that are apart.
+  virtual std::optional<PlaneSector> sector(const SightLine& line, const Eigen::Vector3d& e) const {
+    return sector_by_arcs(*this, line, e);
+  }
+  /// Where they are nearest on the way, for a w that just misses; nothing where it is not known well enough.
+  virtual std::optional<Passing> passing(const Eigen::Vector3d& w) const = 0;
 
   /// The prepared pair of two ellipsoids; none of others.
   virtual const ConeOracle* ellipsoids() const { return nullptr; }

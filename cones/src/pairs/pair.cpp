@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ellipsoids/plane_axis.h"
 #include "pairs/family.h"
 
 namespace vericone {
@@ -171,6 +172,21 @@ Miss Pair::miss(const Vector3d& v_a, const Vector3d& v_b) const {
   miss.normal = around.normal;
   miss.time = std::max(around.time, 0.0);
   return miss;
+}
+
+std::optional<PlaneSector> Pair::sector(const Vector3d& from, const Vector3d& to,
+                                        const Vector3d& across) const {
+  const pairs::SightLine line{from, to};
+  const Vector3d u = line.direction();
+  if (!u.allFinite() || u.isZero(0))
+    throw InputError("to", "the same point as \"from\", or not finite", "another point");
+  const Vector3d e = second_axis(u, across);
+  if (relation() != Relation::disjoint) return std::nullopt;
+  return family_->sector(line, e);
+}
+
+std::optional<PlaneSector> Pair::sector(const Vector3d& across) const {
+  return sector(agent_->middle(), obstacle_->middle(), across);
 }
 
 std::shared_ptr<const DirectionClassifier> Pair::directions() const { return family_->directions(); }

@@ -60,12 +60,12 @@ void check_kinds(const Pilot& pilot, const Body& self, const Scenario& scenario)
                         std::find(pilot.minds.begin(), pilot.minds.end(), other.name) != pilot.minds.end();
     if (other.name == self.name || !minded || planar(other.shape) != planar(self.shape)) continue;
     const guidance::BodyState obstacle = state(other);
-    if (guidance::has_sectors(agent, obstacle)) continue;
-    if (by_sector)
+    if (guidance::has_sectors(agent, obstacle, guidance::SectorMethod::slice)) continue;
+    if (by_sector && !guidance::has_sectors(agent, obstacle, pilot.guide.sector))
       throw InputError("law",
-                       std::string(guidance::to_string(pilot.guide.law)) + " by sectors, which " + self.name +
+                       std::string(guidance::to_string(pilot.guide.law)) + " by slices, which " + self.name +
                            " and " + other.name + " do not have",
-                       "clearance, or avoidance with the manner guarded");
+                       "exact sectors, clearance, or avoidance with the manner guarded");
     try {
       guidance::pair_of(agent.shape, obstacle.shape);
     } catch (const InputError& e) {

@@ -224,6 +224,8 @@ TEST(ClearanceAhead, SignIsThatOfTheVerdict) {
         case Verdict::overlapping:
           ASSERT_LE(ahead, 0);
           break;
+        case Verdict::undecided:
+          FAIL() << "two ellipsoids are decided";
       }
     }
   }

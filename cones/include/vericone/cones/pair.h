@@ -8,6 +8,7 @@
 #include <vericone/cones/answers.h>
 #include <vericone/cones/direction_cell.h>
 #include <vericone/cones/ellipsoids/predicates.h>
+#include <vericone/cones/plane_sector.h>
 #include <vericone/geometry/body.h>
 #include <limits>
 #include <memory>
@@ -107,8 +108,8 @@ class Pair {
   /// `ahead` for every w != 0.
   std::optional<Passage> passage(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 
-  /// Nothing where verdict() is `out`. Times and lengths, here and in miss(), are those of v_a - v_b rounded to doubles;
-  /// whether there is a contact is decided without rounding.
+  /// Nothing where verdict() is `out`. Times and lengths, here and in miss(), are those of v_a - v_b rounded
+  /// to doubles; whether there is a contact is decided without rounding.
   std::optional<Contact> contact(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 
   Miss miss(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
@@ -118,6 +119,19 @@ class Pair {
   /// (docs/benchmarks.md); hulls 1 ms; others are drawn as a map, seconds.
   Cone cone() const;
   Cone cone(const ConeOptions& options) const;
+
+  /// The least sector that holds the cone's directions on a plane: that through the line of sight, from a
+  /// point `from` of the agent to a point `to` of the obstacle (metres, world), and `across` (any vector not
+  /// along it). sector_rates() of plane_sector.h has its rates. Edges of exact pairs are right to 1e-9 rad,
+  /// those of two ellipsoids about their centres to rounding; GrazingEdge::error says what is proved. Two
+  /// stars or dents know their contacts about their centres only; a delimited body and an assembly none.
+  /// Nothing where the bodies are not apart (or not known to be), or no direction of the plane is known to
+  /// collide. Throws InputError naming "across" or "to". Cost: two ellipsoids 1 us, a hull 2 us, others:
+  /// docs/pairs.md.
+  std::optional<PlaneSector> sector(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                                    const Eigen::Vector3d& across) const;
+  /// From the middle of the agent to that of the obstacle.
+  std::optional<PlaneSector> sector(const Eigen::Vector3d& across) const;
 
   /// Whole triangles of directions of w, for cone_map(); lives as long as someone holds it. Prepared on the
   /// first call.

@@ -56,6 +56,10 @@ class Body {
   /// points of a hull and the pieces of a union, a descent of the tree of an assembly. No allocation.
   double support(const Eigen::Vector3d& n) const;
 
+  /// A point amid the body: the centre of a combined quadric, the mean of a hull's points, the middle of the
+  /// bounds of an assembly or a union.
+  Eigen::Vector3d middle() const;
+
   /// Around the body, at most a few roundings too small.
   Box bounds() const;
 
@@ -80,6 +84,7 @@ struct Placed {
   double support(const Eigen::Vector3d& n) const {
     return n.dot(pose.position) + body.support(pose.rotation.transpose() * n);
   }
+  Eigen::Vector3d middle() const { return pose.to_world(body.middle()); }
   /// Its numbers are rounded once.
   Ellipsoid containing_ellipsoid() const;
 };

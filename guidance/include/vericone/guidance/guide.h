@@ -69,7 +69,7 @@ std::optional<bool> on_collision_course(const BodyState& a, const BodyState& b, 
 /// chosen only how. Where the plane chosen says that all is well although it is not (the projection of the
 /// relative velocity on it has left its sector, the relative velocity has not left the cone) the plane of the
 /// relative velocity is taken. Where nothing is commanded, y, psi and theta_b are not computed: NaN. Bodies
-/// that have no sectors (has_sectors()) are asked by their true cone alone: avoidance in space says
+/// that have no slices (has_sectors()) are asked by their true cone alone: avoidance in space by slices says
 /// `no_sector` where they will meet.
 ///
 /// Nothing where the bodies are not apart as the method sees them. `time`, seconds, for backward differences.

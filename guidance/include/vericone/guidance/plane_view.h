@@ -43,20 +43,19 @@ struct PlaneView {
 PlaneView plane_states(const BodyState& a, const BodyState& b, const Eigen::Vector3d& across,
                        double plane_spin = 0);
 
-/// Whether there are sectors of bodies of these kinds: of two planar ones, of two combined ones, and of an
-/// ellipsoid and a hull.
-bool has_sectors(const BodyState& a, const BodyState& b);
+/// Whether there are sectors of bodies of these kinds: of two planar ones, by the true cone of any two in
+/// space, by slices of two combined ones and of an ellipsoid and a hull.
+bool has_sectors(const BodyState& a, const BodyState& b, SectorMethod method);
 
 /// The cone at `view`, filled in; false where the bodies are not apart (on the plane, for slices) or an
-/// oracle does not decide, and nothing is written. A is planar or an ellipsoid; the obstacle planar, combined
-/// or a hull.
+/// oracle does not decide, and nothing is written.
 ///
 /// Closed-form rates: planar bodies; slices of combined bodies; true sectors, from the contacts at their edges.
-/// Differenced are slices of hulls and edges that only bisection finds. B's own acceleration is not known
+/// Differenced are slices of hulls and edges of which no contact is known. B's own acceleration is not known
 /// here: where B turns with its heading, only its omega counts. Edges of combined bodies' true sectors are
 /// proved to 1e-7 rad; what cannot be decided counts as in.
 /// Cost with rates: true sectors of ellipsoids 0.9 us, slices 2.6 us, of hulls of 12 points 7 us; true sectors
-/// of hulls of 12 points 7 us, of combined bodies 0.4 ms.
+/// of hulls of 12 points 7 us, of combined bodies 0.4 ms, of meshes, clouds and maps by Pair::sector (docs/pairs.md).
 bool fill_cone(PlaneView& view, const BodyState& a, const BodyState& b, SectorMethod method,
                RateMethod rates);
 

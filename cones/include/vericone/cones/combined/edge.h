@@ -5,30 +5,16 @@
 // inside and just outside does that.
 #pragma once
 
+#include <vericone/cones/plane_sector.h>
 #include <vericone/geometry/combined.h>
 #include <Eigen/Core>
-#include <array>
 #include <optional>
 #include <vector>
 
 namespace vericone {
 
-/// Surfaces of a body that are touched at a point y from its centre, the ellipsoid's being 0: the unit
-/// outward normal there is the sum of weight M y over them.
-struct TouchedSurfaces {
-  int count = 0;
-  std::array<int, 3> surface{};
-  std::array<double, 3> weight{};
-};
-
-/// A grazing contact: A moved along the edge meets B there.
-struct CombinedEdge {
-  double angle = 0;  // radians from the line of sight, towards `side`
-  Eigen::Vector3d on_a = Eigen::Vector3d::Zero(), on_b = Eigen::Vector3d::Zero();  // from the centres, metres
-  // Unit, of both bodies there, from A towards B; perpendicular to the edge. Zero where it is not known.
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  TouchedSurfaces touched_a, touched_b;
-};
+/// On the half-plane of `side`: angle, points, normal and touched surfaces; `contact` and `error` are left 0.
+using CombinedEdge = GrazingEdge;
 
 /// Two bodies prepared for their edges on many half-planes.
 class CombinedEdges {

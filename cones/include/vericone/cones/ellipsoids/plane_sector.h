@@ -1,29 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The section of the true 3-D cone by a plane through the line of centres: what planar guidance laws need.
+// Sectors of two ellipsoids on planes through the line of centres, with rates of changing shapes.
 #pragma once
 
 #include <vericone/cones/ellipsoids/predicates.h>
+#include <vericone/cones/plane_sector.h>
 
 namespace vericone {
-
-/// The sector { phi : cos(phi) u + sin(phi) e is in C } with u the line of sight (unit, from A to B) and e
-/// the plane's second axis. Unlike a slice (slice_cone.h) it accounts for contacts outside the plane.
-struct PlaneSector {
-  struct Edge {
-    double angle = 0;  // radians from the line of sight, positive towards its own side
-    Eigen::Vector3d normal =
-        Eigen::Vector3d::Zero();  // unit contact normal, from A towards B; not in the plane
-    Eigen::Vector3d contact = Eigen::Vector3d::Zero();  // displacement of A that brings it to grazing contact
-  };
-  Eigen::Vector3d line_of_sight = Eigen::Vector3d::Zero(),
-                  across = Eigen::Vector3d::Zero();  // u, e, orthonormal
-  Edge left, right;                                  // towards +e and -e
-
-  double psi() const { return left.angle + right.angle; }
-  /// Bisector, radians from the line of sight towards e.
-  double theta_b() const { return 0.5 * (left.angle - right.angle); }
-};
 
 /// `across`: any vector not parallel to the line of centres; with it spans the plane. Throws InputError
 /// naming "across", or "bodies" where they are not disjoint. Cost: about 1 us, 2 us where bodies are near
@@ -57,16 +40,6 @@ struct SpatialMotion {
   double plane_spin = 0;  // rad/s, of the plane about the line of sight, beyond the turning of the latter
 };
 
-/// Closed-form rates, rad/s. The plane turns with the line of sight (u' is its rate, e turns with it without
-/// spinning) plus plane_spin.
-struct PlaneSectorRates {
-  double left = 0, right = 0;  // of the two edge angles
-  double line_of_sight = 0;    // in-plane turning of u towards e
-
-  double psi() const { return left + right; }
-  /// Of the bisector against the line of sight; add line_of_sight for the rate against fixed axes.
-  double theta_b() const { return 0.5 * (left - right); }
-};
 /// `sector`: of a and b. Throws InputError naming "sector" for a default-constructed one, which has no plane,
 /// and "bodies" for bodies with the same centre.
 PlaneSectorRates true_sector_rates(const PlaneSector& sector, const Ellipsoid& a, const Ellipsoid& b,
