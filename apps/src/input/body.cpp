@@ -3,6 +3,7 @@
 
 #include "input/assembly_body.h"
 #include "input/fields.h"
+#include "input/file_body.h"
 #include "input/planar_body.h"
 #include "input/spatial_body.h"
 #include "json/json_value.h"
@@ -20,6 +21,12 @@ Dimension dimension(const Json& engagement, const char* body) {
   if (!value.contains("center") || !value["center"].is_array()) return Dimension::unknown;
   if (value["center"].size() == 2) return Dimension::planar;
   return value["center"].size() == 3 ? Dimension::spatial : Dimension::unknown;
+}
+
+std::size_t pieces_of(const Placed& body) {
+  const auto* quadrics = std::get_if<std::vector<CombinedEllipsoid>>(&body.body.shape());
+  const auto* hulls = std::get_if<Assembly>(&body.body.shape());
+  return quadrics ? quadrics->size() : hulls ? hulls->size() : 1;
 }
 
 template <int D>
@@ -40,7 +47,7 @@ Eigen::Matrix<double, D, 1> read_velocity(const Json& value, const char* field, 
 }
 
 constexpr const char* kSpatialBody =
-    "a body: center with semi_axes and rotation, or with shape; or quadric, or one made of pieces";
+    "a body: center with semi_axes and rotation, or with shape; or quadric, or one made of pieces; or file";
 
 template <int D>
 BasicEngagement<D> read_bodies(const Json& value, Velocities velocities) {
@@ -58,6 +65,11 @@ BasicEngagement<D> read_bodies(const Json& value, Velocities velocities) {
 /// Of any kind, where it stands, and what to call it.
 std::pair<Placed, std::string> read_any(const Json& value, const std::string& path,
                                         const std::filesystem::path& folder) {
+  if (is_union(value)) {
+    Placed body = read_union(value, path, folder);
+    const std::size_t count = pieces_of(body);
+    return {std::move(body), "union of " + std::to_string(count) + (count == 1 ? " piece" : " pieces")};
+  }
   if (!is_pieces_body(value)) {
     const CombinedEllipsoid body = read_spatial_body(value, path);
     return {Placed(body), body.is_ellipsoid() ? "ellipsoid" : "combined quadric"};
@@ -67,7 +79,7 @@ std::pair<Placed, std::string> read_any(const Json& value, const std::string& pa
   return {Placed(std::move(body.pieces), body.pose), std::move(name)};
 }
 
-/// At least one body is made of pieces.
+/// At least one body is made of pieces, or is a union.
 AnyEngagement read_pieces_engagement(const Json& value, Velocities velocities,
                                      const std::filesystem::path& folder) {
   const Json& agent = require_field(value, "", "agent", kSpatialBody);
@@ -79,7 +91,7 @@ AnyEngagement read_pieces_engagement(const Json& value, Velocities velocities,
     return AssemblyEngagement{std::move(body), read_pieces_body(obstacle, "obstacle", folder), velocity,
                               of_obstacle};
   };
-  if (is_pieces_body(obstacle)) {
+  if (is_pieces_body(obstacle) && !is_union(agent)) {
     if (is_pieces_body(agent)) {
       if (agent.contains("hull") || agent.contains("points"))
         return pieces_before(read_hull_agent(agent, "agent", folder));
@@ -91,6 +103,31 @@ AnyEngagement read_pieces_engagement(const Json& value, Velocities velocities,
   auto [second, second_name] = read_any(obstacle, "obstacle", folder);
   return PlacedEngagement{
       std::move(first), std::move(second), std::move(first_name), std::move(second_name), v_a(), v_b()};
+}
+
+/// Whether nothing but a body's own fields is there.
+bool is_plain(const Json& body) {
+  return !body.is_object() || (!body.contains("file") && !body.contains("velocity"));
+}
+
+/// The engagement with the fields of files in place of their names, and with the velocities beside the
+/// bodies.
+Json plain(const Json& engagement, const std::filesystem::path& folder) {
+  Json result = engagement;
+  for (const std::string name : {"agent", "obstacle"}) {
+    if (!result.contains(name) || is_plain(result[name])) continue;
+    Json& body = result[name];
+    if (body.contains("velocity")) {
+      const std::string field = name + "_velocity";
+      if (result.contains(field))
+        throw InputError(field, quoted(result[field]), "left out beside " + name + ".velocity");
+      Json velocity = body["velocity"];
+      body.erase("velocity");
+      result[field] = std::move(velocity);
+    }
+    result[name] = body_fields(result[name], name, folder);
+  }
+  return result;
 }
 
 }  // namespace
@@ -109,7 +146,10 @@ AnyEngagement read_engagement(const Json& value, Velocities velocities,
   known.insert(known.end(), also.begin(), also.end());
   require_known(value, "", known);
   for (const char* body : {"agent", "obstacle"})
-    if (value.contains(body) && is_pieces_body(value[body]))
+    if (value.contains(body) && !is_plain(value[body]))
+      return read_engagement(plain(value, folder), velocities, also, folder);
+  for (const char* body : {"agent", "obstacle"})
+    if (value.contains(body) && (is_pieces_body(value[body]) || is_union(value[body])))
       return read_pieces_engagement(value, velocities, folder);
   const Dimension agent = dimension(value, "agent"), obstacle = dimension(value, "obstacle");
   if (agent != Dimension::spatial && obstacle != Dimension::spatial &&

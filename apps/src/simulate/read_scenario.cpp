@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulate/read_scenario.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
+#include "input/assembly_body.h"
+#include "input/file_body.h"
 #include "input/scene.h"
 #include "json/json_value.h"
 #include "output/plain_text.h"
@@ -17,8 +21,44 @@ namespace {
 
 using input::at, input::quoted, input::require_field, input::require_known, input::require_object;
 
-simulation::Body read_body(const Json& value, const std::string& path, const std::filesystem::path& folder) {
-  require_object(value, path);
+constexpr std::array<const char*, 5> kKinds{"semi_axes", "quadric", "a_c", "dented", "file"};
+
+/// A body as scenes write it, its fields beside `name`: what a scenario calls shape and position.
+Json with_shape(const Json& value, const std::string& path) {
+  Json body = Json::object(), shape = Json::object();
+  if (value.contains("position"))
+    throw InputError(path + ".position", quoted(value["position"]),
+                     "given with shape; beside a body's own fields its place is center");
+  constexpr const char* kOwn[] = {"name",        "velocity", "speed",   "heading", "heading_deg",
+                                  "orientation", "rotation", "appears", "pilot"};
+  for (const auto& [key, field] : value.items()) {
+    const bool own = std::find(std::begin(kOwn), std::end(kOwn), key) != std::end(kOwn);
+    if (key == "center")
+      body["position"] = field;
+    else
+      (own ? body : shape)[key] = field;
+  }
+  // As in scenes: a body from a file stands where the file has it, and is at rest, unless it says otherwise.
+  if (!body.contains("position") && !shape.contains("semi_axes") && !shape.contains("shape") &&
+      !shape.contains("a_c") && !shape.contains("dented"))
+    body["position"] = {0, 0, 0};
+  if (!body.contains("velocity") && !body.contains("speed"))
+    body["velocity"] = body.contains("position") ? Json(std::vector<double>(body["position"].size(), 0.0))
+                                                 : Json::array({0, 0, 0});
+  body["shape"] = std::move(shape);
+  return body;
+}
+
+/// `shape` is a matrix where a body is given by one, and a mapping where a scenario's body is.
+bool by_shape(const Json& body) {
+  if (body.contains("shape")) return !body["shape"].is_array();
+  return !input::is_pieces_body(body) && !input::is_union(body) &&
+         std::none_of(kKinds.begin(), kKinds.end(), [&](const char* kind) { return body.contains(kind); });
+}
+
+simulation::Body read_body(const Json& given, const std::string& path, const std::filesystem::path& folder) {
+  require_object(given, path);
+  const Json value = by_shape(given) ? given : with_shape(given, path);
   require_known(value, path,
                 {"name", "shape", "position", "velocity", "speed", "heading", "heading_deg", "orientation",
                  "rotation", "appears", "pilot"});
