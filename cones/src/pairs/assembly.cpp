@@ -28,7 +28,7 @@ class AssemblyFamily : public Family {
   std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
     Effort effort;
     if (oracle_->relation() != Relation::disjoint) return Rung::exact;
-    oracle_->membership(v_a, v_b, &effort);
+    static_cast<void>(oracle_->membership(v_a, v_b, &effort));
     return effort.exact > 0 ? Rung::exact : Rung::triage;
   }
 
@@ -116,7 +116,7 @@ class Hulls : public AssemblyFamily {
   }
   std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
     Rung rung = hulls_.relation_rung();
-    hulls_.verdict(v_a, v_b, &rung);
+    static_cast<void>(hulls_.verdict(v_a, v_b, &rung));
     return rung;
   }
   Cone cone(const ConeOptions& options) const override { return cone_of_hulls(*oracle_, axis_, options); }

@@ -20,15 +20,15 @@ struct PlaneSector {
                   across = Eigen::Vector3d::Zero();  // u, e, orthonormal
   Edge left, right;                                  // towards +e and -e
 
-  double psi() const { return left.angle + right.angle; }
+  [[nodiscard]] double psi() const { return left.angle + right.angle; }
   /// Bisector, radians from the line of sight towards e.
-  double theta_b() const { return 0.5 * (left.angle - right.angle); }
+  [[nodiscard]] double theta_b() const { return 0.5 * (left.angle - right.angle); }
 };
 
 /// `across`: any vector not parallel to the line of centres; with it spans the plane. Throws InputError
 /// naming "across", or "bodies" where they are not disjoint. Cost: about 1 us, 2 us where bodies are near
 /// each other.
-PlaneSector true_sector(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& across);
+[[nodiscard]] PlaneSector true_sector(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& across);
 
 /// Two bodies prepared for sectors on many planes. No allocation.
 class SectorPlanes {
@@ -37,10 +37,10 @@ class SectorPlanes {
 
   /// Certified; false also of bodies so near each other that rounding could matter (true_sector() then asks
   /// integers).
-  bool disjoint() const { return disjoint_; }
+  [[nodiscard]] bool disjoint() const { return disjoint_; }
 
   /// As true_sector(), which it asks integers for where disjoint() is false.
-  PlaneSector on(const Eigen::Vector3d& across) const;
+  [[nodiscard]] PlaneSector on(const Eigen::Vector3d& across) const;
 
  private:
   Ellipsoid a_, b_;
@@ -63,13 +63,13 @@ struct PlaneSectorRates {
   double left = 0, right = 0;  // of the two edge angles
   double line_of_sight = 0;    // in-plane turning of u towards e
 
-  double psi() const { return left + right; }
+  [[nodiscard]] double psi() const { return left + right; }
   /// Of the bisector against the line of sight; add line_of_sight for the rate against fixed axes.
-  double theta_b() const { return 0.5 * (left - right); }
+  [[nodiscard]] double theta_b() const { return 0.5 * (left - right); }
 };
 /// `sector`: of a and b. Throws InputError naming "sector" for a default-constructed one, which has no plane,
 /// and "bodies" for bodies with the same centre.
-PlaneSectorRates true_sector_rates(const PlaneSector& sector, const Ellipsoid& a, const Ellipsoid& b,
-                                   const SpatialMotion& motion);
+[[nodiscard]] PlaneSectorRates true_sector_rates(const PlaneSector& sector, const Ellipsoid& a,
+                                                 const Ellipsoid& b, const SpatialMotion& motion);
 
 }  // namespace vericone
