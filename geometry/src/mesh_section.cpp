@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/exact/integer.h>
 #include <vericone/geometry/mesh_section.h>
+#include <vericone/geometry/requires.h>
 
 #include <algorithm>
 #include <cmath>
@@ -121,6 +122,10 @@ class Chains {
 std::vector<SectionLine> mesh_section(std::span<const Vector3d> points,
                                       std::span<const std::array<std::uint32_t, 3>> triangles,
                                       const PlaneFrame& plane_frame) {
+  VERICONE_REQUIRES(std::ranges::all_of(points, [](const Vector3d& x) { return x.allFinite(); }));
+  VERICONE_REQUIRES(std::ranges::all_of(triangles, [&](const auto& t) {
+    return std::max({t[0], t[1], t[2]}) < points.size();
+  }));
   const Plane plane(plane_frame);
   std::vector<double> heights(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) heights[i] = plane.height(points[i]);

@@ -7,19 +7,6 @@
 namespace vericone {
 namespace {
 
-/// Whether the pose does not turn. Throws InputError for what is not one.
-bool upright(const Pose& pose) {
-  for (int i = 0; i < 3; ++i)
-    if (!std::isfinite(pose.position(i)))
-      throw InputError("pose.position[" + std::to_string(i) + "]", to_text(pose.position(i)),
-                       "a finite number (m)");
-  const Eigen::Matrix3d& r = pose.rotation;
-  if (!((r.transpose() * r - Eigen::Matrix3d::Identity()).norm() < 1e-12 && r.determinant() > 0))
-    throw InputError("pose.rotation", "determinant " + to_text(r.determinant()),
-                     "a rotation, orthonormal to 1e-12");
-  return r == Eigen::Matrix3d::Identity();
-}
-
 Eigen::Matrix3d turned(const Eigen::Matrix3d& form, const Eigen::Matrix3d& rotation) {
   const Eigen::Matrix3d image = rotation * form * rotation.transpose();
   return 0.5 * (image + image.transpose());
@@ -42,8 +29,20 @@ Ellipsoid raised(const Ellipse& body, double height) {
 
 }  // namespace
 
+bool is_upright(const Pose& pose) {
+  for (int i = 0; i < 3; ++i)
+    if (!std::isfinite(pose.position(i)))
+      throw InputError("pose.position[" + std::to_string(i) + "]", to_text(pose.position(i)),
+                       "a finite number (m)");
+  const Eigen::Matrix3d& r = pose.rotation;
+  if (!((r.transpose() * r - Eigen::Matrix3d::Identity()).norm() < 1e-12 && r.determinant() > 0))
+    throw InputError("pose.rotation", "determinant " + to_text(r.determinant()),
+                     "a rotation, orthonormal to 1e-12");
+  return r == Eigen::Matrix3d::Identity();
+}
+
 Ellipsoid in_world(const Ellipsoid& body, const Pose& pose) {
-  if (upright(pose)) return pose.position.isZero(0) ? body : body.translated(pose.position);
+  if (is_upright(pose)) return pose.position.isZero(0) ? body : body.translated(pose.position);
   const Eigen::Vector3d center = pose.to_world(body.center());
   if (!body.defined_by_factor()) return Ellipsoid::from_shape(center, turned(body.shape(), pose.rotation));
   Eigen::Matrix3d axes = pose.rotation * body.axis_directions();
@@ -53,7 +52,7 @@ Ellipsoid in_world(const Ellipsoid& body, const Pose& pose) {
 
 CombinedEllipsoid in_world(const CombinedEllipsoid& body, const Pose& pose) {
   if (body.is_ellipsoid()) return in_world(body.ellipsoid(), pose);
-  if (upright(pose)) return pose.position.isZero(0) ? body : body.translated(pose.position);
+  if (is_upright(pose)) return pose.position.isZero(0) ? body : body.translated(pose.position);
   std::vector<Delimiter<3>> delimiters;
   for (const Delimiter<3>& d : body.delimiters())
     delimiters.push_back({turned(d.matrix, pose.rotation), d.level});
@@ -61,7 +60,7 @@ CombinedEllipsoid in_world(const CombinedEllipsoid& body, const Pose& pose) {
 }
 
 HullBody in_world(const HullBody& body, const Pose& pose) {
-  if (upright(pose) && pose.position.isZero(0)) return body;
+  if (is_upright(pose) && pose.position.isZero(0)) return body;
   std::vector<Eigen::Vector3d> points = body.points();
   for (Eigen::Vector3d& x : points) x = pose.to_world(x);
   return HullBody(std::move(points));

@@ -2,6 +2,7 @@
 #include "containing_ellipsoid.h"
 
 #include <vericone/geometry/decompositions.h>
+#include <vericone/geometry/requires.h>
 #include <algorithm>
 
 namespace vericone::guidance {
@@ -32,10 +33,12 @@ Ellipsoid containing(const HullBody& hull) {
 }  // namespace
 
 Ellipse containing_ellipse(const BodyState& body) {
+  VERICONE_REQUIRES(body.planar());
   return containing(std::get<CombinedEllipse>(body.shape));
 }
 
 Ellipsoid containing_ellipsoid(const BodyState& body) {
+  VERICONE_REQUIRES(!body.planar());
   if (const auto* combined = std::get_if<CombinedEllipsoid>(&body.shape)) return containing(*combined);
   if (const auto* hull = std::get_if<HullBody>(&body.shape)) return containing(*hull);
   return placed(body.shape).containing_ellipsoid();

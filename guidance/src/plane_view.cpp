@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/geometry/requires.h>
 #include <vericone/guidance/plane_view.h>
 
 #include <Eigen/Geometry>
@@ -231,6 +232,8 @@ Vector3d PlaneView::lateral_a() const { return lateral(*this, state.alpha); }
 Vector3d PlaneView::lateral_b() const { return lateral(*this, state.beta); }
 
 PlaneView plane_states(const BodyState& a, const BodyState& b, const Vector3d& across, double plane_spin) {
+  VERICONE_REQUIRES(a.position != b.position);
+  VERICONE_REQUIRES((a.planar() && b.planar()) || !(b.position - a.position).cross(across).isZero(0));
   const Vector3d c = b.position - a.position, v = b.velocity - a.velocity;
   PlaneView view;
   view.line_of_sight = c.normalized();

@@ -3,6 +3,7 @@
 // Sections of both bodies by one plane: the source's way to cones in space (6.3.1-6.3.3), with the rates it
 // leaves to numerical differences.
 #include <vericone/cones/slices/visible_sector.h>
+#include <vericone/geometry/requires.h>
 #include <vericone/geometry/scaled_inverse.h>
 #include <Eigen/Geometry>
 #include <cmath>
@@ -79,6 +80,7 @@ Sections sections_of(const CombinedEllipsoid& a, const CombinedEllipsoid& b, con
 
 OpeningRates section_rates(const Sections& sections, const CombinedEllipsoid& a, const CombinedEllipsoid& b,
                            const Vector3d& u, const Vector3d& e, const TurningMotion& motion) {
+  VERICONE_REQUIRES(sections.disjoint());
   const PlaneAxes p = axes_of(u, e);
   const SectionRates of_a = rates_of(sections.a, a, p, motion.omega_a, motion.rate_a),
                      of_b = rates_of(sections.b, b, p, motion.omega_b, motion.rate_b);

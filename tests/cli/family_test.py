@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`vericone NAME` finds the program `vericone-NAME`, and the programs behave as one. Environment, besides that of
-cli_test.py: VERICONE_PROGRAMS, the names of those that were built."""
+command.py: VERICONE_PROGRAMS, the names of those that were built."""
 import json
 import os
 import re
@@ -12,7 +12,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from cli_test import VERICONE, run  # noqa: E402
+from command import VERICONE, run  # noqa: E402
 
 PROGRAMS = os.environ["VERICONE_PROGRAMS"].split()
 NEEDS = {"fit": "VERICONE_FITTING", "scan": "VERICONE_LIDAR", "verify": "VERICONE_VERIFY"}

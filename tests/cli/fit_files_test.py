@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What vericone fit writes: the folder, the check of a written result, and real meshes proved anew. Environment as for
-cli_test.py; meshes of Debian's libcgal-demo and the folder of real scans are looked for."""
+command.py; meshes of Debian's libcgal-demo and the folder of real scans are looked for."""
 import json
 import os
 import signal
@@ -12,7 +12,7 @@ import unittest
 from fractions import Fraction
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from cli_test import VERICONE, run  # noqa: E402
+from command import VERICONE, run  # noqa: E402
 from fit_test import CUBE, SIDES, Files, exactly, fit, inside, peanut, rows, shell, value  # noqa: E402
 from pieces_test import DATA, obj  # noqa: E402
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """vericone fit as a user meets it: what is written is read again and proved anew, in rationals. Environment as for
-cli_test.py."""
+command.py."""
 import json
 import math
 import os
@@ -12,7 +12,7 @@ from fractions import Fraction
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import bad_input_cases  # noqa: E402
-from cli_test import VERICONE, run  # noqa: E402
+from command import VERICONE, run  # noqa: E402
 from pieces_test import map_of_two_cells, obj, write  # noqa: E402
 
 CUBE = [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Meshes, clouds, octree maps and convex hulls in the command: small files written here, answers in closed form.
-Environment as for cli_test.py; VERICONE_DATA_DIR names a folder of real scans, by default ../shared/data beside the
+Environment as for command.py; VERICONE_DATA_DIR names a folder of real scans, by default ../shared/data beside the
 project."""
 import json
 import math
@@ -10,7 +10,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from cli_test import SOURCE, ball, engagement, query, run  # noqa: E402
+from command import SOURCE, ball, engagement, query, run  # noqa: E402
 
 DATA = os.environ.get("VERICONE_DATA_DIR", os.path.join(SOURCE, "..", "shared", "data"))
 CORNERS = [[x, y, z] for x in (4, 6) for y in (-1, 1) for z in (-1, 1)]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`vericone shapes`: its files against the bodies' definitions, its engagement against distances. Environment as for
-cli_test.py."""
+command.py."""
 import json
 import os
 import sys
@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from cli_test import run  # noqa: E402
+from command import run  # noqa: E402
 
 
 def form(matrix, y):

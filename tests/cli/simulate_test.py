@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """vericone simulate and vericone campaign as a user meets them: spheres in closed form, files, interruptions.
-Environment as for cli_test.py."""
+Environment as for command.py."""
 import csv
 import json
 import math
@@ -16,7 +16,7 @@ import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import bad_input_cases  # noqa: E402
-from cli_test import SOURCE, VERICONE, run  # noqa: E402
+from command import SOURCE, VERICONE, run  # noqa: E402
 
 BALLS = """name: balls
 duration: 6

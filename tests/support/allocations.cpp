@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+//
+// The linker sends every malloc of the program and of the static libraries here (--wrap,
+// tests/CMakeLists.txt): Eigen's are among them, those of operator new too, which is ours.
 #include "support/allocations.h"
 
 #include <atomic>
@@ -13,8 +16,23 @@ namespace vericone::testing {
 std::size_t allocations() { return count; }
 }  // namespace vericone::testing
 
-void* operator new(std::size_t size) {
+extern "C" {
+void* __real_malloc(std::size_t size);            // NOLINT(bugprone-reserved-identifier): the linker's names
+void* __real_realloc(void* p, std::size_t size);  // NOLINT(bugprone-reserved-identifier)
+void* __wrap_malloc(std::size_t size);            // NOLINT(bugprone-reserved-identifier)
+void* __wrap_realloc(void* p, std::size_t size);  // NOLINT(bugprone-reserved-identifier)
+
+void* __wrap_malloc(std::size_t size) {
   ++count;
+  return __real_malloc(size);
+}
+void* __wrap_realloc(void* p, std::size_t size) {
+  ++count;
+  return __real_realloc(p, size);
+}
+}
+
+void* operator new(std::size_t size) {
   if (void* p = std::malloc(size > 0 ? size : 1)) return p;
   throw std::bad_alloc();
 }

@@ -5,7 +5,7 @@
 
 namespace vericone::testing {
 
-/// Calls of operator new so far in this program.
+/// Calls of malloc, realloc and operator new so far in this program and in the static libraries.
 std::size_t allocations();
 
 }  // namespace vericone::testing

@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/sound_arithmetic.h>
 
 #include <exception>
 #include <iostream>
@@ -43,6 +44,7 @@ int told(const std::exception_ptr& failure) {
 template <typename Work>
 int guarded(Work work) {
   try {
+    require_sound_arithmetic();
     const int status = work();
     std::cout.flush();
     if (std::cout) return status;

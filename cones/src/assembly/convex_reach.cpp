@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/assembly/convex_reach.h>
+#include <vericone/geometry/requires.h>
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
@@ -53,6 +54,7 @@ PolyhedralCone sized(DirectionLoop directions, const Vector3d& axis) {
 
 ConvexReach convex_reach(const AssemblyOracle& oracle, const Vector3d& inside, int half_planes,
                          double angle) {
+  VERICONE_REQUIRES(oracle.relation() == Relation::disjoint && oracle.obstacle().size() == 1);
   const AxisFrame frame(inside);
   const auto reached = oracle.extremes(frame.axis, half_planes, angle);
   DirectionLoop low, high, outer;

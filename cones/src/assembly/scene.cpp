@@ -2,23 +2,8 @@
 #include "assembly/scene.h"
 
 #include <vericone/cones/hulls/hull_oracle.h>
-#include <vericone/geometry/error.h>
-#include <string>
 
 namespace vericone::assembly {
-
-bool is_upright(const Pose& pose) {
-  for (int i = 0; i < 3; ++i) {
-    if (!std::isfinite(pose.position(i)))
-      throw InputError("pose.position[" + std::to_string(i) + "]", to_text(pose.position(i)),
-                       "a finite number (m)");
-  }
-  const Eigen::Matrix3d& r = pose.rotation;
-  if (!((r.transpose() * r - Eigen::Matrix3d::Identity()).norm() < 1e-12 && r.determinant() > 0))
-    throw InputError("pose.rotation", "determinant " + to_text(r.determinant()),
-                     "a rotation, orthonormal to 1e-12");
-  return r == Eigen::Matrix3d::Identity();
-}
 
 Ellipsoid in_obstacle_frame(const Ellipsoid& agent, const Pose& pose) {
   if (is_upright(pose)) return pose.position.isZero(0) ? agent : agent.translated(-pose.position);

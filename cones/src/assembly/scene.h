@@ -18,7 +18,6 @@ Core piece_core(const Frame& frame, const Assembly& body, std::uint32_t slot, do
 Box piece_box(const Assembly& body, std::uint32_t slot);
 
 /// A body in the frame of an obstacle that stands in `pose`. Throws InputError naming "pose".
-bool is_upright(const Pose& pose);
 Ellipsoid in_obstacle_frame(const Ellipsoid& agent, const Pose& pose);
 
 /// An agent in the obstacle's own frame, and the obstacle.

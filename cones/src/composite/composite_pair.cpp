@@ -15,7 +15,7 @@ namespace {
 
 CombinedEllipsoid in_obstacle_frame(const CombinedEllipsoid& body, const Pose& pose) {
   std::vector<Delimiter<3>> delimiters = body.delimiters();
-  if (!assembly::is_upright(pose))
+  if (!is_upright(pose))
     for (Delimiter<3>& d : delimiters) {
       const Eigen::Matrix3d turned = pose.rotation.transpose() * d.matrix * pose.rotation;
       d.matrix = 0.5 * (turned + turned.transpose());
@@ -25,7 +25,7 @@ CombinedEllipsoid in_obstacle_frame(const CombinedEllipsoid& body, const Pose& p
 
 /// The assembly with every point moved; boxes stay boxes where nothing is turned.
 Assembly moved(const Assembly& body, const Pose& from, const Pose& to) {
-  const bool upright = assembly::is_upright(from) && assembly::is_upright(to);
+  const bool upright = is_upright(from) && is_upright(to);
   if (from.position == to.position && from.rotation == to.rotation) return body;
   const auto place = [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
     return upright ? Eigen::Vector3d((x + from.position) - to.position) : to.to_body(from.to_world(x));
@@ -60,7 +60,7 @@ double largest_coordinate(const Box& box) { return box.low.cwiseAbs().sum() + bo
 }  // namespace
 
 CompositePair::State::State(const Assembly& body, const Pose& place)
-    : obstacle(body), pose(place), upright(assembly::is_upright(place)), zero(HullBody()) {}
+    : obstacle(body), pose(place), upright(is_upright(place)), zero(HullBody()) {}
 
 CompositePair::CompositePair(const CombinedEllipsoid& agent, const Assembly& obstacle, const Pose& pose,
                              double tolerance) {

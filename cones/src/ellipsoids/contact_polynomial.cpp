@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ellipsoids/contact_polynomial.h"
 
+#include <vericone/geometry/requires.h>
 #include <cmath>
 #include "ellipsoids/pair_on_grid.h"
 
@@ -82,6 +83,7 @@ int distinct_positive_roots(const Polynomial& p) {
 }
 
 Dyadic between_positive_roots(const Polynomial& p, double guess) {
+  VERICONE_REQUIRES(distinct_positive_roots(p) == 2 && p.front() < 0 && p.back() < 0);
   if (std::isfinite(guess) && guess > 0 && guess < 1e200) {
     Dyadic x = Dyadic::of(guess);
     if (sign_at(p, x) > 0) return x;

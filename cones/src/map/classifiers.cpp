@@ -175,7 +175,7 @@ Certified OrificeClassifier::classify(const DirectionCell& cell, const Frontier&
   int leaving = 0, passing = 0;
   for (const Vector3d& d : cell) {
     leaving += (dot(n, d) * Interval(toward)).hi() <= 0;
-    passing += oracle_.membership(d) == Membership::in;
+    passing += oracle_.transit(d) == Transit::passes;
   }
   if (leaving == 3 || passing == 3) return Certified::out;
   return passing == 0 && leaving == 0 && hits_wall(cell) ? Certified::in : Certified::undecided;

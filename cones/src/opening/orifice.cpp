@@ -2,6 +2,7 @@
 #include <vericone/cones/opening/orifice.h>
 
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/requires.h>
 #include <cmath>
 #include <string>
 #include <type_traits>
@@ -21,6 +22,18 @@ const char* to_string(WallSide side) {
       return "touching";
     case WallSide::cut:
       return "cut";
+  }
+  return "";
+}
+
+const char* to_string(Transit transit) {
+  switch (transit) {
+    case Transit::passes:
+      return "passes";
+    case Transit::grazes:
+      return "grazes";
+    case Transit::blocked:
+      return "blocked";
   }
   return "";
 }
@@ -156,9 +169,9 @@ OrificeOracle::OrificeOracle(const Ellipsoid& agent, const Orifice& orifice)
 }
 
 template <typename N>
-std::optional<Membership> OrificeOracle::certified(const Eigen::Vector3d& w) const noexcept {
+std::optional<Transit> OrificeOracle::certified(const Eigen::Vector3d& w) const noexcept {
   if (!w.allFinite()) return std::nullopt;
-  if (side_ == WallSide::cut || w.isZero(0)) return Membership::out;
+  if (side_ == WallSide::cut || w.isZero(0)) return Transit::blocked;
   if (!usable_) return std::nullopt;
   const auto tag = static_cast<const N*>(nullptr);
   int k = 0;
@@ -191,7 +204,7 @@ std::optional<Membership> OrificeOracle::certified(const Eigen::Vector3d& w) con
       minus_quotient(w(i), w(k), tag), minus_quotient(w(j), w(k), tag), i, j, k);
 
   const N toward = (toward_ > 0) == (w(k) > 0) ? pair.toward : -pair.toward;
-  if (surely_positive(-toward, kOrificeCounts.toward)) return Membership::out;
+  if (surely_positive(-toward, kOrificeCounts.toward)) return Transit::blocked;
   if (!surely_positive(toward, kOrificeCounts.toward)) return std::nullopt;
 
   SymmetricForm<2, double> mid_a, mid_b;
@@ -214,27 +227,28 @@ std::optional<Membership> OrificeOracle::certified(const Eigen::Vector3d& w) con
                               mapped<N>(g, pair.forms.c)};
   const auto guess = search_containment<2>(Eigen::Vector2d::Ones(), frame.diagonal, center);
   if (guess.inside) {
-    if (surely_inside<2, N>(forms, guess.s, kOrificeCounts.certificate)) return Membership::in;
+    if (surely_inside<2, N>(forms, guess.s, kOrificeCounts.certificate)) return Transit::passes;
   } else if (surely_reaches_beyond<2, N>(forms, guess.normal, kOrificeCounts.certificate)) {
-    return Membership::out;
+    return Transit::blocked;
   }
   return std::nullopt;
 }
 
-std::optional<Membership> OrificeOracle::triage_membership(const Eigen::Vector3d& w) const noexcept {
+std::optional<Transit> OrificeOracle::triage_transit(const Eigen::Vector3d& w) const noexcept {
   return certified<Tracked>(w);
 }
 
-std::optional<Membership> OrificeOracle::interval_membership(const Eigen::Vector3d& w) const noexcept {
+std::optional<Transit> OrificeOracle::interval_transit(const Eigen::Vector3d& w) const noexcept {
   return certified<Interval>(w);
 }
 
-Membership OrificeOracle::exact_membership(const Eigen::Vector3d& w) const {
+Transit OrificeOracle::exact_transit(const Eigen::Vector3d& w) const {
+  VERICONE_REQUIRES(w.allFinite());
   using exact::Integer;
-  if (side_ == WallSide::cut || w.isZero(0)) return Membership::out;
+  if (side_ == WallSide::cut || w.isZero(0)) return Transit::blocked;
   const auto n = exact::direction_on_grid<3>(orifice_.normal), v = exact::direction_on_grid<3>(w);
   const Integer along = n[0] * v[0] + n[1] * v[1] + n[2] * v[2];
-  if (along.sign() != toward_) return Membership::out;
+  if (along.sign() != toward_) return Transit::blocked;
   const exact::PairOnGrid<3> pair(
       agent_, Ellipsoid::from_axes(orifice_.center, Eigen::Vector3d::Constant(orifice_.radius)));
   const Integer nn = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
@@ -247,17 +261,17 @@ Membership OrificeOracle::exact_membership(const Eigen::Vector3d& w) const {
   const auto contained = exact::containment(shadow<Integer>(agent, v[i], v[j], v[k], i, j, k),
                                             shadow<Integer>(disc, v[i], v[j], v[k], i, j, k),
                                             Symmetric2<Integer>{nn * x * x, nn * x * y, nn * y * y});
-  return contained == exact::Containment::inside     ? Membership::in
-         : contained == exact::Containment::touching ? Membership::on
-                                                     : Membership::out;
+  return contained == exact::Containment::inside     ? Transit::passes
+         : contained == exact::Containment::touching ? Transit::grazes
+                                                     : Transit::blocked;
 }
 
-Membership OrificeOracle::membership(const Eigen::Vector3d& w, Rung* rung) const {
-  return climb<OrificeMembership>(
-      rung, [&] { return triage_membership(w); }, [&] { return interval_membership(w); },
+Transit OrificeOracle::transit(const Eigen::Vector3d& w, Rung* rung) const {
+  return climb<OrificeTransit>(
+      rung, [&] { return triage_transit(w); }, [&] { return interval_transit(w); },
       [&] {
         require_finite(w, "agent_velocity", kSpeed);
-        return exact_membership(w);
+        return exact_transit(w);
       });
 }
 
@@ -285,11 +299,11 @@ constexpr FacingSigns<RoundingCount> kFacingCounts(std::array<RoundingCount, 3>{
                                                    std::array<RoundingCount, 3>{});
 
 template <typename N>
-std::optional<Membership> certified_facing(const Eigen::Vector3d& c, double agent_radius,
-                                           double opening_radius, const Eigen::Vector3d& w) noexcept {
+std::optional<Transit> certified_facing(const Eigen::Vector3d& c, double agent_radius, double opening_radius,
+                                        const Eigen::Vector3d& w) noexcept {
   if (!w.allFinite() || !c.allFinite() || !std::isfinite(agent_radius) || !std::isfinite(opening_radius))
     return std::nullopt;
-  if (w.isZero(0) || c.isZero(0) || opening_radius < agent_radius) return Membership::out;
+  if (w.isZero(0) || c.isZero(0) || opening_radius < agent_radius) return Transit::blocked;
   const int e = std::ilogb(std::max({c.cwiseAbs().maxCoeff(), agent_radius, opening_radius})),
             e_w = std::ilogb(w.cwiseAbs().maxCoeff());
   const auto entry = [&](double x, int exponent) {
@@ -311,50 +325,50 @@ std::optional<Membership> certified_facing(const Eigen::Vector3d& c, double agen
   const FacingSigns<N> signs(line, q, velocity);
   if (surely_positive(-signs.along, kFacingCounts.along) ||
       surely_positive(signs.excess, kFacingCounts.excess))
-    return Membership::out;
+    return Transit::blocked;
   if (surely_positive(-signs.excess, kFacingCounts.excess) &&
       surely_positive(signs.along, kFacingCounts.along))
-    return Membership::in;
+    return Transit::passes;
   return std::nullopt;
 }
 
 }  // namespace
 
-std::optional<Membership> triage_facing_orifice_membership(const Eigen::Vector3d& center_line,
-                                                           double agent_radius, double opening_radius,
-                                                           const Eigen::Vector3d& w) noexcept {
+std::optional<Transit> triage_facing_orifice_transit(const Eigen::Vector3d& center_line, double agent_radius,
+                                                     double opening_radius,
+                                                     const Eigen::Vector3d& w) noexcept {
   return certified_facing<Tracked>(center_line, agent_radius, opening_radius, w);
 }
 
-std::optional<Membership> interval_facing_orifice_membership(const Eigen::Vector3d& center_line,
-                                                             double agent_radius, double opening_radius,
-                                                             const Eigen::Vector3d& w) noexcept {
+std::optional<Transit> interval_facing_orifice_transit(const Eigen::Vector3d& center_line,
+                                                       double agent_radius, double opening_radius,
+                                                       const Eigen::Vector3d& w) noexcept {
   return certified_facing<Interval>(center_line, agent_radius, opening_radius, w);
 }
 
-Membership exact_facing_orifice_membership(const Eigen::Vector3d& center_line, double agent_radius,
-                                           double opening_radius, const Eigen::Vector3d& w) {
+Transit exact_facing_orifice_transit(const Eigen::Vector3d& center_line, double agent_radius,
+                                     double opening_radius, const Eigen::Vector3d& w) {
   using exact::Integer;
-  if (opening_radius < agent_radius) return Membership::out;
+  if (opening_radius < agent_radius) return Transit::blocked;
   Eigen::Matrix<double, 5, 1> lengths;
   lengths << center_line, agent_radius, opening_radius;
   const auto length = exact::direction_on_grid<5>(lengths);
   const exact::IntegerVector<3> c{length[0], length[1], length[2]}, v = exact::direction_on_grid<3>(w);
   const FacingSigns<Integer> signs(c, length[4] - length[3], v);
-  if (signs.along.sign() <= 0 || signs.excess.sign() > 0) return Membership::out;
-  return signs.excess == 0 ? Membership::on : Membership::in;
+  if (signs.along.sign() <= 0 || signs.excess.sign() > 0) return Transit::blocked;
+  return signs.excess == 0 ? Transit::grazes : Transit::passes;
 }
 
-Membership facing_orifice_membership(const Eigen::Vector3d& center_line, double agent_radius,
-                                     double opening_radius, const Eigen::Vector3d& w, Rung* rung) {
+Transit facing_orifice_transit(const Eigen::Vector3d& center_line, double agent_radius, double opening_radius,
+                               const Eigen::Vector3d& w, Rung* rung) {
   require_positive(agent_radius, "agent_radius");
   require_positive(opening_radius, "opening_radius");
   require_finite(center_line, "center_line", kLength);
   require_finite(w, "agent_velocity", kSpeed);
-  return climb<FacingOrificeMembership>(
-      rung, [&] { return triage_facing_orifice_membership(center_line, agent_radius, opening_radius, w); },
-      [&] { return interval_facing_orifice_membership(center_line, agent_radius, opening_radius, w); },
-      [&] { return exact_facing_orifice_membership(center_line, agent_radius, opening_radius, w); });
+  return climb<FacingOrificeTransit>(
+      rung, [&] { return triage_facing_orifice_transit(center_line, agent_radius, opening_radius, w); },
+      [&] { return interval_facing_orifice_transit(center_line, agent_radius, opening_radius, w); },
+      [&] { return exact_facing_orifice_transit(center_line, agent_radius, opening_radius, w); });
 }
 
 }  // namespace vericone

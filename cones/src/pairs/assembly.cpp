@@ -30,7 +30,7 @@ class AssemblyFamily : public Family {
   std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
     Effort effort;
     if (oracle_->relation() != Relation::disjoint) return Rung::exact;
-    oracle_->membership(v_a, v_b, &effort);
+    static_cast<void>(oracle_->membership(v_a, v_b, &effort));
     return effort.exact > 0 ? Rung::exact : Rung::triage;
   }
 
@@ -127,7 +127,7 @@ class Hulls : public AssemblyFamily {
   }
   std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
     Rung rung = hulls_.relation_rung();
-    hulls_.verdict(v_a, v_b, &rung);
+    static_cast<void>(hulls_.verdict(v_a, v_b, &rung));
     return rung;
   }
   std::optional<PlaneSector> sector(const SightLine& line, const Vector3d& e) const override {

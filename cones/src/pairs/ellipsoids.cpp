@@ -63,7 +63,7 @@ class Ellipsoids : public Family {
 
   std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
     Rung rung = oracle_.relation_rung();  // of bodies that are not disjoint
-    oracle_.verdict(v_a, v_b, &rung);
+    static_cast<void>(oracle_.verdict(v_a, v_b, &rung));
     return rung;
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/times/contact_time_enclosure.h>
+#include <vericone/geometry/requires.h>
 
 #include "times/contact_time_exact.h"
 #include "times/contact_time_search.h"
@@ -16,6 +17,7 @@ std::optional<Interval> interval_time_to_contact(const Ellipsoid& a, const Ellip
 
 std::optional<Interval> exact_time_to_contact(const ConeOracle& oracle, const Eigen::Vector3d& v_a,
                                               const Eigen::Vector3d& v_b) {
+  VERICONE_REQUIRES(v_a.allFinite() && v_b.allFinite());
   exact::ContactTime time(oracle, v_a, v_b);
   switch (time.when()) {
     case exact::ContactTime::When::now:

@@ -5,6 +5,7 @@
 
 #include <vericone/cones/ellipsoids/position.h>
 #include <vericone/cones/ellipsoids/predicates.h>
+#include <vericone/cones/opening/orifice.h>
 #include <ostream>
 
 namespace vericone {
@@ -12,5 +13,6 @@ namespace vericone {
 inline void PrintTo(Membership m, std::ostream* os) { *os << to_string(m); }
 inline void PrintTo(Position p, std::ostream* os) { *os << to_string(p); }
 inline void PrintTo(Relation r, std::ostream* os) { *os << to_string(r); }
+inline void PrintTo(Transit t, std::ostream* os) { *os << to_string(t); }
 
 }  // namespace vericone

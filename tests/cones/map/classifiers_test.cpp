@@ -100,7 +100,7 @@ Certified truth_of(const OrificeOracle& oracle, const Vector3d& d) {
   const Vector3d& n = oracle.orifice().normal;
   const double toward = n.dot(oracle.orifice().center - oracle.agent().center()) * n.dot(d);
   if (std::abs(toward) < 1e-12) return Certified::undecided;
-  return toward < 0 || oracle.membership(d) == Membership::in ? Certified::out : Certified::in;
+  return toward < 0 || oracle.transit(d) == Transit::passes ? Certified::out : Certified::in;
 }
 
 TEST(OrificeClassifier, TheOrificeConeIsASafeRegion) {
@@ -120,7 +120,7 @@ TEST(OrificeClassifier, TheOrificeConeIsASafeRegion) {
     EXPECT_LT(map.undecided, 2 * 0.01 * 4 * std::numbers::pi);
     const Vector3d through = hole.center - agent.center();
     const auto region = region_around(map, through);
-    if (oracle.membership(through) != Membership::in) continue;
+    if (oracle.transit(through) != Transit::passes) continue;
     ASSERT_TRUE(region) << k;
     EXPECT_EQ(region->label, Certified::out);
     const auto away = region_around(map, -through);
@@ -138,7 +138,7 @@ TEST(OrificeClassifier, TheOrificeConeIsASafeRegion) {
         const double t = 0.5 * (low + high);
         const Vector3d d = std::cos(t) * frame.axis +
                            std::sin(t) * (std::cos(azimuth) * frame.e1 + std::sin(azimuth) * frame.e2);
-        (oracle.membership(d) == Membership::in ? low : high) = t;
+        (oracle.transit(d) == Transit::passes ? low : high) = t;
       }
       truth += cap(low) / kPlanes;
     }

@@ -21,40 +21,40 @@ using Eigen::Matrix2d, Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
 using testing::moved_by_ulps, testing::RandomBodies, testing::share;
 
 struct Shares {
-  std::array<int, 3> rung{}, membership{};
+  std::array<int, 3> rung{}, transit{};
   int total() const { return rung[0] + rung[1] + rung[2]; }
   void print(const char* what) const {
     std::cout << "[ shares   ] " << what << ": triage " << rung[0] << ", interval " << rung[1] << ", exact "
-              << rung[2] << "; in " << membership[0] << ", on " << membership[1] << ", out " << membership[2]
-              << '\n';
+              << rung[2] << "; passes " << transit[0] << ", grazes " << transit[1] << ", blocked "
+              << transit[2] << '\n';
   }
 };
 
 /// Laws (1) and (3), and (5).
-Membership checked(const OrificeOracle& oracle, const Vector3d& w, Shares* shares = nullptr) {
-  const Membership exact = oracle.exact_membership(w);
+Transit checked(const OrificeOracle& oracle, const Vector3d& w, Shares* shares = nullptr) {
+  const Transit exact = oracle.exact_transit(w);
   Rung rung{};
-  EXPECT_EQ(oracle.membership(w, &rung), exact);
-  EXPECT_EQ(oracle.triage_membership(w).value_or(exact), exact);
-  EXPECT_EQ(oracle.interval_membership(w).value_or(exact), exact);
-  EXPECT_EQ(oracle.triage_membership(w).has_value(), rung == Rung::triage);
-  EXPECT_EQ(oracle.membership(0x1p-60 * w), exact) << "law (1)";
-  EXPECT_EQ(oracle.membership(0x1p200 * w), exact) << "law (1)";
-  if (exact != Membership::out) {
-    EXPECT_EQ(oracle.membership(-w), Membership::out) << "law (5)";
+  EXPECT_EQ(oracle.transit(w, &rung), exact);
+  EXPECT_EQ(oracle.triage_transit(w).value_or(exact), exact);
+  EXPECT_EQ(oracle.interval_transit(w).value_or(exact), exact);
+  EXPECT_EQ(oracle.triage_transit(w).has_value(), rung == Rung::triage);
+  EXPECT_EQ(oracle.transit(0x1p-60 * w), exact) << "law (1)";
+  EXPECT_EQ(oracle.transit(0x1p200 * w), exact) << "law (1)";
+  if (exact != Transit::blocked) {
+    EXPECT_EQ(oracle.transit(-w), Transit::blocked) << "law (5)";
   }
   if (shares) {
     ++shares->rung[static_cast<int>(rung)];
-    ++shares->membership[static_cast<int>(exact)];
+    ++shares->transit[static_cast<int>(exact)];
   }
   return exact;
 }
 
-void expect(const Ellipsoid& agent, const Orifice& orifice, const Vector3d& w, Membership answer, Rung by) {
+void expect(const Ellipsoid& agent, const Orifice& orifice, const Vector3d& w, Transit answer, Rung by) {
   const OrificeOracle oracle(agent, orifice);
   EXPECT_EQ(checked(oracle, w), answer);
   Rung rung{};
-  oracle.membership(w, &rung);
+  oracle.transit(w, &rung);
   EXPECT_EQ(rung, by);
   for (const double scale : {0x1p-490, 0x1p-40, 0x1p490}) {
     const Orifice large{scale * orifice.center, -scale * orifice.normal, scale * orifice.radius};
@@ -69,21 +69,21 @@ Ellipsoid sphere(const Vector3d& center, double radius) {
 TEST(Orifice, EveryRung) {
   const Ellipsoid agent = sphere({0, 0, 0}, 1);
   const Orifice facing{{10, 0, 0}, {1, 0, 0}, 3};
-  expect(agent, facing, {1, 0, 0}, Membership::in, Rung::triage);
-  expect(agent, facing, {1, 0.1, 0}, Membership::in, Rung::triage);
-  expect(agent, facing, {1, 0.25, 0}, Membership::out, Rung::triage);  // cuts the rim
-  expect(agent, facing, {1, 2, 0}, Membership::out, Rung::triage);     // hits the wall
-  expect(agent, facing, {-1, 0, 0}, Membership::out, Rung::triage);    // moves away
-  expect(agent, facing, {0, 0, 0}, Membership::out, Rung::triage);
-  expect(agent, facing, {0, 1, 0}, Membership::out, Rung::exact);  // along the wall
+  expect(agent, facing, {1, 0, 0}, Transit::passes, Rung::triage);
+  expect(agent, facing, {1, 0.1, 0}, Transit::passes, Rung::triage);
+  expect(agent, facing, {1, 0.25, 0}, Transit::blocked, Rung::triage);  // cuts the rim
+  expect(agent, facing, {1, 2, 0}, Transit::blocked, Rung::triage);     // hits the wall
+  expect(agent, facing, {-1, 0, 0}, Transit::blocked, Rung::triage);    // moves away
+  expect(agent, facing, {0, 0, 0}, Transit::blocked, Rung::triage);
+  expect(agent, facing, {0, 1, 0}, Transit::blocked, Rung::exact);  // along the wall
   // The same size: only straight ahead, touching all around.
   const Orifice tight{{10, 0, 0}, {1, 0, 0}, 1};
-  expect(agent, tight, {1, 0, 0}, Membership::on, Rung::exact);
-  expect(agent, tight, {1, 0x1p-500, 0}, Membership::out, Rung::exact);
-  expect(agent, {{10, 0, 0}, {1, 0, 0}, moved_by_ulps(1, 1)}, {1, 0, 0}, Membership::in, Rung::exact);
-  expect(agent, {{10, 0, 0}, {1, 0, 0}, moved_by_ulps(1, -1)}, {1, 0, 0}, Membership::out, Rung::exact);
-  expect(agent, {{10, 0, 0}, {1, 0, 0}, 1 + 0x1p-43}, {1, 0, 0}, Membership::in, Rung::interval);
-  expect(agent, {{10, 0, 0}, {1, 0, 0}, 1 - 0x1p-49}, {1, 0, 0}, Membership::out, Rung::interval);
+  expect(agent, tight, {1, 0, 0}, Transit::grazes, Rung::exact);
+  expect(agent, tight, {1, 0x1p-500, 0}, Transit::blocked, Rung::exact);
+  expect(agent, {{10, 0, 0}, {1, 0, 0}, moved_by_ulps(1, 1)}, {1, 0, 0}, Transit::passes, Rung::exact);
+  expect(agent, {{10, 0, 0}, {1, 0, 0}, moved_by_ulps(1, -1)}, {1, 0, 0}, Transit::blocked, Rung::exact);
+  expect(agent, {{10, 0, 0}, {1, 0, 0}, 1 + 0x1p-43}, {1, 0, 0}, Transit::passes, Rung::interval);
+  expect(agent, {{10, 0, 0}, {1, 0, 0}, 1 - 0x1p-49}, {1, 0, 0}, Transit::blocked, Rung::interval);
 }
 
 TEST(Orifice, OffCentreInAFacingWall) {
@@ -91,16 +91,16 @@ TEST(Orifice, OffCentreInAFacingWall) {
   const auto at = [](double radius, const Vector3d& center) {
     return OrificeOracle(sphere(center, 1), {{0, 0, 10}, {0, 0, 7}, radius});
   };
-  EXPECT_EQ(checked(at(6, {3, 4, 0}), {0, 0, 1}), Membership::on);
-  EXPECT_EQ(checked(at(14, {5, 12, 0}), {0, 0, 3}), Membership::on);
+  EXPECT_EQ(checked(at(6, {3, 4, 0}), {0, 0, 1}), Transit::grazes);
+  EXPECT_EQ(checked(at(14, {5, 12, 0}), {0, 0, 3}), Transit::grazes);
   for (int ulps = 1; ulps <= 8; ++ulps) {
-    EXPECT_EQ(checked(at(moved_by_ulps(6, ulps), {3, 4, 0}), {0, 0, 1}), Membership::in);
-    EXPECT_EQ(checked(at(moved_by_ulps(6, -ulps), {3, 4, 0}), {0, 0, 1}), Membership::out);
-    EXPECT_EQ(checked(at(6, {3, moved_by_ulps(4, ulps), 0}), {0, 0, 1}), Membership::out);
-    EXPECT_EQ(checked(at(6, {3, moved_by_ulps(4, -ulps), 0}), {0, 0, 1}), Membership::in);
-    EXPECT_EQ(checked(at(6, {3, 4, 0}), {0, -0x1p-50 * ulps, 1}), Membership::in)
+    EXPECT_EQ(checked(at(moved_by_ulps(6, ulps), {3, 4, 0}), {0, 0, 1}), Transit::passes);
+    EXPECT_EQ(checked(at(moved_by_ulps(6, -ulps), {3, 4, 0}), {0, 0, 1}), Transit::blocked);
+    EXPECT_EQ(checked(at(6, {3, moved_by_ulps(4, ulps), 0}), {0, 0, 1}), Transit::blocked);
+    EXPECT_EQ(checked(at(6, {3, moved_by_ulps(4, -ulps), 0}), {0, 0, 1}), Transit::passes);
+    EXPECT_EQ(checked(at(6, {3, 4, 0}), {0, -0x1p-50 * ulps, 1}), Transit::passes)
         << "drifting back to the axis";
-    EXPECT_EQ(checked(at(6, {3, 4, 0}), {0, 0x1p-50 * ulps, 1}), Membership::out);
+    EXPECT_EQ(checked(at(6, {3, 4, 0}), {0, 0x1p-50 * ulps, 1}), Transit::blocked);
   }
 }
 
@@ -110,20 +110,20 @@ TEST(Orifice, TiltedWall) {
     return OrificeOracle(sphere({offset_x, offset_y, -100}, agent_radius), {{0, 0, 0}, {3, 0, 4}, 5});
   };
   const Vector3d w(0, 0, 1);
-  EXPECT_EQ(checked(at(0, 0, 4), w), Membership::on) << "touches the rim at two points";
-  EXPECT_EQ(checked(at(0, 0, 4.5), w), Membership::out) << "smaller than the opening, cuts its rim";
-  EXPECT_EQ(facing_orifice_membership({0, 0, 100}, 4.5, 5, w), Membership::in) << "what (2.2) says of it";
-  EXPECT_EQ(checked(at(0, 2, 3), w), Membership::on) << "3.2 curved, 3 at the long end";
-  EXPECT_EQ(checked(at(0, -2, 3), w), Membership::on);
-  EXPECT_EQ(checked(at(1, 0, 3), w), Membership::on);
-  EXPECT_EQ(checked(at(1, 0, 2.5), w), Membership::in);
-  EXPECT_EQ(checked(at(1, 1, 3), w), Membership::out);
+  EXPECT_EQ(checked(at(0, 0, 4), w), Transit::grazes) << "touches the rim at two points";
+  EXPECT_EQ(checked(at(0, 0, 4.5), w), Transit::blocked) << "smaller than the opening, cuts its rim";
+  EXPECT_EQ(facing_orifice_transit({0, 0, 100}, 4.5, 5, w), Transit::passes) << "what (2.2) says of it";
+  EXPECT_EQ(checked(at(0, 2, 3), w), Transit::grazes) << "3.2 curved, 3 at the long end";
+  EXPECT_EQ(checked(at(0, -2, 3), w), Transit::grazes);
+  EXPECT_EQ(checked(at(1, 0, 3), w), Transit::grazes);
+  EXPECT_EQ(checked(at(1, 0, 2.5), w), Transit::passes);
+  EXPECT_EQ(checked(at(1, 1, 3), w), Transit::blocked);
   // Two points off the centre: r^2 = 16 (1 - h^2/9) on the axis of the longer one; h = 9/5: r = 16/5.
   const Ellipsoid two = Ellipsoid::from_shape({0, 1.5, -100}, 12. * Matrix3d::Identity());  // h = 3/2
-  EXPECT_EQ(checked(OrificeOracle(two, {{0, 0, 0}, {3, 0, 4}, 5}), w), Membership::on);
+  EXPECT_EQ(checked(OrificeOracle(two, {{0, 0, 0}, {3, 0, 4}, 5}), w), Transit::grazes);
   for (int ulps = 1; ulps <= 8; ++ulps) {
     for (const int sign : {-1, 1}) {
-      const Membership expected = sign > 0 ? Membership::out : Membership::in;
+      const Transit expected = sign > 0 ? Transit::blocked : Transit::passes;
       EXPECT_EQ(checked(at(0, 0, moved_by_ulps(4, sign * ulps)), w), expected);
       const Ellipsoid near =
           Ellipsoid::from_shape(two.center(), moved_by_ulps(12, sign * ulps) * Matrix3d::Identity());
@@ -138,15 +138,15 @@ TEST(Orifice, EllipsoidsExactlyTangent) {
   const auto at = [&](double y, double radius) {
     return checked(OrificeOracle(agent, {{20, y, 0}, {5, 0, 0}, radius}), {1, 0, 0});
   };
-  EXPECT_EQ(at(0, 4), Membership::on) << "two points";
-  EXPECT_EQ(at(0, 4 + 0x1p-30), Membership::in);
-  EXPECT_EQ(at(0, 4 - 0x1p-30), Membership::out);
+  EXPECT_EQ(at(0, 4), Transit::grazes) << "two points";
+  EXPECT_EQ(at(0, 4 + 0x1p-30), Transit::passes);
+  EXPECT_EQ(at(0, 4 - 0x1p-30), Transit::blocked);
   // The farthest point from (y, 0) on the ellipse: r^2 = 16 (1 + y^2/12) while y <= 6.
-  EXPECT_EQ(at(3, std::sqrt(28.) - 1e-9), Membership::out);
-  EXPECT_EQ(at(3, std::sqrt(28.) + 1e-9), Membership::in);
-  EXPECT_EQ(at(6, 8), Membership::on) << "osculating: y = 6, r = 8";
-  EXPECT_EQ(at(8, 10), Membership::on) << "curved more than the opening";
-  EXPECT_EQ(at(5, 7), Membership::out) << "tangent at the point on the axis, curved less there";
+  EXPECT_EQ(at(3, std::sqrt(28.) - 1e-9), Transit::blocked);
+  EXPECT_EQ(at(3, std::sqrt(28.) + 1e-9), Transit::passes);
+  EXPECT_EQ(at(6, 8), Transit::grazes) << "osculating: y = 6, r = 8";
+  EXPECT_EQ(at(8, 10), Transit::grazes) << "curved more than the opening";
+  EXPECT_EQ(at(5, 7), Transit::blocked) << "tangent at the point on the axis, curved less there";
 }
 
 TEST(Orifice, SideOfTheWall) {
@@ -162,10 +162,10 @@ TEST(Orifice, SideOfTheWall) {
   // Touching the plane, one still passes; cut by it, none does.
   const Orifice facing{{0, 0, 0}, {0, 0, 1}, 2};
   const OrificeOracle touching(sphere({0, 0, -1}, 1), facing), cut(sphere({0, 0, -0.5}, 1), facing);
-  EXPECT_EQ(checked(touching, {0, 0, 1}), Membership::in);
-  EXPECT_EQ(checked(touching, {0, 0, -1}), Membership::out);
-  EXPECT_EQ(checked(cut, {0, 0, 1}), Membership::out);
-  EXPECT_EQ(checked(cut, {0, 0, -1}), Membership::out);
+  EXPECT_EQ(checked(touching, {0, 0, 1}), Transit::passes);
+  EXPECT_EQ(checked(touching, {0, 0, -1}), Transit::blocked);
+  EXPECT_EQ(checked(cut, {0, 0, 1}), Transit::blocked);
+  EXPECT_EQ(checked(cut, {0, 0, -1}), Transit::blocked);
 }
 
 /// Without shadows: the swept agent misses the rim iff the line through each rim point along w misses the
@@ -219,18 +219,18 @@ TEST(Orifice, AgreesWithTheRimItself) {
     if (oracle.side() != WallSide::clear) continue;
     const Vector3d w =
         orifice.center + random.uniform(0, 1.2) * orifice.radius * random.direction() - agent.center();
-    const Membership answer = checked(oracle, i % 50 ? w : Vector3d(-w), &shares);
+    const Transit answer = checked(oracle, i % 50 ? w : Vector3d(-w), &shares);
     const BruteForce brute = brute_force(agent, orifice, i % 50 ? w : Vector3d(-w));
     if (std::abs(brute.least) < 1e-6) {
       ++near;
       continue;
     }
-    ASSERT_EQ(answer, brute.least > 0 && brute.through ? Membership::in : Membership::out) << "case " << i;
+    ASSERT_EQ(answer, brute.least > 0 && brute.through ? Transit::passes : Transit::blocked) << "case " << i;
   }
   shares.print("random agents and openings");
   EXPECT_LT(near, 50);
-  EXPECT_GT(shares.membership[0], share(1000));
-  EXPECT_GT(shares.membership[2], 1000);
+  EXPECT_GT(shares.transit[0], share(1000));
+  EXPECT_GT(shares.transit[2], 1000);
   EXPECT_GT(shares.rung[0], shares.total() * 999 / 1000);
 }
 
@@ -250,15 +250,15 @@ TEST(Orifice, RungsAgreeWithinRoundingsOfTheBoundary) {
       };
       if (oracle(1).side() != WallSide::clear) continue;
       double fails = 0.01, passes = 1e6;
-      if (oracle(passes).membership(w) == Membership::out) continue;  // moves away
+      if (oracle(passes).transit(w) == Transit::blocked) continue;  // moves away
       while (moved_by_ulps(fails, 1) < passes) {
         const double mid = 0.5 * (fails + passes);
-        (oracle(mid).membership(w) == Membership::out ? fails : passes) = mid;
+        (oracle(mid).transit(w) == Transit::blocked ? fails : passes) = mid;
       }
       for (const int ulps : {-8, -1, 0, 1, 8}) {
         const double radius = moved_by_ulps(passes, ulps);
-        const Membership answer = checked(oracle(radius), w, &shares);
-        ASSERT_EQ(answer == Membership::out, ulps < 0) << "case " << i << ", ulps " << ulps;
+        const Transit answer = checked(oracle(radius), w, &shares);
+        ASSERT_EQ(answer == Transit::blocked, ulps < 0) << "case " << i << ", ulps " << ulps;
       }
       if (HasFailure()) FAIL() << "case " << i;
     }
@@ -284,45 +284,45 @@ TEST(Orifice, BadInput) {
   EXPECT_EQ(field([&] { OrificeOracle(agent, {{0, 0, 9}, {0, 0, 1}, 0}); }), "orifice.radius");
   EXPECT_EQ(field([&] { OrificeOracle(agent, {{0, 0, 9}, {0, 0, 1}, inf}); }), "orifice.radius");
   const OrificeOracle oracle(agent, {{0, 0, 9}, {0, 0, 1}, 2});
-  EXPECT_EQ(field([&] { oracle.membership({nan, 0, 1}); }), "agent_velocity[0]");
-  EXPECT_EQ(field([&] { facing_orifice_membership({0, 0, 9}, -1, 2, {0, 0, 1}); }), "agent_radius");
-  EXPECT_EQ(field([&] { facing_orifice_membership({0, 0, 9}, 1, nan, {0, 0, 1}); }), "opening_radius");
-  EXPECT_EQ(field([&] { facing_orifice_membership({0, inf, 9}, 1, 2, {0, 0, 1}); }), "center_line[1]");
-  EXPECT_EQ(field([&] { facing_orifice_membership({0, 0, 9}, 1, 2, {0, 0, nan}); }), "agent_velocity[2]");
+  EXPECT_EQ(field([&] { oracle.transit({nan, 0, 1}); }), "agent_velocity[0]");
+  EXPECT_EQ(field([&] { facing_orifice_transit({0, 0, 9}, -1, 2, {0, 0, 1}); }), "agent_radius");
+  EXPECT_EQ(field([&] { facing_orifice_transit({0, 0, 9}, 1, nan, {0, 0, 1}); }), "opening_radius");
+  EXPECT_EQ(field([&] { facing_orifice_transit({0, inf, 9}, 1, 2, {0, 0, 1}); }), "center_line[1]");
+  EXPECT_EQ(field([&] { facing_orifice_transit({0, 0, 9}, 1, 2, {0, 0, nan}); }), "agent_velocity[2]");
 }
 
-Membership checked_facing(const Vector3d& c, double ra, double rb, const Vector3d& w, Rung by) {
-  const Membership exact = exact_facing_orifice_membership(c, ra, rb, w);
+Transit checked_facing(const Vector3d& c, double ra, double rb, const Vector3d& w, Rung by) {
+  const Transit exact = exact_facing_orifice_transit(c, ra, rb, w);
   Rung rung{};
-  EXPECT_EQ(facing_orifice_membership(c, ra, rb, w, &rung), exact);
+  EXPECT_EQ(facing_orifice_transit(c, ra, rb, w, &rung), exact);
   EXPECT_EQ(rung, by);
-  EXPECT_EQ(triage_facing_orifice_membership(c, ra, rb, w).value_or(exact), exact);
-  EXPECT_EQ(interval_facing_orifice_membership(c, ra, rb, w).value_or(exact), exact);
+  EXPECT_EQ(triage_facing_orifice_transit(c, ra, rb, w).value_or(exact), exact);
+  EXPECT_EQ(interval_facing_orifice_transit(c, ra, rb, w).value_or(exact), exact);
   for (const double s : {0x1p-400, 0x1p400})
-    EXPECT_EQ(facing_orifice_membership(s * c, s * ra, s * rb, w / s), exact);
+    EXPECT_EQ(facing_orifice_transit(s * c, s * ra, s * rb, w / s), exact);
   return exact;
 }
 
 TEST(FacingOrifice, EveryRung) {
   // |c x w| = 3 |w| for c = (3, 4, 0), w = (0, 1, 0).
   const Vector3d c(3, 4, 0), w(0, 1, 0);
-  EXPECT_EQ(checked_facing(c, 1, 5, w, Rung::triage), Membership::in);
-  EXPECT_EQ(checked_facing(c, 1, 3, w, Rung::triage), Membership::out);
-  EXPECT_EQ(checked_facing(c, 1, 5, -w, Rung::triage), Membership::out);
-  EXPECT_EQ(checked_facing(c, 5, 1, w, Rung::triage), Membership::out) << "larger than the opening";
-  EXPECT_EQ(checked_facing(c, 1, 4, w, Rung::exact), Membership::on);
+  EXPECT_EQ(checked_facing(c, 1, 5, w, Rung::triage), Transit::passes);
+  EXPECT_EQ(checked_facing(c, 1, 3, w, Rung::triage), Transit::blocked);
+  EXPECT_EQ(checked_facing(c, 1, 5, -w, Rung::triage), Transit::blocked);
+  EXPECT_EQ(checked_facing(c, 5, 1, w, Rung::triage), Transit::blocked) << "larger than the opening";
+  EXPECT_EQ(checked_facing(c, 1, 4, w, Rung::exact), Transit::grazes);
   for (int ulps = 1; ulps <= 8; ++ulps) {
-    EXPECT_EQ(exact_facing_orifice_membership(c, 1, moved_by_ulps(4, ulps), w), Membership::in);
-    EXPECT_EQ(facing_orifice_membership(c, 1, moved_by_ulps(4, ulps), w), Membership::in);
-    EXPECT_EQ(exact_facing_orifice_membership(c, 1, moved_by_ulps(4, -ulps), w), Membership::out);
-    EXPECT_EQ(facing_orifice_membership(c, 1, moved_by_ulps(4, -ulps), w), Membership::out);
+    EXPECT_EQ(exact_facing_orifice_transit(c, 1, moved_by_ulps(4, ulps), w), Transit::passes);
+    EXPECT_EQ(facing_orifice_transit(c, 1, moved_by_ulps(4, ulps), w), Transit::passes);
+    EXPECT_EQ(exact_facing_orifice_transit(c, 1, moved_by_ulps(4, -ulps), w), Transit::blocked);
+    EXPECT_EQ(facing_orifice_transit(c, 1, moved_by_ulps(4, -ulps), w), Transit::blocked);
   }
   // Far away: |c x w| / |w| = 9/5 is what remains of 2.4e4.
   const Vector3d far(30000, 40003, 0), toward(3, 4, 0);
-  EXPECT_EQ(checked_facing(far, 1, 2.8 + 0x1p-24, toward, Rung::interval), Membership::in);
-  EXPECT_EQ(checked_facing(far, 1, 2.8 - 0x1p-24, toward, Rung::interval), Membership::out);
-  EXPECT_EQ(checked_facing(c, 2, 2, c, Rung::exact), Membership::on);
-  EXPECT_EQ(checked_facing({1, 1, 0}, 1, 3, {1, -1, 0}, Rung::exact), Membership::out);
+  EXPECT_EQ(checked_facing(far, 1, 2.8 + 0x1p-24, toward, Rung::interval), Transit::passes);
+  EXPECT_EQ(checked_facing(far, 1, 2.8 - 0x1p-24, toward, Rung::interval), Transit::blocked);
+  EXPECT_EQ(checked_facing(c, 2, 2, c, Rung::exact), Transit::grazes);
+  EXPECT_EQ(checked_facing({1, 1, 0}, 1, 3, {1, -1, 0}, Rung::exact), Transit::blocked);
 }
 
 TEST(FacingOrifice, CallsSafeWhatCutsATiltedRim) {
@@ -335,16 +335,16 @@ TEST(FacingOrifice, CallsSafeWhatCutsATiltedRim) {
     const OrificeOracle oracle(sphere({0, 0, 0}, ra), orifice);
     if (oracle.side() != WallSide::clear) continue;
     const Vector3d w = orifice.center + random.uniform(0, 1) * rb * random.direction();
-    const Membership truth = oracle.membership(w);
-    const Membership facing = facing_orifice_membership(orifice.center, ra, rb, w);
-    if (facing == Membership::in) {
+    const Transit truth = oracle.transit(w);
+    const Transit facing = facing_orifice_transit(orifice.center, ra, rb, w);
+    if (facing == Transit::passes) {
       ++safe;
-      cuts += truth == Membership::out;
+      cuts += truth == Transit::blocked;
     } else {
-      passes_but_refused += truth != Membership::out;
+      passes_but_refused += truth != Transit::blocked;
     }
   }
-  std::cout << "[ rates    ] (2.2) says in: " << safe
+  std::cout << "[ rates    ] (2.2) says passes: " << safe
             << " of 20000; of these the sphere cuts the rim or hits the wall in " << cuts << " ("
             << 100. * cuts / safe << " %); passes refused " << passes_but_refused << '\n';
   EXPECT_GT(cuts, safe / 10);
@@ -354,8 +354,8 @@ TEST(FacingOrifice, CallsSafeWhatCutsATiltedRim) {
     const Vector3d axis = Vector3d::Unit(i % 3) * random.uniform(0.1, 10),
                    c = 8 * axis.normalized() + random.in_box(1.5);
     const double ra = random.uniform(0.2, 1), rb = random.uniform(0.2, 3);
-    ASSERT_EQ(OrificeOracle(sphere({0, 0, 0}, ra), {c, axis, rb}).membership(axis),
-              facing_orifice_membership(c, ra, rb, axis))
+    ASSERT_EQ(OrificeOracle(sphere({0, 0, 0}, ra), {c, axis, rb}).transit(axis),
+              facing_orifice_transit(c, ra, rb, axis))
         << "case " << i;
   }
 }

@@ -197,11 +197,11 @@ RungAnswers orifice_answers(const CorpusCase& c) {
   if (oracle.side() != WallSide::clear) throw std::runtime_error(c.label() + ": not clear of the wall");
   const Eigen::Vector3d w = c.vector<3>("w");
   Rung rung{};
-  r.ladder = to_string(oracle.membership(w, &rung));
+  r.ladder = to_string(oracle.transit(w, &rung));
   r.rung = rung;
-  r.triage = text(oracle.triage_membership(w));
-  r.interval = text(oracle.interval_membership(w));
-  r.exact = to_string(oracle.exact_membership(w));
+  r.triage = text(oracle.triage_transit(w));
+  r.interval = text(oracle.interval_transit(w));
+  r.exact = to_string(oracle.exact_transit(w));
   return r;
 }
 

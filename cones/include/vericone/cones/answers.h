@@ -30,15 +30,15 @@ enum class Passage : std::uint8_t {
 enum class Verdict : std::uint8_t { in, on, out, overlapping, touching, undecided };
 
 /// Whether two bodies may be in contact now or later: all but `out`. What is not decided counts as yes.
-constexpr bool may_collide(Verdict verdict) { return verdict != Verdict::out; }
+[[nodiscard]] constexpr bool may_collide(Verdict verdict) { return verdict != Verdict::out; }
 
 /// What is known about a direction at the tolerance asked for.
 enum class Certified : std::uint8_t { in, out, undecided };
 
-const char* to_string(Relation relation);
-const char* to_string(Membership membership);
-const char* to_string(Passage passage);
-const char* to_string(Verdict verdict);
-const char* to_string(Certified answer);
+[[nodiscard]] const char* to_string(Relation relation);
+[[nodiscard]] const char* to_string(Membership membership);
+[[nodiscard]] const char* to_string(Passage passage);
+[[nodiscard]] const char* to_string(Verdict verdict);
+[[nodiscard]] const char* to_string(Certified answer);
 
 }  // namespace vericone

@@ -53,7 +53,7 @@ struct Cone {
   /// in between, within 1e-12 rad of either, and where the relation is. Of bodies that are not apart: `in`
   /// for w != 0. Cost: linear in the corners (1 us for 100), of a map in its cells. Throws InputError naming
   /// "w" where it is not finite.
-  Certified contains(const Eigen::Vector3d& w) const;
+  [[nodiscard]] Certified contains(const Eigen::Vector3d& w) const;
 
   /// What `contains` asks: the polygons, star-shaped about the axis (inner and outer cone), or the map.
   PolyhedralCone star_inner, star_outer;
@@ -62,6 +62,6 @@ struct Cone {
 
 /// The directions in which an agent meets any of several obstacles, as a map. All pairs have the same agent;
 /// obstacles all move by the same velocity.
-ConeMap cone_map(std::span<const Pair> pairs, const ConeMapOptions& options = {});
+[[nodiscard]] ConeMap cone_map(std::span<const Pair> pairs, const ConeMapOptions& options = {});
 
 }  // namespace vericone

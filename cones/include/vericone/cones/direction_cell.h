@@ -25,7 +25,7 @@ class DirectionClassifier {
   virtual ~DirectionClassifier() = default;
 
   /// What a whole sphere starts with.
-  virtual Frontier start() const { return {}; }
+  [[nodiscard]] virtual Frontier start() const { return {}; }
 
   /// `in`: every direction of the cell collides; `out`: none does; both are proved. `undecided`: the cell is
   /// mixed, or could not be proved to be either. `parent`: that of a cell that contains this one, or start();

@@ -65,7 +65,7 @@ struct Miss {
   double distance = 0;
 
   /// Its derivative to w = v_agent - v_obstacle.
-  Eigen::Vector3d gradient_velocity() const { return -time * normal; }
+  [[nodiscard]] Eigen::Vector3d gradient_velocity() const { return -time * normal; }
 };
 
 /// Two placed bodies of any kinds, prepared for many velocities. Immutable; a copy shares what was prepared;
@@ -88,37 +88,37 @@ class Pair {
   /// body.h).
   Pair(const CombinedEllipse& agent, const CombinedEllipse& obstacle, PairOptions options = {});
 
-  const Placed& agent() const { return *agent_; }
-  const Placed& obstacle() const { return *obstacle_; }
-  Guarantee guarantee() const;
+  [[nodiscard]] const Placed& agent() const { return *agent_; }
+  [[nodiscard]] const Placed& obstacle() const { return *obstacle_; }
+  [[nodiscard]] Guarantee guarantee() const;
 
   /// Now. Nothing where it could not be decided.
-  std::optional<Relation> relation() const;
+  [[nodiscard]] std::optional<Relation> relation() const;
 
   /// The whole answer. Bodies that overlap or touch now are that, whatever their velocities. Throws
   /// InputError naming "agent_velocity[i]" or "obstacle_velocity[i]" where they are not finite.
-  Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const {
+  [[nodiscard]] Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const {
     return ellipsoids_ ? ellipsoids_->verdict(v_a, v_b) : other_verdict(v_a, v_b);
   }
 
   /// The rung of the ladder that decided verdict(); nothing of certified pairs. For measurements.
-  std::optional<Rung> rung(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+  [[nodiscard]] std::optional<Rung> rung(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 
   /// With the past told from never; nothing where a verdict is undecided. Of bodies that are not apart now:
   /// `ahead` for every w != 0.
-  std::optional<Passage> passage(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+  [[nodiscard]] std::optional<Passage> passage(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 
   /// Nothing where verdict() is `out`. Times and lengths, here and in miss(), are those of v_a - v_b rounded
   /// to doubles; whether there is a contact is decided without rounding.
-  std::optional<Contact> contact(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+  [[nodiscard]] std::optional<Contact> contact(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 
-  Miss miss(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+  [[nodiscard]] Miss miss(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 
   /// The cone by the sharpest method there is for these kinds (cone.h). Throws InputError naming "tolerance",
   /// "resolution" or "threads". Cost: two ellipsoids 40 us; combined quadrics milliseconds
   /// (docs/benchmarks.md); hulls 1 ms; others are drawn as a map, seconds.
-  Cone cone() const;
-  Cone cone(const ConeOptions& options) const;
+  [[nodiscard]] Cone cone() const;
+  [[nodiscard]] Cone cone(const ConeOptions& options) const;
 
   /// The least sector that holds the cone's directions on a plane: that through the line of sight, from a
   /// point `from` of the agent to a point `to` of the obstacle (metres, world), and `across` (any vector not
@@ -128,17 +128,17 @@ class Pair {
   /// Nothing where the bodies are not apart (or not known to be), or no direction of the plane is known to
   /// collide. Throws InputError naming "across" or "to". Cost: two ellipsoids 1 us, a hull 2 us, others:
   /// docs/pairs.md.
-  std::optional<PlaneSector> sector(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-                                    const Eigen::Vector3d& across) const;
+  [[nodiscard]] std::optional<PlaneSector> sector(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                                                  const Eigen::Vector3d& across) const;
   /// From the middle of the agent to that of the obstacle.
-  std::optional<PlaneSector> sector(const Eigen::Vector3d& across) const;
+  [[nodiscard]] std::optional<PlaneSector> sector(const Eigen::Vector3d& across) const;
 
   /// Whole triangles of directions of w, for cone_map(); lives as long as someone holds it. Prepared on the
   /// first call.
-  std::shared_ptr<const DirectionClassifier> directions() const;
+  [[nodiscard]] std::shared_ptr<const DirectionClassifier> directions() const;
 
  private:
-  Verdict other_verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+  [[nodiscard]] Verdict other_verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 
   std::shared_ptr<const Placed> agent_, obstacle_;
   std::shared_ptr<const pairs::Family> family_;

@@ -45,11 +45,11 @@ struct PlaneSector {
   double distance = 0;                               // metres between the reference points
   Edge left, right;                                  // towards +e and -e
 
-  double psi() const { return left.angle + right.angle; }
+  [[nodiscard]] double psi() const { return left.angle + right.angle; }
   /// Bisector, radians from the line of sight towards e.
-  double theta_b() const { return 0.5 * (left.angle - right.angle); }
+  [[nodiscard]] double theta_b() const { return 0.5 * (left.angle - right.angle); }
   /// Whether the contacts of both edges are known, from which rates follow.
-  bool has_contacts() const { return !left.normal.isZero(0) && !right.normal.isZero(0); }
+  [[nodiscard]] bool has_contacts() const { return !left.normal.isZero(0) && !right.normal.isZero(0); }
 };
 
 /// How a rigid body moves: its reference point at `velocity` (m/s), turning about it (rad/s).
@@ -63,21 +63,21 @@ struct PlaneSectorRates {
   double left = 0, right = 0;  // of the two edge angles
   double line_of_sight = 0;    // in-plane turning of u towards e
 
-  double psi() const { return left + right; }
+  [[nodiscard]] double psi() const { return left + right; }
   /// Of the bisector against the line of sight; add line_of_sight for the rate against fixed axes.
-  double theta_b() const { return 0.5 * (left - right); }
+  [[nodiscard]] double theta_b() const { return 0.5 * (left - right); }
 };
 
 /// Of two rigid bodies that move and turn; `plane_spin`: of the plane about the line of sight, rad/s, beyond
 /// the turning of the latter. Nothing where the sector does not know its contacts. Right to rounding of
 /// ellipsoids, to 1e-5 of the largest angular rate in play of other bodies. At corners, where the contact
 /// jumps, one-sided. No allocation.
-std::optional<PlaneSectorRates> sector_rates(const PlaneSector& sector, const Twist& a, const Twist& b,
-                                             double plane_spin = 0);
+[[nodiscard]] std::optional<PlaneSectorRates> sector_rates(const PlaneSector& sector, const Twist& a,
+                                                           const Twist& b, double plane_spin = 0);
 
 /// The same from how fast the contacts move along their normals, from A towards B, m/s: of B's point less
 /// that of A's, shapes that change included. `velocity`: of B's reference point less that of A's.
-PlaneSectorRates sector_rates(const PlaneSector& sector, double left_speed, double right_speed,
-                              const Eigen::Vector3d& velocity, double plane_spin);
+[[nodiscard]] PlaneSectorRates sector_rates(const PlaneSector& sector, double left_speed, double right_speed,
+                                            const Eigen::Vector3d& velocity, double plane_spin);
 
 }  // namespace vericone

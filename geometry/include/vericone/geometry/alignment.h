@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Eigen aligns its types as the compiler's options allow: with -march=haswell an Ellipse has 128 bytes,
-// without
-// 96. A program compiled otherwise than the library would read past its bodies. Each translation unit that
-// knows them therefore asks for a name that only a library compiled alike has, and linking says which is
+// without 96. A program compiled otherwise than the library would read past its bodies. Each translation unit
+// that knows them therefore asks for a name that only a library compiled alike has, and linking says which is
 // missing.
 #pragma once
 

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace vericone {
@@ -21,7 +22,7 @@ enum class PieceKind : std::uint8_t {
   box,       // solid, axis-aligned in the body's frame
   hull,      // solid convex hulls of points
 };
-const char* to_string(PieceKind kind);
+[[nodiscard]] const char* to_string(PieceKind kind);
 
 /// The union of many convex pieces of one kind in the body's own frame, metres. Immutable; copies share. What
 /// is proved about an assembly is proved of the coordinates as stored.
@@ -32,29 +33,29 @@ class Assembly {
   /// A triangle mesh, open or closed; corners are indices into `points`. Degenerate triangles are segments
   /// and points. Points of no triangle are not part of it. Throws InputError naming "points[i][k]" (not
   /// finite), "triangles[i][k]" (no such point), "triangles" (none, or more than 2^31).
-  static Assembly mesh(std::vector<Eigen::Vector3d> points, std::vector<Triangle> triangles);
+  [[nodiscard]] static Assembly mesh(std::vector<Eigen::Vector3d> points, std::vector<Triangle> triangles);
 
   /// Balls of one radius >= 0 about points. Throws InputError naming "points", "points[i][k]" or "radius".
-  static Assembly cloud(std::vector<Eigen::Vector3d> points, double radius);
+  [[nodiscard]] static Assembly cloud(std::vector<Eigen::Vector3d> points, double radius);
 
   /// Solid boxes, low <= high. Throws InputError naming "boxes" or "boxes[i].low[k]" or "boxes[i].high[k]".
-  static Assembly boxes(std::vector<Box> boxes);
+  [[nodiscard]] static Assembly boxes(std::vector<Box> boxes);
 
   /// Solid convex polyhedra. Throws InputError naming "hulls".
-  static Assembly polyhedra(std::vector<HullBody> hulls);
+  [[nodiscard]] static Assembly polyhedra(std::vector<HullBody> hulls);
 
-  PieceKind kind() const;
+  [[nodiscard]] PieceKind kind() const;
   /// Number of pieces.
-  std::size_t size() const;
+  [[nodiscard]] std::size_t size() const;
   /// Of the balls; 0 for other kinds.
-  double radius() const;
+  [[nodiscard]] double radius() const;
   /// Around all pieces.
-  const Box& bounds() const;
+  [[nodiscard]] const Box& bounds() const;
 
-  const Hierarchy& hierarchy() const;
+  [[nodiscard]] const Hierarchy& hierarchy() const;
 
   /// The points whose convex hull, rounded by radius(), is piece i (0 <= i < size(), in the order given).
-  HullBody piece(std::size_t i) const;
+  [[nodiscard]] HullBody piece(std::size_t i) const;
 
   /// The pieces by *slot* of the hierarchy, so that those of a leaf lie side by side. Only that of kind() is
   /// filled.
@@ -64,7 +65,7 @@ class Assembly {
     std::vector<Box> boxes;
     std::vector<HullBody> hulls;
   };
-  const Storage& by_slot() const;
+  [[nodiscard]] const Storage& by_slot() const;
 
  private:
   struct Data;

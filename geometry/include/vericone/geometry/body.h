@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -28,7 +29,7 @@ enum class BodyKind : std::uint8_t {
 inline constexpr std::array<BodyKind, 7> kBodyKinds{BodyKind::ellipsoid, BodyKind::combined, BodyKind::hull,
                                                     BodyKind::mesh,      BodyKind::cloud,    BodyKind::boxes,
                                                     BodyKind::pieces};
-const char* to_string(BodyKind kind);
+[[nodiscard]] const char* to_string(BodyKind kind);
 
 /// A body of any kind in its own frame, metres. Immutable; a copy shares what it holds and costs no more than
 /// a pointer.
@@ -46,27 +47,27 @@ class Body {
   Body(Assembly assembly);              // NOLINT
 
   /// Their union. Throws InputError naming "pieces" where there is none.
-  static Body pieces(std::vector<CombinedEllipsoid> pieces);
+  [[nodiscard]] static Body pieces(std::vector<CombinedEllipsoid> pieces);
 
-  BodyKind kind() const;
-  const Shape& shape() const;
+  [[nodiscard]] BodyKind kind() const;
+  [[nodiscard]] const Shape& shape() const;
 
   /// Support function max n.x over the body; rounded to a few units in the last place of the largest term. Of
   /// a combined body, the ellipsoid's that contains it: it may be too large, never too small. Linear in the
   /// points of a hull and the pieces of a union, a descent of the tree of an assembly. No allocation.
-  double support(const Eigen::Vector3d& n) const;
+  [[nodiscard]] double support(const Eigen::Vector3d& n) const;
 
   /// A point amid the body: the centre of a combined quadric, the mean of a hull's points, the middle of the
   /// bounds of an assembly or a union.
-  Eigen::Vector3d middle() const;
+  [[nodiscard]] Eigen::Vector3d middle() const;
 
   /// Around the body, at most a few roundings too small.
-  Box bounds() const;
+  [[nodiscard]] Box bounds() const;
 
   /// An ellipsoid that contains the body: the least one of points and triangles, the bounding ellipsoid of a
   /// combined body. Balls and flat bodies make it a little larger than the least. Found on the first call
   /// (100,000 points: 20 ms) and kept; safe in several threads.
-  const Ellipsoid& containing_ellipsoid() const;
+  [[nodiscard]] const Ellipsoid& containing_ellipsoid() const;
 
  private:
   struct Data;
@@ -81,29 +82,29 @@ struct Placed {
   Placed(Body what, Pose where = {})
       : body(std::move(what)), pose(std::move(where)) {}  // NOLINT: at the origin
 
-  double support(const Eigen::Vector3d& n) const {
+  [[nodiscard]] double support(const Eigen::Vector3d& n) const {
     return n.dot(pose.position) + body.support(pose.rotation.transpose() * n);
   }
-  Eigen::Vector3d middle() const { return pose.to_world(body.middle()); }
+  [[nodiscard]] Eigen::Vector3d middle() const { return pose.to_world(body.middle()); }
   /// Its numbers are rounded once.
-  Ellipsoid containing_ellipsoid() const;
+  [[nodiscard]] Ellipsoid containing_ellipsoid() const;
 };
 
 /// Bodies in the world: every number is rounded once, none where the pose is the identity. A rotation that is
 /// not orthonormal to 1e-12 is refused: InputError naming "pose.rotation".
-Ellipsoid in_world(const Ellipsoid& body, const Pose& pose);
-CombinedEllipsoid in_world(const CombinedEllipsoid& body, const Pose& pose);
-HullBody in_world(const HullBody& body, const Pose& pose);
+[[nodiscard]] Ellipsoid in_world(const Ellipsoid& body, const Pose& pose);
+[[nodiscard]] CombinedEllipsoid in_world(const CombinedEllipsoid& body, const Pose& pose);
+[[nodiscard]] HullBody in_world(const HullBody& body, const Pose& pose);
 
 /// x_C = first(second(x)).
-Pose composed(const Pose& first, const Pose& second);
-Pose inverse(const Pose& pose);
+[[nodiscard]] Pose composed(const Pose& first, const Pose& second);
+[[nodiscard]] Pose inverse(const Pose& pose);
 
 /// A planar body as a spatial one: a third semi-axis of `height` metres along z, hyperbolas become cylinders.
 /// At every z its section is contained in the one at z = 0. So of two bodies raised to heights no shorter
 /// than all their semi-axes, which move in the plane, relation, verdict and contact time are those of the
 /// planar bodies, and of ellipses the signed distance of their shadows is as well: it is largest at a normal
 /// in the plane.
-CombinedEllipsoid raised(const CombinedEllipse& body, double height);
+[[nodiscard]] CombinedEllipsoid raised(const CombinedEllipse& body, double height);
 
 }  // namespace vericone

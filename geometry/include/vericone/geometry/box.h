@@ -10,9 +10,9 @@ namespace vericone {
 struct Box {
   Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Zero();
 
-  Eigen::Vector3d center() const { return 0.5 * (low + high); }
-  Eigen::Vector3d half_widths() const { return 0.5 * (high - low); }
-  bool contains(const Eigen::Vector3d& x) const {
+  [[nodiscard]] Eigen::Vector3d center() const { return 0.5 * (low + high); }
+  [[nodiscard]] Eigen::Vector3d half_widths() const { return 0.5 * (high - low); }
+  [[nodiscard]] bool contains(const Eigen::Vector3d& x) const {
     return (low.array() <= x.array()).all() && (x.array() <= high.array()).all();
   }
   void include(const Box& other) {

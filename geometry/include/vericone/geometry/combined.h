@@ -21,7 +21,7 @@ struct Delimiter {
   Eigen::Matrix<double, D, D> matrix;  // symmetric bit for bit, 1 / m^2
   double level = 1;
 
-  double value(const Eigen::Matrix<double, D, 1>& y) const { return y.dot(matrix * y) - level; }
+  [[nodiscard]] double value(const Eigen::Matrix<double, D, 1>& y) const { return y.dot(matrix * y) - level; }
 };
 
 /// The centre's side of the hyperboloid with semi-axes (a, b, c), its axis along the first column of
@@ -29,12 +29,12 @@ struct Delimiter {
 ///   sheets = 2:  x^2/a^2 - y^2/b^2 - z^2/c^2 <= 1 cuts two dents,
 ///   sheets = 1: -x^2/a^2 + y^2/b^2 + z^2/c^2 <= 1 cuts a waist.
 /// Throws InputError naming "sheets", "semi_axes[i]" or "rotation".
-Delimiter<3> hyperboloid(int sheets, const Eigen::Vector3d& semi_axes,
-                         const Eigen::Matrix3d& rotation = Eigen::Matrix3d::Identity());
+[[nodiscard]] Delimiter<3> hyperboloid(int sheets, const Eigen::Vector3d& semi_axes,
+                                       const Eigen::Matrix3d& rotation = Eigen::Matrix3d::Identity());
 
 /// The centre's side of the hyperbola x^2/a^2 - y^2/b^2 = 1, its x axis turned counter-clockwise by `angle`:
 /// dents at both ends of that axis. Throws InputError naming "semi_axes[i]" or "angle".
-Delimiter<2> hyperbola(const Eigen::Vector2d& semi_axes, double angle = 0);
+[[nodiscard]] Delimiter<2> hyperbola(const Eigen::Vector2d& semi_axes, double angle = 0);
 
 /// { x : x in E, (x-p)^T M_i (x-p) <= level_i for all i }, p the centre of the ellipsoid E; lengths in
 /// metres.
@@ -58,32 +58,33 @@ class BasicCombined {
   /// which is a mistake in the parameters.
   BasicCombined(const BasicEllipsoid<D>& ellipsoid, std::vector<Delimiter<D>> delimiters);
 
-  const BasicEllipsoid<D>& ellipsoid() const { return ellipsoid_; }
-  const std::vector<Delimiter<D>>& delimiters() const { return delimiters_; }
-  const Vector& center() const { return ellipsoid_.center(); }
-  bool is_ellipsoid() const { return delimiters_.empty(); }
+  [[nodiscard]] const BasicEllipsoid<D>& ellipsoid() const { return ellipsoid_; }
+  [[nodiscard]] const std::vector<Delimiter<D>>& delimiters() const { return delimiters_; }
+  [[nodiscard]] const Vector& center() const { return ellipsoid_.center(); }
+  [[nodiscard]] bool is_ellipsoid() const { return delimiters_.empty(); }
 
   /// 1 / r(u), where p + r(u) u is on the boundary: positively homogeneous, below 1 inside, above 1 outside.
   /// Infinity for directions in which the body has no extent (level 0).
-  double gauge(const Vector& u) const;
+  [[nodiscard]] double gauge(const Vector& u) const;
 
   /// The surfaces as quadrics, the ellipsoid's first; rounded where the centre is not the origin.
-  std::vector<BasicQuadric<D>> quadrics() const;
+  [[nodiscard]] std::vector<BasicQuadric<D>> quadrics() const;
 
   /// An ellipsoid that contains the body: of least volume among the nonnegative combinations of the quadrics
   /// (any such combination contains the body), widened by a few roundings.
-  BasicEllipsoid<D> bounding_ellipsoid() const;
+  [[nodiscard]] BasicEllipsoid<D> bounding_ellipsoid() const;
 
   /// An ellipsoid about the centre that the body contains, narrowed by a few roundings. Nothing where the
   /// body has no interior at its centre (level 0). Largest for one delimiter, not necessarily for several.
-  std::optional<BasicEllipsoid<D>> inscribed_ellipsoid() const;
+  [[nodiscard]] std::optional<BasicEllipsoid<D>> inscribed_ellipsoid() const;
 
-  BasicCombined translated(const Vector& by) const;
+  [[nodiscard]] BasicCombined translated(const Vector& by) const;
   /// The image under x -> scale * x, scale > 0.
-  BasicCombined scaled(double scale) const;
+  [[nodiscard]] BasicCombined scaled(double scale) const;
 
   /// Without any check; for images of valid bodies.
-  static BasicCombined trusted(const BasicEllipsoid<D>& ellipsoid, std::vector<Delimiter<D>> delimiters);
+  [[nodiscard]] static BasicCombined trusted(const BasicEllipsoid<D>& ellipsoid,
+                                             std::vector<Delimiter<D>> delimiters);
 
  private:
   BasicEllipsoid<D> ellipsoid_;
@@ -98,7 +99,8 @@ using CombinedEllipsoid = BasicCombined<3>;
 /// at the x' ends. k = 0: the ellipse (a_c, b_c); k = 1: pinched to a point at the centre. The source calls
 /// it confocal; the two conics share their foci for k = (b_c/a_c)^2 only (errata, 3.5). Throws InputError
 /// naming "semi_axes[i]", "k" or "phi".
-CombinedEllipse dented_conic(const Eigen::Vector2d& center, double a_c, double b_c, double k, double phi);
+[[nodiscard]] CombinedEllipse dented_conic(const Eigen::Vector2d& center, double a_c, double b_c, double k,
+                                           double phi);
 
 /// A corner of a planar body: where two of its boundary conics cross. Conic 0 is the ellipse, i + 1 the
 /// delimiter i.
@@ -109,11 +111,11 @@ struct Corner {
 
 /// All corners, counter-clockwise; they come in opposite pairs. None for an ellipse. Each is a root of a
 /// homogeneous quadratic in the direction from the centre, so right to a few roundings.
-std::vector<Corner> corners(const CombinedEllipse& body);
+[[nodiscard]] std::vector<Corner> corners(const CombinedEllipse& body);
 
 /// The section of a body by a plane through its centre, in coordinates of the plane (orthonormal axes),
 /// placed at `center`. A hyperboloid's section may be an ellipse, or not there (then it is left out).
-CombinedEllipse central_section(const CombinedEllipsoid& body, const Eigen::Vector3d& x_axis,
-                                const Eigen::Vector3d& y_axis, const Eigen::Vector2d& center);
+[[nodiscard]] CombinedEllipse central_section(const CombinedEllipsoid& body, const Eigen::Vector3d& x_axis,
+                                              const Eigen::Vector3d& y_axis, const Eigen::Vector2d& center);
 
 }  // namespace vericone

@@ -26,7 +26,7 @@ struct CombinedSurface {
 /// small dents and waists get shorter ones. Every edge belongs to two triangles, in opposite directions; the
 /// Euler characteristic is 2. A body pinched to a point at its centre (level 0) has one vertex there, shared
 /// by all parts that meet in it. Throws InputError naming "resolution".
-CombinedSurface surface(const CombinedEllipsoid& body, double resolution = 0.1);
+[[nodiscard]] CombinedSurface surface(const CombinedEllipsoid& body, double resolution = 0.1);
 
 enum class SurfacePart {
   ellipsoid,   // the source's ellipsoid delimited by hyperboloid (EDH, (6.6))
@@ -34,17 +34,17 @@ enum class SurfacePart {
 };
 
 /// The triangles on the ellipsoid, or those on the delimiters, with the vertices they need.
-CombinedSurface part(const CombinedSurface& surface, SurfacePart which);
+[[nodiscard]] CombinedSurface part(const CombinedSurface& surface, SurfacePart which);
 
 /// The edges between triangles on different quadrics, each once.
-std::vector<std::array<int, 2>> rims(const CombinedSurface& surface);
+[[nodiscard]] std::vector<std::array<int, 2>> rims(const CombinedSurface& surface);
 
 /// Volume inside a closed surface, m^3, by the divergence theorem.
-double enclosed_volume(const CombinedSurface& surface);
+[[nodiscard]] double enclosed_volume(const CombinedSurface& surface);
 
 /// Wavefront OBJ (a group "quadric_i" for each quadric) and PLY (text, with the property "quadric" of faces).
-std::string to_obj(const CombinedSurface& surface);
-std::string to_ply(const CombinedSurface& surface);
+[[nodiscard]] std::string to_obj(const CombinedSurface& surface);
+[[nodiscard]] std::string to_ply(const CombinedSurface& surface);
 
 /// Part of a planar body's boundary on one conic, from corner to corner counter-clockwise; a single arc that
 /// returns to its beginning where there are no corners.
@@ -55,6 +55,6 @@ struct BoundaryArc {
 
 /// The boundary, counter-clockwise; `resolution` as above, in radians about the centre where the ellipse is a
 /// unit circle. Throws InputError naming "resolution".
-std::vector<BoundaryArc> outline(const CombinedEllipse& body, double resolution = 0.02);
+[[nodiscard]] std::vector<BoundaryArc> outline(const CombinedEllipse& body, double resolution = 0.02);
 
 }  // namespace vericone

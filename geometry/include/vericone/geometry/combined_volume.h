@@ -15,9 +15,9 @@ struct VolumeEstimate {
 
 /// Closed form on every half-plane through an axis of the body, adaptive quadrature over the half-planes.
 /// With one delimiter the integrand is analytic; the error is then one of rounding.
-VolumeEstimate volume(const CombinedEllipsoid& body);
+[[nodiscard]] VolumeEstimate volume(const CombinedEllipsoid& body);
 
 /// Area of a planar body, m^2, in closed form: right to rounding.
-double area(const CombinedEllipse& body);
+[[nodiscard]] double area(const CombinedEllipse& body);
 
 }  // namespace vericone

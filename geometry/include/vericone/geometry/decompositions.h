@@ -18,11 +18,11 @@ struct SymmetricEigen {
 
 /// Of a symmetric matrix, whose lower triangle is read.
 template <int N>
-SymmetricEigen<N> symmetric_eigen(const Eigen::Matrix<double, N, N>& a);
+[[nodiscard]] SymmetricEigen<N> symmetric_eigen(const Eigen::Matrix<double, N, N>& a);
 
 /// Its values alone, the same bits, in half the time.
 template <int N>
-Eigen::Matrix<double, N, 1> symmetric_eigenvalues(const Eigen::Matrix<double, N, N>& a);
+[[nodiscard]] Eigen::Matrix<double, N, 1> symmetric_eigenvalues(const Eigen::Matrix<double, N, N>& a);
 
 /// a = L L^T of a symmetric matrix, whose lower triangle is read. N is 2, 3 or 4; the members that solve are
 /// there for 2 and 3, `solve` and `inverse` for 3.
@@ -32,16 +32,16 @@ struct Cholesky {
   bool positive = false;              // otherwise `lower` has no meaning
 
   /// L^{-1} x.
-  Eigen::Matrix<double, N, 1> half_solve(const Eigen::Matrix<double, N, 1>& x) const;
+  [[nodiscard]] Eigen::Matrix<double, N, 1> half_solve(const Eigen::Matrix<double, N, 1>& x) const;
   /// a^{-1} x.
-  Eigen::Matrix<double, N, 1> solve(const Eigen::Matrix<double, N, 1>& x) const;
+  [[nodiscard]] Eigen::Matrix<double, N, 1> solve(const Eigen::Matrix<double, N, 1>& x) const;
   /// L^{-1}.
-  Eigen::Matrix<double, N, N> lower_inverse() const;
+  [[nodiscard]] Eigen::Matrix<double, N, N> lower_inverse() const;
   /// a^{-1}.
-  Eigen::Matrix<double, N, N> inverse() const;
+  [[nodiscard]] Eigen::Matrix<double, N, N> inverse() const;
 };
 template <int N>
-Cholesky<N> cholesky(const Eigen::Matrix<double, N, N>& a);
+[[nodiscard]] Cholesky<N> cholesky(const Eigen::Matrix<double, N, N>& a);
 
 /// a = u diag(values) v^T, v left out: values decrease, u is orthogonal.
 template <int N>
@@ -50,18 +50,18 @@ struct LeftSingular {
   Eigen::Matrix<double, N, N> u;
 };
 template <int N>
-LeftSingular<N> left_singular(const Eigen::Matrix<double, N, N>& a);
+[[nodiscard]] LeftSingular<N> left_singular(const Eigen::Matrix<double, N, N>& a);
 template <int N>
-Eigen::Matrix<double, N, 1> singular_values(const Eigen::Matrix<double, N, N>& a);
+[[nodiscard]] Eigen::Matrix<double, N, 1> singular_values(const Eigen::Matrix<double, N, N>& a);
 
 /// The orthogonal matrix nearest to `a`: u v^T of its singular vectors.
 template <int N>
-Eigen::Matrix<double, N, N> nearest_orthogonal(const Eigen::Matrix<double, N, N>& a);
+[[nodiscard]] Eigen::Matrix<double, N, N> nearest_orthogonal(const Eigen::Matrix<double, N, N>& a);
 
 /// x of least |a x - b|, any size; of several the shortest, however the rank falls short.
-Eigen::VectorXd shortest_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+[[nodiscard]] Eigen::VectorXd shortest_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
 /// x of least |a x - b|, any size: quicker, one of several.
-Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+[[nodiscard]] Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
 }  // namespace vericone

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Unevaluated sums of two doubles: about 31 digits for the residuals of an iterative refinement. Not a number
-// type for general use. Correct only without contraction (-ffp-contract=off, which the library's targets
-// set). Error-free transformations: Dekker 1971, Knuth 1969; see Ogita, Rump, Oishi 2005.
+// type for general use. Correct only in the arithmetic of sound_arithmetic.h. Error-free transformations:
+// Dekker 1971, Knuth 1969; see Ogita, Rump, Oishi 2005.
 #pragma once
+
+#include <vericone/geometry/sound_arithmetic.h>
 
 namespace vericone {
 
@@ -17,14 +19,14 @@ struct DoubleDouble {
   explicit operator double() const { return hi + lo; }
 
   /// x + y without error.
-  static DoubleDouble two_sum(double x, double y) {
+  [[nodiscard]] static DoubleDouble two_sum(double x, double y) {
     const double s = x + y, t = s - x;
     return {s, (x - (s - t)) + (y - t)};
   }
 
   /// x * y without error while |x|, |y| < 1e300 and the product is above 1e-290. Dekker's splitting rather
   /// than fma, which is a library call on processors without it.
-  static DoubleDouble two_product(double x, double y) {
+  [[nodiscard]] static DoubleDouble two_product(double x, double y) {
     const double p = x * y;
     const auto split = [](double a) {
       const double c = 134217729.0 * a;  // 2^27 + 1

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <vericone/geometry/alignment.h>
+#include <vericone/geometry/sound_arithmetic.h>
 #include <Eigen/Core>
 
 namespace vericone {
@@ -32,49 +33,49 @@ class BasicEllipsoid {
   /// From semi-axes (positive) along the columns of `rotation` (orthonormal to 1e-6, determinant +1; replaced
   /// by the nearest rotation when it is not orthonormal to rounding). Throws InputError naming "center",
   /// "semi_axes[i]" or "rotation".
-  static BasicEllipsoid from_axes(const Vector& center, const Vector& semi_axes,
-                                  const Matrix& rotation = Matrix::Identity());
+  [[nodiscard]] static BasicEllipsoid from_axes(const Vector& center, const Vector& semi_axes,
+                                                const Matrix& rotation = Matrix::Identity());
 
   /// From the shape matrix S, symmetric (bit for bit) and positive definite. Definiteness is decided exactly,
   /// so a matrix is never accepted or refused by rounding. Throws InputError naming "center" or "shape".
-  static BasicEllipsoid from_shape(const Vector& center, const Matrix& shape);
+  [[nodiscard]] static BasicEllipsoid from_shape(const Vector& center, const Matrix& shape);
 
   /// From a quadric matrix Q, x~^T Q x~ = 0 with x~ = (x, 1), of either sign and any scale (source, (6.2)).
   /// Centre and shape are solved for in rational arithmetic and rounded once, so bodies far from the origin
   /// lose nothing. Throws InputError naming "quadric" when Q is not that of a real ellipsoid.
-  static BasicEllipsoid from_quadric(const BasicQuadric<D>& quadric);
+  [[nodiscard]] static BasicEllipsoid from_quadric(const BasicQuadric<D>& quadric);
 
-  const Vector& center() const { return center_; }
-  const Matrix& shape() const { return shape_; }
-  const Matrix& factor() const { return factor_; }
-  bool defined_by_factor() const { return defined_by_factor_; }
+  [[nodiscard]] const Vector& center() const { return center_; }
+  [[nodiscard]] const Matrix& shape() const { return shape_; }
+  [[nodiscard]] const Matrix& factor() const { return factor_; }
+  [[nodiscard]] bool defined_by_factor() const { return defined_by_factor_; }
 
   /// Semi-axes in decreasing order, and the matching orthonormal directions in the columns.
-  Vector semi_axes() const;
-  Matrix axis_directions() const;
+  [[nodiscard]] Vector semi_axes() const;
+  [[nodiscard]] Matrix axis_directions() const;
 
   /// rho(n) = sqrt(n^T S n): half the width of the body along n, times |n|. Relative error below 8 eps times
   /// the ratio of |F||n| to the result.
-  double radius(const Vector& n) const { return (factor_.transpose() * n).norm(); }
+  [[nodiscard]] double radius(const Vector& n) const { return (factor_.transpose() * n).norm(); }
 
   /// Support function h(n) = max n.x over the body = n.p + rho(n).
-  double support(const Vector& n) const { return n.dot(center_) + radius(n); }
+  [[nodiscard]] double support(const Vector& n) const { return n.dot(center_) + radius(n); }
 
   /// The point of the body farthest along n != 0: p + S n / rho(n).
-  Vector support_point(const Vector& n) const {
+  [[nodiscard]] Vector support_point(const Vector& n) const {
     const Vector u = factor_.transpose() * n;
     return center_ + factor_ * (u / u.norm());
   }
 
   /// Quadric matrix of the surface, negative inside, scaled so that the centre has the value -1.
-  BasicQuadric<D> quadric() const;
+  [[nodiscard]] BasicQuadric<D> quadric() const;
 
-  double volume() const;
+  [[nodiscard]] double volume() const;
 
-  BasicEllipsoid translated(const Vector& by) const;
+  [[nodiscard]] BasicEllipsoid translated(const Vector& by) const;
 
   /// The image under x -> scale * x, scale > 0.
-  BasicEllipsoid scaled(double scale) const;
+  [[nodiscard]] BasicEllipsoid scaled(double scale) const;
 
  private:
   Vector center_ = Vector::Zero();
@@ -87,14 +88,14 @@ using Ellipse = BasicEllipsoid<2>;
 using Ellipsoid = BasicEllipsoid<3>;
 
 /// Counter-clockwise rotation of the plane by `angle` radians.
-Eigen::Matrix2d rotation_2d(double angle);
+[[nodiscard]] Eigen::Matrix2d rotation_2d(double angle);
 
 /// Rotation matrix of the quaternion (w, x, y, z), |q| = 1 to 1e-6; the remaining factor |q| is divided out.
 /// Throws InputError naming "rotation".
-Eigen::Matrix3d rotation_3d(const Eigen::Vector4d& wxyz);
+[[nodiscard]] Eigen::Matrix3d rotation_3d(const Eigen::Vector4d& wxyz);
 
 /// Body x axis at `azimuth` in the xy plane and `elevation` above it, no roll; radians (source, (6.5), where
 /// gamma_z = azimuth and gamma_y = -elevation).
-Eigen::Matrix3d rotation_from_heading(double azimuth, double elevation);
+[[nodiscard]] Eigen::Matrix3d rotation_from_heading(double azimuth, double elevation);
 
 }  // namespace vericone

@@ -11,23 +11,24 @@ namespace vericone {
 ///
 /// `what()` is one line, "FIELD: got VALUE, must be REQUIREMENT", for example
 /// "obstacle.semi_axes[1]: got -2, must be a positive finite number". Overlapping bodies, grazing
-/// velocities and receding bodies are answers; only what has no value for them, as the edges of a cone, throws.
+/// velocities and receding bodies are answers; only what has no value for them, as the edges of a cone,
+/// throws.
 class InputError : public std::invalid_argument {
  public:
   InputError(std::string field, std::string value, std::string requirement);
 
-  const std::string& field() const { return field_; }
-  const std::string& value() const { return value_; }
-  const std::string& requirement() const { return requirement_; }
+  [[nodiscard]] const std::string& field() const { return field_; }
+  [[nodiscard]] const std::string& value() const { return value_; }
+  [[nodiscard]] const std::string& requirement() const { return requirement_; }
 
   /// The same error with `prefix` before the field: "semi_axes[1]" becomes "obstacle.semi_axes[1]".
-  InputError within(std::string_view prefix) const;
+  [[nodiscard]] InputError within(std::string_view prefix) const;
 
  private:
   std::string field_, value_, requirement_;
 };
 
 /// Shortest decimal text that reads back as `x`; "nan", "inf", "-inf" otherwise.
-std::string to_text(double x);
+[[nodiscard]] std::string to_text(double x);
 
 }  // namespace vericone

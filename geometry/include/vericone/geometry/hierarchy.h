@@ -22,8 +22,8 @@ class Hierarchy {
     float high[3];
     std::uint32_t count;  // leaf: number of slots; 0 for an inner node
 
-    bool is_leaf() const { return count > 0; }
-    Box box() const { return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}}; }
+    [[nodiscard]] bool is_leaf() const { return count > 0; }
+    [[nodiscard]] Box box() const { return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}}; }
   };
 
   Hierarchy() = default;
@@ -37,11 +37,11 @@ class Hierarchy {
   Hierarchy(std::vector<Node> nodes, std::vector<std::uint32_t> order);
 
   /// Node 0 is the root; empty where there is no piece.
-  std::span<const Node> nodes() const { return nodes_; }
+  [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }
   /// The piece in each slot.
-  std::span<const std::uint32_t> order() const { return order_; }
+  [[nodiscard]] std::span<const std::uint32_t> order() const { return order_; }
   /// Levels below the root.
-  int depth() const { return depth_; }
+  [[nodiscard]] int depth() const { return depth_; }
 
  private:
   std::vector<Node> nodes_;

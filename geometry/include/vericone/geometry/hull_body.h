@@ -34,32 +34,32 @@ class HullBody {
   }
 
   /// The eight corners of the box between two opposite corners, which may share coordinates.
-  static HullBody box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+  [[nodiscard]] static HullBody box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
     std::vector<Eigen::Vector3d> corners;
     for (int i = 0; i < 8; ++i)
       corners.emplace_back((i & 1 ? high : low).x(), (i & 2 ? high : low).y(), (i & 4 ? high : low).z());
     return HullBody(std::move(corners));
   }
 
-  const std::vector<Eigen::Vector3d>& points() const { return points_; }
-  std::size_t size() const { return points_.size(); }
+  [[nodiscard]] const std::vector<Eigen::Vector3d>& points() const { return points_; }
+  [[nodiscard]] std::size_t size() const { return points_.size(); }
 
   /// Support function max n.x over the body; rounded. Linear in the number of points.
-  double support(const Eigen::Vector3d& n) const {
+  [[nodiscard]] double support(const Eigen::Vector3d& n) const {
     double most = n.dot(points_.front());
     for (const Eigen::Vector3d& x : points_) most = std::max(most, n.dot(x));
     return most;
   }
 
   /// Each coordinate is rounded once. Throws InputError like the constructor.
-  HullBody translated(const Eigen::Vector3d& by) const {
+  [[nodiscard]] HullBody translated(const Eigen::Vector3d& by) const {
     std::vector<Eigen::Vector3d> moved = points_;
     for (Eigen::Vector3d& x : moved) x += by;
     return HullBody(std::move(moved));
   }
 
   /// The image under x -> scale * x; each coordinate is rounded once.
-  HullBody scaled(double scale) const {
+  [[nodiscard]] HullBody scaled(double scale) const {
     std::vector<Eigen::Vector3d> image = points_;
     for (Eigen::Vector3d& x : image) x *= scale;
     return HullBody(std::move(image));

@@ -3,11 +3,12 @@
 // Intervals for the middle rung of the predicates and for certified constructions: a midpoint and a radius,
 // rounded to nearest throughout. No change of the rounding mode, hence no compiler flag without which they
 // would be wrong, no global state, and no cost at entry. See Rump, "Fast and parallel interval arithmetic",
-// BIT 39 (1999). Correct only without contraction to fused operations and without -ffast-math
-// (-ffp-contract=off is set for the library and all who link it).
+// BIT 39 (1999). Correct only in the arithmetic of sound_arithmetic.h.
 #pragma once
 
+#include <vericone/geometry/requires.h>
 #include <vericone/geometry/sign.h>
+#include <vericone/geometry/sound_arithmetic.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -32,29 +33,30 @@ class Interval {
   constexpr Interval(double exact) : mid_(exact) {}  // NOLINT(google-explicit-constructor): one is exactly it
   constexpr Interval(double mid, double rad) : mid_(mid), rad_(rad) {}
 
-  /// The hull of two numbers, lo <= hi.
-  static Interval between(double lo, double hi) {
+  /// The hull of two numbers. Requires lo <= hi, or one that is none.
+  [[nodiscard]] static Interval between(double lo, double hi) {
+    VERICONE_REQUIRES(!(lo > hi));
     const double mid = 0.5 * lo + 0.5 * hi;
     return {mid, std::max(hi - mid, mid - lo) * kInflate + kTiny};
   }
 
-  double mid() const { return mid_; }
-  double rad() const { return rad_; }
+  [[nodiscard]] double mid() const { return mid_; }
+  [[nodiscard]] double rad() const { return rad_; }
   /// Bounds as doubles, rounded outwards.
-  double lo() const { return rad_ == 0 ? mid_ : down(mid_ - rad_); }
-  double hi() const { return rad_ == 0 ? mid_ : -down(-mid_ - rad_); }
+  [[nodiscard]] double lo() const { return rad_ == 0 ? mid_ : down(mid_ - rad_); }
+  [[nodiscard]] double hi() const { return rad_ == 0 ? mid_ : -down(-mid_ - rad_); }
   /// The largest absolute value.
-  double magnitude() const { return (std::abs(mid_) + rad_) * kInflate; }
-  bool contains(double x) const { return lo() <= x && x <= hi(); }
-  bool finite() const { return std::isfinite(mid_) && std::isfinite(rad_); }
+  [[nodiscard]] double magnitude() const { return (std::abs(mid_) + rad_) * kInflate; }
+  [[nodiscard]] bool contains(double x) const { return lo() <= x && x <= hi(); }
+  [[nodiscard]] bool finite() const { return std::isfinite(mid_) && std::isfinite(rad_); }
 
-  FilteredSign sign() const {
+  [[nodiscard]] FilteredSign sign() const {
     return mid_ > rad_    ? FilteredSign::positive
            : mid_ < -rad_ ? FilteredSign::negative
                           : FilteredSign::uncertain;
   }
-  bool positive() const { return mid_ > rad_; }
-  bool negative() const { return mid_ < -rad_; }
+  [[nodiscard]] bool positive() const { return mid_ > rad_; }
+  [[nodiscard]] bool negative() const { return mid_ < -rad_; }
 
   Interval operator-() const { return {-mid_, rad_}; }
 
@@ -81,25 +83,27 @@ class Interval {
   }
 
   /// Of the non-negative part; the radius is NaN where there is none.
-  friend Interval sqrt(const Interval& x) {
+  [[nodiscard]] friend Interval sqrt(const Interval& x) {
     const double lo = std::max(x.lo(), 0.0), hi = x.hi();
     // A rounded square root is off by less than one part in 2^52; its neighbours bound it.
     return between(lo > 0 ? std::sqrt(lo) * (1 - 0x1p-52) : 0, std::sqrt(hi) * (1 + 0x1p-51) + kTiny);
   }
-  friend Interval square(const Interval& x) {
+  [[nodiscard]] friend Interval square(const Interval& x) {
     const Interval s = x * x;
     return s.lo() >= 0 ? s : between(0, s.hi());
   }
 
  private:
   /// Below x, for any double x that came from one rounding.
-  static double down(double x) { return std::nextafter(x, -std::numeric_limits<double>::infinity()); }
+  [[nodiscard]] static double down(double x) {
+    return std::nextafter(x, -std::numeric_limits<double>::infinity());
+  }
 
   double mid_ = 0, rad_ = 0;
 };
 
 /// The smallest interval that contains both.
-inline Interval hull(const Interval& x, const Interval& y) {
+[[nodiscard]] inline Interval hull(const Interval& x, const Interval& y) {
   return Interval::between(std::min(x.lo(), y.lo()), std::max(x.hi(), y.hi()));
 }
 

@@ -31,12 +31,12 @@ struct SectionLine {
 /// run counter-clockwise about the inside, seen from where n points, where triangles are counter-clockwise
 /// from outside. Triangles turned otherwise, and edges of three or more, are joined as well, in some order.
 /// Time O(triangles + k log k) for k cut ones. Requires indices in range and finite points.
-std::vector<SectionLine> mesh_section(std::span<const Eigen::Vector3d> points,
-                                      std::span<const std::array<std::uint32_t, 3>> triangles,
-                                      const PlaneFrame& plane);
+[[nodiscard]] std::vector<SectionLine> mesh_section(std::span<const Eigen::Vector3d> points,
+                                                    std::span<const std::array<std::uint32_t, 3>> triangles,
+                                                    const PlaneFrame& plane);
 
 /// Signed area of a closed piece, positive counter-clockwise; m^2. A section's area is the sum over its
 /// pieces.
-double signed_area(const SectionLine& line);
+[[nodiscard]] double signed_area(const SectionLine& line);
 
 }  // namespace vericone

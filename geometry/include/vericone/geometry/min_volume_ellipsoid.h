@@ -30,7 +30,7 @@ struct MinVolumeResult {
   BasicEllipsoid<D> body;
 
   MinVolumeStatus status = MinVolumeStatus::iteration_limit;
-  bool converged() const { return status == MinVolumeStatus::converged; }
+  [[nodiscard]] bool converged() const { return status == MinVolumeStatus::converged; }
 
   /// max_i g_i / (D+1) - 1 over all points, where g_i is the gradient of the dual objective (source,
   /// Algorithm 1); 0 at the optimum. Rounded.
@@ -68,14 +68,14 @@ struct MinVolumeResult {
 /// a coordinate that is not finite or is above 1e100 in magnitude; "tolerance" and "max_iterations" for
 /// values out of range.
 template <int D>
-MinVolumeResult<D> min_volume_ellipsoid(
+[[nodiscard]] MinVolumeResult<D> min_volume_ellipsoid(
     const Eigen::Ref<const Eigen::Matrix<double, D, Eigen::Dynamic>>& points,
     const MinVolumeOptions& options = {});
 
 /// The same for points in a vector.
 template <int D>
-MinVolumeResult<D> min_volume_ellipsoid(const std::vector<Eigen::Matrix<double, D, 1>>& points,
-                                        const MinVolumeOptions& options = {}) {
+[[nodiscard]] MinVolumeResult<D> min_volume_ellipsoid(const std::vector<Eigen::Matrix<double, D, 1>>& points,
+                                                      const MinVolumeOptions& options = {}) {
   using Columns = Eigen::Matrix<double, D, Eigen::Dynamic>;
   const double* data = points.empty() ? nullptr : points.front().data();
   return min_volume_ellipsoid<D>(

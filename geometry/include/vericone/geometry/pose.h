@@ -10,8 +10,14 @@ struct Pose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  // orthonormal, determinant +1
 
-  Eigen::Vector3d to_world(const Eigen::Vector3d& x) const { return position + rotation * x; }
-  Eigen::Vector3d to_body(const Eigen::Vector3d& x) const { return rotation.transpose() * (x - position); }
+  [[nodiscard]] Eigen::Vector3d to_world(const Eigen::Vector3d& x) const { return position + rotation * x; }
+  [[nodiscard]] Eigen::Vector3d to_body(const Eigen::Vector3d& x) const {
+    return rotation.transpose() * (x - position);
+  }
 };
+
+/// Whether the pose does not turn, bit for bit. Throws InputError naming "pose.position[i]" or
+/// "pose.rotation" where the pose is none: not finite, or not orthonormal to 1e-12 with determinant +1.
+[[nodiscard]] bool is_upright(const Pose& pose);
 
 }  // namespace vericone

@@ -29,17 +29,19 @@ class BasicQuadric {
   /// `matrix` must be finite, symmetric bit for bit and not zero. Throws InputError naming "quadric".
   explicit BasicQuadric(const Matrix& matrix);
 
-  const Matrix& matrix() const { return matrix_; }
+  [[nodiscard]] const Matrix& matrix() const { return matrix_; }
 
   /// x~^T Q x~.
-  double value(const Vector& x) const;
+  [[nodiscard]] double value(const Vector& x) const;
 
   /// Class of the zero set, decided in rational arithmetic: never wrong by rounding. Note that the source's
   /// statement on det(Q) swaps the hyperboloids (errata, 3.6).
-  QuadricKind kind() const;
+  [[nodiscard]] QuadricKind kind() const;
 
   /// The polar hyperplane Q p~ of the point p: its tangent there when p is on the surface (source, 5.2.1).
-  Eigen::Matrix<double, D + 1, 1> polar(const Vector& p) const { return matrix_ * p.homogeneous(); }
+  [[nodiscard]] Eigen::Matrix<double, D + 1, 1> polar(const Vector& p) const {
+    return matrix_ * p.homogeneous();
+  }
 
  private:
   Matrix matrix_;
@@ -53,19 +55,19 @@ using Quadric = BasicQuadric<3>;
 struct PlaneFrame {
   Eigen::Vector3d origin, x_axis, y_axis;
 
-  Eigen::Vector3d normal() const { return x_axis.cross(y_axis); }
-  Eigen::Vector3d to_space(const Eigen::Vector2d& p) const {
+  [[nodiscard]] Eigen::Vector3d normal() const { return x_axis.cross(y_axis); }
+  [[nodiscard]] Eigen::Vector3d to_space(const Eigen::Vector2d& p) const {
     return origin + p.x() * x_axis + p.y() * y_axis;
   }
-  Eigen::Vector3d direction_to_space(const Eigen::Vector2d& v) const {
+  [[nodiscard]] Eigen::Vector3d direction_to_space(const Eigen::Vector2d& v) const {
     return v.x() * x_axis + v.y() * y_axis;
   }
-  Eigen::Vector2d direction_to_plane(const Eigen::Vector3d& v) const {
+  [[nodiscard]] Eigen::Vector2d direction_to_plane(const Eigen::Vector3d& v) const {
     return {v.dot(x_axis), v.dot(y_axis)};
   }
 };
 
 /// The conic in which a plane cuts a quadric, P^T Q P (source, (6.11), (6.13)).
-Conic section(const Quadric& quadric, const PlaneFrame& plane);
+[[nodiscard]] Conic section(const Quadric& quadric, const PlaneFrame& plane);
 
 }  // namespace vericone

@@ -18,17 +18,20 @@ namespace vericone {
 /// docs/formats.md). A polynomial of degree 1 in Q and 2 in x. Throws InputError naming "point[i]" for
 /// coordinates that are not finite. Cost: about 20 ns where the first rung decides.
 template <int D>
-Sign side(const BasicQuadric<D>& quadric, const Eigen::Matrix<double, D, 1>& point, Rung* rung = nullptr);
+[[nodiscard]] Sign side(const BasicQuadric<D>& quadric, const Eigen::Matrix<double, D, 1>& point,
+                        Rung* rung = nullptr);
 
 /// The same for a body, as the matrix that defines it says: negative inside, zero on the surface. In
 /// determinants, sign of |adj(F)(x - p)|^2 - det(F)^2 or of (x - p)^T adj(S) (x - p) - det S.
 template <int D>
-Sign side(const BasicEllipsoid<D>& body, const Eigen::Matrix<double, D, 1>& point, Rung* rung = nullptr);
+[[nodiscard]] Sign side(const BasicEllipsoid<D>& body, const Eigen::Matrix<double, D, 1>& point,
+                        Rung* rung = nullptr);
 
 /// The same for combined quadrics: negative inside, zero on the boundary, positive outside. A delimiter's
 /// value d^T M d - level, d = x - p, is of degree 1 in M and 2 in d. `rung`: the highest one asked.
 template <int D>
-Sign side(const BasicCombined<D>& body, const Eigen::Matrix<double, D, 1>& point, Rung* rung = nullptr);
+[[nodiscard]] Sign side(const BasicCombined<D>& body, const Eigen::Matrix<double, D, 1>& point,
+                        Rung* rung = nullptr);
 
 /// Side of the combination { x : x~^T Q_i x~ <= 0 for all i }: negative in its interior, zero on its
 /// boundary, positive outside. Empty: all of space. `rung`: the last one asked.
@@ -37,18 +40,22 @@ Sign side(std::span<const BasicQuadric<D>> quadrics, const Eigen::Matrix<double,
           Rung* rung = nullptr);
 
 template <int D>
-FilteredSign triage_side(const BasicQuadric<D>& quadric, const Eigen::Matrix<double, D, 1>& point) noexcept;
+[[nodiscard]] FilteredSign triage_side(const BasicQuadric<D>& quadric,
+                                       const Eigen::Matrix<double, D, 1>& point) noexcept;
 template <int D>
-FilteredSign interval_side(const BasicQuadric<D>& quadric, const Eigen::Matrix<double, D, 1>& point) noexcept;
+[[nodiscard]] FilteredSign interval_side(const BasicQuadric<D>& quadric,
+                                         const Eigen::Matrix<double, D, 1>& point) noexcept;
 template <int D>
-Sign exact_side(const BasicQuadric<D>& quadric, const Eigen::Matrix<double, D, 1>& point);
+[[nodiscard]] Sign exact_side(const BasicQuadric<D>& quadric, const Eigen::Matrix<double, D, 1>& point);
 
 template <int D>
-FilteredSign triage_side(const BasicEllipsoid<D>& body, const Eigen::Matrix<double, D, 1>& point) noexcept;
+[[nodiscard]] FilteredSign triage_side(const BasicEllipsoid<D>& body,
+                                       const Eigen::Matrix<double, D, 1>& point) noexcept;
 template <int D>
-FilteredSign interval_side(const BasicEllipsoid<D>& body, const Eigen::Matrix<double, D, 1>& point) noexcept;
+[[nodiscard]] FilteredSign interval_side(const BasicEllipsoid<D>& body,
+                                         const Eigen::Matrix<double, D, 1>& point) noexcept;
 template <int D>
-Sign exact_side(const BasicEllipsoid<D>& body, const Eigen::Matrix<double, D, 1>& point);
+[[nodiscard]] Sign exact_side(const BasicEllipsoid<D>& body, const Eigen::Matrix<double, D, 1>& point);
 
 /// Tags of the ladders for rung_counts().
 struct PointQuadric;

@@ -21,8 +21,8 @@ enum class Rung : std::uint8_t {
   exact,     // integers: always an answer
 };
 
-const char* to_string(Sign sign);
-const char* to_string(Rung rung);
+[[nodiscard]] const char* to_string(Sign sign);
+[[nodiscard]] const char* to_string(Rung rung);
 
 /// Counts of decisions by rung. Kept for each predicate that climbs a ladder when the library is compiled
 /// with VERICONE_COUNT_RUNGS; otherwise all zero, at no cost.
@@ -41,7 +41,7 @@ RungCounts& rung_counts() {
 
 /// Counts of this thread for a predicate; see the headers of predicates for the tags.
 template <typename Predicate>
-RungCounts rung_counts() {
+[[nodiscard]] RungCounts rung_counts() {
   return detail::rung_counts<Predicate>();
 }
 
@@ -58,7 +58,7 @@ void decided_by(Rung by, Rung* rung, [[maybe_unused]] std::uint64_t count = 1) {
 /// The ladder: `triage` and `interval` return optionals, `exact` an answer. The rung that decided is written
 /// to `*rung` unless null.
 template <typename Predicate, typename Triage, typename Interval, typename Exact>
-auto climb(Rung* rung, const Triage& triage, const Interval& interval, const Exact& exact)
+[[nodiscard]] auto climb(Rung* rung, const Triage& triage, const Interval& interval, const Exact& exact)
     -> decltype(exact()) {
   if (const auto answer = triage()) {
     decided_by<Predicate>(Rung::triage, rung);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <vericone/geometry/sign.h>
+#include <vericone/geometry/sound_arithmetic.h>
 #include <cmath>
 #include <limits>
 
@@ -33,7 +34,7 @@ struct RoundingCount {
   /// most ((1 + u)^K - 1) of itself, and the magnitude was computed with K roundings too, so it is at least
   /// (1 - u)^K of the exact one. ((1+u)^K - 1) / (1-u)^K < 1.0001 K u for K <= 1000, proved by
   /// tests/geometry/bounds.
-  constexpr double bound() const { return 1.0001 * roundings * 0x1p-53; }
+  [[nodiscard]] constexpr double bound() const { return 1.0001 * roundings * 0x1p-53; }
 };
 
 /// A floating-point value of a polynomial in the inputs together with the same polynomial evaluated on
@@ -43,13 +44,13 @@ struct Tracked {
   using Bits = long long __attribute__((vector_size(16)));
   Pair pair;
 
-  double value() const { return pair[0]; }
-  double magnitude() const { return pair[1]; }
+  [[nodiscard]] double value() const { return pair[0]; }
+  [[nodiscard]] double magnitude() const { return pair[1]; }
 
-  static Tracked of(double value, double magnitude) { return {Pair{value, magnitude}}; }
-  static Tracked of(const double (&entry)[2]) { return {Pair{entry[0], entry[1]}}; }
-  static Tracked of(double x) { return {Pair{x, std::abs(x)}}; }
-  static Tracked minus(double x) { return {Pair{-x, std::abs(x)}}; }
+  [[nodiscard]] static Tracked of(double value, double magnitude) { return {Pair{value, magnitude}}; }
+  [[nodiscard]] static Tracked of(const double (&entry)[2]) { return {Pair{entry[0], entry[1]}}; }
+  [[nodiscard]] static Tracked of(double x) { return {Pair{x, std::abs(x)}}; }
+  [[nodiscard]] static Tracked minus(double x) { return {Pair{-x, std::abs(x)}}; }
 
   friend Tracked operator+(Tracked x, Tracked y) { return {x.pair + y.pair}; }
   friend Tracked operator-(Tracked x) {
@@ -62,11 +63,11 @@ struct Tracked {
 
   /// 1 or -1 where the exact value certainly is positive or negative, else 0 for uncertain. `underflow`: an
   /// absolute bound of what all products that left the normal numbers may have lost together.
-  int certain(RoundingCount count, double underflow) const {
+  [[nodiscard]] int certain(RoundingCount count, double underflow) const {
     const double bound = count.bound() * magnitude() + underflow;
     return static_cast<int>(value() > bound) - static_cast<int>(value() < -bound);
   }
-  FilteredSign sign(RoundingCount count, double underflow) const {
+  [[nodiscard]] FilteredSign sign(RoundingCount count, double underflow) const {
     const int s = certain(count, underflow);
     return s > 0 ? FilteredSign::positive : s < 0 ? FilteredSign::negative : FilteredSign::uncertain;
   }

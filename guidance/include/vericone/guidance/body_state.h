@@ -22,18 +22,18 @@ namespace vericone::guidance {
 using Shape = std::variant<CombinedEllipse, CombinedEllipsoid, HullBody, Placed>;
 
 /// What Pair takes. Requires a spatial body; allocates where it is not placed already.
-Placed placed(const Shape& shape);
+[[nodiscard]] Placed placed(const Shape& shape);
 
 /// The body where it is a placed one; otherwise null.
-const Placed* if_placed(const Shape& shape);
-bool is_hull(const Shape& shape);
+[[nodiscard]] const Placed* if_placed(const Shape& shape);
+[[nodiscard]] bool is_hull(const Shape& shape);
 
 /// Two bodies of any kinds. Throws InputError like Pair, and naming "bodies" for one of the plane and one of
 /// space.
-Pair pair_of(const Shape& agent, const Shape& obstacle, const PairOptions& options = {});
+[[nodiscard]] Pair pair_of(const Shape& agent, const Shape& obstacle, const PairOptions& options = {});
 
 /// The point farthest along n of an ellipsoid or a hull, in space, rounded; nothing of other bodies.
-std::optional<Eigen::Vector3d> support_point(const Shape& shape, const Eigen::Vector3d& n);
+[[nodiscard]] std::optional<Eigen::Vector3d> support_point(const Shape& shape, const Eigen::Vector3d& n);
 
 /// How a spatial delimiter changes beyond moving and turning with its body.
 struct SpatialDelimiterRate {
@@ -63,7 +63,7 @@ struct BodyState {
   Turning turning = Turning::none;
   ShapeRate rate;
 
-  bool planar() const { return std::holds_alternative<CombinedEllipse>(shape); }
+  [[nodiscard]] bool planar() const { return std::holds_alternative<CombinedEllipse>(shape); }
 };
 
 }  // namespace vericone::guidance

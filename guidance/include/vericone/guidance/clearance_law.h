@@ -6,6 +6,7 @@
 
 #include <vericone/guidance/body_state.h>
 #include <vericone/guidance/laws.h>
+#include <limits>
 
 namespace vericone::guidance {
 
@@ -37,10 +38,11 @@ struct ClearanceCommand {
 /// direction open (spheres head on) it is that of clearance()'s own maximiser: deterministic. Moving apart:
 /// nothing commanded, `receding`. Planar bodies: within the plane. Cost: ellipsoids 1.5 us where m > 0, 6 us
 /// where m < 0; others that of a Pair and its miss().
-ClearanceCommand clearance_law(const BodyState& a, const BodyState& b, const ClearanceOptions& options,
-                               const Eigen::Vector3d& acceleration_b = Eigen::Vector3d::Zero());
+[[nodiscard]] ClearanceCommand clearance_law(const BodyState& a, const BodyState& b,
+                                             const ClearanceOptions& options,
+                                             const Eigen::Vector3d& acceleration_b = Eigen::Vector3d::Zero());
 
 /// m(w) of the bodies as the law sees them; of planar ones in the plane.
-double law_clearance(const BodyState& a, const BodyState& b);
+[[nodiscard]] double law_clearance(const BodyState& a, const BodyState& b);
 
 }  // namespace vericone::guidance

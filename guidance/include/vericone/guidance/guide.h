@@ -7,6 +7,7 @@
 #include <vericone/guidance/laws.h>
 #include <vericone/guidance/plane_choice.h>
 #include <vericone/guidance/plane_view.h>
+#include <cstdint>
 #include <optional>
 
 namespace vericone::guidance {
@@ -18,7 +19,7 @@ enum class Law : std::uint8_t {
   matching_rendezvous,     // (5.16)-(5.17)
   clearance,               // clearance_law.h
 };
-const char* to_string(Law law);
+[[nodiscard]] const char* to_string(Law law);
 
 /// Where psi' and theta_b' come from.
 enum class GuideRates : std::uint8_t {
@@ -62,8 +63,8 @@ struct GuideStep {
 /// one), or its y on the plane that holds it and the line of sight is below `cease`. The true cone is asked
 /// by exact predicates where cease <= 0; what they leave undecided counts as colliding. Nothing where the
 /// bodies are not apart.
-std::optional<bool> on_collision_course(const BodyState& a, const BodyState& b, SectorMethod method,
-                                        double cease = 0);
+[[nodiscard]] std::optional<bool> on_collision_course(const BodyState& a, const BodyState& b,
+                                                      SectorMethod method, double cease = 0);
 
 /// Avoidance in space first asks on_collision_course(): that decides whether anything is commanded, the plane
 /// chosen only how. Where the plane chosen says that all is well although it is not (the projection of the

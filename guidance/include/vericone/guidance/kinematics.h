@@ -19,7 +19,7 @@ struct Cartesian {
 
 /// The angle that differs from `angle` by whole turns and from `near` by at most half a turn: for histories
 /// without jumps.
-double unwrapped(double angle, double near);
+[[nodiscard]] double unwrapped(double angle, double near);
 
 /// Azimuth in (-pi, pi], elevation in [-pi/2, pi/2].
 struct Direction {
@@ -27,8 +27,8 @@ struct Direction {
 };
 
 /// Of a vector; where it is vertical or zero, an angle that has no value is that of `otherwise`.
-Direction direction_of(const Eigen::Vector3d& v, const Direction& otherwise = {});
-Eigen::Vector3d unit_vector(const Direction& direction);
+[[nodiscard]] Direction direction_of(const Eigen::Vector3d& v, const Direction& otherwise = {});
+[[nodiscard]] Eigen::Vector3d unit_vector(const Direction& direction);
 
 /// An engagement in one plane. In space it is the projection on a plane through the line of sight; then
 /// `v_normal` and `plane_spin` say how it moves out of that plane.
@@ -53,12 +53,13 @@ struct PlanarRates {
 /// (5.8), (5.13), (5.15) together, and the terms v_normal^2 / r in V_r and plane_spin v_normal in V_theta
 /// that a projection adds (the source leaves them out, errata 3.6). A body at rest has no heading to turn:
 /// its rate is 0. Requires r > 0.
-PlanarRates planar_rates(const PlanarState& state, const PlanarInputs& inputs);
+[[nodiscard]] PlanarRates planar_rates(const PlanarState& state, const PlanarInputs& inputs);
 
 /// Headings of bodies at rest are 0. Requires p_a != p_b; throws InputError naming "obstacle.center".
-PlanarState planar_state(const Cartesian<2>& motion);
+[[nodiscard]] PlanarState planar_state(const Cartesian<2>& motion);
 /// With A at `p_a`.
-Cartesian<2> cartesian(const PlanarState& state, const Eigen::Vector2d& p_a = Eigen::Vector2d::Zero());
+[[nodiscard]] Cartesian<2> cartesian(const PlanarState& state,
+                                     const Eigen::Vector2d& p_a = Eigen::Vector2d::Zero());
 
 /// An engagement in space, (6.10)'s states. At the poles, phi = +-pi/2, theta has no value and its rate none
 /// either: see at_pole.
@@ -74,7 +75,7 @@ struct DirectedAcceleration {
   double magnitude = 0;  // m/s^2
   Direction direction;
 };
-DirectedAcceleration directed(const Eigen::Vector3d& acceleration);
+[[nodiscard]] DirectedAcceleration directed(const Eigen::Vector3d& acceleration);
 
 struct SpatialRates {
   double r = 0, theta = 0, phi = 0, v_theta = 0, v_phi = 0, v_r = 0;
@@ -85,12 +86,13 @@ struct SpatialRates {
 
 /// (6.10) with the V_phi row corrected (errata 3.6), and the rates of headings and speeds for accelerations
 /// in any direction. A vertical heading has no azimuth to change: its rate is 0.
-SpatialRates spatial_rates(const SpatialState& state, const DirectedAcceleration& a,
-                           const DirectedAcceleration& b);
+[[nodiscard]] SpatialRates spatial_rates(const SpatialState& state, const DirectedAcceleration& a,
+                                         const DirectedAcceleration& b);
 
 /// `previous`: an earlier state, from which angles without a value are taken and to which all are unwrapped.
 /// Throws InputError naming "obstacle.center".
-SpatialState spatial_state(const Cartesian<3>& motion, const SpatialState* previous = nullptr);
-Cartesian<3> cartesian(const SpatialState& state, const Eigen::Vector3d& p_a = Eigen::Vector3d::Zero());
+[[nodiscard]] SpatialState spatial_state(const Cartesian<3>& motion, const SpatialState* previous = nullptr);
+[[nodiscard]] Cartesian<3> cartesian(const SpatialState& state,
+                                     const Eigen::Vector3d& p_a = Eigen::Vector3d::Zero());
 
 }  // namespace vericone::guidance

@@ -30,10 +30,10 @@ struct ConeRates {
   double drift = 0;                     // 1/s
   double by_lateral_a = 0, by_longitudinal_a = 0, by_lateral_b = 0, by_longitudinal_b = 0;
 
-  bool colliding() const { return y < 0 && v_r_hat < 0; }
+  [[nodiscard]] bool colliding() const { return y < 0 && v_r_hat < 0; }
 };
 /// (5.11) in closed form. V = 0: all rates 0, y = -sin^2(psi/2).
-ConeRates cone_rates(const PlanarState& state, const PlaneCone& cone);
+[[nodiscard]] ConeRates cone_rates(const PlanarState& state, const PlaneCone& cone);
 
 enum class LawStatus : std::uint8_t {
   steering,
@@ -45,9 +45,9 @@ enum class LawStatus : std::uint8_t {
   no_relative_velocity,  // V = 0: nothing commanded (avoidance), or arrived (rendezvous)
   no_sector,  // they will meet, but bodies of these kinds have no sector to command by: nothing commanded
 };
-const char* to_string(LawStatus status);
+[[nodiscard]] const char* to_string(LawStatus status);
 /// clear, receding or no_relative_velocity: avoidance has nothing to say.
-bool commands_nothing(LawStatus status);
+[[nodiscard]] bool commands_nothing(LawStatus status);
 
 struct LawOptions {
   double gain = 1;                                        // K, 1/s
@@ -70,7 +70,8 @@ struct LawCommand {
 
 /// (5.12), and (6.17) with a projected state. Aiming along the bisector, or with inputs without effect and no
 /// finite `most`, commands 0.
-LawCommand avoidance(const PlanarState& state, const PlaneCone& cone, const LawOptions& options);
+[[nodiscard]] LawCommand avoidance(const PlanarState& state, const PlaneCone& cone,
+                                   const LawOptions& options);
 
 struct CooperativeCommand {
   double a = 0, b = 0;  // lateral accelerations of A and B, m/s^2
@@ -80,13 +81,13 @@ struct CooperativeCommand {
 };
 
 /// (6.18)-(6.19) as corrected: a_B = mu a_A. Saturation scales both, which keeps their ratio.
-CooperativeCommand cooperative_avoidance(const PlanarState& state, const PlaneCone& cone,
-                                         const LawOptions& options, double mu);
+[[nodiscard]] CooperativeCommand cooperative_avoidance(const PlanarState& state, const PlaneCone& cone,
+                                                       const LawOptions& options, double mu);
 
 /// (5.14) as corrected. One equation, two unknowns: the pair of least a_A^2 + a_B^2. Drives y to the
 /// reference from either side, so that the bodies graze; `cease` is not read.
-CooperativeCommand cooperative_rendezvous(const PlanarState& state, const PlaneCone& cone,
-                                          const LawOptions& options);
+[[nodiscard]] CooperativeCommand cooperative_rendezvous(const PlanarState& state, const PlaneCone& cone,
+                                                        const LawOptions& options);
 
 struct MatchingCommand {
   double lateral = 0, longitudinal = 0;  // of A, m/s^2
@@ -100,7 +101,7 @@ struct MatchingCommand {
 /// system's determinant is -2 V^2 (errata 3.5), so it is solved in closed form; on the bisector, where y has
 /// no gradient, and moving apart, where it says nothing about meeting, only (5.17) is kept, by the least
 /// acceleration. Saturation scales both, so that their resultant is at most `most`.
-MatchingCommand matching_rendezvous(const PlanarState& state, const PlaneCone& cone,
-                                    const LawOptions& options, double gain_speed);
+[[nodiscard]] MatchingCommand matching_rendezvous(const PlanarState& state, const PlaneCone& cone,
+                                                  const LawOptions& options, double gain_speed);
 
 }  // namespace vericone::guidance

@@ -5,6 +5,8 @@
 
 #include <vericone/geometry/ellipsoid.h>
 #include <vericone/guidance/body_state.h>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
@@ -34,7 +36,7 @@ enum class NavigatorStatus : std::uint8_t {
   cannot_avoid,  // every course tried meets a body, as far as can be foreseen
   no_course,     // at rest: there is no heading to change
 };
-const char* to_string(NavigatorStatus status);
+[[nodiscard]] const char* to_string(NavigatorStatus status);
 
 struct NavigatorStep {
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  // m/s^2, across the velocity
@@ -84,19 +86,19 @@ class Navigator {
     std::optional<Placed> itself = std::nullopt;             // judged as it is; `body` is a ball about it
     double until = std::numeric_limits<double>::infinity();  // s on a straight course, as long as it matters
 
-    Placed at(double t) const;
+    [[nodiscard]] Placed at(double t) const;
     /// Metres from an agent `t` seconds from now; negative or 0 where they meet.
-    double distance(const Ellipsoid& agent, double t) const;
+    [[nodiscard]] double distance(const Ellipsoid& agent, double t) const;
     /// Whether the point is nearer than `margin` to the bounds of a body that is judged as it is.
-    bool holds(const Eigen::Vector3d& point, double margin) const;
+    [[nodiscard]] bool holds(const Eigen::Vector3d& point, double margin) const;
   };
-  static Body body_of(const BodyState& other, bool planar);
+  [[nodiscard]] static Body body_of(const BodyState& other, bool planar);
   static void see_passing(const Flight& flight, const Ellipsoid& after_turn, const Body& other, std::size_t i,
                           double required, Foreseen& result);
 
-  Foreseen foresee(const Moment& now, const Course& course, double extra, double floor) const;
-  std::optional<Course> to_destination(const Moment& now, const Destination& destination) const;
-  Course towards(const Moment& now, const Eigen::Vector3d& direction, double most) const;
+  [[nodiscard]] Foreseen foresee(const Moment& now, const Course& course, double extra, double floor) const;
+  [[nodiscard]] std::optional<Course> to_destination(const Moment& now, const Destination& destination) const;
+  [[nodiscard]] Course towards(const Moment& now, const Eigen::Vector3d& direction, double most) const;
   void closer(const Moment& now, const Eigen::Vector3d& wanted, double most, Course& course,
               Foreseen& foreseen) const;
   bool search(const Moment& now, const Eigen::Vector3d& wanted, double less_than, Course& course,

@@ -21,7 +21,7 @@ enum class PlaneChoice : std::uint8_t {
                        // around combined bodies and hulls
   of_motion,           // spanned by the line of sight and the relative velocity: y < 0 there iff it collides
 };
-const char* to_string(PlaneChoice choice);
+[[nodiscard]] const char* to_string(PlaneChoice choice);
 
 struct PlaneOptions {
   PlaneChoice choice = PlaneChoice::largest_opening;
@@ -40,8 +40,8 @@ struct PlaneCandidate {
 };
 
 /// All `planes` candidates. Those on which there is no sector are left out.
-std::vector<PlaneCandidate> all_planes(const BodyState& a, const BodyState& b, SectorMethod method,
-                                       int planes);
+[[nodiscard]] std::vector<PlaneCandidate> all_planes(const BodyState& a, const BodyState& b,
+                                                     SectorMethod method, int planes);
 
 /// The second axis of the plane chosen, unit. `previous`: that of the last call, whose sign is kept; where it
 /// is given the optimum is followed from it by 2 to 12 evaluations, and all candidates are compared only
@@ -50,8 +50,8 @@ std::vector<PlaneCandidate> all_planes(const BodyState& a, const BodyState& b, S
 /// is taken, counted from the plane of motion. steepest_clearance and of_motion look at no sector; where w is
 /// zero or along the line of sight there is no such plane, and the largest opening is taken. No allocation
 /// with ellipsoids. Cost: see docs/guidance-planes.md.
-std::optional<Eigen::Vector3d> choose_plane(const BodyState& a, const BodyState& b, SectorMethod method,
-                                            const PlaneOptions& options,
-                                            const Eigen::Vector3d* previous = nullptr);
+[[nodiscard]] std::optional<Eigen::Vector3d> choose_plane(const BodyState& a, const BodyState& b,
+                                                          SectorMethod method, const PlaneOptions& options,
+                                                          const Eigen::Vector3d* previous = nullptr);
 
 }  // namespace vericone::guidance

@@ -6,6 +6,7 @@
 #include <vericone/guidance/body_state.h>
 #include <vericone/guidance/kinematics.h>
 #include <vericone/guidance/laws.h>
+#include <cstdint>
 #include <optional>
 
 namespace vericone::guidance {
@@ -31,21 +32,21 @@ struct PlaneView {
   PlanarState state;
   PlaneCone cone;
 
-  Eigen::Vector3d normal() const { return line_of_sight.cross(across); }
+  [[nodiscard]] Eigen::Vector3d normal() const { return line_of_sight.cross(across); }
   /// World direction of A's (B's) lateral acceleration, heading + pi/2 in the plane: perpendicular to the
   /// whole velocity.
-  Eigen::Vector3d lateral_a() const;
-  Eigen::Vector3d lateral_b() const;
+  [[nodiscard]] Eigen::Vector3d lateral_a() const;
+  [[nodiscard]] Eigen::Vector3d lateral_b() const;
 };
 
 /// The states alone. `across`: any vector not parallel to the line of sight; planar bodies take the plane
 /// z = 0 with e = (-u_y, u_x, 0), whatever it is. Requires different centres and a vector not parallel.
-PlaneView plane_states(const BodyState& a, const BodyState& b, const Eigen::Vector3d& across,
-                       double plane_spin = 0);
+[[nodiscard]] PlaneView plane_states(const BodyState& a, const BodyState& b, const Eigen::Vector3d& across,
+                                     double plane_spin = 0);
 
 /// Whether there are sectors of bodies of these kinds: of two planar ones, by the true cone of any two in
 /// space, by slices of two combined ones and of an ellipsoid and a hull.
-bool has_sectors(const BodyState& a, const BodyState& b, SectorMethod method);
+[[nodiscard]] bool has_sectors(const BodyState& a, const BodyState& b, SectorMethod method);
 
 /// The cone at `view`, filled in; false where the bodies are not apart (on the plane, for slices) or an
 /// oracle does not decide, and nothing is written.
@@ -60,15 +61,16 @@ bool fill_cone(PlaneView& view, const BodyState& a, const BodyState& b, SectorMe
                RateMethod rates);
 
 /// Both in one.
-std::optional<PlaneView> plane_view(const BodyState& a, const BodyState& b, const Eigen::Vector3d& across,
-                                    SectorMethod method, RateMethod rates, double plane_spin = 0);
+[[nodiscard]] std::optional<PlaneView> plane_view(const BodyState& a, const BodyState& b,
+                                                  const Eigen::Vector3d& across, SectorMethod method,
+                                                  RateMethod rates, double plane_spin = 0);
 
 /// The body a moment `dt` later along its momentary motion: moved, turned by omega (and its heading by
 /// `acceleration` where it turns with it), its shape changed at its rate.
-BodyState advanced(const BodyState& body, double dt,
-                   const Eigen::Vector3d& acceleration = Eigen::Vector3d::Zero());
+[[nodiscard]] BodyState advanced(const BodyState& body, double dt,
+                                 const Eigen::Vector3d& acceleration = Eigen::Vector3d::Zero());
 
 /// Angular velocity: omega, and v x a / |v|^2 where it turns with its heading.
-Eigen::Vector3d angular_velocity(const BodyState& body, const Eigen::Vector3d& acceleration);
+[[nodiscard]] Eigen::Vector3d angular_velocity(const BodyState& body, const Eigen::Vector3d& acceleration);
 
 }  // namespace vericone::guidance

@@ -36,44 +36,45 @@ struct CorpusCase {
   bool operator==(const CorpusCase&) const = default;
 
   /// Throws std::runtime_error naming the field where it is missing or has another number of values.
-  const std::vector<exact::Rational>& values(std::string_view field) const;
-  bool has(std::string_view field) const;
+  [[nodiscard]] const std::vector<exact::Rational>& values(std::string_view field) const;
+  [[nodiscard]] bool has(std::string_view field) const;
 
   /// The double that is exactly the number; empty where a field holds a number that no double is.
-  std::optional<std::vector<double>> doubles(std::string_view field) const;
+  [[nodiscard]] std::optional<std::vector<double>> doubles(std::string_view field) const;
 
   /// The body "NAME.center" with "NAME.shape" (upper triangle by rows) or "NAME.axes" (along the coordinate
   /// axes), built as a user would: by from_shape or from_axes. Empty where doubles do not hold it.
   template <int D>
-  std::optional<BasicEllipsoid<D>> body(const std::string& name) const;
+  [[nodiscard]] std::optional<BasicEllipsoid<D>> body(const std::string& name) const;
 
   /// The same in rational numbers; always there.
   template <int D>
-  exact::RationalBody<D> rational_body(const std::string& name) const;
+  [[nodiscard]] exact::RationalBody<D> rational_body(const std::string& name) const;
 
   /// D numbers as a vector; the field must hold doubles (std::runtime_error).
   template <int D>
-  Eigen::Matrix<double, D, 1> vector(const std::string& field) const;
+  [[nodiscard]] Eigen::Matrix<double, D, 1> vector(const std::string& field) const;
 
   /// 2 or 3, from the fields.
-  int dimension() const;
+  [[nodiscard]] int dimension() const;
 
   /// "predicate family kind #index", for messages.
-  std::string label() const;
+  [[nodiscard]] std::string label() const;
 };
 
 /// Truths: position: disjoint, touching, crossing, a_inside_b, b_inside_a, a_inside_b_touching,
-/// b_inside_a_touching, equal; relation: disjoint, touching, overlapping; membership, sector, hull, orifice:
-/// in, on, out; side: negative, zero, positive.
+/// b_inside_a_touching, equal; relation: disjoint, touching, overlapping; membership, sector, hull: in, on,
+/// out; orifice: passes, grazes, blocked; side: negative, zero, positive.
 inline constexpr std::array<std::string_view, 7> kCorpusPredicates = {
     "position", "relation", "membership", "sector", "side", "hull", "orifice"};
 
 /// All cases of one predicate, always in the same order; depends on nothing but the arguments. `size` scales
 /// the number of constructions: 1 for the file in tests/corpus, more for campaigns. Takes a few tenths of a
 /// second at size 1. Throws std::invalid_argument for an unknown predicate.
-std::vector<CorpusCase> corpus_cases(std::string_view predicate, std::uint64_t seed, int size = 1);
+[[nodiscard]] std::vector<CorpusCase> corpus_cases(std::string_view predicate, std::uint64_t seed,
+                                                   int size = 1);
 
 /// The double that is exactly x, if there is one.
-std::optional<double> as_double(const exact::Rational& x);
+[[nodiscard]] std::optional<double> as_double(const exact::Rational& x);
 
 }  // namespace vericone::verify

@@ -10,9 +10,9 @@ namespace vericone::verify {
 
 /// The tables of docs/planar-accuracy.md: both planar methods over `cases` pairs of every family. Markdown.
 /// About 50 ms a case.
-std::string planar_report(std::uint64_t cases, std::uint64_t seed);
+[[nodiscard]] std::string planar_report(std::uint64_t cases, std::uint64_t seed);
 
 /// The tables of docs/spatial-checks.md: `cases` pairs of every family. Markdown. About 0.15 s a case.
-std::string spatial_report(std::uint64_t cases, std::uint64_t seed);
+[[nodiscard]] std::string spatial_report(std::uint64_t cases, std::uint64_t seed);
 
 }  // namespace vericone::verify

@@ -57,8 +57,8 @@ class SeededRandom {
   }
 
  private:
-  static std::uint32_t low(std::uint64_t x) { return static_cast<std::uint32_t>(x); }
-  static std::uint32_t high(std::uint64_t x) { return static_cast<std::uint32_t>(x >> 32); }
+  [[nodiscard]] static std::uint32_t low(std::uint64_t x) { return static_cast<std::uint32_t>(x); }
+  [[nodiscard]] static std::uint32_t high(std::uint64_t x) { return static_cast<std::uint32_t>(x >> 32); }
 
   std::mt19937_64 engine_;
 };

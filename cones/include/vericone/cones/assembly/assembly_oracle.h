@@ -77,41 +77,43 @@ class AssemblyOracle : public DirectionClassifier {
   AssemblyOracle(AssemblyOracle&&) noexcept;
   AssemblyOracle& operator=(AssemblyOracle&&) noexcept;
 
-  const Assembly& obstacle() const;
+  [[nodiscard]] const Assembly& obstacle() const;
 
   /// Exact: disjoint, touching (no piece is overlapped, some are touched), overlapping.
-  Relation relation() const;
+  [[nodiscard]] Relation relation() const;
 
   /// Exact. `w` = v_agent - v_obstacle. `in`: the agent will overlap a piece; `on`: it will touch pieces and
   /// overlap none; `out`. For bodies that are not disjoint every w != 0 is `in`, see verdict(). No allocation
   /// unless an exact predicate is asked. Throws InputError naming "agent_velocity[i]" where w is not finite.
-  Membership membership(const Eigen::Vector3d& w, Effort* effort = nullptr) const;
+  [[nodiscard]] Membership membership(const Eigen::Vector3d& w, Effort* effort = nullptr) const;
   /// The same for the difference without rounding (without a rotated pose).
-  Membership membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
-                        Effort* effort = nullptr) const;
+  [[nodiscard]] Membership membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                                      Effort* effort = nullptr) const;
   /// Relation and membership in one.
-  Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+  [[nodiscard]] Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 
   /// Nothing where membership(w) is `out`; time 0 where they touch or overlap now.
-  std::optional<AssemblyContact> first_contact(const Eigen::Vector3d& w, Effort* effort = nullptr) const;
+  [[nodiscard]] std::optional<AssemblyContact> first_contact(const Eigen::Vector3d& w,
+                                                             Effort* effort = nullptr) const;
 
   /// For w = 0 the present distance. `tolerance`: most - least, relative to most plus the agent's size.
-  AssemblyMiss miss_distance(const Eigen::Vector3d& w, double tolerance = 1e-9,
-                             Effort* effort = nullptr) const;
+  [[nodiscard]] AssemblyMiss miss_distance(const Eigen::Vector3d& w, double tolerance = 1e-9,
+                                           Effort* effort = nullptr) const;
 
   /// The half-plane of directions cos(t) axis + sin(t) side, 0 <= t <= pi; axis and side orthonormal.
   /// high - low <= tolerance (radians, 1e-13 to 1) except where pieces graze the half-plane within rounding,
   /// and at the corners of polyhedral agents and pieces below 1e-7. Requires relation() == disjoint. Throws
   /// InputError naming "tolerance".
-  ExtremeDirection extreme(const Eigen::Vector3d& axis, const Eigen::Vector3d& side, double tolerance = 1e-4,
-                           Effort* effort = nullptr) const;
+  [[nodiscard]] ExtremeDirection extreme(const Eigen::Vector3d& axis, const Eigen::Vector3d& side,
+                                         double tolerance = 1e-4, Effort* effort = nullptr) const;
 
   /// The same on half-planes at the azimuths 2 pi i / half_planes about the axis, counter-clockwise from e1
   /// of AxisFrame(axis) (cone_geometry.h): faster together, as neighbours end at the same pieces.
-  std::vector<ExtremeDirection> extremes(const Eigen::Vector3d& axis, int half_planes = 64,
-                                         double tolerance = 1e-4, Effort* effort = nullptr) const;
+  [[nodiscard]] std::vector<ExtremeDirection> extremes(const Eigen::Vector3d& axis, int half_planes = 64,
+                                                       double tolerance = 1e-4,
+                                                       Effort* effort = nullptr) const;
 
-  Frontier start() const override;
+  [[nodiscard]] Frontier start() const override;
   Certified classify(const DirectionCell& cell, const Frontier& parent, Frontier& own) const override;
 
  private:

@@ -15,7 +15,7 @@ struct ConvexReach {
 
 /// From what the cone reaches on half-planes about a direction `inside` of it (AssemblyOracle::extremes, to
 /// `angle` radians). Requires disjoint bodies and a convex obstacle: an assembly of one piece.
-ConvexReach convex_reach(const AssemblyOracle& oracle, const Eigen::Vector3d& inside, int half_planes,
-                         double angle);
+[[nodiscard]] ConvexReach convex_reach(const AssemblyOracle& oracle, const Eigen::Vector3d& inside,
+                                       int half_planes, double angle);
 
 }  // namespace vericone

@@ -14,6 +14,7 @@
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/geometry/combined.h>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -31,43 +32,44 @@ class CombinedOracle {
   CombinedOracle(CombinedOracle&&) noexcept;
   CombinedOracle& operator=(CombinedOracle&&) noexcept;
 
-  const CombinedEllipsoid& a() const;
-  const CombinedEllipsoid& b() const;
+  [[nodiscard]] const CombinedEllipsoid& a() const;
+  [[nodiscard]] const CombinedEllipsoid& b() const;
 
   /// Disjoint or overlapping, proved; nothing where the bodies touch or nearly do. Never `touching`, unless
   /// both are ellipsoids, whose relation is decided exactly.
-  std::optional<Relation> relation() const;
+  [[nodiscard]] std::optional<Relation> relation() const;
 
   /// Where the relative velocity w = v_A - v_B lies. Of overlapping bodies every w != 0 is in; undecided
   /// where relation() is not known or touching. w = 0 is out. Two disjoint ellipsoids are decided exactly (on
   /// the boundary: `in`, the cone is closed); otherwise bodies inside and around the two are asked first,
   /// exactly, and only what lies between them is searched. Cost: 0.1 us where they decide, else some 10 to
   /// 100 us.
-  Certified membership(const Eigen::Vector3d& w) const;
+  [[nodiscard]] Certified membership(const Eigen::Vector3d& w) const;
   /// The same for w = v_a - v_b, the difference taken without rounding. Throws InputError naming
   /// "agent_velocity[i]" or "obstacle_velocity[i]".
-  Certified membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+  [[nodiscard]] Certified membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 
   /// Relation and membership in one.
-  Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+  [[nodiscard]] Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 
   /// Whether all directions of the convex hull of two, less than a right angle apart and not zero, are in
   /// (out): true is certain, false says nothing.
   /// `near`: an edge to look for contacts from, which is faster where neither body is an ellipsoid.
-  bool all_in(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-              const CombinedEdge* near = nullptr) const;
+  [[nodiscard]] bool all_in(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                            const CombinedEdge* near = nullptr) const;
   /// `left`: where to write the points that were in the way of a proof, for two bodies neither of which is an
   /// ellipsoid.
-  bool all_out(const Eigen::Vector3d& from, const Eigen::Vector3d& to, CombinedEdge* left = nullptr) const;
+  [[nodiscard]] bool all_out(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                             CombinedEdge* left = nullptr) const;
 
   /// First contact of A moving by w t: an interval that contains the time, seconds. Nothing where
   /// membership(w) is not `in`, and for bodies so thin that nothing can be searched. `width`: of the
   /// interval, relative to the time needed to cross |c| and both bodies; wider where a contact is so flat
   /// that boxes do not tell. Cost: about 1 ms.
-  std::optional<Interval> time_to_contact(const Eigen::Vector3d& w, double width = 1e-8) const;
+  [[nodiscard]] std::optional<Interval> time_to_contact(const Eigen::Vector3d& w, double width = 1e-8) const;
 
   /// Boxes searched since the construction: a measure of effort that is the same on every machine.
-  std::uint64_t boxes_searched() const;
+  [[nodiscard]] std::uint64_t boxes_searched() const;
 
  private:
   struct State;
@@ -97,8 +99,8 @@ struct CombinedCone {
 /// says what was reached.
 /// Overlapping bodies: every velocity (4 pi, no directions). Throws InputError naming "tolerance". Cost: see
 /// docs/benchmarks.md.
-CombinedCone combined_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& b, double tolerance = 0.01,
-                           std::uint64_t most_boxes = 2'000'000);
+[[nodiscard]] CombinedCone combined_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& b,
+                                         double tolerance = 0.01, std::uint64_t most_boxes = 2'000'000);
 
 /// A range of directions cos(t) x_axis + sin(t) y_axis on a plane through the apex.
 struct PlaneInterval {
@@ -109,7 +111,9 @@ struct PlaneInterval {
 /// The section of the cone by a plane, as intervals that cover the full turn from -pi to pi: adjacent ones of
 /// the same answer are joined, so `in` intervals number as the truth does at this resolution (radians).
 /// x_axis, y_axis orthonormal.
-std::vector<PlaneInterval> plane_intervals(const CombinedOracle& oracle, const Eigen::Vector3d& x_axis,
-                                           const Eigen::Vector3d& y_axis, double resolution = 1e-3);
+[[nodiscard]] std::vector<PlaneInterval> plane_intervals(const CombinedOracle& oracle,
+                                                         const Eigen::Vector3d& x_axis,
+                                                         const Eigen::Vector3d& y_axis,
+                                                         double resolution = 1e-3);
 
 }  // namespace vericone

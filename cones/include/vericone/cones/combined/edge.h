@@ -26,12 +26,12 @@ class CombinedEdges {
   /// its points), or any points of the bodies near the edge (nothing touched: found from the points). All
   /// conditions of a local largest angle hold except those of second order. Nothing where Newton's method
   /// leads to none. No allocation.
-  std::optional<CombinedEdge> near(const Eigen::Vector3d& u, const Eigen::Vector3d& side,
-                                   const CombinedEdge& start) const;
+  [[nodiscard]] std::optional<CombinedEdge> near(const Eigen::Vector3d& u, const Eigen::Vector3d& side,
+                                                 const CombinedEdge& start) const;
   /// The same by steps from contact to contact, to 1e-5 rad or so: also where the conditions do not hold as
   /// they are written (edges that slide along a dent). No surfaces and no normal.
-  std::optional<CombinedEdge> reached(const Eigen::Vector3d& u, const Eigen::Vector3d& side,
-                                      const CombinedEdge& start) const;
+  [[nodiscard]] std::optional<CombinedEdge> reached(const Eigen::Vector3d& u, const Eigen::Vector3d& side,
+                                                    const CombinedEdge& start) const;
 
  private:
   struct Body {

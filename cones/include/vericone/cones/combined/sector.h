@@ -6,6 +6,7 @@
 #include <vericone/cones/planar/sector.h>
 #include <vericone/geometry/combined.h>
 #include <optional>
+#include <vector>
 
 namespace vericone {
 
@@ -31,7 +32,7 @@ struct CombinedSector {
 
 /// The sector by comparing all candidates: exact up to rounding (docs/planar-accuracy.md). Cost: about 2 us
 /// where the ellipses are disjoint, no allocation for up to three delimiters.
-CombinedSector combined_sector(const CombinedEllipse& a, const CombinedEllipse& b);
+[[nodiscard]] CombinedSector combined_sector(const CombinedEllipse& a, const CombinedEllipse& b);
 
 /// How a delimiter of a body changes beyond moving and turning with it.
 struct DelimiterRate {
@@ -42,10 +43,10 @@ struct DelimiterRate {
 /// Rates of psi and theta_b, rad/s, in closed form; an edge through a corner moves with the corner. The
 /// motion's shape rates are those of the ellipses; missing delimiter rates are zero. Throws
 /// InputError naming "sector.relation" where it is not that of disjoint bodies.
-SectorRates combined_sector_rates(const CombinedSector& sector, const CombinedEllipse& a,
-                                  const CombinedEllipse& b, const PlanarMotion& motion,
-                                  const std::vector<DelimiterRate>& rates_a = {},
-                                  const std::vector<DelimiterRate>& rates_b = {});
+[[nodiscard]] SectorRates combined_sector_rates(const CombinedSector& sector, const CombinedEllipse& a,
+                                                const CombinedEllipse& b, const PlanarMotion& motion,
+                                                const std::vector<DelimiterRate>& rates_a = {},
+                                                const std::vector<DelimiterRate>& rates_b = {});
 
 /// How the source chooses among the tangents.
 enum class TangentChoice {
@@ -60,6 +61,7 @@ enum class TangentChoice {
 /// (errata, 3.5), chosen as said. `a` an ellipse, `b` delimited by one hyperbola, as in the source. Nothing
 /// where the procedure finds no two tangents. Not exact: see docs/planar-accuracy.md for how often each
 /// choice errs. Throws InputError naming "obstacle.hyperboloids" where there are several.
-std::optional<Sector> sector_by_source(const Ellipse& a, const CombinedEllipse& b, TangentChoice choice);
+[[nodiscard]] std::optional<Sector> sector_by_source(const Ellipse& a, const CombinedEllipse& b,
+                                                     TangentChoice choice);
 
 }  // namespace vericone

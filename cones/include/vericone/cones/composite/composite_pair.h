@@ -52,29 +52,30 @@ class CompositePair : public DirectionClassifier {
   CompositePair& operator=(CompositePair&&) noexcept;
 
   /// Whether every question is decided: pieces against pieces.
-  bool exact() const;
-  const Assembly& obstacle() const;
+  [[nodiscard]] bool exact() const;
+  [[nodiscard]] const Assembly& obstacle() const;
 
   /// Nothing where the two touch or nearly do, within the tolerance. Touching is known of pieces alone.
-  std::optional<Relation> relation() const;
+  [[nodiscard]] std::optional<Relation> relation() const;
 
   /// Of w = v_a - v_b, without rounding where the obstacle's pose is not turned. Of bodies that are not
   /// disjoint every w != 0 is `in`; w = 0 is `out`. Nothing: not decided; never for exact(). `on` is known of
   /// pieces alone. Throws InputError naming "agent_velocity[i]" or "obstacle_velocity[i]".
-  std::optional<Membership> membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+  [[nodiscard]] std::optional<Membership> membership(const Eigen::Vector3d& v_a,
+                                                     const Eigen::Vector3d& v_b) const;
   /// Relation and membership in one; `undecided` where either is not known.
-  Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+  [[nodiscard]] Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 
   /// Nothing where membership is proved `out`. Where it is undecided the contact is possible: `earliest` is
   /// finite and `latest` infinite. Time 0 where the relation is not disjoint. For a delimited body
   /// latest - earliest is about the time to move by the tolerance, and more where the contact grazes.
-  std::optional<CompositeContact> first_contact(const Eigen::Vector3d& w) const;
+  [[nodiscard]] std::optional<CompositeContact> first_contact(const Eigen::Vector3d& w) const;
 
   /// For w = 0 the present distance. `tolerance` (1e-9 to 1): most - least, relative to most plus the agent's
   /// size; a delimited body is not resolved finer than its own. Throws InputError naming "tolerance".
-  CompositeMiss miss_distance(const Eigen::Vector3d& w, double tolerance = 1e-3) const;
+  [[nodiscard]] CompositeMiss miss_distance(const Eigen::Vector3d& w, double tolerance = 1e-3) const;
 
-  Frontier start() const override;
+  [[nodiscard]] Frontier start() const override;
   Certified classify(const DirectionCell& cell, const Frontier& parent, Frontier& own) const override;
 
   struct State;

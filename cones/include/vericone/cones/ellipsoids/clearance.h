@@ -18,8 +18,8 @@ struct Clearance {
   double time = 0;  // s, when the supporting points n* belongs to pass each other; negative: in the past
 
   /// Derivatives by the envelope theorem: of m with respect to c = p_B - p_A, and to w.
-  Eigen::Vector3d gradient_center() const { return normal; }
-  Eigen::Vector3d gradient_velocity() const { return -time * normal; }
+  [[nodiscard]] Eigen::Vector3d gradient_center() const { return normal; }
+  [[nodiscard]] Eigen::Vector3d gradient_velocity() const { return -time * normal; }
 };
 
 /// Any two bodies; throws InputError naming "relative_velocity" where w is zero or not finite. Where m > 0
@@ -27,7 +27,7 @@ struct Clearance {
 /// for on a grid refined at the bodies' thin directions, so a reported depth is never too small. NaN where
 /// doubles do not resolve the depth: shadows with an axis ratio beyond 1e15 may have it. Cost: 1 us where m >
 /// 0, 5 us where m < 0.
-Clearance clearance(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& w);
+[[nodiscard]] Clearance clearance(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& w);
 
 /// Distance between two disjoint bodies and the unit normal of the closest points, from A towards B.
 /// Zero (and the contact normal) for touching bodies, zero and a zero normal for overlapping ones.
@@ -35,26 +35,28 @@ struct Separation {
   double distance = 0;  // metres
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
 };
-Separation separation(const Ellipsoid& a, const Ellipsoid& b);
+[[nodiscard]] Separation separation(const Ellipsoid& a, const Ellipsoid& b);
 
 /// First t >= 0, in seconds, at which A moving by w t touches B; nothing when it never does, 0 when they
 /// touch or overlap now, infinite where it exceeds the doubles. Whether there is a contact is decided
 /// exactly; the time has a relative error of a few roundings away from grazing, where it grows like the
 /// square root of the rounding. Gaps below rounding and numbers whose squares leave the doubles take the
 /// exact time, 1 ms.
-std::optional<double> time_to_contact(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& w);
+[[nodiscard]] std::optional<double> time_to_contact(const Ellipsoid& a, const Ellipsoid& b,
+                                                    const Eigen::Vector3d& w);
 
 /// The same for prepared bodies and w = v_a - v_b, whose verdict is that of the unrounded difference.
-std::optional<double> time_to_contact(const ConeOracle& oracle, const Eigen::Vector3d& v_a,
-                                      const Eigen::Vector3d& v_b);
+[[nodiscard]] std::optional<double> time_to_contact(const ConeOracle& oracle, const Eigen::Vector3d& v_a,
+                                                    const Eigen::Vector3d& v_b);
 
 /// The time alone, for a w known to be in the cone of disjoint bodies; NaN, or a number without a meaning,
 /// for others and where squares leave the doubles. Cost: about 1 us.
-double contact_time(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& w);
+[[nodiscard]] double contact_time(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& w);
 
 /// Clearance of the motion that lies ahead: m(w) when the closest passage is still to come or a collision is,
 /// the present distance when the bodies are moving apart. Sign agrees with the exact verdict; NaN as in
 /// clearance(). The difference of the velocities may exceed the doubles.
-double clearance_ahead(const ConeOracle& oracle, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b);
+[[nodiscard]] double clearance_ahead(const ConeOracle& oracle, const Eigen::Vector3d& v_a,
+                                     const Eigen::Vector3d& v_b);
 
 }  // namespace vericone

@@ -41,22 +41,27 @@ struct ContactFrame {
   ContactFrame(const Matrix& factor_a, const Matrix& factor_b, const Vector& center_line);
 
   /// Diagonal of S_K at the maximiser, in the frame.
-  Vector bounding_shape() const { return (1 + ratio) * (Vector::Constant(1 / ratio) + sigma.cwiseAbs2()); }
+  [[nodiscard]] Vector bounding_shape() const {
+    return (1 + ratio) * (Vector::Constant(1 / ratio) + sigma.cwiseAbs2());
+  }
 
   /// The normal S_K^{-1} c at the maximiser, in space coordinates (not normalised). It separates the bodies,
   /// g(n) = n.c - rho_A(n) - rho_B(n) > 0, iff contact > 1 (up to rounding: see predicates.h for a proof).
-  Vector separating_normal() const { return to_frame.transpose() * center.cwiseQuotient(bounding_shape()); }
+  [[nodiscard]] Vector separating_normal() const {
+    return to_frame.transpose() * center.cwiseQuotient(bounding_shape());
+  }
 };
 
 /// Maximiser of f for a centre line `center` given in the frame; returns x = lambda / (1 - lambda), which
 /// keeps its relative accuracy where lambda would round to 0 or 1.
 template <int D>
-double maximise_contact(const Eigen::Matrix<double, D, 1>& center, const Eigen::Matrix<double, D, 1>& sigma);
+[[nodiscard]] double maximise_contact(const Eigen::Matrix<double, D, 1>& center,
+                                      const Eigen::Matrix<double, D, 1>& sigma);
 
 /// f at x = lambda / (1 - lambda).
 template <int D>
-double contact_value(double ratio, const Eigen::Matrix<double, D, 1>& center,
-                     const Eigen::Matrix<double, D, 1>& sigma) {
+[[nodiscard]] double contact_value(double ratio, const Eigen::Matrix<double, D, 1>& center,
+                                   const Eigen::Matrix<double, D, 1>& sigma) {
   double sum = 0;
   for (int i = 0; i < D; ++i) sum += center(i) * center(i) / (1 + ratio * sigma(i) * sigma(i));
   return ratio / (1 + ratio) * sum;

@@ -21,24 +21,24 @@ namespace vericone {
 /// up to 1e-3 m where all normals are equally good (spheres hit head on). Cost: 3 us where m > 0, 0.3 ms
 /// where m < 0. Throws InputError naming "relative_velocity" where w is zero or not finite. The interval is
 /// infinite where lengths leave the range 1e-140 to 1e140.
-Interval enclose_clearance(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& w);
+[[nodiscard]] Interval enclose_clearance(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& w);
 
 /// Distance between two bodies, metres: [0, 0] where they touch or overlap, decided exactly. Cost: about 2
 /// us.
-Interval enclose_separation(const Ellipsoid& a, const Ellipsoid& b);
+[[nodiscard]] Interval enclose_separation(const Ellipsoid& a, const Ellipsoid& b);
 
 /// Edges of the true cone on a plane through the line of sight (plane_sector.h), radians from the line of
 /// sight.
 struct PlaneSectorEnclosure {
   Interval left, right;
-  Interval psi() const { return left + right; }
-  Interval theta_b() const { return (left - right) * Interval(0.5); }
+  [[nodiscard]] Interval psi() const { return left + right; }
+  [[nodiscard]] Interval theta_b() const { return (left - right) * Interval(0.5); }
 };
 
 /// Proved by the interval rung of ConeOracle for every direction in a box around each end of the bracket.
 /// Requires disjoint bodies; throws InputError as true_sector does. Nothing where the interval rung cannot
 /// tell, for bodies closer than rounding. Cost: about 8 us.
-std::optional<PlaneSectorEnclosure> enclose_plane_sector(const Ellipsoid& a, const Ellipsoid& b,
-                                                         const Eigen::Vector3d& across);
+[[nodiscard]] std::optional<PlaneSectorEnclosure> enclose_plane_sector(const Ellipsoid& a, const Ellipsoid& b,
+                                                                       const Eigen::Vector3d& across);
 
 }  // namespace vericone

@@ -12,6 +12,6 @@ namespace vericone::exact {
 /// Position of two bodies given by centre and shape matrix (symmetric, positive definite; not checked).
 /// D = 2 or 3.
 template <int D>
-Position position(const RationalBody<D>& a, const RationalBody<D>& b);
+[[nodiscard]] Position position(const RationalBody<D>& a, const RationalBody<D>& b);
 
 }  // namespace vericone::exact

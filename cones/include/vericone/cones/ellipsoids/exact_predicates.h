@@ -11,12 +11,14 @@ namespace vericone::exact {
 
 /// Relation of two bodies given by centre and shape matrix (symmetric, positive definite; not checked).
 template <int D>
-Relation relation(const RationalBody<D>& a, const RationalBody<D>& b);
+[[nodiscard]] Relation relation(const RationalBody<D>& a, const RationalBody<D>& b);
 
 /// Membership of w = v_A - v_B in the cone of two bodies, which need not be disjoint (ConeOracle).
-Membership membership(const RationalBody<3>& a, const RationalBody<3>& b, const RationalVector<3>& w);
+[[nodiscard]] Membership membership(const RationalBody<3>& a, const RationalBody<3>& b,
+                                    const RationalVector<3>& w);
 
 /// In the plane (SectorOracle).
-Membership membership(const RationalBody<2>& a, const RationalBody<2>& b, const RationalVector<2>& w);
+[[nodiscard]] Membership membership(const RationalBody<2>& a, const RationalBody<2>& b,
+                                    const RationalVector<2>& w);
 
 }  // namespace vericone::exact

@@ -11,7 +11,7 @@ namespace vericone {
 /// `across`: any vector not parallel to the line of centres; with it spans the plane. Throws InputError
 /// naming "across", or "bodies" where they are not disjoint. Cost: about 1 us, 2 us where bodies are near
 /// each other.
-PlaneSector true_sector(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& across);
+[[nodiscard]] PlaneSector true_sector(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& across);
 
 /// Two bodies prepared for sectors on many planes. No allocation.
 class SectorPlanes {
@@ -20,10 +20,10 @@ class SectorPlanes {
 
   /// Certified; false also of bodies so near each other that rounding could matter (true_sector() then asks
   /// integers).
-  bool disjoint() const { return disjoint_; }
+  [[nodiscard]] bool disjoint() const { return disjoint_; }
 
   /// As true_sector(), which it asks integers for where disjoint() is false.
-  PlaneSector on(const Eigen::Vector3d& across) const;
+  [[nodiscard]] PlaneSector on(const Eigen::Vector3d& across) const;
 
  private:
   Ellipsoid a_, b_;
@@ -42,7 +42,7 @@ struct SpatialMotion {
 
 /// `sector`: of a and b. Throws InputError naming "sector" for a default-constructed one, which has no plane,
 /// and "bodies" for bodies with the same centre.
-PlaneSectorRates true_sector_rates(const PlaneSector& sector, const Ellipsoid& a, const Ellipsoid& b,
-                                   const SpatialMotion& motion);
+[[nodiscard]] PlaneSectorRates true_sector_rates(const PlaneSector& sector, const Ellipsoid& a,
+                                                 const Ellipsoid& b, const SpatialMotion& motion);
 
 }  // namespace vericone

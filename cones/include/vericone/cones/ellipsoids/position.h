@@ -32,34 +32,36 @@ enum class Position : std::uint8_t {
   equal,  // the same body
 };
 
-const char* to_string(Position position);
+[[nodiscard]] const char* to_string(Position position);
 
 /// With A and B exchanged.
-Position swapped(Position position);
+[[nodiscard]] Position swapped(Position position);
 
 /// What relation() says of it: crossing, equal and every kind of nesting are `overlapping`.
-Relation relation_of(Position position);
+[[nodiscard]] Relation relation_of(Position position);
 
 /// Exact position of two bodies. `rung`: where to write the rung that decided. D = 2 or 3.
 ///
 /// Cost: see docs/predicates/position.md.
 template <int D>
-Position position(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b, Rung* rung = nullptr);
+[[nodiscard]] Position position(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b, Rung* rung = nullptr);
 
 /// First rung: a certificate searched for in plain doubles, its polynomials evaluated with a bound fixed by
 /// their formulas. Nothing when rounding could matter. Never answers `touching`, `equal` or `..._touching`.
 /// No allocation, no throw.
 template <int D>
-std::optional<Position> triage_position(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b) noexcept;
+[[nodiscard]] std::optional<Position> triage_position(const BasicEllipsoid<D>& a,
+                                                      const BasicEllipsoid<D>& b) noexcept;
 
 /// Second rung: the same certificate in intervals. Never answers a degenerate position either. No allocation,
 /// no throw.
 template <int D>
-std::optional<Position> interval_position(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b) noexcept;
+[[nodiscard]] std::optional<Position> interval_position(const BasicEllipsoid<D>& a,
+                                                        const BasicEllipsoid<D>& b) noexcept;
 
 /// Last rung, in integers: always an answer. For rational input see exact_position.h.
 template <int D>
-Position exact_position(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b);
+[[nodiscard]] Position exact_position(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b);
 
 /// Tag of position<D> for rung_counts().
 template <int D>

@@ -41,34 +41,36 @@ struct ContactFrame;
 /// Exact relation of two bodies. `rung`: where to write the rung that decided. Cost: about 0.7 us where no
 /// integers are needed.
 template <int D>
-Relation relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b, Rung* rung = nullptr);
+[[nodiscard]] Relation relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b, Rung* rung = nullptr);
 
 /// The same where the contact frame of the pair is at hand; the answer does not depend on its accuracy.
 template <int D>
-Relation relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b, const ContactFrame<D>& frame,
-                  Rung* rung = nullptr);
+[[nodiscard]] Relation relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
+                                const ContactFrame<D>& frame, Rung* rung = nullptr);
 
 /// First two rungs: a plane that separates the bodies, or a point inside of both, found in floating point and
 /// certified. Nothing when rounding could matter. Never answer `touching`.
 template <int D>
-std::optional<Relation> triage_relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
-                                        const ContactFrame<D>& frame);
+[[nodiscard]] std::optional<Relation> triage_relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
+                                                      const ContactFrame<D>& frame);
 template <int D>
-std::optional<Relation> interval_relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
-                                          const ContactFrame<D>& frame);
+[[nodiscard]] std::optional<Relation> interval_relation(const BasicEllipsoid<D>& a,
+                                                        const BasicEllipsoid<D>& b,
+                                                        const ContactFrame<D>& frame);
 
 /// Last rung.
 template <int D>
-Relation exact_relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b);
+[[nodiscard]] Relation exact_relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b);
 
 /// Whether n.x separates the bodies strictly: n.c > rho_A(n) + rho_B(n), for the n given, exactly.
 template <int D>
-bool separates(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b, const Eigen::Matrix<double, D, 1>& n);
+[[nodiscard]] bool separates(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
+                             const Eigen::Matrix<double, D, 1>& n);
 
 /// First rung of separates(): true is certain, false says nothing. No allocation, about 20 ns.
 template <int D>
-bool triage_separates(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
-                      const Eigen::Matrix<double, D, 1>& n);
+[[nodiscard]] bool triage_separates(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
+                                    const Eigen::Matrix<double, D, 1>& n);
 
 namespace detail {
 /// What the first rung reads first: the coefficients of four quadratic forms of w, a separating normal, and
@@ -90,7 +92,7 @@ struct VelocityForms {
 enum class VectorWidth : std::uint8_t { two = 2, four = 4, eight = 8 };
 
 /// The most that this machine has and the library knows: eight with AVX-512, four with AVX2, else two.
-VectorWidth widest_vectors();
+[[nodiscard]] VectorWidth widest_vectors();
 
 /// Two ellipsoids prepared for many velocities.
 ///
@@ -101,24 +103,25 @@ class ConeOracle {
  public:
   ConeOracle(const Ellipsoid& a, const Ellipsoid& b);
 
-  const Ellipsoid& a() const { return a_; }
-  const Ellipsoid& b() const { return b_; }
-  Relation relation() const { return relation_; }
+  [[nodiscard]] const Ellipsoid& a() const { return a_; }
+  [[nodiscard]] const Ellipsoid& b() const { return b_; }
+  [[nodiscard]] Relation relation() const { return relation_; }
   /// The rung that decided the relation.
-  Rung relation_rung() const { return relation_rung_; }
+  [[nodiscard]] Rung relation_rung() const { return relation_rung_; }
 
   /// Exact. `w` = v_A - v_B is the velocity of A relative to B. Of overlapping bodies every w != 0 is `in`.
   /// The cone of touching bodies is the half-space beyond their tangent plane: towards each other `in`, along
   /// the plane `on`, away `out`. w = 0 is always `out`; see verdict(). Throws InputError naming
   /// "agent_velocity[i]" or "obstacle_velocity[i]" where they are not finite. `rung`: where to write the rung
   /// that decided.
-  Membership membership(const Eigen::Vector3d& w, Rung* rung = nullptr) const;
+  [[nodiscard]] Membership membership(const Eigen::Vector3d& w, Rung* rung = nullptr) const;
 
   /// The same for w = v_A - v_B, the difference taken without rounding.
-  Membership membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, Rung* rung = nullptr) const;
+  [[nodiscard]] Membership membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                                      Rung* rung = nullptr) const;
 
   /// The same with the past told from never; `ahead` or `ahead_grazing` where both are true.
-  Passage passage(const Eigen::Vector3d& w) const;
+  [[nodiscard]] Passage passage(const Eigen::Vector3d& w) const;
 
   /// membership() of each w[i], written to out[i]: many at a time through vector registers, a few nanoseconds
   /// each. No allocation. Throws InputError naming "out" where it has another size than `w`, and "w[i][j]" at
@@ -129,29 +132,31 @@ class ConeOracle {
 
   /// Floating point with a proved error bound; nothing when it cannot decide. Never answers `on`.
   /// No allocation, no throw.
-  std::optional<Membership> triage_membership(const Eigen::Vector3d& w) const noexcept;
+  [[nodiscard]] std::optional<Membership> triage_membership(const Eigen::Vector3d& w) const noexcept;
 
   /// Second rung: decides nearly all that the first leaves, distant and thin pairs above all. Never answers
   /// `on`. No allocation, no throw. An answer for an interval vector holds for every w in it.
-  std::optional<Membership> interval_membership(const Eigen::Vector3d& v_a,
-                                                const Eigen::Vector3d& v_b) const noexcept;
-  std::optional<Membership> interval_membership(const std::array<Interval, 3>& w) const noexcept;
+  [[nodiscard]] std::optional<Membership> interval_membership(const Eigen::Vector3d& v_a,
+                                                              const Eigen::Vector3d& v_b) const noexcept;
+  [[nodiscard]] std::optional<Membership> interval_membership(
+      const std::array<Interval, 3>& w) const noexcept;
 
   /// Floating point without a bound, for comparison: what a program without this library would compute. `out`
   /// of touching bodies.
-  Membership naive_membership(const Eigen::Vector3d& w) const noexcept;
+  [[nodiscard]] Membership naive_membership(const Eigen::Vector3d& w) const noexcept;
 
   /// Last rung, in integers.
-  Membership exact_membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+  [[nodiscard]] Membership exact_membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 
   /// Relation and membership in one. `rung` is that of the membership; bodies that are not disjoint need none
   /// and leave it alone.
-  Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, Rung* rung = nullptr) const;
+  [[nodiscard]] Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                                Rung* rung = nullptr) const;
 
   /// A normal that separates the bodies strictly (certified) unless they are closer than double precision
   /// tells apart; not normalised. Zero for bodies that are not disjoint.
-  const Eigen::Vector3d& separating_normal() const { return normal_; }
-  bool normal_certified() const { return normal_certified_; }
+  [[nodiscard]] const Eigen::Vector3d& separating_normal() const { return normal_; }
+  [[nodiscard]] bool normal_certified() const { return normal_certified_; }
 
  private:
   Ellipsoid a_, b_;
@@ -160,8 +165,9 @@ class ConeOracle {
   Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();
   bool normal_certified_ = false;
   // Of velocities that the forms leave.
-  std::optional<Membership> triage_rest(const Eigen::Vector3d& w) const noexcept;
-  Membership climb_all(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, Rung* rung) const;
+  [[nodiscard]] std::optional<Membership> triage_rest(const Eigen::Vector3d& w) const noexcept;
+  [[nodiscard]] Membership climb_all(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                                     Rung* rung) const;
 
   detail::VelocityForms forms_;
   bool usable_ = false;

@@ -40,7 +40,7 @@ struct TrueCone {
 
 /// `samples` >= 3 points of the boundary. Cost: about 2 us and 0.06 us a sample, 0.12 us where their number
 /// is odd. Throws InputError naming "samples".
-TrueCone true_cone(const Ellipsoid& a, const Ellipsoid& b, int samples);
+[[nodiscard]] TrueCone true_cone(const Ellipsoid& a, const Ellipsoid& b, int samples);
 
 /// Two polyhedral cones with inner <= C <= outer, and what they say about the exact cone's numbers.
 ///
@@ -65,6 +65,6 @@ struct ConeBounds {
 /// bounds that hold all the same, and are wide. Cost: about 0.5 us a sample, up to 1.6
 /// for bodies ten and more times as far apart as they are wide; milliseconds for bodies closer than rounding
 /// tells.
-ConeBounds cone_bounds(const TrueCone& cone, const Ellipsoid& a, const Ellipsoid& b);
+[[nodiscard]] ConeBounds cone_bounds(const TrueCone& cone, const Ellipsoid& a, const Ellipsoid& b);
 
 }  // namespace vericone

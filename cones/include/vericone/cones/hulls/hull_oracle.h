@@ -9,6 +9,7 @@
 #include <vericone/geometry/hull_body.h>
 #include <vericone/geometry/interval.h>
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <optional>
 
@@ -45,48 +46,51 @@ class HullOracle {
   HullOracle(const HullBody& agent, const Ellipsoid& obstacle);
   HullOracle(const HullBody& agent, const HullBody& obstacle);
 
-  Relation relation() const { return relation_; }
+  [[nodiscard]] Relation relation() const { return relation_; }
   /// The rung that decided it.
-  Rung relation_rung() const { return relation_rung_; }
+  [[nodiscard]] Rung relation_rung() const { return relation_rung_; }
 
   /// Exact. `w` = v_agent - v_obstacle. For bodies that are not disjoint every w != 0 is `in`, as the ray
   /// starts in K; see verdict(). Throws InputError naming "agent_velocity[i]" where w is not finite.
   /// `rung`: where to write the rung that decided.
-  Membership membership(const Eigen::Vector3d& w, Rung* rung = nullptr) const;
+  [[nodiscard]] Membership membership(const Eigen::Vector3d& w, Rung* rung = nullptr) const;
 
   /// The same for w = v_a - v_b, the difference taken without rounding. Throws InputError naming
   /// "agent_velocity[i]" or "obstacle_velocity[i]".
-  Membership membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, Rung* rung = nullptr) const;
+  [[nodiscard]] Membership membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                                      Rung* rung = nullptr) const;
 
   /// The same with the past told from never.
-  Passage passage(const Eigen::Vector3d& w) const;
+  [[nodiscard]] Passage passage(const Eigen::Vector3d& w) const;
 
   /// First rung: bounds fixed by the formulas. Never answers `on`. No allocation, no throw.
-  std::optional<Membership> triage_membership(const Eigen::Vector3d& w) const noexcept;
+  [[nodiscard]] std::optional<Membership> triage_membership(const Eigen::Vector3d& w) const noexcept;
 
   /// Second rung: the same certificates with the bound of each operation. Never answers `on`. No allocation,
   /// no throw. An answer for an interval vector holds for every w in it.
-  std::optional<Membership> interval_membership(const Eigen::Vector3d& v_a,
-                                                const Eigen::Vector3d& v_b) const noexcept;
-  std::optional<Membership> interval_membership(const std::array<Interval, 3>& w) const noexcept;
+  [[nodiscard]] std::optional<Membership> interval_membership(const Eigen::Vector3d& v_a,
+                                                              const Eigen::Vector3d& v_b) const noexcept;
+  [[nodiscard]] std::optional<Membership> interval_membership(
+      const std::array<Interval, 3>& w) const noexcept;
 
   /// Last rung, in integers.
-  Membership exact_membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+  [[nodiscard]] Membership exact_membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 
   /// Relation by the last rung alone.
-  Relation exact_relation() const;
+  [[nodiscard]] Relation exact_relation() const;
 
   /// Relation and membership in one. `rung` is that of the membership; bodies that are not disjoint need none
   /// and leave it alone.
-  Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, Rung* rung = nullptr) const;
+  [[nodiscard]] Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                                Rung* rung = nullptr) const;
 
   /// For disjoint bodies a normal n with n.x > 0 on all of K (certified), unless they are closer than a
   /// vector of doubles tells apart; largest entry about 1. Zero for other relations.
-  const Eigen::Vector3d& separating_normal() const { return normal_; }
-  bool normal_certified() const { return normal_certified_; }
+  [[nodiscard]] const Eigen::Vector3d& separating_normal() const { return normal_; }
+  [[nodiscard]] bool normal_certified() const { return normal_certified_; }
 
   /// The number of points of both bodies, an ellipsoid counting as one.
-  std::size_t size() const;
+  [[nodiscard]] std::size_t size() const;
 
  private:
   explicit HullOracle(std::shared_ptr<HullScene> scene);

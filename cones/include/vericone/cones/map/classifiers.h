@@ -12,6 +12,7 @@
 #include <vericone/cones/opening/orifice.h>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace vericone {
@@ -25,8 +26,8 @@ class EllipsoidClassifier : public DirectionClassifier {
   Certified classify(const DirectionCell& cell, const Frontier& parent, Frontier& own) const override;
 
  private:
-  std::optional<Eigen::Vector3d> normal_along(const Eigen::Vector3d& direction) const;
-  bool proved_out(Eigen::Vector3d normal, const DirectionCell& cell) const;
+  [[nodiscard]] std::optional<Eigen::Vector3d> normal_along(const Eigen::Vector3d& direction) const;
+  [[nodiscard]] bool proved_out(Eigen::Vector3d normal, const DirectionCell& cell) const;
 
   ConeOracle oracle_;
 };
@@ -37,7 +38,7 @@ class EllipsoidClassifier : public DirectionClassifier {
 class CombinedClassifier : public DirectionClassifier {
  public:
   explicit CombinedClassifier(const CombinedCone& cone);
-  Frontier start() const override;
+  [[nodiscard]] Frontier start() const override;
   Certified classify(const DirectionCell& cell, const Frontier& parent, Frontier& own) const override;
 
  private:
@@ -46,7 +47,7 @@ class CombinedClassifier : public DirectionClassifier {
     DirectionCell inwards;  // unit normals of the sides, that of the polygon's side in the middle
     bool outer, wide;       // wide: nearly a half-plane, taken to meet every cell
   };
-  bool apart(const Part& part, const DirectionCell& cell, const DirectionCell& inwards) const;
+  [[nodiscard]] bool apart(const Part& part, const DirectionCell& cell, const DirectionCell& inwards) const;
 
   std::optional<Relation> relation_;
   std::vector<Part> parts_;  // star-shaped polygons, cut into triangles with the axis
@@ -65,7 +66,7 @@ class OrificeClassifier : public DirectionClassifier {
   Certified classify(const DirectionCell& cell, const Frontier& parent, Frontier& own) const override;
 
  private:
-  bool hits_wall(const DirectionCell& cell) const;
+  [[nodiscard]] bool hits_wall(const DirectionCell& cell) const;
 
   OrificeOracle oracle_;
 };
@@ -75,7 +76,7 @@ class AnyOfClassifier : public DirectionClassifier {
  public:
   explicit AnyOfClassifier(std::vector<std::shared_ptr<const DirectionClassifier>> all)
       : all_(std::move(all)) {}
-  Frontier start() const override;
+  [[nodiscard]] Frontier start() const override;
   Certified classify(const DirectionCell& cell, const Frontier& parent, Frontier& own) const override;
 
  private:
@@ -87,7 +88,7 @@ class MirroredClassifier : public DirectionClassifier {
  public:
   explicit MirroredClassifier(std::shared_ptr<const DirectionClassifier> exchanged)
       : exchanged_(std::move(exchanged)) {}
-  Frontier start() const override { return exchanged_->start(); }
+  [[nodiscard]] Frontier start() const override { return exchanged_->start(); }
   Certified classify(const DirectionCell& cell, const Frontier& parent, Frontier& own) const override;
 
  private:

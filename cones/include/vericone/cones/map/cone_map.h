@@ -5,6 +5,7 @@
 
 #include <vericone/cones/direction_cell.h>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -39,7 +40,7 @@ struct ConeMap {
   std::uint64_t asked = 0;                        // calls of the classifier
   bool complete = true;                           // false: stopped before the resolution was reached
 
-  DirectionCell cell(std::size_t i) const {
+  [[nodiscard]] DirectionCell cell(std::size_t i) const {
     const auto& c = cells[i].corners;
     return {corners[c[0]], corners[c[1]], corners[c[2]]};
   }
@@ -49,13 +50,13 @@ struct ConeMap {
 /// level; four parts of the same label are one cell again. The true solid angle is between `colliding` and
 /// `colliding + undecided`. Cost: calls of the classifier; 8 bytes a call and what the classifier keeps of
 /// one level. Throws InputError naming "resolution", "most_cells" or "threads", and what the classifier does.
-ConeMap cone_map(const DirectionClassifier& classifier, const ConeMapOptions& options = {});
+[[nodiscard]] ConeMap cone_map(const DirectionClassifier& classifier, const ConeMapOptions& options = {});
 
 /// The index of the cell that contains a direction (of any one on an edge). Linear in the cells. Throws
 /// InputError naming "map.cells" where there are none, or "direction" where it is zero or not finite.
-std::size_t cell_at(const ConeMap& map, const Eigen::Vector3d& direction);
+[[nodiscard]] std::size_t cell_at(const ConeMap& map, const Eigen::Vector3d& direction);
 
 /// Steradian; of any lengths. Accurate to rounding for the smallest cells too.
-double solid_angle(const DirectionCell& cell);
+[[nodiscard]] double solid_angle(const DirectionCell& cell);
 
 }  // namespace vericone

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <vericone/cones/map/cone_map.h>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -30,10 +31,11 @@ struct ConeMapRegion {
 };
 
 /// All regions, safe and colliding, the largest first. Time n log n in the number of cells.
-std::vector<ConeMapRegion> regions(const ConeMap& map);
+[[nodiscard]] std::vector<ConeMapRegion> regions(const ConeMap& map);
 
 /// The region that contains a direction != 0: with an agent before a window and the direction through it, the
 /// window's orifice cone. Nothing where the direction is in an undecided cell. Same cost.
-std::optional<ConeMapRegion> region_around(const ConeMap& map, const Eigen::Vector3d& direction);
+[[nodiscard]] std::optional<ConeMapRegion> region_around(const ConeMap& map,
+                                                         const Eigen::Vector3d& direction);
 
 }  // namespace vericone

@@ -4,17 +4,16 @@
 // Exact, by the ladder of predicates.h; the mathematics is in docs/predicates/orifice.md.
 //
 // Laws, for all agents, openings and velocities w (tests/cones/opening/orifice_test.cpp):
-//   (1) membership of w == membership of s w for s > 0 a power of two
+//   (1) transit of w == transit of s w for s > 0 a power of two
 //   (2) the length and the sign of the opening's normal do not matter
 //   (3) a rung that answers agrees with every later rung
 //   (4) unchanged by scaling, and by moving, agent and opening together, as long as numbers stay exact
-//
-//   (5) at most one of w and -w is not `out`
+//   (5) at most one of w and -w is not `blocked`
 #pragma once
 
-#include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/geometry/ellipsoid.h>
 #include <vericone/geometry/sign.h>
+#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 
@@ -35,7 +34,15 @@ enum class WallSide : std::uint8_t {
   cut,       // the plane cuts the agent
 };
 
-const char* to_string(WallSide side);
+/// Whether a relative velocity carries the agent through an opening.
+enum class Transit : std::uint8_t {
+  passes,   // through the opening, without touching the rim
+  grazes,   // through, touching the rim without cutting it
+  blocked,  // not through: it hits the rim or the wall, moves away or along the wall, or w = 0
+};
+
+[[nodiscard]] const char* to_string(WallSide side);
+[[nodiscard]] const char* to_string(Transit transit);
 
 /// An agent (a sphere or any ellipsoid) and an opening, prepared for many velocities.
 class OrificeOracle {
@@ -43,32 +50,29 @@ class OrificeOracle {
   /// Throws InputError naming "orifice.center[i]", "orifice.normal[i]", "orifice.normal" or "orifice.radius".
   OrificeOracle(const Ellipsoid& agent, const Orifice& orifice);
 
-  const Ellipsoid& agent() const { return agent_; }
-  const Orifice& orifice() const { return orifice_; }
+  [[nodiscard]] const Ellipsoid& agent() const { return agent_; }
+  [[nodiscard]] const Orifice& orifice() const { return orifice_; }
 
-  /// Exact. An agent that is cut by the plane is already in the opening or in the wall: then membership() is
-  /// `out` for every velocity. One that touches the plane counts as being on its side of it.
-  WallSide side() const { return side_; }
+  /// Exact. An agent that is cut by the plane is already in the opening or in the wall: then transit() is
+  /// `blocked` for every velocity. One that touches the plane counts as being on its side of it.
+  [[nodiscard]] WallSide side() const { return side_; }
 
   /// Exact. `w` = v_A - v_B, the velocity of the agent relative to the opening; only its direction counts.
-  ///   in   the agent passes through the opening without touching the rim
-  ///   on   it passes touching the rim without cutting it
-  ///   out  it hits the rim or the wall, moves away, moves along the wall, or w = 0
   /// `rung`: where to write the rung that decided. Throws InputError naming "agent_velocity[i]".
-  Membership membership(const Eigen::Vector3d& w, Rung* rung = nullptr) const;
+  [[nodiscard]] Transit transit(const Eigen::Vector3d& w, Rung* rung = nullptr) const;
 
-  /// First rung: nothing where rounding could matter. Never answers `on`. No allocation, no throw.
-  std::optional<Membership> triage_membership(const Eigen::Vector3d& w) const noexcept;
+  /// First rung: nothing where rounding could matter. Never answers `grazes`. No allocation, no throw.
+  [[nodiscard]] std::optional<Transit> triage_transit(const Eigen::Vector3d& w) const noexcept;
 
-  /// Second rung, in intervals. Never answers `on`. No allocation, no throw.
-  std::optional<Membership> interval_membership(const Eigen::Vector3d& w) const noexcept;
+  /// Second rung, in intervals. Never answers `grazes`. No allocation, no throw.
+  [[nodiscard]] std::optional<Transit> interval_transit(const Eigen::Vector3d& w) const noexcept;
 
-  /// Last rung, in integers. w is finite.
-  Membership exact_membership(const Eigen::Vector3d& w) const;
+  /// Last rung, in integers. Requires a finite w.
+  [[nodiscard]] Transit exact_transit(const Eigen::Vector3d& w) const;
 
  private:
   template <typename N>
-  std::optional<Membership> certified(const Eigen::Vector3d& w) const noexcept;
+  [[nodiscard]] std::optional<Transit> certified(const Eigen::Vector3d& w) const noexcept;
 
   Ellipsoid agent_;
   Orifice orifice_;
@@ -78,31 +82,33 @@ class OrificeOracle {
   double scale_ = 1, normal_scale_ = 1;  // powers of two
 };
 
-/// Tag of OrificeOracle::membership for rung_counts().
-struct OrificeMembership;
+/// Tag of OrificeOracle::transit for rung_counts().
+struct OrificeTransit;
 
 /// The source's criterion (2.2) for a sphere: |c x w|^2 < (R_B - R_A)^2 |w|^2 and c.w > 0. It takes the
 /// opening as if it always faced the velocity, that is as a sphere's great circle perpendicular to w: for an
-/// opening tilted against w it says `in` of velocities that cut the rim (docs/predicates/orifice.md has the
-/// rate; use OrificeOracle for a real opening).
+/// opening tilted against w it says `passes` of velocities that cut the rim (docs/predicates/orifice.md has
+/// the rate; use OrificeOracle for a real opening).
 ///
 /// `center_line` = p_B - p_A from the agent to the centre of the opening; radii in metres, positive. Exact
-/// for the numbers given. An agent larger than the opening is `out`. Throws InputError naming
+/// for the numbers given. An agent larger than the opening is `blocked`. Throws InputError naming
 /// "center_line[i]", "agent_radius", "opening_radius" or "agent_velocity[i]".
-Membership facing_orifice_membership(const Eigen::Vector3d& center_line, double agent_radius,
-                                     double opening_radius, const Eigen::Vector3d& w, Rung* rung = nullptr);
+[[nodiscard]] Transit facing_orifice_transit(const Eigen::Vector3d& center_line, double agent_radius,
+                                             double opening_radius, const Eigen::Vector3d& w,
+                                             Rung* rung = nullptr);
 
 /// Its rungs, for checked input.
-std::optional<Membership> triage_facing_orifice_membership(const Eigen::Vector3d& center_line,
-                                                           double agent_radius, double opening_radius,
-                                                           const Eigen::Vector3d& w) noexcept;
-std::optional<Membership> interval_facing_orifice_membership(const Eigen::Vector3d& center_line,
-                                                             double agent_radius, double opening_radius,
-                                                             const Eigen::Vector3d& w) noexcept;
-Membership exact_facing_orifice_membership(const Eigen::Vector3d& center_line, double agent_radius,
-                                           double opening_radius, const Eigen::Vector3d& w);
+[[nodiscard]] std::optional<Transit> triage_facing_orifice_transit(const Eigen::Vector3d& center_line,
+                                                                   double agent_radius, double opening_radius,
+                                                                   const Eigen::Vector3d& w) noexcept;
+[[nodiscard]] std::optional<Transit> interval_facing_orifice_transit(const Eigen::Vector3d& center_line,
+                                                                     double agent_radius,
+                                                                     double opening_radius,
+                                                                     const Eigen::Vector3d& w) noexcept;
+[[nodiscard]] Transit exact_facing_orifice_transit(const Eigen::Vector3d& center_line, double agent_radius,
+                                                   double opening_radius, const Eigen::Vector3d& w);
 
-/// Tag of facing_orifice_membership for rung_counts().
-struct FacingOrificeMembership;
+/// Tag of facing_orifice_transit for rung_counts().
+struct FacingOrificeTransit;
 
 }  // namespace vericone

@@ -24,6 +24,6 @@ struct SectorEnclosure {
 
 /// Nothing for bodies that touch (psi = pi exactly) or overlap (2 pi). Width of psi on ordinary pairs: 6e-15
 /// rad. Cost: about 13 us; integers are asked for the last bits.
-std::optional<SectorEnclosure> enclose_sector(const Ellipse& a, const Ellipse& b);
+[[nodiscard]] std::optional<SectorEnclosure> enclose_sector(const Ellipse& a, const Ellipse& b);
 
 }  // namespace vericone

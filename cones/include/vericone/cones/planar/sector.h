@@ -45,7 +45,7 @@ struct Sector {
 /// psi and the edges are right to a few units in the last place for thin, distant and nearly touching bodies
 /// alike (docs/planar-accuracy.md). Bodies too close for double precision to tell apart are decided exactly.
 /// Cost: below a microsecond, no allocation while the first rung of the predicates decides.
-Sector sector_by_support(const Ellipse& a, const Ellipse& b);
+[[nodiscard]] Sector sector_by_support(const Ellipse& a, const Ellipse& b);
 
 /// The sector by degenerate conics (source, 5.2.1 and Algorithm 3): eigenvectors of the pencil of the two
 /// dual conics, the common tangents as the corners of a rectangle in their basis, the inner ones by the sides
@@ -54,7 +54,7 @@ Sector sector_by_support(const Ellipse& a, const Ellipse& b);
 /// tangent found is polished as a common point of the dual conics. Double precision throughout: psi is right
 /// to 1e-12, except for bodies about to touch, to eps / sqrt(gap) (docs/planar-accuracy.md). Nothing is
 /// returned where rounding decides, for bodies whose gap is a few roundings. Cost: a few microseconds.
-std::optional<Sector> sector_by_degenerate_conics(const Ellipse& a, const Ellipse& b);
+[[nodiscard]] std::optional<Sector> sector_by_degenerate_conics(const Ellipse& a, const Ellipse& b);
 
 /// Velocities with which the bodies move and turn, for rates.
 struct PlanarMotion {
@@ -72,8 +72,8 @@ struct SectorRates {
 /// differentiation of the tangency condition gives them exactly (docs/theory.md, 1).
 /// `sector`: of disjoint bodies, computed from the same a and b. Throws InputError naming "sector.relation"
 /// where it is that of bodies that are not, which has no edges that turn, or a default-constructed one.
-SectorRates sector_rates(const Sector& sector, const Ellipse& a, const Ellipse& b,
-                         const PlanarMotion& motion);
+[[nodiscard]] SectorRates sector_rates(const Sector& sector, const Ellipse& a, const Ellipse& b,
+                                       const PlanarMotion& motion);
 
 /// The source's y, (5.1) and (5.10): V_theta_hat^2 / V^2 - sin^2(psi / 2), with the relative velocity
 /// V = V_B - V_A = -w resolved along (V_r_hat) and across (V_theta_hat) the bisector. The pair is on a
@@ -84,15 +84,15 @@ struct ConeFunction {
   double v_r_hat = 0;      // m/s, negative when approaching
   double v_theta_hat = 0;  // m/s
 
-  bool colliding() const { return y < 0 && v_r_hat < 0; }
+  [[nodiscard]] bool colliding() const { return y < 0 && v_r_hat < 0; }
 };
 
 /// From velocities in the plane; (5.9) in its corrected form (errata, 3.5). V = 0 gives y = -sin^2(psi / 2)
 /// with v_r_hat = 0, which is not colliding.
-ConeFunction cone_function(double psi, double theta_b, const Eigen::Vector2d& v_a,
-                           const Eigen::Vector2d& v_b);
+[[nodiscard]] ConeFunction cone_function(double psi, double theta_b, const Eigen::Vector2d& v_a,
+                                         const Eigen::Vector2d& v_b);
 
 /// (5.10) itself, from V_r, V_theta and the angle theta of the line of sight.
-double cone_function_y(double v_r, double v_theta, double theta, double theta_b, double psi);
+[[nodiscard]] double cone_function_y(double v_r, double v_theta, double theta, double theta_b, double psi);
 
 }  // namespace vericone

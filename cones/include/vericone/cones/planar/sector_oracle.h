@@ -4,6 +4,8 @@
 #pragma once
 
 #include <vericone/cones/ellipsoids/predicates.h>
+#include <array>
+#include <optional>
 
 namespace vericone {
 
@@ -16,30 +18,33 @@ class SectorOracle {
  public:
   SectorOracle(const Ellipse& a, const Ellipse& b);
 
-  const Ellipse& a() const { return a_; }
-  const Ellipse& b() const { return b_; }
-  Relation relation() const { return relation_; }
+  [[nodiscard]] const Ellipse& a() const { return a_; }
+  [[nodiscard]] const Ellipse& b() const { return b_; }
+  [[nodiscard]] Relation relation() const { return relation_; }
 
   /// Exact. `w` = v_A - v_B. Bodies that are not disjoint, w = 0 and velocities that are not finite as in
   /// ConeOracle. Cost: 13 ns where the first rung decides (6 ns without a bound), 45 ns in the second, 2 us
   /// in the last.
-  Membership membership(const Eigen::Vector2d& w, Rung* rung = nullptr) const;
-  Membership membership(const Eigen::Vector2d& v_a, const Eigen::Vector2d& v_b, Rung* rung = nullptr) const;
+  [[nodiscard]] Membership membership(const Eigen::Vector2d& w, Rung* rung = nullptr) const;
+  [[nodiscard]] Membership membership(const Eigen::Vector2d& v_a, const Eigen::Vector2d& v_b,
+                                      Rung* rung = nullptr) const;
 
-  std::optional<Membership> triage_membership(const Eigen::Vector2d& w) const noexcept;
-  std::optional<Membership> interval_membership(const Eigen::Vector2d& v_a,
-                                                const Eigen::Vector2d& v_b) const noexcept;
-  std::optional<Membership> interval_membership(const std::array<Interval, 2>& w) const noexcept;
-  Membership exact_membership(const Eigen::Vector2d& v_a, const Eigen::Vector2d& v_b) const;
+  [[nodiscard]] std::optional<Membership> triage_membership(const Eigen::Vector2d& w) const noexcept;
+  [[nodiscard]] std::optional<Membership> interval_membership(const Eigen::Vector2d& v_a,
+                                                              const Eigen::Vector2d& v_b) const noexcept;
+  [[nodiscard]] std::optional<Membership> interval_membership(
+      const std::array<Interval, 2>& w) const noexcept;
+  [[nodiscard]] Membership exact_membership(const Eigen::Vector2d& v_a, const Eigen::Vector2d& v_b) const;
 
   /// Floating point without a bound, for comparison.
-  Membership naive_membership(const Eigen::Vector2d& w) const noexcept;
+  [[nodiscard]] Membership naive_membership(const Eigen::Vector2d& w) const noexcept;
 
-  Verdict verdict(const Eigen::Vector2d& v_a, const Eigen::Vector2d& v_b, Rung* rung = nullptr) const;
+  [[nodiscard]] Verdict verdict(const Eigen::Vector2d& v_a, const Eigen::Vector2d& v_b,
+                                Rung* rung = nullptr) const;
 
   /// Separates the bodies strictly where certified; see ConeOracle.
-  const Eigen::Vector2d& separating_normal() const { return normal_; }
-  bool normal_certified() const { return normal_certified_; }
+  [[nodiscard]] const Eigen::Vector2d& separating_normal() const { return normal_; }
+  [[nodiscard]] bool normal_certified() const { return normal_certified_; }
 
  private:
   Ellipse a_, b_;

@@ -6,7 +6,9 @@
 
 #include <vericone/cones/slices/slice_cone.h>
 #include <vericone/geometry/combined.h>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace vericone {
 
@@ -36,14 +38,15 @@ struct CombinedSliceCone {
 
   /// The polygon of the edges. Solid angle of overlapping bodies 4 pi, without directions; of bodies that may
   /// touch NaN.
-  PolyhedralCone polyhedral() const;
+  [[nodiscard]] PolyhedralCone polyhedral() const;
 };
 
 /// `planes` >= 1 planes at equal angles, on the azimuths of slice_cone(). The source's choices take an
 /// ellipsoid A and a B with at most one hyperboloid. Throws InputError naming "planes", "agent" or
 /// "obstacle". Cost: docs/benchmarks.md; more where the bodies' ellipsoids overlap, since only then is it
 /// a question whether the bodies do.
-CombinedSliceCone combined_slice_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& b, int planes,
-                                      SliceSector sectors = SliceSector::all_candidates);
+[[nodiscard]] CombinedSliceCone combined_slice_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& b,
+                                                    int planes,
+                                                    SliceSector sectors = SliceSector::all_candidates);
 
 }  // namespace vericone

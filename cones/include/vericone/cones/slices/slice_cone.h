@@ -17,9 +17,9 @@ struct Slice {
   double left = 0;   // edge towards the second axis, radians from the line of sight, > 0
   double right = 0;  // edge towards the other side, > 0
 
-  double psi() const { return left + right; }
+  [[nodiscard]] double psi() const { return left + right; }
   /// Bisector, radians from the line of sight.
-  double theta_b() const { return 0.5 * (left - right); }
+  [[nodiscard]] double theta_b() const { return 0.5 * (left - right); }
 };
 
 /// The union of planar sectors. It is *not* the collision cone: on each plane it sees only collisions of
@@ -34,15 +34,15 @@ struct SliceCone {
 
   /// The cone spanned by the directions. Solid angle of touching bodies 2 pi, of overlapping ones 4 pi, as
   /// for the exact cone, without directions.
-  PolyhedralCone polyhedral() const;
+  [[nodiscard]] PolyhedralCone polyhedral() const;
 };
 
 /// `planes` >= 1 planes at equal angles. Touching bodies and overlapping ones have no slices; see relation.
 /// Cost: about 3 us a plane. Throws InputError naming "planes".
-SliceCone slice_cone(const Ellipsoid& a, const Ellipsoid& b, int planes);
+[[nodiscard]] SliceCone slice_cone(const Ellipsoid& a, const Ellipsoid& b, int planes);
 
 /// The sector of the sections on the plane spanned by the line of centres and `across` (any vector not
 /// parallel to it). Throws InputError naming "across", or "bodies" where they are not disjoint.
-Slice slice_sector(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& across);
+[[nodiscard]] Slice slice_sector(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& across);
 
 }  // namespace vericone

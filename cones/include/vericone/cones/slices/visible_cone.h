@@ -8,6 +8,7 @@
 #include <vericone/cones/slices/visible_sector.h>
 #include <vericone/geometry/quadric.h>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -22,17 +23,17 @@ using PlanePoints = std::function<std::vector<Eigen::Vector2d>(const PlaneFrame&
 /// The points of a cloud within `half_thickness` of the plane, projected onto it. A point off the plane
 /// stands for one in it, so what comes out is off by up to half_thickness times the slope of the surface, to
 /// either side. Keeps a view of the cloud.
-PlanePoints points_near_plane(std::span<const Eigen::Vector3d> cloud, double half_thickness);
+[[nodiscard]] PlanePoints points_near_plane(std::span<const Eigen::Vector3d> cloud, double half_thickness);
 
 /// Half of the distance between neighbouring beams at the farthest point: the thinnest slab that every plane
 /// through a cloud of beams `spacing` radians apart meets about once a beam. Metres.
-double slab_half_thickness(std::span<const Eigen::Vector3d> cloud, const Eigen::Vector3d& sensor,
-                           double spacing);
+[[nodiscard]] double slab_half_thickness(std::span<const Eigen::Vector3d> cloud,
+                                         const Eigen::Vector3d& sensor, double spacing);
 
 /// The corners of the section of a mesh (mesh_section.h), or of the part of one that is given by some of its
 /// triangles. Keeps views.
-PlanePoints mesh_section_points(std::span<const Eigen::Vector3d> points,
-                                std::span<const std::array<std::uint32_t, 3>> triangles);
+[[nodiscard]] PlanePoints mesh_section_points(std::span<const Eigen::Vector3d> points,
+                                              std::span<const std::array<std::uint32_t, 3>> triangles);
 
 /// Points of a plane in the order of their bearing from its origin, the nearer of two first: from one extreme
 /// end to the other for points on the side of its x axis.
@@ -52,10 +53,10 @@ struct VisibleCone {
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  // unit, from the agent's centre to `towards`
   std::vector<VisiblePlane> planes;
 
-  std::size_t planes_without_answer() const;
+  [[nodiscard]] std::size_t planes_without_answer() const;
   /// The polygon of the edges of the planes that have an answer with the axis inside; without directions,
   /// and NaN, where those are fewer than two.
-  PolyhedralCone polyhedral() const;
+  [[nodiscard]] PolyhedralCone polyhedral() const;
 };
 
 struct VisibleConeOptions {
@@ -66,11 +67,13 @@ struct VisibleConeOptions {
 /// `planes` >= 1 planes at equal angles through the line from the agent's centre to `towards`, for which the
 /// source has the centre of the points seen. On each, `obstacle`'s points in the order of their bearing from
 /// the agent's centre. Throws InputError naming "planes" or "towards".
-VisibleCone visible_cone(const Ellipsoid& agent, const PlanePoints& obstacle, const Eigen::Vector3d& towards,
-                         int planes, const VisibleConeOptions& options = {});
+[[nodiscard]] VisibleCone visible_cone(const Ellipsoid& agent, const PlanePoints& obstacle,
+                                       const Eigen::Vector3d& towards, int planes,
+                                       const VisibleConeOptions& options = {});
 
 /// For an agent of any shape (6.3.4) about `center`.
-VisibleCone visible_cone(const Eigen::Vector3d& center, const PlanePoints& agent, const PlanePoints& obstacle,
-                         const Eigen::Vector3d& towards, int planes, const VisibleConeOptions& options = {});
+[[nodiscard]] VisibleCone visible_cone(const Eigen::Vector3d& center, const PlanePoints& agent,
+                                       const PlanePoints& obstacle, const Eigen::Vector3d& towards,
+                                       int planes, const VisibleConeOptions& options = {});
 
 }  // namespace vericone

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <vericone/cones/planar/sector.h>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -18,7 +19,7 @@ enum class NoSector : std::uint8_t {
   inside_agent,  // a point is inside the elliptic agent, or on it
   no_tangents,   // the agent reaches among the points: no line separates it from them
 };
-const char* to_string(NoSector reason);
+[[nodiscard]] const char* to_string(NoSector reason);
 
 /// The sector between the inner common tangents of the agent's section and the points.
 struct VisibleSector {
@@ -40,23 +41,24 @@ struct SearchOptions {
 /// search goes on with the next points inwards. Points within 1e-13 (relative to their distance from the
 /// contact) of a tangent count as on it. Where the sector exists the search finds it, whatever the order: the
 /// order decides how soon. Time O(n) for each point tried. Throws InputError naming "keep_every".
-VisibleSector visible_sector(const Ellipse& agent, std::span<const Eigen::Vector2d> chain,
-                             const SearchOptions& options = {});
+[[nodiscard]] VisibleSector visible_sector(const Ellipse& agent, std::span<const Eigen::Vector2d> chain,
+                                           const SearchOptions& options = {});
 
 /// The same search for an agent given by points (6.3.4): corners of its section, in any order. The source
 /// uses an iteration of an earlier paper; here the tangents from a point to the agent are the lines through
 /// the agent's points of extreme bearing, and the rest is the same. Time O(n + m) for each point tried, m the
 /// corners of the agent's convex hull.
-VisibleSector visible_sector(std::span<const Eigen::Vector2d> agent, std::span<const Eigen::Vector2d> chain,
-                             const SearchOptions& options = {});
+[[nodiscard]] VisibleSector visible_sector(std::span<const Eigen::Vector2d> agent,
+                                           std::span<const Eigen::Vector2d> chain,
+                                           const SearchOptions& options = {});
 
 /// The same sector without a search: the largest tangent angle over the points, in one pass for each edge.
 /// Points in any order; time O(n).
-VisibleSector sector_of_points(const Ellipse& agent, std::span<const Eigen::Vector2d> points);
+[[nodiscard]] VisibleSector sector_of_points(const Ellipse& agent, std::span<const Eigen::Vector2d> points);
 
 /// The same for an agent given by points: an edge turns about the contacts of both convex hulls in turn until
 /// it rests on both. Time O((m + n) log(m + n)).
-VisibleSector sector_of_points(std::span<const Eigen::Vector2d> agent,
-                               std::span<const Eigen::Vector2d> points);
+[[nodiscard]] VisibleSector sector_of_points(std::span<const Eigen::Vector2d> agent,
+                                             std::span<const Eigen::Vector2d> points);
 
 }  // namespace vericone

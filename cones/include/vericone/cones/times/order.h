@@ -15,6 +15,7 @@
 #pragma once
 
 #include <vericone/cones/ellipsoids/predicates.h>
+#include <optional>
 
 namespace vericone {
 
@@ -29,17 +30,17 @@ struct TangentRef {
 /// of p by less than half a turn, negative when clockwise, zero when they are parallel, in the same or in
 /// opposite directions (see opposed()). Throws InputError naming "p" or "q" when its bodies overlap or are
 /// not finite. Cost: 2 us where the first rung decides, hardly more the second, about 0.2 ms the last.
-Sign turn(const TangentRef& p, const TangentRef& q, Rung* rung = nullptr);
+[[nodiscard]] Sign turn(const TangentRef& p, const TangentRef& q, Rung* rung = nullptr);
 
 /// First rung: both directions between two that are certified, some 1e-9 apart. Never answers zero.
-std::optional<Sign> triage_turn(const TangentRef& p, const TangentRef& q);
+[[nodiscard]] std::optional<Sign> triage_turn(const TangentRef& p, const TangentRef& q);
 /// Second rung: the same as narrow as intervals allow. Never answers zero.
-std::optional<Sign> interval_turn(const TangentRef& p, const TangentRef& q);
+[[nodiscard]] std::optional<Sign> interval_turn(const TangentRef& p, const TangentRef& q);
 /// Last rung: roots of quartics with integer coefficients.
-Sign exact_turn(const TangentRef& p, const TangentRef& q);
+[[nodiscard]] Sign exact_turn(const TangentRef& p, const TangentRef& q);
 
 /// Whether the directions are exactly opposite; turn() is zero then. Decided by the last rung when turn() is.
-bool opposed(const TangentRef& p, const TangentRef& q);
+[[nodiscard]] bool opposed(const TangentRef& p, const TangentRef& q);
 
 /// A moves with the velocity w relative to B, from now on.
 struct Encounter {
@@ -52,16 +53,16 @@ struct Encounter {
 /// never touch; two encounters without a contact compare as the same. Throws InputError naming "p.w" or "q.w"
 /// when it is not finite. Cost: 8 us where the first rung decides, about 70 us more the last, 2 ms for ties
 /// of unrelated bodies.
-Sign earlier(const Encounter& p, const Encounter& q, Rung* rung = nullptr);
+[[nodiscard]] Sign earlier(const Encounter& p, const Encounter& q, Rung* rung = nullptr);
 
 /// First rung: certified bounds of both times, some 1e-6 of them apart. Zero only for times that need no
 /// comparison: both now, or both never.
-std::optional<Sign> triage_earlier(const Encounter& p, const Encounter& q) noexcept;
+[[nodiscard]] std::optional<Sign> triage_earlier(const Encounter& p, const Encounter& q) noexcept;
 /// Second rung: the same as narrow as intervals allow.
-std::optional<Sign> interval_earlier(const Encounter& p, const Encounter& q) noexcept;
+[[nodiscard]] std::optional<Sign> interval_earlier(const Encounter& p, const Encounter& q) noexcept;
 /// Last rung: bounds of both times in integers, as narrow as needed; ties as equal contact polynomials or
 /// common roots of discriminants, of degree 12 in the time.
-Sign exact_earlier(const Encounter& p, const Encounter& q);
+[[nodiscard]] Sign exact_earlier(const Encounter& p, const Encounter& q);
 
 /// Tags of turn() and earlier() for rung_counts().
 struct TurnOfTangents;

@@ -9,6 +9,7 @@
 #include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/cones/velocity_predicate.h>
 #include <cmath>
+#include <optional>
 #include <string>
 
 namespace vericone::testing {

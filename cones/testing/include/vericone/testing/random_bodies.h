@@ -18,7 +18,7 @@
 namespace vericone::testing {
 
 /// x moved by `count` representable numbers.
-inline double moved_by_ulps(double x, int count) {
+[[nodiscard]] inline double moved_by_ulps(double x, int count) {
   const double target = std::copysign(std::numeric_limits<double>::infinity(), count);
   for (int i = 0; i < std::abs(count); ++i) x = std::nextafter(x, target);
   return x;
@@ -30,7 +30,7 @@ class RandomBodies {
   explicit RandomBodies(std::uint64_t seed) : seed_(replaced(seed)), engine_(seed_) {}
 
   /// For SCOPED_TRACE, so that a failure tells how to repeat it.
-  std::string trace() const { return "VERICONE_SEED=" + std::to_string(seed_); }
+  [[nodiscard]] std::string trace() const { return "VERICONE_SEED=" + std::to_string(seed_); }
 
   /// In [0, 1), a multiple of 2^-53.
   double uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
@@ -105,7 +105,7 @@ class RandomBodies {
   }
 
  private:
-  static std::uint64_t replaced(std::uint64_t seed) {
+  [[nodiscard]] static std::uint64_t replaced(std::uint64_t seed) {
     const char* given = std::getenv("VERICONE_SEED");
     return given ? std::strtoull(given, nullptr, 10) : seed;
   }

@@ -55,13 +55,13 @@ struct PointFile {
 /// empty, truncated, longer than its header says, of no known format or malformed anywhere, that has no
 /// finite point or whose faces point outside the file. Memory is taken only for what is in the file, not for
 /// what its header claims. Time and memory are linear in the size of the file.
-PointFile read_points(const std::filesystem::path& path);
+[[nodiscard]] PointFile read_points(const std::filesystem::path& path);
 
 /// Extensions that promise a mesh or a cloud, with dot, lower case: ".obj", ".off", ... For choosing among
 /// the files of a folder; read_points() also reads .asc, .bin (KITTI), .csv, .pts, .pwn and .txt.
-std::vector<std::string> known_extensions();
+[[nodiscard]] std::vector<std::string> known_extensions();
 
 /// The faces cut into triangles, each as a fan about its first corner (right for convex polygons).
-std::vector<std::array<std::uint32_t, 3>> fan_triangles(const std::vector<Face>& faces);
+[[nodiscard]] std::vector<std::array<std::uint32_t, 3>> fan_triangles(const std::vector<Face>& faces);
 
 }  // namespace vericone::files

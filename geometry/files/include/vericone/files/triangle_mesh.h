@@ -4,6 +4,10 @@
 #pragma once
 
 #include <vericone/files/read_points.h>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace vericone::files {
 
@@ -40,10 +44,10 @@ struct MeshReport {
 
   /// Every edge is of an even number of triangles: almost every ray from a point crosses the mesh an even
   /// number of times, or almost every one an odd number, so there is an inside.
-  bool is_closed() const { return edges > 0 && odd_edges == 0; }
+  [[nodiscard]] bool is_closed() const { return edges > 0 && odd_edges == 0; }
 
   /// Neighbours run through their common edge in opposite ways: all see the same side.
-  bool is_oriented() const { return misoriented_edges == 0; }
+  [[nodiscard]] bool is_oriented() const { return misoriented_edges == 0; }
 };
 
 struct TriangleMesh {
@@ -56,9 +60,10 @@ struct TriangleMesh {
 /// The mesh of a file. All points are kept, also those that no triangle uses. Throws InputError where the
 /// file has no face. Time and memory are linear in the numbers of points and corners; 10 million triangles
 /// take seconds (docs/files.md).
-TriangleMesh triangle_mesh(PointFile file, const MeshOptions& options = {});
+[[nodiscard]] TriangleMesh triangle_mesh(PointFile file, const MeshOptions& options = {});
 
 /// Whether three points are on a line; exact.
-bool are_collinear(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+[[nodiscard]] bool are_collinear(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                 const Eigen::Vector3d& c);
 
 }  // namespace vericone::files

@@ -27,7 +27,7 @@ struct ContainingFit {
 /// waists the triangles of a mesh. For ellipse and ellipsoid the least; for the others a local minimum, the
 /// best of several starts. Never larger than the ellipsoid.
 /// Throws InputError naming "points" where they lie in one plane (on one line).
-ContainingFit containing_fit(const CanonicalSample& sample, Shape shape,
-                             const ContainingOptions& options = {});
+[[nodiscard]] ContainingFit containing_fit(const CanonicalSample& sample, Shape shape,
+                                           const ContainingOptions& options = {});
 
 }  // namespace vericone::fitting

@@ -20,6 +20,6 @@ struct ConvexHull {
 
 /// Points within rounding of the hull of the others may be left out. Time N log N. Throws InputError naming
 /// "points" for fewer than four points and for points in one plane.
-ConvexHull convex_hull(const std::vector<Eigen::Vector3d>& points);
+[[nodiscard]] ConvexHull convex_hull(const std::vector<Eigen::Vector3d>& points);
 
 }  // namespace vericone::fitting

@@ -7,6 +7,9 @@
 #include <vericone/fitting/measure.h>
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace vericone::fitting {
 
@@ -68,6 +71,6 @@ struct FitResult {
 /// Equivariant under rotation, translation and scale; independent of the order of the points; deterministic
 /// (docs/fitting.md says to what accuracy). Throws InputError naming "points", "triangles[i]", "coverage",
 /// "margin" or "pieces"; Interrupted.
-FitResult fit(const Sample& sample, const FitOptions& options = {});
+[[nodiscard]] FitResult fit(const Sample& sample, const FitOptions& options = {});
 
 }  // namespace vericone::fitting

@@ -20,10 +20,10 @@ enum class Shape {
   biconvex,   // ellipsoid and the inside of a one-sheeted hyperboloid (source, (6.9))
   star,       // ellipsoid and two or more hyperboloids of either kind
 };
-std::string to_string(Shape shape);
+[[nodiscard]] std::string to_string(Shape shape);
 
 /// 5 for an ellipse, 9 for an ellipsoid, 6 more for each delimiter: of a star the least that it has, 21.
-int parameters(Shape shape);
+[[nodiscard]] int parameters(Shape shape);
 
 /// One body of a hull. A point is in it where it is on the negative side of all its quadrics.
 struct Piece {
@@ -54,10 +54,10 @@ struct Certificate {
   /// most 20: values above -1e-9 where the centre has -1.
   std::vector<std::size_t> touching;
 
-  bool all_inside() const {
+  [[nodiscard]] bool all_inside() const {
     return points_inside == points && triangles_inside == triangles && margins_inside == points;
   }
-  double coverage() const { return points ? double(points_inside) / double(points) : 1; }
+  [[nodiscard]] double coverage() const { return points ? double(points_inside) / double(points) : 1; }
 };
 
 /// Points and triangles of a mesh (the points that triangles use), or of a cloud, against pieces given by
@@ -66,7 +66,8 @@ struct Certificate {
 /// of each quadric on it is not positive, which the corners, the edges along which the quadric is concave,
 /// and the plane where it is concave on it tell. Throws InputError naming "pieces" or "pieces[i]" where there
 /// is none or no quadric, "points[i]", "triangles[i]" or "margin". Linear in points times pieces.
-Certificate check(const std::vector<std::vector<Quadric>>& pieces, const Sample& sample, double margin = 0);
+[[nodiscard]] Certificate check(const std::vector<std::vector<Quadric>>& pieces, const Sample& sample,
+                                double margin = 0);
 
 /// Which piece is to contain what; -1: none has to. Sizes of points and triangles of the sample.
 struct Assignment {

@@ -7,6 +7,8 @@
 #include <vericone/fitting/hull.h>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace vericone::fitting {
 
@@ -59,6 +61,7 @@ struct SurfaceFit {
 /// Throws InputError naming "points" where there are fewer than parameters or where no such surface is near
 /// the points (a plane, a paraboloid: what was found is said). Time linear in the points, some tens of
 /// passes.
-SurfaceFit fit_surface(const CanonicalSample& sample, Shape shape, const SurfaceFitOptions& options = {});
+[[nodiscard]] SurfaceFit fit_surface(const CanonicalSample& sample, Shape shape,
+                                     const SurfaceFitOptions& options = {});
 
 }  // namespace vericone::fitting

@@ -16,13 +16,13 @@ struct Sample {
   std::vector<Eigen::Vector3d> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 
-  bool is_mesh() const { return !triangles.empty(); }
+  [[nodiscard]] bool is_mesh() const { return !triangles.empty(); }
 };
 
 /// Indices, increasing, of the points that count: all of a cloud; of a mesh those that triangles use. Throws
 /// InputError naming "points[i]" where one of them is not finite and "triangles[i]" for an index that is no
 /// point.
-std::vector<std::uint32_t> used_points(const Sample& sample);
+[[nodiscard]] std::vector<std::uint32_t> used_points(const Sample& sample);
 
 /// Coordinates that belong to the sample: origin at its mean, axes along its principal directions (signs by
 /// the third moments), and a length. x = origin + scale * axes * y.
@@ -31,8 +31,12 @@ struct Frame {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  // a rotation
   double scale = 1;
 
-  Eigen::Vector3d to_frame(const Eigen::Vector3d& x) const { return axes.transpose() * (x - origin) / scale; }
-  Eigen::Vector3d to_world(const Eigen::Vector3d& y) const { return origin + scale * (axes * y); }
+  [[nodiscard]] Eigen::Vector3d to_frame(const Eigen::Vector3d& x) const {
+    return axes.transpose() * (x - origin) / scale;
+  }
+  [[nodiscard]] Eigen::Vector3d to_world(const Eigen::Vector3d& y) const {
+    return origin + scale * (axes * y);
+  }
 };
 
 /// A sample in its own frame: the same for a sample that is turned, moved, scaled or written in another order
@@ -59,16 +63,16 @@ struct CanonicalSample {
   std::vector<std::uint32_t> index;
   static constexpr std::uint32_t kUnused = 0xffffffff;
 
-  bool is_mesh() const { return !triangles.empty(); }
+  [[nodiscard]] bool is_mesh() const { return !triangles.empty(); }
 };
 
 /// Coordinates rounded to 2^-26, a hundred-millionth of the unit ball. Those of the same sample in another
 /// frame differ by some 1e-15 and are then (but for one in ten million) the same numbers: searches that
 /// branch are done with them, so that they take the same way.
-Eigen::Vector3d rounded(const Eigen::Vector3d& y);
+[[nodiscard]] Eigen::Vector3d rounded(const Eigen::Vector3d& y);
 
 /// Throws InputError naming "points" where there is none, where coordinates are not finite or above 1e100,
 /// and where all are equal; "triangles[i]" for an index that is no point.
-CanonicalSample canonical(const Sample& sample);
+[[nodiscard]] CanonicalSample canonical(const Sample& sample);
 
 }  // namespace vericone::fitting

@@ -19,31 +19,31 @@ struct Dyadic {
   Integer numerator;
   unsigned exponent = 0;
 
-  static Dyadic power_of_two(int exponent);
-  static Dyadic of(double finite);
+  [[nodiscard]] static Dyadic power_of_two(int exponent);
+  [[nodiscard]] static Dyadic of(double finite);
 };
 
 /// floor(log2 |x|), x != 0.
-int log2_floor(const Integer& x);
-int log2_floor(const Dyadic& x);
+[[nodiscard]] int log2_floor(const Integer& x);
+[[nodiscard]] int log2_floor(const Dyadic& x);
 
 /// Sign of x - y.
-int compare(const Dyadic& x, const Dyadic& y);
+[[nodiscard]] int compare(const Dyadic& x, const Dyadic& y);
 
 /// Strictly between lo < hi, which have one sign: the arithmetic mean of near numbers, about the geometric
 /// one of numbers of different sizes.
-Dyadic between(Dyadic lo, Dyadic hi);
+[[nodiscard]] Dyadic between(Dyadic lo, Dyadic hi);
 
 /// Contains x, at most a few units in the last place wide; of infinite radius beyond the range of doubles.
-Interval enclosure(const Dyadic& x);
+[[nodiscard]] Interval enclosure(const Dyadic& x);
 
 /// Removes leading zeros.
 void trim(Polynomial& p);
 
 /// Divided by the greatest common divisor of the coefficients; signs are kept.
-Polynomial primitive_part(Polynomial p);
+[[nodiscard]] Polynomial primitive_part(Polynomial p);
 
-Polynomial derivative(const Polynomial& p);
+[[nodiscard]] Polynomial derivative(const Polynomial& p);
 Polynomial operator+(const Polynomial& p, const Polynomial& q);
 Polynomial operator-(const Polynomial& p, const Polynomial& q);
 Polynomial operator*(const Polynomial& p, const Polynomial& q);
@@ -51,33 +51,33 @@ Polynomial operator*(const Polynomial& p, const Integer& factor);
 
 /// Whether p and q certainly have no common factor: they have none modulo a prime that does not divide their
 /// leading coefficients. Hardly ever false for coprime polynomials, and fast.
-bool surely_coprime(const Polynomial& p, const Polynomial& q);
+[[nodiscard]] bool surely_coprime(const Polynomial& p, const Polynomial& q);
 
 /// Greatest common divisor, primitive and with a positive leading coefficient; 1 for coprime polynomials. At
 /// most one of p, q is zero.
-Polynomial gcd(Polynomial p, Polynomial q);
+[[nodiscard]] Polynomial gcd(Polynomial p, Polynomial q);
 
 /// p / q where q is primitive and divides p.
-Polynomial divide_exactly(Polynomial p, const Polynomial& q);
+[[nodiscard]] Polynomial divide_exactly(Polynomial p, const Polynomial& q);
 
 /// The polynomial with the same roots, each simple; p is not zero.
-Polynomial squarefree_part(const Polynomial& p);
+[[nodiscard]] Polynomial squarefree_part(const Polynomial& p);
 
 /// p, p' and the negated remainders, up to positive factors.
-std::vector<Polynomial> sturm_chain(const Polynomial& p);
+[[nodiscard]] std::vector<Polynomial> sturm_chain(const Polynomial& p);
 
 /// 2^(k n) p(x) for x = m / 2^k and n + 1 coefficients.
-Integer scaled_value(const Polynomial& p, const Dyadic& x);
+[[nodiscard]] Integer scaled_value(const Polynomial& p, const Dyadic& x);
 
 /// Sign of p(x).
-int sign_at(const Polynomial& p, const Dyadic& x);
+[[nodiscard]] int sign_at(const Polynomial& p, const Dyadic& x);
 
 /// Changes of sign along a Sturm chain: changes at lo minus changes at hi is the number of distinct roots in
 /// (lo, hi] unless p(lo) = 0 is a multiple root.
-int sign_changes_at(const std::vector<Polynomial>& chain, const Dyadic& x);
+[[nodiscard]] int sign_changes_at(const std::vector<Polynomial>& chain, const Dyadic& x);
 /// At zero from the right as long as p(0) is not zero, and at plus infinity.
-int sign_changes_at_zero(const std::vector<Polynomial>& chain);
-int sign_changes_at_infinity(const std::vector<Polynomial>& chain);
+[[nodiscard]] int sign_changes_at_zero(const std::vector<Polynomial>& chain);
+[[nodiscard]] int sign_changes_at_infinity(const std::vector<Polynomial>& chain);
 
 /// One real root of a polynomial. Functions that need to know it better refine it in place; its value never
 /// changes.
@@ -90,20 +90,20 @@ class RealRoot {
   RealRoot(std::shared_ptr<const Polynomial> p, Dyadic lo, Dyadic hi);
 
   /// The root is one of its simple ones.
-  const Polynomial& polynomial() const { return *p_; }
+  [[nodiscard]] const Polynomial& polynomial() const { return *p_; }
   /// lo < root < hi, or lo = root = hi where it is known as a dyadic number.
-  const Dyadic& lo() const { return lo_; }
-  const Dyadic& hi() const { return hi_; }
-  bool is_dyadic() const { return sign_lo_ == 0; }
+  [[nodiscard]] const Dyadic& lo() const { return lo_; }
+  [[nodiscard]] const Dyadic& hi() const { return hi_; }
+  [[nodiscard]] bool is_dyadic() const { return sign_lo_ == 0; }
   /// Sign of the root.
-  int sign() const;
+  [[nodiscard]] int sign() const;
 
   /// Until hi - lo <= 2^-bits min(|lo|, |hi|). Quadratic interval refinement (Abbott 2006): digits double.
   void refine(int bits);
 
  private:
   friend int compare(RealRoot& x, const Dyadic& y);
-  bool narrow(int bits) const;
+  [[nodiscard]] bool narrow(int bits) const;
   void set(Dyadic x);
 
   std::shared_ptr<const Polynomial> p_;
@@ -114,13 +114,13 @@ class RealRoot {
 
 /// All distinct real roots in increasing order; p is not zero. The intervals do not overlap and no root of p
 /// lies at an end, so the ends separate the roots.
-std::vector<RealRoot> real_roots(const Polynomial& p);
+[[nodiscard]] std::vector<RealRoot> real_roots(const Polynomial& p);
 
 /// Those in the closed interval.
-std::vector<RealRoot> real_roots_in(const Polynomial& p, const Dyadic& lo, const Dyadic& hi);
+[[nodiscard]] std::vector<RealRoot> real_roots_in(const Polynomial& p, const Dyadic& lo, const Dyadic& hi);
 
 /// The positive ones.
-std::vector<RealRoot> positive_roots(const Polynomial& p);
+[[nodiscard]] std::vector<RealRoot> positive_roots(const Polynomial& p);
 
 /// Sign of q at the root.
 int sign_at(const Polynomial& q, RealRoot& x);

@@ -5,12 +5,13 @@
 
 #include <vericone/geometry/ellipsoid.h>
 #include <vericone/geometry/exact/rational.h>
+#include <utility>
 
 namespace vericone::exact {
 
 /// The shape matrix that *defines* the body (see BasicEllipsoid).
 template <int D>
-RationalMatrix<D> defining_shape(const BasicEllipsoid<D>& body) {
+[[nodiscard]] RationalMatrix<D> defining_shape(const BasicEllipsoid<D>& body) {
   if (!body.defined_by_factor()) return to_rational<D>(body.shape());
   const RationalMatrix<D> f = to_rational<D>(body.factor());
   RationalMatrix<D> s;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <vericone/geometry/exact/rational.h>
+#include <vericone/geometry/requires.h>
 #include <algorithm>
 #include <array>
 #include <boost/multiprecision/cpp_int.hpp>
@@ -24,8 +25,9 @@ using IntegerVector = std::array<Integer, D>;
 template <int D>
 using IntegerMatrix = std::array<std::array<Integer, D>, D>;
 
-/// The largest e for which the finite x is a multiple of 2^e; `none` for 0.
-inline int grid_exponent(double x, int none) {
+/// The largest e for which x is a multiple of 2^e; `none` for 0. Requires a finite x.
+[[nodiscard]] inline int grid_exponent(double x, int none) {
+  VERICONE_REQUIRES(std::isfinite(x));
   if (x == 0) return none;
   int e = 0;
   const double m = std::frexp(x, &e);  // x = m 2^e, |m| in [1/2, 1)
@@ -39,7 +41,7 @@ inline int grid_exponent(double x, int none) {
 }
 
 /// x / 2^e, where x is a multiple of 2^e.
-inline Integer on_grid(double x, int e) {
+[[nodiscard]] inline Integer on_grid(double x, int e) {
   if (x == 0) return 0;
   int shift = 0;
   const double m = std::frexp(x, &shift);
@@ -54,7 +56,7 @@ inline Integer on_grid(double x, int e) {
 
 /// A vector on the finest grid that its entries need; its direction is what counts.
 template <int D>
-IntegerVector<D> direction_on_grid(const Eigen::Matrix<double, D, 1>& v) {
+[[nodiscard]] IntegerVector<D> direction_on_grid(const Eigen::Matrix<double, D, 1>& v) {
   constexpr int kNone = 1 << 20;
   int e = kNone;
   for (int i = 0; i < D; ++i) e = std::min(e, grid_exponent(v(i), kNone));
@@ -65,8 +67,8 @@ IntegerVector<D> direction_on_grid(const Eigen::Matrix<double, D, 1>& v) {
 
 /// x - y, without rounding, up to a positive factor.
 template <int D>
-IntegerVector<D> difference_on_grid(const Eigen::Matrix<double, D, 1>& x,
-                                    const Eigen::Matrix<double, D, 1>& y) {
+[[nodiscard]] IntegerVector<D> difference_on_grid(const Eigen::Matrix<double, D, 1>& x,
+                                                  const Eigen::Matrix<double, D, 1>& y) {
   constexpr int kNone = 1 << 20;
   int e = kNone;
   for (int i = 0; i < D; ++i) e = std::min({e, grid_exponent(x(i), kNone), grid_exponent(y(i), kNone)});
@@ -77,7 +79,7 @@ IntegerVector<D> difference_on_grid(const Eigen::Matrix<double, D, 1>& x,
 
 /// The direction of a rational vector.
 template <int D>
-IntegerVector<D> direction_on_grid(const RationalVector<D>& v) {
+[[nodiscard]] IntegerVector<D> direction_on_grid(const RationalVector<D>& v) {
   Integer common = 1;
   for (const Rational& x : v) common = lcm(common, denominator(x));
   IntegerVector<D> r;

@@ -10,8 +10,8 @@ namespace vericone::exact {
 
 /// For rational coordinates.
 template <int D>
-Sign side(const RationalMatrix<D + 1>& quadric, const RationalVector<D>& point);
+[[nodiscard]] Sign side(const RationalMatrix<D + 1>& quadric, const RationalVector<D>& point);
 template <int D>
-Sign side(const RationalBody<D>& body, const RationalVector<D>& point);
+[[nodiscard]] Sign side(const RationalBody<D>& body, const RationalVector<D>& point);
 
 }  // namespace vericone::exact

@@ -18,17 +18,17 @@ using RationalVector = std::array<Rational, D>;
 template <int D>
 using RationalMatrix = std::array<std::array<Rational, D>, D>;
 
-inline int sign(const Rational& x) { return x.sign(); }
+[[nodiscard]] inline int sign(const Rational& x) { return x.sign(); }
 
 template <int D>
-RationalVector<D> to_rational(const Eigen::Matrix<double, D, 1>& v) {
+[[nodiscard]] RationalVector<D> to_rational(const Eigen::Matrix<double, D, 1>& v) {
   RationalVector<D> r;
   for (int i = 0; i < D; ++i) r[i] = v(i);
   return r;
 }
 
 template <int D>
-RationalMatrix<D> to_rational(const Eigen::Matrix<double, D, D>& m) {
+[[nodiscard]] RationalMatrix<D> to_rational(const Eigen::Matrix<double, D, D>& m) {
   RationalMatrix<D> r;
   for (int i = 0; i < D; ++i)
     for (int j = 0; j < D; ++j) r[i][j] = m(i, j);
@@ -37,7 +37,7 @@ RationalMatrix<D> to_rational(const Eigen::Matrix<double, D, D>& m) {
 
 /// Determinant by elimination; exact.
 template <int D>
-Rational determinant(RationalMatrix<D> m) {
+[[nodiscard]] Rational determinant(RationalMatrix<D> m) {
   Rational det = 1;
   for (int k = 0; k < D; ++k) {
     int pivot = k;
@@ -58,7 +58,7 @@ Rational determinant(RationalMatrix<D> m) {
 
 /// Whether all leading minors are positive (Sylvester).
 template <int D>
-bool positive_definite(const RationalMatrix<D>& m) {
+[[nodiscard]] bool positive_definite(const RationalMatrix<D>& m) {
   if (m[0][0].sign() <= 0) return false;
   if (m[0][0] * m[1][1] - m[0][1] * m[1][0] <= 0) return false;
   if constexpr (D == 3) return determinant<3>(m).sign() > 0;

@@ -51,7 +51,7 @@ struct Fusion {
 /// That it converged to the right place is not proved: ICP finds the nearest minimum; `fits` tells how good
 /// it is. Does not depend on the number of threads. Throws InputError naming "scans", "scans[i]", "initial"
 /// or an option.
-Fusion fuse(std::span<const std::vector<Eigen::Vector3d>> scans, std::span<const Eigen::Isometry3d> initial,
-            const FuseOptions& options = {});
+[[nodiscard]] Fusion fuse(std::span<const std::vector<Eigen::Vector3d>> scans,
+                          std::span<const Eigen::Isometry3d> initial, const FuseOptions& options = {});
 
 }  // namespace vericone::lidar

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <vector>
 
 namespace vericone::lidar {
@@ -14,21 +15,21 @@ struct BeamPattern {
   std::vector<double> elevations;  // radians above the sensor's xy plane, in [-pi/2, pi/2]
   std::vector<double> azimuths;    // radians from the sensor's x axis towards its y axis
 
-  std::size_t size() const { return elevations.size() * azimuths.size(); }
+  [[nodiscard]] std::size_t size() const { return elevations.size() * azimuths.size(); }
   /// Unit vector.
-  Eigen::Vector3d direction(std::size_t beam) const;
+  [[nodiscard]] Eigen::Vector3d direction(std::size_t beam) const;
   /// The largest angle between neighbouring elevations or azimuths, radians; 0 for a single beam.
-  double spacing() const;
+  [[nodiscard]] double spacing() const;
 };
 
 /// A spinning sensor: `azimuths` equal steps of a full turn, the first one forwards. Throws InputError naming
 /// "elevations" or "azimuths".
-BeamPattern spinning(std::vector<double> elevations, int azimuths);
+[[nodiscard]] BeamPattern spinning(std::vector<double> elevations, int azimuths);
 
 /// A sensor with a field of view: rows x columns beams at equal steps of both angles about the x axis, those
 /// of the edges included (one row or column: in the middle). `horizontal` in (0, 2 pi), `vertical` in
 /// (0, pi], radians. Throws InputError naming "rows", "columns", "horizontal" or "vertical".
-BeamPattern raster(int rows, int columns, double horizontal, double vertical);
+[[nodiscard]] BeamPattern raster(int rows, int columns, double horizontal, double vertical);
 
 struct Lidar {
   /// From the sensor's frame to the agent's.

@@ -38,12 +38,13 @@ class MeshScene {
   /// The first hit at a range in [least, most]. `direction` a unit vector, `origin` anywhere. Safe from
   /// several threads at once. The range is right to about 4e-15 (|origin| + |hit|) / cos, cos that of
   /// the angle between ray and normal. Cost: below a microsecond for a mesh of 100,000 triangles.
-  std::optional<Hit> first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                               double least = 0, double most = std::numeric_limits<double>::infinity()) const;
+  [[nodiscard]] std::optional<Hit> first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                                             double least = 0,
+                                             double most = std::numeric_limits<double>::infinity()) const;
 
   /// Whether nothing of the mesh is on the segment from `eye` to `point`, the last `margin` metres before
   /// `point` left out: with a margin above rounding, whether a point of the mesh is seen.
-  bool sees(const Eigen::Vector3d& eye, const Eigen::Vector3d& point, double margin) const;
+  [[nodiscard]] bool sees(const Eigen::Vector3d& eye, const Eigen::Vector3d& point, double margin) const;
 
  private:
   struct Parts;

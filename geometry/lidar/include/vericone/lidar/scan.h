@@ -5,6 +5,7 @@
 
 #include <vericone/lidar/lidar.h>
 #include <vericone/lidar/mesh_scene.h>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -29,15 +30,16 @@ struct Scan {
   std::vector<Return> returns;  // in the order of the beams
   std::vector<Beam> beams;      // one for every beam
 
-  std::size_t count(Beam what) const;
-  std::vector<Eigen::Vector3d> sensor_points() const;
-  std::vector<Eigen::Vector3d> world_points() const;
+  [[nodiscard]] std::size_t count(Beam what) const;
+  [[nodiscard]] std::vector<Eigen::Vector3d> sensor_points() const;
+  [[nodiscard]] std::vector<Eigen::Vector3d> world_points() const;
 };
 
 /// Every beam's first hit. `agent` from the agent's frame to the world's. Noise and dropout are a function of
 /// `seed` and the beam's index alone, whatever the number of threads. Threads: as many as there are cores.
 /// Throws InputError for a bad lidar or an agent pose that is no rigid motion. Cost: below a microsecond a
 /// beam and core.
-Scan scan(const MeshScene& scene, const Lidar& lidar, const Eigen::Isometry3d& agent, std::uint64_t seed);
+[[nodiscard]] Scan scan(const MeshScene& scene, const Lidar& lidar, const Eigen::Isometry3d& agent,
+                        std::uint64_t seed);
 
 }  // namespace vericone::lidar

@@ -49,7 +49,7 @@ struct Octree {
   Box bounds;
 
   /// Metres. The coordinates are whole multiples of the resolution, rounded once.
-  Box box(const OctreeCell& cell) const;
+  [[nodiscard]] Box box(const OctreeCell& cell) const;
 };
 
 /// Reads .bt and .ot files, of trees of occupancy (OcTree, ColorOcTree without its colours, OcTreeStamped).
@@ -57,7 +57,7 @@ struct Octree {
 /// Throws InputError whose field is the path and whose message is one line: for a file that is missing,
 /// empty, truncated or longer than its tree, of another kind of tree, whose header and tree have different
 /// numbers of nodes, or that is malformed anywhere. Time and memory are linear in the size of the file.
-Octree read_octree(const std::filesystem::path& path);
+[[nodiscard]] Octree read_octree(const std::filesystem::path& path);
 
 /// What the cells of a map mean to the caller.
 struct OctreeMeaning {
@@ -80,7 +80,7 @@ struct OctreeMeaning {
 
 enum class CellKind { occupied, free, unknown };
 
-CellKind kind_of(const OctreeCell& cell, const OctreeMeaning& meaning);
+[[nodiscard]] CellKind kind_of(const OctreeCell& cell, const OctreeMeaning& meaning);
 
 /// A box for each cell, by its kind. Unknown ones are clipped to the region and left out where nothing is
 /// left of them; with a region that reaches out of the cube of the tree, up to six more are added. The boxes
@@ -89,10 +89,10 @@ CellKind kind_of(const OctreeCell& cell, const OctreeMeaning& meaning);
 struct OctreeBoxes {
   std::vector<Box> occupied, free, unknown;
 };
-OctreeBoxes boxes_by_kind(const Octree& octree, const OctreeMeaning& meaning);
+[[nodiscard]] OctreeBoxes boxes_by_kind(const Octree& octree, const OctreeMeaning& meaning);
 
 /// The part of space that is an obstacle, as boxes that do not overlap: those of boxes_by_kind() that count,
 /// but one box where the eight children of a node count entirely. Throws and costs what boxes_by_kind() does.
-std::vector<Box> obstacle_boxes(const Octree& octree, const OctreeMeaning& meaning);
+[[nodiscard]] std::vector<Box> obstacle_boxes(const Octree& octree, const OctreeMeaning& meaning);
 
 }  // namespace vericone::octomap

@@ -14,7 +14,7 @@ enum class ProofVerdict : std::uint8_t {
   touched,    // proved to touch or overlap at a time
   undecided,  // they come closer than the proof resolves
 };
-const char* to_string(ProofVerdict verdict);
+[[nodiscard]] const char* to_string(ProofVerdict verdict);
 
 struct ProofOptions {
   /// Metres. The proof holds for all motions whose positions are within this of the track's: rounding and the
@@ -45,6 +45,7 @@ struct PairProof {
 /// docs/proof-of-runs.md. Cost: 0.1 ms for two ellipsoids, 0.3 ms with hulls and delimited bodies,
 /// milliseconds to tens of them where those meet; a placed body a distance and at most two misses of the Pair
 /// a piece.
-PairProof prove(const Track& a, const Track& b, double from, double to, const ProofOptions& options = {});
+[[nodiscard]] PairProof prove(const Track& a, const Track& b, double from, double to,
+                              const ProofOptions& options = {});
 
 }  // namespace vericone::simulation

@@ -5,8 +5,10 @@
 
 #include <vericone/simulation/scenario.h>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace vericone::simulation {
@@ -39,7 +41,7 @@ enum class EventKind : std::uint8_t {
   contact,       // proved
   cannot_avoid,  // every course tried meets `obstacle`, as far as a guarded pilot can foresee
 };
-const char* to_string(EventKind kind);
+[[nodiscard]] const char* to_string(EventKind kind);
 
 struct Event {
   double t = 0;
@@ -56,7 +58,9 @@ struct PairOutcome {
   double required = 0;  // metres, the most that a clearance law of either is to keep from the other
 
   /// Proved never nearer than required.
-  bool kept() const { return proof.verdict == ProofVerdict::avoided && proof.least_distance >= required; }
+  [[nodiscard]] bool kept() const {
+    return proof.verdict == ProofVerdict::avoided && proof.least_distance >= required;
+  }
 };
 
 /// A pair without a verdict, and why.
@@ -79,7 +83,7 @@ struct Run {
   bool interrupted = false;
 
   /// touched if any pair touched; else undecided if any is; else avoided, of no pairs too.
-  ProofVerdict verdict() const;
+  [[nodiscard]] ProofVerdict verdict() const;
 };
 
 struct RunOptions {
@@ -90,14 +94,16 @@ struct RunOptions {
 };
 
 /// Deterministic. Throws InputError like check().
-Run simulate(const Scenario& scenario, const RunOptions& options = {});
+[[nodiscard]] Run simulate(const Scenario& scenario, const RunOptions& options = {});
 
 /// The first event of a kind, at or after a time; `obstacle` and `agent` by name.
-std::optional<Event> find_event(const Scenario& scenario, const Run& run, EventKind kind,
-                                const std::string& agent, const std::string& obstacle, double after = 0);
+[[nodiscard]] std::optional<Event> find_event(const Scenario& scenario, const Run& run, EventKind kind,
+                                              const std::string& agent, const std::string& obstacle,
+                                              double after = 0);
 
 /// The sample of an encounter nearest in time; nothing where there is none within one step.
-std::optional<EncounterSample> sample_at(const Scenario& scenario, const Run& run, const std::string& agent,
-                                         const std::string& obstacle, double t);
+[[nodiscard]] std::optional<EncounterSample> sample_at(const Scenario& scenario, const Run& run,
+                                                       const std::string& agent, const std::string& obstacle,
+                                                       double t);
 
 }  // namespace vericone::simulation

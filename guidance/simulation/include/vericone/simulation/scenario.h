@@ -6,6 +6,7 @@
 #include <vericone/guidance/guide.h>
 #include <vericone/simulation/proof.h>
 #include <vericone/simulation/track.h>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -73,11 +74,11 @@ struct Scenario {
 };
 
 /// Whether this pilot's courses are guarded: of the laws that can be.
-bool guarded(const Pilot& pilot);
+[[nodiscard]] bool guarded(const Pilot& pilot);
 
 /// The time of the k-th command, seconds. Of steps such as 0.01 s, a whole number of which is a second, the
 /// double nearest to the decimal: 1.63 and not 1.6300000000000001.
-double time_of_step(const Scenario& scenario, std::uint64_t k);
+[[nodiscard]] double time_of_step(const Scenario& scenario, std::uint64_t k);
 
 /// Throws InputError with the field's path: "bodies[2].shape.k", "bodies[0].pilot.minds[1]", ...
 void check(const Scenario& scenario);

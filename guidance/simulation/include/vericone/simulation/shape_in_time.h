@@ -15,13 +15,13 @@ struct Oscillation {
   double rate = 0, phase = 0;  // rad/s, rad
   bool absolute = false;
 
-  double at(double t) const;
-  double rate_at(double t) const;  // 1/s; at a corner of |...| that of the side after t
+  [[nodiscard]] double at(double t) const;
+  [[nodiscard]] double rate_at(double t) const;  // 1/s; at a corner of |...| that of the side after t
   /// Bounds of k over [from, to], widened by a few roundings.
   struct Range {
     double low, high;
   };
-  Range range(double from, double to) const;
+  [[nodiscard]] Range range(double from, double to) const;
 };
 
 /// About the origin of the body's own frame, its x axis ahead. Hulls and placed bodies: the origin is the
@@ -48,22 +48,23 @@ using ShapeInTime = std::variant<RigidShape, DentedConic, DentedQuadric>;
 /// Throws InputError: "center", "a_c", "b_c", "semi_axes[i]" or "k" (values outside [0, 1] at some time).
 void check(const ShapeInTime& shape);
 
-bool planar(const ShapeInTime& shape);
+[[nodiscard]] bool planar(const ShapeInTime& shape);
 
 /// At time t, centre (reference point) at `position`, turned by `rotation`. Of planar shapes the rotation
 /// about z counts.
-guidance::Shape shape_at(const ShapeInTime& shape, double t, const Eigen::Vector3d& position,
-                         const Eigen::Matrix3d& rotation);
+[[nodiscard]] guidance::Shape shape_at(const ShapeInTime& shape, double t, const Eigen::Vector3d& position,
+                                       const Eigen::Matrix3d& rotation);
 
 /// Rates at time t in world axes, beyond turning.
-guidance::ShapeRate shape_rate_at(const ShapeInTime& shape, double t, const Eigen::Matrix3d& rotation);
+[[nodiscard]] guidance::ShapeRate shape_rate_at(const ShapeInTime& shape, double t,
+                                                const Eigen::Matrix3d& rotation);
 
 /// A shape that contains the body at every time of [from, to]: (5.5) with the ellipse of the largest k and
 /// the hyperbola of the least. Posed like shape_at.
-guidance::Shape shape_over(const ShapeInTime& shape, double from, double to, const Eigen::Vector3d& position,
-                           const Eigen::Matrix3d& rotation);
+[[nodiscard]] guidance::Shape shape_over(const ShapeInTime& shape, double from, double to,
+                                         const Eigen::Vector3d& position, const Eigen::Matrix3d& rotation);
 
 /// The largest distance of a point of the body from its reference point, at any time; rounded up.
-double reach(const ShapeInTime& shape);
+[[nodiscard]] double reach(const ShapeInTime& shape);
 
 }  // namespace vericone::simulation

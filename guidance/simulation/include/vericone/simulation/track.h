@@ -38,25 +38,25 @@ class Arc {
   Arc(const Motion& start, const Eigen::Vector3d& acceleration, Orientation orientation, double from,
       double to);
 
-  double from() const { return from_; }
-  double to() const { return to_; }
+  [[nodiscard]] double from() const { return from_; }
+  [[nodiscard]] double to() const { return to_; }
   /// from <= t <= to.
-  Motion at(double t) const;
-  Eigen::Vector3d acceleration(double t) const;
-  const Motion& start() const { return start_; }
-  const Motion& end() const { return end_; }
-  bool accelerated() const { return most_acceleration_ > 0; }
+  [[nodiscard]] Motion at(double t) const;
+  [[nodiscard]] Eigen::Vector3d acceleration(double t) const;
+  [[nodiscard]] const Motion& start() const { return start_; }
+  [[nodiscard]] const Motion& end() const { return end_; }
+  [[nodiscard]] bool accelerated() const { return most_acceleration_ > 0; }
 
   /// Bounds over the arc: |a|, and the rate at which the body turns, rad/s; infinite where a level body turns
   /// at once (a vertical velocity, a start that was not level).
-  double most_acceleration() const { return most_acceleration_; }
-  double most_turn_rate() const { return most_turn_rate_; }
+  [[nodiscard]] double most_acceleration() const { return most_acceleration_; }
+  [[nodiscard]] double most_turn_rate() const { return most_turn_rate_; }
   /// Bound of |d2/dt2| of a direction that is fixed in the body, rad/s^2; infinite where it is not known
   /// (level bodies that turn, a body that comes to rest).
-  double most_turn_acceleration() const { return most_turn_acceleration_; }
+  [[nodiscard]] double most_turn_acceleration() const { return most_turn_acceleration_; }
   /// Angular velocity at the start and at the end, rad/s.
-  const Eigen::Vector3d& first_turn() const { return first_turn_; }
-  const Eigen::Vector3d& last_turn() const { return last_turn_; }
+  [[nodiscard]] const Eigen::Vector3d& first_turn() const { return first_turn_; }
+  [[nodiscard]] const Eigen::Vector3d& last_turn() const { return last_turn_; }
 
  private:
   /// In the plane of the arc, from its start: along and across the first velocity, metres, and the angle that
@@ -70,10 +70,10 @@ class Arc {
   };
 
   void integrate();
-  InPlane in_plane(double elapsed) const;
-  double speed(double elapsed) const { return speed_ + longitudinal_ * elapsed; }
-  Eigen::Matrix3d rotation(const InPlane& state, const Eigen::Vector3d& velocity) const;
-  double turn_rate_bound() const;
+  [[nodiscard]] InPlane in_plane(double elapsed) const;
+  [[nodiscard]] double speed(double elapsed) const { return speed_ + longitudinal_ * elapsed; }
+  [[nodiscard]] Eigen::Matrix3d rotation(const InPlane& state, const Eigen::Vector3d& velocity) const;
+  [[nodiscard]] double turn_rate_bound() const;
   void bound_turn_acceleration();
 
   Motion start_, end_;
@@ -100,18 +100,18 @@ class Track {
   /// other are one. Throws InputError naming "to" where it is not after end().
   void advance(const Eigen::Vector3d& acceleration, double to);
 
-  double appears() const { return appears_; }
-  double end() const { return arcs_.empty() ? appears_ : arcs_.back().to(); }
-  const ShapeInTime& shape() const { return shape_; }
-  Orientation orientation() const { return orientation_; }
-  const std::vector<Arc>& arcs() const { return arcs_; }
+  [[nodiscard]] double appears() const { return appears_; }
+  [[nodiscard]] double end() const { return arcs_.empty() ? appears_ : arcs_.back().to(); }
+  [[nodiscard]] const ShapeInTime& shape() const { return shape_; }
+  [[nodiscard]] Orientation orientation() const { return orientation_; }
+  [[nodiscard]] const std::vector<Arc>& arcs() const { return arcs_; }
 
   /// appears() <= t <= end().
-  Motion motion(double t) const;
-  Eigen::Vector3d acceleration(double t) const;
+  [[nodiscard]] Motion motion(double t) const;
+  [[nodiscard]] Eigen::Vector3d acceleration(double t) const;
   /// What guidance sees at time t. Bodies that turn with their velocity do so without roll as guidance sees
   /// them, level ones too, whose slow roll in a climbing turn is left out.
-  guidance::BodyState state(double t) const;
+  [[nodiscard]] guidance::BodyState state(double t) const;
 
   /// Bounds over [from, to].
   struct Bounds {
@@ -121,7 +121,7 @@ class Track {
     double turn_acceleration = 0;  // rad/s^2
     double turn_jumps = 0;         // rad/s
   };
-  Bounds bounds(double from, double to) const;
+  [[nodiscard]] Bounds bounds(double from, double to) const;
 
  private:
   ShapeInTime shape_;

@@ -52,12 +52,13 @@ struct AssemblyReport {
   WorstFigure contact_width;               // (latest - earliest) / latest of contacts that do not graze
   std::string first_failure, first_loose;  // of `tight`
 
-  std::uint64_t failures() const;
+  [[nodiscard]] std::uint64_t failures() const;
 };
 
-AssemblyReport run_assembly_family(AgentKind agent, PieceKind pieces, const AssemblyOptions& options);
+[[nodiscard]] AssemblyReport run_assembly_family(AgentKind agent, PieceKind pieces,
+                                                 const AssemblyOptions& options);
 
 /// Markdown: checks as failed/tried, with the first case that failed after a #, and figures.
-std::string to_markdown(std::span<const AssemblyReport> reports);
+[[nodiscard]] std::string to_markdown(std::span<const AssemblyReport> reports);
 
 }  // namespace vericone::verify

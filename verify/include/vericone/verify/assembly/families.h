@@ -28,8 +28,8 @@ enum class AssemblyVariation : std::uint8_t {
   enclosing,   // pieces all round the agent
 };
 inline constexpr int kAssemblyVariations = 8;
-const char* to_string(AgentKind kind);
-const char* to_string(AssemblyVariation variation);
+[[nodiscard]] const char* to_string(AgentKind kind);
+[[nodiscard]] const char* to_string(AssemblyVariation variation);
 
 struct AssemblyCase {
   AssemblyVariation variation = AssemblyVariation::regular;
@@ -42,13 +42,14 @@ struct AssemblyCase {
   std::vector<HullBody> hulls;
   std::vector<Eigen::Vector3d> velocities;
 
-  Assembly assembly() const;
-  TruePieces pieces() const;
-  double agent_size() const;  // half its longest extent
+  [[nodiscard]] Assembly assembly() const;
+  [[nodiscard]] TruePieces pieces() const;
+  [[nodiscard]] double agent_size() const;  // half its longest extent
 };
 
 /// Every third case is moved about a million sizes away, or made a millionth of the size, or neither; without
 /// rounding where coordinates are integers.
-AssemblyCase assembly_case(AgentKind agent, PieceKind pieces, std::uint64_t seed, std::uint64_t index);
+[[nodiscard]] AssemblyCase assembly_case(AgentKind agent, PieceKind pieces, std::uint64_t seed,
+                                         std::uint64_t index);
 
 }  // namespace vericone::verify

@@ -9,9 +9,11 @@
 #include <vericone/geometry/hull_body.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace vericone::verify {
@@ -21,10 +23,10 @@ struct TruePieces {
   std::vector<std::vector<Eigen::Vector3d>> hulls;
   double radius = 0;
 
-  static TruePieces triangles(const std::vector<Eigen::Vector3d>& points,
-                              const std::vector<std::array<std::uint32_t, 3>>& triangles);
-  static TruePieces balls(const std::vector<Eigen::Vector3d>& points, double radius);
-  static TruePieces boxes(const std::vector<Box>& boxes);
+  [[nodiscard]] static TruePieces triangles(const std::vector<Eigen::Vector3d>& points,
+                                            const std::vector<std::array<std::uint32_t, 3>>& triangles);
+  [[nodiscard]] static TruePieces balls(const std::vector<Eigen::Vector3d>& points, double radius);
+  [[nodiscard]] static TruePieces boxes(const std::vector<Box>& boxes);
 };
 
 /// Where the agent is moved to: { t w + sum of m_i d_i : from <= t <= to, m_i >= 0 }, products exact.
@@ -33,10 +35,10 @@ struct Motion {
   Eigen::Vector3d w = Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> directions = {};
 
-  static Motion ray(const Eigen::Vector3d& w) { return {.directions = {w}}; }
-  static Motion until(double t, const Eigen::Vector3d& w) { return {.to = t, .w = w}; }
-  static Motion at(double t, const Eigen::Vector3d& w) { return {.from = t, .to = t, .w = w}; }
-  static Motion any_of(std::vector<Eigen::Vector3d> directions) {
+  [[nodiscard]] static Motion ray(const Eigen::Vector3d& w) { return {.directions = {w}}; }
+  [[nodiscard]] static Motion until(double t, const Eigen::Vector3d& w) { return {.to = t, .w = w}; }
+  [[nodiscard]] static Motion at(double t, const Eigen::Vector3d& w) { return {.from = t, .to = t, .w = w}; }
+  [[nodiscard]] static Motion any_of(std::vector<Eigen::Vector3d> directions) {
     return {.directions = std::move(directions)};
   }
 };
@@ -59,21 +61,21 @@ class AssemblyTruth {
   /// False: every piece is decided in exact arithmetic.
   void use_doubles(bool use);
 
-  Relation relation() const;
+  [[nodiscard]] Relation relation() const;
   /// For bodies that are disjoint.
-  Membership membership(const Eigen::Vector3d& w) const;
+  [[nodiscard]] Membership membership(const Eigen::Vector3d& w) const;
 
   /// Whether some piece is overlapped (`in`), or some are touched (`on`), at a place of the motion, the
   /// pieces grown by `margin` all round (margin other than 0: not for ellipsoids that are no balls). Two
   /// hulls moved along more than a line: `on` means `in` or `on`.
-  Membership touched(const Motion& motion, double margin = 0) const;
+  [[nodiscard]] Membership touched(const Motion& motion, double margin = 0) const;
   /// The same of one piece.
-  Membership touched(std::size_t piece, const Motion& motion, double margin = 0) const;
+  [[nodiscard]] Membership touched(std::size_t piece, const Motion& motion, double margin = 0) const;
 
   /// Whether a margin has a meaning: the least distance is a Euclidean one.
-  bool euclidean() const;
-  std::size_t size() const;
-  std::uint64_t exact() const;
+  [[nodiscard]] bool euclidean() const;
+  [[nodiscard]] std::size_t size() const;
+  [[nodiscard]] std::uint64_t exact() const;
 
  private:
   struct State;

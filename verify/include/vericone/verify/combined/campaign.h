@@ -56,13 +56,13 @@ struct CombinedFamilyReport {
   double microseconds_membership = 0, milliseconds_cone = 0;  // means of the library's own time
   std::string first_failure;
 
-  std::uint64_t failures() const;
+  [[nodiscard]] std::uint64_t failures() const;
 };
 
 /// About 20 ms a pair.
-CombinedFamilyReport run_combined_family(CombinedFamily family, const CombinedOptions& options);
+[[nodiscard]] CombinedFamilyReport run_combined_family(CombinedFamily family, const CombinedOptions& options);
 
 /// Two Markdown tables: checks as failed/tried, with the first pair that failed after a #, and figures.
-std::string to_markdown(std::span<const CombinedFamilyReport> reports);
+[[nodiscard]] std::string to_markdown(std::span<const CombinedFamilyReport> reports);
 
 }  // namespace vericone::verify

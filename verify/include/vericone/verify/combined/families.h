@@ -33,7 +33,7 @@ inline constexpr std::array kAllCombinedFamilies = {
     CombinedFamily::nearly_touching, CombinedFamily::distant};
 
 /// The name of the enumerator.
-const char* name(CombinedFamily family);
+[[nodiscard]] const char* name(CombinedFamily family);
 
 struct CombinedPair {
   CombinedEllipsoid a, b;
@@ -41,11 +41,11 @@ struct CombinedPair {
 
 /// Pair number `index` of a family; depends on nothing but the arguments. Pairs of `mouth` and
 /// `nearly_touching` are placed by samples and may overlap now and then.
-CombinedPair combined_pair(CombinedFamily family, std::uint64_t seed, std::uint64_t index);
+[[nodiscard]] CombinedPair combined_pair(CombinedFamily family, std::uint64_t seed, std::uint64_t index);
 
 /// The direction w with the greatest coordinate kGreatestDirection, rounded to whole numbers.
-GridVector grid_direction(const Eigen::Vector3d& w);
+[[nodiscard]] GridVector grid_direction(const Eigen::Vector3d& w);
 /// The same as doubles, which hold it without rounding.
-Eigen::Vector3d as_vector(const GridVector& w);
+[[nodiscard]] Eigen::Vector3d as_vector(const GridVector& w);
 
 }  // namespace vericone::verify

@@ -39,14 +39,14 @@ struct CombinedPlanarReport {
   std::uint64_t exact_answers = 0;  // questions that no interval could decide
   SourceCount printed, keep_both, by_sides;
 
-  std::uint64_t wrong() const { return wrong_relation + wrong_edge[0] + wrong_direction; }
+  [[nodiscard]] std::uint64_t wrong() const { return wrong_relation + wrong_edge[0] + wrong_direction; }
 };
 
 /// Pairs 0 .. cases - 1 of a family. About 0.1 ms a pair.
-CombinedPlanarReport run_combined_planar(CombinedPlanarFamily family, std::uint64_t cases,
-                                         std::uint64_t seed);
+[[nodiscard]] CombinedPlanarReport run_combined_planar(CombinedPlanarFamily family, std::uint64_t cases,
+                                                       std::uint64_t seed);
 
 /// Markdown tables: answers, and the source's choices.
-std::string to_markdown(std::span<const CombinedPlanarReport> reports);
+[[nodiscard]] std::string to_markdown(std::span<const CombinedPlanarReport> reports);
 
 }  // namespace vericone::verify

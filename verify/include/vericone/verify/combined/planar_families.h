@@ -35,11 +35,12 @@ inline constexpr std::array kAllCombinedPlanarFamilies = {
     CombinedPlanarFamily::far,           CombinedPlanarFamily::near_touching};
 
 /// The name of the enumerator.
-const char* name(CombinedPlanarFamily family);
+[[nodiscard]] const char* name(CombinedPlanarFamily family);
 
 /// Pair number `index` of a family; depends on nothing but the arguments, but for the last bits of the
 /// machine's sine and cosine.
-std::pair<CombinedEllipse, CombinedEllipse> combined_planar_pair(CombinedPlanarFamily family,
-                                                                 std::uint64_t seed, std::uint64_t index);
+[[nodiscard]] std::pair<CombinedEllipse, CombinedEllipse> combined_planar_pair(CombinedPlanarFamily family,
+                                                                               std::uint64_t seed,
+                                                                               std::uint64_t index);
 
 }  // namespace vericone::verify

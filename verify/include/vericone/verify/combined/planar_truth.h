@@ -4,6 +4,7 @@
 #pragma once
 
 #include <vericone/geometry/combined.h>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -26,7 +27,7 @@ class CombinedPlanarTruth {
 
   /// True: no common point; false: a common point is known. Proved either way, by enclosing the boundary of A
   /// piece by piece; nothing where the bodies touch or come nearer than about 1e-14 of their sizes.
-  std::optional<bool> disjoint() const;
+  [[nodiscard]] std::optional<bool> disjoint() const;
 
   /// Whether A, moved along w without end, ever meets B; exact, for disjoint bodies and any w but 0.
   ///
@@ -35,10 +36,10 @@ class CombinedPlanarTruth {
   /// its centre is inside. The extremes are where round conics have tangents along w, and corners; in the
   /// field of the inputs with two nested square roots at most. A ray along which quadratics decide is asked
   /// at their roots.
-  bool contains(const Eigen::Vector2d& w) const;
+  [[nodiscard]] bool contains(const Eigen::Vector2d& w) const;
 
   /// How many questions of contains() needed CORE::Expr.
-  std::uint64_t exact_answers() const;
+  [[nodiscard]] std::uint64_t exact_answers() const;
 
  private:
   struct State;
@@ -52,11 +53,12 @@ struct ExactCorner {
 };
 
 /// All corners of a body, in no order; the enclosures are a rounding wide.
-std::vector<ExactCorner> exact_corners(const CombinedEllipse& body);
+[[nodiscard]] std::vector<ExactCorner> exact_corners(const CombinedEllipse& body);
 
 /// The same for the section of a body by the plane of two vectors through its centre (coordinates along
 /// them), without rounding the section first. `delimiters`: for each delimiter of the section the body's.
-std::vector<ExactCorner> exact_section_corners(const CombinedEllipsoid& body, const Eigen::Vector3d& x_axis,
-                                               const Eigen::Vector3d& y_axis);
+[[nodiscard]] std::vector<ExactCorner> exact_section_corners(const CombinedEllipsoid& body,
+                                                             const Eigen::Vector3d& x_axis,
+                                                             const Eigen::Vector3d& y_axis);
 
 }  // namespace vericone::verify

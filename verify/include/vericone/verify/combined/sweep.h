@@ -24,18 +24,18 @@ class CombinedSweep {
 
   /// The earliest contact of the sampled points of A with B, and of those of B with A moved back, where each
   /// enters the quadrics one after the other. About 60 ns a sample.
-  std::optional<SweepHit> first(const Eigen::Vector3d& w) const;
+  [[nodiscard]] std::optional<SweepHit> first(const Eigen::Vector3d& w) const;
 
   /// A contact by local search, over boundary points of A and times, for the least gauge of B: finds what
   /// samples just miss. About 0.1 ms for 300 samples.
-  std::optional<SweepHit> search(const Eigen::Vector3d& w) const;
+  [[nodiscard]] std::optional<SweepHit> search(const Eigen::Vector3d& w) const;
 
   /// The contact with the least time by local search from first(w): t is lowered as far as it goes.
-  std::optional<SweepHit> earliest(const Eigen::Vector3d& w) const;
+  [[nodiscard]] std::optional<SweepHit> earliest(const Eigen::Vector3d& w) const;
 
   /// The plainest way: A's samples and B's moved in `steps` equal steps up to `duration`, every one tested.
   /// For tests of the others.
-  std::optional<SweepHit> march(const Eigen::Vector3d& w, double duration, int steps) const;
+  [[nodiscard]] std::optional<SweepHit> march(const Eigen::Vector3d& w, double duration, int steps) const;
 
   /// { y : y^T m y <= level } about a centre.
   struct Region {
@@ -49,12 +49,12 @@ class CombinedSweep {
     std::vector<Eigen::Vector3d> boundary;  // about the centre
 
     /// Above 1 outside, below inside; 1 / r^2 in the direction y.
-    double gauge_squared(const Eigen::Vector3d& y) const;
+    [[nodiscard]] double gauge_squared(const Eigen::Vector3d& y) const;
     /// Boundary point in the direction factor * u.
-    Eigen::Vector3d boundary_point(const Eigen::Vector3d& u) const;
+    [[nodiscard]] Eigen::Vector3d boundary_point(const Eigen::Vector3d& u) const;
   };
-  const Body& a() const { return a_; }
-  const Body& b() const { return b_; }
+  [[nodiscard]] const Body& a() const { return a_; }
+  [[nodiscard]] const Body& b() const { return b_; }
 
  private:
   Body a_, b_;

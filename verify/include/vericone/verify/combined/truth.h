@@ -38,18 +38,21 @@ struct PolyhedralBounds {
 /// images of those of a geodesic sphere of this level (minkowski_bounds.h), moved along their rays until all
 /// Bernstein coefficients of the quadrics on each facet, or on its parts, prove it inside or outside. About 2
 /// ms for level 2.
-PolyhedralBounds polyhedral_bounds(const CombinedEllipsoid& body, int level, int unit, const GridVector& at);
+[[nodiscard]] PolyhedralBounds polyhedral_bounds(const CombinedEllipsoid& body, int level, int unit,
+                                                 const GridVector& at);
 
 /// Whether `moving`, moved along w by any t >= 0, meets `other`: a pair of points that do, strictly inside of
 /// facets or edges. Nothing said by false.
-bool surely_meets(const StarPolyhedron& moving, const StarPolyhedron& other, const GridVector& w);
+[[nodiscard]] bool surely_meets(const StarPolyhedron& moving, const StarPolyhedron& other,
+                                const GridVector& w);
 
 /// Whether `moving`, moved along w by any t >= 0, never meets `other`. Requires two closed surfaces that are
 /// apart. Nothing said by false.
-bool surely_misses(const StarPolyhedron& moving, const StarPolyhedron& other, const GridVector& w);
+[[nodiscard]] bool surely_misses(const StarPolyhedron& moving, const StarPolyhedron& other,
+                                 const GridVector& w);
 
 /// Whether two closed polyhedra, each full, have no point in common. Nothing said by false.
-bool surely_apart(const StarPolyhedron& p, const StarPolyhedron& q);
+[[nodiscard]] bool surely_apart(const StarPolyhedron& p, const StarPolyhedron& q);
 
 enum class Truth : std::uint8_t { in, out, unknown };
 
@@ -65,14 +68,14 @@ class CombinedTruth {
 
   /// Disjoint where the outer polyhedra are; overlapping where the centre of one body, or a vertex of an
   /// inner polyhedron, is strictly inside the other's inner polyhedron.
-  std::optional<Relation> relation() const { return relation_; }
+  [[nodiscard]] std::optional<Relation> relation() const { return relation_; }
 
   /// Where w lies; coordinates up to kGreatestDirection, not all zero. For bodies that are disjoint. About 1
   /// ms for level 2.
-  Truth direction(const GridVector& w) const;
+  [[nodiscard]] Truth direction(const GridVector& w) const;
 
-  const PolyhedralBounds& a() const { return a_; }
-  const PolyhedralBounds& b() const { return b_; }
+  [[nodiscard]] const PolyhedralBounds& a() const { return a_; }
+  [[nodiscard]] const PolyhedralBounds& b() const { return b_; }
 
  private:
   PolyhedralBounds a_, b_;
@@ -81,7 +84,7 @@ class CombinedTruth {
 
 /// Whether the point x, taken as it is, and the point x + t w, computed without rounding, are in A and in B:
 /// then t w, t >= 0, brings the two together. In rational arithmetic.
-bool exactly_meets(const CombinedEllipsoid& a, const CombinedEllipsoid& b, const Eigen::Vector3d& x,
-                   const Eigen::Vector3d& w, double t);
+[[nodiscard]] bool exactly_meets(const CombinedEllipsoid& a, const CombinedEllipsoid& b,
+                                 const Eigen::Vector3d& x, const Eigen::Vector3d& w, double t);
 
 }  // namespace vericone::verify

@@ -5,6 +5,7 @@
 
 #include <vericone/geometry/exact/rational.h>
 #include <vericone/verify/corpus.h>
+#include <cstdint>
 #include <filesystem>
 #include <iosfwd>
 #include <string>
@@ -14,18 +15,18 @@
 namespace vericone::verify {
 
 /// "7", "-3/8", "5*2^-120": the shortest of these that is exact.
-std::string number_text(const exact::Rational& x);
+[[nodiscard]] std::string number_text(const exact::Rational& x);
 
 /// The inverse; also reads unreduced fractions. Throws std::runtime_error with what is wrong.
-exact::Rational parse_number(std::string_view text);
+[[nodiscard]] exact::Rational parse_number(std::string_view text);
 
-std::string case_line(const CorpusCase& c);
+[[nodiscard]] std::string case_line(const CorpusCase& c);
 
 /// A whole file: header and cases.
-std::string corpus_text(std::string_view predicate, std::uint64_t seed);
+[[nodiscard]] std::string corpus_text(std::string_view predicate, std::uint64_t seed);
 
 /// Throws std::runtime_error "NAME:LINE: field FIELD: what is wrong".
 std::vector<CorpusCase> read_corpus(std::istream& in, const std::string& name);
-std::vector<CorpusCase> read_corpus(const std::filesystem::path& file);
+[[nodiscard]] std::vector<CorpusCase> read_corpus(const std::filesystem::path& file);
 
 }  // namespace vericone::verify

@@ -52,17 +52,18 @@ struct PlanarFamilyReport {
 
 /// Runs `method` on the pairs 0 .. cases - 1 of one family. Exceptions of the method pass through. About 2 ms
 /// a pair plus the method. Where `stop`, asked between pairs, says so, the report is on those done.
-PlanarFamilyReport run_planar_family(const PlanarMethod& method, PlanarFamily family, std::uint64_t cases,
-                                     std::uint64_t seed, const std::function<bool()>& stop = {});
+[[nodiscard]] PlanarFamilyReport run_planar_family(const PlanarMethod& method, PlanarFamily family,
+                                                   std::uint64_t cases, std::uint64_t seed,
+                                                   const std::function<bool()>& stop = {});
 
 /// All families, `cases` pairs of each.
-std::vector<PlanarFamilyReport> run_planar_campaign(const PlanarMethod& method, std::uint64_t cases,
-                                                    std::uint64_t seed);
+[[nodiscard]] std::vector<PlanarFamilyReport> run_planar_campaign(const PlanarMethod& method,
+                                                                  std::uint64_t cases, std::uint64_t seed);
 
 /// A Markdown table, one row a family; the index of the pair behind each worst error stands after a #.
-std::string to_markdown(std::span<const PlanarFamilyReport> reports);
+[[nodiscard]] std::string to_markdown(std::span<const PlanarFamilyReport> reports);
 
 /// One JSON object a line; infinite errors are the string "inf".
-std::string to_json_lines(std::span<const PlanarFamilyReport> reports);
+[[nodiscard]] std::string to_json_lines(std::span<const PlanarFamilyReport> reports);
 
 }  // namespace vericone::verify

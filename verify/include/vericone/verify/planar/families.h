@@ -39,10 +39,11 @@ inline constexpr std::array kAllPlanarFamilies = {
     PlanarFamily::mixed_scale};
 
 /// The name of the enumerator.
-const char* name(PlanarFamily family);
+[[nodiscard]] const char* name(PlanarFamily family);
 
 /// Pair number `index` of a family. Depends on nothing but the arguments, and uses only operations that IEEE
 /// 754 rounds correctly: the same bits on every machine. About 0.05 ms.
-std::pair<Ellipse, Ellipse> planar_pair(PlanarFamily family, std::uint64_t seed, std::uint64_t index);
+[[nodiscard]] std::pair<Ellipse, Ellipse> planar_pair(PlanarFamily family, std::uint64_t seed,
+                                                      std::uint64_t index);
 
 }  // namespace vericone::verify

@@ -8,9 +8,9 @@
 namespace vericone::verify {
 
 /// sector_by_support: always answers.
-PlanarAnswer answer_by_support(const Ellipse& a, const Ellipse& b);
+[[nodiscard]] PlanarAnswer answer_by_support(const Ellipse& a, const Ellipse& b);
 
 /// sector_by_degenerate_conics: declines where that does.
-PlanarAnswer answer_by_degenerate_conics(const Ellipse& a, const Ellipse& b);
+[[nodiscard]] PlanarAnswer answer_by_degenerate_conics(const Ellipse& a, const Ellipse& b);
 
 }  // namespace vericone::verify

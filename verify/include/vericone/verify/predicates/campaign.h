@@ -53,13 +53,13 @@ struct PredicateOptions {
 inline constexpr int kCasesPerBlock = 16;
 
 /// Names of all predicates, in the order of the reports.
-std::vector<std::string> predicate_names();
+[[nodiscard]] std::vector<std::string> predicate_names();
 
 /// Throws std::invalid_argument for a name that is not among predicate_names().
-PredicateReport run_predicate(const std::string& predicate, const PredicateOptions& options);
+[[nodiscard]] PredicateReport run_predicate(const std::string& predicate, const PredicateOptions& options);
 
 /// All predicates; `options.cases` of each.
-std::vector<PredicateReport> run_predicate_campaign(const PredicateOptions& options);
+[[nodiscard]] std::vector<PredicateReport> run_predicate_campaign(const PredicateOptions& options);
 
 /// What the rungs, the ladder, naive doubles and the oracle say about one case; for those who look into a
 /// wrong one. Codes as in PredicateReport's enumeration order; -1: no answer.
@@ -68,14 +68,15 @@ struct PredicateCase {
   Rung rung = Rung::exact;
   bool random = false;
 };
-PredicateCase replay_predicate(const std::string& predicate, std::uint64_t seed, std::uint64_t index);
+[[nodiscard]] PredicateCase replay_predicate(const std::string& predicate, std::uint64_t seed,
+                                             std::uint64_t index);
 
 /// A Markdown table, one row a predicate.
-std::string to_markdown(std::span<const PredicateReport> reports);
+[[nodiscard]] std::string to_markdown(std::span<const PredicateReport> reports);
 
 /// A JSON list of objects with the keys predicate, cases, degenerate, compared_with_exact,
 /// checked_against_cgal, wrong, first_wrong (where there is one), naive_wrong (null where there is no naive
 /// method), triage, interval, exact (shares of the cases), random_triage, nanoseconds, random_nanoseconds.
-std::string to_json(std::span<const PredicateReport> reports);
+[[nodiscard]] std::string to_json(std::span<const PredicateReport> reports);
 
 }  // namespace vericone::verify

@@ -18,7 +18,7 @@ enum class PlanarRelation {
 };
 
 /// "separated", "touching" or "overlapping".
-const char* name(PlanarRelation relation);
+[[nodiscard]] const char* name(PlanarRelation relation);
 
 /// A line that touches both bodies and has them on opposite sides.
 struct InnerTangent {
@@ -40,7 +40,7 @@ struct ExactTangents {
 
 /// Relation of two ellipses, decided in exact arithmetic. Each body is the one that its stored factor or
 /// shape matrix defines, the doubles taken as exact (see BasicEllipsoid). About 0.12 ms.
-PlanarRelation exact_relation(const Ellipse& a, const Ellipse& b);
+[[nodiscard]] PlanarRelation exact_relation(const Ellipse& a, const Ellipse& b);
 
 /// Relation and inner common tangents of two ellipses.
 ///
@@ -51,6 +51,6 @@ PlanarRelation exact_relation(const Ellipse& a, const Ellipse& b);
 ///
 /// Precondition: none beyond what Ellipse guarantees. Throws std::logic_error if the two independent exact
 /// constructions inside (primal pencil and dual resultant) contradict each other. About 2 ms.
-ExactTangents exact_inner_tangents(const Ellipse& a, const Ellipse& b);
+[[nodiscard]] ExactTangents exact_inner_tangents(const Ellipse& a, const Ellipse& b);
 
 }  // namespace vericone::verify

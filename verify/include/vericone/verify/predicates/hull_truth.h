@@ -25,10 +25,12 @@ class HullTruth {
   HullTruth(const HullBody& agent, const Ellipsoid& obstacle);
   HullTruth(const HullBody& agent, const HullBody& obstacle);
 
-  Relation relation() const { return relation_; }
+  [[nodiscard]] Relation relation() const { return relation_; }
   /// For w = v_a - v_b; bodies must be disjoint.
-  Membership membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
-  Membership membership(const Eigen::Vector3d& w) const { return membership(w, Eigen::Vector3d::Zero()); }
+  [[nodiscard]] Membership membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+  [[nodiscard]] Membership membership(const Eigen::Vector3d& w) const {
+    return membership(w, Eigen::Vector3d::Zero());
+  }
 
  private:
   struct Exact;

@@ -3,20 +3,19 @@
 // Exact answers about an ellipsoid and a circular opening; see predicate_truth.h for what an oracle promises.
 #pragma once
 
-#include <vericone/cones/ellipsoids/predicates.h>
+#include <vericone/cones/opening/orifice.h>
 #include <vericone/geometry/ellipsoid.h>
 
 namespace vericone::verify {
 
 /// Whether the agent passes an opening of radius `radius` about `center` in the plane with the normal
-/// `normal`, moving along w: in, touching the rim: on, or not: out; the conventions are those of
-/// OrificeOracle.
+/// `normal`, moving along w; the conventions are those of OrificeOracle.
 ///
 /// The swept agent cuts the plane in an ellipse. With n running over the directions of the plane, q_D and q_E
 /// the squared half widths of disc and ellipse and d the vector between their centres, the ellipse is inside
 /// iff sqrt(q_D) >= sqrt(q_E) + |n.d| for all n, that is H = q_D - q_E - (n.d)^2 >= 0 and
 /// H^2 - 4 q_E (n.d)^2 >= 0: decided at the roots of this binary quartic and between them. About 0.15 ms.
-Membership orifice_truth(const Ellipsoid& agent, const Eigen::Vector3d& center, const Eigen::Vector3d& normal,
-                         double radius, const Eigen::Vector3d& w);
+[[nodiscard]] Transit orifice_truth(const Ellipsoid& agent, const Eigen::Vector3d& center,
+                                    const Eigen::Vector3d& normal, double radius, const Eigen::Vector3d& w);
 
 }  // namespace vericone::verify

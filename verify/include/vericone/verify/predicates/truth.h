@@ -30,7 +30,7 @@ enum class TruePosition : std::uint8_t {
   equal,
 };
 
-const char* to_string(TruePosition position);
+[[nodiscard]] const char* to_string(TruePosition position);
 
 /// Q_A, Q_B: matrices of the quadrics, negative inside. The bodies are disjoint iff lambda Q_A + Q_B is
 /// positive definite for some lambda > 0 and touch iff it is only semidefinite for one; B is in A iff
@@ -38,11 +38,11 @@ const char* to_string(TruePosition position);
 /// at rational numbers between the real roots of the determinant, and at the roots; Wang, Wang, Kim's count
 /// of positive roots must agree. About 0.3 ms.
 template <int D>
-Relation relation_truth(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b);
+[[nodiscard]] Relation relation_truth(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b);
 
 /// About 0.9 ms.
 template <int D>
-TruePosition position_truth(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b);
+[[nodiscard]] TruePosition position_truth(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b);
 
 /// Velocities against the cone of two ellipsoids.
 ///
@@ -54,10 +54,12 @@ class ConeTruth {
  public:
   ConeTruth(const Ellipsoid& a, const Ellipsoid& b);
 
-  Relation relation() const { return relation_; }
+  [[nodiscard]] Relation relation() const { return relation_; }
   /// For w = v_A - v_B; bodies must be disjoint. About 0.15 ms.
-  Membership membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
-  Membership membership(const Eigen::Vector3d& w) const { return membership(w, Eigen::Vector3d::Zero()); }
+  [[nodiscard]] Membership membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+  [[nodiscard]] Membership membership(const Eigen::Vector3d& w) const {
+    return membership(w, Eigen::Vector3d::Zero());
+  }
 
  private:
   struct Exact;
@@ -71,10 +73,12 @@ class SectorTruth {
  public:
   SectorTruth(const Ellipse& a, const Ellipse& b);
 
-  Relation relation() const { return relation_; }
+  [[nodiscard]] Relation relation() const { return relation_; }
   /// Bodies must be disjoint. About 0.05 ms.
-  Membership membership(const Eigen::Vector2d& v_a, const Eigen::Vector2d& v_b) const;
-  Membership membership(const Eigen::Vector2d& w) const { return membership(w, Eigen::Vector2d::Zero()); }
+  [[nodiscard]] Membership membership(const Eigen::Vector2d& v_a, const Eigen::Vector2d& v_b) const;
+  [[nodiscard]] Membership membership(const Eigen::Vector2d& w) const {
+    return membership(w, Eigen::Vector2d::Zero());
+  }
 
  private:
   struct Exact;
@@ -85,24 +89,24 @@ class SectorTruth {
 /// Sign of the cross product of the directions, from a towards b, of two inner tangents: the left edge of the
 /// sector of (a, b), or the right one, with one of the sector of (other_a, other_b). Compares the normals,
 /// roots of two resultants. The bodies of a pair do not overlap.
-Sign turn_truth(const Ellipse& a, const Ellipse& b, bool left, const Ellipse& other_a, const Ellipse& other_b,
-                bool other_left);
+[[nodiscard]] Sign turn_truth(const Ellipse& a, const Ellipse& b, bool left, const Ellipse& other_a,
+                              const Ellipse& other_b, bool other_left);
 
 /// Sign of (time to contact of a and b, a moving with w relative to b) - (that of the other encounter); 0 for
 /// bodies that touch or overlap now, later than any other for those that never touch. The discriminant of
 /// det(lambda Q_A(t) + Q_B) with regard to lambda (CGAL::resultant) changes sign or vanishes at a contact;
 /// the first of its roots after which the bodies overlap is the contact, by relation at rational times
 /// between them. Nothing where one of them grazes.
-std::optional<Sign> earlier_truth(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& w,
-                                  const Ellipsoid& other_a, const Ellipsoid& other_b,
-                                  const Eigen::Vector3d& other_w);
+[[nodiscard]] std::optional<Sign> earlier_truth(const Ellipsoid& a, const Ellipsoid& b,
+                                                const Eigen::Vector3d& w, const Ellipsoid& other_a,
+                                                const Ellipsoid& other_b, const Eigen::Vector3d& other_w);
 
 /// Sign of x~^T Q x~, in rationals.
 template <int D>
-Sign side_truth(const BasicQuadric<D>& quadric, const Eigen::Matrix<double, D, 1>& point);
+[[nodiscard]] Sign side_truth(const BasicQuadric<D>& quadric, const Eigen::Matrix<double, D, 1>& point);
 
 /// Negative inside, by solving S y = x - p and comparing y.(x - p) with 1.
 template <int D>
-Sign side_truth(const BasicEllipsoid<D>& body, const Eigen::Matrix<double, D, 1>& point);
+[[nodiscard]] Sign side_truth(const BasicEllipsoid<D>& body, const Eigen::Matrix<double, D, 1>& point);
 
 }  // namespace vericone::verify

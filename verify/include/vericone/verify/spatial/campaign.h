@@ -6,6 +6,7 @@
 #include <vericone/verify/spatial/families.h>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -64,17 +65,18 @@ struct SpatialFamilyReport {
   std::array<double, kGapSamples.size()> gap_medians = {};
   double gap_slope = 0;  // of log gap against log samples, of the medians from 48 samples on
 
-  std::uint64_t failures() const;
+  [[nodiscard]] std::uint64_t failures() const;
 };
 
 /// About 40 ms a pair. Where `stop`, asked between pairs, says so, the report is on those done.
-SpatialFamilyReport run_spatial_family(SpatialFamily family, std::uint64_t cases, std::uint64_t seed,
-                                       const std::function<bool()>& stop = {});
+[[nodiscard]] SpatialFamilyReport run_spatial_family(SpatialFamily family, std::uint64_t cases,
+                                                     std::uint64_t seed,
+                                                     const std::function<bool()>& stop = {});
 
 /// All families, `cases` pairs of each.
-std::vector<SpatialFamilyReport> run_spatial_campaign(std::uint64_t cases, std::uint64_t seed);
+[[nodiscard]] std::vector<SpatialFamilyReport> run_spatial_campaign(std::uint64_t cases, std::uint64_t seed);
 
 /// Two Markdown tables: checks as failed/tried, with the first pair that failed after a #, and figures.
-std::string to_markdown(std::span<const SpatialFamilyReport> reports);
+[[nodiscard]] std::string to_markdown(std::span<const SpatialFamilyReport> reports);
 
 }  // namespace vericone::verify

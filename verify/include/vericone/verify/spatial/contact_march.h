@@ -23,10 +23,10 @@ class ContactMarch {
  public:
   ContactMarch(const Ellipsoid& a, const Ellipsoid& b);
 
-  BallDistance distance(const Eigen::Vector3d& shift) const;
+  [[nodiscard]] BallDistance distance(const Eigen::Vector3d& shift) const;
 
   /// What an eps of the coordinates of A + shift amounts to in distance(), in units of eps.
-  double resolution(const Eigen::Vector3d& shift) const;
+  [[nodiscard]] double resolution(const Eigen::Vector3d& shift) const;
 
   struct Result {
     std::optional<double> time;  // first t >= 0 at which A + t w touches B, seconds; nothing: never
@@ -39,7 +39,7 @@ class ContactMarch {
 
   /// The distance is a convex function of time, so a step to where its tangent reaches 1 never passes the
   /// first contact, and once it no longer falls there is none to come.
-  Result first_contact(const Eigen::Vector3d& w) const;
+  [[nodiscard]] Result first_contact(const Eigen::Vector3d& w) const;
 
  private:
   Eigen::Matrix3d to_ball_, axes_;    // space to B's ball; columns: axes of A there

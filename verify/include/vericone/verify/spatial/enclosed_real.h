@@ -18,27 +18,27 @@ class EnclosedReal {
   EnclosedReal(double lo, double hi, const std::array<double, 3>& parts) : lo_(lo), hi_(hi), parts_(parts) {}
 
   /// lo() <= number <= hi(), certified.
-  double lo() const { return lo_; }
-  double hi() const { return hi_; }
-  bool contains(double value) const { return lo_ <= value && value <= hi_; }
+  [[nodiscard]] double lo() const { return lo_; }
+  [[nodiscard]] double hi() const { return hi_; }
+  [[nodiscard]] bool contains(double value) const { return lo_ <= value && value <= hi_; }
 
   /// The number rounded to nearest.
-  double nearest() const { return parts_[0]; }
-  const std::array<double, 3>& parts() const { return parts_; }
+  [[nodiscard]] double nearest() const { return parts_[0]; }
+  [[nodiscard]] const std::array<double, 3>& parts() const { return parts_; }
 
   /// (value + value_low) - number, where |value_low| <= ulp(value)/2 or 0. Itself good to 8 eps relative, or
   /// eps^2 |number| absolute where value_low is not 0. Not a number gives not a number.
-  double error(double value, double value_low = 0) const;
+  [[nodiscard]] double error(double value, double value_low = 0) const;
 
   /// As error(), for angles in radians: the difference modulo 2 pi, in (-pi, pi].
-  double angle_error(double value, double value_low = 0) const;
+  [[nodiscard]] double angle_error(double value, double value_low = 0) const;
 
   /// |error| in units of the spacing of doubles at the number. Zero has no spacing: 0 when `value` is 0 too,
   /// else infinity.
-  double ulps_off(double value) const;
+  [[nodiscard]] double ulps_off(double value) const;
 
   /// |error| / |number|, with the same convention at zero.
-  double relative_error(double value) const;
+  [[nodiscard]] double relative_error(double value) const;
 
  private:
   double lo_ = 0, hi_ = 0;

@@ -27,9 +27,10 @@ inline constexpr std::array kAllSpatialFamilies = {
     SpatialFamily::sideways, SpatialFamily::nearly_touching, SpatialFamily::distant};
 
 /// The name of the enumerator.
-const char* name(SpatialFamily family);
+[[nodiscard]] const char* name(SpatialFamily family);
 
 /// Pair number `index` of a family; depends on nothing but the arguments. About 0.02 ms.
-std::pair<Ellipsoid, Ellipsoid> spatial_pair(SpatialFamily family, std::uint64_t seed, std::uint64_t index);
+[[nodiscard]] std::pair<Ellipsoid, Ellipsoid> spatial_pair(SpatialFamily family, std::uint64_t seed,
+                                                           std::uint64_t index);
 
 }  // namespace vericone::verify

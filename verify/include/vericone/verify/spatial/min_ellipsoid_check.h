@@ -24,8 +24,8 @@ struct CgalMinEllipsoid {
 /// `plain`: the certificate as well in doubles, against CGAL's documentation: proves nothing, only to time
 /// the rest.
 template <int D>
-CgalMinEllipsoid<D> cgal_min_ellipsoid(const std::vector<Eigen::Matrix<double, D, 1>>& points, double epsilon,
-                                       bool plain = false);
+[[nodiscard]] CgalMinEllipsoid<D> cgal_min_ellipsoid(const std::vector<Eigen::Matrix<double, D, 1>>& points,
+                                                     double epsilon, bool plain = false);
 
 template <int D>
 struct MinEllipsoidComparison {
@@ -38,7 +38,7 @@ struct MinEllipsoidComparison {
 
   /// Each volume within the other's certificate: neither can be smaller than the least volume, which the
   /// other one exceeds by its bound at most. 1e-12 allows for the rounding of the volumes.
-  bool volumes_agree() const {
+  [[nodiscard]] bool volumes_agree() const {
     return our_volume <= ours.volume_ratio_bound * cgal_volume * (1 + 1e-12) &&
            cgal_volume <= cgal_ratio_bound * our_volume * (1 + 1e-12);
   }
@@ -47,8 +47,8 @@ struct MinEllipsoidComparison {
 /// Runs both on the same points. About 10 ms for 1000 points. Throws what min_volume_ellipsoid and
 /// cgal_min_ellipsoid throw.
 template <int D>
-MinEllipsoidComparison<D> compare_min_ellipsoid(const std::vector<Eigen::Matrix<double, D, 1>>& points,
-                                                double epsilon);
+[[nodiscard]] MinEllipsoidComparison<D> compare_min_ellipsoid(
+    const std::vector<Eigen::Matrix<double, D, 1>>& points, double epsilon);
 
 extern template CgalMinEllipsoid<2> cgal_min_ellipsoid<2>(const std::vector<Eigen::Vector2d>&, double, bool);
 extern template CgalMinEllipsoid<3> cgal_min_ellipsoid<3>(const std::vector<Eigen::Vector3d>&, double, bool);

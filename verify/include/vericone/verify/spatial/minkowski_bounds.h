@@ -22,8 +22,8 @@ struct GeodesicSphere {
 
 /// The vertices of the convex hull of all sums x + y, x from `first`, y from `second`. Exact as long as the
 /// sums are (coordinates on a common grid, for example). About 2 ms for 42 by 42 points.
-std::vector<Eigen::Vector3d> minkowski_sum_vertices(const std::vector<Eigen::Vector3d>& first,
-                                                    const std::vector<Eigen::Vector3d>& second);
+[[nodiscard]] std::vector<Eigen::Vector3d> minkowski_sum_vertices(const std::vector<Eigen::Vector3d>& first,
+                                                                  const std::vector<Eigen::Vector3d>& second);
 
 /// The cone with the apex at the origin over a convex polyhedron that is known exactly.
 class PolyhedronCone {
@@ -32,17 +32,17 @@ class PolyhedronCone {
   explicit PolyhedronCone(std::shared_ptr<const Exact> exact);
 
   /// The origin is in the polyhedron: the cone is all of space.
-  bool everything() const;
+  [[nodiscard]] bool everything() const;
 
   /// Whether the ray from the origin along w meets the closed polyhedron. Exact, w taken as it is; false for
   /// w = 0 unless everything(). About 3 us.
-  bool contains(const Eigen::Vector3d& w) const;
+  [[nodiscard]] bool contains(const Eigen::Vector3d& w) const;
 
   /// Steradian, to about 1e-9 relative for cones wider than 1e-6 radians; 4 pi when everything().
-  double solid_angle() const;
+  [[nodiscard]] double solid_angle() const;
 
   /// Edges, unit vectors, rounded; empty when everything().
-  const std::vector<Eigen::Vector3d>& edges() const;
+  [[nodiscard]] const std::vector<Eigen::Vector3d>& edges() const;
 
  private:
   std::shared_ptr<const Exact> exact_;
@@ -64,6 +64,6 @@ struct MinkowskiBounds {
 /// `level` is that of the geodesic spheres; scale is about 1.26, 1.071, 1.018, 1.0046 for the levels 0 to 3.
 /// Requires ratios of the semi-axes below 1e4, and bodies whose sizes differ by less than 1e4; throws
 /// std::logic_error where a certificate fails. About 3 ms for level 1, 20 ms for level 2.
-MinkowskiBounds minkowski_bounds(const Ellipsoid& a, const Ellipsoid& b, int level);
+[[nodiscard]] MinkowskiBounds minkowski_bounds(const Ellipsoid& a, const Ellipsoid& b, int level);
 
 }  // namespace vericone::verify

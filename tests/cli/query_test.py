@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`vericone query`: cases in, answers out."""
+import json
+import math
+import subprocess
+import unittest
+
+from command import VERICONE, ball, engagement, query, run
+
+
+class Query(unittest.TestCase):
+    def test_spheres_in_closed_form(self):
+        # Radii 1 and 2, centres 5 apart along x; a line at distance 3 grazes: direction (4, 3, 0) / 5.
+        a, b = ball([0, 0, 0], 1), ball([5, 0, 0], 2)
+        result, answers = query(
+            engagement(a, b, [1, 0, 0], id="head-on"), engagement(a, b, [4, 3, 0], id="graze"),
+            engagement(a, b, [4, math.nextafter(3, 4), 0], id="just out"),
+            engagement(a, b, [4, math.nextafter(3, 2), 0], id="just in"),
+            engagement(a, b, [-1, 0, 0], id="behind"), engagement(a, b, [0, 0, 0], id="rest"),
+            engagement(a, b, [0, 2, 0], id="across"),
+            engagement(a, ball([3, 0, 0], 2), [1, 0, 0], id="touching"),
+            engagement(a, ball([2, 0, 0], 2), [1, 0, 0], id="overlapping"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        by_id = {x["id"]: x for x in answers}
+        self.assertEqual([x["verdict"] for x in answers],
+                         ["in", "on", "out", "in", "out", "out", "out", "touching", "overlapping"])
+        self.assertAlmostEqual(by_id["head-on"]["clearance"], -3, 12)
+        self.assertAlmostEqual(by_id["head-on"]["time_to_contact"], 2, 12)
+        self.assertEqual(by_id["graze"]["clearance"], 0)
+        self.assertAlmostEqual(by_id["graze"]["time_to_contact"], 4 / 5, 12)
+        self.assertGreater(by_id["just out"]["clearance"], 0)
+        self.assertLess(by_id["just in"]["clearance"], 0)
+        self.assertAlmostEqual(by_id["behind"]["clearance"], 2, 12)  # moving apart: the distance now
+        self.assertIsNone(by_id["behind"]["time_to_contact"])
+        self.assertAlmostEqual(by_id["across"]["clearance"], 2, 12)
+        self.assertEqual(by_id["touching"]["time_to_contact"], 0)
+        self.assertEqual(list(answers[0]), ["id", "verdict", "clearance", "time_to_contact"])
+
+    def test_rung_says_what_decided(self):
+        a, b = ball([0, 0, 0], 1), ball([5, 0, 0], 2)
+        far = ball([3e7, 1e7, 2e7], 2)
+        cases = [engagement(a, b, [1, 0, 0], id="plain"), engagement(a, b, [4, 3, 0], id="graze"),
+                 engagement(a, far, [3, 1, 2.00000001], id="distant"),
+                 engagement(a, ball([3, 0, 0], 2), [1, 0, 0], id="touching"),
+                 engagement(a, ball([2, 0, 0], 2), [1, 0, 0], id="overlapping")]
+        text = "".join(json.dumps(c) + "\n" for c in cases)
+        answers = [json.loads(line) for line in run("query", "--rung", "-", input=text).stdout.splitlines()]
+        self.assertEqual([x["rung"] for x in answers], ["triage", "exact", "triage", "exact", "triage"])
+        plain = [json.loads(line) for line in run("query", "-", input=text).stdout.splitlines()]
+        for with_rung, without in zip(answers, plain):
+            self.assertEqual({k: v for k, v in with_rung.items() if k != "rung"}, without)
+
+    def test_velocities_are_subtracted_without_rounding(self):
+        a, b = ball([0, 0, 0], 1), ball([5, 0, 0], 2)
+        tiny = 2.0 ** -60  # 3 + tiny rounds to 3
+        _, answers = query(engagement(a, b, [4, 3, 0]), engagement(a, b, [4, 3, 0], [0, -tiny, 0]),
+                           engagement(a, b, [4, 3, 0], [0, tiny, 0]))
+        self.assertEqual([x["verdict"] for x in answers], ["on", "out", "in"])
+
+    def test_numbers_at_the_ends_of_the_doubles(self):
+        a, b = ball([0, 0, 0], 1), ball([5, 0, 0], 2)
+        disc = {"center": [5, 0, 0], "semi_axes": [1e20, 1e-3, 1]}
+        result, answers = query(
+            engagement(a, ball([1e200, 0, 0], 2), [4, 1, 0]), engagement(a, b, [1e200, 0, 0]),
+            engagement(a, b, [5e-324, 0, 0]), engagement(a, disc, [4, 3, 0]),
+            engagement(a, b, [1.7e308, 0, 0], [-1.7e308, 0, 0]))
+        self.assertEqual(result.returncode, 0, result.stdout)
+        far, fast, slow, thin, faster = answers
+        self.assertAlmostEqual(far["clearance"] / 1e200, 1 / math.sqrt(17), 12)
+        self.assertAlmostEqual(fast["time_to_contact"] * 1e200, 2, 12)
+        self.assertEqual((slow["verdict"], slow["time_to_contact"]), ("in", None))
+        self.assertEqual(thin["verdict"], "overlapping")
+        self.assertIn(thin["clearance"], (None, -2))
+        self.assertEqual(faster["verdict"], "in")
+        self.assertAlmostEqual(faster["clearance"], -3, 12)
+        self.assertAlmostEqual(faster["time_to_contact"] * 1.7e308, 1, 12)
+
+    def test_shape_and_axes_agree(self):
+        q = [math.sqrt(0.5), 0, 0, math.sqrt(0.5)]
+        body = {"center": [9, 1, 0], "semi_axes": [1, 2, 3], "rotation": q}
+        same = {"center": [9, 1, 0], "shape": [[4, 0, 0], [0, 1, 0], [0, 0, 9]]}
+        _, answers = query(engagement(ball([0, 0, 0], 1), body, [1, 0.2, 0.1]),
+                           engagement(ball([0, 0, 0], 1), same, [1, 0.2, 0.1]))
+        self.assertEqual(answers[0]["verdict"], answers[1]["verdict"])
+        self.assertAlmostEqual(answers[0]["clearance"], answers[1]["clearance"], 12)
+        self.assertAlmostEqual(answers[0]["time_to_contact"], answers[1]["time_to_contact"], 12)
+
+    def test_bad_lines_do_not_stop_the_run(self):
+        good = json.dumps(engagement(ball([0, 0, 0], 1), ball([5, 0, 0], 2), [1, 0, 0]))
+        result = run("query", "-", input=good + "\nnonsense\n\n" + good + "\n")
+        answers = [json.loads(line) for line in result.stdout.splitlines()]
+        self.assertEqual(result.returncode, 2)
+        self.assertEqual([("error" in x) for x in answers], [False, True, False])
+
+    def test_each_answer_comes_at_once(self):
+        with subprocess.Popen([VERICONE, "query", "-"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as p:
+            for i in range(3):
+                p.stdin.write(json.dumps(engagement(ball([0, 0, 0], 1), ball([5, 0, 0], 2), [1, 0, 0], id=i)) + "\n")
+                p.stdin.flush()
+                self.assertEqual(json.loads(p.stdout.readline())["id"], i)
+            p.stdin.close()
+
+
+if __name__ == "__main__":
+    unittest.main()
