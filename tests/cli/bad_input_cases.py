@@ -199,7 +199,6 @@ COMMANDS = [
     ("a picture of a cone without a section", ["cone", "FILE", "--picture", "here"], MOUTH_SCENE),
     ("slices of a planar scene", ["cone", "FILE", "--method", "slice"], PLANAR_SCENE),
     ("a tolerance for a planar scene", ["cone", "FILE", "--tolerance", "0.1"], PLANAR_SCENE),
-    ("a picture of a planar scene", ["cone", "FILE", "--picture", "here"], PLANAR_SCENE),
     ("a map of resolution zero", ["cone", "FILE", "--map", "0"], SCENE),
     ("a map of a planar scene", ["cone", "FILE", "--map", "0.1"], PLANAR_SCENE),
     ("a region without a map", ["cone", "FILE", "--around", "1,0,0"], SCENE),

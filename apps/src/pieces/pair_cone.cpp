@@ -9,13 +9,14 @@
 #include "cone/answer.h"
 #include "json/json_value.h"
 #include "output/figures.h"
+#include "output/provenance.h"
 #include "output/staged_folder.h"
 #include "output/stopwatch.h"
 
 namespace vericone {
 namespace {
 
-void refuse_options(const ConeCommand& options) {
+void refuse_options_but_map(const ConeCommand& options) {
   const auto refuse = [](const char* option, const std::string& value, const char* why) {
     throw InputError(option, value, std::string("left out for these bodies") + why);
   };
@@ -33,7 +34,7 @@ void refuse_options(const ConeCommand& options) {
 }  // namespace
 
 void run_pair_cone(const ConeCommand& options, const input::PlacedEngagement& e, std::ostream& out) {
-  refuse_options(options);
+  refuse_options_but_map(options);
   std::optional<StagedFolder> folder;
   if (!options.picture_folder.empty()) folder.emplace(options.picture_folder, "--out");
   const auto start = Clock::now();

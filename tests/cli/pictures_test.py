@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the pictures of `vericone cone --out` show of a scene's velocities: the data they are drawn from, against closed
+forms and sampling, and the pictures. Environment as for cli_test.py."""
+import json
+import math
+import os
+import random
+import subprocess
+import unittest
+
+from hostile_test import InFolder
+
+DRAWS = not subprocess.run(["/usr/bin/python3", "-c", "import matplotlib"], capture_output=True, check=False).returncode
+DENTED = {"center": [12, 3], "semi_axes": [4, 2.5], "rotation": 0.3, "hyperbolas": [{"semi_axes": [1.5, 1.2], "rotation": 0.8}]}
+MESH = "OFF\n8 6 0\n" + "".join("%d %d %d\n" % (8 + x, y, z) for x in (0, 1) for y in (-1, 1) for z in (-1, 1)) + \
+       "4 0 1 3 2\n4 4 6 7 5\n4 0 4 5 1\n4 2 3 7 6\n4 0 2 6 4\n4 1 5 7 3\n"
+
+
+def ball(center, radius):
+    return {"center": center, "semi_axes": [radius] * len(center)}
+
+
+def scene(agent, obstacle, v_a=None, v_b=None):
+    given = {"agent": agent, "obstacle": obstacle, "agent_velocity": v_a, "obstacle_velocity": v_b}
+    return json.dumps({k: v for k, v in given.items() if v is not None})
+
+
+class ConePictures(InFolder):
+    def cone(self, content, *words):
+        self.write("scene.yaml", content)
+        result = self.run_limited("cone", "scene.yaml", *words, preexec_fn=None)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        return result.stdout
+
+    def data(self, content, name="engagement.json"):
+        self.cone(content, "--out", "out", "--no-figures")
+        with open(os.path.join(self.folder, "out", name), encoding="utf-8") as f:
+            return json.load(f)
+
+    def near(self, one, other, most):
+        self.assertLess(math.dist(one, other), most)
+
+    def test_circles_in_closed_form(self):
+        # Radii 1 and 2, centres 5 apart along x; the obstacle moves too, and what is shown is seen from it.
+        for d in (2, 3):
+            def place(x, y, d=d):
+                return [x, y, 0][:d]
+            a, b = ball(place(0, 0), 1), ball(place(5, 0), 2)
+            hit = self.data(scene(a, b, place(1, 7), place(-1, 7)))["course"]
+            self.assertEqual((hit["verdict"], hit["velocity"]), ("in", place(2, 0)))
+            self.assertAlmostEqual(hit["contact_time"], 1, 9)
+            self.near(hit["contact_point"], place(3, 0), 1e-6)
+            graze = self.data(scene(a, b, place(4, 3)))["course"]
+            self.assertEqual(graze["verdict"], "on")
+            self.assertAlmostEqual(graze["contact_time"], 4 / 5, 9)
+            self.near(graze["contact_point"], place(5 - 2 * 3 / 5, 2 * 4 / 5), 1e-6)
+            miss = self.data(scene(a, b, place(3, 4), place(0, 0)))["course"]
+            self.assertEqual(miss["verdict"], "out")
+            self.assertAlmostEqual(miss["miss_distance"], 4 - 3, 9)  # the line passes at 5 * 4 / 5
+            self.assertAlmostEqual(miss["nearest_time"], 3 / 5, 6)  # the distance hardly changes there
+            self.near(miss["nearest_on_agent"], place(1.8 + 0.8, 2.4 - 0.6), 1e-6)
+            self.near(miss["nearest_on_obstacle"], place(5 - 1.6, 1.2), 1e-6)
+            away = self.data(scene(a, b, place(-1, 1)))["course"]
+            self.assertEqual((away["verdict"], away["nearest_time"]), ("out", 0))
+            self.assertAlmostEqual(away["miss_distance"], 2, 9)
+
+    def test_planar_scenes_of_every_kind(self):
+        a = ball([0, 0], 1)
+        rest = self.data(scene(a, ball([5, 0], 2)))
+        self.assertAlmostEqual(rest["course"]["miss_distance"], 2, 9)
+        self.assertAlmostEqual(rest["psi"], 2 * math.asin(3 / 5), 12)
+        touching = self.data(scene(a, ball([3, 0], 2), [0, 1]))
+        self.assertEqual((touching["relation"], touching["course"]["verdict"], touching["left"]), ("touching", "touching", None))
+        self.near(touching["course"]["contact_point"], [1, 0], 1e-6)
+        overlapping = self.data(scene(a, ball([2, 0], 2), [0, 1]))
+        self.assertEqual((overlapping["relation"], overlapping["course"]),
+                         ("overlapping", {"velocity": [0, 1], "verdict": "overlapping"}))
+
+    def test_dents_against_sampling(self):
+        rng = random.Random(1)
+        seen = set()
+        for _ in range(12):
+            agent = {"center": [rng.uniform(-1, 1), rng.uniform(-3, 3)], "semi_axes": [rng.uniform(0.3, 2), 1], "rotation": rng.uniform(0, 3)}
+            data = self.data(scene(agent, DENTED, [10, rng.uniform(-6, 6)]))
+            course = data["course"]
+            seen.add(course["verdict"])
+            a, b = ([p for arc in data[name]["arcs"] for p in arc["points"]] for name in ("agent", "obstacle"))
+            w = course["velocity"]
+
+            def gap(p, q, w=w):
+                d = [q[0] - p[0], q[1] - p[1]]
+                t = max(0, (d[0] * w[0] + d[1] * w[1]) / (w[0] ** 2 + w[1] ** 2))
+                return math.hypot(d[0] - t * w[0], d[1] - t * w[1])
+
+            least = min(gap(p, q) for p in a for q in b)
+            if course["verdict"] == "out":
+                self.assertLessEqual(course["miss_distance"], least + 1e-9)
+                self.assertGreater(course["miss_distance"], least - 0.01)  # chords cut off little
+                self.assertAlmostEqual(math.dist(course["nearest_on_agent"], course["nearest_on_obstacle"]), course["miss_distance"], 9)
+            else:
+                self.assertEqual(course["verdict"], "in")
+                self.assertLess(least, 0.05)
+                # The point is on both outlines, the agent's where it is then.
+                back = [x - course["contact_time"] * v for x, v in zip(course["contact_point"], w)]
+                self.assertLess(min(math.dist(course["contact_point"], q) for q in b), 0.05)
+                self.assertLess(min(math.dist(back, p) for p in a), 0.05)
+        self.assertEqual(seen, {"in", "out"})
+
+    def test_dents_and_meshes_in_space(self):
+        # A ball of radius 1/2 passes above a body with dents along x whose rim is below its top, z = 2.
+        dented = {"center": [8, 0, 0], "semi_axes": [2, 2, 2], "hyperboloids": [{"sheets": 2, "semi_axes": [1, 1, 1]}]}
+        self.write("box.off", MESH)  # 8 <= x <= 9, |y|, |z| <= 1
+        for obstacle, name, top, x in ((dented, "engagement.json", 2, 8), ({"mesh": "box.off"}, "pieces.json", 1, None)):
+            miss = self.data(scene(ball([0, 0, 3], 0.5), obstacle, [2, 0, 0]), name)["course"]
+            self.assertEqual(miss["verdict"], "out")
+            self.assertAlmostEqual(miss["miss_distance"], 3 - 0.5 - top, 6)
+            self.assertAlmostEqual(miss["nearest_on_obstacle"][2], top, 6)
+            self.assertAlmostEqual(miss["nearest_on_agent"][2], 2.5, 6)
+            if x:
+                self.assertAlmostEqual(miss["nearest_time"], x / 2, 3)
+            hit = self.data(scene(ball([0, 0, 0.75], 0.5), obstacle, [2, 0, 0]), name)["course"]
+            self.assertEqual(hit["verdict"], "in")
+            self.near(hit["contact_point"], [2 * hit["contact_time"], 0, 0.75], 0.5 + 1e-3)
+
+    def test_answers_do_not_depend_on_the_picture(self):
+        for obstacle in (DENTED, ball([5, 1], 2)):
+            content = scene(ball([0, 0], 1), obstacle, [9, 1])
+            plain, drawn = json.loads(self.cone(content, "--json")), json.loads(self.cone(content, "--json", "--out", "out", "--no-figures"))
+            plain.pop("seconds"), drawn.pop("seconds")
+            self.assertEqual(plain, drawn)
+
+    @unittest.skipUnless(DRAWS, "no /usr/bin/python3 with matplotlib")
+    def test_planar_pictures_are_drawn(self):
+        scenes = (scene(ball([0, 0], 1), DENTED, [9, 1]), scene(ball([0, 0], 1), ball([5, 0], 2), [4, 3]),
+                  scene(ball([0, 0], 1), DENTED, [9, -6]), scene(ball([0, 0], 1), ball([5, 0], 2)),
+                  scene(ball([0, 0], 1), ball([3, 0], 2), [0, 1]), scene(ball([0, 0], 1), ball([2, 0], 2)),
+                  scene(ball([0, 0], 1e-6), {"center": [1e7, 1], "semi_axes": [1, 1e-7]}, [1, 1e-9]))
+        for content in scenes:
+            with self.subTest(content):
+                said = self.cone(content, "--picture", "out")
+                self.assertIn("out/engagement.png", said)
+                for name, begins in (("engagement.png", b"\x89PNG"), ("engagement.pdf", b"%PDF")):
+                    with open(os.path.join(self.folder, "out", name), "rb") as f:
+                        self.assertEqual(f.read(4), begins)
+
+
+if __name__ == "__main__":
+    unittest.main()
