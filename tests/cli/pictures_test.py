@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the pictures of `vericone cone --out` show of a scene's velocities: the data they are drawn from, against closed
-forms and sampling, and the pictures. Environment as for cli_test.py."""
+forms and sampling, and the pictures; pictures of runs. Environment as for cli_test.py."""
 import json
 import math
 import os
@@ -140,6 +140,49 @@ class ConePictures(InFolder):
                 said = self.cone(content, "--picture", "out")
                 self.assertIn("out/engagement.png", said)
                 for name, begins in (("engagement.png", b"\x89PNG"), ("engagement.pdf", b"%PDF")):
+                    with open(os.path.join(self.folder, "out", name), "rb") as f:
+                        self.assertEqual(f.read(4), begins)
+
+
+def agents(count, d, goals=True):
+    """On a ring, each on its way to the other side."""
+    bodies = []
+    for i in range(count):
+        at = [8 * math.cos(2 * math.pi * i / count), 8 * math.sin(2 * math.pi * i / count), 0][:d]
+        goal = {"goal": {"point": [-x for x in at], "most": 3, "reached": 0.5}} if goals else {}
+        bodies.append({"name": "A%d" % i, "shape": {"semi_axes": [0.5, 0.3, 0.3][:d]}, "position": at, "velocity": [-x / 4 for x in at],
+                       "pilot": {"law": "clearance", "most": 6, "clearance": {"required": 0.3}, **goal}})
+    return {"duration": 2, "step": 0.05, "bodies": bodies}
+
+
+class RunPictures(InFolder):
+    def simulate(self, scenario, *words):
+        self.write("scenario.yaml", json.dumps(scenario))
+        result = self.run_limited("simulate", "scenario.yaml", "--quiet", "--out", "out", *words, preexec_fn=None)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        with open(os.path.join(self.folder, "out", "run.json"), encoding="utf-8") as f:
+            return json.load(f)
+
+    def test_goals_are_told(self):
+        for d in (2, 3):
+            scenario = agents(3, d)
+            del scenario["bodies"][1]["pilot"]["goal"]
+            goals = self.simulate(scenario, "--no-figures")["goals"]
+            self.assertEqual([(g["agent"], g["reached"]) for g in goals], [("A0", 0.5), ("A2", 0.5)])
+            for goal, body in zip(goals, scenario["bodies"][::2]):
+                self.assertEqual(goal["point"][:d], body["pilot"]["goal"]["point"])
+                self.assertEqual(len(goal["point"]), 3)
+
+    @unittest.skipUnless(DRAWS, "no /usr/bin/python3 with matplotlib")
+    def test_few_and_many_bodies_are_drawn(self):
+        rock = {"name": "rock", "shape": {"semi_axes": [1, 1, 1]}, "position": [0, 0, 0], "velocity": [0, 0, 0]}
+        one = agents(1, 3)
+        one["bodies"].append(rock)
+        still = {"duration": 1, "bodies": [rock]}
+        for scenario in (agents(2, 2), agents(10, 2), agents(10, 3, goals=False), one, still):
+            with self.subTest(len(scenario["bodies"])):
+                self.simulate(scenario)
+                for name, begins in (("simulation.png", b"\x89PNG"), ("simulation.pdf", b"%PDF")):
                     with open(os.path.join(self.folder, "out", name), "rb") as f:
                         self.assertEqual(f.read(4), begins)
 
