@@ -5,25 +5,21 @@ import numpy as np
 from matplotlib.patches import Circle, Patch
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-from runs import groups, lit, outline, polygons, posed, rotation, row_at, rows, surface
-from style import AGENT, EXACT, GREY, OBSTACLE, SLICE, TWO_COLUMNS, folder, plt, read, save
+from runs import MANY, body_colors, groups, is_planar, lit, outline, polygons, posed, rotation, row_at, rows, surface
+from style import GREY, TWO_COLUMNS, folder, plt, read, save
 
 bodies = {name: columns for (name,), columns in groups(rows(folder(), "bodies.csv"), "body").items()}
 encounters = groups(rows(folder(), "encounters.csv"), "agent", "obstacle")
 events, proof, run = rows(folder(), "events.csv"), read("proof.json"), read("run.json")
 shapes = {s["name"]: s for s in read("shapes.json")}
-planar = all(s["kind"] in ("ellipse", "dented_conic") for s in shapes.values())
+planar = is_planar(shapes)
 agents = list(dict.fromkeys(agent for agent, _ in encounters))
-MANY = 8  # bodies, or verticals: more of them nobody can tell apart
 NEAREST = 6  # pairs that are drawn over time where there are more
 end = run["end"]
 instants = np.linspace(0, end, 5)
 has_y = any(np.isfinite(c["y"]).any() for c in encounters.values())
 
-# One colour a body, agents first, the same in all panels.
-ordered = agents + [n for n in bodies if n not in agents]
-few = [AGENT, EXACT, SLICE, OBSTACLE, "#b0894f", "#c2418f", "#2aa3a3", GREY]
-COLORS = dict(zip(ordered, few if len(ordered) <= MANY else plt.get_cmap("turbo")(np.linspace(0.05, 0.95, len(ordered)))))
+COLORS = body_colors(list(bodies), agents)  # the same in all panels
 
 
 def nearness(pair):
@@ -159,7 +155,7 @@ for name in (n for n in bodies if np.any(bodies[n]["a"] > 0) or n in agents):
                linewidth=1.2 if len(agents) <= MANY else 0.6)
 # One legend, below the bodies: it covers nothing.
 if len(bodies) <= MANY:
-    named = [(Patch(facecolor=COLORS[n], alpha=0.8), n) for n in ordered]
+    named = [(Patch(facecolor=COLORS[n], alpha=0.8), n) for n in COLORS]
     if len(agents) > 1:
         named.append((drawn.get(pairs[0]), "pair of bodies, in both colours"))
 else:

@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the pictures of `vericone cone --out` show of a scene's velocities: the data they are drawn from, against closed
-forms and sampling, and the pictures; pictures of runs. Environment as for cli_test.py."""
+forms and sampling, and the pictures; pictures of runs, and the page of a run as node shows it. Environment as for cli_test.py."""
+import csv
 import json
 import math
 import os
 import random
+import re
+import shutil
 import subprocess
 import unittest
 
@@ -185,6 +188,126 @@ class RunPictures(InFolder):
                 for name, begins in (("simulation.png", b"\x89PNG"), ("simulation.pdf", b"%PDF")):
                     with open(os.path.join(self.folder, "out", name), "rb") as f:
                         self.assertEqual(f.read(4), begins)
+
+
+@unittest.skipUnless(DRAWS, "no /usr/bin/python3 with matplotlib")
+class RunPages(InFolder):
+    def page(self, scenario, *words, **options):
+        self.write("scenario.yaml", json.dumps(scenario))
+        result = self.run_limited("simulate", "scenario.yaml", "--quiet", "--no-figures", "--animate", "--out", "out", *words,
+                                  preexec_fn=None, **options)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        with open(os.path.join(self.folder, "out", "simulation.html"), encoding="utf-8") as f:
+            text = f.read()
+        return text, json.loads(re.search('<script id="data" type="application/json">(.*?)</script>', text, re.DOTALL)[1])
+
+    def shown(self, *shares):
+        if not shutil.which("node"):
+            self.skipTest("no node")
+        script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "animation_page.js")
+        result = subprocess.run(["node", script, os.path.join(self.folder, "out", "simulation.html"), "400", "300", *map(str, shares)],
+                                capture_output=True, text=True, check=False, timeout=60)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        return json.loads(result.stdout)
+
+    def rows(self):
+        with open(os.path.join(self.folder, "out", "bodies.csv"), newline="", encoding="utf-8") as f:
+            return list(csv.DictReader(f))
+
+    def test_one_page_with_all_of_the_run(self):
+        for d in (2, 3):
+            text, data = self.page(agents(3, d))
+            self.assertIsNone(re.search(r"https?:|//[a-z]|\bsrc=|\bhref=|\bimport\b|\bfetch\b|XMLHttpRequest", text.replace("// ", "")))
+            self.assertEqual((data["planar"], data["end"]), (d == 2, 2))
+            for body in data["bodies"]:
+                own = [r for r in self.rows() if r["body"] == body["name"]]
+                self.assertEqual(len(body["t"]), len(own))
+                for i, row in enumerate(own):
+                    self.assertAlmostEqual(body["t"][i], float(row["t [s]"]), 7)
+                    for k, c in enumerate("xyz"):
+                        self.assertAlmostEqual(body["at"][3 * i + k], float(row[c + " [m]"]), 6)
+                    for k, c in enumerate("wxyz"):
+                        self.assertAlmostEqual(body["turn"][4 * i + k], float(row["q" + c]), 5)
+                self.assertEqual(body["goal"]["reached"], 0.5)
+
+    def test_what_the_page_shows_is_where_the_bodies_are(self):
+        self.page(agents(3, 2))
+        shown = self.shown(0, 0.5, 1)
+        ends = {r["body"]: r for r in self.rows()}
+        for frame, time in zip(shown["frames"], (0, 1, 2)):
+            self.assertEqual(frame["time"], "%.2f of 2.00 s" % time)
+        last = shown["frames"][2]["drawn"]
+        # The numbers of the axes say where a pixel is; the filled outlines of 120 points are the bodies.
+        numbers = [o for o in last if "text" in o and re.fullmatch(r"-?[0-9.]+", o["text"])]
+        scales = []
+        for align, k in (("center", 0), ("right", 1)):
+            (a, p), (b, q) = [(float(o["text"]), o["at"][k]) for o in numbers if o["align"] == align][::len(numbers)][:1] + \
+                [(float(o["text"]), o["at"][k]) for o in numbers if o["align"] == align][-1:]
+            scales.append((a, p, (b - a) / (q - p)))
+        outlines = [o["path"] for o in last if "fill" in o and len(o["path"]) == 120]
+        self.assertEqual(len(outlines), 3)
+        for path, row in zip(outlines, ends.values()):
+            middle = [sum(p[k] for p in path) / len(path) for k in (0, 1)]
+            for (value, pixel, metres), m, c in zip(scales, middle, "xy"):
+                self.assertAlmostEqual(value + metres * (m - pixel), float(row[c + " [m]"]), 4)
+            size = max(math.dist(p, middle) for p in path) * scales[0][2]
+            self.assertAlmostEqual(size, 0.5, 3)
+        self.assertEqual(shown["frames"][3]["time"], "1.00 of 2.00 s")  # played for a second
+        for body, pose in shown["poses"].items():
+            at = [r for r in self.rows() if r["body"] == body]
+            row = at[len(at) >> 1]
+            for k, c in enumerate("xyz"):
+                self.assertAlmostEqual(pose["at"][k], float(row[c + " [m]"]), 6)
+
+    def test_bodies_of_every_kind(self):
+        self.write("box.off", MESH)
+        changing = {"offset": 0.5, "amplitude": 0.3, "rate": 2}
+        still = {"velocity": [0, 0, 0]}
+        bodies = [{"name": "ball", "shape": {"semi_axes": [1, 1, 1]}, "position": [0, 0, 0], "velocity": [4, 0, 0]},
+                  {"name": "box", "shape": {"mesh": "box.off"}, "position": [0, 5, 0], **still},
+                  {"name": "late", "shape": {"dented": [1, 2, 1], "k": changing}, "position": [0, -6, 0], "appears": 1, **still},
+                  {"name": "waist", "shape": {"semi_axes": [2, 1, 1], "hyperboloids": [{"sheets": 1, "semi_axes": [1, 0.5, 0.5]}]},
+                   "position": [0, 0, 6], **still},
+                  {"name": "hull", "shape": {"points": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]}, "position": [0, 0, -6], **still},
+                  {"name": "cloud", "shape": {"cloud": "box.off", "radius": 0.1}, "position": [-20, 0, 0], **still},
+                  {"name": "union", "position": [0, 12, 0], **still, "shape": {"pieces": [
+                      {"center": [0, 0, 0], "semi_axes": [1, 1, 1]}, {"center": [1, 0, 0], "semi_axes": [1, 1, 1]}]}}]
+        for chosen in ([0], [0, 1], [0, 2], [0, 3], [0, 4], [0, 5], [0, 6], range(7)):
+            with self.subTest([bodies[i]["name"] for i in chosen]):
+                self.page({"duration": 2, "step": 0.1, "bodies": [bodies[i] for i in chosen]})
+                shown = self.shown(0, 0.25, 1)
+                self.assertCountEqual(shown["names"], [bodies[i]["name"] for i in chosen])
+                for frame in shown["frames"]:
+                    for o in frame["drawn"]:
+                        for p in o.get("path", [o.get("at")]):
+                            self.assertTrue(all(isinstance(x, (int, float)) for x in p), frame["what"])  # null: not a number
+                painted = [sum("fill" in o for o in f["drawn"]) for f in shown["frames"]]
+                self.assertGreater(painted[0], 100)
+                if 2 in chosen:  # it appears at 1 s
+                    self.assertEqual(painted[0], painted[1])
+                    self.assertGreater(painted[2], painted[0] + 100)
+        flat = {"duration": 2, "bodies": [{"name": "flat", "shape": {"a_c": 3, "b_c": 2, "k": changing}, "position": [0, 0], "velocity": [1, 0]}]}
+        self.page(flat)
+        self.assertEqual(self.shown(0.5)["names"], ["flat"])
+
+    def test_names_cannot_break_the_page(self):
+        name = "</script><b>&amp;\\u003c"
+        scenario = agents(2, 2)
+        scenario["bodies"][0]["name"] = name
+        text, data = self.page(scenario)
+        self.assertEqual(text.count("</script>"), 2)
+        self.assertEqual(data["bodies"][0]["name"], name)
+        self.assertEqual(self.shown(0)["names"][0], name + " (star: its goal)")
+
+    def test_without_python_all_else_is_written(self):
+        self.write("scenario.yaml", json.dumps(agents(2, 2)))
+        result = self.run_limited("simulate", "scenario.yaml", "--quiet", "--animate", "--out", "out", preexec_fn=None,
+                                  env={**os.environ, "VERICONE_PYTHON": "/nowhere/python3"})
+        self.assertEqual(result.returncode, 0)
+        self.assertRegex(result.stderr, r"^vericone: no pictures: no interpreter /nowhere/python3; .*\n$")
+        left = os.listdir(os.path.join(self.folder, "out"))
+        self.assertIn("run.json", left)
+        self.assertNotIn("simulation.html", left)
 
 
 if __name__ == "__main__":

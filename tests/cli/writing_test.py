@@ -42,6 +42,7 @@ WRITERS = {
     "cone of pieces": ["cone", "mesh.yaml", "--map", "0.05", "--no-figures"],
     "gallery": ["gallery", "t.off", "u.off", "--map", "0.02", "--no-figures", "--quiet"],
     "simulate": ["simulate", "scenario.yaml", "--no-figures", "--quiet"],
+    "simulate with a page": ["simulate", "scenario.yaml", "--no-figures", "--animate", "--quiet"],
     "claims": ["claims", "--quiet"],
     "figures": ["figures", "5.6", "--quiet"],
     "fit": ["fit", "ball.xyz", "--shape", "ellipsoid", "--no-figures", "--quiet"],
