@@ -52,7 +52,7 @@ def all_around(axes):
     if data["course"]:
         w = np.array(data["course"]["velocity"])
         mark(axes, np.degrees([np.arctan2(w[1], w[0]), np.arcsin(w[2] / np.linalg.norm(w))]), data["course"])
-        axes.legend(loc="upper right")
+        axes.legend(loc="lower right", bbox_to_anchor=(1, 1), frameon=False, borderaxespad=0.2)
     axes.set_xticks(range(-180, 181, 45))
     axes.set_xlim(180, -180)  # as the agent sees it: what is to the left of x stands on the left
     axes.set_yticks(range(-90, 91, 30))

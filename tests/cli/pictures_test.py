@@ -125,6 +125,19 @@ class ConePictures(InFolder):
             self.assertEqual(hit["verdict"], "in")
             self.near(hit["contact_point"], [2 * hit["contact_time"], 0, 0.75], 0.5 + 1e-3)
 
+    def test_maps_of_other_pairs(self):
+        self.write("box.off", MESH)
+        waist = {"center": [0, 0, 0], "semi_axes": [1, 1, 1], "hyperboloids": [{"sheets": 1, "semi_axes": [1, 0.5, 0.5]}]}
+        for v, verdict in (([2, 0, 0], "in"), ([0, 2, 0], "out")):
+            self.cone(scene(waist, {"mesh": "box.off"}, v), "--map", "0.2", "--out", "out", "--no-figures")
+            with open(os.path.join(self.folder, "out", "cone_map.json"), encoding="utf-8") as f:
+                course = json.load(f)["course"]
+            self.assertEqual((course["velocity"], course["verdict"]), (v, verdict))
+            if verdict == "in":  # the agent's tip, x = 1, and the side x = 8 of the box
+                self.assertAlmostEqual(course["contact_time"], (8 - 1) / 2, 2)
+            else:
+                self.assertAlmostEqual(course["miss_distance"], 8 - 1, 2)
+
     def test_answers_do_not_depend_on_the_picture(self):
         for obstacle in (DENTED, ball([5, 1], 2)):
             content = scene(ball([0, 0], 1), obstacle, [9, 1])

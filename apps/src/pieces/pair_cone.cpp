@@ -31,6 +31,19 @@ void refuse_options_but_map(const ConeCommand& options) {
                      "given with --map: the picture of these bodies' cone is its map");
 }
 
+/// What course_json() of course.h has, as far as a map shows it; null where the velocities are equal.
+Json course_of(const input::PlacedEngagement& e, const Pair& pair, const Json& answer) {
+  if (e.agent_velocity == e.obstacle_velocity) return nullptr;
+  Json course{{"velocity", vector_json(e.agent_velocity - e.obstacle_velocity)},
+              {"verdict", answer["verdict"]}};
+  if (answer["time_to_contact"].is_number()) course["contact_time"] = answer["time_to_contact"];
+  if (answer["verdict"] == "out" && answer["clearance"].is_number()) {
+    course["miss_distance"] = answer["clearance"];
+    course["nearest_time"] = pair.miss(e.agent_velocity, e.obstacle_velocity).time;
+  }
+  return course;
+}
+
 }  // namespace
 
 void run_pair_cone(const ConeCommand& options, const input::PlacedEngagement& e, std::ostream& out) {
@@ -55,6 +68,7 @@ void run_pair_cone(const ConeCommand& options, const input::PlacedEngagement& e,
     const auto& [from, to] =
         std::pair(e.agent.containing_ellipsoid().center(), e.obstacle.containing_ellipsoid().center());
     map = map_answer(*pair.directions(), *options.map, to - from, e.obstacle_name);
+    map.picture["course"] = course_of(e, pair, cone["answer"]);
     cone["map"] = map.summary;
   }
   if (options.json) {
