@@ -19,7 +19,8 @@ def word(course):
 
 
 def speed(course):
-    return np.linalg.norm(course["velocity"])
+    largest = np.abs(course["velocity"]).max()
+    return largest * np.linalg.norm(np.array(course["velocity"]) / (largest or 1))
 
 
 def metres(x):

@@ -30,7 +30,7 @@ if data["relation"] != "overlapping":
 arrow = None
 if w.any():
     length = max(1.15 * np.linalg.norm(travel), 1.3 * radius)
-    arrow = agent + length * w / np.linalg.norm(w)
+    arrow = agent + length * w / courses.speed(course)
     seen.append(arrow[None])
 seen = np.vstack(seen)
 low, high = seen.min(axis=0), seen.max(axis=0)

@@ -200,6 +200,8 @@ COMMANDS = [
     ("slices of a planar scene", ["cone", "FILE", "--method", "slice"], PLANAR_SCENE),
     ("a tolerance for a planar scene", ["cone", "FILE", "--tolerance", "0.1"], PLANAR_SCENE),
     ("a map of resolution zero", ["cone", "FILE", "--map", "0"], SCENE),
+    ("a picture of a planar scene without numbers", ["cone", "FILE", "--picture", "here"],
+     PLANAR_SCENE.replace("[9, 0]", "[1.0e200, 0]")),
     ("a map of a planar scene", ["cone", "FILE", "--map", "0.1"], PLANAR_SCENE),
     ("a region without a map", ["cone", "FILE", "--around", "1,0,0"], SCENE),
     ("a region around no direction", ["cone", "FILE", "--map", "0.1", "--around", "0,0,0"], SCENE),

@@ -150,7 +150,9 @@ class ConePictures(InFolder):
         scenes = (scene(ball([0, 0], 1), DENTED, [9, 1]), scene(ball([0, 0], 1), ball([5, 0], 2), [4, 3]),
                   scene(ball([0, 0], 1), DENTED, [9, -6]), scene(ball([0, 0], 1), ball([5, 0], 2)),
                   scene(ball([0, 0], 1), ball([3, 0], 2), [0, 1]), scene(ball([0, 0], 1), ball([2, 0], 2)),
-                  scene(ball([0, 0], 1e-6), {"center": [1e7, 1], "semi_axes": [1, 1e-7]}, [1, 1e-9]))
+                  scene(ball([0, 0], 1e-6), {"center": [1e7, 1], "semi_axes": [1, 1e-7]}, [1, 1e-9]),
+                  scene(ball([0, 0], 1), ball([1e140, 0], 2), [4, 3]), scene(ball([0, 0], 1), ball([9, 0], 2), [5e-324, 0]),
+                  scene(ball([1e9, 1e9], 1), ball([1e9 + 9, 1e9], 1), [4, 0.3]))
         for content in scenes:
             with self.subTest(content):
                 said = self.cone(content, "--picture", "out")

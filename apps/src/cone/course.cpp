@@ -53,10 +53,12 @@ class Search {
 
   Search(const Body& a, const Body& b, const Vector& w, double from, double to)
       : a_(a), b_(b), speed_(w.stableNorm()) {
+    const Vector c = b.center() - a.center();
+    unit_ = std::max({c.stableNorm(), a.ellipsoid().factor().norm(), b.ellipsoid().factor().norm()});
     if (!(speed_ > 0)) return;
     along_ = w / speed_;
-    first_ = from * speed_;
-    last_ = to * speed_;
+    first_ = from * speed_ / unit_;
+    last_ = to * speed_ / unit_;
   }
 
   NearestPoints<D> found() {
@@ -70,11 +72,11 @@ class Search {
     refine();
     NearestPoints<D> result;
     const Vector p = point(a_, u_), q = point(b_, v_);
-    const double s = way(q - p);
+    const double s = unit_ * way((q - p) / unit_);
     result.time = speed_ > 0 ? s / speed_ : 0;
     result.on_agent = p + s * along_;
     result.on_obstacle = q;
-    result.distance = (q - result.on_agent).norm();
+    result.distance = (q - result.on_agent).stableNorm();
     return result;
   }
 
@@ -83,10 +85,11 @@ class Search {
     const Vector d = body.ellipsoid().factor() * u;
     return body.center() + d / body.gauge(d);
   }
-  /// How far the agent moves until the gap `d` is least.
+  // Gaps are in units of the scene's size, so that their squares are doubles. How far the agent moves until
+  // the gap `d` is least:
   double way(const Vector& d) const { return std::clamp(d.dot(along_), first_, last_); }
   Vector between(const Vector& p, const Vector& q) const {
-    const Vector d = q - p;
+    const Vector d = (q - p) / unit_;
     return d - way(d) * along_;
   }
 
@@ -128,7 +131,7 @@ class Search {
   }
 
   const Body &a_, &b_;
-  double speed_ = 0, first_ = 0, last_ = 0;
+  double speed_ = 0, unit_ = 1, first_ = 0, last_ = 0;
   Vector along_ = Vector::Zero();
   double best_ = std::numeric_limits<double>::infinity();
   Vector u_ = Vector::UnitX(), v_ = Vector::UnitX();
