@@ -196,8 +196,6 @@ Json cone_json(const ConeCommand& options, const input::Engagement& e) {
   return exact_json(e.agent.ellipsoid(), e.obstacle.ellipsoid(), options.samples.value_or(kDefaultSamples));
 }
 
-constexpr const char* kNoNumbers = "asked for a scene whose squared lengths are doubles";
-
 void run_planar_cone(const ConeCommand& options, const input::PlanarEngagement& e, std::ostream& out) {
   if (options.method != "exact")
     throw InputError("--method", options.method, "left out for a planar scene, whose cone is one sector");
@@ -210,7 +208,7 @@ void run_planar_cone(const ConeCommand& options, const input::PlanarEngagement& 
   if (!options.picture_folder.empty()) folder.emplace(options.picture_folder, "--out");
   const Json cone = planar_cone_json(e);
   if (folder && !std::isfinite(cone["theta_b"].get<double>()))
-    throw InputError("--out", options.picture_folder, kNoNumbers);
+    throw InputError("--out", options.picture_folder, "asked for a scene whose squared lengths are doubles");
   if (options.json) {
     out << cone.dump(1) << '\n';
   } else {
@@ -279,7 +277,6 @@ ConePicture cone_picture(const ConeCommand& options, const input::Engagement& e,
     throw InputError("--out", options.picture_folder, requirement);
   };
   if (cone["relation"] != to_string(Relation::disjoint)) refuse("asked for disjoint bodies only");
-  if (!std::isfinite((e.obstacle.center() - e.agent.center()).squaredNorm())) refuse(kNoNumbers);
   if (e.ellipsoids())
     return {engagement_picture(e, options.planes.value_or(kDefaultPlanes),
                                options.samples.value_or(kDefaultSamples)),
