@@ -3,11 +3,11 @@
 cone of the convex hulls, a plane section with its tangents, a velocity."""
 import numpy as np
 
+import course as courses
 from solids import HYPERBOLOID, ELLIPSOID, Solid, View, draw_lines, draw_solids, frame, scale_bar, triad
 from style import AGENT, EXACT, GREY, SLICE, TWO_COLUMNS, plt, read, save
 
 VIEWS = {"section": (-70, 32), "notch": (133, 14)}
-VELOCITY = "#c01f1f"
 
 
 def basis(axis):
@@ -69,17 +69,24 @@ def scene(axes, name, data, hull_border=False):
     apex, axis = np.array(data["a"]["body"]["center"]), np.array(data["axis"])
     reach = 1.0 * np.linalg.norm(obstacle.center - agent.center)
     shown = [s.points + s.center for s in solids]
-    if "velocity" in data:
-        w = np.array(data["velocity"]["w"])
-        # Where the agent passes: next to the obstacle's centre, and on.
-        beside = w * ((obstacle.center - apex) @ w) / (w @ w)
-        ghost = Solid(data["a"], colors=(AGENT, AGENT), shift=beside)
-        draw_solids(axes, view, [ghost, obstacle], fill=False, hidden_rims=False)
-        path = np.linspace(apex, apex + 1.5 * beside, 300)
-        draw_lines(axes, view, [path[20:]], solids, color=VELOCITY, width=1.2, hidden_width=0.7, zorder=7)
+    if "course" in data:
+        course = data["course"]
+        w, says, travel = np.array(course["velocity"]), courses.color(course), courses.travel(course)
+        if travel is not None and travel.any():  # where it first touches, or is nearest
+            ghost = Solid(data["a"], colors=(AGENT, AGENT), shift=travel)
+            draw_solids(axes, view, [ghost, obstacle], fill=False, hidden_rims=False)
+            shown.append(ghost.points + ghost.center)
+        far = max(0.5 * reach, 0 if travel is None else np.linalg.norm(travel) * (1 if "contact_time" in course else 1.5))
+        path = np.linspace(apex, apex + far * w / np.linalg.norm(w), 300)
+        draw_lines(axes, view, [path[20:]], solids, color=says, width=1.2, hidden_width=0.7, zorder=7)
         axes.annotate("", xy=view.project(path[-1]), xytext=view.project(path[-6]), zorder=8,
-                      arrowprops={"arrowstyle": "-|>", "color": VELOCITY, "lw": 1.2, "shrinkA": 0, "shrinkB": 0})
+                      arrowprops={"arrowstyle": "-|>", "color": says, "lw": 1.2, "shrinkA": 0, "shrinkB": 0})
         shown.append(path)
+        if "contact_point" in course:
+            axes.plot(*view.project(np.array(course["contact_point"])), "o", color=says, markersize=3, zorder=9)
+        if "nearest_on_agent" in course:
+            gap = view.project(np.array([course["nearest_on_agent"], course["nearest_on_obstacle"]]))
+            axes.plot(*gap.T, color="k", linewidth=1.1, marker="o", markersize=2, zorder=9)
     tips = cone_lines(axes, view, data, solids, reach)
     shown.append(tips)
     if hull_border:
@@ -110,17 +117,17 @@ def cross_section(axes, data, hulls=True):
               label="true cone, inner and outer\n%.4f ± %.4f sr" % (data["solid_angle"], data["solid_angle_error"]))
     axes.plot(*closed(slices).T, ".-", color=SLICE, markersize=2, linewidth=0.7,
               label="slices, n = %d: %.4f sr" % (data["planes"], data["slice_solid_angle"]))
-    if "velocity" in data:
-        v = data["velocity"]
-        mark = at_distance_one(np.array([v["w"]]), axis)
-        axes.plot(*mark.T, "o", color=VELOCITY, markersize=4.5,
-                  label="velocity: %s" % {"out": "passes", "in": "collides"}.get(v["verdict"], "undecided"))
-        if "above" in v:
-            others = at_distance_one(np.array([v["above"], v["below"]]), axis)
-            axes.plot(*others.T, ":", color=VELOCITY, linewidth=0.8)
-            both = v["above_verdict"] == v["below_verdict"] == "in"
-            axes.plot(*others.T, "x", color=VELOCITY, markersize=4,
-                      label="above, below: %s" % ("collide" if both else "?"))
+    course = data.get("course")
+    if course and np.array(course["velocity"]) @ axis > 0:
+        mark = at_distance_one(np.array([course["velocity"]]), axis)
+        axes.plot(*mark.T, "o", color=courses.color(course), markersize=4.5, label="velocity: %s" % courses.word(course))
+    if "notch" in data:
+        notch = data["notch"]
+        others = at_distance_one(np.array([notch["above"], notch["below"]]), axis)
+        axes.plot(*others.T, ":", color=courses.COLORS["in"], linewidth=0.8)
+        both = notch["above_verdict"] == notch["below_verdict"] == "in"
+        axes.plot(*others.T, "x", color=courses.COLORS["in"], markersize=4,
+                  label="above, below: %s" % ("collide" if both else "?"))
     axes.plot([0], [0], "+", color="k")
     axes.set_aspect("equal", adjustable="datalim")
     axes.set_xlabel("across the line of centres (1)")
@@ -184,4 +191,6 @@ for name in read("shapes.json")["figures"]:
         right = figure.add_axes([0.66, 0.12, 0.33, 0.55])
         cross_section(right, data)
         figure.legend(*right.get_legend_handles_labels(), loc="upper left", bbox_to_anchor=(0.6, 1.0), frameon=False)
+        if "course" in data:
+            figure.text(0.01, 0.98, courses.sentence(data["course"]), fontsize=8, va="top", color=courses.color(data["course"]))
     save(figure, name)

@@ -8,6 +8,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+import course as courses
 from style import EXACT, GREY, TWO_COLUMNS, plt, read, save
 
 COLORS = {"i": "#e0a58a", "o": "#dcebf5", "u": GREY}
@@ -91,6 +92,13 @@ def frame(towards):
     return np.cross(towards, up), up
 
 
+def mark(axes, data, project):
+    """The scene's velocity, where the data have it."""
+    if data.get("course"):
+        axes.plot(*np.ravel(project(data["course"]["velocity"])), "o", color=courses.color(data["course"]), markersize=5,
+                  markeredgecolor="w", markeredgewidth=0.7)
+
+
 def view(axes, sphere, data, towards, pixels=900):
     """Angles from the direction keep their size: azimuthal equidistant."""
     right, up = frame(towards)
@@ -115,6 +123,7 @@ def view(axes, sphere, data, towards, pixels=900):
     for loop in loops:
         axes.plot(*np.vstack([loop, loop[:1]]).T, color=RIM, linewidth=1)
     axes.plot(0, 0, "k+", markersize=5)
+    mark(axes, data, project)
     axes.set_xlim(-reach, reach)
     axes.set_ylim(-reach, reach)
     axes.set_xlabel("to the right of the direction + (deg)")
@@ -139,6 +148,7 @@ def whole(axes, sphere, data, towards, pixels=1440):
         points = np.insert(points, jump, np.nan, axis=0)
         axes.plot(*points.T, color=RIM, linewidth=1)
     axes.plot(*project(towards), "k+", markersize=5)
+    mark(axes, data, project)
     axes.set_xlim(180, -180)  # as seen from inside
     axes.set_ylim(-90, 90)
     axes.set_xticks(range(180, -181, -60))
@@ -151,7 +161,7 @@ def whole(axes, sphere, data, towards, pixels=1440):
 data = read("cone_map.json")
 towards = unit(np.array(data["towards"]))
 sphere = Map(data)
-figure, (left, right) = plt.subplots(1, 2, figsize=(TWO_COLUMNS, 3.2), width_ratios=(1, 1.75))
+figure, (left, right) = plt.subplots(1, 2, figsize=(TWO_COLUMNS, 3.4 if data.get("course") else 3.2), width_ratios=(1, 1.75))
 view(left, sphere, data, towards)
 whole(right, sphere, data, towards)
 for axes in (left, right):
@@ -166,10 +176,14 @@ if region:
         NAMES[region["label"][0]], region["solid_angle"], region["most_solid_angle"])))
 else:
     handles.append(Line2D([], [], color="k", marker="+", linestyle="", label="direction asked about: undecided"))
-figure.legend(handles=handles, loc="lower center", ncols=len(handles), frameon=False, columnspacing=1.2)
+course = data.get("course")
+if course:
+    handles.append(Line2D([], [], color=courses.color(course), marker="o", linestyle="", label="the scene's velocity, " +
+                          courses.sentence(course)))
+figure.legend(handles=handles, loc="lower center", ncols=min(len(handles), 4 if not course else 3), frameon=False, columnspacing=1.2)
 title = data["title"] or "Cone map"
 figure.suptitle("%s: %s cells, edges below %.3g rad%s" % (
     title, format(len(data["cells"]), ","), data["resolution"], "" if data["complete"] else ", not complete"),
     fontsize=8.5)
-figure.tight_layout(rect=(0, 0.08, 1, 1))
+figure.tight_layout(rect=(0, 0.08 if not course else 0.14, 1, 1))
 save(figure, "cone_map")

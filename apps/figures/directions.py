@@ -4,6 +4,7 @@ import numpy as np
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
+import course as courses
 from style import EXACT, plt
 
 NEAR_TO_FAR = "viridis_r"
@@ -52,15 +53,17 @@ def along_axis(axes, data):
     if edges:
         axes.plot(*np.array(edges + edges[:1]).T, ".-", color=EXACT, linewidth=0.7, markersize=2.2, zorder=3,
                   label="extreme directions, %d half-planes" % len(data["directions"]))
-    if data["velocity"]:
-        at = in_view(data, data["velocity"]["w"])
+    if data["course"]:
+        at = in_view(data, data["course"]["velocity"])
         if max(np.abs(at)) < edge:
-            axes.plot(*at, "o", color="#c01f1f", markersize=4, zorder=4, label="velocity: %s" % verdict(data["velocity"]))
+            mark(axes, at, data["course"])
     axes.set_xlabel("from the axis, to the right (degrees)")
     axes.set_ylabel("from the axis, up (degrees)")
     axes.set_aspect("equal")
     return image
 
 
-def verdict(velocity):
-    return {"in": "collides", "on": "grazes", "out": "passes"}[velocity["verdict"]]
+def mark(axes, at, course):
+    """The scene's relative velocity among the directions."""
+    axes.plot(*at, "o", color=courses.color(course), markersize=4.5, markeredgecolor="w", markeredgewidth=0.6, zorder=4,
+              label="the scene's velocity: %s" % courses.word(course))

@@ -4,6 +4,7 @@ with where it leads, and a velocity between the two cones, which is shown in spa
 import numpy as np
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
+import course as courses
 from style import AGENT, EXACT, GREY, OBSTACLE, SLICE, TWO_COLUMNS, plt, read, save
 
 data = read("engagement.json")
@@ -27,7 +28,6 @@ exact, slices = np.array(data["exact_directions"]), np.array(data["slice_directi
 gap = np.array(data["gap_velocity"])
 bounded = data["exact_area"] is not None
 course = data.get("course") or {k[4:]: v for k, v in data.items() if k.startswith("gap_")}
-SAYS = {"in": "collides", "on": "grazes", "out": "misses"}
 
 figure = plt.figure(figsize=(TWO_COLUMNS, 3.7))
 space = figure.add_axes([0.02, 0.04, 0.56, 0.86], projection="3d")
@@ -47,19 +47,20 @@ for body, color in ((data["agent"], AGENT), (data["obstacle"], OBSTACLE)):
     space.plot_surface(*surface(body), color=color, alpha=0.65, linewidth=0)
 extent = [tips, surface(data["agent"]).reshape(3, -1).T, surface(data["obstacle"]).reshape(3, -1).T]
 velocity = np.array(course["velocity"])
-if "contact_time" in course:
-    travel = velocity * course["contact_time"]
-elif velocity @ axis > 0:  # to where the centres are nearest
-    travel = velocity * (velocity @ axis * distance / (velocity @ velocity))
-else:
-    travel = 0.5 * distance * velocity / np.linalg.norm(velocity)
-if travel.any():
+travel = courses.travel(course)
+if travel is not None and travel.any():  # where it first touches, or is nearest
     moved = surface(data["agent"], travel)
     space.plot_wireframe(*moved, color=AGENT, linewidth=0.25, rstride=3, cstride=3)
-    space.plot(*np.vstack([agent, agent + travel]).T, color="k", linewidth=1.3)
-    if "contact_point" in course:
-        space.scatter(*course["contact_point"], color="red", s=14, depthshade=False)
     extent.append(moved.reshape(3, -1).T)
+else:
+    travel = 0.5 * distance * velocity / np.linalg.norm(velocity)
+    extent.append((agent + travel)[None])
+space.plot(*np.vstack([agent, agent + travel]).T, color="k", linewidth=1.3)
+if "contact_point" in course:
+    space.scatter(*course["contact_point"], color="red", s=14, depthshade=False)
+if "nearest_on_agent" in course:
+    space.plot(*np.array([course["nearest_on_agent"], course["nearest_on_obstacle"]]).T, color=courses.color(course),
+               linewidth=1.6, marker="o", markersize=2.5)
 extent = np.vstack(extent)
 space.set_box_aspect(np.ptp(extent, axis=0), zoom=0.88)  # room for the labels
 for name, i in (("x", 0), ("y", 1), ("z", 2)):
@@ -97,11 +98,11 @@ if bounded:
                label="slice cone (n = %d)" % data["planes"])
     mark = gap / (gap @ axis)
     plane.plot([mark @ first], [mark @ second], "o", color="red", markersize=4,
-               label="velocity in the gap: really %s" % SAYS[data["gap_verdict"]])
+               label="velocity in the gap: really %s" % courses.WORDS[data["gap_verdict"]])
     if "course" in data and velocity @ axis > 0:
         mark = velocity / (velocity @ axis)
-        plane.plot([mark @ first], [mark @ second], "D", color="k", markersize=4,
-                   label="the scene's velocity: %s" % SAYS[course["verdict"]])
+        plane.plot([mark @ first], [mark @ second], "D", color=courses.color(course), markersize=4,
+                   label="the scene's velocity: %s" % courses.word(course))
     plane.plot([0], [0], "+", color=GREY)
     plane.set_aspect("equal", adjustable="datalim")
     missing = 100 * (1 - data["slice_area"] / data["exact_area"])
@@ -112,10 +113,8 @@ if bounded:
 else:
     plane.axis("off")
     plane.text(0.5, 0.5, "the cone reaches 90 degrees from its axis:\nno bounded section", ha="center")
-title = "Agent (green) and obstacle (violet)"
-if "contact_time" in course:
-    title += "\nred: first contact, %.3g m along the black line" % np.linalg.norm(travel)
-elif "course" in data:
-    title += "\nthe scene's velocity misses by %.3g m" % course["miss_distance"]
-figure.text(0.01, 0.98, title, fontsize=8, va="top")
+# What the black line leads to: the contact is red, the gap where they are nearest in the colour of the verdict.
+figure.text(0.01, 0.98, "Agent (green) and obstacle (violet)", fontsize=8, va="top")
+whose = "the scene's velocity" if "course" in data else "a velocity in the gap"
+figure.text(0.01, 0.94, "%s, %s" % (whose, courses.sentence(course)), fontsize=8, va="top", color=courses.color(course))
 save(figure, "engagement")

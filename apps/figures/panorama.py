@@ -4,10 +4,10 @@ elevation, coloured by the distance to the first contact."""
 import numpy as np
 from matplotlib.colors import ListedColormap
 
-from directions import NEAR_TO_FAR, colour_bar, masked, norm_of, verdict
+import course as courses
+from directions import NEAR_TO_FAR, colour_bar, mark, masked, norm_of
 from style import AGENT, OBSTACLE, TWO_COLUMNS, plt, read, save
 
-VELOCITY = "#c01f1f"
 data = read("pieces.json")
 center = np.array(data["agent"]["center"])
 
@@ -24,12 +24,17 @@ def above(axes):
         t = np.linspace(0, 2 * np.pi, 80)
         axes.fill(*(center[:2, None] + (u * values) @ np.stack([np.cos(t), np.sin(t)])), color=AGENT, zorder=4)
     axes.plot(*center[:2], "+", color=AGENT, markersize=9, markeredgewidth=1.2, zorder=5, label="agent")
-    if data["velocity"]:
-        v = data["velocity"]
-        w = np.array(v["w"])
-        far = v.get("time") or 3 / max(np.hypot(*w[:2]), 1e-9)
+    if data["course"]:
+        course = data["course"]
+        w = np.array(course["velocity"])
+        far = course.get("contact_time") or max(course.get("nearest_time", 0), 3 / max(np.hypot(*w[:2]), 1e-9))
         axes.annotate("", xy=center[:2] + far * w[:2], xytext=center[:2], zorder=6,
-                      arrowprops={"arrowstyle": "-|>", "color": VELOCITY, "lw": 1.0, "shrinkA": 0, "shrinkB": 0})
+                      arrowprops={"arrowstyle": "-|>", "color": courses.color(course), "lw": 1.0, "shrinkA": 0, "shrinkB": 0})
+        if "contact_point" in course:
+            axes.plot(*course["contact_point"][:2], "o", color=courses.color(course), markersize=4, zorder=7)
+        if "nearest_on_agent" in course:
+            axes.plot(*np.array([course["nearest_on_agent"], course["nearest_on_obstacle"]])[:, :2].T, color="k",
+                      linewidth=1.2, marker="o", markersize=2, zorder=7)
     axes.plot([], [], "s", color=OBSTACLE, label="occupied at the agent's height, %.2f to %.2f m" % tuple(data["heights"]))
     axes.plot([], [], "s", color="#e3dcec", label="only above or below")
     axes.set_xlabel("x (m)")
@@ -44,11 +49,10 @@ def all_around(axes):
     values = masked(data["panorama"])
     image = axes.imshow(values, origin="lower", extent=(-180, 180, -90, 90), cmap=NEAR_TO_FAR, norm=norm_of(values),
                         interpolation="nearest", zorder=1, aspect="auto")
-    if data["velocity"]:
-        w = np.array(data["velocity"]["w"])
-        axes.plot(np.degrees(np.arctan2(w[1], w[0])), np.degrees(np.arcsin(w[2] / np.linalg.norm(w))), "o",
-                  color=VELOCITY, markersize=4, zorder=4, label="velocity: %s" % verdict(data["velocity"]))
-        axes.legend(loc="upper right")
+    if data["course"]:
+        w = np.array(data["course"]["velocity"])
+        mark(axes, np.degrees([np.arctan2(w[1], w[0]), np.arcsin(w[2] / np.linalg.norm(w))]), data["course"])
+        axes.legend(loc="lower right", bbox_to_anchor=(1, 1), frameon=False, borderaxespad=0.2)
     axes.set_xticks(range(-180, 181, 45))
     axes.set_xlim(180, -180)  # as the agent sees it: what is to the left of x stands on the left
     axes.set_yticks(range(-90, 91, 30))
@@ -66,6 +70,8 @@ height = 0.9 * TWO_COLUMNS * share
 figure = plt.figure(figsize=(TWO_COLUMNS, height + 3.9))
 total = height + 3.9
 figure.text(0.01, 1 - 0.2 / total, data["title"], fontsize=8)
+if data["course"]:
+    figure.text(0.99, 1 - 0.2 / total, courses.sentence(data["course"]), fontsize=8, ha="right", color=courses.color(data["course"]))
 above(figure.add_axes([0.08, (3.4) / total, 0.9, (height - 0.1) / total]))
 all_around(figure.add_axes([0.08, 0.45 / total, 0.92, 2.3 / total]))
 save(figure, "cone")

@@ -5,11 +5,11 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import to_rgb
 
-from directions import along_axis, colour_bar, verdict
+import course as courses
+from directions import along_axis, colour_bar
 from solids import View, frame, scale_bar, triad
 from style import AGENT, EXACT, GREY, OBSTACLE, TWO_COLUMNS, plt, read, save
 
-VELOCITY = "#c01f1f"
 data = read("pieces.json")
 apex, axis, e1, e2 = (np.array(x) for x in (data["agent"]["center"], data["axis"], data["e1"], data["e2"]))
 
@@ -168,23 +168,31 @@ def space(axes):
         if n % max(len(tips) // 24, 1) == 0:
             line(axes, np.linspace(apex, tip, 60), depth, EXACT, 0.35, 0.2, zorder=5)
     points = [everything] + [t[None] for t in tips if t is not None]
-    if data["velocity"]:
-        v = data["velocity"]
-        w = np.array(v["w"])
-        far = v.get("time") or 1.15 * reach / np.linalg.norm(w)
+    if data["course"]:
+        course = data["course"]
+        w, says = np.array(course["velocity"]), courses.color(course)
+        far = course.get("contact_time") or max(1.15 * reach / np.linalg.norm(w), course.get("nearest_time", 0))
         path = np.linspace(apex, apex + far * w, 200)
-        line(axes, path, depth, VELOCITY, 1.2, 0.6, zorder=7)
+        line(axes, path, depth, says, 1.2, 0.6, zorder=7)
         axes.annotate("", xy=view.project(path[-1]), xytext=view.project(path[-8]), zorder=8,
-                      arrowprops={"arrowstyle": "-|>", "color": VELOCITY, "lw": 1.2, "shrinkA": 0, "shrinkB": 0})
+                      arrowprops={"arrowstyle": "-|>", "color": says, "lw": 1.2, "shrinkA": 0, "shrinkB": 0})
         points.append(path)
-        if "time" in v and "factor" in agent:
+        travel = courses.travel(course)
+        if travel is not None and travel.any() and "factor" in agent:
             u = np.linspace(0, 2 * np.pi, 100)
             f = np.stack([view.right, view.up]) @ np.array(agent["factor"])
             left, values, _ = np.linalg.svd(f)
             ring = (left * values) @ np.stack([np.cos(u), np.sin(u)])
-            axes.plot(*(view.project(path[-1])[:, None] + ring), "--", color=AGENT, linewidth=0.8, zorder=7)
-            points.append(np.array(v["point"])[None])
-            axes.plot(*view.project(np.array(v["point"])), "o", color=VELOCITY, markersize=3, zorder=9)
+            ring = view.project(apex + travel)[:, None] + ring
+            axes.plot(*ring, "--", color=AGENT, linewidth=0.8, zorder=7)
+            points.append(apex + travel + np.array(agent["factor"]).T)
+        if "contact_point" in course:
+            points.append(np.array(course["contact_point"])[None])
+            axes.plot(*view.project(np.array(course["contact_point"])), "o", color=says, markersize=3, zorder=9)
+        if "nearest_on_agent" in course:
+            gap = np.array([course["nearest_on_agent"], course["nearest_on_obstacle"]])
+            points.append(gap)
+            axes.plot(*view.project(gap).T, color="k", linewidth=1.1, marker="o", markersize=2, zorder=9)
     frame(axes, view, np.vstack(points), margin=0.05, below=0.14)
     triad(axes, view, length=0.09)
     width = np.ptp(axes.get_xlim())
@@ -200,8 +208,6 @@ colour_bar(right, along_axis(right, data))
 right.legend(loc="lower left", bbox_to_anchor=(0, 1.0), frameon=False, borderaxespad=0.2)
 note = ", drawn thinned" if data["body"]["thinned"] else ""
 figure.text(0.01, 0.94, data["title"] + note, fontsize=8)
-if data["velocity"]:
-    v = data["velocity"]
-    when = " after %.4g s" % v["time"] if v.get("time") is not None else ""
-    figure.text(0.01, 0.885, "the velocity %s%s" % (verdict(v), when), fontsize=7, color=VELOCITY)
+if data["course"]:
+    figure.text(0.01, 0.885, courses.sentence(data["course"]), fontsize=7, color=courses.color(data["course"]))
 save(figure, "cone")

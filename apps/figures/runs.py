@@ -8,6 +8,10 @@ import os
 import numpy as np
 from matplotlib.colors import to_rgb
 
+from style import AGENT, EXACT, GREY, OBSTACLE, SLICE, plt
+
+MANY = 8  # bodies, or lines: more of them nobody can tell apart
+
 
 def number(text):
     try:
@@ -135,6 +139,17 @@ def lit(faces, color):
     length = np.linalg.norm(normal, axis=1)
     light = np.abs(normal @ [-0.35, -0.45, 0.82]) / np.where(length > 0, length, 1)
     return np.clip(np.array(to_rgb(color)) * (0.45 + 0.55 * light[:, None]), 0, 1)
+
+
+def is_planar(shapes):
+    return all(s["kind"] in ("ellipse", "dented_conic") for s in shapes.values())
+
+
+def body_colors(names, agents):
+    """One colour a body, agents first: what all pictures of a run have."""
+    ordered = agents + [n for n in names if n not in agents]
+    few = [AGENT, EXACT, SLICE, OBSTACLE, "#b0894f", "#c2418f", "#2aa3a3", GREY]
+    return dict(zip(ordered, few if len(ordered) <= MANY else plt.get_cmap("turbo")(np.linspace(0.05, 0.95, len(ordered)))))
 
 
 def posed(points, row):

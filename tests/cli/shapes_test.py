@@ -68,8 +68,8 @@ class Shapes(unittest.TestCase):
             self.shapes("--figure", "notch", "--no-figures", "--resolution", "0.1", "--out", folder)
             with open(os.path.join(folder, "notch.json"), encoding="utf-8") as f:
                 notch = json.load(f)
-            v = notch["velocity"]
-            self.assertEqual((v["verdict"], v["above_verdict"], v["below_verdict"]), ("out", "in", "in"))
+            v = notch["notch"]
+            self.assertEqual((notch["course"]["verdict"], v["above_verdict"], v["below_verdict"]), ("out", "in", "in"))
             radius = notch["a"]["body"]["factor"][0][0]
 
             def passing_distance(w):  # of the ball's centre from the obstacle's points
@@ -80,7 +80,12 @@ class Shapes(unittest.TestCase):
                     least = min(least, sum((x - t * y) ** 2 for x, y in zip(p, w)) ** 0.5)
                 return least
 
-            self.assertGreater(passing_distance(v["w"]), radius)
+            # The vertices are on the surface, the nearest of them a little beside where it passes.
+            course = notch["course"]
+            beyond = passing_distance(course["velocity"]) - radius - course["miss_distance"]
+            self.assertGreater(course["miss_distance"], 0)
+            self.assertGreaterEqual(beyond, -1e-9)
+            self.assertLess(beyond, 0.01)
             self.assertLess(passing_distance(v["above"]), radius)
             self.assertLess(passing_distance(v["below"]), radius)
 

@@ -25,6 +25,8 @@ BALL = {"center": [-9, 1, 1], "semi_axes": [0.5, 0.5, 0.5]}
 BEAMS = {"rows": 20, "columns": 20, "horizontal": 0.8, "vertical": 0.8}
 LIDARS = json.dumps({"agent": BALL, "obstacle": {"mesh": "t.off"}, "agent_velocity": [1, 0, 0],
                      "lidars": [{"position": [0, 0, 0.6], "towards": [1, 0, 0], "beams": BEAMS}]})
+PLANAR = json.dumps({"agent": {"center": [0, 0], "semi_axes": [1, 2]}, "agent_velocity": [1, 0],
+                     "obstacle": {"center": [9, 1], "semi_axes": [3, 2], "hyperbolas": [{"semi_axes": [1, 1]}]}})
 PIECES = json.dumps({"agent": BALL, "obstacle": {"mesh": "t.off"}, "agent_velocity": [1, 0, 0]})
 
 # Words of each command that writes.
@@ -36,9 +38,11 @@ WRITERS = {
                           "--no-figures", "--quiet"],
     "campaign": ["campaign", "-N", "15", "--threads", "1", "--no-figures", "--quiet"],
     "cone": ["cone", "scene.yaml", "--map", "0.05", "--no-figures"],
+    "cone in the plane": ["cone", "planar.yaml", "--no-figures"],
     "cone of pieces": ["cone", "mesh.yaml", "--map", "0.05", "--no-figures"],
     "gallery": ["gallery", "t.off", "u.off", "--map", "0.02", "--no-figures", "--quiet"],
     "simulate": ["simulate", "scenario.yaml", "--no-figures", "--quiet"],
+    "simulate with a page": ["simulate", "scenario.yaml", "--no-figures", "--animate", "--quiet"],
     "claims": ["claims", "--quiet"],
     "figures": ["figures", "5.6", "--quiet"],
     "fit": ["fit", "ball.xyz", "--shape", "ellipsoid", "--no-figures", "--quiet"],
@@ -86,7 +90,7 @@ class InPreparedFolder(InFolder):
             n = math.hypot(*x)
             points += "%f %f %f\n" % (3 * x[0] / n, 2 * x[1] / n, x[2] / n)
         for name, content in {"scene.yaml": SCENE, "scenario.yaml": SCENARIO, "t.off": MESH, "u.off": MESH,
-                              "mesh.yaml": PIECES, "scan.yaml": LIDARS, "ball.xyz": points,
+                              "mesh.yaml": PIECES, "scan.yaml": LIDARS, "ball.xyz": points, "planar.yaml": PLANAR,
                               "near.yaml": SCENE.replace("[5, 0", "[3.05, 0"),
                               "dents.yaml": SCENE.replace("[5, 0", "[3.05, 0").replace("[2, 2, 2]}", "[2, 2, 2], hyperboloids: [{sheets: 2, "
                                                           "semi_axes: [1, 1, 1]}]}")}.items():

@@ -95,7 +95,7 @@ TEST_P(Inversion, MakesYFollowItsOrder) {
     ASSERT_TRUE(step);
     if (step->status != LawStatus::steering || step->demanded > 300) continue;
     const Vector3d u0 = c.normalized(), e0 = step->across;
-    const auto y = [&](double t) {
+    const auto y = [&, &shape_a = shape_a, &shape_b = shape_b](double t) {
       const Ellipsoid a = flown(shape_a, va, step->a, t), b = flown(shape_b, vb, step->b, t);
       const Vector3d u = (b.center() - a.center()).normalized();
       const Vector3d e =

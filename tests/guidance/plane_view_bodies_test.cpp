@@ -193,7 +193,7 @@ TEST(PlaneViewRates, SlicesOfDentedBodies) {
     const auto view = plane_view(a, b, across, SectorMethod::slice, RateMethod::analytic, spin);
     ASSERT_TRUE(view);
     const Vector3d c = b.position - a.position, v = b.velocity - a.velocity;
-    const auto at = [&](double t) {
+    const auto at = [&, &moving_a = moving_a, &moving_b = moving_b](double t) {
       const BodyState next_a = moving_a.at(t), next_b = moving_b.at(t);
       const PlaneView states =
           plane_states(next_a, next_b, testing::carried_axis(c, v, t, view->across, spin));
@@ -277,7 +277,7 @@ TEST(PlaneViewRates, TrueSectorsOfDentedBodies) {
     const auto view = plane_view(a, b, across, SectorMethod::true_cone, RateMethod::analytic, spin);
     ASSERT_TRUE(view);
     const Vector3d c = b.position - a.position, v = b.velocity - a.velocity;
-    const auto at = [&](double t) {
+    const auto at = [&, &moving_a = moving_a, &moving_b = moving_b](double t) {
       const auto later =
           plane_view(moving_a.at(t), moving_b.at(t), testing::carried_axis(c, v, t, view->across, spin),
                      SectorMethod::true_cone, RateMethod::none);

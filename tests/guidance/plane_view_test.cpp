@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "cones/ellipsoids/richardson.h"
-#include "support/allocations.h"
 #include "guidance/engagements.h"
+#include "support/allocations.h"
 
 namespace vericone::guidance::plane_view_test {
 namespace {
@@ -106,8 +106,9 @@ void rates_of_ellipsoids(SectorMethod method, std::uint64_t seed) {
     const double scale = v.norm() / c.norm() + a.omega.norm() + b.omega.norm() +
                          moving_a.acceleration.norm() / a.velocity.norm();
     const double h = 0.02 / scale;
-    const Differences rates = differences([&](double t) { return moving_a.at(t); },
-                                          [&](double t) { return moving_b.at(t); }, axis, method, h);
+    const Differences rates =
+        differences([&moving_a = moving_a](double t) { return moving_a.at(t); },
+                    [&moving_b = moving_b](double t) { return moving_b.at(t); }, axis, method, h);
     const PlaneCone& cone = view->cone;
     const double psi = cone.psi_rate + lateral * cone.psi_rate_by_a,
                  theta_b = cone.theta_b_rate + lateral * cone.theta_b_rate_by_a;

@@ -364,7 +364,7 @@ int run_accuracy(const Options& given, std::ostream& standard_output) {
       break;
     }
   const auto [a, b] = engagements.pair(shown);
-  Json picture = engagement_picture(a, b, 36, 192);
+  Json picture = engagement_picture({a, b}, 36, 192);
   picture["engagement"] = shown;
   write_whole(folder.path() / "engagement.json", picture.dump(1) + "\n");
   write_whole(folder.path() / "summary.json", summary.dump(1) + "\n");

@@ -16,6 +16,7 @@ int simulate_command(CommandLine& line) {
   line.option("scenario", simulate.scenario, "Scenario file, YAML (docs/scenarios.md)").required();
   line.option("--out", simulate.out, "Folder for tables, proof and picture");
   line.negative_flag("--no-figures", simulate.figures, "Tables and proof only");
+  line.flag("--animate", simulate.animate, "Also the run over time, simulation.html: a page for any browser");
   line.flag("--quiet", simulate.quiet, "No progress");
   line.flag("--json", simulate.json, "Print JSON");
   line.read();

@@ -2,7 +2,6 @@
 #include "cone/cone.h"
 
 #include <vericone/cones/combined/cone.h>
-#include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/ellipsoids/plane_sector.h>
 #include <vericone/cones/ellipsoids/true_cone.h>
 #include <vericone/cones/slices/combined_slice_cone.h>
@@ -15,6 +14,7 @@
 #include <ostream>
 
 #include "cone/answer.h"
+#include "cone/course.h"
 #include "cone/degrees.h"
 #include "cone/planar_cone.h"
 #include "cone/shape_engagements.h"
@@ -203,25 +203,28 @@ void run_planar_cone(const ConeCommand& options, const input::PlanarEngagement& 
     throw InputError("--tangents", options.tangents, "left out for a planar scene");
   if (options.tolerance)
     throw InputError("--tolerance", to_text(*options.tolerance), "left out for a planar scene");
-  if (!options.picture_folder.empty())
-    throw InputError("--out", options.picture_folder, "asked for in space only");
   if (options.map) throw InputError("--map", to_text(options.map->resolution), "asked for in space only");
+  std::optional<StagedFolder> folder;
+  if (!options.picture_folder.empty()) folder.emplace(options.picture_folder, "--out");
   const Json cone = planar_cone_json(e);
+  if (folder && !std::isfinite(cone["theta_b"].get<double>()))
+    throw InputError("--out", options.picture_folder, "asked for a scene whose squared lengths are doubles");
   if (options.json) {
     out << cone.dump(1) << '\n';
   } else {
     print_planar_cone(cone, e, out);
   }
+  if (!folder) return;
+  write_whole(folder->path() / "engagement.json", planar_picture(cone, e).dump(1) + "\n");
+  publish_cone(options, *folder, nullptr, "planar_engagement.py", "engagement", out);
 }
 
 }  // namespace
 
-Json engagement_picture(const Ellipsoid& a, const Ellipsoid& b, int planes, int samples,
-                        const Eigen::Vector3d& velocity) {
-  const auto body = [](const Ellipsoid& e) {
-    Json factor = Json::array();
-    for (int i = 0; i < 3; ++i) factor.push_back(vector_json(e.factor().row(i)));
-    return Json{{"center", vector_json(e.center())}, {"factor", factor}};
+Json engagement_picture(const input::Engagement& e, int planes, int samples) {
+  const Ellipsoid &a = e.agent.ellipsoid(), &b = e.obstacle.ellipsoid();
+  const auto body = [](const Ellipsoid& x) {
+    return Json{{"center", vector_json(x.center())}, {"factor", matrix_json(x.factor())}};
   };
   const SliceCone slices = slice_cone(a, b, planes);
   const TrueCone exact = true_cone(a, b, samples);
@@ -255,24 +258,9 @@ Json engagement_picture(const Ellipsoid& a, const Ellipsoid& b, int planes, int 
       result["gap_angles_degrees"] = {degrees(inner), degrees(middle), degrees(outer)};
     }
   }
-  const auto followed = [&](const Eigen::Vector3d& v) {
-    Json course{{"velocity", vector_json(v)}, {"verdict", to_string(ConeOracle(a, b).membership(v))}};
-    if (const auto t = time_to_contact(a, b, v)) {
-      course["contact_time"] = *t;
-      // At contact the supporting point of A towards B is the common one.
-      const Ellipsoid moved = a.translated(*t * v);
-      const Eigen::Vector3d n = ConeOracle(moved.translated(-1e-9 * *t * v), b).separating_normal();
-      // Where they graze, no plane may separate them by then.
-      const Eigen::Vector3d point = moved.support_point(n);
-      if (point.allFinite()) course["contact_point"] = vector_json(point);
-    } else {
-      course["miss_distance"] = clearance(a, b, v).distance;
-    }
-    return course;
-  };
-  const Json gap = followed(w);
+  const Json gap = course_json(input::Engagement{a, b, w});
   for (const auto& [name, value] : gap.items()) result["gap_" + name] = value;
-  if (!velocity.isZero(0)) result["course"] = followed(velocity);
+  if (e.agent_velocity != e.obstacle_velocity) result["course"] = course_json(e);
   return result;
 }
 
@@ -290,13 +278,11 @@ ConePicture cone_picture(const ConeCommand& options, const input::Engagement& e,
   };
   if (cone["relation"] != to_string(Relation::disjoint)) refuse("asked for disjoint bodies only");
   if (e.ellipsoids())
-    return {engagement_picture(
-                e.agent.ellipsoid(), e.obstacle.ellipsoid(), options.planes.value_or(kDefaultPlanes),
-                options.samples.value_or(kDefaultSamples), e.agent_velocity - e.obstacle_velocity),
+    return {engagement_picture(e, options.planes.value_or(kDefaultPlanes),
+                               options.samples.value_or(kDefaultSamples)),
             "engagement.py"};
   ConePicture picture{
-      scene_figure(e.agent, e.obstacle, e.agent_velocity - e.obstacle_velocity,
-                   options.tolerance.value_or(kDefaultTolerance), options.planes.value_or(kDefaultPlanes)),
+      scene_figure(e, options.tolerance.value_or(kDefaultTolerance), options.planes.value_or(kDefaultPlanes)),
       "combined_engagement.py"};
   if (picture.data.is_null()) refuse("asked for a cone within 90 degrees of the line of centres");
   return picture;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vericone/geometry/ellipsoid.h>
 #include <iosfwd>
 #include <optional>
 #include <string>
 
 #include "cone/map_answer.h"
+#include "input/body.h"
 #include "json/json_forward.h"
 
 namespace vericone {
@@ -40,9 +40,8 @@ void publish_cone(const ConeCommand& options, StagedFolder& folder, const Json& 
                   const std::string& script, const std::string& picture, std::ostream& out);
 
 /// What the picture of one engagement shows: both bodies, the slice cone inside the exact one, and a velocity
-/// between the two with the contact it leads to; the scene's own relative velocity too, where it is not 0.
-/// Requires disjoint bodies.
-Json engagement_picture(const Ellipsoid& a, const Ellipsoid& b, int planes, int samples,
-                        const Eigen::Vector3d& velocity = Eigen::Vector3d::Zero());
+/// between the two with the contact it leads to; the scene's own velocities too, where they differ
+/// (course.h). Requires disjoint ellipsoids.
+Json engagement_picture(const input::Engagement& engagement, int planes, int samples);
 
 }  // namespace vericone

@@ -7,7 +7,9 @@
 #include <ostream>
 
 #include "cone/answer.h"
+#include "cone/course.h"
 #include "json/json_value.h"
+#include "json/shape_json.h"
 #include "output/stopwatch.h"
 
 namespace vericone {
@@ -81,6 +83,13 @@ void print_planar_cone(const Json& cone, const input::PlanarEngagement& e, std::
   out << "verdict             " << answer(e, false)["verdict"].get<std::string>()
       << " (of the scene's velocities, " << verdict_kind(e) << ")\n"
       << "time                " << cone["seconds"].dump() << " s\n";
+}
+
+Json planar_picture(const Json& cone, const input::PlanarEngagement& e) {
+  Json result{{"agent", outline_json(e.agent)}, {"obstacle", outline_json(e.obstacle)}};
+  for (const char* field : {"relation", "psi", "theta_b", "left", "right"}) result[field] = cone[field];
+  result["course"] = course_json(e);
+  return result;
 }
 
 }  // namespace vericone

@@ -11,4 +11,7 @@ namespace vericone {
 Json planar_cone_json(const input::PlanarEngagement& engagement);
 void print_planar_cone(const Json& cone, const input::PlanarEngagement& engagement, std::ostream& out);
 
+/// What its picture shows: outlines, sector and edges of `cone`, and the course (course.h).
+Json planar_picture(const Json& cone, const input::PlanarEngagement& engagement);
+
 }  // namespace vericone

@@ -3,7 +3,7 @@
 
 #include <vericone/geometry/combined.h>
 
-#include "json/json_forward.h"
+#include "input/body.h"
 
 namespace vericone {
 
@@ -16,9 +16,9 @@ Json section_figure(const CombinedEllipsoid& dented, double resolution);
 /// not, and a velocity in a notch passes the waist.
 Json notch_figure(const CombinedEllipsoid& waisted, double resolution);
 
-/// The engagement of a scene: bodies, certified cone, slice cone, and the velocity w = v_A - v_B where it
-/// approaches. Null where the cone reaches a right angle from the line of centres: it has no section then.
-Json scene_figure(const CombinedEllipsoid& a, const CombinedEllipsoid& b, const Eigen::Vector3d& w,
-                  double tolerance, int planes);
+/// The engagement of a scene: bodies, certified cone, slice cone, and the course of its velocities where they
+/// differ (course.h). Null where the cone reaches a right angle from the line of centres: it has no section
+/// then.
+Json scene_figure(const input::Engagement& engagement, double tolerance, int planes);
 
 }  // namespace vericone

@@ -61,10 +61,13 @@ fitting::FitResult fit_or_explain(const fit::Scan& scan, const fitting::FitOptio
   } catch (const InputError& e) {
     for (const char* option : {"coverage", "margin", "pieces", "shape"})
       if (e.field() == option) throw InputError(std::string("--") + option, e.value(), e.requirement());
-    const bool flat = e.value().find("in one plane") != std::string::npos;
+    const auto says = [&](const char* part) { return e.value().find(part) != std::string::npos; };
     if (e.field() == "points")
-      throw InputError(scan.file, e.value(),
-                       e.requirement() + (flat ? " (--shape ellipse fits a footprint in the xy plane)" : ""));
+      throw InputError(
+          scan.file, e.value(),
+          e.requirement() + (says("in one plane")    ? " (--shape ellipse fits a footprint in the xy plane)"
+                             : says("hardly nearer") ? " (--mode containing encloses any points)"
+                                                     : ""));
     throw InputError(scan.file, e.field() + ": " + e.value(), e.requirement());
   }
 }

@@ -9,13 +9,14 @@
 #include "cone/answer.h"
 #include "json/json_value.h"
 #include "output/figures.h"
+#include "output/provenance.h"
 #include "output/staged_folder.h"
 #include "output/stopwatch.h"
 
 namespace vericone {
 namespace {
 
-void refuse_options(const ConeCommand& options) {
+void refuse_options_but_map(const ConeCommand& options) {
   const auto refuse = [](const char* option, const std::string& value, const char* why) {
     throw InputError(option, value, std::string("left out for these bodies") + why);
   };
@@ -30,10 +31,23 @@ void refuse_options(const ConeCommand& options) {
                      "given with --map: the picture of these bodies' cone is its map");
 }
 
+/// What course_json() of course.h has, as far as a map shows it; null where the velocities are equal.
+Json course_of(const input::PlacedEngagement& e, const Pair& pair, const Json& answer) {
+  if (e.agent_velocity == e.obstacle_velocity) return nullptr;
+  Json course{{"velocity", vector_json(e.agent_velocity - e.obstacle_velocity)},
+              {"verdict", answer["verdict"]}};
+  if (answer["time_to_contact"].is_number()) course["contact_time"] = answer["time_to_contact"];
+  if (answer["verdict"] == "out" && answer["clearance"].is_number()) {
+    course["miss_distance"] = answer["clearance"];
+    course["nearest_time"] = pair.miss(e.agent_velocity, e.obstacle_velocity).time;
+  }
+  return course;
+}
+
 }  // namespace
 
 void run_pair_cone(const ConeCommand& options, const input::PlacedEngagement& e, std::ostream& out) {
-  refuse_options(options);
+  refuse_options_but_map(options);
   std::optional<StagedFolder> folder;
   if (!options.picture_folder.empty()) folder.emplace(options.picture_folder, "--out");
   const auto start = Clock::now();
@@ -54,6 +68,7 @@ void run_pair_cone(const ConeCommand& options, const input::PlacedEngagement& e,
     const auto& [from, to] =
         std::pair(e.agent.containing_ellipsoid().center(), e.obstacle.containing_ellipsoid().center());
     map = map_answer(*pair.directions(), *options.map, to - from, e.obstacle_name);
+    map.picture["course"] = course_of(e, pair, cone["answer"]);
     cone["map"] = map.summary;
   }
   if (options.json) {

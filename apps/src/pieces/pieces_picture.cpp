@@ -97,14 +97,22 @@ Json panorama(const AssemblyCone& cone, int threads) {
   return distances(cone.oracle, kPanoramaHeight, kPanoramaWidth, threads, direction);
 }
 
-Json velocity_json(const AssemblyCone& cone, const input::AssemblyEngagement& e) {
+/// As course_json() of course.h; null where the velocities are equal.
+Json course_of(const AssemblyCone& cone, const input::AssemblyEngagement& e) {
   const Eigen::Vector3d w = e.agent_velocity - e.obstacle_velocity;
   if (!(w.norm() > 0)) return nullptr;
-  Json result{{"w", vector_json(w)},
+  Json result{{"velocity", vector_json(w)},
               {"verdict", to_string(cone.oracle.membership(e.agent_velocity, e.obstacle_velocity))}};
   if (const auto contact = cone.oracle.first_contact(w)) {
-    result["time"] = contact->time;
-    result["point"] = vector_json(contact->point);  // seen from the obstacle
+    result["contact_time"] = contact->time;
+    result["contact_point"] = vector_json(contact->point);
+  } else {
+    const AssemblyMiss miss = cone.oracle.miss_distance(w);
+    const double distance = 0.5 * (miss.least + miss.most);
+    result["miss_distance"] = distance;
+    result["nearest_time"] = miss.time;
+    result["nearest_on_agent"] = vector_json(miss.point - distance * miss.normal);
+    result["nearest_on_obstacle"] = vector_json(miss.point);
   }
   return result;
 }
@@ -118,7 +126,7 @@ std::string write_pieces_picture(const AssemblyCone& cone, const input::Assembly
   Json data = to_json(cone, e);
   data["title"] = describe(e.obstacle);
   data["agent"] = agent_json(e);
-  data["velocity"] = velocity_json(cone, e);
+  data["course"] = course_of(cone, e);
   if (within) {
     data["top"] = top_view(e.obstacle, agent.low.z(), agent.high.z());
     data["heights"] = {agent.low.z(), agent.high.z()};

@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string>& names_of_files() {
   static const std::vector<std::string> names{
-      "bodies.csv",  "encounters.csv", "planes.csv",    "events.csv",     "proof.json",
-      "shapes.json", "run.json",       "scenario.yaml", "simulation.png", "simulation.pdf"};
+      "bodies.csv", "encounters.csv", "planes.csv",     "events.csv",     "proof.json",     "shapes.json",
+      "run.json",   "scenario.yaml",  "simulation.png", "simulation.pdf", "simulation.html"};
   return names;
 }
 
@@ -49,10 +49,9 @@ int run_simulate(const SimulateOptions& options, std::ostream& out) {
     const scenario::RunOrigin origin{options.scenario, options.command_line, seconds, text};
     summary = scenario::run_json(scenario, *run, origin);
     scenario::write_run(scenario, *run, origin, folder.path());
-    if (options.figures) {
-      progress.show("drawing", 0);
-      draw_figures("simulation.py", folder.path());
-    }
+    if (options.figures || options.animate) progress.show("drawing", 0);
+    if (options.figures) draw_figures("simulation.py", folder.path());
+    if (options.animate) draw_figures("animation.py", folder.path());
   }
   const std::vector<fs::path> files = folder.publish(names_of_files());
   if (options.json) {

@@ -10,6 +10,7 @@ struct SimulateOptions {
   std::string scenario;
   std::string out = "out/simulate";
   bool figures = true;
+  bool animate = false;  // also a page that shows the run over time
   bool quiet = false;
   bool json = false;
   std::string command_line;

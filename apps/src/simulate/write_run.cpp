@@ -25,12 +25,19 @@ std::string content_of(const fs::path& file) {
 Json run_json(const simulation::Scenario& scenario, const simulation::Run& run, const RunOrigin& origin) {
   std::size_t arcs = 0, agents = 0;
   for (const simulation::Track& track : run.tracks) arcs += track.arcs().size();
-  for (const simulation::Body& body : scenario.bodies) agents += body.pilot.has_value();
+  Json goals = Json::array();
+  for (const simulation::Body& body : scenario.bodies) {
+    agents += body.pilot.has_value();
+    if (!body.pilot || !body.pilot->goal) continue;
+    const simulation::Goal& goal = *body.pilot->goal;
+    goals.push_back({{"agent", body.name}, {"point", vector_json(goal.point)}, {"reached", goal.reached}});
+  }
   return {{"scenario", scenario.name},
           {"file", plain_text(origin.file.filename().string())},
           {"verdict", simulation::to_string(run.verdict())},
           {"bodies", scenario.bodies.size()},
           {"agents", agents},
+          {"goals", goals},
           {"end", run.end},
           {"step", scenario.step},
           {"arcs", arcs},

@@ -56,7 +56,7 @@ TEST(EncloseClearance, IsProvedByMovingTheBody) {
     ASSERT_LE(m.lo(), m.hi());
     // Moving B by s along the normal, which is perpendicular to w to rounding only: a margin for that.
     const double margin = 1e-13 * ((b.center() - a.center()).norm() + 10);
-    const auto moved = [&](double s) { return ConeOracle(a, b.translated(s * near.normal)); };
+    const auto moved = [&, &a = a, &b = b](double s) { return ConeOracle(a, b.translated(s * near.normal)); };
     const auto hits = [&](const ConeOracle& oracle) {
       return oracle.relation() != Relation::disjoint || oracle.passage(w) != Passage::never;
     };

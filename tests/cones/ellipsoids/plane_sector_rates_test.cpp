@@ -62,7 +62,7 @@ TEST(PlaneSectorRates, EveryKindOfMotion) {
     if (kind == 7 || all) m.shape_rate_b = symmetric(random, 0.2);
     if (kind == 8 || all) m.plane_spin = random.uniform(-1, 1);
     const PlaneSectorRates rates = true_sector_rates(s, a, b, m);
-    const auto rate = [&](auto&& of) {
+    const auto rate = [&, &a = a, &b = b](auto&& of) {
       return richardson_derivative([&](double t) { return of(later(s, a, b, m, t)); }, 0.01);
     };
     const double scale = 1e-8 * std::max({0.1, std::abs(rates.left), std::abs(rates.right)});

@@ -251,7 +251,7 @@ TEST(TrueCone, Converges) {
   for (int i = 0; i < 2000; ++i) {
     const auto [a, b] = random.separated_along_centers(1, 10, random.uniform(1.5, 3));
     const double truth = true_cone(a, b, 1024).cross_section_area;
-    const auto error = [&](int samples) {
+    const auto error = [&, &a = a, &b = b](int samples) {
       return std::abs(true_cone(a, b, samples).cross_section_area / truth - 1);
     };
     if (i < 200) at_48.push_back(error(48));

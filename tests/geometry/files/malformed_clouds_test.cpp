@@ -211,7 +211,7 @@ TEST(DamagedClouds, NeverCrashTheReader) {
   for (const auto& [name, bytes, has_length] : sound) {
     SCOPED_TRACE(name);
     ASSERT_FALSE(read_points(directory.write(name, bytes)).points.empty());
-    const auto is_read = [&](const std::string& damaged) {
+    const auto is_read = [&, &name = name](const std::string& damaged) {
       const auto path = directory.write(name, damaged);
       try {
         const PointFile file = read_points(path);

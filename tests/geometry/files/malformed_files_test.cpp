@@ -201,7 +201,7 @@ TEST(DamagedFiles, NeverCrashTheReader) {
   int refused = 0;
   for (const auto& [name, bytes] : sound) {
     ASSERT_EQ(read_points(directory.write(name, bytes)).faces.size(), 1U) << name;
-    const auto attempt = [&](const std::string& damaged) {
+    const auto attempt = [&, &name = name](const std::string& damaged) {
       const auto path = directory.write(name, damaged);
       try {
         EXPECT_FALSE(read_points(path).points.empty());

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "dense_eigen.h"
@@ -74,6 +75,20 @@ Vector3d reach_along_axes(const CombinedEllipsoid& body, const Matrix3d& axes) {
   return reach;
 }
 
+/// Of points that no closed surface explains better than a plane (a line): how thick they are beside what the
+/// best surface leaves over.
+InputError flat_points(const FittedSurface& fit, const Cloud& cloud) {
+  const bool planar = fit.model.planar;
+  const std::string surface = planar ? "ellipse" : "ellipsoid", flat = planar ? "line" : "plane";
+  const double times = std::sqrt(std::max(0.0, spread(cloud, planar)(0))) / fit.noise;
+  char ratio[32] = "less than 0.1";
+  if (times >= 0.1) std::snprintf(ratio, sizeof ratio, "%.2g", times);
+  return {"points", "points hardly nearer to any " + surface + " than to a " + flat,
+          std::string("on several sides of ") + (planar ? "a footprint" : "a body") +
+              " like it: their thickness is " + ratio + " times what the best " + surface +
+              " misses them by, too little to tell two sides"};
+}
+
 /// Refuses what is no closed surface near the points but the limit of some.
 void require_closed(const FittedSurface& fit, const Cloud& cloud) {
   constexpr double kLong = 10;
@@ -81,9 +96,7 @@ void require_closed(const FittedSurface& fit, const Cloud& cloud) {
   const int d = planar ? 2 : 3;
   const Vector3d a = Surfaces(fit.model, fit.solution.parameters).semi_axes();
   const std::string wanted = planar ? "near an ellipse" : "near an ellipsoid";
-  if (is_flat(fit, cloud))
-    throw InputError("points", planar ? "points near a straight line" : "points near a plane",
-                     wanted + ": they are no thicker than their noise");
+  if (is_flat(fit, cloud)) throw flat_points(fit, cloud);
   if (!is_open(fit)) return;
   const auto open = (a.head(d).array() > kLong).count();
   const std::string found = planar      ? (open == 1 ? "a parabola or two parallel lines" : "a straight line")

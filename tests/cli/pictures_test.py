@@ -1,0 +1,329 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the pictures of `vericone cone --out` show of a scene's velocities: the data they are drawn from, against closed
+forms and sampling, and the pictures; pictures of runs, and the page of a run as node shows it. Environment as for cli_test.py."""
+import csv
+import json
+import math
+import os
+import random
+import re
+import shutil
+import subprocess
+import unittest
+
+from hostile_test import InFolder
+
+DRAWS = not subprocess.run(["/usr/bin/python3", "-c", "import matplotlib"], capture_output=True, check=False).returncode
+DENTED = {"center": [12, 3], "semi_axes": [4, 2.5], "rotation": 0.3, "hyperbolas": [{"semi_axes": [1.5, 1.2], "rotation": 0.8}]}
+MESH = "OFF\n8 6 0\n" + "".join("%d %d %d\n" % (8 + x, y, z) for x in (0, 1) for y in (-1, 1) for z in (-1, 1)) + \
+       "4 0 1 3 2\n4 4 6 7 5\n4 0 4 5 1\n4 2 3 7 6\n4 0 2 6 4\n4 1 5 7 3\n"
+
+
+def ball(center, radius):
+    return {"center": center, "semi_axes": [radius] * len(center)}
+
+
+def scene(agent, obstacle, v_a=None, v_b=None):
+    given = {"agent": agent, "obstacle": obstacle, "agent_velocity": v_a, "obstacle_velocity": v_b}
+    return json.dumps({k: v for k, v in given.items() if v is not None})
+
+
+class ConePictures(InFolder):
+    def cone(self, content, *words):
+        self.write("scene.yaml", content)
+        result = self.run_limited("cone", "scene.yaml", *words, preexec_fn=None)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        return result.stdout
+
+    def data(self, content, name="engagement.json"):
+        self.cone(content, "--out", "out", "--no-figures")
+        with open(os.path.join(self.folder, "out", name), encoding="utf-8") as f:
+            return json.load(f)
+
+    def near(self, one, other, most):
+        self.assertLess(math.dist(one, other), most)
+
+    def test_circles_in_closed_form(self):
+        # Radii 1 and 2, centres 5 apart along x; the obstacle moves too, and what is shown is seen from it.
+        for d in (2, 3):
+            def place(x, y, d=d):
+                return [x, y, 0][:d]
+            a, b = ball(place(0, 0), 1), ball(place(5, 0), 2)
+            hit = self.data(scene(a, b, place(1, 7), place(-1, 7)))["course"]
+            self.assertEqual((hit["verdict"], hit["velocity"]), ("in", place(2, 0)))
+            self.assertAlmostEqual(hit["contact_time"], 1, 9)
+            self.near(hit["contact_point"], place(3, 0), 1e-6)
+            graze = self.data(scene(a, b, place(4, 3)))["course"]
+            self.assertEqual(graze["verdict"], "on")
+            self.assertAlmostEqual(graze["contact_time"], 4 / 5, 9)
+            self.near(graze["contact_point"], place(5 - 2 * 3 / 5, 2 * 4 / 5), 1e-6)
+            miss = self.data(scene(a, b, place(3, 4), place(0, 0)))["course"]
+            self.assertEqual(miss["verdict"], "out")
+            self.assertAlmostEqual(miss["miss_distance"], 4 - 3, 9)  # the line passes at 5 * 4 / 5
+            self.assertAlmostEqual(miss["nearest_time"], 3 / 5, 6)  # the distance hardly changes there
+            self.near(miss["nearest_on_agent"], place(1.8 + 0.8, 2.4 - 0.6), 1e-6)
+            self.near(miss["nearest_on_obstacle"], place(5 - 1.6, 1.2), 1e-6)
+            away = self.data(scene(a, b, place(-1, 1)))["course"]
+            self.assertEqual((away["verdict"], away["nearest_time"]), ("out", 0))
+            self.assertAlmostEqual(away["miss_distance"], 2, 9)
+
+    def test_planar_scenes_of_every_kind(self):
+        a = ball([0, 0], 1)
+        rest = self.data(scene(a, ball([5, 0], 2)))
+        self.assertAlmostEqual(rest["course"]["miss_distance"], 2, 9)
+        self.assertAlmostEqual(rest["psi"], 2 * math.asin(3 / 5), 12)
+        touching = self.data(scene(a, ball([3, 0], 2), [0, 1]))
+        self.assertEqual((touching["relation"], touching["course"]["verdict"], touching["left"]), ("touching", "touching", None))
+        self.near(touching["course"]["contact_point"], [1, 0], 1e-6)
+        overlapping = self.data(scene(a, ball([2, 0], 2), [0, 1]))
+        self.assertEqual((overlapping["relation"], overlapping["course"]),
+                         ("overlapping", {"velocity": [0, 1], "verdict": "overlapping"}))
+
+    def test_dents_against_sampling(self):
+        rng = random.Random(1)
+        seen = set()
+        for _ in range(12):
+            agent = {"center": [rng.uniform(-1, 1), rng.uniform(-3, 3)], "semi_axes": [rng.uniform(0.3, 2), 1], "rotation": rng.uniform(0, 3)}
+            data = self.data(scene(agent, DENTED, [10, rng.uniform(-6, 6)]))
+            course = data["course"]
+            seen.add(course["verdict"])
+            a, b = ([p for arc in data[name]["arcs"] for p in arc["points"]] for name in ("agent", "obstacle"))
+            w = course["velocity"]
+
+            def gap(p, q, w=w):
+                d = [q[0] - p[0], q[1] - p[1]]
+                t = max(0, (d[0] * w[0] + d[1] * w[1]) / (w[0] ** 2 + w[1] ** 2))
+                return math.hypot(d[0] - t * w[0], d[1] - t * w[1])
+
+            least = min(gap(p, q) for p in a for q in b)
+            if course["verdict"] == "out":
+                self.assertLessEqual(course["miss_distance"], least + 1e-9)
+                self.assertGreater(course["miss_distance"], least - 0.01)  # chords cut off little
+                self.assertAlmostEqual(math.dist(course["nearest_on_agent"], course["nearest_on_obstacle"]), course["miss_distance"], 9)
+            else:
+                self.assertEqual(course["verdict"], "in")
+                self.assertLess(least, 0.05)
+                # The point is on both outlines, the agent's where it is then.
+                back = [x - course["contact_time"] * v for x, v in zip(course["contact_point"], w)]
+                self.assertLess(min(math.dist(course["contact_point"], q) for q in b), 0.05)
+                self.assertLess(min(math.dist(back, p) for p in a), 0.05)
+        self.assertEqual(seen, {"in", "out"})
+
+    def test_dents_and_meshes_in_space(self):
+        # A ball of radius 1/2 passes above a body with dents along x whose rim is below its top, z = 2.
+        dented = {"center": [8, 0, 0], "semi_axes": [2, 2, 2], "hyperboloids": [{"sheets": 2, "semi_axes": [1, 1, 1]}]}
+        self.write("box.off", MESH)  # 8 <= x <= 9, |y|, |z| <= 1
+        for obstacle, name, top, x in ((dented, "engagement.json", 2, 8), ({"mesh": "box.off"}, "pieces.json", 1, None)):
+            miss = self.data(scene(ball([0, 0, 3], 0.5), obstacle, [2, 0, 0]), name)["course"]
+            self.assertEqual(miss["verdict"], "out")
+            self.assertAlmostEqual(miss["miss_distance"], 3 - 0.5 - top, 6)
+            self.assertAlmostEqual(miss["nearest_on_obstacle"][2], top, 6)
+            self.assertAlmostEqual(miss["nearest_on_agent"][2], 2.5, 6)
+            if x:
+                self.assertAlmostEqual(miss["nearest_time"], x / 2, 3)
+            hit = self.data(scene(ball([0, 0, 0.75], 0.5), obstacle, [2, 0, 0]), name)["course"]
+            self.assertEqual(hit["verdict"], "in")
+            self.near(hit["contact_point"], [2 * hit["contact_time"], 0, 0.75], 0.5 + 1e-3)
+
+    def test_maps_of_other_pairs(self):
+        self.write("box.off", MESH)
+        waist = {"center": [0, 0, 0], "semi_axes": [1, 1, 1], "hyperboloids": [{"sheets": 1, "semi_axes": [1, 0.5, 0.5]}]}
+        for v, verdict in (([2, 0, 0], "in"), ([0, 2, 0], "out")):
+            self.cone(scene(waist, {"mesh": "box.off"}, v), "--map", "0.2", "--out", "out", "--no-figures")
+            with open(os.path.join(self.folder, "out", "cone_map.json"), encoding="utf-8") as f:
+                course = json.load(f)["course"]
+            self.assertEqual((course["velocity"], course["verdict"]), (v, verdict))
+            if verdict == "in":  # the agent's tip, x = 1, and the side x = 8 of the box
+                self.assertAlmostEqual(course["contact_time"], (8 - 1) / 2, 2)
+            else:
+                self.assertAlmostEqual(course["miss_distance"], 8 - 1, 2)
+
+    def test_answers_do_not_depend_on_the_picture(self):
+        for obstacle in (DENTED, ball([5, 1], 2)):
+            content = scene(ball([0, 0], 1), obstacle, [9, 1])
+            plain, drawn = json.loads(self.cone(content, "--json")), json.loads(self.cone(content, "--json", "--out", "out", "--no-figures"))
+            plain.pop("seconds"), drawn.pop("seconds")
+            self.assertEqual(plain, drawn)
+
+    @unittest.skipUnless(DRAWS, "no /usr/bin/python3 with matplotlib")
+    def test_planar_pictures_are_drawn(self):
+        scenes = (scene(ball([0, 0], 1), DENTED, [9, 1]), scene(ball([0, 0], 1), ball([5, 0], 2), [4, 3]),
+                  scene(ball([0, 0], 1), DENTED, [9, -6]), scene(ball([0, 0], 1), ball([5, 0], 2)),
+                  scene(ball([0, 0], 1), ball([3, 0], 2), [0, 1]), scene(ball([0, 0], 1), ball([2, 0], 2)),
+                  scene(ball([0, 0], 1e-6), {"center": [1e7, 1], "semi_axes": [1, 1e-7]}, [1, 1e-9]),
+                  scene(ball([0, 0], 1), ball([1e140, 0], 2), [4, 3]), scene(ball([0, 0], 1), ball([9, 0], 2), [5e-324, 0]),
+                  scene(ball([1e9, 1e9], 1), ball([1e9 + 9, 1e9], 1), [4, 0.3]))
+        for content in scenes:
+            with self.subTest(content):
+                said = self.cone(content, "--picture", "out")
+                self.assertIn("out/engagement.png", said)
+                for name, begins in (("engagement.png", b"\x89PNG"), ("engagement.pdf", b"%PDF")):
+                    with open(os.path.join(self.folder, "out", name), "rb") as f:
+                        self.assertEqual(f.read(4), begins)
+
+
+def agents(count, d, goals=True):
+    """On a ring, each on its way to the other side."""
+    bodies = []
+    for i in range(count):
+        at = [8 * math.cos(2 * math.pi * i / count), 8 * math.sin(2 * math.pi * i / count), 0][:d]
+        goal = {"goal": {"point": [-x for x in at], "most": 3, "reached": 0.5}} if goals else {}
+        bodies.append({"name": "A%d" % i, "shape": {"semi_axes": [0.5, 0.3, 0.3][:d]}, "position": at, "velocity": [-x / 4 for x in at],
+                       "pilot": {"law": "clearance", "most": 6, "clearance": {"required": 0.3}, **goal}})
+    return {"duration": 2, "step": 0.05, "bodies": bodies}
+
+
+class RunPictures(InFolder):
+    def simulate(self, scenario, *words):
+        self.write("scenario.yaml", json.dumps(scenario))
+        result = self.run_limited("simulate", "scenario.yaml", "--quiet", "--out", "out", *words, preexec_fn=None)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        with open(os.path.join(self.folder, "out", "run.json"), encoding="utf-8") as f:
+            return json.load(f)
+
+    def test_goals_are_told(self):
+        for d in (2, 3):
+            scenario = agents(3, d)
+            del scenario["bodies"][1]["pilot"]["goal"]
+            goals = self.simulate(scenario, "--no-figures")["goals"]
+            self.assertEqual([(g["agent"], g["reached"]) for g in goals], [("A0", 0.5), ("A2", 0.5)])
+            for goal, body in zip(goals, scenario["bodies"][::2]):
+                self.assertEqual(goal["point"][:d], body["pilot"]["goal"]["point"])
+                self.assertEqual(len(goal["point"]), 3)
+
+    @unittest.skipUnless(DRAWS, "no /usr/bin/python3 with matplotlib")
+    def test_few_and_many_bodies_are_drawn(self):
+        rock = {"name": "rock", "shape": {"semi_axes": [1, 1, 1]}, "position": [0, 0, 0], "velocity": [0, 0, 0]}
+        one = agents(1, 3)
+        one["bodies"].append(rock)
+        still = {"duration": 1, "bodies": [rock]}
+        for scenario in (agents(2, 2), agents(10, 2), agents(10, 3, goals=False), one, still):
+            with self.subTest(len(scenario["bodies"])):
+                self.simulate(scenario)
+                for name, begins in (("simulation.png", b"\x89PNG"), ("simulation.pdf", b"%PDF")):
+                    with open(os.path.join(self.folder, "out", name), "rb") as f:
+                        self.assertEqual(f.read(4), begins)
+
+
+@unittest.skipUnless(DRAWS, "no /usr/bin/python3 with matplotlib")
+class RunPages(InFolder):
+    def page(self, scenario, *words, **options):
+        self.write("scenario.yaml", json.dumps(scenario))
+        result = self.run_limited("simulate", "scenario.yaml", "--quiet", "--no-figures", "--animate", "--out", "out", *words,
+                                  preexec_fn=None, **options)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        with open(os.path.join(self.folder, "out", "simulation.html"), encoding="utf-8") as f:
+            text = f.read()
+        return text, json.loads(re.search('<script id="data" type="application/json">(.*?)</script>', text, re.DOTALL)[1])
+
+    def shown(self, *shares):
+        if not shutil.which("node"):
+            self.skipTest("no node")
+        script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "animation_page.js")
+        result = subprocess.run(["node", script, os.path.join(self.folder, "out", "simulation.html"), "400", "300", *map(str, shares)],
+                                capture_output=True, text=True, check=False, timeout=60)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        return json.loads(result.stdout)
+
+    def rows(self):
+        with open(os.path.join(self.folder, "out", "bodies.csv"), newline="", encoding="utf-8") as f:
+            return list(csv.DictReader(f))
+
+    def test_one_page_with_all_of_the_run(self):
+        for d in (2, 3):
+            text, data = self.page(agents(3, d))
+            self.assertIsNone(re.search(r"https?:|//[a-z]|\bsrc=|\bhref=|\bimport\b|\bfetch\b|XMLHttpRequest", text.replace("// ", "")))
+            self.assertEqual((data["planar"], data["end"]), (d == 2, 2))
+            for body in data["bodies"]:
+                own = [r for r in self.rows() if r["body"] == body["name"]]
+                self.assertEqual(len(body["t"]), len(own))
+                for i, row in enumerate(own):
+                    self.assertAlmostEqual(body["t"][i], float(row["t [s]"]), 7)
+                    for k, c in enumerate("xyz"):
+                        self.assertAlmostEqual(body["at"][3 * i + k], float(row[c + " [m]"]), 6)
+                    for k, c in enumerate("wxyz"):
+                        self.assertAlmostEqual(body["turn"][4 * i + k], float(row["q" + c]), 5)
+                self.assertEqual(body["goal"]["reached"], 0.5)
+
+    def test_what_the_page_shows_is_where_the_bodies_are(self):
+        self.page(agents(3, 2))
+        shown = self.shown(0, 0.5, 1)
+        ends = {r["body"]: r for r in self.rows()}
+        for frame, time in zip(shown["frames"], (0, 1, 2)):
+            self.assertEqual(frame["time"], "%.2f of 2.00 s" % time)
+        last = shown["frames"][2]["drawn"]
+        # The numbers of the axes say where a pixel is; the filled outlines of 120 points are the bodies.
+        numbers = [o for o in last if "text" in o and re.fullmatch(r"-?[0-9.]+", o["text"])]
+        scales = []
+        for align, k in (("center", 0), ("right", 1)):
+            (a, p), (b, q) = [(float(o["text"]), o["at"][k]) for o in numbers if o["align"] == align][::len(numbers)][:1] + \
+                [(float(o["text"]), o["at"][k]) for o in numbers if o["align"] == align][-1:]
+            scales.append((a, p, (b - a) / (q - p)))
+        outlines = [o["path"] for o in last if "fill" in o and len(o["path"]) == 120]
+        self.assertEqual(len(outlines), 3)
+        for path, row in zip(outlines, ends.values()):
+            middle = [sum(p[k] for p in path) / len(path) for k in (0, 1)]
+            for (value, pixel, metres), m, c in zip(scales, middle, "xy"):
+                self.assertAlmostEqual(value + metres * (m - pixel), float(row[c + " [m]"]), 4)
+            size = max(math.dist(p, middle) for p in path) * scales[0][2]
+            self.assertAlmostEqual(size, 0.5, 3)
+        self.assertEqual(shown["frames"][3]["time"], "1.00 of 2.00 s")  # played for a second
+        for body, pose in shown["poses"].items():
+            at = [r for r in self.rows() if r["body"] == body]
+            row = at[len(at) >> 1]
+            for k, c in enumerate("xyz"):
+                self.assertAlmostEqual(pose["at"][k], float(row[c + " [m]"]), 6)
+
+    def test_bodies_of_every_kind(self):
+        self.write("box.off", MESH)
+        changing = {"offset": 0.5, "amplitude": 0.3, "rate": 2}
+        still = {"velocity": [0, 0, 0]}
+        bodies = [{"name": "ball", "shape": {"semi_axes": [1, 1, 1]}, "position": [0, 0, 0], "velocity": [4, 0, 0]},
+                  {"name": "box", "shape": {"mesh": "box.off"}, "position": [0, 5, 0], **still},
+                  {"name": "late", "shape": {"dented": [1, 2, 1], "k": changing}, "position": [0, -6, 0], "appears": 1, **still},
+                  {"name": "waist", "shape": {"semi_axes": [2, 1, 1], "hyperboloids": [{"sheets": 1, "semi_axes": [1, 0.5, 0.5]}]},
+                   "position": [0, 0, 6], **still},
+                  {"name": "hull", "shape": {"points": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]}, "position": [0, 0, -6], **still},
+                  {"name": "cloud", "shape": {"cloud": "box.off", "radius": 0.1}, "position": [-20, 0, 0], **still},
+                  {"name": "union", "position": [0, 12, 0], **still, "shape": {"pieces": [
+                      {"center": [0, 0, 0], "semi_axes": [1, 1, 1]}, {"center": [1, 0, 0], "semi_axes": [1, 1, 1]}]}}]
+        for chosen in ([0], [0, 1], [0, 2], [0, 3], [0, 4], [0, 5], [0, 6], range(7)):
+            with self.subTest([bodies[i]["name"] for i in chosen]):
+                self.page({"duration": 2, "step": 0.1, "bodies": [bodies[i] for i in chosen]})
+                shown = self.shown(0, 0.25, 1)
+                self.assertCountEqual(shown["names"], [bodies[i]["name"] for i in chosen])
+                for frame in shown["frames"]:
+                    for o in frame["drawn"]:
+                        for p in o.get("path", [o.get("at")]):
+                            self.assertTrue(all(isinstance(x, (int, float)) for x in p), frame["what"])  # null: not a number
+                painted = [sum("fill" in o for o in f["drawn"]) for f in shown["frames"]]
+                self.assertGreater(painted[0], 100)
+                if 2 in chosen:  # it appears at 1 s
+                    self.assertEqual(painted[0], painted[1])
+                    self.assertGreater(painted[2], painted[0] + 100)
+        flat = {"duration": 2, "bodies": [{"name": "flat", "shape": {"a_c": 3, "b_c": 2, "k": changing}, "position": [0, 0], "velocity": [1, 0]}]}
+        self.page(flat)
+        self.assertEqual(self.shown(0.5)["names"], ["flat"])
+
+    def test_names_cannot_break_the_page(self):
+        name = "</script><b>&amp;\\u003c"
+        scenario = agents(2, 2)
+        scenario["bodies"][0]["name"] = name
+        text, data = self.page(scenario)
+        self.assertEqual(text.count("</script>"), 2)
+        self.assertEqual(data["bodies"][0]["name"], name)
+        self.assertEqual(self.shown(0)["names"][0], name + " (star: its goal)")
+
+    def test_without_python_all_else_is_written(self):
+        self.write("scenario.yaml", json.dumps(agents(2, 2)))
+        result = self.run_limited("simulate", "scenario.yaml", "--quiet", "--animate", "--out", "out", preexec_fn=None,
+                                  env={**os.environ, "VERICONE_PYTHON": "/nowhere/python3"})
+        self.assertEqual(result.returncode, 0)
+        self.assertRegex(result.stderr, r"^vericone: no pictures: no interpreter /nowhere/python3; .*\n$")
+        left = os.listdir(os.path.join(self.folder, "out"))
+        self.assertIn("run.json", left)
+        self.assertNotIn("simulation.html", left)
+
+
+if __name__ == "__main__":
+    unittest.main()
