@@ -95,8 +95,7 @@ class TrueHull {
   Eigen::Matrix3d inverse_;  // of the agent's factor
 };
 
-/// The true sector of dented bodies: edges by Newton's method from the ones before, asked of the certified
-/// oracle; where that denies them, by bisection of its answers.
+/// The true sector of dented bodies: edges of the certified oracle, each looked for near the one before.
 class TrueCombined {
  public:
   static constexpr double kEdge = 1e-7;  // rad
@@ -109,7 +108,6 @@ class TrueCombined {
                     std::optional<CombinedEdge>& before) const;
 
   CombinedOracle oracle_;
-  CombinedEdges edges_;
   bool disjoint_;
   mutable std::optional<CombinedEdge> left_, right_;  // of the plane before
 };
