@@ -156,14 +156,14 @@ CombinedContact CombinedContacts::beside(const IntervalVector3& w, const Combine
   CombinedContact found = near;
   if (ball_) {
     ball_inequalities(w);
-    found.outcome = PointCertificate<3>().decide(list3_, kBox, found.on_b);
+    found.outcome = decide_from<3>(list3_, kBox, found.on_b);
     return found;
   }
   const double way = 1.01 * extent_;
   contact_inequalities(w, way);
   Eigen::Vector4d z;
   z << near.on_a, near.way;
-  found.outcome = PointCertificate<4>().decide(list4_, both_box(way), z);
+  found.outcome = decide_from<4>(list4_, both_box(way), z);
   found.on_a = z.head<3>();
   found.way = z(3);
   return found;

@@ -38,7 +38,7 @@ class CombinedContacts {
 
   /// Contacts of disjoint bodies along w within the ways [0, longest].
   CombinedContact along(const IntervalVector3& w, double longest) const;
-  /// By a contact near the edge of the cone alone, without a search: see PointCertificate.
+  /// By a contact near the edge of the cone alone, without a search: see decide_from().
   CombinedContact beside(const IntervalVector3& w, const CombinedContact& near) const;
   /// No way is longer.
   double extent() const { return extent_; }
