@@ -100,7 +100,8 @@ class TrueCombined {
  public:
   static constexpr double kEdge = 1e-7;  // rad
 
-  TrueCombined(const CombinedEllipsoid& a, const CombinedEllipsoid& b);
+  /// `memory`: of the step before, and for the one after.
+  TrueCombined(const CombinedEllipsoid& a, const CombinedEllipsoid& b, EdgeMemory* memory);
   std::optional<TrueEdges> on(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
 
  private:
@@ -109,14 +110,15 @@ class TrueCombined {
 
   CombinedOracle oracle_;
   bool disjoint_;
-  mutable std::optional<CombinedEdge> left_, right_;  // of the plane before
+  EdgeMemory* memory_;
+  mutable EdgeMemory own_;  // where there is no other: of the plane before
 };
 
 /// Two bodies at an instant, prepared to be seen on many planes through their line of sight. Refers to the
 /// bodies.
 class PlaneCones {
  public:
-  PlaneCones(const BodyState& a, const BodyState& b, SectorMethod method);
+  PlaneCones(const BodyState& a, const BodyState& b, SectorMethod method, EdgeMemory* memory = nullptr);
 
   /// u: the line of sight; e perpendicular to it, unit. Nothing as fill_cone() says.
   std::optional<Opening> on(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
@@ -146,7 +148,7 @@ class PlaneCones {
     const HullBody& hull;
   };
   using Kind = std::variant<None, Planar, Slices, HullSlices, SectorPlanes, TrueHull, TrueCombined>;
-  static Kind kind_of(const BodyState& a, const BodyState& b, SectorMethod method);
+  static Kind kind_of(const BodyState& a, const BodyState& b, SectorMethod method, EdgeMemory* memory);
 
   Kind kind_;
 };

@@ -243,8 +243,8 @@ std::optional<TrueEdges> TrueHull::by_assembly(const Vector3d& u, const Vector3d
   return edges;
 }
 
-TrueCombined::TrueCombined(const CombinedEllipsoid& a, const CombinedEllipsoid& b)
-    : oracle_(a, b, kEdge), disjoint_(oracle_.relation() == Relation::disjoint) {}
+TrueCombined::TrueCombined(const CombinedEllipsoid& a, const CombinedEllipsoid& b, EdgeMemory* memory)
+    : oracle_(a, b, kEdge), disjoint_(oracle_.relation() == Relation::disjoint), memory_(memory) {}
 
 CombinedEdge TrueCombined::edge(const Vector3d& u, const Vector3d& side,
                                 std::optional<CombinedEdge>& before) const {
@@ -258,8 +258,8 @@ CombinedEdge TrueCombined::edge(const Vector3d& u, const Vector3d& side,
 
 std::optional<TrueEdges> TrueCombined::on(const Vector3d& u, const Vector3d& e) const {
   if (!disjoint_) return std::nullopt;
-  // The plane before may have been this one turned over.
-  const CombinedEdge left = edge(u, e, left_), right = edge(u, -e, right_);
+  EdgeMemory& before = memory_ ? *memory_ : own_;
+  const CombinedEdge left = edge(u, e, before.left), right = edge(u, -e, before.right);
   return TrueEdges{left, right};
 }
 

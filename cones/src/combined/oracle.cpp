@@ -16,7 +16,6 @@ struct CombinedOracle::State {
   CombinedEllipsoid given_a, given_b;
   bool swapped;
   CombinedEllipsoid a, b;  // a is an ellipsoid whenever one of the two is
-  CombinedContacts contacts;
   double tolerance;
   std::optional<Relation> relation;
   std::optional<ConeOracle> exact;   // two ellipsoids
@@ -30,6 +29,7 @@ struct CombinedOracle::State {
     std::vector<CombinedOracle> wider, narrower;
   };
   mutable std::optional<Simpler> simpler_;
+  mutable std::optional<CombinedContacts> contacts_;
   mutable std::optional<CombinedEdges> edges_;
 
   State(const CombinedEllipsoid& first, const CombinedEllipsoid& second, double width)
@@ -38,7 +38,6 @@ struct CombinedOracle::State {
         swapped(!first.is_ellipsoid() && second.is_ellipsoid()),
         a(swapped ? second : first),
         b(swapped ? first : second),
-        contacts(a, b, width),
         tolerance(width) {
     ConeOracle outer(a.ellipsoid(), b.ellipsoid());
     if (a.is_ellipsoid() && b.is_ellipsoid()) {
@@ -49,8 +48,8 @@ struct CombinedOracle::State {
     if (outer.relation() == Relation::disjoint) {
       relation = Relation::disjoint;
       around.emplace(std::move(outer));
-    } else if (contacts.usable()) {
-      relation = contacts.relation();
+    } else if (contacts().usable()) {
+      relation = contacts().relation();
     }
   }
 
@@ -81,13 +80,18 @@ struct CombinedOracle::State {
     return made;
   }
 
+  const CombinedContacts& contacts() const {
+    if (!contacts_) contacts_.emplace(a, b, tolerance);
+    return *contacts_;
+  }
+
   const CombinedEdges& edges() const {
     if (!edges_) edges_.emplace(given_a, given_b);
     return *edges_;
   }
 
   std::uint64_t boxes_searched() const {
-    std::uint64_t sum = contacts.boxes_searched();
+    std::uint64_t sum = contacts_ ? contacts_->boxes_searched() : 0;
     if (!simpler_) return sum;
     for (const auto* list : {&simpler_->wider, &simpler_->narrower})
       for (const CombinedOracle& oracle : *list) sum += oracle.boxes_searched();
@@ -97,14 +101,14 @@ struct CombinedOracle::State {
   /// Of an edge, in the frame.
   CombinedContact contact(const CombinedEdge& edge) const {
     const Vector3d &point_a = swapped ? edge.on_b : edge.on_a, &point_b = swapped ? edge.on_a : edge.on_b;
-    const Vector3d on_a = contacts.frame().in_frame(point_a);
-    const Vector3d apart = contacts.frame().in_frame(b.center() - a.center() + point_b) - on_a;
+    const Vector3d on_a = contacts().frame().in_frame(point_a);
+    const Vector3d apart = contacts().frame().in_frame(b.center() - a.center() + point_b) - on_a;
     return {SearchOutcome::found, b.ellipsoid().factor().inverse() * point_b, on_a, apart.norm()};
   }
 
   /// The points of a contact found along w.
   CombinedEdge points(const CombinedContact& found, const IntervalVector3& w) const {
-    const CombinedFrame& frame = contacts.frame();
+    const CombinedFrame& frame = contacts().frame();
     const Vector3d along = middle(w);
     Vector3d on_a = found.on_a, on_b;
     if (a.is_ellipsoid()) {
@@ -130,10 +134,10 @@ struct CombinedOracle::State {
                        std::optional<CombinedEdge>* met) const;
 
   Vector3d own(const Vector3d& w) const { return swapped ? Vector3d(-w) : w; }
-  IntervalVector3 direction(const Vector3d& w) const { return contacts.frame().direction(own(w)); }
+  IntervalVector3 direction(const Vector3d& w) const { return contacts().frame().direction(own(w)); }
   /// Of first - second, without rounding, in the order of a and b.
   IntervalVector3 direction(const Vector3d& first, const Vector3d& second) const {
-    if (second.isZero(0)) return contacts.frame().direction(first);
+    if (second.isZero(0)) return contacts().frame().direction(first);
     const double largest = std::max(first.cwiseAbs().maxCoeff(), second.cwiseAbs().maxCoeff());
     const int e = std::ilogb(largest);
     IntervalVector3 w;
@@ -141,7 +145,7 @@ struct CombinedOracle::State {
       const Interval tiny(0, Interval::kTiny);  // what may be lost in scaling
       w[i] = Interval(std::ldexp(first(i), -e)) - Interval(std::ldexp(second(i), -e)) + tiny;
     }
-    return contacts.frame().direction(w);
+    return contacts().frame().direction(w);
   }
 };
 
@@ -186,24 +190,25 @@ Certified CombinedOracle::State::membership(const Vector3d& v_a, const Vector3d&
   const Vector3d &first = swapped ? v_b : v_a, &second = swapped ? v_a : v_b;
   if (exact) return exact->membership(first, second) == Membership::out ? Certified::out : Certified::in;
   if (around && around->membership(first, second) == Membership::out) return Certified::out;
-  const IntervalVector3 w = direction(first, second);
+  const bool searchable = contacts().usable();
+  const IntervalVector3 w = searchable ? direction(first, second) : IntervalVector3{};
   const auto found = [&](const CombinedContact& contact) {
     if (contact.outcome == SearchOutcome::undecided) return Certified::undecided;
     if (contact.outcome == SearchOutcome::empty) return Certified::out;
     if (met) *met = points(contact, w);
     return Certified::in;
   };
-  if (near && contacts.usable())
-    if (const Certified answer = found(contacts.beside(w, contact(*near))); answer != Certified::undecided)
+  if (near && searchable)
+    if (const Certified answer = found(contacts().beside(w, contact(*near))); answer != Certified::undecided)
       return answer;
   const Simpler& by = simpler();
   if (by.inside && by.inside->membership(first, second) != Membership::out) return Certified::in;
-  if (!contacts.usable()) return Certified::undecided;
+  if (!searchable) return Certified::undecided;
   for (const CombinedOracle& oracle : by.wider)
     if (oracle.membership(first, second) == Certified::out) return Certified::out;
   for (const CombinedOracle& oracle : by.narrower)
     if (oracle.state_->membership(first, second, nullptr, met) == Certified::in) return Certified::in;
-  return found(contacts.along(w, contacts.extent()));
+  return found(contacts().along(w, contacts().extent()));
 }
 
 EdgeBracket CombinedOracle::edge(const Vector3d& u, const Vector3d& side, double width,
@@ -275,7 +280,7 @@ Verdict CombinedOracle::verdict(const Vector3d& v_a, const Vector3d& v_b) const 
 
 bool CombinedOracle::all_in(const Vector3d& from, const Vector3d& to, const CombinedEdge* near) const {
   const State& s = *state_;
-  if (s.relation != Relation::disjoint || !s.contacts.usable()) return false;
+  if (s.relation != Relation::disjoint || !s.contacts().usable()) return false;
   const auto& inside = s.simpler().inside;
   const auto of_inside = [&](const Vector3d& w) { return inside->membership(s.own(w)) != Membership::out; };
   if (inside && of_inside(from) && of_inside(to)) return true;  // the cone of convex bodies is convex
@@ -283,23 +288,23 @@ bool CombinedOracle::all_in(const Vector3d& from, const Vector3d& to, const Comb
   if (!dot(first, last).positive()) return false;
   if (near && !s.a.is_ellipsoid()) {
     const CombinedContact contact = s.contact(*near);
-    return s.contacts.all_between(first, last, &contact);
+    return s.contacts().all_between(first, last, &contact);
   }
   for (const CombinedOracle& oracle : s.simpler().narrower)
     if (oracle.all_in(s.own(from), s.own(to))) return true;
-  return s.contacts.all_between(first, last);
+  return s.contacts().all_between(first, last);
 }
 
 bool CombinedOracle::all_out(const Vector3d& from, const Vector3d& to, CombinedEdge* left) const {
   const State& s = *state_;
-  if (s.relation != Relation::disjoint || !s.contacts.usable()) return false;
+  if (s.relation != Relation::disjoint || !s.contacts().usable()) return false;
   // Pairs of boxes are quicker than all that leads to single directions.
   if (s.a.is_ellipsoid() && membership(from.normalized() + to.normalized()) != Certified::out) return false;
   const IntervalVector3 first = s.direction(from), last = s.direction(to);
   if (!dot(first, last).positive()) return false;
-  if (s.contacts.none_between(first, last)) return true;
+  if (s.contacts().none_between(first, last)) return true;
   if (left && !s.a.is_ellipsoid()) {
-    const auto [on_a, on_b] = s.contacts.left();
+    const auto [on_a, on_b] = s.contacts().left();
     left->on_a = s.a.ellipsoid().factor() * on_a;
     left->on_b = s.b.ellipsoid().factor() * on_b;
   }
@@ -309,14 +314,14 @@ bool CombinedOracle::all_out(const Vector3d& from, const Vector3d& to, CombinedE
 std::optional<Interval> CombinedOracle::time_to_contact(const Vector3d& w, double width) const {
   const State& s = *state_;
   if (s.relation == Relation::overlapping) return Interval(0);
-  if (!s.contacts.usable() || membership(w) != Certified::in) return std::nullopt;
+  if (!s.contacts().usable() || membership(w) != Certified::in) return std::nullopt;
   const IntervalVector3 direction = s.direction(w);
   // Ways in the frame, in units of the direction's length; monotone: a contact by one way is one by any
   // longer.
-  double lo = 0, hi = s.contacts.extent();
-  while (hi - lo > std::max(width, 1e-12) * s.contacts.extent()) {
+  double lo = 0, hi = s.contacts().extent();
+  while (hi - lo > std::max(width, 1e-12) * s.contacts().extent()) {
     const double half = 0.5 * (lo + hi);
-    const SearchOutcome outcome = s.contacts.along(direction, half).outcome;
+    const SearchOutcome outcome = s.contacts().along(direction, half).outcome;
     if (outcome == SearchOutcome::undecided) break;
     (outcome == SearchOutcome::found ? hi : lo) = half;
   }
