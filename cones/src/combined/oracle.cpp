@@ -62,7 +62,10 @@ struct CombinedOracle::State {
       if (body.is_ellipsoid()) return body.ellipsoid();
       const auto inscribed = body.inscribed_ellipsoid();
       if (!inscribed) return std::nullopt;
-      const Ellipsoid inner = Ellipsoid::from_shape(body.center(), inscribed->shape() * (1 - 1e-4));
+      Eigen::Matrix3d axes = inscribed->axis_directions();
+      if (axes.determinant() < 0) axes.col(0) *= -1;
+      const Ellipsoid inner =
+          Ellipsoid::from_axes(body.center(), inscribed->semi_axes() * (1 - 5e-5), axes);
       return surely_contains(body, inner) ? std::optional(inner) : std::nullopt;
     };
     const auto core_a = core(a), core_b = core(b);
