@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Whether two bodies will meet if neither does anything: what laws ask before they say anything.
+#include <vericone/cones/combined/cone.h>
 #include <vericone/guidance/guide.h>
 
 namespace vericone::guidance {
@@ -20,7 +21,7 @@ std::optional<bool> by_sector(const BodyState& a, const BodyState& b, SectorMeth
   return rates.y < cease && rates.v_r_hat < 0;
 }
 
-/// By the true cone. Ellipsoids are asked without a Pair, which would allocate.
+/// By the true cone. Ellipsoids and dented bodies are asked without a Pair, which would prepare more.
 std::optional<bool> truly(const BodyState& a, const BodyState& b) {
   const auto* agent = std::get_if<CombinedEllipsoid>(&a.shape);
   const auto* obstacle = std::get_if<CombinedEllipsoid>(&b.shape);
@@ -28,6 +29,11 @@ std::optional<bool> truly(const BodyState& a, const BodyState& b) {
     const ConeOracle oracle(agent->ellipsoid(), obstacle->ellipsoid());
     if (oracle.relation() != Relation::disjoint) return std::nullopt;
     return oracle.membership(a.velocity, b.velocity) != Membership::out;
+  }
+  if (agent && obstacle) {
+    const CombinedOracle oracle(*agent, *obstacle);
+    if (oracle.relation() != Relation::disjoint) return std::nullopt;
+    return oracle.verdict(a.velocity, b.velocity) != Verdict::out;
   }
   const Pair pair = pair_of(a.shape, b.shape);
   if (pair.relation() != Relation::disjoint) return std::nullopt;

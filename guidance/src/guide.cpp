@@ -72,7 +72,8 @@ GuideStep without_sector() {
 
 std::optional<GuideStep> on_plane(const BodyState& a, const BodyState& b, const Vector3d& across,
                                   const GuideOptions& options, GuideMemory& memory, double time) {
-  std::optional<PlaneView> view = plane_view(a, b, across, options.sector, rate_method(options.rates));
+  std::optional<PlaneView> view =
+      plane_view(a, b, across, options.sector, rate_method(options.rates), 0, &memory.edges);
   if (!view) return std::nullopt;
   if (options.rates == GuideRates::backward) difference_backward(*view, memory, time);
   memory.across = view->across;
@@ -152,8 +153,8 @@ std::optional<GuideStep> guide(const BodyState& a, const BodyState& b, const Gui
     }
     if (!has_sectors(a, b, options.sector)) return without_sector();
   }
-  const std::optional<Vector3d> across =
-      choose_plane(a, b, options.sector, options.plane, memory.across ? &*memory.across : nullptr);
+  const std::optional<Vector3d> across = choose_plane(
+      a, b, options.sector, options.plane, memory.across ? &*memory.across : nullptr, &memory.edges);
   if (!across) return std::nullopt;
   std::optional<GuideStep> step = on_plane(a, b, *across, options, memory, time);
   if (!step || !in_space || !commands_nothing(step->status) ||
@@ -162,7 +163,7 @@ std::optional<GuideStep> guide(const BodyState& a, const BodyState& b, const Gui
   PlaneOptions of_motion;
   of_motion.choice = PlaneChoice::of_motion;
   memory.past.reset();  // of another plane
-  if (const auto plane = choose_plane(a, b, options.sector, of_motion))
+  if (const auto plane = choose_plane(a, b, options.sector, of_motion, nullptr, &memory.edges))
     step = on_plane(a, b, *plane, options, memory, time);
   return step;
 }

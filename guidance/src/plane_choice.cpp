@@ -32,8 +32,9 @@ bool by_opening(PlaneChoice choice) {
 /// A pair seen on the planes through its line of sight, by azimuth from `e1`.
 class Planes {
  public:
-  Planes(const BodyState& a, const BodyState& b, SectorMethod method, const Vector3d& u, const Vector3d& e1)
-      : a_(a), b_(b), cones_(a, b, method), u_(u), e1_(e1), e2_(u.cross(e1)) {}
+  Planes(const BodyState& a, const BodyState& b, SectorMethod method, const Vector3d& u, const Vector3d& e1,
+         EdgeMemory* memory = nullptr)
+      : a_(a), b_(b), cones_(a, b, method, memory), u_(u), e1_(e1), e2_(u.cross(e1)) {}
 
   Vector3d across(double azimuth) const { return std::cos(azimuth) * e1_ + std::sin(azimuth) * e2_; }
 
@@ -233,7 +234,8 @@ std::vector<PlaneCandidate> all_planes(const BodyState& a, const BodyState& b, S
 }
 
 std::optional<Vector3d> choose_plane(const BodyState& a, const BodyState& b, SectorMethod method,
-                                     const PlaneOptions& options, const Vector3d* previous) {
+                                     const PlaneOptions& options, const Vector3d* previous,
+                                     EdgeMemory* memory) {
   if (a.position == b.position) return std::nullopt;
   const AxisFrame frame(b.position - a.position);
   const Vector3d& u = frame.axis;
@@ -245,14 +247,14 @@ std::optional<Vector3d> choose_plane(const BodyState& a, const BodyState& b, Sec
   if (options.choice == PlaneChoice::of_motion || options.choice == PlaneChoice::steepest_clearance)
     if (const auto axis = axis_of_motion(a, b, options.choice, u)) return as_before(*axis);
   if (previous && options.refine) {
-    const Planes near(a, b, method, u, across_axis(u, *previous));
+    const Planes near(a, b, method, u, across_axis(u, *previous), memory);
     if (by_opening(options.choice))
       if (const auto azimuth = opening_followed(near)) return near.across(*azimuth);
     if (const auto azimuth = followed(near, options)) return near.across(*azimuth);
   }
   // Candidates are counted from the plane of motion: planes equally good (of spheres, all) do not depend on
   // the world's axes, and what is taken holds the relative velocity.
-  const Planes planes(a, b, method, u, axis_towards(u, a.velocity - b.velocity).value_or(frame.e1));
+  const Planes planes(a, b, method, u, axis_towards(u, a.velocity - b.velocity).value_or(frame.e1), memory);
   const auto azimuth = best_of_all(planes, options);
   if (!azimuth) return std::nullopt;
   return as_before(planes.across(*azimuth));

@@ -26,10 +26,11 @@ bool has_sectors(const BodyState& a, const BodyState& b, SectorMethod method) {
                    (agent->is_ellipsoid() && std::holds_alternative<HullBody>(b.shape)));
 }
 
-PlaneCones::PlaneCones(const BodyState& a, const BodyState& b, SectorMethod method)
-    : kind_(kind_of(a, b, method)) {}
+PlaneCones::PlaneCones(const BodyState& a, const BodyState& b, SectorMethod method, EdgeMemory* memory)
+    : kind_(kind_of(a, b, method, memory)) {}
 
-PlaneCones::Kind PlaneCones::kind_of(const BodyState& a, const BodyState& b, SectorMethod method) {
+PlaneCones::Kind PlaneCones::kind_of(const BodyState& a, const BodyState& b, SectorMethod method,
+                                     EdgeMemory* memory) {
   if (a.planar() && b.planar())
     return Planar{std::get<CombinedEllipse>(a.shape), std::get<CombinedEllipse>(b.shape)};
   if (a.planar() || b.planar()) return None{};
@@ -49,7 +50,7 @@ PlaneCones::Kind PlaneCones::kind_of(const BodyState& a, const BodyState& b, Sec
   if (method == SectorMethod::slice) return Slices{*agent, *obstacle};
   if (agent->is_ellipsoid() && obstacle->is_ellipsoid())
     return SectorPlanes(agent->ellipsoid(), obstacle->ellipsoid());
-  return TrueCombined(*agent, *obstacle);
+  return TrueCombined(*agent, *obstacle, memory);
 }
 
 std::optional<Opening> PlaneCones::on(const Vector3d& u, const Vector3d& e) const {

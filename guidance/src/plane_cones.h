@@ -76,13 +76,13 @@ class TrueHull {
   Eigen::Vector3d position_;
 };
 
-/// The true sector of dented bodies: edges by Newton's method from the ones before, asked of the certified
-/// oracle; where that denies them, by bisection of its answers.
+/// The true sector of dented bodies: edges of the certified oracle, each looked for near the one before.
 class TrueCombined {
  public:
   static constexpr double kEdge = 1e-7;  // rad
 
-  TrueCombined(const CombinedEllipsoid& a, const CombinedEllipsoid& b);
+  /// `memory`: of the step before, and for the one after.
+  TrueCombined(const CombinedEllipsoid& a, const CombinedEllipsoid& b, EdgeMemory* memory);
   std::optional<PlaneSector> on(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
 
  private:
@@ -90,16 +90,16 @@ class TrueCombined {
                     std::optional<CombinedEdge>& before) const;
 
   CombinedOracle oracle_;
-  CombinedEdges edges_;
   bool disjoint_;
-  mutable std::optional<CombinedEdge> left_, right_;  // of the plane before
+  EdgeMemory* memory_;
+  mutable EdgeMemory own_;  // where there is no other: of the plane before
 };
 
 /// Two bodies at an instant, prepared to be seen on many planes through their line of sight. Refers to the
 /// bodies.
 class PlaneCones {
  public:
-  PlaneCones(const BodyState& a, const BodyState& b, SectorMethod method);
+  PlaneCones(const BodyState& a, const BodyState& b, SectorMethod method, EdgeMemory* memory = nullptr);
 
   /// u: the line of sight; e perpendicular to it, unit. Nothing as fill_cone() says.
   std::optional<Opening> on(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
@@ -134,7 +134,7 @@ class PlaneCones {
     Eigen::Vector3d from, to;
   };
   using Kind = std::variant<None, Planar, Slices, HullSlices, SectorPlanes, TrueHull, TrueCombined, TruePair>;
-  static Kind kind_of(const BodyState& a, const BodyState& b, SectorMethod method);
+  static Kind kind_of(const BodyState& a, const BodyState& b, SectorMethod method, EdgeMemory* memory);
 
   Kind kind_;
 };

@@ -254,8 +254,8 @@ PlaneView plane_states(const BodyState& a, const BodyState& b, const Vector3d& a
   return view;
 }
 
-bool fill_cone(PlaneView& view, const BodyState& a, const BodyState& b, SectorMethod method,
-               RateMethod rates) {
+bool fill_cone(PlaneView& view, const BodyState& a, const BodyState& b, SectorMethod method, RateMethod rates,
+               EdgeMemory* memory) {
   PlaneCone cone;
   const bool analytic = rates == RateMethod::analytic;
   const auto* spatial_a = std::get_if<CombinedEllipsoid>(&a.shape);
@@ -270,7 +270,7 @@ bool fill_cone(PlaneView& view, const BodyState& a, const BodyState& b, SectorMe
     found = true_cone(view, a, b, analytic, cone);
   } else {
     closed_form = false;
-    const PlaneCones cones(a, b, method);
+    const PlaneCones cones(a, b, method, memory);
     tolerance = cones.tolerance();
     if (const auto sector = cones.true_sector(view.line_of_sight, view.across)) {
       cone.psi = sector->psi();
@@ -292,10 +292,11 @@ bool fill_cone(PlaneView& view, const BodyState& a, const BodyState& b, SectorMe
 }
 
 std::optional<PlaneView> plane_view(const BodyState& a, const BodyState& b, const Vector3d& across,
-                                    SectorMethod method, RateMethod rates, double plane_spin) {
+                                    SectorMethod method, RateMethod rates, double plane_spin,
+                                    EdgeMemory* memory) {
   if (a.position == b.position) return std::nullopt;
   PlaneView view = plane_states(a, b, across, plane_spin);
-  if (!fill_cone(view, a, b, method, rates)) return std::nullopt;
+  if (!fill_cone(view, a, b, method, rates, memory)) return std::nullopt;
   return view;
 }
 

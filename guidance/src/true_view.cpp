@@ -66,44 +66,16 @@ std::optional<PlaneSector> TrueHull::on(const Vector3d& e) const {
   return assembly_sector(AssemblyOracle(agent_, Assembly::polyhedra({hull_})), agent_.center(), position_, e);
 }
 
-TrueCombined::TrueCombined(const CombinedEllipsoid& a, const CombinedEllipsoid& b)
-    : oracle_(a, b, kEdge), edges_(a, b), disjoint_(oracle_.relation() == Relation::disjoint) {}
+TrueCombined::TrueCombined(const CombinedEllipsoid& a, const CombinedEllipsoid& b, EdgeMemory* memory)
+    : oracle_(a, b, kEdge), disjoint_(oracle_.relation() == Relation::disjoint), memory_(memory) {}
 
 CombinedEdge TrueCombined::edge(const Vector3d& u, const Vector3d& side,
                                 std::optional<CombinedEdge>& before) const {
-  // Each half-plane from the line of centres holds one interval of the cone, which begins there.
-  double in = 0, out = std::numbers::pi;
-  const auto ask = [&](double angle) {
-    const bool outside = oracle_.membership(turned_by(angle, u, side)) == Certified::out;
-    (outside ? out : in) = angle;
-    return outside;
-  };
-  const auto certain = [&](const std::optional<CombinedEdge>& found) {
-    return found && found->angle > in + kEdge && found->angle < out && ask(found->angle + 0.5 * kEdge) &&
-           !ask(found->angle - 0.5 * kEdge);
-  };
-  if (before) {
-    const auto found = edges_.near(u, side, *before);
-    if (certain(found)) return *(before = found);
-  }
-  // The points of both bodies farthest across the line of sight, and across the edge as far as it is known.
-  const auto from_points = [&](double angle) {
-    const Vector3d up = turned_by(angle + 0.5 * std::numbers::pi, u, side);
-    CombinedEdge start;
-    start.on_a = -up / oracle_.a().gauge(up);
-    start.on_b = up / oracle_.b().gauge(up);
-    return edges_.near(u, side, start);
-  };
-  for (int round = 0; out - in > kEdge; ++round) {
-    if (round % 4 == 0) {
-      const auto found = from_points(round == 0 ? 0 : in);
-      if (certain(found)) return *(before = found);
-    }
-    if (out - in > kEdge) ask(0.5 * (in + out));
-  }
+  const EdgeBracket bracket = oracle_.edge(u, side, kEdge, before ? &*before : nullptr);
+  if (bracket.edge) return *(before = bracket.edge);
   before.reset();
   CombinedEdge edge;
-  edge.angle = out;
+  edge.angle = bracket.out;
   return edge;
 }
 
@@ -115,8 +87,9 @@ std::optional<PlaneSector> TrueCombined::on(const Vector3d& u, const Vector3d& e
   sector.across = e;
   sector.distance = c.norm();
   // The plane before may have been this one turned over.
-  sector.left = edge(u, e, left_);
-  sector.right = edge(u, -e, right_);
+  EdgeMemory& before = memory_ ? *memory_ : own_;
+  sector.left = edge(u, e, before.left);
+  sector.right = edge(u, -e, before.right);
   for (GrazingEdge* edge : {&sector.left, &sector.right}) edge->contact = c + edge->on_b - edge->on_a;
   return sector;
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "combined/point_certificate.h"
+
 namespace vericone {
 namespace {
 
@@ -15,6 +17,10 @@ constexpr int kMostPairs = 5000;
 constexpr double kLeastWidth = 1e-3;
 
 const SearchBox<3> kBox{Vector3d::Zero(), Vector3d::Constant(1.001)};
+/// Of a point of A and the way to that of B.
+SearchBox<4> both_box(double way) {
+  return {Eigen::Vector4d(0, 0, 0, 0.5 * way), Eigen::Vector4d(1.001, 1.001, 1.001, 0.5 * way)};
+}
 /// With room for what boxes are widened by.
 const Vector3d kRoom = Vector3d::Constant(1.002);
 
@@ -133,17 +139,40 @@ CombinedContact CombinedContacts::along(const IntervalVector3& w, double longest
   return ball_ ? of_ball(w, longest) : of_both(w, longest);
 }
 
-CombinedContact CombinedContacts::of_ball(const IntervalVector3& w, double longest) const {
+/// The inequalities of a contact along w where A is the unit ball, into the list.
+void CombinedContacts::ball_inequalities(const IntervalVector3& w) const {
   list3_ = surfaces_b_;
   // |w x (c + G z)|^2 <= |w|^2: in the shadow.
-  const Interval w2 = dot(w, w);
   const auto& g = frame_.columns_b();
   list3_.push_back(quadratic_constraint<3>(kUnitMatrix, {cross(w, g[0]), cross(w, g[1]), cross(w, g[2])},
-                                           cross(w, frame_.center()), w2, 0, kRoom));
+                                           cross(w, frame_.center()), dot(w, w), 0, kRoom));
   list3_.back().slack += ball_slack();
   // Disjoint bodies meet at points beyond the middle of A only.
   add_half_space(-w, Interval(0));
   list3_.back().slack += 4 * frame_.defect() * extent_;
+}
+
+CombinedContact CombinedContacts::beside(const IntervalVector3& w, const CombinedContact& near) const {
+  CombinedContact found = near;
+  if (ball_) {
+    ball_inequalities(w);
+    found.outcome = decide_from<3>(list3_, kBox, found.on_b);
+    return found;
+  }
+  const double way = 1.01 * extent_;
+  contact_inequalities(w, way);
+  Eigen::Vector4d z;
+  z << near.on_a, near.way;
+  found.outcome = decide_from<4>(list4_, both_box(way), z);
+  found.on_a = z.head<3>();
+  found.way = z(3);
+  return found;
+}
+
+CombinedContact CombinedContacts::of_ball(const IntervalVector3& w, double longest) const {
+  ball_inequalities(w);
+  const Interval w2 = dot(w, w);
+  const auto& g = frame_.columns_b();
   const bool bounded = longest < extent_;
   if (bounded) {
     add_half_space(w, -(Interval(longest) * w2));
@@ -192,9 +221,7 @@ void CombinedContacts::contact_inequalities(const IntervalVector3& w, double way
 CombinedContact CombinedContacts::of_both(const IntervalVector3& w, double longest) const {
   const double way = std::min(longest, 1.01 * extent_);
   contact_inequalities(w, way);
-  const SearchBox<4> box{Eigen::Vector4d(0, 0, 0, 0.5 * way),
-                         Eigen::Vector4d(1.001, 1.001, 1.001, 0.5 * way)};
-  const SearchResult<4> r = search(search4_, list4_, box, limits_);
+  const SearchResult<4> r = search(search4_, list4_, both_box(way), limits_);
   return {r.outcome, Vector3d::Zero(), r.point.head<3>(), r.point(3)};
 }
 

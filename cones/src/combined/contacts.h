@@ -38,6 +38,8 @@ class CombinedContacts {
 
   /// Contacts of disjoint bodies along w within the ways [0, longest].
   CombinedContact along(const IntervalVector3& w, double longest) const;
+  /// By a contact near the edge of the cone alone, without a search: see decide_from().
+  CombinedContact beside(const IntervalVector3& w, const CombinedContact& near) const;
   /// No way is longer.
   double extent() const { return extent_; }
 
@@ -66,6 +68,7 @@ class CombinedContacts {
   void contact_inequalities(const IntervalVector3& w, double way) const;
   SearchLimits chord_limits() const;
 
+  void ball_inequalities(const IntervalVector3& w) const;
   CombinedContact of_ball(const IntervalVector3& w, double longest) const;
   CombinedContact of_both(const IntervalVector3& w, double longest) const;
   CombinedContact deep_contact(const IntervalVector3& w, const CombinedContact& near, bool search) const;

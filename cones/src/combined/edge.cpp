@@ -38,9 +38,9 @@ struct Touched {
 
 }  // namespace
 
-/// The unknowns are both points, the angle, the way, the tilt of the normal m = d' + tilt p out of the plane,
-/// and the multipliers: c + b - a = way d, sum lambda_i M_i a = -m, sum mu_j M_j b = m, and every touched
-/// surface is met.
+/// The unknowns are the point of A, the angle, the way, the tilt of the normal m = d' + tilt p out of the
+/// plane, and the multipliers. With b = a + way d - c: sum lambda_i M_i a = -m, sum mu_j M_j b = m, and every
+/// touched surface is met.
 class EdgeSearch {
  public:
   EdgeSearch(const CombinedEdges& bodies, const Vector3d& u, const Vector3d& side)
@@ -95,7 +95,7 @@ class EdgeSearch {
 
  private:
   using Body = CombinedEdges::Body;
-  static constexpr int kMost = 9 + 2 * kMostTouched;
+  static constexpr int kMost = 6 + 2 * kMostTouched;
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMost, kMost>;
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMost, 1>;
 
@@ -252,57 +252,59 @@ class EdgeSearch {
   }
 
   bool newton() {
-    const int na = touched_a_.count, nb = touched_b_.count, n = 9 + na + nb;
+    const int na = touched_a_.count, nb = touched_b_.count, n = 6 + na + nb;
     Matrix jacobian(n, n);
     Vector residual(n);
     for (int step = 0; step < 12; ++step) {
       jacobian.setZero();
       const Vector3d d = along(), e = across(), m = normal();
-      // Columns: a, b, angle, way, tilt, lambda, mu.
-      residual.head<3>() = c_ + point_b_ - point_a_ - way_ * d;
-      jacobian.block<3, 3>(0, 0) = -Eigen::Matrix3d::Identity();
-      jacobian.block<3, 3>(0, 3).setIdentity();
-      jacobian.block<3, 1>(0, 6) = -way_ * e;
-      jacobian.block<3, 1>(0, 7) = -d;
+      point_b_ = point_a_ + way_ * d - c_;
+      // Columns: a, angle, way, tilt, lambda, mu. The point of B follows from the first five.
       Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
       for (int k = 0; k < na; ++k) {
         const Eigen::Matrix3d& q = a_.matrix[touched_a_.surface[k]];
         const Vector3d image = q * point_a_;
         sum += touched_a_.weight[k] * q;
-        jacobian.block<3, 1>(3, 9 + k) = image;
-        jacobian.block<1, 3>(9 + k, 0) = 2 * image.transpose();
-        residual(9 + k) = point_a_.dot(image) - a_.level[touched_a_.surface[k]];
+        jacobian.block<3, 1>(0, 6 + k) = image;
+        jacobian.block<1, 3>(6 + k, 0) = 2 * image.transpose();
+        residual(6 + k) = point_a_.dot(image) - a_.level[touched_a_.surface[k]];
       }
-      residual.segment<3>(3) = sum * point_a_ + m;
-      jacobian.block<3, 3>(3, 0) = sum;
-      jacobian.block<3, 1>(3, 6) = -d;
-      jacobian.block<3, 1>(3, 8) = p_;
+      residual.head<3>() = sum * point_a_ + m;
+      jacobian.block<3, 3>(0, 0) = sum;
+      jacobian.block<3, 1>(0, 3) = -d;
+      jacobian.block<3, 1>(0, 5) = p_;
       sum.setZero();
       for (int k = 0; k < nb; ++k) {
         const Eigen::Matrix3d& q = b_.matrix[touched_b_.surface[k]];
         const Vector3d image = q * point_b_;
+        const int row = 6 + na + k;
         sum += touched_b_.weight[k] * q;
-        jacobian.block<3, 1>(6, 9 + na + k) = image;
-        jacobian.block<1, 3>(9 + na + k, 3) = 2 * image.transpose();
-        residual(9 + na + k) = point_b_.dot(image) - b_.level[touched_b_.surface[k]];
+        jacobian.block<3, 1>(3, row) = image;
+        jacobian.block<1, 3>(row, 0) = 2 * image.transpose();
+        jacobian(row, 3) = 2 * way_ * image.dot(e);
+        jacobian(row, 4) = 2 * image.dot(d);
+        residual(row) = point_b_.dot(image) - b_.level[touched_b_.surface[k]];
       }
-      residual.segment<3>(6) = sum * point_b_ - m;
-      jacobian.block<3, 3>(6, 3) = sum;
-      jacobian.block<3, 1>(6, 6) = d;
-      jacobian.block<3, 1>(6, 8) = -p_;
+      residual.segment<3>(3) = sum * point_b_ - m;
+      jacobian.block<3, 3>(3, 0) = sum;
+      jacobian.block<3, 1>(3, 3) = way_ * (sum * e) + d;
+      jacobian.block<3, 1>(3, 4) = sum * d;
+      jacobian.block<3, 1>(3, 5) = -p_;
       const Vector change = jacobian.partialPivLu().solve(-residual);
       if (!change.allFinite()) return false;
-      const double size = std::max({change.head<6>().norm(), std::abs(change(6)), std::abs(change(7))});
+      const double size = change.head<5>().cwiseAbs().maxCoeff();
       const double share = std::min(1.0, 0.3 / size);
       if (step > 8 && size > 0.1) return false;
-      point_a_ += share * change.segment<3>(0);
-      point_b_ += share * change.segment<3>(3);
-      angle_ += share * change(6);
-      way_ += share * change(7);
-      tilt_ += share * change(8);
-      for (int k = 0; k < na; ++k) touched_a_.weight[k] += share * change(9 + k);
-      for (int k = 0; k < nb; ++k) touched_b_.weight[k] += share * change(9 + na + k);
-      if (size < 1e-9) return true;  // Newton squares the last step
+      point_a_ += share * change.head<3>();
+      angle_ += share * change(3);
+      way_ += share * change(4);
+      tilt_ += share * change(5);
+      for (int k = 0; k < na; ++k) touched_a_.weight[k] += share * change(6 + k);
+      for (int k = 0; k < nb; ++k) touched_b_.weight[k] += share * change(6 + na + k);
+      if (size < 1e-9) {  // Newton squares the last step
+        point_b_ = point_a_ + way_ * along() - c_;
+        return true;
+      }
     }
     return false;
   }

@@ -11,6 +11,8 @@
 #include <optional>
 #include <vector>
 
+#include "combined/balance.h"
+
 namespace vericone {
 
 /// q(x) = x^T H x + 2 g.x + c + min(0, u.x + u0)^2 <= 0, for x in the box of the search. The last term is
@@ -144,7 +146,44 @@ class QuadraticSearch {
       if (box.half.prod() > 0.5 * before) break;
     }
     if (improved_point(constraints, box, point)) return SearchOutcome::found;
-    return combine(box, constraints, split) ? SearchOutcome::empty : SearchOutcome::undecided;
+    if (combine(box, constraints, split)) return SearchOutcome::empty;
+    // Worth its cost where little but the curvature is in the way.
+    const bool tangent = flat_ > -0.1 && box.half.maxCoeff() < 0.03;
+    return tangent && balanced(box, constraints) ? SearchOutcome::empty : SearchOutcome::undecided;
+  }
+
+  /// The most that -d^T H d can be in the box: by its entries.
+  static double sag(const Eigen::Matrix<double, N, N>& h, const Vector& half) {
+    double most = 0;
+    for (int i = 0; i < N; ++i) {
+      most += std::max(0.0, -h(i, i)) * half(i) * half(i);
+      for (int j = 0; j < i; ++j) most += 2 * std::abs(h(i, j)) * half(i) * half(j);
+    }
+    return most;
+  }
+
+  /// Multipliers for which the gradients, in units of the box, nearly cancel: what the combination bends
+  /// then is its own curvature, often none, not the sum of those of its parts.
+  bool balanced(const SearchBox<N>& box, const std::vector<QuadraticConstraint<N>>& constraints) const {
+    Balance<N> balance;
+    for (int i = 0; i < count_; ++i) {
+      typename Balance<N>::Bound bound;
+      const QuadraticConstraint<N>& q = constraints[i];
+      const double base = q.evaluate(box.middle, bound.slope) - q.slack;
+      bound.slope = bound.slope.cwiseProduct(box.half);
+      const double size = bound.slope.norm();
+      if (!(size > 0) || base < -size) continue;
+      bound.index = i;
+      bound.scale = 1 / size;
+      bound.base = base * bound.scale;
+      bound.slope *= bound.scale;
+      balance.offer(bound);
+    }
+    if (!balance.solve()) return false;
+    Eigen::Matrix<double, N, N> h = Eigen::Matrix<double, N, N>::Zero();
+    for (int i = 0; i < balance.count(); ++i)
+      h += balance[i].weight * balance[i].scale * constraints[balance[i].index].h;
+    return balance.base() - balance.rest().cwiseAbs().sum() - sag(h, box.half) > 1e-13;
   }
 
   /// What the few operations on a bound itself may round.
@@ -268,6 +307,7 @@ class QuadraticSearch {
     }
     // All numbers are at most one here, and at most a few hundred roundings were made.
     if (highest > 1e-13) return true;
+    flat_ = highest + curvature * square;
     gradient_ = sum.gradient;
     double most = -1;
     for (int j = 0; j < N; ++j) {
@@ -292,6 +332,7 @@ class QuadraticSearch {
   std::vector<Bound> bounds_;
   std::vector<double> concavity_;
   Vector gradient_ = Vector::Zero();
+  double flat_ = 0;  // the best combination's bound without the curvature
   std::vector<SearchBox<N>> stack_;
 };
 

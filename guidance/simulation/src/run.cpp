@@ -114,6 +114,7 @@ class Runner {
     bool seen = false;    // both were there at the command before
     bool gone = false;    // passed, at the time reached
     bool has_passed = false;
+    std::optional<Passage> passage = {};
   };
 
   bool present(std::size_t body, double t) const { return scenario_.bodies[body].appears <= t; }
@@ -244,9 +245,11 @@ class Runner {
     f.has_passed = true;
   }
 
-  double passing_rate(const Followed& f, double t) const {
+  double passing_rate(Followed& f, double t) const {
     const std::size_t i = f.engagement.agent(), j = f.engagement.obstacle();
-    return simulation::passing_rate(run_.tracks[i], run_.tracks[j], *scenario_.bodies[i].pilot, t);
+    const Track &a = run_.tracks[i], &b = run_.tracks[j];
+    if (!f.passage) f.passage.emplace(a, b);
+    return f.passage->rate(a, b, *scenario_.bodies[i].pilot, t);
   }
 
   void reaching(std::size_t agent, double t, double to) {

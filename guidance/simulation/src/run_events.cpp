@@ -6,33 +6,60 @@
 
 namespace vericone::simulation {
 
+// The method of Oliveira and Takahashi (ITP, ACM TOMS 47 (2021)): never more than one step beyond what halving
+// takes, and a handful where the value is smooth. Values of -1 and 1 are halved.
 double sign_change(const std::function<double(double)>& value, double from, double to) {
-  const bool end = value(to) >= 0;
-  double low = from, high = to;
-  while (high - low > 1e-12 * (to - from)) {
-    const double middle = low + (high - low) / 2;
-    if (!(middle > low && middle < high)) break;
-    const double v = value(middle);
-    (!std::isfinite(v) || (v >= 0) == end ? high : low) = middle;
+  const double at_end = value(to), width = 0.5e-12 * (to - from);
+  const bool end = at_end >= 0;
+  double low = from, high = to, at_low = value(from), at_high = at_end;
+  constexpr int kHalvings = 40;
+  for (int k = 0; k <= kHalvings && high - low > 2 * width; ++k) {
+    const double middle = low + (high - low) / 2, half = middle - low;
+    double at = middle;
+    const double chord = low + (high - low) * at_low / (at_low - at_high);
+    if (std::isfinite(chord)) {
+      const double towards = middle >= chord ? 1 : -1, aside = 0.2 * (high - low) * (high - low) / (to - from);
+      if (aside <= std::abs(middle - chord)) at = chord + towards * aside;
+      const double room = std::ldexp(width, kHalvings + 1 - k) - half;
+      if (!(std::abs(at - middle) <= room)) at = middle - towards * std::max(room, 0.0);
+    }
+    if (!(at > low && at < high)) break;
+    const double v = value(at);
+    if (!std::isfinite(v) || (v >= 0) == end) {
+      high = at;
+      at_high = v;
+    } else {
+      low = at;
+      at_low = v;
+    }
   }
   return high;
 }
 
-double closing_rate(const Track& a, const Track& b, double t) {
-  const Motion at_a = a.motion(t), at_b = b.motion(t);
-  return (at_b.position - at_a.position).dot(at_b.velocity - at_a.velocity);
-}
+Passage::Passage(const Track& a, const Track& b) : reach_(reach(a.shape()) + reach(b.shape())) {}
 
-double passing_rate(const Track& a, const Track& b, const Pilot& pilot, double t) {
-  const double closing = closing_rate(a, b, t);
+double Passage::rate(const Track& a, const Track& b, const Pilot& pilot, double t) {
+  const Motion of_a = a.motion(t), of_b = b.motion(t);
+  const Eigen::Vector3d c = of_b.position - of_a.position, v = of_b.velocity - of_a.velocity;
+  const double closing = c.dot(v);
   const guidance::GuideOptions& guide = pilot.guide;
   if (!(closing >= 0) || pilot.passing == Passing::centres || guide.law == guidance::Law::clearance)
     return closing;
+  if (c.isZero(0)) return closing;
+  // No contact is farther from the line of sight than that of balls about the bodies, so the bisector is at
+  // most half as far from it, whatever the plane.
+  const double r = c.norm();
+  if (reach_ < r) {
+    const double half = 0.5 * std::asin(reach_ / r), along = closing / r, across = (v - along / r * c).norm();
+    if (along * std::cos(half) > 1.001 * across * std::sin(half)) return closing;
+  }
   const guidance::BodyState at_a = a.state(t), at_b = b.state(t);
-  if (at_a.position == at_b.position) return closing;
-  const auto across = guidance::choose_plane(at_a, at_b, guide.sector, guide.plane, nullptr);
+  const auto across = guidance::choose_plane(at_a, at_b, guide.sector, guide.plane,
+                                             seen_.across ? &*seen_.across : nullptr, &seen_.edges);
+  seen_.across = across;
   if (!across) return closing;
-  const auto view = guidance::plane_view(at_a, at_b, *across, guide.sector, guidance::RateMethod::none);
+  const auto view =
+      guidance::plane_view(at_a, at_b, *across, guide.sector, guidance::RateMethod::none, 0, &seen_.edges);
   return view ? guidance::cone_rates(view->state, view->cone).v_r_hat : closing;
 }
 

@@ -47,6 +47,7 @@ struct GuideMemory {
     Eigen::Vector3d line_of_sight;
   };
   std::optional<Past> past;
+  EdgeMemory edges;
 };
 
 struct GuideStep {

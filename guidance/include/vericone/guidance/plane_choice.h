@@ -52,6 +52,7 @@ struct PlaneCandidate {
 /// with ellipsoids. Cost: see docs/guidance-planes.md.
 [[nodiscard]] std::optional<Eigen::Vector3d> choose_plane(const BodyState& a, const BodyState& b,
                                                           SectorMethod method, const PlaneOptions& options,
-                                                          const Eigen::Vector3d* previous = nullptr);
+                                                          const Eigen::Vector3d* previous = nullptr,
+                                                          EdgeMemory* memory = nullptr);
 
 }  // namespace vericone::guidance

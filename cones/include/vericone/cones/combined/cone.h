@@ -16,10 +16,17 @@
 #include <vericone/geometry/combined.h>
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <vector>
 
 namespace vericone {
+
+/// Where the cone ends on a half-plane: angles from the line of centres, both proved.
+struct EdgeBracket {
+  double in = 0, out = std::numbers::pi;  // rad; the first is in, the second and all beyond are out
+  std::optional<CombinedEdge> edge;       // the contact between them, where Newton's method leads to it
+};
 
 /// Two bodies prepared for many directions. Not for several threads at once: scratch memory is kept between
 /// calls.
@@ -48,6 +55,17 @@ class CombinedOracle {
   /// The same for w = v_a - v_b, the difference taken without rounding. Throws InputError naming
   /// "agent_velocity[i]" or "obstacle_velocity[i]".
   [[nodiscard]] Certified membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+
+  /// The same for a direction near an edge that is known: as a rule decided by the contact there, in 2 us.
+  Certified membership(const Eigen::Vector3d& w, const CombinedEdge& near) const;
+
+  /// The end of the cone on the half-plane of u (line of sight, from A to B, unit) and `side` (unit,
+  /// perpendicular to it): bracketed to `width` radians, or to what stays undecided. Contacts are followed
+  /// outwards until nothing is met beyond the last one; where they lead nowhere, angles are halved. `start`:
+  /// an edge of a half-plane nearby, or of a moment before. Bodies are to be disjoint. Cost: some 10 us from
+  /// such an edge, some 50 us without; more where surfaces are grazed that bend away from the other body.
+  EdgeBracket edge(const Eigen::Vector3d& u, const Eigen::Vector3d& side, double width,
+                   const CombinedEdge* start = nullptr) const;
 
   /// Relation and membership in one.
   [[nodiscard]] Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
