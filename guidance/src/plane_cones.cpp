@@ -78,7 +78,7 @@ std::optional<Opening> PlaneCones::on(const Vector3d& u, const Vector3d& e) cons
       return Opening{sector.psi(), sector.theta_b()};
     }
     std::optional<Opening> operator()(const TrueHull& cone) const { return opening(cone.on(e)); }
-    std::optional<Opening> operator()(const TrueCombined& cone) const { return opening(cone.on(u, e)); }
+    std::optional<Opening> operator()(const TrueCombined& cone) const { return opening(cone.on(e)); }
     std::optional<Opening> operator()(const TruePair& seen) const {
       return opening(seen.pair.sector(seen.from, seen.to, e));
     }
@@ -90,10 +90,10 @@ std::optional<Opening> PlaneCones::on(const Vector3d& u, const Vector3d& e) cons
   return std::visit(Ask{u, e}, kind_);
 }
 
-std::optional<PlaneSector> PlaneCones::true_sector(const Vector3d& u, const Vector3d& e) const {
+std::optional<PlaneSector> PlaneCones::true_sector(const Vector3d& e) const {
   if (const auto* hull = std::get_if<TrueHull>(&kind_)) return hull->on(e);
   if (const auto* seen = std::get_if<TruePair>(&kind_)) return seen->pair.sector(seen->from, seen->to, e);
-  if (const auto* combined = std::get_if<TrueCombined>(&kind_)) return combined->on(u, e);
+  if (const auto* combined = std::get_if<TrueCombined>(&kind_)) return combined->on(e);
   return std::nullopt;
 }
 

@@ -83,14 +83,10 @@ class TrueCombined {
 
   /// `memory`: of the step before, and for the one after.
   TrueCombined(const CombinedEllipsoid& a, const CombinedEllipsoid& b, EdgeMemory* memory);
-  std::optional<PlaneSector> on(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
+  std::optional<PlaneSector> on(const Eigen::Vector3d& e) const;
 
  private:
-  CombinedEdge edge(const Eigen::Vector3d& u, const Eigen::Vector3d& side,
-                    std::optional<CombinedEdge>& before) const;
-
   CombinedOracle oracle_;
-  bool disjoint_;
   EdgeMemory* memory_;
   mutable EdgeMemory own_;  // where there is no other: of the plane before
 };
@@ -105,7 +101,7 @@ class PlaneCones {
   std::optional<Opening> on(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
 
   /// With the contacts, for true sectors of all but two ellipsoids; nothing for others.
-  std::optional<PlaneSector> true_sector(const Eigen::Vector3d& u, const Eigen::Vector3d& e) const;
+  std::optional<PlaneSector> true_sector(const Eigen::Vector3d& e) const;
 
   /// d psi / d azimuth as the plane turns about the line of sight, in closed form: true sectors of
   /// ellipsoids; nothing for others.

@@ -272,7 +272,7 @@ bool fill_cone(PlaneView& view, const BodyState& a, const BodyState& b, SectorMe
     closed_form = false;
     const PlaneCones cones(a, b, method, memory);
     tolerance = cones.tolerance();
-    if (const auto sector = cones.true_sector(view.line_of_sight, view.across)) {
+    if (const auto sector = cones.true_sector(view.across)) {
       cone.psi = sector->psi();
       cone.theta_b = sector->theta_b();
       found = true;

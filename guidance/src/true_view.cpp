@@ -15,10 +15,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-Vector3d turned_by(double angle, const Vector3d& u, const Vector3d& side) {
-  return std::cos(angle) * u + std::sin(angle) * side;
-}
-
 /// How fast the boundary of a body moves outwards at a contact as its shape changes. The normal is the sum of
 /// w M y over the surfaces y^T M y <= l touched there, and each counts by w (l' - y^T M' y) / 2.
 double shape_speed(const TouchedSurfaces& touched, const Vector3d& y, const Vector3d& outward,
@@ -67,31 +63,10 @@ std::optional<PlaneSector> TrueHull::on(const Vector3d& e) const {
 }
 
 TrueCombined::TrueCombined(const CombinedEllipsoid& a, const CombinedEllipsoid& b, EdgeMemory* memory)
-    : oracle_(a, b, kEdge), disjoint_(oracle_.relation() == Relation::disjoint), memory_(memory) {}
+    : oracle_(a, b, kEdge), memory_(memory) {}
 
-CombinedEdge TrueCombined::edge(const Vector3d& u, const Vector3d& side,
-                                std::optional<CombinedEdge>& before) const {
-  const EdgeBracket bracket = oracle_.edge(u, side, kEdge, before ? &*before : nullptr);
-  if (bracket.edge) return *(before = bracket.edge);
-  before.reset();
-  CombinedEdge edge;
-  edge.angle = bracket.out;
-  return edge;
-}
-
-std::optional<PlaneSector> TrueCombined::on(const Vector3d& u, const Vector3d& e) const {
-  if (!disjoint_) return std::nullopt;
-  const Vector3d c = oracle_.b().center() - oracle_.a().center();
-  PlaneSector sector;
-  sector.line_of_sight = u;
-  sector.across = e;
-  sector.distance = c.norm();
-  // The plane before may have been this one turned over.
-  EdgeMemory& before = memory_ ? *memory_ : own_;
-  sector.left = edge(u, e, before.left);
-  sector.right = edge(u, -e, before.right);
-  for (GrazingEdge* edge : {&sector.left, &sector.right}) edge->contact = c + edge->on_b - edge->on_a;
-  return sector;
+std::optional<PlaneSector> TrueCombined::on(const Vector3d& e) const {
+  return combined_sector_on(oracle_, e, kEdge, memory_ ? memory_ : &own_);
 }
 
 }  // namespace vericone::guidance

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Two combined quadrics, at least one of them delimited: certified.
-#include <vericone/cones/combined/cone.h>
+#include <vericone/cones/combined/plane_sector.h>
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/map/classifiers.h>
 #include <algorithm>
@@ -122,6 +122,12 @@ class Combined : public Family {
     return miss;
   }
 
+  std::optional<PlaneSector> sector(const SightLine& line, const Vector3d& e) const override {
+    if (line.from != a_.center() || line.to != b_.center()) return sector_by_arcs(*this, line, e);
+    return pool_.with([&](const CombinedOracle& oracle) {
+      return combined_sector_on(oracle, e, std::max(1e-9, 0.1 * tolerance_));
+    });
+  }
   std::optional<Passing> passing(const Vector3d&) const override { return std::nullopt; }
 
   std::shared_ptr<const DirectionClassifier> directions() const override {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <vericone/cones/combined/edge.h>
+#include <vericone/cones/combined/plane_sector.h>
 #include <vericone/guidance/body_state.h>
 #include <vericone/guidance/kinematics.h>
 #include <vericone/guidance/laws.h>
@@ -48,12 +49,6 @@ struct PlaneView {
 /// Whether there are sectors of bodies of these kinds: of two planar ones, by the true cone of any two in
 /// space, by slices of two combined ones and of an ellipsoid and a hull.
 [[nodiscard]] bool has_sectors(const BodyState& a, const BodyState& b, SectorMethod method);
-
-/// Edges of dented bodies' true sectors as they were found last: the next ones are looked for near them. That
-/// makes a step several times cheaper and changes nothing beyond the 1e-7 rad to which edges are proved.
-struct EdgeMemory {
-  std::optional<CombinedEdge> left, right;
-};
 
 /// The cone at `view`, filled in; false where the bodies are not apart (on the plane, for slices) or an
 /// oracle does not decide, and nothing is written.
