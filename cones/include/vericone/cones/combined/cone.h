@@ -71,12 +71,17 @@ class CombinedOracle {
 
   /// Whether all directions of the convex hull of two, less than a right angle apart and not zero, are in
   /// (out): true is certain, false says nothing.
-  /// `near`: an edge to look for contacts from, which is faster where neither body is an ellipsoid.
-  bool all_in(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-              const CombinedEdge* near = nullptr) const;
+  /// `at_from`, `at_to`: edges near both to look for contacts from, and there alone, where neither body is an
+  /// ellipsoid.
+  bool all_in(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const CombinedEdge* at_from = nullptr,
+              const CombinedEdge* at_to = nullptr) const;
   /// `left`: where to write the points that were in the way of a proof, for two bodies neither of which is an
   /// ellipsoid.
   bool all_out(const Eigen::Vector3d& from, const Eigen::Vector3d& to, CombinedEdge* left = nullptr) const;
+
+  /// Whether all w with n.w >= 0 are out, proved from an edge whose contact is nearly farthest along n: true
+  /// is certain, false says nothing. So it is where the edge lies on the convex hull of the cone. Cost: 5 us.
+  bool half_space_out(const Eigen::Vector3d& n, const CombinedEdge& touching) const;
 
   /// First contact of A moving by w t: an interval that contains the time, seconds. Nothing where
   /// membership(w) is not `in`, and for bodies so thin that nothing can be searched. `width`: of the
