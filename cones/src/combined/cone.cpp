@@ -100,6 +100,7 @@ CombinedCone combined_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& 
     return tracer.ends()[x.first].azimuth < tracer.ends()[y.first].azimuth;
   });
 
+  cone.boxes = oracle.boxes_searched();
   for (const ConeWedge& s : heap) {
     const ConeEnd &first = tracer.ends()[s.first], &last = tracer.ends()[s.last];
     cone.inner.directions.push_back(tracer.direction(first.azimuth, s.in.first));

@@ -217,6 +217,7 @@ EdgeBracket CombinedOracle::edge(const Vector3d& u, const Vector3d& side, double
                                  const CombinedEdge* start) const {
   const State& s = *state_;
   EdgeBracket bracket;
+  width = std::max(width, 1e-14);
   double low = 0;  // what is undecided is on this side
   std::optional<CombinedEdge> next;
   if (start) next = *start;

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
-#include "combined/balance.h"
-#include "combined/quadratic_search.h"
+#include "balance.h"
+#include "quadratic_search.h"
 
 namespace vericone {
 

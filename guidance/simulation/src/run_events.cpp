@@ -24,6 +24,7 @@ double sign_change(const std::function<double(double)>& value, double from, doub
       const double room = std::ldexp(width, kHalvings + 1 - k) - half;
       if (!(std::abs(at - middle) <= room)) at = middle - towards * std::max(room, 0.0);
     }
+    if (!(at > low && at < high)) at = middle;
     if (!(at > low && at < high)) break;
     const double v = value(at);
     if (!std::isfinite(v) || (v >= 0) == end) {
