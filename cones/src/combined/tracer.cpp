@@ -140,11 +140,6 @@ ConeChord Tracer::outer_chord(int first, int last, double standoff) {
   const auto chord = [&](double d) {
     return std::pair(direction(from.azimuth, from.out + d), direction(to.azimuth, to.out + d));
   };
-  if (!guided_) {
-    for (double d = 0.5 * standoff; d < most; d *= 2)
-      if (const auto [v, w] = chord(d); oracle_.all_out(v, w)) return at(d);
-    return none;
-  }
   // Beyond the edge half way between, where the chord is lowest.
   double least = 0;
   const Vector3d middle = (chord(0).first + chord(0).second).normalized();
@@ -153,6 +148,11 @@ ConeChord Tracer::outer_chord(int first, int last, double standoff) {
     if (const ConeChord touching = tangent_chord(from, to, *edge, azimuth, 0.05 * standoff); touching.proved)
       return touching;
     least = std::max(0.0, edge->angle - std::acos(std::min(1.0, middle.dot(frame_.axis))));
+  }
+  if (!guided_) {
+    for (double d = 0.5 * standoff; d < most; d *= 2)
+      if (const auto [v, w] = chord(d); oracle_.all_out(v, w)) return at(d);
+    return none;
   }
   const int attempts = narrow(from, to) ? 12 : 2;
   double step = 0.3 * standoff;
