@@ -150,6 +150,20 @@ void other_bodies_table() {
   add("biconcave, slices, rates", dented, SectorMethod::slice, RateMethod::analytic, 100);
   add("biconcave, true sector", dented, SectorMethod::true_cone, RateMethod::none, 1);
   add("biconcave, true sector, rates", dented, SectorMethod::true_cone, RateMethod::analytic, 1);
+  std::vector<EdgeMemory> memories(kPairs);
+  items.push_back(
+      item("biconcave, true sector, rates, followed from 0.01 s before", kPairs, 1, [&](std::size_t i) {
+        const Pair& p = dented[i];
+        const Vector3d across = p.a.velocity.unitOrthogonal();
+        EdgeMemory memory = memories[i];
+        const auto view =
+            plane_view(p.a, p.b, across, SectorMethod::true_cone, RateMethod::analytic, 0, &memory);
+        return view ? view->cone.psi : 0;
+      }));
+  for (int i = 0; i < kPairs; ++i)
+    plane_view(advanced(dented[i].a, -0.01), advanced(dented[i].b, -0.01),
+               dented[i].a.velocity.unitOrthogonal(), SectorMethod::true_cone, RateMethod::none, 0,
+               &memories[i]);
   add("hull of 12 points, slices, rates (differenced)", hulls, SectorMethod::slice, RateMethod::analytic, 20);
   add("hull of 12 points, true sector", hulls, SectorMethod::true_cone, RateMethod::none, 5);
   add("hull of 12 points, true sector, rates", hulls, SectorMethod::true_cone, RateMethod::analytic, 5);

@@ -377,7 +377,7 @@ SCENARIOS = [
     ("a goal after nobody", scenario(pilot="{law: avoidance, goal: {point: [9, 0, 0], most: 5, after: C}}")),
     ("a hull that flies by slices", scenario(agent="{points: [[0, 0, 0], [1, 0, 0]]}",
                                               pilot="{law: avoidance, manner: source, sector: slice}")),
-    ("a body and a position", scenario("  - {name: B, center: [20, 0, 0], semi_axes: [2, 2, 2], position: [1, 0, 0]}")),
+    ("a body and a position", scenario("{name: B, center: [20, 0, 0], semi_axes: [2, 2, 2], position: [1, 0, 0]}")),
     ("a mesh that is not there", scenario(BODY.replace("semi_axes: [2, 2, 2]", "mesh: none.off"))),
     ("a shape of no pieces", scenario(BODY.replace("semi_axes: [2, 2, 2]", "pieces: []"))),
     ("pieces of two kinds", scenario(BODY.replace("semi_axes: [2, 2, 2]", "pieces: [{center: [0, 0, 0], "

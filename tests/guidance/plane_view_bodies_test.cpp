@@ -258,6 +258,32 @@ TEST(PlaneView, TrueSectorsOfDentedBodies) {
   EXPECT_GT(narrower, 5);
 }
 
+/// What is remembered makes it quicker, not different: not from the step before, nor from elsewhere.
+TEST(PlaneView, TrueSectorsDoNotDependOnWhatIsRemembered) {
+  RandomBodies random(7226);
+  SCOPED_TRACE(random.trace());
+  EdgeMemory stale;
+  for (int i = 0; i < 20; ++i) {
+    const auto [moving_a, moving_b] = dented_pair(random, 1.3, 3, i % 4 == 0);
+    const Vector3d across = random.direction();
+    EdgeMemory memory;
+    for (int step = 0; step < 5; ++step) {
+      const BodyState a = moving_a.at(0.01 * step), b = moving_b.at(0.01 * step);
+      const auto view = [&](EdgeMemory* from) {
+        return plane_view(a, b, across, SectorMethod::true_cone, RateMethod::none, 0, from);
+      };
+      const auto fresh = view(nullptr);
+      ASSERT_TRUE(fresh);
+      for (EdgeMemory* from : {&memory, &stale}) {
+        const auto followed = view(from);
+        ASSERT_TRUE(followed);
+        EXPECT_NEAR(followed->cone.psi, fresh->cone.psi, 4e-7) << i;
+        EXPECT_NEAR(followed->cone.theta_b, fresh->cone.theta_b, 4e-7) << i;
+      }
+    }
+  }
+}
+
 /// Against differences of sectors along the motion, which are written without the library's own propagation.
 TEST(PlaneViewRates, TrueSectorsOfDentedBodies) {
   RandomBodies random(7229);

@@ -10,8 +10,8 @@
 
 namespace vericone {
 
-/// Linear bounds base + slope.d with |slope| = 1: those with the largest bases, at most N + 1, and weights >= 0
-/// of sum 1 for which their slopes nearly cancel.
+/// Linear bounds base + slope.d with |slope| = 1: those with the largest bases, at most N + 1, and weights >=
+/// 0 of sum 1 for which their slopes nearly cancel.
 template <int N>
 class Balance {
  public:
@@ -83,8 +83,7 @@ class Balance {
  private:
   static constexpr int kMost = N + 1;
   using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMost + 1, 1>;
-  using System =
-      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMost + 1, kMost + 1>;
+  using System = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMost + 1, kMost + 1>;
 
   void drop() {
     int least = 0;

@@ -100,17 +100,13 @@ CombinedCone combined_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& 
     return tracer.ends()[x.first].azimuth < tracer.ends()[y.first].azimuth;
   });
 
+  cone.boxes = oracle.boxes_searched();
   for (const ConeWedge& s : heap) {
     const ConeEnd &first = tracer.ends()[s.first], &last = tracer.ends()[s.last];
-    // An outer chord that was not found: out is only what lies straight behind.
-    const double far_first = s.outwards < 0 ? std::numbers::pi : first.out + s.outwards,
-                 far_last = s.outwards < 0 ? std::numbers::pi : last.out + s.outwards;
-    const double near_first = s.inwards < 0 ? 0 : first.in - s.inwards,
-                 near_last = s.inwards < 0 ? 0 : last.in - s.inwards;
-    cone.inner.directions.push_back(tracer.direction(first.azimuth, near_first));
-    cone.inner.directions.push_back(tracer.direction(last.azimuth, near_last));
-    cone.outer.directions.push_back(tracer.direction(first.azimuth, far_first));
-    cone.outer.directions.push_back(tracer.direction(last.azimuth, far_last));
+    cone.inner.directions.push_back(tracer.direction(first.azimuth, s.in.first));
+    cone.inner.directions.push_back(tracer.direction(last.azimuth, s.in.last));
+    cone.outer.directions.push_back(tracer.direction(first.azimuth, s.out.first));
+    cone.outer.directions.push_back(tracer.direction(last.azimuth, s.out.last));
   }
   // Areas are rounded; what they may lose is a part of the bound.
   constexpr double kRounding = 1e-12;

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 /// A chord that needs more is better divided.
 constexpr int kMostPairs = 5000;
-constexpr double kLeastWidth = 1e-3;
+constexpr double kLeastWidth = 4e-3;
 
 const SearchBox<3> kBox{Vector3d::Zero(), Vector3d::Constant(1.001)};
 /// Of a point of A and the way to that of B.
@@ -87,6 +87,9 @@ CombinedContacts::CombinedContacts(const CombinedEllipsoid& a, const CombinedEll
   if (!frame_.usable()) return;
   for (const EnclosedQuadric& q : frame_.own_b())
     surfaces_b_.push_back(
+        quadratic_constraint<3>(q.matrix, kIdentity, kZero, Interval(q.level), -q.least_eigenvalue, kRoom));
+  for (const EnclosedQuadric& q : frame_.a())
+    surfaces_a_.push_back(
         quadratic_constraint<3>(q.matrix, kIdentity, kZero, Interval(q.level), -q.least_eigenvalue, kRoom));
   for (const IntervalVector3& column : frame_.columns_b()) columns_square_ += dot(column, column).hi();
   if (!ball_) pairs_ = std::make_unique<PairSearch>(frame_);
@@ -233,6 +236,8 @@ CombinedContact CombinedContacts::deepened(const IntervalVector3& w, const Combi
   z << near.on_a, near.way;
   CombinedContact best = near;
   best.outcome = SearchOutcome::undecided;
+  if (decide_from<4>(list4_, both_box(1.01 * extent_), z) == SearchOutcome::found)
+    best = {SearchOutcome::found, Vector3d::Zero(), z.head<3>(), z(3)};
   for (double margin = 1e-6; margin < 1; margin *= 2) {
     // The first contact is the hardest to find: near corners the steps go to and fro.
     if (!descend<4>(list4_, margin, z, best.outcome == SearchOutcome::found ? 30 : 200)) break;
@@ -326,11 +331,19 @@ bool CombinedContacts::both_meet_all(const IntervalVector3& from, const Combined
   if (joined(from, first, to, last)) return true;
   if (depth == 0) return false;
   const IntervalVector3 half = (from + to) * Interval(0.5);
-  CombinedContact between = deepened(half, first);
-  if (between.outcome != SearchOutcome::found) between = deep_contact(half, last, search);
-  if (between.outcome != SearchOutcome::found) return false;
-  return both_meet_all(from, first, half, between, search, depth - 1) &&
-         both_meet_all(half, between, to, last, search, depth - 1);
+  // Where other parts of the bodies meet along the one than along the other, there is a direction along which
+  // both do.
+  CombinedContact before = deepened(half, first), after = deepened(half, last);
+  const bool of_first = before.outcome == SearchOutcome::found,
+             of_last = after.outcome == SearchOutcome::found;
+  if (!of_first && !of_last) {
+    if (search) before = after = deep_contact(half, {}, true);
+    if (before.outcome != SearchOutcome::found) return false;
+  } else if (!of_first || !of_last) {
+    (of_first ? after : before) = of_first ? before : after;
+  }
+  return both_meet_all(from, first, half, before, search, depth - 1) &&
+         both_meet_all(half, after, to, last, search, depth - 1);
 }
 
 /// Deep inside, from a contact nearby; searched for where there is none and it may be.
@@ -347,13 +360,36 @@ CombinedContact CombinedContacts::deep_contact(const IntervalVector3& w, const C
 }
 
 bool CombinedContacts::all_between(const IntervalVector3& from, const IntervalVector3& to,
-                                   const CombinedContact* near) const {
+                                   const CombinedContact* at_from, const CombinedContact* at_to) const {
   if (ball_) return ball_meets_all(from, to, 5);
-  const CombinedContact first = deep_contact(from, near ? *near : CombinedContact{}, !near);
+  const bool search = !at_from || !at_to;
+  const CombinedContact first = deep_contact(from, at_from ? *at_from : CombinedContact{}, search);
   if (first.outcome != SearchOutcome::found) return false;
-  const CombinedContact last = deep_contact(to, first, !near);
+  const CombinedContact last = deep_contact(to, at_to ? *at_to : first, search);
   if (last.outcome != SearchOutcome::found) return false;
-  return both_meet_all(from, first, to, last, !near, 5);
+  return both_meet_all(from, first, to, last, search, 5);
+}
+
+bool CombinedContacts::none_beyond(const Vector3d& along, const CombinedContact& farthest) const {
+  const IntervalVector3 n = frame_.covector(along);
+  // n.(c + b - a) for a point of each; what it is short of 0 is shared between the two.
+  const IntervalVector3 own = in_own(n);
+  const Vector3d of_a = middle(n), of_b = middle(own);
+  const double at_a = of_a.dot(farthest.on_a), at_b = of_b.dot(farthest.on_b);
+  const Interval c = dot(n, frame_.center());
+  const double room = at_a - at_b - c.mid();
+  if (!(room > 0)) return false;
+  const double least_a = at_a - 0.5 * room, most_b = at_b + 0.49 * room;
+  if (!(c + Interval(most_b) - Interval(least_a)).negative()) return false;
+  // No point of A has n.a <= least_a, none of B n.b >= most_b.
+  list3_ = surfaces_a_;
+  list3_.push_back(linear_constraint<3>({n[0], n[1], n[2]}, Interval(-least_a), kRoom));
+  Vector3d on_a = farthest.on_a;
+  if (decide_from<3>(list3_, kBox, on_a) != SearchOutcome::empty) return false;
+  list3_ = surfaces_b_;
+  list3_.push_back(linear_constraint<3>({-own[0], -own[1], -own[2]}, Interval(most_b), kRoom));
+  Vector3d on_b = farthest.on_b;
+  return decide_from<3>(list3_, kBox, on_b) == SearchOutcome::empty;
 }
 
 }  // namespace vericone

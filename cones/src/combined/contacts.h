@@ -49,9 +49,13 @@ class CombinedContacts {
   /// Where neither is an ellipsoid and the last answer of none_between() was false: points of A, in the
   /// frame, and of B, in its own coordinates, that were in the way.
   std::pair<Eigen::Vector3d, Eigen::Vector3d> left() const { return pairs_->left(); }
-  /// `near`: a contact from which others are looked for by steps alone, where neither is an ellipsoid.
+  /// `at_from`, `at_to`: contacts near both, from which others are looked for by steps alone, where neither
+  /// is an ellipsoid.
   bool all_between(const IntervalVector3& from, const IntervalVector3& to,
-                   const CombinedContact* near = nullptr) const;
+                   const CombinedContact* at_from = nullptr, const CombinedContact* at_to = nullptr) const;
+  /// Whether no direction w with n.w >= 0, n in metres, leads to a contact, from the points of both bodies
+  /// that are nearly farthest along n and -n: true is certain, false says nothing.
+  bool none_beyond(const Eigen::Vector3d& n, const CombinedContact& farthest) const;
 
   std::uint64_t boxes_searched() const { return boxes_ + (pairs_ ? pairs_->pairs() : 0); }
 
@@ -84,6 +88,7 @@ class CombinedContacts {
   CombinedFrame frame_;
   bool ball_;  // A is an ellipsoid
   SearchLimits limits_;
+  std::vector<QuadraticConstraint<3>> surfaces_a_;  // in the frame
   std::vector<QuadraticConstraint<3>> surfaces_b_;  // of z, B's own coordinates
   double extent_ = 0;                               // |x| is at most this
   double columns_square_ = 0;                       // squared columns of G, summed

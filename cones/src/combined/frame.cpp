@@ -93,6 +93,7 @@ CombinedFrame::CombinedFrame(const CombinedEllipsoid& a, const CombinedEllipsoid
   const double unit = unit_ = std::ldexp(1.0, std::ilogb(largest));
   const Eigen::Matrix3d factor = a.ellipsoid().factor() / unit;
   const IntervalMatrix3 t = enclosed(factor);
+  factor_a_ = factor;
   inverse_a_ = inverse(t);
   IntervalVector3 c;
   for (int i = 0; i < 3; ++i) c[i] = Interval(b.center()(i) / unit) - Interval(a.center()(i) / unit);
@@ -125,6 +126,10 @@ CombinedFrame::CombinedFrame(const CombinedEllipsoid& a, const CombinedEllipsoid
   for (const auto* list : {&a_, &b_, &own_b_})
     for (const EnclosedQuadric& q : *list) usable_ = usable_ && finite(q.matrix);
   for (const Interval& x : center_) usable_ = usable_ && x.finite();
+}
+
+IntervalVector3 CombinedFrame::covector(const Eigen::Vector3d& n) const {
+  return transposed(enclosed(factor_a_)) * IntervalVector3{Interval(n(0)), Interval(n(1)), Interval(n(2))};
 }
 
 IntervalVector3 CombinedFrame::direction(const Eigen::Vector3d& w) const {

@@ -36,6 +36,9 @@ class CombinedFrame {
   /// Of a velocity known to lie in a box of a size that doubles hold.
   IntervalVector3 direction(IntervalVector3 w) const;
 
+  /// n.(position - p_A) as a function of x, in units of its own: F_A^T n.
+  IntervalVector3 covector(const Eigen::Vector3d& n) const;
+
   /// Of a point about A's centre, metres; rounded.
   Eigen::Vector3d in_frame(const Eigen::Vector3d& on_a) const {
     Eigen::Vector3d x = Eigen::Vector3d::Zero();
@@ -62,6 +65,7 @@ class CombinedFrame {
   bool usable_ = false;
   double unit_ = 1;  // metres
   IntervalMatrix3 inverse_a_;
+  Eigen::Matrix3d factor_a_ = Eigen::Matrix3d::Identity();  // in units
   IntervalVector3 center_;
   std::vector<EnclosedQuadric> a_, b_, own_b_;
   std::array<IntervalVector3, 3> columns_b_;

@@ -64,8 +64,7 @@ struct CombinedOracle::State {
       if (!inscribed) return std::nullopt;
       Eigen::Matrix3d axes = inscribed->axis_directions();
       if (axes.determinant() < 0) axes.col(0) *= -1;
-      const Ellipsoid inner =
-          Ellipsoid::from_axes(body.center(), inscribed->semi_axes() * (1 - 5e-5), axes);
+      const Ellipsoid inner = Ellipsoid::from_axes(body.center(), inscribed->semi_axes() * (1 - 5e-5), axes);
       return surely_contains(body, inner) ? std::optional(inner) : std::nullopt;
     };
     const auto core_a = core(a), core_b = core(b);
@@ -218,6 +217,7 @@ EdgeBracket CombinedOracle::edge(const Vector3d& u, const Vector3d& side, double
                                  const CombinedEdge* start) const {
   const State& s = *state_;
   EdgeBracket bracket;
+  width = std::max(width, 1e-14);
   double low = 0;  // what is undecided is on this side
   std::optional<CombinedEdge> next;
   if (start) next = *start;
@@ -281,7 +281,14 @@ Verdict CombinedOracle::verdict(const Vector3d& v_a, const Vector3d& v_b) const 
   return Verdict::undecided;
 }
 
-bool CombinedOracle::all_in(const Vector3d& from, const Vector3d& to, const CombinedEdge* near) const {
+bool CombinedOracle::half_space_out(const Vector3d& n, const CombinedEdge& touching) const {
+  const State& s = *state_;
+  if (s.relation != Relation::disjoint || !s.contacts().usable()) return false;
+  return s.contacts().none_beyond(s.own(n), s.contact(touching));
+}
+
+bool CombinedOracle::all_in(const Vector3d& from, const Vector3d& to, const CombinedEdge* at_from,
+                            const CombinedEdge* at_to) const {
   const State& s = *state_;
   if (s.relation != Relation::disjoint || !s.contacts().usable()) return false;
   const auto& inside = s.simpler().inside;
@@ -289,9 +296,9 @@ bool CombinedOracle::all_in(const Vector3d& from, const Vector3d& to, const Comb
   if (inside && of_inside(from) && of_inside(to)) return true;  // the cone of convex bodies is convex
   const IntervalVector3 first = s.direction(from), last = s.direction(to);
   if (!dot(first, last).positive()) return false;
-  if (near && !s.a.is_ellipsoid()) {
-    const CombinedContact contact = s.contact(*near);
-    return s.contacts().all_between(first, last, &contact);
+  if (at_from && at_to && !s.a.is_ellipsoid()) {
+    const CombinedContact of_first = s.contact(*at_from), of_last = s.contact(*at_to);
+    return s.contacts().all_between(first, last, &of_first, &of_last);
   }
   for (const CombinedOracle& oracle : s.simpler().narrower)
     if (oracle.all_in(s.own(from), s.own(to))) return true;

@@ -2,6 +2,8 @@
 #include "combined/pair_search.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
 
 namespace vericone {
 namespace {
@@ -68,33 +70,46 @@ bool PairSearch::set_rows(const IntervalVector3& from, const IntervalVector3& to
   return rows_ > 0;
 }
 
+/// The least that a row leaves to a pair of boxes: below 0 where no contact is in it.
+double PairSearch::least(int i, int j) {
+  ++pairs_;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < rows_; ++k) {
+    const double of_a = a_.most(i, k), of_b = b_.most(j, k), sum = of_a + of_b + offset_[k];
+    least = std::min(least, sum);
+    if (sum < -1e-15 * (std::abs(of_a) + std::abs(of_b) + std::abs(offset_[k]))) return sum;
+    if (sum < 0) least = 0;  // not certainly
+  }
+  return std::max(least, 0.0);
+}
+
 bool PairSearch::none_between(const IntervalVector3& from, const IntervalVector3& to, int most_pairs,
                               double least_width) {
   if (!set_rows(from, to)) return false;
+  const std::uint64_t end = pairs_ + static_cast<std::uint64_t>(most_pairs);
   stack_.clear();
   for (const int i : a_.roots())
-    for (const int j : b_.roots()) stack_.emplace_back(i, j);
-  for (int count = 0; !stack_.empty(); ++count) {
-    if (count >= most_pairs) return false;
-    ++pairs_;
+    for (const int j : b_.roots())
+      if (least(i, j) >= 0) stack_.emplace_back(i, j);
+  while (!stack_.empty()) {
     const auto [i, j] = stack_.back();
-    stack_.pop_back();
-    bool apart = false;
-    for (int k = 0; k < rows_ && !apart; ++k) {
-      const double of_a = a_.most(i, k), of_b = b_.most(j, k), sum = of_a + of_b + offset_[k];
-      apart = sum < -1e-15 * (std::abs(of_a) + std::abs(of_b) + std::abs(offset_[k]));
-    }
-    if (apart) continue;
-    const double width_a = a_.node(i).width, width_b = b_.node(j).width;
     last_ = {i, j};
+    if (pairs_ >= end) return false;
+    stack_.pop_back();
+    const double width_a = a_.node(i).width, width_b = b_.node(j).width;
     if (std::max(width_a, width_b) < least_width) return false;
+    // Where a contact is most likely first: what is in the way of the proof is found soon.
+    const bool of_a = width_a >= width_b;
     int first = 0;
-    if (width_a >= width_b) {
-      const int parts = a_.divide(i, first);
-      for (int p = 0; p < parts; ++p) stack_.emplace_back(first + p, j);
-    } else {
-      const int parts = b_.divide(j, first);
-      for (int p = 0; p < parts; ++p) stack_.emplace_back(i, first + p);
+    const int parts = of_a ? a_.divide(i, first) : b_.divide(j, first);
+    double highest = -1;
+    for (int p = 0; p < parts; ++p) {
+      const std::pair<int, int> part = of_a ? std::pair(first + p, j) : std::pair(i, first + p);
+      const double left = least(part.first, part.second);
+      if (left < 0) continue;
+      stack_.push_back(part);
+      if (left < highest) std::swap(stack_.back(), stack_[stack_.size() - 2]);
+      highest = left;
     }
   }
   return true;

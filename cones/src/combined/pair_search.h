@@ -34,6 +34,7 @@ class PairSearch {
 
  private:
   bool set_rows(const IntervalVector3& from, const IntervalVector3& to);
+  double least(int i, int j);
 
   const CombinedFrame& frame_;
   BodyTree a_, b_;

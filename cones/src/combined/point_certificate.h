@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
-#include "combined/balance.h"
-#include "combined/quadratic_search.h"
+#include "balance.h"
+#include "quadratic_search.h"
 
 namespace vericone {
 
@@ -60,13 +60,28 @@ SearchOutcome decide_from(const std::vector<QuadraticConstraint<N>>& list, const
     slack += 2 * weight * q.slack;  // once more for what the gradients were rounded
     size += bound.weight * std::abs(bound.base) + weight * q.h.norm();
   }
-  const Vector reach = box.half + (z - box.middle).cwiseAbs();
-  const double room =
-      balance.base() - slack - balance.rest().cwiseAbs().dot(reach) - 1e-14 * (size + reach.sum());
-  if (!(room > 0)) return SearchOutcome::undecided;
-  // It may bend down by room / |d|^2. What Cholesky's method rounds is far below 1e-14 |H|.
-  h.diagonal().array() += 0.99 * room / reach.squaredNorm() - 1e-14 * size;
-  return cholesky<N>(h).positive ? SearchOutcome::empty : SearchOutcome::undecided;
+  const auto above = [&](const Vector& x, double base, const Vector& rest) {
+    const Vector reach = box.half + (x - box.middle).cwiseAbs();
+    const double room = base - slack - rest.cwiseAbs().dot(reach) - 1e-14 * (size + reach.sum());
+    if (!(room > 0)) return false;
+    // It may bend down by room / |d|^2. What Cholesky's method rounds is far below 1e-14 |H|.
+    Eigen::Matrix<double, N, N> bent = h;
+    bent.diagonal().array() += 0.99 * room / reach.squaredNorm() - 1e-14 * size;
+    return cholesky<N>(bent).positive;
+  };
+  if (above(z, balance.base(), balance.rest())) return SearchOutcome::empty;
+  // Once more at its lowest point.
+  const Vector x = z - 0.5 * h.partialPivLu().solve(balance.rest());
+  if (!x.allFinite() || !in_box(x)) return SearchOutcome::undecided;
+  double base = 0;
+  Vector rest = Vector::Zero();
+  for (int i = 0; i < balance.count(); ++i) {
+    Vector gradient;
+    const double weight = balance[i].weight * balance[i].scale;
+    base += weight * list[balance[i].index].evaluate(x, gradient);
+    rest += weight * gradient;
+  }
+  return above(x, base, rest) ? SearchOutcome::empty : SearchOutcome::undecided;
 }
 
 }  // namespace vericone

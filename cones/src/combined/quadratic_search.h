@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "combined/balance.h"
+#include "balance.h"
 
 namespace vericone {
 

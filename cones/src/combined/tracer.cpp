@@ -22,7 +22,7 @@ Tracer::Tracer(const CombinedOracle& oracle, double tolerance, int count)
   for (int i = 0; i < count; ++i) {
     const double azimuth = 2 * std::numbers::pi * i / count;
     const ConeEnd none;
-    ends_.push_back(end_between(azimuth, i > 0 ? ends_.back() : none, none, guess, 0.1 * guess));
+    ends_.push_back(end_between(azimuth, i > 0 ? ends_.back() : none, none, guess));
     guess = 0.5 * (ends_.back().in + ends_.back().out);
   }
 }
@@ -34,33 +34,10 @@ Vector3d Tracer::direction(double azimuth, double angle) const {
   return std::cos(angle) * frame_.axis + std::sin(angle) * side(azimuth);
 }
 
-/// The axis is in and its opposite out, whatever the bodies (docs/theory.md, 7).
-ConeEnd Tracer::bisected(double azimuth, double guess, double spread) const {
-  ConeEnd e{azimuth, 0, std::numbers::pi, {}, true, 0};
-  const auto ask = [&](double angle) {
-    const Certified answer = oracle_.membership(direction(azimuth, angle));
-    if (answer == Certified::in) e.in = angle;
-    if (answer == Certified::out) e.out = angle;
-    return answer;
-  };
-  // Closing in from the guess.
-  for (double step = spread; e.out == std::numbers::pi && guess + step < std::numbers::pi; step *= 4)
-    if (ask(guess + step) != Certified::in) break;
-  for (double step = spread; e.in == 0 && guess - step > 0; step *= 4)
-    if (ask(guess - step) != Certified::out) break;
-  for (int step = 0; step < 60 && e.out - e.in > tolerance_ * 0.05 * std::sin(0.5 * (e.in + e.out)); ++step)
-    if (ask(0.5 * (e.in + e.out)) == Certified::undecided) break;
-  return e;
-}
-
-/// The contact at an end found by bisection, from the points of the bodies farthest across it.
-void Tracer::seed(ConeEnd& end) const {
-  const Vector3d up = std::cos(end.in) * side(end.azimuth) - std::sin(end.in) * frame_.axis;
-  CombinedEdge start;
-  start.on_a = -up / oracle_.a().gauge(up);
-  start.on_b = up / oracle_.b().gauge(up);
-  const auto edge = edge_near(end.azimuth, start);
-  if (edge && std::abs(edge->angle - end.in) < 0.05 * end.in) end.edge = edge;
+ConeEnd Tracer::proved_end(double azimuth, double guess, const CombinedEdge* start) const {
+  const EdgeBracket bracket =
+      oracle_.edge(frame_.axis, side(azimuth), tolerance_ * 0.05 * std::sin(guess), start);
+  return {azimuth, bracket.in, bracket.out, bracket.edge, true, 0};
 }
 
 std::optional<CombinedEdge> Tracer::edge_near(double azimuth, const CombinedEdge& start) const {
@@ -82,13 +59,17 @@ ConeEnd Tracer::end_at(double azimuth, const CombinedEdge& edge) const {
   return {azimuth, edge.angle, edge.angle, edge, false, 0};
 }
 
-ConeEnd Tracer::end_between(double azimuth, const ConeEnd& first, const ConeEnd& last, double guess,
-                            double spread) const {
+ConeEnd Tracer::end_between(double azimuth, const ConeEnd& first, const ConeEnd& last, double guess) const {
   if (guided_)
     if (const auto edge = highest(azimuth, first, last)) return end_at(azimuth, *edge);
-  ConeEnd end = bisected(azimuth, guess, spread);
-  if (guided_) seed(end);
-  return end;
+  return proved_end(azimuth, guess, first.edge ? &*first.edge : last.edge ? &*last.edge : nullptr);
+}
+
+/// Wider ones are better divided than searched for chords that are hard to prove.
+bool Tracer::narrow(const ConeEnd& first, const ConeEnd& last) const {
+  double width = last.azimuth - first.azimuth;
+  if (width < 0) width += 2 * std::numbers::pi;
+  return width < 0.1;
 }
 
 /// Where a chord stands off little, the ends are what matters; where it bends, its sagitta.
@@ -104,8 +85,7 @@ int Tracer::divide(const ConeWedge& wedge) {
   double width = last.azimuth - first.azimuth;
   if (width <= 0) width += 2 * std::numbers::pi;
   const double around = 0.25 * (first.in + first.out + last.in + last.out);
-  ends_.push_back(end_between(first.azimuth + 0.5 * width, first, last, around,
-                              std::max(expected_standoff(first, last), 1e-6)));
+  ends_.push_back(end_between(first.azimuth + 0.5 * width, first, last, around));
   return static_cast<int>(ends_.size()) - 1;
 }
 
@@ -130,64 +110,95 @@ void Tracer::bisect_again(int first, int last) {
   for (const int k : {first, last}) {
     ConeEnd& end = ends_[k];
     if (end.proved) continue;
-    end = bisected(end.azimuth, end.in, 0.1 * end.in);
-    seed(end);
+    end = proved_end(end.azimuth, end.in, end.edge ? &*end.edge : nullptr);
     moved_.push_back(k);
   }
 }
 
-/// The least of a few distances at which the chord is certified; -1 for none.
-double Tracer::outer_chord(int first, int last, double standoff) {
+/// On the plane that touches the cone at an edge between, lifted by an angle: where the cone is convex all
+/// beyond it is out.
+ConeChord Tracer::tangent_chord(const ConeEnd& first, const ConeEnd& last, const CombinedEdge& between,
+                                double azimuth, double lift) const {
+  if (between.normal.isZero(0)) return {};
+  const Vector3d n = -between.normal - lift * direction(azimuth, between.angle);
+  const auto angle = [&](const ConeEnd& end) {
+    return std::atan2(-n.dot(frame_.axis), n.dot(side(end.azimuth))) + 1e-12;
+  };
+  const ConeChord chord{angle(first), angle(last), true};
+  for (const auto& [end, at] : {std::pair(&first, chord.first), {&last, chord.last}})
+    if (!(at >= end->in) || !(at < std::numbers::pi - 1e-6) || !(n.dot(direction(end->azimuth, at)) > 1e-14))
+      return {};
+  return oracle_.half_space_out(n, between) ? chord : ConeChord{};
+}
+
+/// The least of a few distances at which the chord is certified.
+ConeChord Tracer::outer_chord(int first, int last, double standoff) {
   const ConeEnd from = ends_[first], to = ends_[last];
   const double most = std::numbers::pi - 1e-6 - std::max(from.out, to.out);
+  const ConeChord none{std::numbers::pi, std::numbers::pi, false};
+  const auto at = [&](double d) { return ConeChord{from.out + d, to.out + d, true}; };
   const auto chord = [&](double d) {
     return std::pair(direction(from.azimuth, from.out + d), direction(to.azimuth, to.out + d));
   };
-  if (!guided_) {
-    for (double d = 0.5 * standoff; d < most; d *= 2)
-      if (const auto [v, w] = chord(d); oracle_.all_out(v, w)) return d;
-    return -1;
-  }
   // Beyond the edge half way between, where the chord is lowest.
   double least = 0;
   const Vector3d middle = (chord(0).first + chord(0).second).normalized();
   const double azimuth = std::atan2(middle.dot(frame_.e2), middle.dot(frame_.e1));
-  if (const auto edge = highest(azimuth, from, to))
+  if (const auto edge = highest(azimuth, from, to)) {
+    if (const ConeChord touching = tangent_chord(from, to, *edge, azimuth, 0.05 * standoff); touching.proved)
+      return touching;
     least = std::max(0.0, edge->angle - std::acos(std::min(1.0, middle.dot(frame_.axis))));
-  double step = 0.15 * standoff;
-  for (int attempt = 0; least + step < most && attempt < 12; ++attempt, step *= 2) {
+  }
+  if (!guided_) {
+    for (double d = 0.5 * standoff; d < most; d *= 2)
+      if (const auto [v, w] = chord(d); oracle_.all_out(v, w)) return at(d);
+    return none;
+  }
+  const int attempts = narrow(from, to) ? 12 : 2;
+  double step = 0.3 * standoff;
+  for (int attempt = 0; least + step < most && attempt < attempts; ++attempt, step *= 2) {
     CombinedEdge hint;
     const auto [v, w] = chord(least + step);
-    if (oracle_.all_out(v, w, &hint)) return least + step;
+    if (oracle_.all_out(v, w, &hint)) return at(least + step);
     if (attempt == 1 || attempt == 3) learn(hint, first, last);
-    if (!moved_.empty()) return -1;
+    if (!moved_.empty()) return none;
   }
-  return -1;
+  return none;
 }
 
-double Tracer::inner_chord(const ConeEnd& first, const ConeEnd& last, double standoff) const {
-  const CombinedEdge* near = first.edge ? &*first.edge : last.edge ? &*last.edge : nullptr;
-  double d = (near ? 0.1 : 0.5) * standoff;
-  for (int attempt = 0; d < std::min(first.in, last.in); ++attempt, d *= 2) {
-    // By steps from a contact nearby first; those may lead nowhere.
-    const CombinedEdge* start = attempt < 4 ? near : nullptr;
-    if (oracle_.all_in(direction(first.azimuth, first.in - d), direction(last.azimuth, last.in - d), start))
-      return d;
-  }
-  return -1;
+ConeChord Tracer::inner_chord(const ConeEnd& first, const ConeEnd& last, double standoff) const {
+  const CombinedEdge *at_first = first.edge ? &*first.edge : nullptr,
+                     *at_last = last.edge ? &*last.edge : at_first;
+  if (!at_first) at_first = at_last;
+  const auto tried = [&](double d, const CombinedEdge* near_first, const CombinedEdge* near_last) {
+    return oracle_.all_in(direction(first.azimuth, first.in - d), direction(last.azimuth, last.in - d),
+                          near_first, near_last);
+  };
+  // By steps from the contacts at the ends first; those may lead nowhere.
+  constexpr int kSteps = 8;
+  double d = 0.1 * standoff;
+  for (int attempt = 0; guided_ && at_first && attempt < kSteps && d < std::min(first.in, last.in);
+       ++attempt, d *= 2)
+    if (tried(d, at_first, at_last)) return {first.in - d, last.in - d, true};
+  if (guided_ && at_first && !narrow(first, last)) return {};
+  for (d = 0.5 * standoff; d < std::min(first.in, last.in); d *= 2)
+    if (tried(d, nullptr, nullptr)) return {first.in - d, last.in - d, true};
+  return {};
 }
 
 ConeWedge Tracer::wedge(int first, int last) {
-  ConeWedge s{first, last, -1, -1, 0, std::numeric_limits<double>::infinity()};
+  ConeWedge s;
+  s.first = first, s.last = last;
+  s.outer = std::numeric_limits<double>::infinity();
   const double standoff = expected_standoff(ends_[first], ends_[last]);
-  s.outwards = outer_chord(first, last, standoff);
-  if (s.outwards < 0 && moved_.empty()) bisect_again(first, last);
+  s.out = outer_chord(first, last, standoff);
+  if (!s.out.proved && moved_.empty()) bisect_again(first, last);
   if (!moved_.empty()) return s;
   const ConeEnd &from = ends_[first], &to = ends_[last];
-  s.inwards = inner_chord(from, to, standoff);
+  s.in = inner_chord(from, to, standoff);
   // What could not be proved at any distance: nothing is known to be out, nothing but the axis to be in.
-  if (s.outwards >= 0) s.outer = triangle(from, to, from.out + s.outwards, to.out + s.outwards);
-  if (s.inwards >= 0) s.inner = triangle(from, to, from.in - s.inwards, to.in - s.inwards);
+  if (s.out.proved) s.outer = triangle(from, to, s.out.first, s.out.last);
+  if (s.in.proved) s.inner = triangle(from, to, s.in.first, s.in.last);
   return s;
 }
 

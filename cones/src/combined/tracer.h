@@ -21,12 +21,18 @@ struct ConeEnd {
   int moves = 0;        // how often it was moved outwards since
 };
 
-/// Between two neighbouring half-planes: on both, how far the chords stand off the ends; -1 where nothing was
-/// proved.
+/// A chord between two neighbouring half-planes: angles from the axis on both; where nothing was proved, the
+/// axis (inner chords) or its opposite (outer ones).
+struct ConeChord {
+  double first = 0, last = 0;  // radians
+  bool proved = false;
+};
+
+/// Between two neighbouring half-planes.
 struct ConeWedge {
-  int first = 0, last = 0;           // of Tracer::ends()
-  double inwards = 0, outwards = 0;  // radians
-  double inner = 0, outer = 0;       // solid angles of the triangles with the axis, steradian
+  int first = 0, last = 0;  // of Tracer::ends()
+  ConeChord in, out = {std::numbers::pi, std::numbers::pi};
+  double inner = 0, outer = 0;  // solid angles of the triangles with the axis, steradian
   double gap() const { return outer - inner; }
   bool operator<(const ConeWedge& other) const { return gap() < other.gap(); }
 };
@@ -50,16 +56,17 @@ class Tracer {
 
  private:
   Eigen::Vector3d side(double azimuth) const;
-  ConeEnd bisected(double azimuth, double guess, double spread) const;
-  void seed(ConeEnd& end) const;
+  ConeEnd proved_end(double azimuth, double guess, const CombinedEdge* start) const;
   std::optional<CombinedEdge> edge_near(double azimuth, const CombinedEdge& start) const;
   std::optional<CombinedEdge> highest(double azimuth, const ConeEnd& first, const ConeEnd& last) const;
   ConeEnd end_at(double azimuth, const CombinedEdge& edge) const;
-  ConeEnd end_between(double azimuth, const ConeEnd& first, const ConeEnd& last, double guess,
-                      double spread) const;
+  ConeEnd end_between(double azimuth, const ConeEnd& first, const ConeEnd& last, double guess) const;
   double expected_standoff(const ConeEnd& first, const ConeEnd& last) const;
-  double outer_chord(int first, int last, double standoff);
-  double inner_chord(const ConeEnd& first, const ConeEnd& last, double standoff) const;
+  ConeChord outer_chord(int first, int last, double standoff);
+  ConeChord tangent_chord(const ConeEnd& first, const ConeEnd& last, const CombinedEdge& between,
+                          double azimuth, double lift) const;
+  bool narrow(const ConeEnd& first, const ConeEnd& last) const;
+  ConeChord inner_chord(const ConeEnd& first, const ConeEnd& last, double standoff) const;
   void bisect_again(int first, int last);
   void learn(const CombinedEdge& hint, int first, int last);
   double triangle(const ConeEnd& first, const ConeEnd& last, double angle_first, double angle_last) const;

@@ -17,8 +17,8 @@ class Passage {
  public:
   Passage(const Track& a, const Track& b);
 
-  /// Negative until B is passed: c.V, and once that is not negative V_r_hat of the plane chosen, where there is
-  /// one: followed from the time asked before. Where V_r_hat is positive on every plane c.V stands for it.
+  /// Negative until B is passed: c.V, and once that is not negative V_r_hat of the plane chosen, where there
+  /// is one: followed from the time asked before. Where V_r_hat is positive on every plane c.V stands for it.
   double rate(const Track& a, const Track& b, const Pilot& pilot, double t);
 
  private:

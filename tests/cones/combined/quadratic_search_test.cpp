@@ -7,6 +7,7 @@
 
 #include <limits>
 
+#include "../../../cones/src/combined/point_certificate.h"
 #include "../../../cones/src/combined/quadratic_search.h"
 
 namespace vericone::quadratic_search_test {
@@ -44,6 +45,24 @@ TEST(QuadraticSearch, TwoBallsMeetOrNotByTheirDistance) {
     EXPECT_EQ(r.outcome, gap > 0 ? SearchOutcome::empty : SearchOutcome::found) << gap;
     // Boxes of width sqrt(gap) near one point, halved from the whole: a few hundred, whatever the gap.
     EXPECT_LT(r.boxes, 400) << gap;
+  }
+}
+
+TEST(QuadraticSearch, OnePointDecidesWhatIsConvexNearATangency) {
+  RandomBodies random(4108);
+  SCOPED_TRACE(random.trace());
+  for (const double gap : {1e-2, 1e-4, 1e-7, 1e-10, -1e-10, -1e-7, -1e-4}) {
+    const Vector3d d = random.direction(), touched = gap / 2 * d;
+    const std::vector<QuadraticConstraint<3>> apart{ball(-d, 1), ball((1 + gap) * d, 1)};
+    Vector3d x = touched + 0.1 * gap * random.direction();
+    const SearchOutcome expected = gap > 0 ? SearchOutcome::empty : SearchOutcome::found;
+    EXPECT_EQ(decide_from<3>(apart, kBox, x), expected) << gap;
+    if (expected == SearchOutcome::found)
+      for (const QuadraticConstraint<3>& q : apart) EXPECT_LE(x.dot(q.h * x) + 2 * q.g.dot(x) + q.c, 0);
+    // A ball within another, whose outside is asked for: empty or not, one point may not say that it is.
+    Vector3d y = d;
+    const std::vector<QuadraticConstraint<3>> within{ball({0, 0, 0}, 1), outside(0.5 * d, 0.5 + gap)};
+    EXPECT_NE(decide_from<3>(within, kBox, y), SearchOutcome::empty) << gap;
   }
 }
 
@@ -92,7 +111,7 @@ TEST(QuadraticSearch, RandomListsAreNeverAnsweredWrong) {
   RandomBodies random(4107);
   SCOPED_TRACE(random.trace());
   QuadraticSearch<3> search;
-  int empty = 0, found = 0;
+  int empty = 0, found = 0, by_point = 0;
   for (int i = 0; i < 3000; ++i) {
     std::vector<QuadraticConstraint<3>> list;
     const int count = random.integer(2, 6);
@@ -120,6 +139,15 @@ TEST(QuadraticSearch, RandomListsAreNeverAnsweredWrong) {
       ASSERT_TRUE(holds(r.point, 0));
       ASSERT_LE(r.point.cwiseAbs().maxCoeff(), 1 + 1e-9);
     }
+    // From any points, where those say anything.
+    for (int s = 0; s < 4; ++s) {
+      Vector3d x = random.in_box(1);
+      const SearchOutcome said = decide_from<3>(list, box, x);
+      if (said == SearchOutcome::found) ASSERT_TRUE(holds(x, 0));
+      if (said != SearchOutcome::empty) continue;
+      ++by_point;
+      ASSERT_NE(r.outcome, SearchOutcome::found);
+    }
     if (r.outcome == SearchOutcome::empty) {
       ++empty;
       for (int s = 0; s < 300; ++s) ASSERT_FALSE(holds(random.in_box(1), -1e-9));
@@ -128,6 +156,7 @@ TEST(QuadraticSearch, RandomListsAreNeverAnsweredWrong) {
   // Both answers are common, or the test tests nothing.
   EXPECT_GT(empty, 300);
   EXPECT_GT(found, 1000);
+  EXPECT_GT(by_point, 30);
 }
 
 }  // namespace

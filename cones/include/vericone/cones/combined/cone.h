@@ -57,28 +57,33 @@ class CombinedOracle {
   [[nodiscard]] Certified membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 
   /// The same for a direction near an edge that is known: as a rule decided by the contact there, in 2 us.
-  Certified membership(const Eigen::Vector3d& w, const CombinedEdge& near) const;
+  [[nodiscard]] Certified membership(const Eigen::Vector3d& w, const CombinedEdge& near) const;
 
   /// The end of the cone on the half-plane of u (line of sight, from A to B, unit) and `side` (unit,
   /// perpendicular to it): bracketed to `width` radians, or to what stays undecided. Contacts are followed
   /// outwards until nothing is met beyond the last one; where they lead nowhere, angles are halved. `start`:
   /// an edge of a half-plane nearby, or of a moment before. Bodies are to be disjoint. Cost: some 10 us from
   /// such an edge, some 50 us without; more where surfaces are grazed that bend away from the other body.
-  EdgeBracket edge(const Eigen::Vector3d& u, const Eigen::Vector3d& side, double width,
-                   const CombinedEdge* start = nullptr) const;
+  [[nodiscard]] EdgeBracket edge(const Eigen::Vector3d& u, const Eigen::Vector3d& side, double width,
+                                 const CombinedEdge* start = nullptr) const;
 
   /// Relation and membership in one.
   [[nodiscard]] Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 
   /// Whether all directions of the convex hull of two, less than a right angle apart and not zero, are in
   /// (out): true is certain, false says nothing.
-  /// `near`: an edge to look for contacts from, which is faster where neither body is an ellipsoid.
+  /// `at_from`, `at_to`: edges near both to look for contacts from, and there alone, where neither body is an
+  /// ellipsoid.
   [[nodiscard]] bool all_in(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-                            const CombinedEdge* near = nullptr) const;
+                            const CombinedEdge* at_from = nullptr, const CombinedEdge* at_to = nullptr) const;
   /// `left`: where to write the points that were in the way of a proof, for two bodies neither of which is an
   /// ellipsoid.
   [[nodiscard]] bool all_out(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                              CombinedEdge* left = nullptr) const;
+
+  /// Whether all w with n.w >= 0 are out, proved from an edge whose contact is nearly farthest along n: true
+  /// is certain, false says nothing. So it is where the edge lies on the convex hull of the cone. Cost: 5 us.
+  [[nodiscard]] bool half_space_out(const Eigen::Vector3d& n, const CombinedEdge& touching) const;
 
   /// First contact of A moving by w t: an interval that contains the time, seconds. Nothing where
   /// membership(w) is not `in`, and for bodies so thin that nothing can be searched. `width`: of the
@@ -110,11 +115,13 @@ struct CombinedCone {
   /// The same for the section at distance 1 along the axis; infinite where outer reaches 90 degrees.
   double cross_section_area = 0;
   double cross_section_area_error = 0;
+
+  std::uint64_t boxes = 0;  // searched: a measure of effort that is the same on every machine
 };
 
 /// Refined until the solid angles of inner and outer cone differ by at most `tolerance` (0 < tolerance < 1)
-/// of the outer one, or until `most_boxes` have been searched (by default a few seconds); the bound returned
-/// says what was reached.
+/// of the outer one, or until `most_boxes` have been searched (by default about 0.3 s); the bound returned
+/// says what was reached. What has begun then is brought to an end: some 100,000 boxes at most.
 /// Overlapping bodies: every velocity (4 pi, no directions). Throws InputError naming "tolerance". Cost: see
 /// docs/benchmarks.md.
 [[nodiscard]] CombinedCone combined_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& b,
