@@ -170,7 +170,7 @@ class Combined(unittest.TestCase):
                 print("%s left out: %s" % (name, result.stderr.strip()), file=sys.stderr)
                 continue
             self.assertEqual(result.returncode, 0, result.stderr)
-            verdict = "out" if name in ("mesh.yaml", "scan.yaml", "window.yaml") else "in"
+            verdict = "out" if name in ("mesh.yaml", "planar.yaml", "scan.yaml", "window.yaml") else "in"
             self.assertIn("verdict             %s (" % verdict, result.stdout, name)
         result = run("query", os.path.join(folder, "combined.jsonl"))
         self.assertEqual(result.returncode, 2)  # the last line is a mistake

@@ -3,6 +3,7 @@
 // The first rung's arithmetic against rationals: a value is never farther from the exact one than its
 // rounding count says, and the constant that turns counts into bounds is right for every count in use.
 #include <gtest/gtest.h>
+#include <vericone/geometry/exact/integer.h>
 #include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/tracked.h>
 #include <vericone/testing/random_bodies.h>
@@ -10,7 +11,7 @@
 namespace vericone::tracked_test {
 namespace {
 
-using exact::Rational;
+using exact::Integer, exact::Rational;
 using testing::RandomBodies;
 
 TEST(RoundingCount, CountsTheLongestPath) {
@@ -31,9 +32,8 @@ TEST(RoundingCount, BoundCoversSecondOrderTermsUpToAThousandRoundings) {
   for (int k = 1; k <= 1000; ++k) {
     // Rounded upwards and downwards to 200 bits, or the numbers would fill the memory.
     const auto trim = [](const Rational& x, int add) {
-      const boost::multiprecision::cpp_int scale = boost::multiprecision::cpp_int(1) << 200;
-      return Rational(boost::multiprecision::cpp_int(numerator(x) * scale / denominator(x)) + add) /
-             Rational(scale);
+      const Integer scale = Integer(1) << 200;
+      return Rational(numerator(x) * scale / denominator(x) + add) / Rational(scale);
     };
     grown = trim(grown * up, 1);
     shrunk = trim(shrunk * down, 0);

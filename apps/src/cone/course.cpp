@@ -93,7 +93,7 @@ class Search {
     return d - way(d) * along_;
   }
 
-  /// Steps of one unit vector on its sphere: none, and in 2 (D - 1) directions, turned by `turn`.
+  /// Steps of one unit vector on its sphere: none, and both ways on a circle or six ways turned by `turn`.
   static std::vector<Vector> around(const Vector& u, double step, double turn) {
     std::vector<Vector> all{u};
     if constexpr (D == 2) {

@@ -18,8 +18,8 @@ struct NearestPoints {
 /// Of all times from `from` to `to` (seconds, `to` may be infinite). Estimates for pictures: the boundaries
 /// are sampled, and the nearest pair of samples is refined. Distances come out to rounding where the samples
 /// found the right pair; where the bodies touch, the point to about 1e-3 of their sizes, as the gap hardly
-/// changes along them there. Bodies that overlap meanwhile have their boundaries' nearest pair. Cost: about
-/// 20 ms.
+/// changes along them there. Bodies that overlap meanwhile have their boundaries' nearest pair. Cost: 5 to
+/// 50 ms.
 NearestPoints<2> nearest_points(const CombinedEllipse& agent, const CombinedEllipse& obstacle,
                                 const Eigen::Vector2d& w, double from, double to);
 NearestPoints<3> nearest_points(const CombinedEllipsoid& agent, const CombinedEllipsoid& obstacle,
