@@ -161,9 +161,9 @@ void other_bodies_table() {
         return view ? view->cone.psi : 0;
       }));
   for (int i = 0; i < kPairs; ++i)
-    plane_view(advanced(dented[i].a, -0.01), advanced(dented[i].b, -0.01),
-               dented[i].a.velocity.unitOrthogonal(), SectorMethod::true_cone, RateMethod::none, 0,
-               &memories[i]);
+    (void)plane_view(advanced(dented[i].a, -0.01), advanced(dented[i].b, -0.01),
+                     dented[i].a.velocity.unitOrthogonal(), SectorMethod::true_cone, RateMethod::none, 0,
+                     &memories[i]);
   add("hull of 12 points, slices, rates (differenced)", hulls, SectorMethod::slice, RateMethod::analytic, 20);
   add("hull of 12 points, true sector", hulls, SectorMethod::true_cone, RateMethod::none, 5);
   add("hull of 12 points, true sector, rates", hulls, SectorMethod::true_cone, RateMethod::analytic, 5);

@@ -133,7 +133,7 @@ double combined_table(int rounds) {
     return combined_slice_cone(e.a, e.b, kPlanes, SliceSector::source_by_sides).slices[0].left;
   }));
   for (const Row& row : rows)
-    items.push_back(item(std::string("CombinedOracle prepared, ") + row.name, kSlicePairs, 1, [&row](int i) {
+    items.push_back(item(std::string("CombinedOracle made, ") + row.name, kSlicePairs, 1, [&row](int i) {
       return CombinedOracle(row.pairs[i].a, row.pairs[i].b).relation() == Relation::disjoint;
     }));
   std::vector<std::vector<CombinedOracle>> oracles(rows.size());

@@ -130,7 +130,7 @@ void map_table(const std::string& file) {
   const AssemblyOracle oracle(outside, occupied);
   Effort cone;
   start = cpu_seconds();
-  oracle.extremes(middle - outside.center(), 64, 1e-4, &cone);
+  (void)oracle.extremes(middle - outside.center(), 64, 1e-4, &cone);
   const double seconds = cpu_seconds() - start;
   const double nodes = double(occupied.hierarchy().nodes().size());
   std::printf(

@@ -192,25 +192,27 @@ Certified CombinedOracle::State::membership(const Vector3d& v_a, const Vector3d&
   const Vector3d &first = swapped ? v_b : v_a, &second = swapped ? v_a : v_b;
   if (exact) return exact->membership(first, second) == Membership::out ? Certified::out : Certified::in;
   if (around && around->membership(first, second) == Membership::out) return Certified::out;
-  const bool searchable = contacts().usable();
-  const IntervalVector3 w = searchable ? direction(first, second) : IntervalVector3{};
-  const auto found = [&](const CombinedContact& contact) {
+  // Enclosed only where the ellipsoids do not decide.
+  const auto found = [&](const CombinedContact& contact, const IntervalVector3& w) {
     if (contact.outcome == SearchOutcome::undecided) return Certified::undecided;
     if (contact.outcome == SearchOutcome::empty) return Certified::out;
     if (met) *met = points(contact, w);
     return Certified::in;
   };
-  if (near && searchable)
-    if (const Certified answer = found(contacts().beside(w, contact(*near))); answer != Certified::undecided)
-      return answer;
+  if (near && contacts().usable()) {
+    const IntervalVector3 w = direction(first, second);
+    const Certified answer = found(contacts().beside(w, contact(*near)), w);
+    if (answer != Certified::undecided) return answer;
+  }
   const Simpler& by = simpler();
   if (by.inside && by.inside->membership(first, second) != Membership::out) return Certified::in;
-  if (!searchable) return Certified::undecided;
+  if (!contacts().usable()) return Certified::undecided;
   for (const CombinedOracle& oracle : by.wider)
     if (oracle.membership(first, second) == Certified::out) return Certified::out;
   for (const CombinedOracle& oracle : by.narrower)
     if (oracle.state_->membership(first, second, nullptr, met) == Certified::in) return Certified::in;
-  return found(contacts().along(w, contacts().extent()));
+  const IntervalVector3 w = direction(first, second);
+  return found(contacts().along(w, contacts().extent()), w);
 }
 
 EdgeBracket CombinedOracle::edge(const Vector3d& u, const Vector3d& side, double width,

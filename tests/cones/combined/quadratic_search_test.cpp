@@ -57,8 +57,9 @@ TEST(QuadraticSearch, OnePointDecidesWhatIsConvexNearATangency) {
     Vector3d x = touched + 0.1 * gap * random.direction();
     const SearchOutcome expected = gap > 0 ? SearchOutcome::empty : SearchOutcome::found;
     EXPECT_EQ(decide_from<3>(apart, kBox, x), expected) << gap;
-    if (expected == SearchOutcome::found)
+    if (expected == SearchOutcome::found) {
       for (const QuadraticConstraint<3>& q : apart) EXPECT_LE(x.dot(q.h * x) + 2 * q.g.dot(x) + q.c, 0);
+    }
     // A ball within another, whose outside is asked for: empty or not, one point may not say that it is.
     Vector3d y = d;
     const std::vector<QuadraticConstraint<3>> within{ball({0, 0, 0}, 1), outside(0.5 * d, 0.5 + gap)};
@@ -143,7 +144,9 @@ TEST(QuadraticSearch, RandomListsAreNeverAnsweredWrong) {
     for (int s = 0; s < 4; ++s) {
       Vector3d x = random.in_box(1);
       const SearchOutcome said = decide_from<3>(list, box, x);
-      if (said == SearchOutcome::found) ASSERT_TRUE(holds(x, 0));
+      if (said == SearchOutcome::found) {
+        ASSERT_TRUE(holds(x, 0));
+      }
       if (said != SearchOutcome::empty) continue;
       ++by_point;
       ASSERT_NE(r.outcome, SearchOutcome::found);

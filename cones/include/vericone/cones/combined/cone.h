@@ -50,7 +50,7 @@ class CombinedOracle {
   /// where relation() is not known or touching. w = 0 is out. Two disjoint ellipsoids are decided exactly (on
   /// the boundary: `in`, the cone is closed); otherwise bodies inside and around the two are asked first,
   /// exactly, and only what lies between them is searched. Cost: 0.1 us where they decide, else some 10 to
-  /// 100 us.
+  /// 100 us; what is needed to search is made, and allocated, when it is first asked for.
   [[nodiscard]] Certified membership(const Eigen::Vector3d& w) const;
   /// The same for w = v_a - v_b, the difference taken without rounding. Throws InputError naming
   /// "agent_velocity[i]" or "obstacle_velocity[i]".
