@@ -57,10 +57,17 @@ void expect_none_of_lower_rungs(const Oracle& oracle, const Vector& w) {
 
 TEST(NoAllocation, TheCounterSeesAllKinds) {
   int size = 100;
+  struct alignas(64) Wide {
+    double x[8];
+  };
   std::unique_ptr<int> one;
+  std::unique_ptr<int[]> some;
+  std::unique_ptr<Wide> aligned;
   std::vector<double> many;
   Eigen::VectorXd of_eigen;
   EXPECT_GT(allocations_of([&] { one = std::make_unique<int>(size); }), 0);
+  EXPECT_GT(allocations_of([&] { some = std::make_unique<int[]>(std::size_t(size)); }), 0);
+  EXPECT_GT(allocations_of([&] { aligned = std::make_unique<Wide>(); }), 0);
   EXPECT_GT(allocations_of([&] { many.resize(std::size_t(size)); }), 0);
   EXPECT_GT(allocations_of([&] { of_eigen.resize(size); }), 0);
 }

@@ -3,7 +3,6 @@
 // The extreme direction of a body on a half-plane.
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/requires.h>
 #include <algorithm>
 #include <numbers>
 #include <optional>
@@ -294,7 +293,6 @@ void require_tolerance(double tolerance) {
 
 ExtremeDirection AssemblyOracle::extreme(const Eigen::Vector3d& axis, const Eigen::Vector3d& side,
                                          double tolerance, Effort* effort) const {
-  VERICONE_REQUIRES(relation() == Relation::disjoint);
   require_tolerance(tolerance);
   Effort unused;
   std::optional<std::uint32_t> guess;
@@ -304,7 +302,6 @@ ExtremeDirection AssemblyOracle::extreme(const Eigen::Vector3d& axis, const Eige
 
 std::vector<ExtremeDirection> AssemblyOracle::extremes(const Eigen::Vector3d& axis, int half_planes,
                                                        double tolerance, Effort* effort) const {
-  VERICONE_REQUIRES(relation() == Relation::disjoint);
   require_tolerance(tolerance);
   if (half_planes < 1) throw InputError("half_planes", std::to_string(half_planes), "1 or more");
   Effort unused;

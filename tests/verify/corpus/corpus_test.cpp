@@ -49,7 +49,8 @@ struct Tally {
 };
 
 bool is_degenerate(const std::string& truth) {
-  return truth == "on" || truth == "grazes" || truth.ends_with("touching") || truth == "zero" || truth == "equal";
+  return truth == "on" || truth == "grazes" || truth.ends_with("touching") || truth == "zero" ||
+         truth == "equal";
 }
 
 /// Holds every rung against the truth.

@@ -102,8 +102,9 @@ class AssemblyOracle : public DirectionClassifier {
 
   /// The half-plane of directions cos(t) axis + sin(t) side, 0 <= t <= pi; axis and side orthonormal.
   /// high - low <= tolerance (radians, 1e-13 to 1) except where pieces graze the half-plane within rounding,
-  /// and at the corners of polyhedral agents and pieces below 1e-7. Requires relation() == disjoint. Throws
-  /// InputError naming "tolerance".
+  /// and at the corners of polyhedral agents and pieces below 1e-7. Of bodies that are not disjoint, all of
+  /// whose directions collide, it says nothing: some low <= high in [0, pi]. Throws InputError naming
+  /// "tolerance".
   [[nodiscard]] ExtremeDirection extreme(const Eigen::Vector3d& axis, const Eigen::Vector3d& side,
                                          double tolerance = 1e-4, Effort* effort = nullptr) const;
 
