@@ -14,6 +14,7 @@
 #include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/cones/opening/orifice.h>
 #include <vericone/cones/planar/sector.h>
+#include <vericone/cones/plane_sector.h>
 #include <vericone/cones/planar/sector_oracle.h>
 #include <vericone/cones/times/contact_time_enclosure.h>
 #include <vericone/geometry/body.h>
@@ -101,6 +102,9 @@ TEST(NoAllocation, SectorsOnPlanes) {
     double sum = 0;
     EXPECT_EQ(allocations_of([&] { sum = SectorPlanes(a, b).on(across).psi(); }), 0);
     EXPECT_GT(sum, 0);
+    const PlaneSector sector = SectorPlanes(a, b).on(across);
+    const Twist twist{random.direction(), random.direction()};
+    EXPECT_EQ(allocations_of([&] { sum = sector_rates(sector, twist, Twist(), 0.1)->psi(); }), 0);
   }
 }
 

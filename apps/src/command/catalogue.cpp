@@ -66,6 +66,8 @@ const std::vector<CatalogueEntry>& catalogue() {
       core("shapes", "Pictures and meshes of combined quadrics",
            {"shapes --figure notch,stars", "shapes --mesh obj --no-figures --out out/bodies"}, "", "",
            kNothing),
+      simulation("check", "What a scene, a scenario or a body's file means, in plain words",
+                 {"check scene.yaml", "check scenario.yaml"}, "", ""),
       simulation("simulate", "A scenario of moving bodies, with a proof of what was avoided",
                  {"simulate scenario.yaml", "simulate scenario.yaml --json --no-figures --out out/flight"},
                  "", kNothing),

@@ -6,6 +6,7 @@
 #include "montecarlo/campaign_command.h"
 #include "paper/claims_command.h"
 #include "paper/figures_command.h"
+#include "simulate/check_command.h"
 #include "simulate/simulate_command.h"
 
 namespace vericone {
@@ -22,6 +23,13 @@ int simulate_command(CommandLine& line) {
   line.read();
   simulate.command_line = line.text();
   return run_simulate(simulate, std::cout);
+}
+
+int check_command(CommandLine& line) {
+  std::string file;
+  line.option("file", file, "Scene, scenario or body, YAML (docs/formats.md, docs/scenarios.md)").required();
+  line.read();
+  return run_check(file, std::cout);
 }
 
 int campaign_command(CommandLine& line) {
@@ -75,7 +83,8 @@ int figures_command(CommandLine& line) {
 }  // namespace
 
 std::map<std::string, Command> simulation_commands() {
-  return {{"simulate", simulate_command},
+  return {{"check", check_command},
+          {"simulate", simulate_command},
           {"campaign", campaign_command},
           {"claims", claims_command},
           {"figures", figures_command}};

@@ -62,23 +62,6 @@ BasicEngagement<D> read_bodies(const Json& value, Velocities velocities) {
   return e;
 }
 
-/// Of any kind, where it stands, and what to call it.
-std::pair<Placed, std::string> read_any(const Json& value, const std::string& path,
-                                        const std::filesystem::path& folder) {
-  if (is_union(value)) {
-    Placed body = read_union(value, path, folder);
-    const std::size_t count = pieces_of(body);
-    return {std::move(body), "union of " + std::to_string(count) + (count == 1 ? " piece" : " pieces")};
-  }
-  if (!is_pieces_body(value)) {
-    const CombinedEllipsoid body = read_spatial_body(value, path);
-    return {Placed(body), body.is_ellipsoid() ? "ellipsoid" : "combined quadric"};
-  }
-  PiecesBody body = read_pieces_body(value, path, folder);
-  std::string name = describe(body);
-  return {Placed(std::move(body.pieces), body.pose), std::move(name)};
-}
-
 /// At least one body is made of pieces, or is a union.
 AnyEngagement read_pieces_engagement(const Json& value, Velocities velocities,
                                      const std::filesystem::path& folder) {
@@ -99,8 +82,8 @@ AnyEngagement read_pieces_engagement(const Json& value, Velocities velocities,
       return pieces_before(body.ellipsoid());
     }
   }
-  auto [first, first_name] = read_any(agent, "agent", folder);
-  auto [second, second_name] = read_any(obstacle, "obstacle", folder);
+  auto [first, first_name] = read_placed(agent, "agent", folder);
+  auto [second, second_name] = read_placed(obstacle, "obstacle", folder);
   return PlacedEngagement{
       std::move(first), std::move(second), std::move(first_name), std::move(second_name), v_a(), v_b()};
 }
@@ -137,6 +120,23 @@ std::string quoted(const Json& value) {
   constexpr std::size_t kLongest = 60;
   if (text.size() > kLongest) text = text.substr(0, kLongest - 3) + "...";
   return text;
+}
+
+std::pair<Placed, std::string> read_placed(const Json& given, const std::string& path,
+                                           const std::filesystem::path& folder) {
+  const Json value = body_fields(given, path, folder);
+  if (is_union(value)) {
+    Placed body = read_union(value, path, folder);
+    const std::size_t count = pieces_of(body);
+    return {std::move(body), "union of " + std::to_string(count) + (count == 1 ? " piece" : " pieces")};
+  }
+  if (!is_pieces_body(value)) {
+    const CombinedEllipsoid body = read_spatial_body(value, path);
+    return {Placed(body), body.is_ellipsoid() ? "ellipsoid" : "combined quadric"};
+  }
+  PiecesBody body = read_pieces_body(value, path, folder);
+  std::string name = describe(body);
+  return {Placed(std::move(body.pieces), body.pose), std::move(name)};
 }
 
 AnyEngagement read_engagement(const Json& value, Velocities velocities,

@@ -11,6 +11,8 @@
 #include <array>
 #include <filesystem>
 #include <initializer_list>
+#include <string>
+#include <utility>
 #include <variant>
 
 #include "json/json_value.h"
@@ -80,6 +82,11 @@ enum class Velocities { required, optional };
 /// `folder`. Throws InputError naming the field, for example "obstacle.semi_axes[1]".
 AnyEngagement read_engagement(const Json& value, Velocities velocities,
                               std::initializer_list<const char*> also, const std::filesystem::path& folder);
+
+/// A spatial body of any kind where it stands, and what to call it: "mesh of 69451 triangles (bunny.obj)". Throws
+/// InputError with `path` before the field.
+std::pair<Placed, std::string> read_placed(const Json& value, const std::string& path,
+                                           const std::filesystem::path& folder);
 
 /// A value as it stands in a message: one line, at most 60 characters.
 std::string quoted(const Json& value);

@@ -24,6 +24,9 @@ Json proof_json(const simulation::Scenario& scenario, const simulation::Run& run
 /// What the bodies look like in their own frames.
 Json shapes_json(const simulation::Scenario& scenario);
 
+/// What a body is at its start, in plain words, and that it changes where it does.
+std::string shape_words(const simulation::Body& body);
+
 /// What an event's value is: "m", "s" or "1"; empty where it has none.
 std::string unit_of(const simulation::Scenario& scenario, const simulation::Event& event);
 bool has_obstacle(const simulation::Event& event);

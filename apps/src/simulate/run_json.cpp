@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulate/run_files.h"
 
+#include "input/body_words.h"
 #include "json/json_value.h"
 #include "pieces/decimate.h"
 
@@ -84,6 +85,13 @@ Json shape_json(const ShapeInTime& shape) {
 }
 
 }  // namespace
+
+std::string shape_words(const simulation::Body& body) {
+  const guidance::Shape shape = shape_at(body.shape, body.appears, body.start.position, body.start.rotation);
+  const auto* flat = std::get_if<CombinedEllipse>(&shape);
+  return (flat != nullptr ? body_words(*flat) : body_words(guidance::placed(shape))) +
+         (std::holds_alternative<RigidShape>(body.shape) ? "" : ", k may change");
+}
 
 Json proof_json(const Scenario& scenario, const Run& run) {
   Json pairs = Json::array();

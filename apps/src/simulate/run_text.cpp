@@ -20,42 +20,19 @@ std::string brief(double x) {
   return text;
 }
 
-/// A label and what it is, in the columns of the other commands.
-void line(std::ostream& out, std::string label, const std::string& text) {
-  label.resize(20, ' ');
-  out << label << text << '\n';
-}
-
-std::string agent_text(const Scenario& scenario, const simulation::Body& body) {
-  const Pilot& pilot = *body.pilot;
-  const guidance::GuideOptions& guide = pilot.guide;
-  std::string text = body.name + ": " + guidance::to_string(guide.law);
-  if (guide.law == guidance::Law::clearance) {
-    text += " to " + brief(guide.clearance.required) + " m";
-  } else if (!planar(body.shape) && !guarded(pilot)) {
-    text += std::string(", ") + (guide.sector == guidance::SectorMethod::true_cone ? "true" : "slice") +
-            " sector, " + guidance::to_string(guide.plane.choice);
-  }
-  text += guarded(pilot) ? ", guarded" : ", gain " + brief(guide.inversion.gain) + "/s";
-  if (std::isfinite(guide.inversion.most)) text += ", at most " + brief(guide.inversion.most) + " m/s^2";
-  std::string minds;
-  for (const std::string& name : pilot.minds) minds.append(minds.empty() ? "; minds " : ", ").append(name);
-  return text + (scenario.bodies.size() > 2 ? minds : "");
-}
-
 void print_bodies(const Scenario& scenario, std::ostream& out) {
   std::string others;
   bool first = true;
   for (const simulation::Body& body : scenario.bodies) {
     if (body.pilot) {
-      line(out, first ? "agents" : "", agent_text(scenario, body));
+      print_line(out, first ? "agents" : "", agent_text(scenario, body));
       first = false;
     } else {
       others.append(others.empty() ? "" : ", ").append(body.name);
       if (body.appears > 0) others.append(" from " + brief(body.appears) + " s");
     }
   }
-  if (!others.empty()) line(out, "other bodies", others);
+  if (!others.empty()) print_line(out, "other bodies", others);
 }
 
 std::string event_text(const Scenario& scenario, const Event& event) {
@@ -125,18 +102,18 @@ void print_pair(const Scenario& scenario, const PairOutcome& pair, std::ostream&
   const std::string place = " at (" + brief(x.x()) + ", " + brief(x.y()) + ", " + brief(x.z()) + ") m";
   switch (proof.verdict) {
     case ProofVerdict::avoided:
-      return line(out, "",
-                  names + "apart by " + brief(proof.least_distance) + " m or more, proved from " +
-                      brief(proof.from) + " to " + brief(proof.to) + " s; nearest at " +
-                      brief(proof.least_time) + " s" + not_kept(pair));
+      return print_line(out, "",
+                        names + "apart by " + brief(proof.least_distance) + " m or more, proved from " +
+                            brief(proof.from) + " to " + brief(proof.to) + " s; nearest at " +
+                            brief(proof.least_time) + " s" + not_kept(pair));
     case ProofVerdict::touched:
-      return line(out, "",
-                  names + "apart before " + to_text(proof.from) + " s, meeting at " + to_text(proof.to) +
-                      " s" + place + ", both proved");
+      return print_line(out, "",
+                        names + "apart before " + to_text(proof.from) + " s, meeting at " +
+                            to_text(proof.to) + " s" + place + ", both proved");
     case ProofVerdict::undecided:
-      return line(out, "",
-                  names + "closer than the proof resolves between " + to_text(proof.from) + " and " +
-                      to_text(proof.to) + " s, near" + place);
+      return print_line(out, "",
+                        names + "closer than the proof resolves between " + to_text(proof.from) + " and " +
+                            to_text(proof.to) + " s, near" + place);
   }
 }
 
@@ -154,12 +131,12 @@ void print_events(const Scenario& scenario, const Run& run, std::ostream& out) {
     if (!all && (!decisive(event.kind) || listed >= kMostEvents)) continue;
     char when[32];
     std::snprintf(when, sizeof when, "%10.4f s  ", event.t);
-    line(out, listed++ == 0 ? "events" : "", when + event_text(scenario, event));
+    print_line(out, listed++ == 0 ? "events" : "", when + event_text(scenario, event));
   }
   if (!all)
-    line(out, listed == 0 ? "events" : "",
-         std::to_string(run.events.size()) + " in all, from " + brief(run.events.front().t) + " to " +
-             brief(run.events.back().t) + " s: events.csv");
+    print_line(out, listed == 0 ? "events" : "",
+               std::to_string(run.events.size()) + " in all, from " + brief(run.events.front().t) + " to " +
+                   brief(run.events.back().t) + " s: events.csv");
 }
 
 /// All of a few; of many the worst.
@@ -181,21 +158,43 @@ void print_pairs(const Scenario& scenario, const Run& run, std::ostream& out) {
   const auto apart = std::count_if(worst.begin() + kNearestPairs, worst.end(), [](const PairOutcome* pair) {
     return pair->proof.verdict == ProofVerdict::avoided;
   });
-  line(out, "",
-       "and " + std::to_string(worst.size() - kNearestPairs) + " more pairs, " + std::to_string(apart) +
-           " of them avoided, proved: proof.json");
+  print_line(out, "",
+             "and " + std::to_string(worst.size() - kNearestPairs) + " more pairs, " + std::to_string(apart) +
+                 " of them avoided, proved: proof.json");
 }
 
 }  // namespace
 
+std::string agent_text(const Scenario& scenario, const simulation::Body& body) {
+  const Pilot& pilot = *body.pilot;
+  const guidance::GuideOptions& guide = pilot.guide;
+  std::string text = body.name + ": " + guidance::to_string(guide.law);
+  if (guide.law == guidance::Law::clearance) {
+    text += " to " + brief(guide.clearance.required) + " m";
+  } else if (!planar(body.shape) && !guarded(pilot)) {
+    text += std::string(", ") + (guide.sector == guidance::SectorMethod::true_cone ? "true" : "slice") +
+            " sector, " + guidance::to_string(guide.plane.choice);
+  }
+  text += guarded(pilot) ? ", guarded" : ", gain " + brief(guide.inversion.gain) + "/s";
+  if (std::isfinite(guide.inversion.most)) text += ", at most " + brief(guide.inversion.most) + " m/s^2";
+  std::string minds;
+  for (const std::string& name : pilot.minds) minds.append(minds.empty() ? "; minds " : ", ").append(name);
+  return text + (scenario.bodies.size() > 2 ? minds : "");
+}
+
+void print_line(std::ostream& out, std::string label, const std::string& text) {
+  label.resize(std::max<std::size_t>(20, label.size() + 1), ' ');
+  out << label << text << '\n';
+}
+
 void print_run(const Scenario& scenario, const Run& run, double seconds, std::ostream& out) {
-  line(out, "scenario", scenario.name);
+  print_line(out, "scenario", scenario.name);
   print_bodies(scenario, out);
-  line(out, "time",
-       brief(run.end) + " s in steps of " + brief(scenario.step) + " s, computed and proved in " +
-           brief(seconds) + " s: " + brief(run.end / seconds) + " times real time");
+  print_line(out, "time",
+             brief(run.end) + " s in steps of " + brief(scenario.step) + " s, computed and proved in " +
+                 brief(seconds) + " s: " + brief(run.end / seconds) + " times real time");
   print_events(scenario, run, out);
-  line(out, "verdict", verdict_text(scenario, run));
+  print_line(out, "verdict", verdict_text(scenario, run));
   print_pairs(scenario, run, out);
 }
 

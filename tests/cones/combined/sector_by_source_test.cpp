@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "../../../cones/src/combined/pole_polar.h"
+#include "../../../cones/src/combined/source/pole_polar.h"
 #include "support/random_combined.h"
 
 namespace vericone::sector_by_source_test {

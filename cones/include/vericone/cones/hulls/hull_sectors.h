@@ -21,11 +21,12 @@ class HullSectors {
   /// The line of sight ends at the hull's reference point, which need not be in it; e is perpendicular to it,
   /// unit. Nothing where the bodies are not apart, the line of sight is outside the cone, or the search's
   /// edges are denied: ask assembly_sector() of assembly_sectors.h then. Cost: 2 us for 12 points.
-  [[nodiscard]] std::optional<PlaneSector> on(const Eigen::Vector3d& reference, const Eigen::Vector3d& e) const;
+  [[nodiscard]] std::optional<PlaneSector> on(const Eigen::Vector3d& reference,
+                                              const Eigen::Vector3d& e) const;
 
  private:
-  std::optional<GrazingEdge> edge(const Eigen::Vector3d& reference, const Eigen::Vector3d& u,
-                                  const Eigen::Vector3d& side) const;
+  [[nodiscard]] std::optional<GrazingEdge> edge(const Eigen::Vector3d& reference, const Eigen::Vector3d& u,
+                                                const Eigen::Vector3d& side) const;
 
   const Ellipsoid& agent_;
   const HullBody& hull_;

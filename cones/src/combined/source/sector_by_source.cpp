@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "answers/elementary.h"
-#include "combined/pole_polar.h"
+#include "combined/source/pole_polar.h"
 #include "planar/sector_parts.h"
 
 namespace vericone {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "combined/pole_polar.h"
+#include "combined/source/pole_polar.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulate/check_command.h"
+
+#include <vericone/geometry/error.h>
+#include <algorithm>
+#include <filesystem>
+#include <ostream>
+
+#include "input/body_words.h"
+#include "input/file_body.h"
+#include "input/planar_body.h"
+#include "input/scene.h"
+#include "json/json_value.h"
+#include "simulate/read_scenario.h"
+#include "simulate/run_files.h"
+#include "simulate/run_text.h"
+
+namespace vericone {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+using scenario::print_line;
+
+std::string guarantee_words(const Pair& pair) {
+  const Guarantee guarantee = pair.guarantee();
+  if (guarantee.exact) return "exact: every verdict is right";
+  return "certified: a verdict is right or undecided, to " + brief(guarantee.tolerance) + " of a size";
+}
+
+std::string now_words(const Pair& pair) {
+  const auto relation = pair.relation();
+  if (!relation) return "touching, or too near to tell";
+  if (*relation != Relation::disjoint) return to_string(*relation);
+  return brief(pair.miss(Vector3d::Zero(), Vector3d::Zero()).distance) + " m apart";
+}
+
+void check_scene(const Json& fields, const std::string& file, std::ostream& out) {
+  const input::AnyEngagement scene = input::scene_of(fields, file);
+  const Pair pair = input::pair_of(scene);
+  const auto [v_a, v_b] = input::velocities_of(scene);
+  print_line(out, "scene", file);
+  const auto [agent, obstacle, planar] = words_of(scene);
+  print_line(out, "agent", agent + "; " + motion_words(v_a, planar));
+  print_line(out, "obstacle", obstacle + "; " + motion_words(v_b, planar));
+  print_line(out, "now", now_words(pair));
+  print_line(out, "answers", guarantee_words(pair));
+  if (fields.contains("lidars")) print_line(out, "lidars", std::to_string(fields["lidars"].size()));
+  if (v_a == v_b) print_line(out, "note", "the velocities are equal: they never meet");
+}
+
+void check_scenario(const Json& fields, const std::string& file, std::ostream& out) {
+  const simulation::Scenario scenario =
+      scenario::read_scenario(fields, fs::path(file).stem().string(), fs::path(file).parent_path());
+  print_line(out, "scenario", file);
+  print_line(out, "time",
+             brief(scenario.duration) + " s at most, commands every " + brief(scenario.step) + " s");
+  for (const simulation::Body& body : scenario.bodies) {
+    std::string text = scenario::shape_words(body) + "; " +
+                       motion_words(body.start.velocity, simulation::planar(body.shape));
+    if (body.appears > 0) text += "; appears at " + brief(body.appears) + " s";
+    print_line(out, body.name, text);
+    if (body.pilot) print_line(out, "", scenario::agent_text(scenario, body));
+    if (body.pilot && body.pilot->goal)
+      print_line(out, "",
+                 "goal (" + brief(body.pilot->goal->point.x()) + ", " + brief(body.pilot->goal->point.y()) +
+                     ", " + brief(body.pilot->goal->point.z()) + ") m");
+  }
+  const auto pilots = std::count_if(scenario.bodies.begin(), scenario.bodies.end(),
+                                    [](const simulation::Body& body) { return body.pilot.has_value(); });
+  const std::size_t count = scenario.bodies.size();
+  print_line(out, "pairs", std::to_string(count * (count - 1) / 2) + ", each proved apart or met");
+  if (pilots == 0) print_line(out, "note", "no body has a pilot: all go straight on");
+}
+
+void check_body(const std::string& file, std::ostream& out) {
+  const fs::path path(file);
+  const Json named{{"file", path.filename().string()}};
+  print_line(out, "body", file);
+  // A planar one has two numbers where others have three.
+  const Json body = input::body_fields(named, "", path.parent_path());
+  const bool planar = body.contains("center") && body["center"].is_array() && body["center"].size() == 2;
+  print_line(out, "is",
+             planar ? body_words(input::read_planar_body(body, ""))
+                    : body_words(input::read_placed(body, "", path.parent_path()).first));
+  print_line(out, "use it",
+             "obstacle: {file: " + path.filename().string() +
+                 "} in a scene or a case, {name: B, file: " + path.filename().string() + "} in a scenario");
+}
+
+}  // namespace
+
+int run_check(const std::string& file, std::ostream& out) {
+  const Json fields = input::read_scene_fields(file);
+  if (!fields.is_object())
+    throw InputError(file, input::quoted(fields), "a scene, a scenario or a body: a mapping of fields");
+  if (fields.contains("bodies"))
+    check_scenario(fields, file, out);
+  else if (fields.contains("agent"))
+    check_scene(fields, file, out);
+  else
+    check_body(file, out);
+  return 0;
+}
+
+}  // namespace vericone

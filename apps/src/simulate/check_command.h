@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <iosfwd>
+#include <string>
+
+namespace vericone {
+
+/// `vericone check`: what a scene, a scenario or a file with a body means, in plain words, or the first thing
+/// that is wrong with it. Nothing is computed but what the bodies are and how far apart they stand.
+int run_check(const std::string& file, std::ostream& out);
+
+}  // namespace vericone
