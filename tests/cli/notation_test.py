@@ -125,6 +125,24 @@ class Notation(unittest.TestCase):
         for body in ("{file: parts/box.yaml}", "{file: again.yaml}", "{mesh: parts/box.off}"):
             self.assertEqual(self.case(body)["time_to_contact"], self.case("{mesh: parts/box.off}")["time_to_contact"])
 
+    def test_check_says_what_a_file_means(self):
+        for name, said in (("planar.yaml", "cut by 1 hyperbola"), ("source-6.5.yaml", "exact: every verdict is right"),
+                           ("biconcave.yaml", "certified: a verdict is right or undecided"),
+                           ("window.yaml", "surface of 8 triangles"), ("scenarios/avoidance.yaml", "avoidance, guarded"),
+                           ("bodies/elephant-pieces.yaml", "union of 4 ellipsoids")):
+            done = run("check", os.path.join(SOURCE, "docs/examples", name))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(said, done.stdout)
+        # 10 m between the centres, less 1 m and 2 m.
+        scene = self.write("balls.yaml", "agent: {center: [0, 0, 0], semi_axes: [1, 1, 1]}\n"
+                                         "obstacle: {center: [10, 0, 0], semi_axes: [2, 2, 2], velocity: [0, -3, 4]}\n")
+        text = run("check", scene).stdout
+        self.assertIn("now                 7 m apart", text)
+        self.assertIn("moves at 5 m/s, azimuth -90, elevation 53.13 degrees", text)
+        done = run("check", self.write("bad.yaml", "agent: {center: [0, 0, 0], semi_axes: [1, 0, 1]}\nobstacle: {}\n"))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("agent.semi_axes[1]: got 0", done.stderr)
+
     def test_what_is_refused(self):
         self.write("loop.yaml", "file: loop.yaml\n")
         self.write("scene.yaml", f"agent: {AGENT}\n")

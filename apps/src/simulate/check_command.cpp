@@ -32,7 +32,10 @@ std::string now_words(const Pair& pair) {
   const auto relation = pair.relation();
   if (!relation) return "touching, or too near to tell";
   if (*relation != Relation::disjoint) return to_string(*relation);
-  return brief(pair.miss(Vector3d::Zero(), Vector3d::Zero()).distance) + " m apart";
+  const Miss miss = pair.miss(Vector3d::Zero(), Vector3d::Zero());
+  if (miss.most - miss.least > 1e-4 * miss.most)
+    return "between " + brief(miss.least) + " and " + brief(miss.most) + " m apart";
+  return brief(miss.distance) + " m apart";
 }
 
 void check_scene(const Json& fields, const std::string& file, std::ostream& out) {
