@@ -128,7 +128,7 @@ class Notation(unittest.TestCase):
     def test_check_says_what_a_file_means(self):
         for name, said in (("planar.yaml", "cut by 1 hyperbola"), ("source-6.5.yaml", "exact: every verdict is right"),
                            ("biconcave.yaml", "certified: a verdict is right or undecided"),
-                           ("window.yaml", "surface of 8 triangles"), ("scenarios/avoidance.yaml", "avoidance, guarded"),
+                           ("window.yaml", "surface of 8 triangles"), ("scenarios/avoidance.yaml", "avoidance, true sector"),
                            ("bodies/elephant-pieces.yaml", "union of 4 ellipsoids")):
             done = run("check", os.path.join(SOURCE, "docs/examples", name))
             self.assertEqual(done.returncode, 0, done.stderr)

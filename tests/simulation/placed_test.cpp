@@ -65,8 +65,8 @@ TEST(ProofOfPlaced, ShellsAreSolidBoxesFromOutside) {
       EXPECT_LE((by_distance.place - by_planes.place).norm(), 1e-2) << i;
     } else {
       const double scale = by_planes.least_distance;
-      // Both are lower bounds of the same distance. That by distances is the weaker one where bodies turn, by a part of
-      // the first order of a piece's length: how sharp it is, not whether it holds.
+      // Both are lower bounds of the same distance. That by distances is the weaker one where bodies turn, by
+      // a part of the first order of a piece's length: how sharp it is, not whether it holds.
       const bool turns = i % 2 == 0 || i % 4 < 2;
       EXPECT_NEAR(by_distance.least_distance, scale, (turns ? 0.1 : 0.02) * scale + 1e-5) << i;
     }

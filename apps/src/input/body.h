@@ -83,8 +83,8 @@ enum class Velocities { required, optional };
 AnyEngagement read_engagement(const Json& value, Velocities velocities,
                               std::initializer_list<const char*> also, const std::filesystem::path& folder);
 
-/// A spatial body of any kind where it stands, and what to call it: "mesh of 69451 triangles (bunny.obj)". Throws
-/// InputError with `path` before the field.
+/// A spatial body of any kind where it stands, and what to call it: "mesh of 69451 triangles (bunny.obj)".
+/// Throws InputError with `path` before the field.
 std::pair<Placed, std::string> read_placed(const Json& value, const std::string& path,
                                            const std::filesystem::path& folder);
 
