@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The JSON schemas of docs/schemas against the examples, against mistakes, and against what the program itself takes.
+Environment as for command.py."""
+import glob
+import json
+import os
+import re
+import sys
+import tempfile
+import unittest
+
+import yaml
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import bad_input_cases  # noqa: E402
+from command import SOURCE, run  # noqa: E402
+
+FOLDER = os.path.join(SOURCE, "docs/schemas")
+
+
+def schema(name):
+    with open(os.path.join(FOLDER, name + ".schema.json"), encoding="utf-8") as file:
+        return json.load(file)
+
+
+class Validator:
+    """The keywords that our schemas use; any other is a mistake of ours."""
+    KEYWORDS = {"$schema", "$defs", "$ref", "title", "description", "type", "properties", "required", "anyOf", "enum",
+                "additionalProperties", "items", "minItems", "maxItems", "minimum", "maximum", "exclusiveMinimum"}
+    TYPES = {"object": dict, "array": list, "string": str, "boolean": bool}
+
+    def __init__(self, name):
+        self.files = {name + ".schema.json": schema(name)}
+        self.root = self.files[name + ".schema.json"]
+
+    def resolve(self, ref, root):
+        file, path = ref.split("#/")
+        if file:
+            root = self.files.setdefault(file, schema(file.removesuffix(".schema.json")))
+        node = root
+        for key in path.split("/"):
+            node = node[key]
+        return node, root
+
+    def errors(self, value, node=None, root=None, path=""):
+        root = root or self.root
+        node = self.root if node is None else node
+        unknown = set(node) - self.KEYWORDS
+        assert not unknown, f"keywords {unknown} of a schema"
+        found = []
+        if "$ref" in node:
+            target, other = self.resolve(node["$ref"], root)
+            found += self.errors(value, target, other, path)
+        kind = node.get("type")
+        if kind in ("number", "integer"):
+            if isinstance(value, bool) or not isinstance(value, (int, float)) or (kind == "integer" and value % 1):
+                found.append(f"{path}: no {kind}")
+            elif ("minimum" in node and value < node["minimum"] or "maximum" in node and value > node["maximum"] or
+                  "exclusiveMinimum" in node and value <= node["exclusiveMinimum"]):
+                found.append(f"{path}: out of range")
+        elif kind and not isinstance(value, self.TYPES[kind]):
+            return found + [f"{path}: no {kind}"]
+        if "enum" in node and value not in node["enum"]:
+            found.append(f"{path}: none of {node['enum']}")
+        if "anyOf" in node and all(self.errors(value, one, root, path) for one in node["anyOf"]):
+            found.append(f"{path}: none of its forms")
+        if isinstance(value, list):
+            if not node.get("minItems", 0) <= len(value) <= node.get("maxItems", len(value)):
+                found.append(f"{path}: {len(value)} items")
+            if "items" in node:
+                for i, item in enumerate(value):
+                    found += self.errors(item, node["items"], root, f"{path}[{i}]")
+        if isinstance(value, dict) and kind == "object":
+            properties = node.get("properties", {})
+            found += [f"{path}.{key}: missing" for key in node.get("required", []) if key not in value]
+            for key, item in value.items():
+                if key in properties:
+                    found += self.errors(item, properties[key], root, f"{path}.{key}")
+                elif node.get("additionalProperties") is False:
+                    found.append(f"{path}.{key}: unknown")
+        return found
+
+
+class Schemas(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def write(self, text):
+        path = os.path.join(self.folder.name, "given.yaml")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        return path
+
+    def test_examples_are_valid(self):
+        count = 0
+        for pattern, name in (("docs/examples/*.yaml", "scene"), ("docs/examples/scenarios/*.yaml", "scenario"),
+                              ("papers/*/scenarios/*.yaml", "scenario"), ("docs/examples/bodies/*.yaml", "body")):
+            validator = Validator(name)
+            for path in glob.glob(os.path.join(SOURCE, pattern)):
+                with open(path, encoding="utf-8") as file:
+                    self.assertEqual(validator.errors(yaml.safe_load(file)), [], path)
+                count += 1
+        self.assertGreater(count, 20)
+        with open(os.path.join(SOURCE, "docs/examples/combined.jsonl"), encoding="utf-8") as file:
+            bodies = [json.loads(line) for line in file if "agent" in line]
+        body = Validator("body")
+        for case in bodies[:-1]:  # the last one is a mistake
+            for which in ("agent", "obstacle"):
+                self.assertEqual(body.errors(case[which]), [], case)
+
+    def test_mistakes_that_a_schema_can_see_are_seen(self):
+        validator = Validator("scenario")
+        seen = []
+        for what, text in bad_input_cases.SCENARIOS:
+            try:
+                seen.append((what, bool(validator.errors(yaml.safe_load(text)))))
+            except yaml.YAMLError:
+                continue
+        unknown = [what for what, found in seen if "unknown" in what and not found]
+        self.assertEqual(unknown, [])
+        # The rest depends on other fields, on files, or on arithmetic.
+        self.assertGreater(sum(found for _, found in seen), 0.4 * len(seen), [what for what, found in seen if not found])
+
+    def taken(self, command, text, path):
+        """The fields that the program names where `zzz` is none of them."""
+        done = run(command, self.write(text))
+        self.assertEqual(done.returncode, 2, text)
+        said = re.search(re.escape(path) + r": got an unknown field, must be one of (.*)", done.stderr)
+        self.assertTrue(said, done.stderr)
+        return set(said.group(1).strip().split(", "))
+
+    def test_fields_are_those_of_the_program(self):
+        scenario, scene, body = schema("scenario"), schema("scene"), schema("body")
+        top = "duration: 5\nbodies:\n  - {name: A, shape: {semi_axes: [1, 1, 1]}, position: [0, 0, 0], velocity: [1, 0, 0]%s}\n"
+        defs = scenario["$defs"]
+        for text, path, properties in (
+                ("zzz: 1\n" + top % "", "zzz", scenario["properties"]),
+                (top % ", zzz: 1", "bodies[0].zzz", defs["by_shape"]["properties"]),
+                (top % ", pilot: {law: clearance, zzz: 1}", "bodies[0].pilot.zzz", defs["pilot"]["properties"]),
+                (top % ", pilot: {law: clearance, goal: {zzz: 1}}", "bodies[0].pilot.goal.zzz", defs["goal"]["properties"]),
+                (top % ", pilot: {law: clearance, clearance: {zzz: 1}}", "bodies[0].pilot.clearance.zzz",
+                 defs["clearance"]["properties"]),
+                (top % ", pilot: {law: avoidance, plane: {zzz: 1}}", "bodies[0].pilot.plane.zzz", defs["plane"]["properties"]),
+                ("proof: {zzz: 1}\n" + top % "", "proof.zzz", scenario["properties"]["proof"]["properties"])):
+            self.assertEqual(self.taken("check", text, path), set(properties), path)
+        pair = "agent: {center: [0, 0, 0], semi_axes: [1, 1, 1]}\nobstacle: %s\n"
+        self.assertEqual(self.taken("check", "zzz: 1\n" + pair % "{center: [9, 0, 0], semi_axes: [1, 1, 1]}", "zzz"),
+                         set(scene["properties"]))
+        # Every kind of body names its own fields; together they are the schema's, but for what every body may have.
+        fields = {"file", "velocity"}
+        for kind in ("center: [9, 0, 0], semi_axes: [1, 1, 1]", "mesh: a", "cloud: a", "octree: a", "hull: a", "points: []",
+                     "pieces: []", "file: a"):
+            fields |= self.taken("check", pair % f"{{{kind}, zzz: 1}}", "obstacle.zzz")
+        flat = "agent: {center: [0, 0], semi_axes: [1, 1]}\nobstacle: {center: [9, 0], semi_axes: [1, 1], zzz: 1}\n"
+        fields |= self.taken("check", flat, "obstacle.zzz")
+        self.assertEqual(fields, set(body["$defs"]["body"]["properties"]))
+        self.assertEqual(set(body["$defs"]["kinds"]) | {"center", "rotation", "velocity", "k"}, fields)
+        # A scenario's shape takes these, changes in time, and no velocity.
+        shape = set(defs["shape"]["properties"])
+        self.assertEqual(shape, fields - {"velocity"} | {"dented"})
+        own = {"name", "speed", "heading", "heading_deg", "orientation", "appears", "pilot", "velocity"}
+        self.assertEqual(set(defs["as_in_scenes"]["properties"]), shape | own)
+
+    def test_every_field_is_documented(self):
+        with open(os.path.join(SOURCE, "docs/formats.md"), encoding="utf-8") as file:
+            formats = file.read()
+        with open(os.path.join(SOURCE, "docs/scenarios.md"), encoding="utf-8") as file:
+            scenarios = file.read()
+        for field in schema("body")["$defs"]["body"]["properties"]:
+            self.assertRegex(formats, rf"`{field}`", field)
+        defs = schema("scenario")["$defs"]
+        for properties in (schema("scenario")["properties"], defs["pilot"]["properties"], defs["by_shape"]["properties"],
+                           defs["goal"]["properties"]):
+            for field in properties:
+                self.assertRegex(scenarios, rf"`{field}`", field)
+
+
+if __name__ == "__main__":
+    unittest.main()
