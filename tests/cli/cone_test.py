@@ -36,6 +36,20 @@ class Cone(unittest.TestCase):
                 self.assertEqual(course["verdict"], verdict)
                 self.assertEqual("contact_point" in course, verdict == "in")
 
+    def test_bodies_too_far_apart_for_numbers(self):
+        for zeros, far in (("0, 0, 0", "1.0e200, 0, 0"), ("0, 0", "1.0e200, 0")):
+            axes = ", ".join(["1"] * len(zeros.split(",")))
+            scene = f"agent: {{center: [{zeros}], semi_axes: [{axes}]}}\nobstacle: {{center: [{far}], semi_axes: [{axes}]}}\n"
+            with tempfile.TemporaryDirectory() as folder:
+                path = os.path.join(folder, "scene.yaml")
+                with open(path, "w", encoding="utf-8") as f:
+                    f.write(scene)
+                result = run("cone", path)
+                self.assertEqual(result.returncode, 2)
+                self.assertIn("obstacle.center: got 1e+200 m from the agent's, must be at most 1e154 m", result.stderr)
+        near = self.cone(self.SPHERES.replace("[5, 0, 0]", "[1.0e150, 0, 0]"))
+        self.assertAlmostEqual(near["solid_angle"] * 1e300 / (9 * math.pi), 1, delta=1e-9)
+
     def test_spheres_in_closed_form(self):
         half = math.asin(3 / 5)
         for method in ("exact", "slice"):

@@ -303,17 +303,33 @@ void publish_cone(const ConeCommand& options, StagedFolder& folder, const Json& 
   for (const auto& file : pictures_of(files)) out << "picture             " << file.string() << '\n';
 }
 
+namespace {
+
+/// Verdicts are exact at any distance; a cone's numbers need squared lengths. The plane's may lack digits, too.
+template <int D>
+void require_measurable(const input::BasicEngagement<D>& e) {
+  const auto c = (e.obstacle.center() - e.agent.center()).eval();
+  if (std::isfinite(c.squaredNorm())) return;
+  throw InputError("obstacle.center", to_text(c.stableNorm()) + " m from the agent's",
+                   "at most 1e154 m from it: a cone's numbers need squared lengths (query has the verdict)");
+}
+
+}  // namespace
+
 void run_cone(const ConeCommand& options, std::ostream& out) {
   if (options.method != "exact" && options.method != "slice")
     throw InputError("--method", options.method, "slice or exact");
   const input::AnyEngagement scene = input::read_scene(options.scene);
-  if (const auto* planar = std::get_if<input::PlanarEngagement>(&scene))
+  if (const auto* planar = std::get_if<input::PlanarEngagement>(&scene)) {
+    require_measurable(*planar);
     return run_planar_cone(options, *planar, out);
+  }
   if (const auto* pieces = std::get_if<input::AssemblyEngagement>(&scene))
     return run_pieces_cone(options, *pieces, out);
   if (const auto* placed = std::get_if<input::PlacedEngagement>(&scene))
     return run_pair_cone(options, *placed, out);
   const auto& e = std::get<input::Engagement>(scene);
+  require_measurable(e);
   std::optional<StagedFolder> folder;
   if (!options.picture_folder.empty()) folder.emplace(options.picture_folder, "--out");
   Json cone = cone_json(options, e);

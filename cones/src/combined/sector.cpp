@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -181,6 +182,7 @@ CombinedSector combined_sector(const CombinedEllipse& a, const CombinedEllipse& 
   sector.theta_b =
       std::remainder(std::atan2(c.y(), c.x()) + 0.5 * (to_left - to_right), 2 * std::numbers::pi);
   if (sector.theta_b == -std::numbers::pi) sector.theta_b = std::numbers::pi;
+  if (!std::isfinite(sector.theta_b)) sector.psi = std::numeric_limits<double>::quiet_NaN();
   return result;
 }
 

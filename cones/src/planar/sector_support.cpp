@@ -149,6 +149,8 @@ Sector sector_by_support(const Ellipse& a, const Ellipse& b) {
   sector.left = make_edge(a, b, left.n, -1);
   sector.right = make_edge(a, b, right.n, 1);
   sector.theta_b = bisector_angle(sector.right.direction, sector.psi);
+  // Bodies so far apart that their squared distance is no double have no numbers, and none that is wrong.
+  if (!std::isfinite(sector.theta_b)) sector.psi = std::numeric_limits<double>::quiet_NaN();
   return sector;
 }
 

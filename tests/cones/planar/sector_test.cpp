@@ -41,6 +41,16 @@ TEST(Sector, Circles) {
   }
 }
 
+/// Numbers of bodies so far apart that squared lengths are no doubles are absent, not wrong.
+TEST(Sector, FarApart) {
+  for (const double distance : {1e100, 1e140, 1e150})
+    EXPECT_NEAR(sector_by_support(circle({0, 0}, 1), circle({distance, 0}, 1)).psi * distance, 4, 1e-12);
+  for (const double distance : {1e160, 1e200, 1e300}) {
+    const double psi = sector_by_support(circle({0, 0}, 1), circle({distance, 0}, 1)).psi;
+    EXPECT_TRUE(std::isnan(psi) || std::abs(psi * distance - 4) < 1e-12) << psi;
+  }
+}
+
 TEST(Sector, TouchingAndOverlapping) {
   for (const auto& method :
        {+[](const Ellipse&a, const Ellipse&b) { return sector_by_support(a, b); },
