@@ -182,7 +182,7 @@ CombinedSector combined_sector(const CombinedEllipse& a, const CombinedEllipse& 
   sector.theta_b =
       std::remainder(std::atan2(c.y(), c.x()) + 0.5 * (to_left - to_right), 2 * std::numbers::pi);
   if (sector.theta_b == -std::numbers::pi) sector.theta_b = std::numbers::pi;
-  if (!std::isfinite(sector.theta_b)) sector.psi = std::numeric_limits<double>::quiet_NaN();
+  if (!std::isfinite(c.squaredNorm())) sector.psi = sector.theta_b = std::numeric_limits<double>::quiet_NaN();
   return result;
 }
 

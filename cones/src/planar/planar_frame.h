@@ -41,7 +41,9 @@ struct PlanarFrame {
 /// of 1 - rho_A - rho_B, by Newton. The function is concave with its maximum at t = 0 and still positive at
 /// the start, so the first step overshoots at most to the outside and the rest come down monotonically.
 inline double support_tangent_slope(const PlanarFrame& frame, const ContactFrame<2>& contact, double side) {
-  double t = side * std::sqrt(std::max(contact.contact - 1, 0.0));
+  // Of distant bodies the root is about 1, and Newton from 1e16 times as far would lose all its digits.
+  constexpr double kFarthest = 0x1p20;
+  double t = side * std::min(std::sqrt(std::max(contact.contact - 1, 0.0)), kFarthest);
   for (int iteration = 0; iteration < 60; ++iteration) {
     const auto rho = [&](const Eigen::Matrix2d& s, double& slope) {
       const double r = std::sqrt(s(0, 0) + 2 * t * s(0, 1) + t * t * s(1, 1));

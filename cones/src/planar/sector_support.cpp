@@ -150,7 +150,8 @@ Sector sector_by_support(const Ellipse& a, const Ellipse& b) {
   sector.right = make_edge(a, b, right.n, 1);
   sector.theta_b = bisector_angle(sector.right.direction, sector.psi);
   // Bodies so far apart that their squared distance is no double have no numbers, and none that is wrong.
-  if (!std::isfinite(sector.theta_b)) sector.psi = std::numeric_limits<double>::quiet_NaN();
+  if (!std::isfinite((b.center() - a.center()).squaredNorm()))
+    sector.psi = sector.theta_b = std::numeric_limits<double>::quiet_NaN();
   return sector;
 }
 
