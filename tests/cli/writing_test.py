@@ -70,7 +70,7 @@ LONG = {
     "figures": (["figures"], "running"),
     "fit": (["fit", "ball.xyz", "--shape", "star", "--pieces", "4", "--no-figures"], "reading"),
     "fit with cones": (["fit", "ball.xyz", "--shape", "ellipsoid", "--cone", "around:100", "--no-figures"], "reading"),
-    "scan": (["scan", "scan.yaml", "--levels", "8", "--no-figures"], None),
+    "scan": (["scan", "scan.yaml", "--levels", "8", "--planes", "8000", "--no-figures"], None),
     "verify of predicates": (["verify", "--cases", "10000000000", "--pairs", "0"], None),
     "verify of pairs": (["verify", "--cases", "0", "--pairs", "1000000"], None),
 }

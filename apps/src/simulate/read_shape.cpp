@@ -55,6 +55,17 @@ bool is_planar(const Json& value) {
   return value.contains("shape") && value["shape"].is_array() && value["shape"].size() == 2;
 }
 
+/// A planar body as of a scene, rigid; the centre may be left out.
+simulation::RigidShape read_flat(const Json& value, const std::string& path) {
+  Json body = value;
+  if (!value.contains("center")) body["center"] = {0, 0};
+  const CombinedEllipse flat = input::read_planar_body(body, path);
+  if (!flat.center().isZero(0))
+    throw InputError(path + ".center", quoted(value["center"]),
+                     "[0, 0] or left out: a planar body turns about its centre; its place is position");
+  return {flat};
+}
+
 /// As of a scene; the centre may be left out, and is that of the body's own frame.
 simulation::RigidShape read_quadric(const Json& value, const std::string& path) {
   if (value.contains("semi_axes") &&
@@ -66,29 +77,13 @@ simulation::RigidShape read_quadric(const Json& value, const std::string& path) 
     if (value.contains("hyperboloids"))
       throw InputError(path + ".hyperboloids", quoted(value["hyperboloids"]),
                        "left out in the plane; hyperbolas, or a_c, b_c, k, give an ellipse with dents");
-    if (!value.contains("center")) body["center"] = {0, 0};
-    const CombinedEllipse flat = input::read_planar_body(body, path);
-    if (!flat.center().isZero(0))
-      throw InputError(path + ".center", quoted(value["center"]),
-                       "[0, 0] or left out: a planar body turns about its centre; its place is position");
-    return {flat};
+    return read_flat(value, path);
   }
   if (!value.contains("center") && !value.contains("quadric")) body["center"] = {0, 0, 0};
   const CombinedEllipsoid solid = input::read_spatial_body(body, path);
   // One whose centre is not the reference point is placed, as meshes are.
   if (!solid.center().isZero(0)) return {Placed(solid)};
   return {solid};
-}
-
-/// The source's conic as a scene gives it; rigid.
-simulation::RigidShape read_turned_conic(const Json& value, const std::string& path) {
-  Json body = value;
-  if (!value.contains("center")) body["center"] = {0, 0};
-  const CombinedEllipse flat = input::read_planar_body(body, path);
-  if (!flat.center().isZero(0))
-    throw InputError(path + ".center", quoted(value["center"]),
-                     "[0, 0] or left out: a planar body turns about its centre; its place is position");
-  return {flat};
 }
 
 /// The convex hull of points as they stand in the body's frame.
@@ -138,7 +133,7 @@ simulation::ShapeInTime read_shape(const Json& given, const std::string& path,
     shape.k = require_oscillation(value, path);
     return shape;
   }
-  if (value.contains("phi") || value.contains("center")) return read_turned_conic(value, path);
+  if (value.contains("phi") || value.contains("center")) return read_flat(value, path);
   simulation::DentedConic shape;
   const char* length = "a length in metres";
   shape.a_c = read_positive(require_field(value, path, "a_c", length), path + ".a_c", " (metres)");
