@@ -279,7 +279,7 @@ class Interruptions(InPreparedFolder):
                     if sign:
                         while sign not in (line := process.stderr.readline()):
                             self.assertTrue(line, "ended before it began")
-                    time.sleep(0.3 if sign else 0.7)
+                    time.sleep(0.1 if sign else 0.7)
                     self.assertIsNone(process.poll(), "too quick to be interrupted")
                     start = time.monotonic()
                     process.send_signal(sent)
