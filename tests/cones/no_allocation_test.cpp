@@ -14,8 +14,8 @@
 #include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/cones/opening/orifice.h>
 #include <vericone/cones/planar/sector.h>
-#include <vericone/cones/plane_sector.h>
 #include <vericone/cones/planar/sector_oracle.h>
+#include <vericone/cones/plane_sector.h>
 #include <vericone/cones/times/contact_time_enclosure.h>
 #include <vericone/geometry/body.h>
 #include <vericone/testing/any_body.h>

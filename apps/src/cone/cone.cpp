@@ -305,7 +305,8 @@ void publish_cone(const ConeCommand& options, StagedFolder& folder, const Json& 
 
 namespace {
 
-/// Verdicts are exact at any distance; a cone's numbers need squared lengths. The plane's may lack digits, too.
+/// Verdicts are exact at any distance; a cone's numbers need squared lengths. The plane's may lack digits,
+/// too.
 template <int D>
 void require_measurable(const input::BasicEngagement<D>& e) {
   const auto c = (e.obstacle.center() - e.agent.center()).eval();
