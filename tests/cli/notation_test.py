@@ -145,12 +145,15 @@ class Notation(unittest.TestCase):
 
     def test_what_is_refused(self):
         self.write("loop.yaml", "file: loop.yaml\n")
+        self.write("moved.yaml", "{file: moved.yaml, center: [0, 0, 1]}\n")
         self.write("scene.yaml", f"agent: {AGENT}\n")
         self.write("flat.yaml", "{center: [8, 0], semi_axes: [1, 2]}")
         self.write("q.yaml", BODIES["quadric"])
         for body, said in (
                 ("{file: missing.yaml}", "obstacle.file: got missing.yaml"),
                 ("{file: loop.yaml}", "names 8 others"),
+                ("{file: moved.yaml}", "names 8 others"),
+                ("{file: moved.yaml, center: [1, 0, 0]}", "names 8 others"),
                 ("{file: scene.yaml}", "a scene or a scenario"),
                 ("{file: q.yaml, center: [1, 0, 0]}", "obstacle.center: got [1.0,0.0,0.0], must be left out"),
                 ("{file: q.yaml, radius: 1}", "obstacle.radius: got an unknown field"),

@@ -89,26 +89,24 @@ Json moved(Json body, const Json& by, const std::string& path) {
   return body;
 }
 
+/// `files`: how many have been followed to come here.
+Json without_files(Json body, const std::string& path, const Path& folder, int files) {
+  if (!body.is_object() || !body.contains("file")) return body;
+  require_known(body, path, {"file", "center", "rotation"});
+  const std::string field = path + ".file", name = file_name(body["file"], field);
+  if (files == kMostFiles)
+    throw InputError(field, name, "a file that names " + std::to_string(kMostFiles) + " others at most");
+  Json found = body_of_file(name, field, folder);
+  follow_names(found, Path(name).parent_path());
+  found = without_files(std::move(found), path, folder, files + 1);
+  body.erase("file");
+  return body.empty() ? found : moved(std::move(found), body, path);
+}
+
 }  // namespace
 
 Json body_fields(const Json& value, const std::string& path, const Path& folder) {
-  Json body = value;
-  for (int files = 0; body.is_object() && body.contains("file"); ++files) {
-    require_known(body, path, {"file", "center", "rotation"});
-    const std::string field = path + ".file", name = file_name(body["file"], field);
-    if (files == kMostFiles)
-      throw InputError(field, name, "a file that names " + std::to_string(kMostFiles) + " others at most");
-    Json found = body_of_file(name, field, folder);
-    follow_names(found, Path(name).parent_path());
-    body.erase("file");
-    if (body.empty()) {
-      body = std::move(found);
-    } else {
-      if (found.contains("file")) found = body_fields(found, path, folder);
-      body = moved(std::move(found), body, path);
-    }
-  }
-  return body;
+  return without_files(value, path, folder, 0);
 }
 
 bool is_union(const Json& value) { return value.is_object() && value.contains("pieces"); }
