@@ -26,7 +26,7 @@ struct HalfPlaneReach {
 
 /// `reach`(axis, side) -> HalfPlaneReach; `passing`(direction) -> std::optional<Passing> of a direction that
 /// just misses. `from`, `to`: the ends of the line of sight; e perpendicular to it, unit. Nothing where no
-/// direction of the plane is known to collide.
+/// direction of the plane collides, proved.
 template <typename Reach, typename Pass>
 std::optional<PlaneSector> sector_of_half_planes(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                                                  const Eigen::Vector3d& e, const Reach& reach,
@@ -39,10 +39,13 @@ std::optional<PlaneSector> sector_of_half_planes(const Eigen::Vector3d& from, co
   sector.across = e;
   const Eigen::Vector3d& u = sector.line_of_sight;
   const HalfPlaneReach left = reach(u, e), right = reach(u, Eigen::Vector3d(-e));
-  if (!left.any && !right.any) return std::nullopt;
+  const bool known = left.any || right.any;
+  if (!known && !(left.high > 0) && !(right.high > 0)) return std::nullopt;
   const auto put = [&](PlaneSector::Edge& edge, const HalfPlaneReach& found, const Eigen::Vector3d& side) {
     HalfPlaneReach ends = found;
-    if (!found.any) {
+    if (!found.any && !known) {
+      ends = {true, 0, found.high};  // what may collide, and no more is known
+    } else if (!found.any) {
       // The cone lies on one side of the line of sight, and its near edge is the far one seen from behind.
       const HalfPlaneReach behind = reach(Eigen::Vector3d(-u), Eigen::Vector3d(-side));
       ends = {true, behind.low - pi, found.high > 0 ? found.high : behind.high - pi};

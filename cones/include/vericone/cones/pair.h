@@ -125,9 +125,9 @@ class Pair {
   /// along it). sector_rates() of plane_sector.h has its rates. Edges of exact pairs are right to 1e-9 rad,
   /// those of two ellipsoids about their centres to rounding; GrazingEdge::error says what is proved. Two
   /// stars or dents know their contacts about their centres only; a delimited body and an assembly none.
-  /// Nothing where the bodies are not apart (or not known to be), or no direction of the plane is known to
-  /// collide. Throws InputError naming "across" or "to". Cost: two ellipsoids 1 us, a hull 2 us, others:
-  /// docs/pairs.md.
+  /// Nothing where the bodies are not apart (or not known to be), or no direction of the plane
+  /// collides, proved. Throws InputError naming "across" or "to". Cost: two ellipsoids 1 us, a hull 2 us,
+  /// others: docs/pairs.md.
   [[nodiscard]] std::optional<PlaneSector> sector(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                                                   const Eigen::Vector3d& across) const;
   /// From the middle of the agent to that of the obstacle.

@@ -22,7 +22,7 @@ struct TouchedSurfaces {
 struct GrazingEdge {
   double angle = 0;  // radians from the line of sight, positive towards its own side
   /// Radians. Beyond angle + error, up to half a turn, no direction of its half-plane collides; at
-  /// angle - error one does. 0: right to rounding.
+  /// angle - error one does, unless none of the plane is known to. 0: right to rounding.
   double error = 0;
   // Where they graze each other, metres: of A from its reference point, of B from its own, as they stand now.
   Eigen::Vector3d on_a = Eigen::Vector3d::Zero(), on_b = Eigen::Vector3d::Zero();
