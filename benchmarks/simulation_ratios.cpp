@@ -5,14 +5,13 @@
 // given.
 //
 // Usage: vericone_simulation_ratios STEP SCENARIO.yaml...   (STEP in seconds; 0: the scenario's)
+#include <vericone/scenarios/read_scenario.h>
 #include <vericone/simulation/run.h>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <vector>
-
-#include "simulate/read_scenario.h"
 
 namespace {
 

@@ -9,23 +9,24 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(os.environ.get("VERICONE_SOURCE", Path(__file__).resolve().parents[2]))
-SOURCES = ("geometry", "cones", "guidance", "verify", "apps", "papers", "benchmarks", "tests")
+SOURCES = ("geometry", "cones", "guidance", "scenes", "verify", "apps", "papers", "benchmarks", "tests")
 
 # Libraries, and within them folders, each of which may include itself and what stands before it.
-LIBRARIES = ["geometry", "files", "octomap", "fitting", "lidar", "cones", "guidance", "simulation", "verify"]
+LIBRARIES = ["geometry", "files", "octomap", "fitting", "lidar", "cones", "guidance", "simulation", "scenes", "scenarios", "verify"]
 BESIDE = {("fitting", "octomap"), ("fitting", "files"), ("fitting", "lidar"), ("lidar", "octomap"), ("lidar", "fitting"),
           ("cones", "files"), ("cones", "octomap"), ("cones", "fitting"), ("cones", "lidar"),
           ("guidance", "files"), ("guidance", "octomap"), ("guidance", "fitting"), ("guidance", "lidar"),
           ("simulation", "files"), ("simulation", "octomap"), ("simulation", "fitting"), ("simulation", "lidar"),
           ("verify", "octomap"), ("verify", "fitting"), ("verify", "lidar"), ("verify", "guidance"),
-          ("verify", "simulation"), ("octomap", "fitting"), ("octomap", "lidar")}
+          ("verify", "simulation"), ("verify", "scenes"), ("verify", "scenarios"), ("scenes", "guidance"),
+          ("scenes", "simulation"), ("scenes", "fitting"), ("scenes", "lidar"), ("scenarios", "fitting"), ("scenarios", "lidar"), ("octomap", "fitting"), ("octomap", "lidar")}
 FAMILIES = ["", "answers", "ellipsoids", "planar", "combined", "hulls", "opening", "times", "assembly", "composite",
             "slices", "map", "pairs"]
 MOST_FILES = 25
 
 # Where kinds of bodies are still asked for although Pair and Body could say. A file that no longer does is taken out.
 STILL_ASKED_IN = {
-    "apps/src/montecarlo/outcome.cpp", "apps/src/scan/run_scan.cpp", "apps/src/simulate/run_json.cpp",
+    "apps/src/montecarlo/outcome.cpp", "apps/src/simulate/run_json.cpp",
     "guidance/simulation/src/run.cpp", "guidance/simulation/src/shape_in_time.cpp", "guidance/src/body_state.cpp",
     "guidance/src/containing_ellipsoid.cpp", "guidance/src/course.cpp", "guidance/src/plane_cones.cpp",
     "guidance/src/plane_view.cpp", "papers/dhal2022/src/claims_5_4.cpp", "papers/dhal2022/src/claims_6_5.cpp",
@@ -38,6 +39,8 @@ def library_of(path):
         return parts[1]
     if parts[0] == "guidance" and parts[1] == "simulation":
         return "simulation"
+    if parts[0] == "scenes" and parts[1] == "scenarios":
+        return "scenarios"
     return parts[0]
 
 
@@ -54,14 +57,14 @@ def includes(path):
 
 def public_headers():
     return {str(path).split("/include/", 1)[1]: path
-            for folder in ("geometry", "cones", "guidance", "verify")
+            for folder in ("geometry", "cones", "guidance", "scenes", "verify")
             for path in (ROOT / folder).rglob("include/**/*.h")}
 
 
 class House(unittest.TestCase):
     def test_libraries_include_only_those_below(self):
         wrong = []
-        for path in sources("geometry", "cones", "guidance", "verify"):
+        for path in sources("geometry", "cones", "guidance", "scenes", "verify"):
             own = library_of(path)
             for name in includes(path):
                 parts = name.split("/")
@@ -106,6 +109,20 @@ class House(unittest.TestCase):
                        if not name.startswith("vericone/verify/") and "exact" not in name and brings(name, set()))
         self.assertEqual(heavy, [])
 
+    def test_installed_headers_bring_no_json_and_nothing_of_their_own_folder(self):
+        wrong = [f"{name}: {other}" for name, path in public_headers().items() for other in includes(path)
+                 if "nlohmann" in other or "yaml" in other or other.startswith(("json/", "input/", "scenarios/"))]
+        self.assertEqual(wrong, [])
+
+    def test_benchmarks_know_no_command(self):
+        own = {path.name for path in sources("benchmarks")}
+        wrong = []
+        for path in sources("benchmarks"):
+            for name in re.findall(r'^#include "([^"]+)"', path.read_text(encoding="utf-8"), re.MULTILINE):
+                if Path(name).name not in own and (ROOT / "apps/src" / name).exists():
+                    wrong.append(f"{path.relative_to(ROOT)}: {name}")
+        self.assertEqual(wrong, [])
+
     def test_folders_are_small_enough_to_read(self):
         large = []
         for top in SOURCES:
@@ -116,20 +133,20 @@ class House(unittest.TestCase):
         self.assertEqual(large, [])
 
     def test_kinds_of_bodies_are_asked_for_in_three_folders(self):
-        """geometry/src (what a body is), cones/src/pairs (who serves a pair), apps/src/input (who reads and writes)."""
-        allowed = ("geometry/src/", "cones/src/pairs/", "apps/src/input/")
+        """geometry/src (what a body is), cones/src/pairs (who serves a pair), scenes/input (who reads)."""
+        allowed = ("geometry/src/", "cones/src/pairs/", "scenes/input/")
         shape = r"(shape\(\)|\.shape\b|->shape\b|agent\.shape|\bengagement\b|\bkind_of_body\b)"
         pattern = re.compile(r"(std::visit\([^;]*?" + shape + r"|(get_if|holds_alternative|std::get)<[^;]*?>\([^;]*?" +
                              shape + ")", re.DOTALL)
         wrong = []
-        for path in sources("geometry", "cones", "guidance", "apps", "papers"):
+        for path in sources("geometry", "cones", "guidance", "scenes", "apps", "papers"):
             text = str(path.relative_to(ROOT))
             if not text.startswith(allowed) and pattern.search(path.read_text(encoding="utf-8")):
                 wrong.append(text)
         self.assertEqual(set(wrong), STILL_ASKED_IN)
 
     def test_headers_name_themselves_once(self):
-        wrong = [str(path) for path in sources("geometry", "cones", "guidance", "verify")
+        wrong = [str(path) for path in sources("geometry", "cones", "guidance", "scenes", "verify")
                  if path.suffix == ".h" and "#pragma once" not in path.read_text(encoding="utf-8")]
         self.assertEqual(wrong, [])
 

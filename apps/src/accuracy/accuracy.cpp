@@ -22,6 +22,7 @@
 #include "accuracy/measure.h"
 #include "accuracy/statistics.h"
 #include "cone/cone.h"
+#include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/figures.h"
 #include "output/file_hash.h"
@@ -29,7 +30,6 @@
 #include "output/provenance.h"
 #include "output/resumable_table.h"
 #include "output/staged_folder.h"
-#include "output/stopwatch.h"
 #include "output/threads.h"
 
 namespace vericone::accuracy {
@@ -364,7 +364,7 @@ int run_accuracy(const Options& given, std::ostream& standard_output) {
       break;
     }
   const auto [a, b] = engagements.pair(shown);
-  Json picture = engagement_picture({a, b}, 36, 192);
+  Json picture = engagement_picture({{Body(a)}, {Body(b)}}, 36, 192);
   picture["engagement"] = shown;
   write_whole(folder.path() / "engagement.json", picture.dump(1) + "\n");
   write_whole(folder.path() / "summary.json", summary.dump(1) + "\n");

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
-#include <variant>
 
 #include "cone/query.h"
 #include "input/body.h"
+#include "input/fields.h"
 #include "json/json_value.h"
 
 namespace vericone::accuracy {
@@ -28,11 +28,10 @@ std::string id_of(const Json& value, std::size_t line) {
 
 Case read_case(const std::string& text, std::size_t line) {
   const Json value = parse_case(text, line);
-  const auto any = input::read_engagement(value, input::Velocities::optional, {"id"}, "");
-  const auto* engagement = std::get_if<input::Engagement>(&any);
-  if (!engagement || !engagement->ellipsoids())
+  const scenes::Scene scene = input::read_engagement(value, input::Velocities::optional, {"id"}, "");
+  if (scene.planar || !scene.agent.ellipsoid() || !scene.obstacle.ellipsoid())
     throw InputError("agent and obstacle", "other bodies", "ellipsoids in space");
-  const Ellipsoid &a = engagement->agent.ellipsoid(), &b = engagement->obstacle.ellipsoid();
+  const Ellipsoid &a = *scene.agent.ellipsoid(), &b = *scene.obstacle.ellipsoid();
   const Eigen::Vector3d across = b.center() - a.center();
   if (!(a.radius(across) + b.radius(across) < across.squaredNorm()))
     throw InputError("obstacle.center", input::quoted(vector_json(b.center())),

@@ -16,13 +16,13 @@
 #include "accuracy/distribution.h"
 #include "accuracy/measure.h"
 #include "accuracy/statistics.h"
+#include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/figures.h"
 #include "output/interrupt.h"
 #include "output/provenance.h"
 #include "output/resumable_table.h"
 #include "output/staged_folder.h"
-#include "output/stopwatch.h"
 #include "output/threads.h"
 
 namespace vericone::accuracy {

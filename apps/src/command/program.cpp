@@ -11,8 +11,8 @@
 
 #include "command/catalogue.h"
 #include "command/find_program.h"
+#include "json/plain_text.h"
 #include "output/interrupt.h"
-#include "output/plain_text.h"
 
 namespace vericone {
 namespace {

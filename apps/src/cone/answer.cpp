@@ -59,11 +59,18 @@ void add_enclosures(Json& result, const Pair& pair, Verdict verdict, const Eigen
   result["contact_normal"] = normal;
 }
 
+/// What reading left out of the obstacle: the body is then not quite what the file says.
+void add_left_out(Json& result, const scenes::SceneBody& obstacle) {
+  if (!obstacle.reading) return;
+  if (obstacle.reading->dropped_points) result["dropped_points"] = obstacle.reading->dropped_points;
+  if (obstacle.reading->dropped_faces) result["dropped_faces"] = obstacle.reading->dropped_faces;
+}
+
 }  // namespace
 
-Json answer(const input::AnyEngagement& engagement, bool with_rung) {
-  const Pair pair = input::pair_of(engagement);
-  const auto [v_a, v_b] = input::velocities_of(engagement);
+Json answer(const scenes::Scene& scene, bool with_rung) {
+  const Pair pair = scene.pair();
+  const Eigen::Vector3d &v_a = scene.agent.velocity, &v_b = scene.obstacle.velocity;
   const Verdict verdict = pair.verdict(v_a, v_b);
   Json result;
   result["verdict"] = to_string(verdict);
@@ -78,13 +85,13 @@ Json answer(const input::AnyEngagement& engagement, bool with_rung) {
     add_enclosed_time(result, pair, verdict, v_a, v_b);
   } else {
     add_enclosures(result, pair, verdict, v_a, v_b);
-    result.update(input::left_out(engagement));  // the body is then not quite what the file says
+    add_left_out(result, scene.obstacle);
   }
   return result;
 }
 
-const char* verdict_kind(const input::AnyEngagement& engagement) {
-  return input::pair_of(engagement).guarantee().exact ? "exact" : "certified";
+const char* verdict_kind(const scenes::Scene& scene) {
+  return scene.pair().guarantee().exact ? "exact" : "certified";
 }
 
 }  // namespace vericone

@@ -3,14 +3,16 @@
 // What one engagement leads to: the verdict, the clearance and the time, for bodies of every kind.
 #pragma once
 
-#include "input/body.h"
+#include <vericone/scenes/scene.h>
+
+#include "json/json_forward.h"
 
 namespace vericone {
 
 /// {"verdict", ["rung"], "clearance", "time_to_contact", ...} as docs/formats.md says.
-Json answer(const input::AnyEngagement& engagement, bool with_rung);
+Json answer(const scenes::Scene& scene, bool with_rung);
 
 /// Why a verdict can be relied on: "exact" or "certified".
-const char* verdict_kind(const input::AnyEngagement& engagement);
+const char* verdict_kind(const scenes::Scene& scene);
 
 }  // namespace vericone

@@ -18,13 +18,13 @@
 #include "cone/degrees.h"
 #include "cone/planar_cone.h"
 #include "cone/shape_engagements.h"
-#include "input/scene.h"
+#include "input/stopwatch.h"
 #include "json/json_value.h"
-#include "json/slice_json.h"
 #include "output/figures.h"
 #include "output/provenance.h"
 #include "output/staged_folder.h"
-#include "output/stopwatch.h"
+#include "picture/slice_json.h"
+#include "pieces/assembly_cone.h"
 #include "pieces/pair_cone.h"
 #include "pieces/pieces_cone.h"
 
@@ -94,12 +94,15 @@ struct Slices {
   Json extra = Json::object();
 };
 
-Slices slices_of(const input::Engagement& e, int planes, SliceSector sectors) {
-  if (e.ellipsoids() && sectors == SliceSector::all_candidates) {
-    const SliceCone cone = slice_cone(e.agent.ellipsoid(), e.obstacle.ellipsoid(), planes);
+bool ellipsoids(const scenes::Scene& scene) { return scene.agent.ellipsoid() && scene.obstacle.ellipsoid(); }
+
+Slices slices_of(const scenes::Scene& scene, int planes, SliceSector sectors) {
+  if (ellipsoids(scene) && sectors == SliceSector::all_candidates) {
+    const SliceCone cone = slice_cone(*scene.agent.ellipsoid(), *scene.obstacle.ellipsoid(), planes);
     return {to_string(cone.relation), cone.axis, cone.slices, cone.polyhedral()};
   }
-  const CombinedSliceCone cone = combined_slice_cone(e.agent, e.obstacle, planes, sectors);
+  const CombinedSliceCone cone =
+      combined_slice_cone(*scene.agent.quadric(), *scene.obstacle.quadric(), planes, sectors);
   Json extra{{"planes_with_overlapping_hulls", cone.hulls_overlap}};
   if (sectors != SliceSector::all_candidates) {
     extra["planes_without_tangents"] = cone.source_failures;
@@ -116,9 +119,9 @@ SliceSector sectors_of(const ConeCommand& options) {
   throw InputError("--tangents", options.tangents, "all, by-sides or printed");
 }
 
-Json slice_json(const input::Engagement& e, int planes, SliceSector choice) {
+Json slice_json(const scenes::Scene& scene, int planes, SliceSector choice) {
   const auto start = Clock::now();
-  const Slices cone = slices_of(e, planes, choice);
+  const Slices cone = slices_of(scene, planes, choice);
   const double seconds = seconds_since(start);
   Json result{
       {"method", "slice"}, {"planes", planes}, {"relation", cone.relation}, {"axis", vector_json(cone.axis)}};
@@ -127,7 +130,7 @@ Json slice_json(const input::Engagement& e, int planes, SliceSector choice) {
   result.update(cone.extra);
   Json sectors = Json::array();
   for (const Slice& s : cone.slices)
-    sectors.push_back(sector_json(s, cone.axis, e.agent_velocity, e.obstacle_velocity));
+    sectors.push_back(sector_json(s, cone.axis, scene.agent.velocity, scene.obstacle.velocity));
   result["sectors"] = sectors;
   // Slices miss part of the cone and cannot tell how much: no bound, no outer cone.
   result["inner"] = nullptr;
@@ -151,7 +154,7 @@ void print_widest_plane(const Json& sectors, std::ostream& out) {
       << (widest["y"].is_null() ? "not defined" : to_text(widest["y"].get<double>())) << '\n';
 }
 
-void print_text(const Json& cone, const input::Engagement& e, std::ostream& out) {
+void print_text(const Json& cone, const scenes::Scene& scene, std::ostream& out) {
   const auto area = [](const Json& value) {
     return value.is_null() ? std::string("unbounded (the cone reaches 90 degrees from its axis)")
                            : to_text(value.get<double>());
@@ -170,33 +173,36 @@ void print_text(const Json& cone, const input::Engagement& e, std::ostream& out)
     out << "source's tangents   none on " << cone["planes_without_tangents"].dump() << " planes, wrong on "
         << cone["planes_with_wrong_tangents"].dump() << '\n';
   if (cone["method"] == "slice")
-    out << (e.ellipsoids() ? "note                slices see only contacts within their planes: the true "
-                             "cone is larger\n"
-                           : "note                slices see only contacts within their planes: they are in "
-                             "the true cone, "
-                             "what lies between them need not be\n");
-  out << "verdict             " << answer(e, false)["verdict"].get<std::string>()
-      << " (of the scene's velocities, " << verdict_kind(e) << ")\n";
+    out << (ellipsoids(scene)
+                ? "note                slices see only contacts within their planes: the true "
+                  "cone is larger\n"
+                : "note                slices see only contacts within their planes: they are in "
+                  "the true cone, "
+                  "what lies between them need not be\n");
+  out << "verdict             " << answer(scene, false)["verdict"].get<std::string>()
+      << " (of the scene's velocities, " << verdict_kind(scene) << ")\n";
   out << "time                " << cone["seconds"].dump() << " s\n";
 }
 
-Json cone_json(const ConeCommand& options, const input::Engagement& e) {
+Json cone_json(const ConeCommand& options, const scenes::Scene& scene) {
   if (options.samples && options.tolerance)
     throw InputError("--samples", std::to_string(*options.samples), "left out where --tolerance is given");
   const SliceSector sectors = sectors_of(options);
-  if (options.method == "slice") return slice_json(e, options.planes.value_or(kDefaultPlanes), sectors);
+  if (options.method == "slice") return slice_json(scene, options.planes.value_or(kDefaultPlanes), sectors);
   if (sectors != SliceSector::all_candidates)
     throw InputError("--tangents", options.tangents, "left out where --method is not slice");
-  if (options.tolerance || !e.ellipsoids()) {
+  if (options.tolerance || !ellipsoids(scene)) {
     if (options.samples)
       throw InputError("--samples", std::to_string(*options.samples),
                        "left out for combined quadrics, whose cone is refined to --tolerance");
-    return certified_json(e.agent, e.obstacle, options.tolerance.value_or(kDefaultTolerance));
+    return certified_json(*scene.agent.quadric(), *scene.obstacle.quadric(),
+                          options.tolerance.value_or(kDefaultTolerance));
   }
-  return exact_json(e.agent.ellipsoid(), e.obstacle.ellipsoid(), options.samples.value_or(kDefaultSamples));
+  return exact_json(*scene.agent.ellipsoid(), *scene.obstacle.ellipsoid(),
+                    options.samples.value_or(kDefaultSamples));
 }
 
-void run_planar_cone(const ConeCommand& options, const input::PlanarEngagement& e, std::ostream& out) {
+void run_planar_cone(const ConeCommand& options, const scenes::Scene& scene, std::ostream& out) {
   if (options.method != "exact")
     throw InputError("--method", options.method, "left out for a planar scene, whose cone is one sector");
   if (options.tangents != "all")
@@ -206,23 +212,23 @@ void run_planar_cone(const ConeCommand& options, const input::PlanarEngagement& 
   if (options.map) throw InputError("--map", to_text(options.map->resolution), "asked for in space only");
   std::optional<StagedFolder> folder;
   if (!options.picture_folder.empty()) folder.emplace(options.picture_folder, "--out");
-  const Json cone = planar_cone_json(e);
+  const Json cone = planar_cone_json(scene);
   if (folder && !std::isfinite(cone["theta_b"].get<double>()))
     throw InputError("--out", options.picture_folder, "asked for a scene whose squared lengths are doubles");
   if (options.json) {
     out << cone.dump(1) << '\n';
   } else {
-    print_planar_cone(cone, e, out);
+    print_planar_cone(cone, scene, out);
   }
   if (!folder) return;
-  write_whole(folder->path() / "engagement.json", planar_picture(cone, e).dump(1) + "\n");
+  write_whole(folder->path() / "engagement.json", planar_picture(cone, scene).dump(1) + "\n");
   publish_cone(options, *folder, nullptr, "planar_engagement.py", "engagement", out);
 }
 
 }  // namespace
 
-Json engagement_picture(const input::Engagement& e, int planes, int samples) {
-  const Ellipsoid &a = e.agent.ellipsoid(), &b = e.obstacle.ellipsoid();
+Json engagement_picture(const scenes::Scene& scene, int planes, int samples) {
+  const Ellipsoid &a = *scene.agent.ellipsoid(), &b = *scene.obstacle.ellipsoid();
   const auto body = [](const Ellipsoid& x) {
     return Json{{"center", vector_json(x.center())}, {"factor", matrix_json(x.factor())}};
   };
@@ -258,9 +264,9 @@ Json engagement_picture(const input::Engagement& e, int planes, int samples) {
       result["gap_angles_degrees"] = {degrees(inner), degrees(middle), degrees(outer)};
     }
   }
-  const Json gap = course_json(input::Engagement{a, b, w});
+  const Json gap = course_json({{Body(a), "", w}, {Body(b)}});
   for (const auto& [name, value] : gap.items()) result["gap_" + name] = value;
-  if (e.agent_velocity != e.obstacle_velocity) result["course"] = course_json(e);
+  if (scene.agent.velocity != scene.obstacle.velocity) result["course"] = course_json(scene);
   return result;
 }
 
@@ -272,18 +278,18 @@ struct ConePicture {
 };
 
 /// What --out asks for, refused before anything is printed or written.
-ConePicture cone_picture(const ConeCommand& options, const input::Engagement& e, const Json& cone) {
+ConePicture cone_picture(const ConeCommand& options, const scenes::Scene& scene, const Json& cone) {
   const auto refuse = [&](const char* requirement) {
     throw InputError("--out", options.picture_folder, requirement);
   };
   if (cone["relation"] != to_string(Relation::disjoint)) refuse("asked for disjoint bodies only");
-  if (e.ellipsoids())
-    return {engagement_picture(e, options.planes.value_or(kDefaultPlanes),
+  if (ellipsoids(scene))
+    return {engagement_picture(scene, options.planes.value_or(kDefaultPlanes),
                                options.samples.value_or(kDefaultSamples)),
             "engagement.py"};
-  ConePicture picture{
-      scene_figure(e, options.tolerance.value_or(kDefaultTolerance), options.planes.value_or(kDefaultPlanes)),
-      "combined_engagement.py"};
+  ConePicture picture{scene_figure(scene, options.tolerance.value_or(kDefaultTolerance),
+                                   options.planes.value_or(kDefaultPlanes)),
+                      "combined_engagement.py"};
   if (picture.data.is_null()) refuse("asked for a cone within 90 degrees of the line of centres");
   return picture;
 }
@@ -307,9 +313,8 @@ namespace {
 
 /// Verdicts are exact at any distance; a cone's numbers need squared lengths. The plane's may lack digits,
 /// too.
-template <int D>
-void require_measurable(const input::BasicEngagement<D>& e) {
-  const auto c = (e.obstacle.center() - e.agent.center()).eval();
+void require_measurable(const scenes::Scene& scene) {
+  const Eigen::Vector3d c = scene.obstacle.quadric()->center() - scene.agent.quadric()->center();
   if (std::isfinite(c.squaredNorm())) return;
   throw InputError("obstacle.center", to_text(c.stableNorm()) + " m from the agent's",
                    "at most 1e154 m from it: a cone's numbers need squared lengths (query has the verdict)");
@@ -320,29 +325,23 @@ void require_measurable(const input::BasicEngagement<D>& e) {
 void run_cone(const ConeCommand& options, std::ostream& out) {
   if (options.method != "exact" && options.method != "slice")
     throw InputError("--method", options.method, "slice or exact");
-  const input::AnyEngagement scene = input::read_scene(options.scene);
-  if (const auto* planar = std::get_if<input::PlanarEngagement>(&scene)) {
-    require_measurable(*planar);
-    return run_planar_cone(options, *planar, out);
-  }
-  if (const auto* pieces = std::get_if<input::AssemblyEngagement>(&scene))
-    return run_pieces_cone(options, *pieces, out);
-  if (const auto* placed = std::get_if<input::PlacedEngagement>(&scene))
-    return run_pair_cone(options, *placed, out);
-  const auto& e = std::get<input::Engagement>(scene);
-  require_measurable(e);
+  const scenes::Scene scene = scenes::read_scene(options.scene);
+  if (has_assembly_cone(scene)) return run_pieces_cone(options, scene, out);
+  if (!scene.agent.quadric() || !scene.obstacle.quadric()) return run_pair_cone(options, scene, out);
+  require_measurable(scene);
+  if (scene.planar) return run_planar_cone(options, scene, out);
   std::optional<StagedFolder> folder;
   if (!options.picture_folder.empty()) folder.emplace(options.picture_folder, "--out");
-  Json cone = cone_json(options, e);
-  const ConePicture picture = folder ? cone_picture(options, e, cone) : ConePicture{};
+  Json cone = cone_json(options, scene);
+  const ConePicture picture = folder ? cone_picture(options, scene, cone) : ConePicture{};
   MapAnswer map;
   if (options.map)
-    map = map_answer(e, *options.map, options.tolerance.value_or(kDefaultTolerance), options.scene);
+    map = map_answer(scene, *options.map, options.tolerance.value_or(kDefaultTolerance), options.scene);
   if (options.json) {
     if (options.map) cone["map"] = map.summary;
     out << cone.dump(1) << '\n';
   } else {
-    print_text(cone, e, out);
+    print_text(cone, scene, out);
     if (options.map) print_map(map.summary, out);
   }
   if (!folder) return;

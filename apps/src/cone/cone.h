@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vericone/scenes/scene.h>
 #include <iosfwd>
 #include <optional>
 #include <string>
 
 #include "cone/map_answer.h"
-#include "input/body.h"
 #include "json/json_forward.h"
 
 namespace vericone {
@@ -42,6 +42,6 @@ void publish_cone(const ConeCommand& options, StagedFolder& folder, const Json& 
 /// What the picture of one engagement shows: both bodies, the slice cone inside the exact one, and a velocity
 /// between the two with the contact it leads to; the scene's own velocities too, where they differ
 /// (course.h). Requires disjoint ellipsoids.
-Json engagement_picture(const input::Engagement& engagement, int planes, int samples);
+Json engagement_picture(const scenes::Scene& scene, int planes, int samples);
 
 }  // namespace vericone

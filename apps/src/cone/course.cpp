@@ -138,16 +138,16 @@ class Search {
 };
 
 template <int D>
-Json course(const input::BasicEngagement<D>& e) {
+Json course(const scenes::Scene& scene, const BasicCombined<D>& agent, const BasicCombined<D>& obstacle) {
   using Vector = Eigen::Matrix<double, D, 1>;
-  const Vector w = e.agent_velocity - e.obstacle_velocity;
-  const Pair pair = input::pair_of(e);
-  const auto [v_a, v_b] = input::velocities_of(e);
+  const Eigen::Vector3d &v_a = scene.agent.velocity, &v_b = scene.obstacle.velocity;
+  const Vector w = scene.relative_velocity().head<D>();
+  const Pair pair = scene.pair();
   const Verdict verdict = pair.verdict(v_a, v_b);
   Json result{{"velocity", vector_json(w)}, {"verdict", to_string(verdict)}};
   if (verdict == Verdict::out) {
     constexpr double kEver = std::numeric_limits<double>::infinity();
-    const NearestPoints<D> nearest = nearest_points(e.agent, e.obstacle, w, 0, kEver);
+    const NearestPoints<D> nearest = nearest_points(agent, obstacle, w, 0, kEver);
     result["miss_distance"] = pair.guarantee().exact ? pair.miss(v_a, v_b).distance : nearest.distance;
     result["nearest_time"] = nearest.time;
     result["nearest_on_agent"] = vector_json(nearest.on_agent);
@@ -157,8 +157,8 @@ Json course(const input::BasicEngagement<D>& e) {
     if (!contact || !std::isfinite(contact->time)) return result;
     const double t = contact->time;
     result["contact_time"] = t;
-    const Vector point = contact->point ? Vector(contact->point->template head<D>() - t * e.obstacle_velocity)
-                                        : nearest_points(e.agent, e.obstacle, w, t, t).on_obstacle;
+    const Vector point = contact->point ? Vector((*contact->point - t * v_b).template head<D>())
+                                        : nearest_points(agent, obstacle, w, t, t).on_obstacle;
     result["contact_point"] = vector_json(point);
   }
   return result;
@@ -176,7 +176,9 @@ NearestPoints<3> nearest_points(const CombinedEllipsoid& agent, const CombinedEl
   return Search<3>(agent, obstacle, w, from, to).found();
 }
 
-Json course_json(const input::PlanarEngagement& engagement) { return course(engagement); }
-Json course_json(const input::Engagement& engagement) { return course(engagement); }
+Json course_json(const scenes::Scene& scene) {
+  if (scene.planar) return course<2>(scene, scene.planar->agent, scene.planar->obstacle);
+  return course<3>(scene, *scene.agent.quadric(), *scene.obstacle.quadric());
+}
 
 }  // namespace vericone

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <vericone/geometry/combined.h>
+#include <vericone/scenes/scene.h>
 
-#include "input/body.h"
+#include "json/json_forward.h"
 
 namespace vericone {
 
@@ -28,9 +29,9 @@ NearestPoints<3> nearest_points(const CombinedEllipsoid& agent, const CombinedEl
 /// What a picture shows of two velocities, seen from the obstacle: {"velocity", "verdict"} and where that
 /// leads: "contact_time" (s) with "contact_point", or "miss_distance" (m) with "nearest_time",
 /// "nearest_on_agent" and "nearest_on_obstacle"; neither where the verdict is undecided, the bodies overlap,
-/// or the contact is too far away for doubles. Distances of ellipses and ellipsoids are those of Pair, others
+/// or the contact is too far away for doubles. Requires combined quadrics, in
+/// space or in the plane. Distances of ellipses and ellipsoids are those of Pair, others
 /// estimates (see above).
-Json course_json(const input::PlanarEngagement& engagement);
-Json course_json(const input::Engagement& engagement);
+Json course_json(const scenes::Scene& scene);
 
 }  // namespace vericone

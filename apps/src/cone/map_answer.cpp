@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <ostream>
 
-#include "json/cone_map_json.h"
+#include "input/stopwatch.h"
 #include "json/json_value.h"
-#include "output/stopwatch.h"
+#include "picture/cone_map_json.h"
 
 namespace vericone {
 namespace {
@@ -69,15 +69,14 @@ MapAnswer map_answer(const DirectionClassifier& classifier, const MapRequest& re
   return {summary, cone_map_json(map, request.around.value_or(middle), request.resolution, title)};
 }
 
-MapAnswer map_answer(const input::Engagement& e, const MapRequest& request, double tolerance,
+MapAnswer map_answer(const scenes::Scene& scene, const MapRequest& request, double tolerance,
                      const std::string& title) {
-  const Eigen::Vector3d between = e.obstacle.ellipsoid().center() - e.agent.ellipsoid().center();
+  const CombinedEllipsoid &a = *scene.agent.quadric(), &b = *scene.obstacle.quadric();
+  const Eigen::Vector3d between = b.center() - a.center();
   const Eigen::Vector3d middle = between.norm() > 0 ? between : Eigen::Vector3d(1, 0, 0);
-  if (e.ellipsoids())
-    return map_answer(EllipsoidClassifier(e.agent.ellipsoid(), e.obstacle.ellipsoid()), request, middle,
-                      title);
-  return map_answer(CombinedClassifier(combined_cone(e.agent, e.obstacle, tolerance)), request, middle,
-                    title);
+  if (a.is_ellipsoid() && b.is_ellipsoid())
+    return map_answer(EllipsoidClassifier(a.ellipsoid(), b.ellipsoid()), request, middle, title);
+  return map_answer(CombinedClassifier(combined_cone(a, b, tolerance)), request, middle, title);
 }
 
 void print_map(const Json& map, std::ostream& out) {

@@ -4,11 +4,11 @@
 #pragma once
 
 #include <vericone/cones/map/cone_map.h>
+#include <vericone/scenes/scene.h>
 #include <iosfwd>
 #include <optional>
 #include <string>
 
-#include "input/body.h"
 #include "json/json_value.h"
 
 namespace vericone {
@@ -32,7 +32,7 @@ MapAnswer map_answer(const DirectionClassifier& classifier, const MapRequest& re
                      const Eigen::Vector3d& middle, const std::string& title);
 
 /// The same for two ellipsoids or combined quadrics, the latter by their cone to `tolerance`.
-MapAnswer map_answer(const input::Engagement& engagement, const MapRequest& request, double tolerance,
+MapAnswer map_answer(const scenes::Scene& scene, const MapRequest& request, double tolerance,
                      const std::string& title);
 
 void print_map(const Json& summary, std::ostream& out);

@@ -8,16 +8,16 @@
 
 #include "cone/answer.h"
 #include "cone/course.h"
+#include "input/stopwatch.h"
 #include "json/json_value.h"
-#include "json/shape_json.h"
-#include "output/stopwatch.h"
+#include "picture/shape_json.h"
 
 namespace vericone {
 namespace {
 
 /// Ellipses have exact relations, touching included.
-CombinedSector sector_of(const input::PlanarEngagement& e) {
-  if (!e.ellipsoids()) return combined_sector(e.agent, e.obstacle);
+CombinedSector sector_of(const scenes::PlanarBodies& e) {
+  if (!e.agent.is_ellipsoid() || !e.obstacle.is_ellipsoid()) return combined_sector(e.agent, e.obstacle);
   CombinedSector result;
   result.sector = sector_by_support(e.agent.ellipsoid(), e.obstacle.ellipsoid());
   return result;
@@ -40,14 +40,15 @@ Json edge_json(const SectorEdge& edge, const Touch& a, const Touch& b) {
 
 }  // namespace
 
-Json planar_cone_json(const input::PlanarEngagement& e) {
+Json planar_cone_json(const scenes::Scene& scene) {
   const auto start = Clock::now();
-  const CombinedSector found = sector_of(e);
+  const CombinedSector found = sector_of(*scene.planar);
   const double seconds = seconds_since(start);
   const Sector& s = found.sector;
   Json result{
       {"method", "planar"}, {"relation", to_string(s.relation)}, {"psi", s.psi}, {"theta_b", s.theta_b}};
-  const ConeFunction f = cone_function(s.psi, s.theta_b, e.agent_velocity, e.obstacle_velocity);
+  const ConeFunction f =
+      cone_function(s.psi, s.theta_b, scene.agent.velocity.head<2>(), scene.obstacle.velocity.head<2>());
   // The source's y cannot tell a sector of more than half a turn.
   result["y"] = s.psi <= std::numbers::pi ? Json(f.y) : Json(nullptr);
   result["v_r_hat"] = f.v_r_hat;
@@ -60,7 +61,7 @@ Json planar_cone_json(const input::PlanarEngagement& e) {
   return result;
 }
 
-void print_planar_cone(const Json& cone, const input::PlanarEngagement& e, std::ostream& out) {
+void print_planar_cone(const Json& cone, const scenes::Scene& scene, std::ostream& out) {
   const auto angle = [&](const char* field) {
     const double x = cone[field].get<double>();
     return to_text(x * 180 / std::numbers::pi) + " degrees (" + to_text(x) + " rad)";
@@ -80,15 +81,16 @@ void print_planar_cone(const Json& cone, const input::PlanarEngagement& e, std::
   if (cone["hulls_overlap"].get<bool>())
     out << "note                a body reaches into the other's dent: the edges are no tangents of the "
            "hulls\n";
-  out << "verdict             " << answer(e, false)["verdict"].get<std::string>()
-      << " (of the scene's velocities, " << verdict_kind(e) << ")\n"
+  out << "verdict             " << answer(scene, false)["verdict"].get<std::string>()
+      << " (of the scene's velocities, " << verdict_kind(scene) << ")\n"
       << "time                " << cone["seconds"].dump() << " s\n";
 }
 
-Json planar_picture(const Json& cone, const input::PlanarEngagement& e) {
-  Json result{{"agent", outline_json(e.agent)}, {"obstacle", outline_json(e.obstacle)}};
+Json planar_picture(const Json& cone, const scenes::Scene& scene) {
+  Json result{{"agent", outline_json(scene.planar->agent)},
+              {"obstacle", outline_json(scene.planar->obstacle)}};
   for (const char* field : {"relation", "psi", "theta_b", "left", "right"}) result[field] = cone[field];
-  result["course"] = course_json(e);
+  result["course"] = course_json(scene);
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cone/answer.h"
+#include "input/body.h"
 #include "input/text_source.h"
 #include "json/json_value.h"
 #include "output/interrupt.h"

@@ -13,7 +13,7 @@
 
 #include "cone/course.h"
 #include "json/json_value.h"
-#include "json/shape_json.h"
+#include "picture/shape_json.h"
 
 namespace vericone {
 namespace {
@@ -67,13 +67,13 @@ Json contact_json(const SectorEdge& edge, const Touch& on_a, const Touch& on_b) 
 
 }  // namespace
 
-Json scene_figure(const input::Engagement& e, double tolerance, int planes) {
-  const CombinedEllipsoid &a = e.agent, &b = e.obstacle;
+Json scene_figure(const scenes::Scene& scene, double tolerance, int planes) {
+  const CombinedEllipsoid &a = *scene.agent.quadric(), &b = *scene.obstacle.quadric();
   const CombinedCone cone = combined_cone(a, b, tolerance);
   const auto ahead = [&](const Vector3d& d) { return d.dot(b.center() - a.center()) > 0; };
   if (!std::all_of(cone.outer.directions.begin(), cone.outer.directions.end(), ahead)) return nullptr;
   Json json = engagement_json(a, b, cone, kResolution, planes);
-  if (e.agent_velocity != e.obstacle_velocity) json["course"] = course_json(e);
+  if (scene.agent.velocity != scene.obstacle.velocity) json["course"] = course_json(scene);
   return json;
 }
 
@@ -113,7 +113,7 @@ Json notch_figure(const CombinedEllipsoid& waisted, double resolution) {
   // In the cone of the hulls: a mean of two velocities that collide.
   const Vector3d above = w + Vector3d(0, 0, 2.6), below = w - Vector3d(0, 0, 2.6);
   Json json = engagement_json(a, b, combined_cone(a, b, kTolerance), resolution, kPlanes);
-  json["course"] = course_json(input::Engagement{a, b, w});
+  json["course"] = course_json({{Body(a), "", w}, {Body(b)}});
   json["notch"] = {{"above", vector_json(above)},
                    {"above_verdict", to_string(oracle.membership(above))},
                    {"below", vector_json(below)},

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <vericone/geometry/combined.h>
+#include <vericone/scenes/scene.h>
 
-#include "input/body.h"
+#include "json/json_forward.h"
 
 namespace vericone {
 
@@ -19,6 +20,6 @@ Json notch_figure(const CombinedEllipsoid& waisted, double resolution);
 /// The engagement of a scene: bodies, certified cone, slice cone, and the course of its velocities where they
 /// differ (course.h). Null where the cone reaches a right angle from the line of centres: it has no section
 /// then.
-Json scene_figure(const input::Engagement& engagement, double tolerance, int planes);
+Json scene_figure(const scenes::Scene& scene, double tolerance, int planes);
 
 }  // namespace vericone

@@ -12,10 +12,10 @@
 
 #include "cone/shape_engagements.h"
 #include "json/json_value.h"
-#include "json/shape_json.h"
 #include "output/figures.h"
 #include "output/provenance.h"
 #include "output/staged_folder.h"
+#include "picture/shape_json.h"
 
 namespace vericone {
 namespace {

@@ -13,13 +13,13 @@
 #include "fit/fit_picture.h"
 #include "fit/fit_text.h"
 #include "fit/hull_files.h"
+#include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/figures.h"
 #include "output/interrupt.h"
 #include "output/progress.h"
 #include "output/provenance.h"
 #include "output/staged_folder.h"
-#include "output/stopwatch.h"
 
 namespace vericone {
 namespace {

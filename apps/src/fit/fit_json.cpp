@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "json/json_value.h"
-#include "json/shape_json.h"
+#include "picture/shape_json.h"
 
 namespace vericone::fit {
 namespace {

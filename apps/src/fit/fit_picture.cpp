@@ -2,7 +2,7 @@
 #include "fit/fit_picture.h"
 
 #include "json/json_value.h"
-#include "json/shape_json.h"
+#include "picture/shape_json.h"
 #include "pieces/decimate.h"
 
 namespace vericone::fit {
@@ -21,9 +21,9 @@ Json footprint_json(const fitting::Piece& piece) {
 Json fit_picture(const Scan& scan, const fitting::FitResult& result,
                  const std::vector<CombinedSurface>& surfaces, const std::string& title) {
   const fitting::Sample& sample = scan.sample;
-  Assembly pieces =
+  const Assembly pieces =
       sample.is_mesh() ? Assembly::mesh(sample.points, sample.triangles) : Assembly::cloud(sample.points, 0);
-  Json data{{"title", title}, {"scan", shown_pieces({"mesh", scan.file, std::move(pieces), {}})}};
+  Json data{{"title", title}, {"scan", shown_pieces(pieces, {})}};
   Json hull = Json::array(), touching = Json::array();
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     const fitting::Piece& piece = result.pieces[i];

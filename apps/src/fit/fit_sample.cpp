@@ -7,7 +7,7 @@
 
 #include "input/assembly_body.h"
 #include "input/octree_body.h"
-#include "output/stopwatch.h"
+#include "input/stopwatch.h"
 
 namespace vericone::fit {
 namespace {
@@ -24,7 +24,7 @@ void read_map(Scan& scan) {
   if (!input::have_octrees())
     throw InputError(scan.file, "an octree map",
                      "a mesh or a cloud: this vericone was built without octree maps");
-  const input::PiecesBody body = [&] {
+  const scenes::SceneBody body = [&] {
     try {
       return input::read_any_body(scan.file, 0, "free");
     } catch (const InputError& e) {
@@ -34,7 +34,7 @@ void read_map(Scan& scan) {
                        e.requirement());
     }
   }();
-  const auto& boxes = body.pieces.by_slot().boxes;
+  const auto& boxes = body.pieces()->by_slot().boxes;
   scan.kind = ScanKind::octree;
   scan.format = "octree";
   scan.cells = boxes.size();

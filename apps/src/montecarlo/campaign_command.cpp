@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <ostream>
 
+#include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "montecarlo/summary.h"
 #include "output/figures.h"
@@ -14,7 +15,6 @@
 #include "output/provenance.h"
 #include "output/resumable_table.h"
 #include "output/staged_folder.h"
-#include "output/stopwatch.h"
 #include "output/threads.h"
 
 namespace vericone::montecarlo {

@@ -9,9 +9,9 @@
 
 #include "command/build_info.h"
 #include "json/json_value.h"
+#include "json/plain_text.h"
 #include "output/file_hash.h"
 #include "output/output_file.h"
-#include "output/plain_text.h"
 
 namespace vericone {
 namespace {

@@ -10,17 +10,16 @@
 
 #include "cone/answer.h"
 #include "cone/degrees.h"
-#include "input/assembly_body.h"
+#include "input/stopwatch.h"
 #include "json/json_value.h"
-#include "output/stopwatch.h"
 
 namespace vericone {
 namespace {
 
 using std::numbers::pi;
 
-Eigen::Vector3d axis_of(const input::AssemblyEngagement& e) {
-  const Eigen::Vector3d axis = e.obstacle.middle() - agent_center(e);
+Eigen::Vector3d axis_of(const scenes::Scene& scene) {
+  const Eigen::Vector3d axis = scene.obstacle.placed.middle() - agent_center(scene);
   return axis.norm() > 0 ? axis : Eigen::Vector3d(1, 0, 0);
 }
 
@@ -32,14 +31,49 @@ double envelope_of(const std::vector<ExtremeDirection>& extremes) {
   return 2 * pi * sum / static_cast<double>(extremes.size());
 }
 
+AssemblyOracle oracle_of(const scenes::Scene& scene) {
+  const Assembly& pieces = *scene.obstacle.pieces();
+  const Pose& pose = scene.obstacle.placed.pose;
+  if (const Ellipsoid* ellipsoid = scene.agent.ellipsoid()) return {*ellipsoid, pieces, pose};
+  return {*scene.agent.hull(), pieces, pose};
+}
+
 }  // namespace
 
-Eigen::Vector3d agent_center(const input::AssemblyEngagement& e) {
-  if (const auto* ellipsoid = std::get_if<Ellipsoid>(&e.agent)) return ellipsoid->center();
-  const auto& points = std::get<HullBody>(e.agent).points();
+bool has_assembly_cone(const scenes::Scene& scene) {
+  return !scene.obstacle.field.empty() && (scene.agent.ellipsoid() || scene.agent.hull());
+}
+
+Box bounds_of_agent(const scenes::Scene& scene) {
+  if (const Ellipsoid* ellipsoid = scene.agent.ellipsoid()) {
+    const Eigen::Vector3d half = ellipsoid->factor().rowwise().norm();
+    return {ellipsoid->center() - half, ellipsoid->center() + half};
+  }
+  const auto& points = scene.agent.hull()->points();
   Box bounds{points.front(), points.front()};
   for (const Eigen::Vector3d& x : points) bounds.include({x, x});
-  return bounds.center();
+  return bounds;
+}
+
+Eigen::Vector3d agent_center(const scenes::Scene& scene) {
+  const Ellipsoid* ellipsoid = scene.agent.ellipsoid();
+  return ellipsoid ? ellipsoid->center() : Eigen::Vector3d(bounds_of_agent(scene).center());
+}
+
+void add_reading(Json& result, const scenes::SceneBody& body) {
+  if (!body.reading) return;
+  const scenes::Reading& reading = *body.reading;
+  result["format"] = reading.format;
+  if (reading.dropped_points) result["dropped_points"] = reading.dropped_points;
+  if (reading.dropped_faces) result["dropped_faces"] = reading.dropped_faces;
+  if (reading.unreferenced_points) result["unreferenced_points"] = reading.unreferenced_points;
+  if (reading.map) {
+    result["cell"] = reading.map->cell;
+    result["map_nodes"] = reading.map->nodes;
+    result["unknown"] = reading.map->unknown_occupied ? "occupied" : "free";
+  }
+  result["seconds_read"] = reading.seconds_read;
+  result["seconds_built"] = reading.seconds_built;
 }
 
 double AssemblyCone::azimuth(std::size_t j) const {
@@ -59,14 +93,14 @@ int AssemblyCone::reaching_pi() const {
   }));
 }
 
-AssemblyCone assembly_cone(const input::AssemblyEngagement& e, int half_planes, double tolerance) {
+AssemblyCone assembly_cone(const scenes::Scene& scene, int half_planes, double tolerance) {
   constexpr int kLeast = 3, kMost = 100'000;
   if (half_planes < kLeast || half_planes > kMost)
     throw InputError("--planes", std::to_string(half_planes), "between 3 and 100000 half-planes");
   if (!(tolerance >= 1e-13 && tolerance <= 1))
     throw InputError("--tolerance", to_text(tolerance), "between 1e-13 and 1 radians for a body of pieces");
   const auto start = Clock::now();
-  AssemblyCone cone(input::oracle_of(e), axis_of(e), tolerance);
+  AssemblyCone cone(oracle_of(scene), axis_of(scene), tolerance);
   cone.relation = cone.oracle.relation();
   cone.seconds_prepared = seconds_since(start);
   if (cone.relation != Relation::disjoint) return cone;
@@ -77,14 +111,14 @@ AssemblyCone assembly_cone(const input::AssemblyEngagement& e, int half_planes, 
   return cone;
 }
 
-Json to_json(const AssemblyCone& cone, const input::AssemblyEngagement& e) {
-  const Assembly& pieces = e.obstacle.pieces;
-  Json obstacle{{"source", e.obstacle.source},
-                {"file", e.obstacle.file.empty() ? Json(nullptr) : Json(e.obstacle.file)},
+Json to_json(const AssemblyCone& cone, const scenes::Scene& scene) {
+  const Assembly& pieces = *scene.obstacle.pieces();
+  Json obstacle{{"source", scene.obstacle.field},
+                {"file", scene.obstacle.file.empty() ? Json(nullptr) : Json(scene.obstacle.file)},
                 {"pieces", pieces.size()},
                 {"piece", to_string(pieces.kind())},
                 {"bounds", {vector_json(pieces.bounds().low), vector_json(pieces.bounds().high)}}};
-  obstacle.update(e.obstacle.notes);
+  add_reading(obstacle, scene.obstacle);
   Json extremes = Json::array(), directions = Json::array();
   for (std::size_t j = 0; j < cone.extremes.size(); ++j) {
     const ExtremeDirection& x = cone.extremes[j];
@@ -115,10 +149,10 @@ Json to_json(const AssemblyCone& cone, const input::AssemblyEngagement& e) {
           {"seconds", cone.seconds}};
 }
 
-void print_text(const AssemblyCone& cone, const input::AssemblyEngagement& e, std::ostream& out) {
+void print_text(const AssemblyCone& cone, const scenes::Scene& scene, std::ostream& out) {
   out << "method              certified, " << cone.extremes.size() << " half-planes, tolerance "
       << to_text(cone.tolerance) << " rad\n"
-      << "obstacle            " << describe(e.obstacle) << '\n'
+      << "obstacle            " << scene.obstacle.name << '\n'
       << "bodies              " << to_string(cone.relation) << '\n';
   if (cone.relation != Relation::disjoint) return;
   double narrowest = pi;
@@ -140,7 +174,7 @@ void print_text(const AssemblyCone& cone, const input::AssemblyEngagement& e, st
     out << "envelope            " << to_text(cone.envelope)
         << " sr within the extreme directions, holes included, from the half-planes alone\n";
   }
-  const auto nodes = static_cast<double>(e.obstacle.pieces.hierarchy().nodes().size());
+  const auto nodes = static_cast<double>(scene.obstacle.pieces()->hierarchy().nodes().size());
   const double a_plane = static_cast<double>(cone.effort.nodes) / static_cast<double>(cone.extremes.size());
   char share[32];
   std::snprintf(share, sizeof share, "%.2g", 100 * a_plane / nodes);

@@ -5,18 +5,28 @@
 
 #include <vericone/cones/assembly/assembly_oracle.h>
 #include <vericone/cones/cone_geometry.h>
+#include <vericone/scenes/scene.h>
 #include <iosfwd>
 #include <string>
 #include <vector>
 
-#include "input/body.h"
+#include "json/json_forward.h"
 
 namespace vericone {
 
 inline constexpr int kDefaultHalfPlanes = 64;
 inline constexpr double kDefaultAngle = 1e-4;  // radians
 
-Eigen::Vector3d agent_center(const input::AssemblyEngagement& engagement);  // of a polyhedron: of its bounds
+/// Whether this is the cone of a scene: an ellipsoid or a convex polyhedron before a body of pieces.
+bool has_assembly_cone(const scenes::Scene& scene);
+
+Eigen::Vector3d agent_center(const scenes::Scene& scene);  // of a polyhedron: of its bounds
+
+/// Of an ellipsoid or a polyhedron, axis-aligned.
+Box bounds_of_agent(const scenes::Scene& scene);
+
+/// What reading found besides the body, as docs/formats.md names it.
+void add_reading(Json& result, const scenes::SceneBody& body);
 
 /// What is computed of one engagement, and the oracle that did it.
 struct AssemblyCone {
@@ -40,10 +50,10 @@ struct AssemblyCone {
 };
 
 /// Throws InputError naming "--planes" (less than 3, more than 100000) or "--tolerance".
-AssemblyCone assembly_cone(const input::AssemblyEngagement& engagement, int half_planes, double tolerance);
+AssemblyCone assembly_cone(const scenes::Scene& scene, int half_planes, double tolerance);
 
 /// As docs/formats.md says; without the map and the verdict.
-Json to_json(const AssemblyCone& cone, const input::AssemblyEngagement& engagement);
-void print_text(const AssemblyCone& cone, const input::AssemblyEngagement& engagement, std::ostream& out);
+Json to_json(const AssemblyCone& cone, const scenes::Scene& scene);
+void print_text(const AssemblyCone& cone, const scenes::Scene& scene, std::ostream& out);
 
 }  // namespace vericone

@@ -56,44 +56,44 @@ std::vector<Triangle> clustered(const std::vector<Triangle>& triangles, const Bo
   return kept;
 }
 
-Json shown_triangles(const input::PiecesBody& body) {
-  const auto& all = body.pieces.by_slot().triangles;
+Json shown_triangles(const Assembly& pieces, const Pose& pose) {
+  const auto& all = pieces.by_slot().triangles;
   std::vector<Triangle> shown(all.begin(), all.end());
   for (double cells = 160; shown.size() > kMostTriangles && cells > 20; cells *= 0.8)
-    shown = clustered({all.begin(), all.end()}, body.pieces.bounds(), cells);
+    shown = clustered({all.begin(), all.end()}, pieces.bounds(), cells);
   Json list = Json::array();
   for (Triangle& t : shown) {
-    for (Eigen::Vector3d& x : t) x = body.pose.to_world(x);
+    for (Eigen::Vector3d& x : t) x = pose.to_world(x);
     list.push_back(triangle_json(t));
   }
   return {{"triangles", list}, {"thinned", shown.size() < all.size()}};
 }
 
-Json shown_points(const input::PiecesBody& body) {
-  const auto& all = body.pieces.by_slot().balls;
+Json shown_points(const Assembly& pieces, const Pose& pose) {
+  const auto& all = pieces.by_slot().balls;
   const std::size_t step = (all.size() + kMostPoints - 1) / kMostPoints;
   Json list = Json::array();
-  for (std::size_t i = 0; i < all.size(); i += step) list.push_back(vector_json(body.pose.to_world(all[i])));
-  return {{"points", list}, {"radius", body.pieces.radius()}, {"thinned", step > 1}};
+  for (std::size_t i = 0; i < all.size(); i += step) list.push_back(vector_json(pose.to_world(all[i])));
+  return {{"points", list}, {"radius", pieces.radius()}, {"thinned", step > 1}};
 }
 
-Json shown_boxes(const input::PiecesBody& body) {
-  const auto& all = body.pieces.by_slot().boxes;
+Json shown_boxes(const Assembly& pieces, const Pose& pose) {
+  const auto& all = pieces.by_slot().boxes;
   const std::size_t step = (all.size() + kMostPoints - 1) / kMostPoints;
   Json list = Json::array();
   for (std::size_t i = 0; i < all.size(); i += step) {
-    Json box = vector_json(body.pose.to_world(all[i].center()));
+    Json box = vector_json(pose.to_world(all[i].center()));
     box.push_back(all[i].half_widths().maxCoeff());
     list.push_back(box);
   }
   return {{"boxes", list}, {"thinned", step > 1}};
 }
 
-Json shown_hulls(const input::PiecesBody& body) {
+Json shown_hulls(const Assembly& pieces, const Pose& pose) {
   Json list = Json::array();
-  for (const HullBody& hull : body.pieces.by_slot().hulls) {
+  for (const HullBody& hull : pieces.by_slot().hulls) {
     Json points = Json::array();
-    for (const Eigen::Vector3d& x : hull.points()) points.push_back(vector_json(body.pose.to_world(x)));
+    for (const Eigen::Vector3d& x : hull.points()) points.push_back(vector_json(pose.to_world(x)));
     list.push_back(points);
   }
   return {{"hulls", list}, {"thinned", false}};
@@ -155,35 +155,35 @@ class Columns {
 
 }  // namespace
 
-Json shown_pieces(const input::PiecesBody& body) {
-  switch (body.pieces.kind()) {
+Json shown_pieces(const Assembly& pieces, const Pose& pose) {
+  switch (pieces.kind()) {
     case PieceKind::triangle:
-      return shown_triangles(body);
+      return shown_triangles(pieces, pose);
     case PieceKind::ball:
-      return shown_points(body);
+      return shown_points(pieces, pose);
     case PieceKind::box:
-      return shown_boxes(body);
+      return shown_boxes(pieces, pose);
     case PieceKind::hull:
-      return shown_hulls(body);
+      return shown_hulls(pieces, pose);
   }
   return nullptr;
 }
 
-Json top_view(const input::PiecesBody& body, double low, double high) {
-  Columns columns(in_world(body.pieces.bounds(), body.pose), low, high);
-  const Assembly::Storage& all = body.pieces.by_slot();
-  const Eigen::Vector3d radius = Eigen::Vector3d::Constant(body.pieces.radius());
-  for (const Box& box : all.boxes) columns.mark(in_world(box, body.pose));
+Json top_view(const Assembly& pieces, const Pose& pose, double low, double high) {
+  Columns columns(in_world(pieces.bounds(), pose), low, high);
+  const Assembly::Storage& all = pieces.by_slot();
+  const Eigen::Vector3d radius = Eigen::Vector3d::Constant(pieces.radius());
+  for (const Box& box : all.boxes) columns.mark(in_world(box, pose));
   for (const Eigen::Vector3d& x : all.balls)
-    columns.mark(Box{body.pose.to_world(x) - radius, body.pose.to_world(x) + radius});
+    columns.mark(Box{pose.to_world(x) - radius, pose.to_world(x) + radius});
   for (Triangle t : all.triangles) {
-    for (Eigen::Vector3d& x : t) x = body.pose.to_world(x);
+    for (Eigen::Vector3d& x : t) x = pose.to_world(x);
     columns.mark(t);
   }
   for (const HullBody& hull : all.hulls) {
     Box box{hull.points().front(), hull.points().front()};
     for (const Eigen::Vector3d& x : hull.points()) box.include({x, x});
-    columns.mark(in_world(box, body.pose));
+    columns.mark(in_world(box, pose));
   }
   return columns.json();
 }

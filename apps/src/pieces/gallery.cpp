@@ -52,19 +52,18 @@ std::vector<fs::path> all_files(const std::vector<std::string>& given) {
 
 double largest_side(const Assembly& pieces) { return 2 * pieces.bounds().half_widths().maxCoeff(); }
 
-input::AssemblyEngagement before(input::PiecesBody body) {
-  const double size = largest_side(body.pieces);
+scenes::Scene before(scenes::SceneBody body) {
+  const double size = largest_side(*body.pieces());
   if (!(size > 0)) throw InputError(body.file, "a single point", "a body with an extent");
   const Eigen::Vector3d from = Eigen::Vector3d(-0.8, -0.5, 0.33).normalized();
   const Ellipsoid ball =
-      Ellipsoid::from_axes(body.middle() + 1.5 * size * from, Eigen::Vector3d::Constant(0.1 * size));
-  const Eigen::Vector3d w = -from;
-  return {ball, std::move(body), w};
+      Ellipsoid::from_axes(body.placed.middle() + 1.5 * size * from, Eigen::Vector3d::Constant(0.1 * size));
+  return {{Body(ball), "ball", -from}, std::move(body)};
 }
 
 /// A ball in free space, the nearest to the middle of the map that a grid of twice its radius finds.
-std::optional<input::AssemblyEngagement> within(input::PiecesBody body, double radius) {
-  const Eigen::Vector3d middle = body.middle(), half = body.pieces.bounds().half_widths();
+std::optional<scenes::Scene> within(scenes::SceneBody body, double radius) {
+  const Eigen::Vector3d middle = body.placed.middle(), half = body.pieces()->bounds().half_widths();
   std::vector<Eigen::Vector3d> places;
   const double step = 2 * radius;
   const Eigen::Vector3i n = (half / step).cast<int>();
@@ -75,8 +74,8 @@ std::optional<input::AssemblyEngagement> within(input::PiecesBody body, double r
                    [](const auto& a, const auto& b) { return a.squaredNorm() < b.squaredNorm(); });
   for (const Eigen::Vector3d& place : places) {
     const Ellipsoid ball = Ellipsoid::from_axes(middle + place, Eigen::Vector3d::Constant(radius));
-    if (AssemblyOracle(ball, body.pieces, body.pose).relation() == Relation::disjoint)
-      return input::AssemblyEngagement{ball, std::move(body), Eigen::Vector3d::UnitX()};
+    if (AssemblyOracle(ball, *body.pieces(), body.placed.pose).relation() == Relation::disjoint)
+      return scenes::Scene{{Body(ball), "ball", Eigen::Vector3d::UnitX()}, std::move(body)};
   }
   return std::nullopt;
 }
@@ -89,8 +88,8 @@ class Gallery {
   void add(const fs::path& file) {
     add(file, before(input::read_any_body(file, options_.radius, "free")), "");
     if (!is_map(file)) return;
-    input::PiecesBody body = input::read_any_body(file, options_.radius, "occupied");
-    const double radius = 4 * body.notes.value("cell", 0.05);
+    scenes::SceneBody body = input::read_any_body(file, options_.radius, "occupied");
+    const double radius = 4 * body.reading->map->cell;
     if (auto inside = within(std::move(body), radius)) add(file, *inside, "-within");
   }
 
@@ -108,8 +107,8 @@ class Gallery {
   bool failed() const { return failed_; }
 
  private:
-  void add(const fs::path& file, const input::AssemblyEngagement& e, const std::string& suffix) {
-    const AssemblyCone cone = assembly_cone(e, options_.half_planes, options_.tolerance);
+  void add(const fs::path& file, const scenes::Scene& scene, const std::string& suffix) {
+    const AssemblyCone cone = assembly_cone(scene, options_.half_planes, options_.tolerance);
     if (cone.relation != Relation::disjoint)
       throw std::runtime_error("agent and body are " + std::string(to_string(cone.relation)));
     StagedFolder folder(options_.out, "--out");
@@ -117,9 +116,9 @@ class Gallery {
     const fs::path own = folder.path() / name;
     fs::create_directory(own);
     Json row{{"file", file.string()},
-             {"what", describe(e.obstacle)},
+             {"what", scene.obstacle.name},
              {"agent", suffix.empty() ? "before it" : "within it"}};
-    Json whole = to_json(cone, e);
+    Json whole = to_json(cone, scene);
     if (options_.resolution > 0)
       whole["map"] =
           map_answer(cone.oracle, {options_.resolution, std::nullopt, threads_}, cone.frame.axis, "").summary;
@@ -127,7 +126,7 @@ class Gallery {
     row["cone"] = summary(whole, cone);
     Json pictures = Json::array();
     if (options_.figures) {
-      draw_figures(write_pieces_picture(cone, e, own, threads_), own);
+      draw_figures(write_pieces_picture(cone, scene, own, threads_), own);
       for (const char* picture : {"cone.pdf", "cone.png"})
         if (fs::exists(own / picture)) pictures.push_back(folder.published(own / picture).string());
     }

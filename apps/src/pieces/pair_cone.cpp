@@ -7,11 +7,11 @@
 #include <ostream>
 
 #include "cone/answer.h"
+#include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/figures.h"
 #include "output/provenance.h"
 #include "output/staged_folder.h"
-#include "output/stopwatch.h"
 
 namespace vericone {
 namespace {
@@ -32,51 +32,51 @@ void refuse_options_but_map(const ConeCommand& options) {
 }
 
 /// What course_json() of course.h has, as far as a map shows it; null where the velocities are equal.
-Json course_of(const input::PlacedEngagement& e, const Pair& pair, const Json& answer) {
-  if (e.agent_velocity == e.obstacle_velocity) return nullptr;
-  Json course{{"velocity", vector_json(e.agent_velocity - e.obstacle_velocity)},
+Json course_of(const scenes::Scene& scene, const Pair& pair, const Json& answer) {
+  if (scene.agent.velocity == scene.obstacle.velocity) return nullptr;
+  Json course{{"velocity", vector_json(scene.agent.velocity - scene.obstacle.velocity)},
               {"verdict", answer["verdict"]}};
   if (answer["time_to_contact"].is_number()) course["contact_time"] = answer["time_to_contact"];
   if (answer["verdict"] == "out" && answer["clearance"].is_number()) {
     course["miss_distance"] = answer["clearance"];
-    course["nearest_time"] = pair.miss(e.agent_velocity, e.obstacle_velocity).time;
+    course["nearest_time"] = pair.miss(scene.agent.velocity, scene.obstacle.velocity).time;
   }
   return course;
 }
 
 }  // namespace
 
-void run_pair_cone(const ConeCommand& options, const input::PlacedEngagement& e, std::ostream& out) {
+void run_pair_cone(const ConeCommand& options, const scenes::Scene& scene, std::ostream& out) {
   refuse_options_but_map(options);
   std::optional<StagedFolder> folder;
   if (!options.picture_folder.empty()) folder.emplace(options.picture_folder, "--out");
   const auto start = Clock::now();
-  const Pair pair(e.agent, e.obstacle);
+  const Pair pair = scene.pair();
   const double seconds = seconds_since(start);
   const auto relation = pair.relation();
   const Guarantee guarantee = pair.guarantee();
   Json cone{{"method", guarantee.exact ? "exact" : "certified"},
             {"tolerance", guarantee.exact ? Json(nullptr) : Json(guarantee.tolerance)},
             {"relation", relation ? to_string(*relation) : "undecided"},
-            {"agent", e.agent_name},
-            {"obstacle", e.obstacle_name},
-            {"answer", answer(e, false)},
+            {"agent", scene.agent.name},
+            {"obstacle", scene.obstacle.name},
+            {"answer", answer(scene, false)},
             {"map", nullptr},
             {"seconds", seconds}};
   MapAnswer map;
   if (options.map) {
-    const auto& [from, to] =
-        std::pair(e.agent.containing_ellipsoid().center(), e.obstacle.containing_ellipsoid().center());
-    map = map_answer(*pair.directions(), *options.map, to - from, e.obstacle_name);
-    map.picture["course"] = course_of(e, pair, cone["answer"]);
+    const auto& [from, to] = std::pair(pair.agent().containing_ellipsoid().center(),
+                                       pair.obstacle().containing_ellipsoid().center());
+    map = map_answer(*pair.directions(), *options.map, to - from, scene.obstacle.name);
+    map.picture["course"] = course_of(scene, pair, cone["answer"]);
     cone["map"] = map.summary;
   }
   if (options.json) {
     out << cone.dump(1) << '\n';
   } else {
     const Json& now = cone["answer"];
-    out << "agent               " << e.agent_name << '\n'
-        << "obstacle            " << e.obstacle_name << '\n'
+    out << "agent               " << scene.agent.name << '\n'
+        << "obstacle            " << scene.obstacle.name << '\n'
         << "bodies              " << cone["relation"].get<std::string>() << '\n'
         << "verdict             " << now["verdict"].get<std::string>() << " (of the scene's velocities, "
         << (guarantee.exact ? "exact" : "certified") << ")\n";

@@ -11,6 +11,6 @@
 namespace vericone {
 
 /// Throws InputError naming the option that such a cone does not have.
-void run_pair_cone(const ConeCommand& options, const input::PlacedEngagement& engagement, std::ostream& out);
+void run_pair_cone(const ConeCommand& options, const scenes::Scene& scene, std::ostream& out);
 
 }  // namespace vericone

@@ -7,12 +7,11 @@
 #include <ostream>
 
 #include "cone/answer.h"
-#include "input/assembly_body.h"
+#include "input/stopwatch.h"
 #include "json/json_value.h"
-#include "json/slice_json.h"
 #include "output/staged_folder.h"
-#include "output/stopwatch.h"
 #include "output/threads.h"
+#include "picture/slice_json.h"
 #include "pieces/assembly_cone.h"
 #include "pieces/pieces_picture.h"
 #include "pieces/world_mesh.h"
@@ -28,26 +27,26 @@ void refuse_options(const ConeCommand& options) {
 }
 
 /// The source's slices of a mesh that is known as a whole: tangents to the corners of its sections.
-Json slices_json(const input::AssemblyEngagement& e, int planes) {
-  const auto* agent = std::get_if<Ellipsoid>(&e.agent);
-  if (!agent || e.obstacle.pieces.kind() != PieceKind::triangle)
+Json slices_json(const scenes::Scene& scene, int planes) {
+  const Ellipsoid* agent = scene.agent.ellipsoid();
+  if (!agent || scene.obstacle.pieces()->kind() != PieceKind::triangle)
     throw InputError("--method", "slice",
                      "left out except for an ellipsoid and a mesh, a scene of ellipsoids, or scan");
-  const WorldMesh mesh = world_mesh(e.obstacle);
+  const WorldMesh mesh = world_mesh(*scene.obstacle.pieces(), scene.obstacle.placed.pose);
   const auto start = Clock::now();
-  const VisibleCone cone = visible_cone(*agent, mesh_section_points(mesh.points, mesh.triangles),
-                                        e.obstacle.middle(), planes, {.search = {}, .by_search = false});
+  const VisibleCone cone =
+      visible_cone(*agent, mesh_section_points(mesh.points, mesh.triangles), scene.obstacle.placed.middle(),
+                   planes, {.search = {}, .by_search = false});
   const double seconds = seconds_since(start);
-  const AssemblyOracle oracle = input::oracle_of(e);
   Json result{{"method", "slice"},
               {"planes", planes},
-              {"relation", to_string(oracle.relation())},
+              {"relation", to_string(*scene.pair().relation())},
               {"axis", {cone.axis.x(), cone.axis.y(), cone.axis.z()}}};
   result.update(polyhedral_json(cone.polyhedral()));
   Json sectors = Json::array();
   for (const VisiblePlane& plane : cone.planes)
     if (plane.slice)
-      sectors.push_back(sector_json(*plane.slice, cone.axis, e.agent_velocity, e.obstacle_velocity));
+      sectors.push_back(sector_json(*plane.slice, cone.axis, scene.agent.velocity, scene.obstacle.velocity));
   result["sectors"] = sectors;
   result["planes_without_answer"] = cone.planes_without_answer();
   result["inner"] = result["outer"] = result["error_bound"] = nullptr;
@@ -55,9 +54,9 @@ Json slices_json(const input::AssemblyEngagement& e, int planes) {
   return result;
 }
 
-void print_slices(const Json& cone, const input::AssemblyEngagement& e, std::ostream& out) {
+void print_slices(const Json& cone, const scenes::Scene& scene, std::ostream& out) {
   out << "method              slice, " << cone["planes"].dump() << " planes\n"
-      << "obstacle            " << describe(e.obstacle) << '\n'
+      << "obstacle            " << scene.obstacle.name << '\n'
       << "bodies              " << cone["relation"].get<std::string>() << '\n';
   if (cone["solid_angle"].is_number()) out << "solid angle         " << cone["solid_angle"].dump() << " sr\n";
   if (cone["planes_without_answer"] != 0)
@@ -68,8 +67,8 @@ void print_slices(const Json& cone, const input::AssemblyEngagement& e, std::ost
       << "time                " << cone["seconds"].dump() << " s\n";
 }
 
-void print_verdict(const input::AssemblyEngagement& e, std::ostream& out) {
-  const Json verdict = answer(e, false);
+void print_verdict(const scenes::Scene& scene, std::ostream& out) {
+  const Json verdict = answer(scene, false);
   out << "verdict             " << verdict["verdict"].get<std::string>()
       << " (of the scene's velocities, exact)\n";
   if (verdict["contact_point"].is_array())
@@ -81,40 +80,40 @@ void print_verdict(const input::AssemblyEngagement& e, std::ostream& out) {
 
 }  // namespace
 
-void run_pieces_cone(const ConeCommand& options, const input::AssemblyEngagement& e, std::ostream& out) {
+void run_pieces_cone(const ConeCommand& options, const scenes::Scene& scene, std::ostream& out) {
   refuse_options(options);
   if (options.method == "slice") {
     if (options.map || !options.picture_folder.empty())
       throw InputError("--method", "slice", "left out where a map or a picture is asked for");
-    const Json slices = slices_json(e, options.planes.value_or(kDefaultPlanes));
+    const Json slices = slices_json(scene, options.planes.value_or(kDefaultPlanes));
     if (options.json) {
       out << slices.dump(1) << '\n';
     } else {
-      print_slices(slices, e, out);
+      print_slices(slices, scene, out);
     }
     return;
   }
   std::optional<StagedFolder> folder;
   if (!options.picture_folder.empty()) folder.emplace(options.picture_folder, "--out");
-  const AssemblyCone cone = assembly_cone(e, options.planes.value_or(kDefaultHalfPlanes),
+  const AssemblyCone cone = assembly_cone(scene, options.planes.value_or(kDefaultHalfPlanes),
                                           options.tolerance.value_or(kDefaultAngle));
   if (folder && cone.relation != Relation::disjoint)
     throw InputError("--out", options.picture_folder, "asked for disjoint bodies only");
   MapAnswer map;
-  if (options.map) map = map_answer(cone.oracle, *options.map, cone.frame.axis, describe(e.obstacle));
+  if (options.map) map = map_answer(cone.oracle, *options.map, cone.frame.axis, scene.obstacle.name);
   if (options.json) {
-    Json result = to_json(cone, e);
+    Json result = to_json(cone, scene);
     result["map"] = options.map ? map.summary : Json(nullptr);
     out << result.dump(1) << '\n';
   } else {
-    print_text(cone, e, out);
+    print_text(cone, scene, out);
     if (options.map) print_map(map.summary, out);
-    print_verdict(e, out);
+    print_verdict(scene, out);
     out << "time                " << to_text(cone.seconds) << " s, after " << to_text(cone.seconds_prepared)
         << " s to prepare\n";
   }
   if (!folder) return;
-  const std::string script = write_pieces_picture(cone, e, folder->path(), threads_for(options.threads));
+  const std::string script = write_pieces_picture(cone, scene, folder->path(), threads_for(options.threads));
   publish_cone(options, *folder, map.picture, script, "cone", out);
 }
 

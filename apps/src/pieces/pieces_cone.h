@@ -9,7 +9,6 @@
 namespace vericone {
 
 /// `vericone cone` of a body of pieces: a mesh, a cloud, an octree map or the convex hull of points.
-void run_pieces_cone(const ConeCommand& options, const input::AssemblyEngagement& engagement,
-                     std::ostream& out);
+void run_pieces_cone(const ConeCommand& options, const scenes::Scene& scene, std::ostream& out);
 
 }  // namespace vericone

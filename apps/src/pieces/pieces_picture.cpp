@@ -8,7 +8,6 @@
 #include <thread>
 
 #include "cone/answer.h"
-#include "input/assembly_body.h"
 #include "json/json_value.h"
 #include "output/figures.h"
 #include "output/provenance.h"
@@ -22,15 +21,15 @@ using std::numbers::pi;
 constexpr int kPixels = 201;                                // across the view along the axis
 constexpr int kPanoramaWidth = 360, kPanoramaHeight = 180;  // one degree a pixel
 
-Json agent_json(const input::AssemblyEngagement& e) {
-  if (const auto* ellipsoid = std::get_if<Ellipsoid>(&e.agent)) {
+Json agent_json(const scenes::Scene& scene) {
+  if (const Ellipsoid* ellipsoid = scene.agent.ellipsoid()) {
     Json factor = Json::array();
     for (int i = 0; i < 3; ++i) factor.push_back(vector_json(ellipsoid->factor().row(i)));
     return {{"center", vector_json(ellipsoid->center())}, {"factor", factor}};
   }
   Json points = Json::array();
-  for (const Eigen::Vector3d& x : std::get<HullBody>(e.agent).points()) points.push_back(vector_json(x));
-  return {{"center", vector_json(agent_center(e))}, {"points", points}};
+  for (const Eigen::Vector3d& x : scene.agent.hull()->points()) points.push_back(vector_json(x));
+  return {{"center", vector_json(agent_center(scene))}, {"points", points}};
 }
 
 /// Metres to the first contact in each direction, row by row; null where none comes.
@@ -98,11 +97,11 @@ Json panorama(const AssemblyCone& cone, int threads) {
 }
 
 /// As course_json() of course.h; null where the velocities are equal.
-Json course_of(const AssemblyCone& cone, const input::AssemblyEngagement& e) {
-  const Eigen::Vector3d w = e.agent_velocity - e.obstacle_velocity;
+Json course_of(const AssemblyCone& cone, const scenes::Scene& scene) {
+  const Eigen::Vector3d w = scene.relative_velocity();
   if (!(w.norm() > 0)) return nullptr;
   Json result{{"velocity", vector_json(w)},
-              {"verdict", to_string(cone.oracle.membership(e.agent_velocity, e.obstacle_velocity))}};
+              {"verdict", to_string(cone.oracle.membership(scene.agent.velocity, scene.obstacle.velocity))}};
   if (const auto contact = cone.oracle.first_contact(w)) {
     result["contact_time"] = contact->time;
     result["contact_point"] = vector_json(contact->point);
@@ -119,21 +118,23 @@ Json course_of(const AssemblyCone& cone, const input::AssemblyEngagement& e) {
 
 }  // namespace
 
-std::string write_pieces_picture(const AssemblyCone& cone, const input::AssemblyEngagement& e,
+std::string write_pieces_picture(const AssemblyCone& cone, const scenes::Scene& scene,
                                  const std::filesystem::path& folder, int threads) {
-  const Box agent = input::bounds_of_agent(e);
-  const bool within = e.obstacle.pieces.bounds().contains(e.obstacle.pose.to_body(agent.center()));
-  Json data = to_json(cone, e);
-  data["title"] = describe(e.obstacle);
-  data["agent"] = agent_json(e);
-  data["course"] = course_of(cone, e);
+  const Box agent = bounds_of_agent(scene);
+  const Assembly& pieces = *scene.obstacle.pieces();
+  const Pose& pose = scene.obstacle.placed.pose;
+  const bool within = pieces.bounds().contains(pose.to_body(agent.center()));
+  Json data = to_json(cone, scene);
+  data["title"] = scene.obstacle.name;
+  data["agent"] = agent_json(scene);
+  data["course"] = course_of(cone, scene);
   if (within) {
-    data["top"] = top_view(e.obstacle, agent.low.z(), agent.high.z());
+    data["top"] = top_view(pieces, pose, agent.low.z(), agent.high.z());
     data["heights"] = {agent.low.z(), agent.high.z()};
     data["panorama"] = panorama(cone, threads);
   } else {
-    data["body"] = shown_pieces(e.obstacle);
-    data["view"] = view_along_axis(cone, e.agent_velocity - e.obstacle_velocity, threads);
+    data["body"] = shown_pieces(pieces, pose);
+    data["view"] = view_along_axis(cone, scene.relative_velocity(), threads);
   }
   write_whole(folder / "pieces.json", data.dump() + "\n");
   return within ? "panorama.py" : "pieces.py";

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <string>
 
-#include "input/body.h"
 #include "pieces/assembly_cone.h"
 
 namespace vericone {
@@ -13,7 +12,7 @@ namespace vericone {
 /// is outside of the body's bounds both bodies and the cone's surface, where it is within them the map from
 /// above; beside it every direction, coloured by the distance to the first contact. Returns the script that
 /// draws it (figures.h). Requires disjoint bodies.
-std::string write_pieces_picture(const AssemblyCone& cone, const input::AssemblyEngagement& e,
+std::string write_pieces_picture(const AssemblyCone& cone, const scenes::Scene& scene,
                                  const std::filesystem::path& folder, int threads);
 
 }  // namespace vericone

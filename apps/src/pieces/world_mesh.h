@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vericone/geometry/assembly.h>
+#include <vericone/geometry/pose.h>
 #include <array>
 #include <cstdint>
 #include <vector>
-
-#include "input/body.h"
 
 namespace vericone {
 
@@ -16,6 +16,6 @@ struct WorldMesh {
 };
 
 /// Requires a body of triangles.
-WorldMesh world_mesh(const input::PiecesBody& body);
+WorldMesh world_mesh(const Assembly& pieces, const Pose& pose);
 
 }  // namespace vericone

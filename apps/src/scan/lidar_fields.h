@@ -4,7 +4,7 @@
 #include <vericone/lidar/lidar.h>
 #include <vector>
 
-#include "input/body.h"
+#include "json/json_forward.h"
 
 namespace vericone::scanning {
 

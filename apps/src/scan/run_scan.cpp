@@ -12,11 +12,11 @@
 #include "input/scene.h"
 #include "input/spatial_body.h"
 #include "json/json_value.h"
-#include "json/slice_json.h"
 #include "output/figures.h"
 #include "output/provenance.h"
 #include "output/staged_folder.h"
 #include "output/threads.h"
+#include "picture/slice_json.h"
 #include "pieces/world_mesh.h"
 #include "scan/lidar_fields.h"
 #include "scan/study.h"
@@ -28,29 +28,28 @@ namespace {
 using namespace scanning;
 using Eigen::Vector3d;
 
-struct Scene {
-  input::AssemblyEngagement engagement;
+struct LidarScene {
+  scenes::Scene bodies;
   Eigen::Matrix3d agent_rotation;
   SceneLidars lidars;
 };
 
-Scene read(const std::string& path) {
+LidarScene read(const std::string& path) {
   const Json fields = input::read_scene_fields(path);
   SceneLidars lidars = read_lidars(fields);
-  const input::AnyEngagement any = input::scene_of(fields, path);
-  const auto* e = std::get_if<input::AssemblyEngagement>(&any);
-  if (!e || e->obstacle.pieces.kind() != PieceKind::triangle)
+  scenes::Scene bodies = input::scene_of(fields, path);
+  if (bodies.obstacle.field != "mesh" || !(bodies.agent.ellipsoid() || bodies.agent.hull()))
     throw InputError("obstacle", "no mesh", "a mesh for the lidars to see");
-  if (!std::holds_alternative<Ellipsoid>(e->agent)) throw InputError("agent", "a hull", "an ellipsoid");
-  return {*e, input::read_rotation(fields["agent"], "agent"), std::move(lidars)};
+  if (!bodies.agent.ellipsoid()) throw InputError("agent", "a hull", "an ellipsoid");
+  return {std::move(bodies), input::read_rotation(fields["agent"], "agent"), std::move(lidars)};
 }
 
-Setup setup_of(const Scene& scene, const ScanOptions& options) {
+Setup setup_of(const LidarScene& scene, const ScanOptions& options) {
   Setup setup;
-  setup.agent = std::get<Ellipsoid>(scene.engagement.agent);
+  setup.agent = *scene.bodies.agent.ellipsoid();
   setup.agent_pose.translation() = setup.agent.center();
   setup.agent_pose.linear() = scene.agent_rotation;
-  WorldMesh mesh = world_mesh(scene.engagement.obstacle);
+  WorldMesh mesh = world_mesh(*scene.bodies.obstacle.pieces(), scene.bodies.obstacle.placed.pose);
   setup.points = std::move(mesh.points);
   setup.triangles = std::move(mesh.triangles);
   setup.lidars = scene.lidars.lidars;
@@ -72,12 +71,12 @@ std::string ply(const std::vector<Vector3d>& points) {
 }
 
 /// The source's sectors of the fused cloud.
-Json sectors_json(const VisibleCone& cone, const input::AssemblyEngagement& e) {
+Json sectors_json(const VisibleCone& cone, const scenes::Scene& bodies) {
   Json sectors = Json::array();
   for (const VisiblePlane& plane : cone.planes) {
     Json one{{"azimuth", plane.azimuth}, {"points", plane.points}, {"tried", plane.tried}};
     if (plane.slice) {
-      one.update(sector_json(*plane.slice, cone.axis, e.agent_velocity, e.obstacle_velocity));
+      one.update(sector_json(*plane.slice, cone.axis, bodies.agent.velocity, bodies.obstacle.velocity));
     } else {
       one["reason"] = to_string(plane.reason);
     }
@@ -111,7 +110,7 @@ void print(const Json& scan, std::ostream& out) {
 }  // namespace
 
 void run_scan(const ScanOptions& options, std::ostream& out) {
-  const Scene scene = read(options.scene);
+  const LidarScene scene = read(options.scene);
   StagedFolder folder(options.out, "--out");
   const Setup setup = setup_of(scene, options);
   std::ostream* log = options.quiet ? nullptr : &std::cerr;
@@ -137,7 +136,7 @@ void run_scan(const ScanOptions& options, std::ostream& out) {
     Json sectors = polyhedral_json(cone.polyhedral());
     sectors["axis"] = {cone.axis.x(), cone.axis.y(), cone.axis.z()};
     sectors["planes_without_answer"] = cone.planes_without_answer();
-    sectors["sectors"] = sectors_json(cone, scene.engagement);
+    sectors["sectors"] = sectors_json(cone, scene.bodies);
     result["sectors"] = sectors;
   }
 
@@ -147,7 +146,7 @@ void run_scan(const ScanOptions& options, std::ostream& out) {
   write_whole(stage / "section.json", parsed(plane_section_picture(setup, options.azimuth)).dump() + "\n");
   // The lidars' rays run on all processors.
   const std::vector<std::filesystem::path> inputs{
-      options.scene, std::filesystem::path(options.scene).parent_path() / scene.engagement.obstacle.file};
+      options.scene, std::filesystem::path(options.scene).parent_path() / scene.bodies.obstacle.file};
   write_whole(stage / "provenance.json",
               provenance(options.command_line, threads_for(0), inputs).dump(1) + "\n");
   if (options.figures)
@@ -157,7 +156,7 @@ void run_scan(const ScanOptions& options, std::ostream& out) {
   std::ostream silent(nullptr);
   std::ostream& text = options.json ? silent : out;
   if (options.json) out << result.dump(1) << '\n';
-  text << "obstacle            " << describe(scene.engagement.obstacle) << '\n';
+  text << "obstacle            " << scene.bodies.obstacle.name << '\n';
   print(result, text);
   const std::filesystem::path shown = options.out;
   text << "written             " << (shown / "cloud.ply").string() << ", " << (shown / "scan.json").string()

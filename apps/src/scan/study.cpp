@@ -11,7 +11,7 @@
 #include <numbers>
 #include <ostream>
 
-#include "output/stopwatch.h"
+#include "input/stopwatch.h"
 #include "scan/study_parts.h"
 #include "scan/visible_part.h"
 

@@ -2,16 +2,17 @@
 #include "simulate/check_command.h"
 
 #include <vericone/geometry/error.h>
+#include <vericone/scenes/words.h>
 #include <algorithm>
 #include <filesystem>
 #include <ostream>
 
-#include "input/body_words.h"
+#include "input/fields.h"
 #include "input/file_body.h"
 #include "input/planar_body.h"
 #include "input/scene.h"
 #include "json/json_value.h"
-#include "simulate/read_scenario.h"
+#include "scenarios/read_scenario.h"
 #include "simulate/run_files.h"
 #include "simulate/run_text.h"
 
@@ -20,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
-using scenario::print_line;
+using scenario::print_line, scenes::body_words, scenes::motion_words, scenes::brief;
 
 std::string guarantee_words(const Pair& pair) {
   const Guarantee guarantee = pair.guarantee();
@@ -39,13 +40,17 @@ std::string now_words(const Pair& pair) {
 }
 
 void check_scene(const Json& fields, const std::string& file, std::ostream& out) {
-  const input::AnyEngagement scene = input::scene_of(fields, file);
-  const Pair pair = input::pair_of(scene);
-  const auto [v_a, v_b] = input::velocities_of(scene);
+  const scenes::Scene scene = input::scene_of(fields, file);
+  const Pair pair = scene.pair();
+  const Vector3d &v_a = scene.agent.velocity, &v_b = scene.obstacle.velocity;
+  const bool planar = scene.planar.has_value();
   print_line(out, "scene", file);
-  const auto [agent, obstacle, planar] = words_of(scene);
-  print_line(out, "agent", agent + "; " + motion_words(v_a, planar));
-  print_line(out, "obstacle", obstacle + "; " + motion_words(v_b, planar));
+  print_line(out, "agent",
+             (planar ? body_words(scene.planar->agent) : body_words(scene.agent.placed)) + "; " +
+                 motion_words(v_a, planar));
+  print_line(out, "obstacle",
+             (planar ? body_words(scene.planar->obstacle) : body_words(scene.obstacle.placed)) + "; " +
+                 motion_words(v_b, planar));
   print_line(out, "now", now_words(pair));
   print_line(out, "answers", guarantee_words(pair));
   if (fields.contains("lidars")) print_line(out, "lidars", std::to_string(fields["lidars"].size()));
@@ -85,7 +90,7 @@ void check_body(const std::string& file, std::ostream& out) {
   const bool planar = body.contains("center") && body["center"].is_array() && body["center"].size() == 2;
   print_line(out, "is",
              planar ? body_words(input::read_planar_body(body, ""))
-                    : body_words(input::read_placed(body, "", path.parent_path()).first));
+                    : body_words(input::read_body(body, "", path.parent_path()).placed));
   print_line(out, "use it",
              "obstacle: {file: " + path.filename().string() +
                  "} in a scene or a case, {name: B, file: " + path.filename().string() + "} in a scenario");

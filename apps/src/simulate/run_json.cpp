@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulate/run_files.h"
 
-#include "input/body_words.h"
+#include <vericone/scenes/words.h>
+
 #include "json/json_value.h"
 #include "pieces/decimate.h"
 
@@ -58,7 +59,7 @@ Json placed_json(const Placed& placed) {
         json["pieces"].push_back({{"kind", "hull"}, {"points", points}});
       }
     } else {
-      json.update(shown_pieces({"", "", *assembly, placed.pose}));
+      json.update(shown_pieces(*assembly, placed.pose));
     }
   }
   return json;
@@ -89,7 +90,7 @@ Json shape_json(const ShapeInTime& shape) {
 std::string shape_words(const simulation::Body& body) {
   const guidance::Shape shape = shape_at(body.shape, body.appears, body.start.position, body.start.rotation);
   const auto* flat = std::get_if<CombinedEllipse>(&shape);
-  return (flat != nullptr ? body_words(*flat) : body_words(guidance::placed(shape))) +
+  return (flat != nullptr ? scenes::body_words(*flat) : scenes::body_words(guidance::placed(shape))) +
          (std::holds_alternative<RigidShape>(body.shape) ? "" : ", k may change");
 }
 

@@ -5,13 +5,13 @@
 #include <ostream>
 
 #include "input/scene.h"
+#include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/figures.h"
 #include "output/interrupt.h"
 #include "output/progress.h"
 #include "output/staged_folder.h"
-#include "output/stopwatch.h"
-#include "simulate/read_scenario.h"
+#include "scenarios/read_scenario.h"
 #include "simulate/run_files.h"
 #include "simulate/run_text.h"
 

@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "json/json_value.h"
-#include "output/plain_text.h"
+#include "json/plain_text.h"
 #include "output/provenance.h"
 #include "simulate/run_files.h"
 

@@ -10,7 +10,7 @@
 
 #include "input/scene.h"
 #include "json/json_value.h"
-#include "simulate/read_scenario.h"
+#include "scenarios/read_scenario.h"
 
 namespace vericone::dhal2022 {
 

@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "fit/cone/cone_bodies.h"
-#include "output/stopwatch.h"
+#include "input/stopwatch.h"
 
 namespace vericone {
 namespace {

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Scenes from files: two bodies of any kinds, their velocities, and the pair they make (docs/formats.md).
+#pragma once
+
+#include <vericone/cones/pair.h>
+#include <vericone/geometry/body.h>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace vericone::scenes {
+
+/// What reading a mesh, a cloud, a hull or a map found besides the body.
+struct Reading {
+  std::string format;  // "PLY, binary little endian"
+  std::size_t dropped_points = 0, dropped_faces = 0;
+  std::size_t unreferenced_points = 0;  // of a mesh
+  struct Map {
+    double cell = 0;  // metres
+    std::size_t nodes = 0;
+    bool unknown_occupied = true;
+  };
+  std::optional<Map> map;                      // of an octree map
+  double seconds_read = 0, seconds_built = 0;  // the file; the tree of boxes
+};
+
+/// A body as a file gives it.
+struct SceneBody {
+  Placed placed{Body()};  // metres, world; of a planar scene raised (body.h)
+  std::string name = {};  // "ellipsoid", "mesh of 69451 triangles (bunny.obj)", "union of 4 pieces"
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s
+  /// Of meshes, clouds, maps and hulls: the field that gave it ("mesh", "cloud", "octree", "hull", "points")
+  /// and the file's name as written, empty for points. Empty for others.
+  std::string field = {}, file = {};
+  std::optional<Reading> reading = {};  // of those from a file
+
+  /// What it is: of each of these one is there, unless it is a union of quadrics. A combined quadric, a hull
+  /// alone stand in the world already, without a pose.
+  [[nodiscard]] const CombinedEllipsoid* quadric() const;
+  [[nodiscard]] const Ellipsoid* ellipsoid() const;  // a quadric that nothing delimits
+  [[nodiscard]] const HullBody* hull() const;
+  [[nodiscard]] const Assembly* pieces() const;  // of a mesh, a cloud, a map, a union of hulls
+};
+
+/// Two bodies in the plane.
+struct PlanarBodies {
+  CombinedEllipse agent, obstacle;
+};
+
+struct Scene {
+  SceneBody agent, obstacle;
+  std::optional<PlanarBodies> planar = {};  // of a planar scene: as its file gives them
+
+  /// Prepared; a planar scene's by its bodies raised. Cost: docs/pairs.md.
+  [[nodiscard]] Pair pair() const;
+  /// w = v_agent - v_obstacle, m/s.
+  [[nodiscard]] Eigen::Vector3d relative_velocity() const { return agent.velocity - obstacle.velocity; }
+};
+
+/// Reads a scene (YAML, of which JSON is a part), and the files it names, relative to its folder. Velocities
+/// that are left out are zero. Throws InputError naming the file or the field, for example
+/// "obstacle.semi_axes[1]". A file that is named again in the same way is not read again.
+[[nodiscard]] Scene read_scene(const std::filesystem::path& file);
+
+/// The same from text; `file` is named in errors.
+[[nodiscard]] Scene scene_of_text(const std::string& text, const std::filesystem::path& file);
+
+/// A spatial body: a file with a body's fields, or with what `vericone fit` wrote. Throws InputError naming
+/// the file or the field.
+[[nodiscard]] SceneBody read_body(const std::filesystem::path& file);
+
+}  // namespace vericone::scenes

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "input/body.h"
+
+#include "input/assembly_body.h"
+#include "input/fields.h"
+#include "input/file_body.h"
+#include "input/planar_body.h"
+#include "input/spatial_body.h"
+#include "json/json_value.h"
+
+namespace vericone::input {
+namespace {
+
+/// What the body's fields say: it is planar, spatial, or neither yet.
+enum class Dimension { unknown, planar, spatial };
+
+Dimension dimension(const Json& engagement, const char* body) {
+  if (!engagement.contains(body) || !engagement[body].is_object()) return Dimension::unknown;
+  const Json& value = engagement[body];
+  if (value.contains("quadric")) return Dimension::spatial;
+  if (!value.contains("center") || !value["center"].is_array()) return Dimension::unknown;
+  if (value["center"].size() == 2) return Dimension::planar;
+  return value["center"].size() == 3 ? Dimension::spatial : Dimension::unknown;
+}
+
+std::size_t pieces_of(const Placed& body) {
+  const auto* quadrics = std::get_if<std::vector<CombinedEllipsoid>>(&body.body.shape());
+  const auto* hulls = std::get_if<Assembly>(&body.body.shape());
+  return quadrics ? quadrics->size() : hulls ? hulls->size() : 1;
+}
+
+template <int D>
+Eigen::Vector3d read_velocity(const Json& value, const char* field, Velocities velocities) {
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  if (velocities == Velocities::required || value.contains(field))
+    velocity.head<D>() = read_vector<D>(
+        require_field(value, "", field, D == 2 ? "[x, y] in m/s" : "[x, y, z] in m/s"), field, " (m/s)");
+  return velocity;
+}
+
+template <int D>
+void read_velocities(const Json& value, Velocities velocities, Scene& scene) {
+  scene.agent.velocity = read_velocity<D>(value, "agent_velocity", velocities);
+  scene.obstacle.velocity = read_velocity<D>(value, "obstacle_velocity", velocities);
+}
+
+constexpr const char* kPlanarBody =
+    "a body: center with semi_axes and rotation, with shape, or with a_c, b_c, k, phi";
+constexpr const char* kSpatialBody =
+    "a body: center with semi_axes and rotation, or with shape; or quadric, or one made of pieces; or file";
+
+SceneBody quadric_body(const CombinedEllipsoid& body) {
+  return {Body(body), body.is_ellipsoid() ? "ellipsoid" : "combined quadric"};
+}
+
+Scene planar_scene(const Json& value, Velocities velocities) {
+  const CombinedEllipse a = read_planar_body(require_field(value, "", "agent", kPlanarBody), "agent"),
+                        b = read_planar_body(require_field(value, "", "obstacle", kPlanarBody), "obstacle");
+  const double height = std::max(a.ellipsoid().semi_axes().maxCoeff(), b.ellipsoid().semi_axes().maxCoeff());
+  const auto body = [&](const CombinedEllipse& flat) {
+    return SceneBody{Body(raised(flat, height)), flat.is_ellipsoid() ? "ellipse" : "combined conic"};
+  };
+  Scene scene{body(a), body(b), scenes::PlanarBodies{a, b}};
+  read_velocities<2>(value, velocities, scene);
+  return scene;
+}
+
+/// Whether the agent is a convex hull before a body of pieces: it is then taken into the world.
+bool is_hull_agent(const Json& agent, const Json& obstacle) {
+  return (agent.contains("hull") || agent.contains("points")) && is_pieces_body(agent) &&
+         is_pieces_body(obstacle) && !is_union(agent);
+}
+
+Scene quadric_scene(const Json& value, Velocities velocities) {
+  Scene scene;
+  scene.agent = quadric_body(read_spatial_body(require_field(value, "", "agent", kSpatialBody), "agent"));
+  scene.obstacle =
+      quadric_body(read_spatial_body(require_field(value, "", "obstacle", kSpatialBody), "obstacle"));
+  read_velocities<3>(value, velocities, scene);
+  return scene;
+}
+
+/// At least one body is made of pieces, or is a union.
+Scene pieces_scene(const Json& value, Velocities velocities, const std::filesystem::path& folder) {
+  const Json& agent = require_field(value, "", "agent", kSpatialBody);
+  const Json& obstacle = require_field(value, "", "obstacle", kSpatialBody);
+  Scene scene;
+  scene.agent = is_hull_agent(agent, obstacle) ? read_hull_agent(agent, "agent", folder)
+                                               : read_body(agent, "agent", folder);
+  scene.obstacle = read_body(obstacle, "obstacle", folder);
+  read_velocities<3>(value, velocities, scene);
+  return scene;
+}
+
+/// Whether nothing but a body's own fields is there.
+bool is_plain(const Json& body) {
+  return !body.is_object() || (!body.contains("file") && !body.contains("velocity"));
+}
+
+/// The engagement with the fields of files in place of their names, and with the velocities beside the
+/// bodies.
+Json plain(const Json& engagement, const std::filesystem::path& folder) {
+  Json result = engagement;
+  for (const std::string name : {"agent", "obstacle"}) {
+    if (!result.contains(name) || is_plain(result[name])) continue;
+    Json& body = result[name];
+    if (body.contains("velocity")) {
+      const std::string field = name + "_velocity";
+      if (result.contains(field))
+        throw InputError(field, quoted(result[field]), "left out beside " + name + ".velocity");
+      Json velocity = body["velocity"];
+      body.erase("velocity");
+      result[field] = std::move(velocity);
+    }
+    result[name] = body_fields(result[name], name, folder);
+  }
+  return result;
+}
+
+}  // namespace
+
+SceneBody read_body(const Json& given, const std::string& path, const std::filesystem::path& folder) {
+  const Json value = body_fields(given, path, folder);
+  if (is_pieces_body(value) && !is_union(value)) return read_pieces_body(value, path, folder);
+  if (!is_union(value)) return quadric_body(read_spatial_body(value, path));
+  Placed body = read_union(value, path, folder);
+  const std::size_t count = pieces_of(body);
+  return {std::move(body), "union of " + std::to_string(count) + (count == 1 ? " piece" : " pieces")};
+}
+
+Scene read_engagement(const Json& value, Velocities velocities, std::initializer_list<const char*> also,
+                      const std::filesystem::path& folder) {
+  if (!value.is_object()) throw InputError("engagement", quoted(value), "a mapping with agent and obstacle");
+  std::vector<std::string> known{"agent", "obstacle", "agent_velocity", "obstacle_velocity"};
+  known.insert(known.end(), also.begin(), also.end());
+  require_known(value, "", known);
+  for (const char* body : {"agent", "obstacle"})
+    if (value.contains(body) && !is_plain(value[body]))
+      return read_engagement(plain(value, folder), velocities, also, folder);
+  const auto made_of_pieces = [&](const char* body) {
+    return value.contains(body) && (is_pieces_body(value[body]) || is_union(value[body]));
+  };
+  if (made_of_pieces("agent") || made_of_pieces("obstacle")) return pieces_scene(value, velocities, folder);
+  const Dimension agent = dimension(value, "agent"), obstacle = dimension(value, "obstacle");
+  const bool planar = agent != Dimension::spatial && obstacle != Dimension::spatial &&
+                      (agent == Dimension::planar || obstacle == Dimension::planar);
+  return planar ? planar_scene(value, velocities) : quadric_scene(value, velocities);
+}
+
+}  // namespace vericone::input

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Checked access to the fields of JSON values; every mistake is an InputError that names the field's path.
+#pragma once
+
+#include <vericone/geometry/error.h>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "json/json_value.h"
+
+namespace vericone::input {
+
+/// A value as it stands in a message: one line, at most 60 characters.
+std::string quoted(const Json& value);
+
+inline std::string at(const std::string& path, std::size_t i) { return path + "[" + std::to_string(i) + "]"; }
+
+inline double read_number(const Json& value, const std::string& path, const char* unit) {
+  if (!value.is_number() || !std::isfinite(value.get<double>()))
+    throw InputError(path, quoted(value), std::string("a finite number") + unit);
+  return value.get<double>();
+}
+
+template <int N>
+Eigen::Matrix<double, N, 1> read_vector(const Json& value, const std::string& path, const char* unit) {
+  if (!value.is_array() || value.size() != N)
+    throw InputError(path, quoted(value), "a list of " + std::to_string(N) + " numbers" + unit);
+  Eigen::Matrix<double, N, 1> v;
+  for (int i = 0; i < N; ++i) v(i) = read_number(value[i], at(path, i), unit);
+  return v;
+}
+
+template <int N>
+Eigen::Matrix<double, N, N> read_matrix(const Json& value, const std::string& path, const char* unit) {
+  if (!value.is_array() || value.size() != N)
+    throw InputError(path, quoted(value),
+                     "a list of " + std::to_string(N) + " rows of " + std::to_string(N) + " numbers" + unit);
+  Eigen::Matrix<double, N, N> m;
+  for (int i = 0; i < N; ++i) m.row(i) = read_vector<N>(value[i], at(path, i), unit).transpose();
+  return m;
+}
+
+inline void require_object(const Json& value, const std::string& path) {
+  if (!value.is_object()) throw InputError(path, quoted(value), "a mapping of fields");
+}
+
+inline void require_known(const Json& value, const std::string& path, const std::vector<std::string>& known) {
+  for (const auto& [key, unused] : value.items()) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    std::string list;
+    for (const auto& k : known) list.append(list.empty() ? "" : ", ").append(k);
+    throw InputError(path.empty() ? key : path + "." + key, "an unknown field", "one of " + list);
+  }
+}
+
+inline const Json& require_field(const Json& value, const std::string& path, const char* field,
+                                 const char* requirement) {
+  const auto it = value.find(field);
+  if (it == value.end()) throw InputError(path.empty() ? field : path + "." + field, "nothing", requirement);
+  return *it;
+}
+
+/// `make()` with the path before the field of an error.
+template <typename Make>
+auto within(const std::string& path, Make make) -> decltype(make()) {
+  try {
+    return make();
+  } catch (const InputError& e) {
+    throw e.within(path);
+  }
+}
+
+}  // namespace vericone::input

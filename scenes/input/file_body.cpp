@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "input/file_body.h"
+
+#include "input/assembly_body.h"
+#include "input/fields.h"
+#include "input/scene.h"
+#include "input/spatial_body.h"
+#include "json/json_value.h"
+
+namespace vericone::input {
+namespace {
+
+using Path = std::filesystem::path;
+
+constexpr int kMostFiles = 8;  // each naming the next
+constexpr const char* kBodyFile =
+    "a file with a body, or with the pieces or the obstacle that vericone fit writes";
+
+std::string file_name(const Json& value, const std::string& path) {
+  if (!value.is_string() || value.get<std::string>().empty())
+    throw InputError(path, quoted(value), "the name of a file, relative to the file that names it");
+  return value.get<std::string>();
+}
+
+/// What a file has of a body.
+Json body_of_file(const std::string& name, const std::string& path, const Path& folder) {
+  Json fields;
+  try {
+    fields = read_scene_fields((folder / name).string());
+  } catch (const InputError& e) {
+    throw InputError(path, name + ": " + e.value(), e.requirement());
+  }
+  if (!fields.is_object()) throw InputError(path, name, kBodyFile);
+  if (fields.contains("pieces")) {
+    Json body = {{"pieces", fields["pieces"]}};
+    for (const char* field : {"center", "rotation"})
+      if (fields.contains(field)) body[field] = fields[field];
+    return body;
+  }
+  for (const char* body : {"obstacle", "body"})
+    if (fields.contains(body) && fields[body].is_object()) return fields[body];
+  if (fields.contains("agent") || fields.contains("bodies"))
+    throw InputError(path, name + ", a scene or a scenario", kBodyFile);
+  return fields;
+}
+
+/// Names of files as seen from the folder that the body's own file is named from.
+void follow_names(Json& body, const Path& to) {
+  if (to.empty() || !body.is_object()) return;
+  for (const char* field : {"mesh", "cloud", "octree", "hull", "file"})
+    if (body.contains(field) && body[field].is_string())
+      body[field] = (to / body[field].get<std::string>()).string();
+  if (!body.contains("pieces")) return;
+  Json& pieces = body["pieces"];
+  if (pieces.is_string()) pieces = (to / pieces.get<std::string>()).string();
+  if (pieces.is_array())
+    for (Json& piece : pieces) follow_names(piece, to);
+}
+
+Json vector_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+Json matrix_of(const Eigen::Matrix3d& m) {
+  return {vector_of(m.row(0)), vector_of(m.row(1)), vector_of(m.row(2))};
+}
+
+/// The body moved as a whole: its own place and turn, and those of its file on top.
+Json moved(Json body, const Json& by, const std::string& path) {
+  const bool in_space = !body.contains("center") || body["center"].size() == 3;
+  for (const char* field : {"center", "rotation"})
+    if (by.contains(field) && (body.contains("quadric") || !in_space))
+      throw InputError(path + "." + field, quoted(by[field]),
+                       in_space ? "left out: the file's quadric matrix says where the body is"
+                                : "left out: a planar body stands where its file says");
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  if (by.contains("center")) place = read_vector<3>(by["center"], path + ".center", " (metres)");
+  const Eigen::Matrix3d turn = read_rotation(by, path);
+  Eigen::Vector3d own = Eigen::Vector3d::Zero();
+  if (body.contains("center")) own = read_vector<3>(body["center"], path + ".center", " (metres)");
+  if (by.contains("rotation")) {
+    own = turn * own;
+    if (body.contains("shape")) {
+      const Eigen::Matrix3d shape =
+          turn * read_matrix<3>(body["shape"], path + ".shape", " (square metres)") * turn.transpose();
+      body["shape"] = matrix_of(0.5 * (shape + shape.transpose()));
+    } else {
+      body["rotation"] = matrix_of(turn * read_rotation(body, path));
+    }
+  }
+  body["center"] = vector_of(place + own);
+  return body;
+}
+
+/// `files`: how many have been followed to come here.
+Json without_files(Json body, const std::string& path, const Path& folder, int files) {
+  if (!body.is_object() || !body.contains("file")) return body;
+  require_known(body, path, {"file", "center", "rotation"});
+  const std::string field = path + ".file", name = file_name(body["file"], field);
+  if (files == kMostFiles)
+    throw InputError(field, name, "a file that names " + std::to_string(kMostFiles) + " others at most");
+  Json found = body_of_file(name, field, folder);
+  follow_names(found, Path(name).parent_path());
+  found = without_files(std::move(found), path, folder, files + 1);
+  body.erase("file");
+  return body.empty() ? found : moved(std::move(found), body, path);
+}
+
+}  // namespace
+
+Json body_fields(const Json& value, const std::string& path, const Path& folder) {
+  return without_files(value, path, folder, 0);
+}
+
+bool is_union(const Json& value) { return value.is_object() && value.contains("pieces"); }
+
+Placed read_union(const Json& value, const std::string& path, const Path& folder) {
+  require_known(value, path, {"pieces", "center", "rotation"});
+  const std::string field = path + ".pieces";
+  Json list = value["pieces"];
+  if (list.is_string()) {
+    const std::string name = list.get<std::string>();
+    Json found = body_of_file(name, field, folder);
+    follow_names(found, Path(name).parent_path());
+    list = found.contains("pieces") && found.size() == 1 ? found["pieces"] : Json::array({found});
+  }
+  if (!list.is_array() || list.empty())
+    throw InputError(field, quoted(list), "a list of bodies, or the name of a file that has one");
+  std::vector<CombinedEllipsoid> quadrics;
+  std::vector<HullBody> hulls;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    require_object(list[i], at(field, i));
+    // fit.json has what it knows of a piece around the body.
+    const bool around = list[i].contains("body") && list[i]["body"].is_object();
+    const Json piece = body_fields(around ? list[i]["body"] : list[i], at(field, i), folder);
+    if (is_pieces_body(piece))
+      hulls.push_back(*read_hull_agent(piece, at(field, i), folder).hull());
+    else
+      quadrics.push_back(read_spatial_body(piece, at(field, i)));
+    if (!hulls.empty() && !quadrics.empty())
+      throw InputError(at(field, i), quoted(piece), "like the pieces before it: hulls, or none");
+  }
+  Pose pose;
+  if (value.contains("center"))
+    pose.position = read_vector<3>(value["center"], path + ".center", " (metres)");
+  pose.rotation = read_rotation(value, path);
+  return {hulls.empty() ? Body::pieces(std::move(quadrics)) : Body(Assembly::polyhedra(std::move(hulls))),
+          pose};
+}
+
+}  // namespace vericone::input

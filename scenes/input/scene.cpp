@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "input/scene.h"
+
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/yaml.h>
+
+#include <vericone/geometry/error.h>
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <vector>
+
+#include "input/fields.h"
+#include "input/text_source.h"
+#include "json/json_value.h"
+#include "json/plain_text.h"
+
+namespace vericone::input {
+namespace {
+
+/// A plain scalar by the YAML core schema; quoted ones stay text.
+Json scalar(const std::string& tag, const std::string& text) {
+  if (tag == "!") return text;
+  if (text == "true") return true;
+  if (text == "false") return false;
+  const char* first = text.data() + (text.starts_with('+') ? 1 : 0);
+  double number = 0;
+  const auto [end, error] = std::from_chars(first, text.data() + text.size(), number);
+  // from_chars also takes "inf" and "nan", which are not numbers here, and reports overflow by its error.
+  const bool digit = std::any_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+  if (error == std::errc() && end == text.data() + text.size() && digit) return number;
+  return text;
+}
+
+[[noreturn]] void refuse_values(const std::string& where) {
+  throw InputError(where, "more than " + std::to_string(kMostValues) + " values",
+                   "a scene of fewer, aliases counted wherever they stand");
+}
+
+/// Builds the value while the document is read, so that every limit holds before memory is taken: few lines
+/// of aliases can stand for more values than there are bytes.
+class Builder : public YAML::EventHandler {
+ public:
+  Json take() { return std::move(root_); }
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t anchor) override { put({nullptr, 1, 0}, anchor, "?"); }
+  void OnScalar(const YAML::Mark&, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& text) override {
+    check_text(text);
+    put({scalar(tag, text), 1, 0}, anchor, text);
+  }
+  void OnAlias(const YAML::Mark&, YAML::anchor_t anchor) override {
+    const auto named = anchored_.find(anchor);
+    if (named == anchored_.end())
+      throw InputError(path(), "an alias of what it stands in", "without aliases of itself");
+    const Built& same = named->second;
+    const bool text = same.value.is_string();
+    put(same, 0, text ? same.value.get<std::string>() : "?");
+  }
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    open(Json::array(), anchor);
+  }
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    open(Json::object(), anchor);
+  }
+  void OnSequenceEnd() override { close(); }
+  void OnMapEnd() override { close(); }
+
+ private:
+  struct Built {
+    Json value;
+    std::size_t values;  // it and all within
+    int levels;          // of lists and mappings
+  };
+  struct Open {
+    Built built;
+    YAML::anchor_t anchor;
+    std::optional<std::string> key;  // that waits for its value
+  };
+
+  /// Of what comes next.
+  std::string path() const {
+    std::string path;
+    for (const Open& level : open_) {
+      if (level.built.value.is_array())
+        path = at(path, level.built.value.size());
+      else if (level.key)
+        path += (path.empty() ? "" : ".") + *level.key;
+    }
+    return path.empty() ? "scene" : path;
+  }
+
+  void check_text(const std::string& text) const {
+    const auto refuse = [&](const char* requirement) {
+      throw InputError(path(), "\"" + plain_text(text.substr(0, 60)) + "\"", requirement);
+    };
+    if (!is_utf8(text)) refuse("text in UTF-8");
+    if (has_control_characters(text)) refuse("text on one line, without control characters");
+  }
+
+  void check_levels(int more) const {
+    if (int(open_.size()) + more > kMostLevels)
+      throw InputError(path(), "more than " + std::to_string(kMostLevels) + " levels", "nested less deeply");
+  }
+
+  void count(std::size_t values) {
+    values_ += values;
+    if (values_ > kMostValues) refuse_values(path() + ", up to here");
+  }
+
+  void open(Json empty, YAML::anchor_t anchor) {
+    check_levels(1);
+    open_.push_back({{std::move(empty), 1, 1}, anchor, {}});
+  }
+
+  void close() {
+    Open done = std::move(open_.back());
+    open_.pop_back();
+    values_ -= done.built.values - 1;  // counted when they were put
+    put(std::move(done.built), done.anchor, "?");
+  }
+
+  /// `key`: what the value is where a mapping expects a key.
+  void put(Built built, YAML::anchor_t anchor, const std::string& key) {
+    check_levels(built.levels);
+    count(built.values);
+    if (anchor != 0) anchored_[anchor] = built;
+    if (open_.empty()) {
+      root_ = std::move(built.value);
+      return;
+    }
+    Open& top = open_.back();
+    top.built.values += built.values;
+    top.built.levels = std::max(top.built.levels, built.levels + 1);
+    Json& value = top.built.value;
+    if (value.is_array()) {
+      value.push_back(std::move(built.value));
+    } else if (top.key) {
+      value[*top.key] = std::move(built.value);
+      top.key.reset();
+    } else {
+      top.key = key;
+      if (value.contains(key)) throw InputError(path(), "given twice", "given once");
+      if (value.size() == kMostFields)
+        throw InputError(path(), "field " + std::to_string(kMostFields + 1) + " of a mapping",
+                         "one of at most " + std::to_string(kMostFields));
+    }
+  }
+
+  Json root_;
+  std::vector<Open> open_;
+  std::map<YAML::anchor_t, Built> anchored_;
+  std::size_t values_ = 0;
+};
+
+}  // namespace
+
+std::string read_scene_text(const std::string& path) {
+  return TextSource(path, "a scene file (YAML)").whole();
+}
+
+Json scene_fields(const std::string& text, const std::string& path) {
+  // The parser looks ahead as far as lists and mappings may go on.
+  const auto opens = [](char c) { return c == '[' || c == '{'; };
+  if (std::size_t(std::count_if(text.begin(), text.end(), opens)) > kMostValues) refuse_values(path);
+  try {
+    std::istringstream in(text);
+    YAML::Parser parser(in);
+    Builder document;
+    if (!parser.HandleNextDocument(document)) return nullptr;
+    Builder second;
+    if (parser.HandleNextDocument(second))
+      throw InputError(path, "more than one document (---)", "a file of one scene");
+    return document.take();
+  } catch (const YAML::Exception& e) {
+    throw InputError(path + ":" + std::to_string(e.mark.line + 1), plain_text(e.msg), "valid YAML");
+  }
+}
+
+Json read_scene_fields(const std::string& path) { return scene_fields(read_scene_text(path), path); }
+
+Scene scene_of(const Json& fields, const std::string& path) {
+  return read_engagement(fields, Velocities::optional, {"name", "lidars", "pose_error"},
+                         std::filesystem::path(path).parent_path());
+}
+
+}  // namespace vericone::input

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "input/body.h"
+
+namespace vericone::input {
+
+/// The fields of a scene file as they stand, unchecked but for the limits of text_source.h and for text that
+/// is no UTF-8 or that a terminal would obey.
+Json read_scene_fields(const std::string& path);
+
+/// The two in steps: a pipe can be read only once. `path` is named in errors, and files are relative to it.
+std::string read_scene_text(const std::string& path);
+Json scene_fields(const std::string& text, const std::string& path);
+Scene scene_of(const Json& fields, const std::string& path);
+
+}  // namespace vericone::input

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scenarios/read_pilot.h"
+
+#include <algorithm>
+
+#include "json/json_value.h"
+#include "scenarios/scenario_fields.h"
+
+namespace vericone::scenario {
+namespace {
+
+using guidance::Law;
+using input::at, input::quoted, input::read_number, input::read_vector, input::require_field,
+    input::require_known, input::require_object;
+
+constexpr std::initializer_list<std::pair<const char*, Law>> kLaws = {
+    {"avoidance", Law::avoidance},
+    {"cooperative-avoidance", Law::cooperative_avoidance},
+    {"cooperative-rendezvous", Law::cooperative_rendezvous},
+    {"matching-rendezvous", Law::matching_rendezvous},
+    {"clearance", Law::clearance}};
+
+/// Which laws read a field that not all of them read.
+struct OfLaws {
+  const char* field;
+  std::vector<Law> laws;
+};
+const std::vector<OfLaws>& fields_of_laws() {
+  using enum Law;
+  const std::vector<Law> of_planes{avoidance, cooperative_avoidance, cooperative_rendezvous,
+                                   matching_rendezvous};
+  static const std::vector<OfLaws> table{{"sector", of_planes},
+                                         {"rates", of_planes},
+                                         {"plane", of_planes},
+                                         {"reference", of_planes},
+                                         {"side", of_planes},
+                                         {"cease", {avoidance, cooperative_avoidance}},
+                                         {"mu", {cooperative_avoidance}},
+                                         {"gain_speed", {matching_rendezvous}},
+                                         {"clearance", {clearance}},
+                                         {"manner", {avoidance, clearance}},
+                                         {"passing", of_planes},
+                                         {"partners", {cooperative_avoidance, cooperative_rendezvous}}};
+  return table;
+}
+
+void require_of_law(const Json& value, const std::string& path, Law law) {
+  for (const OfLaws& entry : fields_of_laws()) {
+    if (!value.contains(entry.field) ||
+        std::find(entry.laws.begin(), entry.laws.end(), law) != entry.laws.end())
+      continue;
+    std::string list;
+    for (const auto& [name, other] : kLaws)
+      if (std::find(entry.laws.begin(), entry.laws.end(), other) != entry.laws.end())
+        list.append(list.empty() ? "" : ", ").append(name);
+    throw InputError(join(path, entry.field), quoted(value[entry.field]),
+                     "left out: only " + list + " reads it");
+  }
+}
+
+guidance::PlaneOptions read_plane(const Json& value, const std::string& path) {
+  using enum guidance::PlaneChoice;
+  require_object(value, path);
+  require_known(value, path, {"choice", "planes", "refine", "wind"});
+  guidance::PlaneOptions plane;
+  if_given(value, path, "choice", [&](const Json& v, const std::string& p) {
+    plane.choice = read_choice<guidance::PlaneChoice>(v, p,
+                                                      {{"largest-opening", largest_opening},
+                                                       {"least-turn", least_turn},
+                                                       {"least-y", least_y},
+                                                       {"wind-aware", wind_aware},
+                                                       {"steepest-clearance", steepest_clearance},
+                                                       {"of-motion", of_motion}});
+  });
+  if_given(value, path, "planes",
+           [&](const Json& v, const std::string& p) { plane.planes = read_count(v, p, 1, 100'000); });
+  if_given(value, path, "refine",
+           [&](const Json& v, const std::string& p) { plane.refine = read_flag(v, p); });
+  if_given(value, path, "wind",
+           [&](const Json& v, const std::string& p) { plane.wind = read_vector<3>(v, p, " (m/s)"); });
+  if (plane.choice == wind_aware && !value.contains("wind"))
+    throw InputError(path + ".wind", "nothing", "[x, y, z] in m/s, for the choice wind-aware");
+  return plane;
+}
+
+void read_clearance(const Json& value, const std::string& path, guidance::ClearanceOptions& options) {
+  require_object(value, path);
+  require_known(value, path, {"required", "beyond", "longitudinal", "hold"});
+  if_given(value, path, "required", [&](const Json& v, const std::string& p) {
+    options.required = read_not_negative(v, p, " (metres)");
+  });
+  if_given(value, path, "beyond",
+           [&](const Json& v, const std::string& p) { options.beyond = read_number(v, p, " (m)"); });
+  if_given(value, path, "beyond", [&](const Json& v, const std::string& p) {
+    options.beyond = read_not_negative(v, p, " (metres)");
+  });
+  if_given(value, path, "longitudinal",
+           [&](const Json& v, const std::string& p) { options.longitudinal = read_flag(v, p); });
+  if_given(value, path, "hold", [&](const Json& v, const std::string& p) { options.hold = read_flag(v, p); });
+}
+
+std::vector<std::string> read_names(const Json& value, const std::string& path) {
+  if (!value.is_array() || value.empty()) throw InputError(path, quoted(value), "a list of names of bodies");
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < value.size(); ++i)
+    names.push_back(read_text(value[i], at(path, i), "the name of a body"));
+  return names;
+}
+
+simulation::Goal read_goal(const Json& value, const std::string& path, bool planar) {
+  require_object(value, path);
+  require_known(value, path, {"point", "most", "after", "reached"});
+  simulation::Goal goal;
+  const Json& point =
+      require_field(value, path, "point", planar ? "[x, y] in metres" : "[x, y, z] in metres");
+  if (planar) {
+    goal.point.head<2>() = read_vector<2>(point, path + ".point", " (metres)");
+  } else {
+    goal.point = read_vector<3>(point, path + ".point", " (metres)");
+  }
+  goal.most = read_positive(require_field(value, path, "most", "an acceleration (m/s^2)"), path + ".most",
+                            " (m/s^2)");
+  if_given(value, path, "after",
+           [&](const Json& v, const std::string& p) { goal.after = read_text(v, p, "the name of a body"); });
+  if_given(value, path, "reached",
+           [&](const Json& v, const std::string& p) { goal.reached = read_positive(v, p, " (metres)"); });
+  return goal;
+}
+
+void read_inversion(const Json& value, const std::string& path, guidance::GuideOptions& guide) {
+  const auto number = [&](const char* field, const char* unit, double& to) {
+    if_given(value, path, field, [&](const Json& v, const std::string& p) { to = read_number(v, p, unit); });
+  };
+  if_given(value, path, "gain", [&](const Json& v, const std::string& p) {
+    guide.inversion.gain = guide.clearance.gain = read_positive(v, p, " (1/s)");
+  });
+  if_given(value, path, "most", [&](const Json& v, const std::string& p) {
+    guide.inversion.most = guide.clearance.most = read_positive(v, p, " (m/s^2)");
+  });
+  if_given(value, path, "gain_speed",
+           [&](const Json& v, const std::string& p) { guide.gain_speed = read_positive(v, p, " (1/s)"); });
+  number("reference", "", guide.inversion.reference);
+  number("cease", "", guide.inversion.cease);
+  number("mu", "", guide.mu);
+  if_given(value, path, "side", [&](const Json& v, const std::string& p) {
+    guide.inversion.side = read_number(v, p, "");
+    if (std::abs(guide.inversion.side) != 1) throw InputError(p, quoted(v), "1 (left) or -1 (right)");
+  });
+}
+
+}  // namespace
+
+simulation::Pilot read_pilot(const Json& value, const std::string& path, bool planar) {
+  require_object(value, path);
+  require_known(value, path,
+                {"law", "sector", "rates", "plane", "gain", "reference", "most", "cease", "side", "mu",
+                 "gain_speed", "clearance", "minds", "partners", "goal", "manner", "passing"});
+  simulation::Pilot pilot;
+  guidance::GuideOptions& guide = pilot.guide;
+  guide.law = read_choice<Law>(require_field(value, path, "law", "the name of a law, such as avoidance"),
+                               join(path, "law"), kLaws);
+  require_of_law(value, path, guide.law);
+  if_given(value, path, "sector", [&](const Json& v, const std::string& p) {
+    using enum guidance::SectorMethod;
+    guide.sector = read_choice<guidance::SectorMethod>(v, p, {{"exact", true_cone}, {"slice", slice}});
+  });
+  if_given(value, path, "rates", [&](const Json& v, const std::string& p) {
+    using enum guidance::GuideRates;
+    guide.rates = read_choice<guidance::GuideRates>(
+        v, p, {{"analytic", analytic}, {"differenced", differenced}, {"backward", backward}});
+  });
+  if_given(value, path, "plane",
+           [&](const Json& v, const std::string& p) { guide.plane = read_plane(v, p); });
+  read_inversion(value, path, guide);
+  if_given(value, path, "clearance",
+           [&](const Json& v, const std::string& p) { read_clearance(v, p, guide.clearance); });
+  if_given(value, path, "manner", [&](const Json& v, const std::string& p) {
+    using enum simulation::Manner;
+    pilot.manner = read_choice<simulation::Manner>(v, p, {{"guarded", guarded}, {"source", source}});
+  });
+  if_given(value, path, "passing", [&](const Json& v, const std::string& p) {
+    using enum simulation::Passing;
+    pilot.passing = read_choice<simulation::Passing>(v, p, {{"bisector", bisector}, {"centres", centres}});
+  });
+  if_given(value, path, "minds",
+           [&](const Json& v, const std::string& p) { pilot.minds = read_names(v, p); });
+  if_given(value, path, "partners",
+           [&](const Json& v, const std::string& p) { pilot.partners = read_names(v, p); });
+  if_given(value, path, "goal",
+           [&](const Json& v, const std::string& p) { pilot.goal = read_goal(v, p, planar); });
+  return pilot;
+}
+
+}  // namespace vericone::scenario

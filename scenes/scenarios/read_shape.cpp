@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scenarios/read_shape.h"
+
+#include "input/assembly_body.h"
+#include "input/file_body.h"
+#include "input/planar_body.h"
+#include "input/spatial_body.h"
+#include "json/json_value.h"
+#include "scenarios/scenario_fields.h"
+
+namespace vericone::scenario {
+namespace {
+
+using input::at, input::quoted, input::read_number, input::read_vector, input::require_field,
+    input::require_known, input::require_object;
+
+std::string shape_kinds() {
+  return "given by exactly one of semi_axes (2 or 3 numbers), shape, quadric, a_c (with b_c, k), dented "
+         "(with k), "
+         "pieces, file, " +
+         input::pieces_kinds();
+}
+
+/// k: a number, or how it changes in time.
+simulation::Oscillation read_oscillation(const Json& value, const std::string& path) {
+  simulation::Oscillation k;
+  if (value.is_number()) {
+    k.offset = read_number(value, path, "");
+    return k;
+  }
+  if (!value.is_object())
+    throw InputError(path, quoted(value),
+                     "a number, or offset, amplitude, rate, phase, absolute of a changing one");
+  require_known(value, path, {"offset", "amplitude", "rate", "phase", "absolute"});
+  const auto number = [&](const char* field, const char* unit, double& to) {
+    if_given(value, path, field, [&](const Json& v, const std::string& p) { to = read_number(v, p, unit); });
+  };
+  number("offset", "", k.offset);
+  number("amplitude", "", k.amplitude);
+  number("rate", " (rad/s)", k.rate);
+  number("phase", " (rad)", k.phase);
+  if_given(value, path, "absolute",
+           [&](const Json& v, const std::string& p) { k.absolute = read_flag(v, p); });
+  return k;
+}
+
+simulation::Oscillation require_oscillation(const Json& value, const std::string& path) {
+  const char* requirement = "a number, 0 <= k <= 1, or how it changes";
+  return read_oscillation(require_field(value, path, "k", requirement), path + ".k");
+}
+
+/// Whether a body's own fields say that it is planar.
+bool is_planar(const Json& value) {
+  if (value.contains("semi_axes")) return value["semi_axes"].is_array() && value["semi_axes"].size() == 2;
+  return value.contains("shape") && value["shape"].is_array() && value["shape"].size() == 2;
+}
+
+/// A planar body as of a scene, rigid; the centre may be left out.
+simulation::RigidShape read_flat(const Json& value, const std::string& path) {
+  Json body = value;
+  if (!value.contains("center")) body["center"] = {0, 0};
+  const CombinedEllipse flat = input::read_planar_body(body, path);
+  if (!flat.center().isZero(0))
+    throw InputError(path + ".center", quoted(value["center"]),
+                     "[0, 0] or left out: a planar body turns about its centre; its place is position");
+  return {flat};
+}
+
+/// As of a scene; the centre may be left out, and is that of the body's own frame.
+simulation::RigidShape read_quadric(const Json& value, const std::string& path) {
+  if (value.contains("semi_axes") &&
+      (!value["semi_axes"].is_array() || (value["semi_axes"].size() != 2 && value["semi_axes"].size() != 3)))
+    throw InputError(path + ".semi_axes", quoted(value["semi_axes"]),
+                     "2 numbers, of an ellipse, or 3, of an ellipsoid (metres)");
+  Json body = value;
+  if (is_planar(value)) {
+    if (value.contains("hyperboloids"))
+      throw InputError(path + ".hyperboloids", quoted(value["hyperboloids"]),
+                       "left out in the plane; hyperbolas, or a_c, b_c, k, give an ellipse with dents");
+    return read_flat(value, path);
+  }
+  if (!value.contains("center") && !value.contains("quadric")) body["center"] = {0, 0, 0};
+  const CombinedEllipsoid solid = input::read_spatial_body(body, path);
+  // One whose centre is not the reference point is placed, as meshes are.
+  if (!solid.center().isZero(0)) return {Placed(solid)};
+  return {solid};
+}
+
+/// The convex hull of points as they stand in the body's frame.
+simulation::RigidShape read_hull(const Json& value, const std::string& path,
+                                 const std::filesystem::path& folder) {
+  return {*input::read_hull_agent(value, path, folder).hull()};
+}
+
+/// A mesh, cloud or map as it stands in the body's frame; the hull of a file's points.
+simulation::RigidShape read_file_body(const Json& value, const std::string& path,
+                                      const std::filesystem::path& folder) {
+  if (value.contains("hull")) return read_hull(value, path, folder);
+  return {input::read_pieces_body(value, path, folder).placed};
+}
+
+}  // namespace
+
+simulation::ShapeInTime read_shape(const Json& given, const std::string& path,
+                                   const std::filesystem::path& folder) {
+  require_object(given, path);
+  const Json value = input::body_fields(given, path, folder);
+  const bool from_file = input::is_pieces_body(value) && !value.contains("points");
+  if (!from_file && !input::is_union(value))
+    require_known(value, path,
+                  {"center", "rotation", "semi_axes", "hyperboloids", "hyperbolas", "shape", "quadric", "a_c",
+                   "b_c", "phi", "dented", "k", "points", "scale"});
+  const int kinds = value.contains("semi_axes") + value.contains("shape") + value.contains("quadric") +
+                    (value.contains("a_c") || value.contains("b_c")) + value.contains("dented") +
+                    value.contains("points") + input::is_union(value) + from_file;
+  if (kinds != 1) throw InputError(path, kinds == 0 ? "no shape" : "more than one shape", shape_kinds());
+  if (from_file) return read_file_body(value, path, folder);
+  if (input::is_union(value)) return simulation::RigidShape{input::read_union(value, path, folder)};
+  if (value.contains("k") && (value.contains("semi_axes") || value.contains("points")))
+    throw InputError(path + ".k", quoted(value["k"]), "left out, or the body given by a_c or dented");
+  if (value.contains("hyperboloids") && !value.contains("semi_axes"))
+    throw InputError(path + ".hyperboloids", quoted(value["hyperboloids"]),
+                     "left out, or the body given by semi_axes");
+  if (value.contains("semi_axes") || value.contains("shape") || value.contains("quadric"))
+    return read_quadric(value, path);
+  if (value.contains("points")) return read_hull(value, path, folder);
+  if (value.contains("dented")) {
+    simulation::DentedQuadric shape;
+    require_known(value, path, {"dented", "k"});
+    shape.semi_axes = read_vector<3>(value["dented"], path + ".dented", " (metres)");
+    for (int i = 0; i < 3; ++i) read_positive(value["dented"][i], at(path + ".dented", i), " (metres)");
+    shape.k = require_oscillation(value, path);
+    return shape;
+  }
+  if (value.contains("phi") || value.contains("center")) return read_flat(value, path);
+  simulation::DentedConic shape;
+  const char* length = "a length in metres";
+  shape.a_c = read_positive(require_field(value, path, "a_c", length), path + ".a_c", " (metres)");
+  shape.b_c = read_positive(require_field(value, path, "b_c", length), path + ".b_c", " (metres)");
+  shape.k = require_oscillation(value, path);
+  return shape;
+}
+
+}  // namespace vericone::scenario
