@@ -7,7 +7,7 @@
 #include <fstream>
 #include <set>
 
-#include "cone/query.h"
+#include "command/cases.h"
 #include "input/body.h"
 #include "input/fields.h"
 #include "json/json_value.h"

@@ -12,6 +12,7 @@
 #include "cone/signmap.h"
 #include "output/threads.h"
 #include "pieces/gallery.h"
+#include "robust/robust_law_command.h"
 
 namespace vericone {
 namespace {
@@ -67,6 +68,16 @@ int query_command(CommandLine& line) {
   line.quiet();
   line.read();
   return run_query(cases, with_rung, std::cout);
+}
+
+int robust_law_command(CommandLine& line) {
+  std::string cases;
+  line.option("cases", cases, "File of cases (docs/robust-law.md), or - for standard input").required();
+  bool json = true;
+  line.flag("--json", json, "Print JSON; this command prints nothing else");
+  line.quiet();
+  line.read();
+  return run_robust_law(cases, std::cout);
 }
 
 int accuracy_command(CommandLine& line) {
@@ -155,8 +166,13 @@ int shapes_command(CommandLine& line) {
 }  // namespace
 
 std::map<std::string, Command> core_commands() {
-  return {{"cone", cone_command},       {"query", query_command},     {"accuracy", accuracy_command},
-          {"signmap", signmap_command}, {"gallery", gallery_command}, {"shapes", shapes_command}};
+  return {{"cone", cone_command},
+          {"query", query_command},
+          {"accuracy", accuracy_command},
+          {"signmap", signmap_command},
+          {"gallery", gallery_command},
+          {"shapes", shapes_command},
+          {"robust-law", robust_law_command}};
 }
 
 }  // namespace vericone

@@ -4,15 +4,10 @@
 #include <iosfwd>
 #include <string>
 
-#include "json/json_forward.h"
-
 namespace vericone {
 
 /// `vericone query`: one engagement a line in, one answer a line out, in the same order (docs/formats.md).
-/// Returns the exit status: 0, or 2 if any line was bad. Blank lines have no answer.
+/// Returns the exit status: 0, or 2 if any line was bad.
 int run_query(const std::string& path, bool with_rung, std::ostream& out);
-
-/// One line of a file of cases. Throws InputError naming the line.
-Json parse_case(const std::string& line, std::size_t number);
 
 }  // namespace vericone

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Files of cases: one JSON object a line in, one answer a line out.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <iosfwd>
+#include <string>
+
+#include "json/json_forward.h"
+
+namespace vericone {
+
+/// The fields of an answer to a case; InputError where the case is bad.
+using Answer = std::function<Json(const Json&)>;
+
+/// Answers in the order of the lines, each with the case's `id`, or with `error`. Returns the exit status: 0,
+/// or 2 if any line was bad. Blank lines have no answer. `path`: "-" for standard input.
+int answer_cases(const std::string& path, const Answer& answer, std::ostream& out);
+
+/// One line of a file of cases. Throws InputError naming the line.
+Json parse_case(const std::string& line, std::size_t number);
+
+}  // namespace vericone
