@@ -4,6 +4,7 @@
 // system it is for. An interior-point solver is asked in robust_law_sdp_test.cpp.
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
+#include <vericone/guidance/robust_law.h>
 #include <Eigen/Eigenvalues>
 #include <complex>
 #include <limits>
