@@ -7,7 +7,7 @@
 
 namespace vericone {
 
-/// {"verdict", ["rung"], "clearance", "time_to_contact", ...} as docs/formats.md says.
+/// {"verdict", ["rung"], "clearance", "time_to_contact", ...} as docs/reference/formats.md says.
 Json answer(const input::AnyEngagement& engagement, bool with_rung);
 
 /// Why a verdict can be relied on: "exact" or "certified".

@@ -42,7 +42,7 @@ struct AssemblyCone {
 /// Throws InputError naming "--planes" (less than 3, more than 100000) or "--tolerance".
 AssemblyCone assembly_cone(const input::AssemblyEngagement& engagement, int half_planes, double tolerance);
 
-/// As docs/formats.md says; without the map and the verdict.
+/// As docs/reference/formats.md says; without the map and the verdict.
 Json to_json(const AssemblyCone& cone, const input::AssemblyEngagement& engagement);
 void print_text(const AssemblyCone& cone, const input::AssemblyEngagement& engagement, std::ostream& out);
 
