@@ -126,7 +126,7 @@ class Tables(unittest.TestCase):
             _, calls, header = [cell.strip() for cell in row.split("|")]
             path = headers[header.strip("`")]
             near = [path] + [headers[name] for name in re.findall(r"^#include <(vericone/.*)>", text_of(path), re.MULTILINE)]
-            text = "\n".join(text_of(other) for other in near)
+            text = "\n".join(re.sub(r"//.*", "", text_of(other)) for other in near)
             for call in re.findall(r"`([^`]+)`", calls):
                 name = re.findall(r"\w+", re.sub(r"[({].*|\.\.\.$", "", call))[-1]
                 seen += 1
@@ -226,6 +226,13 @@ class Form(unittest.TestCase):
     """One form of all pages."""
 
     maxDiff = None
+
+    def test_pages_that_use_its_words_link_the_conventions(self):
+        words = re.compile(r"\b(psi|theta_b|V_r|V_theta|certified|undecided|relative velocit|quaternion|[vV]erdict)")
+        missing = [relative(page) for page in self.own()
+                   if relative(page).startswith("docs/") and words.search(prose(page)) and "conventions.md" not in prose(page)
+                   and page.name != "conventions.md"]
+        self.assertEqual(missing, [])
 
     def own(self):
         return [page for page in pages() if relative(page) not in OF_ANOTHER_FORM and not relative(page).startswith("tests/")]
