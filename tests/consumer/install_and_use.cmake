@@ -15,6 +15,11 @@ run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G ${GENERATOR} -DCMAKE_MAKE_
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer)
 run(${WORK}/prefix/bin/vericone --version)
+foreach(page README.md docs/reference/formats.md docs/reference/conventions.md docs/examples/first.yaml examples/cone.cpp)
+  if(NOT EXISTS ${WORK}/prefix/share/doc/vericone/${page})
+    message(FATAL_ERROR "share/doc/vericone/${page} is not installed")
+  endif()
+endforeach()
 
 file(GLOB examples RELATIVE ${ROOT}/examples ${ROOT}/examples/*.cpp)
 foreach(example IN LISTS examples)
