@@ -17,7 +17,7 @@ import time
 import unittest
 from pathlib import Path
 
-from pages import ROOT, blocks, commands, pages, pattern, text_of
+from pages import ROOT, blocks, commands, pages, pattern, shortened, text_of
 
 # Blocks that are not run, and why. Whoever adds one counts it here.
 NOT_RUN = {"installs packages": 2, "takes minutes": 8, "builds with CMake": 5}
@@ -73,7 +73,7 @@ class Examples(unittest.TestCase):
             if output and not pattern(output).fullmatch(re.sub(r"[ ]+$", "", printed.rstrip("\n"), flags=re.M) + "\n"):
                 if os.environ.get("VERICONE_WRITE_PAGES"):
                     text, before = text_of(block.page), f"\n$ {command}\n"
-                    block.page.write_text(text.replace(before + output, before + printed.rstrip("\n")), encoding="utf-8")
+                    block.page.write_text(text.replace(before + output, before + shortened(printed.rstrip("\n"))), encoding="utf-8")
                     continue
                 wrong.append(f"{block}: $ {command}\n--- the page\n{output}\n--- printed\n{printed}")
         if status:
@@ -120,6 +120,14 @@ class Notation(unittest.TestCase):
         self.assertTrue(self.held("time  0.1 s, of 2", "time  3e-05 s, of 17.25"))
         self.assertFalse(self.held("time  0.1 s", "time  0.2 m"))
         self.assertFalse(self.held("a time 0.1 s", "a time 0.2 s"))
+
+    def test_numbers_are_shortened(self):
+        long = "0.16879360097282148 sr, -17.67766952966369 m, 2.2712345678e-05 s, 0.0029469785325895296, 1234567890, 0.250000, 5558"
+        short = "0.168793... sr, -17.6776... m, 2.27123...e-05 s, 0.00294697..., 1234567890, 0.250000, 5558"
+        self.assertEqual(shortened(long), short)
+        self.assertTrue(self.held(short, long))
+        self.assertFalse(self.held(short, long.replace("17.6776", "17.6775")))
+        self.assertEqual(shortened('{"m":0.16879360097282148}'), '{"m":0.16879360097282148}')
 
     def test_a_page(self):
         page = Path(tempfile.mkdtemp()) / "page.md"

@@ -98,6 +98,19 @@ def commands(block):
     return [(command, "\n".join(output).strip("\n")) for command, output in found]
 
 
+def shortened(output):
+    """What a page shows of an output: six digits of numbers that have more than nine, but in JSON all."""
+    def short(number):
+        whole, exponent = re.fullmatch(r"(-?[\d.]+)(e[-+]?\d+)?", number.group(0)).groups()
+        digits = re.sub(r"[-.]", "", whole).lstrip("0")
+        if len(digits) <= 9 or "." not in whole:
+            return number.group(0)
+        return whole[:len(whole) - len(digits) + 6].rstrip(".") + "..." + (exponent or "")
+
+    return "\n".join(line if line.startswith("{") else re.sub(r"(?<![\w.])-?\d+\.\d+(e[-+]?\d+)?(?![\w.])", short, line)
+                     for line in output.split("\n"))
+
+
 def pattern(output):
     """A regular expression for what a page says that a command prints."""
     lines = []
