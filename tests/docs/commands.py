@@ -93,7 +93,7 @@ def measured(program):
     today = time.strftime("%-d %B %Y")
     yield "# How long each command takes\n"
     yield filled(f"**Measured** {today}, `/usr/bin/python3 tests/docs/commands.py times build/release/apps/vericone`, on two"
-                 " cores shared with other work, so these are upper bounds. **Notices** `tests/docs/examples_test.py` an"
+                 " cores shared with other work, so these are upper bounds. **Who notices a change:** `tests/docs/examples_test.py` an"
                  " example that takes more than a minute; nobody the rest.")
     yield filled("Wall: seconds until the command ends, files and pictures included. Processor: seconds of all threads."
                  " Matplotlib takes most of the time of a command that draws; `--no-figures` leaves pictures out. The files of"

@@ -270,7 +270,7 @@ class Form(unittest.TestCase):
         self.assertEqual(wrong, [])
 
     def says_how(self, text):
-        return any(re.match(r"\*\*Measured\*\* .*2\d{3}", part) and "**Notices** " in part.replace("\n", " ")
+        return any(re.match(r"\*\*Measured\*\* .*2\d{3}", part) and "**Who notices a change:** " in part.replace("\n", " ")
                    for part in text.split("\n\n"))
 
     def test_measured_pages_say_how(self):
