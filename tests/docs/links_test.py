@@ -3,6 +3,7 @@
 """Whatever a page, a comment, a help or a message names is there: links and their sections, files, commands, options.
 Environment: VERICONE (the program), VERICONE_SOURCE (the project), VERICONE_PROGRAMS (what is built besides)."""
 
+import json
 import os
 import re
 import subprocess
@@ -135,6 +136,15 @@ class Tables(unittest.TestCase):
         self.assertEqual(wrong, [])
         self.assertGreater(seen, 40)
 
+    def test_blocks_of_data_can_be_read(self):
+        readers, read = {"yaml": yaml.safe_load, "json": json.loads}, 0
+        for page in pages():
+            for block in blocks(page):
+                if block.language in readers:
+                    self.assertTrue(readers[block.language](block.text), str(block))
+                    read += 1
+        self.assertGreater(read, 4)
+
     def test_citation(self):
         """CFF 1.2: what it requires, and the version of the project."""
         with open(ROOT / "CITATION.cff", encoding="utf-8") as file:
@@ -210,7 +220,7 @@ class Words(unittest.TestCase):
                  if option not in self.all and not OF_OTHERS.match(option)]
         self.assertEqual(wrong if not PROGRAMS else [], [])
 
-    def test_options_in_messages(self):
+    def test_commands_and_options_in_messages(self):
         """String literals of the programs."""
         wrong = []
         for path in sources():
@@ -219,6 +229,8 @@ class Words(unittest.TestCase):
             for literal in re.findall(r'"((?:\\.|[^"\\\n])*)"', text_of(path)):
                 wrong += [f"{relative(path)}: {option}" for option in re.findall(r"(?<![\w-])--[a-z][\w-]+", literal)
                           if option not in self.all]
+                wrong += [f"{relative(path)}: vericone {name}" for name in re.findall(r"(?<!this )\bvericone ([a-z]+)\b", literal)
+                          if name not in self.options]
         self.assertEqual(wrong if not PROGRAMS else [], [])
 
 
