@@ -2,7 +2,7 @@
 //
 // files_at_scale [FOLDER]: writes files of 10 million points, facets or cells into FOLDER (0.5 GB at a time;
 // the folder of temporary files by default), reads each in a process of its own, and prints the table of
-// docs/files.md.
+// docs/reference/files.md.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>

@@ -39,7 +39,7 @@ if(VERICONE_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 
 # vericone_precompile(TARGET SET): the target's sources start with the precompiled header cmake/precompiled/SET.h, which is
-# made once for all targets that ask for it (docs/building.md has what each set brings): exact for libraries, json for
+# made once for all targets that ask for it (docs/howto/building.md has what each set brings): exact for libraries, json for
 # programs, tests.
 function(vericone_precompile target set)
   if(NOT VERICONE_PCH)

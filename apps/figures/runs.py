@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables and shapes of a run as `vericone simulate` writes them (docs/scenarios.md), and bodies as curves and
+"""Tables and shapes of a run as `vericone simulate` writes them (docs/reference/scenarios.md), and bodies as curves and
 meshes in space."""
 import csv
 import itertools

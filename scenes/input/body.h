@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Bodies and engagements from JSON values; the fields are described in docs/formats.md.
+// Bodies and engagements from JSON values; the fields are described in docs/reference/formats.md.
 #pragma once
 
 #include <vericone/scenes/scene.h>

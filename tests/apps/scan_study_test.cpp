@@ -55,7 +55,7 @@ lidar::Lidar lidar_at(const Vector3d& position, lidar::BeamPattern beams) {
 }
 
 TEST(ScanStudy, FromInsideTheAgentNothingOfTheConeIsMissed) {
-  // docs/lidar.md: what the agent touches first on its way can be seen from everywhere in it.
+  // docs/explanation/lidar.md: what the agent touches first on its way can be seen from everywhere in it.
   RandomBodies random(7801);
   SCOPED_TRACE(random.trace());
   double worst = 0, hidden = 0;

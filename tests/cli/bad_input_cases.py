@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bad inputs and the one line that each gets. The table in docs/bad-input.md is this list, printed by
-`/usr/bin/python3 tests/cli/bad_input_cases.py VERICONE > docs/bad-input.md`; the test runs every case and compares
+"""Bad inputs and the one line that each gets. The table in docs/reference/bad-input.md is this list, printed by
+`/usr/bin/python3 tests/cli/bad_input_cases.py VERICONE > docs/reference/bad-input.md`; the test runs every case and compares
 the table as well, so neither can go stale."""
 import json
 import math

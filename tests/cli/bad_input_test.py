@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Input that every command refuses, and the table of it in docs/bad-input.md."""
+"""Input that every command refuses, and the table of it in docs/reference/bad-input.md."""
 import os
 import unittest
 
@@ -32,7 +32,7 @@ class BadInput(unittest.TestCase):
                 self.assertLessEqual(len(left), 1, "something half written: %s" % left)
 
     def test_the_table_is_the_truth(self):
-        with open(os.path.join(SOURCE, "docs", "bad-input.md"), encoding="utf-8") as f:
+        with open(os.path.join(SOURCE, "docs", "reference", "bad-input.md"), encoding="utf-8") as f:
             self.assertEqual(f.read(), bad_input_cases.table(VERICONE))
         self.assertGreaterEqual(len(bad_input_cases.QUERIES) + len(bad_input_cases.COMMANDS), 30)
 

@@ -142,7 +142,7 @@ class Combined(unittest.TestCase):
         self.assertIn("bodies              overlapping", self.scene(overlapping, text=True))
 
     def test_planar_verdicts_follow_the_edges(self):
-        # The sector is found in the plane, the verdict in space (see docs/formats.md): independent.
+        # The sector is found in the plane, the verdict in space (see docs/reference/formats.md): independent.
         obstacles = [{"a_c": 3, "b_c": 1.5, "k": k, "phi": 0.4} for k in (0, 0.3, 0.9, 1)]
         obstacles.append({"semi_axes": [2, 3], "rotation": 0.3, "hyperbolas": [
             {"semi_axes": [0.8, 1]}, {"semi_axes": [1.1, 0.7], "rotation": 1.2}]})

@@ -163,9 +163,9 @@ class Schemas(unittest.TestCase):
         self.assertEqual(set(defs["as_in_scenes"]["properties"]), shape | own)
 
     def test_every_field_is_documented(self):
-        with open(os.path.join(SOURCE, "docs/formats.md"), encoding="utf-8") as file:
+        with open(os.path.join(SOURCE, "docs/reference/formats.md"), encoding="utf-8") as file:
             formats = file.read()
-        with open(os.path.join(SOURCE, "docs/scenarios.md"), encoding="utf-8") as file:
+        with open(os.path.join(SOURCE, "docs/reference/scenarios.md"), encoding="utf-8") as file:
             scenarios = file.read()
         for field in schema("body")["$defs"]["body"]["properties"]:
             self.assertRegex(formats, rf"`{field}`", field)

@@ -288,7 +288,7 @@ class Interruptions(InPreparedFolder):
                     if "VERICONE_TELL" in os.environ:
                         print("%-26s %-8s %.2f s" % (name, sent.name, seconds))
                     self.assertEqual(process.returncode, 130)
-                    self.assertLess(seconds, 3)  # 0.4 s where processors are free (docs/formats.md)
+                    self.assertLess(seconds, 3)  # 0.4 s where processors are free (docs/reference/formats.md)
                     if words[0] == "verify":
                         self.assertIn("interrupted; by then 0 wrong of ", said)
 

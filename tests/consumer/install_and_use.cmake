@@ -1,5 +1,5 @@
-# Installs the build into a fresh prefix, builds the consumer and the README's examples against it and runs them: each
-# stands in the README word for word, and prints what the README says.
+# Installs the build into a fresh prefix, builds the consumer and the examples against it and runs them; then the pages
+# are held against the examples (tests/docs/code_test.py).
 file(REMOVE_RECURSE ${WORK})
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
@@ -10,19 +10,26 @@ function(run)
 endfunction()
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G ${GENERATOR} -DCMAKE_MAKE_PROGRAM=${MAKE_PROGRAM}
-  -DCMAKE_PREFIX_PATH=${WORK}/prefix -DEXAMPLES=${ROOT}/docs/examples/cpp "-DCMAKE_CXX_FLAGS=${FLAGS}"
+  -DCMAKE_PREFIX_PATH=${WORK}/prefix -DEXAMPLES=${ROOT}/examples "-DCMAKE_CXX_FLAGS=${FLAGS}"
   -DCMAKE_CXX_COMPILER=${COMPILER})
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer)
 run(${WORK}/prefix/bin/vericone --version)
-file(READ ${ROOT}/README.md readme)
-foreach(example verdict cone step)
-  run(${WORK}/build/${example})
-  file(READ ${ROOT}/docs/examples/cpp/${example}.cpp code)
-  foreach(text "```cpp\n${code}```" "```\n${output}```")
-    string(FIND "${readme}" "${text}" found)
-    if(found EQUAL -1)
-      message(FATAL_ERROR "README.md does not have this of docs/examples/cpp/${example}.cpp:\n${text}")
-    endif()
-  endforeach()
+foreach(page README.md docs/reference/formats.md docs/reference/conventions.md docs/examples/first.yaml examples/cone.cpp)
+  if(NOT EXISTS ${WORK}/prefix/share/doc/vericone/${page})
+    message(FATAL_ERROR "share/doc/vericone/${page} is not installed")
+  endif()
 endforeach()
+
+file(GLOB examples RELATIVE ${ROOT}/examples ${ROOT}/examples/*.cpp)
+foreach(example IN LISTS examples)
+  string(REPLACE .cpp "" example ${example})
+  set(arguments "")
+  if(example STREQUAL own_mesh)
+    set(arguments ${ROOT}/docs/examples/window.obj)
+  endif()
+  run(${WORK}/build/examples/${example} ${arguments})
+  file(WRITE ${WORK}/outputs/${example} "${output}")
+endforeach()
+run(${CMAKE_COMMAND} -E env VERICONE_SOURCE=${ROOT} VERICONE_OUTPUTS=${WORK}/outputs PYTHONDONTWRITEBYTECODE=1
+  /usr/bin/python3 ${ROOT}/tests/docs/code_test.py)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Known bodies found again from noisy, half-sided and contaminated samples. docs/fitting-surfaces.md prints
-// what this prints for 200 seeds each; VERICONE_RECOVERY_SEEDS changes how many, VERICONE_RECOVERY_FIRST
-// which, and VERICONE_RECOVERY_TELL=1 prints each.
+// Known bodies found again from noisy, half-sided and contaminated samples.
+// docs/explanation/fitting-surfaces.md prints what this prints for 200 seeds each; VERICONE_RECOVERY_SEEDS
+// changes how many, VERICONE_RECOVERY_FIRST which, and VERICONE_RECOVERY_TELL=1 prints each.
 #include <gtest/gtest.h>
 #include <vericone/fitting/least_squares.h>
 #include <vericone/geometry/error.h>
@@ -106,9 +106,9 @@ INSTANTIATE_TEST_SUITE_P(
 // Found: each of the six errors is within six of the least standard deviations possible. Normal errors of 1.2
 // times these (the loss costs 5 % of the points, gross ones within its cutoff some more) are beyond that
 // once in two million: what is beyond is not noise. A fit that has not converged or is refused is no answer,
-// a converged one beyond is missed; the shares that docs/fitting-surfaces.md states count both. Found ones
-// are held against the deviations that the fits themselves report too: the root mean square of the ratios is
-// 1 where these are right.
+// a converged one beyond is missed; the shares that docs/explanation/fitting-surfaces.md states count both.
+// Found ones are held against the deviations that the fits themselves report too: the root mean square of the
+// ratios is 1 where these are right.
 TEST_P(Recovery, FindsTheBodyToItsOwnErrors) {
   constexpr double kFound = 6;
   Study study = GetParam();

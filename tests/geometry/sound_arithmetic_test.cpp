@@ -35,7 +35,7 @@ TEST(SoundArithmetic, NoticesAnotherRounding) {
     EXPECT_EQ(
         line,
         "arithmetic of the library: got another rounding than to nearest, must be that of IEEE 754, each "
-        "operation on doubles rounded to nearest (docs/building.md)")
+        "operation on doubles rounded to nearest (docs/howto/building.md)")
         << mode;
   }
   EXPECT_EQ(refusal(), "");

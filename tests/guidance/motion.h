@@ -40,7 +40,7 @@ inline Eigen::Matrix3d least_rotation(const Eigen::Vector3d& x, const Eigen::Vec
   return Eigen::AngleAxisd(std::atan2(sine, cosine), axis / sine).toRotationMatrix();
 }
 
-/// Errors over all states of a test, for its verdict and for the tables of docs/guidance.md.
+/// Errors over all states of a test, for its verdict and for the tables of docs/explanation/guidance.md.
 class Errors {
  public:
   void add(double error) { values_.push_back(error); }

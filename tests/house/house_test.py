@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the folders promise (docs/architecture.md), read from the includes of all sources."""
+"""What the folders promise (docs/explanation/architecture.md), read from the includes of all sources."""
 
 import os
 import re

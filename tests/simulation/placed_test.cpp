@@ -198,7 +198,7 @@ TEST(UnguardedAmongPlaced, TheSourcesLawKeepsAwayFromAShell) {
     scenario.bodies[0].start.velocity = {2, 0, 0};
     Pilot& pilot = *scenario.bodies[0].pilot;
     if (both) {
-      // Meshes against meshes have slow sectors (docs/pairs.md): few planes, few steps.
+      // Meshes against meshes have slow sectors (docs/reference/pairs.md): few planes, few steps.
       scenario.bodies[0].shape = RigidShape{Placed(shell({0.4, 0.3, 0.2}))};
       scenario.duration = 7;
       scenario.step = 0.1;

@@ -13,9 +13,9 @@ struct Case {
   Ellipsoid agent, obstacle;
 };
 
-/// Reads a file of cases as `vericone query` does (docs/formats.md): one JSON object a line, two ellipsoids
-/// that a plane across their line of centres separates, velocities left out or ignored. A case without an id
-/// is called by its line. Throws InputError naming the file, the line and the field.
+/// Reads a file of cases as `vericone query` does (docs/reference/formats.md): one JSON object a line, two
+/// ellipsoids that a plane across their line of centres separates, velocities left out or ignored. A case
+/// without an id is called by its line. Throws InputError naming the file, the line and the field.
 std::vector<Case> read_cases(const std::string& path);
 
 }  // namespace vericone::accuracy

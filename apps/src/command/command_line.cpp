@@ -245,7 +245,9 @@ void answer_without_command(const std::string& called,
   CLI::App app("Collision cones with certified bounds", called);
   app.set_version_flag("--version", version_line());
   for (const auto& [name, what] : commands) app.add_subcommand(name, what);
-  app.footer("vericone COMMAND --help says what a command takes, with examples.");
+  app.footer(
+      "vericone COMMAND --help says what a command takes, with examples.\n"
+      "Words, units, signs and exit statuses: docs/reference/conventions.md.");
   if (words.empty()) {
     std::cerr << app.help();
     throw UsageError("no command given");

@@ -19,7 +19,7 @@ namespace {
 
 int cone_command(CommandLine& line) {
   ConeCommand cone;
-  line.option("scene", cone.scene, "Scene file, YAML (docs/formats.md)").required();
+  line.option("scene", cone.scene, "Scene file, YAML (docs/reference/formats.md)").required();
   line.option("--method", cone.method,
               "exact: the true cone with its error bound; slice: the source's, too small");
   line.option("--planes", cone.planes,
@@ -72,7 +72,7 @@ int query_command(CommandLine& line) {
 
 int robust_law_command(CommandLine& line) {
   std::string cases;
-  line.option("cases", cases, "File of cases (docs/robust-law.md), or - for standard input").required();
+  line.option("cases", cases, "File of cases (docs/explanation/robust-law.md), or - for standard input").required();
   bool json = true;
   line.flag("--json", json, "Print JSON; this command prints nothing else");
   line.quiet();
@@ -151,7 +151,8 @@ int gallery_command(CommandLine& line) {
 int shapes_command(CommandLine& line) {
   ShapesOptions shapes;
   line.option("--out", shapes.out, "Folder for data, pictures and meshes");
-  line.option("--figure", shapes.which, "Names of figures (docs/combined.md); all if not given").commas();
+  line.option("--figure", shapes.which, "Names of figures (docs/explanation/combined.md); all if not given")
+      .commas();
   line.option("--mesh", shapes.mesh, "obj or ply: also write the surfaces as files");
   line.option("--resolution", shapes.resolution, "Edges of the surfaces, in parts of the semi-axes");
   line.negative_flag("--no-figures", shapes.figures, "Data only");

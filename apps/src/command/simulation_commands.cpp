@@ -14,7 +14,7 @@ namespace {
 
 int simulate_command(CommandLine& line) {
   SimulateOptions simulate;
-  line.option("scenario", simulate.scenario, "Scenario file, YAML (docs/scenarios.md)").required();
+  line.option("scenario", simulate.scenario, "Scenario file, YAML (docs/reference/scenarios.md)").required();
   line.option("--out", simulate.out, "Folder for tables, proof and picture");
   line.negative_flag("--no-figures", simulate.figures, "Tables and proof only");
   line.flag("--animate", simulate.animate, "Also the run over time, simulation.html: a page for any browser");
@@ -27,7 +27,9 @@ int simulate_command(CommandLine& line) {
 
 int check_command(CommandLine& line) {
   std::string file;
-  line.option("file", file, "Scene, scenario or body, YAML (docs/formats.md, docs/scenarios.md)").required();
+  line.option("file", file,
+              "Scene, scenario or body, YAML (docs/reference/formats.md, docs/reference/scenarios.md)")
+      .required();
   line.read();
   return run_check(file, std::cout);
 }

@@ -9,7 +9,7 @@
 
 namespace vericone {
 
-/// {"verdict", ["rung"], "clearance", "time_to_contact", ...} as docs/formats.md says.
+/// {"verdict", ["rung"], "clearance", "time_to_contact", ...} as docs/reference/formats.md says.
 Json answer(const scenes::Scene& scene, bool with_rung);
 
 /// Why a verdict can be relied on: "exact" or "certified".

@@ -31,7 +31,8 @@ struct ConeCommand {
   int threads = 0;             // of map and picture; 0: one per processor
 };
 
-/// `vericone cone`: the cone of one scene, as text or JSON (docs/formats.md), with a picture if asked for.
+/// `vericone cone`: the cone of one scene, as text or JSON (docs/reference/formats.md), with a picture if
+/// asked for.
 void run_cone(const ConeCommand& options, std::ostream& out);
 
 /// The end of a picture: the map's data, both drawn by their scripts, all of it published and told.

@@ -22,7 +22,7 @@ struct MapRequest {
 };
 
 struct MapAnswer {
-  Json summary;  // docs/formats.md
+  Json summary;  // docs/reference/formats.md
   Json picture;  // for apps/figures/cone_map.py
 };
 

@@ -23,7 +23,7 @@ CombinedSector sector_of(const scenes::PlanarBodies& e) {
   return result;
 }
 
-/// "arc 0", "corner 0 1": the conics as they are numbered in docs/formats.md.
+/// "arc 0", "corner 0 1": the conics as they are numbered in docs/reference/formats.md.
 std::string touch_text(const Touch& touch) {
   std::string text = (touch.corner ? "corner " : "arc ") + std::to_string(touch.first);
   if (touch.corner) text += " " + std::to_string(touch.second);

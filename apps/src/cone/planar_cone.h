@@ -8,7 +8,7 @@
 
 namespace vericone {
 
-/// The sector of a planar scene with the source's y, as JSON (docs/formats.md) and as text.
+/// The sector of a planar scene with the source's y, as JSON (docs/reference/formats.md) and as text.
 Json planar_cone_json(const scenes::Scene& scene);
 void print_planar_cone(const Json& cone, const scenes::Scene& scene, std::ostream& out);
 

@@ -8,7 +8,7 @@
 namespace vericone {
 
 struct ShapesOptions {
-  std::vector<std::string> which;  // names of figures, docs/combined.md; empty: all
+  std::vector<std::string> which;  // names of figures, docs/explanation/combined.md; empty: all
   double resolution = 0.09;        // of the surfaces, in parts of the semi-axes
   std::string mesh;                // also the bodies' surfaces as files: "obj" or "ply"
   std::string out = "out/shapes";
@@ -18,8 +18,8 @@ struct ShapesOptions {
 };
 
 /// `vericone shapes`: pictures of combined quadrics and of their cones, with the data they are drawn from
-/// (docs/combined.md). Writes NAME.json for each figure, shapes.json, provenance.json, the pictures and
-/// meshes to `out`. Throws InputError naming "--figure", "--mesh" or "--resolution".
+/// (docs/explanation/combined.md). Writes NAME.json for each figure, shapes.json, provenance.json, the
+/// pictures and meshes to `out`. Throws InputError naming "--figure", "--mesh" or "--resolution".
 void run_shapes(const ShapesOptions& options, std::ostream& out);
 
 }  // namespace vericone

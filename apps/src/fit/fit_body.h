@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Pieces of a hull as bodies that scenes read (docs/formats.md).
+// Pieces of a hull as bodies that scenes read (docs/reference/formats.md).
 #pragma once
 
 #include <vericone/fitting/hull.h>

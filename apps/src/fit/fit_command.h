@@ -27,11 +27,11 @@ struct FitCommandOptions {
   std::string command_line;
 };
 
-/// `vericone fit`: a quadric hull of a scan, with what is proved of it (docs/formats.md). Writes fit.json,
-/// body.yaml, hull.obj, hull.ply, provenance.json and pictures to `out`, all together at the end or none.
-/// Returns the exit status: 0; 1 where what is to contain the scan is not proved to or a surface has not
-/// converged, and of a check where it fails; 130 interrupted. Throws InputError naming the
-/// file or an option.
+/// `vericone fit`: a quadric hull of a scan, with what is proved of it (docs/reference/formats.md). Writes
+/// fit.json, body.yaml, hull.obj, hull.ply, provenance.json and pictures to `out`, all together at the end or
+/// none. Returns the exit status: 0; 1 where what is to contain the scan is not proved to or a surface has
+/// not converged, and of a check where it fails; 130 interrupted. Throws InputError naming the file or an
+/// option.
 int run_fit(const FitCommandOptions& options, std::ostream& out);
 
 }  // namespace vericone

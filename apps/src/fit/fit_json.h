@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A fitted hull as JSON (docs/formats.md), and what is proved of it in words.
+// A fitted hull as JSON (docs/reference/formats.md), and what is proved of it in words.
 #pragma once
 
 #include <vericone/fitting/fit.h>

@@ -21,7 +21,7 @@ int fit_command(vericone::CommandLine& line) {
   const auto option_of_fits = [&](const char* name, auto& target, const char* what) {
     return of_fits.emplace_back(name, line.option(name, target, what)).second;
   };
-  line.option("file", fit.file, "Mesh, cloud or octree map (docs/files.md)").required();
+  line.option("file", fit.file, "Mesh, cloud or octree map (docs/reference/files.md)").required();
   option_of_fits("--mode", fit.mode, "least-squares, robust, or containing: proved to contain the scan");
   option_of_fits(
       "--shape", fit.shape,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Random engagements of two moving ellipsoids for the campaign of guidance laws (docs/campaign.md).
+// Random engagements of two moving ellipsoids for the campaign of guidance laws (docs/measured/campaign.md).
 #pragma once
 
 #include <vericone/simulation/scenario.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The campaign's table: one row an engagement (columns: docs/campaign.md).
+// The campaign's table: one row an engagement (columns: docs/measured/campaign.md).
 #pragma once
 
 #include <filesystem>

@@ -8,7 +8,7 @@
 namespace vericone {
 
 /// One plane's sector with the source's y (6.14) and the velocities projected on the line of sight and across
-/// it (docs/formats.md).
+/// it (docs/reference/formats.md).
 Json sector_json(const Slice& slice, const Eigen::Vector3d& axis, const Eigen::Vector3d& agent_velocity,
                  const Eigen::Vector3d& obstacle_velocity);
 

@@ -25,7 +25,7 @@ Eigen::Vector3d agent_center(const scenes::Scene& scene);  // of a polyhedron: o
 /// Of an ellipsoid or a polyhedron, axis-aligned.
 Box bounds_of_agent(const scenes::Scene& scene);
 
-/// What reading found besides the body, as docs/formats.md names it.
+/// What reading found besides the body, as docs/reference/formats.md names it.
 void add_reading(Json& result, const scenes::SceneBody& body);
 
 /// What is computed of one engagement, and the oracle that did it.
@@ -52,7 +52,7 @@ struct AssemblyCone {
 /// Throws InputError naming "--planes" (less than 3, more than 100000) or "--tolerance".
 AssemblyCone assembly_cone(const scenes::Scene& scene, int half_planes, double tolerance);
 
-/// As docs/formats.md says; without the map and the verdict.
+/// As docs/reference/formats.md says; without the map and the verdict.
 Json to_json(const AssemblyCone& cone, const scenes::Scene& scene);
 void print_text(const AssemblyCone& cone, const scenes::Scene& scene, std::ostream& out);
 

@@ -7,7 +7,7 @@
 namespace vericone {
 
 /// `vericone robust-law`: one instance of (7.20)-(7.24) a line in, its correction a line out
-/// (docs/robust-law.md). Returns the exit status: 0, or 2 if any line was bad.
+/// (docs/explanation/robust-law.md). Returns the exit status: 0, or 2 if any line was bad.
 int run_robust_law(const std::string& path, std::ostream& out);
 
 }  // namespace vericone

@@ -13,7 +13,7 @@ struct SceneLidars {
   double position_error = 0, rotation_error = 0;  // how well their poses are known, see Setup
 };
 
-/// The fields `lidars` and `pose_error` of a scene (docs/formats.md). Throws InputError naming the
+/// The fields `lidars` and `pose_error` of a scene (docs/reference/formats.md). Throws InputError naming the
 /// field.
 SceneLidars read_lidars(const Json& scene);
 

@@ -10,7 +10,8 @@ namespace {
 
 int scan_command(vericone::CommandLine& line) {
   vericone::ScanOptions scan;
-  line.option("scene", scan.scene, "Scene file with a mesh and lidars (docs/formats.md)").required();
+  line.option("scene", scan.scene, "Scene file with a mesh and lidars (docs/reference/formats.md)")
+      .required();
   line.option("--out", scan.out, "Folder for cloud, tables and pictures");
   line.option("--planes", scan.planes, "Planes through what is seen");
   line.option("--levels", scan.levels, "How often the beams are made twice as fine, and one more");

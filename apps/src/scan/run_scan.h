@@ -24,8 +24,8 @@ struct ScanOptions {
 
 /// `vericone scan`: the lidars of a scene see its mesh, their scans are fused by ICP, and the source's
 /// sectors are found on planes through what is seen (source, 6.3.3). Writes cloud.ply, scan.json,
-/// section.json, provenance.json and pictures to `out` (docs/formats.md). Throws InputError naming a field or
-/// an option.
+/// section.json, provenance.json and pictures to `out` (docs/reference/formats.md). Throws InputError naming
+/// a field or an option.
 void run_scan(const ScanOptions& options, std::ostream& out);
 
 }  // namespace vericone

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What simulated LiDARs on the agent see of an obstacle, and what cone they get from it (docs/lidar.md).
+// What simulated LiDARs on the agent see of an obstacle, and what cone they get from it
+// (docs/explanation/lidar.md).
 #pragma once
 
 #include <vericone/geometry/ellipsoid.h>

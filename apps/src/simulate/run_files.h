@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A run as files: tables with units in their column names and JSON, described in docs/scenarios.md. What does
-// not apply is an empty field.
+// A run as files: tables with units in their column names and JSON, described in docs/reference/scenarios.md.
+// What does not apply is an empty field.
 #pragma once
 
 #include <vericone/simulation/run.h>

@@ -17,8 +17,9 @@ struct VerifyOptions {
   bool json = false;
 };
 
-/// `vericone verify`: holds the library against exact constructions with CGAL (docs/verify.md). Returns the
-/// exit status: 0, 1 if any answer was wrong, 130 when interrupted; what was done by then is printed.
+/// `vericone verify`: holds the library against exact constructions with CGAL (docs/explanation/verify.md).
+/// Returns the exit status: 0, 1 if any answer was wrong, 130 when interrupted; what was done by then is
+/// printed.
 int run_verify(const VerifyOptions& options, std::ostream& out);
 
 }  // namespace vericone

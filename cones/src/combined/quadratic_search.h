@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Whether some point of a box satisfies a list of quadratic inequalities: branch and bound with proofs. What
-// the certified cones of combined quadrics rest on (docs/theory.md, 7).
+// the certified cones of combined quadrics rest on (docs/explanation/theory.md, 7).
 #pragma once
 
 #include <Eigen/Core>

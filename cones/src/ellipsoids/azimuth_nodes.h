@@ -21,7 +21,7 @@ namespace vericone {
 /// variable of the circle and keeps the rule's convergence faster than any
 /// power. Where neither angle moves, neither point of tangency does, so t itself
 /// needs no nodes. For semi-axes 1..10 it turns a worst relative error of 1e-4
-/// at 96 samples into 1e-7 (docs/theory.md, 4). s(t + pi) = s(t) + pi: nodes
+/// at 96 samples into 1e-7 (docs/explanation/theory.md, 4). s(t + pi) = s(t) + pi: nodes
 /// half a turn apart are opposite and weigh the same.
 ///
 /// Two walks start from s = 0 in step, one forward and one backward; the latter

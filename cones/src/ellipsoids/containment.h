@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // One solid ellipse or ellipsoid inside another: the certificates of the lower rungs over any kind of number,
-// the search that finds them in plain doubles, and the exact decision. See docs/predicates/position.md.
+// the search for them in plain doubles, and the exact decision (docs/explanation/predicates/position.md).
 //
 // Bodies are given by quadratic forms S_A, S_B and C = c c^T, c = p_B - p_A; only their ratios count.
 #pragma once

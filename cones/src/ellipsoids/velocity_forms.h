@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The first step of the first rung: the coefficients of the shadows' cubic as quadratic forms of the
-// velocity, and one error bound of each for all velocities (docs/theory.md, 2). No division, no axis to drop,
-// and no branch: one velocity takes a hundred operations, and many go side by side through vector registers.
+// velocity, and one error bound of each for all velocities (docs/explanation/theory.md, 2). No division, axis
+// to drop or branch: one velocity takes a hundred operations; many go side by side through vector registers.
 #pragma once
 
 #include <vericone/cones/ellipsoids/predicates.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// All that most users need: bodies, pairs, cones, and a pilot among many obstacles. The families behind a pair, fitting,
-// files and simulation have headers of their own (docs/architecture.md).
+// All that most users need: bodies, pairs, cones, and a pilot among many obstacles. The families behind a
+// pair, fitting, files and simulation have headers of their own (docs/explanation/architecture.md).
 #pragma once
 
 #include <vericone/cones/cone.h>

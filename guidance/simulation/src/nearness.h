@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Pairs of which planes tell too little, bodies with holes, arms and corridors: certificates by their
-// distance (docs/proof-of-runs.md).
+// distance (docs/explanation/proof-of-runs.md).
 #pragma once
 
 #include <vericone/cones/pair.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The search for a proof: pieces of time from the first to the last, halved until each is certified or the
-// bodies are found to meet. Why a certificate holds: docs/proof-of-runs.md.
+// bodies are found to meet. Why a certificate holds: docs/explanation/proof-of-runs.md.
 #include <vericone/simulation/proof.h>
 
 #include <vericone/geometry/error.h>

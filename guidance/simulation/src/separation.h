@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Certificates that two moving bodies stay apart during a piece of time (docs/proof-of-runs.md).
+// Certificates that two moving bodies stay apart during a piece of time (docs/explanation/proof-of-runs.md).
 #pragma once
 
 #include <Eigen/Core>

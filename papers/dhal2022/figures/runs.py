@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the figures read: the tables of runs (docs/scenarios.md), and the table that each figure writes of what it shows."""
+"""What the figures read: the tables of runs (docs/reference/scenarios.md), and the table that each figure writes of what it shows."""
 import csv
 import json
 import os

@@ -111,7 +111,7 @@ TEST(CombinedOracle, EdgeBesideAWaistIsThatOfTheHyperbola) {
 }
 
 TEST(CombinedOracle, AVelocityPassesTheWaistThatTheHullForbids) {
-  // docs/combined.md shows this engagement.
+  // docs/explanation/combined.md shows this engagement.
   const CombinedEllipsoid agent = Ellipsoid::from_axes({0, 0, 0}, {1.2, 0.6, 0.6});
   const CombinedEllipsoid obstacle = spool({20, 0, 0}, 9, 5, 1, 1.5);
   const CombinedOracle oracle(agent, obstacle);

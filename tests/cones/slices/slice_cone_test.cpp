@@ -127,7 +127,7 @@ TEST(SliceCone, IsContainedInTheExactCone) {
     worst_missing = std::max(worst_missing, missing);
     ++cases;
   }
-  // The bias is real: docs/theory.md, 3.
+  // The bias is real: docs/explanation/theory.md, 3.
   EXPECT_GT(total_missing / cases, 0.05);
   EXPECT_LT(total_missing / cases, 0.2);
   EXPECT_GT(worst_missing, 0.3);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The library's planar sectors against the exact tangents. The bounds are those of docs/planar-accuracy.md,
-// which is to be renewed when one of them changes.
+// The library's planar sectors against the exact tangents. The bounds are those of
+// docs/measured/planar-accuracy.md, which is to be renewed when one of them changes.
 #include <gtest/gtest.h>
 #include <vericone/cones/planar/sector.h>
 #include <vericone/verify/planar/methods.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The library's cones in space against polyhedra and marches. The bounds are those of docs/spatial-checks.md.
+// The library's cones in space against polyhedra and marches. The bounds are those of
+// docs/measured/spatial-checks.md.
 #include <gtest/gtest.h>
 #include <vericone/verify/spatial/campaign.h>
 #include <vericone/verify/spatial/contact_march.h>

@@ -2,7 +2,7 @@
 //
 // Two ellipsoids or ellipses: how they lie, and velocities on the boundary of their cone. Frame of all
 // constructions: the common normal is the last axis e; a factor G from random_factor() has its support point
-// along e in its last column, at the height k = G(D, D). (docs/corpus.md)
+// along e in its last column, at the height k = G(D, D). (docs/explanation/corpus.md)
 #include <vericone/cones/ellipsoids/exact_predicates.h>
 #include <vericone/geometry/exact/rational.h>
 

@@ -11,7 +11,7 @@
 
 namespace vericone {
 
-/// docs/fitting-cones.md has the fields.
+/// docs/measured/fitting-cones.md has the fields.
 Json cones_json(const ConeComparison& comparison);
 
 void print_cones(const ConeComparison& comparison, std::ostream& out);

@@ -81,7 +81,7 @@ struct Miss {
 ///   (3) contact() is there iff verdict is not `out`; miss().most == 0 iff they surely meet
 class Pair {
  public:
-  /// Throws InputError naming "agent", "obstacle", "pose" or "tolerance". Cost: docs/pairs.md has a table.
+  /// Throws InputError naming "agent", "obstacle", "pose" or "tolerance". Cost: docs/reference/pairs.md.
   Pair(Placed agent, Placed obstacle, PairOptions options = {});
 
   /// Bodies in the plane z = 0, raised so far that all answers are those of the planar bodies (raised() in
@@ -116,7 +116,7 @@ class Pair {
 
   /// The cone by the sharpest method there is for these kinds (cone.h). Throws InputError naming "tolerance",
   /// "resolution" or "threads". Cost: two ellipsoids 40 us; combined quadrics milliseconds
-  /// (docs/benchmarks.md); hulls 1 ms; others are drawn as a map, seconds.
+  /// (docs/measured/benchmarks.md); hulls 1 ms; others are drawn as a map, seconds.
   [[nodiscard]] Cone cone() const;
   [[nodiscard]] Cone cone(const ConeOptions& options) const;
 
@@ -127,7 +127,7 @@ class Pair {
   /// stars or dents know their contacts about their centres only; a delimited body and an assembly none.
   /// Nothing where the bodies are not apart (or not known to be), or no direction of the plane
   /// collides, proved. Throws InputError naming "across" or "to". Cost: two ellipsoids 1 us, a hull 2 us,
-  /// others: docs/pairs.md.
+  /// others: docs/reference/pairs.md.
   [[nodiscard]] std::optional<PlaneSector> sector(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                                                   const Eigen::Vector3d& across) const;
   /// From the middle of the agent to that of the obstacle.

@@ -41,8 +41,8 @@ struct Delimiter {
 ///
 /// All regions have the same centre and contain it, so the body is symmetric about it and *star-shaped* about
 /// it: with x it contains the whole segment from p to x. That is what the cones of these bodies rest on
-/// (docs/theory.md, 6). No delimiter: the ellipsoid itself. A new combination is a new list of delimiters; no
-/// code knows particular shapes.
+/// (docs/explanation/theory.md, 6). No delimiter: the ellipsoid itself. A new combination is a new list of
+/// delimiters; no code knows particular shapes.
 template <int D>
 class BasicCombined {
  public:

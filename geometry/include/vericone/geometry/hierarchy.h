@@ -29,7 +29,7 @@ class Hierarchy {
   Hierarchy() = default;
 
   /// Over one box a piece, finite, low <= high. Splits by the surface area heuristic in 16 bins; the tree
-  /// depends on the boxes alone. Time n log n (docs/benchmarks.md), memory linear.
+  /// depends on the boxes alone. Time n log n (docs/measured/benchmarks.md), memory linear.
   explicit Hierarchy(std::span<const Box> boxes);
 
   /// A tree made elsewhere. Throws InputError naming "nodes" unless every slot is in exactly one leaf,

@@ -15,8 +15,8 @@
 namespace vericone {
 
 /// Sign of x~^T Q x~, x~ = (x, 1): negative inside where the quadric is written that way (Ellipsoid::quadric,
-/// docs/formats.md). A polynomial of degree 1 in Q and 2 in x. Throws InputError naming "point[i]" for
-/// coordinates that are not finite. Cost: about 20 ns where the first rung decides.
+/// docs/reference/formats.md). A polynomial of degree 1 in Q and 2 in x. Throws InputError naming "point[i]"
+/// for coordinates that are not finite. Cost: about 20 ns where the first rung decides.
 template <int D>
 [[nodiscard]] Sign side(const BasicQuadric<D>& quadric, const Eigen::Matrix<double, D, 1>& point,
                         Rung* rung = nullptr);

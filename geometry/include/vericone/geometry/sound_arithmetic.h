@@ -39,7 +39,7 @@ namespace detail {
 /// Throws InputError naming "arithmetic of the program" or "arithmetic of the library" where it does not keep
 /// what the bounds rest on. For the start of a program, and of a thread whose rounding others may have set:
 /// rounding and flushing belong to a thread. `of_caller` is left out: its default is compiled where this is
-/// called, with the options of that file. Cost: docs/building.md.
+/// called, with the options of that file. Cost: docs/howto/building.md.
 void require_sound_arithmetic(const char* of_caller = detail::arithmetic_fault());
 
 }  // namespace vericone

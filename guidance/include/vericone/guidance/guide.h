@@ -75,7 +75,7 @@ struct GuideStep {
 /// `no_sector` where they will meet.
 ///
 /// Nothing where the bodies are not apart as the method sees them. `time`, seconds, for backward differences.
-/// No allocation and no throw with ellipsoids. Cost: docs/benchmarks.md.
+/// No allocation and no throw with ellipsoids. Cost: docs/measured/benchmarks.md.
 std::optional<GuideStep> guide(const BodyState& a, const BodyState& b, const GuideOptions& options,
                                GuideMemory& memory, double time);
 

@@ -49,7 +49,7 @@ struct PlaneCandidate {
 /// sector. Planar bodies: the plane itself. Deterministic: of planes equally good to rounding the first
 /// is taken, counted from the plane of motion. steepest_clearance and of_motion look at no sector; where w is
 /// zero or along the line of sight there is no such plane, and the largest opening is taken. No allocation
-/// with ellipsoids. Cost: see docs/guidance-planes.md.
+/// with ellipsoids. Cost: see docs/explanation/guidance-planes.md.
 [[nodiscard]] std::optional<Eigen::Vector3d> choose_plane(const BodyState& a, const BodyState& b,
                                                           SectorMethod method, const PlaneOptions& options,
                                                           const Eigen::Vector3d* previous = nullptr,

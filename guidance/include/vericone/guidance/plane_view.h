@@ -59,7 +59,7 @@ struct PlaneView {
 /// are proved to 1e-7 rad; what cannot be decided counts as in. Cost with rates: true sectors of ellipsoids
 /// 0.9 us, slices 2.6 us, of hulls of 12 points 7 us; true sectors of hulls of 12 points 7 us, of combined
 /// bodies 10 us where the edges of the step before are remembered, else some 40 to 100 us, of two stars 1 ms,
-/// of meshes, clouds and maps by Pair::sector (docs/pairs.md).
+/// of meshes, clouds and maps by Pair::sector (docs/reference/pairs.md).
 bool fill_cone(PlaneView& view, const BodyState& a, const BodyState& b, SectorMethod method, RateMethod rates,
                EdgeMemory* memory = nullptr);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Scenes from files: two bodies of any kinds, their velocities, and the pair they make (docs/formats.md).
+// Scenes from files: two bodies of any kinds, their velocities, and the pair they make (docs/reference/formats.md).
 #pragma once
 
 #include <vericone/cones/pair.h>
@@ -53,7 +53,7 @@ struct Scene {
   SceneBody agent, obstacle;
   std::optional<PlanarBodies> planar = {};  // of a planar scene: as its file gives them
 
-  /// Prepared; a planar scene's by its bodies raised. Cost: docs/pairs.md.
+  /// Prepared; a planar scene's by its bodies raised. Cost: docs/measured/pairs.md.
   [[nodiscard]] Pair pair() const;
   /// w = v_agent - v_obstacle, m/s.
   [[nodiscard]] Eigen::Vector3d relative_velocity() const { return agent.velocity - obstacle.velocity; }

@@ -2,7 +2,7 @@
 //
 // Cases for the exact predicates whose answers are known: exactly degenerate ones built from integers, and
 // their neighbours among the doubles. The constructions share no formula with the predicates: a common
-// supporting plane, a homothety or convexity says the truth (docs/corpus.md).
+// supporting plane, a homothety or convexity says the truth (docs/explanation/corpus.md).
 #pragma once
 
 #include <vericone/geometry/ellipsoid.h>

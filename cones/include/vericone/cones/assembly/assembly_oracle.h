@@ -6,8 +6,8 @@
 //
 // Every question descends the body's hierarchy of boxes; a box, and in the end a piece, is left out when a
 // plane through the apex is proved to separate it, widened by the agent, from the directions asked about
-// (docs/theory.md, 8). What doubles cannot prove of a single piece is decided by that piece's exact predicate
-// (predicates.h, hull_oracle.h).
+// (docs/explanation/theory.md, 8). What doubles cannot prove of a single piece is decided by that piece's
+// exact predicate (predicates.h, hull_oracle.h).
 #pragma once
 
 #include <vericone/cones/direction_cell.h>

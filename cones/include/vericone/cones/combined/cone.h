@@ -2,7 +2,7 @@
 //
 // The true collision cone of two combined quadrics (combined.h), certified. An answer other than `undecided`
 // is proved: `in` by a point of A and a point of B that meet, `out` by nonnegative multipliers of the
-// quadrics for which no point of a box can satisfy them all, box by box (docs/theory.md, 7).
+// quadrics for which no point of a box can satisfy them all, box by box (docs/explanation/theory.md, 7).
 //
 // Both bodies are star-shaped about their centres, so K = B + (-A) is star-shaped about c = p_B - p_A, and
 // the cone contains with every direction all directions between it and c: on each half-plane bounded by the
@@ -123,7 +123,7 @@ struct CombinedCone {
 /// of the outer one, or until `most_boxes` have been searched (by default about 0.3 s); the bound returned
 /// says what was reached. What has begun then is brought to an end: some 100,000 boxes at most.
 /// Overlapping bodies: every velocity (4 pi, no directions). Throws InputError naming "tolerance". Cost: see
-/// docs/benchmarks.md.
+/// docs/measured/benchmarks.md.
 [[nodiscard]] CombinedCone combined_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& b,
                                          double tolerance = 0.01, std::uint64_t most_boxes = 2'000'000);
 

@@ -30,8 +30,8 @@ struct CombinedSector {
   bool hulls_overlap = false;  // psi > pi
 };
 
-/// The sector by comparing all candidates: exact up to rounding (docs/planar-accuracy.md). Cost: about 2 us
-/// where the ellipses are disjoint, no allocation for up to three delimiters.
+/// The sector by comparing all candidates: exact up to rounding (docs/measured/planar-accuracy.md). Cost:
+/// about 2 us where the ellipses are disjoint, no allocation for up to three delimiters.
 [[nodiscard]] CombinedSector combined_sector(const CombinedEllipse& a, const CombinedEllipse& b);
 
 /// How a delimiter of a body changes beyond moving and turning with it.
@@ -59,8 +59,8 @@ enum class TangentChoice {
 /// The source's own way: common tangents of the ellipses by degenerate conics (Algorithm 3), kept where they
 /// touch the body; otherwise tangents from corners by pole and polar, (5.6) and (5.7) as corrected
 /// (errata, 3.5), chosen as said. `a` an ellipse, `b` delimited by one hyperbola, as in the source. Nothing
-/// where the procedure finds no two tangents. Not exact: see docs/planar-accuracy.md for how often each
-/// choice errs. Throws InputError naming "obstacle.hyperboloids" where there are several.
+/// where the procedure finds no two tangents. Not exact: see docs/measured/planar-accuracy.md for how often
+/// each choice errs. Throws InputError naming "obstacle.hyperboloids" where there are several.
 [[nodiscard]] std::optional<Sector> sector_by_source(const Ellipse& a, const CombinedEllipse& b,
                                                      TangentChoice choice);
 

@@ -2,7 +2,7 @@
 //
 // The collision cone of two bodies that are both made of many convex parts: an assembly of pieces
 // (assembly.h) that meets another one, or a delimited body (combined.h) that meets one. Meshes against
-// meshes, a dented body against a cloud, and so on. Method, guarantee and cost: docs/predicates/composite.md.
+// meshes, a dented body against a cloud, and so on (docs/explanation/predicates/composite.md).
 //
 // The pair is asked with the delimited body, or the first assembly, as the agent. For the mirrored pair
 // exchange the bodies and negate the velocity; times and distances stay, and of a contact `point` is where

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // How two ellipses or two ellipsoids lie, nesting included: exact, by the ladder of predicates.h. The
-// mathematics is in docs/predicates/position.md.
+// mathematics is in docs/explanation/predicates/position.md.
 //
 // Laws, for all bodies A, B (tests/cones/ellipsoids/position_test.cpp):
 //   (1) position(B, A) == swapped(position(A, B))
@@ -42,7 +42,7 @@ enum class Position : std::uint8_t {
 
 /// Exact position of two bodies. `rung`: where to write the rung that decided. D = 2 or 3.
 ///
-/// Cost: see docs/predicates/position.md.
+/// Cost: see docs/explanation/predicates/position.md.
 template <int D>
 [[nodiscard]] Position position(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b, Rung* rung = nullptr);
 

@@ -98,7 +98,7 @@ enum class VectorWidth : std::uint8_t { two = 2, four = 4, eight = 8 };
 ///
 /// The constructor finds their relation exactly and, for disjoint bodies, a normal n with n.c > rho_A + rho_B
 /// (certified). Each velocity is then decided by the sign of a cubic's discriminant: project along w without
-/// dividing, and test whether the two shadows are apart (docs/theory.md, 2).
+/// dividing, and test whether the two shadows are apart (docs/explanation/theory.md, 2).
 class ConeOracle {
  public:
   ConeOracle(const Ellipsoid& a, const Ellipsoid& b);

@@ -23,7 +23,7 @@ struct BoundarySample {
 /// traced from a normal inside it that the contact function supplies, so bodies whose line of centres does
 /// not separate them need no special care. Each sample is exact up to rounding; solid angle and section area
 /// come from the trapezoidal rule on the closed smooth curve with its analytic derivative and converge faster
-/// than any power of 1/samples (docs/theory.md, 4).
+/// than any power of 1/samples (docs/explanation/theory.md, 4).
 ///
 /// Touching bodies: the cone is the half-space beyond the common tangent plane (solid angle 2 pi, no
 /// samples). Overlapping bodies: every velocity (4 pi, no samples). Zero axis: the same centre, or distances

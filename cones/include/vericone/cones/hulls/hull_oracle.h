@@ -30,9 +30,9 @@ struct HullScene;
 /// or a segment, or flat in a plane through the origin) is all boundary. A flat K elsewhere spans a cone with
 /// interior: to fly through a plate is `in`.
 ///
-/// Method: docs/predicates/hulls.md. A floating-point search proposes a certificate - a plane, or a convex
-/// combination of at most four points - and each rung proves it in its own arithmetic; the last rung runs the
-/// search itself in integers. Points are only ever read by support calls: n + m steps, never n m.
+/// Method: docs/explanation/predicates/hulls.md. A floating-point search proposes a certificate - a plane, or
+/// a convex combination of at most four points - and each rung proves it in its own arithmetic; the last rung
+/// runs the search itself in integers. Points are only ever read by support calls: n + m steps, never n m.
 ///
 /// Measured (one core, Xeon, -O3, random bodies of ordinary size, median of membership()), points a hull:
 ///   ellipsoid and hull: 8 points 0.20 us, 100 points 0.33 us, 10,000 points 8.1 us, 100,000 points 79 us

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Cones of any shape, holes included, as a map on the sphere of directions (docs/cone-map.md).
+// Cones of any shape, holes included, as a map on the sphere of directions (docs/explanation/cone-map.md).
 #pragma once
 
 #include <vericone/cones/direction_cell.h>

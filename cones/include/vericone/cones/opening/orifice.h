@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The orifice cone: which relative velocities carry an agent through a circular opening in a thin flat wall.
-// Exact, by the ladder of predicates.h; the mathematics is in docs/predicates/orifice.md.
+// Exact, by the ladder of predicates.h; the mathematics is in docs/explanation/predicates/orifice.md.
 //
 // Laws, for all agents, openings and velocities w (tests/cones/opening/orifice_test.cpp):
 //   (1) transit of w == transit of s w for s > 0 a power of two
@@ -87,8 +87,8 @@ struct OrificeTransit;
 
 /// The source's criterion (2.2) for a sphere: |c x w|^2 < (R_B - R_A)^2 |w|^2 and c.w > 0. It takes the
 /// opening as if it always faced the velocity, that is as a sphere's great circle perpendicular to w: for an
-/// opening tilted against w it says `passes` of velocities that cut the rim (docs/predicates/orifice.md has
-/// the rate; use OrificeOracle for a real opening).
+/// opening tilted against w it says `passes` of velocities that cut the rim
+/// (docs/explanation/predicates/orifice.md has the rate; use OrificeOracle for a real opening).
 ///
 /// `center_line` = p_B - p_A from the agent to the centre of the opening; radii in metres, positive. Exact
 /// for the numbers given. An agent larger than the opening is `blocked`. Throws InputError naming

@@ -43,8 +43,8 @@ struct Sector {
 /// n.c = sqrt(n^T S_A n) + sqrt(n^T S_B n). Newton from a separating normal, which cannot jump to another
 /// root because the difference is concave in n, then a refinement whose residual is evaluated with 31 digits:
 /// psi and the edges are right to a few units in the last place for thin, distant and nearly touching bodies
-/// alike (docs/planar-accuracy.md). Bodies too close for double precision to tell apart are decided exactly.
-/// Cost: below a microsecond, no allocation while the first rung of the predicates decides.
+/// alike (docs/measured/planar-accuracy.md). Bodies too close for double precision to tell apart are decided
+/// exactly. Cost: below a microsecond, no allocation while the first rung of the predicates decides.
 [[nodiscard]] Sector sector_by_support(const Ellipse& a, const Ellipse& b);
 
 /// The sector by degenerate conics (source, 5.2.1 and Algorithm 3): eigenvectors of the pencil of the two
@@ -52,8 +52,8 @@ struct Sector {
 /// on which the centres lie. The pair is first mapped by an affine map that makes both bodies and their
 /// distance comparable, so proportional, concentric-part, thin and distant pairs are ordinary ones, and each
 /// tangent found is polished as a common point of the dual conics. Double precision throughout: psi is right
-/// to 1e-12, except for bodies about to touch, to eps / sqrt(gap) (docs/planar-accuracy.md). Nothing is
-/// returned where rounding decides, for bodies whose gap is a few roundings. Cost: a few microseconds.
+/// to 1e-12, except for bodies about to touch, to eps / sqrt(gap) (docs/measured/planar-accuracy.md). Nothing
+/// is returned where rounding decides, for bodies whose gap is a few roundings. Cost: a few microseconds.
 [[nodiscard]] std::optional<Sector> sector_by_degenerate_conics(const Ellipse& a, const Ellipse& b);
 
 /// Velocities with which the bodies move and turn, for rates.
@@ -69,7 +69,7 @@ struct SectorRates {
 };
 
 /// Time derivatives of psi and theta_b in closed form. The source obtains them numerically (5.3); implicit
-/// differentiation of the tangency condition gives them exactly (docs/theory.md, 1).
+/// differentiation of the tangency condition gives them exactly (docs/explanation/theory.md, 1).
 /// `sector`: of disjoint bodies, computed from the same a and b. Throws InputError naming "sector.relation"
 /// where it is that of bodies that are not, which has no edges that turn, or a default-constructed one.
 [[nodiscard]] SectorRates sector_rates(const Sector& sector, const Ellipse& a, const Ellipse& b,

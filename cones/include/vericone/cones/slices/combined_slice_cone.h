@@ -43,8 +43,8 @@ struct CombinedSliceCone {
 
 /// `planes` >= 1 planes at equal angles, on the azimuths of slice_cone(). The source's choices take an
 /// ellipsoid A and a B with at most one hyperboloid. Throws InputError naming "planes", "agent" or
-/// "obstacle". Cost: docs/benchmarks.md; more where the bodies' ellipsoids overlap, since only then is it
-/// a question whether the bodies do.
+/// "obstacle". Cost: docs/measured/benchmarks.md; more where the bodies' ellipsoids overlap, since only then
+/// is it a question whether the bodies do.
 [[nodiscard]] CombinedSliceCone combined_slice_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& b,
                                                     int planes,
                                                     SliceSector sectors = SliceSector::all_candidates);

@@ -24,8 +24,8 @@ struct Slice {
 
 /// The union of planar sectors. It is *not* the collision cone: on each plane it sees only collisions of
 /// points that both lie in that plane, so it is contained in the collision cone, in general strictly
-/// (docs/theory.md, 3). It is exact for two spheres and on common planes of symmetry. The cone spanned by its
-/// directions is contained in the collision cone as well, because that one is convex.
+/// (docs/explanation/theory.md, 3). It is exact for two spheres and on common planes of symmetry. The cone
+/// spanned by its directions is contained in the collision cone as well, because that one is convex.
 struct SliceCone {
   Relation relation = Relation::overlapping;
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  // unit, from A to B

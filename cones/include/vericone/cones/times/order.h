@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Exact order of two tangent directions, and of two times to contact: numbers that are roots of polynomials,
-// compared without computing them (docs/predicates/order.md). Ladder and conventions as in predicates.h.
+// compared without computing them (docs/explanation/predicates/order.md). Ladder as in predicates.h.
 //
 // Laws, for all arguments (tests/cones/times/order_turn_test.cpp, order_earlier_test.cpp):
 //   (1) turn(q, p) == -turn(p, q), earlier(q, p) == -earlier(p, q); both are zero for p = q

@@ -47,7 +47,7 @@ struct PointFile {
 };
 
 /// Reads meshes (OFF, OBJ, PLY, STL) and clouds (PLY, PCD, LAS, XYZ and kin, KITTI, OctoMap's scan graphs);
-/// docs/formats.md has what is kept of each and what is refused. Other content (normals, colours,
+/// docs/reference/formats.md has what is kept of each and what is refused. Other content (normals, colours,
 /// intensities, further PLY elements) is read over; PLY triangle strips become triangles. The format is told
 /// by the first bytes where the format has a signature, by the extension otherwise.
 ///

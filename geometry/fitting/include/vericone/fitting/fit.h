@@ -69,8 +69,8 @@ struct FitResult {
 };
 
 /// Equivariant under rotation, translation and scale; independent of the order of the points; deterministic
-/// (docs/fitting.md says to what accuracy). Throws InputError naming "points", "triangles[i]", "coverage",
-/// "margin" or "pieces"; Interrupted.
+/// (docs/explanation/fitting.md says to what accuracy). Throws InputError naming "points", "triangles[i]",
+/// "coverage", "margin" or "pieces"; Interrupted.
 [[nodiscard]] FitResult fit(const Sample& sample, const FitOptions& options = {});
 
 }  // namespace vericone::fitting

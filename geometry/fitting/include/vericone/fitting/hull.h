@@ -77,10 +77,10 @@ struct Assignment {
 /// Inflates each surface of each piece about its centre by the least factor for which exact arithmetic says
 /// that it contains what is assigned to its piece, with balls of radius `margin` about the points: `body` (by
 /// quadric_side.h) as well as `quadrics`, which are set here. The factors are 1 + a few roundings where the
-/// fit was tight; `quadrics` far from the origin and of very thin bodies need more (docs/fitting-proof.md).
-/// Surfaces are only ever moved outwards, so that a delimiter may come to miss its ellipsoid. Returns the
-/// largest factor applied to a body. Throws InputError as check, and naming "assignment.points" or
-/// "assignment.triangles".
+/// fit was tight; `quadrics` far from the origin and of very thin bodies need more
+/// (docs/explanation/fitting-proof.md). Surfaces are only ever moved outwards, so that a delimiter may come
+/// to miss its ellipsoid. Returns the largest factor applied to a body. Throws InputError as check, and
+/// naming "assignment.points" or "assignment.triangles".
 double enclose(std::vector<Piece>& pieces, const Sample& sample, const Assignment& assignment,
                double margin = 0);
 

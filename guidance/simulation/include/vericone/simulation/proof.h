@@ -42,9 +42,9 @@ struct PairProof {
 /// hulls in any combination that has a certified predicate (an ellipsoid and any other; two combined; two
 /// hulls); a placed body and any that Pair serves; throws InputError naming "bodies" for others. A planar and
 /// a spatial body do not mix. Throws InputError naming "from", "to", "padding" or "resolution". Method:
-/// docs/proof-of-runs.md. Cost: 0.1 ms for two ellipsoids, 0.3 ms with hulls and delimited bodies,
-/// milliseconds to tens of them where those meet; a placed body a distance and at most two misses of the Pair
-/// a piece.
+/// docs/explanation/proof-of-runs.md. Cost: 0.1 ms for two ellipsoids, 0.3 ms with hulls and delimited
+/// bodies, milliseconds to tens of them where those meet; a placed body a distance and at most two misses of
+/// the Pair a piece.
 [[nodiscard]] PairProof prove(const Track& a, const Track& b, double from, double to,
                               const ProofOptions& options = {});
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a run is made of. Read from YAML by the command (docs/scenarios.md).
+// What a run is made of. Read from YAML by the command (docs/reference/scenarios.md).
 #pragma once
 
 #include <vericone/guidance/guide.h>

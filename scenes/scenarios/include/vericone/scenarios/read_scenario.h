@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Scenarios from YAML; the fields are described in docs/scenarios.md.
+// Scenarios from YAML; the fields are described in docs/reference/scenarios.md.
 #pragma once
 
 #include <vericone/simulation/scenario.h>

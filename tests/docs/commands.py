@@ -1,0 +1,119 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Writes docs/reference/commands.md from the helps of all commands, and docs/measured/commands.md by running them:
+
+/usr/bin/python3 tests/docs/commands.py reference build/release/apps/vericone > docs/reference/commands.md
+/usr/bin/python3 tests/docs/commands.py times build/release/apps/vericone > docs/measured/commands.md
+
+from the project's folder. commands_test.py holds the first page against the helps."""
+
+import os
+import re
+import resource
+import subprocess
+import sys
+import tempfile
+import textwrap
+import time
+
+# One command line for each command, which examples_test.py runs; then what is measured besides.
+EXAMPLES = {
+    "cone": "cone docs/examples/source-6.5.yaml --method slice --planes 72",
+    "query": "query docs/examples/cases.jsonl --rung",
+    "accuracy": "accuracy -N 500 --planes 8,16,32 --no-figures --quiet",
+    "signmap": "signmap --seed 12 --no-figures",
+    "gallery": "gallery build/scans/elephant.off --no-figures --quiet",
+    "scan": "scan docs/examples/scan.yaml --no-figures --quiet",
+    "fit": "fit build/scans/elephant.off --shape ellipsoid --pieces 4 --no-figures --quiet",
+    "shapes": "shapes --figure notch --no-figures",
+    "check": "check docs/examples/scenarios/clearance.yaml",
+    "simulate": "simulate docs/examples/scenarios/elephant.yaml --no-figures --quiet",
+    "campaign": "campaign -N 500 --no-figures --quiet",
+    "claims": "claims --quiet",
+    "figures": "figures --list",
+    "verify": "verify --cases 1000 --pairs 1 --quiet",
+}
+STATUS = {"query": 2}  # of the examples, where it is not 0
+MEASURED = [
+    "cone docs/examples/first.yaml --out OUT", "cone docs/examples/source-6.5.yaml --out OUT",
+    "cone docs/examples/mesh.yaml --map", "cone docs/examples/mesh.yaml --out OUT", "cone docs/examples/map.yaml",
+    "cone docs/examples/map.yaml --out OUT", "accuracy -N 10000 --quiet --out OUT", "signmap --seed 12 --out OUT",
+    "gallery build/scans/elephant.off --quiet --out OUT",
+    "scan docs/examples/scan.yaml --quiet --out OUT",
+    "fit build/scans/elephant.off --shape biconvex --quiet --out OUT", "fit build/scans/elephant.off --quiet --out OUT",
+    "fit build/scans/elephant.off --shape biconvex --cone around:4 --no-figures --quiet --out OUT",
+    "shapes --out OUT", "simulate docs/examples/scenarios/clearance.yaml --quiet --out OUT",
+    "simulate docs/examples/scenarios/elephant.yaml --animate --quiet --out OUT",
+    "simulate docs/examples/scenarios/corridor.yaml --no-figures --quiet --out OUT",
+    "campaign -N 2000 --no-figures --quiet --out OUT", "figures 5.6 --quiet --out OUT", "figures --quiet --out OUT",
+    "verify --quiet",
+]
+
+
+def commands(program):
+    """(name, summary) in the order of the help."""
+    text = subprocess.run([program, "--help"], capture_output=True, text=True, check=True).stdout
+    return re.findall(r"^  (\w+) +(\S.*)$", text.split("Subcommands:\n")[1].split("\n\n")[0], re.MULTILINE)
+
+
+def help_of(program, name):
+    """Without the summary, which is the section's, and called as users call it."""
+    text = subprocess.run([program, name, "--help"], capture_output=True, text=True, check=True).stdout
+    return "\n".join(line.rstrip() for line in text.replace(program, "vericone").strip().splitlines()[1:])
+
+
+def reference(program):
+    yield "# Commands and their options\n"
+    yield filled("Every option of every command, from the helps themselves (`vericone COMMAND --help`), with an example that"
+                 " runs in the project's folder. `./run COMMAND` stands for `vericone COMMAND` where nothing is installed."
+                 " How long they take: [measured](../measured/commands.md). Words, units and exit statuses:"
+                 " [conventions](conventions.md). This page is written by `tests/docs/commands.py`.")
+    for name, summary in commands(program):
+        yield f"## {name}\n\n{summary}.\n\n```text\n{help_of(program, name)}\n```\n"
+        if name in EXAMPLES:
+            status = f"\n$ echo $?\n{STATUS[name]}" if name in STATUS else ""
+            yield f"```console\n$ ./run {EXAMPLES[name]}{status}\n```\n"
+
+
+def filled(text):
+    return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False) + "\n"
+
+
+def wrapped(line, width=120):
+    """Lines of a help that are wider than a page are broken where the help's column of words begins."""
+    out = []
+    while len(line) > width:
+        at = line.rfind(" ", 30, width)
+        out.append(line[:at])
+        line = " " * 30 + line[at + 1:]
+    return "\n".join(out + [line])
+
+
+def measured(program):
+    today = time.strftime("%-d %B %Y")
+    yield "# How long each command takes\n"
+    yield filled(f"**Measured** {today}, `/usr/bin/python3 tests/docs/commands.py times build/release/apps/vericone`, on two"
+                 " cores shared with other work, so these are upper bounds. **Who notices a change:** `tests/docs/examples_test.py` an"
+                 " example that takes more than a minute; nobody the rest.")
+    yield filled("Wall: seconds until the command ends, files and pictures included. Processor: seconds of all threads."
+                 " Matplotlib takes most of the time of a command that draws; `--no-figures` leaves pictures out. The files of"
+                 " a command are in OUT.")
+    yield "| command | wall, s | processor, s |\n|---|---|---|"
+    with tempfile.TemporaryDirectory() as folder:
+        for line in [*EXAMPLES.values(), *MEASURED]:
+            arguments = line.replace("OUT", os.path.join(folder, "out")).split()
+            if "--out" not in arguments and arguments[0] not in ("query", "check", "claims", "verify", "cone") and "--list" not in arguments:
+                arguments += ["--out", os.path.join(folder, "out")]
+            before, began = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
+            done = subprocess.run([program, *arguments], capture_output=True, check=False)
+            wall, after = time.monotonic() - began, resource.getrusage(resource.RUSAGE_CHILDREN)
+            processor = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+            if done.returncode != STATUS.get(arguments[0], 0):
+                raise SystemExit(f"{line}: {done.stderr.decode()}")
+            yield f"| `{line}` | {wall:.2g} | {processor:.2g} |"
+
+
+if __name__ == "__main__":
+    what, program_path = sys.argv[1:]
+    for part in (reference if what == "reference" else measured)(program_path):
+        print("\n".join(wrapped(line) for line in part.split("\n")))
