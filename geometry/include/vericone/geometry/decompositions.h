@@ -24,8 +24,7 @@ template <int N>
 template <int N>
 [[nodiscard]] Eigen::Matrix<double, N, 1> symmetric_eigenvalues(const Eigen::Matrix<double, N, N>& a);
 
-/// a = L L^T of a symmetric matrix, whose lower triangle is read. N is 2, 3 or 4; the members that solve are
-/// there for 2 and 3, `solve` and `inverse` for 3.
+/// a = L L^T of a symmetric matrix, whose lower triangle is read. N is 2, 3 or 4.
 template <int N>
 struct Cholesky {
   Eigen::Matrix<double, N, N> lower;  // zeros above the diagonal
