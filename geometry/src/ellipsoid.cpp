@@ -5,7 +5,8 @@
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/quadric.h>
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <numbers>

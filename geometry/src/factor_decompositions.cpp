@@ -98,8 +98,9 @@ Eigen::Matrix<double, N, N> nearest_orthogonal(const Eigen::Matrix<double, N, N>
   return svd.matrixU() * svd.matrixV().transpose();
 }
 
-// The decompositions are Eigen's; what follows is its solve() for one right-hand side. Its own takes many, in
-// blocks, at 2 s to compile.
+// The least squares' decompositions are Eigen's; what follows is its solve() for one right-hand side, and its
+// PartialPivLU up to its size of blocks. Its own take many right-hand sides, in blocks, at seconds to
+// compile.
 namespace {
 
 using Eigen::Index;
@@ -119,27 +120,67 @@ void reflect(const Essential& essential, double tau, Index first, VectorXd& x) {
   }
 }
 
+constexpr Index kPanel = 8;  // Eigen's: what a panel takes from the entries beyond it is summed first
+
+/// What columns from `start` to `end` take from the entries `first` to `last`.
+void subtract_panel(const Eigen::Ref<const MatrixXd>& a, Index start, Index end, Index first, Index last,
+                    Eigen::Ref<VectorXd> z) {
+  for (Index i = first; i < last; ++i) {
+    double sum = 0;
+    for (Index k = start; k < end; ++k) sum += a(i, k) * z(k);
+    z(i) -= sum;
+  }
+}
+
+/// The first n entries, with the upper triangle.
+void solve_upper(const Eigen::Ref<const MatrixXd>& a, Index n, Eigen::Ref<VectorXd> z) {
+  for (Index end = n; end > 0; end -= kPanel) {
+    const Index start = std::max<Index>(0, end - kPanel);
+    for (Index k = end - 1; k >= start; --k) {
+      z(k) /= a(k, k);
+      for (Index i = start; i < k; ++i) z(i) -= z(k) * a(i, k);
+    }
+    subtract_panel(a, start, end, 0, start, z);
+  }
+}
+
+/// The same with the lower triangle, its diagonal of ones not stored.
+void solve_unit_lower(const Eigen::Ref<const MatrixXd>& a, Index n, Eigen::Ref<VectorXd> z) {
+  for (Index start = 0; start < n; start += kPanel) {
+    const Index end = std::min(n, start + kPanel);
+    for (Index k = start; k < end; ++k)
+      for (Index i = k + 1; i < end; ++i) z(i) -= z(k) * a(i, k);
+    subtract_panel(a, start, end, end, n, z);
+  }
+}
+
 /// The first `rank` entries z of R z = Q^T b, of a packed decomposition.
 VectorXd triangular_part(const MatrixXd& qr, const VectorXd& taus, Index rank, const VectorXd& b) {
   VectorXd z = b;
   for (Index k = 0; k < rank; ++k) reflect(qr.col(k).tail(qr.rows() - k - 1), taus(k), k, z);
-  constexpr Index kPanel = 8;  // Eigen's: what a panel takes from the entries above it is summed first
-  for (Index end = rank; end > 0; end -= kPanel) {
-    const Index start = std::max<Index>(0, end - kPanel);
-    for (Index k = end - 1; k >= start; --k) {
-      z(k) /= qr(k, k);
-      for (Index i = start; i < k; ++i) z(i) -= z(k) * qr(i, k);
-    }
-    for (Index i = 0; i < start; ++i) {
-      double sum = 0;
-      for (Index k = start; k < end; ++k) sum += qr(i, k) * z(k);
-      z(i) -= sum;
-    }
-  }
+  solve_upper(qr, rank, z);
   return z;
 }
 
 }  // namespace
+
+void solve_square(Eigen::Ref<MatrixXd> a, Eigen::Ref<VectorXd> b) {
+  const Index n = a.rows();
+  for (Index k = 0; k < n; ++k) {
+    Index pivot = k;
+    for (Index i = k + 1; i < n; ++i)
+      if (std::abs(a(i, k)) > std::abs(a(pivot, k))) pivot = i;
+    if (a(pivot, k) != 0) {
+      for (Index j = 0; j < n && pivot != k; ++j) std::swap(a(k, j), a(pivot, j));
+      std::swap(b(k), b(pivot));
+      for (Index i = k + 1; i < n; ++i) a(i, k) /= a(k, k);
+    }
+    for (Index j = k + 1; j < n; ++j)
+      for (Index i = k + 1; i < n; ++i) a(i, j) -= a(i, k) * a(k, j);
+  }
+  solve_unit_lower(a, n, b);
+  solve_upper(a, n, b);
+}
 
 VectorXd shortest_least_squares(const MatrixXd& a, const VectorXd& b) {
   const Eigen::CompleteOrthogonalDecomposition<MatrixXd> decomposition(a);
