@@ -20,11 +20,11 @@ Vector3d at(const AxisFrame& frame, double azimuth, double angle) {
 }
 
 TEST(CombinedCone, OfTwoStarsEndsWithItsWorkDone) {
-  for (const CombinedEngagement& e : combined_engagements(4, Family::star, Family::star)) {
+  for (const CombinedEngagement& e : combined_engagements(10, Family::star, Family::star)) {
     const CombinedCone full = combined_cone(e.a, e.b, 0.01);
     ASSERT_EQ(full.relation, Relation::disjoint);
     EXPECT_LE(2 * full.solid_angle_error, 0.01001 * full.outer.solid_angle);
-    EXPECT_LT(full.boxes, 1'500'000U);
+    EXPECT_LT(full.boxes, 1'000'000U);
     // Out of boxes it returns what it has: a bound, and not much more work than was granted.
     for (const std::uint64_t most : {1U, 50'000U, 200'000U}) {
       const CombinedCone cone = combined_cone(e.a, e.b, 1e-4, most);
