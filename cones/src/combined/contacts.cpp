@@ -2,7 +2,6 @@
 #include "combined/contacts.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -120,16 +119,18 @@ void CombinedContacts::add_half_space(const IntervalVector3& l, const Interval& 
 }
 
 std::optional<Relation> CombinedContacts::relation() const {
+  // A body may be so small that a search of the other would not come upon it: from its centre, in its own
+  // coordinates.
+  list3_ = surfaces_a_;
+  for (const EnclosedQuadric& q : frame_.b())
+    list3_.push_back(quadratic_constraint<3>(q.matrix, kIdentity, -frame_.center(), Interval(q.level),
+                                             -q.least_eigenvalue, kRoom));
+  Vector3d x = Vector3d::Zero();
+  if (descend<3>(list3_, 0, x) && x.cwiseAbs().maxCoeff() <= 1) return Relation::overlapping;
   list3_ = surfaces_b_;
   for (const EnclosedQuadric& q : frame_.a())
     list3_.push_back(quadratic_constraint<3>(q.matrix, frame_.columns_b(), frame_.center(), Interval(q.level),
                                              -q.least_eigenvalue * columns_square_, kRoom));
-  // A body may be too small for a search of the other to come upon it: its own centre is where to look first.
-  const auto& g = frame_.columns_b();
-  Eigen::Matrix3d columns;
-  columns << middle(g[0]), middle(g[1]), middle(g[2]);
-  Vector3d z = -columns.inverse() * middle(frame_.center());
-  if (descend<3>(list3_, 0, z) && z.cwiseAbs().maxCoeff() <= 1) return Relation::overlapping;
   // Asked once: as fine as rounding lets it be, whatever the tolerance.
   switch (search(search3_, list3_, kBox, {1e-10, limits_.boxes}).outcome) {
     case SearchOutcome::empty:

@@ -36,6 +36,17 @@ TEST(CombinedCone, OfTwoStarsEndsWithItsWorkDone) {
   }
 }
 
+TEST(CombinedOracle, SmallBodiesAtTheSurfaceOverlap) {
+  for (const Family family : {Family::biconcave, Family::biconvex, Family::star})
+    for (const CombinedEngagement& e : combined_engagements(10, Family::ellipsoid, family)) {
+      const Vector3d u = e.w.normalized();
+      const Vector3d inside = e.b.center() + (1 - 1e-9) / e.b.gauge(u) * u;
+      const Ellipsoid small = Ellipsoid::from_axes(inside, Vector3d::Constant(1e-6 / e.b.gauge(u)));
+      EXPECT_EQ(CombinedOracle(small, e.b).relation(), Relation::overlapping);
+      EXPECT_EQ(CombinedOracle(e.b, small).relation(), Relation::overlapping);
+    }
+}
+
 TEST(CombinedOracle, EdgesAreWhereItsAnswersChange) {
   int contacts = 0, edges = 0;
   for (const Family family : {Family::biconcave, Family::biconvex, Family::star})
