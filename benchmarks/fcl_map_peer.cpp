@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <benchmarks/fcl_map_peer.h>
 
-#include <fcl/fcl.h>
+#include <fcl/geometry/octree/octree.h>
+#include <fcl/geometry/shape/ellipsoid.h>
+#include <fcl/narrowphase/continuous_collision.h>
 #include <octomap/octomap.h>
 
 namespace vericone::benchmarks {
@@ -30,12 +32,6 @@ bool FclMap::naive(const Eigen::Vector3d& center, const Eigen::Vector3d& semi_ax
   fcl::ContinuousCollisionResultd result;
   fcl::continuousCollide<double>(&agent, from, to, objects_->map.get(), rest, rest, request, result);
   return result.is_collide;
-}
-
-bool FclMap::advancement_in_table() const {
-  static const fcl::detail::ConservativeAdvancementFunctionMatrix<fcl::detail::GJKSolver_libccd<double>>
-      table;
-  return table.conservative_advancement_matrix[fcl::GEOM_ELLIPSOID][fcl::GEOM_OCTREE] != nullptr;
 }
 
 }  // namespace vericone::benchmarks

@@ -21,9 +21,6 @@ class FclMap {
   bool naive(const Eigen::Vector3d& center, const Eigen::Vector3d& semi_axes, const Eigen::Vector3d& way,
              std::size_t steps) const;
 
-  /// Whether conservative advancement knows the pair.
-  bool advancement_in_table() const;
-
  private:
   struct Objects;
   std::unique_ptr<Objects> objects_;

@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <benchmarks/fcl_peers.h>
 
-#include <fcl/fcl.h>
+#include <fcl/config.h>
+#include <fcl/geometry/shape/convex.h>
+#include <fcl/geometry/shape/ellipsoid.h>
+#include <fcl/math/motion/translation_motion.h>
+#include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/continuous_collision.h>
+#include <fcl/narrowphase/detail/conservative_advancement_func_matrix.h>
+#include <fcl/narrowphase/distance.h>
 #include <array>
 #include <map>
 #include <utility>
@@ -135,11 +142,6 @@ bool FclPair::advancement(FclSolver solver) const {
 bool FclPair::polytope_advancement(FclSolver solver) const {
   return objects_->continuous(objects_->polytope_a, objects_->polytope_b,
                               {10, 1e-4, fcl::CCDM_TRANS, type(solver), fcl::CCDC_CONSERVATIVE_ADVANCEMENT});
-}
-
-bool fcl_ellipsoids_in_table() {
-  const fcl::detail::ConservativeAdvancementFunctionMatrix<fcl::detail::GJKSolver_libccdd> table;
-  return table.conservative_advancement_matrix[fcl::GEOM_ELLIPSOID][fcl::GEOM_ELLIPSOID] != nullptr;
 }
 
 const char* fcl_version() { return FCL_VERSION; }

@@ -44,8 +44,9 @@ class FclPair {
   std::unique_ptr<Objects> objects_;
 };
 
-/// Whether FCL's conservative advancement knows pairs of ellipsoids.
+/// Whether FCL's conservative advancement knows pairs of ellipsoids, and of an ellipsoid and an octree map.
 bool fcl_ellipsoids_in_table();
+bool fcl_octrees_in_table();
 
 const char* fcl_version();
 

@@ -3,6 +3,7 @@
 // Prints, in Markdown, what questions about meshes and maps cost beside brute force and beside FCL, all in
 // one run: vericone_scan_ratios [MAP.bt [MESH]].
 #include <benchmarks/fcl_map_peer.h>
+#include <benchmarks/fcl_peers.h>
 #include <vericone/cones/assembly/assembly_oracle.h>
 #include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/files/read_points.h>
@@ -120,8 +121,8 @@ void map_table(const std::string& file) {
       "with "
       "10 samples, %d of %d with %zu. Boxes looked at a velocity: %.1f; pieces %.2f; exact predicates "
       "%.4f.\n\n",
-      peer.advancement_in_table() ? "knows" : "does not know", disagree_coarse, 10 * places, disagree_fine,
-      more, steps, double(effort.nodes) / (10 * places), double(effort.pieces) / (10 * places),
+      fcl_octrees_in_table() ? "knows" : "does not know", disagree_coarse, 10 * places, disagree_fine, more,
+      steps, double(effort.nodes) / (10 * places), double(effort.pieces) / (10 * places),
       double(effort.exact) / (10 * places));
 
   // The whole cone from outside.

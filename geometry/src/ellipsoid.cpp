@@ -5,7 +5,8 @@
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/quadric.h>
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <numbers>
@@ -39,7 +40,9 @@ template <int D>
 Eigen::Matrix<double, D, D> validated_rotation(const Eigen::Matrix<double, D, D>& r) {
   using Matrix = Eigen::Matrix<double, D, D>;
   if (!r.allFinite()) throw InputError("rotation", text(r), "a matrix of finite numbers");
-  const double defect = (r.transpose() * r - Matrix::Identity()).cwiseAbs().maxCoeff();
+  Matrix beyond = r.transpose() * r;
+  beyond.diagonal().array() -= 1;
+  const double defect = beyond.cwiseAbs().maxCoeff();
   if (defect > 1e-6) throw InputError("rotation", text(r), "orthonormal to 1e-6 (R^T R = I)");
   if (r.determinant() < 0)
     throw InputError("rotation", text(r), "a rotation, determinant +1, not a reflection");
@@ -195,12 +198,12 @@ BasicQuadric<D> BasicEllipsoid<D>::quadric() const {
   const Matrix g = factor_.inverse();
   const Matrix a = g.transpose() * g;
   Eigen::Matrix<double, D + 1, D + 1> q;
-  const Vector b = -a * center_;
+  const Vector b = -(a * center_), at = g * center_;
   for (int i = 0; i < D; ++i) {
     for (int j = 0; j <= i; ++j) q(i, j) = q(j, i) = a(i, j);
     q(i, D) = q(D, i) = b(i);
   }
-  q(D, D) = (g * center_).squaredNorm() - 1;
+  q(D, D) = at.squaredNorm() - 1;
   return BasicQuadric<D>(q);
 }
 

@@ -4,7 +4,8 @@
 #include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/exact/rational.h>
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,10 +31,20 @@ using Vector = Eigen::Matrix<double, D, 1>;
 template <int D>
 using Square = Eigen::Matrix<double, D, D>;
 
-/// q diag(u) q^T. A function of its own: its products are most of what this file costs to compile.
+// Sums over points are loops in this file: Eigen's products of matrices of unknown size took 10 s to compile.
+
+/// sum_i u_i q_i q_i^T.
 template <int R>
 Square<R> second_moment(const Points<R>& q, const Eigen::VectorXd& u) {
-  return q * u.asDiagonal() * q.transpose();
+  Square<R> m = Square<R>::Zero();
+  for (Index i = 0; i < q.cols(); ++i)
+    for (int j = 0; j < R; ++j) {
+      const double weighted = u(i) * q(j, i);
+      for (int k = 0; k <= j; ++k) m(j, k) += weighted * q(k, i);
+    }
+  for (int j = 0; j < R; ++j)
+    for (int k = 0; k < j; ++k) m(k, j) = m(j, k);
+  return m;
 }
 
 template <int D>
@@ -62,6 +73,13 @@ struct Frame {
   std::vector<Index> core_set;
 };
 
+template <int D>
+double largest_entry(const Eigen::Ref<const Points<D>>& points) {
+  double largest = 0;
+  for (Index i = 0; i < points.cols(); ++i) largest = std::max(largest, points.col(i).cwiseAbs().maxCoeff());
+  return largest;
+}
+
 /// Kumar and Yildirim's core set: the extreme points along D orthogonal directions, each direction orthogonal
 /// to the spread found before. They choose the directions freely; here each one is that of the point farthest
 /// from the affine hull so far, which keeps the frame good for thin bodies; those points join the set, so
@@ -71,33 +89,50 @@ Frame<D> core_set_frame(const Eigen::Ref<const Points<D>>& points) {
   constexpr const char* kDegenerate[] = {"points that are all equal", "points that are all on one line",
                                          "points that are all in one plane"};
   Frame<D> f;
+  Vector<D> least = points.col(0), most = least;
+  for (Index i = 1; i < points.cols(); ++i) {
+    least = least.cwiseMin(points.col(i));
+    most = most.cwiseMax(points.col(i));
+  }
+  int widest = 0;
+  (most - least).maxCoeff(&widest);
   Index start = 0;
-  (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).maxCoeff(&start);
-  points.row(start).minCoeff(&start);
+  while (points(widest, start) != least(widest)) ++start;
   f.origin = points.col(start);
   f.core_set.push_back(start);
   f.axes.setZero();
-  const double rounding = 16 * kEps * points.cwiseAbs().maxCoeff();  // of the coordinates themselves
-  Points<D> rest = points.colwise() - f.origin;
+  const double rounding = 16 * kEps * largest_entry<D>(points);  // of the coordinates themselves
+  Points<D> rest(D, points.cols());
+  for (Index i = 0; i < points.cols(); ++i) rest.col(i) = points.col(i) - f.origin;
   // A power of two, so that no squared length over- or underflows and no digit is lost.
-  const double unit = std::exp2(std::ilogb(std::max(rest.cwiseAbs().maxCoeff(), 1e-300)));
+  const double unit = std::exp2(std::ilogb(std::max(largest_entry<D>(rest), 1e-300)));
   rest /= unit;
   for (int k = 0; k < D; ++k) {
     Index far = 0;
-    rest.colwise().squaredNorm().maxCoeff(&far);
+    double distance = -1;
+    for (Index i = 0; i < rest.cols(); ++i)
+      if (const double square = rest.col(i).squaredNorm(); square > distance) {
+        distance = square;
+        far = i;
+      }
     Vector<D> axis = rest.col(far).stableNormalized();
     for (int j = 0; j < k; ++j) axis -= f.axes.col(j) * f.axes.col(j).dot(axis);
     axis.stableNormalize();
-    const Eigen::RowVectorXd along = axis.transpose() * rest;
     Index low = 0, high = 0;
-    f.extents(k) = unit * (along.maxCoeff(&high) - along.minCoeff(&low));
+    double lowest = 0, highest = 0;  // of the origin
+    for (Index i = 0; i < rest.cols(); ++i) {
+      const double along = axis.dot(rest.col(i));
+      rest.col(i) -= along * axis;
+      if (i == 0 || along < lowest) lowest = along, low = i;
+      if (i == 0 || along > highest) highest = along, high = i;
+    }
+    f.extents(k) = unit * (highest - lowest);
     if (!(f.extents(k) > kFlat * f.extents.head(k + 1).maxCoeff() + rounding))
       throw InputError("points", kDegenerate[k],
                        D == 2 ? "spread over the plane, not on one line"
                               : "spread over all of space, not in one plane or on one line");
     f.axes.col(k) = axis;
     f.core_set.insert(f.core_set.end(), {far, low, high});
-    rest -= axis * along;
   }
   std::ranges::sort(f.core_set);
   // Not std::ranges::unique, whose result clang 14 does not take from the headers of g++ 12.
@@ -166,9 +201,15 @@ class DualAscent {
 
   const std::vector<Index>& members() const { return members_; }
   const Eigen::VectorXd& weights() const { return u_; }
-  Vector<D> mean() const { return q_.template topRows<D>() * u_; }
+  Vector<D> mean() const {
+    Vector<D> sum = Vector<D>::Zero();
+    for (Index i = 0; i < u_.size(); ++i) sum += u_(i) * q_.col(i).template head<D>();
+    return sum;
+  }
   Square<D> covariance() const {
-    const Points<D> y = q_.template topRows<D>().colwise() - mean();
+    const Vector<D> center = mean();
+    Points<D> y(D, u_.size());
+    for (Index i = 0; i < u_.size(); ++i) y.col(i) = q_.col(i).template head<D>() - center;
     return second_moment<D>(y, u_);
   }
 
@@ -184,8 +225,16 @@ class DualAscent {
   void update() {
     u_ /= u_.sum();
     llt_ = decompose(q_, u_);
-    whitened_ = llt_.lower.template triangularView<Eigen::Lower>().solve(q_);
-    g_ = whitened_.colwise().squaredNorm().transpose();
+    whitened_.resize(kN, u_.size());
+    g_.resize(u_.size());
+    for (Index i = 0; i < u_.size(); ++i) {
+      for (int j = 0; j < kN; ++j) {  // L w = q
+        double rest = q_(j, i);
+        for (int k = 0; k < j; ++k) rest -= llt_.lower(j, k) * whitened_(k, i);
+        whitened_(j, i) = rest / llt_.lower(j, j);
+      }
+      g_(i) = whitened_.col(i).squaredNorm();
+    }
   }
 
   /// Largest violation of the optimality conditions, relative to N.
@@ -225,14 +274,21 @@ class DualAscent {
     std::vector<Index> face;
     for (Index i = 0; i < u_.size(); ++i)
       if (u_(i) > 0) face.push_back(i);
-    const Lifted w = whitened_(Eigen::all, face);
-    const Eigen::VectorXd gradient = g_(face).array() - double(kN);
+    const Index m = std::ssize(face);
+    Eigen::VectorXd gradient(m);
+    for (Index k = 0; k < m; ++k) gradient(k) = g_(face[k]) - kN;
     const double residual_before = gradient.cwiseAbs().maxCoeff();
     if (residual_before <= 8 * kN * kEps) return false;
-    const Eigen::MatrixXd hessian = (w.transpose() * w).cwiseAbs2();
+    Eigen::MatrixXd hessian(m, m);
+    for (Index k = 0; k < m; ++k)
+      for (Index l = 0; l <= k; ++l) {
+        const double product = whitened_.col(face[k]).dot(whitened_.col(face[l]));
+        hessian(k, l) = hessian(l, k) = product * product;
+      }
     Eigen::VectorXd direction = shortest_least_squares(hessian, gradient);
     // What the Hessian cannot reach is an ascent direction without curvature: follow it to the boundary.
-    const Eigen::VectorXd flat = gradient - hessian * direction;
+    Eigen::VectorXd flat = gradient;
+    for (Index k = 0; k < m; ++k) flat -= direction(k) * hessian.col(k);
     if (!(flat.norm() < 0.1 * gradient.norm())) direction = flat / (flat.norm() * kEps);
     if (!direction.allFinite() || !(direction.dot(gradient) > 0)) return false;
 
@@ -265,7 +321,9 @@ class DualAscent {
   }
 
   static double value(const Cholesky<kN>& llt, const Eigen::VectorXd& u) {
-    return 2 * llt.lower.diagonal().array().log().sum() - kN * (u.sum() - 1);
+    double half_log = 0;  // of the determinant
+    for (int j = 0; j < kN; ++j) half_log += std::log(llt.lower(j, j));
+    return 2 * half_log - kN * (u.sum() - 1);
   }
 
   std::vector<Index> members_;
@@ -462,25 +520,22 @@ struct Violations {
 
 template <int D>
 Violations<D> violations(const Points<D>& y, const Vector<D>& mean, const Square<D>& covariance) {
-  constexpr Index kBlock = 512;
   Violations<D> v;
   v.worst.fill(-1);
   v.g.fill(0);
   const Square<D> inverse = cholesky<D>(covariance).lower_inverse();
-  Eigen::Matrix<double, kBlock, D> z;
-  Eigen::Matrix<double, kBlock, 1> g;
-  for (Index first = 0; first < y.cols(); first += kBlock) {
-    const Index count = std::min(kBlock, y.cols() - first);
-    z.topRows(count).noalias() =
-        (y.middleCols(first, count).colwise() - mean).transpose() * inverse.transpose();
-    g.head(count) = z.topRows(count).rowwise().squaredNorm().array() + 1;
-    for (Index i = 0; i < count; ++i) {
-      int orthant = 0;
-      for (int k = 0; k < D; ++k) orthant |= int(z(i, k) > 0) << k;
-      if (g(i) > v.g[orthant]) {
-        v.g[orthant] = g(i);
-        v.worst[orthant] = first + i;
-      }
+  for (Index i = 0; i < y.cols(); ++i) {
+    double g = 1;
+    int orthant = 0;
+    for (int j = 0; j < D; ++j) {
+      double z = 0;
+      for (int k = 0; k <= j; ++k) z += inverse(j, k) * (y(k, i) - mean(k));
+      g += z * z;
+      orthant |= int(z > 0) << j;
+    }
+    if (g > v.g[orthant]) {
+      v.g[orthant] = g;
+      v.worst[orthant] = i;
     }
   }
   v.largest = *std::ranges::max_element(v.g);
@@ -495,8 +550,11 @@ MinVolumeResult<D> min_volume_ellipsoid(const Eigen::Ref<const Points<D>>& point
   constexpr int kN = D + 1;
   validate<D>(points, options);
   const Frame<D> frame = core_set_frame<D>(points);
-  const Points<D> y = frame.extents.cwiseInverse().asDiagonal() *
-                      (frame.axes.transpose() * (points.colwise() - frame.origin));
+  Points<D> y(D, points.cols());
+  for (Index i = 0; i < points.cols(); ++i) {
+    const Vector<D> from_origin = points.col(i) - frame.origin;
+    for (int k = 0; k < D; ++k) y(k, i) = frame.axes.col(k).dot(from_origin) / frame.extents(k);
+  }
 
   MinVolumeResult<D> result;
   DualAscent<D> dual;

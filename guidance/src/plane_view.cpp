@@ -194,8 +194,9 @@ bool difference(const PlaneView& view, const BodyState& a, const BodyState& b, S
   const auto later = [&](double dt) -> std::optional<Opening> {
     const BodyState next_a = advanced(a, dt), next_b = advanced(b, dt);
     const Vector3d u = (next_b.position - next_a.position).normalized();
+    // Turned as the line of sight turns, which takes little of a circle.
     const Vector3d carried =
-        Eigen::Quaterniond::FromTwoVectors(view.line_of_sight, u).toRotationMatrix() * view.across;
+        view.across - view.across.dot(u) / (1 + view.line_of_sight.dot(u)) * (view.line_of_sight + u);
     const double spin = view.state.plane_spin * dt;
     return PlaneCones(next_a, next_b, method)
         .on(u, across_axis(u, std::cos(spin) * carried + std::sin(spin) * u.cross(carried)));

@@ -3,8 +3,8 @@
 // Multipliers of inequalities that are nearly met with equality.
 #pragma once
 
+#include <vericone/geometry/decompositions.h>
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 
@@ -44,9 +44,9 @@ class Balance {
         system(i, i) += 1e-14;
         system(i, count_) = system(count_, i) = 1;
       }
-      Column right = Column::Zero(count_ + 1);
-      right(count_) = 1;
-      const Column weights = system.partialPivLu().solve(right);
+      Column weights = Column::Zero(count_ + 1);
+      weights(count_) = 1;
+      solve_square(system, weights);
       if (!weights.allFinite()) return false;
       base_ = 0;
       rest_.setZero();
@@ -68,13 +68,13 @@ class Balance {
   /// The shortest step by which all bounds become base().
   Vector levelling_step() const {
     System system = System::Zero(count_, count_);
-    Column right(count_);
+    Column by(count_);
     for (int i = 0; i < count_; ++i) {
       for (int j = 0; j < count_; ++j) system(i, j) = bounds_[i].slope.dot(bounds_[j].slope);
       system(i, i) += 1e-12;
-      right(i) = base_ - bounds_[i].base;
+      by(i) = base_ - bounds_[i].base;
     }
-    const Column by = system.partialPivLu().solve(right);
+    solve_square(system, by);
     Vector step = Vector::Zero();
     for (int i = 0; i < count_; ++i) step += by(i) * bounds_[i].slope;
     return step;

@@ -49,16 +49,21 @@ class Support {
 
   /// From the best so far along one multiplier: the least is where a component vanishes.
   void along(int i) {
-    const std::array<double, 4> from = weights_;
     Vector3d rest = r_;
-    for (int k = 0; k < cuts_; ++k)
-      if (k != i) rest -= from[k] * g_[k];
+    double sum = 0;
+    for (int k = 0; k < cuts_; ++k) {
+      if (k == i || !(weights_[k] > 0)) continue;
+      rest -= weights_[k] * g_[k];
+      sum -= weights_[k] * base_[k];
+    }
     for (int j = 0; j < 3; ++j) {
       const double t = rest(j) / g_[i](j);
       if (!(t > 0) || !(t < 1e100)) continue;
-      std::array<double, 4> weights = from;
-      weights[i] = t;
-      offer(weights);
+      const double value = sum - t * base_[i] + (rest - t * g_[i]).cwiseAbs().sum();
+      if (value < best_) {
+        best_ = value;
+        weights_[i] = t;
+      }
     }
   }
 

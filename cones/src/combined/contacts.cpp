@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// A chord that needs more is better divided.
-constexpr int kMostPairs = 5000;
+constexpr int kMostPairs = 20'000;
 constexpr double kLeastWidth = 4e-3;
 
 const SearchBox<3> kBox{Vector3d::Zero(), Vector3d::Constant(1.001)};
@@ -119,6 +119,14 @@ void CombinedContacts::add_half_space(const IntervalVector3& l, const Interval& 
 }
 
 std::optional<Relation> CombinedContacts::relation() const {
+  // A body may be so small that a search of the other would not come upon it: from its centre, in its own
+  // coordinates.
+  list3_ = surfaces_a_;
+  for (const EnclosedQuadric& q : frame_.b())
+    list3_.push_back(quadratic_constraint<3>(q.matrix, kIdentity, -frame_.center(), Interval(q.level),
+                                             -q.least_eigenvalue, kRoom));
+  Vector3d x = Vector3d::Zero();
+  if (descend<3>(list3_, 0, x) && x.cwiseAbs().maxCoeff() <= 1) return Relation::overlapping;
   list3_ = surfaces_b_;
   for (const EnclosedQuadric& q : frame_.a())
     list3_.push_back(quadratic_constraint<3>(q.matrix, frame_.columns_b(), frame_.center(), Interval(q.level),
@@ -238,9 +246,9 @@ CombinedContact CombinedContacts::deepened(const IntervalVector3& w, const Combi
   best.outcome = SearchOutcome::undecided;
   if (decide_from<4>(list4_, both_box(1.01 * extent_), z) == SearchOutcome::found)
     best = {SearchOutcome::found, Vector3d::Zero(), z.head<3>(), z(3)};
-  for (double margin = 1e-6; margin < 1; margin *= 2) {
+  for (double margin = 1e-6; margin < 1; margin *= 4) {
     // The first contact is the hardest to find: near corners the steps go to and fro.
-    if (!descend<4>(list4_, margin, z, best.outcome == SearchOutcome::found ? 30 : 200)) break;
+    if (!descend<4>(list4_, margin, z, best.outcome == SearchOutcome::found ? 12 : 200)) break;
     best = {SearchOutcome::found, Vector3d::Zero(), z.head<3>(), z(3)};
   }
   return best;
@@ -326,13 +334,20 @@ bool CombinedContacts::joined(const IntervalVector3& from, const CombinedContact
 }
 
 bool CombinedContacts::both_meet_all(const IntervalVector3& from, const CombinedContact& first,
-                                     const IntervalVector3& to, const CombinedContact& last, bool search,
-                                     int depth) const {
+                                     const IntervalVector3& to, const CombinedContact& last,
+                                     const CombinedContact* between, bool search, int depth) const {
   if (joined(from, first, to, last)) return true;
   if (depth == 0) return false;
   const IntervalVector3 half = (from + to) * Interval(0.5);
   // Where other parts of the bodies meet along the one than along the other, there is a direction along which
-  // both do.
+  // both do, or others do between them.
+  if (between) {
+    const CombinedContact middle = deepened(half, *between);
+    if (middle.outcome == SearchOutcome::found &&
+        both_meet_all(from, first, half, middle, nullptr, search, depth - 1) &&
+        both_meet_all(half, middle, to, last, nullptr, search, depth - 1))
+      return true;
+  }
   CombinedContact before = deepened(half, first), after = deepened(half, last);
   const bool of_first = before.outcome == SearchOutcome::found,
              of_last = after.outcome == SearchOutcome::found;
@@ -342,8 +357,8 @@ bool CombinedContacts::both_meet_all(const IntervalVector3& from, const Combined
   } else if (!of_first || !of_last) {
     (of_first ? after : before) = of_first ? before : after;
   }
-  return both_meet_all(from, first, half, before, search, depth - 1) &&
-         both_meet_all(half, after, to, last, search, depth - 1);
+  return both_meet_all(from, first, half, before, nullptr, search, depth - 1) &&
+         both_meet_all(half, after, to, last, nullptr, search, depth - 1);
 }
 
 /// Deep inside, from a contact nearby; searched for where there is none and it may be.
@@ -360,14 +375,15 @@ CombinedContact CombinedContacts::deep_contact(const IntervalVector3& w, const C
 }
 
 bool CombinedContacts::all_between(const IntervalVector3& from, const IntervalVector3& to,
-                                   const CombinedContact* at_from, const CombinedContact* at_to) const {
+                                   const CombinedContact* at_from, const CombinedContact* at_to,
+                                   const CombinedContact* between) const {
   if (ball_) return ball_meets_all(from, to, 5);
   const bool search = !at_from || !at_to;
   const CombinedContact first = deep_contact(from, at_from ? *at_from : CombinedContact{}, search);
   if (first.outcome != SearchOutcome::found) return false;
   const CombinedContact last = deep_contact(to, at_to ? *at_to : first, search);
   if (last.outcome != SearchOutcome::found) return false;
-  return both_meet_all(from, first, to, last, search, 5);
+  return both_meet_all(from, first, to, last, between, search, 5);
 }
 
 bool CombinedContacts::none_beyond(const Vector3d& along, const CombinedContact& farthest) const {

@@ -50,9 +50,10 @@ class CombinedContacts {
   /// frame, and of B, in its own coordinates, that were in the way.
   std::pair<Eigen::Vector3d, Eigen::Vector3d> left() const { return pairs_->left(); }
   /// `at_from`, `at_to`: contacts near both, from which others are looked for by steps alone, where neither
-  /// is an ellipsoid.
+  /// is an ellipsoid; `between`: one half way.
   bool all_between(const IntervalVector3& from, const IntervalVector3& to,
-                   const CombinedContact* at_from = nullptr, const CombinedContact* at_to = nullptr) const;
+                   const CombinedContact* at_from = nullptr, const CombinedContact* at_to = nullptr,
+                   const CombinedContact* between = nullptr) const;
   /// Whether no direction w with n.w >= 0, n in metres, leads to a contact, from the points of both bodies
   /// that are nearly farthest along n and -n: true is certain, false says nothing.
   bool none_beyond(const Eigen::Vector3d& n, const CombinedContact& farthest) const;
@@ -83,7 +84,8 @@ class CombinedContacts {
   bool joined(const IntervalVector3& from, const CombinedContact& first, const IntervalVector3& to,
               const CombinedContact& last) const;
   bool both_meet_all(const IntervalVector3& from, const CombinedContact& first, const IntervalVector3& to,
-                     const CombinedContact& last, bool search, int depth) const;
+                     const CombinedContact& last, const CombinedContact* between, bool search,
+                     int depth) const;
 
   CombinedFrame frame_;
   bool ball_;  // A is an ellipsoid

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/combined/edge.h>
 
+#include <vericone/geometry/decompositions.h>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -130,7 +130,8 @@ class EdgeSearch {
     right << -across(), across();
     Matrix normal_matrix = columns.transpose() * columns;
     for (int k = 0; k < n; ++k) normal_matrix(k, k) *= 1 + 1e-10;
-    const Vector weights = normal_matrix.partialPivLu().solve(Vector(columns.transpose() * right));
+    Vector weights = columns.transpose() * right;
+    solve_square(normal_matrix, weights);
     if (!weights.allFinite()) return false;
     for (int k = 0; k < touched_a_.count; ++k) touched_a_.weight[k] = weights(k);
     for (int k = 0; k < touched_b_.count; ++k) touched_b_.weight[k] = weights(touched_a_.count + k);
@@ -290,7 +291,8 @@ class EdgeSearch {
       jacobian.block<3, 1>(3, 3) = way_ * (sum * e) + d;
       jacobian.block<3, 1>(3, 4) = sum * d;
       jacobian.block<3, 1>(3, 5) = -p_;
-      const Vector change = jacobian.partialPivLu().solve(-residual);
+      Vector change = -residual;
+      solve_square(jacobian, change);
       if (!change.allFinite()) return false;
       const double size = change.head<5>().cwiseAbs().maxCoeff();
       const double share = std::min(1.0, 0.3 / size);

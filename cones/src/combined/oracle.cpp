@@ -290,7 +290,7 @@ bool CombinedOracle::half_space_out(const Vector3d& n, const CombinedEdge& touch
 }
 
 bool CombinedOracle::all_in(const Vector3d& from, const Vector3d& to, const CombinedEdge* at_from,
-                            const CombinedEdge* at_to) const {
+                            const CombinedEdge* at_to, const CombinedEdge* between) const {
   const State& s = *state_;
   if (s.relation != Relation::disjoint || !s.contacts().usable()) return false;
   const auto& inside = s.simpler().inside;
@@ -300,7 +300,9 @@ bool CombinedOracle::all_in(const Vector3d& from, const Vector3d& to, const Comb
   if (!dot(first, last).positive()) return false;
   if (at_from && at_to && !s.a.is_ellipsoid()) {
     const CombinedContact of_first = s.contact(*at_from), of_last = s.contact(*at_to);
-    return s.contacts().all_between(first, last, &of_first, &of_last);
+    std::optional<CombinedContact> of_middle;
+    if (between) of_middle = s.contact(*between);
+    return s.contacts().all_between(first, last, &of_first, &of_last, of_middle ? &*of_middle : nullptr);
   }
   for (const CombinedOracle& oracle : s.simpler().narrower)
     if (oracle.all_in(s.own(from), s.own(to))) return true;

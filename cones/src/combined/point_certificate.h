@@ -71,7 +71,10 @@ SearchOutcome decide_from(const std::vector<QuadraticConstraint<N>>& list, const
   };
   if (above(z, balance.base(), balance.rest())) return SearchOutcome::empty;
   // Once more at its lowest point.
-  const Vector x = z - 0.5 * h.partialPivLu().solve(balance.rest());
+  Eigen::Matrix<double, N, N> eliminated = h;
+  Vector down = balance.rest();
+  solve_square(eliminated, down);
+  const Vector x = z - 0.5 * down;
   if (!x.allFinite() || !in_box(x)) return SearchOutcome::undecided;
   double base = 0;
   Vector rest = Vector::Zero();

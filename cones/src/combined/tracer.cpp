@@ -110,8 +110,10 @@ void Tracer::bisect_again(int first, int last) {
   for (const int k : {first, last}) {
     ConeEnd& end = ends_[k];
     if (end.proved) continue;
+    const double before = end.out;
     end = proved_end(end.azimuth, end.in, end.edge ? &*end.edge : nullptr);
-    moved_.push_back(k);
+    // Where the end stays, so does what was in the way of the chord.
+    if (end.in > before) moved_.push_back(k);
   }
 }
 
@@ -142,11 +144,11 @@ ConeChord Tracer::outer_chord(int first, int last, double standoff) {
   };
   // Beyond the edge half way between, where the chord is lowest.
   double least = 0;
-  const Vector3d middle = (chord(0).first + chord(0).second).normalized();
-  const double azimuth = std::atan2(middle.dot(frame_.e2), middle.dot(frame_.e1));
+  const double azimuth = middle_azimuth(from, to);
   if (const auto edge = highest(azimuth, from, to)) {
     if (const ConeChord touching = tangent_chord(from, to, *edge, azimuth, 0.05 * standoff); touching.proved)
       return touching;
+    const Vector3d middle = (chord(0).first + chord(0).second).normalized();
     least = std::max(0.0, edge->angle - std::acos(std::min(1.0, middle.dot(frame_.axis))));
   }
   if (!guided_) {
@@ -166,24 +168,33 @@ ConeChord Tracer::outer_chord(int first, int last, double standoff) {
   return none;
 }
 
-ConeChord Tracer::inner_chord(const ConeEnd& first, const ConeEnd& last, double standoff) const {
+ConeChord Tracer::inner_chord(const ConeEnd& first, const ConeEnd& last, const CombinedEdge* between,
+                              double standoff) const {
   const CombinedEdge *at_first = first.edge ? &*first.edge : nullptr,
                      *at_last = last.edge ? &*last.edge : at_first;
   if (!at_first) at_first = at_last;
-  const auto tried = [&](double d, const CombinedEdge* near_first, const CombinedEdge* near_last) {
+  const auto tried = [&](double d, const CombinedEdge* near_first, const CombinedEdge* near_last,
+                         const CombinedEdge* near_middle) {
     return oracle_.all_in(direction(first.azimuth, first.in - d), direction(last.azimuth, last.in - d),
-                          near_first, near_last);
+                          near_first, near_last, near_middle);
   };
   // By steps from the contacts at the ends first; those may lead nowhere.
-  constexpr int kSteps = 8;
+  constexpr int kSteps = 5;
+  constexpr double kFarther = 4;
   double d = 0.1 * standoff;
   for (int attempt = 0; guided_ && at_first && attempt < kSteps && d < std::min(first.in, last.in);
-       ++attempt, d *= 2)
-    if (tried(d, at_first, at_last)) return {first.in - d, last.in - d, true};
+       ++attempt, d *= kFarther)
+    if (tried(d, at_first, at_last, between)) return {first.in - d, last.in - d, true};
   if (guided_ && at_first && !narrow(first, last)) return {};
-  for (d = 0.5 * standoff; d < std::min(first.in, last.in); d *= 2)
-    if (tried(d, nullptr, nullptr)) return {first.in - d, last.in - d, true};
+  for (d = 2 * standoff; d < std::min(first.in, last.in); d *= kFarther)
+    if (tried(d, nullptr, nullptr, nullptr)) return {first.in - d, last.in - d, true};
   return {};
+}
+
+/// Of the middle of the chord between two ends.
+double Tracer::middle_azimuth(const ConeEnd& first, const ConeEnd& last) const {
+  const Vector3d middle = direction(first.azimuth, first.out) + direction(last.azimuth, last.out);
+  return std::atan2(middle.dot(frame_.e2), middle.dot(frame_.e1));
 }
 
 ConeWedge Tracer::wedge(int first, int last) {
@@ -195,7 +206,8 @@ ConeWedge Tracer::wedge(int first, int last) {
   if (!s.out.proved && moved_.empty()) bisect_again(first, last);
   if (!moved_.empty()) return s;
   const ConeEnd &from = ends_[first], &to = ends_[last];
-  s.in = inner_chord(from, to, standoff);
+  const auto between = guided_ ? highest(middle_azimuth(from, to), from, to) : std::nullopt;
+  s.in = inner_chord(from, to, between ? &*between : nullptr, standoff);
   // What could not be proved at any distance: nothing is known to be out, nothing but the axis to be in.
   if (s.out.proved) s.outer = triangle(from, to, s.out.first, s.out.last);
   if (s.in.proved) s.inner = triangle(from, to, s.in.first, s.in.last);

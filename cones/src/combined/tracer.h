@@ -66,7 +66,9 @@ class Tracer {
   ConeChord tangent_chord(const ConeEnd& first, const ConeEnd& last, const CombinedEdge& between,
                           double azimuth, double lift) const;
   bool narrow(const ConeEnd& first, const ConeEnd& last) const;
-  ConeChord inner_chord(const ConeEnd& first, const ConeEnd& last, double standoff) const;
+  double middle_azimuth(const ConeEnd& first, const ConeEnd& last) const;
+  ConeChord inner_chord(const ConeEnd& first, const ConeEnd& last, const CombinedEdge* between,
+                        double standoff) const;
   void bisect_again(int first, int last);
   void learn(const CombinedEdge& hint, int first, int last);
   double triangle(const ConeEnd& first, const ConeEnd& last, double angle_first, double angle_last) const;

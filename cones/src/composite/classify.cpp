@@ -157,32 +157,61 @@ Frontier CompositePair::start() const {
   return all;
 }
 
+namespace composite {
+namespace {
+
+DirectionCell in_obstacle_frame(const State& state, const DirectionCell& cell) {
+  return {state.to_obstacle(cell[0]), state.to_obstacle(cell[1]), state.to_obstacle(cell[2])};
+}
+
+/// Where the pairs of a frontier begin.
+Frontier::const_iterator pairs_of(const Frontier& frontier) { return frontier.begin() + 1 + frontier[0]; }
+
+/// Whether no pair of the parent's may meet in the cell; otherwise `own` has those that may, and `inner`.
+bool no_pair_is_left(const State& state, const Directions& directions, const Frontier& parent,
+                     const Frontier& inner, Frontier& own) {
+  std::vector<NodePair> pairs;
+  for (auto i = pairs_of(parent); i != parent.end(); i += 2) pairs.push_back({i[0], i[1]});
+  const BoxTest test(state.zero, directions, CircularResidual(directions));
+  pairs = refined(state, std::move(pairs), directions, test);
+  if (pairs.empty()) return true;
+  own.assign(1, static_cast<std::uint32_t>(inner.size()));
+  own.insert(own.end(), inner.begin(), inner.end());
+  for (const NodePair& pair : pairs) own.insert(own.end(), {pair.a, pair.b});
+  return false;
+}
+
+}  // namespace
+}  // namespace composite
+
 Certified CompositePair::classify(const DirectionCell& cell, const Frontier& parent, Frontier& own) const {
   using namespace composite;
   const composite::State& state = *state_;
   own = parent;
   if (!state.relation) return Certified::undecided;
   if (*state.relation != Relation::disjoint) return Certified::in;
-  const DirectionCell turned{state.to_obstacle(cell[0]), state.to_obstacle(cell[1]),
-                             state.to_obstacle(cell[2])};
+  const DirectionCell turned = in_obstacle_frame(state, cell);
   const Directions directions(state.zero, {turned[0], turned[1], turned[2]});
   if (directions.spread_too_far()) return Certified::undecided;
 
-  const auto first = parent.begin() + 1, pairs_begin = first + parent[0];
-  Frontier inner_parent(first, pairs_begin), inner;
+  const Frontier inner_parent(parent.begin() + 1, pairs_of(parent));
+  Frontier inner;
   if (state.within && !inner_parent.empty()) {
     if (state.within->classify(turned, inner_parent, inner) == Certified::in) return Certified::in;
   }
-  std::vector<NodePair> pairs;
-  for (auto i = pairs_begin; i != parent.end(); i += 2) pairs.push_back({i[0], i[1]});
-  const BoxTest test(state.zero, directions, CircularResidual(directions));
-  pairs = refined(state, std::move(pairs), directions, test);
-  if (pairs.empty()) return Certified::out;
-
-  own.assign(1, static_cast<std::uint32_t>(inner.size()));
-  own.insert(own.end(), inner.begin(), inner.end());
-  for (const NodePair& pair : pairs) own.insert(own.end(), {pair.a, pair.b});
+  if (no_pair_is_left(state, directions, parent, inner, own)) return Certified::out;
   return pairs_meet(state, turned, state.cells ? 0 : 3) ? Certified::in : Certified::undecided;
+}
+
+bool CompositePair::misses(const DirectionCell& cell, const Frontier& parent, Frontier& own) const {
+  using namespace composite;
+  const composite::State& state = *state_;
+  own = parent;
+  if (state.relation != Relation::disjoint) return false;
+  const DirectionCell turned = in_obstacle_frame(state, cell);
+  const Directions directions(state.zero, {turned[0], turned[1], turned[2]});
+  if (directions.spread_too_far()) return false;
+  return no_pair_is_left(state, directions, parent, Frontier(parent.begin() + 1, pairs_of(parent)), own);
 }
 
 }  // namespace vericone

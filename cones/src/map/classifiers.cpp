@@ -244,14 +244,16 @@ Frontier AnyOfClassifier::start() const {
   return all;
 }
 
-Certified AnyOfClassifier::classify(const DirectionCell& cell, const Frontier& parent, Frontier& own) const {
+/// ask(classifier, parent, own) of each that its parent's frontier names.
+template <typename Ask>
+Certified AnyOfClassifier::each(const Frontier& parent, Frontier& own, const Ask& ask) const {
   Frontier before, after;
   for (std::size_t at = 0; at < parent.size();) {
     const std::uint32_t index = parent[at], count = parent[at + 1];
     before.assign(parent.begin() + at + 2, parent.begin() + at + 2 + count);
     at += 2 + count;
     after.clear();
-    const Certified answer = all_[index]->classify(cell, before, after);
+    const Certified answer = ask(*all_[index], before, after);
     if (answer == Certified::in) return Certified::in;
     if (answer == Certified::out) continue;
     own.push_back(index);
@@ -261,9 +263,31 @@ Certified AnyOfClassifier::classify(const DirectionCell& cell, const Frontier& p
   return own.empty() ? Certified::out : Certified::undecided;
 }
 
+Certified AnyOfClassifier::classify(const DirectionCell& cell, const Frontier& parent, Frontier& own) const {
+  return each(parent, own, [&](const DirectionClassifier& one, const Frontier& before, Frontier& after) {
+    return one.classify(cell, before, after);
+  });
+}
+
+bool AnyOfClassifier::misses(const DirectionCell& cell, const Frontier& parent, Frontier& own) const {
+  return each(parent, own, [&](const DirectionClassifier& one, const Frontier& before, Frontier& after) {
+           return one.misses(cell, before, after) ? Certified::out : Certified::undecided;
+         }) == Certified::out;
+}
+
+namespace {
+
+DirectionCell mirrored(const DirectionCell& cell) { return {-cell[0], -cell[2], -cell[1]}; }
+
+}  // namespace
+
 Certified MirroredClassifier::classify(const DirectionCell& cell, const Frontier& parent,
                                        Frontier& own) const {
-  return exchanged_->classify({-cell[0], -cell[2], -cell[1]}, parent, own);
+  return exchanged_->classify(mirrored(cell), parent, own);
+}
+
+bool MirroredClassifier::misses(const DirectionCell& cell, const Frontier& parent, Frontier& own) const {
+  return exchanged_->misses(mirrored(cell), parent, own);
 }
 
 }  // namespace vericone

@@ -57,20 +57,18 @@ HalfPlaneReach reach_of(const Family& family, const DirectionClassifier& cells, 
     arcs.push_back(
         {{kLength * direction(from), kLength * direction(to), kLength * beside}, from, to, cells.start()});
   }
+  // From the outside inwards: the first arc that is not known to miss ends it.
   for (int count = 0; !arcs.empty(); ++count) {
     Arc arc = std::move(arcs.back());
     arcs.pop_back();
     Frontier own;
-    const Certified answer =
-        count < kMostCells ? cells.classify(arc.cell, arc.known, own) : Certified::undecided;
-    if (answer == Certified::out) continue;
-    if (answer == Certified::in) return {true, arc.to, arc.to};
+    if (count < kMostCells && cells.misses(arc.cell, arc.known, own)) continue;
     if (count >= kMostCells || arc.to - arc.from <= edge) {
       reach.high = arc.to;
       break;
     }
     arc.known = std::move(own);
-    if (!collides(angle_of(arc.cell[0] + arc.cell[1]))) arcs.push_back(arc.part(false, angle_of));
+    arcs.push_back(arc.part(false, angle_of));
     arcs.push_back(arc.part(true, angle_of));
   }
   // Inwards by steps that double until one collides, then back.

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/planar/sector.h>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
 
 #include "planar/degenerate_conics.h"
 #include "planar/planar_frame.h"
@@ -16,6 +20,66 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 namespace {
+
+/// Of a 3 x 3 matrix h with h(2, 0) = 0, all eigenvalues of which are real: eigenvalues, and eigenvectors in
+/// columns. QR steps with shifts, then back substitution (Golub and Van Loan, Matrix Computations, 7.5 and
+/// 7.6); Eigen's solver does the same for any matrix, and takes 8 s to compile. Nothing where a pair is
+/// complex.
+struct RealEigen {
+  Vector3d values;
+  Matrix3d vectors;
+};
+std::optional<RealEigen> real_eigen(Matrix3d h) {
+  constexpr double kEps = std::numeric_limits<double>::epsilon();
+  constexpr int kMostSteps = 60;
+  Matrix3d q = Matrix3d::Identity();
+  for (int last = 2, steps = 0; last > 0; ++steps) {
+    int first = last;
+    while (first > 0 && std::abs(h(first, first - 1)) >
+                            kEps * (std::abs(h(first, first)) + std::abs(h(first - 1, first - 1))))
+      --first;
+    if (first == last) {
+      --last;
+      continue;
+    }
+    // Shifted by the eigenvalue of the last two rows that is nearer to their corner.
+    const double half = 0.5 * (h(last - 1, last - 1) - h(last, last)),
+                 product = h(last - 1, last) * h(last, last - 1), square = half * half + product;
+    if (steps == kMostSteps || (last - first == 1 && square < 0)) return std::nullopt;
+    const double root = std::copysign(std::sqrt(std::max(0.0, square)), half);
+    const double shift = h(last, last) - (half + root == 0 ? 0 : product / (half + root));
+    std::array<std::pair<double, double>, 2> turns;
+    for (int k = first; k <= last; ++k) h(k, k) -= shift;
+    for (int k = first; k < last; ++k) {
+      const double length = std::hypot(h(k, k), h(k + 1, k));
+      const double c = length > 0 ? h(k, k) / length : 1, s = length > 0 ? h(k + 1, k) / length : 0;
+      for (int j = k; j < 3; ++j)
+        std::tie(h(k, j), h(k + 1, j)) =
+            std::pair(c * h(k, j) + s * h(k + 1, j), c * h(k + 1, j) - s * h(k, j));
+      turns[k] = {c, s};
+    }
+    for (int k = first; k < last; ++k)
+      for (Matrix3d* m : {&h, &q})
+        for (int i = 0; i < 3; ++i) {
+          const auto [c, s] = turns[k];
+          std::tie((*m)(i, k), (*m)(i, k + 1)) =
+              std::pair(c * (*m)(i, k) + s * (*m)(i, k + 1), c * (*m)(i, k + 1) - s * (*m)(i, k));
+        }
+    for (int k = first; k <= last; ++k) h(k, k) += shift;
+  }
+  RealEigen result{h.diagonal(), Matrix3d::Zero()};
+  const double least = kEps * h.cwiseAbs().maxCoeff();  // apart of eigenvalues
+  for (int k = 0; k < 3; ++k) {
+    Vector3d x = Vector3d::Unit(k);
+    for (int i = k - 1; i >= 0; --i) {
+      for (int j = i + 1; j <= k; ++j) x(i) -= h(i, j) * x(j);
+      const double apart = h(i, i) - h(k, k);
+      x(i) /= std::abs(apart) > least ? apart : least;
+    }
+    for (int j = 0; j <= k; ++j) result.vectors.col(k) += x(j) * q.col(j);
+  }
+  return result;
+}
 
 /// The corner of the rectangle as a common point of the two dual conics, by Newton. Where an inner tangent
 /// nearly coincides with an outer one (a needle that points at the other body, a body that looks like a
@@ -70,14 +134,14 @@ std::optional<InnerTangents> inner_tangents_by_degenerate_conics(const PlanarFra
   c1 << s(0, 0) - lambda, s(0, 1), 1, s(0, 1), s(1, 1), 0, 1, 0, -1 / lambda;
   c1 = scale.asDiagonal() * c1 * scale.asDiagonal();
   const Vector3d j(-1, 1, -1);
-  const Eigen::EigenSolver<Matrix3d> solver(j.asDiagonal() * c1);  // Algorithm 3, line 1
-  if (solver.info() != Eigen::Success) return std::nullopt;
-  const auto& values = solver.eigenvalues();
-  const double largest = values.cwiseAbs().maxCoeff();
-  for (int i = 0; i < 3; ++i)
-    if (!(std::abs(values(i).imag()) <= 1e-12 * largest)) return std::nullopt;
-  const Vector3d t = values.real();
-  Matrix3d u = solver.pseudoEigenvectors();
+  // Algorithm 3, line 1, of j c1 with its first two coordinates exchanged: c1(1, 2) is zero.
+  Matrix3d pencil;
+  pencil << c1(1, 1), c1(1, 0), 0, -c1(0, 1), -c1(0, 0), -c1(0, 2), 0, -c1(2, 0), -c1(2, 2);
+  const auto eigen = real_eigen(pencil);
+  if (!eigen) return std::nullopt;
+  const Vector3d& t = eigen->values;
+  Matrix3d u = eigen->vectors;
+  u.row(0).swap(u.row(1));
 
   // Lines 2-3: in the basis U the members are diag(g_i) and diag(t_i g_i); both vanish at the corners
   // l_i^2 = g_j g_k (t_j - t_k), (i, j, k) cyclic.

@@ -20,11 +20,11 @@ Vector3d at(const AxisFrame& frame, double azimuth, double angle) {
 }
 
 TEST(CombinedCone, OfTwoStarsEndsWithItsWorkDone) {
-  for (const CombinedEngagement& e : combined_engagements(4, Family::star, Family::star)) {
+  for (const CombinedEngagement& e : combined_engagements(10, Family::star, Family::star)) {
     const CombinedCone full = combined_cone(e.a, e.b, 0.01);
     ASSERT_EQ(full.relation, Relation::disjoint);
     EXPECT_LE(2 * full.solid_angle_error, 0.01001 * full.outer.solid_angle);
-    EXPECT_LT(full.boxes, 1'500'000U);
+    EXPECT_LT(full.boxes, 1'000'000U);
     // Out of boxes it returns what it has: a bound, and not much more work than was granted.
     for (const std::uint64_t most : {1U, 50'000U, 200'000U}) {
       const CombinedCone cone = combined_cone(e.a, e.b, 1e-4, most);
@@ -34,6 +34,17 @@ TEST(CombinedCone, OfTwoStarsEndsWithItsWorkDone) {
                 cone.solid_angle_error + full.solid_angle_error);
     }
   }
+}
+
+TEST(CombinedOracle, SmallBodiesAtTheSurfaceOverlap) {
+  for (const Family family : {Family::biconcave, Family::biconvex, Family::star})
+    for (const CombinedEngagement& e : combined_engagements(10, Family::ellipsoid, family)) {
+      const Vector3d u = e.w.normalized();
+      const Vector3d inside = e.b.center() + (1 - 1e-9) / e.b.gauge(u) * u;
+      const Ellipsoid small = Ellipsoid::from_axes(inside, Vector3d::Constant(1e-6 / e.b.gauge(u)));
+      EXPECT_EQ(CombinedOracle(small, e.b).relation(), Relation::overlapping);
+      EXPECT_EQ(CombinedOracle(e.b, small).relation(), Relation::overlapping);
+    }
 }
 
 TEST(CombinedOracle, EdgesAreWhereItsAnswersChange) {

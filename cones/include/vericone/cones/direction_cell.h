@@ -31,6 +31,11 @@ class DirectionClassifier {
   /// mixed, or could not be proved to be either. `parent`: that of a cell that contains this one, or start();
   /// `own`: receives this cell's where it is undecided. May be called by several threads at once.
   virtual Certified classify(const DirectionCell& cell, const Frontier& parent, Frontier& own) const = 0;
+
+  /// Whether classify() would say `out`. Where bodies have many parts, proving `in` is half of its cost.
+  virtual bool misses(const DirectionCell& cell, const Frontier& parent, Frontier& own) const {
+    return classify(cell, parent, own) == Certified::out;
+  }
 };
 
 }  // namespace vericone

@@ -24,8 +24,7 @@ template <int N>
 template <int N>
 [[nodiscard]] Eigen::Matrix<double, N, 1> symmetric_eigenvalues(const Eigen::Matrix<double, N, N>& a);
 
-/// a = L L^T of a symmetric matrix, whose lower triangle is read. N is 2, 3 or 4; the members that solve are
-/// there for 2 and 3, `solve` and `inverse` for 3.
+/// a = L L^T of a symmetric matrix, whose lower triangle is read. N is 2, 3 or 4.
 template <int N>
 struct Cholesky {
   Eigen::Matrix<double, N, N> lower;  // zeros above the diagonal
@@ -57,6 +56,10 @@ template <int N>
 /// The orthogonal matrix nearest to `a`: u v^T of its singular vectors.
 template <int N>
 [[nodiscard]] Eigen::Matrix<double, N, N> nearest_orthogonal(const Eigen::Matrix<double, N, N>& a);
+
+/// x of a x = b for a square matrix of up to 16 rows, by elimination with partial pivots; not finite where `a`
+/// is singular. `a` is overwritten, b becomes x. No allocation.
+void solve_square(Eigen::Ref<Eigen::MatrixXd> a, Eigen::Ref<Eigen::VectorXd> b);
 
 /// x of least |a x - b|, any size; of several the shortest, however the rank falls short.
 [[nodiscard]] Eigen::VectorXd shortest_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);

@@ -73,9 +73,10 @@ class CombinedOracle {
   /// Whether all directions of the convex hull of two, less than a right angle apart and not zero, are in
   /// (out): true is certain, false says nothing.
   /// `at_from`, `at_to`: edges near both to look for contacts from, and there alone, where neither body is an
-  /// ellipsoid.
+  /// ellipsoid; `between`: one half way, if there is one.
   [[nodiscard]] bool all_in(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-                            const CombinedEdge* at_from = nullptr, const CombinedEdge* at_to = nullptr) const;
+                            const CombinedEdge* at_from = nullptr, const CombinedEdge* at_to = nullptr,
+                            const CombinedEdge* between = nullptr) const;
   /// `left`: where to write the points that were in the way of a proof, for two bodies neither of which is an
   /// ellipsoid.
   [[nodiscard]] bool all_out(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
@@ -121,7 +122,7 @@ struct CombinedCone {
 
 /// Refined until the solid angles of inner and outer cone differ by at most `tolerance` (0 < tolerance < 1)
 /// of the outer one, or until `most_boxes` have been searched (by default about 0.3 s); the bound returned
-/// says what was reached. What has begun then is brought to an end: some 100,000 boxes at most.
+/// says what was reached. What has begun then is brought to an end: some 400,000 boxes at most.
 /// Overlapping bodies: every velocity (4 pi, no directions). Throws InputError naming "tolerance". Cost: see
 /// docs/measured/benchmarks.md.
 [[nodiscard]] CombinedCone combined_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& b,

@@ -77,6 +77,7 @@ class CompositePair : public DirectionClassifier {
 
   [[nodiscard]] Frontier start() const override;
   Certified classify(const DirectionCell& cell, const Frontier& parent, Frontier& own) const override;
+  bool misses(const DirectionCell& cell, const Frontier& parent, Frontier& own) const override;
 
   struct State;
 

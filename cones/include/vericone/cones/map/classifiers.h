@@ -78,8 +78,12 @@ class AnyOfClassifier : public DirectionClassifier {
       : all_(std::move(all)) {}
   [[nodiscard]] Frontier start() const override;
   Certified classify(const DirectionCell& cell, const Frontier& parent, Frontier& own) const override;
+  bool misses(const DirectionCell& cell, const Frontier& parent, Frontier& own) const override;
 
  private:
+  template <typename Ask>
+  Certified each(const Frontier& parent, Frontier& own, const Ask& ask) const;
+
   std::vector<std::shared_ptr<const DirectionClassifier>> all_;
 };
 
@@ -90,6 +94,7 @@ class MirroredClassifier : public DirectionClassifier {
       : exchanged_(std::move(exchanged)) {}
   [[nodiscard]] Frontier start() const override { return exchanged_->start(); }
   Certified classify(const DirectionCell& cell, const Frontier& parent, Frontier& own) const override;
+  bool misses(const DirectionCell& cell, const Frontier& parent, Frontier& own) const override;
 
  private:
   std::shared_ptr<const DirectionClassifier> exchanged_;

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <vericone/geometry/decompositions.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "support/allocations.h"
+#include "support/random.h"
+
+namespace vericone::decompositions_test {
+namespace {
+
+using Eigen::Matrix3d, Eigen::MatrixXd, Eigen::Vector3d, Eigen::VectorXd;
+using testing::Random;
+
+MatrixXd matrix(Random& random, int rows, int cols) {
+  MatrixXd m(rows, cols);
+  for (double& x : m.reshaped()) x = random.normal();
+  return m;
+}
+
+TEST(Decompositions, CholeskysFactorsAndSolutionsAreEigens) {
+  Random random(1);
+  int refused = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    Matrix3d half = matrix(random, 3, 3);
+    for (int k = 0; k < 3; ++k) half.row(k) *= std::exp(random.uniform(-9, 9));
+    Matrix3d a = half * half.transpose();
+    if (i % 8 == 0) a(2, 2) *= 0.5;
+    const Eigen::LLT<Matrix3d> eigens(a);
+    const Cholesky<3> ours = cholesky<3>(a);
+    ASSERT_EQ(ours.positive, eigens.info() == Eigen::Success) << random.trace();
+    if (!ours.positive) {
+      ++refused;
+      continue;
+    }
+    const Matrix3d lower = eigens.matrixL();
+    ASSERT_EQ(ours.lower, lower) << random.trace();
+    const Vector3d x = random.vector<3>();
+    ASSERT_EQ(ours.solve(x), Vector3d(eigens.solve(x))) << random.trace();
+    const Matrix3d inverse = lower.triangularView<Eigen::Lower>().solve(Matrix3d::Identity());
+    ASSERT_EQ(ours.lower_inverse(), inverse) << random.trace();
+  }
+  EXPECT_GT(refused, 100);
+}
+
+TEST(Decompositions, SystemsAreSolvedAsByEigen) {
+  Random random(2);
+  for (int i = 0; i < 20'000; ++i) {
+    const int n = random.integer(1, 16);
+    MatrixXd a = matrix(random, n, n);
+    for (double& x : a.reshaped())
+      if (random.integer(0, 4) == 0) x = 0;
+    VectorXd b = matrix(random, n, 1);
+    const VectorXd expected = a.partialPivLu().solve(b);
+    const std::size_t before = testing::allocations();
+    solve_square(a, b);
+    ASSERT_EQ(testing::allocations(), before);
+    for (int k = 0; k < n; ++k)  // not finite where a is singular
+      ASSERT_TRUE(b(k) == expected(k) || (!std::isfinite(b(k)) && !std::isfinite(expected(k))))
+          << random.trace();
+  }
+}
+
+TEST(Decompositions, LeastSquaresAreEigensOfEveryRank) {
+  Random random(3);
+  for (int i = 0; i < 2'000; ++i) {
+    const int rows = random.integer(1, 60), cols = random.integer(1, 60);
+    const int rank = random.integer(1, std::min(rows, cols));
+    const MatrixXd a = matrix(random, rows, rank) * matrix(random, rank, cols);
+    const VectorXd b = matrix(random, rows, 1);
+    ASSERT_EQ(shortest_least_squares(a, b), VectorXd(a.completeOrthogonalDecomposition().solve(b)))
+        << random.trace();
+    ASSERT_EQ(least_squares(a, b), VectorXd(a.colPivHouseholderQr().solve(b))) << random.trace();
+  }
+  EXPECT_EQ(shortest_least_squares(MatrixXd::Zero(3, 2), VectorXd::Ones(3)), VectorXd::Zero(2));
+}
+
+}  // namespace
+}  // namespace vericone::decompositions_test
