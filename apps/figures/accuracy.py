@@ -2,7 +2,7 @@
 """Accuracy of slice and exact cones, from summary.json: random engagements, then scanned objects."""
 import numpy as np
 
-from style import BOUND, EXACT, GREY, SLICE, TWO_COLUMNS, plane_axis, plt, read, save
+from vericone_figures.style import BOUND, EXACT, GREY, SLICE, TWO_COLUMNS, plane_axis, plt, read, save
 
 
 def column(rows, *keys):

@@ -7,8 +7,9 @@ import os
 import numpy as np
 from matplotlib.colors import to_rgb
 
-from runs import body_colors, groups, is_planar, outline, polygons, posed, radii, rows, surface
-from style import folder, read
+from vericone_figures.bodies import body_colors, is_planar, outline, polygons, posed, radii, surface
+from vericone_figures.style import folder, read
+from vericone_figures.tables import groups, rows
 
 MOST_ROWS = 400  # of a body; in between the page interpolates
 HAPPENS = {"enters-cone": "enters the cone of", "leaves-cone": "leaves the cone of", "aligned": "is aligned with its goal",
@@ -22,7 +23,7 @@ def numbers(values, digits=6):
 
 
 def unit_grid(n=17):
-    """Unit vectors as surface() has them, and the triangles between them."""
+    """Unit vectors, and the triangles between them."""
     longitude, height = np.meshgrid(np.linspace(0, 2 * np.pi, 2 * n - 1), np.linspace(0, np.pi, n))
     u = np.stack([np.cos(height), np.sin(height) * np.cos(longitude), np.sin(height) * np.sin(longitude)], axis=-1)
     return u.reshape(-1, 3), grid_triangles(*height.shape)

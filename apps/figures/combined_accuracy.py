@@ -2,7 +2,7 @@
 """Slice cones of combined quadrics against planes, held against certified inner and outer cones (summary.json)."""
 import numpy as np
 
-from style import BOUND, EXACT, GREY, SLICE, TWO_COLUMNS, plane_axis, plt, read, save
+from vericone_figures.style import BOUND, EXACT, GREY, SLICE, TWO_COLUMNS, plane_axis, plt, read, save
 
 data = read("summary.json")["random"]
 slices = data["slice"]

@@ -3,9 +3,9 @@
 cone of the convex hulls, a plane section with its tangents, a velocity."""
 import numpy as np
 
-import course as courses
-from solids import HYPERBOLOID, ELLIPSOID, Solid, View, draw_lines, draw_solids, frame, scale_bar, triad
-from style import AGENT, EXACT, GREY, SLICE, TWO_COLUMNS, plt, read, save
+from vericone_figures import course as courses
+from vericone_figures.solids import HYPERBOLOID, ELLIPSOID, Solid, View, draw_lines, draw_solids, frame, scale_bar, triad
+from vericone_figures.style import AGENT, EXACT, GREY, SLICE, TWO_COLUMNS, plt, read, save
 
 VIEWS = {"section": (-70, 32), "notch": (133, 14)}
 

@@ -2,8 +2,8 @@
 """The source's conic (5.5): an ellipse dented by a hyperbola, from dented_conic.json."""
 import numpy as np
 
-from solids import ELLIPSOID, HYPERBOLOID
-from style import TWO_COLUMNS, plt, read, save
+from vericone_figures.solids import ELLIPSOID, HYPERBOLOID
+from vericone_figures.style import TWO_COLUMNS, plt, read, save
 
 data = read("dented_conic.json")
 figure, (one, family) = plt.subplots(1, 2, figsize=(TWO_COLUMNS, 2.9), gridspec_kw={"width_ratios": [1.15, 1]})

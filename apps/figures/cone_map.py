@@ -8,8 +8,8 @@ from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-import course as courses
-from style import EXACT, GREY, TWO_COLUMNS, plt, read, save
+from vericone_figures import course as courses
+from vericone_figures.style import EXACT, GREY, TWO_COLUMNS, plt, read, save
 
 COLORS = {"i": "#e0a58a", "o": "#dcebf5", "u": GREY}
 NAMES = {"i": "collides", "o": "safe", "u": "undecided"}

@@ -4,8 +4,8 @@ with where it leads, and a velocity between the two cones, which is shown in spa
 import numpy as np
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-import course as courses
-from style import AGENT, EXACT, GREY, OBSTACLE, SLICE, TWO_COLUMNS, plt, read, save
+from vericone_figures import course as courses
+from vericone_figures.style import AGENT, EXACT, GREY, OBSTACLE, SLICE, TWO_COLUMNS, plt, read, save
 
 data = read("engagement.json")
 

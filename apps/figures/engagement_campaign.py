@@ -2,7 +2,7 @@
 """A campaign of guidance laws: what became of the engagements under each law, and the least distances."""
 import numpy as np
 
-from style import BOUND, EXACT, GREY, OBSTACLE, SLICE, TWO_COLUMNS, plt, read, save
+from vericone_figures.style import BOUND, EXACT, GREY, OBSTACLE, SLICE, TWO_COLUMNS, plt, read, save
 
 data = read("summary.json")
 total, straight, laws = data["engagements"], data["straight"], data["laws"]

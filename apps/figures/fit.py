@@ -8,8 +8,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
 
-from solids import Solid, View, draw_lines
-from style import EXACT, GREY, SLICE, TWO_COLUMNS, plt, read, save
+from vericone_figures.solids import Solid, View, draw_lines
+from vericone_figures.style import EXACT, GREY, SLICE, TWO_COLUMNS, plt, read, save
 
 SCAN, TOUCH = "#7f8f7a", "#c01f1f"
 FRONT, SIDE, ABOVE, ASKEW = View(-90, 0), View(0, 0), View(-90, 90), View(-60, 25)

@@ -6,7 +6,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
 
-from style import GREY, OBSTACLE, SLICE, TWO_COLUMNS, EXACT, plt, read, save
+from vericone_figures.style import GREY, OBSTACLE, SLICE, TWO_COLUMNS, EXACT, plt, read, save
 
 COLORS = {"ellipsoid": SLICE, "hull": EXACT, "convex hull": OBSTACLE}
 SCAN, SAVED, BETWEEN = "#b9b9b9", "#cfe8cf", "#f3f3f3"

@@ -5,10 +5,10 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import to_rgb
 
-import course as courses
-from directions import along_axis, colour_bar
-from solids import View, frame, scale_bar, triad
-from style import AGENT, EXACT, GREY, OBSTACLE, TWO_COLUMNS, plt, read, save
+from vericone_figures import course as courses
+from vericone_figures.directions import along_axis, colour_bar
+from vericone_figures.solids import View, frame, scale_bar, triad
+from vericone_figures.style import AGENT, EXACT, GREY, OBSTACLE, TWO_COLUMNS, plt, read, save
 
 data = read("pieces.json")
 apex, axis, e1, e2 = (np.array(x) for x in (data["agent"]["center"], data["axis"], data["e1"], data["e2"]))

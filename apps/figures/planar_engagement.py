@@ -4,8 +4,8 @@ velocities drawn at the agent, and where the scene's relative velocity leads, se
 import numpy as np
 from matplotlib.patches import Arc, Patch, Wedge
 
-import course as courses
-from style import AGENT, EXACT, GREY, OBSTACLE, ONE_COLUMN, plt, read, save
+from vericone_figures import course as courses
+from vericone_figures.style import AGENT, EXACT, GREY, OBSTACLE, ONE_COLUMN, plt, read, save
 
 data = read("engagement.json")
 course = data["course"]

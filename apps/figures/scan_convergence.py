@@ -6,7 +6,7 @@ import os
 
 import numpy as np
 
-from style import EXACT, GREY, SLICE, AGENT, OBSTACLE, TWO_COLUMNS, folder, plt, read, save
+from vericone_figures.style import EXACT, GREY, SLICE, AGENT, OBSTACLE, TWO_COLUMNS, folder, plt, read, save
 
 COLORS = (EXACT, AGENT, OBSTACLE, SLICE)
 MARKS = ("o", "s", "^", "v")

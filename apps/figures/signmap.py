@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 
-from style import TWO_COLUMNS, folder, plt, read, save
+from vericone_figures.style import TWO_COLUMNS, folder, plt, read, save
 
 ANSWERS = {"in": "#d1602b", "on": "#111111", "out": "#cfe0f0"}
 RUNGS = {"triage": "#e8efe6", "interval": "#8fbf8a", "exact": "#2f6b3a"}

@@ -5,8 +5,9 @@ import numpy as np
 from matplotlib.patches import Circle, Patch
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-from runs import MANY, body_colors, groups, is_planar, lit, outline, polygons, posed, rotation, row_at, rows, surface
-from style import GREY, TWO_COLUMNS, folder, plt, read, save
+from vericone_figures.bodies import MANY, body_colors, is_planar, lit, outline, polygons, posed, rotation, surface
+from vericone_figures.style import GREY, TWO_COLUMNS, folder, plt, read, save
+from vericone_figures.tables import groups, row_at, rows
 
 bodies = {name: columns for (name,), columns in groups(rows(folder(), "bodies.csv"), "body").items()}
 encounters = groups(rows(folder(), "encounters.csv"), "agent", "obstacle")

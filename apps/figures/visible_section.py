@@ -3,7 +3,7 @@
 section, the points that its LiDARs return, what they do not see, and the common tangents."""
 import numpy as np
 
-from style import AGENT, EXACT, GREY, OBSTACLE, SLICE, TWO_COLUMNS, plt, read, save
+from vericone_figures.style import AGENT, EXACT, GREY, OBSTACLE, SLICE, TWO_COLUMNS, plt, read, save
 
 data = read("section.json")
 agent, returns = np.array(data["agent"]), np.array(data["returns"]).reshape(-1, 2)

@@ -24,9 +24,8 @@ STEP = 0.01  # s, of 5.4
 SOURCES = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 
-def run(*arguments, papers=None):
-    environment = dict(os.environ, VERICONE_PAPERS=papers) if papers else None
-    return subprocess.run([VERICONE, *arguments], capture_output=True, text=True, check=False, env=environment)
+def run(*arguments, folder=None):
+    return subprocess.run([VERICONE, *arguments], capture_output=True, text=True, check=False, cwd=folder)
 
 
 @functools.lru_cache
@@ -91,7 +90,7 @@ class Altered(unittest.TestCase):
     @staticmethod
     def claims_with(scenario, *changes):
         with tempfile.TemporaryDirectory() as folder:
-            shutil.copytree(os.path.join(SOURCES, "papers", "dhal2022", "scenarios"), folder + "/dhal2022/scenarios")
+            shutil.copytree(os.path.join(SOURCES, "papers", "dhal2022"), folder + "/dhal2022")
             path = "%s/dhal2022/scenarios/%s.yaml" % (folder, scenario)
             with open(path) as f:
                 text = f.read()
@@ -100,7 +99,7 @@ class Altered(unittest.TestCase):
                 assert count == 1, pattern
             with open(path, "w") as f:
                 f.write(text)
-            result = run("claims", "--json", "--quiet", papers=folder)
+            result = run("claims", "--paper", folder + "/dhal2022", "--json", "--quiet")
             assert result.returncode == 0, result.stderr
             return {c["id"]: c for c in json.loads(result.stdout)["claims"]}
 
@@ -318,7 +317,7 @@ class Figures(unittest.TestCase):
             self.assertTrue(all(link.startswith("#") for link in page.links))  # nothing is loaded
             for c in claims().values():
                 self.assertIn(c["verdict"], text)
-            self.assertEqual(page.headings, 1 + len(run("figures", "--list").stdout.splitlines()))
+            self.assertEqual(page.headings, 2 + len(run("figures", "--list").stdout.splitlines()))
 
 
 class Changed(unittest.TestCase):

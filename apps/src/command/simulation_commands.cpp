@@ -6,6 +6,7 @@
 #include "montecarlo/campaign_command.h"
 #include "paper/claims_command.h"
 #include "paper/figures_command.h"
+#include "paper/new_paper.h"
 #include "simulate/check_command.h"
 #include "simulate/simulate_command.h"
 
@@ -27,9 +28,7 @@ int simulate_command(CommandLine& line) {
 
 int check_command(CommandLine& line) {
   std::string file;
-  line.option("file", file,
-              "Scene, scenario or body, YAML (docs/reference/formats.md, docs/reference/scenarios.md)")
-      .required();
+  line.option("file", file, "Scene, scenario, body, figures or claims, YAML (docs/reference/formats.md, docs/reference/scenarios.md, docs/papers.md)").required();
   line.read();
   return run_check(file, std::cout);
 }
@@ -57,20 +56,25 @@ int campaign_command(CommandLine& line) {
 }
 
 int claims_command(CommandLine& line) {
-  ClaimsOptions claims;
+  paper::ClaimsOptions claims;
+  line.option("--paper", claims.paper,
+              "Its folder, or the name of one of ours; papers/dhal2022 if not given");
   line.option("--out", claims.out, "Also write claims.json to this folder");
   line.flag("--json", claims.json, "Print JSON");
   line.flag("--given", claims.given, "Also list the printed values that go into the runs");
   line.flag("--quiet", claims.quiet, "No progress");
   line.read();
   claims.command_line = line.text();
-  return run_claims(claims, std::cout);
+  return paper::run_claims(claims, std::cout);
 }
 
 int figures_command(CommandLine& line) {
-  FiguresOptions figures;
+  paper::FiguresOptions figures;
   line.option("figures", figures.ids, "Their numbers (docs/papers.md); all if not given");
-  line.option("--out", figures.out, "Folder for pictures, tables and report");
+  line.option("--paper", figures.paper,
+              "Its folder, or the name of one of ours; papers/dhal2022 if not given");
+  line.option("--out", figures.out,
+              "Folder for pictures, tables and report; out/ and the paper's name if not given");
   line.option("--scenario", figures.scenario, "Scenario file in place of the one that these figures show");
   line.option("--set", figures.set, "PATH=VALUE changes a field of their scenarios: bodies.F1.pilot.gain=8")
       .one_each();
@@ -79,17 +83,25 @@ int figures_command(CommandLine& line) {
   line.flag("--json", figures.json, "Print JSON: figures and the files of the report");
   line.read();
   figures.command_line = line.text();
-  return run_figures(figures, std::cout);
+  return paper::run_figures(figures, std::cout);
+}
+
+int paper_command(CommandLine& line) {
+  std::string what, folder;
+  line.option("what", what, "new: a small paper that works, to begin with (docs/papers.md)").required();
+  line.option("folder", folder, "Where it is to be: a folder that is empty or not there").required();
+  line.quiet();
+  line.read();
+  if (what != "new")
+    throw UsageError("paper: " + what + " is not known, new DIR is; see vericone paper --help");
+  return paper::new_paper(folder, std::cout);
 }
 
 }  // namespace
 
 std::map<std::string, Command> simulation_commands() {
-  return {{"check", check_command},
-          {"simulate", simulate_command},
-          {"campaign", campaign_command},
-          {"claims", claims_command},
-          {"figures", figures_command}};
+  return {{"check", check_command},   {"simulate", simulate_command}, {"campaign", campaign_command},
+          {"claims", claims_command}, {"figures", figures_command},   {"paper", paper_command}};
 }
 
 }  // namespace vericone

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "output/figures.h"
 
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <array>
-#include <cerrno>
-#include <csignal>
 #include <cstdlib>
 #include <iostream>
-#include <sstream>
 #include <stdexcept>
 #include <string_view>
+
+#include "output/child.h"
 
 namespace vericone {
 namespace {
@@ -43,8 +37,6 @@ bool lacks_package(const std::string& line) {
   return line.starts_with(kMissing);
 }
 
-constexpr int kNoInterpreter = 127;  // exit status of a child that could not become the interpreter
-
 void say_no_pictures(const std::string& why) {
   static bool said = false;
   if (!said)
@@ -59,45 +51,17 @@ void say_no_pictures(const std::string& why) {
 void draw_figures(const std::string& script, const std::filesystem::path& folder) {
   const std::filesystem::path scripts = scripts_folder(), file = scripts / script;
   if (!std::filesystem::exists(file)) throw std::runtime_error("figure script not found: " + file.string());
-  const std::string python = interpreter(), scripts_text = scripts.string(), file_text = file.string(),
-                    folder_text = folder.string();
-  std::array<int, 2> channel{};
-  if (pipe(channel.data()) != 0) throw std::runtime_error("no pipe for the figure script");
-  const pid_t parent = getpid(), child = fork();
-  if (child < 0) throw std::runtime_error("could not start the figure script");
-  if (child == 0) {
-    // A picture that nobody waits for is not drawn.
-    prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (getppid() != parent) std::_Exit(kNoInterpreter);
-    dup2(channel[1], STDOUT_FILENO);
-    dup2(channel[1], STDERR_FILENO);
-    close(channel[0]);
-    close(channel[1]);
-    execlp(python.c_str(), python.c_str(), "-I", "-c", kStart, scripts_text.c_str(), file_text.c_str(),
-           folder_text.c_str(), static_cast<char*>(nullptr));
-    std::_Exit(kNoInterpreter);
-  }
-  close(channel[1]);
-  std::string output;
-  std::array<char, 4096> buffer{};
-  for (ssize_t n = 0; (n = read(channel[0], buffer.data(), buffer.size())) > 0 || (n < 0 && errno == EINTR);)
-    if (n > 0) output.append(buffer.data(), static_cast<std::size_t>(n));
-  close(channel[0]);
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  std::istringstream lines(output);
-  std::string line, last;
-  while (std::getline(lines, line))
-    if (!line.empty()) last = line;
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-  if (WIFEXITED(status) && WEXITSTATUS(status) == kNoInterpreter) {
+  const std::string python = interpreter();
+  const ChildOutput child =
+      run_child(python, {"-I", "-c", kStart, scripts.string(), file.string(), folder.string()});
+  if (child.status == 0) return;
+  const std::string last = last_line(child.errors.empty() ? child.output : child.errors);
+  if (child.status == kNotStarted)
     say_no_pictures("no interpreter " + python);
-  } else if (lacks_package(last)) {
+  else if (lacks_package(last))
     say_no_pictures(python + " says " + last);
-  } else {
+  else
     throw std::runtime_error(script + " failed: " + (last.empty() ? python + " ended without a word" : last));
-  }
 }
 
 std::vector<std::filesystem::path> pictures_of(const std::vector<std::filesystem::path>& files) {

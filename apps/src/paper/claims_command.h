@@ -4,18 +4,19 @@
 #include <iosfwd>
 #include <string>
 
-namespace vericone {
+namespace vericone::paper {
 
 struct ClaimsOptions {
-  std::string out;  // empty: no files
+  std::string paper;  // its folder, or the name of one of ours; empty: papers/dhal2022
+  std::string out;    // empty: no files
   bool json = false;
   bool given = false;  // the table shows the values that go into runs, too
   bool quiet = false;
   std::string command_line;
 };
 
-/// `vericone claims`: what the source prints beside what we measure (docs/papers.md). Returns the exit
+/// `vericone claims`: what the paper prints beside what we measure (docs/papers.md). Returns the exit
 /// status: 0 whatever the verdicts are, 130 interrupted. Throws InputError.
 int run_claims(const ClaimsOptions& options, std::ostream& out);
 
-}  // namespace vericone
+}  // namespace vericone::paper

@@ -2,17 +2,13 @@
 #include "paper/figures_command.h"
 
 #include <vericone/geometry/error.h>
-#include <filesystem>
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <ostream>
 #include <set>
 #include <sstream>
 
-#include "accuracy/accuracy.h"
-#include "claims.h"
-#include "figure.h"
-#include "input/stopwatch.h"
-#include "json/json_value.h"
 #include "output/figures.h"
 #include "output/interrupt.h"
 #include "output/progress.h"
@@ -20,16 +16,13 @@
 #include "output/staged_folder.h"
 #include "output/threads.h"
 #include "paper/papers_folder.h"
-#include "report.h"
+#include "paper/report.h"
 #include "simulate/run_files.h"
 
-namespace vericone {
+namespace vericone::paper {
 namespace {
 
 namespace fs = std::filesystem;
-using dhal2022::Figure;
-
-constexpr std::uint64_t kEngagements = 1000;  // of Fig 6.5; `vericone accuracy` makes it of 10,000
 
 std::string content_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -38,13 +31,25 @@ std::string content_of(const fs::path& file) {
   return in ? text.str() : std::string();
 }
 
-dhal2022::Changes changes_of(const FiguresOptions& options, const std::vector<Figure>& figures) {
-  dhal2022::Changes changes;
-  for (const std::string& text : options.set) changes.values.push_back(dhal2022::read_change(text, "--set"));
+/// The scenarios that a figure shows, each once.
+std::vector<std::string> scenarios_of(const Figure& figure) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  for (const auto& [role, scenario] : figure.runs) add(scenario);
+  for (const Panel& panel : figure.panels)
+    for (const Line& line : panel.lines) add(line.series.run);
+  return names;
+}
+
+Changes changes_of(const FiguresOptions& options, const std::vector<Figure>& figures) {
+  Changes changes;
+  for (const std::string& text : options.set) changes.values.push_back(read_change(text, "--set"));
   changes.file = options.scenario;
   if (!changes.any()) return changes;
   for (const Figure& figure : figures)
-    for (const auto& [role, scenario] : figure.runs) changes.scenarios.insert(scenario);
+    for (const std::string& scenario : scenarios_of(figure)) changes.scenarios.insert(scenario);
   std::string names;
   for (const std::string& name : changes.scenarios) names.append(names.empty() ? "" : ", ").append(name);
   if (changes.scenarios.empty())
@@ -58,56 +63,54 @@ dhal2022::Changes changes_of(const FiguresOptions& options, const std::vector<Fi
 
 class Maker {
  public:
-  Maker(const FiguresOptions& options, const std::vector<Figure>& figures, Progress& progress)
+  Maker(const FiguresOptions& options, const fs::path& out, Paper& paper, const std::vector<Figure>& figures,
+        Progress& progress)
       : options_(options),
+        paper_(paper),
         changes_(changes_of(options, figures)),
         progress_(progress),
-        out_(options.out),
-        show_(
-            [&](const std::string& what, double share) { return progress_.show("running " + what, share); }),
-        runs_(papers_folder() / "dhal2022" / "scenarios", show_, changes_) {}
+        out_(out),
+        sources_(
+            paper.folder,
+            [&](const std::string& what, double share) { return progress_.show("running " + what, share); },
+            changes_),
+        measures_(sources_) {}
 
   void make(const Figure& figure, double share) {
-    for (const auto& [role, scenario] : figure.runs) write_run(scenario);
-    if (!progress_.show("figure " + figure.id, share)) throw dhal2022::Interrupted{};
+    const std::vector<std::string> scenarios = scenarios_of(figure);
+    for (const std::string& scenario : scenarios) write_run(scenario);
+    if (!progress_.show("figure " + figure.id, share)) throw Interrupted{};
     StagedFolder folder(out_, "--out");
     Json origin{{"figure", figure.id}, {"caption", figure.caption}};
-    if (figure.script.empty())
-      measure_accuracy(figure, folder.path(), origin);
+    if (!figure.command.empty())
+      carry_out(figure, folder.path(), origin);
     else
       draw(figure, folder.path(), origin);
     std::vector<fs::path> inputs;
-    for (const auto& [role, scenario] : figure.runs) inputs.push_back(runs_.run(scenario).file);
-    // Fig 6.5 alone is computed in parallel.
-    if (changes_.any() && !figure.runs.empty()) origin["changed"] = changed();
+    for (const std::string& scenario : scenarios) inputs.push_back(sources_.run(scenario, "").file);
+    if (changes_.any() && !scenarios.empty()) origin["changed"] = changed();
+    // Other commands compute in parallel.
     origin["provenance"] =
-        provenance(options_.command_line, figure.script.empty() ? threads_for(0) : 1, inputs);
+        provenance(options_.command_line, figure.command.empty() ? 1 : threads_for(0), inputs);
     write_whole(folder.path() / (figure.name() + ".json"), origin.dump(1) + "\n");
     folder.publish({});
   }
 
   /// Claims beside all figures that are there, also those of earlier commands.
   void report() {
-    const std::vector<dhal2022::Claim> claims = dhal2022::measure_claims(runs_, show_);
+    const std::vector<Claim> claims = paper_.measured_claims(sources_);
     progress_.show("report", 0);
-    std::vector<dhal2022::ReportFigure> shown;
-    for (const Figure& figure : dhal2022::all_figures()) {
-      dhal2022::ReportFigure entry{figure, content_of(out_ / (figure.name() + ".png")), Json()};
+    std::vector<ReportFigure> shown;
+    for (const Figure& figure : paper_.figures) {
+      ReportFigure entry{figure, content_of(out_ / (figure.name() + ".png")), Json()};
       const std::string origin = content_of(out_ / (figure.name() + ".json"));
       if (!entry.png.empty() && !origin.empty()) entry.provenance = Json::parse(origin, nullptr, false);
       shown.push_back(std::move(entry));
     }
-    Json list = Json::array();
-    for (const auto& claim : claims) list.push_back(dhal2022::to_json(claim));
-    Json origin = provenance(options_.command_line, 1, scenario_files());
-    if (changes_.any()) origin["changed"] = changed();
+    const Json json = claims_json(claims, paper_, options_.command_line, changes_.any() ? changed() : Json());
     StagedFolder folder(out_, "--out");
-    write_whole(
-        folder.path() / "claims.json",
-        Json{{"claims", list}, {"verdicts", dhal2022::count_verdicts(claims)}, {"provenance", origin}}.dump(
-            1) +
-            "\n");
-    write_whole(folder.path() / "report.html", dhal2022::report_html(shown, claims, origin));
+    write_whole(folder.path() / "claims.json", json.dump(1) + "\n");
+    write_whole(folder.path() / "report.html", report_html(paper_, shown, claims, json["provenance"]));
     folder.publish({});
   }
 
@@ -121,53 +124,101 @@ class Maker {
 
   void write_run(const std::string& name) {
     if (!written_.insert(name).second) return;
-    const dhal2022::PaperRun& run = runs_.run(name);
+    const PaperRun& run = sources_.run(name, "figures.yaml: runs");
     StagedFolder folder(out_ / "runs" / name, "--out");
     scenario::write_run(run.scenario, run.run, {run.file, options_.command_line, run.seconds, run.text},
                         folder.path());
     folder.publish({"planes.csv"});
   }
 
+  /// The points of a line; null where a formula has no value, which is a gap.
+  Json points(const Line& line, Rows rows, const std::string& name, const std::string& body) {
+    Json xs = Json::array(), ys = Json::array();
+    bool any = false;
+    const std::vector<double> x = measures_.column(line.x, rows, paper_.figure_values),
+                              y = measures_.column(line.y, rows, paper_.figure_values);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (!rows.counts[i]) continue;
+      xs.push_back(number_or_null(x[i]));
+      ys.push_back(number_or_null(y[i]));
+      any = any || std::isfinite(x[i] + y[i]);
+    }
+    if (!any) return nullptr;
+    return {{"name", name},          {"body", body}, {"dashed", line.dashed},
+            {"filled", line.filled}, {"x", xs},      {"y", ys}};
+  }
+
+  Json lines_of(const Line& line) {
+    Json lines = Json::array();
+    const auto add = [&](const Series& series, const std::string& word) {
+      const std::string body = !series.word("body").empty() ? series.word("body") : series.word("obstacle");
+      const std::string name = !line.name.empty() ? line.name
+                               : !word.empty()    ? word
+                               : !body.empty()    ? body
+                                                  : line.y.path();
+      Json points = this->points(line, measures_.rows(series, paper_.figure_values), name, body);
+      if (!points.is_null()) lines.push_back(std::move(points));
+    };
+    if (line.each.empty()) {
+      add(line.series, "");
+      return lines;
+    }
+    for (const std::string& word : measures_.words(line.series, line.each, paper_.figure_values)) {
+      Series one = line.series;
+      one.words.emplace_back(line.each, word);
+      add(one, word);
+    }
+    return lines;
+  }
+
   void draw(const Figure& figure, const fs::path& stage, Json& origin) {
     Json task = figure.parameters.is_null() ? Json::object() : figure.parameters;
     task["name"] = figure.name();
     task["runs"] = Json::object();
+    if (figure.columns > 0) task["columns"] = figure.columns;
     // The stage stands in the folder.
-    for (const auto& [role, scenario] : figure.runs)
+    for (const auto& [role, scenario] : figure.runs) {
       task["runs"][role] = (fs::path("..") / "runs" / scenario).string();
+      origin["runs"][role] = "runs/" + scenario;
+    }
+    for (const Panel& panel : figure.panels) {
+      Json drawn = panel.look;
+      drawn["lines"] = Json::array();
+      for (const Line& line : panel.lines)
+        for (Json& points : lines_of(line)) drawn["lines"].push_back(std::move(points));
+      task["panels"].push_back(std::move(drawn));
+    }
     write_whole(stage / "figure.json", task.dump(1) + "\n");
-    draw_figures((papers_folder() / "dhal2022" / "figures" / figure.script).string(), stage);
+    const std::string script =
+        !figure.script.empty() ? fs::absolute(paper_.folder / "figures" / figure.script).string()
+                               : "drawings/" + (figure.drawing.empty() ? "panels" : figure.drawing) + ".py";
+    draw_figures(script, stage);
     fs::remove(stage / "figure.json");
-    origin["script"] = "papers/dhal2022/figures/" + figure.script;
-    for (const auto& [role, scenario] : figure.runs) origin["runs"][role] = "runs/" + scenario;
+    origin["script"] = figure.script.empty() ? script : "figures/" + figure.script;
     if (!figure.parameters.is_null()) origin["parameters"] = figure.parameters;
   }
 
-  void measure_accuracy(const Figure& figure, const fs::path& stage, Json& origin) {
-    accuracy::Options accuracy;
-    accuracy.engagements = kEngagements;
-    accuracy.out = (stage / "accuracy").string();
-    accuracy.quiet = true;
-    accuracy.command_line = options_.command_line;
-    std::ostringstream unused;
-    if (accuracy::run_accuracy(accuracy, unused) == kExitInterrupted) throw dhal2022::Interrupted{};
-    for (const char* extension : {".png", ".pdf"}) {
-      const fs::path picture = stage / "accuracy" / (std::string("accuracy") + extension);
-      if (fs::exists(picture)) fs::rename(picture, stage / (figure.name() + extension));
-    }
-    fs::rename(stage / "accuracy" / "engagements.csv", stage / (figure.name() + ".csv"));
-    fs::remove_all(stage / "accuracy");
-    origin["script"] = "apps/figures/accuracy.py";
-    origin["engagements"] = kEngagements;
-    origin["seed"] = accuracy.seed;
+  void carry_out(const Figure& figure, const fs::path& stage, Json& origin) {
+    const fs::path made = stage / "made";
+    sources_.carry_out(figure.command, made, "figures.yaml: command");
+    for (const char* extension : {".png", ".pdf"})
+      if (fs::exists(made / (figure.picture + extension)))
+        fs::rename(made / (figure.picture + extension), stage / (figure.name() + extension));
+    if (!figure.table.empty() && !fs::exists(made / figure.table))
+      throw InputError("figures.yaml: table", figure.table,
+                       "a file that vericone " + figure.command + " writes");
+    if (!figure.table.empty()) fs::rename(made / figure.table, stage / (figure.name() + ".csv"));
+    fs::remove_all(made);
+    origin["made_by"] = "vericone " + figure.command;
   }
 
   const FiguresOptions& options_;
-  dhal2022::Changes changes_;
+  Paper& paper_;
+  Changes changes_;
   Progress& progress_;
   fs::path out_;
-  dhal2022::RunProgress show_;
-  dhal2022::PaperRuns runs_;
+  Sources sources_;
+  Measures measures_;
   std::set<std::string> written_;
 };
 
@@ -188,24 +239,25 @@ void print_list(const std::vector<Figure>& figures, bool json, std::ostream& out
 }  // namespace
 
 int run_figures(const FiguresOptions& options, std::ostream& out) {
-  const std::vector<Figure> figures = dhal2022::choose_figures(options.ids);
+  Paper paper(options.paper);
+  const std::vector<Figure> figures = paper.chosen(options.ids);
   if (options.list) {
     print_list(figures, options.json, out);
     return 0;
   }
-  const OutputFolder whole(options.out, "--out");
+  const fs::path folder = options.out.empty() ? fs::path("out") / paper.name() : fs::path(options.out);
+  const OutputFolder whole(folder, "--out");
   const auto start = Clock::now();
   try {
     Progress progress(options.quiet);
-    Maker maker(options, figures, progress);
+    Maker maker(options, folder, paper, figures, progress);
     double made = 0;
     for (const Figure& figure : figures) maker.make(figure, made++ / double(figures.size()));
     maker.report();
-  } catch (const dhal2022::Interrupted&) {
+  } catch (const Interrupted&) {
     return kExitInterrupted;
   }
   const double seconds = seconds_since(start);
-  const fs::path folder = options.out;
   if (options.json) {
     out << Json{{"figures", list_json(figures)},
                 {"folder", folder.string()},
@@ -220,8 +272,8 @@ int run_figures(const FiguresOptions& options, std::ostream& out) {
       << '\n'
       << "claims              " << (folder / "claims.json").string() << '\n'
       << "report              " << (folder / "report.html").string() << '\n'
-      << "time                " << dhal2022::short_text(seconds, 3) << " s\n";
+      << "time                " << short_text(seconds, 3) << " s\n";
   return 0;
 }
 
-}  // namespace vericone
+}  // namespace vericone::paper

@@ -5,11 +5,12 @@
 #include <string>
 #include <vector>
 
-namespace vericone {
+namespace vericone::paper {
 
 struct FiguresOptions {
   std::vector<std::string> ids;  // empty: all
-  std::string out = "out/dhal2022";
+  std::string paper;             // its folder, or the name of one of ours; empty: papers/dhal2022
+  std::string out;               // empty: out/ and the paper's name
   std::string scenario;  // file in place of the one scenario that the figures show; empty: the paper's
   std::vector<std::string> set;  // PATH=VALUE, in the scenarios that the figures show
   bool list = false;
@@ -18,9 +19,8 @@ struct FiguresOptions {
   std::string command_line;
 };
 
-/// `vericone figures`: makes the figures of papers/dhal2022, each as PDF, PNG, CSV and JSON of its
-/// provenance, the runs they show, and report.html. Returns the exit status, 130 interrupted. Throws
-/// InputError.
+/// `vericone figures`: makes the figures of a paper, each as PDF, PNG, CSV and JSON of its provenance, the
+/// runs they show, claims.json and report.html. Returns the exit status, 130 interrupted. Throws InputError.
 int run_figures(const FiguresOptions& options, std::ostream& out);
 
-}  // namespace vericone
+}  // namespace vericone::paper

@@ -2,15 +2,20 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
-namespace vericone {
+namespace vericone::paper {
 
-/// Where the scenarios and scripts of papers stand: VERICONE_PAPERS where it is set, next to the sources in a
-/// build, in the data folder when installed.
-std::filesystem::path papers_folder();
+/// The folder of a paper: `given` itself, or the folder of that name among our papers; papers/dhal2022 where
+/// nothing is given. Ours stand where VERICONE_PAPERS says, next to the sources in a build, in the data
+/// folder when installed. Throws InputError naming --paper.
+std::filesystem::path paper_folder(const std::string& given);
 
-/// The scenarios that all its claims and figures are made of, in the order of their names.
-std::vector<std::filesystem::path> scenario_files();
+/// A small paper that works, with comments, to begin a new one with.
+std::filesystem::path template_folder();
 
-}  // namespace vericone
+/// The files that all its claims and figures are made of, by name.
+std::vector<std::filesystem::path> files_of(const std::filesystem::path& paper);
+
+}  // namespace vericone::paper

@@ -12,6 +12,7 @@
 #include "input/planar_body.h"
 #include "input/scene.h"
 #include "json/json_value.h"
+#include "paper/paper.h"
 #include "scenarios/read_scenario.h"
 #include "simulate/run_files.h"
 #include "simulate/run_text.h"
@@ -101,8 +102,11 @@ void check_body(const std::string& file, std::ostream& out) {
 int run_check(const std::string& file, std::ostream& out) {
   const Json fields = input::read_scene_fields(file);
   if (!fields.is_object())
-    throw InputError(file, input::quoted(fields), "a scene, a scenario or a body: a mapping of fields");
-  if (fields.contains("bodies"))
+    throw InputError(file, input::quoted(fields),
+                     "a scene, a scenario, a body, or figures or claims of a paper: a mapping of fields");
+  if (fields.contains("figures") || fields.contains("claims"))
+    paper::print_paper(paper::Paper(fs::absolute(file).parent_path().string()), file, out);
+  else if (fields.contains("bodies"))
     check_scenario(fields, file, out);
   else if (fields.contains("agent"))
     check_scene(fields, file, out);

@@ -6,8 +6,9 @@
 
 namespace vericone {
 
-/// `vericone check`: what a scene, a scenario or a file with a body means, in plain words, or the first thing
-/// that is wrong with it. Nothing is computed but what the bodies are and how far apart they stand.
+/// `vericone check`: what a scene, a scenario, a file with a body, or figures or claims of a paper mean, in
+/// plain words, or the first thing that is wrong with it. Nothing is computed but what the bodies are and how
+/// far apart they stand.
 int run_check(const std::string& file, std::ostream& out);
 
 }  // namespace vericone

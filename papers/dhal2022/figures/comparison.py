@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The source's law on slices beside the same law on the true cone and the clearance law, on the same engagement."""
-from runs import Sheet, figure
-from style import EXACT, GREY, SLICE, TWO_COLUMNS, plt, save
+from vericone_figures.runs import Sheet, figure
+from vericone_figures.style import EXACT, GREY, SLICE, TWO_COLUMNS, plt, save
 
 LAWS = {"source": ("source's law", SLICE, "-"), "exact": ("source's law, true cone", EXACT, (0, (4, 1.2))),
         "clearance": ("clearance law", "#3a8f4d", "-")}
@@ -16,12 +16,12 @@ for n, (key, run) in enumerate(data["runs"].items()):
         e = run.engaged(agent, obstacle, after=0)
         name = label if i == 0 else None
         if key != "clearance":
-            sheet.line(panels[0, 0], "y", "%s, %s" % (label, obstacle), e["t [s]"], e["y"], color=color, linestyle=dash,
+            sheet.line(panels[0, 0], "y", "%s, %s" % (label, obstacle), e["t"], e["y"], color=color, linestyle=dash,
                        label=name)
-        sheet.line(panels[0, 1], "m [m]", "%s, %s" % (label, obstacle), e["t [s]"], e["m [m]"], color=color, linestyle=dash,
+        sheet.line(panels[0, 1], "m [m]", "%s, %s" % (label, obstacle), e["t"], e["m"], color=color, linestyle=dash,
                    label=name)
     b = run.bodies[agent]
-    sheet.line(panels[1, 0], "|a| [m/s^2]", label, b["t [s]"], b["a [m/s^2]"], color=color, linestyle=dash, label=label)
+    sheet.line(panels[1, 0], "|a| [m/s^2]", label, b["t"], b["a"], color=color, linestyle=dash, label=label)
     pairs = {}
     for p in run.proof()["pairs"]:
         if agent in (p["a"], p["b"]):

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tables as the commands write them, by the names of their columns without units."""
+import csv
+import os
+
+import numpy as np
+
+WORDS = ("body", "agent", "obstacle", "event", "status", "unit")
+
+
+def number(text):
+    try:
+        return float(text)
+    except ValueError:
+        return float("nan") if text == "" else text
+
+
+def rows(folder, name):
+    """The rows of a table, each a dictionary; none where there is no such file."""
+    path = os.path.join(folder, name)
+    if not os.path.exists(path):
+        return []
+    with open(path, newline="", encoding="utf-8") as f:
+        table = csv.reader(f)
+        names = [n.split(" [")[0] for n in next(table)]
+        return [{n: v if n in WORDS else number(v) for n, v in zip(names, row)} for row in table]
+
+
+def groups(table, *keys):
+    """Columns as arrays, one group for each different value of the keys, in order of appearance."""
+    found = {}
+    for row in table:
+        found.setdefault(tuple(row[k] for k in keys), []).append(row)
+    return {key: {n: np.array([r[n] for r in part]) for n in part[0]} for key, part in found.items()}
+
+
+def row_at(columns, t):
+    """The row nearest in time."""
+    i = int(np.argmin(np.abs(columns["t"] - t)))
+    return {n: v[i] for n, v in columns.items()}

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What papers measure: numbers taken from tables (docs/papers.md, "Values").
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "json/json_value.h"
+#include "measures/expression.h"
+#include "measures/sources.h"
+
+namespace vericone::paper {
+
+using Named = std::vector<std::pair<std::string, Expression>>;
+
+/// Two bodies of a scenario fly by a law that is written as a formula, once for each set of parameters.
+struct Trial {
+  double until = 0;  // s
+  std::vector<std::map<std::string, double>> sets;
+  Named with;
+  Expression command;  // of the agent, m/s^2
+};
+
+/// Rows of a table: some by their words, with more columns, where a condition holds.
+struct Series {
+  std::string path;
+  std::string run, command, table;                         // of a run or of a command
+  std::vector<std::pair<std::string, std::string>> words;  // column and word
+  std::optional<Trial> trial;
+  std::optional<std::pair<Expression, Expression>> range;  // column s from one number to the other ...
+  int count = 0;                                           // ... in so many
+  std::vector<std::pair<std::string, Series>> beside;
+  Named with;
+  std::optional<Expression> where;
+
+  std::string word(const std::string& column) const;  // empty: any
+};
+
+/// One number.
+struct Value {
+  enum class Kind { formula, first, last, least, greatest, mean, sum, count, field, length, course };
+  Kind kind = Kind::formula;
+  std::string path;
+  std::optional<Expression> formula;  // of rows, for what is taken from a series; of course the time
+  std::optional<Series> series;
+  std::vector<std::string> fields;  // the first that is there
+};
+
+/// The fields of a series, which may stand beside others. Throws InputError.
+const std::vector<std::string>& series_fields();
+Series read_series(const Json& fields, const std::string& path);
+Value read_value(const Json& given, const std::string& path);
+
+/// Values by name, each measured when it is asked for; then those of `outer`.
+class Scope {
+ public:
+  /// `values`: a mapping of names and values.
+  Scope(const Json& values, const std::string& path, Scope* outer = nullptr);
+
+ private:
+  friend class Measures;
+  Scope* outer_;
+  std::map<std::string, Value> values_;
+  std::map<std::string, double> known_;
+  std::set<std::string> open_;  // being measured
+};
+
+/// The columns of a series, and which of its rows count.
+struct Rows {
+  Table table;
+  std::vector<bool> counts;
+};
+
+class Measures {
+ public:
+  explicit Measures(Sources& sources) : sources_(sources) {}
+
+  double value(const Value& value, Scope& scope);
+  double value(const Expression& formula, Scope& scope);
+  Rows rows(const Series& series, Scope& scope);
+  /// The words in a column of the series' table, each once, in the order of their first row.
+  std::vector<std::string> words(const Series& series, const std::string& column, Scope& scope);
+  /// One number a row.
+  std::vector<double> column(const Expression& formula, Rows& rows, Scope& scope);
+
+ private:
+  double named(const std::string& name, Scope* scope, const Expression& formula);
+  Table table_of(const Series& series, Scope& scope);
+
+  Sources& sources_;
+};
+
+/// A row a set of parameters, with them as columns, and touched, avoided (1 or 0) and to (s, first contact).
+/// `named`: the value of a name that is none of the law's.
+Table fly_trials(const PaperRun& run, const std::string& agent, const std::string& obstacle,
+                 const Trial& trial, const std::string& path,
+                 const std::function<double(const std::string&, const Expression&)>& named);
+
+}  // namespace vericone::paper

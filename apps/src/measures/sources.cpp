@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fstream>
+#include <sstream>
+
+#include "input/fields.h"
+#include "input/scene.h"
+#include "measures/sources.h"
+#include "output/child.h"
+#include "output/interrupt.h"
+#include "input/stopwatch.h"
+#include "scenarios/read_scenario.h"
+
+namespace vericone::paper {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> words;
+  for (std::string word; in >> word;) words.push_back(word);
+  return words;
+}
+
+/// A folder that is gone when this is.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "vericone-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder " + name);
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+}  // namespace
+
+Sources::Sources(fs::path folder, Show show, Changes changes)
+    : folder_(std::move(folder)), show_(std::move(show)), changes_(std::move(changes)) {}
+
+const PaperRun& Sources::run(const std::string& name, const std::string& path) {
+  std::unique_ptr<PaperRun>& run = runs_[name];
+  if (run) return *run;
+  auto made = std::make_unique<PaperRun>();
+  const bool changed = changes_.scenarios.contains(name);
+  const bool own = !changed || changes_.file.empty();
+  made->file = own ? folder_ / "scenarios" / (name + ".yaml") : changes_.file;
+  if (own && !fs::exists(made->file))
+    throw InputError(path, name, "a scenario: there is no scenarios/" + name + ".yaml");
+  made->text = input::read_scene_text(made->file.string());
+  made->fields = input::scene_fields(made->text, made->file.string());
+  if (changed && !changes_.values.empty()) {
+    for (const auto& [field, value] : changes_.values) set_field(made->fields, field, value);
+    made->text = made->fields.dump(1) + "\n";  // JSON is YAML
+  }
+  made->scenario =
+      scenario::read_scenario(made->fields, made->file.stem().string(), made->file.parent_path());
+  simulation::RunOptions options;
+  options.progress = [&](double t) { return show_(name, t / made->scenario.duration); };
+  const auto start = Clock::now();
+  made->run = simulation::simulate(made->scenario, options);
+  made->seconds = seconds_since(start);
+  if (made->run.interrupted) throw Interrupted{};
+  run = std::move(made);
+  return *run;
+}
+
+std::string Sources::output_of(const std::string& words, const std::vector<std::string>& more,
+                               const std::string& path) {
+  if (!show_(words, 0)) throw Interrupted{};
+  std::vector<std::string> arguments = words_of(words);
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const ChildOutput child = run_child(fs::read_symlink("/proc/self/exe"), arguments, folder_);
+  if (interrupted()) throw Interrupted{};
+  if (child.status == 0) return child.output;
+  const std::string said = last_line(child.errors);
+  throw InputError(path, words,
+                   "a command of vericone that ends well; it says: " + said.substr(said.find(": ") + 2));
+}
+
+const Table& Sources::table(const std::string& words, const std::string& file, const std::string& path) {
+  if (const auto it = tables_.find({words, file}); it != tables_.end()) return it->second;
+  const TemporaryFolder folder;
+  carry_out(words, folder.path() / "out", path);
+  for (const auto& entry : fs::directory_iterator(folder.path() / "out"))
+    if (entry.path().extension() == ".csv") {
+      std::ifstream in(entry.path(), std::ios::binary);
+      std::ostringstream text;
+      text << in.rdbuf();
+      tables_[{words, entry.path().filename().string()}] = table_of_csv(text.str());
+    }
+  if (const auto it = tables_.find({words, file}); it != tables_.end()) return it->second;
+  throw InputError(path, file, "a table that vericone " + words + " writes, such as engagements.csv");
+}
+
+const Json& Sources::answer(const std::string& words, const std::string& path) {
+  const auto [it, fresh] = answers_.try_emplace(words);
+  if (fresh) it->second = Json::parse(output_of(words, {"--json"}, path), nullptr, false);
+  return it->second;
+}
+
+void Sources::carry_out(const std::string& words, const fs::path& out, const std::string& path) {
+  output_of(words, {"--quiet", "--out", fs::absolute(out).string()}, path);
+}
+
+}  // namespace vericone::paper

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "paper/new_paper.h"
+
+#include <vericone/geometry/error.h>
+#include <filesystem>
+#include <ostream>
+
+#include "output/staged_folder.h"
+#include "paper/papers_folder.h"
+
+namespace vericone::paper {
+
+namespace fs = std::filesystem;
+
+int new_paper(const std::string& folder, std::ostream& out) {
+  std::error_code error;
+  if (fs::exists(folder) && (!fs::is_directory(folder) || !fs::is_empty(folder, error)))
+    throw InputError("folder", folder, "a folder that is empty or not there: a new paper overwrites nothing");
+  StagedFolder stage(folder, "folder");
+  fs::copy(template_folder(), stage.path(), fs::copy_options::recursive);
+  stage.publish({});
+  const std::string place = fs::path(folder).string();
+  out << "paper               " << place << ": README.md says what to change\n"
+      << "next                vericone figures --paper " << place << '\n';
+  return 0;
+}
+
+}  // namespace vericone::paper

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "paper/paper.h"
+
+#include <vericone/geometry/error.h>
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "input/fields.h"
+#include "input/scene.h"
+#include "output/provenance.h"
+#include "paper/papers_folder.h"
+#include "simulate/run_text.h"
+#include "scenarios/scenario_fields.h"
+
+namespace vericone::paper {
+namespace {
+
+namespace fs = std::filesystem;
+using input::at, input::quoted, input::require_field, input::require_known, input::require_object;
+using scenario::if_given, scenario::join, scenario::read_text;
+
+std::string read_id(const Json& value, const std::string& path) {
+  if (value.is_number()) throw InputError(path, quoted(value), "the figure's number or name, in quotes");
+  const std::string id = read_text(value, path, "the figure's number or name");
+  if (id.find_first_of("/ ") != std::string::npos || id[0] == '.')
+    throw InputError(path, quoted(value), "fit for the name of a file: no slash, no space, no dot first");
+  return id;
+}
+
+const Json& text_field(const Json& fields, const std::string& path, const char* field, const char* what) {
+  const Json& value = require_field(fields, path, field, what);
+  read_text(value, join(path, field), what);
+  return value;
+}
+
+Line read_line(const Json& fields, const std::string& path) {
+  std::vector<std::string> known = series_fields();
+  known.insert(known.end(), {"each", "name", "x", "y", "dashed", "filled"});
+  require_object(fields, path);
+  require_known(fields, path, known);
+  Line line{read_series(fields, path), "", "",
+            Expression(fields.value("x", Json(fields.contains("range") ? "s" : "t")), path + ".x"),
+            Expression(require_field(fields, path, "y", "a formula of columns"), path + ".y")};
+  if_given(fields, path, "each",
+           [&](const Json& v, const std::string& p) { line.each = read_text(v, p, "a column of words"); });
+  if_given(fields, path, "name",
+           [&](const Json& v, const std::string& p) { line.name = read_text(v, p, "a name"); });
+  if_given(fields, path, "dashed",
+           [&](const Json& v, const std::string& p) { line.dashed = scenario::read_flag(v, p); });
+  if_given(fields, path, "filled",
+           [&](const Json& v, const std::string& p) { line.filled = scenario::read_flag(v, p); });
+  return line;
+}
+
+Panel read_panel(const Json& fields, const std::string& path, const Json& of) {
+  require_object(fields, path);
+  Panel panel;
+  Json own = Json::object();
+  for (const auto& [key, value] : fields.items()) {
+    static const std::vector<std::string> looks{"label", "x_label", "zero", "equal", "least_height"};
+    (std::find(looks.begin(), looks.end(), key) == looks.end() ? own : panel.look)[key] = value;
+  }
+  for (const char* field : {"label", "x_label"})
+    if_given(panel.look, path, field, [&](const Json& v, const std::string& p) {
+      read_text(v, p, "what the axis shows, with its unit");
+    });
+  for (const char* field : {"zero", "equal"})
+    if_given(panel.look, path, field,
+             [&](const Json& v, const std::string& p) { scenario::read_flag(v, p); });
+  if_given(panel.look, path, "least_height",
+           [&](const Json& v, const std::string& p) { scenario::read_positive(v, p, ""); });
+  text_field(fields, path, "label", "what the axis shows, with its unit, as text");
+  if (!own.contains("lines")) {
+    panel.lines.push_back(read_line(with_defaults(own, of), path));
+    return panel;
+  }
+  require_known(own, path, {"lines"});
+  if (!own["lines"].is_array()) throw InputError(path + ".lines", quoted(own["lines"]), "a list of lines");
+  for (std::size_t i = 0; i < own["lines"].size(); ++i)
+    panel.lines.push_back(read_line(with_defaults(own["lines"][i], of), at(path + ".lines", i)));
+  return panel;
+}
+
+Figure read_figure(const Json& fields, const std::string& path) {
+  require_object(fields, path);
+  require_known(fields, path,
+                {"id", "caption", "runs", "of", "panels", "drawing", "script", "command", "picture", "table",
+                 "parameters", "columns"});
+  Figure figure;
+  figure.id =
+      read_id(require_field(fields, path, "id", "the figure's number or name, in quotes"), path + ".id");
+  figure.caption = text_field(fields, path, "caption", "what it shows, as text").get<std::string>();
+  if_given(fields, path, "runs", [&](const Json& v, const std::string& p) {
+    require_object(v, p);
+    for (const auto& [role, scenario] : v.items())
+      figure.runs.emplace_back(role, read_text(scenario, p + "." + role, "the name of a scenario"));
+  });
+  int ways = 0;
+  for (const auto& [field, target] :
+       {std::pair("drawing", &figure.drawing), std::pair("script", &figure.script),
+        std::pair("command", &figure.command)})
+    if_given(fields, path, field, [&, t = target](const Json& v, const std::string& p) {
+      *t = read_text(v, p, "a name");
+      ++ways;
+    });
+  if_given(fields, path, "panels", [&](const Json& v, const std::string& p) {
+    ++ways;
+    if (!v.is_array() || v.empty()) throw InputError(p, quoted(v), "a list of panels");
+    Json of = fields.value("of", Json::object());
+    if (figure.runs.size() == 1 && of.is_object() && !of.contains("run")) of["run"] = figure.runs[0].second;
+    for (std::size_t i = 0; i < v.size(); ++i) figure.panels.push_back(read_panel(v[i], at(p, i), of));
+  });
+  if (ways != 1)
+    throw InputError(path, std::to_string(ways) + " of them", "one of panels, drawing, script and command");
+  for (const auto& [field, target] :
+       {std::pair("picture", &figure.picture), std::pair("table", &figure.table)}) {
+    if (figure.command.empty() && fields.contains(field))
+      throw InputError(path + "." + field, quoted(fields[field]), "given with command");
+    if (fields.contains(field))
+      *target = text_field(fields, path, field, "the name of a file of the command").get<std::string>();
+  }
+  if (!figure.command.empty() && figure.picture.empty())
+    throw InputError(path + ".picture", "nothing", "the name of a picture of the command, without .png");
+  if_given(fields, path, "parameters", [&](const Json& v, const std::string& p) {
+    require_object(v, p);
+    figure.parameters = v;
+  });
+  if_given(fields, path, "columns",
+           [&](const Json& v, const std::string& p) { figure.columns = scenario::read_count(v, p, 1, 2); });
+  return figure;
+}
+
+/// What `read` makes of a file's fields, with the file's name before the field of an error.
+template <typename Read>
+auto reading(const fs::path& file, Read read) {
+  const Json fields = input::read_scene_fields(file.string());
+  return naming(file.filename().string(), [&] { return read(fields); });
+}
+
+}  // namespace
+
+std::vector<Figure> read_figures(const Json& fields) {
+  const Json& list = require_field(fields, "", "figures", "a list of figures");
+  if (!list.is_array() || list.empty()) throw InputError("figures", quoted(list), "a list of figures");
+  std::vector<Figure> figures;
+  std::set<std::string> ids;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    figures.push_back(read_figure(list[i], at("figures", i)));
+    if (!ids.insert(figures.back().id).second)
+      throw InputError(at("figures", i) + ".id", figures.back().id,
+                       "a name of the figure's own: another figure has it");
+  }
+  return figures;
+}
+
+Paper::Paper(const std::string& given) : folder(paper_folder(given)), figure_values(Json(), "") {
+  reading(folder / "figures.yaml", [&](const Json& file) {
+    require_object(file, "figures.yaml");
+    const Json fields = with_templates(file);
+    require_known(fields, "", {"title", "values", "figures"});
+    title = text_field(fields, "", "title", "what the report is called, as text").get<std::string>();
+    figure_values = Scope(fields.value("values", Json()), "values");
+    figures = read_figures(fields);
+    return 0;
+  });
+  claims_ = reading(folder / "claims.yaml", [](const Json& file) { return read_claims(file); });
+  for (const ClaimEntry& entry : claims_.entries)
+    for (const std::string& id : entry.claim.figures)
+      if (std::none_of(figures.begin(), figures.end(), [&](const Figure& f) { return f.id == id; }))
+        throw InputError("claims.yaml: " + entry.claim.id + ".figures", id,
+                         "the id of a figure of figures.yaml");
+  std::ifstream in(folder / "references.bib");
+  std::ostringstream text;
+  text << in.rdbuf();
+  references = text.str();
+}
+
+std::vector<Claim> Paper::measured_claims(Sources& sources) {
+  return naming("claims.yaml", [&] { return measure(claims_, sources); });
+}
+
+std::vector<Figure> Paper::chosen(const std::vector<std::string>& ids) const {
+  for (const std::string& id : ids) {
+    if (std::any_of(figures.begin(), figures.end(), [&](const Figure& f) { return f.id == id; })) continue;
+    std::string known;
+    for (const Figure& f : figures) known.append(known.empty() ? "" : ", ").append(f.id);
+    throw InputError("figures", id, "among " + known);
+  }
+  std::vector<Figure> list;
+  for (const Figure& figure : figures)
+    if (ids.empty() || std::find(ids.begin(), ids.end(), figure.id) != ids.end()) list.push_back(figure);
+  return list;
+}
+
+void print_paper(const Paper& paper, const std::string& file, std::ostream& out) {
+  scenario::print_line(out, "paper", paper.title);
+  if (fs::path(file).filename() == "figures.yaml")
+    for (const Figure& figure : paper.figures) {
+      std::string runs;
+      for (const auto& [role, run] : figure.runs) runs.append(runs.empty() ? " of " : ", ").append(run);
+      const std::string how = !figure.command.empty()  ? "by vericone " + figure.command
+                              : !figure.script.empty() ? "by figures/" + figure.script
+                              : figure.panels.empty()  ? figure.drawing
+                                                       : std::to_string(figure.panels.size()) + " panels";
+      scenario::print_line(out, figure.id, how + runs);
+    }
+  else
+    for (const ClaimEntry& entry : paper.claims()) {
+      const Claim& claim = entry.claim;
+      scenario::print_line(out, claim.id,
+                           std::string(claim.given   ? "goes in: "
+                                       : entry.holds ? "a statement: "
+                                                     : "a number: ") +
+                               claim.printed + (claim.fit ? "; belongs to the fit " + claim.fit->name : "") +
+                               "; if it does not agree: " + to_string(entry.otherwise));
+    }
+}
+
+Json claims_json(const std::vector<Claim>& claims, const Paper& paper, const std::string& command_line,
+                 const Json& changed) {
+  Json list = Json::array();
+  for (const Claim& claim : claims) list.push_back(to_json(claim));
+  Json origin = provenance(command_line, 1, files_of(paper.folder));
+  if (!changed.is_null()) origin["changed"] = changed;
+  return {{"claims", list}, {"verdicts", count_verdicts(claims)}, {"provenance", origin}};
+}
+
+}  // namespace vericone::paper

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/geometry/error.h>
+#include <algorithm>
+#include <cmath>
+#include <regex>
+#include <set>
+
+#include "input/fields.h"
+#include "paper/claim.h"
+#include "scenarios/scenario_fields.h"
+
+namespace vericone::paper {
+namespace {
+
+using input::at, input::quoted, input::require_field, input::require_known, input::require_object;
+using scenario::if_given, scenario::join;
+
+/// A name that YAML reads as a number would lose its last zeros.
+std::string read_name(const Json& value, const std::string& path, const char* what) {
+  if (value.is_number()) throw InputError(path, quoted(value), std::string(what) + ", in quotes");
+  return scenario::read_text(value, path, what);
+}
+
+std::string required_text(const Json& fields, const std::string& path, const char* field, const char* what) {
+  return read_name(require_field(fields, path, field, what), join(path, field), what);
+}
+
+/// What `fields` takes from the mapping that it is like.
+Json completed(const Json& fields, const Json& templates, const std::string& path, int depth) {
+  if (depth > 20) throw InputError(path, "templates that are like each other", "templates that end");
+  if (fields.is_array()) {
+    Json list = Json::array();
+    for (std::size_t i = 0; i < fields.size(); ++i)
+      list.push_back(completed(fields[i], templates, at(path, i), depth));
+    return list;
+  }
+  if (!fields.is_object()) return fields;
+  Json own = fields;
+  if (const auto like = fields.find("like"); like != fields.end()) {
+    const std::string place = join(path, "like");
+    own = Json::object();
+    for (const Json& one : like->is_array() ? *like : Json::array({*like})) {
+      const std::string name = scenario::read_text(one, place, "the name of a template");
+      if (!templates.is_object() || !templates.contains(name))
+        throw InputError(place, name, "the name of one of templates");
+      require_object(templates[name], "templates." + name);
+      own.merge_patch(completed(templates[name], templates, "templates." + name, depth + 1));
+    }
+    Json more = fields;
+    more.erase("like");
+    own.merge_patch(more);
+  }
+  Json result = Json::object();
+  for (const auto& [key, value] : own.items())
+    result[key] = completed(value, templates, join(path, key.c_str()), depth);
+  return result;
+}
+
+/// The entry of a body stands for a claim of each number that is printed of it.
+std::vector<Json> claims_of_body(const Json& entry, const std::string& path) {
+  require_known(
+      entry, path,
+      {"body", "run", "section", "figures", "semi_axes", "k", "position", "speed", "heading_deg", "appears"});
+  const std::string body = required_text(entry, path, "body", "the name of a body"),
+                    run = required_text(entry, path, "run", "the name of a scenario"),
+                    section = required_text(entry, path, "section", "a section of the source");
+  std::vector<Json> claims;
+  const auto add = [&](const char* field, const char* what, const char* unit,
+                       const std::vector<Json>& values) {
+    if (!entry.contains(field)) return;
+    const Json printed = entry[field].is_array() ? entry[field] : Json::array({entry[field]});
+    if (printed.empty() || printed.size() > values.size())
+      throw InputError(join(path, field), quoted(entry[field]),
+                       values.size() == 1 ? "a number" : "a list of as many numbers as printed");
+    Json claim{{"id", section + "/" + run + "/" + body + "-" + what},
+               {"section", section},
+               {"figures", require_field(entry, path, "figures", "a list of figures")},
+               {"what", body + ", " + what},
+               {"given", true},
+               {"printed", printed},
+               {"unit", unit},
+               {"ours", Json::array()},
+               {"values", Json::object()}};
+    for (std::size_t i = 0; i < printed.size(); ++i) {
+      const std::string name = "number_" + std::to_string(i);
+      claim["ours"].push_back(name);
+      claim["values"][name] = values[i];
+      claim["values"][name]["run"] = run;
+    }
+    claims.push_back(std::move(claim));
+  };
+  const auto first = [&](const char* formula) {
+    return Json{{"table", "bodies"}, {"body", body}, {"first", formula}};
+  };
+  std::vector<Json> axes;
+  for (const char* i : {"0", "1", "2"}) {
+    Json paths = Json::array();
+    for (const std::string& place : {"bodies." + body + ".shape.", "bodies." + body + "."}) {
+      paths.push_back(place + "semi_axes." + i);
+      paths.push_back(place + "dented." + i);
+      if (*i != '2') paths.push_back(place + (*i == '0' ? "a_c" : "b_c"));
+    }
+    axes.push_back({{"field", paths}});
+  }
+  add("semi_axes", "axes", "m", axes);
+  add("k", "k", "", {first("k")});
+  add("position", "position", "m", {first("x"), first("y"), first("z")});
+  add("speed", "speed", "m/s", {first("speed")});
+  add("heading_deg", "heading", "deg", {first("degrees(azimuth)"), first("degrees(elevation)")});
+  add("appears", "appears", "s", {first("t")});
+  if (claims.empty())
+    throw InputError(path, "nothing printed", "semi_axes, k, position, speed, heading_deg or appears");
+  return claims;
+}
+
+std::vector<std::string> read_ids(const Json& given, const std::string& path) {
+  std::vector<std::string> figures;
+  if (!given.is_array() || given.empty()) throw InputError(path, quoted(given), "a list of figures");
+  for (std::size_t i = 0; i < given.size(); ++i)
+    figures.push_back(read_name(given[i], at(path, i), "the id of a figure"));
+  return figures;
+}
+
+Verdict read_otherwise(const Json& value, const std::string& path) {
+  return scenario::read_choice<Verdict>(value, path,
+                                        {{"differs", Verdict::differs},
+                                         {"not decided", Verdict::not_decided},
+                                         {"source wrong", Verdict::source_wrong}});
+}
+
+/// The printed value, and the Json of half a unit of its last digit, from the text as printed.
+void read_printed(const Json& fields, const std::string& path, ClaimEntry& entry, Json& values) {
+  const std::string place = path + ".printed";
+  const Json& printed = require_field(fields, path, "printed", "what the source prints, as text in quotes");
+  if (printed.is_array()) {
+    for (std::size_t i = 0; i < printed.size(); ++i)
+      entry.printed.push_back(input::read_number(printed[i], at(place, i), ""));
+    if (entry.printed.empty()) throw InputError(place, "[]", "a list of numbers, or text");
+    std::string list;
+    for (const double v : entry.printed) list.append(list.empty() ? "" : ", ").append(short_text(v));
+    entry.claim.printed = entry.printed.size() > 1 ? "(" + list + ")" : list;
+    if (entry.printed.size() == 1) entry.claim.printed_value = entry.printed[0];
+  } else {
+    entry.claim.printed = read_name(printed, place, "what the source prints, as text");
+    if (entry.ours.empty()) {
+      entry.printed_text = Text(printed, place);
+      return;
+    }
+    const std::regex number(R"([-+]?\d+(\.(\d+))?)");
+    std::smatch found;
+    const std::string& text = entry.claim.printed;
+    if (!std::regex_search(text, found, number) ||
+        std::distance(std::sregex_iterator(text.begin(), text.end(), number), std::sregex_iterator()) != 1)
+      throw InputError(place, quoted(printed), "text with one number, as printed");
+    entry.claim.printed_value = std::stod(found[0].str());
+    values["half_digit"] = 0.5 * std::pow(10.0, -double(found[2].length()));
+  }
+  if (!entry.unit.empty()) entry.claim.printed += " " + entry.unit;
+}
+
+void read_tolerance(const Json& fields, const std::string& path, ClaimEntry& entry) {
+  const std::string place = path + ".tolerance";
+  if (!fields.contains("tolerance")) {
+    entry.tolerance.emplace("half_digit", place);
+    entry.tolerance_reason = Text("half a unit of the last printed digit", place);
+    return;
+  }
+  const Json& given = fields["tolerance"];
+  require_object(given, place);
+  require_known(given, place, {"value", "reason", "one_sided"});
+  entry.tolerance.emplace(require_field(given, place, "value", "a number or a formula"), place + ".value");
+  entry.tolerance_reason = Text(require_field(given, place, "reason", "why, as text"), place + ".reason");
+  if_given(given, place, "one_sided",
+           [&](const Json& v, const std::string& p) { entry.claim.later = scenario::read_flag(v, p); });
+}
+
+ClaimEntry read_entry(const Json& fields, const std::string& path, const ClaimsFile& file,
+                      const std::vector<std::shared_ptr<Fit>>& fits) {
+  require_known(fields, path,
+                {"id", "section", "figures", "what", "printed", "unit", "given", "ours", "holds", "text",
+                 "tolerance", "fit", "otherwise", "engaged", "note", "values", "of"});
+  ClaimEntry entry;
+  Claim& claim = entry.claim;
+  claim.id = required_text(fields, path, "id", "a name of the claim's own");
+  claim.section = required_text(fields, path, "section", "a section of the source");
+  claim.what = required_text(fields, path, "what", "what is printed, in words");
+  claim.figures = read_ids(require_field(fields, path, "figures", "a list of figures"), path + ".figures");
+  if_given(fields, path, "given",
+           [&](const Json& v, const std::string& p) { claim.given = scenario::read_flag(v, p); });
+  if_given(fields, path, "unit", [&](const Json& v, const std::string& p) {
+    if (!v.is_string()) throw InputError(p, quoted(v), "a unit, as text");
+    entry.unit = v.get<std::string>();
+  });
+  if (fields.contains("ours") == fields.contains("holds"))
+    throw InputError(path, fields.contains("ours") ? "ours and holds" : "nothing measured",
+                     "ours (a number) or holds (whether a statement does)");
+  if_given(fields, path, "holds", [&](const Json& v, const std::string& p) { entry.holds.emplace(v, p); });
+  if_given(fields, path, "ours", [&](const Json& v, const std::string& p) {
+    for (std::size_t i = 0; i < (v.is_array() ? v.size() : 1); ++i)
+      entry.ours.emplace_back(v.is_array() ? v[i] : v, v.is_array() ? at(p, i) : p);
+  });
+  Json values = Json::object();
+  if_given(fields, path, "values", [&](const Json& v, const std::string& p) {
+    require_object(v, p);
+    for (const auto& [name, value] : v.items())
+      values[name] = with_defaults(value, fields.value("of", Json::object()));
+  });
+  read_printed(fields, path, entry, values);
+  if (!entry.ours.empty() && entry.ours.size() != std::max<std::size_t>(1, entry.printed.size()))
+    throw InputError(path + ".ours", std::to_string(entry.ours.size()) + " formulas",
+                     "as many as numbers are printed");
+  if (!entry.ours.empty() && entry.printed.empty()) read_tolerance(fields, path, entry);
+  entry.values = std::make_shared<Scope>(values, path + ".values", file.values.get());
+  if_given(fields, path, "engaged",
+           [&](const Json& v, const std::string& p) { entry.engaged.emplace(v, p); });
+  if_given(fields, path, "otherwise",
+           [&](const Json& v, const std::string& p) { entry.otherwise = read_otherwise(v, p); });
+  if_given(fields, path, "text", [&](const Json& v, const std::string& p) { entry.text = Text(v, p); });
+  if_given(fields, path, "note", [&](const Json& v, const std::string& p) { entry.note = Text(v, p); });
+  if_given(fields, path, "fit", [&](const Json& v, const std::string& p) {
+    const std::string name = scenario::read_text(v, p, "the name of a fit");
+    const auto found =
+        std::find_if(fits.begin(), fits.end(), [&](const auto& fit) { return fit->name == name; });
+    if (found == fits.end()) throw InputError(p, name, "the name of one of fits");
+    claim.fit = *found;
+  });
+  return entry;
+}
+
+}  // namespace
+
+Json with_templates(const Json& fields) {
+  if (!fields.is_object()) return fields;
+  const Json templates = fields.value("templates", Json::object());
+  Json rest = fields;
+  rest.erase("templates");
+  return completed(rest, templates, "", 0);
+}
+
+Json with_defaults(const Json& series, const Json& of) {
+  if (!series.is_object() || !of.is_object()) return series;
+  Json all = series;
+  const bool bodies = series.contains("table") && series["table"] == "bodies";
+  const bool fields = series.contains("field") || series.contains("length");
+  for (const auto& [key, value] : of.items()) {
+    const bool fits = key == "run"    ? !series.contains("command") && !series.contains("range")
+                      : fields        ? false
+                      : key == "body" ? bodies
+                                      : !bodies && !series.contains("command");
+    if (fits && !series.contains(key)) all[key] = value;
+  }
+  if (series.contains("beside"))
+    for (auto& [name, other] : all["beside"].items()) other = with_defaults(other, of);
+  return all;
+}
+
+ClaimsFile read_claims(const Json& given) {
+  require_object(given, "claims.yaml");
+  const Json fields = with_templates(given);
+  require_known(fields, "", {"fits", "values", "claims"});
+  ClaimsFile file;
+  std::vector<std::shared_ptr<Fit>> fits;
+  if_given(fields, "", "fits", [&](const Json& v, const std::string& p) {
+    require_object(v, p);
+    for (const auto& [name, free] : v.items()) {
+      const auto fit = std::make_shared<Fit>();
+      fit->name = name;
+      require_object(free, p + "." + name);
+      for (const auto& [chosen, numbers] : free.items())
+        fit->free.emplace_back(chosen, scenario::read_count(numbers, p + "." + name + "." + chosen, 1, 1000));
+      fits.push_back(fit);
+    }
+  });
+  file.values = std::make_shared<Scope>(fields.value("values", Json()), "values");
+  const Json& list = require_field(fields, "", "claims", "a list of claims");
+  if (!list.is_array()) throw InputError("claims", quoted(list), "a list of claims");
+  std::set<std::string> ids;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string path = at("claims", i);
+    require_object(list[i], path);
+    for (const Json& one :
+         list[i].contains("body") ? claims_of_body(list[i], path) : std::vector<Json>{list[i]}) {
+      file.entries.push_back(read_entry(one, path, file, fits));
+      if (!ids.insert(file.entries.back().claim.id).second)
+        throw InputError(path + ".id", file.entries.back().claim.id,
+                         "a name of the claim's own: another claim has it");
+    }
+  }
+  return file;
+}
+
+}  // namespace vericone::paper
