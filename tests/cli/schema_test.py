@@ -95,7 +95,8 @@ class Schemas(unittest.TestCase):
     def test_examples_are_valid(self):
         count = 0
         for pattern, name in (("docs/examples/*.yaml", "scene"), ("docs/examples/scenarios/*.yaml", "scenario"),
-                              ("papers/*/scenarios/*.yaml", "scenario"), ("docs/examples/bodies/*.yaml", "body")):
+                              ("papers/*/scenarios/*.yaml", "scenario"), ("papers/*/claims.yaml", "claims"),
+                              ("papers/*/figures.yaml", "figures"), ("papers/*/scenes/*.yaml", "scene"), ("docs/examples/bodies/*.yaml", "body")):
             validator = Validator(name)
             for path in glob.glob(os.path.join(SOURCE, pattern)):
                 with open(path, encoding="utf-8") as file:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The source's formulas term by term: as printed, and as corrected where the print is wrong (docs/errata.md).
+// The source's formulas term by term: as printed, and as corrected where the print is wrong (docs/reference/errata.md).
 // Written from the print, not from the library, which uses other forms.
 #pragma once
 

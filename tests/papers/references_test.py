@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every reference to a section of docs/errata.md leads to one, and every file and test that it names is there."""
+"""Every reference to a section of docs/reference/errata.md leads to one, and every file and test that it names is there."""
 import os
 import re
 import unittest
@@ -7,7 +7,7 @@ import unittest
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 FOLDERS = ("apps", "cones", "docs", "geometry", "guidance", "papers", "tests", "verify")
 KINDS = (".cpp", ".h", ".md", ".py", ".yaml", ".txt")
-# "errata 3.5", "(docs/errata.md, 4.2)", "[errata](errata.md), 3.6", "errata, 4.2 and 3.6".
+# "errata 3.5", "(docs/reference/errata.md, 4.2)", "[errata](errata.md), 3.6", "errata, 4.2 and 3.6".
 REFERENCE = re.compile(r"errata(?:\.md)?\)?,?\s+((?:\d+(?:\.\d+)?)(?:(?:,? and |, )\d+(?:\.\d+)?)*)")
 
 
@@ -37,7 +37,7 @@ def dangling(text, known):
 
 class References(unittest.TestCase):
     def setUp(self):
-        self.errata = text_of(os.path.join(ROOT, "docs", "errata.md"))
+        self.errata = text_of(os.path.join(ROOT, "docs", "reference", "errata.md"))
 
     def test_references_to_the_errata(self):
         known, found = sections(self.errata), 0
@@ -51,8 +51,8 @@ class References(unittest.TestCase):
         self.assertGreater(found, 20)
 
     def test_a_dangling_one_is_found(self):
-        for text in ("(docs/errata.md, 9.9)", "errata 9.9", "[errata](errata.md), 9.9", "errata, 4.2 and 9.9",
-                     '"(docs/errata.md, "\n   "9.9)"', "// as in errata,\n// 9.9"):
+        for text in ("(docs/reference/errata.md, 9.9)", "errata 9.9", "[errata](errata.md), 9.9", "errata, 4.2 and 9.9",
+                     '"(docs/reference/errata.md, "\n   "9.9)"', "// as in errata,\n// 9.9"):
             self.assertEqual([n for _, n in dangling(text, {"4.2"})], ["9.9"], text)
 
     def test_what_the_errata_cite(self):
@@ -70,7 +70,7 @@ class References(unittest.TestCase):
 class ClaimsCited(unittest.TestCase):
     def test_claims_that_the_errata_cite(self):
         claims = text_of(os.path.join(ROOT, "papers", "dhal2022", "claims.yaml"))
-        cited = re.findall(r"`(\d+\.[\d.]*/[\w-]+)`", text_of(os.path.join(ROOT, "docs", "errata.md")))
+        cited = re.findall(r"`(\d+\.[\d.]*/[\w-]+)`", text_of(os.path.join(ROOT, "docs", "reference", "errata.md")))
         self.assertGreater(len(cited), 4)
         for claim in cited:
             self.assertRegex(claims, r"(?m)^    id: %s$" % re.escape(claim))

@@ -28,7 +28,7 @@ int simulate_command(CommandLine& line) {
 
 int check_command(CommandLine& line) {
   std::string file;
-  line.option("file", file, "Scene, scenario, body, figures or claims, YAML (docs/reference/formats.md, docs/reference/scenarios.md, docs/papers.md)").required();
+  line.option("file", file, "Scene, scenario, body, figures or claims, YAML (docs/reference/formats.md, docs/reference/scenarios.md, docs/reference/papers.md)").required();
   line.read();
   return run_check(file, std::cout);
 }
@@ -70,7 +70,7 @@ int claims_command(CommandLine& line) {
 
 int figures_command(CommandLine& line) {
   paper::FiguresOptions figures;
-  line.option("figures", figures.ids, "Their numbers (docs/papers.md); all if not given");
+  line.option("figures", figures.ids, "Their numbers (docs/reference/papers.md); all if not given");
   line.option("--paper", figures.paper,
               "Its folder, or the name of one of ours; papers/dhal2022 if not given");
   line.option("--out", figures.out,
@@ -88,7 +88,7 @@ int figures_command(CommandLine& line) {
 
 int paper_command(CommandLine& line) {
   std::string what, folder;
-  line.option("what", what, "new: a small paper that works, to begin with (docs/papers.md)").required();
+  line.option("what", what, "new: a small paper that works, to begin with (docs/reference/papers.md)").required();
   line.option("folder", folder, "Where it is to be: a folder that is empty or not there").required();
   line.quiet();
   line.read();

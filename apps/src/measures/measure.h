@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What papers measure: numbers taken from tables (docs/papers.md, "Values").
+// What papers measure: numbers taken from tables (docs/reference/papers.md, "Values").
 #pragma once
 
 #include <map>

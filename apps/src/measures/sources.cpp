@@ -82,9 +82,10 @@ std::string Sources::output_of(const std::string& words, const std::vector<std::
   const ChildOutput child = run_child(fs::read_symlink("/proc/self/exe"), arguments, folder_);
   if (interrupted()) throw Interrupted{};
   if (child.status == 0) return child.output;
-  const std::string said = last_line(child.errors);
-  throw InputError(path, words,
-                   "a command of vericone that ends well; it says: " + said.substr(said.find(": ") + 2));
+  const std::string line = last_line(child.errors), said = line.substr(line.find(": ") + 2);
+  // What failed outside of the program is no mistake of the paper.
+  if (child.status != 2) throw std::runtime_error("vericone " + words + ": " + said);
+  throw InputError(path, words, "a command of vericone that ends well; it says: " + said);
 }
 
 const Table& Sources::table(const std::string& words, const std::string& file, const std::string& path) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a source prints, and what we get (docs/papers.md, "Claims").
+// What a source prints, and what we get (docs/reference/papers.md, "Claims").
 #pragma once
 
 #include <cstdint>

@@ -9,14 +9,16 @@
 #include <set>
 #include <sstream>
 
+#include "input/stopwatch.h"
+#include "json/json_value.h"
 #include "output/figures.h"
 #include "output/interrupt.h"
 #include "output/progress.h"
 #include "output/provenance.h"
 #include "output/staged_folder.h"
 #include "output/threads.h"
+#include "paper/paper.h"
 #include "paper/papers_folder.h"
-#include "paper/report.h"
 #include "simulate/run_files.h"
 
 namespace vericone::paper {
@@ -100,18 +102,25 @@ class Maker {
   void report() {
     const std::vector<Claim> claims = paper_.measured_claims(sources_);
     progress_.show("report", 0);
-    std::vector<ReportFigure> shown;
-    for (const Figure& figure : paper_.figures) {
-      ReportFigure entry{figure, content_of(out_ / (figure.name() + ".png")), Json()};
-      const std::string origin = content_of(out_ / (figure.name() + ".json"));
-      if (!entry.png.empty() && !origin.empty()) entry.provenance = Json::parse(origin, nullptr, false);
-      shown.push_back(std::move(entry));
-    }
     const Json json = claims_json(claims, paper_, options_.command_line, changes_.any() ? changed() : Json());
     StagedFolder folder(out_, "--out");
     write_whole(folder.path() / "claims.json", json.dump(1) + "\n");
-    write_whole(folder.path() / "report.html", report_html(paper_, shown, claims, json["provenance"]));
-    folder.publish({});
+    Json page{{"paper", paper_.name()}, {"title", paper_.title}, {"references", paper_.references}};
+    page.update(json);
+    page["figures"] = Json::array();
+    for (const Figure& figure : paper_.figures) {
+      const std::string origin = content_of(out_ / (figure.name() + ".json"));
+      page["figures"].push_back(
+          {{"id", figure.id},
+           {"name", figure.name()},
+           {"caption", figure.caption},
+           {"picture", "../" + figure.name() + ".png"},  // the stage stands in the folder
+           {"origin", origin.empty() ? Json() : Json::parse(origin, nullptr, false)}});
+    }
+    write_whole(folder.path() / "report.json", page.dump(1) + "\n");
+    draw_figures("report.py", folder.path());
+    fs::remove(folder.path() / "report.json");
+    folder.publish({"report.html"});
   }
 
  private:
@@ -258,11 +267,12 @@ int run_figures(const FiguresOptions& options, std::ostream& out) {
     return kExitInterrupted;
   }
   const double seconds = seconds_since(start);
+  const fs::path report = folder / "report.html";  // not there without Python
   if (options.json) {
     out << Json{{"figures", list_json(figures)},
                 {"folder", folder.string()},
                 {"claims", (folder / "claims.json").string()},
-                {"report", (folder / "report.html").string()},
+                {"report", fs::exists(report) ? Json(report.string()) : Json()},
                 {"seconds", seconds}}
                .dump(1)
         << '\n';
@@ -270,9 +280,9 @@ int run_figures(const FiguresOptions& options, std::ostream& out) {
   }
   out << "figures             " << figures.size() << ", as PDF, PNG, CSV and JSON, in " << folder.string()
       << '\n'
-      << "claims              " << (folder / "claims.json").string() << '\n'
-      << "report              " << (folder / "report.html").string() << '\n'
-      << "time                " << short_text(seconds, 3) << " s\n";
+      << "claims              " << (folder / "claims.json").string() << '\n';
+  if (fs::exists(report)) out << "report              " << report.string() << '\n';
+  out << "time                " << short_text(seconds, 3) << " s\n";
   return 0;
 }
 

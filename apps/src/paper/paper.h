@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A paper: a folder with scenarios, figures.yaml, claims.yaml and references.bib (docs/papers.md).
+// A paper: a folder with scenarios, figures.yaml, claims.yaml and references.bib (docs/reference/papers.md).
 #pragma once
 
 #include <vericone/geometry/error.h>

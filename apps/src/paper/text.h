@@ -9,7 +9,7 @@
 
 namespace vericone::paper {
 
-/// Sentences with measured numbers in braces (docs/papers.md, "Texts").
+/// Sentences with measured numbers in braces (docs/reference/papers.md, "Texts").
 class Text {
  public:
   Text() = default;
