@@ -31,6 +31,7 @@ EXAMPLES = {
     "simulate": "simulate docs/examples/scenarios/elephant.yaml --no-figures --quiet",
     "campaign": "campaign -N 500 --no-figures --quiet",
     "claims": "claims --quiet",
+    "paper": "paper new out/papers/mine",
     "figures": "figures --list",
     "verify": "verify --cases 1000 --pairs 1 --quiet",
 }
@@ -54,7 +55,7 @@ MEASURED = [
 def commands(program):
     """(name, summary) in the order of the help."""
     text = subprocess.run([program, "--help"], capture_output=True, text=True, check=True).stdout
-    return re.findall(r"^  (\w+) +(\S.*)$", text.split("Subcommands:\n")[1].split("\n\n")[0], re.MULTILINE)
+    return re.findall(r"^  ([\w-]+) +(\S.*)$", text.split("Subcommands:\n")[1].split("\n\n")[0], re.MULTILINE)
 
 
 def help_of(program, name):

@@ -178,7 +178,7 @@ class Words(unittest.TestCase):
         cls.program = os.environ["VERICONE"]
         names = cls.help().split("Subcommands:\n")[1].split("\n\n")[0]
         cls.options = {name: set(re.findall(r"(?<![\w-])--?[A-Za-z][\w-]*", cls.help(name)))
-                       for name in re.findall(r"^  (\w+)", names, re.MULTILINE) if name not in PROGRAMS}
+                       for name in re.findall(r"^  ([\w-]+)", names, re.MULTILINE) if name not in PROGRAMS}
         cls.all = set().union(*cls.options.values()) | {"--version", "--help"}
 
     @classmethod
@@ -201,7 +201,7 @@ class Words(unittest.TestCase):
         wrong, seen = [], 0
         for where, line in self.lines():
             for piece in re.split(r"[|;]|&&", line):
-                call = re.search(r"(?:^|[ (])(?:\./run|(?:build/release/apps/)?vericone(?: |-(?=fit|scan|verify))) *([a-z]+)(?![\w:.])(.*)", piece)
+                call = re.search(r"(?:^|[ (])(?:\./run|(?:build/release/apps/)?vericone(?: |-(?=fit|scan|verify))) *([a-z][a-z-]*)(?![\w:.])(.*)", piece)
                 if not call or call.group(1) in PROGRAMS:
                     continue
                 name, rest = call.groups()
@@ -229,7 +229,7 @@ class Words(unittest.TestCase):
             for literal in re.findall(r'"((?:\\.|[^"\\\n])*)"', text_of(path)):
                 wrong += [f"{relative(path)}: {option}" for option in re.findall(r"(?<![\w-])--[a-z][\w-]+", literal)
                           if option not in self.all]
-                wrong += [f"{relative(path)}: vericone {name}" for name in re.findall(r"(?<!this )\bvericone ([a-z]+)\b", literal)
+                wrong += [f"{relative(path)}: vericone {name}" for name in re.findall(r"(?<!this )\bvericone ([a-z][a-z-]*)\b", literal)
                           if name not in self.options]
         self.assertEqual(wrong if not PROGRAMS else [], [])
 

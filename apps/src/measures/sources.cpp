@@ -85,7 +85,7 @@ std::string Sources::output_of(const std::string& words, const std::vector<std::
   const std::string line = last_line(child.errors), said = line.substr(line.find(": ") + 2);
   // What failed outside of the program is no mistake of the paper.
   if (child.status != 2) throw std::runtime_error("vericone " + words + ": " + said);
-  throw InputError(path, words, "a command of vericone that ends well; it says: " + said);
+  throw InputError(path, words, "a command that ends well; it says: " + said);
 }
 
 const Table& Sources::table(const std::string& words, const std::string& file, const std::string& path) {
