@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Arithmetic on named numbers, as papers write it (docs/reference/papers.md, "Expressions"). One file knows the parser
+// Arithmetic on named numbers, as papers write it (docs/reference/papers.md, "Formulas"). One file knows the parser
 // behind it.
 #pragma once
 
