@@ -43,7 +43,12 @@ struct OutputFolder::Held {
     // By another name, so that whoever is still writing there finds it gone and adds nothing meanwhile.
     const fs::path stage = folder / (kStage + std::to_string(getpid())), gone = stage.string() + "0";
     fs::rename(stage, gone, ignored);
-    fs::remove_all(gone, ignored);
+    // A file that was just being made may appear once more after its folder was listed.
+    constexpr int kTries = 100;
+    for (int i = 0; i < kTries; ++i) {
+      fs::remove_all(gone, ignored);
+      if (!fs::exists(gone, ignored)) break;
+    }
     // Only where nothing is in them.
     for (auto path = made.rbegin(); path != made.rend(); ++path) fs::remove(*path, ignored);
   }
