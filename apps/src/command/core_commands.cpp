@@ -72,7 +72,8 @@ int query_command(CommandLine& line) {
 
 int robust_law_command(CommandLine& line) {
   std::string cases;
-  line.option("cases", cases, "File of cases (docs/explanation/robust-law.md), or - for standard input").required();
+  line.option("cases", cases, "File of cases (docs/explanation/robust-law.md), or - for standard input")
+      .required();
   bool json = true;
   line.flag("--json", json, "Print JSON; this command prints nothing else");
   line.quiet();

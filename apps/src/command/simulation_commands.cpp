@@ -28,7 +28,10 @@ int simulate_command(CommandLine& line) {
 
 int check_command(CommandLine& line) {
   std::string file;
-  line.option("file", file, "Scene, scenario, body, figures or claims, YAML (docs/reference/formats.md, docs/reference/scenarios.md, docs/reference/papers.md)").required();
+  line.option("file", file,
+              "Scene, scenario, body, figures or claims, YAML (docs/reference/formats.md, "
+              "docs/reference/scenarios.md, docs/reference/papers.md)")
+      .required();
   line.read();
   return run_check(file, std::cout);
 }
@@ -88,7 +91,8 @@ int figures_command(CommandLine& line) {
 
 int paper_command(CommandLine& line) {
   std::string what, folder;
-  line.option("what", what, "new: a small paper that works, to begin with (docs/reference/papers.md)").required();
+  line.option("what", what, "new: a small paper that works, to begin with (docs/reference/papers.md)")
+      .required();
   line.option("folder", folder, "Where it is to be: a folder that is empty or not there").required();
   line.quiet();
   line.read();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Arithmetic on named numbers, as papers write it (docs/reference/papers.md, "Formulas"). One file knows the parser
-// behind it.
+// Arithmetic on named numbers, as papers write it (docs/reference/papers.md, "Formulas"). One file knows the
+// parser behind it.
 #pragma once
 
 #include <memory>

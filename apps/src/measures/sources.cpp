@@ -4,10 +4,10 @@
 
 #include "input/fields.h"
 #include "input/scene.h"
+#include "input/stopwatch.h"
 #include "measures/sources.h"
 #include "output/child.h"
 #include "output/interrupt.h"
-#include "input/stopwatch.h"
 #include "scenarios/read_scenario.h"
 
 namespace vericone::paper {

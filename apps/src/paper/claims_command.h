@@ -15,8 +15,8 @@ struct ClaimsOptions {
   std::string command_line;
 };
 
-/// `vericone claims`: what the paper prints beside what we measure (docs/reference/papers.md). Returns the exit
-/// status: 0 whatever the verdicts are, 130 interrupted. Throws InputError.
+/// `vericone claims`: what the paper prints beside what we measure (docs/reference/papers.md). Returns the
+/// exit status: 0 whatever the verdicts are, 130 interrupted. Throws InputError.
 int run_claims(const ClaimsOptions& options, std::ostream& out);
 
 }  // namespace vericone::paper

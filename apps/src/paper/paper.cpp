@@ -11,8 +11,8 @@
 #include "input/scene.h"
 #include "output/provenance.h"
 #include "paper/papers_folder.h"
-#include "simulate/run_text.h"
 #include "scenarios/scenario_fields.h"
+#include "simulate/run_text.h"
 
 namespace vericone::paper {
 namespace {
