@@ -22,14 +22,19 @@ RateMethod rate_method(GuideRates rates) {
   return RateMethod::none;
 }
 
+/// How far the line of sight has turned in the plane since the step before.
+double turned_since(const PlaneView& view, const GuideMemory& memory) {
+  if (!memory.past) return 0;
+  const Vector3d &u = view.line_of_sight, &before = memory.past->line_of_sight;
+  return std::atan2(before.cross(u).dot(view.normal()), before.dot(u));
+}
+
 /// The source's rates: what changed since the step before, the turning of the line of sight in the plane
 /// included.
-void difference_backward(PlaneView& view, const GuideMemory& memory, double time) {
+void difference_backward(PlaneView& view, const GuideMemory& memory, double time, double turned) {
   if (!memory.past || !(time > memory.past->time)) return;
   const GuideMemory::Past& past = *memory.past;
   const double dt = time - past.time;
-  const Vector3d& u = view.line_of_sight;
-  const double turned = std::atan2(past.line_of_sight.cross(u).dot(view.normal()), past.line_of_sight.dot(u));
   view.cone.psi_rate = (view.cone.psi - past.psi) / dt;
   view.cone.theta_b_rate = (view.cone.theta_b - past.theta_b + turned) / dt;
 }
@@ -70,12 +75,56 @@ GuideStep without_sector() {
   return step;
 }
 
+/// The errors that a sensor of the engagement makes at this state.
+void add_errors(PlaneView& view, const EngagementParts& parts) {
+  Measured errors;
+  errors.v_r = parts.v_r * view.state.v_r;
+  errors.v_theta = parts.v_theta * view.state.v_theta;
+  errors.theta = parts.theta;
+  errors.theta_b = parts.theta_b;
+  errors.psi = parts.psi;
+  const MeasuredState read = measured(view.state, view.cone, errors);
+  view.state = read.state;
+  view.state.r *= 1 + parts.r;
+  view.cone = read.cone;
+}
+
+/// The inner loop of the y that is used, which may be a filtered one, and the outer loop.
+LawCommand avoid(const PlaneView& view, const GuideOptions& options, const Sight& sight, double y,
+                 GuideReading& reading) {
+  LawOptions inversion = options.inversion;
+  // The law reads y from the state: K (w - y) stays what it is to be when w moves along, and so does the test.
+  const double by_state = cone_rates(view.state, view.cone).y;
+  inversion.reference += by_state - y;
+  inversion.cease += by_state - y;
+  LawCommand command = avoidance(view.state, view.cone, inversion);
+  reading = {view.state, view.cone, y, command.a, {}, false};
+  command.rates.y = y;
+  if (!options.robust || commands_nothing(command.status)) return command;
+  reading.outer =
+      outer_loop(*options.robust, y - options.inversion.reference, command.a, options.inversion.most,
+                 options.inversion.gain, command.rates.by_lateral_a, view.state, view.cone,
+                 deviations_on_plane(sight, view.state, view.cone));
+  reading.corrected = true;
+  command.a += reading.outer.delta;
+  return command;
+}
+
 std::optional<GuideStep> on_plane(const BodyState& a, const BodyState& b, const Vector3d& across,
-                                  const GuideOptions& options, GuideMemory& memory, double time) {
+                                  const GuideOptions& options, GuideMemory& memory, double time,
+                                  const Sight& sight) {
   std::optional<PlaneView> view =
       plane_view(a, b, across, options.sector, rate_method(options.rates), 0, &memory.edges);
   if (!view) return std::nullopt;
-  if (options.rates == GuideRates::backward) difference_backward(*view, memory, time);
+  add_errors(*view, sight.errors);
+  const double turned = turned_since(*view, memory);
+  if (options.rates == GuideRates::backward) difference_backward(*view, memory, time, turned);
+  double y = cone_rates(view->state, view->cone).y;
+  if (options.filter.any()) {
+    if (!memory.filters) memory.filters.emplace(options.filter);
+    y = memory.filters->step(view->state, view->cone, turned,
+                             deviations_on_plane(sight, view->state, view->cone), time);
+  }
   memory.across = view->across;
   memory.past = {time, view->cone.psi, view->cone.theta_b, view->line_of_sight};
 
@@ -90,7 +139,7 @@ std::optional<GuideStep> on_plane(const BodyState& a, const BodyState& b, const 
   };
   switch (options.law) {
     case Law::avoidance: {
-      const LawCommand command = avoidance(view->state, view->cone, options.inversion);
+      const LawCommand command = avoid(*view, options, sight, y, step.reading.emplace());
       read(command);
       step.a = command.a * view->lateral_a();
       step.demanded = std::abs(command.demanded);
@@ -141,9 +190,9 @@ const char* to_string(Law law) {
 }
 
 std::optional<GuideStep> guide(const BodyState& a, const BodyState& b, const GuideOptions& options,
-                               GuideMemory& memory, double time) {
+                               GuideMemory& memory, double time, const Sight& sight) {
   if (options.law == Law::clearance) return by_clearance(a, b, options);
-  const bool in_space = avoids(options.law) && !a.planar();
+  const bool in_space = avoids(options.law) && !a.planar() && !options.filter.y;
   if (in_space) {
     const auto course = on_collision_course(a, b, options.sector, options.inversion.cease);
     if (!course) return std::nullopt;
@@ -156,7 +205,7 @@ std::optional<GuideStep> guide(const BodyState& a, const BodyState& b, const Gui
   const std::optional<Vector3d> across = choose_plane(
       a, b, options.sector, options.plane, memory.across ? &*memory.across : nullptr, &memory.edges);
   if (!across) return std::nullopt;
-  std::optional<GuideStep> step = on_plane(a, b, *across, options, memory, time);
+  std::optional<GuideStep> step = on_plane(a, b, *across, options, memory, time, sight);
   if (!step || !in_space || !commands_nothing(step->status) ||
       step->status == LawStatus::no_relative_velocity)
     return step;
@@ -164,7 +213,7 @@ std::optional<GuideStep> guide(const BodyState& a, const BodyState& b, const Gui
   of_motion.choice = PlaneChoice::of_motion;
   memory.past.reset();  // of another plane
   if (const auto plane = choose_plane(a, b, options.sector, of_motion, nullptr, &memory.edges))
-    step = on_plane(a, b, *plane, options, memory, time);
+    step = on_plane(a, b, *plane, options, memory, time, sight);
   return step;
 }
 

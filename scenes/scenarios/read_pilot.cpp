@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "json/json_value.h"
+#include "scenarios/read_sensor.h"
 #include "scenarios/scenario_fields.h"
 
 namespace vericone::scenario {
@@ -40,6 +41,8 @@ const std::vector<OfLaws>& fields_of_laws() {
                                          {"clearance", {clearance}},
                                          {"manner", {avoidance, clearance}},
                                          {"passing", of_planes},
+                                         {"filter", {avoidance}},
+                                         {"robust", {avoidance}},
                                          {"partners", {cooperative_avoidance, cooperative_rendezvous}}};
   return table;
 }
@@ -154,7 +157,8 @@ simulation::Pilot read_pilot(const Json& value, const std::string& path, bool pl
   require_object(value, path);
   require_known(value, path,
                 {"law", "sector", "rates", "plane", "gain", "reference", "most", "cease", "side", "mu",
-                 "gain_speed", "clearance", "minds", "partners", "goal", "manner", "passing"});
+                 "gain_speed", "clearance", "minds", "partners", "goal", "manner", "passing", "sensor",
+                 "estimator", "filter", "robust"});
   simulation::Pilot pilot;
   guidance::GuideOptions& guide = pilot.guide;
   guide.law = read_choice<Law>(require_field(value, path, "law", "the name of a law, such as avoidance"),
@@ -186,6 +190,14 @@ simulation::Pilot read_pilot(const Json& value, const std::string& path, bool pl
            [&](const Json& v, const std::string& p) { pilot.minds = read_names(v, p); });
   if_given(value, path, "partners",
            [&](const Json& v, const std::string& p) { pilot.partners = read_names(v, p); });
+  if_given(value, path, "sensor",
+           [&](const Json& v, const std::string& p) { pilot.sensor = read_sensor(v, p); });
+  if_given(value, path, "estimator",
+           [&](const Json& v, const std::string& p) { read_estimator(v, p, pilot); });
+  if_given(value, path, "filter",
+           [&](const Json& v, const std::string& p) { guide.filter = read_filter(v, p); });
+  if_given(value, path, "robust",
+           [&](const Json& v, const std::string& p) { guide.robust = read_outer_loop(v, p); });
   if_given(value, path, "goal",
            [&](const Json& v, const std::string& p) { pilot.goal = read_goal(v, p, planar); });
   return pilot;

@@ -106,7 +106,7 @@ simulation::Scenario read_scenario(const Json& fields, const std::string& name,
                                    const std::filesystem::path& folder) {
   if (!fields.is_object()) throw InputError("scenario", quoted(fields), "a mapping with bodies");
   require_known(fields, "",
-                {"name", "duration", "step", "stop_when_passed", "planes_logged", "proof", "bodies"});
+                {"name", "duration", "step", "stop_when_passed", "planes_logged", "proof", "bodies", "seed"});
   simulation::Scenario scenario;
   scenario.name = name;
   if_given(fields, "", "name",
@@ -122,10 +122,15 @@ simulation::Scenario read_scenario(const Json& fields, const std::string& name,
   });
   if_given(fields, "", "proof",
            [&](const Json& v, const std::string& p) { read_proof(v, p, scenario.proof); });
+  if_given(fields, "", "seed", [&](const Json& v, const std::string& p) {
+    scenario.seed = std::uint64_t(read_count(v, p, 0, 2'000'000'000));
+  });
   const Json& bodies = require_field(fields, "", "bodies", "a list of bodies");
   if (!bodies.is_array() || bodies.empty()) throw InputError("bodies", quoted(bodies), "a list of bodies");
   for (std::size_t i = 0; i < bodies.size(); ++i)
     scenario.bodies.push_back(read_body(bodies[i], at("bodies", i), folder));
+  for (simulation::Body& body : scenario.bodies)  // the outer loop's step is the scenario's
+    if (body.pilot && body.pilot->guide.robust) body.pilot->guide.robust->model.dt = scenario.step;
   simulation::check(scenario);
   check_size(scenario);
   return scenario;

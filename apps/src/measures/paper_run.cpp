@@ -73,13 +73,15 @@ const Table& PaperRun::table(const std::string& name, const std::string& path) c
     made = table_of_csv(scenario::encounters_csv(scenario, run));
   else if (name == "planes")
     made = table_of_csv(scenario::planes_csv(scenario, run));
+  else if (name == "sights")
+    made = table_of_csv(scenario::sights_csv(scenario, run));
   else if (name == "events")
     made = table_of_csv(scenario::events_csv(scenario, run));
   else if (name == "proofs")
     made = proofs_of(scenario, run);
   else
-    throw InputError(path, name, "bodies, encounters, planes, events, looks or proofs");
-  if (name == "encounters" || name == "planes") add_passed(made, *this);
+    throw InputError(path, name, "bodies, encounters, planes, sights, events, looks or proofs");
+  if (name == "encounters" || name == "planes" || name == "sights") add_passed(made, *this);
   return tables_.emplace(name, std::move(made)).first->second;
 }
 

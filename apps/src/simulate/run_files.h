@@ -17,6 +17,8 @@ std::string bodies_csv(const simulation::Scenario& scenario, const simulation::R
 /// One row an agent, an obstacle and a command time.
 std::string encounters_csv(const simulation::Scenario& scenario, const simulation::Run& run);
 std::string planes_csv(const simulation::Scenario& scenario, const simulation::Run& run);
+/// What agents with a sensor measured and made of it, beside the truth.
+std::string sights_csv(const simulation::Scenario& scenario, const simulation::Run& run);
 std::string events_csv(const simulation::Scenario& scenario, const simulation::Run& run);
 
 /// The verdict and what is proved of every pair.
@@ -42,7 +44,8 @@ struct RunOrigin {
 /// Counts, verdict, times, provenance.
 Json run_json(const simulation::Scenario& scenario, const simulation::Run& run, const RunOrigin& origin);
 
-/// All of these files and a copy of the scenario's into `folder`; planes.csv where planes are logged. Throws
+/// All of these files and a copy of the scenario's into `folder`; planes.csv where planes are logged, sights.csv where
+/// an agent has a sensor. Throws
 /// std::runtime_error naming the path.
 void write_run(const simulation::Scenario& scenario, const simulation::Run& run, const RunOrigin& origin,
                const std::filesystem::path& folder);

@@ -121,6 +121,42 @@ std::string planes_csv(const Scenario& scenario, const Run& run) {
   return table;
 }
 
+std::string sights_csv(const Scenario& scenario, const Run& run) {
+  std::string table =
+      "t [s],agent,obstacle,x [m],y [m],z [m],vx [m/s],vy [m/s],vz [m/s],believed_x [m],believed_y [m],"
+      "believed_z [m],believed_vx [m/s],believed_vy [m/s],believed_vz [m/s],r [m],V_r [m/s],V_theta [m/s],"
+      "V_phi [m/s],true_y,measured_y,used_y,true_psi [rad],measured_psi [rad],true_theta_b [rad],"
+      "measured_theta_b [rad],y_deviation,a,a_deviation,v [1/s],v_deviation [1/s],inner [m/s^2],"
+      "outer [m/s^2],outer_status,gamma,"
+      "norm [s]\n";
+  for (const SightSample& s : run.sights) {
+    CsvRow row(table);
+    row.number(s.t).text(scenario.bodies[s.agent].name).text(scenario.bodies[s.obstacle].name);
+    row.vector(s.measurement.position).vector(s.measurement.velocity);
+    row.vector(s.believed_position).vector(s.believed_velocity);
+    row.number(s.measured.r).number(s.measured.v_r).number(s.measured.v_theta).number(s.measured.v_phi);
+    if (!s.on_plane) {
+      row.empty(17);
+      continue;
+    }
+    const guidance::GuideReading& read = s.reading;
+    row.number(s.y).number(guidance::cone_rates(read.state, read.cone).y).number(read.y);
+    row.number(s.cone.psi).number(read.cone.psi);
+    // Against the true line of sight, as theta is measured too.
+    row.number(s.cone.theta_b - s.state.theta).number(read.cone.theta_b - read.state.theta);
+    row.number(s.y_deviation).number(s.terms.a).number(s.a_deviation).number(s.terms.v).number(s.v_deviation);
+    row.number(read.inner);
+    if (!read.corrected) {
+      row.empty(4);
+      continue;
+    }
+    const bool solved = read.outer.status == guidance::RobustStatus::solved;
+    row.number(read.outer.delta).text(to_string(read.outer.status));
+    row.number(solved ? read.outer.gamma : kNothing).number(solved ? read.outer.norm : kNothing);
+  }
+  return table;
+}
+
 std::string events_csv(const Scenario& scenario, const Run& run) {
   std::string table = "t [s],event,agent,obstacle,value,unit\n";
   for (const Event& event : run.events) {

@@ -53,6 +53,7 @@ void write_run(const simulation::Scenario& scenario, const simulation::Run& run,
   write_whole(folder / "bodies.csv", bodies_csv(scenario, run));
   write_whole(folder / "encounters.csv", encounters_csv(scenario, run));
   if (scenario.planes_logged > 0) write_whole(folder / "planes.csv", planes_csv(scenario, run));
+  if (!run.sights.empty()) write_whole(folder / "sights.csv", sights_csv(scenario, run));
   write_whole(folder / "events.csv", events_csv(scenario, run));
   write_whole(folder / "proof.json", proof_json(scenario, run).dump(1) + "\n");
   write_whole(folder / "shapes.json", shapes_json(scenario).dump(1) + "\n");

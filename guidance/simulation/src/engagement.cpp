@@ -24,7 +24,8 @@ bool nothing_to_say(const std::optional<guidance::GuideStep>& step) {
 Engagement::Engagement(std::size_t agent, std::size_t obstacle, const Pilot& pilot)
     : agent_(agent), obstacle_(obstacle), pilot_(&pilot) {}
 
-void Engagement::observe(const guidance::BodyState& a, const guidance::BodyState& b, double t, bool gone) {
+void Engagement::observe(const guidance::BodyState& a, const guidance::BodyState& b, double t, bool gone,
+                         const guidance::Sight& sight) {
   const Eigen::Vector3d c = b.position - a.position, v = b.velocity - a.velocity;
   const double closing = -c.dot(v);  // times r
   if (passed_ && gone) return;
@@ -34,7 +35,7 @@ void Engagement::observe(const guidance::BodyState& a, const guidance::BodyState
     time_to_go_ = 0;
     return;
   }
-  step_ = guidance::guide(a, b, pilot_->guide, memory_, t);
+  step_ = guidance::guide(a, b, pilot_->guide, memory_, t, sight);
   time_to_go_ = closing > 0 ? c.squaredNorm() / closing : std::numeric_limits<double>::infinity();
   if (gone && avoids(pilot_->guide.law) && nothing_to_say(step_)) {
     passed_ = true;
@@ -80,13 +81,65 @@ EncounterSample Engagement::sample(const guidance::BodyState& a, const guidance:
   sample.cone = step_.has_value() && !passed_ && pilot_->guide.law != Law::clearance;
   if (step_) sample.step = *step_;
   if (passed_) sample.step.status = LawStatus::receding;
-  if (sample.cone && !demands()) look(a, b, sample);
+  // Of an agent with a sensor the log tells the truth; what it measured stands beside it.
+  if (sample.cone && (!demands() || pilot_->sensor)) look(a, b, sample);
   if (!sample.cone)
     sample.step.y = sample.step.psi = sample.step.theta_b = std::numeric_limits<double>::quiet_NaN();
   if (sample.step.across.any()) {
     const AxisFrame frame(b.position - a.position);
     sample.plane_azimuth = std::atan2(sample.step.across.dot(frame.e2), sample.step.across.dot(frame.e1));
   }
+  return sample;
+}
+
+SightSample Engagement::sight_sample(const guidance::BodyState& a, const guidance::BodyState& b, double t,
+                                     const Observed& observed) {
+  SightSample sample;
+  sample.t = t;
+  sample.agent = agent_;
+  sample.obstacle = obstacle_;
+  sample.measurement = observed.measurement;
+  sample.believed_position = observed.believed.position;
+  sample.believed_velocity = observed.believed.velocity;
+  const Measurement& m = observed.measurement;
+  if (m.position != a.position)
+    last_measured_ = guidance::spatial_state({a.position, a.velocity, m.position, m.velocity},
+                                             last_measured_ ? &*last_measured_ : nullptr);
+  if (last_measured_) sample.measured = *last_measured_;
+  const guidance::EngagementParts& errors = observed.sight.errors;  // (7.2): made where the law looks
+  sample.measured.r *= 1 + errors.r;
+  sample.measured.theta += errors.theta;
+  sample.measured.v_r *= 1 + errors.v_r;
+  sample.measured.v_theta *= 1 + errors.v_theta;
+  if (!step_ || !step_->reading || b.position == a.position) return sample;
+  const auto truth = guidance::plane_view(a, b, step_->across, pilot_->guide.sector,
+                                          guidance::RateMethod::analytic);
+  if (!truth) return sample;
+  sample.on_plane = true;
+  sample.reading = *step_->reading;
+  sample.state = truth->state;
+  sample.cone = truth->cone;
+  // What the agent commands turns its own body, and so the cone.
+  sample.cone.psi_rate += sample.cone.psi_rate_by_a * sample.reading.inner;
+  sample.cone.theta_b_rate += sample.cone.theta_b_rate_by_a * sample.reading.inner;
+  sample.cone.psi_rate_by_a = sample.cone.theta_b_rate_by_a = 0;
+  sample.y = guidance::cone_rates(sample.state, sample.cone).y;
+  const guidance::GuideReading& read = sample.reading;
+  guidance::Measured wrong;
+  wrong.v_r = read.state.v_r - sample.state.v_r;
+  wrong.v_theta = read.state.v_theta - sample.state.v_theta;
+  wrong.theta = read.state.theta - sample.state.theta;
+  wrong.theta_b = read.cone.theta_b - sample.cone.theta_b;
+  wrong.psi = read.cone.psi - sample.cone.psi;
+  wrong.psi_rate = read.cone.psi_rate - sample.cone.psi_rate;
+  wrong.theta_b_rate = read.cone.theta_b_rate - sample.cone.theta_b_rate;
+  const double gain = pilot_->guide.inversion.gain;
+  sample.terms = guidance::noise_terms(sample.state, sample.cone, wrong, gain);
+  const guidance::Measured sigma = guidance::deviations_on_plane(observed.sight, sample.state, sample.cone);
+  const guidance::NoiseGradients gradients = guidance::noise_gradients(sample.state, sample.cone, gain);
+  sample.y_deviation = guidance::deviation(gradients.y, sigma);
+  sample.a_deviation = guidance::deviation(gradients.a, sigma);
+  sample.v_deviation = guidance::deviation(gradients.v, sigma);
   return sample;
 }
 

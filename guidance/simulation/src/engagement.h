@@ -5,6 +5,8 @@
 
 #include <vericone/simulation/run.h>
 
+#include "observer.h"
+
 namespace vericone::simulation {
 
 class Engagement {
@@ -16,7 +18,8 @@ class Engagement {
 
   /// What the law says at time t. Once B is `gone`, passed, and the law has nothing to say, it is not asked
   /// again until that changes.
-  void observe(const guidance::BodyState& a, const guidance::BodyState& b, double t, bool gone);
+  void observe(const guidance::BodyState& a, const guidance::BodyState& b, double t, bool gone,
+               const guidance::Sight& sight = {});
 
   const std::optional<guidance::GuideStep>& step() const { return step_; }
   double time_to_go() const { return time_to_go_; }  // s, r / closing speed
@@ -28,6 +31,9 @@ class Engagement {
   bool inside() const;
 
   EncounterSample sample(const guidance::BodyState& a, const guidance::BodyState& b, double t, bool attended);
+  /// Of an agent with a sensor: the bodies as they are, and what was made of them.
+  SightSample sight_sample(const guidance::BodyState& a, const guidance::BodyState& b, double t,
+                           const Observed& observed);
 
  private:
   void look(const guidance::BodyState& a, const guidance::BodyState& b, EncounterSample& sample);
@@ -36,7 +42,7 @@ class Engagement {
   const Pilot* pilot_;
   guidance::GuideMemory memory_;
   std::optional<guidance::GuideStep> step_;
-  std::optional<guidance::SpatialState> last_state_;
+  std::optional<guidance::SpatialState> last_state_, last_measured_;
   std::optional<Eigen::Vector3d> looked_;
   double time_to_go_ = 0;
   bool passed_ = false;

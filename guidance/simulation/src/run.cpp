@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "engagement.h"
+#include "observer.h"
 #include "run_events.h"
 
 namespace vericone::simulation {
@@ -73,7 +74,7 @@ class Runner {
       if (guarded(pilot)) navigators_[i].emplace(courses_of(pilot));
       for (std::size_t j = 0; j < scenario.bodies.size(); ++j)
         if (j != i && (pilot.minds.empty() || contains(pilot.minds, scenario.bodies[j].name)))
-          engagements_.push_back({Engagement(i, j, pilot)});
+          follow(i, j, pilot);
     }
     aligned_.assign(scenario.bodies.size(), false);
     cannot_avoid_.assign(scenario.bodies.size(), false);
@@ -110,12 +111,25 @@ class Runner {
  private:
   struct Followed {
     Engagement engagement;
+    std::optional<Observer> observer = {};
     bool inside = false;  // at the command before
     bool seen = false;    // both were there at the command before
     bool gone = false;    // passed, at the time reached
     bool has_passed = false;
+    bool seen_passed = false;  // as the agent knows it
     std::optional<Passage> passage = {};
   };
+
+  void follow(std::size_t agent, std::size_t obstacle, const Pilot& pilot) {
+    Followed& f = engagements_.emplace_back(Followed{Engagement(agent, obstacle, pilot)});
+    const Draw draw{scenario_.seed, options_.trial, agent * scenario_.bodies.size() + obstacle, 0};
+    if (pilot.sensor) f.observer.emplace(*pilot.sensor, pilot, draw);
+  }
+
+  /// The obstacle as the agent has it.
+  const BodyState& believed(const Followed& f) const {
+    return f.observer ? f.observer->last().believed : states_[f.engagement.obstacle()];
+  }
 
   bool present(std::size_t body, double t) const { return scenario_.bodies[body].appears <= t; }
   void event(const Event& event) { run_.events.push_back(event); }
@@ -130,9 +144,10 @@ class Runner {
       if (!present(e.agent(), t) || !present(e.obstacle(), t)) continue;
       if (!f.seen) f.gone = passing_rate(f, t) >= 0;
       f.seen = true;
-      f.engagement.observe(states_[e.agent()], states_[e.obstacle()], t, f.gone);
+      observe(f, t);
       crossed_cone(f, t);
     }
+    ++command_;
     for (std::size_t i = 0; i < scenario_.bodies.size(); ++i)
       if (scenario_.bodies[i].pilot && present(i, t)) command(i, t, to);
     for (std::size_t i = 0; i < run_.tracks.size(); ++i)
@@ -140,6 +155,18 @@ class Runner {
     for (Followed& f : engagements_) passing(f, t, to);
     for (std::size_t i = 0; i < scenario_.bodies.size(); ++i) reaching(i, t, to);
     before_ = t;
+  }
+
+  void observe(Followed& f, double t) {
+    Engagement& e = f.engagement;
+    const BodyState &a = states_[e.agent()], &b = states_[e.obstacle()];
+    if (!f.observer) {
+      e.observe(a, b, t, f.gone);
+      return;
+    }
+    const Observed& seen = f.observer->look(a, b, run_.tracks[e.obstacle()], t, command_);
+    e.observe(a, seen.believed, t, false, seen.sight);
+    if (e.step() && e.step()->status == guidance::LawStatus::receding) f.seen_passed = true;
   }
 
   void command(std::size_t agent, double t, double to) {
@@ -169,6 +196,7 @@ class Runner {
       if (f.engagement.agent() != agent || !present(f.engagement.obstacle(), t)) continue;
       const BodyState &a = states_[agent], &b = states_[f.engagement.obstacle()];
       run_.encounters.push_back(f.engagement.sample(a, b, t, &f == attended));
+      if (f.observer) run_.sights.push_back(f.engagement.sight_sample(a, b, t, f.observer->last()));
       if (scenario_.planes_logged > 0 && !f.engagement.passed())
         for (const auto& plane : guidance::all_planes(a, b, pilot.guide.sector, scenario_.planes_logged))
           run_.planes.push_back({t, agent, f.engagement.obstacle(), plane});
@@ -183,7 +211,7 @@ class Runner {
     for (const Followed& f : engagements_) {
       const std::size_t other = f.engagement.obstacle();
       if (f.engagement.agent() != agent || !present(other, t)) continue;
-      minded_.push_back(states_[other]);
+      minded_.push_back(believed(f));
       indices_.push_back(other);
     }
     std::optional<guidance::Destination> destination;
@@ -205,13 +233,18 @@ class Runner {
     if (goal.after.empty()) return true;
     const std::size_t after = index_of(scenario_, goal.after);
     return std::any_of(engagements_.begin(), engagements_.end(), [&](const Followed& f) {
-      return f.engagement.agent() == agent && f.engagement.obstacle() == after && f.has_passed;
+      return f.engagement.agent() == agent && f.engagement.obstacle() == after &&
+             (f.observer ? f.seen_passed : f.has_passed);
     });
   }
 
   /// The cone was entered or left since the command before.
   void crossed_cone(Followed& f, double t) {
     const Engagement& e = f.engagement;
+    if (f.observer) {
+      if (options_.log) crossed_true_cone(f, t);
+      return;
+    }
     const bool inside = e.inside();
     const std::size_t i = e.agent(), j = e.obstacle();
     if (inside != f.inside && e.step() && !e.passed()) {
@@ -227,6 +260,26 @@ class Runner {
       const double edge = metres ? guide.clearance.required : guide.inversion.cease;
       if (inside) event({when, EventKind::enters_cone, i, j, metres ? e.step()->m : e.step()->y});
       if (!inside && closing) event({when, EventKind::leaves_cone, i, j, edge});
+    }
+    f.inside = inside;
+  }
+
+  /// The same of an agent with a sensor, whose law does not know: on the tracks.
+  void crossed_true_cone(Followed& f, double t) {
+    const std::size_t i = f.engagement.agent(), j = f.engagement.obstacle();
+    const BodyState &a = states_[i], &b = states_[j];
+    const guidance::GuideOptions& guide = scenario_.bodies[i].pilot->guide;
+    const auto beyond = [&](double s) { return margin(run_.tracks[i], run_.tracks[j], guide, s); };
+    const bool closing = (b.position - a.position).dot(b.velocity - a.velocity) < 0;
+    const bool inside = closing && beyond(t) < 0;
+    const bool first = !(before_ >= 0) || !present(i, before_) || !present(j, before_);
+    if (inside != f.inside && !f.has_passed) {
+      const bool metres = guide.law == guidance::Law::clearance;
+      const double when = first || !closing ? t : sign_change(beyond, before_, t);
+      const double value = metres    ? guide.clearance.required
+                           : !inside ? guide.inversion.cease
+                                     : f.engagement.sample(a, b, t, false).step.y;
+      if (inside || closing) event({when, inside ? EventKind::enters_cone : EventKind::leaves_cone, i, j, value});
     }
     f.inside = inside;
   }
@@ -336,6 +389,7 @@ class Runner {
   std::vector<BodyState> minded_;
   std::vector<std::size_t> indices_;
   double before_ = -1;
+  std::uint64_t command_ = 0;  // number of the command, from 0
   bool done_ = false;
 };
 

@@ -75,6 +75,48 @@ void check_kinds(const Pilot& pilot, const Body& self, const Scenario& scenario)
   }
 }
 
+void check_sensing(const Pilot& pilot, double step) {
+  const guidance::GuideOptions& guide = pilot.guide;
+  const bool inverts = guide.law == guidance::Law::avoidance && !guarded(pilot);
+  const auto of_inversion = [&](const char* field) {
+    if (!inverts)
+      throw InputError(field, guidance::to_string(guide.law),
+                       "the law avoidance with the manner source: no other has it");
+  };
+  if (guide.filter.any()) of_inversion("filter");
+  if (guide.robust) {
+    of_inversion("robust");
+    if (!std::isfinite(guide.inversion.most))
+      throw InputError("most", "without limit", "a number (m/s^2): the outer loop shares it");
+    guidance::RobustModel model = guide.robust->model;
+    model.gain = guide.inversion.gain;
+    if (model.dt != step)
+      throw InputError("robust.dt", to_text(model.dt), "the scenario's step, " + to_text(step) + " s");
+    try {
+      guidance::check(model, guide.robust->options);
+    } catch (const InputError& e) {
+      throw e.within("robust");
+    }
+  }
+  require_not_negative(pilot.estimator_intensity, "estimator.intensity", " (m^2/s^3)");
+  require_not_negative(pilot.obstacle_most, "estimator.most", " (m/s^2)");
+  if (!pilot.sensor) {
+    if (pilot.estimator != Estimator::none)
+      throw InputError("estimator", to_string(pilot.estimator), "left out without a sensor: all is known");
+    return;
+  }
+  try {
+    check(*pilot.sensor);
+  } catch (const InputError& e) {
+    throw e.within("sensor");
+  }
+  if (pilot.sensor->noise != Noise::engagement) return;
+  of_inversion("sensor");
+  if (pilot.estimator != Estimator::none)
+    throw InputError("estimator", to_string(pilot.estimator),
+                     "left out: the sensor engagement measures no position and velocity");
+}
+
 void check_pilot(const Pilot& pilot, const Body& self, const Scenario& scenario) {
   check_laws(pilot.guide);
   const auto find = [&](const std::string& name) {
@@ -95,6 +137,7 @@ void check_pilot(const Pilot& pilot, const Body& self, const Scenario& scenario)
   if (!pilot.partners.empty() && !cooperates(pilot.guide.law))
     throw InputError("partners", pilot.partners.front(), "no partners with this law, or a cooperative one");
   check_kinds(pilot, self, scenario);
+  check_sensing(pilot, scenario.step);
   if (!pilot.goal) return;
   if (!pilot.goal->point.allFinite())
     throw InputError("goal.point", "a number that is not finite", "finite (m)");

@@ -7,6 +7,7 @@
 #include <vericone/guidance/laws.h>
 #include <vericone/guidance/plane_choice.h>
 #include <vericone/guidance/plane_view.h>
+#include <vericone/guidance/sight.h>
 #include <cstdint>
 #include <optional>
 
@@ -37,6 +38,8 @@ struct GuideOptions {
   ClearanceOptions clearance;
   double mu = 0;          // cooperative avoidance: a_B = mu a_A
   double gain_speed = 1;  // K_2 of matching
+  PlaneFilterOptions filter;               // of what is read on the plane; of the avoidance law alone
+  std::optional<OuterLoopOptions> robust;  // (7.14) of the avoidance law
 };
 
 /// What one step hands to the next; a fresh one starts an engagement.
@@ -48,6 +51,17 @@ struct GuideMemory {
   };
   std::optional<Past> past;
   EdgeMemory edges;
+  std::optional<PlaneFilters> filters;
+};
+
+/// What the avoidance law read on its plane, and what its outer loop added.
+struct GuideReading {
+  PlanarState state;         // with the errors of measurement
+  PlaneCone cone;            // its rates are those used
+  double y = 0;              // as used: filtered where y is
+  double inner = 0;          // m/s^2, lateral acceleration of the inner loop, saturated
+  RobustCorrection outer;    // of the outer loop, where there is one; else as it starts
+  bool corrected = false;    // the outer loop was asked
 };
 
 struct GuideStep {
@@ -58,6 +72,7 @@ struct GuideStep {
   double psi = 0, theta_b = 0;  // rad; theta_b from the line of sight
   double m = 0;                 // metres, clearance law only
   Eigen::Vector3d across = Eigen::Vector3d::Zero();
+  std::optional<GuideReading> reading;  // of the avoidance law, where it looked at a plane
 };
 
 /// Whether they are on a collision course: the relative velocity lies in the cone (of the slices, or the true
@@ -76,7 +91,12 @@ struct GuideStep {
 ///
 /// Nothing where the bodies are not apart as the method sees them. `time`, seconds, for backward differences.
 /// No allocation and no throw with ellipsoids. Cost: docs/measured/benchmarks.md.
+///
+/// `b` is what the agent believes of B. `sight` says how wrong that may be, and carries the errors of sensors
+/// that measure on the plane. Where y is filtered, avoidance in space is decided by the filtered y on the plane
+/// chosen, not by on_collision_course(): a filter needs every measurement, and a noisy course has no exact
+/// answer.
 std::optional<GuideStep> guide(const BodyState& a, const BodyState& b, const GuideOptions& options,
-                               GuideMemory& memory, double time);
+                               GuideMemory& memory, double time, const Sight& sight = {});
 
 }  // namespace vericone::guidance

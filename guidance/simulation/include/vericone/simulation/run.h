@@ -31,9 +31,27 @@ struct PlaneSample {
   guidance::PlaneCandidate plane;
 };
 
+/// What an agent with a sensor measured of an obstacle at the time of a command, and what its law made of it,
+/// beside the truth. On the plane that the law looked at; `on_plane` is false where it looked at none.
+struct SightSample {
+  double t = 0;
+  std::size_t agent = 0, obstacle = 0;
+  Measurement measurement;
+  guidance::SpatialState measured;                          // as measured: r, V_r, V_theta, V_phi, ...
+  Eigen::Vector3d believed_position, believed_velocity;  // as given to the law
+  bool on_plane = false;
+  guidance::PlanarState state;  // true
+  guidance::PlaneCone cone;     // true, with the rates in closed form
+  double y = 0;                 // true
+  guidance::GuideReading reading;
+  /// (7.4), (7.5) of this measurement, and the deviations that (7.7), (7.8), (7.13) give for it.
+  guidance::NoiseTerms terms;
+  double y_deviation = 0, a_deviation = 0, v_deviation = 0;
+};
+
 enum class EventKind : std::uint8_t {
   appears,      // body `agent`
-  enters_cone,  // y < 0 and closing from now on, as the law sees it
+  enters_cone,  // y < 0 and closing from now on, as the law sees it (of an agent with a sensor: in truth)
   leaves_cone,  // y >= 0 (or m >= required) from now on; the last sample before it was inside
   passes,       // as the pilot's `passing` says
   aligned,      // the velocity points at the goal from now on
@@ -77,6 +95,7 @@ struct Run {
   double end = 0;                           // s
   std::vector<EncounterSample> encounters;  // by time, agent, obstacle
   std::vector<PlaneSample> planes;
+  std::vector<SightSample> sights;  // of agents with a sensor; by time, agent, obstacle
   std::vector<Event> events;        // by time
   std::vector<PairOutcome> proofs;  // every pair of bodies that are there together, but:
   std::vector<NotChecked> not_checked;
@@ -88,7 +107,8 @@ struct Run {
 
 struct RunOptions {
   bool prove = true;
-  bool log = true;  // encounters and planes
+  bool log = true;          // encounters, planes, sights, and when agents with a sensor cross a cone
+  std::uint64_t trial = 0;  // other noise of the same seed
   /// Called after every step with the time reached; false ends the run there, `interrupted`.
   std::function<bool(double t)> progress;
 };

@@ -5,6 +5,7 @@
 
 #include <vericone/guidance/guide.h>
 #include <vericone/simulation/proof.h>
+#include <vericone/simulation/sensor.h>
 #include <vericone/simulation/track.h>
 #include <cstdint>
 #include <optional>
@@ -52,6 +53,12 @@ struct Pilot {
   /// Cooperative laws: the body that carries out the second acceleration. Has no pilot of its own.
   std::vector<std::string> partners;
   std::optional<Goal> goal;
+  /// What it measures of the bodies it minds; left out: it knows them. Its law sees nothing else, so neither
+  /// does it know when a body has been passed but by what it measures.
+  std::optional<Sensor> sensor;
+  Estimator estimator = Estimator::none;
+  double estimator_intensity = 0;  // m^2/s^3, of Estimator::state: white acceleration of the bodies minded
+  double obstacle_most = 0;        // m/s^2, of Estimator::set_membership: what they can accelerate at most
 };
 
 struct Body {
@@ -71,6 +78,7 @@ struct Scenario {
   int planes_logged = 0;          // y and psi are logged on this many planes (Fig 6.9)
   std::vector<Body> bodies;
   ProofOptions proof;
+  std::uint64_t seed = 1;  // of all noise
 };
 
 /// Whether this pilot's courses are guarded: of the laws that can be.
