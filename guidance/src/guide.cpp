@@ -2,6 +2,7 @@
 #include <vericone/guidance/guide.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -44,8 +45,18 @@ Vector3d ahead(const PlaneView& view) {
   return std::cos(view.state.alpha) * view.line_of_sight + std::sin(view.state.alpha) * view.across;
 }
 
-GuideStep by_clearance(const BodyState& a, const BodyState& b, const GuideOptions& options) {
-  const ClearanceCommand command = clearance_law(a, b, options.clearance);
+/// The standard deviation of the miss distance: of the position when they pass, along any direction.
+double miss_deviation(const BodyState& a, const BodyState& b, const Sight& sight) {
+  const Vector3d c = b.position - a.position, v = b.velocity - a.velocity;
+  const double time = v.isZero(0) ? 0 : std::max(-c.dot(v) / v.squaredNorm(), 0.0);
+  return std::hypot(sight.position_deviation, time * sight.velocity_deviation);
+}
+
+GuideStep by_clearance(const BodyState& a, const BodyState& b, const GuideOptions& options,
+                       const Sight& sight) {
+  ClearanceOptions clearance = options.clearance;
+  if (options.margin > 0) clearance.required += options.margin * miss_deviation(a, b, sight);
+  const ClearanceCommand command = clearance_law(a, b, clearance);
   GuideStep step;
   step.a = command.acceleration;
   step.demanded = command.demanded;
@@ -97,14 +108,19 @@ LawCommand avoid(const PlaneView& view, const GuideOptions& options, const Sight
   const double by_state = cone_rates(view.state, view.cone).y;
   inversion.reference += by_state - y;
   inversion.cease += by_state - y;
+  const Measured deviations = deviations_on_plane(sight, view.state, view.cone);
+  if (options.margin > 0) {
+    const double keep = options.margin * deviation(noise_gradients(view.state, view.cone, 1).y, deviations);
+    inversion.reference += keep;
+    inversion.cease += keep;
+  }
   LawCommand command = avoidance(view.state, view.cone, inversion);
   reading = {view.state, view.cone, y, command.a, {}, false};
   command.rates.y = y;
   if (!options.robust || commands_nothing(command.status)) return command;
   reading.outer =
       outer_loop(*options.robust, y - options.inversion.reference, command.a, options.inversion.most,
-                 options.inversion.gain, command.rates.by_lateral_a, view.state, view.cone,
-                 deviations_on_plane(sight, view.state, view.cone));
+                 options.inversion.gain, command.rates.by_lateral_a, view.state, view.cone, deviations);
   reading.corrected = true;
   command.a += reading.outer.delta;
   return command;
@@ -191,8 +207,8 @@ const char* to_string(Law law) {
 
 std::optional<GuideStep> guide(const BodyState& a, const BodyState& b, const GuideOptions& options,
                                GuideMemory& memory, double time, const Sight& sight) {
-  if (options.law == Law::clearance) return by_clearance(a, b, options);
-  const bool in_space = avoids(options.law) && !a.planar() && !options.filter.y;
+  if (options.law == Law::clearance) return by_clearance(a, b, options, sight);
+  const bool in_space = avoids(options.law) && !a.planar() && !options.filter.y && !(options.margin > 0);
   if (in_space) {
     const auto course = on_collision_course(a, b, options.sector, options.inversion.cease);
     if (!course) return std::nullopt;

@@ -8,7 +8,7 @@
 
 namespace vericone {
 
-/// simulate, campaign, claims and figures; none in a build without VERICONE_SIMULATION.
+/// simulate, campaign, trials, claims and figures; none in a build without VERICONE_SIMULATION.
 std::map<std::string, Command> simulation_commands();
 
 }  // namespace vericone

@@ -50,7 +50,13 @@ const Observed& Observer::look(const guidance::BodyState& a, const guidance::Bod
     believed.shape = shape_at(of_b.shape(), t, position, of_b.motion(t).rotation);
   believed.position = position;
   believed.velocity = velocity;
-  observed_ = Observed{m, std::move(believed), sight_of(sensor_, m, draw_)};
+  guidance::Sight sight = sight_of(sensor_, m, draw_);
+  if (estimator_ == Estimator::state) {  // it knows better than one measurement how wrong it may be
+    const auto& covariance = state_.belief().covariance;
+    sight.position_deviation = std::sqrt(covariance.diagonal().head<3>().sum() / 3);
+    sight.velocity_deviation = std::sqrt(covariance.diagonal().tail<3>().sum() / 3);
+  }
+  observed_ = Observed{m, std::move(believed), sight};
   return *observed_;
 }
 

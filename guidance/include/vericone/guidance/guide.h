@@ -40,6 +40,9 @@ struct GuideOptions {
   double gain_speed = 1;  // K_2 of matching
   PlaneFilterOptions filter;               // of what is read on the plane; of the avoidance law alone
   std::optional<OuterLoopOptions> robust;  // (7.14) of the avoidance law
+  /// Standard deviations to keep: of y (7.7), added to reference and cease of the avoidance law; of the miss
+  /// distance, position and velocity together, added to the metres that the clearance law requires.
+  double margin = 0;
 };
 
 /// What one step hands to the next; a fresh one starts an engagement.
@@ -93,7 +96,7 @@ struct GuideStep {
 /// No allocation and no throw with ellipsoids. Cost: docs/measured/benchmarks.md.
 ///
 /// `b` is what the agent believes of B. `sight` says how wrong that may be, and carries the errors of sensors
-/// that measure on the plane. Where y is filtered, avoidance in space is decided by the filtered y on the plane
+/// that measure on the plane. Where y is filtered or has a margin, avoidance in space is decided by y on the plane
 /// chosen, not by on_collision_course(): a filter needs every measurement, and a noisy course has no exact
 /// answer.
 std::optional<GuideStep> guide(const BodyState& a, const BodyState& b, const GuideOptions& options,

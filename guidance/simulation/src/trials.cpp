@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/simulation/trials.h>
+
+#include <vericone/geometry/error.h>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace vericone::simulation {
+namespace {
+
+constexpr std::array kLaws{TrialLaw::di,          TrialLaw::di_filter, TrialLaw::rdi,
+                           TrialLaw::rdi_filter,  TrialLaw::di_rates,  TrialLaw::di_analytic,
+                           TrialLaw::di_state,    TrialLaw::di_margin, TrialLaw::clearance};
+
+double number_of(const std::string& text, const std::string& whole) {
+  double x = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+  if (error != std::errc() || end != text.data() + text.size() || !(x >= 0) || !std::isfinite(x))
+    throw InputError("--levels", whole,
+                     "percent of position and of velocity, such as 7.5:15, or x and a number, such as x4");
+  return x;
+}
+
+std::size_t agent_of(const Scenario& scenario) {
+  std::size_t agent = scenario.bodies.size();
+  for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
+    if (!scenario.bodies[i].pilot) continue;
+    if (agent < scenario.bodies.size())
+      throw InputError("bodies", scenario.bodies[agent].name + ", " + scenario.bodies[i].name,
+                       "one body with a pilot: that of the trials");
+    agent = i;
+  }
+  if (agent == scenario.bodies.size()) throw InputError("bodies", "no pilot", "one body with a pilot");
+  return agent;
+}
+
+/// What an outer loop does where the scenario does not say: a and |b| as the noise leaves them, and a bound of
+/// its influence that a step of 0.01 s can keep.
+guidance::OuterLoopOptions usual_outer_loop(double step) {
+  guidance::OuterLoopOptions outer;
+  outer.from_noise = true;
+  outer.model.dt = step;
+  outer.options.mu = 10;
+  outer.options.input_weight = 1e-5;
+  return outer;
+}
+
+}  // namespace
+
+const char* to_string(TrialLaw law) {
+  switch (law) {
+    case TrialLaw::di:
+      return "di";
+    case TrialLaw::di_filter:
+      return "di-filter";
+    case TrialLaw::rdi:
+      return "rdi";
+    case TrialLaw::rdi_filter:
+      return "rdi-filter";
+    case TrialLaw::di_rates:
+      return "di-rates";
+    case TrialLaw::di_analytic:
+      return "di-analytic";
+    case TrialLaw::di_state:
+      return "di-state";
+    case TrialLaw::di_margin:
+      return "di-margin";
+    case TrialLaw::clearance:
+      return "clearance";
+  }
+  return "?";
+}
+
+std::span<const TrialLaw> all_trial_laws() { return kLaws; }
+
+TrialLaw trial_law(const std::string& name) {
+  std::string list;
+  for (const TrialLaw law : kLaws) {
+    if (name == to_string(law)) return law;
+    list.append(list.empty() ? "" : ", ").append(to_string(law));
+  }
+  throw InputError("--laws", name, "one of " + list);
+}
+
+TrialLevel trial_level(const std::string& text) {
+  TrialLevel level{text, std::nullopt, 1};
+  const std::size_t colon = text.find(':');
+  if (colon != std::string::npos) {
+    Sensor& sensor = level.sensor.emplace();
+    sensor.noise = Noise::per_axis;
+    sensor.position = number_of(text.substr(0, colon), text) / 100;
+    sensor.velocity = number_of(text.substr(colon + 1), text) / 100;
+    sensor.deviation = 1.0 / 3;  // m(t) of (7.27)
+  } else {
+    level.times = number_of(text.starts_with('x') ? text.substr(1) : "", text);
+  }
+  return level;
+}
+
+Scenario trial_scenario(const Scenario& scenario, TrialLaw law, const TrialLevel& level) {
+  using enum TrialLaw;
+  Scenario flown = scenario;
+  const std::size_t agent = agent_of(scenario);
+  Pilot& pilot = *flown.bodies[agent].pilot;
+  guidance::GuideOptions& guide = pilot.guide;
+  if (guide.law != guidance::Law::avoidance)
+    throw InputError("law", guidance::to_string(guide.law), "avoidance: the trials change it as their names say");
+  if (level.sensor) {
+    pilot.sensor = level.sensor;
+  } else {
+    if (!pilot.sensor)
+      throw InputError("--levels", level.name, "such as 7.5:15: the scenario has no sensor to be multiplied");
+    pilot.sensor = pilot.sensor->times(level.times);
+  }
+  pilot.manner = Manner::source;
+  const bool outer = law == rdi || law == rdi_filter;
+  if (!outer)
+    guide.robust.reset();
+  else if (!guide.robust)
+    guide.robust = usual_outer_loop(scenario.step);
+  guide.filter.y = law == di_filter || law == rdi_filter;
+  guide.filter.rates = guide.filter.y || law == di_rates;
+  const bool by_state = law == di_state || law == di_margin || law == clearance;
+  guide.rates = law == di_analytic || by_state ? guidance::GuideRates::analytic : guidance::GuideRates::backward;
+  guide.margin = law == di_margin || law == clearance ? 3 : 0;
+  const bool measures_state = pilot.sensor->noise != Noise::engagement;
+  if (by_state && !measures_state)
+    throw InputError("--laws", to_string(law), "laws of the plane: the sensor measures no position and velocity");
+  pilot.estimator = by_state ? Estimator::state : Estimator::none;
+  if (law == clearance) guide.law = guidance::Law::clearance;
+  check(flown);
+  return flown;
+}
+
+TrialOutcome fly_trial(const Scenario& scenario, std::uint64_t trial) {
+  RunOptions options;
+  options.log = false;
+  options.trial = trial;
+  const Run run = simulate(scenario, options);
+  const std::size_t agent = agent_of(scenario);
+  TrialOutcome outcome;
+  outcome.verdict = ProofVerdict::avoided;
+  outcome.least_distance = std::numeric_limits<double>::infinity();
+  for (const PairOutcome& pair : run.proofs) {
+    if (pair.a != agent && pair.b != agent) continue;
+    const ProofVerdict verdict = pair.proof.verdict;
+    if (verdict == ProofVerdict::touched) outcome.verdict = verdict;
+    if (verdict == ProofVerdict::undecided && outcome.verdict == ProofVerdict::avoided)
+      outcome.verdict = verdict;
+    outcome.least_distance = std::min(outcome.least_distance, pair.proof.least_distance);
+  }
+  if (outcome.verdict != ProofVerdict::avoided) outcome.least_distance = 0;
+  for (const Arc& arc : run.tracks[agent].arcs())
+    outcome.effort += arc.most_acceleration() * (arc.to() - arc.from());
+  return outcome;
+}
+
+}  // namespace vericone::simulation
