@@ -53,7 +53,10 @@ for axes, panel in zip(drawn, panels):
         if len(axes.get_legend_handles_labels()[0]) > 1:
             axes.legend(loc="best")
 if over_time:
-    if len(drawn[0].get_legend_handles_labels()[0]) > 1:  # colours are the same in all panels
+    entries = len(drawn[0].get_legend_handles_labels()[0])
+    if entries > 4:  # more than fits beside the curves
+        drawn[0].legend(loc="lower left", bbox_to_anchor=(0, 1), ncol=3, frameon=False, fontsize=6)
+    elif entries > 1:  # colours are the same in all panels
         drawn[0].legend(loc="best")
     for axes in drawn if rows == 1 else drawn[-1:]:
         axes.set_xlabel("t [s]")

@@ -161,7 +161,7 @@ class Maker {
     Json lines = Json::array();
     const auto add = [&](const Series& series, const std::string& word) {
       const std::string body = !series.word("body").empty() ? series.word("body") : series.word("obstacle");
-      const std::string name = !line.name.empty() ? line.name
+      const std::string name = !line.name.empty() ? line.name + (word.empty() ? "" : " " + word)
                                : !word.empty()    ? word
                                : !body.empty()    ? body
                                                   : line.y.path();

@@ -182,15 +182,21 @@ std::vector<Claim> Paper::measured_claims(Sources& sources) {
 }
 
 std::vector<Figure> Paper::chosen(const std::vector<std::string>& ids) const {
+  // "7" is all of chapter 7: 7.1, 7.2, ...
+  const auto names = [](const std::string& id, const Figure& f) {
+    return f.id == id || f.id.starts_with(id + ".");
+  };
   for (const std::string& id : ids) {
-    if (std::any_of(figures.begin(), figures.end(), [&](const Figure& f) { return f.id == id; })) continue;
+    if (std::any_of(figures.begin(), figures.end(), [&](const Figure& f) { return names(id, f); })) continue;
     std::string known;
     for (const Figure& f : figures) known.append(known.empty() ? "" : ", ").append(f.id);
     throw InputError("figures", id, "among " + known);
   }
   std::vector<Figure> list;
   for (const Figure& figure : figures)
-    if (ids.empty() || std::find(ids.begin(), ids.end(), figure.id) != ids.end()) list.push_back(figure);
+    if (ids.empty() ||
+        std::any_of(ids.begin(), ids.end(), [&](const std::string& id) { return names(id, figure); }))
+      list.push_back(figure);
   return list;
 }
 

@@ -166,7 +166,9 @@ class Runner {
     }
     const Observed& seen = f.observer->look(a, b, run_.tracks[e.obstacle()], t, command_);
     e.observe(a, seen.believed, t, false, seen.sight);
-    if (e.step() && e.step()->status == guidance::LawStatus::receding) f.seen_passed = true;
+    if (!e.step()) return;
+    const guidance::GuideStep& said = *e.step();
+    if (said.reading ? said.v_r_hat >= 0 : said.status == guidance::LawStatus::receding) f.seen_passed = true;
   }
 
   void command(std::size_t agent, double t, double to) {
