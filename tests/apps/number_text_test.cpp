@@ -33,6 +33,14 @@ TEST(NumberText, BoundsShareDigitsOrStandBesideEachOther) {
   EXPECT_EQ(bounds_text(-1.0218720428412142, 0.5), "-1.1 and 0.5");
 }
 
+TEST(NumberText, BoundsStayBounds) {
+  EXPECT_EQ(at_most_text(0.0029469785, 2), "0.003");
+  EXPECT_EQ(at_least_text(0.0029469785, 2), "0.0029");
+  EXPECT_EQ(at_least_text(-0.0029469785, 2), "-0.003");
+  EXPECT_EQ(at_least_text(1.5), "1.5");
+  EXPECT_EQ(at_most_text(0.999951, 4), "1");
+}
+
 TEST(NumberText, BoundsAreRoundedOutwards) {
   std::mt19937_64 engine(1);
   std::uniform_real_distribution<double> mantissa(-10, 10), power(-12, 12), width(-9, 0);

@@ -86,8 +86,8 @@ MapAnswer map_answer(const scenes::Scene& scene, const MapRequest& request, doub
 
 void print_map(const MapAnswer& answer, std::ostream& out) {
   const ConeMap& map = answer.map;
-  out << "cone map            colliding " << number_text(map.colliding, 5) << " sr, safe "
-      << number_text(map.safe, 5) << " sr, undecided " << number_text(map.undecided, 2) << " sr, at "
+  out << "cone map            colliding " << at_least_text(map.colliding, 5) << " sr, safe "
+      << at_least_text(map.safe, 5) << " sr, undecided " << at_most_text(map.undecided, 2) << " sr, at "
       << number_text(answer.request.resolution) << " rad\n";
   int safe = 0, colliding = 0;
   for (const ConeMapRegion& region : answer.regions) ++(region.label == Certified::out ? safe : colliding);

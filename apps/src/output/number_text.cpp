@@ -41,9 +41,16 @@ std::string number_within(double x, double error) {
   return number_text(x, std::clamp(exponent(x) - exponent(error) + 1, 1, kShownDigits));
 }
 
+std::string at_least_text(double x, int digits) {
+  return std::isfinite(x) ? rounded(x, exponent(x) - digits + 1, Towards::down) : number_text(x);
+}
+
+std::string at_most_text(double x, int digits) {
+  return std::isfinite(x) ? rounded(x, exponent(x) - digits + 1, Towards::up) : number_text(x);
+}
+
 std::string between_text(double low, double high) {
-  if (!std::isfinite(high))
-    return "at least " + rounded(low, exponent(low) - kShownDigits + 1, Towards::down);
+  if (!std::isfinite(high)) return "at least " + at_least_text(low);
   constexpr int kLeastShared = 3;
   for (int digits = kShownDigits; digits >= kLeastShared; --digits)
     if (const std::string text = number_text(low, digits); text == number_text(high, digits)) return text;
