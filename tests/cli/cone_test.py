@@ -36,6 +36,23 @@ class Cone(unittest.TestCase):
                 self.assertEqual(course["verdict"], verdict)
                 self.assertEqual("contact_point" in course, verdict == "in")
 
+    def test_text_says_the_verdict_first_and_what_is_certain(self):
+        for scene, *arguments in (["source-6.5.yaml"], ["source-6.5.yaml", "--tolerance", "0.01"], ["biconcave.yaml"],
+                                  ["source-6.5.yaml", "--method", "slice"], ["planar.yaml"], ["first.yaml"],
+                                  ["window.yaml", "--map", "0.1"]):
+            with self.subTest(scene=scene, arguments=arguments):
+                path = os.path.join(SOURCE, "docs", "examples", scene)
+                text = run("cone", path, *arguments).stdout
+                self.assertTrue(text.startswith("verdict "), text)
+                for number in re.findall(r"(?<![\w.])-?\d+\.\d+", text):
+                    self.assertLessEqual(len(number.replace(".", "").lstrip("-0")), 6, number)
+                between = re.search(r"sr, proved between (\S+) and (\S+) sr", text)
+                answer = json.loads(run("cone", path, "--json", *arguments).stdout)
+                self.assertEqual(bool(between), bool(answer.get("error_bound")))
+                if between:
+                    self.assertLessEqual(float(between[1]), answer["inner"]["solid_angle"])
+                    self.assertGreaterEqual(float(between[2]), answer["outer"]["solid_angle"])
+
     def test_bodies_too_far_apart_for_numbers(self):
         for zeros, far in (("0, 0, 0", "1.0e200, 0, 0"), ("0, 0", "1.0e200, 0")):
             axes = ", ".join(["1"] * len(zeros.split(",")))

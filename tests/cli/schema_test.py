@@ -78,6 +78,8 @@ class Validator:
                     found += self.errors(item, properties[key], root, f"{path}.{key}")
                 elif node.get("additionalProperties") is False:
                     found.append(f"{path}.{key}: unknown")
+                elif "additionalProperties" in node:
+                    found += self.errors(item, node["additionalProperties"], root, f"{path}.{key}")
         return found
 
 
@@ -162,6 +164,43 @@ class Schemas(unittest.TestCase):
         self.assertEqual(shape, fields - {"velocity"} | {"dented"})
         own = {"name", "speed", "heading", "heading_deg", "orientation", "appears", "pilot", "velocity"}
         self.assertEqual(set(defs["as_in_scenes"]["properties"]), shape | own)
+
+    def test_fields_of_papers_are_those_of_the_program(self):
+        folder = os.path.join(self.folder.name, "paper")
+        self.assertEqual(run("paper", "new", folder).returncode, 0)
+
+        def taken(name, old, new, path):
+            file = os.path.join(folder, name)
+            with open(file, encoding="utf-8") as f:
+                text = f.read()
+            self.assertIn(old, text)
+            with open(file, "w", encoding="utf-8") as f:
+                f.write(text.replace(old, new, 1))
+            said = run("check", file)
+            with open(file, "w", encoding="utf-8") as f:
+                f.write(text)
+            found = re.match(r"vericone: %s: %s: got an unknown field, must be one of (.*)" % (name, re.escape(path)), said.stderr)
+            self.assertTrue(found, said.stderr)
+            return set(found.group(1).split(", "))
+
+        claims, figures = schema("claims")["$defs"], schema("figures")["$defs"]
+        top, entry = set(schema("claims")["properties"]), set(claims["claim"]["properties"])
+        self.assertEqual(taken("claims.yaml", "claims:\n", "zzz: 1\nclaims:\n", "zzz") | {"templates"}, top)
+        fields = taken("claims.yaml", "    id: y-0 ", "    zzz: 1\n    id: y-0 ", "claims[1].zzz")
+        fields |= taken("claims.yaml", "{body: A,", "{zzz: 1, body: A,", "claims[0].zzz")
+        self.assertEqual(fields | {"like"}, entry)
+        values = taken("claims.yaml", "{table: looks, first: y}", "{zzz: 1, table: looks, first: y}", "claims[1].values.first_y.zzz")
+        self.assertEqual(values | {"like"}, set(claims["value"]["properties"]))
+        top = set(schema("figures")["properties"])
+        self.assertEqual(taken("figures.yaml", "figures:\n", "zzz: 1\nfigures:\n", "zzz") | {"templates"}, top)
+        self.assertEqual(taken("figures.yaml", "    drawing:", "    zzz: 1\n    drawing:", "figures[0].zzz") | {"like"},
+                         set(figures["figure"]["properties"]))
+        line = taken("figures.yaml", "{table: looks, y: y,", "{zzz: 1, table: looks, y: y,", "figures[1].panels[0].zzz")
+        self.assertEqual(line | {"like"}, set(figures["line"]["properties"]))
+        with open(os.path.join(SOURCE, "docs/reference/papers.md"), encoding="utf-8") as f:
+            page = f.read()
+        for field in entry | top | values | line | set(figures["figure"]["properties"]) | set(figures["panel"]["properties"]):
+            self.assertRegex(page, rf"(`|, ){field}[:`,]|\b{field}`", field)
 
     def test_every_field_is_documented(self):
         with open(os.path.join(SOURCE, "docs/reference/formats.md"), encoding="utf-8") as file:

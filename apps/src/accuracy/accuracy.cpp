@@ -21,6 +21,7 @@
 #include "accuracy/engagements.h"
 #include "accuracy/measure.h"
 #include "accuracy/statistics.h"
+#include "accuracy/summary.h"
 #include "cone/cone.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
@@ -36,73 +37,6 @@ namespace vericone::accuracy {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Everything the figures and the text show, from the rows of one table.
-Json summarise(const std::vector<Measurement>& rows, const std::vector<int>& planes) {
-  Json summary;
-  summary["engagements"] = rows.size();
-  const std::size_t finest =
-      static_cast<std::size_t>(std::max_element(planes.begin(), planes.end()) - planes.begin());
-  summary["finest_planes"] = planes[finest];
-  const auto collect = [&](auto&& value) {
-    std::vector<double> values;
-    values.reserve(rows.size());
-    for (const Measurement& m : rows) values.push_back(value(m));
-    return values;
-  };
-  std::vector<double> fit_n, fit_error;
-  Json slices = Json::array();
-  for (std::size_t i = 0; i < planes.size(); ++i) {
-    const Spread discretisation = spread(collect(
-        [&](const Measurement& m) { return std::abs(m.slice_areas[i] / m.slice_areas[finest] - 1); }));
-    const Spread missing =
-        spread(collect([&](const Measurement& m) { return 1 - m.slice_areas[i] / m.exact_area; }));
-    const double limit = 2.0 / planes[i];
-    // The finest count is the reference of the others, and has none itself.
-    const bool reference = i == finest;
-    const auto above = std::count_if(rows.begin(), rows.end(), [&](const Measurement& m) {
-      return std::abs(m.slice_areas[i] / m.slice_areas[finest] - 1) >= limit;
-    });
-    slices.push_back({{"planes", planes[i]},
-                      {"discretisation_error", reference ? Json() : spread_json(discretisation)},
-                      {"two_over_n", limit},
-                      {"above_two_over_n", reference ? Json() : Json(above)},
-                      {"error_against_true_cone", spread_json(missing)}});
-    if (planes[i] >= 6 && planes[i] * 4 <= planes[finest] && discretisation.median > 0) {
-      fit_n.push_back(planes[i]);
-      fit_error.push_back(discretisation.median);
-    }
-  }
-  summary["slice"] = slices;
-  if (fit_n.size() >= 2) summary["slice_order"] = order(fit_n, fit_error);
-  summary["slice_bias"] = spread_json(
-      spread(collect([&](const Measurement& m) { return 1 - m.slice_areas[finest] / m.exact_area; })));
-  std::vector<double> bias =
-      collect([&](const Measurement& m) { return 1 - m.slice_areas[finest] / m.exact_area; });
-  summary["slice_bias_values"] = bias;
-  Json exact = Json::array();
-  std::vector<double> bound_n, bound_median;
-  for (std::size_t i = 0; i < kSampleCounts.size(); ++i) {
-    const Spread error =
-        spread(collect([&](const Measurement& m) { return std::abs(m.areas[i] / m.exact_area - 1); }));
-    const Spread bound =
-        spread(collect([&](const Measurement& m) { return m.area_bounds[i] / m.exact_area; }));
-    const auto violated = std::count_if(rows.begin(), rows.end(), [&](const Measurement& m) {
-      return std::abs(m.areas[i] - m.exact_area) > m.area_bounds[i];
-    });
-    exact.push_back({{"samples", kSampleCounts[i]},
-                     {"error", spread_json(error)},
-                     {"certified_bound", spread_json(bound)},
-                     {"bound_violations", violated}});
-    if (kSampleCounts[i] >= 24) {
-      bound_n.push_back(kSampleCounts[i]);
-      bound_median.push_back(bound.median);
-    }
-  }
-  summary["exact"] = exact;
-  summary["bound_order"] = order(bound_n, bound_median);
-  return summary;
-}
 
 /// The pairs whose cones are measured.
 struct Engagements {
@@ -151,32 +85,6 @@ std::vector<std::pair<std::string, Measurement>> read_table(const fs::path& path
     }
   }
   return rows;
-}
-
-void print_summary(const Json& s, std::ostream& out) {
-  const auto number = [](const Json& value) { return value.get<double>(); };
-  out << "  planes   discretisation error      2/n   above it   missing from the true cone\n"
-      << "           median     worst                            mean       worst\n";
-  for (const Json& row : s["slice"]) {
-    out << std::setw(8) << row["planes"].get<int>() << "   " << discretisation_text(row) << std::setw(12)
-        << percent(number(row["error_against_true_cone"]["mean"])) << "  " << std::setw(9)
-        << percent(number(row["error_against_true_cone"]["worst"])) << '\n';
-  }
-  if (s.contains("slice_order"))
-    out << "  discretisation error falls as n^" << std::fixed << std::setprecision(2)
-        << number(s["slice_order"]) << "; slice bias (n = " << s["finest_planes"].get<int>() << "): mean "
-        << percent(number(s["slice_bias"]["mean"])) << ", worst " << percent(number(s["slice_bias"]["worst"]))
-        << '\n';
-  out << "  samples  error of the exact cone   certified bound         bound\n"
-      << "           median     worst          median     worst        violated\n";
-  for (const Json& row : s["exact"])
-    out << std::setw(8) << row["samples"].get<int>() << "   " << scientific(number(row["error"]["median"]))
-        << "    " << scientific(number(row["error"]["worst"])) << "        "
-        << scientific(number(row["certified_bound"]["median"])) << "    "
-        << scientific(number(row["certified_bound"]["worst"])) << "      "
-        << row["bound_violations"].get<long>() << '\n';
-  out << "  certified bound falls as m^" << std::fixed << std::setprecision(2) << number(s["bound_order"])
-      << '\n';
 }
 
 std::vector<fs::path> scan_files(const std::vector<std::string>& given) {
@@ -308,12 +216,13 @@ int run_accuracy(const Options& given, std::ostream& standard_output) {
   std::vector<Measurement> rows;
   for (auto& [id, m] : read_table(folder.resumable(random.name), options.planes))
     rows.push_back(std::move(m));
-  Json summary{{"random", summarise(rows, options.planes)}};
+  const Summary random_summary = summarise(rows, options.planes);
+  Json summary{{"random", to_json(random_summary)}};
   summary["random"]["seconds"] = random_seconds;
   summary["random"]["drawn"] = engagements.drawn;
   out << engagements.count << ' ' << engagements.drawn << ", " << options.planes.size() << " plane counts, "
       << std::fixed << std::setprecision(1) << random_seconds << " s\n";
-  print_summary(summary["random"], out);
+  print_summary(random_summary, out);
 
   if (!scans.empty()) {
     ResumableTable approach = base_campaign(options, folder, "scans.csv");
@@ -340,7 +249,8 @@ int run_accuracy(const Options& given, std::ostream& standard_output) {
       std::vector<Measurement> own;
       for (std::uint64_t k = 0; k < options.approaches; ++k)
         own.push_back(table[s * options.approaches + k].second);
-      Json object = summarise(own, options.planes);
+      const Summary own_summary = summarise(own, options.planes);
+      Json object = to_json(own_summary);
       const Eigen::Vector3d axes = scans[s].hull.semi_axes();
       object["name"] = scans[s].name;
       object["points"] = scans[s].points;
@@ -349,8 +259,8 @@ int run_accuracy(const Options& given, std::ostream& standard_output) {
       text << std::setprecision(4) << axes.x() << ", " << axes.y() << ", " << axes.z();
       out << "  " << std::left << std::setw(24) << scans[s].name << std::right << std::setw(10)
           << scans[s].points << "   " << std::left << std::setw(36) << text.str() << std::right
-          << std::setw(10) << percent(object["slice_bias"]["mean"].get<double>()) << std::setw(11)
-          << percent(object["slice_bias"]["worst"].get<double>()) << '\n';
+          << std::setw(10) << percent(own_summary.slice_bias.mean) << std::setw(11)
+          << percent(own_summary.slice_bias.worst) << '\n';
       objects.push_back(std::move(object));
     }
     summary["scans"] = objects;

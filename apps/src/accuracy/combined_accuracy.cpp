@@ -96,78 +96,105 @@ Missing missing(double slice_area, const Row& row) {
   return {1 - slice_area / row.inner_area, 1 - slice_area / row.outer_area};
 }
 
-Json missing_json(const std::vector<Row>& rows, std::size_t planes) {
+struct MissingSpread {
   Missing mean, worst{-1e300, -1e300};
+};
+
+MissingSpread missing_spread(const std::vector<Row>& rows, std::size_t planes) {
+  MissingSpread s;
   for (const Row& row : rows) {
     const Missing m = missing(row.slice_areas[planes], row);
-    mean.at_least += m.at_least / static_cast<double>(rows.size());
-    mean.at_most += m.at_most / static_cast<double>(rows.size());
-    worst.at_least = std::max(worst.at_least, m.at_least);
-    worst.at_most = std::max(worst.at_most, m.at_most);
+    s.mean.at_least += m.at_least / static_cast<double>(rows.size());
+    s.mean.at_most += m.at_most / static_cast<double>(rows.size());
+    s.worst.at_least = std::max(s.worst.at_least, m.at_least);
+    s.worst.at_most = std::max(s.worst.at_most, m.at_most);
   }
-  return {{"mean", {mean.at_least, mean.at_most}}, {"worst", {worst.at_least, worst.at_most}}};
+  return s;
 }
 
-Json summarise(const std::vector<Row>& rows, const std::vector<int>& planes) {
-  Json summary;
-  summary["engagements"] = rows.size();
+Json missing_json(const Missing& m) { return {m.at_least, m.at_most}; }
+Json missing_json(const MissingSpread& s) {
+  return {{"mean", missing_json(s.mean)}, {"worst", missing_json(s.worst)}};
+}
+
+struct CombinedSummary {
+  struct Slices {
+    Discretisation discretisation;
+    MissingSpread missing;
+  };
+  std::size_t engagements = 0;
+  int finest_planes = 0;
+  std::vector<Slices> slices;
+  std::optional<double> slice_order;
+  MissingSpread slice_bias;
+  std::vector<Missing> slice_bias_values;
+  Spread reference_gap;  // between inner and outer reference cone, parts of the solid angle
+};
+
+CombinedSummary summarise(const std::vector<Row>& rows, const std::vector<int>& planes) {
+  CombinedSummary summary;
+  summary.engagements = rows.size();
   const std::size_t finest = planes.size() - 1;
-  summary["finest_planes"] = planes[finest];
+  summary.finest_planes = planes[finest];
   std::vector<double> fit_n, fit_error;
-  Json slices = Json::array();
   for (std::size_t i = 0; i < planes.size(); ++i) {
     std::vector<double> errors;
     errors.reserve(rows.size());
     for (const Row& row : rows) errors.push_back(std::abs(row.slice_areas[i] / row.slice_areas[finest] - 1));
-    const double limit = 2.0 / planes[i];
     const Spread discretisation = spread(errors);
-    slices.push_back(
-        {{"planes", planes[i]},
-         {"discretisation_error", i == finest ? Json() : spread_json(discretisation)},
-         {"two_over_n", limit},
-         {"above_two_over_n", i == finest ? Json()
-                                          : Json(std::count_if(errors.begin(), errors.end(),
-                                                               [&](double x) { return x >= limit; }))},
-         {"error_against_true_cone", missing_json(rows, i)}});
+    CombinedSummary::Slices row{{planes[i], {}, 2.0 / planes[i]}, missing_spread(rows, i)};
+    if (i != finest) row.discretisation.error = discretisation;
+    row.discretisation.above =
+        std::count_if(errors.begin(), errors.end(), [&](double x) { return x >= 2.0 / planes[i]; });
+    summary.slices.push_back(row);
     if (planes[i] >= 6 && planes[i] * 4 <= planes[finest] && discretisation.median > 0) {
       fit_n.push_back(planes[i]);
       fit_error.push_back(discretisation.median);
     }
   }
-  summary["slice"] = slices;
-  if (fit_n.size() >= 2) summary["slice_order"] = order(fit_n, fit_error);
-  summary["slice_bias"] = missing_json(rows, finest);
-  Json values = Json::array();
+  if (fit_n.size() >= 2) summary.slice_order = order(fit_n, fit_error);
+  summary.slice_bias = missing_spread(rows, finest);
   std::vector<double> gaps;
   gaps.reserve(rows.size());
   for (const Row& row : rows) {
-    const Missing m = missing(row.slice_areas[finest], row);
-    values.push_back({m.at_least, m.at_most});
+    summary.slice_bias_values.push_back(missing(row.slice_areas[finest], row));
     gaps.push_back(1 - row.inner_solid_angle / row.outer_solid_angle);
   }
-  summary["slice_bias_values"] = values;
-  summary["reference_gap"] = spread_json(spread(gaps));
+  summary.reference_gap = spread(gaps);
   return summary;
 }
 
-void print_combined_summary(const Json& s, std::ostream& out) {
-  const auto number = [](const Json& value) { return value.get<double>(); };
-  const auto range = [&](const Json& value) {
-    return percent(number(value[0])) + " to " + percent(number(value[1]));
-  };
+Json to_json(const CombinedSummary& s) {
+  Json summary{{"engagements", s.engagements}, {"finest_planes", s.finest_planes}};
+  Json slices = Json::array(), values = Json::array();
+  for (const CombinedSummary::Slices& row : s.slices) {
+    slices.push_back(discretisation_json(row.discretisation));
+    slices.back()["error_against_true_cone"] = missing_json(row.missing);
+  }
+  summary["slice"] = slices;
+  if (s.slice_order) summary["slice_order"] = *s.slice_order;
+  summary["slice_bias"] = missing_json(s.slice_bias);
+  for (const Missing& m : s.slice_bias_values) values.push_back(missing_json(m));
+  summary["slice_bias_values"] = values;
+  summary["reference_gap"] = spread_json(s.reference_gap);
+  return summary;
+}
+
+void print_combined_summary(const CombinedSummary& s, std::ostream& out) {
+  const auto range = [](const Missing& m) { return percent(m.at_least) + " to " + percent(m.at_most); };
   out << "  planes   discretisation error      2/n   above it   missing from the true cone, between\n"
       << "           median     worst                           mean                   worst\n";
-  for (const Json& row : s["slice"])
-    out << std::setw(8) << row["planes"].get<int>() << "   " << discretisation_text(row) << "     "
-        << std::left << std::setw(23) << range(row["error_against_true_cone"]["mean"])
-        << range(row["error_against_true_cone"]["worst"]) << std::right << '\n';
-  if (s.contains("slice_order"))
-    out << "  discretisation error falls as n^" << std::fixed << std::setprecision(2)
-        << number(s["slice_order"]) << '\n';
-  out << "  slice bias (n = " << s["finest_planes"].get<int>() << "): mean " << range(s["slice_bias"]["mean"])
-      << ", worst " << range(s["slice_bias"]["worst"]) << "\n  inner and outer reference cone differ by "
-      << percent(number(s["reference_gap"]["median"])) << " (median), "
-      << percent(number(s["reference_gap"]["worst"])) << " (worst) of the solid angle\n";
+  for (const CombinedSummary::Slices& row : s.slices)
+    out << std::setw(8) << row.discretisation.planes << "   " << discretisation_text(row.discretisation)
+        << "     " << std::left << std::setw(23) << range(row.missing.mean) << range(row.missing.worst)
+        << std::right << '\n';
+  if (s.slice_order)
+    out << "  discretisation error falls as n^" << std::fixed << std::setprecision(2) << *s.slice_order
+        << '\n';
+  out << "  slice bias (n = " << s.finest_planes << "): mean " << range(s.slice_bias.mean) << ", worst "
+      << range(s.slice_bias.worst) << "\n  inner and outer reference cone differ by "
+      << percent(s.reference_gap.median) << " (median), " << percent(s.reference_gap.worst)
+      << " (worst) of the solid angle\n";
 }
 
 }  // namespace
@@ -206,8 +233,9 @@ int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostrea
     return kExitInterrupted;
   }
 
-  Json summary{{"random", summarise(read_table(folder.resumable(campaign.name), options.planes.size()),
-                                    options.planes)}};
+  const CombinedSummary found =
+      summarise(read_table(folder.resumable(campaign.name), options.planes.size()), options.planes);
+  Json summary{{"random", to_json(found)}};
   summary["random"]["obstacle"] = options.obstacle;
   summary["random"]["tolerance"] = tolerance;
   summary["random"]["seconds"] = seconds();
@@ -215,7 +243,7 @@ int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostrea
   out << count << " random engagements with " << options.obstacle << " obstacles, " << options.planes.size()
       << " plane counts, true cones certified to " << percent(tolerance) << ", " << std::fixed
       << std::setprecision(1) << seconds() << " s\n";
-  print_combined_summary(summary["random"], out);
+  print_combined_summary(found, out);
   write_whole(folder.path() / "summary.json", summary.dump(1) + "\n");
   Json origin = provenance(options.command_line, campaign.threads, {});
   origin["seed"] = options.seed;

@@ -47,20 +47,19 @@ std::string scientific(double x) {
   return s.str();
 }
 
-std::string discretisation_text(const Json& row) {
-  const Json& error = row["discretisation_error"];
-  const auto number = [&](const Json& value, int width) {
-    std::ostringstream cell;
-    cell << std::setw(width)
-         << (value.is_null()           ? "-"
-             : value.is_number_float() ? scientific(value.get<double>())
-                                       : std::to_string(value.get<long>()));
-    return cell.str();
-  };
-  const Json none;
-  return number(error.is_null() ? none : error["median"], 7) + "    " +
-         number(error.is_null() ? none : error["worst"], 7) + "   " + number(row["two_over_n"], 7) +
-         number(row["above_two_over_n"], 8);
+Json discretisation_json(const Discretisation& row) {
+  return {{"planes", row.planes},
+          {"discretisation_error", row.error ? spread_json(*row.error) : Json()},
+          {"two_over_n", row.two_over_n},
+          {"above_two_over_n", row.error ? Json(row.above) : Json()}};
+}
+
+std::string discretisation_text(const Discretisation& row) {
+  std::ostringstream cells;
+  cells << std::setw(7) << (row.error ? scientific(row.error->median) : "-") << "    " << std::setw(7)
+        << (row.error ? scientific(row.error->worst) : "-") << "   " << std::setw(7)
+        << scientific(row.two_over_n) << std::setw(8) << (row.error ? std::to_string(row.above) : "-");
+  return cells.str();
 }
 
 std::string planes_text(const std::vector<int>& planes) {

@@ -3,6 +3,8 @@
 // Summaries of tables and how they are written.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,9 +22,18 @@ Json spread_json(const Spread& s);
 /// Slope of log(error) against log(n), by least squares.
 double order(const std::vector<double>& n, const std::vector<double>& error);
 
-/// Of a row of a summary: the errors against the finest count, 2/n and how many are above it; "-" for the
-/// finest count, which is the reference.
-std::string discretisation_text(const Json& row);
+/// The errors of one plane count against the finest, which is the reference and has none.
+struct Discretisation {
+  int planes = 0;
+  std::optional<Spread> error;
+  double two_over_n = 0;
+  std::ptrdiff_t above = 0;  // engagements whose error is above 2/n
+};
+
+/// "planes", "discretisation_error", "two_over_n" and "above_two_over_n", the errors null for the finest.
+Json discretisation_json(const Discretisation& row);
+/// The same in columns, without the planes; "-" for the finest.
+std::string discretisation_text(const Discretisation& row);
 
 std::string percent(double x);
 std::string scientific(double x);

@@ -13,10 +13,10 @@
 #include <numbers>
 #include <ostream>
 
-#include "cone/answer.h"
 #include "cone/course.h"
 #include "cone/degrees.h"
 #include "cone/planar_cone.h"
+#include "cone/quadric_cone.h"
 #include "cone/shape_engagements.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
@@ -31,87 +31,6 @@
 namespace vericone {
 namespace {
 
-Json exact_json(const Ellipsoid& a, const Ellipsoid& b, int samples) {
-  const auto start = Clock::now();
-  const TrueCone cone = true_cone(a, b, samples);
-  Json result{{"method", "exact"},
-              {"samples", samples},
-              {"relation", to_string(cone.relation)},
-              {"axis", vector_json(cone.axis)}};
-  Json directions = Json::array();
-  for (const auto& s : cone.boundary) directions.push_back(vector_json(s.direction));
-  result["directions"] = directions;
-  if (cone.relation == Relation::disjoint) {
-    const ConeBounds bounds = cone_bounds(cone, a, b);
-    result["solid_angle"] = bounds.solid_angle;
-    result["cross_section_area"] = number_or_null(bounds.cross_section_area);
-    result["inner"] = polyhedral_json(bounds.inner);
-    result["outer"] = polyhedral_json(bounds.outer);
-    result["error_bound"] = bounds.solid_angle_error;
-    result["cross_section_area_error_bound"] = number_or_null(bounds.cross_section_area_error);
-  } else {
-    // Half-space and full space are known exactly; they have no edges.
-    result["solid_angle"] = cone.solid_angle;
-    result["cross_section_area"] = nullptr;
-    for (const char* side : {"inner", "outer"})
-      result[side] = {
-          {"directions", Json::array()}, {"solid_angle", cone.solid_angle}, {"cross_section_area", nullptr}};
-    result["error_bound"] = 0.0;
-    result["cross_section_area_error_bound"] = nullptr;
-  }
-  result["seconds"] = seconds_since(start);
-  return result;
-}
-
-/// Inner and outer cone to a tolerance, of any bodies.
-Json certified_json(const CombinedEllipsoid& a, const CombinedEllipsoid& b, double tolerance) {
-  const auto start = Clock::now();
-  const CombinedCone cone = combined_cone(a, b, tolerance);
-  const double seconds = seconds_since(start);
-  const bool known = cone.relation.has_value();
-  Json result{{"method", "certified"},
-              {"tolerance", tolerance},
-              {"relation", known ? to_string(*cone.relation) : "undecided"},
-              {"axis", vector_json(cone.axis)},
-              {"directions", nullptr}};  // the boundary is somewhere between inner and outer
-  result["solid_angle"] = known ? number_or_null(cone.solid_angle) : Json(nullptr);
-  result["cross_section_area"] = known ? number_or_null(cone.cross_section_area) : Json(nullptr);
-  result["inner"] = known ? polyhedral_json(cone.inner) : Json(nullptr);
-  result["outer"] = known ? polyhedral_json(cone.outer) : Json(nullptr);
-  result["error_bound"] = known ? number_or_null(cone.solid_angle_error) : Json(nullptr);
-  result["cross_section_area_error_bound"] =
-      known ? number_or_null(cone.cross_section_area_error) : Json(nullptr);
-  result["seconds"] = seconds;
-  return result;
-}
-
-/// What a slice cone of either kind is put into words from.
-struct Slices {
-  std::string relation;
-  Eigen::Vector3d axis;
-  std::vector<Slice> slices;
-  PolyhedralCone polyhedral;
-  Json extra = Json::object();
-};
-
-bool ellipsoids(const scenes::Scene& scene) { return scene.agent.ellipsoid() && scene.obstacle.ellipsoid(); }
-
-Slices slices_of(const scenes::Scene& scene, int planes, SliceSector sectors) {
-  if (ellipsoids(scene) && sectors == SliceSector::all_candidates) {
-    const SliceCone cone = slice_cone(*scene.agent.ellipsoid(), *scene.obstacle.ellipsoid(), planes);
-    return {to_string(cone.relation), cone.axis, cone.slices, cone.polyhedral()};
-  }
-  const CombinedSliceCone cone =
-      combined_slice_cone(*scene.agent.quadric(), *scene.obstacle.quadric(), planes, sectors);
-  Json extra{{"planes_with_overlapping_hulls", cone.hulls_overlap}};
-  if (sectors != SliceSector::all_candidates) {
-    extra["planes_without_tangents"] = cone.source_failures;
-    extra["planes_with_wrong_tangents"] = cone.source_differences;
-  }
-  return {cone.relation ? to_string(*cone.relation) : "undecided", cone.axis, cone.slices, cone.polyhedral(),
-          extra};
-}
-
 SliceSector sectors_of(const ConeCommand& options) {
   if (options.tangents == "all") return SliceSector::all_candidates;
   if (options.tangents == "by-sides") return SliceSector::source_by_sides;
@@ -119,86 +38,21 @@ SliceSector sectors_of(const ConeCommand& options) {
   throw InputError("--tangents", options.tangents, "all, by-sides or printed");
 }
 
-Json slice_json(const scenes::Scene& scene, int planes, SliceSector choice) {
-  const auto start = Clock::now();
-  const Slices cone = slices_of(scene, planes, choice);
-  const double seconds = seconds_since(start);
-  Json result{
-      {"method", "slice"}, {"planes", planes}, {"relation", cone.relation}, {"axis", vector_json(cone.axis)}};
-  result.update(polyhedral_json(cone.polyhedral));
-  if (cone.relation == "undecided") result["solid_angle"] = nullptr;
-  result.update(cone.extra);
-  Json sectors = Json::array();
-  for (const Slice& s : cone.slices)
-    sectors.push_back(sector_json(s, cone.axis, scene.agent.velocity, scene.obstacle.velocity));
-  result["sectors"] = sectors;
-  // Slices miss part of the cone and cannot tell how much: no bound, no outer cone.
-  result["inner"] = nullptr;
-  result["outer"] = nullptr;
-  result["error_bound"] = nullptr;
-  result["seconds"] = seconds;
-  return result;
-}
-
-std::string setting(const Json& cone) {
-  if (cone.contains("planes")) return cone["planes"].dump() + " planes";
-  if (cone.contains("samples")) return cone["samples"].dump() + " samples";
-  return "tolerance " + cone["tolerance"].dump();
-}
-
-void print_widest_plane(const Json& sectors, std::ostream& out) {
-  const auto widest = *std::max_element(sectors.begin(), sectors.end(), [](const Json& x, const Json& y) {
-    return x["psi"].get<double>() < y["psi"].get<double>();
-  });
-  out << "widest plane        psi " << to_text(degrees(widest["psi"].get<double>())) << " degrees, y "
-      << (widest["y"].is_null() ? "not defined" : to_text(widest["y"].get<double>())) << '\n';
-}
-
-void print_text(const Json& cone, const scenes::Scene& scene, std::ostream& out) {
-  const auto area = [](const Json& value) {
-    return value.is_null() ? std::string("unbounded (the cone reaches 90 degrees from its axis)")
-                           : to_text(value.get<double>());
-  };
-  out << "method              " << cone["method"].get<std::string>() << ", " << setting(cone) << '\n'
-      << "bodies              " << cone["relation"].get<std::string>() << '\n';
-  if (cone["solid_angle"].is_number())
-    out << "solid angle         " << cone["solid_angle"].dump() << " sr\n"
-        << "cross-section area  " << area(cone["cross_section_area"]) << " (at distance 1)\n";
-  if (cone["error_bound"].is_number())
-    out << "error bound         " << cone["error_bound"].dump() << " sr, certified: inner "
-        << cone["inner"]["solid_angle"].dump() << " sr, outer " << cone["outer"]["solid_angle"].dump()
-        << " sr\n";
-  if (cone["method"] == "slice" && !cone["sectors"].empty()) print_widest_plane(cone["sectors"], out);
-  if (cone.contains("planes_without_tangents"))
-    out << "source's tangents   none on " << cone["planes_without_tangents"].dump() << " planes, wrong on "
-        << cone["planes_with_wrong_tangents"].dump() << '\n';
-  if (cone["method"] == "slice")
-    out << (ellipsoids(scene)
-                ? "note                slices see only contacts within their planes: the true "
-                  "cone is larger\n"
-                : "note                slices see only contacts within their planes: they are in "
-                  "the true cone, "
-                  "what lies between them need not be\n");
-  out << "verdict             " << answer(scene, false)["verdict"].get<std::string>()
-      << " (of the scene's velocities, " << verdict_kind(scene) << ")\n";
-  out << "time                " << cone["seconds"].dump() << " s\n";
-}
-
-Json cone_json(const ConeCommand& options, const scenes::Scene& scene) {
+QuadricCone cone_of(const ConeCommand& options, const scenes::Scene& scene) {
   if (options.samples && options.tolerance)
     throw InputError("--samples", std::to_string(*options.samples), "left out where --tolerance is given");
   const SliceSector sectors = sectors_of(options);
-  if (options.method == "slice") return slice_json(scene, options.planes.value_or(kDefaultPlanes), sectors);
+  if (options.method == "slice") return sliced_cone(scene, options.planes.value_or(kDefaultPlanes), sectors);
   if (sectors != SliceSector::all_candidates)
     throw InputError("--tangents", options.tangents, "left out where --method is not slice");
   if (options.tolerance || !ellipsoids(scene)) {
     if (options.samples)
       throw InputError("--samples", std::to_string(*options.samples),
                        "left out for combined quadrics, whose cone is refined to --tolerance");
-    return certified_json(*scene.agent.quadric(), *scene.obstacle.quadric(),
+    return certified_cone(*scene.agent.quadric(), *scene.obstacle.quadric(),
                           options.tolerance.value_or(kDefaultTolerance));
   }
-  return exact_json(*scene.agent.ellipsoid(), *scene.obstacle.ellipsoid(),
+  return exact_cone(*scene.agent.ellipsoid(), *scene.obstacle.ellipsoid(),
                     options.samples.value_or(kDefaultSamples));
 }
 
@@ -212,16 +66,16 @@ void run_planar_cone(const ConeCommand& options, const scenes::Scene& scene, std
   if (options.map) throw InputError("--map", to_text(options.map->resolution), "asked for in space only");
   std::optional<StagedFolder> folder;
   if (!options.picture_folder.empty()) folder.emplace(options.picture_folder, "--out");
-  const Json cone = planar_cone_json(scene);
-  if (folder && !std::isfinite(cone["theta_b"].get<double>()))
+  const PlanarCone cone = planar_cone(scene);
+  if (folder && !std::isfinite(cone.found.sector.theta_b))
     throw InputError("--out", options.picture_folder, "asked for a scene whose squared lengths are doubles");
   if (options.json) {
-    out << cone.dump(1) << '\n';
+    out << to_json(cone).dump(1) << '\n';
   } else {
-    print_planar_cone(cone, scene, out);
+    print_text(cone, scene, out);
   }
   if (!folder) return;
-  write_whole(folder->path() / "engagement.json", planar_picture(cone, scene).dump(1) + "\n");
+  write_whole(folder->path() / "engagement.json", planar_picture(to_json(cone), scene).dump(1) + "\n");
   publish_cone(options, *folder, nullptr, "planar_engagement.py", "engagement", out);
 }
 
@@ -278,11 +132,11 @@ struct ConePicture {
 };
 
 /// What --out asks for, refused before anything is printed or written.
-ConePicture cone_picture(const ConeCommand& options, const scenes::Scene& scene, const Json& cone) {
+ConePicture cone_picture(const ConeCommand& options, const scenes::Scene& scene, const QuadricCone& cone) {
   const auto refuse = [&](const char* requirement) {
     throw InputError("--out", options.picture_folder, requirement);
   };
-  if (cone["relation"] != to_string(Relation::disjoint)) refuse("asked for disjoint bodies only");
+  if (relation_of(cone) != Relation::disjoint) refuse("asked for disjoint bodies only");
   if (ellipsoids(scene))
     return {engagement_picture(scene, options.planes.value_or(kDefaultPlanes),
                                options.samples.value_or(kDefaultSamples)),
@@ -332,17 +186,19 @@ void run_cone(const ConeCommand& options, std::ostream& out) {
   if (scene.planar) return run_planar_cone(options, scene, out);
   std::optional<StagedFolder> folder;
   if (!options.picture_folder.empty()) folder.emplace(options.picture_folder, "--out");
-  Json cone = cone_json(options, scene);
+  const QuadricCone cone = cone_of(options, scene);
   const ConePicture picture = folder ? cone_picture(options, scene, cone) : ConePicture{};
   MapAnswer map;
   if (options.map)
     map = map_answer(scene, *options.map, options.tolerance.value_or(kDefaultTolerance), options.scene);
   if (options.json) {
-    if (options.map) cone["map"] = map.summary;
-    out << cone.dump(1) << '\n';
+    Json result = to_json(cone, scene);
+    if (options.map) result["map"] = map.summary;
+    out << result.dump(1) << '\n';
   } else {
     print_text(cone, scene, out);
-    if (options.map) print_map(map.summary, out);
+    if (options.map) print_map(map, out);
+    print_time(cone, out);
   }
   if (!folder) return;
   write_whole(folder->path() / "engagement.json", picture.data.dump(1) + "\n");

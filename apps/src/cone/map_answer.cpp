@@ -2,13 +2,13 @@
 #include "cone/map_answer.h"
 
 #include <vericone/cones/map/classifiers.h>
-#include <vericone/cones/map/regions.h>
 #include <vericone/geometry/error.h>
 #include <algorithm>
 #include <ostream>
 
 #include "input/stopwatch.h"
 #include "json/json_value.h"
+#include "output/number_text.h"
 #include "picture/cone_map_json.h"
 
 namespace vericone {
@@ -18,17 +18,22 @@ constexpr std::size_t kShownRegions = 20;
 
 const char* name_of(Certified label) { return label == Certified::in ? "colliding" : "safe"; }
 
-/// `all`: the map's.
-Json region_json(const ConeMapRegion& region, const std::vector<ConeMapRegion>& all) {
+/// Steradian of the regions that may be connected with this one, through undecided cells.
+double possibly_connected(const ConeMapRegion& region, const std::vector<ConeMapRegion>& all) {
+  if (region.surely_separate) return 0;
   double others = 0;
   for (const ConeMapRegion& other : all)
     if (other.label == region.label && other.possible == region.possible) others += other.solid_angle;
-  others = region.surely_separate ? 0 : others - region.solid_angle;
+  return std::max(0.0, others - region.solid_angle);
+}
+
+/// `all`: the map's.
+Json region_json(const ConeMapRegion& region, const std::vector<ConeMapRegion>& all) {
   return {{"label", name_of(region.label)},
           {"solid_angle", region.solid_angle},
           {"most_solid_angle", region.most_solid_angle},
           {"surely_separate", region.surely_separate},
-          {"others_possibly_connected", std::max(0.0, others)},
+          {"others_possibly_connected", possibly_connected(region, all)},
           {"holes", region.boundary.empty() ? 0 : region.boundary.size() - 1}};
 }
 
@@ -44,29 +49,29 @@ MapAnswer map_answer(const DirectionClassifier& classifier, const MapRequest& re
   ConeMapOptions options;
   options.resolution = request.resolution;
   options.threads = request.threads;
-  const ConeMap map = cone_map(classifier, options);
-  const double seconds = seconds_since(start);
+  MapAnswer answer{request, cone_map(classifier, options), {}, {}, 0, {}, {}};
+  answer.seconds = seconds_since(start);
+  const ConeMap& map = answer.map;
+  answer.regions = regions(map);
+  if (request.around) answer.around = region_around(map, *request.around);
   Json list = Json::array();
-  const auto all = regions(map);
-  for (std::size_t i = 0; i < std::min(all.size(), kShownRegions); ++i)
-    list.push_back(region_json(all[i], all));
-  Json around = nullptr;
+  for (std::size_t i = 0; i < std::min(answer.regions.size(), kShownRegions); ++i)
+    list.push_back(region_json(answer.regions[i], answer.regions));
+  answer.summary = {{"resolution", request.resolution},
+                    {"colliding", map.colliding},
+                    {"safe", map.safe},
+                    {"undecided", map.undecided},
+                    {"cells", map.cells.size()},
+                    {"asked", map.asked},
+                    {"complete", map.complete},
+                    {"regions_in_all", answer.regions.size()},
+                    {"regions", list},
+                    {"around", answer.around ? region_json(*answer.around, answer.regions) : Json(nullptr)},
+                    {"seconds", answer.seconds}};
   if (request.around)
-    if (const auto region = region_around(map, *request.around)) around = region_json(*region, all);
-  Json summary{{"resolution", request.resolution},
-               {"colliding", map.colliding},
-               {"safe", map.safe},
-               {"undecided", map.undecided},
-               {"cells", map.cells.size()},
-               {"asked", map.asked},
-               {"complete", map.complete},
-               {"regions_in_all", all.size()},
-               {"regions", list},
-               {"around", request.around ? around : Json(nullptr)},
-               {"seconds", seconds}};
-  if (request.around)
-    summary["asked_around"] = {request.around->x(), request.around->y(), request.around->z()};
-  return {summary, cone_map_json(map, request.around.value_or(middle), request.resolution, title)};
+    answer.summary["asked_around"] = {request.around->x(), request.around->y(), request.around->z()};
+  answer.picture = cone_map_json(map, request.around.value_or(middle), request.resolution, title);
+  return answer;
 }
 
 MapAnswer map_answer(const scenes::Scene& scene, const MapRequest& request, double tolerance,
@@ -79,27 +84,31 @@ MapAnswer map_answer(const scenes::Scene& scene, const MapRequest& request, doub
   return map_answer(CombinedClassifier(combined_cone(a, b, tolerance)), request, middle, title);
 }
 
-void print_map(const Json& map, std::ostream& out) {
-  out << "cone map            colliding " << map["colliding"].dump() << " sr, safe " << map["safe"].dump()
-      << " sr, undecided " << map["undecided"].dump() << " sr, at " << map["resolution"].dump() << " rad\n";
+void print_map(const MapAnswer& answer, std::ostream& out) {
+  const ConeMap& map = answer.map;
+  out << "cone map            colliding " << at_least_text(map.colliding, 5) << " sr, safe "
+      << at_least_text(map.safe, 5) << " sr, undecided " << at_most_text(map.undecided, 2) << " sr, at "
+      << number_text(answer.request.resolution) << " rad\n";
   int safe = 0, colliding = 0;
-  for (const Json& region : map["regions"]) ++(region["label"] == "safe" ? safe : colliding);
-  if (map["regions_in_all"] == map["regions"].size())
+  for (const ConeMapRegion& region : answer.regions) ++(region.label == Certified::out ? safe : colliding);
+  if (answer.regions.size() <= kShownRegions)
     out << "regions             " << colliding << " colliding, " << safe << " safe\n";
-  if (map.contains("asked_around")) {
-    const Json& around = map["around"];
-    out << "around " << map["asked_around"].dump();
-    if (around.is_null()) {
+  if (answer.request.around) {
+    const Eigen::Vector3d& w = *answer.request.around;
+    out << "around " << to_text(w.x()) << "," << to_text(w.y()) << "," << to_text(w.z());
+    if (!answer.around) {
       out << "  undecided\n";
     } else {
-      out << "  " << around["label"].get<std::string>() << ", a region of " << around["solid_angle"].dump()
-          << " to " << around["most_solid_angle"].dump() << " sr"
-          << (around["surely_separate"] == true ? ", surely apart from all others of its kind\n"
-                                                : ", may be connected with others of " +
-                                                      around["others_possibly_connected"].dump() + " sr\n");
+      const ConeMapRegion& region = *answer.around;
+      out << "  " << name_of(region.label) << ", a region of "
+          << bounds_text(region.solid_angle, region.most_solid_angle, " to ") << " sr"
+          << (region.surely_separate
+                  ? ", surely apart from all others of its kind\n"
+                  : ", may be connected with others of " +
+                        number_text(possibly_connected(region, answer.regions), 3) + " sr\n");
     }
   }
-  out << "map time            " << map["seconds"].dump() << " s\n";
+  out << "map time            " << number_text(answer.seconds, 2) << " s\n";
 }
 
 }  // namespace vericone

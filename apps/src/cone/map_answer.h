@@ -4,10 +4,12 @@
 #pragma once
 
 #include <vericone/cones/map/cone_map.h>
+#include <vericone/cones/map/regions.h>
 #include <vericone/scenes/scene.h>
 #include <iosfwd>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "json/json_value.h"
 
@@ -22,6 +24,11 @@ struct MapRequest {
 };
 
 struct MapAnswer {
+  MapRequest request;
+  ConeMap map;
+  std::vector<ConeMapRegion> regions;   // the largest first
+  std::optional<ConeMapRegion> around;  // the region asked for; nothing where its direction is undecided
+  double seconds = 0;
   Json summary;  // docs/reference/formats.md
   Json picture;  // for apps/figures/cone_map.py
 };
@@ -35,6 +42,6 @@ MapAnswer map_answer(const DirectionClassifier& classifier, const MapRequest& re
 MapAnswer map_answer(const scenes::Scene& scene, const MapRequest& request, double tolerance,
                      const std::string& title);
 
-void print_map(const Json& summary, std::ostream& out);
+void print_map(const MapAnswer& answer, std::ostream& out);
 
 }  // namespace vericone

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cone/planar_cone.h"
 
-#include <vericone/cones/combined/sector.h>
-#include <vericone/geometry/error.h>
 #include <numbers>
 #include <ostream>
 
-#include "cone/answer.h"
 #include "cone/course.h"
+#include "cone/degrees.h"
+#include "cone/verdict_text.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
+#include "output/number_text.h"
 #include "picture/shape_json.h"
 
 namespace vericone {
@@ -38,52 +38,62 @@ Json edge_json(const SectorEdge& edge, const Touch& a, const Touch& b) {
           {"touches_obstacle", touch_text(b)}};
 }
 
+/// The source's y cannot tell a sector of more than half a turn.
+bool has_y(const PlanarCone& cone) { return cone.found.sector.psi <= std::numbers::pi; }
+
 }  // namespace
 
-Json planar_cone_json(const scenes::Scene& scene) {
+PlanarCone planar_cone(const scenes::Scene& scene) {
   const auto start = Clock::now();
-  const CombinedSector found = sector_of(*scene.planar);
-  const double seconds = seconds_since(start);
+  PlanarCone result{sector_of(*scene.planar)};
+  result.seconds = seconds_since(start);
+  const Sector& s = result.found.sector;
+  result.function =
+      cone_function(s.psi, s.theta_b, scene.agent.velocity.head<2>(), scene.obstacle.velocity.head<2>());
+  return result;
+}
+
+Json to_json(const PlanarCone& cone) {
+  const CombinedSector& found = cone.found;
   const Sector& s = found.sector;
   Json result{
       {"method", "planar"}, {"relation", to_string(s.relation)}, {"psi", s.psi}, {"theta_b", s.theta_b}};
-  const ConeFunction f =
-      cone_function(s.psi, s.theta_b, scene.agent.velocity.head<2>(), scene.obstacle.velocity.head<2>());
-  // The source's y cannot tell a sector of more than half a turn.
-  result["y"] = s.psi <= std::numbers::pi ? Json(f.y) : Json(nullptr);
-  result["v_r_hat"] = f.v_r_hat;
-  result["v_theta_hat"] = f.v_theta_hat;
+  result["y"] = has_y(cone) ? Json(cone.function.y) : Json(nullptr);
+  result["v_r_hat"] = cone.function.v_r_hat;
+  result["v_theta_hat"] = cone.function.v_theta_hat;
   const bool edges = s.relation == Relation::disjoint;
   result["left"] = edges ? edge_json(s.left, found.left_a, found.left_b) : Json(nullptr);
   result["right"] = edges ? edge_json(s.right, found.right_a, found.right_b) : Json(nullptr);
   result["hulls_overlap"] = found.hulls_overlap;
-  result["seconds"] = seconds;
+  result["seconds"] = cone.seconds;
   return result;
 }
 
-void print_planar_cone(const Json& cone, const scenes::Scene& scene, std::ostream& out) {
-  const auto angle = [&](const char* field) {
-    const double x = cone[field].get<double>();
-    return to_text(x * 180 / std::numbers::pi) + " degrees (" + to_text(x) + " rad)";
+void print_text(const PlanarCone& cone, const scenes::Scene& scene, std::ostream& out) {
+  const CombinedSector& found = cone.found;
+  const Sector& s = found.sector;
+  const auto angle = [](double x) {
+    return number_text(degrees(x)) + " degrees (" + number_text(x) + " rad)";
   };
+  print_verdict(scene, out);
   out << "method              planar: common tangents of arcs and corners\n"
-      << "bodies              " << cone["relation"].get<std::string>() << '\n'
-      << "psi                 " << angle("psi") << '\n'
-      << "theta_b             " << angle("theta_b") << '\n'
+      << "bodies              " << to_string(s.relation) << '\n'
+      << "psi                 " << angle(s.psi) << '\n'
+      << "theta_b             " << angle(s.theta_b) << '\n'
       << "y                   "
-      << (cone["y"].is_null() ? "not defined: psi is more than half a turn" : cone["y"].dump()) << '\n'
-      << "V_r_hat             " << cone["v_r_hat"].dump() << " m/s\n";
-  for (const char* side : {"left", "right"})
-    if (!cone[side].is_null())
-      out << side << " edge" << std::string(15 - std::string(side).size(), ' ') << "from "
-          << cone[side]["touches_agent"].get<std::string>() << " of the agent to "
-          << cone[side]["touches_obstacle"].get<std::string>() << " of the obstacle\n";
-  if (cone["hulls_overlap"].get<bool>())
+      << (has_y(cone) ? number_text(cone.function.y) : "not defined: psi is more than half a turn") << '\n'
+      << "V_r_hat             " << number_text(cone.function.v_r_hat) << " m/s\n";
+  const auto edge = [&](const char* label, const Touch& a, const Touch& b) {
+    out << label << "from " << touch_text(a) << " of the agent to " << touch_text(b) << " of the obstacle\n";
+  };
+  if (s.relation == Relation::disjoint) {
+    edge("left edge           ", found.left_a, found.left_b);
+    edge("right edge          ", found.right_a, found.right_b);
+  }
+  if (found.hulls_overlap)
     out << "note                a body reaches into the other's dent: the edges are no tangents of the "
            "hulls\n";
-  out << "verdict             " << answer(scene, false)["verdict"].get<std::string>()
-      << " (of the scene's velocities, " << verdict_kind(scene) << ")\n"
-      << "time                " << cone["seconds"].dump() << " s\n";
+  out << "time                " << number_text(cone.seconds, 2) << " s\n";
 }
 
 Json planar_picture(const Json& cone, const scenes::Scene& scene) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vericone/cones/combined/sector.h>
 #include <vericone/scenes/scene.h>
 #include <iosfwd>
 
@@ -8,9 +9,19 @@
 
 namespace vericone {
 
-/// The sector of a planar scene with the source's y, as JSON (docs/reference/formats.md) and as text.
-Json planar_cone_json(const scenes::Scene& scene);
-void print_planar_cone(const Json& cone, const scenes::Scene& scene, std::ostream& out);
+/// The sector of a planar scene with the source's y.
+struct PlanarCone {
+  CombinedSector found;
+  ConeFunction function{};
+  double seconds = 0;
+};
+
+PlanarCone planar_cone(const scenes::Scene& scene);
+
+/// As docs/reference/formats.md says.
+Json to_json(const PlanarCone& cone);
+/// The verdict first.
+void print_text(const PlanarCone& cone, const scenes::Scene& scene, std::ostream& out);
 
 /// What its picture shows: outlines, sector and edges of `cone`, and the course (course.h).
 Json planar_picture(const Json& cone, const scenes::Scene& scene);

@@ -137,8 +137,9 @@ void run_signmap(const SignMapOptions& options, std::ostream& out) {
   const std::filesystem::path shown = options.out;
   if (options.json) out << summary.dump(1) << '\n';
   text << cells * cells << " velocities around an exactly grazing one: plain doubles wrong on " << wrong
-       << "; rungs " << summary["rungs"].dump() << "\ntables    " << (shown / "signmap.csv").string() << ", "
-       << (shown / "signmap.json").string() << ", " << (shown / "provenance.json").string() << '\n';
+       << "; decided by triage " << rungs.at(0) << ", interval " << rungs.at(1) << ", exact " << rungs.at(2)
+       << "\ntables    " << (shown / "signmap.csv").string() << ", " << (shown / "signmap.json").string()
+       << ", " << (shown / "provenance.json").string() << '\n';
   for (const auto& file : pictures_of(files)) text << "picture   " << file.string() << '\n';
 }
 

@@ -103,6 +103,7 @@ struct Answer {
   fit::Scan scan;
   fitting::FitResult result;
   std::vector<Json> bodies;
+  double seconds = 0;  // the fit with its proof
   Json json;
   std::optional<ConeComparison> cones;
 };
@@ -116,7 +117,7 @@ Answer answer_of(const FitCommandOptions& given, Progress& progress) {
   a.scan = fit::read_scan(given.file);
   const auto start = Clock::now();
   a.result = fit_or_explain(a.scan, options);
-  const double seconds = seconds_since(start);
+  a.seconds = seconds_since(start);
   const auto inside = a.result.certified ? fit::points_inside(a.result.pieces, a.scan.sample)
                                          : std::vector<Eigen::Vector3d>();
   a.bodies = fit::enclosing_body_fields(a.result.pieces, inside);
@@ -128,7 +129,7 @@ Answer answer_of(const FitCommandOptions& given, Progress& progress) {
     a.json["cones"] = cones_json(*a.cones);
   }
   a.json["seconds_read"] = a.scan.seconds;
-  a.json["seconds"] = seconds;
+  a.json["seconds"] = a.seconds;
   return a;
 }
 
@@ -159,7 +160,7 @@ void print(const Answer& a, const FitCommandOptions& given, const std::vector<fs
     out << json_text(a.json) << '\n';
     return;
   }
-  fit::print_fit(a.json, describe(a.scan), out);
+  fit::print_fit(a.scan, a.result, a.seconds, out);
   if (a.cones) print_cones(*a.cones, out);
   const fs::path folder = given.out;
   out << "written             " << shown(folder, "fit.json") << ", " << shown(folder, "body.yaml") << ", "

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vericone/fitting/fit.h>
 #include <iosfwd>
-#include <string>
 
-#include "json/json_forward.h"
+#include "fit/fit_sample.h"
 
 namespace vericone::fit {
 
-/// The table of `vericone fit` from its JSON. `scan`: what was fitted, in words.
-void print_fit(const Json& fit, const std::string& scan, std::ostream& out);
+/// The table of `vericone fit`. `seconds`: the fit with its proof.
+void print_fit(const Scan& scan, const fitting::FitResult& result, double seconds, std::ostream& out);
 
 }  // namespace vericone::fit

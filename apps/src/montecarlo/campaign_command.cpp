@@ -76,12 +76,13 @@ int run_campaign(const CampaignOptions& options, std::ostream& out) {
     return kExitInterrupted;
   }
   const double seconds = seconds_since(start);
-  Json summary = summarise(read_table(folder.resumable(table.name), laws.size()), laws);
+  const Summary found = summarise(read_table(folder.resumable(table.name), laws.size()), laws);
+  Json summary = to_json(found);
   summary["settings"] = table.settings;
   summary["seconds"] = seconds;
-  summary["violations"] = violations(summary);
+  summary["violations"] = violations(found);
   write_whole(folder.path() / "summary.json", summary.dump(1) + "\n");
-  write_whole(folder.path() / "summary.csv", summary_csv(summary));
+  write_whole(folder.path() / "summary.csv", summary_csv(found));
   write_whole(folder.path() / "provenance.json",
               provenance(options.command_line, table.threads, {}).dump(1) + "\n");
   if (options.figures) draw_figures("engagement_campaign.py", folder.path());
@@ -89,15 +90,15 @@ int run_campaign(const CampaignOptions& options, std::ostream& out) {
   if (options.json) {
     out << summary.dump(1) << '\n';
   } else {
-    print_summary(summary, out);
-    if (const auto wrong = violations(summary))
+    print_summary(found, out);
+    if (const auto wrong = violations(found))
       out << "VIOLATED: " << wrong << " runs met that a proved statement had called safe\n";
     const fs::path shown = options.out;
     out << "tables    " << (shown / table.name).string() << ", " << (shown / "summary.csv").string() << ", "
         << (shown / "summary.json").string() << '\n';
     for (const fs::path& picture : pictures_of(files)) out << "picture   " << picture.string() << '\n';
   }
-  return violations(summary) ? 1 : 0;
+  return violations(found) ? 1 : 0;
 }
 
 }  // namespace vericone::montecarlo

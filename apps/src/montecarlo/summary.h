@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -10,14 +11,39 @@
 
 namespace vericone::montecarlo {
 
-/// Counts of outcomes, and what was called safe and met all the same.
-Json summarise(const std::vector<Row>& rows, const std::vector<Flown>& laws);
+/// Outcomes of one law, or of straight flight.
+struct Counts {
+  std::uint64_t avoided = 0, infeasible = 0, called_safe_and_met = 0, undecided = 0;
+  double median_peak = 0, median_left_cone = 0;  // m/s^2, s; NaN where there is none
+  std::vector<double> least_distances;           // histogram
 
-/// One row a law, the counts of `summarise`.
-std::string summary_csv(const Json& summary);
-void print_summary(const Json& summary, std::ostream& out);
+  std::uint64_t met() const { return infeasible + called_safe_and_met; }
+};
+
+/// Counts of outcomes, and what was called safe and met all the same.
+struct Summary {
+  struct OfLaw {
+    std::string name;
+    double most = 0;             // m/s^2
+    bool word_is_proof = false;  // what it calls safe is a theorem about the straight flight that follows
+    Counts counts;
+    std::uint64_t made_worse = 0;
+  };
+  std::size_t engagements = 0;
+  Counts straight;
+  std::uint64_t slice_called_safe_and_met = 0, exact_called_safe_and_met = 0,
+                predicate_called_safe_and_met = 0, exact_called_unsafe_and_avoided = 0;  // straight on
+  std::vector<OfLaw> laws;
+};
+
+Summary summarise(const std::vector<Row>& rows, const std::vector<Flown>& laws);
+Json to_json(const Summary& summary);
+
+/// One row a law.
+std::string summary_csv(const Summary& summary);
+void print_summary(const Summary& summary, std::ostream& out);
 
 /// Runs that a statement proved to be right called safe and that met: there are none.
-std::uint64_t violations(const Json& summary);
+std::uint64_t violations(const Summary& summary);
 
 }  // namespace vericone::montecarlo

@@ -194,7 +194,8 @@ class Maker {
       Json drawn = panel.look;
       drawn["lines"] = Json::array();
       for (const Line& line : panel.lines)
-        for (Json& points : lines_of(line)) drawn["lines"].push_back(std::move(points));
+        for (Json& points : naming("figures.yaml", [&] { return lines_of(line); }))
+          drawn["lines"].push_back(std::move(points));
       task["panels"].push_back(std::move(drawn));
     }
     write_whole(stage / "figure.json", task.dump(1) + "\n");

@@ -105,6 +105,12 @@ Figure read_figure(const Json& fields, const std::string& path) {
       *t = read_text(v, p, "a name");
       ++ways;
     });
+  if (!figure.drawing.empty())
+    figure.drawing = scenario::read_choice<std::string>(fields["drawing"], path + ".drawing",
+                                                        {{"plane_trajectory", "plane_trajectory"},
+                                                         {"plane_snapshots", "plane_snapshots"},
+                                                         {"space_trajectory", "space_trajectory"},
+                                                         {"planes", "planes"}});
   if_given(fields, path, "panels", [&](const Json& v, const std::string& p) {
     ++ways;
     if (!v.is_array() || v.empty()) throw InputError(p, quoted(v), "a list of panels");
@@ -163,6 +169,10 @@ Paper::Paper(const std::string& given) : folder(paper_folder(given)), figure_val
     title = text_field(fields, "", "title", "what the report is called, as text").get<std::string>();
     figure_values = Scope(fields.value("values", Json()), "values");
     figures = read_figures(fields);
+    for (std::size_t i = 0; i < figures.size(); ++i)
+      if (!figures[i].script.empty() && !fs::exists(folder / "figures" / figures[i].script))
+        throw InputError(at("figures", i) + ".script", figures[i].script,
+                         "a file in the paper's folder figures");
     return 0;
   });
   claims_ = reading(folder / "claims.yaml", [](const Json& file) { return read_claims(file); });

@@ -2,7 +2,6 @@
 #include "picture/slice_json.h"
 
 #include <vericone/cones/cone_geometry.h>
-#include <vericone/cones/planar/sector.h>
 #include <cmath>
 #include <numbers>
 
@@ -10,15 +9,19 @@
 
 namespace vericone {
 
-Json sector_json(const Slice& s, const Eigen::Vector3d& axis, const Eigen::Vector3d& agent_velocity,
-                 const Eigen::Vector3d& obstacle_velocity) {
+ConeFunction plane_function(const Slice& s, const Eigen::Vector3d& axis,
+                            const Eigen::Vector3d& agent_velocity, const Eigen::Vector3d& obstacle_velocity) {
   const AxisFrame frame(axis);
   const Eigen::Vector3d across = std::cos(s.azimuth) * frame.e1 + std::sin(s.azimuth) * frame.e2;
   const auto in_plane = [&](const Eigen::Vector3d& v) {
     return Eigen::Vector2d(v.dot(frame.axis), v.dot(across));
   };
-  const ConeFunction y =
-      cone_function(s.psi(), s.theta_b(), in_plane(agent_velocity), in_plane(obstacle_velocity));
+  return cone_function(s.psi(), s.theta_b(), in_plane(agent_velocity), in_plane(obstacle_velocity));
+}
+
+Json sector_json(const Slice& s, const Eigen::Vector3d& axis, const Eigen::Vector3d& agent_velocity,
+                 const Eigen::Vector3d& obstacle_velocity) {
+  const ConeFunction y = plane_function(s, axis, agent_velocity, obstacle_velocity);
   return {{"azimuth", s.azimuth},
           {"psi", s.psi()},
           {"theta_b", s.theta_b()},

@@ -8,10 +8,10 @@
 #include <numbers>
 #include <ostream>
 
-#include "cone/answer.h"
 #include "cone/degrees.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
+#include "output/number_text.h"
 
 namespace vericone {
 namespace {
@@ -151,7 +151,7 @@ Json to_json(const AssemblyCone& cone, const scenes::Scene& scene) {
 
 void print_text(const AssemblyCone& cone, const scenes::Scene& scene, std::ostream& out) {
   out << "method              certified, " << cone.extremes.size() << " half-planes, tolerance "
-      << to_text(cone.tolerance) << " rad\n"
+      << number_text(cone.tolerance) << " rad\n"
       << "obstacle            " << scene.obstacle.name << '\n'
       << "bodies              " << to_string(cone.relation) << '\n';
   if (cone.relation != Relation::disjoint) return;
@@ -165,13 +165,13 @@ void print_text(const AssemblyCone& cone, const scenes::Scene& scene, std::ostre
   if (all_around == static_cast<int>(cone.extremes.size())) {
     out << "surrounded          on all half-planes the cone reaches 180 degrees; --map says what is free\n";
   } else {
-    out << "extreme directions  " << to_text(degrees(narrowest)) << " to " << to_text(degrees(cone.widest()))
-        << " degrees from the axis\n";
+    out << "extreme directions  " << number_within(degrees(narrowest), degrees(cone.tolerance)) << " to "
+        << number_within(degrees(cone.widest()), degrees(cone.tolerance)) << " degrees from the axis\n";
     if (none) out << "                    " << none << " half-planes without a colliding direction\n";
     if (all_around)
       out << "surrounded          on " << all_around
           << " half-planes the cone reaches 180 degrees; --map says what is free\n";
-    out << "envelope            " << to_text(cone.envelope)
+    out << "envelope            " << number_text(cone.envelope, 4)
         << " sr within the extreme directions, holes included, from the half-planes alone\n";
   }
   const auto nodes = static_cast<double>(scene.obstacle.pieces()->hierarchy().nodes().size());

@@ -7,9 +7,11 @@
 #include <ostream>
 
 #include "cone/answer.h"
+#include "cone/verdict_text.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/figures.h"
+#include "output/number_text.h"
 #include "output/provenance.h"
 #include "output/staged_folder.h"
 
@@ -74,22 +76,15 @@ void run_pair_cone(const ConeCommand& options, const scenes::Scene& scene, std::
   if (options.json) {
     out << cone.dump(1) << '\n';
   } else {
-    const Json& now = cone["answer"];
+    print_verdict(scene, out);
     out << "agent               " << scene.agent.name << '\n'
         << "obstacle            " << scene.obstacle.name << '\n'
-        << "bodies              " << cone["relation"].get<std::string>() << '\n'
-        << "verdict             " << now["verdict"].get<std::string>() << " (of the scene's velocities, "
-        << (guarantee.exact ? "exact" : "certified") << ")\n";
-    if (now["time_to_contact"].is_number())
-      out << "first contact       after " << now["time_to_contact"].dump() << " s at "
-          << now["contact_point"].dump() << '\n';
-    if (now["clearance"].is_number() && now["verdict"] == "out")
-      out << "passes at           " << now["clearance"].dump() << " m\n";
+        << "bodies              " << (relation ? to_string(*relation) : "undecided") << '\n';
     if (options.map)
-      print_map(map.summary, out);
+      print_map(map, out);
     else
       out << "note                --map draws all directions that collide\n";
-    out << "time                " << cone["seconds"].dump() << " s to prepare\n";
+    out << "time                " << number_text(seconds, 2) << " s to prepare\n";
   }
   if (!folder) return;
   write_whole(folder->path() / "cone_map.json", map.picture.dump() + "\n");

@@ -3,12 +3,14 @@
 
 #include <vericone/cones/slices/visible_cone.h>
 #include <vericone/geometry/error.h>
+#include <cmath>
 #include <optional>
 #include <ostream>
 
-#include "cone/answer.h"
+#include "cone/verdict_text.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
+#include "output/number_text.h"
 #include "output/staged_folder.h"
 #include "output/threads.h"
 #include "picture/slice_json.h"
@@ -27,20 +29,32 @@ void refuse_options(const ConeCommand& options) {
 }
 
 /// The source's slices of a mesh that is known as a whole: tangents to the corners of its sections.
-Json slices_json(const scenes::Scene& scene, int planes) {
+struct MeshSlices {
+  int planes = 0;
+  std::optional<Relation> relation;
+  VisibleCone cone;
+  double seconds = 0;
+};
+
+MeshSlices mesh_slices(const scenes::Scene& scene, int planes) {
   const Ellipsoid* agent = scene.agent.ellipsoid();
   if (!agent || scene.obstacle.pieces()->kind() != PieceKind::triangle)
     throw InputError("--method", "slice",
                      "left out except for an ellipsoid and a mesh, a scene of ellipsoids, or scan");
   const WorldMesh mesh = world_mesh(*scene.obstacle.pieces(), scene.obstacle.placed.pose);
   const auto start = Clock::now();
-  const VisibleCone cone =
-      visible_cone(*agent, mesh_section_points(mesh.points, mesh.triangles), scene.obstacle.placed.middle(),
-                   planes, {.search = {}, .by_search = false});
-  const double seconds = seconds_since(start);
+  MeshSlices result{planes, scene.pair().relation(),
+                    visible_cone(*agent, mesh_section_points(mesh.points, mesh.triangles),
+                                 scene.obstacle.placed.middle(), planes, {.search = {}, .by_search = false})};
+  result.seconds = seconds_since(start);
+  return result;
+}
+
+Json to_json(const MeshSlices& slices, const scenes::Scene& scene) {
+  const VisibleCone& cone = slices.cone;
   Json result{{"method", "slice"},
-              {"planes", planes},
-              {"relation", to_string(*scene.pair().relation())},
+              {"planes", slices.planes},
+              {"relation", to_string(*slices.relation)},
               {"axis", {cone.axis.x(), cone.axis.y(), cone.axis.z()}}};
   result.update(polyhedral_json(cone.polyhedral()));
   Json sectors = Json::array();
@@ -50,32 +64,22 @@ Json slices_json(const scenes::Scene& scene, int planes) {
   result["sectors"] = sectors;
   result["planes_without_answer"] = cone.planes_without_answer();
   result["inner"] = result["outer"] = result["error_bound"] = nullptr;
-  result["seconds"] = seconds;
+  result["seconds"] = slices.seconds;
   return result;
 }
 
-void print_slices(const Json& cone, const scenes::Scene& scene, std::ostream& out) {
-  out << "method              slice, " << cone["planes"].dump() << " planes\n"
+void print_text(const MeshSlices& slices, const scenes::Scene& scene, std::ostream& out) {
+  const double solid_angle = slices.cone.polyhedral().solid_angle;
+  print_verdict(scene, out);
+  out << "method              slice, " << slices.planes << " planes\n"
       << "obstacle            " << scene.obstacle.name << '\n'
-      << "bodies              " << cone["relation"].get<std::string>() << '\n';
-  if (cone["solid_angle"].is_number()) out << "solid angle         " << cone["solid_angle"].dump() << " sr\n";
-  if (cone["planes_without_answer"] != 0)
-    out << "no tangents         on " << cone["planes_without_answer"].dump() << " planes\n";
+      << "bodies              " << to_string(*slices.relation) << '\n';
+  if (std::isfinite(solid_angle)) out << "solid angle         " << number_text(solid_angle) << " sr\n";
+  if (const auto none = slices.cone.planes_without_answer(); none != 0)
+    out << "no tangents         on " << none << " planes\n";
   out << "note                slices see only contacts within their planes: they are in the true cone, what "
-         "lies "
-         "between them need not be\n"
-      << "time                " << cone["seconds"].dump() << " s\n";
-}
-
-void print_verdict(const scenes::Scene& scene, std::ostream& out) {
-  const Json verdict = answer(scene, false);
-  out << "verdict             " << verdict["verdict"].get<std::string>()
-      << " (of the scene's velocities, exact)\n";
-  if (verdict["contact_point"].is_array())
-    out << "first contact       after " << verdict["time_to_contact"].dump() << " s at "
-        << verdict["contact_point"].dump() << '\n';
-  if (verdict["clearance"].is_number() && verdict["verdict"] == "out")
-    out << "passes at           " << verdict["clearance"].dump() << " m\n";
+         "lies between them need not be\n"
+      << "time                " << number_text(slices.seconds, 2) << " s\n";
 }
 
 }  // namespace
@@ -85,11 +89,11 @@ void run_pieces_cone(const ConeCommand& options, const scenes::Scene& scene, std
   if (options.method == "slice") {
     if (options.map || !options.picture_folder.empty())
       throw InputError("--method", "slice", "left out where a map or a picture is asked for");
-    const Json slices = slices_json(scene, options.planes.value_or(kDefaultPlanes));
+    const MeshSlices slices = mesh_slices(scene, options.planes.value_or(kDefaultPlanes));
     if (options.json) {
-      out << slices.dump(1) << '\n';
+      out << to_json(slices, scene).dump(1) << '\n';
     } else {
-      print_slices(slices, scene, out);
+      print_text(slices, scene, out);
     }
     return;
   }
@@ -106,11 +110,11 @@ void run_pieces_cone(const ConeCommand& options, const scenes::Scene& scene, std
     result["map"] = options.map ? map.summary : Json(nullptr);
     out << result.dump(1) << '\n';
   } else {
-    print_text(cone, scene, out);
-    if (options.map) print_map(map.summary, out);
     print_verdict(scene, out);
-    out << "time                " << to_text(cone.seconds) << " s, after " << to_text(cone.seconds_prepared)
-        << " s to prepare\n";
+    print_text(cone, scene, out);
+    if (options.map) print_map(map, out);
+    out << "time                " << number_text(cone.seconds, 2) << " s, after "
+        << number_text(cone.seconds_prepared, 2) << " s to prepare\n";
   }
   if (!folder) return;
   const std::string script = write_pieces_picture(cone, scene, folder->path(), threads_for(options.threads));

@@ -6,6 +6,7 @@
 #include <vericone/lidar/scan.h>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <sstream>
 
 #include "input/assembly_body.h"
@@ -13,6 +14,7 @@
 #include "input/spatial_body.h"
 #include "json/json_value.h"
 #include "output/figures.h"
+#include "output/number_text.h"
 #include "output/provenance.h"
 #include "output/staged_folder.h"
 #include "output/threads.h"
@@ -91,20 +93,16 @@ Json parsed(const auto& what) {
   return Json::parse(text.str());
 }
 
-void print(const Json& scan, std::ostream& out) {
-  out << "returns             " << scan["cloud"]["points"].dump() << " of " << scan["cloud"]["beams"].dump()
-      << " beams\n";
-  if (const Json& fusion = scan["fusion"]; !fusion.is_null()) {
-    out << "fusion              ";
-    if (fusion["failed"].is_null()) {
-      out << "points are at most " << fusion["error"].dump() << " m from where the true poses have them\n";
-    } else {
-      out << "failed: " << fusion["failed"].get<std::string>() << '\n';
-    }
-  }
-  if (scan["sectors"].is_null()) return;
-  out << "sectors             " << scan["sectors"]["solid_angle"].dump() << " sr on " << scan["planes"].dump()
-      << " planes, none on " << scan["sectors"]["planes_without_answer"].dump() << '\n';
+/// `cone`: null where the scans could not be fused.
+void print(const Seen& seen, std::size_t beams, bool fused, const VisibleCone* cone, std::ostream& out) {
+  out << "returns             " << seen.points.size() << " of " << beams << " beams\n";
+  if (fused && seen.not_fused.empty())
+    out << "fusion              points are at most " << at_most_text(seen.fusion_error, 2)
+        << " m from where the true poses have them\n";
+  if (fused && !seen.not_fused.empty()) out << "fusion              failed: " << seen.not_fused << '\n';
+  if (cone)
+    out << "sectors             " << number_text(cone->polyhedral().solid_angle) << " sr on "
+        << cone->planes.size() << " planes, none on " << cone->planes_without_answer() << '\n';
 }
 
 }  // namespace
@@ -130,13 +128,14 @@ void run_scan(const ScanOptions& options, std::ostream& out) {
     result["fusion"] = {{"failed", seen.not_fused.empty() ? Json(nullptr) : Json(seen.not_fused)},
                         {"error", seen.not_fused.empty() ? Json(seen.fusion_error) : Json(nullptr)}};
   result["sectors"] = nullptr;
+  std::optional<VisibleCone> cone;
   if (seen.not_fused.empty()) {
-    const VisibleCone cone = visible_cone(setup.agent, points_near_plane(seen.points, seen.half_thickness),
-                                          center_of(seen.points), options.planes);
-    Json sectors = polyhedral_json(cone.polyhedral());
-    sectors["axis"] = {cone.axis.x(), cone.axis.y(), cone.axis.z()};
-    sectors["planes_without_answer"] = cone.planes_without_answer();
-    sectors["sectors"] = sectors_json(cone, scene.bodies);
+    cone = visible_cone(setup.agent, points_near_plane(seen.points, seen.half_thickness),
+                        center_of(seen.points), options.planes);
+    Json sectors = polyhedral_json(cone->polyhedral());
+    sectors["axis"] = {cone->axis.x(), cone->axis.y(), cone->axis.z()};
+    sectors["planes_without_answer"] = cone->planes_without_answer();
+    sectors["sectors"] = sectors_json(*cone, scene.bodies);
     result["sectors"] = sectors;
   }
 
@@ -157,7 +156,7 @@ void run_scan(const ScanOptions& options, std::ostream& out) {
   std::ostream& text = options.json ? silent : out;
   if (options.json) out << result.dump(1) << '\n';
   text << "obstacle            " << scene.bodies.obstacle.name << '\n';
-  print(result, text);
+  print(seen, beams, fused, cone ? &*cone : nullptr, text);
   const std::filesystem::path shown = options.out;
   text << "written             " << (shown / "cloud.ply").string() << ", " << (shown / "scan.json").string()
        << '\n';

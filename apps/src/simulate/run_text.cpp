@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "output/number_text.h"
 #include "simulate/run_files.h"
 
 namespace vericone::scenario {
@@ -103,17 +104,17 @@ void print_pair(const Scenario& scenario, const PairOutcome& pair, std::ostream&
   switch (proof.verdict) {
     case ProofVerdict::avoided:
       return print_line(out, "",
-                        names + "apart by " + brief(proof.least_distance) + " m or more, proved from " +
-                            brief(proof.from) + " to " + brief(proof.to) + " s; nearest at " +
-                            brief(proof.least_time) + " s" + not_kept(pair));
+                        names + "apart by " + at_least_text(proof.least_distance, 5) +
+                            " m or more, proved from " + brief(proof.from) + " to " + brief(proof.to) +
+                            " s; nearest at " + brief(proof.least_time) + " s" + not_kept(pair));
     case ProofVerdict::touched:
       return print_line(out, "",
-                        names + "apart before " + to_text(proof.from) + " s, meeting at " +
-                            to_text(proof.to) + " s" + place + ", both proved");
+                        names + "apart before " + bounds_text(proof.from, proof.to, " s, meeting at ") +
+                            " s" + place + ", both proved");
     case ProofVerdict::undecided:
       return print_line(out, "",
-                        names + "closer than the proof resolves between " + to_text(proof.from) + " and " +
-                            to_text(proof.to) + " s, near" + place);
+                        names + "closer than the proof resolves between " +
+                            bounds_text(proof.from, proof.to) + " s, near" + place);
   }
 }
 
@@ -189,13 +190,13 @@ void print_line(std::ostream& out, std::string label, const std::string& text) {
 
 void print_run(const Scenario& scenario, const Run& run, double seconds, std::ostream& out) {
   print_line(out, "scenario", scenario.name);
+  print_line(out, "verdict", verdict_text(scenario, run));
+  print_pairs(scenario, run, out);
   print_bodies(scenario, out);
   print_line(out, "time",
              brief(run.end) + " s in steps of " + brief(scenario.step) + " s, computed and proved in " +
-                 brief(seconds) + " s: " + brief(run.end / seconds) + " times real time");
+                 number_text(seconds, 2) + " s: " + number_text(run.end / seconds, 4) + " times real time");
   print_events(scenario, run, out);
-  print_line(out, "verdict", verdict_text(scenario, run));
-  print_pairs(scenario, run, out);
 }
 
 }  // namespace vericone::scenario
