@@ -64,7 +64,7 @@ void ellipsoid_table() {
   const std::vector<Pair> pairs = ellipsoid_pairs(kPairs);
   std::vector<Item> items;
   const auto ellipsoid = [&](const BodyState& s) -> const Ellipsoid& {
-    return std::get<CombinedEllipsoid>(s.shape).ellipsoid();
+    return s.shape.quadric()->ellipsoid();
   };
   items.push_back(item("true_sector", kPairs, 4, [&](std::size_t i) {
     return true_sector(ellipsoid(pairs[i].a), ellipsoid(pairs[i].b), pairs[i].along).psi();

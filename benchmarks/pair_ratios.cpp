@@ -85,8 +85,7 @@ int main(int argc, char** argv) {
     const Ellipsoid a = random.ellipsoid({0, 0, 0}, 0.2, 2), b = random.ellipsoid({6, 1, 0}, 0.2, 2);
     ellipsoids.emplace_back(a, b);
     of_ellipsoids.emplace_back(Placed(a), Placed(b));
-    const HullBody hull =
-        std::get<HullBody>(testing::any_body(random, BodyKind::hull).shape()).translated({6, 1, 0});
+    const HullBody hull = testing::any_body(random, BodyKind::hull).hull()->translated({6, 1, 0});
     hulls.emplace_back(a, hull);
     of_hulls.emplace_back(Placed(a), Placed(hull));
   }

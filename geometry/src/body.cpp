@@ -179,6 +179,13 @@ Body Body::pieces(std::vector<CombinedEllipsoid> pieces) {
 
 const Body::Shape& Body::shape() const { return data_->shape; }
 
+const CombinedEllipsoid* Body::quadric() const { return std::get_if<CombinedEllipsoid>(&data_->shape); }
+const HullBody* Body::hull() const { return std::get_if<HullBody>(&data_->shape); }
+const Assembly* Body::assembly() const { return std::get_if<Assembly>(&data_->shape); }
+const std::vector<CombinedEllipsoid>* Body::quadrics() const {
+  return std::get_if<std::vector<CombinedEllipsoid>>(&data_->shape);
+}
+
 BodyKind Body::kind() const {
   struct Name {
     BodyKind operator()(const CombinedEllipsoid& body) const {

@@ -3,14 +3,10 @@
 // Bodies moved and turned, and planar ones raised.
 #include <vericone/geometry/body.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/pose.h>
 
 namespace vericone {
 namespace {
-
-Eigen::Matrix3d turned(const Eigen::Matrix3d& form, const Eigen::Matrix3d& rotation) {
-  const Eigen::Matrix3d image = rotation * form * rotation.transpose();
-  return 0.5 * (image + image.transpose());
-}
 
 Ellipsoid raised(const Ellipse& body, double height) {
   Eigen::Vector3d center(body.center().x(), body.center().y(), 0);
@@ -44,7 +40,7 @@ bool is_upright(const Pose& pose) {
 Ellipsoid in_world(const Ellipsoid& body, const Pose& pose) {
   if (is_upright(pose)) return pose.position.isZero(0) ? body : body.translated(pose.position);
   const Eigen::Vector3d center = pose.to_world(body.center());
-  if (!body.defined_by_factor()) return Ellipsoid::from_shape(center, turned(body.shape(), pose.rotation));
+  if (!body.defined_by_factor()) return Ellipsoid::from_shape(center, turned<3>(pose.rotation, body.shape()));
   Eigen::Matrix3d axes = pose.rotation * body.axis_directions();
   if (axes.determinant() < 0) axes.col(2) *= -1;
   return Ellipsoid::from_axes(center, body.semi_axes(), axes);
@@ -55,7 +51,7 @@ CombinedEllipsoid in_world(const CombinedEllipsoid& body, const Pose& pose) {
   if (is_upright(pose)) return pose.position.isZero(0) ? body : body.translated(pose.position);
   std::vector<Delimiter<3>> delimiters;
   for (const Delimiter<3>& d : body.delimiters())
-    delimiters.push_back({turned(d.matrix, pose.rotation), d.level});
+    delimiters.push_back({turned<3>(pose.rotation, d.matrix), d.level});
   return CombinedEllipsoid::trusted(in_world(body.ellipsoid(), pose), std::move(delimiters));
 }
 

@@ -9,7 +9,6 @@
 #include <cmath>
 
 #include <vericone/guidance/plane_view.h>
-#include "containing_ellipsoid.h"
 
 namespace vericone::guidance {
 namespace {
@@ -78,7 +77,7 @@ Side side_of(const Eigen::Matrix3d& factor, const Vector3d& n) {
 
 /// Placed bodies, and hulls that fly. Other hulls are seen as ellipsoids around them.
 bool as_they_are(const BodyState& a, const BodyState& b) {
-  return if_placed(a.shape) || if_placed(b.shape) || is_hull(a.shape);
+  return a.shape.placed() || b.shape.placed() || a.shape.hull();
 }
 
 Side side_about(const Vector3d& reach) { return {reach, std::max(reach.norm(), 1e-300)}; }
@@ -99,11 +98,11 @@ View view_of_pair(const BodyState& a, const BodyState& b) {
   const Vector3d w = a.velocity - b.velocity;
   std::optional<Vector3d> on_a, on_b;
   if (meet) {
-    on_a = containing_ellipsoid(a).support_point(n);
-    on_b = containing_ellipsoid(b).support_point(-n);
+    on_a = a.shape.containing_ellipsoid().support_point(n);
+    on_b = b.shape.containing_ellipsoid().support_point(-n);
   } else {
-    on_a = support_point(a.shape, n);
-    on_b = support_point(b.shape, -n);
+    on_a = a.shape.support_point(n);
+    on_b = b.shape.support_point(-n);
     // Of a body with many points that are as far along n the one that comes nearest, seen from the other.
     const Vector3d passed = view.miss.time * w + view.miss.m * n;
     if (on_a)
@@ -121,12 +120,12 @@ View view_of(const BodyState& a, const BodyState& b) {
   const Vector3d w = a.velocity - b.velocity;
   View view;
   if (a.planar()) {
-    const Ellipse body_a = containing_ellipse(a), body_b = containing_ellipse(b);
+    const Ellipse body_a = a.shape.containing_ellipse(), body_b = b.shape.containing_ellipse();
     view.miss = planar_passing(body_a, body_b, w.head<2>());
     view.a = side_of(raised(body_a.factor()), view.miss.normal);
     view.b = side_of(raised(body_b.factor()), view.miss.normal);
   } else {
-    const Ellipsoid body_a = containing_ellipsoid(a), body_b = containing_ellipsoid(b);
+    const Ellipsoid body_a = a.shape.containing_ellipsoid(), body_b = b.shape.containing_ellipsoid();
     view.miss = spatial_passing(body_a, body_b, w);
     view.a = side_of(body_a.factor(), view.miss.normal);
     view.b = side_of(body_b.factor(), view.miss.normal);

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "containing_ellipsoid.h"
 #include "foresight.h"
 
 namespace vericone::guidance {
@@ -35,7 +34,7 @@ Ellipsoid raised(const Ellipse& body) {
 }
 
 Ellipsoid seen(const BodyState& body) {
-  return body.planar() ? raised(containing_ellipse(body)) : containing_ellipsoid(body);
+  return body.planar() ? raised(body.shape.containing_ellipse()) : body.shape.containing_ellipsoid();
 }
 
 /// The ball about the bounds, which costs little even of a map.
@@ -87,7 +86,7 @@ const char* to_string(NavigatorStatus status) {
 }
 
 Navigator::Body Navigator::body_of(const BodyState& other, bool planar) {
-  if (const Placed* placed = if_placed(other.shape)) {
+  if (const Placed* placed = other.shape.placed()) {
     Body body{ball_about(*placed), other.velocity, 0, 0, false};
     body.reach = reach_of(body.body, body.body.center(), planar);
     if (rigid(other)) body.itself = *placed;

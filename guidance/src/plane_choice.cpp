@@ -4,15 +4,15 @@
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/planar/sector.h>
+#include <vericone/cones/plane_cones.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "containing_ellipsoid.h"
+#include "across_axis.h"
 #include "minimise.h"
-#include "plane_cones.h"
 
 namespace vericone::guidance {
 namespace {
@@ -34,7 +34,12 @@ class Planes {
  public:
   Planes(const BodyState& a, const BodyState& b, SectorMethod method, const Vector3d& u, const Vector3d& e1,
          EdgeMemory* memory = nullptr)
-      : a_(a), b_(b), cones_(a, b, method, memory), u_(u), e1_(e1), e2_(u.cross(e1)) {}
+      : a_(a),
+        b_(b),
+        cones_(a.shape, b.shape, a.position, b.position, method, memory),
+        u_(u),
+        e1_(e1),
+        e2_(u.cross(e1)) {}
 
   Vector3d across(double azimuth) const { return std::cos(azimuth) * e1_ + std::sin(azimuth) * e2_; }
 
@@ -196,7 +201,7 @@ std::optional<Vector3d> axis_of_motion(const BodyState& a, const BodyState& b, P
   const Vector3d w = a.velocity - b.velocity;
   if (w.isZero(0)) return std::nullopt;
   if (choice == PlaneChoice::steepest_clearance) {
-    const Clearance m = clearance(containing_ellipsoid(a), containing_ellipsoid(b), w);
+    const Clearance m = clearance(a.shape.containing_ellipsoid(), b.shape.containing_ellipsoid(), w);
     if (auto axis = axis_towards(u, m.normal)) return axis;
   }
   return axis_towards(u, -w);

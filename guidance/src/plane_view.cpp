@@ -4,10 +4,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
-#include "plane_cones.h"
+#include "across_axis.h"
 
 namespace vericone::guidance {
 namespace {
@@ -27,153 +29,19 @@ Vector3d turning_by_lateral(const BodyState& body, const Vector3d& lateral) {
   return body.velocity.cross(lateral) / square;
 }
 
-/// Of the axes (u, e): with the line of sight, and about it.
-Vector3d plane_turning(const PlaneView& view, const Vector3d& c, const Vector3d& v) {
-  return view.line_of_sight.cross(v) / c.norm() + view.state.plane_spin * view.line_of_sight;
-}
-
-std::vector<DelimiterRate> in_plane(const ShapeRate& rate) {
-  std::vector<DelimiterRate> all;
-  for (const SpatialDelimiterRate& d : rate.delimiters)
-    all.push_back({d.matrix.topLeftCorner<2, 2>(), d.level});
-  return all;
-}
-
-double direction_in_plane(const Vector3d& u) { return std::atan2(u.y(), u.x()); }
-
-/// theta_b from the line of sight, in (-pi, pi].
-double from_sight(double theta_b, const Vector3d& u) {
-  return std::remainder(theta_b - direction_in_plane(u), 2 * std::numbers::pi);
-}
-
-bool planar_cone(const PlaneView& view, const BodyState& a, const BodyState& b, bool with_rates,
-                 PlaneCone& cone) {
-  const auto &shape_a = std::get<CombinedEllipse>(a.shape), &shape_b = std::get<CombinedEllipse>(b.shape);
-  const CombinedSector sector = combined_sector(shape_a, shape_b);
-  if (sector.sector.relation != Relation::disjoint) return false;
-  cone.psi = sector.sector.psi;
-  cone.theta_b = from_sight(sector.sector.theta_b, view.line_of_sight);
-  if (!with_rates) return true;
-  PlanarMotion motion;
-  motion.v_a = a.velocity.head<2>();
-  motion.v_b = b.velocity.head<2>();
-  motion.omega_a = a.omega.z();
-  motion.omega_b = b.omega.z();
-  motion.shape_rate_a = a.rate.shape.topLeftCorner<2, 2>();
-  motion.shape_rate_b = b.rate.shape.topLeftCorner<2, 2>();
-  const SectorRates rates =
-      combined_sector_rates(sector, shape_a, shape_b, motion, in_plane(a.rate), in_plane(b.rate));
-  cone.psi_rate = rates.psi;
-  cone.theta_b_rate = rates.theta_b;
-  const auto by_command = [&](const Vector3d& turning, double PlanarMotion::*omega, double& psi,
-                              double& theta_b) {
-    if (turning.isZero(0)) return;
-    PlanarMotion unit;
-    unit.*omega = turning.z();
-    const SectorRates by = combined_sector_rates(sector, shape_a, shape_b, unit);
-    psi = by.psi;
-    theta_b = by.theta_b;
-  };
-  by_command(turning_by_lateral(a, view.lateral_a()), &PlanarMotion::omega_a, cone.psi_rate_by_a,
-             cone.theta_b_rate_by_a);
-  by_command(turning_by_lateral(b, view.lateral_b()), &PlanarMotion::omega_b, cone.psi_rate_by_b,
-             cone.theta_b_rate_by_b);
-  return true;
-}
-
-bool slice_cone(const PlaneView& view, const BodyState& a, const BodyState& b, bool with_rates,
-                PlaneCone& cone) {
-  const auto &shape_a = std::get<CombinedEllipsoid>(a.shape), &shape_b = std::get<CombinedEllipsoid>(b.shape);
-  const Vector3d &u = view.line_of_sight, &e = view.across;
-  const Sections sections = sections_of(shape_a, shape_b, u, e);
-  if (!sections.disjoint()) return false;
-  cone.psi = sections.opening().psi;
-  cone.theta_b = sections.opening().theta_b;
-  if (!with_rates) return true;
-  const Vector3d v = b.velocity - a.velocity, c = shape_b.center() - shape_a.center();
-  const Vector3d plane = plane_turning(view, c, v);
-  TurningMotion motion{a.omega - plane, b.omega - plane, v.dot(u), &a.rate, &b.rate};
-  const OpeningRates rates = section_rates(sections, shape_a, shape_b, u, e, motion);
-  cone.psi_rate = rates.psi;
-  cone.theta_b_rate = rates.theta_b + v.dot(e) / c.norm();
-  const auto by_command = [&](const Vector3d& turning, Vector3d TurningMotion::*omega, double& psi,
-                              double& theta_b) {
-    if (turning.isZero(0)) return;
-    TurningMotion unit;
-    unit.*omega = turning;
-    const OpeningRates by = section_rates(sections, shape_a, shape_b, u, e, unit);
-    psi = by.psi;
-    theta_b = by.theta_b;
-  };
-  by_command(turning_by_lateral(a, view.lateral_a()), &TurningMotion::omega_a, cone.psi_rate_by_a,
-             cone.theta_b_rate_by_a);
-  by_command(turning_by_lateral(b, view.lateral_b()), &TurningMotion::omega_b, cone.psi_rate_by_b,
-             cone.theta_b_rate_by_b);
-  return true;
-}
-
-bool true_cone(const PlaneView& view, const BodyState& a, const BodyState& b, bool with_rates,
-               PlaneCone& cone) {
-  const Ellipsoid &shape_a = std::get<CombinedEllipsoid>(a.shape).ellipsoid(),
-                  &shape_b = std::get<CombinedEllipsoid>(b.shape).ellipsoid();
-  const SectorPlanes planes(shape_a, shape_b);
-  if (!planes.disjoint()) return false;
-  const PlaneSector sector = planes.on(view.across);
-  cone.psi = sector.psi();
-  cone.theta_b = sector.theta_b();
-  if (!with_rates) return true;
-  const PlaneSectorRates rates = true_sector_rates(
-      sector, shape_a, shape_b,
-      {a.velocity, b.velocity, a.omega, b.omega, a.rate.shape, b.rate.shape, view.state.plane_spin});
-  cone.psi_rate = rates.psi();
-  cone.theta_b_rate = rates.theta_b() + rates.line_of_sight;
-  const auto by_command = [&](const Vector3d& turning, Vector3d SpatialMotion::*omega, double& psi,
-                              double& theta_b) {
-    if (turning.isZero(0)) return;
-    SpatialMotion unit;
-    unit.*omega = turning;
-    const PlaneSectorRates by = true_sector_rates(sector, shape_a, shape_b, unit);
-    psi = by.psi();
-    theta_b = by.theta_b();
-  };
-  by_command(turning_by_lateral(a, view.lateral_a()), &SpatialMotion::omega_a, cone.psi_rate_by_a,
-             cone.theta_b_rate_by_a);
-  by_command(turning_by_lateral(b, view.lateral_b()), &SpatialMotion::omega_b, cone.psi_rate_by_b,
-             cone.theta_b_rate_by_b);
-  return true;
-}
-
-/// From the contacts at the edges: true sectors of all but two ellipsoids.
-void contact_cone_rates(const PlaneSector& sector, const PlaneView& view, const BodyState& a,
-                        const BodyState& b, PlaneCone& cone) {
-  const Vector3d v = b.velocity - a.velocity;
-  const TurningMotion motion{a.omega, b.omega, 0, &a.rate, &b.rate};
-  const OpeningRates rates = contact_rates(sector, a, b, v, view.state.plane_spin, motion);
-  cone.psi_rate = rates.psi;
-  cone.theta_b_rate = rates.theta_b + v.dot(view.across) / sector.distance;
-  const auto by_command = [&](const Vector3d& by, Vector3d TurningMotion::*omega, double& psi,
-                              double& theta_b) {
-    if (by.isZero(0)) return;
-    TurningMotion unit;
-    unit.*omega = by;
-    const OpeningRates one = contact_rates(sector, a, b, Vector3d::Zero(), 0, unit);
-    psi = one.psi;
-    theta_b = one.theta_b;
-  };
-  by_command(turning_by_lateral(a, view.lateral_a()), &TurningMotion::omega_a, cone.psi_rate_by_a,
-             cone.theta_b_rate_by_a);
-  by_command(turning_by_lateral(b, view.lateral_b()), &TurningMotion::omega_b, cone.psi_rate_by_b,
-             cone.theta_b_rate_by_b);
-}
-
 /// Inverse of the time in which the engagement changes by its own size, 1/s.
 double rate_scale(const BodyState& a, const BodyState& b) {
   const double r = (b.position - a.position).norm();
   double scale = (b.velocity - a.velocity).norm() / r + a.omega.norm() + b.omega.norm();
   for (const BodyState* body : {&a, &b})
-    if (const auto* shape = std::get_if<CombinedEllipsoid>(&body->shape))
-      scale += body->rate.shape.norm() / shape->ellipsoid().shape().norm();
+    if (const CombinedEllipsoid* quadric = body->shape.quadric())
+      scale += body->rate.shape.norm() / quadric->ellipsoid().shape().norm();
   return scale > 0 ? scale : 1;
+}
+
+PlaneCones cones_of(const BodyState& a, const BodyState& b, SectorMethod method,
+                    EdgeMemory* memory = nullptr) {
+  return {a.shape, b.shape, a.position, b.position, method, memory};
 }
 
 /// The body turned by the rotation vector `turn` about its centre.
@@ -198,7 +66,7 @@ bool difference(const PlaneView& view, const BodyState& a, const BodyState& b, S
     const Vector3d carried =
         view.across - view.across.dot(u) / (1 + view.line_of_sight.dot(u)) * (view.line_of_sight + u);
     const double spin = view.state.plane_spin * dt;
-    return PlaneCones(next_a, next_b, method)
+    return cones_of(next_a, next_b, method)
         .on(u, across_axis(u, std::cos(spin) * carried + std::sin(spin) * u.cross(carried)));
   };
   const auto before = later(-h), after = later(h);
@@ -212,8 +80,8 @@ bool difference(const PlaneView& view, const BodyState& a, const BodyState& b, S
     const double size = turning.norm();
     const auto by_turn = [&](double angle) {
       const Vector3d turn = angle / size * turning;
-      return PlaneCones(of_a ? turned(a, turn) : a, of_a ? b : turned(b, turn), method)
-          .on(view.line_of_sight, view.across);
+      const BodyState now_a = of_a ? turned(a, turn) : a, now_b = of_a ? b : turned(b, turn);
+      return cones_of(now_a, now_b, method).on(view.line_of_sight, view.across);
     };
     const auto back = by_turn(-part), ahead = by_turn(part);
     if (!back || !ahead) return false;
@@ -225,6 +93,41 @@ bool difference(const PlaneView& view, const BodyState& a, const BodyState& b, S
                     cone.theta_b_rate_by_a) &&
          by_command(turning_by_lateral(b, view.lateral_b()), false, cone.psi_rate_by_b,
                     cone.theta_b_rate_by_b);
+}
+
+enum class Found { nothing, opening, rates };
+
+Found opening_alone(const PlaneCones& cones, const PlaneView& view, PlaneCone& cone) {
+  const auto opening = cones.on(view.line_of_sight, view.across);
+  if (!opening) return Found::nothing;
+  cone.psi = opening->psi;
+  cone.theta_b = opening->theta_b;
+  return Found::opening;
+}
+
+/// Rates of the bodies' own motion, and by the turning that a unit command of one body causes.
+Found opening_and_rates(const PlaneCones& cones, const PlaneView& view, const BodyState& a,
+                        const BodyState& b, PlaneCone& cone) {
+  std::array<PlaneCones::Moving, 3> moving;
+  moving[0].motion = {a.velocity, b.velocity, a.omega, b.omega, &a.rate, &b.rate, view.state.plane_spin};
+  std::size_t motions = 1, by_a = 0, by_b = 0;
+  if (const Vector3d turning = turning_by_lateral(a, view.lateral_a()); !turning.isZero(0))
+    moving[by_a = motions++].motion.omega_a = turning;
+  if (const Vector3d turning = turning_by_lateral(b, view.lateral_b()); !turning.isZero(0))
+    moving[by_b = motions++].motion.omega_b = turning;
+  const auto opening = cones.on(view.line_of_sight, view.across, std::span(moving.data(), motions));
+  if (!opening) return Found::nothing;
+  cone.psi = opening->psi;
+  cone.theta_b = opening->theta_b;
+  if (!moving[0].rates) return Found::opening;
+  const auto write = [&](std::size_t of, double& psi, double& theta_b) {
+    psi = moving[of].rates->psi;
+    theta_b = moving[of].rates->theta_b;
+  };
+  write(0, cone.psi_rate, cone.theta_b_rate);
+  if (by_a) write(by_a, cone.psi_rate_by_a, cone.theta_b_rate_by_a);
+  if (by_b) write(by_b, cone.psi_rate_by_b, cone.theta_b_rate_by_b);
+  return Found::rates;
 }
 
 }  // namespace
@@ -257,37 +160,14 @@ PlaneView plane_states(const BodyState& a, const BodyState& b, const Vector3d& a
 
 bool fill_cone(PlaneView& view, const BodyState& a, const BodyState& b, SectorMethod method, RateMethod rates,
                EdgeMemory* memory) {
+  const PlaneCones cones = cones_of(a, b, method, memory);
   PlaneCone cone;
-  const bool analytic = rates == RateMethod::analytic;
-  const auto* spatial_a = std::get_if<CombinedEllipsoid>(&a.shape);
-  const auto* spatial_b = std::get_if<CombinedEllipsoid>(&b.shape);
-  bool closed_form = true, found = false;
-  double tolerance = 0;
-  if (a.planar() && b.planar()) {
-    found = planar_cone(view, a, b, analytic, cone);
-  } else if (spatial_a && spatial_b && method == SectorMethod::slice) {
-    found = slice_cone(view, a, b, analytic, cone);
-  } else if (spatial_a && spatial_b && spatial_a->is_ellipsoid() && spatial_b->is_ellipsoid()) {
-    found = true_cone(view, a, b, analytic, cone);
-  } else {
-    closed_form = false;
-    const PlaneCones cones(a, b, method, memory);
-    tolerance = cones.tolerance();
-    if (const auto sector = cones.true_sector(view.across)) {
-      cone.psi = sector->psi();
-      cone.theta_b = sector->theta_b();
-      found = true;
-      closed_form = sector->has_contacts();
-      if (closed_form && analytic) contact_cone_rates(*sector, view, a, b, cone);
-    } else if (const auto opening = cones.on(view.line_of_sight, view.across)) {
-      cone.psi = opening->psi;
-      cone.theta_b = opening->theta_b;
-      found = true;
-    }
-  }
-  if (!found) return false;
-  if (rates == RateMethod::differenced || (analytic && !closed_form))
-    if (!difference(view, a, b, method, tolerance, cone)) return false;
+  const Found found = rates == RateMethod::analytic ? opening_and_rates(cones, view, a, b, cone)
+                                                    : opening_alone(cones, view, cone);
+  if (found == Found::nothing) return false;
+  if (rates != RateMethod::none && found != Found::rates &&
+      !difference(view, a, b, method, cones.tolerance(), cone))
+    return false;
   view.cone = cone;
   return true;
 }

@@ -24,8 +24,8 @@ Dimension dimension(const Json& engagement, const char* body) {
 }
 
 std::size_t pieces_of(const Placed& body) {
-  const auto* quadrics = std::get_if<std::vector<CombinedEllipsoid>>(&body.body.shape());
-  const auto* hulls = std::get_if<Assembly>(&body.body.shape());
+  const auto* quadrics = body.body.quadrics();
+  const auto* hulls = body.body.assembly();
   return quadrics ? quadrics->size() : hulls ? hulls->size() : 1;
 }
 

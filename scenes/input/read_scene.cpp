@@ -6,15 +6,13 @@
 
 namespace vericone::scenes {
 
-const CombinedEllipsoid* SceneBody::quadric() const {
-  return std::get_if<CombinedEllipsoid>(&placed.body.shape());
-}
+const CombinedEllipsoid* SceneBody::quadric() const { return placed.body.quadric(); }
 const Ellipsoid* SceneBody::ellipsoid() const {
   const CombinedEllipsoid* body = quadric();
   return body && body->is_ellipsoid() ? &body->ellipsoid() : nullptr;
 }
-const HullBody* SceneBody::hull() const { return std::get_if<HullBody>(&placed.body.shape()); }
-const Assembly* SceneBody::pieces() const { return std::get_if<Assembly>(&placed.body.shape()); }
+const HullBody* SceneBody::hull() const { return placed.body.hull(); }
+const Assembly* SceneBody::pieces() const { return placed.body.assembly(); }
 
 Pair Scene::pair() const {
   return planar ? Pair(planar->agent, planar->obstacle) : Pair(agent.placed, obstacle.placed);

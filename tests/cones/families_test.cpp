@@ -57,7 +57,7 @@ TEST_F(FamilyLaws, Ellipses) {
 
 TEST_F(FamilyLaws, Hulls) {
   for (int i = 0; i < share(2000); ++i) {
-    const auto hull = [&] { return std::get<HullBody>(body(BodyKind::hull).shape()); };
+    const auto hull = [&] { return *body(BodyKind::hull).hull(); };
     const HullBody a = hull(), b = hull().translated({5, 1, 0});
     ASSERT_EQ(broken_velocity_law(HullOracle(a, b), HullOracle(b, a), velocity({5, 1, 0}), true), "") << i;
     const Ellipsoid e = random.ellipsoid({0, 0, 0}, 0.2, 2);
@@ -67,7 +67,7 @@ TEST_F(FamilyLaws, Hulls) {
 
 TEST_F(FamilyLaws, CombinedQuadrics) {
   for (int i = 0; i < share(400); ++i) {
-    const auto part = [&] { return std::get<CombinedEllipsoid>(body(BodyKind::combined).shape()); };
+    const auto part = [&] { return *body(BodyKind::combined).quadric(); };
     const CombinedEllipsoid a = part(), b = part().translated({5, 1, 0});
     ASSERT_EQ(broken_velocity_law(CombinedOracle(a, b), CombinedOracle(b, a), velocity({5, 1, 0})), "") << i;
   }
@@ -76,9 +76,9 @@ TEST_F(FamilyLaws, CombinedQuadrics) {
 /// The exchanged pair of an assembly is one of pieces against a body of one piece.
 TEST_F(FamilyLaws, AssembliesAndComposites) {
   for (int i = 0; i < share(400); ++i) {
-    const auto hull = std::get<HullBody>(body(BodyKind::hull).shape());
+    const auto hull = *body(BodyKind::hull).hull();
     const BodyKind kind = kBodyKinds[static_cast<std::size_t>(random.integer(3, 5))];
-    const auto pieces = std::get<Assembly>(body(kind).shape());
+    const auto pieces = *body(kind).assembly();
     const Pose there{{5, 1, 0}, Eigen::Matrix3d::Identity()};
     const AssemblyOracle ab(hull, pieces, there);
     const CompositePair ba(pieces, there, Assembly::polyhedra({hull})),

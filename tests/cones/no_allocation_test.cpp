@@ -13,8 +13,10 @@
 #include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/cones/opening/orifice.h>
+#include <vericone/cones/pair.h>
 #include <vericone/cones/planar/sector.h>
 #include <vericone/cones/planar/sector_oracle.h>
+#include <vericone/cones/plane_cones.h>
 #include <vericone/cones/plane_sector.h>
 #include <vericone/cones/times/contact_time_enclosure.h>
 #include <vericone/geometry/body.h>
@@ -139,6 +141,31 @@ TEST(NoAllocation, Hulls) {
   }
 }
 
+TEST(NoAllocation, PlaneConesOfEllipsoids) {
+  RandomBodies random(8109);
+  SCOPED_TRACE(random.trace());
+  int apart = 0;
+  for (int i = 0; i < kCases; ++i) {
+    const Vector3d to = 6 * random.direction(), u = to.normalized(), e = u.unitOrthogonal();
+    const WorldBody a = CombinedEllipsoid(random.ellipsoid({0, 0, 0}, 0.5, 2)),
+                    b = CombinedEllipsoid(random.ellipsoid(to, 0.5, 2));
+    const BodyRate rate{0.1 * Eigen::Matrix3d::Identity(), {}};
+    for (const SectorMethod method : {SectorMethod::true_cone, SectorMethod::slice}) {
+      std::array<PlaneCones::Moving, 2> moving;
+      moving[0].motion = {to, u, e, e, &rate, &rate, 0.1};
+      EXPECT_EQ(allocations_of([&] {
+                  const PlaneCones cones(a, b, {0, 0, 0}, to, method);
+                  static_cast<void>(cones.on(u, e, moving));
+                  static_cast<void>(cones.opening_slope(e));
+                }),
+                0);
+      apart += moving[0].rates && moving[1].rates;
+    }
+    EXPECT_EQ(allocations_of([&] { static_cast<void>(may_meet(a, b, to, e)); }), 0);
+  }
+  EXPECT_GT(apart, kCases);
+}
+
 TEST(NoAllocation, Openings) {
   RandomBodies random(8105);
   SCOPED_TRACE(random.trace());
@@ -157,7 +184,7 @@ TEST(NoAllocation, Assemblies) {
   for (const BodyKind kind : {BodyKind::mesh, BodyKind::cloud, BodyKind::boxes, BodyKind::pieces}) {
     for (int i = 0; i < kCases; ++i) {
       const Body body = testing::any_body(random, kind);
-      const auto* assembly = std::get_if<Assembly>(&body.shape());
+      const auto* assembly = body.assembly();
       if (!assembly) continue;  // a union of quadrics
       const AssemblyOracle oracle(random.ellipsoid({9, 0, 0}, 0.2, 1), *assembly);
       const Vector3d w = Vector3d(-9, 0, 0) + random.in_box(4);

@@ -93,7 +93,7 @@ TEST(BodyOfAnyKind, PosesComposeAndInvert) {
 TEST(BodyOfAnyKind, StandsInTheWorldAsItsPointsDo) {
   RandomBodies random(2003);
   for (int i = 0; i < share(100); ++i) {
-    const auto body = std::get<CombinedEllipsoid>(any_body(random, BodyKind::combined).shape());
+    const auto body = *any_body(random, BodyKind::combined).quadric();
     const Pose pose = any_pose(random, 5);
     const CombinedEllipsoid moved = in_world(body, pose);
     const Vector3d u = random.direction();

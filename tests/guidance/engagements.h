@@ -88,8 +88,7 @@ inline MovingBody moving_body(RandomBodies& random, const Eigen::Vector3d& posit
 inline std::pair<MovingBody, MovingBody> moving_pair(RandomBodies& random, double low, double high) {
   MovingBody a = moving_body(random, random.in_box(5)), b = moving_body(random, a.now.position);
   const Eigen::Vector3d d = random.direction();
-  const Ellipsoid at_a = std::get<CombinedEllipsoid>(a.at(0).shape).ellipsoid(),
-                  at_b = std::get<CombinedEllipsoid>(b.at(0).shape).ellipsoid();
+  const Ellipsoid at_a = a.at(0).shape.quadric()->ellipsoid(), at_b = b.at(0).shape.quadric()->ellipsoid();
   const double touching = 1 / std::sqrt(ContactFrame<3>(at_a, at_b.translated(d)).contact);
   b.now.position += random.uniform(low, high) * touching * d;
   return {a, b};

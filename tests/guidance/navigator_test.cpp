@@ -49,7 +49,7 @@ double flown(Scene s, Navigator& navigator, const std::optional<Destination>& de
              int steps) {
   constexpr int kSamples = 4;
   double least = std::numeric_limits<double>::infinity();
-  auto ellipsoid = [](const BodyState& b) { return std::get<CombinedEllipsoid>(b.shape).ellipsoid(); };
+  auto ellipsoid = [](const BodyState& b) { return b.shape.quadric()->ellipsoid(); };
   for (int k = 0; k < steps; ++k) {
     const NavigatorStep said = navigator.step(s.agent, s.others, destination, k * step, step);
     for (int i = 0; i < kSamples; ++i) {
@@ -111,9 +111,8 @@ TEST(Navigator, KeepsStraightOnAndKeepsItsSpeed) {
     // Straight exactly where the lines of motion pass far enough, by the predicate that it is made of.
     bool clear = true;
     for (const BodyState& other : s.others) {
-      const Clearance pass =
-          clearance(std::get<CombinedEllipsoid>(s.agent.shape).ellipsoid(),
-                    std::get<CombinedEllipsoid>(other.shape).ellipsoid(), s.agent.velocity - other.velocity);
+      const Clearance pass = clearance(s.agent.shape.quadric()->ellipsoid(),
+                                       other.shape.quadric()->ellipsoid(), s.agent.velocity - other.velocity);
       clear &= pass.distance >= 0.3 ||
                (s.agent.velocity - other.velocity).dot(other.position - s.agent.position) < 0;
     }

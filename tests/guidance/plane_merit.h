@@ -12,7 +12,7 @@
 namespace vericone::testing {
 
 inline const Ellipsoid& ellipsoid_of(const guidance::BodyState& body) {
-  return std::get<CombinedEllipsoid>(body.shape).ellipsoid();
+  return body.shape.quadric()->ellipsoid();
 }
 
 inline Eigen::Vector3d line_of_sight(const guidance::BodyState& a, const guidance::BodyState& b) {

@@ -2,6 +2,7 @@
 //
 // Views of planar bodies and of dented ones in space.
 #include <gtest/gtest.h>
+#include <vericone/cones/combined/sector.h>
 #include <vericone/cones/combined/cone.h>
 #include <vericone/cones/slices/combined_slice_cone.h>
 #include <vericone/guidance/plane_view.h>
@@ -18,9 +19,7 @@ namespace {
 using Eigen::Matrix2d, Eigen::Vector2d, Eigen::Vector3d;
 using testing::RandomBodies, testing::richardson_derivative;
 
-const Ellipsoid& ellipsoid_of(const BodyState& body) {
-  return std::get<CombinedEllipsoid>(body.shape).ellipsoid();
-}
+const Ellipsoid& ellipsoid_of(const BodyState& body) { return body.shape.quadric()->ellipsoid(); }
 
 bool same(const Touch& x, const Touch& y) {
   return x.corner == y.corner && x.first == y.first && x.second == y.second;
@@ -117,8 +116,7 @@ TEST(PlaneViewRates, PlanarBodiesWithDents) {
     const auto view = plane_view(a, b, {}, SectorMethod::true_cone, RateMethod::analytic);
     ASSERT_TRUE(view);
     const auto sector = [&](double t) {
-      return combined_sector(std::get<CombinedEllipse>(body_a.at(t).shape),
-                             std::get<CombinedEllipse>(body_b.at(t).shape));
+      return combined_sector(*body_a.at(t).shape.flat(), *body_b.at(t).shape.flat());
     };
     const CombinedSector now = sector(0);
     const PlaneCone& cone = view->cone;
@@ -162,8 +160,7 @@ TEST(PlaneView, SlicesOfDentedBodiesAreThoseOfTheCone) {
     const auto [moving_a, moving_b] = dented_pair(random, 1.1, 3, i % 2);
     const BodyState a = moving_a.state(), b = moving_b.state();
     const AxisFrame frame(b.position - a.position);
-    const CombinedSliceCone cone =
-        combined_slice_cone(std::get<CombinedEllipsoid>(a.shape), std::get<CombinedEllipsoid>(b.shape), 7);
+    const CombinedSliceCone cone = combined_slice_cone(*a.shape.quadric(), *b.shape.quadric(), 7);
     ASSERT_EQ(cone.slices.size(), 7U);
     for (const Slice& slice : cone.slices) {
       const Vector3d e = std::cos(slice.azimuth) * frame.e1 + std::sin(slice.azimuth) * frame.e2;
@@ -197,10 +194,10 @@ TEST(PlaneViewRates, SlicesOfDentedBodies) {
       const BodyState next_a = moving_a.at(t), next_b = moving_b.at(t);
       const PlaneView states =
           plane_states(next_a, next_b, testing::carried_axis(c, v, t, view->across, spin));
-      return combined_sector(central_section(std::get<CombinedEllipsoid>(next_a.shape), states.line_of_sight,
-                                             states.across, Vector2d::Zero()),
-                             central_section(std::get<CombinedEllipsoid>(next_b.shape), states.line_of_sight,
-                                             states.across, Vector2d(states.state.r, 0)));
+      return combined_sector(
+          central_section(*next_a.shape.quadric(), states.line_of_sight, states.across, Vector2d::Zero()),
+          central_section(*next_b.shape.quadric(), states.line_of_sight, states.across,
+                          Vector2d(states.state.r, 0)));
     };
     const double scale = v.norm() / c.norm() + a.omega.norm() + b.omega.norm() + std::abs(spin) +
                          moving_a.acceleration.norm() / a.velocity.norm();
@@ -228,7 +225,7 @@ TEST(PlaneView, TrueSectorsOfDentedBodies) {
   for (int i = 0; i < 30; ++i) {
     const auto [moving_a, moving_b] = dented_pair(random, 1.2, 2, i % 2);
     const BodyState a = moving_a.state(), b = moving_b.state();
-    const CombinedOracle oracle(std::get<CombinedEllipsoid>(a.shape), std::get<CombinedEllipsoid>(b.shape));
+    const CombinedOracle oracle(*a.shape.quadric(), *b.shape.quadric());
     const Vector3d across = random.direction();
     const auto view = plane_view(a, b, across, SectorMethod::true_cone, RateMethod::none);
     ASSERT_TRUE(view);

@@ -15,9 +15,7 @@ namespace {
 using Eigen::Vector2d, Eigen::Vector3d;
 using testing::RandomBodies;
 
-const Ellipsoid& ellipsoid_of(const BodyState& body) {
-  return std::get<CombinedEllipsoid>(body.shape).ellipsoid();
-}
+const Ellipsoid& ellipsoid_of(const BodyState& body) { return body.shape.quadric()->ellipsoid(); }
 
 BodyState hull_state(RandomBodies& random, const Vector3d& position, int count) {
   BodyState b;
@@ -40,7 +38,7 @@ TEST(PlaneView, TrueSectorsOfHulls) {
     BodyState b = hull_state(random, a.position + 9 * random.direction(), 12);
     // The reference point may be anywhere.
     if (i % 3 == 0) b.position += 6 * random.direction();
-    const HullOracle oracle(ellipsoid_of(a), std::get<HullBody>(b.shape));
+    const HullOracle oracle(ellipsoid_of(a), *b.shape.hull());
     const auto view = plane_view(a, b, random.direction(), SectorMethod::true_cone, RateMethod::none);
     if (!view) continue;
     ++seen;
@@ -106,7 +104,7 @@ TEST(PlaneViewRates, TrueSectorsOfHulls) {
       BodyState later = b;
       later.position += t * b.velocity;
       std::vector<Vector3d> points;
-      for (const Vector3d& x : std::get<HullBody>(b.shape).points())
+      for (const Vector3d& x : b.shape.hull()->points())
         points.push_back(later.position + testing::turn(t * b.omega) * (x - b.position));
       later.shape = HullBody(std::move(points));
       const auto seen = plane_view(moving.at(t), later, testing::carried_axis(c, v, t, view->across, spin),
@@ -154,8 +152,7 @@ TEST(PlaneView, SlicesOfBoxes) {
           const Vector3d z = x + hx / (hx - hy) * (y - x);
           corners.emplace_back(z.dot(u), z.dot(e));
         }
-    const CombinedEllipse section =
-        central_section(std::get<CombinedEllipsoid>(a.shape), u, e, Vector2d::Zero());
+    const CombinedEllipse section = central_section(*a.shape.quadric(), u, e, Vector2d::Zero());
     const auto meet = [&](double angle) {
       const Vector2d m(-std::sin(angle), std::cos(angle));
       double low = 1e300, high = -1e300;

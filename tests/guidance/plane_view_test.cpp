@@ -17,9 +17,7 @@ namespace {
 using Eigen::Vector2d, Eigen::Vector3d;
 using testing::RandomBodies, testing::richardson_derivative;
 
-const Ellipsoid& ellipsoid_of(const BodyState& body) {
-  return std::get<CombinedEllipsoid>(body.shape).ellipsoid();
-}
+const Ellipsoid& ellipsoid_of(const BodyState& body) { return body.shape.quadric()->ellipsoid(); }
 
 TEST(PlaneStates, ProjectTheCartesianMotion) {
   RandomBodies random(7201);
@@ -239,7 +237,7 @@ TEST(BodyState, AdvancedIsTheMotionToFirstOrder) {
     m.acceleration = 3 * m.now.velocity.cross(random.direction()).normalized();
     const double dt = 1e-4;
     const auto change = [&](const BodyState& state) {
-      const auto& shape = std::get<CombinedEllipsoid>(state.shape);
+      const auto& shape = *state.shape.quadric();
       Eigen::Matrix3d sum = shape.ellipsoid().shape();
       for (const Delimiter<3>& d : shape.delimiters())
         sum += d.matrix + d.level * Eigen::Matrix3d::Identity();

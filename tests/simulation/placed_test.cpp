@@ -53,7 +53,7 @@ TEST(ProofOfPlaced, ShellsAreSolidBoxesFromOutside) {
     const Track solid = moving(random, RigidShape{HullBody::box(-half, half)}, q, i % 4 < 2);
     Track hollow(RigidShape{Placed(shell(half))}, solid.motion(0), solid.orientation(), 0);
     for (const Arc& arc : solid.arcs()) hollow.advance(solid.acceleration(arc.from()), arc.to());
-    if (guidance::pair_of(a.state(0).shape, solid.state(0).shape).relation() != Relation::disjoint) continue;
+    if (pair_of(a.state(0).shape, solid.state(0).shape).relation() != Relation::disjoint) continue;
     const PairProof by_planes = prove(a, solid, 0, 5), by_distance = prove(a, hollow, 0, 5),
                     exchanged = prove(hollow, a, 0, 5);
     ++counts[static_cast<std::size_t>(by_distance.verdict)];
@@ -96,9 +96,7 @@ TEST(ProofOfPlaced, UnionsAndCloudsAgainstSampledRelations) {
                 b = moving(random, RigidShape{Placed(body)}, q, i % 4 < 2);
     const PairProof proof = prove(a, b, 0, 5);
     ++counts[static_cast<std::size_t>(proof.verdict)];
-    const auto relation = [&](double t) {
-      return *guidance::pair_of(a.state(t).shape, b.state(t).shape).relation();
-    };
+    const auto relation = [&](double t) { return *pair_of(a.state(t).shape, b.state(t).shape).relation(); };
     expect_sampled(proof, 5, [&](double t) { return relation(t) != Relation::disjoint; });
   }
   EXPECT_GT(counts[0], 10);

@@ -32,9 +32,8 @@ TEST(Proof, PlanarBodiesThatChangeTheirShape) {
     const PairProof proof = prove(a, b, 0, 3);
     ++counts[static_cast<std::size_t>(proof.verdict)];
     expect_sampled(proof, 3, [&](double t) {
-      return combined_sector(std::get<CombinedEllipse>(a.state(t).shape),
-                             std::get<CombinedEllipse>(b.state(t).shape))
-                 .sector.relation != Relation::disjoint;
+      return combined_sector(*a.state(t).shape.flat(), *b.state(t).shape.flat()).sector.relation !=
+             Relation::disjoint;
     });
   }
   EXPECT_GT(counts[0], 30);
@@ -64,16 +63,16 @@ TEST(Proof, BodiesInSpaceThatChangeTheirShape) {
     const double end = proof.verdict == ProofVerdict::touched ? proof.from : 3;
     for (int j = 0; j < 200; ++j) {
       const double t = random.uniform(0, end);
-      const auto body_a = std::get<CombinedEllipsoid>(a.state(t).shape);
-      const auto body_b = std::get<CombinedEllipsoid>(b.state(t).shape);
+      const auto body_a = *a.state(t).shape.quadric();
+      const auto body_b = *b.state(t).shape.quadric();
       for (int m = 0; m < 50; ++m) {
         const Vector3d x = body_a.ellipsoid().support_point(directions.vector(1));
         EXPECT_GT(body_b.gauge(x - body_b.center()), 1);
       }
     }
     if (proof.verdict == ProofVerdict::touched) {
-      const auto body_a = std::get<CombinedEllipsoid>(a.state(proof.to).shape);
-      const auto body_b = std::get<CombinedEllipsoid>(b.state(proof.to).shape);
+      const auto body_a = *a.state(proof.to).shape.quadric();
+      const auto body_b = *b.state(proof.to).shape.quadric();
       EXPECT_LE(body_a.gauge(proof.place - body_a.center()), 1 + 1e-2);
       EXPECT_LE(body_b.gauge(proof.place - body_b.center()), 1 + 1e-2);
     }
@@ -134,9 +133,9 @@ TEST(Proof, HullsAgainstExactTimes) {
     EXPECT_EQ(proof.verdict, exchanged.verdict);
     const auto oracle = [&](double t) {
       const auto shape_a = a.state(t).shape;
-      const HullBody body_b = std::get<HullBody>(b.state(t).shape);
-      if (const auto* points_a = std::get_if<HullBody>(&shape_a)) return HullOracle(*points_a, body_b);
-      return HullOracle(std::get<CombinedEllipsoid>(shape_a).ellipsoid(), body_b);
+      const HullBody body_b = *b.state(t).shape.hull();
+      if (const auto* points_a = shape_a.hull()) return HullOracle(*points_a, body_b);
+      return HullOracle(shape_a.quadric()->ellipsoid(), body_b);
     };
     expect_sampled(proof, 5, [&](double t) { return oracle(t).relation() != Relation::disjoint; });
     const HullOracle now = oracle(0);
@@ -153,15 +152,14 @@ TEST(Proof, HullsAgainstExactTimes) {
 }
 
 /// Whether a ball and the body are apart, by the exact or certified predicate of their kind.
-bool ball_is_apart(const Vector3d& center, double radius, const guidance::Shape& body) {
-  if (const auto* flat = std::get_if<CombinedEllipse>(&body)) {
+bool ball_is_apart(const Vector3d& center, double radius, const WorldBody& body) {
+  if (const auto* flat = body.flat()) {
     const Ellipse disc = Ellipse::from_axes(center.head<2>(), Eigen::Vector2d::Constant(radius));
     return combined_sector(disc, *flat).sector.relation == Relation::disjoint;
   }
   const Ellipsoid ball = Ellipsoid::from_axes(center, Vector3d::Constant(radius));
-  if (const auto* hull = std::get_if<HullBody>(&body))
-    return HullOracle(ball, *hull).relation() == Relation::disjoint;
-  const auto relation = CombinedOracle(ball, std::get<CombinedEllipsoid>(body)).relation();
+  if (const auto* hull = body.hull()) return HullOracle(ball, *hull).relation() == Relation::disjoint;
+  const auto relation = CombinedOracle(ball, *body.quadric()).relation();
   return !relation || *relation == Relation::disjoint;
 }
 
@@ -200,7 +198,7 @@ TEST(Proof, ABallGrownByTheLeastDistanceStillDoesNotMeet) {
     const int samples = kind == 1 ? 100 : 1000;
     for (int j = 0; j <= samples; ++j) {
       const double t = 4.0 * j / samples;
-      const guidance::Shape body = b.state(t).shape;
+      const WorldBody body = b.state(t).shape;
       const Vector3d center = a.motion(t).position;
       EXPECT_TRUE(ball_is_apart(center, radius + proof.least_distance * (1 - 1e-9), body)) << i;
       near = near || !ball_is_apart(center, radius + 1.1 * proof.least_distance + 1e-3, body);

@@ -15,9 +15,7 @@
 namespace vericone::simulation::proof_test {
 namespace {
 
-const Ellipsoid& ellipsoid_of(const guidance::BodyState& state) {
-  return std::get<CombinedEllipsoid>(state.shape).ellipsoid();
-}
+const Ellipsoid& ellipsoid_of(const guidance::BodyState& state) { return state.shape.quadric()->ellipsoid(); }
 
 TEST(Proof, StraightMotionAgreesWithExactMembershipAndContactTimes) {
   SCOPED_TRACE("seed 31");
@@ -60,8 +58,8 @@ TEST(Proof, StraightMotionAgreesWithExactMembershipAndContactTimes) {
       EXPECT_LE(proof.from, contact->hi());
       EXPECT_GE(proof.to, contact->lo());
       EXPECT_LE(proof.to - proof.from, 1e-6);
-      const CombinedEllipsoid at_a = std::get<CombinedEllipsoid>(a.state(proof.to).shape);
-      const CombinedEllipsoid at_b = std::get<CombinedEllipsoid>(b.state(proof.to).shape);
+      const CombinedEllipsoid at_a = *a.state(proof.to).shape.quadric();
+      const CombinedEllipsoid at_b = *b.state(proof.to).shape.quadric();
       EXPECT_LE(at_a.gauge(proof.place - at_a.center()), 1 + 1e-3);
       EXPECT_LE(at_b.gauge(proof.place - at_b.center()), 1 + 1e-3);
     }

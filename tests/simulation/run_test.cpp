@@ -108,9 +108,8 @@ TEST_P(Avoidance, IsProved) {
   for (int i = 0; i <= 1000; ++i) {
     const double t = run.end * i / 1000;
     const auto a = run.tracks[0].state(t), b = run.tracks[1].state(t);
-    least = std::min(least, separation(std::get<CombinedEllipsoid>(a.shape).ellipsoid(),
-                                       std::get<CombinedEllipsoid>(b.shape).ellipsoid())
-                                .distance);
+    least =
+        std::min(least, separation(a.shape.quadric()->ellipsoid(), b.shape.quadric()->ellipsoid()).distance);
   }
   EXPECT_GE(least, run.proofs.at(0).proof.least_distance);
   if (GetParam().law == Law::clearance) {

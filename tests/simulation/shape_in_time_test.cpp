@@ -74,8 +74,8 @@ TEST(ShapeInTime, PointsOfTheBodyAreTheFormulas) {
     const double t = random.uniform(0, 10);
     const Vector3d position = random.vector(50);
     const Matrix3d r = random.rotation(), rz = random.rotation_about_z();
-    const auto body = std::get<CombinedEllipsoid>(shape_at(quadric, t, position, r));
-    const auto flat = std::get<CombinedEllipse>(shape_at(conic, t, position, rz));
+    const auto body = *shape_at(quadric, t, position, r).quadric();
+    const auto flat = *shape_at(conic, t, position, rz).flat();
     EXPECT_EQ(body.center(), position);
     EXPECT_EQ(flat.center(), Vector2d(position.head<2>()));
     for (int j = 0; j < 200; ++j) {
@@ -103,13 +103,13 @@ TEST(ShapeInTime, DentedConicIsThatOfTheSource) {
   const DentedConic conic{6, 2, {0.9, 0, 0, 0, false}};
   const double phi = 2.1;
   const Matrix3d r = Eigen::AngleAxisd(phi, Vector3d::UnitZ()).toRotationMatrix();
-  const auto ours = std::get<CombinedEllipse>(shape_at(conic, 3, {45, 7, 0}, r));
+  const auto ours = *shape_at(conic, 3, {45, 7, 0}, r).flat();
   const CombinedEllipse source = dented_conic({45, 7}, 6, 2, 0.9, phi);
   EXPECT_TRUE(ours.ellipsoid().shape().isApprox(source.ellipsoid().shape(), 1e-14));
   ASSERT_EQ(ours.delimiters().size(), 1u);
   EXPECT_TRUE(ours.delimiters()[0].matrix.isApprox(source.delimiters()[0].matrix, 1e-14));
   EXPECT_DOUBLE_EQ(ours.delimiters()[0].level, source.delimiters()[0].level);
-  EXPECT_TRUE(std::get<CombinedEllipse>(shape_at(DentedConic{6, 2, {}}, 0, {0, 0, 0}, r)).is_ellipsoid());
+  EXPECT_TRUE(shape_at(DentedConic{6, 2, {}}, 0, {0, 0, 0}, r).flat()->is_ellipsoid());
 }
 
 TEST(ShapeInTime, RatesAreDifferencesOfShapes) {
@@ -124,9 +124,9 @@ TEST(ShapeInTime, RatesAreDifferencesOfShapes) {
     if (quadric.k.at(t) < 1e-3 || conic.k.at(t) < 1e-3) continue;  // a corner may lie between
     const Matrix3d r = random.rotation(), rz = random.rotation_about_z();
     {
-      const auto before = std::get<CombinedEllipsoid>(shape_at(quadric, t - h, {0, 0, 0}, r));
-      const auto after = std::get<CombinedEllipsoid>(shape_at(quadric, t + h, {0, 0, 0}, r));
-      const guidance::ShapeRate rate = shape_rate_at(quadric, t, r);
+      const auto before = *shape_at(quadric, t - h, {0, 0, 0}, r).quadric();
+      const auto after = *shape_at(quadric, t + h, {0, 0, 0}, r).quadric();
+      const BodyRate rate = shape_rate_at(quadric, t, r);
       const Matrix3d difference = (after.ellipsoid().shape() - before.ellipsoid().shape()) / (2 * h);
       EXPECT_TRUE((rate.shape - difference).isZero(1e-6)) << rate.shape << "\n" << difference;
       ASSERT_EQ(rate.delimiters.size(), 1u);
@@ -135,9 +135,9 @@ TEST(ShapeInTime, RatesAreDifferencesOfShapes) {
       EXPECT_TRUE(after.delimiters()[0].matrix == before.delimiters()[0].matrix);
     }
     {
-      const auto before = std::get<CombinedEllipse>(shape_at(conic, t - h, {0, 0, 0}, rz));
-      const auto after = std::get<CombinedEllipse>(shape_at(conic, t + h, {0, 0, 0}, rz));
-      const guidance::ShapeRate rate = shape_rate_at(conic, t, rz);
+      const auto before = *shape_at(conic, t - h, {0, 0, 0}, rz).flat();
+      const auto after = *shape_at(conic, t + h, {0, 0, 0}, rz).flat();
+      const BodyRate rate = shape_rate_at(conic, t, rz);
       const Eigen::Matrix2d difference = (after.ellipsoid().shape() - before.ellipsoid().shape()) / (2 * h);
       EXPECT_TRUE((rate.shape.topLeftCorner<2, 2>() - difference).isZero(1e-6));
       ASSERT_EQ(rate.delimiters.size(), 1u);
@@ -155,10 +155,10 @@ TEST(ShapeInTime, ShapeOverContainsTheBodyAtAllTimes) {
                                 random_k(random)};
     const double from = random.uniform(0, 10), to = from + random.uniform(0, 2);
     const Matrix3d r = random.rotation();
-    const auto over = std::get<CombinedEllipsoid>(shape_over(quadric, from, to, {1, 2, 3}, r));
+    const auto over = *shape_over(quadric, from, to, {1, 2, 3}, r).quadric();
     for (int j = 0; j < 50; ++j) {
       const double t = random.uniform(from, to);
-      const auto body = std::get<CombinedEllipsoid>(shape_at(quadric, t, {1, 2, 3}, r));
+      const auto body = *shape_at(quadric, t, {1, 2, 3}, r).quadric();
       for (int m = 0; m < 10; ++m) {
         const Vector3d u = random.vector(1);
         EXPECT_LE(over.gauge(u), body.gauge(u) * (1 + 1e-12));
@@ -178,9 +178,8 @@ TEST(ShapeInTime, RigidBodiesAreTurnedAndMoved) {
     const Ellipsoid from_shape = Ellipsoid::from_shape({0, 0, 0}, from_axes.shape());
     for (const Ellipsoid& e : {from_axes, from_shape}) {
       const CombinedEllipsoid body(e, {hyperboloid(2, axes * 0.8, own)});
-      const auto image =
-          std::get<CombinedEllipsoid>(shape_at(RigidShape{CombinedEllipsoid(e)}, 1, position, r));
-      const auto cut = std::get<CombinedEllipsoid>(shape_at(RigidShape{body}, 1, position, r));
+      const auto image = *shape_at(RigidShape{CombinedEllipsoid(e)}, 1, position, r).quadric();
+      const auto cut = *shape_at(RigidShape{body}, 1, position, r).quadric();
       EXPECT_TRUE(image.ellipsoid().defined_by_factor());
       EXPECT_EQ(image.center(), position);
       for (int j = 0; j < 20; ++j) {
@@ -191,7 +190,7 @@ TEST(ShapeInTime, RigidBodiesAreTurnedAndMoved) {
       EXPECT_GE(reach(RigidShape{body}), axes.maxCoeff() * (1 - 1e-12));
     }
     const HullBody hull(std::vector<Vector3d>{random.vector(3), random.vector(3), random.vector(3)});
-    const auto moved = std::get<HullBody>(shape_at(RigidShape{hull}, 1, position, r));
+    const auto moved = *shape_at(RigidShape{hull}, 1, position, r).hull();
     for (std::size_t j = 0; j < 3; ++j) {
       EXPECT_TRUE(moved.points()[j].isApprox(position + r * hull.points()[j], 1e-14));
       EXPECT_LE(hull.points()[j].norm(), reach(RigidShape{hull}));

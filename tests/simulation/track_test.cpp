@@ -220,7 +220,7 @@ TEST(Track, ArcsJoin) {
   }
   const guidance::BodyState state = track.state(3.333);
   EXPECT_EQ(state.turning, guidance::Turning::with_heading);
-  EXPECT_EQ(std::get<CombinedEllipsoid>(state.shape).center(), state.position);
+  EXPECT_EQ(state.shape.quadric()->center(), state.position);
   EXPECT_EQ(state.position, track.motion(3.333).position);
 }
 

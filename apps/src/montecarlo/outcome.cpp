@@ -15,9 +15,7 @@ using namespace simulation;
 using guidance::GuideOptions;
 using guidance::LawStatus;
 
-const Ellipsoid& ellipsoid_of(const guidance::BodyState& state) {
-  return std::get<CombinedEllipsoid>(state.shape).ellipsoid();
-}
+const Ellipsoid& ellipsoid_of(const guidance::BodyState& state) { return state.shape.quadric()->ellipsoid(); }
 
 /// Fate and least distance of a run that is proved until `end` and then goes straight on for ever.
 void settle(const PairProof& proof, const Track& a, const Track& b, double end, Outcome& outcome) {

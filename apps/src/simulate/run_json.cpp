@@ -39,7 +39,7 @@ Json combined_json(const BasicCombined<D>& body, const char* ellipsoid, const ch
 /// With what a picture shows of it: a mesh, a cloud or a map thinned, each piece of a union as it is.
 Json placed_json(const Placed& placed) {
   Json json{{"kind", to_string(placed.body.kind())}};
-  if (const auto* pieces = std::get_if<std::vector<CombinedEllipsoid>>(&placed.body.shape())) {
+  if (const auto* pieces = placed.body.quadrics()) {
     json["pieces"] = Json::array();
     for (const CombinedEllipsoid& piece : *pieces) {
       const CombinedEllipsoid own = in_world(piece, placed.pose);
@@ -47,7 +47,7 @@ Json placed_json(const Placed& placed) {
       entry["center"] = vector_json(own.center());
       json["pieces"].push_back(entry);
     }
-  } else if (const auto* assembly = std::get_if<Assembly>(&placed.body.shape())) {
+  } else if (const auto* assembly = placed.body.assembly()) {
     json["size"] = assembly->size();
     if (assembly->kind() == PieceKind::hull) {
       json["pieces"] = Json::array();
@@ -65,33 +65,29 @@ Json placed_json(const Placed& placed) {
   return json;
 }
 
-Json shape_json(const guidance::Shape& shape) {
-  if (const auto* ellipse = std::get_if<CombinedEllipse>(&shape))
-    return combined_json<2>(*ellipse, "ellipse", "combined");
-  if (const auto* ellipsoid = std::get_if<CombinedEllipsoid>(&shape))
-    return combined_json<3>(*ellipsoid, "ellipsoid", "combined");
-  if (const auto* placed = std::get_if<Placed>(&shape)) return placed_json(*placed);
+Json body_json(const WorldBody& body) {
+  if (body.flat()) return combined_json<2>(*body.flat(), "ellipse", "combined");
+  if (body.quadric()) return combined_json<3>(*body.quadric(), "ellipsoid", "combined");
+  if (body.placed()) return placed_json(*body.placed());
   Json points = Json::array();
-  for (const Eigen::Vector3d& x : std::get<HullBody>(shape).points()) points.push_back(vector_json(x));
+  for (const Eigen::Vector3d& x : body.hull()->points()) points.push_back(vector_json(x));
   return {{"kind", "hull"}, {"points", points}};
 }
 
 Json shape_json(const ShapeInTime& shape) {
-  if (const auto* conic = std::get_if<DentedConic>(&shape))
-    return {{"kind", "dented_conic"}, {"a_c", conic->a_c}, {"b_c", conic->b_c}, {"k", k_json(conic->k)}};
-  if (const auto* quadric = std::get_if<DentedQuadric>(&shape))
-    return {
-        {"kind", "dented_quadric"}, {"dented", vector_json(quadric->semi_axes)}, {"k", k_json(quadric->k)}};
-  return shape_json(std::get<RigidShape>(shape).shape);
+  if (shape.rigid()) return body_json(*shape.rigid());
+  const Eigen::Vector3d& axes = shape.semi_axes();
+  if (planar(shape))
+    return {{"kind", "dented_conic"}, {"a_c", axes.x()}, {"b_c", axes.y()}, {"k", k_json(*shape.k())}};
+  return {{"kind", "dented_quadric"}, {"dented", vector_json(axes)}, {"k", k_json(*shape.k())}};
 }
 
 }  // namespace
 
 std::string shape_words(const simulation::Body& body) {
-  const guidance::Shape shape = shape_at(body.shape, body.appears, body.start.position, body.start.rotation);
-  const auto* flat = std::get_if<CombinedEllipse>(&shape);
-  return (flat != nullptr ? scenes::body_words(*flat) : scenes::body_words(guidance::placed(shape))) +
-         (std::holds_alternative<RigidShape>(body.shape) ? "" : ", k may change");
+  const WorldBody shape = shape_at(body.shape, body.appears, body.start.position, body.start.rotation);
+  return (shape.planar() ? scenes::body_words(*shape.flat()) : scenes::body_words(shape.as_placed())) +
+         (body.shape.rigid() ? "" : ", k may change");
 }
 
 Json proof_json(const Scenario& scenario, const Run& run) {

@@ -30,11 +30,7 @@ std::vector<double> command_times(const Scenario& scenario, const Run& run) {
   return times;
 }
 
-double k_at(const ShapeInTime& shape, double t) {
-  if (const auto* conic = std::get_if<DentedConic>(&shape)) return conic->k.at(t);
-  if (const auto* quadric = std::get_if<DentedQuadric>(&shape)) return quadric->k.at(t);
-  return kNothing;
-}
+double k_at(const ShapeInTime& shape, double t) { return shape.k() ? shape.k()->at(t) : kNothing; }
 
 void body_row(std::string& table, const simulation::Body& body, const Track& track, double t,
               guidance::Direction& heading, bool first) {

@@ -15,7 +15,7 @@ using Eigen::Vector2d;
 struct ChangingBody {
   const CombinedEllipse& body;
   const Matrix2d& shape_rate;
-  const std::vector<DelimiterRate>& rates;
+  const std::vector<DelimiterRate<2>>& rates;
   double omega;
 
   /// Half the gradient of conic i at y.
@@ -57,8 +57,8 @@ struct ChangingBody {
 // moving as above, n.(q' - p') + n'.(q - p) = 0 gives the turning rate of d, as for two ellipses.
 SectorRates combined_sector_rates(const CombinedSector& combined, const CombinedEllipse& a,
                                   const CombinedEllipse& b, const PlanarMotion& motion,
-                                  const std::vector<DelimiterRate>& rates_a,
-                                  const std::vector<DelimiterRate>& rates_b) {
+                                  const std::vector<DelimiterRate<2>>& rates_a,
+                                  const std::vector<DelimiterRate<2>>& rates_b) {
   require_edges(combined.sector);
   const ChangingBody changing_a{a, motion.shape_rate_a, rates_a, motion.omega_a},
       changing_b{b, motion.shape_rate_b, rates_b, motion.omega_b};

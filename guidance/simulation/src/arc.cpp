@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/ellipsoid.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/pose.h>
 #include <vericone/simulation/track.h>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -14,7 +15,6 @@
 #include <utility>
 
 #include "level_frame.h"
-#include "orthonormal.h"
 
 namespace vericone::simulation {
 namespace {

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meeting.h"
 
-#include <vericone/cones/combined/cone.h>
-#include <vericone/cones/combined/sector.h>
-#include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/cones/pair.h>
-#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <variant>
-#include <vector>
 
 #include "nearness.h"
 
@@ -20,7 +14,6 @@ namespace vericone::simulation {
 namespace {
 
 using Eigen::Vector3d;
-using guidance::Shape;
 
 /// Boxes of the search are refined to this part of the bodies.
 constexpr double kTolerance = 1e-8;
@@ -29,94 +22,30 @@ Meeting of_relation(Relation relation) {
   return relation == Relation::disjoint ? Meeting::apart : Meeting::meet;
 }
 
-Meeting meeting_of(const CombinedEllipse& a, const CombinedEllipse& b) {
-  if (a.is_ellipsoid() && b.is_ellipsoid()) return of_relation(relation<2>(a.ellipsoid(), b.ellipsoid()));
-  // The sector is fast and right unless nearer than rounding: that they are apart is proved of the raised
-  // bodies, whose relation is theirs.
-  if (combined_sector(a, b).sector.relation != Relation::disjoint) return Meeting::meet;
-  return Pair(a, b, {kTolerance}).relation() == Relation::disjoint ? Meeting::apart : Meeting::unknown;
+Meeting meeting_of(const WorldBody& a, const WorldBody& b) {
+  const std::optional<Relation> relation = relation_of(a, b, kTolerance);
+  return relation ? of_relation(*relation) : Meeting::unknown;
 }
 
-Meeting meeting_of(const CombinedEllipsoid& a, const CombinedEllipsoid& b) {
-  const Relation of_ellipsoids = relation<3>(a.ellipsoid(), b.ellipsoid());
-  if (of_ellipsoids == Relation::disjoint) return Meeting::apart;
-  if (a.is_ellipsoid() && b.is_ellipsoid()) return of_relation(of_ellipsoids);
-  const std::optional<Relation> certified = CombinedOracle(a, b, kTolerance).relation();
-  return certified ? of_relation(*certified) : Meeting::unknown;
+void require_served(const WorldBody& a, const WorldBody& b) {
+  if (a.planar() != b.planar() || (a.hull() && b.delimited()) || (a.delimited() && b.hull()))
+    throw InputError(
+        "bodies", "a hull and a body delimited by hyperboloids, or bodies of the plane and of space",
+        "a pair with a certified predicate: an ellipsoid and any other, two delimited bodies, two "
+        "hulls, or two bodies of the plane");
 }
 
-Meeting meeting_of(const HullBody& a, const HullBody& b) { return of_relation(HullOracle(a, b).relation()); }
-
-[[noreturn]] void refuse() {
-  throw InputError("bodies",
-                   "a hull and a body delimited by hyperboloids, or bodies of the plane and of space",
-                   "a pair with a certified predicate: an ellipsoid and any other, two delimited bodies, two "
-                   "hulls, or two bodies of the plane");
-}
-
-Meeting meeting_of(const CombinedEllipsoid& a, const HullBody& b) {
-  if (!a.is_ellipsoid()) refuse();
-  return of_relation(HullOracle(a.ellipsoid(), b).relation());
-}
-
-Meeting meeting_of(const HullBody& a, const CombinedEllipsoid& b) { return meeting_of(b, a); }
-
-template <typename A, typename B>
-Meeting meeting_of(const A&, const B&) {
-  refuse();
-}
-
-/// A body that contains all points within `distance` of the given one. The ellipsoid: of the ellipsoids
-/// (1 + 1/p) S + (1 + p) distance^2, which all contain the sum with the ball, one that fits round bodies. A
-/// delimiter: (y + e)^T M (y + e) <= level + 2 |e| |M y| + |e|^2 |M| with y in the ellipsoid.
-template <int D>
-BasicCombined<D> inflated(const BasicCombined<D>& body, double distance) {
-  using Matrix = Eigen::Matrix<double, D, D>;
-  constexpr double kUp = 1 + 1e-12;
-  const BasicEllipsoid<D>& e = body.ellipsoid();
-  const double p = std::sqrt(e.shape().trace() / D) / distance;
-  Matrix shape = (1 + 1 / p) * kUp * e.shape();
-  shape.diagonal().array() += (1 + p) * kUp * distance * distance;
-  const auto ellipsoid = BasicEllipsoid<D>::from_shape(e.center(), shape);
-  std::vector<Delimiter<D>> delimiters;
-  for (const Delimiter<D>& d : body.delimiters()) {
-    const double level =
-        (d.level + 2 * distance * (d.matrix * e.factor()).norm() + distance * distance * d.matrix.norm()) *
-        kUp;
-    const Matrix seen = ellipsoid.factor().transpose() * d.matrix * ellipsoid.factor();
-    const double most = symmetric_eigenvalues<D>(0.5 * (seen + seen.transpose()))(D - 1);
-    // One that hardly cuts any more is left out: the body only grows.
-    if (most > level * (1 + 1e-9)) delimiters.push_back({d.matrix, level});
-  }
-  return BasicCombined<D>::trusted(ellipsoid, std::move(delimiters));
-}
-
-template <int D>
-bool apart_by(const BasicCombined<D>& a, const BasicCombined<D>& b, double distance) {
-  const bool inflate_b = b.is_ellipsoid() || !a.is_ellipsoid();
-  return (inflate_b ? meeting_of(a, inflated<D>(b, distance)) : meeting_of(inflated<D>(a, distance), b)) ==
+bool apart_by(const WorldBody& a, const WorldBody& b, double distance) {
+  const bool inflate_b = !b.delimited() || a.delimited();
+  return (inflate_b ? meeting_of(a, b.inflated(distance)) : meeting_of(a.inflated(distance), b)) ==
          Meeting::apart;
-}
-
-bool has_delimiters(const Shape& shape) {
-  if (const auto* flat = std::get_if<CombinedEllipse>(&shape)) return !flat->is_ellipsoid();
-  if (const auto* body = std::get_if<CombinedEllipsoid>(&shape)) return !body->is_ellipsoid();
-  return false;
-}
-
-/// Below 1 inside, above 1 outside; hulls know no such function.
-double gauge(const Shape& shape, const Vector3d& x) {
-  if (const auto* flat = std::get_if<CombinedEllipse>(&shape))
-    return flat->gauge(Eigen::Vector2d(x.head<2>() - flat->center()));
-  const auto& body = std::get<CombinedEllipsoid>(shape);
-  return body.gauge(x - body.center());
 }
 
 /// Where the larger of both gauges is least, by a pattern search: a common point where there is one. The
 /// pattern turns at every step, as the larger of two functions has ridges.
 Vector3d by_gauges(const Posed& bodies, const Vector3d& p_a, const Vector3d& p_b, const Vector3d& guess,
                    bool planar) {
-  const auto value = [&](const Vector3d& x) { return std::max(gauge(bodies.a, x), gauge(bodies.b, x)); };
+  const auto value = [&](const Vector3d& x) { return std::max(bodies.a.gauge(x), bodies.b.gauge(x)); };
   const double size = (p_b - p_a).norm() + 1e-9;
   Vector3d best = guess;
   double least = value(best);
@@ -152,9 +81,9 @@ Vector3d by_gauges(const Posed& bodies, const Vector3d& p_a, const Vector3d& p_b
 }
 
 /// The middle of all that lies next to the supporting plane along n, and how much that is.
-std::pair<Vector3d, std::size_t> face(const Shape& shape, const SweptBody& swept, const Vector3d& position,
+std::pair<Vector3d, std::size_t> face(const WorldBody& body, const SweptBody& swept, const Vector3d& position,
                                       const Vector3d& n) {
-  if (const auto* hull = std::get_if<HullBody>(&shape)) {
+  if (const HullBody* hull = body.hull()) {
     const double most = hull->support(n);
     double size = 0;
     for (const Vector3d& x : hull->points()) size = std::max(size, (x - position).norm());
@@ -178,12 +107,13 @@ Meeting meeting(const MovingPair& pair, const Moment& moment) {
     const std::optional<Relation> relation = certified_pair(bodies).relation();
     return relation ? of_relation(*relation) : Meeting::unknown;
   }
-  return std::visit([](const auto& a, const auto& b) { return meeting_of(a, b); }, bodies.a, bodies.b);
+  require_served(bodies.a, bodies.b);
+  return meeting_of(bodies.a, bodies.b);
 }
 
 bool delimited(const MovingPair& pair, const Moment& moment) {
   const Posed bodies = posed(pair, moment);
-  return has_delimiters(bodies.a) || has_delimiters(bodies.b);
+  return bodies.a.delimited() || bodies.b.delimited();
 }
 
 std::optional<Inflation> apart_by_inflation(const MovingPair& pair, const Piece& piece, double padding,
@@ -200,12 +130,7 @@ std::optional<Inflation> apart_by_inflation(const MovingPair& pair, const Piece&
                         padding + 1e-9 * (reach(pair.a().shape()) + reach(pair.b().shape()));
   if (!std::isfinite(needed)) return std::nullopt;
   const Posed bodies = posed_over(pair, piece);
-  const auto proved = [&](double distance) {
-    if (const auto* p = std::get_if<CombinedEllipse>(&bodies.a))
-      return apart_by<2>(*p, std::get<CombinedEllipse>(bodies.b), distance);
-    return apart_by<3>(std::get<CombinedEllipsoid>(bodies.a), std::get<CombinedEllipsoid>(bodies.b),
-                       distance);
-  };
+  const auto proved = [&](double distance) { return apart_by(bodies.a, bodies.b, distance); };
   if (!proved(needed)) return std::nullopt;
   if (!measure) return Inflation{};
   double lo = needed, hi = 2 * needed;
@@ -236,9 +161,8 @@ Vector3d place_between(const MovingPair& pair, const Moment& moment, const Vecto
 Vector3d place_of_meeting(const MovingPair& pair, const Moment& moment, const Vector3d& normal) {
   const Posed bodies = posed(pair, moment);
   const Vector3d between = place_between(pair, moment, normal);
-  const bool hulls = std::holds_alternative<HullBody>(bodies.a) || std::holds_alternative<HullBody>(bodies.b);
-  if (hulls) return between;
-  if (!has_delimiters(bodies.a) && !has_delimiters(bodies.b) && !normal.isZero(0)) return between;
+  if (bodies.a.hull() || bodies.b.hull()) return between;
+  if (!bodies.a.delimited() && !bodies.b.delimited() && !normal.isZero(0)) return between;
   return by_gauges(bodies, moment.a.position, moment.b.position, between, pair.planar());
 }
 

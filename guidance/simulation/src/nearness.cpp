@@ -11,10 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-bool is_placed(const ShapeInTime& shape) {
-  const auto* rigid = std::get_if<RigidShape>(&shape);
-  return rigid && guidance::if_placed(rigid->shape) != nullptr;
-}
+bool is_placed(const ShapeInTime& shape) { return shape.rigid() && shape.rigid()->placed(); }
 
 /// What no point of a body moves more than by turning, about its position.
 double sway(double reach, const Track::Bounds& bounds, const Piece& piece) {
@@ -41,7 +38,7 @@ bool by_distances(const MovingPair& pair) {
 
 Pair certified_pair(const Posed& bodies) {
   try {
-    return guidance::pair_of(bodies.a, bodies.b);
+    return pair_of(bodies.a, bodies.b);
   } catch (const InputError& e) {
     throw InputError("bodies", e.field() + ": " + e.value(), e.requirement());
   }
@@ -82,8 +79,8 @@ Vector3d place_of_nearest(const MovingPair& pair, const Moment& moment) {
   const Miss miss = certified_pair(bodies).miss(Vector3d::Zero(), Vector3d::Zero());
   const Vector3d half = 0.5 * miss.distance * miss.normal;
   if (miss.normal.isZero(0)) return moment.a.position;
-  if (const auto on_a = guidance::support_point(bodies.a, miss.normal)) return *on_a + half;
-  if (const auto on_b = guidance::support_point(bodies.b, -miss.normal)) return *on_b - half;
+  if (const auto on_a = bodies.a.support_point(miss.normal)) return *on_a + half;
+  if (const auto on_b = bodies.b.support_point(-miss.normal)) return *on_b - half;
   return moment.a.position;
 }
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <vericone/cones/pair.h>
-#include <vericone/guidance/body_state.h>
+#include <vericone/geometry/world_body.h>
 
 #include "separation.h"
 
@@ -13,7 +13,7 @@ namespace vericone::simulation {
 
 /// Two bodies as they stand.
 struct Posed {
-  guidance::Shape a, b;
+  WorldBody a, b;
 };
 Posed posed(const MovingPair& pair, const Moment& moment);
 /// All shapes of a piece of time, where the bodies stand in its middle.

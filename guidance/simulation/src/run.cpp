@@ -333,7 +333,7 @@ class Runner {
   /// Whether two bodies stay as they are to each other: pieces of one, perhaps.
   bool move_together(std::size_t i, std::size_t j) const {
     const auto steady = [&](std::size_t k) {
-      const bool rigid = std::holds_alternative<RigidShape>(run_.tracks[k].shape());
+      const bool rigid = run_.tracks[k].shape().rigid() != nullptr;
       return rigid && std::none_of(run_.tracks[k].arcs().begin(), run_.tracks[k].arcs().end(),
                                    [](const Arc& arc) { return arc.accelerated(); });
     };

@@ -67,7 +67,7 @@ void check_kinds(const Pilot& pilot, const Body& self, const Scenario& scenario)
                            " and " + other.name + " do not have",
                        "exact sectors, clearance, or avoidance with the manner guarded");
     try {
-      static_cast<void>(guidance::pair_of(agent.shape, obstacle.shape));
+      static_cast<void>(pair_of(agent.shape, obstacle.shape));
     } catch (const InputError& e) {
       throw InputError("minds", other.name + " (" + e.value() + ")",
                        "bodies of kinds that are certified against that of " + self.name);

@@ -2,6 +2,7 @@
 #include <vericone/simulation/shape_in_time.h>
 
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/pose.h>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
@@ -9,8 +10,6 @@
 #include <limits>
 #include <string>
 #include <utility>
-
-#include "orthonormal.h"
 
 namespace vericone::simulation {
 namespace {
@@ -24,68 +23,6 @@ using Eigen::Vector3d;
 constexpr double kPlain = 1e-12;
 /// Lengths are rounded up by this.
 constexpr double kUp = 1 + 1e-14;
-
-template <typename... F>
-struct Overloaded : F... {
-  using F::operator()...;
-};
-template <typename... F>
-Overloaded(F...) -> Overloaded<F...>;  // clang 14 does not find it by itself
-
-/// What a planar shape sees of a rotation.
-Matrix2d about_z(const Matrix3d& rotation) {
-  const double c = rotation(0, 0), s = rotation(1, 0), length = std::hypot(c, s);
-  if (!(length > 0)) return Matrix2d::Identity();
-  return (Matrix2d() << c, -s, s, c).finished() / length;
-}
-
-template <int D>
-Eigen::Matrix<double, D, D> rotation_of(const Matrix3d& rotation) {
-  if constexpr (D == 2) {
-    return about_z(rotation);
-  } else {
-    return rotation;
-  }
-}
-
-/// R M R^T, symmetric bit for bit.
-template <int D>
-Eigen::Matrix<double, D, D> turned(const Eigen::Matrix<double, D, D>& r,
-                                   const Eigen::Matrix<double, D, D>& m) {
-  const Eigen::Matrix<double, D, D> image = r * m * r.transpose();
-  return 0.5 * (image + image.transpose());
-}
-
-/// The image of an ellipsoid about the origin; defined by its factor, as exact predicates want it.
-template <int D>
-BasicEllipsoid<D> posed(const BasicEllipsoid<D>& e, const Eigen::Matrix<double, D, 1>& position,
-                        const Eigen::Matrix<double, D, D>& rotation) {
-  using Matrix = Eigen::Matrix<double, D, D>;
-  using Vector = Eigen::Matrix<double, D, 1>;
-  const Matrix& f = e.factor();
-  Vector axes = f.colwise().norm().transpose();
-  Matrix directions = f * axes.cwiseInverse().asDiagonal();
-  // A factor from axes has them along its columns; one from a shape matrix has not.
-  const Matrix gram = directions.transpose() * directions - Matrix::Identity();
-  if (!(gram.cwiseAbs().maxCoeff() < 1e-12)) {
-    axes = e.semi_axes();
-    directions = e.axis_directions();
-  }
-  if (directions.determinant() < 0) directions.col(0) = -directions.col(0);
-  return BasicEllipsoid<D>::from_axes(position, axes, orthonormal<D>(rotation * directions));
-}
-
-template <int D>
-BasicCombined<D> posed(const BasicCombined<D>& body, const Eigen::Matrix<double, D, 1>& position,
-                       const Eigen::Matrix<double, D, D>& rotation) {
-  const BasicEllipsoid<D> ellipsoid = posed<D>(body.ellipsoid(), position, rotation);
-  if (body.is_ellipsoid()) return ellipsoid;
-  const Eigen::Matrix<double, D, D> r = orthonormal<D>(rotation);
-  std::vector<Delimiter<D>> delimiters;
-  delimiters.reserve(body.delimiters().size());
-  for (const Delimiter<D>& d : body.delimiters()) delimiters.push_back({turned<D>(r, d.matrix), d.level});
-  return BasicCombined<D>::trusted(ellipsoid, std::move(delimiters));
-}
 
 /// x_1^2 / a_1^2 - (the other terms) <= 1 in turned axes.
 template <int D>
@@ -146,111 +83,68 @@ double dented_reach(double a, double b, const Oscillation& k) {
   return std::sqrt(std::max(a * a * (1 + 2 * kPlain) + b * b * most, b * b * (1 + most))) * kUp;
 }
 
-/// To the farthest corner of the bounds, which may be farther than any point of the body.
-double placed_reach(const Placed& body) {
-  const Box bounds = body.body.bounds();
-  const HullBody corners = HullBody::box(bounds.low, bounds.high);
-  double most = 0;
-  for (const Vector3d& corner : corners.points()) most = std::max(most, body.pose.to_world(corner).norm());
-  return most * (1 + 1e-12);
+/// A dented body with the ellipse of one k and the hyperbola of another.
+WorldBody dented(const ShapeInTime& shape, double least, double most, const Vector3d& position,
+                 const Matrix3d& rotation) {
+  const Vector3d& axes = shape.semi_axes();
+  if (planar(shape)) return dented<2>(Vector2d(axes.head<2>()), least, most, position, rotation);
+  return dented<3>(axes, least, most, position, rotation);
 }
 
 }  // namespace
 
 void check(const ShapeInTime& shape) {
-  std::visit(Overloaded{[](const RigidShape& rigid) {
-                          if (const auto* p = std::get_if<CombinedEllipse>(&rigid.shape))
-                            require_about_origin(p->center());
-                          if (const auto* p = std::get_if<CombinedEllipsoid>(&rigid.shape))
-                            require_about_origin(p->center());
-                        },
-                        [](const DentedConic& conic) {
-                          require_positive(conic.a_c, "a_c");
-                          require_positive(conic.b_c, "b_c");
-                          check_k(conic.k);
-                        },
-                        [](const DentedQuadric& quadric) {
-                          for (int i = 0; i < 3; ++i)
-                            require_positive(quadric.semi_axes(i), "semi_axes[" + std::to_string(i) + "]");
-                          check_k(quadric.k);
-                        }},
-             shape);
-}
-
-bool planar(const ShapeInTime& shape) {
-  if (const auto* rigid = std::get_if<RigidShape>(&shape))
-    return std::holds_alternative<CombinedEllipse>(rigid->shape);
-  return std::holds_alternative<DentedConic>(shape);
-}
-
-guidance::Shape shape_at(const ShapeInTime& shape, double t, const Vector3d& position,
-                         const Matrix3d& rotation) {
-  if (const auto* conic = std::get_if<DentedConic>(&shape)) {
-    const double k = conic->k.at(t);
-    return dented<2>({conic->a_c, conic->b_c}, k, k, position, rotation);
+  const Vector3d& axes = shape.semi_axes();
+  if (const WorldBody* body = shape.rigid()) {
+    if (body->flat()) require_about_origin(body->flat()->center());
+    if (body->quadric()) require_about_origin(body->quadric()->center());
+    return;
   }
-  if (const auto* quadric = std::get_if<DentedQuadric>(&shape)) {
-    const double k = quadric->k.at(t);
-    return dented<3>(quadric->semi_axes, k, k, position, rotation);
+  if (planar(shape)) {
+    require_positive(axes.x(), "a_c");
+    require_positive(axes.y(), "b_c");
+  } else {
+    for (int i = 0; i < 3; ++i) require_positive(axes(i), "semi_axes[" + std::to_string(i) + "]");
   }
-  const guidance::Shape& rigid = std::get<RigidShape>(shape).shape;
-  if (const auto* body = std::get_if<CombinedEllipse>(&rigid))
-    return posed<2>(*body, position.head<2>(), about_z(rotation));
-  if (const auto* body = std::get_if<CombinedEllipsoid>(&rigid)) return posed<3>(*body, position, rotation);
-  if (const auto* body = std::get_if<Placed>(&rigid))
-    return Placed(body->body, composed({position, orthonormal<3>(rotation)}, body->pose));
-  std::vector<Vector3d> points = std::get<HullBody>(rigid).points();
-  for (Vector3d& x : points) x = position + rotation * x;
-  return HullBody(std::move(points));
+  check_k(*shape.k());
 }
 
-guidance::ShapeRate shape_rate_at(const ShapeInTime& shape, double t, const Matrix3d& rotation) {
-  guidance::ShapeRate rate;
-  // S = (1 + k) R diag(a^2) R^T, level = 1 - k.
-  const auto fill = [&](const Oscillation& oscillation) {
-    const double slope = oscillation.rate_at(t);
-    rate.shape *= slope;
-    if (oscillation.at(t) >= kPlain) rate.delimiters.push_back({Matrix3d::Zero(), -slope});
-  };
-  if (const auto* conic = std::get_if<DentedConic>(&shape)) {
-    const Matrix2d squares = Vector2d(conic->a_c, conic->b_c).cwiseAbs2().asDiagonal();
-    rate.shape.topLeftCorner<2, 2>() = turned<2>(about_z(rotation), squares);
-    fill(conic->k);
-  } else if (const auto* quadric = std::get_if<DentedQuadric>(&shape)) {
-    const Matrix3d squares = quadric->semi_axes.cwiseAbs2().asDiagonal();
+bool planar(const ShapeInTime& shape) { return shape.rigid_ ? shape.rigid_->planar() : shape.flat_; }
+
+WorldBody shape_at(const ShapeInTime& shape, double t, const Vector3d& position, const Matrix3d& rotation) {
+  if (shape.rigid()) return shape.rigid()->posed(position, rotation);
+  const double k = shape.k()->at(t);
+  return dented(shape, k, k, position, rotation);
+}
+
+BodyRate shape_rate_at(const ShapeInTime& shape, double t, const Matrix3d& rotation) {
+  BodyRate rate;
+  if (shape.rigid()) return rate;
+  const Matrix3d squares = shape.semi_axes().cwiseAbs2().asDiagonal();
+  if (planar(shape)) {
+    const Matrix2d flat = squares.topLeftCorner<2, 2>();
+    rate.shape.topLeftCorner<2, 2>() = turned<2>(rotation_of<2>(rotation), flat);
+  } else {
     rate.shape = turned<3>(rotation, squares);
-    fill(quadric->k);
   }
+  // S = (1 + k) R diag(a^2) R^T, level = 1 - k.
+  const double slope = shape.k()->rate_at(t);
+  rate.shape *= slope;
+  if (shape.k()->at(t) >= kPlain) rate.delimiters.push_back({Matrix3d::Zero(), -slope});
   return rate;
 }
 
-guidance::Shape shape_over(const ShapeInTime& shape, double from, double to, const Vector3d& position,
-                           const Matrix3d& rotation) {
-  if (const auto* conic = std::get_if<DentedConic>(&shape)) {
-    const Oscillation::Range k = conic->k.range(from, to);
-    return dented<2>(Vector2d(conic->a_c, conic->b_c), k.low, k.high, position, rotation);
-  }
-  if (const auto* quadric = std::get_if<DentedQuadric>(&shape)) {
-    const Oscillation::Range k = quadric->k.range(from, to);
-    return dented<3>(quadric->semi_axes, k.low, k.high, position, rotation);
-  }
-  return shape_at(shape, from, position, rotation);
+WorldBody shape_over(const ShapeInTime& shape, double from, double to, const Vector3d& position,
+                     const Matrix3d& rotation) {
+  if (shape.rigid()) return shape_at(shape, from, position, rotation);
+  const Oscillation::Range k = shape.k()->range(from, to);
+  return dented(shape, k.low, k.high, position, rotation);
 }
 
 double reach(const ShapeInTime& shape) {
-  if (const auto* conic = std::get_if<DentedConic>(&shape))
-    return dented_reach(conic->a_c, conic->b_c, conic->k);
-  if (const auto* quadric = std::get_if<DentedQuadric>(&shape))
-    return dented_reach(quadric->semi_axes(0), quadric->semi_axes.tail<2>().maxCoeff(), quadric->k);
-  const guidance::Shape& rigid = std::get<RigidShape>(shape).shape;
-  if (const auto* body = std::get_if<CombinedEllipse>(&rigid))
-    return body->ellipsoid().semi_axes().maxCoeff() * kUp;
-  if (const auto* body = std::get_if<CombinedEllipsoid>(&rigid))
-    return body->ellipsoid().semi_axes().maxCoeff() * kUp;
-  if (const auto* body = std::get_if<Placed>(&rigid)) return placed_reach(*body);
-  double most = 0;
-  for (const Vector3d& x : std::get<HullBody>(rigid).points()) most = std::max(most, x.norm());
-  return most * kUp;
+  if (shape.rigid()) return shape.rigid()->reach();
+  const Vector3d& axes = shape.semi_axes();
+  return dented_reach(axes(0), planar(shape) ? axes(1) : axes.tail<2>().maxCoeff(), *shape.k());
 }
 
 }  // namespace vericone::simulation

@@ -2,12 +2,12 @@
 #include "swept_body.h"
 
 #include <vericone/geometry/decompositions.h>
+#include <vericone/geometry/requires.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
-#include <variant>
 
 namespace vericone::simulation {
 namespace {
@@ -61,14 +61,12 @@ double golden_minimum(const F& f, double lo, double hi, int steps) {
 SweptBody::SweptBody(const ShapeInTime& shape, double reach, double from, double to, const Matrix3d& rotation,
                      double angle)
     : reach_(reach), angle_(angle) {
-  guidance::Shape posed = shape_over(shape, from, to, Vector3d::Zero(), rotation);
-  if (auto* flat = std::get_if<CombinedEllipse>(&posed)) {
-    body_ = in_space(*flat);
-  } else if (auto* body = std::get_if<CombinedEllipsoid>(&posed)) {
-    body_ = std::move(*body);
-  } else {
-    hull_ = std::move(std::get<HullBody>(posed));
-  }
+  const WorldBody posed = shape_over(shape, from, to, Vector3d::Zero(), rotation);
+  VERICONE_REQUIRES(!posed.placed());
+  if (posed.hull())
+    hull_ = *posed.hull();
+  else
+    body_ = posed.planar() ? in_space(*posed.flat()) : *posed.quadric();
   const Matrix3d& f = body_.ellipsoid().factor();
   for (const Delimiter<3>& d : body_.delimiters()) {
     const Matrix3d a = f.transpose() * d.matrix * f;

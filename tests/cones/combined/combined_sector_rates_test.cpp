@@ -58,7 +58,7 @@ struct Change {
   Vector2d v = Vector2d::Zero();
   double omega = 0;
   Matrix2d shape = Matrix2d::Zero();
-  std::vector<DelimiterRate> delimiters;
+  std::vector<DelimiterRate<2>> delimiters;
 };
 
 Change random_change(RandomBodies& random, const CombinedEllipse& body, int kind) {

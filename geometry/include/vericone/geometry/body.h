@@ -52,6 +52,12 @@ class Body {
   [[nodiscard]] BodyKind kind() const;
   [[nodiscard]] const Shape& shape() const;
 
+  // Its parts, where it is made of that; otherwise null.
+  [[nodiscard]] const CombinedEllipsoid* quadric() const;
+  [[nodiscard]] const HullBody* hull() const;
+  [[nodiscard]] const Assembly* assembly() const;
+  [[nodiscard]] const std::vector<CombinedEllipsoid>* quadrics() const;  // of a union
+
   /// Support function max n.x over the body; rounded to a few units in the last place of the largest term. Of
   /// a combined body, the ellipsoid's that contains it: it may be too large, never too small. Linear in the
   /// points of a hull and the pieces of a union, a descent of the tree of an assembly. No allocation.

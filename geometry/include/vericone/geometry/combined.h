@@ -24,6 +24,20 @@ struct Delimiter {
   [[nodiscard]] double value(const Eigen::Matrix<double, D, 1>& y) const { return y.dot(matrix * y) - level; }
 };
 
+/// How a delimiter changes beyond moving and turning with its body.
+template <int D>
+struct DelimiterRate {
+  Eigen::Matrix<double, D, D> matrix = Eigen::Matrix<double, D, D>::Zero();  // 1 / (m^2 s)
+  double level = 0;                                                          // 1 / s
+};
+
+/// How a body changes beyond moving and turning; zero for rigid ones. Of a planar body the x and y parts
+/// count.
+struct BodyRate {
+  Eigen::Matrix3d shape = Eigen::Matrix3d::Zero();  // of the ellipsoid's S, m^2/s
+  std::vector<DelimiterRate<3>> delimiters;         // missing ones are zero
+};
+
 /// The centre's side of the hyperboloid with semi-axes (a, b, c), its axis along the first column of
 /// `rotation`:
 ///   sheets = 2:  x^2/a^2 - y^2/b^2 - z^2/c^2 <= 1 cuts two dents,

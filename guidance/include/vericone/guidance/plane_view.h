@@ -3,8 +3,7 @@
 // An engagement seen on one plane through the line of sight: the states and the cone that planar laws read.
 #pragma once
 
-#include <vericone/cones/combined/edge.h>
-#include <vericone/cones/combined/plane_sector.h>
+#include <vericone/cones/plane_cones.h>
 #include <vericone/guidance/body_state.h>
 #include <vericone/guidance/kinematics.h>
 #include <vericone/guidance/laws.h>
@@ -13,11 +12,7 @@
 
 namespace vericone::guidance {
 
-/// Which cone the plane is cut from. Planar bodies have one sector, whatever is asked.
-enum class SectorMethod : std::uint8_t {
-  slice,      // the source's: both bodies' sections by the plane (6.11); too small
-  true_cone,  // the true cone's section: contacts outside the plane count
-};
+using vericone::SectorMethod;
 
 enum class RateMethod : std::uint8_t {
   analytic,     // closed form where there is one (below), else `differenced`
@@ -46,9 +41,10 @@ struct PlaneView {
 [[nodiscard]] PlaneView plane_states(const BodyState& a, const BodyState& b, const Eigen::Vector3d& across,
                                      double plane_spin = 0);
 
-/// Whether there are sectors of bodies of these kinds: of two planar ones, by the true cone of any two in
-/// space, by slices of two combined ones and of an ellipsoid and a hull.
-[[nodiscard]] bool has_sectors(const BodyState& a, const BodyState& b, SectorMethod method);
+/// Of bodies of these kinds (plane_cones.h).
+[[nodiscard]] inline bool has_sectors(const BodyState& a, const BodyState& b, SectorMethod method) {
+  return vericone::has_sectors(a.shape, b.shape, method);
+}
 
 /// The cone at `view`, filled in; false where the bodies are not apart (on the plane, for slices) or an
 /// oracle does not decide, and nothing is written.

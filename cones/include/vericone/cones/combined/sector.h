@@ -34,19 +34,13 @@ struct CombinedSector {
 /// about 2 us where the ellipses are disjoint, no allocation for up to three delimiters.
 [[nodiscard]] CombinedSector combined_sector(const CombinedEllipse& a, const CombinedEllipse& b);
 
-/// How a delimiter of a body changes beyond moving and turning with it.
-struct DelimiterRate {
-  Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();  // 1 / (m^2 s), added to what turning does
-  double level = 0;                                  // 1 / s
-};
-
 /// Rates of psi and theta_b, rad/s, in closed form; an edge through a corner moves with the corner. The
 /// motion's shape rates are those of the ellipses; missing delimiter rates are zero. Throws
 /// InputError naming "sector.relation" where it is not that of disjoint bodies.
 [[nodiscard]] SectorRates combined_sector_rates(const CombinedSector& sector, const CombinedEllipse& a,
                                                 const CombinedEllipse& b, const PlanarMotion& motion,
-                                                const std::vector<DelimiterRate>& rates_a = {},
-                                                const std::vector<DelimiterRate>& rates_b = {});
+                                                const std::vector<DelimiterRate<2>>& rates_a = {},
+                                                const std::vector<DelimiterRate<2>>& rates_b = {});
 
 /// How the source chooses among the tangents.
 enum class TangentChoice {

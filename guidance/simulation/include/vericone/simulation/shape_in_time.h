@@ -4,8 +4,9 @@
 // are during an interval.
 #pragma once
 
-#include <vericone/guidance/body_state.h>
-#include <variant>
+#include <vericone/geometry/world_body.h>
+#include <optional>
+#include <utility>
 
 namespace vericone::simulation {
 
@@ -27,7 +28,7 @@ struct Oscillation {
 /// About the origin of the body's own frame, its x axis ahead. Hulls and placed bodies: the origin is the
 /// reference point.
 struct RigidShape {
-  guidance::Shape shape;
+  WorldBody shape;
 };
 
 /// The source's conic (5.5) with the dents ahead and behind, k(t) in [0, 1].
@@ -43,7 +44,29 @@ struct DentedQuadric {
   Oscillation k;
 };
 
-using ShapeInTime = std::variant<RigidShape, DentedConic, DentedQuadric>;
+/// One of these.
+class ShapeInTime {
+ public:
+  ShapeInTime(RigidShape rigid = {}) : rigid_(std::move(rigid.shape)) {}  // NOLINT: each of these is one
+  ShapeInTime(const DentedConic& conic)                                   // NOLINT
+      : semi_axes_(conic.a_c, conic.b_c, 0), flat_(true), k_(conic.k) {}
+  ShapeInTime(const DentedQuadric& quadric) : semi_axes_(quadric.semi_axes), k_(quadric.k) {}  // NOLINT
+
+  /// The body where it stays as it is; null where its dents change.
+  [[nodiscard]] const WorldBody* rigid() const { return rigid_ ? &*rigid_ : nullptr; }
+  /// Of one with dents: how deep they are, otherwise null.
+  [[nodiscard]] const Oscillation* k() const { return rigid_ ? nullptr : &k_; }
+  /// Of one with dents, for k = 0: a_c, b_c and 0 in the plane.
+  [[nodiscard]] const Eigen::Vector3d& semi_axes() const { return semi_axes_; }
+
+ private:
+  friend bool planar(const ShapeInTime& shape);
+
+  std::optional<WorldBody> rigid_;
+  Eigen::Vector3d semi_axes_ = Eigen::Vector3d::Zero();
+  bool flat_ = false;
+  Oscillation k_;
+};
 
 /// Throws InputError: "center", "a_c", "b_c", "semi_axes[i]" or "k" (values outside [0, 1] at some time).
 void check(const ShapeInTime& shape);
@@ -52,17 +75,16 @@ void check(const ShapeInTime& shape);
 
 /// At time t, centre (reference point) at `position`, turned by `rotation`. Of planar shapes the rotation
 /// about z counts.
-[[nodiscard]] guidance::Shape shape_at(const ShapeInTime& shape, double t, const Eigen::Vector3d& position,
-                                       const Eigen::Matrix3d& rotation);
+[[nodiscard]] WorldBody shape_at(const ShapeInTime& shape, double t, const Eigen::Vector3d& position,
+                                 const Eigen::Matrix3d& rotation);
 
 /// Rates at time t in world axes, beyond turning.
-[[nodiscard]] guidance::ShapeRate shape_rate_at(const ShapeInTime& shape, double t,
-                                                const Eigen::Matrix3d& rotation);
+[[nodiscard]] BodyRate shape_rate_at(const ShapeInTime& shape, double t, const Eigen::Matrix3d& rotation);
 
 /// A shape that contains the body at every time of [from, to]: (5.5) with the ellipse of the largest k and
 /// the hyperbola of the least. Posed like shape_at.
-[[nodiscard]] guidance::Shape shape_over(const ShapeInTime& shape, double from, double to,
-                                         const Eigen::Vector3d& position, const Eigen::Matrix3d& rotation);
+[[nodiscard]] WorldBody shape_over(const ShapeInTime& shape, double from, double to,
+                                   const Eigen::Vector3d& position, const Eigen::Matrix3d& rotation);
 
 /// The largest distance of a point of the body from its reference point, at any time; rounded up.
 [[nodiscard]] double reach(const ShapeInTime& shape);

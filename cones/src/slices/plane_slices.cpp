@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// Sections of both bodies by one plane: the source's way to cones in space (6.3.1-6.3.3), with the rates it
-// leaves to numerical differences.
+#include "slices/plane_slices.h"
+
 #include <vericone/cones/slices/visible_sector.h>
 #include <vericone/geometry/requires.h>
 #include <vericone/geometry/scaled_inverse.h>
 #include <Eigen/Geometry>
 #include <cmath>
+#include <vector>
 
-#include "plane_cones.h"
-
-namespace vericone::guidance {
+namespace vericone {
 namespace {
 
 using Eigen::Matrix2d;
@@ -22,7 +20,7 @@ using PlaneAxes = Eigen::Matrix<double, 3, 2>;
 /// How the section of a body changes in axes (u, e) that turn with the plane.
 struct SectionRates {
   Matrix2d shape;
-  std::vector<DelimiterRate> delimiters;  // of the section's own
+  std::vector<DelimiterRate<2>> delimiters;  // of the section's own
 };
 
 /// A quadratic form Q that turns with omega and changes by `rate` as well has P^T Q P changing by
@@ -33,7 +31,7 @@ Matrix2d form_rate(const PlaneAxes& qp, const PlaneAxes& w) {
 }
 
 SectionRates rates_of(const CombinedEllipse& section, const CombinedEllipsoid& body, const PlaneAxes& p,
-                      const Vector3d& omega, const ShapeRate* rate) {
+                      const Vector3d& omega, const BodyRate* rate) {
   PlaneAxes w;
   w << omega.cross(p.col(0)), omega.cross(p.col(1));
   // The section is { y : y^T M y <= 1 } with M = P^T S^{-1} P, its shape matrix M^{-1}.
@@ -51,7 +49,7 @@ SectionRates rates_of(const CombinedEllipse& section, const CombinedEllipsoid& b
     const PlaneAxes dp = d.matrix * p;
     const Matrix2d m = p.transpose() * dp;
     if (d.level != own[next].level || (m - own[next].matrix).norm() > 1e-12 * dp.norm()) continue;
-    DelimiterRate change{form_rate(dp, w), 0};
+    DelimiterRate<2> change{form_rate(dp, w), 0};
     if (rate && i < rate->delimiters.size()) {
       change.matrix += p.transpose() * rate->delimiters[i].matrix * p;
       change.level = rate->delimiters[i].level;
@@ -78,8 +76,8 @@ Sections sections_of(const CombinedEllipsoid& a, const CombinedEllipsoid& b, con
   return s;
 }
 
-OpeningRates section_rates(const Sections& sections, const CombinedEllipsoid& a, const CombinedEllipsoid& b,
-                           const Vector3d& u, const Vector3d& e, const TurningMotion& motion) {
+SectorRates section_rates(const Sections& sections, const CombinedEllipsoid& a, const CombinedEllipsoid& b,
+                          const Vector3d& u, const Vector3d& e, const SectionMotion& motion) {
   VERICONE_REQUIRES(sections.disjoint());
   const PlaneAxes p = axes_of(u, e);
   const SectionRates of_a = rates_of(sections.a, a, p, motion.omega_a, motion.rate_a),
@@ -88,13 +86,12 @@ OpeningRates section_rates(const Sections& sections, const CombinedEllipsoid& a,
   planar.v_b = Vector2d(motion.closing, 0);
   planar.shape_rate_a = of_a.shape;
   planar.shape_rate_b = of_b.shape;
-  const SectorRates rates = combined_sector_rates(sections.sector, sections.a, sections.b, planar,
-                                                  of_a.delimiters, of_b.delimiters);
-  return {rates.psi, rates.theta_b};
+  return combined_sector_rates(sections.sector, sections.a, sections.b, planar, of_a.delimiters,
+                               of_b.delimiters);
 }
 
-std::optional<Opening> hull_section(const Ellipsoid& agent, const HullBody& hull, const Vector3d& u,
-                                    const Vector3d& e) {
+std::optional<Sector> hull_section(const Ellipsoid& agent, const HullBody& hull, const Vector3d& u,
+                                   const Vector3d& e) {
   // The section's corners are crossings of segments between points on both sides; every such crossing is in
   // the section, so all pairs may be taken.
   const Vector3d n = u.cross(e);
@@ -115,9 +112,7 @@ std::optional<Opening> hull_section(const Ellipsoid& agent, const HullBody& hull
     }
   if (corners.empty()) return std::nullopt;
   const CombinedEllipse section = central_section(CombinedEllipsoid(agent), u, e, Vector2d::Zero());
-  const VisibleSector found = sector_of_points(section.ellipsoid(), corners);
-  if (!found.sector) return std::nullopt;
-  return Opening{found.sector->psi, found.sector->theta_b};
+  return sector_of_points(section.ellipsoid(), corners).sector;
 }
 
-}  // namespace vericone::guidance
+}  // namespace vericone
