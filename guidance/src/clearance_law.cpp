@@ -4,6 +4,7 @@
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/pair.h>
+#include <vericone/cones/uncertain/robust.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -133,6 +134,29 @@ View view_of(const BodyState& a, const BodyState& b) {
   return view;
 }
 
+Ellipsoid in_space(const BodyState& body, double height) {
+  return body.planar() ? vericone::raised(CombinedEllipse(containing_ellipse(body)), height).ellipsoid()
+                       : containing_ellipsoid(body);
+}
+
+/// The worst of the errors; nothing where they may be as large as the relative velocity.
+std::optional<View> view_with_errors(const BodyState& a, const BodyState& b,
+                                     const ClearanceOptions& options) {
+  const bool planar = a.planar();
+  const double height = planar ? std::max(containing_ellipse(a).semi_axes().maxCoeff(),
+                                          containing_ellipse(b).semi_axes().maxCoeff())
+                               : 0;
+  const Ellipsoid body_a = in_space(a, height), body_b = in_space(b, height);
+  const Vector3d w = a.velocity - b.velocity;
+  const auto found = robust_clearance(body_a, body_b, w, options.position_error, options.velocity_error);
+  if (!found) return std::nullopt;
+  Vector3d n = found->normal;
+  if (planar) n = Vector3d(n.x(), n.y(), 0).normalized();
+  const bool ahead = found->time > 0 || (found->distance < 0 && w.dot(body_b.center() - body_a.center()) > 0);
+  return View{
+      {found->distance, found->time, n, ahead}, side_of(body_a.factor(), n), side_of(body_b.factor(), n)};
+}
+
 /// rho' of a body that turns with omega and changes its shape: n.S'n / (2 rho), S' = [omega x] S - S [omega
 /// x] + extra.
 double radius_rate(const Side& side, const Vector3d& n, const Vector3d& omega, const Eigen::Matrix3d& extra) {
@@ -149,7 +173,13 @@ ClearanceCommand clearance_law(const BodyState& a, const BodyState& b, const Cle
     command.status = LawStatus::no_relative_velocity;
     return command;
   }
-  const View view = view_of(a, b);
+  const bool known = options.position_error.none() && options.velocity_error.none();
+  const std::optional<View> seen = known ? view_of(a, b) : view_with_errors(a, b, options);
+  if (!seen) {
+    command.status = LawStatus::no_relative_velocity;
+    return command;
+  }
+  const View& view = *seen;
   const Vector3d& n = view.miss.normal;
   command.m = view.miss.m;
   command.time_to_closest = view.miss.time;

@@ -152,6 +152,17 @@ QUERIES = [
     ("a number out of range", '{"id": 7, "agent": {"center": [1e999, 0, 0]}}'),
     ("a field given twice", '{"id": 7, "agent": 1, "agent": 2}'),
     ("a line nested too deeply", "[" * 21 + "]" * 21),
+    ("an error of negative radius", case(position_error={"ball": -1})),
+    ("an error that is a number", case(velocity_error=0.5)),
+    ("an error of two kinds", case(position_error={"ball": 1, "box": [1, 1, 1]})),
+    ("an error of no kind", case(velocity_error={})),
+    ("a flat ellipsoid of errors", case(velocity_error={"semi_axes": [1, 0, 1]})),
+    ("a box of errors with two sides", case(position_error={"box": [1, 1]})),
+    ("a box of errors with a negative side", case(position_error={"box": [1, 1, -1]})),
+    ("a ball of errors with a rotation", case(position_error={"ball": 1, "rotation": [1, 0, 0, 0]})),
+    ("a horizon of zero", case(position_error={"ball": 1}, horizon=0)),
+    ("a horizon that is text", case(horizon="for ever")),
+    ("errors in the plane", {**planar(semi_axes=[3, 2]), "position_error": {"ball": 1}}),
 ]
 
 SCENE = "agent: {center: [0, 0, 0], semi_axes: [1, 2, 3]}\nobstacle: {center: [10, 0, 0], semi_axes: [1, 1, 1]}\n"

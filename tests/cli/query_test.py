@@ -50,6 +50,31 @@ class Query(unittest.TestCase):
         for with_rung, without in zip(answers, plain):
             self.assertEqual({k: v for k, v in with_rung.items() if k != "rung"}, without)
 
+    def test_bounded_errors(self):
+        # Balls of radii 1 and 2, 20 m apart, aimed 6 m aside: the gap is 3 m, less what errors take.
+        a, b = ball([0, 0, 0], 1), ball([20, 6, 0], 2)
+        case = engagement(a, b, [10, 0, 0])
+        verdict = lambda **errors: query({**case, **errors})[1][0]
+        self.assertNotIn("robust", verdict())
+        for kind, size in (("ball", lambda x: x), ("semi_axes", lambda x: [x, x, x]), ("box", lambda x: [0, x, 0])):
+            out = verdict(position_error={kind: size(2.99)})
+            self.assertEqual(out["robust"], "out")
+            self.assertGreater(out["witness"]["normal"][1], 0.9)
+        answer = verdict(position_error={"ball": 3.01})
+        self.assertEqual(answer["robust"], "depends")
+        collides, passes = answer["witness"]["collides"], answer["witness"]["passes"]
+        self.assertEqual(passes, {"position": [0, 0, 0], "velocity": [0, 0, 0]})
+        self.assertLessEqual(math.hypot(*collides["position"]), 3.01)
+        moved = ball([20 + collides["position"][0], 6 + collides["position"][1], collides["position"][2]], 2)
+        self.assertEqual(query(engagement(a, moved, [10, 0, 0]))[1][0]["verdict"], "in")
+        # 3 m aside in about 2 s; and not before.
+        self.assertEqual(verdict(velocity_error={"ball": 2})["robust"], "depends")
+        self.assertEqual(verdict(velocity_error={"ball": 2}, horizon=1)["robust"], "out")
+        self.assertEqual(verdict(horizon=1)["robust"], "out")
+        head_on = engagement(a, ball([20, 0, 0], 2), [10, 0, 0])
+        answer = query({**head_on, "position_error": {"ball": 1}, "velocity_error": {"ball": 0.5}})[1][0]
+        self.assertEqual((answer["robust"], answer["witness"]), ("in", None))
+
     def test_velocities_are_subtracted_without_rounding(self):
         a, b = ball([0, 0, 0], 1), ball([5, 0, 0], 2)
         tiny = 2.0 ** -60  # 3 + tiny rounds to 3

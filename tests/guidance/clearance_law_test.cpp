@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/pair.h>
+#include <vericone/cones/uncertain/robust.h>
 #include <vericone/guidance/clearance_law.h>
 #include <vericone/testing/random_bodies.h>
 #include <Eigen/Geometry>
@@ -278,6 +279,124 @@ TEST(ClearanceLawOfPlaced, RatesAreThoseOfTheNearestPoints) {
   std::sort(errors.begin(), errors.end());
   EXPECT_LT(errors[errors.size() * 9 / 10], 1e-4);
   EXPECT_LT(errors.back(), 2e-2);
+}
+
+/// m' = -K (m - required) of the worst error's clearance along the motion that the command causes, where the
+/// velocity has the worst error; more for others.
+TEST(ClearanceLawOfErrors, MakesTheWorstClearanceFollowItsOrder) {
+  RandomBodies random(71);
+  SCOPED_TRACE(random.trace());
+  ClearanceOptions options;
+  options.required = 3;
+  options.gain = 0.7;
+  options.hold = true;
+  int tested = 0;
+  for (int i = 0; tested < 300; ++i) {
+    Flight a = random_flight(random, Vector3d::Zero()),
+           b = random_flight(random, random.uniform(15, 40) * random.direction());
+    a.velocity = b.velocity + random.uniform(5, 15) * (b.center + random.in_box(8)).normalized();
+    b.acceleration = random.in_box(1);
+    options.position_error = ErrorSet::ball(random.uniform(0.01, 1));
+    options.velocity_error = i % 2 ? ErrorSet::ball(random.uniform(0.01, 1))
+                                   : ErrorSet::ellipsoid({0.2, 1, 0.6}, random.rotation());
+    const auto worst = [&](double t, const Vector3d& error) {
+      return robust_clearance(a.body(t), b.body(t).translated(-t * error),
+                              a.velocity_at(t) - b.velocity_at(t), options.position_error,
+                              options.velocity_error)
+          ->distance;
+    };
+    const ClearanceCommand command =
+        clearance_law(a.state(Turning::none), b.state(Turning::none), options, b.acceleration);
+    if (command.status != LawStatus::steering || command.m < 0) continue;
+    EXPECT_NEAR(command.m, worst(0, Vector3d::Zero()), 1e-12 * (1 + command.m));
+    const Vector3d n = -command.by_acceleration / command.time_to_closest;
+    a.acceleration = command.acceleration;
+    const double h = 1e-2 / (1 + a.acceleration.norm() + 10 * a.omega.norm());
+    const double wanted = -options.gain * (command.m - options.required - options.beyond);
+    const double scale = std::abs(wanted) + std::abs(command.drift) + 1;
+    const auto rate = [&](const Vector3d& error) {
+      return vericone::testing::richardson_derivative([&](double t) { return worst(t, error); }, h);
+    };
+    EXPECT_NEAR(rate(options.velocity_error.support_point(n)), wanted, 1e-5 * scale) << i;
+    EXPECT_GT(rate(options.velocity_error.support_point(random.direction())), wanted - 1e-5 * scale) << i;
+    ++tested;
+  }
+}
+
+/// Without errors to the last bit what it was; errors that vanish change nothing in the end.
+TEST(ClearanceLawOfErrors, EmptySetsChangeNothing) {
+  RandomBodies random(72);
+  ClearanceOptions options, empty, tiny;
+  empty.position_error = ErrorSet::ball(0);
+  empty.velocity_error = ErrorSet::box(Vector3d::Zero());
+  tiny.position_error = ErrorSet::ball(1e-12);
+  tiny.velocity_error = ErrorSet::ball(1e-12);
+  int steering = 0;
+  for (int i = 0; i < 300; ++i) {
+    Flight a = random_flight(random, Vector3d::Zero()),
+           b = random_flight(random, random.uniform(15, 40) * random.direction());
+    a.velocity = b.velocity + 9 * (b.center + random.in_box(12)).normalized();
+    const ClearanceCommand plain = clearance_law(a.state(Turning::none), b.state(Turning::none), options),
+                           same = clearance_law(a.state(Turning::none), b.state(Turning::none), empty),
+                           near = clearance_law(a.state(Turning::none), b.state(Turning::none), tiny);
+    EXPECT_EQ(plain.acceleration, same.acceleration);
+    EXPECT_EQ(plain.m, same.m);
+    EXPECT_EQ(plain.drift, same.drift);
+    EXPECT_EQ(plain.status, same.status);
+    if (plain.m < 0 || plain.status != LawStatus::steering) continue;
+    ++steering;
+    EXPECT_LT((plain.acceleration - near.acceleration).norm(), 1e-5 * (1 + plain.demanded));
+  }
+  EXPECT_GT(steering, 5);
+}
+
+/// The law sees the obstacle where it is thought to be, another one flies: it is passed by what is required.
+TEST(ClearanceLawOfErrors, KeepsTheDistanceForErrorsThatItDoesNotKnow) {
+  RandomBodies random(73);
+  ClearanceOptions options;
+  options.required = 1;
+  options.gain = 2;
+  options.position_error = ErrorSet::ball(1.5);
+  options.velocity_error = ErrorSet::ball(0.4);
+  int without = 0, runs = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Vector3d c = random.uniform(50, 70) * random.direction();
+    const Vector3d p = 1.5 * random.direction(), v = 0.4 * random.direction();
+    const Vector3d start = random.uniform(6, 12) * (c + random.in_box(4)).normalized();
+    const Ellipsoid body = Ellipsoid::from_axes(Vector3d::Zero(), {3, 2, 1}, random.rotation());
+    const auto nearest_passage = [&](const ClearanceOptions& of) {
+      // The obstacle moves by -v from c + p; measured, it rests, and p is left out.
+      BodyState a = ball(Vector3d::Zero(), start, 1), b;
+      double nearest = 1e300;
+      constexpr double kStep = 0.02;
+      for (double t = 0; t < 16; t += kStep) {
+        const Ellipsoid now = Ellipsoid::from_axes(a.position, Vector3d::Ones());
+        nearest = std::min(nearest, separation(now, body.translated(c + p - v * t)).distance);
+        // What the law sees.
+        b.shape = CombinedEllipsoid(body.translated(c - v * t));
+        b.position = c - v * t;
+        a.shape = CombinedEllipsoid(now);
+        const ClearanceCommand command = clearance_law(a, b, of);
+        a.velocity += kStep * command.acceleration;
+        a.position += kStep * a.velocity;
+      }
+      return nearest;
+    };
+    ClearanceOptions blind = options;
+    blind.position_error = blind.velocity_error = {};
+    without += nearest_passage(blind) < options.required - 0.05;
+    EXPECT_GT(nearest_passage(options), options.required - 0.05) << i;
+    ++runs;
+  }
+  EXPECT_GT(without, runs / 10);
+}
+
+/// Errors as large as the velocity: no order is given.
+TEST(ClearanceLawOfErrors, SaysWhereTheVelocityIsNotKnown) {
+  ClearanceOptions options;
+  options.velocity_error = ErrorSet::ball(5);
+  EXPECT_EQ(clearance_law(ball({0, 0, 0}, {5, 0, 0}, 1), ball({20, 0, 0}, {0, 0, 0}, 1), options).status,
+            LawStatus::no_relative_velocity);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 // chosen, and what is controlled is what matters.
 #pragma once
 
+#include <vericone/cones/uncertain/error_set.h>
 #include <vericone/guidance/body_state.h>
 #include <vericone/guidance/laws.h>
 #include <limits>
@@ -18,6 +19,9 @@ struct ClearanceOptions {
   bool longitudinal = false;  // may change the speed too; otherwise perpendicular to the velocity
   /// Without this the law stops commanding where m >= required; with it, it also comes back towards it.
   bool hold = false;
+  /// Bounded errors of b.position - a.position (m) and a.velocity - b.velocity (m/s) as the law sees them.
+  /// Where there are any, m is that of the worst error (RobustClearance), so `required` is kept for all.
+  ErrorSet position_error = {}, velocity_error = {};
 };
 
 struct ClearanceCommand {
@@ -38,11 +42,15 @@ struct ClearanceCommand {
 /// direction open (spheres head on) it is that of clearance()'s own maximiser: deterministic. Moving apart:
 /// nothing commanded, `receding`. Planar bodies: within the plane. Cost: ellipsoids 1.5 us where m > 0, 6 us
 /// where m < 0; others that of a Pair and its miss().
+///
+/// With errors, the order is that of the worst one, which moves by w + v with n.v = h_W(n): for every other
+/// m' is larger. All bodies are then seen as ellipsoids. `no_relative_velocity` where the velocity error may
+/// be as large as the velocity. Cost: 2 us. Proof: docs/explanation/robust-cone.md.
 [[nodiscard]] ClearanceCommand clearance_law(const BodyState& a, const BodyState& b,
                                              const ClearanceOptions& options,
                                              const Eigen::Vector3d& acceleration_b = Eigen::Vector3d::Zero());
 
-/// m(w) of the bodies as the law sees them; of planar ones in the plane.
+/// m(w) of the bodies as the law sees them, without errors; of planar ones in the plane.
 [[nodiscard]] double law_clearance(const BodyState& a, const BodyState& b);
 
 }  // namespace vericone::guidance

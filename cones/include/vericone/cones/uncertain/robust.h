@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Collision cones under bounded errors: whether all errors collide, none does, or it depends on the error.
+// Proofs: docs/explanation/robust-cone.md.
+#pragma once
+
+#include <vericone/cones/pair.h>
+#include <vericone/cones/uncertain/error_set.h>
+#include <vericone/geometry/ellipsoid.h>
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+namespace vericone {
+
+/// What is known: the true p_B - p_A is that given and an error of `position`, the true v_A - v_B that given
+/// and an error of `velocity`, whatever the other is. InputError naming "horizon" (not positive), or
+/// "acceleration", "attitude_a", "attitude_b", "size" (negative, not finite).
+struct RelativeErrors {
+  ErrorSet position;                                         // m
+  ErrorSet velocity;                                         // m/s
+  double horizon = std::numeric_limits<double>::infinity();  // s; later contacts do not count
+  double acceleration =
+      0;  // m/s^2, of the relative motion, in any direction at any time; needs a finite horizon
+  double attitude_a = 0, attitude_b = 0;  // rad: each body may be turned by that much about any axis
+  double size = 0;  // m: no point of a body is further from where it is thought, both bodies together
+};
+
+enum class RobustVerdict : std::uint8_t {
+  in,         // every error collides within the horizon
+  out,        // none does
+  depends,    // one does, and another does not
+  undecided,  // a graze too fine for doubles, or a body that can only be said to be out (below)
+};
+[[nodiscard]] const char* to_string(RobustVerdict verdict);
+
+struct RelativeError {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // m, of p_B - p_A
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, of v_A - v_B
+};
+
+/// `in` and `out` are proved, and so are both errors of `depends`: they lie in their sets, exactly as the
+/// doubles that they are, and the exact predicates say of them what is said here.
+struct RobustAnswer {
+  RobustVerdict verdict = RobustVerdict::undecided;
+  /// `out`: from A towards B. For all errors the gap along it stays open:
+  ///   n.c - h_A(n) - h_B(-n) - h_P(n) > max(0, T (n.w + h_W(n)))
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  /// `depends`: one that collides and one that passes, with attitudes and sizes as given.
+  RelativeError collides, passes;
+  /// Parts of the sphere of normals that were looked at for `in` and `depends`.
+  int cells = 0;
+};
+
+/// Two ellipsoids, v_a and v_b in m/s. No allocation (without errors of attitude), no throw but of
+/// RelativeErrors, and InputError naming "agent_velocity[i]" or "obstacle_velocity[i]". Never wrong. Cost:
+/// 1 to 4 us (docs/measured/benchmarks.md); grazes up to 1 ms.
+[[nodiscard]] RobustAnswer robust_verdict(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& v_a,
+                                          const Eigen::Vector3d& v_b, const RelativeErrors& errors);
+
+/// Bodies of any kind. Ellipsoids as above; hulls by their points. Of all others the convex hull is what must
+/// be `out` (a combined body counts by the ellipsoid that delimits it), errors of `depends` are decided by
+/// the pair, and `in` is not proved: `undecided`. Bodies of more than 1e6 points are refused, InputError
+/// naming "body". Allocates; linear in the points.
+[[nodiscard]] RobustAnswer robust_verdict(const Pair& pair, const Eigen::Vector3d& v_a,
+                                          const Eigen::Vector3d& v_b, const RelativeErrors& errors);
+
+/// An ellipsoid around the body however it is turned about its centre by at most `angle` (rad), and one
+/// within: S +- sin(angle) (a^2 - c^2) I with the largest and least semi-axis, rounded outwards and inwards.
+/// Throw InputError naming "angle".
+[[nodiscard]] Ellipsoid around_turned(const Ellipsoid& body, double angle);
+[[nodiscard]] Ellipsoid within_turned(const Ellipsoid& body, double angle);
+
+/// The clearance of all errors, metres: the largest, over unit n with n.w + h_W(n) = 0, of
+/// n.c - h_A(n) - h_B(-n) - h_P(n). Where it is positive and `time` is too, no error comes nearer, and one
+/// comes as near. Where it is negative some error collides or did. Without errors it is m(w) of clearance.h.
+struct RobustClearance {
+  double distance = 0;
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // the maximiser
+  double time = 0;  // s, the multiplier of n.w + h_W(n): when the error that comes nearest passes
+
+  [[nodiscard]] Eigen::Vector3d gradient_center() const { return normal; }
+  [[nodiscard]] Eigen::Vector3d gradient_velocity() const { return -time * normal; }
+};
+
+/// Rounded, not proved. Nothing where errors may be as large as the relative velocity w = v_A - v_B along it:
+/// no normal keeps its gap then. Uses position and velocity alone. No allocation. Cost: 1 to 2 us.
+[[nodiscard]] std::optional<RobustClearance> robust_clearance(const Ellipsoid& a, const Ellipsoid& b,
+                                                              const Eigen::Vector3d& w,
+                                                              const ErrorSet& position,
+                                                              const ErrorSet& velocity);
+
+}  // namespace vericone

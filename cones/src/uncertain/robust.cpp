@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/cones/uncertain/robust.h>
+#include <vericone/geometry/error.h>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "uncertain/everywhere.h"
+#include "uncertain/inward.h"
+#include "uncertain/nearest.h"
+
+namespace vericone {
+
+using Eigen::Matrix3d, Eigen::Vector3d;
+
+const char* to_string(RobustVerdict verdict) {
+  switch (verdict) {
+    case RobustVerdict::in:
+      return "in";
+    case RobustVerdict::out:
+      return "out";
+    case RobustVerdict::depends:
+      return "depends";
+    case RobustVerdict::undecided:
+      break;
+  }
+  return "undecided";
+}
+
+namespace robust {
+namespace {
+
+void require(const RelativeErrors& errors, const Vector3d& v_a, const Vector3d& v_b) {
+  const auto not_negative = [](double x, const char* field, const char* unit) {
+    if (!(x >= 0 && std::isfinite(x)))
+      throw InputError(field, to_text(x), std::string("a finite number, 0 or more (") + unit + ")");
+  };
+  if (!(errors.horizon > 0))
+    throw InputError("horizon", to_text(errors.horizon), "a positive number (s), or infinity");
+  not_negative(errors.acceleration, "acceleration", "m/s^2");
+  not_negative(errors.attitude_a, "attitude_a", "rad");
+  not_negative(errors.attitude_b, "attitude_b", "rad");
+  not_negative(errors.size, "size", "m");
+  if (errors.acceleration > 0 && !std::isfinite(errors.horizon))
+    throw InputError("horizon", "infinity", "a finite time (s), as accelerations are not known");
+  for (int i = 0; i < 3; ++i) {
+    if (!std::isfinite(v_a(i)))
+      throw InputError("agent_velocity[" + std::to_string(i) + "]", to_text(v_a(i)), "a finite number (m/s)");
+    if (!std::isfinite(v_b(i)))
+      throw InputError("obstacle_velocity[" + std::to_string(i) + "]", to_text(v_b(i)),
+                       "a finite number (m/s)");
+  }
+}
+
+/// Rounded up.
+double slightly_more(double x) { return x * (1 + 0x1p-50); }
+
+/// The bodies as they may be at most, at least, and as they are thought to be; often the same.
+struct Bodies {
+  const Side &outer_a, &outer_b, &a, &b, &inner_a, &inner_b;
+  bool convex;         // the sides are the bodies, so `in` can be proved
+  double position_by;  // ball that errors of attitude and size add to those of position, m
+};
+
+/// Decides whether an error collides: its mean error first, then what the search found.
+template <typename Collides>
+RobustAnswer decide(const Bodies& bodies, const Vector3d& v_a, const Vector3d& v_b,
+                    const RelativeErrors& errors, const Collides& collides) {
+  const double by_acceleration =
+      errors.acceleration > 0 ? slightly_more(0.5 * errors.acceleration * errors.horizon) : 0;
+  const auto engagement = [&](const Side& a, const Side& b, bool inflated) {
+    return Engagement(a, b, v_a, v_b, {errors.position, inflated ? bodies.position_by : 0},
+                      {errors.velocity, inflated ? by_acceleration : 0}, errors.horizon);
+  };
+  const ErrorSet nothing;
+  const Engagement outer = engagement(bodies.outer_a, bodies.outer_b, true);
+  const Engagement thought = engagement(bodies.a, bodies.b, false);
+  const Engagement certain(bodies.a, bodies.b, v_a, v_b, {nothing}, {nothing}, errors.horizon);
+
+  RobustAnswer answer;
+  const Vector3d start = outer.c.isZero(0) ? Vector3d(Vector3d::UnitX()) : outer.c;
+  const Nearest without = nearest(certain, start);
+  if (without.nearness == Nearness::apart) {
+    const Nearest all = nearest(outer, without.normal);
+    if (all.nearness == Nearness::apart) {
+      answer.verdict = RobustVerdict::out;
+      answer.normal = all.normal.normalized();
+      // The rounding of its length may cost the proof.
+      if (!outer.separates_all(answer.normal)) answer.normal = all.normal;
+      return answer;
+    }
+    if (all.nearness == Nearness::close) return answer;
+    const bool same = &bodies.outer_a == &bodies.a && bodies.position_by == 0 && by_acceleration == 0;
+    if (const auto error = collides(thought, same ? all : nearest(thought, without.normal))) {
+      answer.verdict = RobustVerdict::depends;
+      answer.collides = *error;
+    }
+    return answer;
+  }
+  if (without.nearness == Nearness::close) {
+    // The error of 0 grazes; another may pass or collide for certain, or all may.
+    const Nearest all = nearest(outer, start);
+    if (all.nearness == Nearness::apart) {
+      answer.verdict = RobustVerdict::out;
+      answer.normal = all.normal;
+      return answer;
+    }
+    if (all.nearness == Nearness::close) return answer;
+    const auto error = collides(thought, nearest(thought, start));
+    if (!error) return answer;
+    answer.collides = *error;
+  } else {
+    const auto error = collides(certain, without);
+    if (!error) return answer;
+  }
+  const Everywhere found =
+      everywhere(engagement(bodies.inner_a, bodies.inner_b, true), thought, bodies.convex);
+  answer.cells = found.cells;
+  if (found.passes) {
+    answer.verdict = RobustVerdict::depends;
+    answer.passes = *found.passes;
+  } else if (found.all_collide) {
+    answer.verdict = RobustVerdict::in;
+    answer.collides = {};
+  }
+  return answer;
+}
+
+/// The error of a point of D that is zero, rounded into its sets: at `time` it brings the bodies together.
+RelativeError error_of(const Engagement& e, const Nearest& found, double& time) {
+  std::array<Vector3d, 4> n, late;
+  std::array<double, 4> weight, late_weight;
+  int count = 0;
+  double all_late = 0;
+  for (int i = 0; i < found.count; ++i) {
+    n[std::size_t(i)] = -found.corners[std::size_t(i)].n;
+    weight[std::size_t(i)] = found.corners[std::size_t(i)].weight;
+    if (!found.corners[std::size_t(i)].late) continue;
+    late[std::size_t(count)] = found.corners[std::size_t(i)].n;
+    late_weight[std::size_t(count++)] = weight[std::size_t(i)];
+    all_late += weight[std::size_t(i)];
+  }
+  time = found.span * all_late;
+  for (int i = 0; i < count; ++i) late_weight[std::size_t(i)] /= all_late;
+  RelativeError error;
+  error.position =
+      inward(e.position.set, {n.data(), std::size_t(found.count)}, {weight.data(), std::size_t(found.count)});
+  error.velocity =
+      inward(e.velocity.set, {late.data(), std::size_t(count)}, {late_weight.data(), std::size_t(count)});
+  return error;
+}
+
+std::optional<RelativeError> ellipsoids_collide(const Engagement& e, const Nearest& found) {
+  if (found.nearness != Nearness::meet) return std::nullopt;
+  double time = 0;
+  const RelativeError error = error_of(e, found, time);
+  Vector3d x = Vector3d::Zero();
+  for (int i = 0; i < found.count; ++i) {
+    const Nearest::Corner& k = found.corners[std::size_t(i)];
+    x += k.weight * e.a.farthest(k.n);
+  }
+  if (e.overlap_at(time, x, error)) return error;
+  return std::nullopt;
+}
+
+/// The convex hull of a body in the world, by ellipsoids and by points with a radius.
+struct ConvexHullOf {
+  std::vector<Ellipsoid> parts;
+  std::vector<Vector3d> points;
+  double radius = 0;
+  bool convex = false;  // the body is no less
+
+  explicit ConvexHullOf(const Placed& placed) {
+    const auto& shape = placed.body.shape();
+    if (const auto* one = std::get_if<CombinedEllipsoid>(&shape)) {
+      parts.push_back(in_world(*one, placed.pose).ellipsoid());
+      convex = one->delimiters().empty();
+    } else if (const auto* hull = std::get_if<HullBody>(&shape)) {
+      add(hull->points(), placed.pose);
+      convex = true;
+    } else if (const auto* many = std::get_if<std::vector<CombinedEllipsoid>>(&shape)) {
+      for (const CombinedEllipsoid& piece : *many) parts.push_back(in_world(piece, placed.pose).ellipsoid());
+    } else {
+      const auto& assembly = std::get<Assembly>(shape);
+      const Assembly::Storage& by_slot = assembly.by_slot();
+      for (const auto& triangle : by_slot.triangles) add(triangle, placed.pose);
+      add(by_slot.balls, placed.pose);
+      for (const Box& box : by_slot.boxes) add(HullBody::box(box.low, box.high).points(), placed.pose);
+      for (const HullBody& piece : by_slot.hulls) add(piece.points(), placed.pose);
+      radius = assembly.radius();
+    }
+  }
+
+  Side side() const {
+    if (parts.size() == 1 && points.empty()) return Side(parts.front());
+    return Side(parts, points, radius);
+  }
+
+ private:
+  template <typename Points>
+  void add(const Points& more, const Pose& pose) {
+    constexpr std::size_t kMost = 1'000'000;
+    if (points.size() + more.size() > kMost)
+      throw InputError("body", "more than " + std::to_string(kMost) + " points", "one of fewer");
+    for (const Vector3d& x : more) points.push_back(pose.to_world(x));
+  }
+};
+
+/// How far a point of the body moves at most that turns about its middle.
+double moved_by_turning(const Placed& placed, double angle) {
+  if (angle == 0) return 0;
+  const Box bounds = placed.body.bounds();
+  const Vector3d middle = placed.body.middle();
+  const double reach = (bounds.high - middle).cwiseAbs().cwiseMax((middle - bounds.low).cwiseAbs()).norm();
+  return 2 * std::sin(0.5 * std::min(angle, std::numbers::pi)) * reach * (1 + 1e-12);
+}
+
+/// What the pair itself says of an error; nothing where it cannot tell.
+std::optional<bool> pair_collides(const Pair& pair, const Vector3d& v_a, const Vector3d& v_b,
+                                  const RelativeError& error, double horizon) {
+  const auto ask = [&](const Pair& moved) -> std::optional<bool> {
+    const Vector3d v = v_a + error.velocity;
+    const Verdict verdict = moved.verdict(v, v_b);
+    if (verdict == Verdict::out) return false;
+    if (verdict == Verdict::undecided) return std::nullopt;
+    const auto contact = moved.contact(v, v_b);
+    if (!std::isfinite(horizon) || !contact || contact->latest <= horizon) return true;
+    if (contact->earliest > horizon) return false;
+    return std::nullopt;
+  };
+  if (error.position.isZero(0)) return ask(pair);
+  Placed obstacle = pair.obstacle();
+  obstacle.pose.position += error.position;
+  return ask(Pair(pair.agent(), obstacle));
+}
+
+}  // namespace
+}  // namespace robust
+
+RobustAnswer robust_verdict(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& v_a, const Vector3d& v_b,
+                            const RelativeErrors& errors) {
+  using namespace robust;
+  require(errors, v_a, v_b);
+  const Side side_a(a), side_b(b);
+  const double by_size = errors.size;
+  if (errors.attitude_a == 0 && errors.attitude_b == 0)
+    return decide({side_a, side_b, side_a, side_b, side_a, side_b, true, by_size}, v_a, v_b, errors,
+                  ellipsoids_collide);
+  const Ellipsoid outer_a = around_turned(a, errors.attitude_a),
+                  outer_b = around_turned(b, errors.attitude_b);
+  const Ellipsoid inner_a = within_turned(a, errors.attitude_a),
+                  inner_b = within_turned(b, errors.attitude_b);
+  const Side of_outer_a(outer_a), of_outer_b(outer_b), of_inner_a(inner_a), of_inner_b(inner_b);
+  return decide({of_outer_a, of_outer_b, side_a, side_b, of_inner_a, of_inner_b, true, by_size}, v_a, v_b,
+                errors, ellipsoids_collide);
+}
+
+RobustAnswer robust_verdict(const Pair& pair, const Vector3d& v_a, const Vector3d& v_b,
+                            const RelativeErrors& errors) {
+  using namespace robust;
+  require(errors, v_a, v_b);
+  const ConvexHullOf a(pair.agent()), b(pair.obstacle());
+  if (a.convex && b.convex && a.parts.size() == 1 && b.parts.size() == 1)
+    return robust_verdict(a.parts.front(), b.parts.front(), v_a, v_b, errors);
+  const Side side_a = a.side(), side_b = b.side();
+  const double by = slightly_more(errors.size + moved_by_turning(pair.agent(), errors.attitude_a) +
+                                  moved_by_turning(pair.obstacle(), errors.attitude_b));
+  const double by_acceleration =
+      errors.acceleration > 0 ? slightly_more(0.5 * errors.acceleration * errors.horizon) : 0;
+  const Engagement widened(side_a, side_b, v_a, v_b, {errors.position, by},
+                           {errors.velocity, by_acceleration}, errors.horizon);
+  const Engagement thought(side_a, side_b, v_a, v_b, {errors.position}, {errors.velocity}, errors.horizon);
+
+  RobustAnswer answer;
+  const Vector3d between = pair.obstacle().middle() - pair.agent().middle();
+  const Vector3d start = between.isZero(0) ? Vector3d(Vector3d::UnitX()) : between;
+  if (const Nearest all = nearest(widened, start); all.nearness == Nearness::apart) {
+    answer.verdict = RobustVerdict::out;
+    answer.normal = all.normal;
+    return answer;
+  }
+  const auto without = pair_collides(pair, v_a, v_b, {}, errors.horizon);
+  if (!without) return answer;
+  if (*without) {
+    const Everywhere found = everywhere(widened, thought, a.convex && b.convex);
+    answer.cells = found.cells;
+    if (found.all_collide) answer.verdict = RobustVerdict::in;
+    if (found.passes) answer.verdict = RobustVerdict::depends, answer.passes = *found.passes;
+    return answer;
+  }
+  // Towards the hulls' overlap; halves are in the sets as well, exactly.
+  const Nearest some = nearest(thought, start);
+  if (some.nearness != Nearness::meet) return answer;
+  double time = 0;
+  RelativeError error = error_of(thought, some, time);
+  for (int i = 0; i < 3; ++i) {
+    if (pair_collides(pair, v_a, v_b, error, errors.horizon).value_or(false)) {
+      answer.verdict = RobustVerdict::depends;
+      answer.collides = error;
+      return answer;
+    }
+    error.position *= 0.5, error.velocity *= 0.5;
+  }
+  return answer;
+}
+
+namespace {
+
+/// S + by I of the body, or the ball of this radius where that is no ellipsoid.
+Ellipsoid with_shape(const Ellipsoid& body, double by, double otherwise) {
+  Matrix3d shape = body.shape();
+  shape.diagonal().array() += by;
+  shape = (0.5 * (shape + shape.transpose())).eval();
+  try {
+    return Ellipsoid::from_shape(body.center(), shape);
+  } catch (const InputError&) {
+    return Ellipsoid::from_axes(body.center(), Vector3d::Constant(otherwise));
+  }
+}
+
+void require_angle(double angle) {
+  if (!(angle >= 0 && std::isfinite(angle)))
+    throw InputError("angle", to_text(angle), "a finite angle, 0 or more (rad)");
+}
+
+/// 1e-13 of the largest entry covers the rounding of shape(), of the sum and of the axes.
+double rounding_of(const Ellipsoid& body) { return 1e-13 * body.shape().trace(); }
+
+}  // namespace
+
+Ellipsoid around_turned(const Ellipsoid& body, double angle) {
+  require_angle(angle);
+  if (angle == 0) return body;
+  const Vector3d axes = body.semi_axes();
+  if (angle >= std::numbers::pi / 2)
+    return Ellipsoid::from_axes(body.center(), Vector3d::Constant(axes(0) * (1 + 1e-12)));
+  const double difference = (axes(0) - axes(2)) * (axes(0) + axes(2));
+  return with_shape(body, std::sin(angle) * difference + rounding_of(body), axes(0));
+}
+
+Ellipsoid within_turned(const Ellipsoid& body, double angle) {
+  require_angle(angle);
+  if (angle == 0) return body;
+  const Vector3d axes = body.semi_axes();
+  const double ball = axes(2) * (1 - 1e-12);
+  const double difference = (axes(0) - axes(2)) * (axes(0) + axes(2));
+  const double less = std::sin(std::min(angle, std::numbers::pi / 2)) * difference + rounding_of(body);
+  // Of a body that would keep less than half of its least semi-axis the ball is the better one.
+  if (angle >= std::numbers::pi / 2 || less > 0.75 * axes(2) * axes(2))
+    return Ellipsoid::from_axes(body.center(), Vector3d::Constant(ball));
+  return with_shape(body, -less, ball);
+}
+
+}  // namespace vericone

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "input/errors.h"
+
+#include "input/fields.h"
+#include "input/spatial_body.h"
+
+namespace vericone::input {
+namespace {
+
+/// One of {"ball": r}, {"semi_axes": [a, b, c], "rotation": ...}, {"box": [hx, hy, hz]}.
+ErrorSet read_set(const Json& value, const std::string& path, const char* unit) {
+  require_object(value, path);
+  require_known(value, path, {"ball", "semi_axes", "rotation", "box"});
+  const int kinds = value.contains("ball") + value.contains("semi_axes") + value.contains("box");
+  if (kinds != 1)
+    throw InputError(path, kinds == 0 ? "no set" : "more than one set",
+                     "given by exactly one of ball, semi_axes (with rotation), box");
+  if (value.contains("rotation") && !value.contains("semi_axes"))
+    throw InputError(path + ".rotation", quoted(value["rotation"]), "left out, or beside semi_axes");
+  if (value.contains("ball")) {
+    const double radius = read_number(value["ball"], path + ".ball", unit);
+    return within(path, [&] { return ErrorSet::ball(radius); });
+  }
+  if (value.contains("box")) {
+    const Eigen::Vector3d half = read_vector<3>(value["box"], path + ".box", unit);
+    return within(path, [&] { return ErrorSet::box(half); });
+  }
+  const Eigen::Vector3d axes = read_vector<3>(value["semi_axes"], path + ".semi_axes", unit);
+  const Eigen::Matrix3d rotation = read_rotation(value, path);
+  return within(path, [&] { return ErrorSet::ellipsoid(axes, rotation); });
+}
+
+}  // namespace
+
+std::optional<RelativeErrors> read_errors(const Json& value) {
+  if (!value.contains("position_error") && !value.contains("velocity_error") && !value.contains("horizon"))
+    return std::nullopt;
+  RelativeErrors errors;
+  if (value.contains("position_error"))
+    errors.position = read_set(value["position_error"], "position_error", " (metres)");
+  if (value.contains("velocity_error"))
+    errors.velocity = read_set(value["velocity_error"], "velocity_error", " (m/s)");
+  if (value.contains("horizon")) {
+    errors.horizon = read_number(value["horizon"], "horizon", " (seconds)");
+    if (!(errors.horizon > 0))
+      throw InputError("horizon", quoted(value["horizon"]), "positive (seconds), or left out: for ever");
+  }
+  return errors;
+}
+
+}  // namespace vericone::input
