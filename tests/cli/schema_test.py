@@ -26,7 +26,8 @@ def schema(name):
 class Validator:
     """The keywords that our schemas use; any other is a mistake of ours."""
     KEYWORDS = {"$schema", "$defs", "$ref", "title", "description", "type", "properties", "required", "anyOf", "enum",
-                "additionalProperties", "items", "minItems", "maxItems", "minimum", "maximum", "exclusiveMinimum"}
+                "additionalProperties", "items", "minItems", "maxItems", "minimum", "maximum", "exclusiveMinimum",
+                "default", "unit", "absent", "read_by"}  # the last four are for readers (tests/docs/fields.py)
     TYPES = {"object": dict, "array": list, "string": str, "boolean": bool}
 
     def __init__(self, name):
@@ -164,6 +165,44 @@ class Schemas(unittest.TestCase):
         self.assertEqual(shape, fields - {"velocity"} | {"dented"})
         own = {"name", "speed", "heading", "heading_deg", "orientation", "appears", "pilot", "velocity"}
         self.assertEqual(set(defs["as_in_scenes"]["properties"]), shape | own)
+
+    def test_defaults_are_those_of_the_program(self):
+        """A run with every default written out is, to the last digit, the run without."""
+        defs = schema("scenario")["$defs"]
+
+        def defaults(name, *but):
+            node = schema("scenario") if name is None else defs.get(name) or schema("scenario")["properties"][name]
+            return {k: v["default"] for k, v in node["properties"].items() if "default" in v and k not in but}
+
+        obstacle = {"name": "B", "shape": {"semi_axes": [2, 1, 1]}, "position": [20, 0.5, 0], "velocity": [-1, 0, 0]}
+        goal = {"point": [40, 0, 0], "most": 5}
+        for law, own, parts in (
+                ("avoidance", {"most": 9, "goal": goal}, {"goal": {**defaults("goal"), **goal}}),
+                ("avoidance", {"manner": "source", "most": 9}, {"plane": defaults("plane")}),
+                ("clearance", {"most": 9}, {"clearance": defaults("clearance")}),
+                ("cooperative-avoidance", {"most": 9, "partners": ["B"]}, {"plane": defaults("plane")})):
+            read = {k for k, v in defs["pilot"]["properties"].items() if "default" in v and (
+                v["read_by"] == "all" or v["read_by"] == law or v["read_by"].startswith("all but clearance") and law != "clearance"
+                or v["read_by"] == "both avoidance laws" and law.endswith("avoidance")
+                or v["read_by"] == "avoidance, clearance" and law in ("avoidance", "clearance"))}
+            told = {k: v for k, v in defaults("pilot").items() if k in read}
+            self.assertIn("gain", told)
+            with self.subTest(law=law, own=own):
+                runs = []
+                for number, (top, body, pilot) in enumerate((({}, {}, {}), (
+                        {**defaults(None), "proof": defaults("proof")}, defaults("by_shape"), {**told, **parts}))):
+                    agent = {"name": "A", "shape": {"semi_axes": [1, 1, 1]}, "position": [0, 0, 0], "velocity": [5, 0, 0],
+                             **body, "pilot": {"law": law, **pilot, **own}}
+                    if "goal" in parts and number:
+                        agent["pilot"]["goal"] = parts["goal"]
+                    out = os.path.join(self.folder.name, f"{law}-{len(own)}-{'goal' in own}-{number}")
+                    path = self.write(json.dumps({**top, "bodies": [agent, obstacle]}))
+                    done = run("simulate", path, "--no-figures", "--quiet", "--out", out)
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                    with open(os.path.join(out, "bodies.csv"), encoding="utf-8") as rows, \
+                            open(os.path.join(out, "encounters.csv"), encoding="utf-8") as looks:
+                        runs.append((rows.read(), looks.read()))
+                self.assertTrue(runs[0] == runs[1], "the runs differ")
 
     def test_fields_of_papers_are_those_of_the_program(self):
         folder = os.path.join(self.folder.name, "paper")
