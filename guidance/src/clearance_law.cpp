@@ -135,16 +135,16 @@ View view_of(const BodyState& a, const BodyState& b) {
 }
 
 Ellipsoid in_space(const BodyState& body, double height) {
-  return body.planar() ? vericone::raised(CombinedEllipse(containing_ellipse(body)), height).ellipsoid()
-                       : containing_ellipsoid(body);
+  return body.planar() ? vericone::raised(CombinedEllipse(body.shape.containing_ellipse()), height).ellipsoid()
+                       : body.shape.containing_ellipsoid();
 }
 
 /// The worst of the errors; nothing where they may be as large as the relative velocity.
 std::optional<View> view_with_errors(const BodyState& a, const BodyState& b,
                                      const ClearanceOptions& options) {
   const bool planar = a.planar();
-  const double height = planar ? std::max(containing_ellipse(a).semi_axes().maxCoeff(),
-                                          containing_ellipse(b).semi_axes().maxCoeff())
+  const double height = planar ? std::max(a.shape.containing_ellipse().semi_axes().maxCoeff(),
+                                          b.shape.containing_ellipse().semi_axes().maxCoeff())
                                : 0;
   const Ellipsoid body_a = in_space(a, height), body_b = in_space(b, height);
   const Vector3d w = a.velocity - b.velocity;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/plane_sector.h>
 #include <vericone/cones/ellipsoids/predicates.h>
+#include <vericone/cones/planar/sector.h>
 #include <vericone/guidance/guide.h>
 #include <vericone/testing/random_bodies.h>
 #include <Eigen/Geometry>

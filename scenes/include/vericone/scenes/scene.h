@@ -22,7 +22,7 @@ struct Reading {
     std::size_t nodes = 0;
     bool unknown_occupied = true;
   };
-  std::optional<Map> map;                      // of an octree map
+  std::optional<Map> map = {};                      // of an octree map
   double seconds_read = 0, seconds_built = 0;  // the file; the tree of boxes
 };
 
