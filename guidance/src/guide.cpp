@@ -56,6 +56,10 @@ GuideStep by_clearance(const BodyState& a, const BodyState& b, const GuideOption
                        const Sight& sight) {
   ClearanceOptions clearance = options.clearance;
   if (options.margin > 0) clearance.required += options.margin * miss_deviation(a, b, sight);
+  if (options.errors > 0) {
+    clearance.position_error = ErrorSet::ball(options.errors * sight.position_deviation);
+    clearance.velocity_error = ErrorSet::ball(options.errors * sight.velocity_deviation);
+  }
   const ClearanceCommand command = clearance_law(a, b, clearance);
   GuideStep step;
   step.a = command.acceleration;
@@ -101,21 +105,20 @@ void add_errors(PlaneView& view, const EngagementParts& parts) {
 }
 
 /// The inner loop of the y that is used, which may be a filtered one, and the outer loop.
-LawCommand avoid(const PlaneView& view, const GuideOptions& options, const Sight& sight, double y,
+LawCommand avoid(const PlaneView& view, const GuideOptions& options, const Measured& deviations, double y,
                  GuideReading& reading) {
   LawOptions inversion = options.inversion;
   // The law reads y from the state: K (w - y) stays what it is to be when w moves along, and so does the test.
   const double by_state = cone_rates(view.state, view.cone).y;
   inversion.reference += by_state - y;
   inversion.cease += by_state - y;
-  const Measured deviations = deviations_on_plane(sight, view.state, view.cone);
   if (options.margin > 0) {
     const double keep = options.margin * deviation(noise_gradients(view.state, view.cone, 1).y, deviations);
     inversion.reference += keep;
     inversion.cease += keep;
   }
   LawCommand command = avoidance(view.state, view.cone, inversion);
-  reading = {view.state, view.cone, y, command.a, {}, false};
+  reading = {view.state, view.cone, deviations, y, command.a, {}, false};
   command.rates.y = y;
   if (!options.robust || commands_nothing(command.status)) return command;
   reading.outer =
@@ -136,10 +139,16 @@ std::optional<GuideStep> on_plane(const BodyState& a, const BodyState& b, const 
   const double turned = turned_since(*view, memory);
   if (options.rates == GuideRates::backward) difference_backward(*view, memory, time, turned);
   double y = cone_rates(view->state, view->cone).y;
+  Measured deviations = deviations_on_plane(sight, view->state, view->cone);
+  if (options.rates == GuideRates::backward && memory.past && time > memory.past->time) {
+    // Of the difference of two measurements.
+    const double by_time = std::sqrt(2.0) / (time - memory.past->time);
+    deviations.psi_rate = by_time * deviations.psi;
+    deviations.theta_b_rate = by_time * deviations.theta_b;
+  }
   if (options.filter.any()) {
     if (!memory.filters) memory.filters.emplace(options.filter);
-    y = memory.filters->step(view->state, view->cone, turned,
-                             deviations_on_plane(sight, view->state, view->cone), time);
+    y = memory.filters->step(view->state, view->cone, turned, deviations, time);
   }
   memory.across = view->across;
   memory.past = {time, view->cone.psi, view->cone.theta_b, view->line_of_sight};
@@ -155,7 +164,7 @@ std::optional<GuideStep> on_plane(const BodyState& a, const BodyState& b, const 
   };
   switch (options.law) {
     case Law::avoidance: {
-      const LawCommand command = avoid(*view, options, sight, y, step.reading.emplace());
+      const LawCommand command = avoid(*view, options, deviations, y, step.reading.emplace());
       read(command);
       step.a = command.a * view->lateral_a();
       step.demanded = std::abs(command.demanded);

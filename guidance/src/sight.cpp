@@ -34,13 +34,15 @@ PlaneFilters::PlaneFilters(const PlaneFilterOptions& options)
     : options_(options), y_(of_y(options)), psi_(of_angle(options)), theta_b_(of_angle(options)) {}
 
 double PlaneFilters::step(const PlanarState& state, PlaneCone& cone, double turned,
-                          const Measured& deviations, double time) {
+                          Measured& deviations, double time) {
   turned_ += turned;
   if (options_.rates) {
     const double theta_b = unwrapped(cone.theta_b + turned_, last_theta_b_);
     last_theta_b_ = theta_b;
     psi_.step(cone.psi, variance(deviations.psi), time);
     theta_b_.step(theta_b, variance(deviations.theta_b), time);
+    deviations.psi_rate = std::sqrt(psi_.belief().covariance(1, 1));
+    deviations.theta_b_rate = std::sqrt(theta_b_.belief().covariance(1, 1));
     cone.psi_rate = psi_.rate();
     cone.theta_b_rate = theta_b_.rate();
     cone.psi_rate_by_a = cone.theta_b_rate_by_a = cone.psi_rate_by_b = cone.theta_b_rate_by_b = 0;

@@ -45,7 +45,7 @@ int trials_command(CommandLine& line) {
               "Noise: percent of position and of velocity, 7.5:15, or the scenario's sensor times a number, x4")
       .commas();
   line.option("--laws", trials.laws,
-              "di, di-filter, rdi, rdi-filter, di-rates, di-analytic, di-state, di-margin, clearance")
+              "di, di-filter, rdi, rdi-filter, di-rates, di-analytic, di-state, di-margin, clearance, robust")
       .commas();
   line.option("--seed", trials.seed, "Seed of all noise")
       .shown_default("that of the scenario");

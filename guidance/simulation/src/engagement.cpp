@@ -135,7 +135,7 @@ SightSample Engagement::sight_sample(const guidance::BodyState& a, const guidanc
   wrong.theta_b_rate = read.cone.theta_b_rate - sample.cone.theta_b_rate;
   const double gain = pilot_->guide.inversion.gain;
   sample.terms = guidance::noise_terms(sample.state, sample.cone, wrong, gain);
-  const guidance::Measured sigma = guidance::deviations_on_plane(observed.sight, sample.state, sample.cone);
+  const guidance::Measured& sigma = read.deviations;
   const guidance::NoiseGradients gradients = guidance::noise_gradients(sample.state, sample.cone, gain);
   sample.y_deviation = guidance::deviation(gradients.y, sigma);
   sample.a_deviation = guidance::deviation(gradients.a, sigma);

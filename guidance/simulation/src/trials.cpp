@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::array kLaws{TrialLaw::di,          TrialLaw::di_filter, TrialLaw::rdi,
                            TrialLaw::rdi_filter,  TrialLaw::di_rates,  TrialLaw::di_analytic,
-                           TrialLaw::di_state,    TrialLaw::di_margin, TrialLaw::clearance};
+                           TrialLaw::di_state,    TrialLaw::di_margin, TrialLaw::clearance,
+                           TrialLaw::robust};
 
 double number_of(const std::string& text, const std::string& whole) {
   double x = 0;
@@ -68,6 +69,8 @@ const char* to_string(TrialLaw law) {
       return "di-margin";
     case TrialLaw::clearance:
       return "clearance";
+    case TrialLaw::robust:
+      return "robust";
   }
   return "?";
 }
@@ -121,14 +124,15 @@ Scenario trial_scenario(const Scenario& scenario, TrialLaw law, const TrialLevel
     guide.robust = usual_outer_loop(scenario.step);
   guide.filter.y = law == di_filter || law == rdi_filter;
   guide.filter.rates = guide.filter.y || law == di_rates;
-  const bool by_state = law == di_state || law == di_margin || law == clearance;
+  const bool by_state = law == di_state || law == di_margin || law == clearance || law == robust;
   guide.rates = law == di_analytic || by_state ? guidance::GuideRates::analytic : guidance::GuideRates::backward;
   guide.margin = law == di_margin || law == clearance ? 3 : 0;
   const bool measures_state = pilot.sensor->noise != Noise::engagement;
   if (by_state && !measures_state)
     throw InputError("--laws", to_string(law), "laws of the plane: the sensor measures no position and velocity");
   pilot.estimator = by_state ? Estimator::state : Estimator::none;
-  if (law == clearance) guide.law = guidance::Law::clearance;
+  guide.errors = law == robust ? 3 : 0;
+  if (law == clearance || law == robust) guide.law = guidance::Law::clearance;
   check(flown);
   return flown;
 }

@@ -43,6 +43,9 @@ struct GuideOptions {
   /// Standard deviations to keep: of y (7.7), added to reference and cease of the avoidance law; of the miss
   /// distance, position and velocity together, added to the metres that the clearance law requires.
   double margin = 0;
+  /// Standard deviations: the clearance law keeps its metres for all errors of position and of velocity within
+  /// balls of so many, the worst of both together (ClearanceOptions::position_error).
+  double errors = 0;
 };
 
 /// What one step hands to the next; a fresh one starts an engagement.
@@ -61,6 +64,7 @@ struct GuideMemory {
 struct GuideReading {
   PlanarState state;         // with the errors of measurement
   PlaneCone cone;            // its rates are those used
+  Measured deviations;       // standard deviations of these, as far as the agent knows them
   double y = 0;              // as used: filtered where y is
   double inner = 0;          // m/s^2, lateral acceleration of the inner loop, saturated
   RobustCorrection outer;    // of the outer loop, where there is one; else as it starts

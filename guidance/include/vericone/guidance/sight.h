@@ -48,8 +48,8 @@ class PlaneFilters {
 
   /// A measured state and cone, the turning of the line of sight since the last, rad, and the standard
   /// deviations. Rates of `cone` are replaced where they are filtered. Returns y as it is to be used.
-  double step(const PlanarState& state, PlaneCone& cone, double turned, const Measured& deviations,
-              double time);
+  /// Of the rates it writes the deviations too, those of the filters.
+  double step(const PlanarState& state, PlaneCone& cone, double turned, Measured& deviations, double time);
 
  private:
   PlaneFilterOptions options_;

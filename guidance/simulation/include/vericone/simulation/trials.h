@@ -24,6 +24,7 @@ enum class TrialLaw : std::uint8_t {
   di_state,     // as di_analytic, of an estimated state
   di_margin,    // as di_state, out of the cone by three deviations of y
   clearance,    // the clearance law on an estimated state, bodies apart by three deviations of the miss more
+  robust,       // the clearance law on an estimated state, for all errors within three deviations of it
 };
 [[nodiscard]] const char* to_string(TrialLaw law);
 /// Throws InputError naming "--laws".
