@@ -171,8 +171,7 @@ bool Navigator::search(const Moment& now, const Vector3d& wanted, double less_th
     for (int ring = 1; ring < kRings; ++ring)
       for (int k = 0; k < kAround; ++k) {
         const double tilt = kPi * ring / kRings, around = 2 * kPi * (k + 0.5 * (ring % 2)) / kAround;
-        add(std::cos(tilt) * wanted +
-            std::sin(tilt) * (std::cos(around) * frame.e1 + std::sin(around) * frame.e2));
+        add(std::cos(tilt) * wanted + std::sin(tilt) * frame.across(around));
       }
   }
   std::sort(candidates_.begin(), candidates_.end(),

@@ -82,8 +82,9 @@ struct SpatialEngagement {
         if (!body.with_heading) return body.omega;
         return body.omega + body.path.v.cross(lateral * left(body)) / body.path.v.squaredNorm();
       };
+      const BodyRate rate_a{a.growth, {}}, rate_b{b.growth, {}};
       const SpatialMotion motion{a.path.v, b.path.v, omega(a, lateral_a), omega(b, lateral_b),
-                                 a.growth, b.growth, plane_spin};
+                                 &rate_a,  &rate_b,  plane_spin};
       return true_sector_rates(sector, body_a, body_b, motion);
     };
     const PlaneSectorRates now = rates(0, 0), by_a = rates(1, 0), by_b = rates(0, 1);

@@ -105,7 +105,7 @@ Json engagement_picture(const scenes::Scene& scene, int planes, int samples) {
   double widest = -1;
   Eigen::Vector3d w = slices.axis;
   for (const Slice& s : slices.slices) {
-    const Eigen::Vector3d across = std::cos(s.azimuth) * frame.e1 + std::sin(s.azimuth) * frame.e2;
+    const Eigen::Vector3d across = frame.across(s.azimuth);
     const PlaneSector sector = true_sector(a, b, across);
     for (const double side : {1.0, -1.0}) {
       const double inner = side > 0 ? s.left : s.right,

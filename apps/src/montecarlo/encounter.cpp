@@ -34,7 +34,7 @@ Vector3d aim(const Ellipsoid& a, const Ellipsoid& b, Random& random) {
   const Vector3d c = b.center() - a.center();
   const AxisFrame frame(c);
   const double azimuth = random.uniform(0, 2 * std::numbers::pi);
-  const Vector3d aside = std::cos(azimuth) * frame.e1 + std::sin(azimuth) * frame.e2;
+  const Vector3d aside = frame.across(azimuth);
   const double extent = a.radius(aside) + b.radius(aside);
   return c + extent * std::sqrt(random.uniform(0, kFarthestAim)) * aside;
 }

@@ -12,7 +12,7 @@ namespace vericone {
 ConeFunction plane_function(const Slice& s, const Eigen::Vector3d& axis,
                             const Eigen::Vector3d& agent_velocity, const Eigen::Vector3d& obstacle_velocity) {
   const AxisFrame frame(axis);
-  const Eigen::Vector3d across = std::cos(s.azimuth) * frame.e1 + std::sin(s.azimuth) * frame.e2;
+  const Eigen::Vector3d across = frame.across(s.azimuth);
   const auto in_plane = [&](const Eigen::Vector3d& v) {
     return Eigen::Vector2d(v.dot(frame.axis), v.dot(across));
   };

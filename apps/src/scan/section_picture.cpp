@@ -22,7 +22,7 @@ PlaneSectionPicture plane_section_picture(const Setup& setup, double azimuth) {
   for (const lidar::Scan& scan : seen.scans)
     for (const lidar::Return& r : scan.returns) where_they_are.push_back(r.in_world);
   const AxisFrame frame(center_of(seen.not_fused.empty() ? seen.points : where_they_are) - center);
-  const PlaneFrame plane{center, frame.axis, std::cos(azimuth) * frame.e1 + std::sin(azimuth) * frame.e2};
+  const PlaneFrame plane{center, frame.axis, frame.across(azimuth)};
 
   PlaneSectionPicture picture;
   picture.half_thickness = seen.half_thickness;

@@ -47,8 +47,7 @@ void set_solid_angle(HalfPlaneCone& cone, const Vector3d& axis) {
   for (int j = 0; j < count; ++j) {
     const double edge = cone.edges[j], azimuth = 2 * pi * j / count;
     if (!(edge > 0)) return;
-    directions.push_back(std::cos(edge) * frame.axis +
-                         std::sin(edge) * (std::cos(azimuth) * frame.e1 + std::sin(azimuth) * frame.e2));
+    directions.push_back(std::cos(edge) * frame.axis + std::sin(edge) * frame.across(azimuth));
   }
   cone.solid_angle = polygon_solid_angle(axis, directions);
 }
@@ -69,8 +68,7 @@ HalfPlaneCone true_cone(const AssemblyOracle& oracle, const Vector3d& axis, int 
   HalfPlaneCone result;
   for (int j = 0; j < 2 * planes; ++j) {
     const double azimuth = pi * j / planes;
-    const ExtremeDirection edge =
-        oracle.extreme(frame.axis, std::cos(azimuth) * frame.e1 + std::sin(azimuth) * frame.e2, kAngle);
+    const ExtremeDirection edge = oracle.extreme(frame.axis, frame.across(azimuth), kAngle);
     result.edges.push_back(edge.any ? 0.5 * (edge.low + edge.high)
                                     : std::numeric_limits<double>::quiet_NaN());
   }

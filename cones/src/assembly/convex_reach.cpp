@@ -60,7 +60,7 @@ ConvexReach convex_reach(const AssemblyOracle& oracle, const Vector3d& inside, i
   DirectionLoop low, high, outer;
   for (std::size_t i = 0; i < reached.size(); ++i) {
     const double azimuth = 2 * pi * static_cast<double>(i) / half_planes;
-    const Vector3d side = std::cos(azimuth) * frame.e1 + std::sin(azimuth) * frame.e2;
+    const Vector3d side = frame.across(azimuth);
     low.push_back(std::cos(reached[i].low) * frame.axis + std::sin(reached[i].low) * side);
     high.push_back(std::cos(reached[i].high) * frame.axis + std::sin(reached[i].high) * side);
   }

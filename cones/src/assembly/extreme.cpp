@@ -311,7 +311,7 @@ std::vector<ExtremeDirection> AssemblyOracle::extremes(const Eigen::Vector3d& ax
   result.reserve(std::size_t(half_planes));
   for (int i = 0; i < half_planes; ++i) {
     const double azimuth = 2 * std::numbers::pi * i / half_planes;
-    const Eigen::Vector3d side = std::cos(azimuth) * basis.e1 + std::sin(azimuth) * basis.e2;
+    const Eigen::Vector3d side = basis.across(azimuth);
     result.push_back(find_extreme(*state_, {state_->to_body(basis.axis), state_->to_body(side)}, tolerance,
                                   effort != nullptr ? *effort : unused, guess));
   }

@@ -151,6 +151,13 @@ struct CombinedOracle::State {
   }
 };
 
+std::optional<Relation> combined_relation(const CombinedEllipsoid& a, const CombinedEllipsoid& b,
+                                          double tolerance) {
+  const Relation ellipsoids = relation<3>(a.ellipsoid(), b.ellipsoid());
+  if (ellipsoids == Relation::disjoint || (a.is_ellipsoid() && b.is_ellipsoid())) return ellipsoids;
+  return CombinedOracle(a, b, tolerance).relation();
+}
+
 CombinedOracle::CombinedOracle(const CombinedEllipsoid& a, const CombinedEllipsoid& b, double tolerance) {
   if (!(tolerance > 0) || !(tolerance < 1))
     throw InputError("tolerance", to_text(tolerance), "between 0 and 1");

@@ -27,9 +27,7 @@ Tracer::Tracer(const CombinedOracle& oracle, double tolerance, int count)
   }
 }
 
-Vector3d Tracer::side(double azimuth) const {
-  return std::cos(azimuth) * frame_.e1 + std::sin(azimuth) * frame_.e2;
-}
+Vector3d Tracer::side(double azimuth) const { return frame_.across(azimuth); }
 Vector3d Tracer::direction(double azimuth, double angle) const {
   return std::cos(angle) * frame_.axis + std::sin(angle) * side(azimuth);
 }

@@ -207,15 +207,16 @@ PlaneSectorRates true_sector_rates(const PlaneSector& sector, const Ellipsoid& a
   if (u.isZero(0)) throw InputError("sector", "a sector without a plane", "true_sector() of the two bodies");
   if (a.center() == b.center()) throw InputError("bodies", "the same centre", "disjoint");
   const auto width_rate = [](const Ellipsoid& body, const Vector3d& n, const Vector3d& omega,
-                             const Eigen::Matrix3d& extra) {
+                             const BodyRate* rate) {
     // Turning: S' = W S - S W with W = [omega x], so n.S'n / 2 = (S n).(n x omega).
     const Vector3d sn = body.factor() * (body.factor().transpose() * n);
-    return (sn.dot(n.cross(omega)) + 0.5 * n.dot(extra * n)) / body.radius(n);
+    const double change = rate ? 0.5 * n.dot(rate->shape * n) : 0;
+    return (sn.dot(n.cross(omega)) + change) / body.radius(n);
   };
   // n.(S n)/rho is where the contact is, so the turning of a shape is that of the contact point.
   const auto speed = [&](const Vector3d& n) {
-    return n.dot(c_rate) - width_rate(a, n, motion.omega_a, motion.shape_rate_a) -
-           width_rate(b, n, motion.omega_b, motion.shape_rate_b);
+    return n.dot(c_rate) - width_rate(a, n, motion.omega_a, motion.rate_a) -
+           width_rate(b, n, motion.omega_b, motion.rate_b);
   };
   return sector_rates(sector, speed(sector.left.normal), speed(sector.right.normal), c_rate,
                       motion.plane_spin);

@@ -42,7 +42,7 @@ double shape_speed(const TouchedSurfaces& touched, const Vector3d& y, const Vect
 
 /// From the contacts: only how fast the points in contact move along their normal counts.
 OpeningRates contact_rates(const PlaneSector& sector, const CombinedEllipsoid* a, const CombinedEllipsoid* b,
-                           const Vector3d& e, const PairMotion& motion) {
+                           const Vector3d& e, const SpatialMotion& motion) {
   const Vector3d v = motion.v_b - motion.v_a;
   const auto speed = [&](const GrazingEdge& edge) {
     const Vector3d& n = edge.normal;
@@ -64,7 +64,7 @@ std::vector<DelimiterRate<2>> delimiters_in_plane(const BodyRate* rate) {
 }
 
 OpeningRates planar_rates(const CombinedSector& sector, const CombinedEllipse& a, const CombinedEllipse& b,
-                          const PairMotion& motion) {
+                          const SpatialMotion& motion) {
   PlanarMotion planar;
   planar.v_a = motion.v_a.head<2>();
   planar.v_b = motion.v_b.head<2>();
@@ -77,25 +77,9 @@ OpeningRates planar_rates(const CombinedSector& sector, const CombinedEllipse& a
   return {rates.psi, rates.theta_b};
 }
 
-OpeningRates slice_rates(const Sections& sections, const CombinedEllipsoid& a, const CombinedEllipsoid& b,
-                         const Vector3d& u, const Vector3d& e, const PairMotion& motion) {
-  const Vector3d v = motion.v_b - motion.v_a;
-  const double distance = (b.center() - a.center()).norm();
-  // The axes (u, e) turn with the line of sight, and about it.
-  const Vector3d plane = u.cross(v) / distance + motion.plane_spin * u;
-  const SectorRates rates =
-      section_rates(sections, a, b, u, e,
-                    {motion.omega_a - plane, motion.omega_b - plane, v.dot(u), motion.rate_a, motion.rate_b});
-  return {rates.psi, rates.theta_b + v.dot(e) / distance};
-}
-
 OpeningRates ellipsoid_rates(const PlaneSector& sector, const Ellipsoid& a, const Ellipsoid& b,
-                             const PairMotion& motion) {
-  SpatialMotion spatial{motion.v_a, motion.v_b, motion.omega_a, motion.omega_b};
-  if (motion.rate_a) spatial.shape_rate_a = motion.rate_a->shape;
-  if (motion.rate_b) spatial.shape_rate_b = motion.rate_b->shape;
-  spatial.plane_spin = motion.plane_spin;
-  const PlaneSectorRates rates = true_sector_rates(sector, a, b, spatial);
+                             const SpatialMotion& motion) {
+  const PlaneSectorRates rates = true_sector_rates(sector, a, b, motion);
   return {rates.psi(), rates.theta_b() + rates.line_of_sight};
 }
 
@@ -147,14 +131,17 @@ struct PlaneCones::Ask {
   std::optional<Opening> operator()(const Planar& pair) const {
     const CombinedSector sector = combined_sector(pair.a, pair.b);
     if (sector.sector.relation != Relation::disjoint) return std::nullopt;
-    fill([&](const PairMotion& motion) { return planar_rates(sector, pair.a, pair.b, motion); });
+    fill([&](const SpatialMotion& motion) { return planar_rates(sector, pair.a, pair.b, motion); });
     return Opening{sector.sector.psi,
                    std::remainder(sector.sector.theta_b - std::atan2(u.y(), u.x()), 2 * std::numbers::pi)};
   }
   std::optional<Opening> operator()(const Slices& pair) const {
     const Sections sections = sections_of(pair.a, pair.b, u, e);
     if (!sections.disjoint()) return std::nullopt;
-    fill([&](const PairMotion& motion) { return slice_rates(sections, pair.a, pair.b, u, e, motion); });
+    fill([&](const SpatialMotion& motion) {
+      const SectorRates rates = section_rates(sections, pair.a, pair.b, u, e, motion);
+      return OpeningRates{rates.psi, rates.theta_b};
+    });
     return Opening{sections.sector.sector.psi, sections.sector.sector.theta_b};
   }
   std::optional<Opening> operator()(const HullSlices& pair) const {
@@ -164,7 +151,7 @@ struct PlaneCones::Ask {
   std::optional<Opening> operator()(const Ellipsoids& pair) const {
     if (!pair.planes.disjoint()) return std::nullopt;
     const PlaneSector sector = pair.planes.on(e);
-    fill([&](const PairMotion& motion) { return ellipsoid_rates(sector, pair.a, pair.b, motion); });
+    fill([&](const SpatialMotion& motion) { return ellipsoid_rates(sector, pair.a, pair.b, motion); });
     return Opening{sector.psi(), sector.theta_b()};
   }
   std::optional<Opening> operator()(const TrueHull& pair) const {
@@ -184,7 +171,7 @@ struct PlaneCones::Ask {
   std::optional<Opening> by_contacts(const std::optional<PlaneSector>& sector) const {
     if (!sector) return std::nullopt;
     if (sector->has_contacts())
-      fill([&](const PairMotion& motion) {
+      fill([&](const SpatialMotion& motion) {
         return contact_rates(*sector, cones.a_.quadric(), cones.b_.quadric(), e, motion);
       });
     return Opening{sector->psi(), sector->theta_b()};

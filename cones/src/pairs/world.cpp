@@ -20,13 +20,6 @@ std::optional<Relation> relation_in_plane(const CombinedEllipse& a, const Combin
   return std::nullopt;
 }
 
-std::optional<Relation> relation_in_space(const CombinedEllipsoid& a, const CombinedEllipsoid& b,
-                                          double tolerance) {
-  const Relation of_ellipsoids = relation<3>(a.ellipsoid(), b.ellipsoid());
-  if (of_ellipsoids == Relation::disjoint || (a.is_ellipsoid() && b.is_ellipsoid())) return of_ellipsoids;
-  return CombinedOracle(a, b, tolerance).relation();
-}
-
 const Ellipsoid* plain(const WorldBody& body) {
   return body.quadric() && !body.delimited() ? &body.quadric()->ellipsoid() : nullptr;
 }
@@ -40,7 +33,7 @@ Pair pair_of(const WorldBody& agent, const WorldBody& obstacle, const PairOption
 
 std::optional<Relation> relation_of(const WorldBody& a, const WorldBody& b, double tolerance) {
   if (a.planar() && b.planar()) return relation_in_plane(*a.flat(), *b.flat(), tolerance);
-  if (a.quadric() && b.quadric()) return relation_in_space(*a.quadric(), *b.quadric(), tolerance);
+  if (a.quadric() && b.quadric()) return combined_relation(*a.quadric(), *b.quadric(), tolerance);
   if (a.hull() && b.hull()) return HullOracle(*a.hull(), *b.hull()).relation();
   if (plain(a) && b.hull()) return HullOracle(*plain(a), *b.hull()).relation();
   if (a.hull() && plain(b)) return HullOracle(*plain(b), *a.hull()).relation();

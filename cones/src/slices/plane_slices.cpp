@@ -77,17 +77,23 @@ Sections sections_of(const CombinedEllipsoid& a, const CombinedEllipsoid& b, con
 }
 
 SectorRates section_rates(const Sections& sections, const CombinedEllipsoid& a, const CombinedEllipsoid& b,
-                          const Vector3d& u, const Vector3d& e, const SectionMotion& motion) {
+                          const Vector3d& u, const Vector3d& e, const SpatialMotion& motion) {
   VERICONE_REQUIRES(sections.disjoint());
+  const Vector3d v = motion.v_b - motion.v_a;
+  const double distance = (b.center() - a.center()).norm();
+  // The axes (u, e) turn with the line of sight, and about it.
+  const Vector3d plane = u.cross(v) / distance + motion.plane_spin * u;
   const PlaneAxes p = axes_of(u, e);
-  const SectionRates of_a = rates_of(sections.a, a, p, motion.omega_a, motion.rate_a),
-                     of_b = rates_of(sections.b, b, p, motion.omega_b, motion.rate_b);
+  const SectionRates of_a = rates_of(sections.a, a, p, motion.omega_a - plane, motion.rate_a),
+                     of_b = rates_of(sections.b, b, p, motion.omega_b - plane, motion.rate_b);
   PlanarMotion planar;
-  planar.v_b = Vector2d(motion.closing, 0);
+  planar.v_b = Vector2d(v.dot(u), 0);
   planar.shape_rate_a = of_a.shape;
   planar.shape_rate_b = of_b.shape;
-  return combined_sector_rates(sections.sector, sections.a, sections.b, planar, of_a.delimiters,
-                               of_b.delimiters);
+  SectorRates rates = combined_sector_rates(sections.sector, sections.a, sections.b, planar, of_a.delimiters,
+                                            of_b.delimiters);
+  rates.theta_b += v.dot(e) / distance;
+  return rates;
 }
 
 std::optional<Sector> hull_section(const Ellipsoid& agent, const HullBody& hull, const Vector3d& u,

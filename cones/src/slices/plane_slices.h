@@ -5,6 +5,7 @@
 #pragma once
 
 #include <vericone/cones/combined/sector.h>
+#include <vericone/cones/ellipsoids/plane_sector.h>
 #include <vericone/geometry/combined.h>
 #include <vericone/geometry/hull_body.h>
 #include <optional>
@@ -22,16 +23,9 @@ struct Sections {
 Sections sections_of(const CombinedEllipsoid& a, const CombinedEllipsoid& b, const Eigen::Vector3d& u,
                      const Eigen::Vector3d& e);
 
-/// How both bodies move seen from axes that turn with the plane.
-struct SectionMotion {
-  Eigen::Vector3d omega_a = Eigen::Vector3d::Zero(), omega_b = Eigen::Vector3d::Zero();
-  double closing = 0;                // V_r, m/s
-  const BodyRate* rate_a = nullptr;  // none: zero
-  const BodyRate* rate_b = nullptr;
-};
-/// Closed form, beside the plane's own turning. Requires disjoint sections.
+/// Closed form, theta_b against fixed axes. Requires disjoint sections.
 SectorRates section_rates(const Sections& sections, const CombinedEllipsoid& a, const CombinedEllipsoid& b,
-                          const Eigen::Vector3d& u, const Eigen::Vector3d& e, const SectionMotion& motion);
+                          const Eigen::Vector3d& u, const Eigen::Vector3d& e, const SpatialMotion& motion);
 
 /// The sector of the sections of a hull and of the agent; nothing where the plane misses the hull or the
 /// agent's section reaches into it.

@@ -14,6 +14,7 @@
 #include "ellipsoids/require_disjoint.h"
 #include "planar/degenerate_conics.h"
 #include "planar/planar_frame.h"
+#include "slices/on_planes.h"
 
 namespace vericone {
 namespace {
@@ -80,19 +81,17 @@ class Slicer {
 }  // namespace
 
 SliceCone slice_cone(const Ellipsoid& a, const Ellipsoid& b, int planes) {
-  if (planes < 1 || planes > 1'000'000)
-    throw InputError("planes", std::to_string(planes), "a whole number from 1 to 1000000");
+  require_planes(planes);
   SliceCone cone;
   cone.relation = relation<3>(a, b);
   cone.axis = (b.center() - a.center()).normalized();
   if (cone.relation != Relation::disjoint) return cone;
   const Slicer slicer(a, b);
   cone.slices.reserve(planes);
-  for (int j = 0; j < planes; ++j) {
-    const double azimuth = std::numbers::pi * j / planes;
-    const Vector3d across = std::cos(azimuth) * slicer.frame().e1 + std::sin(azimuth) * slicer.frame().e2;
+  on_planes(slicer.frame(), planes, [&](double azimuth, const Vector3d& across) {
     cone.slices.push_back(slicer.slice(azimuth, across, cone.support_fallbacks));
-  }
+    return true;
+  });
   return cone;
 }
 
@@ -114,8 +113,7 @@ PolyhedralCone SliceCone::polyhedral() const {
   }
   const AxisFrame frame(axis);
   const auto add = [&](double azimuth, double angle) {
-    const Vector3d across = std::cos(azimuth) * frame.e1 + std::sin(azimuth) * frame.e2;
-    cone.directions.push_back(std::cos(angle) * frame.axis + std::sin(angle) * across);
+    cone.directions.push_back(std::cos(angle) * frame.axis + std::sin(angle) * frame.across(azimuth));
   };
   for (const Slice& s : slices) add(s.azimuth, s.left);
   for (const Slice& s : slices) add(s.azimuth + std::numbers::pi, s.right);

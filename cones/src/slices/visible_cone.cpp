@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
-#include <string>
+
+#include "slices/on_planes.h"
 
 namespace vericone {
 namespace {
@@ -19,30 +19,23 @@ using Eigen::Vector3d;
 template <typename SectorOn>
 VisibleCone cone(const Vector3d& center, const PlanePoints& obstacle, const Vector3d& towards, int planes,
                  const SectorOn& sector_on) {
-  if (planes < 1 || planes > 1'000'000)
-    throw InputError("planes", std::to_string(planes), "a whole number from 1 to 1000000");
+  require_planes(planes);
   const Vector3d sight = towards - center;
   if (!sight.allFinite() || !(sight.norm() > 0))
     throw InputError("towards", "the agent's centre or no finite point", "another point");
   VisibleCone cone;
   const AxisFrame frame(sight);
   cone.axis = frame.axis;
-  for (int j = 0; j < planes; ++j) {
-    VisiblePlane plane;
-    plane.azimuth = std::numbers::pi * j / planes;
-    const PlaneFrame where{center, frame.axis,
-                           std::cos(plane.azimuth) * frame.e1 + std::sin(plane.azimuth) * frame.e2};
+  on_planes(frame, planes, [&](double azimuth, const Vector3d& across) {
+    const PlaneFrame where{center, frame.axis, across};
     std::vector<Vector2d> chain = obstacle(where);
-    plane.points = chain.size();
     order_by_bearing(chain);
     const VisibleSector result = sector_on(where, chain);
-    plane.reason = result.reason;
-    plane.tried = result.tried;
-    if (result.sector)
-      plane.slice = Slice{plane.azimuth, 0.5 * result.sector->psi + result.sector->theta_b,
-                          0.5 * result.sector->psi - result.sector->theta_b};
+    VisiblePlane plane{azimuth, std::nullopt, result.reason, chain.size(), result.tried};
+    if (result.sector) plane.slice = slice_of(azimuth, *result.sector);
     cone.planes.push_back(plane);
-  }
+    return true;
+  });
   return cone;
 }
 

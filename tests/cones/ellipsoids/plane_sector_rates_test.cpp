@@ -30,8 +30,8 @@ PlaneSector later(const PlaneSector& s, const Ellipsoid& a, const Ellipsoid& b, 
                   double t) {
   const Vector3d c = b.center() - a.center();
   const Vector3d turning = s.line_of_sight.cross(m.v_b - m.v_a) / c.norm() + m.plane_spin * s.line_of_sight;
-  return true_sector(moved(a, m.v_a, m.omega_a, m.shape_rate_a, t),
-                     moved(b, m.v_b, m.omega_b, m.shape_rate_b, t), s.across + t * turning.cross(s.across));
+  return true_sector(moved(a, m.v_a, m.omega_a, m.rate_a->shape, t),
+                     moved(b, m.v_b, m.omega_b, m.rate_b->shape, t), s.across + t * turning.cross(s.across));
 }
 
 Matrix3d symmetric(RandomBodies& random, double size) {
@@ -49,7 +49,10 @@ TEST(PlaneSectorRates, EveryKindOfMotion) {
     const auto [a, b] = random.scaled_from_touching(1, 3, random.uniform(1.3, 4));
     const PlaneSector s = true_sector(a, b, random.direction());
     const Vector3d out_of_plane = s.line_of_sight.cross(s.across);
+    BodyRate rate_a, rate_b;
     SpatialMotion m;
+    m.rate_a = &rate_a;
+    m.rate_b = &rate_b;
     const int kind = i % 11;
     const bool all = kind >= 9;
     if (kind == 0 || all) m.v_a = random.direction();
@@ -58,8 +61,8 @@ TEST(PlaneSectorRates, EveryKindOfMotion) {
     if (kind == 3) m.v_b = s.line_of_sight;
     if (kind == 4 || all) m.omega_a = random.in_box(1);
     if (kind == 5 || all) m.omega_b = random.in_box(1);
-    if (kind == 6 || all) m.shape_rate_a = symmetric(random, 0.2);
-    if (kind == 7 || all) m.shape_rate_b = symmetric(random, 0.2);
+    if (kind == 6 || all) rate_a.shape = symmetric(random, 0.2);
+    if (kind == 7 || all) rate_b.shape = symmetric(random, 0.2);
     if (kind == 8 || all) m.plane_spin = random.uniform(-1, 1);
     const PlaneSectorRates rates = true_sector_rates(s, a, b, m);
     const auto rate = [&, &a = a, &b = b](auto&& of) {
@@ -87,11 +90,12 @@ TEST(PlaneSectorRates, SpheresInClosedForm) {
                     b = Ellipsoid::from_axes(c, Vector3d::Constant(r2));
     SpatialMotion m{random.direction(), random.direction(), random.in_box(3), random.in_box(3)};
     m.plane_spin = random.uniform(-2, 2);
-    m.shape_rate_b = 2 * r2 * random.uniform(-1, 1) * Matrix3d::Identity();  // r' = S' / (2 r)
+    BodyRate rate_b;
+    m.rate_b = &rate_b;
+    rate_b.shape = 2 * r2 * random.uniform(-1, 1) * Matrix3d::Identity();  // r' = S' / (2 r)
     const PlaneSector s = true_sector(a, b, random.direction());
     const PlaneSectorRates rates = true_sector_rates(s, a, b, m);
-    const double d = c.norm(), d_rate = c.dot(m.v_b - m.v_a) / d,
-                 reach_rate = m.shape_rate_b(0, 0) / (2 * r2);
+    const double d = c.norm(), d_rate = c.dot(m.v_b - m.v_a) / d, reach_rate = rate_b.shape(0, 0) / (2 * r2);
     const double half_rate = (reach_rate - reach * d_rate / d) / std::sqrt(d * d - reach * reach);
     ASSERT_NEAR(rates.left, half_rate, 1e-12) << "case " << i;
     ASSERT_NEAR(rates.right, half_rate, 1e-12) << "case " << i;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,11 @@ struct AxisFrame {
   Eigen::Vector3d e1, e2, axis;
   /// `direction` need not be a unit vector.
   explicit AxisFrame(const Eigen::Vector3d& direction);
+
+  /// The unit vector across the axis at an azimuth, radians from e1 towards e2.
+  [[nodiscard]] Eigen::Vector3d across(double azimuth) const {
+    return std::cos(azimuth) * e1 + std::sin(azimuth) * e2;
+  }
 };
 
 /// Solid angle, in steradian, of the union of the triangular cones (axis, d_i, d_{i+1}) over the closed

@@ -35,15 +35,6 @@ struct OpeningRates {
   double psi = 0, theta_b = 0;
 };
 
-/// How two bodies move, turn and change, and the plane with them.
-struct PairMotion {
-  Eigen::Vector3d v_a = Eigen::Vector3d::Zero(), v_b = Eigen::Vector3d::Zero();          // m/s
-  Eigen::Vector3d omega_a = Eigen::Vector3d::Zero(), omega_b = Eigen::Vector3d::Zero();  // rad/s
-  const BodyRate* rate_a = nullptr;                                                      // none: zero
-  const BodyRate* rate_b = nullptr;
-  double plane_spin = 0;  // rad/s, about the line of sight, beyond the turning of the latter
-};
-
 /// Whether there are sectors of bodies of these kinds: of two planar ones, by the true cone of any two in
 /// space, by slices of two combined ones and of an ellipsoid and a hull.
 [[nodiscard]] bool has_sectors(const WorldBody& a, const WorldBody& b, SectorMethod method);
@@ -61,7 +52,7 @@ class PlaneCones {
   /// A motion, and what the opening does in it; nothing where that has no closed form: slices of hulls, and
   /// edges of which no contact is known.
   struct Moving {
-    PairMotion motion;
+    SpatialMotion motion;
     std::optional<OpeningRates> rates;
   };
 

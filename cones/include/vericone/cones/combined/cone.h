@@ -100,6 +100,11 @@ class CombinedOracle {
   std::unique_ptr<State> state_;
 };
 
+/// CombinedOracle(a, b, tolerance).relation() at less cost: the ellipsoids contain the bodies and are asked
+/// first.
+[[nodiscard]] std::optional<Relation> combined_relation(const CombinedEllipsoid& a,
+                                                        const CombinedEllipsoid& b, double tolerance = 1e-6);
+
 /// Certified inner and outer cone, star-shaped about the line of centres, with the true cone between.
 struct CombinedCone {
   /// Nothing where it could not be decided whether the bodies touch: then there is no cone either.

@@ -5,6 +5,7 @@
 
 #include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/cones/plane_sector.h>
+#include <vericone/geometry/combined.h>
 
 namespace vericone {
 
@@ -31,12 +32,11 @@ class SectorPlanes {
   bool disjoint_ = false;
 };
 
-/// How the bodies, and the plane with them, move.
+/// How two bodies move, turn and change, and the plane with them.
 struct SpatialMotion {
   Eigen::Vector3d v_a = Eigen::Vector3d::Zero(), v_b = Eigen::Vector3d::Zero();          // m/s
   Eigen::Vector3d omega_a = Eigen::Vector3d::Zero(), omega_b = Eigen::Vector3d::Zero();  // rad/s
-  // Rates of the shape matrices beyond turning, m^2/s.
-  Eigen::Matrix3d shape_rate_a = Eigen::Matrix3d::Zero(), shape_rate_b = Eigen::Matrix3d::Zero();
+  const BodyRate *rate_a = nullptr, *rate_b = nullptr;                                   // none: rigid
   double plane_spin = 0;  // rad/s, of the plane about the line of sight, beyond the turning of the latter
 };
 
