@@ -74,7 +74,7 @@ TEST(RandomEngagement, EngagementsAreApartAndAsTheDistributionSays) {
 }
 
 TEST(RandomEngagement, DelimitedObstaclesHaveTheEllipsoidsOfThePlainOnes) {
-  for (const auto [kind, count] :
+  for (const auto& [kind, count] :
        {std::pair(ObstacleKind::ellipsoid, 0), std::pair(ObstacleKind::biconcave, 1),
         std::pair(ObstacleKind::biconvex, 1), std::pair(ObstacleKind::star, 3)})
     for (std::uint64_t i = 0; i < 50; ++i) {
