@@ -53,10 +53,9 @@ Going read_going(const Json& value, const std::string& path, bool planar) {
     if (radians || degrees)
       throw InputError(path + "." + heading, quoted(value[heading]),
                        "given with speed, not alone or beside velocity");
-    Going going;
-    going.velocity =
-        read_point(require_field(value, path, "velocity", "a list of numbers (m/s), or speed with heading"),
-                   path + ".velocity", planar, " (m/s)");
+    Going going;  // at rest
+    if (value.contains("velocity"))
+      going.velocity = read_point(value["velocity"], path + ".velocity", planar, " (m/s)");
     going.ahead = guidance::direction_of(going.velocity);
     return going;
   }

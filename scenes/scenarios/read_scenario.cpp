@@ -38,13 +38,10 @@ Json with_shape(const Json& value, const std::string& path) {
     else
       (own ? body : shape)[key] = field;
   }
-  // As in scenes: a body from a file stands where the file has it, and is at rest, unless it says otherwise.
+  // As in scenes: a body from a file stands where the file has it, unless it says otherwise.
   if (!body.contains("position") && !shape.contains("semi_axes") && !shape.contains("shape") &&
       !shape.contains("a_c") && !shape.contains("dented"))
     body["position"] = {0, 0, 0};
-  if (!body.contains("velocity") && !body.contains("speed"))
-    body["velocity"] = body.contains("position") ? Json(std::vector<double>(body["position"].size(), 0.0))
-                                                 : Json::array({0, 0, 0});
   body["shape"] = std::move(shape);
   return body;
 }

@@ -361,7 +361,7 @@ SCENARIOS = [
     ("k that changes by text", scenario(BODY.replace("semi_axes: [2, 2, 2]", "dented: [2, 2, 2], k: {rate: fast}"))),
     ("a hull of nothing", scenario(BODY.replace("semi_axes: [2, 2, 2]", "points: []"))),
     ("a position in the plane", scenario(BODY.replace("[20, 0, 0]", "[20, 0]"))),
-    ("no velocity", scenario(BODY.replace(", velocity: [-1, 0, 0]", ""))),
+    ("a heading without a speed", scenario(BODY.replace("velocity: [-1, 0, 0]", "heading: [0, 0]"))),
     ("a velocity and a speed", scenario(BODY.replace("velocity:", "speed: 3, velocity:"))),
     ("a speed without heading", scenario(BODY.replace("velocity: [-1, 0, 0]", "speed: 3"))),
     ("a negative speed", scenario(BODY.replace("velocity: [-1, 0, 0]", "speed: -3, heading: [0, 0]"))),

@@ -43,6 +43,10 @@ class Examples(unittest.TestCase):
         program = os.path.abspath(os.environ["VERICONE"])
         (self.folder / "run").write_text(f'#!/bin/sh\nexec "{program}" "$@"\n')
         (self.folder / "run").chmod(0o755)
+        # Where CONTRIBUTING.md has the build, and what it writes.
+        (self.folder / "build/release/apps").mkdir(parents=True)
+        (self.folder / "build/release/apps/vericone").symlink_to(program)
+        (self.folder / "docs/reference").mkdir()
         self.environment = {**os.environ, "PATH": f"{os.path.dirname(program)}:/usr/bin:/bin"}
         self.done = {}
 

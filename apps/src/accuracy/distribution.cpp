@@ -28,4 +28,12 @@ std::string distribution_settings(const Options& options) {
          (from.distance ? ", distance " + range_text(*from.distance) : "");
 }
 
+ObstacleKind obstacle_kind(const std::string& name) {
+  if (name == "ellipsoid") return ObstacleKind::ellipsoid;
+  if (name == "biconcave") return ObstacleKind::biconcave;
+  if (name == "biconvex") return ObstacleKind::biconvex;
+  if (name == "star") return ObstacleKind::star;
+  throw InputError("--obstacle", name, "ellipsoid, biconcave, biconvex or star");
+}
+
 }  // namespace vericone::accuracy

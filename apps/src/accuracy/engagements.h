@@ -1,65 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vericone/geometry/combined.h>
-#include <cstdint>
-#include <optional>
+#include <vericone/geometry/random_engagement.h>
 #include <string>
-#include <utility>
 
 namespace vericone::accuracy {
 
-/// Numbers that depend on a seed and a position alone, not on the order or the thread in which they are
-/// drawn.
-class Random {
- public:
-  Random(std::uint64_t seed, std::uint64_t index);
-  double uniform();  // [0, 1), 53 bits
-  double uniform(double low, double high) { return low + (high - low) * uniform(); }
-  Eigen::Vector3d direction();  // uniform on the sphere
-  Eigen::Matrix3d rotation();   // uniform (Shoemake 1992)
+using namespace engagements;
 
- private:
-  std::uint64_t next();
-  std::uint64_t state_;
-};
-
-struct Range {
-  double low, high;
-};
-
-/// What engagements are drawn from, uniformly.
-struct Distribution {
-  Range semi_axes{1, 10};         // of both bodies, m
-  Range spacing{1.5, 3};          // of the centres, in parts of the distance that just separates
-  std::optional<Range> distance;  // of the centres, m, instead; above twice the largest semi-axis
-};
-
-/// Engagement `index` of the campaign: semi-axes uniform in 1..10 m, uniform orientations, the centre of B in
-/// a uniform direction d at 1.5 to 3 times the distance rho_A(d) + rho_B(d) at which a plane perpendicular to
-/// d just separates the bodies, unless `from` says otherwise. The line of centres then always separates them
-/// and the section area is finite. The source does not print its distribution (errata, 4.1).
-std::pair<Ellipsoid, Ellipsoid> random_engagement(std::uint64_t seed, std::uint64_t index,
-                                                  const Distribution& from = {});
-
-/// The obstacles of `vericone accuracy --obstacle`.
-enum class ObstacleKind { ellipsoid, biconcave, biconvex, star };
-
-/// Throws InputError naming "--obstacle".
+/// Of `vericone accuracy --obstacle`. Throws InputError naming "--obstacle".
 ObstacleKind obstacle_kind(const std::string& name);
-
-/// The same engagement with the obstacle delimited, its ellipsoid (semi-axes a, b, c) as it was:
-///   biconcave  one hyperboloid of two sheets on the body's axes, semi-axes (u a, v b, v c),
-///   biconvex   one of one sheet on the body's axes, semi-axes (v a, u b, u c),
-///   star       three of two sheets at uniform orientations, u and v as parts of the ellipsoid's extent along
-///              their axes,
-/// u uniform in 0.3 to 0.8 (what the dents and the waist leave), v in 0.3 to 1.
-std::pair<Ellipsoid, CombinedEllipsoid> random_combined_engagement(ObstacleKind kind, std::uint64_t seed,
-                                                                   std::uint64_t index,
-                                                                   const Distribution& from = {});
-
-/// Approach `index` of an ellipsoidal agent to a given obstacle: the agent has semi-axes of 0.2 to 1 times
-/// the obstacle's mean one, and the rest is as above.
-Ellipsoid random_agent(const Ellipsoid& obstacle, std::uint64_t seed, std::uint64_t index);
 
 }  // namespace vericone::accuracy

@@ -135,7 +135,8 @@ Answer answer_of(const FitCommandOptions& given, Progress& progress) {
 
 void write_files(const Answer& a, const FitCommandOptions& given, StagedFolder& folder, Progress& progress) {
   const fs::path& stage = folder.path();
-  const std::string comment = "Fitted to " + given.file + ": " + title_of(a.scan, a.result);
+  // The path is in provenance.json.
+  const std::string comment = "Fitted to " + title_of(a.scan, a.result);
   const std::vector<CombinedSurface> surfaces = fit::hull_surfaces(a.result.pieces);
   write_whole(stage / "fit.json", json_text(a.json) + "\n");
   write_whole(stage / "body.yaml", fit::body_yaml(a.bodies, comment));

@@ -5,6 +5,7 @@
 #include <vericone/cones/slices/visible_cone.h>
 #include <vericone/geometry/error.h>
 #include <vericone/lidar/scan.h>
+#include <vericone/lidar/visible_part.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,7 +14,6 @@
 
 #include "input/stopwatch.h"
 #include "scan/study_parts.h"
-#include "scan/visible_part.h"
 
 namespace vericone::scanning {
 namespace {
@@ -192,8 +192,9 @@ Study study(const Setup& setup, std::ostream* log) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const lidar::Scan& scan : most.scans)
     for (const lidar::Return& r : scan.returns) nearest = std::min(nearest, r.in_sensor.norm());
-  const SurfacePart part = visible_part(scene, setup.points, setup.triangles, setup.lidars, setup.agent_pose,
-                                        0.25 * study.levels.back().spacing * nearest);
+  const lidar::SurfacePart part =
+      lidar::visible_part(scene, setup.points, setup.triangles, setup.lidars, setup.agent_pose,
+                          0.25 * study.levels.back().spacing * nearest);
   if (part.triangles.empty()) throw InputError("lidars", "nothing seen", "lidars that see the obstacle");
   study.visible_area = part.area;
   study.whole_area = area(setup);

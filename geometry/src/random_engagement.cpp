@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "accuracy/engagements.h"
-
-#include <vericone/geometry/error.h>
+#include <vericone/geometry/random_engagement.h>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
-namespace vericone::accuracy {
+namespace vericone::engagements {
 
 Random::Random(std::uint64_t seed, std::uint64_t index)
     : state_(seed * 0x9e3779b97f4a7c15 + 0x2545f4914f6cdd1d) {
@@ -92,14 +90,6 @@ std::pair<Ellipsoid, Ellipsoid> random_engagement(std::uint64_t seed, std::uint6
   return {drawn.a, drawn.b};
 }
 
-ObstacleKind obstacle_kind(const std::string& name) {
-  if (name == "ellipsoid") return ObstacleKind::ellipsoid;
-  if (name == "biconcave") return ObstacleKind::biconcave;
-  if (name == "biconvex") return ObstacleKind::biconvex;
-  if (name == "star") return ObstacleKind::star;
-  throw InputError("--obstacle", name, "ellipsoid, biconcave, biconvex or star");
-}
-
 std::pair<Ellipsoid, CombinedEllipsoid> random_combined_engagement(ObstacleKind kind, std::uint64_t seed,
                                                                    std::uint64_t index,
                                                                    const Distribution& from) {
@@ -119,4 +109,4 @@ Ellipsoid random_agent(const Ellipsoid& obstacle, std::uint64_t seed, std::uint6
   return agent.translated(obstacle.center() - distance * d);
 }
 
-}  // namespace vericone::accuracy
+}  // namespace vericone::engagements

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scan/visible_part.h"
+#include <vericone/lidar/visible_part.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-namespace vericone::scanning {
+namespace vericone::lidar {
 namespace {
 
 using Eigen::Vector3d;
@@ -18,7 +18,7 @@ constexpr double kEdge = 1e-9;    // rad, by which the field of view is wider th
 /// Where a lidar can have beams.
 class View {
  public:
-  View(const lidar::Lidar& lidar, const Eigen::Isometry3d& agent)
+  View(const Lidar& lidar, const Eigen::Isometry3d& agent)
       : lidar_(lidar), pose_(agent * lidar.pose), to_sensor_(pose_.inverse()) {
     const auto [low, high] =
         std::minmax_element(lidar.beams.elevations.begin(), lidar.beams.elevations.end());
@@ -34,7 +34,7 @@ class View {
       half_ = 4;
   }
 
-  bool sees(const lidar::MeshScene& scene, const Vector3d& point) const {
+  bool sees(const MeshScene& scene, const Vector3d& point) const {
     const Vector3d p = to_sensor_ * point;
     const double range = p.norm();
     if (!(range >= lidar_.min_range && range <= lidar_.max_range)) return false;
@@ -45,14 +45,14 @@ class View {
   }
 
  private:
-  const lidar::Lidar& lidar_;
+  const Lidar& lidar_;
   Eigen::Isometry3d pose_, to_sensor_;
   double low_, high_, middle_, half_;
 };
 
 class Collector {
  public:
-  Collector(const lidar::MeshScene& scene, std::vector<View> views, double resolution)
+  Collector(const MeshScene& scene, std::vector<View> views, double resolution)
       : scene_(scene), views_(std::move(views)), resolution_(resolution) {}
 
   void add(const Vector3d& a, const Vector3d& b, const Vector3d& c, int depth = 0) {
@@ -88,7 +88,7 @@ class Collector {
                : 0;
   }
 
-  const lidar::MeshScene& scene_;
+  const MeshScene& scene_;
   std::vector<View> views_;
   double resolution_;
   SurfacePart part_;
@@ -96,15 +96,14 @@ class Collector {
 
 }  // namespace
 
-SurfacePart visible_part(const lidar::MeshScene& scene, const std::vector<Vector3d>& points,
-                         const std::vector<lidar::Triangle>& triangles,
-                         const std::vector<lidar::Lidar>& lidars, const Eigen::Isometry3d& agent,
-                         double resolution) {
+SurfacePart visible_part(const MeshScene& scene, const std::vector<Vector3d>& points,
+                         const std::vector<Triangle>& triangles, const std::vector<Lidar>& lidars,
+                         const Eigen::Isometry3d& agent, double resolution) {
   std::vector<View> views;
-  for (const lidar::Lidar& l : lidars) views.emplace_back(l, agent);
+  for (const Lidar& l : lidars) views.emplace_back(l, agent);
   Collector collector(scene, std::move(views), resolution);
-  for (const lidar::Triangle& t : triangles) collector.add(points[t[0]], points[t[1]], points[t[2]]);
+  for (const Triangle& t : triangles) collector.add(points[t[0]], points[t[1]], points[t[2]]);
   return collector.take();
 }
 
-}  // namespace vericone::scanning
+}  // namespace vericone::lidar
