@@ -18,6 +18,10 @@ ErrorSet ErrorSet::ball(double radius) {
 }
 
 ErrorSet ErrorSet::ellipsoid(const Vector3d& semi_axes, const Matrix3d& rotation) {
+  for (int i = 0; i < 3; ++i)
+    if (!(semi_axes(i) > 0 && std::isfinite(semi_axes(i))))
+      throw InputError("semi_axes[" + std::to_string(i) + "]", to_text(semi_axes(i)),
+                       "a positive finite number; of flat errors a box");
   ErrorSet set;
   set.factors_.push_back(Ellipsoid::from_axes(Vector3d::Zero(), semi_axes, rotation).factor());
   return set;

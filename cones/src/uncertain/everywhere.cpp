@@ -10,7 +10,7 @@
 namespace vericone::robust {
 namespace {
 
-constexpr int kMostCells = 20'000, kDeepest = 60;
+constexpr int kMostCells = 10'000, kDeepest = 44;
 constexpr double kRounding = 0x1p-46;  // of every term: each is made by fewer than 40 roundings
 
 /// A normal, and what does not depend on the point of K: at time t the farthest error reaches
@@ -185,6 +185,7 @@ class Search {
 
   /// Halves cells along their longest edge until each is decided.
   bool cover() {
+    bool all = true;
     while (count_ > 0) {
       if (++found_.cells > kMostCells) return false;
       const Cell cell = stack_[--count_];
@@ -193,7 +194,11 @@ class Search {
       Vector3d open = middle;
       if (passing(middle) > 0 && offer(middle)) return false;
       if (open_for_ever(open) && passing(open) > 0 && offer(open)) return false;
-      if (cell.depth == kDeepest) return false;
+      if (cell.depth == kDeepest) {
+        // A graze; an error that passes may still be found elsewhere.
+        all = false;
+        continue;
+      }
       int longest = 0;
       double most = 0;
       for (int i = 0; i < 3; ++i) {
@@ -206,7 +211,7 @@ class Search {
       stack_[count_++] = {{p, half, r}, cell.depth + 1};
       stack_[count_++] = {{half, q, r}, cell.depth + 1};
     }
-    return true;
+    return all;
   }
 
   const Engagement &inner_, &outer_;

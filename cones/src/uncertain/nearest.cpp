@@ -89,14 +89,20 @@ class Simplex {
     return n * (n.dot(x(0)) / n.squaredNorm());
   }
 
+  /// By the edges from one corner, which keep their digits where the simplex is small and far away.
   bool holds_zero() {
-    const double all = det(x(1) - x(0), x(2) - x(0), x(3) - x(0));
-    const double w[4] = {det(x(1), x(2), x(3)), -det(x(0), x(2), x(3)), det(x(0), x(1), x(3)),
-                         -det(x(0), x(1), x(2))};
-    for (const double part : w)
-      if (!(part * all > 0)) return false;
-    const double sum = w[0] + w[1] + w[2] + w[3];
-    for (int i = 0; i < 4; ++i) corner_[i].weight = w[i] / sum;
+    const Vector3d e1 = x(1) - x(0), e2 = x(2) - x(0), e3 = x(3) - x(0);
+    const double all = det(e1, e2, e3);
+    if (all == 0) return false;
+    const auto shares = [&](const Vector3d& to) {
+      return Vector3d(Vector3d(det(to, e2, e3), det(e1, to, e3), det(e1, e2, to)) / all);
+    };
+    Vector3d w = shares(-x(0));
+    w += shares(-(x(0) + w(0) * e1 + w(1) * e2 + w(2) * e3));
+    const double first = 1 - w.sum();
+    if (!(first > 0 && w.minCoeff() > 0)) return false;
+    corner_[0].weight = first;
+    for (int i = 0; i < 3; ++i) corner_[std::size_t(i + 1)].weight = w(i);
     return true;
   }
   static double det(const Vector3d& p, const Vector3d& q, const Vector3d& r) { return p.dot(q.cross(r)); }

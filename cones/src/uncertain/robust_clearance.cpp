@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace vericone {
@@ -27,10 +28,65 @@ class Rim {
     double value, slope, time;
   };
 
+  /// The largest, by the slope's change of sign beside the best of some starts. A maximum that is positive,
+  /// of a passage ahead, is the only one, as the condition is concave; elsewhere three times as many starts
+  /// are looked at.
+  At largest() const {
+    static const std::array<Eigen::Vector2d, kMost> starts = [] {
+      std::array<Eigen::Vector2d, kMost> all;
+      for (int i = 0; i < kMost; ++i) all[std::size_t(i)] = {std::cos(kStep * i), std::sin(kStep * i)};
+      return all;
+    }();
+    int best = 0, apart = kMost / kFew;
+    double most = -std::numeric_limits<double>::infinity();
+    const auto look = [&](int i) {
+      const Eigen::Vector2d& start = starts[std::size_t(i)];
+      const double found = value(normal(start.x(), start.y()));
+      if (found > most) most = found, best = i;
+    };
+    for (int i = 0; i < kMost; i += apart) look(i);
+    if (!(most > 0)) {
+      for (int i = 0; i < kMost; ++i)
+        if (i % apart != 0) look(i);
+      apart = 1;
+    }
+    At top = at(kStep * best);
+    double from = kStep * best, to = kStep * (best + (top.slope > 0 ? apart : -apart));
+    double at_from = top.slope, at_to = at(to).slope;
+    if (!(at_from * at_to < 0)) return top;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = from - at_from * (to - from) / (at_to - at_from);
+      const At now = at(middle);
+      if (now.value >= top.value) top = now;
+      if (now.slope == 0 || std::min(std::abs(middle - from), std::abs(middle - to)) < 1e-10) break;
+      // The end that stays counts for half, so that both move (Illinois).
+      if ((now.slope > 0) == (at_to > 0)) {
+        to = middle, at_to = now.slope;
+        at_from *= 0.5;
+      } else {
+        from = middle, at_from = now.slope;
+        at_to *= 0.5;
+      }
+    }
+    return top;
+  }
+
+ private:
+  static constexpr int kFew = 8, kMost = 24;
+  static constexpr double kStep = 2 * std::numbers::pi / kMost;
+
+  Vector3d normal(double cosine, double sine) const {
+    const Vector3d e = cosine * e1_ + sine * e2_;
+    return velocity_.none() ? e : turned(e);
+  }
+
+  double value(const Vector3d& n) const {
+    return n.dot(c_) - a_.radius(n) - b_.radius(n) - position_.support(n);
+  }
+
   At at(double azimuth) const {
-    const Vector3d e = std::cos(azimuth) * e1_ + std::sin(azimuth) * e2_;
     At r;
-    r.n = velocity_.none() ? e : turned(e);
+    r.n = normal(std::cos(azimuth), std::sin(azimuth));
     const Vector3d fastest = velocity_.none() ? w_ : Vector3d(w_ + velocity_.support_point(r.n));
     Vector3d apart = c_ - reach(a_, r.n) - reach(b_, r.n);
     if (!position_.none()) apart -= position_.support_point(r.n);
@@ -41,7 +97,6 @@ class Rim {
     return r;
   }
 
- private:
   static Vector3d reach(const Ellipsoid& body, const Vector3d& n) {
     const Vector3d u = body.factor().transpose() * n;
     return body.factor() * (u / u.norm());
@@ -61,7 +116,7 @@ class Rim {
       // d/ds of h_W(n) - s |w|, with dn/ds = -s/c e - along.
       const double rate = -(s / c) * v.dot(e) - v.dot(along_) - speed_;
       const double next = s - off / rate;
-      if (!(rate < 0) || std::abs(next - s) <= 1e-15) break;
+      if (!(rate < 0) || std::abs(next - s) <= 1e-14) break;
       s = std::max(next, 0.0);
     }
     return n;
@@ -80,37 +135,7 @@ std::optional<RobustClearance> robust_clearance(const Ellipsoid& a, const Ellips
   const double speed = w.norm();
   if (!(speed > 0 && std::isfinite(speed)) || !(velocity.support(w / speed) < speed * (1 - 1e-9)))
     return std::nullopt;
-  const Rim rim(a, b, w, position, velocity);
-  constexpr int kStart = 16;
-  constexpr double kStep = 2 * std::numbers::pi / kStart;
-  int best = 0;
-  std::array<Rim::At, kStart> around;
-  for (int i = 0; i < kStart; ++i) {
-    around[std::size_t(i)] = rim.at(kStep * i);
-    if (around[std::size_t(i)].value > around[std::size_t(best)].value) best = i;
-  }
-  // The slope changes its sign beside the best.
-  Rim::At top = around[std::size_t(best)];
-  const int other = top.slope > 0 ? best + 1 : best - 1;
-  double from = kStep * best, to = kStep * other;
-  double at_from = top.slope, at_to = around[std::size_t((other + kStart) % kStart)].slope;
-  if (at_from * at_to < 0) {
-    for (int i = 0; i < 60 && std::abs(to - from) > 1e-15; ++i) {
-      double middle = from - at_from * (to - from) / (at_to - at_from);
-      if (!(std::abs(middle - from) < std::abs(to - from))) middle = 0.5 * (from + to);
-      const Rim::At now = rim.at(middle);
-      if (now.value >= top.value) top = now;
-      if (now.slope == 0 || std::abs(middle - from) < 1e-14 || std::abs(middle - to) < 1e-14) break;
-      // The end that stays counts for half, so that both move (Illinois).
-      if ((now.slope > 0) == (at_to > 0)) {
-        to = middle, at_to = now.slope;
-        at_from *= 0.5;
-      } else {
-        from = middle, at_from = now.slope;
-        at_to *= 0.5;
-      }
-    }
-  }
+  const Rim::At top = Rim(a, b, w, position, velocity).largest();
   return RobustClearance{top.value, top.n, top.time};
 }
 

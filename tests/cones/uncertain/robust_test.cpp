@@ -123,12 +123,12 @@ TEST(RobustCone, VerdictsTurnWhereTheSetsReachTheGraze) {
     if (first == RobustVerdict::depends || first == RobustVerdict::undecided ||
         at(high) != RobustVerdict::depends)
       continue;
-    while (high - low > 1e-6 * high) {
+    while (high - low > 1e-8) {
       const double middle = 0.5 * (low + high);
       (at(middle) == first ? low : high) = middle;
     }
-    // Between the two there is at most a sliver that is not decided.
-    EXPECT_EQ(at(high * (1 + 1e-5)), RobustVerdict::depends) << i;
+    // Between the two at most a sliver of a micrometre is not decided, of bodies of 0.3 to 3 m.
+    EXPECT_EQ(at(high + 1e-6), RobustVerdict::depends) << i;
     ++turned;
   }
   EXPECT_GT(turned, engagements / 2);
@@ -398,8 +398,8 @@ TEST(RobustCone, OtherBodiesAgreeWithTheirPairs) {
     std::vector<Assembly::Triangle> triangles;
     for (std::uint32_t j = 0; j + 2 < points.size(); ++j) triangles.push_back({j, j + 1, j + 2});
     const double size = e.b.semi_axes()(2);
-    const CombinedEllipsoid dented(
-        e.b, {hyperboloid(2, Vector3d::Constant(0.4 * size), Matrix3d::Identity())});
+    const CombinedEllipsoid dented(e.b,
+                                   {hyperboloid(2, Vector3d::Constant(0.4 * size), Matrix3d::Identity())});
     const auto check = [&](const Pair& pair, Counts& counts, bool convex) {
       const RobustAnswer answer = robust_verdict(pair, e.v_a, e.v_b, e.errors);
       count(counts, answer.verdict);

@@ -55,7 +55,7 @@ struct RobustAnswer {
 
 /// Two ellipsoids, v_a and v_b in m/s. No allocation (without errors of attitude), no throw but of
 /// RelativeErrors, and InputError naming "agent_velocity[i]" or "obstacle_velocity[i]". Never wrong. Cost:
-/// 1 to 4 us (docs/measured/benchmarks.md); grazes up to 1 ms.
+/// 1 to 5 us (docs/measured/robust-cone.md); grazes up to 2 ms.
 [[nodiscard]] RobustAnswer robust_verdict(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& v_a,
                                           const Eigen::Vector3d& v_b, const RelativeErrors& errors);
 
@@ -85,7 +85,7 @@ struct RobustClearance {
 };
 
 /// Rounded, not proved. Nothing where errors may be as large as the relative velocity w = v_A - v_B along it:
-/// no normal keeps its gap then. Uses position and velocity alone. No allocation. Cost: 1 to 2 us.
+/// no normal keeps its gap then. No allocation. Cost: 2 to 5 us (docs/measured/robust-cone.md).
 [[nodiscard]] std::optional<RobustClearance> robust_clearance(const Ellipsoid& a, const Ellipsoid& b,
                                                               const Eigen::Vector3d& w,
                                                               const ErrorSet& position,
