@@ -385,6 +385,21 @@ SCENARIOS = [
     ("a partner with a pilot", scenario(BODY.replace("velocity:", "pilot: {law: avoidance}, velocity:"),
                                         "{law: cooperative-avoidance, partners: [B]}")),
     ("a goal without most", scenario(pilot="{law: avoidance, goal: {point: [9, 0, 0]}}")),
+    ("noise that is not known", scenario(pilot="{law: clearance, sensor: {noise: loud}}")),
+    ("a negative deviation", scenario(pilot="{law: clearance, sensor: {noise: isotropic, position: -1, velocity: 0}}")),
+    ("noise of (7.2) for a law that does not read it", scenario(pilot="{law: clearance, sensor: {noise: engagement, r: 0.2}}")),
+    ("an estimator without a sensor", scenario(pilot="{law: clearance, estimator: {kind: state}}")),
+    ("an estimator that is not known", scenario(pilot="{law: clearance, sensor: {noise: isotropic, position: 1, velocity: 1}, "
+                                                "estimator: {kind: best}}")),
+    ("a filter of nothing", scenario(pilot="{law: avoidance, manner: source, filter: {of: []}}")),
+    ("a filter of another law", scenario(pilot="{law: clearance, filter: {of: [y]}}")),
+    ("an outer loop whose least b is above its most", scenario(
+        pilot="{law: avoidance, manner: source, most: 5, robust: {nu: 1, lambda: 0.1, b_min: 0.2, mu: 1, Q: 1, R: 0}}")),
+    ("an outer loop without limit", scenario(pilot="{law: avoidance, manner: source, robust: {nu: 1, lambda: 0.1, mu: 1, Q: 1, "
+                                             "R: 0}}")),
+    ("an outer loop of a guarded pilot", scenario(pilot="{law: avoidance, most: 5, robust: {nu: 1, lambda: 0.1, mu: 1, Q: 1, "
+                                                  "R: 0}}")),
+    ("half a seed", scenario(top="duration: 5\nseed: 0.5\n")),
     ("a goal after nobody", scenario(pilot="{law: avoidance, goal: {point: [9, 0, 0], most: 5, after: C}}")),
     ("a hull that flies by slices", scenario(agent="{points: [[0, 0, 0], [1, 0, 0]]}",
                                               pilot="{law: avoidance, manner: source, sector: slice}")),
@@ -405,6 +420,17 @@ CAMPAIGNS = [
     ("no clearance", ["--required", "0"]),
     ("a step of zero", ["--step", "0"]),
     ("many threads", ["--threads", "5000"]),
+]
+# What is wrong, arguments after `trials scenario.yaml`: a scenario with a pilot and without a sensor.
+TRIALS = [
+    ("no trials", ["-N", "0"]),
+    ("no levels", ["--levels", ""]),
+    ("a level that is no noise", ["--levels", "5"]),
+    ("a negative level", ["--levels", "5:-10"]),
+    ("a level twice", ["--levels", "5:10,5:10"]),
+    ("times a sensor that is not there", ["--levels", "x2"]),
+    ("an unknown law", ["--laws", "di,best"]),
+    ("a law twice", ["--laws", "di,di"]),
 ]
 
 
@@ -457,6 +483,15 @@ def run_campaign(vericone, arguments):
         return result, os.listdir(folder)
 
 
+def run_trials(vericone, arguments):
+    with tempfile.TemporaryDirectory() as folder:
+        with open(os.path.join(folder, "scenario.yaml"), "w", encoding="utf-8") as f:
+            f.write(scenario(pilot="{law: avoidance, manner: source, most: 5}"))
+        result = subprocess.run([vericone, "trials", "scenario.yaml", *arguments, "--quiet"], capture_output=True, text=True,
+                                check=False, cwd=folder)
+        return result, sorted(set(os.listdir(folder)) - {"scenario.yaml"})
+
+
 def scenario_rows(vericone):
     def cell(text):
         return "`" + " ".join(text.split()).replace("|", "\\|") + "`"
@@ -469,6 +504,11 @@ def scenario_rows(vericone):
     for what, arguments in CAMPAIGNS:
         result, _ = run_campaign(vericone, arguments)
         text.append("| %s | %s | %s |" % (what, cell("vericone campaign " + " ".join(arguments)), cell(result.stderr)))
+    text += ["", "## Trials", "", "| what | command | message |", "|---|---|---|"]
+    for what, arguments in TRIALS:
+        result, _ = run_trials(vericone, arguments)
+        words = " ".join(a or "''" for a in arguments)
+        text.append("| %s | %s | %s |" % (what, cell("vericone trials scenario.yaml " + words), cell(result.stderr)))
     return text
 
 

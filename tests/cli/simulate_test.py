@@ -321,5 +321,72 @@ class Campaign(Files):
                 self.assertRegex(result.stderr, r"\Avericone: \S.*: got .+, must be .+\n\Z")
 
 
+class Trials(Files):
+    SCENARIO = os.path.join(SOURCE, "docs/examples/scenarios/noise.yaml")
+    ARGUMENTS = ("-N", "60", "--levels", "x1,10:20", "--laws", "di,rdi-filter,clearance")
+
+    def trials(self, *arguments, out=None):
+        result = run("trials", self.SCENARIO, "--out", out or self.out, "--quiet", "--no-figures", "--json", *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr + result.stdout[-500:])
+        return json.loads(result.stdout)
+
+    def rows(self):
+        with open(os.path.join(self.out, "trials.csv"), newline="", encoding="utf-8") as f:
+            next(f)
+            return list(csv.DictReader(f))
+
+    def test_shares_are_those_of_the_table_and_a_trial_alone_is_the_same(self):
+        summary = self.trials(*self.ARGUMENTS)
+        rows = self.rows()
+        self.assertEqual([r["trial"] for r in rows], [str(i) for i in range(60)])
+        self.assertEqual(len(summary["shares"]), 6)
+        for share in summary["shares"]:
+            name = share["level"] + " " + share["law"]
+            verdicts = [r[name] for r in rows]
+            for verdict in ("avoided", "touched", "undecided"):
+                self.assertEqual(share[verdict], verdicts.count(verdict))
+            self.assertAlmostEqual(share["share"], share["avoided"] / 60)
+            self.assertTrue(share["low"] <= share["share"] <= share["high"])
+            self.assertAlmostEqual(share["effort"], sum(float(r[name + " effort [m/s]"]) for r in rows) / 60, places=9)
+        self.assertLess(summary["shares"][0]["share"], 1)  # the noise does something
+        pair = next(p for p in summary["paired"] if (p["level"], p["first"], p["second"]) == ("x1", "di", "clearance"))
+        both = [(r["x1 di"] == "avoided", r["x1 clearance"] == "avoided") for r in rows]
+        self.assertEqual((pair["first_alone"], pair["second_alone"]), (both.count((True, False)), both.count((False, True))))
+        alone = json.loads(run("trials", self.SCENARIO, "--trial", "41", "--json", *self.ARGUMENTS).stdout)
+        for cell in alone:
+            row, name = rows[41], cell["level"] + " " + cell["law"]
+            self.assertEqual(row[name], cell["verdict"])
+            self.assertEqual(float(row[name + " effort [m/s]"]), cell["effort"])
+            if cell["verdict"] == "avoided":
+                self.assertEqual(float(row[name + " least distance [m]"]), cell["least_distance"])
+
+    def test_threads_and_a_kill_change_nothing(self):
+        other = os.path.join(self.folder, "other")
+        self.trials(*self.ARGUMENTS, "--threads", "2", out=other)
+        partial = os.path.join(self.out, "trials.csv.partial")
+        process = subprocess.Popen([VERICONE, "trials", self.SCENARIO, "--out", self.out, "--quiet", "--no-figures", "--threads",
+                                    "1", *self.ARGUMENTS], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        while process.poll() is None and not (os.path.exists(partial) and os.path.getsize(partial) > 3_000):
+            time.sleep(0.005)
+        process.kill()
+        process.communicate()
+        self.trials(*self.ARGUMENTS, "--threads", "1")
+        with open(os.path.join(other, "trials.csv"), "rb") as f:
+            self.assertEqual(self.content("trials.csv"), f.read())
+
+    def test_random_engagements_are_others_in_every_trial(self):
+        summary = self.trials("-N", "12", "--levels", "5:10", "--laws", "clearance", "--random")
+        self.assertIn("random engagements", summary["settings"])
+        efforts = {r["5:10 clearance effort [m/s]"] for r in self.rows()}
+        self.assertGreater(len(efforts), 6)
+
+    def test_every_bad_trial_says_why(self):
+        for what, arguments in bad_input_cases.TRIALS:
+            with self.subTest(what):
+                result, left = bad_input_cases.run_trials(VERICONE, arguments)
+                self.assertEqual((result.returncode, result.stdout, left), (2, "", []), result.stderr)
+                self.assertRegex(result.stderr, r"\Avericone: \S.*: got .+, must be .+\n\Z")
+
+
 if __name__ == "__main__":
     unittest.main()

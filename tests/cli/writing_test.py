@@ -43,6 +43,7 @@ WRITERS = {
     "gallery": ["gallery", "t.off", "u.off", "--map", "0.02", "--no-figures", "--quiet"],
     "simulate": ["simulate", "scenario.yaml", "--no-figures", "--quiet"],
     "simulate with a page": ["simulate", "scenario.yaml", "--no-figures", "--animate", "--quiet"],
+    "trials": ["trials", "scenario.yaml", "-N", "4", "--levels", "5:10", "--laws", "di", "--threads", "1", "--no-figures", "--quiet"],
     "claims": ["claims", "--quiet"],
     "figures": ["figures", "5.6", "--quiet"],
     "fit": ["fit", "ball.xyz", "--shape", "ellipsoid", "--no-figures", "--quiet"],
@@ -50,7 +51,7 @@ WRITERS = {
 }
 # Of these an interruption leaves what was done by then; of the others nothing but a table to go on with.
 BY_PARTS = ("gallery", "figures")
-RESUMED = ("accuracy", "accuracy of dents", "campaign")
+RESUMED = ("accuracy", "accuracy of dents", "campaign", "trials")
 
 # Long work, and what it says on standard error once it is at work; None: it is given half a second.
 LONG = {
@@ -59,6 +60,7 @@ LONG = {
     "accuracy of many planes": (["accuracy", "-N", "1000", "--planes", "50000,100000", "--no-figures", "--out", "out"], None),
     "accuracy of dents": (["accuracy", "--obstacle", "star", "-N", "100000", "--tolerance", "0.001", "--no-figures"], None),
     "campaign": (["campaign", "-N", "100000000", "--no-figures"], None),
+    "trials": (["trials", "scenario.yaml", "-N", "10000000", "--no-figures"], None),
     "cone": (["cone", "near.yaml", "--map", "0.0001", "--threads", "1"], None),
     "cone with a folder": (["cone", "near.yaml", "--map", "0.0001", "--threads", "1", "--out", "out"], None),
     "cone of dents": (["cone", "dents.yaml", "--map", "0.0001", "--tolerance", "1e-7", "--threads", "1"], None),
@@ -232,7 +234,7 @@ class WritersRefused(InPreparedFolder):
                 with self.subTest(command=name):
                     shutil.rmtree(self.out, ignore_errors=True)
                     os.mkdir(self.out)
-                    names = ("accuracy", "engagement", "scans", "campaign", "cone", "cone_map", "signmap", "simulation", "fit",
+                    names = ("accuracy", "engagement", "scans", "campaign", "trials", "cone", "cone_map", "signmap", "simulation", "fit",
                              "visible_section", "scan_convergence")
                     for picture in names:
                         self.write("out/%s.png" % picture, "old")

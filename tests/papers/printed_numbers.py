@@ -38,4 +38,17 @@ PRINTED = {
         ("6.5-cooperative/B2-position", "(60, 15, 40)"), ("6.5-cooperative/B2-speed", "5.1"),
         ("6.5-cooperative/B2-heading", "(0, 34.5)"), ("/cooperative/course-B2", "collision course"),
         ("/cooperative/clear-of-B2", "11")],
+    "7.2": [
+        ("A-axes", "(6, 2)"), ("A-position", "(0, 0)"), ("noise-r", "20"), ("noise-theta", "3"), ("noise-V_r", "40"),
+        ("noise-V_theta", "40"), ("noise-psi", "1"), ("noise-theta_b", "1"), ("7.2/deviation", "0.3333"), ("B-position", "(45, 0)"),
+        ("B-heading", "120"), ("A-heading", "45"), ("passes-B", "2.33"), ("C-position", "(-7, 75)"), ("C-heading", "0"),
+        ("course-C", "y < 0, V_r < 0"), ("out-of-C", "3.54"), ("out-of-D", "4.35"), ("goal-x", "80"), ("goal-y", "100"),
+        ("7.2/goal", "5.67"), ("gamma-between", "undefined"), ("gamma-turn", "undefined"), ("out-of-B", "2"),
+        ("D-appears", "4"), ("7.2/norm", "first two instants"), ("within-3-sigma", "high percentage")],
+    "7.5": [
+        ("A-speed", "8.5"), ("A-position", "(14, 0, 0)"), ("B-speed", "5"), ("B-position", "(0, 3, 20)"), ("7.5/r", "7.5"),
+        ("7.5/s", "15"), ("7.5/deviation", "0.3333"), ("C-appears", "4.7"), ("C-speed", "5.1"), ("C-position", "(60, 12, 30)"),
+        ("course-C", "on course"), ("avoids-B", "avoids"), ("avoids-C", "avoids"), ("estimate", "quite close"),
+        ("7.18/5-di", "fails"), ("7.18/5-filter", "improves"), ("7.18/5-rdi", "100"), ("7.18/7.5-filter", "fails for all"),
+        ("7.18/7.5-rdi-filter", "100"), ("7.18/10-rdi", "80"), ("7.18/10-best", "outperforms")],
 }
