@@ -72,7 +72,7 @@ class Rim {
   }
 
  private:
-  static constexpr int kFew = 8, kMost = 24;
+  static constexpr int kFew = 8, kMost = 16;
   static constexpr double kStep = 2 * std::numbers::pi / kMost;
 
   Vector3d normal(double cosine, double sine) const {

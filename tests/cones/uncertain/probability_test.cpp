@@ -95,7 +95,7 @@ TEST(Probability, DrawsFallWithinTheBounds) {
     int hits = 0;
     for (int j = 0; j < draws; ++j) {
       const Vector3d d = root * random.vector();
-      const Ellipsoid moved = Ellipsoid::from_shape(b.center() + d, b.shape());
+      const Ellipsoid moved = b.translated(d);
       hits += clearance(a, moved, w).distance <= 0;
     }
     const double share = double(hits) / draws, spread = std::sqrt(p.estimate * (1 - p.estimate) / draws);
@@ -152,8 +152,7 @@ TEST(ProbabilityBound, NoShareOfDrawsIsAbove) {
       Eigen::Matrix<double, 6, 1> x;
       for (double& value : x) value = random.normal(random.engine);
       x = (root * x).eval();
-      const Ellipsoid moved =
-          Ellipsoid::from_shape(b.center() + x.head<3>(), b.shape());
+      const Ellipsoid moved = b.translated(x.head<3>());
       const auto time = time_to_contact(a, moved, w + x.tail<3>());
       hits += time && *time <= horizon;
     }

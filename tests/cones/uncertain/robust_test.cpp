@@ -4,6 +4,7 @@
 // against mistakes planted into the condition.
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/clearance.h>
+#include <vericone/cones/uncertain/error_set.h>
 #include <vericone/cones/uncertain/robust.h>
 #include <vericone/geometry/error.h>
 #include <algorithm>
@@ -321,6 +322,35 @@ TEST(RobustCone, OverlappingAndRestingBodies) {
   EXPECT_EQ(robust_verdict(a, a, {1, 0, 0}, rest, errors).verdict, RobustVerdict::in);
 }
 
+/// At rest, 3 m apart or 1 m into one another: each bound to a hundredth.
+TEST(RobustCone, InflationIsAsLargeAsItMustBe) {
+  const auto ball = [](const Vector3d& center) { return Ellipsoid::from_axes(center, Vector3d::Ones()); };
+  const Ellipsoid a = ball({0, 0, 0}), far = ball({5, 0, 0}), near = ball({1, 0, 0});
+  const Vector3d rest = Vector3d::Zero();
+  const auto of = [&](const Ellipsoid& one, const Ellipsoid& other, auto set) {
+    RelativeErrors errors;
+    errors.horizon = 2;
+    set(errors);
+    return robust_verdict(one, other, rest, rest, errors).verdict;
+  };
+  for (const double more : {0.99, 1.01}) {
+    const bool enough = more < 1;
+    // a T^2 / 2 = 3 m.
+    const auto accelerated = [&](RelativeErrors& e) { e.acceleration = 1.5 * more; };
+    EXPECT_EQ(of(a, far, accelerated) == RobustVerdict::out, enough);
+    EXPECT_EQ(of(a, far, [&](RelativeErrors& e) { e.size = 3 * more; }) == RobustVerdict::out, enough);
+    EXPECT_EQ(of(a, near, [&](RelativeErrors& e) { e.size = more; }) == RobustVerdict::in, enough);
+    // Of semi-axes 3 and 1: S + sin(t) 8 I reaches 2 m across at sin(t) = 3/8.
+    const Ellipsoid long_one = Ellipsoid::from_axes({0, 0, 0}, {3, 1, 1});
+    const double angle = std::asin(0.375 * more);
+    const auto turned = [&](RelativeErrors& e) { e.attitude_a = angle; };
+    EXPECT_EQ(of(long_one, ball({0, 3, 0}), turned) == RobustVerdict::out, enough);
+    EXPECT_EQ(
+        of(ball({0, 3, 0}), long_one, [&](RelativeErrors& e) { e.attitude_b = angle; }) == RobustVerdict::out,
+        enough);
+  }
+}
+
 TEST(RobustCone, DoesNotAllocate) {
   RobustDice dice(9);
   for (int i = 0; i < 200; ++i) {
@@ -331,6 +361,9 @@ TEST(RobustCone, DoesNotAllocate) {
     const Vector3d w = e.v_a - e.v_b;
     const auto clear = robust_clearance(e.a, e.b, w, e.errors.position, e.errors.velocity);
     EXPECT_EQ(testing::allocations(), before) << clear.has_value();
+    const Vector3d reached = e.errors.position.support_point(w);
+    EXPECT_NEAR(reached.dot(w), e.errors.position.support(w), 1e-9 * w.norm() * (1 + reached.norm()));
+    EXPECT_EQ(testing::allocations(), before);
   }
 }
 
