@@ -45,7 +45,7 @@ struct ClearanceCommand {
 ///
 /// With errors, the order is that of the worst one, which moves by w + v with n.v = h_W(n): for every other
 /// m' is larger. All bodies are then seen as ellipsoids. `no_relative_velocity` where the velocity error may
-/// be as large as the velocity. Cost: 2 us. Proof: docs/explanation/robust-cone.md.
+/// be as large as the velocity. Cost: 1.4 times that. Proof: docs/explanation/robust-cone.md.
 [[nodiscard]] ClearanceCommand clearance_law(const BodyState& a, const BodyState& b,
                                              const ClearanceOptions& options,
                                              const Eigen::Vector3d& acceleration_b = Eigen::Vector3d::Zero());
