@@ -30,7 +30,7 @@ EXAMPLES = {
     "check": "check docs/examples/scenarios/clearance.yaml",
     "simulate": "simulate docs/examples/scenarios/elephant.yaml --no-figures --quiet",
     "campaign": "campaign -N 500 --no-figures --quiet",
-    "trials": "trials docs/examples/scenarios/noise.yaml -N 40 --levels x1,x2 --laws di,rdi-filter,clearance --no-figures --quiet",
+    "trials": "trials docs/examples/scenarios/noise.yaml -N 40 --levels x1,x2 --laws di,clearance --no-figures --quiet",
     "claims": "claims --quiet",
     "paper": "paper new out/papers/mine",
     "figures": "figures --list",

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -74,6 +75,18 @@ const PaperRun& Sources::run(const std::string& name, const std::string& path) {
   return *run;
 }
 
+namespace {
+
+/// Whether the command leaves files behind that nobody asked for; `cone` does not.
+bool always_writes(const std::string& words) {
+  constexpr const char* kWriters[] = {"accuracy", "campaign", "fit",      "gallery", "scan",
+                                      "shapes",   "signmap",  "simulate", "trials"};
+  const std::string command = words.substr(0, words.find(' '));
+  return std::find(std::begin(kWriters), std::end(kWriters), command) != std::end(kWriters);
+}
+
+}  // namespace
+
 std::string Sources::output_of(const std::string& words, const std::vector<std::string>& more,
                                const std::string& path) {
   if (!show_(words, 0)) throw Interrupted{};
@@ -105,7 +118,11 @@ const Table& Sources::table(const std::string& words, const std::string& file, c
 
 const Json& Sources::answer(const std::string& words, const std::string& path) {
   const auto [it, fresh] = answers_.try_emplace(words);
-  if (fresh) it->second = Json::parse(output_of(words, {"--json"}, path), nullptr, false);
+  if (!fresh) return it->second;
+  const TemporaryFolder folder;
+  std::vector<std::string> more{"--json"};
+  if (always_writes(words)) more.insert(more.end(), {"--quiet", "--out", (folder.path() / "out").string()});
+  it->second = Json::parse(output_of(words, more, path), nullptr, false);
   return it->second;
 }
 

@@ -162,10 +162,10 @@ Json summarise(const TrialsOptions& o, const std::vector<Cell>& cells, const std
 void print_summary(const Json& summary, std::ostream& out) {
   char line[160];
   out << summary["trials"].get<std::uint64_t>() << " trials a level and law, proved\n"
-      << "  level       law           avoided  95 % of such intervals hold it  touched  undecided  effort\n"
-      << "                                                                                          m/s\n";
+      << "  level       law           avoided   interval (95 %)      touched  undecided   effort\n"
+      << "                                                                              m/s\n";
   for (const Json& s : summary["shares"]) {
-    std::snprintf(line, sizeof line, "  %-11s %-12s %7.1f %%        %5.1f to %5.1f %%     %10llu %10llu %7.3g\n",
+    std::snprintf(line, sizeof line, "  %-11s %-12s %7.1f %%  %5.1f to %5.1f %% %10llu %10llu  %7.3g\n",
                   s["level"].get<std::string>().c_str(), s["law"].get<std::string>().c_str(),
                   100 * s["share"].get<double>(), 100 * s["low"].get<double>(), 100 * s["high"].get<double>(),
                   static_cast<unsigned long long>(s["touched"].get<std::uint64_t>()),

@@ -18,7 +18,7 @@ double number_of(const std::string& text, const std::string& whole) {
   double x = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
   if (error != std::errc() || end != text.data() + text.size() || !(x >= 0) || !std::isfinite(x))
-    throw InputError("--levels", whole,
+    throw InputError("--levels", whole.empty() ? "nothing" : whole,
                      "percent of position and of velocity, such as 7.5:15, or x and a number, such as x4");
   return x;
 }
