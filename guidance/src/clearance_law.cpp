@@ -135,8 +135,9 @@ View view_of(const BodyState& a, const BodyState& b) {
 }
 
 Ellipsoid in_space(const BodyState& body, double height) {
-  return body.planar() ? vericone::raised(CombinedEllipse(body.shape.containing_ellipse()), height).ellipsoid()
-                       : body.shape.containing_ellipsoid();
+  return body.planar()
+             ? vericone::raised(CombinedEllipse(body.shape.containing_ellipse()), height).ellipsoid()
+             : body.shape.containing_ellipsoid();
 }
 
 /// The worst of the errors; nothing where they may be as large as the relative velocity.

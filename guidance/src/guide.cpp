@@ -108,7 +108,8 @@ void add_errors(PlaneView& view, const EngagementParts& parts) {
 LawCommand avoid(const PlaneView& view, const GuideOptions& options, const Measured& deviations, double y,
                  GuideReading& reading) {
   LawOptions inversion = options.inversion;
-  // The law reads y from the state: K (w - y) stays what it is to be when w moves along, and so does the test.
+  // The law reads y from the state: K (w - y) stays what it is to be when w moves along, and so does the
+  // test.
   const double by_state = cone_rates(view.state, view.cone).y;
   inversion.reference += by_state - y;
   inversion.cease += by_state - y;

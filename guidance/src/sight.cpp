@@ -20,9 +20,7 @@ Measured deviations_on_plane(const Sight& sight, const PlanarState& state, const
 }
 
 namespace {
-ConstantRateOptions of_y(const PlaneFilterOptions& options) {
-  return {options.intensity_y, 1, options.gate};
-}
+ConstantRateOptions of_y(const PlaneFilterOptions& options) { return {options.intensity_y, 1, options.gate}; }
 ConstantRateOptions of_angle(const PlaneFilterOptions& options) {
   return {options.intensity_angle, 1, options.gate};
 }
@@ -33,8 +31,8 @@ double variance(double deviation) { return std::max(deviation * deviation, 1e-18
 PlaneFilters::PlaneFilters(const PlaneFilterOptions& options)
     : options_(options), y_(of_y(options)), psi_(of_angle(options)), theta_b_(of_angle(options)) {}
 
-double PlaneFilters::step(const PlanarState& state, PlaneCone& cone, double turned,
-                          Measured& deviations, double time) {
+double PlaneFilters::step(const PlanarState& state, PlaneCone& cone, double turned, Measured& deviations,
+                          double time) {
   turned_ += turned;
   if (options_.rates) {
     const double theta_b = unwrapped(cone.theta_b + turned_, last_theta_b_);

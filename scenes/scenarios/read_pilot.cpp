@@ -156,9 +156,9 @@ void read_inversion(const Json& value, const std::string& path, guidance::GuideO
 simulation::Pilot read_pilot(const Json& value, const std::string& path, bool planar) {
   require_object(value, path);
   require_known(value, path,
-                {"law", "sector", "rates", "plane", "gain", "reference", "most", "cease", "side", "mu",
-                 "gain_speed", "clearance", "minds", "partners", "goal", "manner", "passing", "sensor",
-                 "estimator", "filter", "robust"});
+                {"law",   "sector", "rates",   "plane",      "gain",      "reference", "most",
+                 "cease", "side",   "mu",      "gain_speed", "clearance", "minds",     "partners",
+                 "goal",  "manner", "passing", "sensor",     "estimator", "filter",    "robust"});
   simulation::Pilot pilot;
   guidance::GuideOptions& guide = pilot.guide;
   guide.law = read_choice<Law>(require_field(value, path, "law", "the name of a law, such as avoidance"),

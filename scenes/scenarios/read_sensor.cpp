@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <numbers>
 
-#include "input/robust_fields.h"
 #include "json/json_value.h"
+#include "scenarios/robust_fields.h"
 #include "scenarios/scenario_fields.h"
 
 namespace vericone::scenario {
@@ -31,8 +31,9 @@ simulation::Sensor read_sensor(const Json& value, const std::string& path) {
       require_field(value, path, "noise", "engagement, per-axis, isotropic or bounded"), join(path, "noise"),
       {{"engagement", engagement}, {"per-axis", per_axis}, {"isotropic", isotropic}, {"bounded", bounded}});
   if (sensor.noise == engagement) {
-    require_known(value, path,
-                  {"noise", "r", "V_r", "V_theta", "theta_deg", "theta_b_deg", "psi_deg", "deviation", "shared"});
+    require_known(
+        value, path,
+        {"noise", "r", "V_r", "V_theta", "theta_deg", "theta_b_deg", "psi_deg", "deviation", "shared"});
     guidance::EngagementParts& parts = sensor.engagement;
     if_positive_or_zero(value, path, "r", " (a part)", parts.r);
     if_positive_or_zero(value, path, "V_r", " (a part)", parts.v_r);
@@ -78,8 +79,8 @@ guidance::PlaneFilterOptions read_filter(const Json& value, const std::string& p
   guidance::PlaneFilterOptions filter;
   const Json& of = require_field(value, path, "of", "a list: y, rates, or both");
   const bool known = of.is_array() && !of.empty() && std::all_of(of.begin(), of.end(), [](const Json& name) {
-    return name == "y" || name == "rates";
-  });
+                       return name == "y" || name == "rates";
+                     });
   if (!known) throw InputError(join(path, "of"), quoted(of), "a list: y, rates, or both");
   for (const Json& name : of) (name == "y" ? filter.y : filter.rates) = true;
   if_positive_or_zero(value, path, "intensity_y", " (1/s^3)", filter.intensity_y);
@@ -91,11 +92,9 @@ guidance::PlaneFilterOptions read_filter(const Json& value, const std::string& p
 
 guidance::OuterLoopOptions read_outer_loop(const Json& value, const std::string& path) {
   require_object(value, path);
-  require_known(value, path,
-                {"bounds", "nu", "a", "lambda", "b_min", "mu", "Q", "R", "polytope", "bound"});
+  require_known(value, path, {"bounds", "nu", "a", "lambda", "b_min", "mu", "Q", "R", "polytope", "bound"});
   guidance::OuterLoopOptions outer;
-  outer.from_noise =
-      input::read_either(value, path, "bounds", false, "given", false, "noise", true);
+  outer.from_noise = input::read_either(value, path, "bounds", false, "given", false, "noise", true);
   if (outer.from_noise) {
     for (const char* field : {"nu", "a", "lambda", "b_min"})
       if (value.contains(field))

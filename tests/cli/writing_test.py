@@ -29,6 +29,8 @@ PLANAR = json.dumps({"agent": {"center": [0, 0], "semi_axes": [1, 2]}, "agent_ve
                      "obstacle": {"center": [9, 1], "semi_axes": [3, 2], "hyperbolas": [{"semi_axes": [1, 1]}]}})
 PIECES = json.dumps({"agent": BALL, "obstacle": {"mesh": "t.off"}, "agent_velocity": [1, 0, 0]})
 
+NOISE = SCENARIO.replace("law: clearance, clearance: {required: 1}", "law: avoidance, manner: source")
+
 # Words of each command that writes.
 WRITERS = {
     "signmap": ["signmap", "--cells", "31", "--no-figures"],
@@ -43,7 +45,7 @@ WRITERS = {
     "gallery": ["gallery", "t.off", "u.off", "--map", "0.02", "--no-figures", "--quiet"],
     "simulate": ["simulate", "scenario.yaml", "--no-figures", "--quiet"],
     "simulate with a page": ["simulate", "scenario.yaml", "--no-figures", "--animate", "--quiet"],
-    "trials": ["trials", "scenario.yaml", "-N", "4", "--levels", "5:10", "--laws", "di", "--threads", "1", "--no-figures", "--quiet"],
+    "trials": ["trials", "noise.yaml", "-N", "4", "--levels", "5:10", "--laws", "di", "--threads", "1", "--no-figures", "--quiet"],
     "claims": ["claims", "--quiet"],
     "figures": ["figures", "5.6", "--quiet"],
     "fit": ["fit", "ball.xyz", "--shape", "ellipsoid", "--no-figures", "--quiet"],
@@ -60,7 +62,7 @@ LONG = {
     "accuracy of many planes": (["accuracy", "-N", "1000", "--planes", "50000,100000", "--no-figures", "--out", "out"], None),
     "accuracy of dents": (["accuracy", "--obstacle", "star", "-N", "100000", "--tolerance", "0.001", "--no-figures"], None),
     "campaign": (["campaign", "-N", "100000000", "--no-figures"], None),
-    "trials": (["trials", "scenario.yaml", "-N", "10000000", "--no-figures"], None),
+    "trials": (["trials", "noise.yaml", "-N", "10000000", "--no-figures"], None),
     "cone": (["cone", "near.yaml", "--map", "0.0001", "--threads", "1"], None),
     "cone with a folder": (["cone", "near.yaml", "--map", "0.0001", "--threads", "1", "--out", "out"], None),
     "cone of dents": (["cone", "dents.yaml", "--map", "0.0001", "--tolerance", "1e-7", "--threads", "1"], None),
@@ -91,7 +93,7 @@ class InPreparedFolder(InFolder):
             x = [rng.gauss(0, 1) for _ in range(3)]
             n = math.hypot(*x)
             points += "%f %f %f\n" % (3 * x[0] / n, 2 * x[1] / n, x[2] / n)
-        for name, content in {"scene.yaml": SCENE, "scenario.yaml": SCENARIO, "t.off": MESH, "u.off": MESH,
+        for name, content in {"scene.yaml": SCENE, "scenario.yaml": SCENARIO, "noise.yaml": NOISE, "t.off": MESH, "u.off": MESH,
                               "mesh.yaml": PIECES, "scan.yaml": LIDARS, "ball.xyz": points, "planar.yaml": PLANAR,
                               "near.yaml": SCENE.replace("[5, 0", "[3.05, 0"),
                               "dents.yaml": SCENE.replace("[5, 0", "[3.05, 0").replace("[2, 2, 2]}", "[2, 2, 2], hyperboloids: [{sheets: 2, "

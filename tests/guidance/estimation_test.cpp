@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <vericone/guidance/estimation/constant_rate.h>
 #include <vericone/guidance/estimation/constant_velocity.h>
+#include <vericone/guidance/estimation/kalman.h>
 #include <vericone/guidance/estimation/set_membership.h>
 #include <vericone/guidance/sight.h>
 #include <Eigen/Dense>
@@ -19,8 +20,8 @@ using Eigen::Vector3d;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// What a Kalman filter is: the mean and covariance of a Gaussian given the measurements. Here by conditioning the
-/// joint distribution of all of them at once, without any recursion.
+/// What a Kalman filter is: the mean and covariance of a Gaussian given the measurements. Here by
+/// conditioning the joint distribution of all of them at once, without any recursion.
 TEST(Estimation, FilterIsTheConditionalGaussianOfAllMeasurements) {
   constexpr int kSteps = 12;
   const double dt = 0.1, q = 0.7, r = 0.04, first = 1;
@@ -119,7 +120,8 @@ double mean_nees(int runs, double intensity, double assumed) {
     truth << 10, -5, 3, 2, 1, -4;
     for (int k = 0; k < 60; ++k) {
       if (k > 0) {
-        // White acceleration exactly: velocity and position of a step by the Cholesky factor of their covariance.
+        // White acceleration exactly: velocity and position of a step by the Cholesky factor of their
+        // covariance.
         for (int i = 0; i < 3; ++i) {
           const double a = normal(random), b = normal(random), q = std::sqrt(intensity);
           truth[i] += dt * truth[3 + i] + q * std::sqrt(dt * dt * dt / 3) * a;

@@ -2,8 +2,8 @@
 //
 // Views of planar bodies and of dented ones in space.
 #include <gtest/gtest.h>
-#include <vericone/cones/combined/sector.h>
 #include <vericone/cones/combined/cone.h>
+#include <vericone/cones/combined/sector.h>
 #include <vericone/cones/slices/combined_slice_cone.h>
 #include <vericone/guidance/plane_view.h>
 

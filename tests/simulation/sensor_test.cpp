@@ -14,7 +14,8 @@ using Eigen::Vector3d;
 Body ball(const std::string& name, double radius, const Vector3d& position, const Vector3d& velocity) {
   Body body;
   body.name = name;
-  body.shape = RigidShape{CombinedEllipsoid(Ellipsoid::from_axes(Vector3d::Zero(), Vector3d::Constant(radius)))};
+  body.shape =
+      RigidShape{CombinedEllipsoid(Ellipsoid::from_axes(Vector3d::Zero(), Vector3d::Constant(radius)))};
   body.start = {position, velocity, Eigen::Matrix3d::Identity()};
   body.orientation = Orientation::fixed;
   return body;
@@ -98,7 +99,8 @@ Spread spread_of(const Sensor& sensor, const guidance::BodyState& a, const guida
 }
 
 TEST(Sensors, NoiseOfTheSourceDependsOnTheAxes) {
-  // (7.27): 7.5 % of 30 m and of 40 m times a normal number of deviation 1/3; nothing where the difference is 0.
+  // (7.27): 7.5 % of 30 m and of 40 m times a normal number of deviation 1/3; nothing where the difference is
+  // 0.
   Sensor sensor = sensor_of(Noise::per_axis, 0.075, 0.15);
   sensor.deviation = 1.0 / 3;
   const auto a = at_rest({0, 0, 0}, {0, 0, 0}), b = at_rest({30, 40, 0}, {-6, 0, 9});
@@ -138,7 +140,7 @@ TEST(Sensors, BoundedNoiseStaysWithinItsBallsAndFillsThem) {
 
 TEST(Sensors, APerfectSensorChangesNothing) {
   const simulation::Run truth = simulate(meeting(std::nullopt)),
-            seen = simulate(meeting(sensor_of(Noise::isotropic, 0, 0)));
+                        seen = simulate(meeting(sensor_of(Noise::isotropic, 0, 0)));
   ASSERT_EQ(truth.tracks[0].arcs().size(), seen.tracks[0].arcs().size());
   for (double t = 0; t <= 4; t += 0.1)
     EXPECT_EQ(truth.tracks[0].motion(t).position, seen.tracks[0].motion(t).position) << t;
@@ -154,8 +156,8 @@ TEST(Sensors, ALawSeesMeasurementsOnlyAndProofsTheTruth) {
   Scenario blind = meeting(sensor_of(Noise::isotropic, 0, 0));
   blind.bodies[1].start.position = {20, 0, 0};
   ASSERT_EQ(simulate(blind).verdict(), ProofVerdict::avoided);
-  // Errors of a million times y and z: the obstacle is measured kilometres aside, the law has nothing to say, and the
-  // proof says that they meet.
+  // Errors of a million times y and z: the obstacle is measured kilometres aside, the law has nothing to say,
+  // and the proof says that they meet.
   Scenario far = blind;
   far.bodies[1].start.position = {20, 0.01, 0.01};
   Sensor& sensor = *far.bodies[0].pilot->sensor;
@@ -184,14 +186,16 @@ TEST(Sensors, NoiseIsTheSameForEveryLawAndOtherInEveryTrial) {
   options.trial = 5;
   const simulation::Run c = simulate(first, options);
   EXPECT_GT((c.sights[0].measurement.position - a.sights[0].measurement.position).norm(), 1e-3);
-  EXPECT_EQ(simulate(first, options).sights.back().measurement.position, c.sights.back().measurement.position);
+  EXPECT_EQ(simulate(first, options).sights.back().measurement.position,
+            c.sights.back().measurement.position);
 }
 
 TEST(Sensors, SetMembershipHoldsTheTruthInEveryRun) {
   for (std::uint64_t trial = 0; trial < 20; ++trial) {
     RunOptions options;
     options.trial = trial;
-    const simulation::Run run = simulate(meeting(sensor_of(Noise::bounded, 0.5, 0.2), Estimator::set_membership), options);
+    const simulation::Run run =
+        simulate(meeting(sensor_of(Noise::bounded, 0.5, 0.2), Estimator::set_membership), options);
     for (const SightSample& sample : run.sights) {
       const Vector3d off = sample.believed_position - run.tracks[1].motion(sample.t).position;
       EXPECT_LE(off.cwiseAbs().maxCoeff(), 0.5 + 1e-12);

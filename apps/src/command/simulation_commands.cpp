@@ -39,18 +39,20 @@ int check_command(CommandLine& line) {
 
 int trials_command(CommandLine& line) {
   trials::TrialsOptions trials;
-  line.option("scenario", trials.scenario, "Scenario file, YAML: one body with a pilot that avoids").required();
+  line.option("scenario", trials.scenario, "Scenario file, YAML: one body with a pilot that avoids")
+      .required();
   line.option("-N,--trials", trials.trials, "Trials of every law at every level");
-  line.option("--levels", trials.levels,
-              "Noise: percent of position and of velocity, 7.5:15, or the scenario's sensor times a number, x4")
+  line.option(
+          "--levels", trials.levels,
+          "Noise: percent of position and of velocity, 7.5:15, or the scenario's sensor times a number, x4")
       .commas();
   line.option("--laws", trials.laws,
               "di, di-filter, rdi, rdi-filter, di-rates, di-analytic, di-state, di-margin, clearance, robust")
       .commas();
-  line.option("--seed", trials.seed, "Seed of all noise")
-      .shown_default("that of the scenario");
+  line.option("--seed", trials.seed, "Seed of all noise").shown_default("that of the scenario");
   line.option("--trial", trials.trial, "This trial alone, printed");
-  line.flag("--random", trials.random, "Another random engagement each trial, in place of the scenario's bodies");
+  line.flag("--random", trials.random,
+            "Another random engagement each trial, in place of the scenario's bodies");
   line.option("--out", trials.out, "Folder for tables and picture");
   line.option("--threads", trials.threads, "Threads, 0: one per processor");
   line.negative_flag("--no-figures", trials.figures, "Tables only");
@@ -129,8 +131,9 @@ int paper_command(CommandLine& line) {
 }  // namespace
 
 std::map<std::string, Command> simulation_commands() {
-  return {{"check", check_command},   {"simulate", simulate_command}, {"campaign", campaign_command}, {"trials", trials_command},
-          {"claims", claims_command}, {"figures", figures_command},   {"paper", paper_command}};
+  return {{"check", check_command},   {"simulate", simulate_command}, {"campaign", campaign_command},
+          {"trials", trials_command}, {"claims", claims_command},     {"figures", figures_command},
+          {"paper", paper_command}};
 }
 
 }  // namespace vericone

@@ -189,22 +189,25 @@ SlicedCone sliced_cone(const scenes::Scene& scene, int planes, SliceSector secto
 }
 
 std::optional<Relation> relation_of(const QuadricCone& cone) {
-  if (const auto* exact = std::get_if<ExactCone>(&cone)) return exact->cone.relation;
-  if (const auto* certified = std::get_if<CertifiedCone>(&cone)) return certified->cone.relation;
-  return std::get<SlicedCone>(cone).relation;
+  struct {
+    std::optional<Relation> operator()(const ExactCone& found) const { return found.cone.relation; }
+    std::optional<Relation> operator()(const CertifiedCone& found) const { return found.cone.relation; }
+    std::optional<Relation> operator()(const SlicedCone& found) const { return found.relation; }
+  } relation;
+  return cone.ask(relation);
 }
 
 Json to_json(const QuadricCone& cone, const scenes::Scene& scene) {
-  return std::visit([&](const auto& found) { return json_of(found, scene); }, cone);
+  return cone.ask([&](const auto& found) { return json_of(found, scene); });
 }
 
 void print_text(const QuadricCone& cone, const scenes::Scene& scene, std::ostream& out) {
   print_verdict(scene, out);
-  std::visit([&](const auto& found) { print(found, scene, out); }, cone);
+  cone.ask([&](const auto& found) { print(found, scene, out); });
 }
 
 void print_time(const QuadricCone& cone, std::ostream& out) {
-  const double seconds = std::visit([](const auto& found) { return found.seconds; }, cone);
+  const double seconds = cone.ask([](const auto& found) { return found.seconds; });
   out << "time                " << number_text(seconds, 2) << " s\n";
 }
 

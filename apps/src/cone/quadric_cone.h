@@ -10,7 +10,7 @@
 #include <vericone/scenes/scene.h>
 #include <iosfwd>
 #include <optional>
-#include <variant>
+#include <utility>
 #include <vector>
 
 #include "json/json_forward.h"
@@ -43,7 +43,26 @@ struct SlicedCone {
   double seconds = 0;
 };
 
-using QuadricCone = std::variant<ExactCone, CertifiedCone, SlicedCone>;
+/// One of them.
+class QuadricCone {
+ public:
+  QuadricCone(ExactCone cone) : exact_(std::move(cone)) {}          // NOLINT: it is one
+  QuadricCone(CertifiedCone cone) : certified_(std::move(cone)) {}  // NOLINT
+  QuadricCone(SlicedCone cone) : sliced_(std::move(cone)) {}        // NOLINT
+
+  /// What `ask` says of the one that it is.
+  template <typename Ask>
+  decltype(auto) ask(Ask ask) const {
+    if (exact_) return ask(*exact_);
+    if (certified_) return ask(*certified_);
+    return ask(*sliced_);
+  }
+
+ private:
+  std::optional<ExactCone> exact_;
+  std::optional<CertifiedCone> certified_;
+  std::optional<SlicedCone> sliced_;
+};
 
 bool ellipsoids(const scenes::Scene& scene);
 

@@ -67,7 +67,8 @@ class Paper {
   std::string name() const {
     return std::filesystem::absolute(folder).lexically_normal().filename().string();
   }
-  /// In the file's order; all where `ids` is empty. An id also names those below it: 7 is 7.1, 7.2, ... Throws InputError naming "figures".
+  /// In the file's order; all where `ids` is empty. An id also names those below it: 7 is 7.1, 7.2, ...
+  /// Throws InputError naming "figures".
   std::vector<Figure> chosen(const std::vector<std::string>& ids) const;
   const std::vector<ClaimEntry>& claims() const { return claims_.entries; }
   std::vector<Claim> measured_claims(Sources& sources);

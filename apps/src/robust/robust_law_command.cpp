@@ -4,8 +4,8 @@
 #include <vericone/guidance/robust_law.h>
 
 #include "command/cases.h"
-#include "input/robust_fields.h"
 #include "json/json_value.h"
+#include "scenarios/robust_fields.h"
 
 namespace vericone {
 namespace {

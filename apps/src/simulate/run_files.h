@@ -44,9 +44,8 @@ struct RunOrigin {
 /// Counts, verdict, times, provenance.
 Json run_json(const simulation::Scenario& scenario, const simulation::Run& run, const RunOrigin& origin);
 
-/// All of these files and a copy of the scenario's into `folder`; planes.csv where planes are logged, sights.csv where
-/// an agent has a sensor. Throws
-/// std::runtime_error naming the path.
+/// All of these files and a copy of the scenario's into `folder`; planes.csv where planes are logged,
+/// sights.csv where an agent has a sensor. Throws std::runtime_error naming the path.
 void write_run(const simulation::Scenario& scenario, const simulation::Run& run, const RunOrigin& origin,
                const std::filesystem::path& folder);
 

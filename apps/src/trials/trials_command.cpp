@@ -54,7 +54,8 @@ std::vector<Cell> cells_of(const TrialsOptions& o, Scenario scenario) {
   if (o.random) {
     const bool two = scenario.bodies.size() == 2 && !planar(scenario.bodies[0].shape);
     if (!two)
-      throw InputError("--random", o.scenario, "a scenario of two bodies in space: an agent and its obstacle");
+      throw InputError("--random", o.scenario,
+                       "a scenario of two bodies in space: an agent and its obstacle");
   }
   return cells;
 }
@@ -63,7 +64,8 @@ std::vector<Cell> cells_of(const TrialsOptions& o, Scenario scenario) {
 Scenario with_random_bodies(Scenario scenario, std::uint64_t trial) {
   const montecarlo::Encounter encounter = montecarlo::random_encounter(scenario.seed, trial);
   const std::size_t agent = scenario.bodies[0].pilot ? 0 : 1;
-  for (const auto& [from, to] : {std::pair(&encounter.agent, agent), std::pair(&encounter.obstacle, 1 - agent)}) {
+  for (const auto& [from, to] :
+       {std::pair(&encounter.agent, agent), std::pair(&encounter.obstacle, 1 - agent)}) {
     simulation::Body& body = scenario.bodies[to];
     body.shape = from->shape;
     body.start = from->start;
@@ -169,7 +171,8 @@ void print_summary(const Json& summary, std::ostream& out) {
                   s["level"].get<std::string>().c_str(), s["law"].get<std::string>().c_str(),
                   100 * s["share"].get<double>(), 100 * s["low"].get<double>(), 100 * s["high"].get<double>(),
                   static_cast<unsigned long long>(s["touched"].get<std::uint64_t>()),
-                  static_cast<unsigned long long>(s["undecided"].get<std::uint64_t>()), s["effort"].get<double>());
+                  static_cast<unsigned long long>(s["undecided"].get<std::uint64_t>()),
+                  s["effort"].get<double>());
     out << line;
   }
 }
@@ -198,9 +201,9 @@ int print_one(const TrialsOptions& o, const std::vector<Cell>& cells, std::ostre
   }
   for (const Json& r : results) {
     char line[120];
-    std::snprintf(line, sizeof line, "%-11s %-12s %-10s effort %.4g m/s", r["level"].get<std::string>().c_str(),
-                  r["law"].get<std::string>().c_str(), r["verdict"].get<std::string>().c_str(),
-                  r["effort"].get<double>());
+    std::snprintf(line, sizeof line, "%-11s %-12s %-10s effort %.4g m/s",
+                  r["level"].get<std::string>().c_str(), r["law"].get<std::string>().c_str(),
+                  r["verdict"].get<std::string>().c_str(), r["effort"].get<double>());
     out << line;
     if (r["least_distance"].is_number()) {
       std::snprintf(line, sizeof line, ", apart by %.4g m or more", r["least_distance"].get<double>());
@@ -223,9 +226,9 @@ int run_trials(const TrialsOptions& options, std::ostream& out) {
   const auto start = Clock::now();
   ResumableTable table{folder, "trials.csv"};
   table.settings = "# vericone trials, " + fs::path(options.scenario).filename().string() + " " +
-                   sha256_of_file(options.scenario) + ", seed " + std::to_string(cells[0].scenario.seed) + ", " +
-                   std::to_string(options.trials) + " trials, levels " + joined(options.levels) + ", laws " +
-                   joined(options.laws) + (options.random ? ", random engagements" : "");
+                   sha256_of_file(options.scenario) + ", seed " + std::to_string(cells[0].scenario.seed) +
+                   ", " + std::to_string(options.trials) + " trials, levels " + joined(options.levels) +
+                   ", laws " + joined(options.laws) + (options.random ? ", random engagements" : "");
   table.header = header_of(cells);
   table.count = options.trials;
   table.threads = threads_for(options.threads);

@@ -17,16 +17,16 @@ struct TrialsOptions {
   std::vector<std::string> laws{"di", "di-filter", "rdi", "rdi-filter"};
   std::optional<std::uint64_t> seed;   // otherwise the scenario's
   std::optional<std::uint64_t> trial;  // this one alone: nothing is written
-  bool random = false;                 // another random engagement each trial in place of the scenario's bodies
-  int threads = 0;                     // one per processor
+  bool random = false;  // another random engagement each trial in place of the scenario's bodies
+  int threads = 0;      // one per processor
   bool figures = true;
   bool quiet = false;
   bool json = false;
   std::string command_line;
 };
 
-/// Shares of trials that are proved avoided, by law and noise. Returns the exit status, 130 interrupted. Throws
-/// InputError naming the option or the field.
+/// Shares of trials that are proved avoided, by law and noise. Returns the exit status, 130 interrupted.
+/// Throws InputError naming the option or the field.
 int run_trials(const TrialsOptions& options, std::ostream& out);
 
 }  // namespace vericone::trials

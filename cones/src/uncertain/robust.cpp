@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "pairs/convex_hull_of.h"
 #include "uncertain/everywhere.h"
 #include "uncertain/inward.h"
 #include "uncertain/nearest.h"
@@ -163,48 +164,10 @@ std::optional<RelativeError> ellipsoids_collide(const Engagement& e, const Neare
   return std::nullopt;
 }
 
-/// The convex hull of a body in the world, by ellipsoids and by points with a radius.
-struct ConvexHullOf {
-  std::vector<Ellipsoid> parts;
-  std::vector<Vector3d> points;
-  double radius = 0;
-  bool convex = false;  // the body is no less
-
-  explicit ConvexHullOf(const Placed& placed) {
-    const auto& shape = placed.body.shape();
-    if (const auto* one = std::get_if<CombinedEllipsoid>(&shape)) {
-      parts.push_back(in_world(*one, placed.pose).ellipsoid());
-      convex = one->delimiters().empty();
-    } else if (const auto* hull = std::get_if<HullBody>(&shape)) {
-      add(hull->points(), placed.pose);
-      convex = true;
-    } else if (const auto* many = std::get_if<std::vector<CombinedEllipsoid>>(&shape)) {
-      for (const CombinedEllipsoid& piece : *many) parts.push_back(in_world(piece, placed.pose).ellipsoid());
-    } else {
-      const auto& assembly = std::get<Assembly>(shape);
-      const Assembly::Storage& by_slot = assembly.by_slot();
-      for (const auto& triangle : by_slot.triangles) add(triangle, placed.pose);
-      add(by_slot.balls, placed.pose);
-      for (const Box& box : by_slot.boxes) add(HullBody::box(box.low, box.high).points(), placed.pose);
-      for (const HullBody& piece : by_slot.hulls) add(piece.points(), placed.pose);
-      radius = assembly.radius();
-    }
-  }
-
-  Side side() const {
-    if (parts.size() == 1 && points.empty()) return Side(parts.front());
-    return Side(parts, points, radius);
-  }
-
- private:
-  template <typename Points>
-  void add(const Points& more, const Pose& pose) {
-    constexpr std::size_t kMost = 1'000'000;
-    if (points.size() + more.size() > kMost)
-      throw InputError("body", "more than " + std::to_string(kMost) + " points", "one of fewer");
-    for (const Vector3d& x : more) points.push_back(pose.to_world(x));
-  }
-};
+Side side_of(const ConvexHullOf& hull) {
+  if (hull.parts.size() == 1 && hull.points.empty()) return Side(hull.parts.front());
+  return Side(hull.parts, hull.points, hull.radius);
+}
 
 /// How far a point of the body moves at most that turns about its middle.
 double moved_by_turning(const Placed& placed, double angle) {
@@ -262,7 +225,7 @@ RobustAnswer robust_verdict(const Pair& pair, const Vector3d& v_a, const Vector3
   const ConvexHullOf a(pair.agent()), b(pair.obstacle());
   if (a.convex && b.convex && a.parts.size() == 1 && b.parts.size() == 1)
     return robust_verdict(a.parts.front(), b.parts.front(), v_a, v_b, errors);
-  const Side side_a = a.side(), side_b = b.side();
+  const Side side_a = side_of(a), side_b = side_of(b);
   const double by = slightly_more(errors.size + moved_by_turning(pair.agent(), errors.attitude_a) +
                                   moved_by_turning(pair.obstacle(), errors.attitude_b));
   const double by_acceleration =

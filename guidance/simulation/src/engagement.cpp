@@ -112,8 +112,8 @@ SightSample Engagement::sight_sample(const guidance::BodyState& a, const guidanc
   sample.measured.v_r *= 1 + errors.v_r;
   sample.measured.v_theta *= 1 + errors.v_theta;
   if (!step_ || !step_->reading || b.position == a.position) return sample;
-  const auto truth = guidance::plane_view(a, b, step_->across, pilot_->guide.sector,
-                                          guidance::RateMethod::analytic);
+  const auto truth =
+      guidance::plane_view(a, b, step_->across, pilot_->guide.sector, guidance::RateMethod::analytic);
   if (!truth) return sample;
   sample.on_plane = true;
   sample.reading = *step_->reading;

@@ -46,8 +46,7 @@ const Observed& Observer::look(const guidance::BodyState& a, const guidance::Bod
   estimate(m, t, position, velocity);
   if (b.planar()) position.z() = velocity.z() = 0;
   guidance::BodyState believed = b;
-  if (position != b.position)
-    believed.shape = shape_at(of_b.shape(), t, position, of_b.motion(t).rotation);
+  if (position != b.position) believed.shape = shape_at(of_b.shape(), t, position, of_b.motion(t).rotation);
   believed.position = position;
   believed.velocity = velocity;
   guidance::Sight sight = sight_of(sensor_, m, draw_);

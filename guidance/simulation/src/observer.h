@@ -3,6 +3,7 @@
 // One agent's view of one body through a run: what its sensor measures, what its estimator makes of that.
 #pragma once
 
+#include <vericone/guidance/estimation/constant_velocity.h>
 #include <vericone/guidance/estimation/set_membership.h>
 #include <vericone/simulation/scenario.h>
 #include <vericone/simulation/track.h>
@@ -26,8 +27,8 @@ class Observer {
         draw_(draw) {}
 
   /// The truth of both bodies at t, and the number of the command.
-  const Observed& look(const guidance::BodyState& a, const guidance::BodyState& b, const Track& of_b, double t,
-                       std::uint64_t step);
+  const Observed& look(const guidance::BodyState& a, const guidance::BodyState& b, const Track& of_b,
+                       double t, std::uint64_t step);
   [[nodiscard]] const Observed& last() const { return *observed_; }
 
  private:

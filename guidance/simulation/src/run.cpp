@@ -281,7 +281,8 @@ class Runner {
       const double value = metres    ? guide.clearance.required
                            : !inside ? guide.inversion.cease
                                      : f.engagement.sample(a, b, t, false).step.y;
-      if (inside || closing) event({when, inside ? EventKind::enters_cone : EventKind::leaves_cone, i, j, value});
+      if (inside || closing)
+        event({when, inside ? EventKind::enters_cone : EventKind::leaves_cone, i, j, value});
     }
     f.inside = inside;
   }

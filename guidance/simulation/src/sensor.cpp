@@ -27,7 +27,8 @@ double m_of(const Sensor& sensor, const Draw& draw, std::uint64_t channel) {
   return sensor.deviation * draw.normal(sensor.shared ? kShared : channel);
 }
 
-/// Uniform in the ball, or in the disc of planar bodies: a direction, and a radius whose cube (square) is even.
+/// Uniform in the ball, or in the disc of planar bodies: a direction, and a radius whose cube (square) is
+/// even.
 Vector3d in_ball(double radius, const Draw& draw, std::uint64_t channel, bool planar) {
   const double azimuth = 2 * std::numbers::pi * draw.uniform(channel), part = draw.uniform(channel + 1);
   if (planar) return radius * std::sqrt(part) * Vector3d(std::cos(azimuth), std::sin(azimuth), 0);
@@ -68,9 +69,9 @@ const char* to_string(Estimator estimator) {
 
 Sensor Sensor::times(double factor) const {
   Sensor other = *this;
-  for (double* x : {&other.position, &other.velocity, &other.engagement.r, &other.engagement.v_r,
-                    &other.engagement.v_theta, &other.engagement.theta, &other.engagement.theta_b,
-                    &other.engagement.psi})
+  for (double* x :
+       {&other.position, &other.velocity, &other.engagement.r, &other.engagement.v_r,
+        &other.engagement.v_theta, &other.engagement.theta, &other.engagement.theta_b, &other.engagement.psi})
     *x *= factor;
   return other;
 }
@@ -148,10 +149,15 @@ guidance::Sight sight_of(const Sensor& sensor, const Measurement& measurement, c
 
 void check(const Sensor& sensor) {
   const guidance::EngagementParts& e = sensor.engagement;
-  const std::pair<const char*, double> fields[] = {
-      {"position", sensor.position}, {"velocity", sensor.velocity}, {"deviation", sensor.deviation},
-      {"r", e.r},                    {"V_r", e.v_r},                {"V_theta", e.v_theta},
-      {"theta", e.theta},            {"theta_b", e.theta_b},        {"psi", e.psi}};
+  const std::pair<const char*, double> fields[] = {{"position", sensor.position},
+                                                   {"velocity", sensor.velocity},
+                                                   {"deviation", sensor.deviation},
+                                                   {"r", e.r},
+                                                   {"V_r", e.v_r},
+                                                   {"V_theta", e.v_theta},
+                                                   {"theta", e.theta},
+                                                   {"theta_b", e.theta_b},
+                                                   {"psi", e.psi}};
   for (const auto& [name, value] : fields)
     if (!(value >= 0) || !std::isfinite(value)) throw InputError(name, to_text(value), "a number, 0 or more");
 }

@@ -9,10 +9,9 @@
 namespace vericone::simulation {
 namespace {
 
-constexpr std::array kLaws{TrialLaw::di,          TrialLaw::di_filter, TrialLaw::rdi,
-                           TrialLaw::rdi_filter,  TrialLaw::di_rates,  TrialLaw::di_analytic,
-                           TrialLaw::di_state,    TrialLaw::di_margin, TrialLaw::clearance,
-                           TrialLaw::robust};
+constexpr std::array kLaws{
+    TrialLaw::di,          TrialLaw::di_filter, TrialLaw::rdi,       TrialLaw::rdi_filter, TrialLaw::di_rates,
+    TrialLaw::di_analytic, TrialLaw::di_state,  TrialLaw::di_margin, TrialLaw::clearance,  TrialLaw::robust};
 
 double number_of(const std::string& text, const std::string& whole) {
   double x = 0;
@@ -36,8 +35,8 @@ std::size_t agent_of(const Scenario& scenario) {
   return agent;
 }
 
-/// What an outer loop does where the scenario does not say: a and |b| as the noise leaves them, and a bound of
-/// its influence that a step of 0.01 s can keep.
+/// What an outer loop does where the scenario does not say: a and |b| as the noise leaves them, and a bound
+/// of its influence that a step of 0.01 s can keep.
 guidance::OuterLoopOptions usual_outer_loop(double step) {
   guidance::OuterLoopOptions outer;
   outer.from_noise = true;
@@ -108,7 +107,8 @@ Scenario trial_scenario(const Scenario& scenario, TrialLaw law, const TrialLevel
   Pilot& pilot = *flown.bodies[agent].pilot;
   guidance::GuideOptions& guide = pilot.guide;
   if (guide.law != guidance::Law::avoidance)
-    throw InputError("law", guidance::to_string(guide.law), "avoidance: the trials change it as their names say");
+    throw InputError("law", guidance::to_string(guide.law),
+                     "avoidance: the trials change it as their names say");
   if (level.sensor) {
     pilot.sensor = level.sensor;
   } else {
@@ -125,11 +125,13 @@ Scenario trial_scenario(const Scenario& scenario, TrialLaw law, const TrialLevel
   guide.filter.y = law == di_filter || law == rdi_filter;
   guide.filter.rates = guide.filter.y || law == di_rates;
   const bool by_state = law == di_state || law == di_margin || law == clearance || law == robust;
-  guide.rates = law == di_analytic || by_state ? guidance::GuideRates::analytic : guidance::GuideRates::backward;
+  guide.rates =
+      law == di_analytic || by_state ? guidance::GuideRates::analytic : guidance::GuideRates::backward;
   guide.margin = law == di_margin || law == clearance ? 3 : 0;
   const bool measures_state = pilot.sensor->noise != Noise::engagement;
   if (by_state && !measures_state)
-    throw InputError("--laws", to_string(law), "laws of the plane: the sensor measures no position and velocity");
+    throw InputError("--laws", to_string(law),
+                     "laws of the plane: the sensor measures no position and velocity");
   pilot.estimator = by_state ? Estimator::state : Estimator::none;
   guide.errors = law == robust ? 3 : 0;
   if (law == clearance || law == robust) guide.law = guidance::Law::clearance;

@@ -50,8 +50,7 @@ Innovation<6> ConstantVelocityFilter::step(const State& measured, const Covarian
   drift.topRightCorner<3, 3>() = drift.bottomLeftCorner<3, 3>() = q * dt * dt / 2 * identity;
   drift.bottomRightCorner<3, 3>() = q * dt * identity;
   predict(belief_, transition, drift);
-  const Innovation<6> said =
-      correct<6, 6>(belief_, measured, Covariance::Identity(), noise, gate_.most());
+  const Innovation<6> said = correct<6, 6>(belief_, measured, Covariance::Identity(), noise, gate_.most());
   if (gate_.lost(said.accepted)) belief_ = {measured, noise};
   return said;
 }

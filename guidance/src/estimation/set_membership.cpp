@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Rounding: the true set lies within `corners_` moved by `slack_`. Every step computes new corners with an error
-// of a few units in the last place of the numbers involved, and adds that to the slack. Nothing has to be rounded
-// corner by corner.
+// Rounding: the true set lies within `corners_` moved by `slack_`. Every step computes new corners with an
+// error of a few units in the last place of the numbers involved, and adds that to the slack. Nothing has to
+// be rounded corner by corner.
 #include <vericone/guidance/estimation/set_membership.h>
 #include <algorithm>
 #include <cmath>
@@ -15,17 +15,19 @@ namespace {
 using Point = PossibleMotion::Point;
 
 constexpr std::size_t kMostCorners = 24;
-constexpr double kUnit = std::numeric_limits<double>::epsilon();  // two half-units: covers a rounding and more
+constexpr double kUnit =
+    std::numeric_limits<double>::epsilon();  // two half-units: covers a rounding and more
 
 double cross(const Point& o, const Point& a, const Point& b) {
   return (a.x() - o.x()) * (b.y() - o.y()) - (a.y() - o.y()) * (b.x() - o.x());
 }
 
-/// The convex hull, counter-clockwise (Andrew's monotone chain). A corner that rounding drops lies within a few
-/// units of the hull, which the caller's slack covers.
+/// The convex hull, counter-clockwise (Andrew's monotone chain). A corner that rounding drops lies within a
+/// few units of the hull, which the caller's slack covers.
 std::vector<Point> hull(std::vector<Point> points) {
-  std::sort(points.begin(), points.end(),
-            [](const Point& a, const Point& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
+  std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) {
+    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
+  });
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return points;
   std::vector<Point> chain(2 * points.size());

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/combined/nearest_points.h>
 #include <vericone/cones/pair.h>
+#include <vericone/cones/random_engagement.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/random_engagement.h>
 
 #include <cmath>
 #include <limits>

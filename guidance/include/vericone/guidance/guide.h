@@ -36,15 +36,15 @@ struct GuideOptions {
   PlaneOptions plane;
   LawOptions inversion;
   ClearanceOptions clearance;
-  double mu = 0;          // cooperative avoidance: a_B = mu a_A
-  double gain_speed = 1;  // K_2 of matching
+  double mu = 0;                           // cooperative avoidance: a_B = mu a_A
+  double gain_speed = 1;                   // K_2 of matching
   PlaneFilterOptions filter;               // of what is read on the plane; of the avoidance law alone
   std::optional<OuterLoopOptions> robust;  // (7.14) of the avoidance law
   /// Standard deviations to keep: of y (7.7), added to reference and cease of the avoidance law; of the miss
   /// distance, position and velocity together, added to the metres that the clearance law requires.
   double margin = 0;
-  /// Standard deviations: the clearance law keeps its metres for all errors of position and of velocity within
-  /// balls of so many, the worst of both together (ClearanceOptions::position_error).
+  /// Standard deviations: the clearance law keeps its metres for all errors of position and of velocity
+  /// within balls of so many, the worst of both together (ClearanceOptions::position_error).
   double errors = 0;
 };
 
@@ -62,13 +62,13 @@ struct GuideMemory {
 
 /// What the avoidance law read on its plane, and what its outer loop added.
 struct GuideReading {
-  PlanarState state;         // with the errors of measurement
-  PlaneCone cone;            // its rates are those used
-  Measured deviations;       // standard deviations of these, as far as the agent knows them
-  double y = 0;              // as used: filtered where y is
-  double inner = 0;          // m/s^2, lateral acceleration of the inner loop, saturated
-  RobustCorrection outer;    // of the outer loop, where there is one; else as it starts
-  bool corrected = false;    // the outer loop was asked
+  PlanarState state;       // with the errors of measurement
+  PlaneCone cone;          // its rates are those used
+  Measured deviations;     // standard deviations of these, as far as the agent knows them
+  double y = 0;            // as used: filtered where y is
+  double inner = 0;        // m/s^2, lateral acceleration of the inner loop, saturated
+  RobustCorrection outer;  // of the outer loop, where there is one; else as it starts
+  bool corrected = false;  // the outer loop was asked
 };
 
 struct GuideStep {
@@ -100,9 +100,9 @@ struct GuideStep {
 /// No allocation and no throw with ellipsoids. Cost: docs/measured/benchmarks.md.
 ///
 /// `b` is what the agent believes of B. `sight` says how wrong that may be, and carries the errors of sensors
-/// that measure on the plane. Where y is filtered or has a margin, avoidance in space is decided by y on the plane
-/// chosen, not by on_collision_course(): a filter needs every measurement, and a noisy course has no exact
-/// answer.
+/// that measure on the plane. Where y is filtered or has a margin, avoidance in space is decided by y on the
+/// plane chosen, not by on_collision_course(): a filter needs every measurement, and a noisy course has no
+/// exact answer.
 std::optional<GuideStep> guide(const BodyState& a, const BodyState& b, const GuideOptions& options,
                                GuideMemory& memory, double time, const Sight& sight = {});
 

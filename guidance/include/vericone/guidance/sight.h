@@ -17,8 +17,8 @@ struct EngagementParts {
   double theta = 0, theta_b = 0, psi = 0;  // rad
 };
 
-/// One measurement: errors on the plane that are made now, and how large they usually are. Sensors of position
-/// and velocity have made theirs in the bodies already; of them only the size is known here.
+/// One measurement: errors on the plane that are made now, and how large they usually are. Sensors of
+/// position and velocity have made theirs in the bodies already; of them only the size is known here.
 struct Sight {
   EngagementParts errors, deviations;
   double position_deviation = 0;  // m, of the relative position, along any direction
@@ -57,8 +57,8 @@ class PlaneFilters {
   double turned_ = 0, last_theta_b_ = 0;
 };
 
-/// The outer loop of (7.14)-(7.24) beside the inversion: z = y - w of the y used, limits as the actuator leaves
-/// them.
+/// The outer loop of (7.14)-(7.24) beside the inversion: z = y - w of the y used, limits as the actuator
+/// leaves them.
 struct OuterLoopOptions {
   RobustModel model;  // its gain and sign_b are those of the law
   RobustOptions options;
@@ -66,8 +66,8 @@ struct OuterLoopOptions {
   bool from_noise = false;
 };
 
-/// u to be added to the inner loop's lateral acceleration `inner`, both within `most`. `by_lateral_a`: dy'/da of
-/// the measured state, whose sign is that of b.
+/// u to be added to the inner loop's lateral acceleration `inner`, both within `most`. `by_lateral_a`: dy'/da
+/// of the measured state, whose sign is that of b.
 [[nodiscard]] RobustCorrection outer_loop(const OuterLoopOptions& outer, double z, double inner, double most,
                                           double gain, double by_lateral_a, const PlanarState& state,
                                           const PlaneCone& cone, const Measured& deviations);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Scenes from files: two bodies of any kinds, their velocities, and the pair they make (docs/reference/formats.md).
+// Scenes from files: two bodies of any kinds, their velocities, and the pair they make
+// (docs/reference/formats.md).
 #pragma once
 
 #include <vericone/cones/pair.h>
@@ -22,7 +23,7 @@ struct Reading {
     std::size_t nodes = 0;
     bool unknown_occupied = true;
   };
-  std::optional<Map> map = {};                      // of an octree map
+  std::optional<Map> map = {};                 // of an octree map
   double seconds_read = 0, seconds_built = 0;  // the file; the tree of boxes
 };
 

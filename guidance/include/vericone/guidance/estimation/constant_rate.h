@@ -9,8 +9,8 @@
 namespace vericone::guidance {
 
 struct ConstantRateOptions {
-  /// Of the white noise that changes the rate, (unit of the value)^2 / s^3. Large: follows at once; 0: the rate
-  /// is constant.
+  /// Of the white noise that changes the rate, (unit of the value)^2 / s^3. Large: follows at once; 0: the
+  /// rate is constant.
   double intensity = 1;
   /// Standard deviation of the rate before anything is known of it, unit / s.
   double first_rate = 1;

@@ -15,7 +15,8 @@ struct ConstantVelocityOptions {
   double gate = 30;
 };
 
-/// Position (m) and velocity (m/s) in fixed axes, both measured. No allocation, no throw. Cost: 0.6 us a step.
+/// Position (m) and velocity (m/s) in fixed axes, both measured. No allocation, no throw. Cost: 0.6 us a
+/// step.
 class ConstantVelocityFilter {
  public:
   using State = Eigen::Matrix<double, 6, 1>;  // position, then velocity

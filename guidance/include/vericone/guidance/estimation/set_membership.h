@@ -18,8 +18,8 @@ struct Bounds {
   [[nodiscard]] double middle() const { return 0.5 * (low + high); }
 };
 
-/// One axis. The possible pairs (position, velocity) are the polygon's points, each moved by at most `slack` in
-/// position and in velocity: that is where rounding goes, outwards.
+/// One axis. The possible pairs (position, velocity) are the polygon's points, each moved by at most `slack`
+/// in position and in velocity: that is where rounding goes, outwards.
 class PossibleMotion {
  public:
   using Point = Eigen::Vector2d;  // m, m/s
@@ -50,7 +50,8 @@ class PossibleMotion {
   Eigen::Vector2d slack_ = Eigen::Vector2d::Zero();
 };
 
-/// Three axes. A polygon has at most 24 corners before it is replaced by one around it. Cost: some 2 us a step.
+/// Three axes. A polygon has at most 24 corners before it is replaced by one around it. Cost: some 2 us a
+/// step.
 class SetMembershipFilter {
  public:
   /// `most`: bound of the body's acceleration along each axis, m/s^2.

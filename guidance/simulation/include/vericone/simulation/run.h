@@ -37,7 +37,7 @@ struct SightSample {
   double t = 0;
   std::size_t agent = 0, obstacle = 0;
   Measurement measurement;
-  guidance::SpatialState measured;                          // as measured: r, V_r, V_theta, V_phi, ...
+  guidance::SpatialState measured;                       // as measured: r, V_r, V_theta, V_phi, ...
   Eigen::Vector3d believed_position, believed_velocity;  // as given to the law
   bool on_plane = false;
   guidance::PlanarState state;  // true

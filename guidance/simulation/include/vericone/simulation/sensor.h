@@ -4,7 +4,7 @@
 // proved, as they truly are.
 #pragma once
 
-#include <vericone/guidance/estimation/constant_velocity.h>
+#include <vericone/guidance/body_state.h>
 #include <vericone/guidance/sight.h>
 #include <cstdint>
 
@@ -15,7 +15,8 @@ enum class Noise : std::uint8_t {
   /// (7.2): of r, V_r and V_theta parts of the true value, of theta, theta_b and psi angles, each times m. Of
   /// the avoidance law; it acts on the plane that the law looks at.
   engagement,
-  /// (7.27): along each axis of the world a part of the true relative position and velocity there, times m. So
+  /// (7.27): along each axis of the world a part of the true relative position and velocity there, times m.
+  /// So
   /// it depends on the axes, and vanishes where a component is 0.
   per_axis,
   isotropic,  // along each axis metres and metres a second, times m
@@ -67,9 +68,10 @@ struct Measurement {
 [[nodiscard]] Measurement measure(const Sensor& sensor, const guidance::BodyState& a,
                                   const guidance::BodyState& b, const Draw& draw);
 
-/// What the agent knows of the errors of the moment, as the law is told: of the deviations, those of the measured
-/// state, since the true one is not known.
-[[nodiscard]] guidance::Sight sight_of(const Sensor& sensor, const Measurement& measurement, const Draw& draw);
+/// What the agent knows of the errors of the moment, as the law is told: of the deviations, those of the
+/// measured state, since the true one is not known.
+[[nodiscard]] guidance::Sight sight_of(const Sensor& sensor, const Measurement& measurement,
+                                       const Draw& draw);
 
 /// Throws InputError naming "noise", "position", "velocity", "deviation", "r", "theta", ...
 void check(const Sensor& sensor);

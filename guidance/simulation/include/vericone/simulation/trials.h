@@ -13,7 +13,8 @@
 
 namespace vericone::simulation {
 
-/// How the agent of a trial flies: the pilot of the scenario, changed as said. The first four are the source's.
+/// How the agent of a trial flies: the pilot of the scenario, changed as said. The first four are the
+/// source's.
 enum class TrialLaw : std::uint8_t {
   di,           // the inversion (6.17) alone, rates from one step to the next
   di_filter,    // with the source's filters of y, psi' and theta_b'
@@ -46,9 +47,10 @@ struct TrialLevel {
 [[nodiscard]] Scenario trial_scenario(const Scenario& scenario, TrialLaw law, const TrialLevel& level);
 
 struct TrialOutcome {
-  ProofVerdict verdict = ProofVerdict::undecided;  // of the agent and all that it minds, to the end of the run
-  double least_distance = 0;                       // m, proved; of avoided ones
-  double effort = 0;                               // m/s, the integral of the agent's |a|
+  ProofVerdict verdict =
+      ProofVerdict::undecided;  // of the agent and all that it minds, to the end of the run
+  double least_distance = 0;    // m, proved; of avoided ones
+  double effort = 0;            // m/s, the integral of the agent's |a|
 };
 /// Trial `trial` of a scenario made by trial_scenario(): its noise depends on the scenario's seed and on this
 /// number alone.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "separation.h"
+#include "proof/separation.h"
 
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <algorithm>
 #include <cmath>
 
-#include "least_point.h"
+#include "proof/least_point.h"
 
 namespace vericone::simulation {
 namespace {

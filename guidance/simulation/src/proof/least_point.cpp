@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "least_point.h"
+#include "proof/least_point.h"
 
 #include <vericone/geometry/decompositions.h>
 #include <algorithm>

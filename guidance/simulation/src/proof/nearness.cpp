@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nearness.h"
+#include "proof/nearness.h"
 
 #include <vericone/geometry/error.h>
 #include <algorithm>

@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "separation.h"
+#include "proof/separation.h"
 
 namespace vericone::simulation {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "swept_body.h"
+#include "proof/swept_body.h"
 
 #include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/requires.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "meeting.h"
+#include "proof/meeting.h"
 
 #include <vericone/cones/pair.h>
 #include <vericone/geometry/error.h>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-#include "nearness.h"
+#include "proof/nearness.h"
 
 namespace vericone::simulation {
 namespace {

@@ -11,9 +11,9 @@
 #include <optional>
 #include <vector>
 
-#include "meeting.h"
-#include "nearness.h"
-#include "separation.h"
+#include "proof/meeting.h"
+#include "proof/nearness.h"
+#include "proof/separation.h"
 
 namespace vericone::simulation {
 namespace {

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "swept_body.h"
+#include "proof/swept_body.h"
 
 namespace vericone::simulation {
 

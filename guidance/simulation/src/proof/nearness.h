@@ -7,7 +7,7 @@
 #include <vericone/cones/pair.h>
 #include <vericone/geometry/world_body.h>
 
-#include "separation.h"
+#include "proof/separation.h"
 
 namespace vericone::simulation {
 
