@@ -20,8 +20,8 @@ BESIDE = {("fitting", "octomap"), ("fitting", "files"), ("fitting", "lidar"), ("
           ("verify", "octomap"), ("verify", "fitting"), ("verify", "lidar"), ("verify", "guidance"),
           ("verify", "simulation"), ("verify", "scenes"), ("verify", "scenarios"), ("scenes", "guidance"),
           ("scenes", "simulation"), ("scenes", "fitting"), ("scenes", "lidar"), ("scenarios", "fitting"), ("scenarios", "lidar"), ("octomap", "fitting"), ("octomap", "lidar")}
-FAMILIES = ["", "answers", "ellipsoids", "uncertain", "planar", "combined", "hulls", "opening", "times", "assembly", "composite",
-            "slices", "map", "pairs"]
+FAMILIES = ["", "answers", "ellipsoids", "planar", "combined", "hulls", "opening", "times", "assembly", "composite",
+            "slices", "map", "pairs", "uncertain"]
 MOST_FILES = 25
 
 def library_of(path):
