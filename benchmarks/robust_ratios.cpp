@@ -8,6 +8,7 @@
 #include <vericone/cones/uncertain/probability.h>
 #include <vericone/cones/uncertain/robust.h>
 #include <vericone/guidance/clearance_law.h>
+#include <vericone/guidance/robust_law.h>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
@@ -91,6 +92,22 @@ int run() {
       [&plain](const Case& c) { return clearance_law(c.state_a, c.state_b, plain).demanded; });
   add("clearance_law for all errors of two balls", all,
       [&balls](const Case& c) { return clearance_law(c.state_a, c.state_b, balls).demanded; });
+  // The robust law of docs/explanation/robust-law.md, which a semidefinite solver takes milliseconds for.
+  guidance::RobustModel model;
+  model.gain = 2;
+  model.a_low = 0.4;
+  model.a_high = 1.6;
+  model.b_low = 0.02;
+  model.b_high = 0.05;
+  guidance::RobustOptions two, eight;
+  two.mu = eight.mu = 10;
+  two.input_weight = eight.input_weight = 1e-4;
+  two.polytope = guidance::Polytope::printed;
+  const auto corrected = [&model](const Case& c, const guidance::RobustOptions& options) {
+    return guidance::robust_correction(-0.01 * c.w.norm(), -10, 10, model, options).delta;
+  };
+  add("robust_correction, two corners", all, [&](const Case& c) { return corrected(c, two); });
+  add("robust_correction, eight corners", all, [&](const Case& c) { return corrected(c, eight); });
   add("probability_of_passing_through, to 1e-4", all, [](const Case& c) {
     return probability_of_passing_through(c.a, c.b, c.w, 0.1 * c.a.shape()).estimate;
   });
