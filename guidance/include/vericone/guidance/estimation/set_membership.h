@@ -50,7 +50,7 @@ class PossibleMotion {
   Eigen::Vector2d slack_ = Eigen::Vector2d::Zero();
 };
 
-/// Three axes. A polygon has at most 24 corners before it is replaced by one around it. Cost: some 2 us a
+/// Three axes. A polygon has at most 24 corners before it is replaced by one around it. Cost: some 4 us a
 /// step.
 class SetMembershipFilter {
  public:
