@@ -113,18 +113,20 @@ LawCommand avoid(const PlaneView& view, const GuideOptions& options, const Measu
   const double by_state = cone_rates(view.state, view.cone).y;
   inversion.reference += by_state - y;
   inversion.cease += by_state - y;
+  double wanted = options.inversion.reference;
   if (options.margin > 0) {
     const double keep = options.margin * deviation(noise_gradients(view.state, view.cone, 1).y, deviations);
     inversion.reference += keep;
     inversion.cease += keep;
+    wanted += keep;
   }
   LawCommand command = avoidance(view.state, view.cone, inversion);
   reading = {view.state, view.cone, deviations, y, command.a, {}, false};
   command.rates.y = y;
   if (!options.robust || commands_nothing(command.status)) return command;
   reading.outer =
-      outer_loop(*options.robust, y - options.inversion.reference, command.a, options.inversion.most,
-                 options.inversion.gain, command.rates.by_lateral_a, view.state, view.cone, deviations);
+      outer_loop(*options.robust, y - wanted, command.a, options.inversion.most, options.inversion.gain,
+                 command.rates.by_lateral_a, view.state, view.cone, deviations);
   reading.corrected = true;
   command.a += reading.outer.delta;
   return command;
@@ -136,20 +138,26 @@ std::optional<GuideStep> on_plane(const BodyState& a, const BodyState& b, const 
   std::optional<PlaneView> view =
       plane_view(a, b, across, options.sector, rate_method(options.rates), 0, &memory.edges);
   if (!view) return std::nullopt;
-  add_errors(*view, sight.errors);
-  const double turned = turned_since(*view, memory);
+  const bool turning = options.rates == GuideRates::backward || options.filter.rates;
+  const double turned = turning ? turned_since(*view, memory) : 0;
+  const bool uncertain = sight.measured || options.filter.any() || options.robust || options.margin > 0;
+  if (sight.measured) add_errors(*view, sight.errors);
   if (options.rates == GuideRates::backward) difference_backward(*view, memory, time, turned);
-  double y = cone_rates(view->state, view->cone).y;
-  Measured deviations = deviations_on_plane(sight, view->state, view->cone);
-  if (options.rates == GuideRates::backward && memory.past && time > memory.past->time) {
-    // Of the difference of two measurements.
-    const double by_time = std::sqrt(2.0) / (time - memory.past->time);
-    deviations.psi_rate = by_time * deviations.psi;
-    deviations.theta_b_rate = by_time * deviations.theta_b;
-  }
-  if (options.filter.any()) {
-    if (!memory.filters) memory.filters.emplace(options.filter);
-    y = memory.filters->step(view->state, view->cone, turned, deviations, time);
+  Measured deviations;
+  double y = 0;
+  if (uncertain) {
+    y = cone_rates(view->state, view->cone).y;
+    deviations = deviations_on_plane(sight, view->state, view->cone);
+    if (options.rates == GuideRates::backward && memory.past && time > memory.past->time) {
+      // Of the difference of two measurements.
+      const double by_time = std::sqrt(2.0) / (time - memory.past->time);
+      deviations.psi_rate = by_time * deviations.psi;
+      deviations.theta_b_rate = by_time * deviations.theta_b;
+    }
+    if (options.filter.any()) {
+      if (!memory.filters) memory.filters.emplace(options.filter);
+      y = memory.filters->step(view->state, view->cone, turned, deviations, time);
+    }
   }
   memory.across = view->across;
   memory.past = {time, view->cone.psi, view->cone.theta_b, view->line_of_sight};
@@ -165,7 +173,8 @@ std::optional<GuideStep> on_plane(const BodyState& a, const BodyState& b, const 
   };
   switch (options.law) {
     case Law::avoidance: {
-      const LawCommand command = avoid(*view, options, deviations, y, step.reading.emplace());
+      const LawCommand command = uncertain ? avoid(*view, options, deviations, y, step.reading.emplace())
+                                           : avoidance(view->state, view->cone, options.inversion);
       read(command);
       step.a = command.a * view->lateral_a();
       step.demanded = std::abs(command.demanded);

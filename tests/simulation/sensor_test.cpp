@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <vericone/cones/uncertain/robust.h>
 #include <vericone/geometry/error.h>
 #include <vericone/simulation/run.h>
 #include <cmath>
@@ -204,6 +205,42 @@ TEST(Sensors, SetMembershipHoldsTheTruthInEveryRun) {
     const SightSample& last = run.sights.back();
     EXPECT_LT((last.believed_position - run.tracks[1].motion(last.t).position).norm(), 0.25);
   }
+}
+
+TEST(Sensors, WhatIsCalledRobustlyOutIsNeverTouched) {
+  // Bounded noise: the agent measures, is told that no error collides, and flies straight on. The exact
+  // predicate of the true bodies never says that they collide.
+  const Sensor sensor = sensor_of(Noise::bounded, 0.5, 0.3);
+  const RelativeErrors errors{ErrorSet::ball(0.5), ErrorSet::ball(0.3)};
+  int out = 0, collide = 0;
+  for (std::uint64_t run = 0; run < 100'000; ++run) {
+    const Draw draw{3, run, 0, 0};
+    const auto between = [&](std::uint64_t channel, double low, double high) {
+      return low + (high - low) * draw.uniform(100 + channel);
+    };
+    const Vector3d place(between(0, 8, 30), between(1, -5, 5), between(2, -5, 5)),
+        velocity(between(3, -12, -2), between(4, -3, 3), between(5, -3, 3));
+    const Ellipsoid agent =
+        Ellipsoid::from_axes(Vector3d::Zero(), {between(6, 0.5, 3), between(7, 0.5, 2), between(8, 0.5, 2)});
+    const Vector3d half(between(9, 0.5, 3), between(10, 0.5, 2), between(11, 0.5, 2));
+    guidance::BodyState a, b;
+    a.shape = CombinedEllipsoid(agent);
+    b.shape = CombinedEllipsoid(Ellipsoid::from_axes(place, half));
+    b.position = place;
+    b.velocity = velocity;
+    const Measurement seen = measure(sensor, a, b, draw);
+    const bool truly =
+        ConeOracle(agent, Ellipsoid::from_axes(place, half)).verdict(Vector3d::Zero(), velocity) ==
+        Verdict::in;
+    collide += truly;
+    const RobustAnswer said = robust_verdict(agent, Ellipsoid::from_axes(seen.position, half),
+                                             Vector3d::Zero(), seen.velocity, errors);
+    if (said.verdict != RobustVerdict::out) continue;
+    ++out;
+    ASSERT_FALSE(truly) << run;
+  }
+  EXPECT_GT(out, 20'000);
+  EXPECT_GT(collide, 5'000);
 }
 
 void expect_refused(const Scenario& scenario, const std::string& field) {

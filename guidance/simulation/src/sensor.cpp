@@ -129,6 +129,7 @@ Measurement measure(const Sensor& sensor, const guidance::BodyState& a, const gu
 
 guidance::Sight sight_of(const Sensor& sensor, const Measurement& measurement, const Draw& draw) {
   guidance::Sight sight;
+  sight.measured = true;
   if (sensor.noise == Noise::engagement) {
     const guidance::EngagementParts& parts = sensor.engagement;
     using Parts = guidance::EngagementParts;

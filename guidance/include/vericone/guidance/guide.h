@@ -79,7 +79,7 @@ struct GuideStep {
   double psi = 0, theta_b = 0;  // rad; theta_b from the line of sight
   double m = 0;                 // metres, clearance law only
   Eigen::Vector3d across = Eigen::Vector3d::Zero();
-  std::optional<GuideReading> reading;  // of the avoidance law, where it looked at a plane
+  std::optional<GuideReading> reading;  // of avoidance that measures, filters or corrects, where it looked
 };
 
 /// Whether they are on a collision course: the relative velocity lies in the cone (of the slices, or the true

@@ -20,6 +20,7 @@ struct EngagementParts {
 /// One measurement: errors on the plane that are made now, and how large they usually are. Sensors of
 /// position and velocity have made theirs in the bodies already; of them only the size is known here.
 struct Sight {
+  bool measured = false;  // otherwise all is known, and the rest is 0
   EngagementParts errors, deviations;
   double position_deviation = 0;  // m, of the relative position, along any direction
   double velocity_deviation = 0;  // m/s
