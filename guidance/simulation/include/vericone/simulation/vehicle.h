@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Vehicles that are not point masses: what flies a body by its own equations of motion.
+#pragma once
+
+#include <vericone/simulation/track.h>
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vericone::simulation {
+
+/// What a law wants of a vehicle, held for a step.
+struct VehicleCommand {
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  // m/s^2, in the world; the law's
+  /// Where it is to be: a point that moves with a velocity, and in how many seconds. Of laws that know one.
+  struct Aim {
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();     // m, now
+    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s
+    double seconds = 0;
+  };
+  std::optional<Aim> aim;
+};
+
+/// One under way.
+class Vehicle {
+ public:
+  virtual ~Vehicle() = default;
+  /// At the time reached.
+  [[nodiscard]] virtual Motion motion() const = 0;
+  /// Carries out the command until `to`, and appends its motion since `from`, the time reached, to `way`.
+  virtual void advance(const VehicleCommand& command, double from, double to, std::vector<Curve>& way) = 0;
+  /// Its inputs and states at the time reached, in the order of VehicleModel::channels().
+  virtual void log(std::vector<double>& values) const = 0;
+};
+
+/// A kind of vehicle with its parameters.
+class VehicleModel {
+ public:
+  virtual ~VehicleModel() = default;
+  /// `start` at time t, seconds.
+  [[nodiscard]] virtual std::unique_ptr<Vehicle> launch(const Motion& start, double t) const = 0;
+  /// Columns of what it logs, with units: "bias [rad]".
+  [[nodiscard]] virtual std::vector<std::string> channels() const = 0;
+  /// What no motion of it exceeds, proved of its equations or declared by the scenario and kept by the vehicle.
+  struct Limits {
+    double speed = 0;         // m/s, through the water or air
+    double turn_rate = 0;     // rad/s, of its horizontal course
+    double climb = 0;         // m/s
+    double climb_jerk = 0;    // m/s^3; infinite if not limited
+    double top = 0, bottom = 0;  // z of the highest and lowest place it can be, m
+  };
+  [[nodiscard]] virtual Limits limits() const = 0;
+};
+
+}  // namespace vericone::simulation
