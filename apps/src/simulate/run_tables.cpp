@@ -24,7 +24,7 @@ std::vector<double> command_times(const Scenario& scenario, const Run& run) {
   for (std::uint64_t k = 0; time_of_step(scenario, k) < run.end; ++k)
     times.push_back(time_of_step(scenario, k));
   for (const Track& track : run.tracks)
-    for (const Arc& arc : track.arcs()) times.push_back(arc.from());
+    for (const auto& leg : track.legs()) times.push_back(leg->from());
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;

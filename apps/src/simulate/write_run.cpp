@@ -24,7 +24,7 @@ std::string content_of(const fs::path& file) {
 
 Json run_json(const simulation::Scenario& scenario, const simulation::Run& run, const RunOrigin& origin) {
   std::size_t arcs = 0, agents = 0;
-  for (const simulation::Track& track : run.tracks) arcs += track.arcs().size();
+  for (const simulation::Track& track : run.tracks) arcs += track.legs().size();
   Json goals = Json::array();
   for (const simulation::Body& body : scenario.bodies) {
     agents += body.pilot.has_value();

@@ -63,7 +63,10 @@ class Runner {
   Runner(const Scenario& scenario, const RunOptions& options) : scenario_(scenario), options_(options) {
     run_.tracks.reserve(scenario.bodies.size());
     for (const Body& body : scenario.bodies) {
-      run_.tracks.emplace_back(body.shape, body.start, body.orientation, body.appears);
+      run_.tracks.emplace_back(body.shape, body.start, body.vehicle ? Orientation::fixed : body.orientation,
+                               body.appears);
+      vehicles_.push_back(body.vehicle ? body.vehicle->launch(body.start, body.appears, scenario.water)
+                                       : nullptr);
       if (body.appears > 0)
         event({body.appears, EventKind::appears, run_.tracks.size() - 1, run_.tracks.size() - 1, 0});
     }
@@ -102,6 +105,8 @@ class Runner {
       }
       if (done_ || (scenario_.stop_when_passed && all_passed(t))) break;
     }
+    for (std::size_t i = 0; i < vehicles_.size(); ++i)
+      if (vehicles_[i] && vehicles_[i]->broken()) run_.limits_broken.push_back({i, *vehicles_[i]->broken()});
     if (options_.prove && !run_.interrupted) prove_pairs();
     std::stable_sort(run_.events.begin(), run_.events.end(),
                      [](const Event& x, const Event& y) { return x.t < y.t; });
@@ -151,10 +156,21 @@ class Runner {
     for (std::size_t i = 0; i < scenario_.bodies.size(); ++i)
       if (scenario_.bodies[i].pilot && present(i, t)) command(i, t, to);
     for (std::size_t i = 0; i < run_.tracks.size(); ++i)
-      if (present(i, t)) run_.tracks[i].advance(accelerations_[i], to);
+      if (present(i, t)) move(i, t, to);
     for (Followed& f : engagements_) passing(f, t, to);
     for (std::size_t i = 0; i < scenario_.bodies.size(); ++i) reaching(i, t, to);
     before_ = t;
+  }
+
+  void move(std::size_t i, double t, double to) {
+    if (!vehicles_[i]) {
+      run_.tracks[i].advance(accelerations_[i], to);
+      return;
+    }
+    if (options_.log) vehicles_[i]->log(run_.vehicles.emplace_back(VehicleSample{t, i, {}}).values);
+    way_.clear();
+    vehicles_[i]->advance({accelerations_[i], {}}, t, to, way_);
+    for (const Curve& curve : way_) run_.tracks[i].append(curve);
   }
 
   void observe(Followed& f, double t) {
@@ -335,8 +351,8 @@ class Runner {
   bool move_together(std::size_t i, std::size_t j) const {
     const auto steady = [&](std::size_t k) {
       const bool rigid = run_.tracks[k].shape().rigid() != nullptr;
-      return rigid && std::none_of(run_.tracks[k].arcs().begin(), run_.tracks[k].arcs().end(),
-                                   [](const Arc& arc) { return arc.accelerated(); });
+      return rigid && std::none_of(run_.tracks[k].legs().begin(), run_.tracks[k].legs().end(),
+                                   [](const auto& leg) { return leg->accelerated(); });
     };
     const Body &a = scenario_.bodies[i], &b = scenario_.bodies[j];
     return !flown(i) && !flown(j) && a.start.velocity == b.start.velocity && steady(i) && steady(j);
@@ -344,7 +360,7 @@ class Runner {
 
   /// Moved by a law, its own or a partner's.
   bool flown(std::size_t i) const {
-    if (scenario_.bodies[i].pilot) return true;
+    if (scenario_.bodies[i].pilot || vehicles_[i]) return true;
     return std::any_of(scenario_.bodies.begin(), scenario_.bodies.end(), [&](const Body& other) {
       return other.pilot && contains(other.pilot->partners, scenario_.bodies[i].name);
     });
@@ -387,6 +403,8 @@ class Runner {
   std::vector<Followed> engagements_;
   std::vector<BodyState> states_;
   std::vector<Vector3d> accelerations_;
+  std::vector<std::unique_ptr<Vehicle>> vehicles_;  // null: a point mass
+  std::vector<Curve> way_;
   std::vector<bool> aligned_, reached_, cannot_avoid_;
   std::vector<std::optional<guidance::Navigator>> navigators_;
   std::vector<BodyState> minded_;

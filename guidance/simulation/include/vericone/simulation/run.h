@@ -49,6 +49,19 @@ struct SightSample {
   double y_deviation = 0, a_deviation = 0, v_deviation = 0;
 };
 
+/// What a vehicle logs at the time of a command.
+struct VehicleSample {
+  double t = 0;
+  std::size_t body = 0;
+  std::vector<double> values;  // in the order of VehicleModel::channels()
+};
+
+/// A vehicle that was beyond one of its limits.
+struct VehicleBeyond {
+  std::size_t body = 0;
+  LimitBroken broken;
+};
+
 enum class EventKind : std::uint8_t {
   appears,      // body `agent`
   enters_cone,  // y < 0 and closing from now on, as the law sees it (of an agent with a sensor: in truth)
@@ -95,9 +108,11 @@ struct Run {
   double end = 0;                           // s
   std::vector<EncounterSample> encounters;  // by time, agent, obstacle
   std::vector<PlaneSample> planes;
-  std::vector<SightSample> sights;  // of agents with a sensor; by time, agent, obstacle
-  std::vector<Event> events;        // by time
-  std::vector<PairOutcome> proofs;  // every pair of bodies that are there together, but:
+  std::vector<SightSample> sights;           // of agents with a sensor; by time, agent, obstacle
+  std::vector<VehicleSample> vehicles;       // by time, body
+  std::vector<VehicleBeyond> limits_broken;  // the first of each vehicle that broke one
+  std::vector<Event> events;                 // by time
+  std::vector<PairOutcome> proofs;           // every pair of bodies that are there together, but:
   std::vector<NotChecked> not_checked;
   bool interrupted = false;
 

@@ -4,10 +4,13 @@
 #pragma once
 
 #include <vericone/guidance/guide.h>
+#include <vericone/simulation/current.h>
 #include <vericone/simulation/proof.h>
 #include <vericone/simulation/sensor.h>
 #include <vericone/simulation/track.h>
+#include <vericone/simulation/vehicle.h>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -68,6 +71,8 @@ struct Body {
   Orientation orientation = Orientation::heading;
   double appears = 0;  // s
   std::optional<Pilot> pilot;
+  /// What moves it in place of a point mass under its pilot's acceleration; its orientation is the vehicle's.
+  std::shared_ptr<const VehicleModel> vehicle;
 };
 
 struct Scenario {
@@ -77,6 +82,7 @@ struct Scenario {
   bool stop_when_passed = false;  // ends when every agent has passed all that it minds, and none is to come
   int planes_logged = 0;          // y and psi are logged on this many planes (Fig 6.9)
   std::vector<Body> bodies;
+  Current water;  // that vehicles swim in
   ProofOptions proof;
   std::uint64_t seed = 1;  // of all noise
 };
