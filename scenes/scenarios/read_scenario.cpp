@@ -12,6 +12,7 @@
 #include "json/json_value.h"
 #include "json/plain_text.h"
 #include "scenarios/read_motion.h"
+#include "scenarios/read_orifice.h"
 #include "scenarios/read_pilot.h"
 #include "scenarios/read_shape.h"
 #include "scenarios/scenario_fields.h"
@@ -103,7 +104,8 @@ simulation::Scenario read_scenario(const Json& fields, const std::string& name,
                                    const std::filesystem::path& folder) {
   if (!fields.is_object()) throw InputError("scenario", quoted(fields), "a mapping with bodies");
   require_known(fields, "",
-                {"name", "duration", "step", "stop_when_passed", "planes_logged", "proof", "bodies", "seed"});
+                {"name", "duration", "step", "stop_when_passed", "planes_logged", "proof", "bodies", "seed",
+                 "orifices"});
   simulation::Scenario scenario;
   scenario.name = name;
   if_given(fields, "", "name",
@@ -126,6 +128,10 @@ simulation::Scenario read_scenario(const Json& fields, const std::string& name,
   if (!bodies.is_array() || bodies.empty()) throw InputError("bodies", quoted(bodies), "a list of bodies");
   for (std::size_t i = 0; i < bodies.size(); ++i)
     scenario.bodies.push_back(read_body(bodies[i], at("bodies", i), folder));
+  if_given(fields, "", "orifices", [&](const Json& v, const std::string& p) {
+    if (!v.is_array() || v.empty()) throw InputError(p, quoted(v), "a list of orifices");
+    for (std::size_t i = 0; i < v.size(); ++i) scenario.orifices.push_back(read_orifice(v[i], at(p, i)));
+  });
   for (simulation::Body& body : scenario.bodies)  // the outer loop's step is the scenario's
     if (body.pilot && body.pilot->guide.robust) body.pilot->guide.robust->model.dt = scenario.step;
   simulation::check(scenario);

@@ -33,8 +33,11 @@ int check_command(CommandLine& line) {
               "Scene, scenario, body, figures or claims, YAML (docs/reference/formats.md, "
               "docs/reference/scenarios.md, docs/reference/papers.md)")
       .required();
+  bool json = false;
+  line.flag("--json", json, "Print JSON: labels with their texts");
+  line.quiet();
   line.read();
-  return run_check(file, std::cout);
+  return run_check(file, json, std::cout);
 }
 
 int trials_command(CommandLine& line) {
