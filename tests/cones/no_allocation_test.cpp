@@ -29,6 +29,8 @@
 #include <variant>
 #include <vector>
 
+#include "cones/opening/random_openings.h"
+
 #include "support/allocations.h"
 #include "support/random_combined.h"
 
@@ -171,9 +173,12 @@ TEST(NoAllocation, Openings) {
   SCOPED_TRACE(random.trace());
   for (int i = 0; i < kCases; ++i) {
     const OrificeOracle oracle(random.ellipsoid({0, 0, 0}, 0.1, 1), {{4, 0, 0}, random.direction(), 2});
+    const OrificeOracle outlined(oracle.agent(), testing::random_placed(random, i % 3, {4, 0, 0}));
     const Vector3d w = Vector3d(4, 0, 0) + random.in_box(3);
-    EXPECT_EQ(allocations_of([&] { static_cast<void>(oracle.triage_transit(w)); }), 0);
-    EXPECT_EQ(allocations_of([&] { static_cast<void>(oracle.interval_transit(w)); }), 0);
+    for (const OrificeOracle* one : {&oracle, &outlined}) {
+      EXPECT_EQ(allocations_of([&] { static_cast<void>(one->triage_transit(w)); }), 0);
+      EXPECT_EQ(allocations_of([&] { static_cast<void>(one->interval_transit(w)); }), 0);
+    }
   }
 }
 

@@ -12,12 +12,14 @@ namespace vericone::exact {
 /// and c = p_B - p_A.
 template <int D>
 struct PairOnGrid {
+  static constexpr int kNone = 1 << 20;
   IntegerMatrix<D> a, b;
   IntegerVector<D> c;
+  int exponent = 0;  // e, of bodies in doubles
 
-  PairOnGrid(const BasicEllipsoid<D>& body_a, const BasicEllipsoid<D>& body_b) {
-    constexpr int kNone = 1 << 20;
-    int e = kNone;
+  /// `finest`: e is no more than that.
+  PairOnGrid(const BasicEllipsoid<D>& body_a, const BasicEllipsoid<D>& body_b, int finest = kNone) {
+    int e = finest;
     for (const auto* body : {&body_a, &body_b}) {
       for (int i = 0; i < D; ++i) e = std::min(e, grid_exponent(body->center()(i), kNone));
       const bool by_factor = body->defined_by_factor();
@@ -27,6 +29,7 @@ struct PairOnGrid {
           if (g != kNone) e = std::min(e, by_factor ? g : static_cast<int>(std::floor(g / 2.0)));
         }
     }
+    exponent = e;
     for (int i = 0; i < D; ++i) c[i] = on_grid(body_b.center()(i), e) - on_grid(body_a.center()(i), e);
     a = shape(body_a, e);
     b = shape(body_b, e);

@@ -3,9 +3,12 @@
 
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/requires.h>
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "answers/elementary.h"
 #include "ellipsoids/contact_polynomial.h"
@@ -52,24 +55,46 @@ void require_positive(double x, const char* field) {
   if (!(x > 0 && std::isfinite(x))) throw InputError(field, to_text(x), "a positive finite number (m)");
 }
 
+/// The disc that fills a circular opening, as a quadratic form times `common`, and the wall's normal.
+template <typename N>
+struct DiscByNormal {
+  std::array<N, 3> normal;
+  N r2;
+  N common = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+
+  constexpr N operator()(int row, int column) const {
+    const N product = normal[row] * normal[column];
+    return r2 * (row == column ? common - product : -product);
+  }
+};
+
+/// The ellipse about p and q, by its semi-axes as vectors.
+template <typename N>
+struct DiscByAxes {
+  std::array<N, 3> p, q, normal;
+  N common;  // one
+
+  constexpr N operator()(int row, int column) const { return p[row] * p[column] + q[row] * q[column]; }
+};
+
+template <typename N>
+constexpr std::array<N, 3> cross3(const std::array<N, 3>& u, const std::array<N, 3>& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
 /// What the constructor leaves to do for one velocity w = w_k (u, v, 1), in the order i, j, k: forms of the
-/// two shadows along w and of their centre line, all times n.n, and whether w leads to the wall.
+/// two shadows along w and of their centre line, all times `common`.
 template <typename N>
 struct ShadowPair {
   PairForms<2, N> forms;
   std::array<N, 2> line;
-  N toward;  // n.w / w_k
 };
 
-/// `a(r, c)`, `c(r)`, `n(r)`: the agent's shape, the line of centres and the normal; `r2` the squared radius.
-template <typename N, typename Shape, typename Line, typename Normal>
-constexpr ShadowPair<N> shadow_pair(const Shape& a, const Line& c, const Normal& n, const N& r2,
-                                    const N& minus_u, const N& minus_v, int i, int j, int k) {
-  const N nn = n(0) * n(0) + n(1) * n(1) + n(2) * n(2);
-  const auto disc = [&](int row, int column) {
-    const N product = n(row) * n(column);
-    return r2 * (row == column ? nn - product : -product);
-  };
+/// `a(r, c)`, `c(r)`: the agent's shape and the line of centres.
+template <typename N, typename Shape, typename Line, typename Disc>
+constexpr ShadowPair<N> shadow_pair(const Shape& a, const Line& c, const Disc& disc, const N& minus_u,
+                                    const N& minus_v, int i, int j, int k) {
+  const N& nn = disc.common;
   const auto agent = affine_shadow<N>(a, minus_u, minus_v, i, j, k),
              opening = affine_shadow<N>(disc, minus_u, minus_v, i, j, k);
   ShadowPair<N> pair;
@@ -78,8 +103,13 @@ constexpr ShadowPair<N> shadow_pair(const Shape& a, const Line& c, const Normal&
   pair.forms.a.entry = {nn * agent.a, nn * agent.b, nn * agent.c};
   pair.forms.b.entry = {opening.a, opening.b, opening.c};
   pair.forms.c.entry = {x * pair.line[0], x * pair.line[1], y * pair.line[1]};
-  pair.toward = (n(k) - n(i) * minus_u) - n(j) * minus_v;
   return pair;
+}
+
+/// n.w / w_k.
+template <typename N>
+constexpr N toward_wall(const std::array<N, 3>& n, const N& minus_u, const N& minus_v, int i, int j, int k) {
+  return (n[k] - n[i] * minus_u) - n[j] * minus_v;
 }
 
 /// G S G^T.
@@ -93,32 +123,113 @@ constexpr SymmetricForm<2, N> mapped(const Map& g, const SymmetricForm<2, N>& s)
   return r;
 }
 
+/// G x.
+template <typename N, typename Map>
+constexpr std::array<N, 2> mapped(const Map& g, const std::array<N, 2>& x) {
+  return {g(0, 0) * x[0] + g(0, 1) * x[1], g(1, 0) * x[0] + g(1, 1) * x[1]};
+}
+
+/// A polygonal opening seen from the agent: the agent's shadow is { x : x^T S^-1 x <= 1 }, nearly the unit
+/// disc, and the vertex (a, b) is at origin + a first + b second.
+template <typename N>
+struct PolygonShadow {
+  SymmetricForm<2, N> agent;
+  std::array<N, 2> origin, first, second;
+
+  constexpr std::array<N, 2> vertex(const N& a, const N& b) const {
+    return {origin[0] + (a * first[0] + b * second[0]), origin[1] + (a * first[1] + b * second[1])};
+  }
+};
+
+template <typename N, typename Shape, typename Line, typename Map>
+constexpr PolygonShadow<N> polygon_shadow(const Shape& a, const Line& c, const std::array<N, 3>& first,
+                                          const std::array<N, 3>& second, const N& minus_u, const N& minus_v,
+                                          const Map& g, int i, int j, int k) {
+  const auto agent = affine_shadow<N>(a, minus_u, minus_v, i, j, k);
+  const auto flat = [&](const N& x, const N& y, const N& z) {
+    return mapped<N>(g, std::array<N, 2>{x + minus_u * z, y + minus_v * z});
+  };
+  SymmetricForm<2, N> form;
+  form.entry = {agent.a, agent.b, agent.c};
+  return {mapped<N>(g, form), flat(c(i), c(j), c(k)), flat(first[i], first[j], first[k]),
+          flat(second[i], second[j], second[k])};
+}
+
+/// Both positive: x lies beyond the tangent of the agent's shadow that is normal to n, whose square is
+/// `radius2` = n^T S n.
+template <typename N>
+constexpr std::array<N, 2> beyond_signs(const N& radius2, const std::array<N, 2>& n,
+                                        const std::array<N, 2>& x) {
+  const N height = n[0] * x[0] + n[1] * x[1];
+  return {height, height * height - radius2};
+}
+
+/// Positive: the point of the segment from x to y at t is inside the agent's shadow.
+template <typename N>
+constexpr N cut_sign(const SymmetricForm<2, N>& agent, const std::array<N, 2>& x, const std::array<N, 2>& y,
+                     const N& t) {
+  return depth_sign<2, N>(agent, {x[0] + t * (y[0] - x[0]), x[1] + t * (y[1] - x[1])});
+}
+
 struct OrificeCounts {
-  CertificateCounts<2> certificate;
-  RoundingCount toward;
+  CertificateCounts<2> by_normal, by_axes;
+  RoundingCount toward, toward_by_axes;
+  std::array<RoundingCount, 2> beyond;
+  RoundingCount cut;
 };
 constexpr OrificeCounts kOrificeCounts = [] {
-  // F F^T takes three roundings, p_B - p_A and w_i / w_k one.
-  const auto shape = [](int, int) { return RoundingCount{3}; };
-  const auto line = [](int) { return RoundingCount{1}; };
-  const auto input = [](int) { return RoundingCount{}; };
-  const auto pair = shadow_pair<RoundingCount>(shape, line, input, RoundingCount{1}, RoundingCount{1},
-                                               RoundingCount{1}, 0, 1, 2);
-  const auto g = [](int, int) { return RoundingCount{}; };
-  RoundingCount longest{};
-  for (const auto* form : {&pair.forms.a, &pair.forms.b, &pair.forms.c}) {
-    const auto in_frame = mapped<RoundingCount>(g, *form);
-    for (const RoundingCount& x : in_frame.entry)
-      if (x.roundings > longest.roundings) longest = x;
-  }
-  return OrificeCounts{CertificateCounts<2>::of(longest, {}, longest), pair.toward};
+  using Count = RoundingCount;
+  // F F^T takes three roundings, p_B - p_A, w_i / w_k and a semi-axis times an axis one.
+  constexpr Count kOnce{1};
+  const auto shape = [](int, int) { return Count{3}; };
+  const auto line = [](int) { return Count{1}; };
+  const auto g = [](int, int) { return Count{}; };
+  const std::array<Count, 3> input{}, product{kOnce, kOnce, kOnce};
+  const std::array<Count, 3> of_axes = cross3<Count>(input, input);
+  const auto certificate = [&](const auto& disc) {
+    const auto pair = shadow_pair<Count>(shape, line, disc, kOnce, kOnce, 0, 1, 2);
+    Count longest{};
+    for (const auto* form : {&pair.forms.a, &pair.forms.b, &pair.forms.c}) {
+      const auto in_frame = mapped<Count>(g, *form);
+      for (const Count& x : in_frame.entry)
+        if (x.roundings > longest.roundings) longest = x;
+    }
+    return CertificateCounts<2>::of(longest, {}, longest);
+  };
+  OrificeCounts counts;
+  counts.by_normal = certificate(DiscByNormal<Count>{input, kOnce});
+  counts.by_axes = certificate(DiscByAxes<Count>{product, product, of_axes, Count{}});
+  counts.toward = toward_wall<Count>(input, kOnce, kOnce, 0, 1, 2);
+  counts.toward_by_axes = toward_wall<Count>(of_axes, kOnce, kOnce, 0, 1, 2);
+  const auto polygon = polygon_shadow<Count>(shape, line, input, input, kOnce, kOnce, g, 0, 1, 2);
+  const std::array<Count, 2> n{}, vertex = polygon.vertex({}, {});
+  counts.beyond = beyond_signs<Count>(form_at<2, Count>(polygon.agent, n), n, vertex);
+  counts.cut = cut_sign<Count>(polygon.agent, vertex, vertex, {});
+  return counts;
 }();
 
 double midpoint(const Tracked& x) { return x.value(); }
 double midpoint(const Interval& x) { return x.mid(); }
 
+/// Whether numbers stay where kFormUnderflow covers what products lose; lengths of agent and opening are at
+/// most about one. `stretch`: of the map to a frame.
+template <typename N>
+bool in_range(double stretch, const std::array<N, 3>& line) {
+  double reach = 0;
+  for (const N& x : line) reach = std::max(reach, std::abs(midpoint(x)));
+  return stretch < 0x1p40 && stretch * reach < 0x1p76;
+}
+
 Tracked minus_quotient(double x, double y, const Tracked*) { return Tracked::minus(x / y); }
 Interval minus_quotient(double x, double y, const Interval*) { return -(Interval(x) / Interval(y)); }
+
+/// The map that makes a form the identity, in plain doubles.
+Eigen::Matrix2d to_unit_disc(const SymmetricForm<2, double>& a) {
+  const double l11 = std::sqrt(a(0, 0)), l21 = a(0, 1) / l11, l22 = std::sqrt(a(1, 1) - l21 * l21);
+  Eigen::Matrix2d inverse;
+  inverse << 1 / l11, 0, -l21 / (l11 * l22), 1 / l22;
+  return inverse;
+}
 
 /// The frame in which the first form is the identity and the second diagonal, in plain doubles.
 struct ShadowFrame {
@@ -126,9 +237,7 @@ struct ShadowFrame {
   Eigen::Vector2d diagonal;
 
   ShadowFrame(const SymmetricForm<2, double>& a, const SymmetricForm<2, double>& b) {
-    const double l11 = std::sqrt(a(0, 0)), l21 = a(0, 1) / l11, l22 = std::sqrt(a(1, 1) - l21 * l21);
-    Eigen::Matrix2d inverse;
-    inverse << 1 / l11, 0, -l21 / (l11 * l22), 1 / l22;
+    const Eigen::Matrix2d inverse = to_unit_disc(a);
     Eigen::Matrix2d full;
     full << b(0, 0), b(0, 1), b(0, 1), b(1, 1);
     const Eigen::Matrix2d k = inverse * full * inverse.transpose();
@@ -143,41 +252,204 @@ struct ShadowFrame {
 
 }  // namespace
 
+namespace {
+using exact::Integer;
+}  // namespace
+
+/// Agent and opening in one unit of length 2^e; shapes in units of its square.
+struct OrificeOracle::InIntegers {
+  exact::IntegerMatrix<3> agent;
+  exact::IntegerVector<3> line;  // from the agent's centre to the opening's
+  exact::IntegerVector<3> normal;
+  exact::Integer common = 1;              // of a disc by its normal
+  exact::IntegerMatrix<3> disc;           // times `common`; of circles and ellipses
+  exact::IntegerVector<3> first, second;  // of polygons: axes for coordinates in units of 2^own
+  int own = 0;
+
+  InIntegers(const Ellipsoid& body, const Orifice& orifice) {
+    const exact::PairOnGrid<3> pair(
+        body, Ellipsoid::from_axes(orifice.center, Eigen::Vector3d::Constant(orifice.radius)));
+    agent = pair.a;
+    line = pair.c;
+    normal = exact::direction_on_grid<3>(orifice.normal);
+    common = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c)
+        disc[r][c] =
+            pair.b[0][0] * (r == c ? common - normal[r] * normal[c] : Integer(-normal[r] * normal[c]));
+  }
+
+  InIntegers(const Ellipsoid& body, const PlacedOpening& placed) {
+    constexpr int kNone = exact::PairOnGrid<3>::kNone;
+    const Opening& opening = placed.opening;
+    // Points of the rim are products of coordinates and axes, each on a grid of its own.
+    std::array<int, 2> of_axis{kNone, kNone}, of_own{kNone, kNone};
+    for (int k = 0; k < 2; ++k) {
+      for (int i = 0; i < 3; ++i)
+        of_axis[k] = std::min(of_axis[k], exact::grid_exponent(placed.axes(i, k), kNone));
+      if (!opening.polygonal()) of_own[k] = exact::grid_exponent(opening.semi_axes()(k), kNone);
+    }
+    if (opening.polygonal()) {
+      own = kNone;
+      for (const Eigen::Vector2d& v : opening.vertices())
+        own = std::min({own, exact::grid_exponent(v.x(), kNone), exact::grid_exponent(v.y(), kNone)});
+      of_own = {own, own};
+    }
+    const int finest = std::min(of_axis[0] + of_own[0], of_axis[1] + of_own[1]);
+    const exact::PairOnGrid<3> pair(body, Ellipsoid().translated(placed.center), finest);
+    agent = pair.a;
+    line = pair.c;
+    const auto axis = [&](int k) {
+      exact::IntegerVector<3> r;
+      for (int i = 0; i < 3; ++i)
+        r[i] = exact::on_grid(placed.axes(i, k), of_axis[k])
+               << static_cast<unsigned>(of_axis[k] + of_own[k] - pair.exponent);
+      return r;
+    };
+    first = axis(0);
+    second = axis(1);
+    normal = cross3<Integer>(first, second);
+    if (opening.polygonal()) return;
+    std::array<exact::IntegerVector<3>, 2> semi{first, second};
+    for (int k = 0; k < 2; ++k)
+      for (Integer& x : semi[k]) x *= exact::on_grid(opening.semi_axes()(k), of_own[k]);
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) disc[r][c] = semi[0][r] * semi[0][c] + semi[1][r] * semi[1][c];
+  }
+
+  /// Along w, coordinates times w_k.
+  struct Along {
+    exact::IntegerVector<3> w;
+    int i, j, k;
+    Symmetric2<Integer> shadow;  // of the agent
+
+    Along(const InIntegers& all, const Eigen::Vector3d& velocity)
+        : w(exact::direction_on_grid<3>(velocity)),
+          k(w[0] != 0   ? 0
+            : w[1] != 0 ? 1
+                        : 2) {
+      i = (k + 1) % 3;
+      j = (k + 2) % 3;
+      shadow = of([&](int r, int c) -> const Integer& { return all.agent[r][c]; });
+    }
+    template <typename Entry>
+    [[nodiscard]] Symmetric2<Integer> of(const Entry& shape) const {
+      return vericone::shadow<Integer>(shape, w[i], w[j], w[k], i, j, k);
+    }
+    [[nodiscard]] std::array<Integer, 2> of(const exact::IntegerVector<3>& x) const {
+      return {w[k] * x[i] - w[i] * x[k], w[k] * x[j] - w[j] * x[k]};
+    }
+  };
+
+  [[nodiscard]] std::array<Integer, 2> vertex(const Along& along, const Eigen::Vector2d& x) const {
+    const Integer a = exact::on_grid(x.x(), own), b = exact::on_grid(x.y(), own);
+    exact::IntegerVector<3> at;
+    for (int i = 0; i < 3; ++i) at[i] = line[i] + a * first[i] + b * second[i];
+    return along.of(at);
+  }
+};
+
+namespace {
+
+/// An edge of the rim and the agent's swept shadow.
+enum class Meeting : std::uint8_t { apart, touches, cuts };
+
+/// The ellipse { x : x^T adj(S) x <= det S } and the segment from p to q. The form is least over the segment
+/// at an end, or else where the line through it is nearest: that meets the ellipse iff (p x q)^2 <= n^T S n
+/// for its normal n of the length of q - p.
+Meeting meeting(const Symmetric2<Integer>& s, const std::array<Integer, 2>& p,
+                const std::array<Integer, 2>& q) {
+  const Integer det = s.a * s.c - s.b * s.b;
+  const auto form = [&](const std::array<Integer, 2>& x, const std::array<Integer, 2>& y) {
+    return Integer(s.c * x[0] * y[0] - s.b * (x[0] * y[1] + x[1] * y[0]) + s.a * x[1] * y[1]);
+  };
+  const std::array<Integer, 2> e{q[0] - p[0], q[1] - p[1]};
+  const auto against = [](const Integer& value, const Integer& bound) {
+    const int sign = value.compare(bound);
+    return sign > 0 ? Meeting::apart : sign == 0 ? Meeting::touches : Meeting::cuts;
+  };
+  if (form(p, e).sign() < 0 && form(q, e).sign() > 0) {
+    const Integer area = p[0] * q[1] - p[1] * q[0];
+    return against(area * area, s.a * e[1] * e[1] - 2 * s.b * e[0] * e[1] + s.c * e[0] * e[0]);
+  }
+  return std::max(against(form(p, p), det), against(form(q, q), det));
+}
+
+/// The power of two that takes the largest entry to [1, 2); the infinity of a number that has none.
+template <typename Vector>
+double unit_scale(const Vector& v) {
+  return std::ldexp(1.0, -std::ilogb(v.cwiseAbs().maxCoeff()));
+}
+
+}  // namespace
+
 OrificeOracle::OrificeOracle(const Ellipsoid& agent, const Orifice& orifice)
-    : agent_(agent), orifice_(orifice) {
+    : agent_(agent), orifice_(orifice), normal_(orifice.normal) {
   require_finite(orifice.center, "orifice.center", kLength);
   require_finite(orifice.normal, "orifice.normal", "a finite number");
   if (orifice.normal.isZero(0)) throw InputError("orifice.normal", "[0, 0, 0]", "a vector that is not zero");
   require_positive(orifice.radius, "orifice.radius");
+  exact_ = std::make_shared<InIntegers>(agent, orifice);
+  normal_scale_ = unit_scale(orifice.normal);
+  prepare(orifice.radius);
+}
 
-  const exact::PairOnGrid<3> pair(
-      agent, Ellipsoid::from_axes(orifice.center, Eigen::Vector3d::Constant(orifice.radius)));
-  const auto n = exact::direction_on_grid<3>(orifice.normal);
-  exact::Integer height = 0, reach2 = 0;
+OrificeOracle::OrificeOracle(const Ellipsoid& agent, PlacedOpening opening)
+    : agent_(agent), placed_(std::move(opening)) {
+  try {
+    require_placed(*placed_);
+  } catch (const InputError& e) {
+    throw e.within("orifice");
+  }
+  exact_ = std::make_shared<InIntegers>(agent, *placed_);
+  for (int k = 0; k < 2; ++k) axis_scale_(k) = unit_scale(placed_->axes.col(k));
+  const Eigen::Matrix<double, 3, 2> axes = placed_->axes * axis_scale_.asDiagonal();
+  normal_ = Eigen::Vector3d(axes.col(0)).cross(Eigen::Vector3d(axes.col(1)));
+  const Eigen::Vector2d most = placed_->opening.polygonal()
+                                   ? Eigen::Vector2d::Constant(placed_->opening.reach())
+                                   : placed_->opening.semi_axes();
+  prepare(most.cwiseQuotient(axis_scale_).maxCoeff());
+}
+
+void OrificeOracle::prepare(double opening_reach) {
+  Integer height = 0, reach2 = 0;
   for (int i = 0; i < 3; ++i) {
-    height += n[i] * pair.c[i];
-    for (int j = 0; j < 3; ++j) reach2 += n[i] * pair.a[i][j] * n[j];
+    height += exact_->normal[i] * exact_->line[i];
+    for (int j = 0; j < 3; ++j) reach2 += exact_->normal[i] * exact_->agent[i][j] * exact_->normal[j];
   }
   toward_ = height.sign();
   const int outside = (height * height).compare(reach2);
   side_ = outside > 0 ? WallSide::clear : outside == 0 ? WallSide::touching : WallSide::cut;
 
-  const int e = std::ilogb(std::max(agent.factor().cwiseAbs().maxCoeff(), orifice.radius));
-  normal_scale_ = std::ldexp(1.0, -std::ilogb(orifice.normal.cwiseAbs().maxCoeff()));
-  usable_ = std::abs(e) <= 510 && std::isfinite(normal_scale_);
+  const int e = std::ilogb(std::max(agent_.factor().cwiseAbs().maxCoeff(), opening_reach));
+  usable_ = std::abs(e) <= 510 && std::isfinite(normal_scale_) && axis_scale_.maxCoeff() <= 0x1p500 &&
+            axis_scale_.minCoeff() >= 0x1p-500;
   if (usable_) scale_ = std::ldexp(1.0, -e);
 }
 
+/// What every certificate starts from, in the numbers of one rung: w = w_k (u, v, 1), in the order i, j, k.
 template <typename N>
-std::optional<Transit> OrificeOracle::certified(const Eigen::Vector3d& w) const noexcept {
-  if (!w.allFinite()) return std::nullopt;
-  if (side_ == WallSide::cut || w.isZero(0)) return Transit::blocked;
-  if (!usable_) return std::nullopt;
-  const auto tag = static_cast<const N*>(nullptr);
-  int k = 0;
+struct OrificeOracle::Seen {
+  const N* tag = nullptr;
+  int i, j, k;
+  N minus_u, minus_v;
+  SymmetricForm<3, N> agent;
+  std::array<N, 3> line;
+  std::array<N, 3> first, second;  // axes of a PlacedOpening
+  std::array<N, 3> normal;
+  bool leads = false, leaves = false;  // to the wall; neither: not sure
+};
+
+template <typename N>
+OrificeOracle::Seen<N> OrificeOracle::seen_along(const Eigen::Vector3d& w) const noexcept {
+  Seen<N> seen;
+  const auto tag = seen.tag;
+  int& k = seen.k = 0;
   for (int i = 1; i < 3; ++i)
     if (std::abs(w(i)) > std::abs(w(k))) k = i;
-  const int i = (k + 1) % 3, j = (k + 2) % 3;
+  const int i = seen.i = (k + 1) % 3, j = seen.j = (k + 2) % 3;
+  seen.minus_u = minus_quotient(w(i), w(k), tag);
+  seen.minus_v = minus_quotient(w(j), w(k), tag);
 
   const bool by_factor = agent_.defined_by_factor();
   const auto shape = [&](int r, int c) {
@@ -187,51 +459,150 @@ std::optional<Transit> OrificeOracle::certified(const Eigen::Vector3d& w) const 
   };
   const auto difference = [&](int r) {
     if constexpr (std::is_same_v<N, Tracked>)
-      return Tracked::of(orifice_.center(r) * scale_ - agent_.center()(r) * scale_);
+      return Tracked::of(center()(r) * scale_ - agent_.center()(r) * scale_);
     else
-      return scaled(orifice_.center(r), scale_, tag) - scaled(agent_.center()(r), scale_, tag);
+      return scaled(center()(r), scale_, tag) - scaled(agent_.center()(r), scale_, tag);
   };
-  SymmetricForm<3, N> a;
-  std::array<N, 3> line, normal;
   for (int r = 0; r < 3; ++r) {
-    for (int c = r; c < 3; ++c) a(r, c) = shape(r, c);
-    line[r] = difference(r);
-    normal[r] = scaled(orifice_.normal(r), normal_scale_, tag);
+    for (int c = r; c < 3; ++c) seen.agent(r, c) = shape(r, c);
+    seen.line[r] = difference(r);
+    if (placed_) {
+      seen.first[r] = scaled(placed_->axes(r, 0), axis_scale_(0), tag);
+      seen.second[r] = scaled(placed_->axes(r, 1), axis_scale_(1), tag);
+    } else {
+      seen.normal[r] = scaled(orifice_->normal(r), normal_scale_, tag);
+    }
   }
-  const N radius = scaled(orifice_.radius, scale_, tag);
-  const ShadowPair<N> pair = shadow_pair<N>(
-      a, [&](int r) { return line[r]; }, [&](int r) { return normal[r]; }, radius * radius,
-      minus_quotient(w(i), w(k), tag), minus_quotient(w(j), w(k), tag), i, j, k);
+  if (placed_) seen.normal = cross3<N>(seen.first, seen.second);
+  const N along = toward_wall<N>(seen.normal, seen.minus_u, seen.minus_v, i, j, k);
+  const N toward = (toward_ > 0) == (w(k) > 0) ? along : -along;
+  const RoundingCount count = placed_ ? kOrificeCounts.toward_by_axes : kOrificeCounts.toward;
+  seen.leaves = surely_positive(-toward, count);
+  seen.leads = surely_positive(toward, count);
+  return seen;
+}
 
-  const N toward = (toward_ > 0) == (w(k) > 0) ? pair.toward : -pair.toward;
-  if (surely_positive(-toward, kOrificeCounts.toward)) return Transit::blocked;
-  if (!surely_positive(toward, kOrificeCounts.toward)) return std::nullopt;
+template <typename N>
+std::optional<Transit> OrificeOracle::certified(const Eigen::Vector3d& w) const noexcept {
+  if (!w.allFinite()) return std::nullopt;
+  if (side_ == WallSide::cut || w.isZero(0)) return Transit::blocked;
+  if (!usable_) return std::nullopt;
+  const Seen<N> seen = seen_along<N>(w);
+  if (seen.leaves) return Transit::blocked;
+  if (!seen.leads) return std::nullopt;
+  if (polygonal()) return through_polygon(seen, [](std::size_t) { return std::optional<Meeting>(); });
+  if (orifice_) {
+    const N radius = scaled(orifice_->radius, scale_, seen.tag);
+    return through_disc(seen, DiscByNormal<N>{seen.normal, radius * radius});
+  }
+  DiscByAxes<N> disc{{}, {}, seen.normal, lift<N>(1)};
+  const N a = scaled(placed_->opening.semi_axes().x(), scale_ / axis_scale_(0), seen.tag),
+          b = scaled(placed_->opening.semi_axes().y(), scale_ / axis_scale_(1), seen.tag);
+  for (int r = 0; r < 3; ++r) {
+    disc.p[r] = a * seen.first[r];
+    disc.q[r] = b * seen.second[r];
+  }
+  return through_disc(seen, disc);
+}
+
+template <typename N, typename Disc>
+std::optional<Transit> OrificeOracle::through_disc(const Seen<N>& seen, const Disc& disc) const noexcept {
+  const ShadowPair<N> pair = shadow_pair<N>(
+      seen.agent, [&](int r) { return seen.line[r]; }, disc, seen.minus_u, seen.minus_v, seen.i, seen.j,
+      seen.k);
+  const auto& counts = orifice_ ? kOrificeCounts.by_normal : kOrificeCounts.by_axes;
 
   SymmetricForm<2, double> mid_a, mid_b;
-  double nn = 0;
   for (int x = 0; x < 3; ++x) {
     mid_a.entry[x] = midpoint(pair.forms.a.entry[x]);
     mid_b.entry[x] = midpoint(pair.forms.b.entry[x]);
-    nn += midpoint(normal[x]) * midpoint(normal[x]);
   }
+  const double nn = midpoint(disc.common);
   const ShadowFrame frame(mid_a, mid_b);
   const Eigen::Vector2d center =
       frame.map * Eigen::Vector2d(midpoint(pair.line[0]), midpoint(pair.line[1])) * std::sqrt(nn);
   const double stretch = frame.map.cwiseAbs().sum();
-  double reach = 0;
-  for (int r = 0; r < 3; ++r) reach = std::max(reach, std::abs(midpoint(line[r])));
-  // See kFormUnderflow. All lengths of agent and opening are at most about one.
-  if (!(stretch < 0x1p40 && stretch * reach < 0x1p76 && frame.diagonal.allFinite())) return std::nullopt;
+  if (!in_range(stretch, seen.line) || !frame.diagonal.allFinite()) return std::nullopt;
   const auto g = [&](int r, int c) { return lift<N>(frame.map(r, c)); };
   const PairForms<2, N> forms{mapped<N>(g, pair.forms.a), mapped<N>(g, pair.forms.b),
                               mapped<N>(g, pair.forms.c)};
   const auto guess = search_containment<2>(Eigen::Vector2d::Ones(), frame.diagonal, center);
   if (guess.inside) {
-    if (surely_inside<2, N>(forms, guess.s, kOrificeCounts.certificate)) return Transit::passes;
-  } else if (surely_reaches_beyond<2, N>(forms, guess.normal, kOrificeCounts.certificate)) {
+    if (surely_inside<2, N>(forms, guess.s, counts)) return Transit::passes;
+  } else if (surely_reaches_beyond<2, N>(forms, guess.normal, counts)) {
     return Transit::blocked;
   }
   return std::nullopt;
+}
+
+/// Edge after edge, in the coordinates in which the agent's shadow is about the unit disc. A tangent of the
+/// shadow serves all edges in a row that lie beyond it. Each edge is in a half-plane n.x > 0, so the outline
+/// winds about the agent's centre as that of its rounded vertices does; where an edge goes from one side of
+/// the first axis to the other, it meets the half of that which is in the half-plane: n_x says which.
+///
+/// `unsure(e)` says of the edge to vertex e what rounding does not let certificates say; nothing ends it all.
+template <typename N, typename Unsure>
+std::optional<Transit> OrificeOracle::through_polygon(const Seen<N>& seen, const Unsure& unsure) const {
+  SymmetricForm<2, double> rounded;
+  const auto flat = affine_shadow<N>(seen.agent, seen.minus_u, seen.minus_v, seen.i, seen.j, seen.k);
+  rounded.entry = {midpoint(flat.a), midpoint(flat.b), midpoint(flat.c)};
+  const Eigen::Matrix2d map = to_unit_disc(rounded);
+  if (!in_range(map.cwiseAbs().sum(), seen.line)) return std::nullopt;
+  const PolygonShadow<N> shadow = polygon_shadow<N>(
+      seen.agent, [&](int r) { return seen.line[r]; }, seen.first, seen.second, seen.minus_u, seen.minus_v,
+      [&](int r, int c) { return lift<N>(map(r, c)); }, seen.i, seen.j, seen.k);
+
+  const Eigen::Vector2d own = scale_ * axis_scale_.cwiseInverse();
+  const auto vertex = [&](const Eigen::Vector2d& x) {
+    return shadow.vertex(scaled(x.x(), own.x(), seen.tag), scaled(x.y(), own.y(), seen.tag));
+  };
+  const auto middle = [](const std::array<N, 2>& x) {
+    return Eigen::Vector2d(midpoint(x[0]), midpoint(x[1]));
+  };
+  Eigen::Vector2d n = Eigen::Vector2d::Zero();
+  std::array<N, 2> normal{};
+  N radius2{};
+  const auto ahead = [&](const std::array<N, 2>& x) {
+    return surely_positive(beyond_signs<N>(radius2, normal, x)[0], kOrificeCounts.beyond[0]);
+  };
+  const auto beyond = [&](const std::array<N, 2>& x) {
+    const auto signs = beyond_signs<N>(radius2, normal, x);
+    return surely_positive(signs[0], kOrificeCounts.beyond[0]) &&
+           surely_positive(signs[1], kOrificeCounts.beyond[1]);
+  };
+
+  const std::vector<Eigen::Vector2d>& vertices = placed_->opening.vertices();
+  std::array<N, 2> from = vertex(vertices.back());
+  Eigen::Vector2d from_middle = middle(from);
+  bool inside = false, touches = false, covered = false;  // the vertex before, by the tangent at hand
+  for (std::size_t e = 0; e < vertices.size(); ++e) {
+    const std::array<N, 2> to = vertex(vertices[e]);
+    const Eigen::Vector2d to_middle = middle(to);
+    if (!covered || !beyond(to)) {
+      const Eigen::Vector2d edge = to_middle - from_middle;
+      const double t = std::clamp(-from_middle.dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+      const Eigen::Vector2d nearest = from_middle + t * edge;
+      const double distance = nearest.norm();
+      n = nearest / distance;
+      normal = lift<2, N>(n);
+      radius2 = form_at<2, N>(shadow.agent, normal);
+      covered = beyond(to);
+      if (!covered || !beyond(from)) {
+        if (distance < 1 &&
+            surely_positive(cut_sign<N>(shadow.agent, from, to, lift<N>(t)), kOrificeCounts.cut))
+          return Transit::blocked;
+        const std::optional<Meeting> meets = unsure(e);
+        if (!meets) return std::nullopt;
+        if (*meets == Meeting::cuts) return Transit::blocked;
+        touches = touches || *meets == Meeting::touches;
+        if (!ahead(from) || !ahead(to)) return std::nullopt;
+      }
+    }
+    if ((from_middle.y() > 0) != (to_middle.y() > 0)) inside = inside != (n.x() > 0);
+    from = to;
+    from_middle = to_middle;
+  }
+  return !inside ? Transit::blocked : touches ? Transit::grazes : Transit::passes;
 }
 
 std::optional<Transit> OrificeOracle::triage_transit(const Eigen::Vector3d& w) const noexcept {
@@ -244,29 +615,69 @@ std::optional<Transit> OrificeOracle::interval_transit(const Eigen::Vector3d& w)
 
 Transit OrificeOracle::exact_transit(const Eigen::Vector3d& w) const {
   VERICONE_REQUIRES(w.allFinite());
-  using exact::Integer;
   if (side_ == WallSide::cut || w.isZero(0)) return Transit::blocked;
-  const auto n = exact::direction_on_grid<3>(orifice_.normal), v = exact::direction_on_grid<3>(w);
-  const Integer along = n[0] * v[0] + n[1] * v[1] + n[2] * v[2];
-  if (along.sign() != toward_) return Transit::blocked;
-  const exact::PairOnGrid<3> pair(
-      agent_, Ellipsoid::from_axes(orifice_.center, Eigen::Vector3d::Constant(orifice_.radius)));
-  const Integer nn = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
-  const int k = v[0] != 0 ? 0 : v[1] != 0 ? 1 : 2, i = (k + 1) % 3, j = (k + 2) % 3;
-  const auto agent = [&](int r, int c) { return Integer(nn * pair.a[r][c]); };
-  const auto disc = [&](int r, int c) {
-    return Integer(pair.b[0][0] * (r == c ? nn - n[r] * n[c] : Integer(-n[r] * n[c])));
-  };
-  const Integer x = v[k] * pair.c[i] - v[i] * pair.c[k], y = v[k] * pair.c[j] - v[j] * pair.c[k];
-  const auto contained = exact::containment(shadow<Integer>(agent, v[i], v[j], v[k], i, j, k),
-                                            shadow<Integer>(disc, v[i], v[j], v[k], i, j, k),
-                                            Symmetric2<Integer>{nn * x * x, nn * x * y, nn * y * y});
+  const InIntegers& all = *exact_;
+  const InIntegers::Along along(all, w);
+  const auto& v = along.w;
+  const Integer toward = all.normal[0] * v[0] + all.normal[1] * v[1] + all.normal[2] * v[2];
+  if (toward.sign() != toward_) return Transit::blocked;
+  if (polygonal()) {
+    // All edges, and how often the outline crosses a ray from the agent's centre.
+    const std::vector<Eigen::Vector2d>& vertices = placed_->opening.vertices();
+    std::array<Integer, 2> from = all.vertex(along, vertices.back());
+    bool inside = false, touches = false;
+    for (const Eigen::Vector2d& x : vertices) {
+      const std::array<Integer, 2> to = all.vertex(along, x);
+      const Meeting meets = meeting(along.shadow, from, to);
+      if (meets == Meeting::cuts) return Transit::blocked;
+      touches = touches || meets == Meeting::touches;
+      if ((from[1].sign() > 0) != (to[1].sign() > 0)) {
+        const bool right = (from[0] * to[1]).compare(from[1] * to[0]) > 0;  // turns left about the centre
+        inside = inside != (right == (to[1].sign() > 0));
+      }
+      from = to;
+    }
+    return !inside ? Transit::blocked : touches ? Transit::grazes : Transit::passes;
+  }
+  const Symmetric2<Integer>& agent = along.shadow;
+  const auto line = along.of(all.line);
+  const auto contained = exact::containment(
+      Symmetric2<Integer>{all.common * agent.a, all.common * agent.b, all.common * agent.c},
+      along.of([&](int r, int c) -> const Integer& { return all.disc[r][c]; }),
+      Symmetric2<Integer>{all.common * line[0] * line[0], all.common * line[0] * line[1],
+                          all.common * line[1] * line[1]});
   return contained == exact::Containment::inside     ? Transit::passes
          : contained == exact::Containment::touching ? Transit::grazes
                                                      : Transit::blocked;
 }
 
+/// The first rung for all edges but those that it is not sure of, which climb alone.
+std::optional<Transit> OrificeOracle::climb_by_edges(const Eigen::Vector3d& w, Rung& rung) const {
+  rung = Rung::triage;
+  if (!w.allFinite()) return std::nullopt;
+  if (side_ == WallSide::cut || w.isZero(0)) return Transit::blocked;
+  if (!usable_) return std::nullopt;
+  const Seen<Tracked> seen = seen_along<Tracked>(w);
+  if (seen.leaves) return Transit::blocked;
+  if (!seen.leads) return std::nullopt;
+  std::optional<InIntegers::Along> along;
+  const std::vector<Eigen::Vector2d>& vertices = placed_->opening.vertices();
+  return through_polygon(seen, [&](std::size_t e) -> std::optional<Meeting> {
+    rung = Rung::exact;
+    if (!along) along.emplace(*exact_, w);
+    return meeting(along->shadow, exact_->vertex(*along, vertices[e == 0 ? vertices.size() - 1 : e - 1]),
+                   exact_->vertex(*along, vertices[e]));
+  });
+}
+
 Transit OrificeOracle::transit(const Eigen::Vector3d& w, Rung* rung) const {
+  if (polygonal()) {
+    Rung by{};
+    if (const auto answer = climb_by_edges(w, by)) {
+      decided_by<OrificeTransit>(by, rung);
+      return *answer;
+    }
+  }
   return climb<OrificeTransit>(
       rung, [&] { return triage_transit(w); }, [&] { return interval_transit(w); },
       [&] {

@@ -5,6 +5,7 @@
 #include <vericone/cones/map/regions.h>
 
 #include "cones/map/cone_map_checks.h"
+#include "cones/opening/random_openings.h"
 #include "support/random_combined.h"
 
 namespace vericone::classifiers_test {
@@ -97,8 +98,8 @@ TEST(CombinedClassifier, WithoutACone) {
 
 /// Hits the wall or touches the rim; passes, or goes away.
 Certified truth_of(const OrificeOracle& oracle, const Vector3d& d) {
-  const Vector3d& n = oracle.orifice().normal;
-  const double toward = n.dot(oracle.orifice().center - oracle.agent().center()) * n.dot(d);
+  const Vector3d& n = oracle.normal();
+  const double toward = n.dot(oracle.center() - oracle.agent().center()) * n.dot(d);
   if (std::abs(toward) < 1e-12) return Certified::undecided;
   return toward < 0 || oracle.transit(d) == Transit::passes ? Certified::out : Certified::in;
 }
@@ -146,6 +147,62 @@ TEST(OrificeClassifier, TheOrificeConeIsASafeRegion) {
     EXPECT_GE(region->most_solid_angle, truth * (1 - 1e-4));
     EXPECT_GT(region->solid_angle, 0.6 * truth);
   }
+}
+
+TEST(OrificeClassifier, OpeningsOfAnyOutline) {
+  RandomBodies random(14);
+  SCOPED_TRACE(random.trace());
+  std::array<int, 3> found{};
+  for (int k = 0; k < 12; ++k) {
+    const int kind = k % 3;
+    const Ellipsoid agent = random.ellipsoid(random.in_box(1), 0.03, 0.2);
+    PlacedOpening hole =
+        testing::random_placed(random, kind, agent.center() + random.uniform(1.2, 2) * random.direction());
+    while (std::abs(hole.normal().dot(hole.center - agent.center())) < 1)
+      hole.axes = random.rotation().leftCols<2>();
+    const OrificeOracle oracle(agent, hole);
+    ASSERT_EQ(oracle.side(), WallSide::clear);
+    const ConeMap map = map_of(OrificeClassifier(agent, hole), 0.02);
+    expect_never_contradicted(map, random, 2000, [&](const Vector3d& d) { return truth_of(oracle, d); });
+    EXPECT_LT(map.undecided, 2 * 0.02 * 4 * std::numbers::pi) << "case " << k;
+    EXPECT_GT(map.colliding, 1) << "the wall is half of all directions";
+    const Vector3d through = hole.at(hole.opening.deepest()) - agent.center();
+    if (oracle.transit(through) != Transit::passes) continue;
+    const auto region = region_around(map, through);
+    if (!region) continue;  // so tight that the cell is undecided
+    ++found[kind];
+    EXPECT_EQ(region->label, Certified::out);
+    const auto away = region_around(map, -through);
+    ASSERT_TRUE(away);
+    EXPECT_NE(region->possible, away->possible) << "proved to be apart";
+  }
+  for (const int n : found) EXPECT_GE(n, 2);
+}
+
+TEST(OrificeClassifier, TwoRegionsOfOneOpening) {
+  // Two chambers that a slit joins: the ball passes either, not the slit.
+  const Opening dumbbell = Opening::polygon({{-3, -1},
+                                             {-1, -1},
+                                             {-1, -0.1},
+                                             {1, -0.1},
+                                             {1, -1},
+                                             {3, -1},
+                                             {3, 1},
+                                             {1, 1},
+                                             {1, 0.1},
+                                             {-1, 0.1},
+                                             {-1, 1},
+                                             {-3, 1}});
+  const PlacedOpening hole{dumbbell, {0, 0, 4}, Eigen::Matrix<double, 3, 2>::Identity()};
+  const ConeMap map = map_of(OrificeClassifier(Ellipsoid::from_axes({0, 0, 0}, {0.5, 0.5, 0.5}), hole), 0.01);
+  const auto left = region_around(map, {-2, 0, 4}), right = region_around(map, {2, 0, 4});
+  ASSERT_TRUE(left && right);
+  EXPECT_NE(left->possible, right->possible) << "proved to be apart";
+  EXPECT_EQ(left->label, Certified::out);
+  EXPECT_NEAR(left->solid_angle, right->solid_angle, 0.2 * left->solid_angle);
+  const auto slit = region_around(map, {0, 0, 4});
+  ASSERT_TRUE(slit);
+  EXPECT_EQ(slit->label, Certified::in);
 }
 
 TEST(OrificeClassifier, ABallBeforeAnOpeningThatFacesIt) {

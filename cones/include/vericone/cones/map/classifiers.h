@@ -53,20 +53,26 @@ class CombinedClassifier : public DirectionClassifier {
   std::vector<Part> parts_;  // star-shaped polygons, cut into triangles with the axis
 };
 
-/// An agent and an infinite thin wall with one circular opening. `in`: it hits the wall or touches the rim;
-/// `out`: it passes through, or never reaches the wall. The passing directions are convex and connected with
-/// no others: region_around() a direction through the opening gives the orifice cone. An agent that the
-/// wall's plane cuts stays undecided: it may be within the opening.
+/// An agent and an infinite thin wall with one opening of any outline. `in`: it hits the wall or touches the
+/// rim; `out`: it passes through, or never reaches the wall. region_around() a direction through the opening
+/// gives the orifice cone: of a convex outline the passing directions are convex, and connected with no
+/// others; of another they may be any number of regions. An agent that the wall's plane cuts stays undecided:
+/// it may be within the opening.
 ///
-/// Proofs: three corners that pass, exactly (orifice.h); or a point of the agent that hits the wall in all
-/// directions of the cell on the far side of one tangent of the rim, in intervals.
+/// Proofs: of convex outlines three corners that pass, exactly (orifice.h); of others one corner, and a plane
+/// for each edge that keeps it apart from the agent in all directions of the cell. Or a point of the agent
+/// that hits the wall in all of them, beyond one tangent of a round rim, or in a disc outside of a polygon.
+/// In intervals. Of a polygon a cell takes the square of the vertices.
 class OrificeClassifier : public DirectionClassifier {
  public:
   OrificeClassifier(const Ellipsoid& agent, const Orifice& orifice) : oracle_(agent, orifice) {}
+  OrificeClassifier(const Ellipsoid& agent, const PlacedOpening& opening) : oracle_(agent, opening) {}
   Certified classify(const DirectionCell& cell, const Frontier& parent, Frontier& own) const override;
 
  private:
   [[nodiscard]] bool hits_wall(const DirectionCell& cell) const;
+  [[nodiscard]] bool lands_outside(const DirectionCell& cell) const;  // hits_wall of a PlacedOpening
+  [[nodiscard]] bool misses_rim(const DirectionCell& cell) const;     // of a polygon
 
   OrificeOracle oracle_;
 };
