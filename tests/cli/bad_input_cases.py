@@ -334,6 +334,14 @@ def scenario(body=BODY, pilot=PILOT, agent="{semi_axes: [3, 1, 1]}", top="durati
             % (top, agent, pilot, body))
 
 
+ORIFICE = "{name: O, opening: {radius: 2}, position: [9, 0, 0], normal: [1, 0, 0]}"
+THROUGH = "{law: passage, through: [O]}"
+
+
+def orifice(text=ORIFICE, pilot=THROUGH, agent="{semi_axes: [1, 1, 1]}", more=""):
+    return scenario(pilot=pilot, agent=agent, top="duration: 5\norifices: [%s%s]\n" % (text, more))
+
+
 # What is wrong, the scenario.
 SCENARIOS = [
     ("steps that no memory holds", scenario(top="duration: 5\nstep: 0.000002\n")),
@@ -403,6 +411,26 @@ SCENARIOS = [
     ("a goal after nobody", scenario(pilot="{law: avoidance, goal: {point: [9, 0, 0], most: 5, after: C}}")),
     ("a hull that flies by slices", scenario(agent="{points: [[0, 0, 0], [1, 0, 0]]}",
                                               pilot="{law: avoidance, manner: source, sector: slice}")),
+    ("an opening whose outline crosses itself", orifice(ORIFICE.replace("radius: 2", "polygon: [[0, 0], [2, 2], [2, 0], [0, 2]]"))),
+    ("an opening of two corners", orifice(ORIFICE.replace("radius: 2", "polygon: [[0, 0], [2, 2]]"))),
+    ("an opening of two kinds", orifice(ORIFICE.replace("radius: 2", "radius: 2, semi_axes: [1, 2]"))),
+    ("an opening without radius", orifice(ORIFICE.replace("radius: 2", "radius: 0"))),
+    ("an orifice that faces nowhere", orifice(ORIFICE.replace("[1, 0, 0]", "[0, 0, 0]"))),
+    ("an orifice without attitude", orifice(ORIFICE.replace(", normal: [1, 0, 0]", ""))),
+    ("a spin of two numbers", orifice(ORIFICE.replace("normal:", "spin: [0, 1], normal:"))),
+    ("a wall by a number", orifice(ORIFICE.replace("normal:", "wall: 1, normal:"))),
+    ("two orifices of one name", orifice(more=", " + ORIFICE)),
+    ("an orifice called as a body", orifice(ORIFICE.replace("name: O", "name: A"))),
+    ("a law of orifices without through", orifice(pilot="{law: passage}")),
+    ("through an orifice that is not there", orifice(pilot="{law: passage, through: [P]}")),
+    ("through of a law of bodies", orifice(pilot="{law: avoidance, through: [O]}")),
+    ("w above 0", orifice(pilot="{law: orifice, through: [O], reference: 0.1}")),
+    ("w below what y can be", orifice(pilot="{law: orifice, through: [O], reference: -1.5}")),
+    ("the source's law without w", orifice(pilot="{law: orifice, through: [O]}")),
+    ("the source's law for an agent too large", orifice(agent="{semi_axes: [3, 1, 1]}",
+                                                       pilot="{law: orifice, through: [O], reference: -0.1}")),
+    ("a negative margin", orifice(pilot="{law: passage, through: [O], margin: -1}")),
+    ("bodies of a law of orifices", orifice(pilot="{law: passage, through: [O], minds: [B]}")),
     ("a body and a position", scenario("{name: B, center: [20, 0, 0], semi_axes: [2, 2, 2], position: [1, 0, 0]}")),
     ("a mesh that is not there", scenario(BODY.replace("semi_axes: [2, 2, 2]", "mesh: none.off"))),
     ("a shape of no pieces", scenario(BODY.replace("semi_axes: [2, 2, 2]", "pieces: []"))),

@@ -238,7 +238,8 @@ TEST(PassageLaw, DrivesTheClearanceAsItPromises) {
 TEST(PassageLaw, LeavesAlonePassagesWithRoomAndTurnsBack) {
   OrificeState orifice;
   BodyState agent;
-  agent.shape = CombinedEllipsoid(Ellipsoid::from_axes({0, 0, -2}, Vector3d::Constant(0.2), Eigen::Matrix3d::Identity()));
+  agent.shape = CombinedEllipsoid(
+      Ellipsoid::from_axes({0, 0, -2}, Vector3d::Constant(0.2), Eigen::Matrix3d::Identity()));
   agent.position = {0, 0, -2};
   agent.velocity = {0, 0, 0.5};
   PassageLawOptions options;
@@ -251,8 +252,8 @@ TEST(PassageLaw, LeavesAlonePassagesWithRoomAndTurnsBack) {
   // A spinning opening as it will be on arrival: a quarter turn closes a slit, and another one opens it.
   orifice.opening.opening = Opening::ellipse({1, 0.25});
   agent.velocity = {0, 0, 0.5};
-  agent.shape = CombinedEllipsoid(
-      Ellipsoid::from_axes(agent.position, {0.6, 0.1, 0.1}, Eigen::Matrix3d::Identity()));
+  agent.shape =
+      CombinedEllipsoid(Ellipsoid::from_axes(agent.position, {0.6, 0.1, 0.1}, Eigen::Matrix3d::Identity()));
   EXPECT_GT(passage_law(agent, orifice, options).m, 0);
   orifice.spin = {0, 0, std::numbers::pi / 8};  // 4 s away
   EXPECT_LT(passage_law(agent, orifice, options).m, 0);
