@@ -88,7 +88,7 @@ class Planes {
   Edge nearer_edge(const PlaneCandidate& seen) const {
     const Vector3d w = a_.velocity - b_.velocity, e = across(seen.azimuth);
     if (w.isZero(0)) return {0, 1};
-    const Opening opening{seen.psi, seen.theta_b};
+    const PlaneOpening opening{seen.psi, seen.theta_b};
     const auto turn = [&](double angle) {
       // From the chord, which keeps the digits of small angles.
       const double chord = (w.normalized() - (std::cos(angle) * u_ + std::sin(angle) * e)).norm();

@@ -59,7 +59,7 @@ bool difference(const PlaneView& view, const BodyState& a, const BodyState& b, S
                 double tolerance, PlaneCone& cone) {
   // The error of the edges over h and that of the difference, h^2, are made alike.
   const double part = std::max(1e-4, std::cbrt(tolerance)), h = part / rate_scale(a, b);
-  const auto later = [&](double dt) -> std::optional<Opening> {
+  const auto later = [&](double dt) -> std::optional<PlaneOpening> {
     const BodyState next_a = advanced(a, dt), next_b = advanced(b, dt);
     const Vector3d u = (next_b.position - next_a.position).normalized();
     // Turned as the line of sight turns, which takes little of a circle.

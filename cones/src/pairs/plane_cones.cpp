@@ -127,58 +127,59 @@ struct PlaneCones::Ask {
     for (Moving& one : moving) one.rates = rates(one.motion);
   }
 
-  std::optional<Opening> operator()(const None&) const { return std::nullopt; }
-  std::optional<Opening> operator()(const Planar& pair) const {
+  std::optional<PlaneOpening> operator()(const None&) const { return std::nullopt; }
+  std::optional<PlaneOpening> operator()(const Planar& pair) const {
     const CombinedSector sector = combined_sector(pair.a, pair.b);
     if (sector.sector.relation != Relation::disjoint) return std::nullopt;
     fill([&](const SpatialMotion& motion) { return planar_rates(sector, pair.a, pair.b, motion); });
-    return Opening{sector.sector.psi,
-                   std::remainder(sector.sector.theta_b - std::atan2(u.y(), u.x()), 2 * std::numbers::pi)};
+    return PlaneOpening{sector.sector.psi, std::remainder(sector.sector.theta_b - std::atan2(u.y(), u.x()),
+                                                          2 * std::numbers::pi)};
   }
-  std::optional<Opening> operator()(const Slices& pair) const {
+  std::optional<PlaneOpening> operator()(const Slices& pair) const {
     const Sections sections = sections_of(pair.a, pair.b, u, e);
     if (!sections.disjoint()) return std::nullopt;
     fill([&](const SpatialMotion& motion) {
       const SectorRates rates = section_rates(sections, pair.a, pair.b, u, e, motion);
       return OpeningRates{rates.psi, rates.theta_b};
     });
-    return Opening{sections.sector.sector.psi, sections.sector.sector.theta_b};
+    return PlaneOpening{sections.sector.sector.psi, sections.sector.sector.theta_b};
   }
-  std::optional<Opening> operator()(const HullSlices& pair) const {
+  std::optional<PlaneOpening> operator()(const HullSlices& pair) const {
     const auto sector = hull_section(pair.agent, pair.hull, u, e);
-    return sector ? std::optional(Opening{sector->psi, sector->theta_b}) : std::nullopt;
+    return sector ? std::optional(PlaneOpening{sector->psi, sector->theta_b}) : std::nullopt;
   }
-  std::optional<Opening> operator()(const Ellipsoids& pair) const {
+  std::optional<PlaneOpening> operator()(const Ellipsoids& pair) const {
     if (!pair.planes.disjoint()) return std::nullopt;
     const PlaneSector sector = pair.planes.on(e);
     fill([&](const SpatialMotion& motion) { return ellipsoid_rates(sector, pair.a, pair.b, motion); });
-    return Opening{sector.psi(), sector.theta_b()};
+    return PlaneOpening{sector.psi(), sector.theta_b()};
   }
-  std::optional<Opening> operator()(const TrueHull& pair) const {
+  std::optional<PlaneOpening> operator()(const TrueHull& pair) const {
     if (const auto sector = HullSectors(pair.agent, pair.hull, pair.oracle).on(cones.to_, e))
       return by_contacts(sector);
     return by_contacts(assembly_sector(AssemblyOracle(pair.agent, Assembly::polyhedra({pair.hull})),
                                        pair.agent.center(), cones.to_, e));
   }
-  std::optional<Opening> operator()(const TrueCombined& pair) const {
+  std::optional<PlaneOpening> operator()(const TrueCombined& pair) const {
     return by_contacts(
         combined_sector_on(pair.oracle, e, kCombinedEdge, pair.memory ? pair.memory : &pair.own));
   }
-  std::optional<Opening> operator()(const Pair& pair) const {
+  std::optional<PlaneOpening> operator()(const Pair& pair) const {
     return by_contacts(pair.sector(cones.from_, cones.to_, e));
   }
 
-  std::optional<Opening> by_contacts(const std::optional<PlaneSector>& sector) const {
+  std::optional<PlaneOpening> by_contacts(const std::optional<PlaneSector>& sector) const {
     if (!sector) return std::nullopt;
     if (sector->has_contacts())
       fill([&](const SpatialMotion& motion) {
         return contact_rates(*sector, cones.a_.quadric(), cones.b_.quadric(), e, motion);
       });
-    return Opening{sector->psi(), sector->theta_b()};
+    return PlaneOpening{sector->psi(), sector->theta_b()};
   }
 };
 
-std::optional<Opening> PlaneCones::on(const Vector3d& u, const Vector3d& e, std::span<Moving> moving) const {
+std::optional<PlaneOpening> PlaneCones::on(const Vector3d& u, const Vector3d& e,
+                                           std::span<Moving> moving) const {
   return std::visit(Ask{*this, u, e, moving}, kind_);
 }
 

@@ -23,7 +23,7 @@ enum class SectorMethod : std::uint8_t {
 };
 
 /// On the plane of u (line of sight) and e (across), radians from u towards e.
-struct Opening {
+struct PlaneOpening {
   double psi = 0, theta_b = 0;
 
   [[nodiscard]] double left() const { return theta_b + 0.5 * psi; }
@@ -60,8 +60,8 @@ class PlaneCones {
   /// plane, for slices), have no sectors of this kind, or an oracle does not decide; no rates are written
   /// then. Edges of combined bodies' true sectors are proved to 1e-7 rad; what cannot be decided counts as
   /// in. Cost: guidance/plane_view.h.
-  [[nodiscard]] std::optional<Opening> on(const Eigen::Vector3d& u, const Eigen::Vector3d& e,
-                                          std::span<Moving> moving = {}) const;
+  [[nodiscard]] std::optional<PlaneOpening> on(const Eigen::Vector3d& u, const Eigen::Vector3d& e,
+                                               std::span<Moving> moving = {}) const;
 
   /// d psi / d azimuth as the plane turns about the line of sight, in closed form: true sectors of
   /// ellipsoids; nothing for others.
