@@ -75,12 +75,14 @@ simulation::Body read_body(const Json& given, const std::string& path, const std
 
 void read_proof(const Json& value, const std::string& path, simulation::ProofOptions& proof) {
   require_object(value, path);
-  require_known(value, path, {"padding", "resolution"});
+  require_known(value, path, {"padding", "resolution", "drift"});
   if_given(value, path, "padding", [&](const Json& v, const std::string& p) {
     proof.padding = read_not_negative(v, p, " (metres)");
   });
   if_given(value, path, "resolution",
            [&](const Json& v, const std::string& p) { proof.resolution = read_positive(v, p, " (s)"); });
+  if_given(value, path, "drift",
+           [&](const Json& v, const std::string& p) { proof.drift = read_not_negative(v, p, " (m/s)"); });
 }
 
 /// Every row of the tables is kept until the run is over.

@@ -200,6 +200,7 @@ void check(const Scenario& scenario) {
     throw InputError("step", to_text(scenario.step), "at least duration / 1e7");
   require_not_negative(scenario.proof.padding, "proof.padding", " (m)");
   require_positive(scenario.proof.resolution, "proof.resolution", " (s)");
+  require_not_negative(scenario.proof.drift, "proof.drift", " (m/s)");
   if (scenario.planes_logged < 0 || scenario.planes_logged > 10000)
     throw InputError("planes_logged", std::to_string(scenario.planes_logged), "from 0 to 10000");
   if (scenario.bodies.empty()) throw InputError("bodies", "none", "one body or more");

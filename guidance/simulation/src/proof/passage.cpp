@@ -5,7 +5,7 @@
 // docs/explanation/proof-of-runs.md.
 #include <vericone/simulation/passage.h>
 
-#include <vericone/geometry/error.h>
+#include <vericone/cones/opening/rim_distance.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,8 +13,9 @@
 #include <optional>
 #include <vector>
 
+#include "proof/common_point.h"
+#include "proof/convex.h"
 #include "proof/padding.h"
-#include "proof/rim.h"
 
 namespace vericone::simulation {
 namespace {
@@ -27,6 +28,11 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 /// Of a passage; pieces tried at most to raise the bound on the least distance.
 constexpr std::size_t kMostPassagePieces = 50'000;
 constexpr int kMostMeasured = 200;
+
+/// How questions about the rim are asked: to a part of the distance, or whether it is more than so much.
+constexpr std::uint32_t kMostPoints = 3000;
+constexpr RimQuestion kMeasure{3e-3, -1, kMostPoints};
+constexpr RimQuestion asking(double threshold) { return {1e-2, threshold, kMostPoints}; }
 
 /// The agent in the frame of the opening at one time.
 struct Sight {
@@ -63,6 +69,7 @@ class PassageSearch {
       : agent_(agent),
         orifice_(orifice),
         opening_(orifice.opening),
+        placed_{orifice.opening, Vector3d::Zero(), Eigen::Matrix<double, 3, 2>::Identity()},
         padding_(options, agent.appears()),
         resolution_(options.resolution),
         spin_(orifice.spin.norm()) {
@@ -143,19 +150,21 @@ class PassageSearch {
     const double dt = span.to.t - span.from.t;
     if (!(dt > 0)) return {0, 0};
     const Track::Bounds b = agent_.bounds(span.from.t, span.to.t);
-    const double speed = (mid.motion.velocity - orifice_.velocity).norm() + b.acceleration * dt / 2;
+    const double speed =
+        (mid.motion.velocity - orifice_.velocity).norm() + b.acceleration * dt / 2 + b.velocity_jumps;
     const double away = mid.position.norm() + speed * dt / 2;
     const double part = dt * dt / 8 * (1 + 1e-12);
     Growth growth;
     const double turning = b.turn_rate == 0 ? 0 : reach * b.turn_acceleration;
+    const double blows = b.velocity_jumps * dt / 4 * (1 + 1e-12);
     const double jumps = b.turn_rate == 0 ? 0 : reach * b.turn_jumps * dt / 4;
     const double whirl = spin_ == 0 ? 0
                                     : 2 * spin_ * (speed + (b.turn_rate == 0 ? 0 : reach * b.turn_rate)) +
                                           spin_ * spin_ * (away + reach);
-    growth.by_ends = (b.acceleration + turning + whirl) * part + jumps;
+    growth.by_ends = (b.acceleration + turning + whirl) * part + jumps + blows;
     const double half = std::min(std::numbers::pi, (b.turn_rate + spin_) * dt / 2);
     growth.by_middle = (b.acceleration + 2 * spin_ * speed + spin_ * spin_ * away) * part +
-                       2 * reach * std::sin(half / 2) * (1 + 1e-12);
+                       2 * reach * std::sin(half / 2) * (1 + 1e-12) + blows;
     if (std::isnan(growth.by_ends)) growth.by_ends = kFar;
     return growth;
   }
@@ -166,9 +175,8 @@ class PassageSearch {
     const double reach = own.reach();
     const Growth growth = this->growth(span, mid, reach);
     const bool ends = growth.by_ends <= growth.by_middle;
-    const Convex from = own.posed(span.from.position, ends ? span.from.rotation : mid.rotation);
-    const Convex to = own.posed(span.to.position, ends ? span.to.rotation : mid.rotation);
-    const Chords body{from, to};
+    const Chords body{own.posed(span.from.position, ends ? span.from.rotation : mid.rotation),
+                      own.posed(span.to.position, ends ? span.to.rotation : mid.rotation)};
     const double padding = padding_.until(span.to.t);
     const double needed = (ends ? growth.by_ends : growth.by_middle) + rounding(mid, reach) +
                           rounding(span.from, reach) + rounding(span.to, reach) + padding;
@@ -181,8 +189,7 @@ class PassageSearch {
       found.bound = std::max(low, -high) - needed;
       if (!measure) return found;
     }
-    const double enough = measure ? nearest_ + needed : needed;
-    const RimDistance rim = rim_distance(body, opening_, enough, measure ? 0 : needed);
+    const RimDistance rim = body.rim(placed_, measure ? kMeasure : asking(needed));
     found.bound = std::max(found.bound, rim.least - needed);
     if (measure && rim.most - needed < nearest_) measure_middle(own, mid);
     if (found.proved || !(rim.least > needed)) return found;
@@ -202,12 +209,12 @@ class PassageSearch {
 
   void measure_middle(const Convex& own, const Sight& mid) {
     const Convex there = own.posed(mid.position, mid.rotation);
-    const double drift = padding_.until(mid.t) - padding_.least();
-    const RimDistance rim = rim_distance({there, there}, opening_, nearest_ + drift, 0);
+    const double drift = padding_.drifted(mid.t);
+    const RimDistance rim = there.rim(placed_, kMeasure);
     if (!(rim.most - drift < nearest_)) return;
     nearest_ = rim.most - drift;
     proof_.least_time = mid.t;
-    nearest_place_ = in_world(mid.t, rim.nearest);
+    nearest_place_ = in_world(mid.t, rim.rim);
   }
 
   /// Pieces shorter than this are not halved. Once one has been left undecided, only a meeting is still
@@ -281,7 +288,12 @@ class PassageSearch {
   }
 
   PassageProof apart(double from, double to) {
-    const auto through = passage();
+    const auto through = passage(true);
+    // What is nearly through, or through for some motions within the padding only.
+    if (const auto perhaps = passage(false); perhaps && !through) {
+      unresolved_ = TimeSpan{at(perhaps->before), at(perhaps->after)};
+      return undecided();
+    }
     refine();
     proof_.verdict = through ? PassageVerdict::passed : PassageVerdict::missed;
     proof_.from = from;
@@ -305,6 +317,7 @@ class PassageSearch {
     int side = 0;      // the last that it was wholly on
     double since = 0;  // s, the last time known
     Where by = Where::inside;
+    bool surely = true;
     std::optional<Through> through;
 
     void wholly_on(int here, double t) {
@@ -315,9 +328,10 @@ class PassageSearch {
     }
   };
 
-  /// The first.
-  std::optional<Through> passage() const {
+  /// The first. `surely`: for all motions within the padding, otherwise for one of them, perhaps.
+  std::optional<Through> passage(bool surely) const {
     Way way;
+    way.surely = surely;
     looks_ = 0;
     for (const ProvedPiece& piece : proved_) {
       note(way, piece.span.from);
@@ -340,7 +354,7 @@ class PassageSearch {
 
   void note(Way& way, const Sight& s) const {
     const Heights h = heights(s);
-    const double off = padding_.until(s.t) + rounding(s, h.high - h.low);
+    const double most = padding_.until(s.t) + rounding(s, h.high - h.low), off = way.surely ? most : -most;
     if (h.low > off) way.wholly_on(1, s.t);
     if (h.high < -off) way.wholly_on(-1, s.t);
   }
@@ -353,7 +367,7 @@ class PassageSearch {
     const Heights a = heights(span.from), b = heights(span.to);
     const double dt = span.to.t - span.from.t;
     const Sight mid = middle(span);
-    const double most = dt / 2 * fastest(span, mid);
+    const double most = dt / 2 * fastest(span, mid) + (way.surely ? 0 : padding_.until(span.to.t));
     const bool dips = !(a.high < 0) && !(b.high < 0) && (a.high + b.high) / 2 - most < -kDip;
     const bool rises = !(a.low > 0) && !(b.low > 0) && (a.low + b.low) / 2 + most > kDip;
     if ((!dips && !rises) || !(mid.t > span.from.t) || !(mid.t < span.to.t) || ++looks_ > kMostLooks) return;
@@ -366,7 +380,8 @@ class PassageSearch {
   double fastest(const TimeSpan& span, const Sight& mid) const {
     const double dt = span.to.t - span.from.t, reach = body(span.from.t, span.to.t).reach();
     const Track::Bounds b = agent_.bounds(span.from.t, span.to.t);
-    const double speed = (mid.motion.velocity - orifice_.velocity).norm() + b.acceleration * dt / 2;
+    const double speed =
+        (mid.motion.velocity - orifice_.velocity).norm() + b.acceleration * dt / 2 + b.velocity_jumps;
     return speed + (b.turn_rate == 0 ? 0 : reach * b.turn_rate) +
            spin_ * (mid.position.norm() + speed * dt / 2 + reach);
   }
@@ -420,6 +435,7 @@ class PassageSearch {
   const Track& agent_;
   const MovingOrifice& orifice_;
   const Opening& opening_;
+  PlacedOpening placed_;  // in its own frame
   Padding padding_;
   double resolution_, spin_;
   std::optional<Convex> rigid_;
