@@ -111,18 +111,23 @@ OrificeCommand orifice_law(const Cartesian<3>& motion, double opening_radius, do
   return command;
 }
 
-OrificeAim orifice_aim(const Vector3d& position, const Vector3d& velocity, const OrificeState& orifice) {
+OrificeAim orifice_aim(const Vector3d& position, const Vector3d& velocity, const OrificeState& orifice,
+                       const std::optional<double>& speed) {
   OrificeAim aim;
   const auto point_of = [](const PlacedOpening& at) -> Vector3d {
     return at.center + at.axes * at.opening.deepest();
   };
-  // The opening turns on the way: two looks ahead are as good as the guess of the time.
+  // The opening turns and moves on the way: a few looks ahead.
   Vector3d point = point_of(orifice.opening);
-  for (int i = 0; i < 3; ++i) {
-    const Vector3d c = point - position, w = velocity - orifice.velocity;
-    const double closing = i == 0 ? c.dot(w) / c.norm() : velocity.norm();
-    const double speed = closing > 0.1 * velocity.norm() ? closing : velocity.norm();
-    aim.seconds = speed > 0 ? c.norm() / speed : 0;
+  for (int i = 0; i < 8; ++i) {
+    const Vector3d c = point - position;
+    const double own = velocity.norm();
+    double closing = speed.value_or(own);
+    if (!speed && i == 0) {
+      const double relative = c.dot(velocity - orifice.velocity) / c.norm();
+      if (relative > 0.1 * own) closing = relative;
+    }
+    aim.seconds = closing > 0 ? c.norm() / closing : 0;
     const OrificeState then = orifice.after(aim.seconds);
     point = point_of(then.opening);
     aim.velocity = then.velocity + then.spin.cross(Vector3d(point - then.opening.center));

@@ -28,8 +28,12 @@ TailSetting source_tail(const FishOptions& options, const CycleMeans& means, con
   if (command.aim) {
     // A positive bias turns clockwise. Print has no sign: swimming back along x, the same one would turn
     // away.
+    const Eigen::Vector3d to_aim = command.aim->point - state.position;
+    const double ahead = c * to_aim.x() + s * to_aim.y(), left = c * to_aim.y() - s * to_aim.x();
     const double aside = (state.position.y() - command.aim->point.y()) * (c < 0 ? -1 : 1);
     bias = std::clamp(options.gain_y * aside, -fish.most_bias, fish.most_bias);
+    // Nor does it say how to turn round, which an error in y alone cannot: ours, as hard as it can be.
+    if (ahead < 0) bias = left > 0 ? -fish.most_bias : fish.most_bias;
   }
   return {amplitude_for_force(fish, state, tail, t, bias, force, most_amplitude(options, means)), bias};
 }

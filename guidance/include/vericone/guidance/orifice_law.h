@@ -86,6 +86,7 @@ struct OrificeAim {
   double seconds = 0;
 };
 [[nodiscard]] OrificeAim orifice_aim(const Eigen::Vector3d& position, const Eigen::Vector3d& velocity,
-                                     const OrificeState& orifice);
+                                     const OrificeState& orifice,
+                                     const std::optional<double>& speed = {});
 
 }  // namespace vericone::guidance
