@@ -40,6 +40,12 @@ Current::Current(const Vector3d& uniform, const Shear& shear, const Gusts& gusts
   }
 }
 
+Current Current::carried(const Vector3d& by) const {
+  Current water = *this;
+  water.uniform_ += by;
+  return water;
+}
+
 Vector3d Current::velocity(double z, double t) const {
   Vector3d v = uniform_ + (z - shear_.level) * gradient();
   if (gusts_ > 0)

@@ -32,6 +32,9 @@ class Current {
   /// "gusts.longest".
   explicit Current(const Eigen::Vector3d& uniform, const Shear& shear = {}, const Gusts& gusts = {});
 
+  /// This water, and all of it moving uniformly besides, m/s.
+  [[nodiscard]] Current carried(const Eigen::Vector3d& by) const;
+
   [[nodiscard]] Eigen::Vector3d velocity(double z, double t) const;
   /// Of a particle that stays at its height: what the gusts do, m/s^2.
   [[nodiscard]] Eigen::Vector3d acceleration(double t) const;
