@@ -162,7 +162,12 @@ OrificeCommand passage_law(const BodyState& a, const OrificeState& orifice,
   // As it will be turned when A's centre is there; where it is then is in the relative velocity.
   PlacedOpening then = orifice.after(seconds).opening;
   then.center = orifice.opening.center;
-  const OpeningClearance now = opening_clearance(a.shape, then, w);
+  const bool convex = a.shape.support_point(w).has_value();
+  const auto seen = [&](const PlacedOpening& opening) {
+    return convex ? opening_clearance(a.shape, opening, w)
+                  : opening_clearance(a.shape.containing_ellipsoid(), opening, w);
+  };
+  const OpeningClearance now = seen(then);
   command.m = now.distance;
   if (now.normal.isZero(0)) {
     command = turn();
@@ -173,7 +178,7 @@ OrificeCommand passage_law(const BodyState& a, const OrificeState& orifice,
   // What the opening has room for along this w.
   PlacedOpening through_deepest = then;
   through_deepest.center = a.position - then.axes * then.opening.deepest();
-  const double room = 0.95 * opening_clearance(a.shape, through_deepest, w).distance;
+  const double room = 0.95 * seen(through_deepest).distance;
   const double wanted = std::min(options.margin + options.beyond, room);
   if (now.distance >= wanted) return command;
   Vector3d gradient = -now.time * now.normal;
