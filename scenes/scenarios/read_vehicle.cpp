@@ -88,8 +88,19 @@ FishOptions read_fish(const Json& value, const std::string& path) {
   FishOptions options;
   FishParameters& fish = options.parameters;
   for (const auto& [field, member] : kParameters) number(value, path, field, fish.*member);
-  number(value, path, "most_amplitude_deg", fish.most_amplitude, kDegree);
-  number(value, path, "most_bias_deg", fish.most_bias, kDegree);
+  if_given(value, path, "most_amplitude_deg", [&](const Json& v, const std::string& p) {
+    fish.most_amplitude = kDegree * read_positive(v, p, " (degrees)");
+  });
+  if_given(value, path, "most_bias_deg", [&](const Json& v, const std::string& p) {
+    fish.most_bias = kDegree * read_not_negative(v, p, " (degrees)");
+  });
+  const double sum = (fish.most_amplitude + fish.most_bias) / kDegree;
+  if (!(sum <= 90)) {
+    const char* field = value.contains("most_bias_deg") ? "most_bias_deg" : "most_amplitude_deg";
+    throw InputError(
+        join(path, field), quoted(value[field]),
+        "at most 90 degrees with most_amplitude_deg and most_bias_deg together: no tail folds over");
+  }
   number(value, path, "depth", options.depth);
   if_given(value, path, "gas",
            [&](const Json& v, const std::string& p) { options.gas = read_number(v, p, " (m^3)"); });

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <utility>
 
 #include "cycle_means.h"
 #include "depth_keeper.h"
@@ -180,8 +180,38 @@ class Fish : public simulation::Vehicle {
       case FishControl::none:
         break;
     }
-    if (options_.control != FishControl::none) tail_.set(t, set.amplitude, set.bias);
+    if (options_.control != FishControl::none) {
+      set = within_limits(t, set);
+      tail_.set(t, set.amplitude, set.bias);
+    }
     ++cycle_;
+  }
+
+  /// Less bias, if the next cycle would turn too fast, and less amplitude, if it would be too fast. What it
+  /// will do is integrated.
+  TailSetting within_limits(double t, TailSetting set) const {
+    constexpr double kMargin = 0.99, kLess = 0.85, kNext = 1.2;
+    constexpr int kTrials = 30;
+    const double cycle = 1 / options_.parameters.frequency;
+    const auto foreseen = [&](double seconds) {
+      TailDrive next = tail_;
+      next.set(t, set.amplitude, set.bias);
+      FishState state = state_;
+      double speed = 0;
+      foresee(options_.parameters, state, next, t, t + seconds, cycle / 50, [&](const FishState& at, double) {
+        speed = std::max(speed, Vector3d(at.u, at.v, state_.w).norm());
+      });
+      return std::pair{speed, std::abs(state.heading - state_.heading) / seconds};
+    };
+    if (options_.most_turn_rate) {
+      const auto too_fast = [&] { return foreseen(cycle).second > kMargin * *options_.most_turn_rate; };
+      for (int i = 0; i < kTrials && too_fast(); ++i) set.bias *= kLess;
+    }
+    if (options_.most_speed) {
+      const auto too_fast = [&] { return foreseen(kNext * cycle).first > kMargin * *options_.most_speed; };
+      for (int i = 0; i < kTrials && too_fast(); ++i) set.amplitude *= kLess;
+    }
+    return set;
   }
 
   void watch() {

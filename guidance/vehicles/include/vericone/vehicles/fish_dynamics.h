@@ -18,8 +18,8 @@ struct FishParameters {
   double tail_chord = 0.08, tail_span = 0.06;                // m: C and L of (2.6)
   double hinge = 0.10;                                       // m, of the tail behind the centre of mass
   double frequency = 1;                                      // Hz
-  double most_amplitude = 35 * std::numbers::pi / 180;       // of A_m
-  double most_bias = 51 * std::numbers::pi / 180;
+  double most_amplitude = std::numbers::pi / 180 * 35;       // of A_m
+  double most_bias = std::numbers::pi / 180 * 51;
   double blend = 0.4;  // s, in which amplitude and bias go to new values: a jump would be a blow
   double drag_x = 0.457, area_x = 5.5e-3;           // C_Dx; A_x, m^2
   double drag_y = 1.2, area_y = 1.54e-2;            // C_Dy; A_y, m^2
