@@ -30,6 +30,7 @@ EXAMPLES = {
     "fit": "fit build/scans/elephant.off --shape ellipsoid --pieces 4 --no-figures --quiet",
     "shapes": "shapes --figure notch --no-figures",
     "check": "check docs/examples/scenarios/clearance.yaml",
+    "reach": "reach docs/examples/scenarios/orifices.yaml --current --quiet",
     "simulate": "simulate docs/examples/scenarios/elephant.yaml --no-figures --quiet",
     "campaign": "campaign -N 500 --no-figures --quiet",
     "trials": "trials docs/examples/scenarios/noise.yaml -N 40 --levels x1,x2 --laws di,clearance --no-figures --quiet",

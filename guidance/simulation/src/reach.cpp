@@ -101,7 +101,7 @@ class EarliestTime {
   }
 
   ReachTime search(double horizon) {
-    constexpr double kShortest = 1e-9;
+    constexpr double kShortest = 1e-7;
     constexpr int kMostSteps = 100'000;
     double t = left_.orifice ? std::max(start_.t, left_.when.not_before) : start_.t;
     ReachTime found{t, left_.orifice ? left_.when.by : ReachLimit::none};
