@@ -64,7 +64,9 @@ guidance::OrificeCommand ThroughFlight::steer(const guidance::BodyState& body, d
 }
 
 guidance::OrificeAim ThroughFlight::aim(const guidance::BodyState& body, double t) const {
-  return guidance::orifice_aim(body.position, body.velocity, heading_for().at(t), speed());
+  std::optional<double> margin;
+  if (through_->law == Through::Law::passage) margin = through_->passage.margin;
+  return guidance::orifice_aim(body, heading_for().at(t), speed(), margin);
 }
 
 OrificeSample ThroughFlight::sample(const guidance::BodyState& body, double t,
