@@ -8,12 +8,14 @@ import numpy as np
 from matplotlib.colors import to_rgb
 
 from vericone_figures.bodies import body_colors, is_planar, outline, polygons, posed, radii, surface
+from vericone_figures.orifices import RIM, orifices, quaternion
 from vericone_figures.style import folder, read
 from vericone_figures.tables import groups, rows
 
 MOST_ROWS = 400  # of a body; in between the page interpolates
 HAPPENS = {"enters-cone": "enters the cone of", "leaves-cone": "leaves the cone of", "aligned": "is aligned with its goal",
-           "reaches-goal": "reaches its goal", "contact": "meets", "cannot-avoid": "cannot avoid"}
+           "reaches-goal": "reaches its goal", "contact": "meets", "cannot-avoid": "cannot avoid",
+           "goes-through": "goes through", "goes-beside": "crosses the plane beside"}
 AT_ORIGIN = {"x": 0.0, "y": 0.0, "z": 0.0, "qw": 1.0, "qx": 0.0, "qy": 0.0, "qz": 0.0, "k": float("nan")}
 
 
@@ -112,12 +114,26 @@ for name, columns in tracks.items():
         body["goal"] = {"point": goals[name]["point"], "reached": goals[name]["reached"]}
     bodies.append(body)
 
+for orifice in orifices(folder()):  # rims, as flat bands
+    times = np.linspace(0, run["end"], 2 if not orifice.spin.any() else MOST_ROWS)
+    points, triangles = orifice.band(0.06 * np.linalg.norm(orifice.own, axis=1).max())
+    turns, before = [], None
+    for t in times:
+        q = np.array(quaternion(orifice.rotation(t)))
+        turns.append(-q if before is not None and q @ before < 0 else q)
+        before = turns[-1]
+    extent += [orifice.rim(t) for t in np.linspace(0, run["end"], 20)]
+    bodies.append({"name": orifice.name, "color": numbers(to_rgb(RIM), 3), "t": numbers(times, 9),
+                   "at": numbers([orifice.center(t) for t in times], 9), "turn": numbers(turns),
+                   "points": [numbers(p) for p in points], "triangles": triangles.tolist()})
+
 extent = np.vstack([e.reshape(-1, 3) for e in extent])
 low, high = extent.min(axis=0), extent.max(axis=0)
 room = np.maximum(0.03 * (high - low), 0.02 * (high - low).max())
 events = [{"t": e["t"], "text": ("%.2f s: %s %s %s" % (e["t"], e["agent"], HAPPENS.get(e["event"], e["event"]), e["obstacle"])).strip()}
           for e in rows(folder(), "events.csv")]
-contacts = [{"t": p["from"], "place": p["place"]} for p in proof["pairs"] if p["verdict"] == "touched"]
+contacts = [{"t": p["from"], "place": p["place"]} for p in proof["pairs"] + proof.get("passages", [])
+            if p["verdict"] == "touched"]
 data = {"title": "%s: %s%s" % (run["scenario"], run["verdict"], "" if run["verdict"] == "undecided" else ", proved"),
         "planar": planar, "end": run["end"], "low": numbers(low - room), "high": numbers(high + room),
         "bodies": bodies, "events": events, "contacts": contacts}

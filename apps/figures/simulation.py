@@ -6,6 +6,7 @@ from matplotlib.patches import Circle, Patch
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from vericone_figures.bodies import MANY, body_colors, is_planar, lit, outline, polygons, posed, rotation, surface
+from vericone_figures.orifices import COLORS as PASSAGE, orifices
 from vericone_figures.style import GREY, TWO_COLUMNS, folder, plt, read, save
 from vericone_figures.tables import groups, row_at, rows
 
@@ -14,10 +15,13 @@ encounters = groups(rows(folder(), "encounters.csv"), "agent", "obstacle")
 events, proof, run = rows(folder(), "events.csv"), read("proof.json"), read("run.json")
 shapes = {s["name"]: s for s in read("shapes.json")}
 planar = is_planar(shapes)
-agents = list(dict.fromkeys(agent for agent, _ in encounters))
+rims, passages = orifices(folder()), proof.get("passages", [])
+ways = groups(rows(folder(), "orifices.csv"), "agent", "orifice")
+agents = list(dict.fromkeys(agent for agent, _ in [*encounters, *ways]))
 NEAREST = 6  # pairs that are drawn over time where there are more
 end = run["end"]
 instants = np.linspace(0, end, 5)
+has_m = bool(encounters)
 has_y = any(np.isfinite(c["y"]).any() for c in encounters.values())
 
 COLORS = body_colors(list(bodies), agents)  # the same in all panels
@@ -108,6 +112,15 @@ else:
                 extent.append(points.reshape(-1, 3))
         if len(bodies) > MANY:
             space.text(*way[0], name, fontsize=6, ha="center", color=COLORS[name], zorder=9)
+    for rim in rims:
+        verdicts = {p["verdict"] for p in passages if p["orifice"] == rim.name and p["ordered"]}
+        color = next((PASSAGE[v] for v in ("touched", "undecided", "missed", "passed") if v in verdicts), GREY)
+        through = [p["time"] for p in passages if p["orifice"] == rim.name and p["time"] is not None]
+        for t in (through or [0, end]) if rim.velocity.any() or rim.spin.any() else [0]:
+            space.plot(*rim.rim(t).T, color=color, linewidth=1.4, zorder=6)
+            extent.append(rim.rim(t))
+        at = rim.rim(through[0] if through else 0)
+        space.text(*at[np.argmax(at[:, 2])], rim.name, fontsize=6, ha="center", va="bottom", color=color, zorder=9)
     for goal in run["goals"]:
         extent.append(np.array([goal["point"]]))
         space.plot(*np.array([goal["point"]]).T, "*", color=COLORS[goal["agent"]], markersize=8, markeredgecolor="w",
@@ -129,23 +142,47 @@ figure.text(0.01, 0.985, "%s: %s%s" % (run["scenario"], run["verdict"], "" if ru
 figure.text(0.01, 0.945, "bodies at t = %s s, later ones darker" % ", ".join("%.3g" % t for t in instants), fontsize=7, va="top",
             color=GREY)
 
+def curves_of_ways(axis, column, edge, text):
+    for i, ((agent, name), w) in enumerate(ways.items()):
+        axis.plot(w["t"], w[column], color=COLORS[agent], linewidth=1.2, linestyle=("-", "--", "-.", ":")[i % 4],
+                  label="%s, %s" % (agent, name) if len(agents) > 1 else name)
+    axis.set_ylabel(text)
+    if len(ways) <= MANY:
+        axis.legend(frameon=False, fontsize=6, title=edge, title_fontsize=6)
+
+
+# What there is to show over time, from the top.
+wanted = []
 if has_y:
-    upper, middle, lower = panels = [figure.add_axes([0.66, bottom, 0.32, 0.24]) for bottom in (0.69, 0.4, 0.11)]
-else:  # the clearance law has m alone
-    middle, lower = panels = [figure.add_axes([0.66, bottom, 0.32, 0.37]) for bottom in (0.56, 0.11)]
-drawn = {}
+    wanted.append("y")
+if has_m:
+    wanted.append("m")
+if ways:
+    by_y = [np.isfinite(w["y"]).any() and not np.isfinite(w["m"]).any() for w in ways.values()]
+    wanted += ["orifice y"] * any(by_y) + ["orifice m"] * (not all(by_y))
+wanted.append("a")
+height = {2: 0.37, 3: 0.24}.get(len(wanted), 0.75 / len(wanted))
+bottoms = {2: (0.56, 0.11), 3: (0.69, 0.4, 0.11)}.get(len(wanted), [0.11 + 0.85 / len(wanted) * i for i in range(len(wanted))][::-1])
+panels = dict(zip(wanted, [figure.add_axes([0.66, bottom, 0.32, height]) for bottom in bottoms]))
+lower, drawn = panels["a"], {}
 for pair in pairs:
-    drawn[pair] = draw_pair(middle, pair, encounters[pair]["m"])
+    drawn[pair] = draw_pair(panels["m"], pair, encounters[pair]["m"])
     for way in (pair, pair[::-1]) if has_y else ():
         if way in encounters:
-            draw_pair(upper, way, encounters[way]["y"])
+            draw_pair(panels["y"], way, encounters[way]["y"])
 if len(both_once) > len(pairs):
     figure.text(0.66, 0.958, "lines: the %d nearest of %d pairs" % (len(pairs), len(both_once)), fontsize=6.5, va="top", color=GREY)
 if has_y:
-    upper.set_ylabel("y, plane chosen (1)")
-middle.set_ylabel("miss distance m (m)")
+    panels["y"].set_ylabel("y, plane chosen (1)")
+if has_m:
+    panels["m"].set_ylabel("miss distance m (m)")
+if "orifice y" in panels:
+    curves_of_ways(panels["orifice y"], "y", "through, below 0", "y of (2.2) (m²)")
+if "orifice m" in panels:
+    curves_of_ways(panels["orifice m"], "m", "through, above 0", "clearance m (m)")
 lower.set_ylabel("lateral accel. (m/s²)" if planar else "acceleration (m/s²)")
 lower.set_xlabel("time (s)")
+panels = list(panels.values())
 for axis in panels:
     axis.set_xlim(0, end)
     axis.axhline(0, color="k", linewidth=0.5)
@@ -157,7 +194,7 @@ for name in (n for n in bodies if np.any(bodies[n]["a"] > 0) or n in agents):
 # One legend, below the bodies: it covers nothing.
 if len(bodies) <= MANY:
     named = [(Patch(facecolor=COLORS[n], alpha=0.8), n) for n in COLORS]
-    if len(agents) > 1:
+    if len(agents) > 1 and pairs:
         named.append((drawn.get(pairs[0]), "pair of bodies, in both colours"))
 else:
     named = [(drawn[pair], "%s, %s%s" % (*pair, ": %.3g m" % nearness(pair) if nearness(pair) > 0 else "")) for pair in pairs]
@@ -168,17 +205,20 @@ for goal in run["goals"] if len(run["goals"]) <= 3 else run["goals"][:1]:
 if named:
     figure.legend(*zip(*named), loc="lower left", bbox_to_anchor=(0.01, 0.0), ncol=3, frameon=False, fontsize=6.5,
                   handlelength=1.8, columnspacing=1.2, labelspacing=0.3)
-marked = [e for e in events if e["event"] in ("leaves-cone", "passes", "contact")]
+DASHES = {"leaves-cone": ":", "passes": "--", "goes-through": "--", "goes-beside": ":", "contact": "-"}
+marked = [e for e in events if e["event"] in DASHES]
+marked += [{"event": "contact", "t": p["to"]} for p in passages if p["verdict"] == "touched"]
 if len(marked) > 2 * MANY:  # a forest says nothing; contacts always do
     marked = [e for e in marked if e["event"] == "contact"]
 for event in marked:
-    dash = {"leaves-cone": ":", "passes": "--", "contact": "-"}[event["event"]]
+    dash = DASHES[event["event"]]
     color = "red" if event["event"] == "contact" else GREY
     for axis in panels:
         axis.axvline(event["t"], color=color, linestyle=dash, linewidth=0.7)
 forest = not any(e["event"] != "contact" for e in marked)
-figure.text(0.66, 0.985, "red: meets" if forest else "dotted: out of the cone, dashed: passes, red: meets", fontsize=6.5, va="top", color=GREY)
-for pair in proof["pairs"]:
+dotted = "out of the cone" if encounters else "beside an opening"
+figure.text(0.66, 0.985, "red: meets" if forest else "dotted: %s, dashed: passes, red: meets" % dotted, fontsize=6.5, va="top", color=GREY)
+for pair in [*proof["pairs"], *passages]:
     if pair["verdict"] == "touched":
         place = pair["place"][:2] if planar else pair["place"]
         space.plot(*[[c] for c in place], "x", color="red", markersize=6, zorder=10)

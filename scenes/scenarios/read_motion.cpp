@@ -21,6 +21,8 @@ Eigen::Vector3d read_point(const Json& value, const std::string& path, bool plan
   return {p.x(), p.y(), 0};
 }
 
+}  // namespace
+
 Direction read_heading(const Json& value, const std::string& path, bool planar, bool degrees) {
   const double unit = degrees ? std::numbers::pi / 180 : 1;
   const char* name = degrees ? " (degrees)" : " (radians)";
@@ -34,12 +36,6 @@ Direction read_heading(const Json& value, const std::string& path, bool planar, 
         degrees ? "an elevation between -90 and 90 degrees" : "an elevation between -pi/2 and pi/2 radians");
   return {unit * angles.x(), unit * angles.y()};
 }
-
-/// Velocity and the direction ahead, which a body at rest may have as well.
-struct Going {
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
-  Direction ahead;
-};
 
 Going read_going(const Json& value, const std::string& path, bool planar) {
   const bool by_speed = value.contains("speed");
@@ -70,6 +66,8 @@ Going read_going(const Json& value, const std::string& path, bool planar) {
   if (planar) going.velocity.z() = 0;
   return going;
 }
+
+namespace {
 
 /// x ahead, y level.
 Eigen::Matrix3d along(const Direction& ahead) {

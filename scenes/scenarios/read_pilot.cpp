@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "json/json_value.h"
+#include "scenarios/read_orifice.h"
 #include "scenarios/read_sensor.h"
 #include "scenarios/scenario_fields.h"
 
@@ -14,48 +15,73 @@ using guidance::Law;
 using input::at, input::quoted, input::read_number, input::read_vector, input::require_field,
     input::require_known, input::require_object;
 
-constexpr std::initializer_list<std::pair<const char*, Law>> kLaws = {
-    {"avoidance", Law::avoidance},
-    {"cooperative-avoidance", Law::cooperative_avoidance},
-    {"cooperative-rendezvous", Law::cooperative_rendezvous},
-    {"matching-rendezvous", Law::matching_rendezvous},
-    {"clearance", Law::clearance}};
+/// Of bodies that are minded, or of orifices that are passed.
+struct ReadLaw {
+  Law minding = Law::avoidance;
+  std::optional<simulation::Through::Law> through;
+};
+
+constexpr std::initializer_list<std::pair<const char*, ReadLaw>> kLaws = {
+    {"avoidance", {Law::avoidance, {}}},
+    {"cooperative-avoidance", {Law::cooperative_avoidance, {}}},
+    {"cooperative-rendezvous", {Law::cooperative_rendezvous, {}}},
+    {"matching-rendezvous", {Law::matching_rendezvous, {}}},
+    {"clearance", {Law::clearance, {}}},
+    {"orifice", {Law::avoidance, simulation::Through::Law::orifice}},
+    {"passage", {Law::avoidance, simulation::Through::Law::passage}}};
 
 /// Which laws read a field that not all of them read.
 struct OfLaws {
   const char* field;
-  std::vector<Law> laws;
+  std::vector<std::string> laws;
 };
 const std::vector<OfLaws>& fields_of_laws() {
-  using enum Law;
-  const std::vector<Law> of_planes{avoidance, cooperative_avoidance, cooperative_rendezvous,
-                                   matching_rendezvous};
+  const std::vector<std::string> of_planes{"avoidance", "cooperative-avoidance", "cooperative-rendezvous",
+                                           "matching-rendezvous"},
+      of_orifices{"orifice", "passage"};
+  const auto and_of_bodies = [](std::vector<std::string> laws) {
+    laws.push_back("clearance");
+    return laws;
+  };
+  const auto and_orifice = [](std::vector<std::string> laws) {
+    laws.push_back("orifice");
+    return laws;
+  };
   static const std::vector<OfLaws> table{{"sector", of_planes},
                                          {"rates", of_planes},
                                          {"plane", of_planes},
-                                         {"reference", of_planes},
+                                         {"reference", and_orifice(of_planes)},
                                          {"side", of_planes},
-                                         {"cease", {avoidance, cooperative_avoidance}},
-                                         {"mu", {cooperative_avoidance}},
-                                         {"gain_speed", {matching_rendezvous}},
-                                         {"clearance", {clearance}},
-                                         {"manner", {avoidance, clearance}},
+                                         {"cease", {"avoidance", "cooperative-avoidance"}},
+                                         {"mu", {"cooperative-avoidance"}},
+                                         {"gain_speed", {"matching-rendezvous", "orifice", "passage"}},
+      {"speed", of_orifices},
+                                         {"clearance", {"clearance"}},
+                                         {"manner", {"avoidance", "clearance"}},
                                          {"passing", of_planes},
-                                         {"filter", {avoidance}},
-                                         {"robust", {avoidance}},
-                                         {"partners", {cooperative_avoidance, cooperative_rendezvous}}};
+                                         {"filter", {"avoidance"}},
+                                         {"robust", {"avoidance"}},
+                                         {"partners", {"cooperative-avoidance", "cooperative-rendezvous"}},
+                                         {"minds", and_of_bodies(of_planes)},
+                                         {"sensor", and_of_bodies(of_planes)},
+                                         {"estimator", and_of_bodies(of_planes)},
+                                         {"through", of_orifices},
+                                         {"direction", {"orifice"}},
+                                         {"direction_deg", {"orifice"}},
+                                         {"margin", {"passage"}},
+                                         {"beyond", {"passage"}},
+                                         {"longitudinal", {"passage"}}};
   return table;
 }
 
-void require_of_law(const Json& value, const std::string& path, Law law) {
+void require_of_law(const Json& value, const std::string& path) {
+  const std::string law = value["law"].get<std::string>();
   for (const OfLaws& entry : fields_of_laws()) {
     if (!value.contains(entry.field) ||
         std::find(entry.laws.begin(), entry.laws.end(), law) != entry.laws.end())
       continue;
     std::string list;
-    for (const auto& [name, other] : kLaws)
-      if (std::find(entry.laws.begin(), entry.laws.end(), other) != entry.laws.end())
-        list.append(list.empty() ? "" : ", ").append(name);
+    for (const std::string& name : entry.laws) list.append(list.empty() ? "" : ", ").append(name);
     throw InputError(join(path, entry.field), quoted(value[entry.field]),
                      "left out: only " + list + " reads it");
   }
@@ -155,15 +181,19 @@ void read_inversion(const Json& value, const std::string& path, guidance::GuideO
 
 simulation::Pilot read_pilot(const Json& value, const std::string& path, bool planar) {
   require_object(value, path);
-  require_known(value, path,
-                {"law",   "sector", "rates",   "plane",      "gain",      "reference", "most",
-                 "cease", "side",   "mu",      "gain_speed", "clearance", "minds",     "partners",
-                 "goal",  "manner", "passing", "sensor",     "estimator", "filter",    "robust"});
+  require_known(
+      value, path,
+      {"law",     "sector", "rates",       "plane",     "gain",   "reference", "most",      "cease",
+       "side",    "mu",     "gain_speed",  "clearance", "minds",  "partners",  "goal",      "manner",
+       "passing", "sensor", "estimator",   "filter",    "robust", "through",   "direction", "direction_deg",
+       "margin",  "beyond", "longitudinal", "speed"});
   simulation::Pilot pilot;
   guidance::GuideOptions& guide = pilot.guide;
-  guide.law = read_choice<Law>(require_field(value, path, "law", "the name of a law, such as avoidance"),
-                               join(path, "law"), kLaws);
-  require_of_law(value, path, guide.law);
+  const ReadLaw law = read_choice<ReadLaw>(
+      require_field(value, path, "law", "the name of a law, such as avoidance"), join(path, "law"), kLaws);
+  guide.law = law.minding;
+  require_of_law(value, path);
+  if (law.through) pilot.through = read_through(value, path, *law.through);
   if_given(value, path, "sector", [&](const Json& v, const std::string& p) {
     using enum guidance::SectorMethod;
     guide.sector = read_choice<guidance::SectorMethod>(v, p, {{"exact", true_cone}, {"slice", slice}});

@@ -12,8 +12,10 @@
 #include "json/json_value.h"
 #include "json/plain_text.h"
 #include "scenarios/read_motion.h"
+#include "scenarios/read_orifice.h"
 #include "scenarios/read_pilot.h"
 #include "scenarios/read_shape.h"
+#include "scenarios/read_vehicle.h"
 #include "scenarios/scenario_fields.h"
 
 namespace vericone::scenario {
@@ -30,7 +32,7 @@ Json with_shape(const Json& value, const std::string& path) {
     throw InputError(path + ".position", quoted(value["position"]),
                      "given with shape; beside a body's own fields its place is center");
   constexpr const char* kOwn[] = {"name",        "velocity", "speed",   "heading", "heading_deg",
-                                  "orientation", "rotation", "appears", "pilot"};
+                                  "orientation", "rotation", "appears", "pilot",   "vehicle"};
   for (const auto& [key, field] : value.items()) {
     const bool own = std::find(std::begin(kOwn), std::end(kOwn), key) != std::end(kOwn);
     if (key == "center")
@@ -58,11 +60,17 @@ simulation::Body read_body(const Json& given, const std::string& path, const std
   const Json value = by_shape(given) ? given : with_shape(given, path);
   require_known(value, path,
                 {"name", "shape", "position", "velocity", "speed", "heading", "heading_deg", "orientation",
-                 "rotation", "appears", "pilot"});
+                 "rotation", "appears", "pilot", "vehicle"});
   simulation::Body body;
   body.name = read_text(require_field(value, path, "name", "a name, as text"), path + ".name", "a name");
-  body.shape = read_shape(require_field(value, path, "shape", "a mapping, such as {semi_axes: [3, 2, 1]}"),
-                          path + ".shape", folder);
+  if_given(value, path, "vehicle", [&](const Json& v, const std::string& p) {
+    const VehicleRead read = read_vehicle(v, p, value.contains("shape"));
+    body.vehicle = read.model;
+    body.shape = read.shape;
+  });
+  if (!body.vehicle || value.contains("shape"))
+    body.shape = read_shape(require_field(value, path, "shape", "a mapping, such as {semi_axes: [3, 2, 1]}"),
+                            path + ".shape", folder);
   const bool planar = simulation::planar(body.shape);
   read_motion(value, path, planar, body);
   if_given(value, path, "appears",
@@ -74,12 +82,14 @@ simulation::Body read_body(const Json& given, const std::string& path, const std
 
 void read_proof(const Json& value, const std::string& path, simulation::ProofOptions& proof) {
   require_object(value, path);
-  require_known(value, path, {"padding", "resolution"});
+  require_known(value, path, {"padding", "resolution", "drift"});
   if_given(value, path, "padding", [&](const Json& v, const std::string& p) {
     proof.padding = read_not_negative(v, p, " (metres)");
   });
   if_given(value, path, "resolution",
            [&](const Json& v, const std::string& p) { proof.resolution = read_positive(v, p, " (s)"); });
+  if_given(value, path, "drift",
+           [&](const Json& v, const std::string& p) { proof.drift = read_not_negative(v, p, " (m/s)"); });
 }
 
 /// Every row of the tables is kept until the run is over.
@@ -103,7 +113,8 @@ simulation::Scenario read_scenario(const Json& fields, const std::string& name,
                                    const std::filesystem::path& folder) {
   if (!fields.is_object()) throw InputError("scenario", quoted(fields), "a mapping with bodies");
   require_known(fields, "",
-                {"name", "duration", "step", "stop_when_passed", "planes_logged", "proof", "bodies", "seed"});
+                {"name", "duration", "step", "stop_when_passed", "planes_logged", "proof", "bodies", "seed",
+                 "orifices", "current"});
   simulation::Scenario scenario;
   scenario.name = name;
   if_given(fields, "", "name",
@@ -122,10 +133,16 @@ simulation::Scenario read_scenario(const Json& fields, const std::string& name,
   if_given(fields, "", "seed", [&](const Json& v, const std::string& p) {
     scenario.seed = std::uint64_t(read_count(v, p, 0, 2'000'000'000));
   });
+  if_given(fields, "", "current",
+           [&](const Json& v, const std::string& p) { scenario.water = read_current(v, p, scenario.seed); });
   const Json& bodies = require_field(fields, "", "bodies", "a list of bodies");
   if (!bodies.is_array() || bodies.empty()) throw InputError("bodies", quoted(bodies), "a list of bodies");
   for (std::size_t i = 0; i < bodies.size(); ++i)
     scenario.bodies.push_back(read_body(bodies[i], at("bodies", i), folder));
+  if_given(fields, "", "orifices", [&](const Json& v, const std::string& p) {
+    if (!v.is_array() || v.empty()) throw InputError(p, quoted(v), "a list of orifices");
+    for (std::size_t i = 0; i < v.size(); ++i) scenario.orifices.push_back(read_orifice(v[i], at(p, i)));
+  });
   for (simulation::Body& body : scenario.bodies)  // the outer loop's step is the scenario's
     if (body.pilot && body.pilot->guide.robust) body.pilot->guide.robust->model.dt = scenario.step;
   simulation::check(scenario);

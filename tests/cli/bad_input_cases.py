@@ -334,6 +334,19 @@ def scenario(body=BODY, pilot=PILOT, agent="{semi_axes: [3, 1, 1]}", top="durati
             % (top, agent, pilot, body))
 
 
+ORIFICE = "{name: O, opening: {radius: 2}, position: [9, 0, 0], normal: [1, 0, 0]}"
+THROUGH = "{law: passage, through: [O]}"
+
+
+def orifice(text=ORIFICE, pilot=THROUGH, agent="{semi_axes: [1, 1, 1]}", more=""):
+    return scenario(pilot=pilot, agent=agent, top="duration: 5\norifices: [%s%s]\n" % (text, more))
+
+
+def fish(vehicle, shape="", position="[0, 0, 0]", velocity="[0.1, 0, 0]", top=""):
+    return "%sduration: 5\nbodies:\n  - {name: F, %sposition: %s, velocity: %s, vehicle: %s}\n" % (top, shape, position, velocity,
+                                                                                                vehicle)
+
+
 # What is wrong, the scenario.
 SCENARIOS = [
     ("steps that no memory holds", scenario(top="duration: 5\nstep: 0.000002\n")),
@@ -403,11 +416,50 @@ SCENARIOS = [
     ("a goal after nobody", scenario(pilot="{law: avoidance, goal: {point: [9, 0, 0], most: 5, after: C}}")),
     ("a hull that flies by slices", scenario(agent="{points: [[0, 0, 0], [1, 0, 0]]}",
                                               pilot="{law: avoidance, manner: source, sector: slice}")),
+    ("an opening whose outline crosses itself", orifice(ORIFICE.replace("radius: 2", "polygon: [[0, 0], [2, 2], [2, 0], [0, 2]]"))),
+    ("an opening of two corners", orifice(ORIFICE.replace("radius: 2", "polygon: [[0, 0], [2, 2]]"))),
+    ("an opening of two kinds", orifice(ORIFICE.replace("radius: 2", "radius: 2, semi_axes: [1, 2]"))),
+    ("an opening without radius", orifice(ORIFICE.replace("radius: 2", "radius: 0"))),
+    ("an orifice that faces nowhere", orifice(ORIFICE.replace("[1, 0, 0]", "[0, 0, 0]"))),
+    ("an orifice without attitude", orifice(ORIFICE.replace(", normal: [1, 0, 0]", ""))),
+    ("a spin of two numbers", orifice(ORIFICE.replace("normal:", "spin: [0, 1], normal:"))),
+    ("a wall by a number", orifice(ORIFICE.replace("normal:", "wall: 1, normal:"))),
+    ("two orifices of one name", orifice(more=", " + ORIFICE)),
+    ("an orifice called as a body", orifice(ORIFICE.replace("name: O", "name: A"))),
+    ("a law of orifices without through", orifice(pilot="{law: passage}")),
+    ("through an orifice that is not there", orifice(pilot="{law: passage, through: [P]}")),
+    ("through of a law of bodies", orifice(pilot="{law: avoidance, through: [O]}")),
+    ("w above 0", orifice(pilot="{law: orifice, through: [O], reference: 0.1}")),
+    ("w below what y can be", orifice(pilot="{law: orifice, through: [O], reference: -1.5}")),
+    ("the source's law without w", orifice(pilot="{law: orifice, through: [O]}")),
+    ("the source's law for an agent too large", orifice(agent="{semi_axes: [3, 1, 1]}",
+                                                       pilot="{law: orifice, through: [O], reference: -0.1}")),
+    ("a negative margin", orifice(pilot="{law: passage, through: [O], margin: -1}")),
+    ("bodies of a law of orifices", orifice(pilot="{law: passage, through: [O], minds: [B]}")),
     ("a body and a position", scenario("{name: B, center: [20, 0, 0], semi_axes: [2, 2, 2], position: [1, 0, 0]}")),
     ("a mesh that is not there", scenario(BODY.replace("semi_axes: [2, 2, 2]", "mesh: none.off"))),
     ("a shape of no pieces", scenario(BODY.replace("semi_axes: [2, 2, 2]", "pieces: []"))),
     ("pieces of two kinds", scenario(BODY.replace("semi_axes: [2, 2, 2]", "pieces: [{center: [0, 0, 0], "
                                                   "semi_axes: [1, 1, 1]}, {points: [[0, 0, 0]]}]"))),
+    ("a fish above the water", fish("{kind: fish, depth: -1}")),
+    ("a fish with more gas than its chamber holds", fish("{kind: fish, gas: 1.0e-5}")),
+    ("a fish that can never rise", fish("{kind: fish, neutral_gas: 9.0e-6}")),
+    ("a fish of negative mass", fish("{kind: fish, mass: -0.8}")),
+    ("a fish whose hinge is behind its body", fish("{kind: fish, hinge: 0.3}")),
+    ("a tail that folds over", fish("{kind: fish, most_bias_deg: 60}")),
+    ("a vehicle without a kind", fish("{depth: 3}")),
+    ("a vehicle of an unknown kind", fish("{kind: submarine}")),
+    ("an unknown field of a fish", fish("{kind: fish, colour: red}")),
+    ("a limit of nothing", fish("{kind: fish, limits: {speed: 0}}")),
+    ("a trial under control", fish("{kind: fish, trial: {amplitude_deg: 20}}")),
+    ("an amplitude beyond its most", fish("{kind: fish, control: none, trial: {amplitude_deg: 40}}")),
+    ("a shape and the vehicle's own", fish("{kind: fish, body: sphere}", "shape: {semi_axes: [1, 1, 1]}, ")),
+    ("a vehicle in the plane", fish("{kind: fish}", "shape: {semi_axes: [1, 1]}, ", "[0, 0]", "[1, 0]")),
+    ("a fish that starts upright", fish("{kind: fish}", velocity="[0, 0, 0.1]")),
+    ("a current of two numbers", fish("{kind: fish}", top="current: {uniform: [1, 0]}\n")),
+    ("a shear without a rate", fish("{kind: fish}", top="current: {shear: {level: 1}}\n")),
+    ("gusts whose longest period is the shorter", fish("{kind: fish}", top="current: {gusts: {most: 1, longest: 1}}\n")),
+    ("a current with an unknown field", fish("{kind: fish}", top="current: {wind: 1}\n")),
 ]
 # What is wrong, arguments after `campaign`.
 CAMPAIGNS = [

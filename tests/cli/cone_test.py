@@ -22,6 +22,30 @@ class Cone(unittest.TestCase):
 
     SPHERES = "agent: {center: [0, 0, 0], semi_axes: [1, 1, 1]}\nobstacle: {center: [5, 0, 0], semi_axes: [2, 2, 2]}\n"
 
+    def test_many_scenes_one_a_line(self):
+        """Answers are those of single scenes, in order, with their ids; a bad line says so and the others are answered."""
+        scenes = [{"id": i, "agent": {"center": [0, 0, 0], "semi_axes": [1, 1, 1]},
+                   "obstacle": {"center": [d, 0, 0], "semi_axes": axes}}
+                  for i, (d, axes) in enumerate([(5, [2, 2, 2]), (9, [1, 2, 3]), (5, [2, -2, 2]), (30, [4, 4, 1])])]
+        lines = "".join(json.dumps(s) + "\n" for s in scenes)
+        result = run("cone", "-", "--cases", input=lines)
+        self.assertEqual(result.returncode, 2)
+        answers = [json.loads(line) for line in result.stdout.splitlines()]
+        self.assertEqual([a["id"] for a in answers], [0, 1, 2, 3])
+        self.assertIn("obstacle.semi_axes[1]", answers[2]["error"])
+        for scene, answer in zip(scenes, answers):
+            if "error" in answer:
+                continue
+            text = json.dumps({k: v for k, v in scene.items() if k != "id"})
+            alone = self.cone(text)
+            for data in (alone, answer):
+                data.pop("seconds", None)
+                data.pop("id", None)
+            self.assertEqual(answer, alone)
+        refused = run("cone", "-", "--cases", "--out", "nowhere", input=lines)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("--out", refused.stderr)
+
     def test_the_picture_shows_the_velocity_of_the_scene(self):
         with open(os.path.join(SOURCE, "docs", "examples", "source-6.5.yaml"), encoding="utf-8") as f:
             text = f.read()

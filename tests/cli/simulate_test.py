@@ -388,5 +388,63 @@ class Trials(Files):
                 self.assertRegex(result.stderr, r"\Avericone: \S.*: got .+, must be .+\n\Z")
 
 
+RING = """name: ring
+duration: 12
+step: 0.1
+orifices:
+  - {name: O, opening: {radius: 1}, position: [5, 0, 0], normal: [1, 0, 0], wall: false}
+bodies:
+  - name: A
+    shape: {semi_axes: [0.5, 0.5, 0.5]}
+    position: [0, 0, 0]
+    velocity: [1, 0, 0]
+    pilot: {law: passage, through: [O], margin: 0.1, most: 0.5}
+"""
+
+
+class Reach(Files):
+    def reach(self, text, *arguments):
+        result = run("reach", self.write(text), "--quiet", "--json", *arguments)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        return json.loads(result.stdout)
+
+    def test_straight_ahead(self):
+        """5 m at 1 m/s: reached at 5 s at the earliest, and by a run that goes straight through."""
+        answer = self.reach(RING)
+        agent = answer["agents"][0]
+        self.assertEqual((agent["agent"], agent["limits"]["acceleration"], agent["limits"]["climb"]), ("A", 0.5, None))
+        orifice = agent["orifices"][0]
+        self.assertEqual((orifice["orifice"], orifice["verdict"]), ("O", "passed"))
+        for where in ("edge", "center"):
+            self.assertAlmostEqual(orifice[where]["not_before"], 5, 6)
+            self.assertEqual((orifice[where]["limit"], orifice[where]["unreachable"]), ("speed", False))
+        self.assertAlmostEqual(orifice["by"], 5, 9)
+        self.assertNotIn("current", answer)
+        text = run("reach", self.write(RING), "--quiet").stdout
+        self.assertRegex(text, r"A +at most 1(\.\d+)? m/s, 0\.5 m/s\^2, turns by 28\.\d+ deg/s\n")
+        self.assertRegex(text, r"O: not before (5|4\.999) s \(too far for its speed\), .*; passed by 5 s, proved\n")
+        self.assertFalse(os.path.exists(self.out))
+
+    def test_out_of_reach(self):
+        orifice = self.reach(RING.replace("duration: 12", "duration: 4"))["agents"][0]["orifices"][0]
+        self.assertEqual(orifice["edge"], {"not_before": None, "unreachable": True, "limit": "speed"})
+        self.assertEqual((orifice["by"], orifice["verdict"]), (None, "missed"))
+
+    def test_what_current_a_recorded_run_endures(self):
+        """0.5 m of room: carried aside it touches in the plane, before 5.5 s, or is just through by then."""
+        current = self.reach(RING, "--current")["current"]
+        self.assertEqual(current["sampled"], [])
+        self.assertGreater(current["recorded"], 0.5 / 6)
+        self.assertLess(current["recorded"], 0.5 / 5)
+
+    def test_bad_input(self):
+        result = run("reach", self.write(balls()), "--quiet")
+        self.assertEqual((result.returncode, result.stdout), (2, ""))
+        self.assertRegex(result.stderr, r"\Avericone: bodies: got no agent with `through`, must be .+\n\Z")
+        result = run("reach", self.write(RING), "--directions", "0")
+        self.assertEqual(result.returncode, 2)
+        self.assertRegex(result.stderr, r"\Avericone: --directions: .+\n\Z")
+
+
 if __name__ == "__main__":
     unittest.main()

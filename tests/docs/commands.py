@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes docs/reference/commands.md from the helps of all commands, and docs/measured/commands.md by running them:
+"""Writes docs/reference/commands.md and the manual page from the helps of all commands, and docs/measured/commands.md by
+running them:
 
 /usr/bin/python3 tests/docs/commands.py reference build/release/apps/vericone > docs/reference/commands.md
+/usr/bin/python3 tests/docs/commands.py manual build/release/apps/vericone > apps/completion/vericone.1
 /usr/bin/python3 tests/docs/commands.py times build/release/apps/vericone > docs/measured/commands.md
 
-from the project's folder. commands_test.py holds the first page against the helps."""
+from the project's folder. commands_test.py holds the first two against the helps."""
 
 import os
 import re
@@ -28,6 +30,7 @@ EXAMPLES = {
     "fit": "fit build/scans/elephant.off --shape ellipsoid --pieces 4 --no-figures --quiet",
     "shapes": "shapes --figure notch --no-figures",
     "check": "check docs/examples/scenarios/clearance.yaml",
+    "reach": "reach docs/examples/scenarios/orifices.yaml --current --quiet",
     "simulate": "simulate docs/examples/scenarios/elephant.yaml --no-figures --quiet",
     "campaign": "campaign -N 500 --no-figures --quiet",
     "trials": "trials docs/examples/scenarios/noise.yaml -N 40 --levels x1,x2 --laws di,clearance --no-figures --quiet",
@@ -78,6 +81,23 @@ def reference(program):
             yield f"```console\n$ ./run {EXAMPLES[name]}{status}\n```\n"
 
 
+def roff(text):
+    """As it stands: no line is a request, no character a command."""
+    lines = text.replace("\\", "\\e").replace("-", "\\-").splitlines()
+    return "\n".join("\\&" + line if line[:1] in (".", "'") else line for line in lines)
+
+
+def manual(program):
+    yield '.TH VERICONE 1 "" "vericone" "User Commands"\n.SH NAME\nvericone \\- collision, rendezvous and orifice cones'
+    yield ".SH SYNOPSIS\n.B vericone\n.I COMMAND\n[options]"
+    yield ".SH DESCRIPTION\n" + roff("Computes the set of relative velocities that bring two moving bodies into contact, or"
+                                    " through an opening. Below are all commands as their helps have them; words, units and"
+                                    " file formats are in the pages of docs/reference.")
+    yield ".SH COMMANDS"
+    for name, summary in commands(program):
+        yield f".SS {roff(name)}\n{roff(summary)}.\n.PP\n.nf\n{roff(help_of(program, name))}\n.fi"
+
+
 def filled(text):
     return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False) + "\n"
 
@@ -118,5 +138,5 @@ def measured(program):
 
 if __name__ == "__main__":
     what, program_path = sys.argv[1:]
-    for part in (reference if what == "reference" else measured)(program_path):
-        print("\n".join(wrapped(line) for line in part.split("\n")))
+    for part in {"reference": reference, "manual": manual, "times": measured}[what](program_path):
+        print(part if what == "manual" else "\n".join(wrapped(line) for line in part.split("\n")))

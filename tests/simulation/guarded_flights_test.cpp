@@ -108,10 +108,10 @@ Scenario flight(std::uint64_t seed) {
 int sign_changes(const Track& track) {
   std::vector<double> times;
   Vector3d last = Vector3d::Zero();
-  for (const Arc& arc : track.arcs()) {
-    const Vector3d a = arc.acceleration(arc.from());
+  for (const auto& leg : track.legs()) {
+    const Vector3d a = leg->acceleration(leg->from());
     if (!(a.norm() > 1e-9)) continue;
-    if (last.dot(a) < 0) times.push_back(arc.from());
+    if (last.dot(a) < 0) times.push_back(leg->from());
     last = a;
   }
   std::size_t most = 0;

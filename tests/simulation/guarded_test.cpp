@@ -77,7 +77,7 @@ TEST(Guarded, HoldsStillWhereNothingThreatens) {
   Scenario scenario = of({ball("A", 0.3, {0, 0, 0}, {5, 0, 0}), ball("B", 1, {10, 3, 0}, {0, 0, 0})});
   scenario.bodies[0].pilot = pilot(Law::avoidance);
   const auto run = simulate(scenario);
-  EXPECT_EQ(run.tracks[0].arcs().size(), 1U);  // one straight line
+  EXPECT_EQ(run.tracks[0].legs().size(), 1U);  // one straight line
 }
 
 TEST(Guarded, SaysThatItCannotAvoid) {

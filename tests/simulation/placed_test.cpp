@@ -52,7 +52,7 @@ TEST(ProofOfPlaced, ShellsAreSolidBoxesFromOutside) {
     const Track a = moving(random, ellipsoid(axes), p, i % 2 == 0);
     const Track solid = moving(random, RigidShape{HullBody::box(-half, half)}, q, i % 4 < 2);
     Track hollow(RigidShape{Placed(shell(half))}, solid.motion(0), solid.orientation(), 0);
-    for (const Arc& arc : solid.arcs()) hollow.advance(solid.acceleration(arc.from()), arc.to());
+    for (const auto& leg : solid.legs()) hollow.advance(solid.acceleration(leg->from()), leg->to());
     if (pair_of(a.state(0).shape, solid.state(0).shape).relation() != Relation::disjoint) continue;
     const PairProof by_planes = prove(a, solid, 0, 5), by_distance = prove(a, hollow, 0, 5),
                     exchanged = prove(hollow, a, 0, 5);

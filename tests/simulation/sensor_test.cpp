@@ -142,7 +142,7 @@ TEST(Sensors, BoundedNoiseStaysWithinItsBallsAndFillsThem) {
 TEST(Sensors, APerfectSensorChangesNothing) {
   const simulation::Run truth = simulate(meeting(std::nullopt)),
                         seen = simulate(meeting(sensor_of(Noise::isotropic, 0, 0)));
-  ASSERT_EQ(truth.tracks[0].arcs().size(), seen.tracks[0].arcs().size());
+  ASSERT_EQ(truth.tracks[0].legs().size(), seen.tracks[0].legs().size());
   for (double t = 0; t <= 4; t += 0.1)
     EXPECT_EQ(truth.tracks[0].motion(t).position, seen.tracks[0].motion(t).position) << t;
   for (const SightSample& sample : seen.sights) {

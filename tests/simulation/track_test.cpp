@@ -137,7 +137,7 @@ TEST(Arc, TurnRateIsABound) {
       // Tracks level their start.
       Track track(RigidShape{CombinedEllipsoid(Ellipsoid())}, start, orientation, 0);
       track.advance(a, 2);
-      const Arc& arc = track.arcs()[0];
+      const Leg& arc = *track.legs()[0];
       const double h = 1e-5;
       for (int j = 0; j < 100; ++j) {
         const double t = random.uniform(0, 2 - h);
@@ -204,10 +204,10 @@ TEST(Track, ArcsJoin) {
   for (int j = 1; j <= 300; ++j)
     track.advance(j % 4 == 0 ? Vector3d::Zero() : random.vector(10), 1.5 + 0.01 * j);
   EXPECT_EQ(track.end(), 4.5);
-  for (std::size_t i = 0; i + 1 < track.arcs().size(); ++i) {
-    const double t = track.arcs()[i].to();
-    EXPECT_EQ(t, track.arcs()[i + 1].from());
-    expect_same(track.arcs()[i].end(), track.motion(t), 1e-13);
+  for (std::size_t i = 0; i + 1 < track.legs().size(); ++i) {
+    const double t = track.legs()[i]->to();
+    EXPECT_EQ(t, track.legs()[i + 1]->from());
+    expect_same(track.legs()[i]->end(), track.motion(t), 1e-13);
   }
   // Over any interval the position is within |a| dt^2 / 8 of its chord.
   for (int j = 0; j < 500; ++j) {
@@ -228,7 +228,7 @@ TEST(Track, StraightArcsAreOne) {
   Track track(RigidShape{CombinedEllipsoid(Ellipsoid())}, {{0, 0, 0}, {1, 2, 3}, Matrix3d::Identity()},
               Orientation::fixed, 0);
   for (int i = 1; i <= 100; ++i) track.advance(Vector3d::Zero(), 0.1 * i);
-  EXPECT_EQ(track.arcs().size(), 1u);
+  EXPECT_EQ(track.legs().size(), 1u);
   EXPECT_TRUE(track.motion(10).position.isApprox(Vector3d(10, 20, 30), 1e-15));
   EXPECT_THROW(track.advance(Vector3d::Zero(), 10), InputError);
 }

@@ -5,7 +5,7 @@ import os
 
 import numpy as np
 
-WORDS = ("body", "agent", "obstacle", "event", "status", "unit")
+WORDS = ("body", "agent", "obstacle", "orifice", "event", "status", "unit")
 
 
 def number(text):

@@ -19,7 +19,9 @@ namespace {
 
 int cone_command(CommandLine& line) {
   ConeCommand cone;
-  line.option("scene", cone.scene, "Scene file, YAML (docs/reference/formats.md)").required();
+  line.option("scene", cone.scene, "Scene file, YAML (docs/reference/formats.md); - for standard input")
+      .required();
+  line.flag("--cases", cone.cases, "The file has a scene on every line, as JSON; prints an answer a line");
   line.option("--method", cone.method,
               "exact: the true cone with its error bound; slice: the source's, too small");
   line.option("--planes", cone.planes,
@@ -54,8 +56,7 @@ int cone_command(CommandLine& line) {
     if (!resolution.empty()) cone.map->resolution = resolution.front();
     if (!around.empty()) cone.map->around = Eigen::Vector3d(around[0], around[1], around[2]);
   }
-  run_cone(cone, std::cout);
-  return 0;
+  return run_cone(cone, std::cout);
 }
 
 int query_command(CommandLine& line) {

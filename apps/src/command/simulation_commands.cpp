@@ -8,6 +8,7 @@
 #include "paper/figures_command.h"
 #include "paper/new_paper.h"
 #include "simulate/check_command.h"
+#include "simulate/reach_command.h"
 #include "simulate/simulate_command.h"
 #include "trials/trials_command.h"
 
@@ -33,8 +34,27 @@ int check_command(CommandLine& line) {
               "Scene, scenario, body, figures or claims, YAML (docs/reference/formats.md, "
               "docs/reference/scenarios.md, docs/reference/papers.md)")
       .required();
+  bool json = false;
+  line.flag("--json", json, "Print JSON: labels with their texts");
+  line.quiet();
   line.read();
-  return run_check(file, std::cout);
+  return run_check(file, json, std::cout);
+}
+
+int reach_command(CommandLine& line) {
+  ReachOptions reach;
+  line.option("scenario", reach.scenario, "Scenario file, YAML: an agent or more with `through`").required();
+  line.flag(
+      "--current", reach.current,
+      "Also the largest current with which every passage is still proved: of the run as recorded, and of "
+      "vehicles flown again in currents (sampled)");
+  line.option("--directions", reach.directions, "Horizontal directions of currents to fly again in")
+      .within(1, 360);
+  line.option("--runs", reach.runs, "Runs in each").within(1, 100);
+  line.flag("--quiet", reach.quiet, "No progress");
+  line.flag("--json", reach.json, "Print JSON");
+  line.read();
+  return run_reach(reach, std::cout);
 }
 
 int trials_command(CommandLine& line) {
@@ -131,9 +151,9 @@ int paper_command(CommandLine& line) {
 }  // namespace
 
 std::map<std::string, Command> simulation_commands() {
-  return {{"check", check_command},   {"simulate", simulate_command}, {"campaign", campaign_command},
-          {"trials", trials_command}, {"claims", claims_command},     {"figures", figures_command},
-          {"paper", paper_command}};
+  return {{"check", check_command},       {"reach", reach_command},   {"simulate", simulate_command},
+          {"campaign", campaign_command}, {"trials", trials_command}, {"claims", claims_command},
+          {"figures", figures_command},   {"paper", paper_command}};
 }
 
 }  // namespace vericone

@@ -12,12 +12,15 @@
 #include <filesystem>
 #include <numbers>
 #include <ostream>
+#include <sstream>
 
+#include "command/cases.h"
 #include "cone/course.h"
 #include "cone/degrees.h"
 #include "cone/planar_cone.h"
 #include "cone/quadric_cone.h"
 #include "cone/shape_engagements.h"
+#include "input/body.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/figures.h"
@@ -176,10 +179,9 @@ void require_measurable(const scenes::Scene& scene) {
 
 }  // namespace
 
-void run_cone(const ConeCommand& options, std::ostream& out) {
-  if (options.method != "exact" && options.method != "slice")
-    throw InputError("--method", options.method, "slice or exact");
-  const scenes::Scene scene = scenes::read_scene(options.scene);
+namespace {
+
+void cone_of_scene(const ConeCommand& options, const scenes::Scene& scene, std::ostream& out) {
   if (has_assembly_cone(scene)) return run_pieces_cone(options, scene, out);
   if (!scene.agent.quadric() || !scene.obstacle.quadric()) return run_pair_cone(options, scene, out);
   require_measurable(scene);
@@ -204,6 +206,29 @@ void run_cone(const ConeCommand& options, std::ostream& out) {
   write_whole(folder->path() / "engagement.json", picture.data.dump(1) + "\n");
   write_whole(folder->path() / "shapes.json", Json{{"figures", {"engagement"}}}.dump(1) + "\n");
   publish_cone(options, *folder, map.picture, picture.script, "engagement", out);
+}
+
+}  // namespace
+
+int run_cone(const ConeCommand& options, std::ostream& out) {
+  if (options.method != "exact" && options.method != "slice")
+    throw InputError("--method", options.method, "slice or exact");
+  if (!options.cases) {
+    cone_of_scene(options, scenes::read_scene(options.scene), out);
+    return 0;
+  }
+  if (!options.picture_folder.empty())
+    throw InputError("--out", options.picture_folder, "left out with --cases: pictures are of one scene");
+  ConeCommand each = options;
+  each.json = true;
+  const std::filesystem::path folder =
+      options.scene == "-" ? "" : std::filesystem::path(options.scene).parent_path();
+  const auto answer = [&](const Json& value) {
+    std::ostringstream text;
+    cone_of_scene(each, input::read_engagement(value, input::Velocities::optional, {"id"}, folder), text);
+    return Json::parse(text.str());
+  };
+  return answer_cases(options.scene, answer, out);
 }
 
 }  // namespace vericone

@@ -19,6 +19,7 @@ inline constexpr int kDefaultPlanes = 36;
 
 struct ConeCommand {
   std::string scene;
+  bool cases = false;               // a scene on every line, as JSON
   std::string method = "exact";     // or "slice"
   std::optional<int> planes;        // slice; half-planes of a body of pieces
   std::string tangents = "all";     // slice: or the source's choices, "by-sides", "printed"
@@ -32,8 +33,9 @@ struct ConeCommand {
 };
 
 /// `vericone cone`: the cone of one scene, as text or JSON (docs/reference/formats.md), with a picture if
-/// asked for.
-void run_cone(const ConeCommand& options, std::ostream& out);
+/// asked for; or of the scenes of a file of cases, one line of JSON each. Returns the exit status: 0, or 2 if
+/// a line was bad.
+int run_cone(const ConeCommand& options, std::ostream& out);
 
 /// The end of a picture: the map's data, both drawn by their scripts, all of it published and told.
 /// `picture`: the name of what `script` draws.

@@ -125,7 +125,7 @@ Table Measures::table_of(const Series& series, Scope& scope) {
   if (!series.command.empty()) return sources_.table(series.command, series.table, series.path + ".table");
   const PaperRun& run = sources_.run(series.run, series.path + ".run");
   for (const auto& [column, word] : series.words)
-    if (column == "body" || column == "agent" || column == "obstacle")
+    if (column == "body" || column == "agent" || (column == "obstacle" && series.table != "events"))
       run.index_of(word, series.path + "." + column);
   const std::string agent = series.word("agent"), obstacle = series.word("obstacle");
   if (series.trial || series.table == "looks") {

@@ -37,6 +37,25 @@ Table proofs_of(const simulation::Scenario& scenario, const simulation::Run& run
   return table;
 }
 
+Table passages_of(const simulation::Scenario& scenario, const simulation::Run& run) {
+  Table table;
+  for (const simulation::PassageOutcome& passage : run.passages) {
+    using enum simulation::PassageVerdict;
+    const simulation::PassageProof& proof = passage.proof;
+    ++table.rows;
+    table.words["agent"].push_back(scenario.bodies[passage.agent].name);
+    table.words["orifice"].push_back(scenario.orifices[passage.orifice].name);
+    for (const auto verdict : {passed, touched, missed, undecided})
+      table.numbers[to_string(verdict)].push_back(proof.verdict == verdict);
+    table.numbers["time"].push_back(proof.verdict == passed ? proof.time : kNothing);
+    table.numbers["from"].push_back(proof.from);
+    table.numbers["to"].push_back(proof.to);
+    table.numbers["least_distance"].push_back(
+        proof.verdict == passed || proof.verdict == missed ? proof.least_distance : kNothing);
+  }
+  return table;
+}
+
 double passed(const PaperRun& run, const std::string& agent, const std::string& obstacle) {
   const auto event =
       simulation::find_event(run.scenario, run.run, simulation::EventKind::passes, agent, obstacle);
@@ -77,10 +96,18 @@ const Table& PaperRun::table(const std::string& name, const std::string& path) c
     made = table_of_csv(scenario::sights_csv(scenario, run));
   else if (name == "events")
     made = table_of_csv(scenario::events_csv(scenario, run));
+  else if (name == "orifices")
+    made = table_of_csv(scenario::orifices_csv(scenario, run));
+  else if (name == "vehicles")
+    made = table_of_csv(scenario::vehicles_csv(scenario, run));
   else if (name == "proofs")
     made = proofs_of(scenario, run);
+  else if (name == "passages")
+    made = passages_of(scenario, run);
   else
-    throw InputError(path, name, "bodies, encounters, planes, sights, events, looks or proofs");
+    throw InputError(
+        path, name,
+        "bodies, encounters, planes, sights, orifices, vehicles, events, looks, proofs or passages");
   if (name == "encounters" || name == "planes" || name == "sights") add_passed(made, *this);
   return tables_.emplace(name, std::move(made)).first->second;
 }

@@ -13,7 +13,7 @@ constexpr std::pair<const char*, Value::Kind> kTaken[] = {
     {"first", Value::Kind::first},       {"last", Value::Kind::last}, {"least", Value::Kind::least},
     {"greatest", Value::Kind::greatest}, {"mean", Value::Kind::mean}, {"sum", Value::Kind::sum},
     {"count", Value::Kind::count}};
-constexpr const char* kWords[] = {"body", "agent", "obstacle", "event", "status"};
+constexpr const char* kWords[] = {"body", "agent", "obstacle", "orifice", "event", "status"};
 
 Named read_named(const Json& given, const std::string& path) {
   require_object(given, path);
@@ -58,9 +58,9 @@ std::string Series::word(const std::string& column) const {
 }
 
 const std::vector<std::string>& series_fields() {
-  static const std::vector<std::string> fields{"run",      "command", "table",  "body",  "agent",
-                                               "obstacle", "event",   "status", "trial", "range",
-                                               "beside",   "with",    "where"};
+  static const std::vector<std::string> fields{"run",      "command", "table", "body",   "agent",
+                                               "obstacle", "orifice", "event", "status", "trial",
+                                               "range",    "beside",  "with",  "where"};
   return fields;
 }
 

@@ -29,10 +29,10 @@ struct PaperRun {
 
   /// Index of a body in the scenario. Throws InputError naming `path`.
   std::size_t index_of(const std::string& body, const std::string& path) const;
-  /// bodies, encounters, planes, sights and events as `vericone simulate` writes them
-  /// (docs/reference/scenarios.md), and proofs: every pair in both orders. encounters, planes and sights have
-  /// a column `passed` more: when the run says that the agent passes that obstacle. Throws InputError naming
-  /// `path` where there is no such table.
+  /// bodies, encounters, planes, sights, orifices, vehicles and events as `vericone simulate` writes them
+  /// (docs/reference/scenarios.md), and proofs: every pair in both orders; passages: every one. encounters,
+  /// planes and sights have a column `passed` more: when the run says that the agent passes that obstacle.
+  /// Throws InputError naming `path` where there is no such table.
   const Table& table(const std::string& name, const std::string& path) const;
   /// An encounter at every step from when both are there to the end of the run, whatever the run itself logs
   /// of it: the slices' cone on the plane where they open most. Columns t, r, y, psi, theta, theta_b, V_r,

@@ -48,8 +48,8 @@ Outcome judge(const Run& run, const GuideOptions& guide, double step) {
   settle(proof, run.tracks[0], run.tracks[1], run.end, outcome);
   const double until = outcome.fate == Fate::met ? proof.from : run.end;
   outcome.called_safe = last_word_safe(run, guide, step, until);
-  for (const Arc& arc : run.tracks[0].arcs())
-    if (arc.from() <= until) outcome.peak = std::max(outcome.peak, arc.most_acceleration());
+  for (const auto& leg : run.tracks[0].legs())
+    if (leg->from() <= until) outcome.peak = std::max(outcome.peak, leg->most_acceleration());
   for (const Event& event : run.events)
     if (event.kind == EventKind::leaves_cone && event.t <= until) {
       outcome.left_cone = event.t;

@@ -210,8 +210,8 @@ std::vector<Figure> Paper::chosen(const std::vector<std::string>& ids) const {
   return list;
 }
 
-void print_paper(const Paper& paper, const std::string& file, std::ostream& out) {
-  scenario::print_line(out, "paper", paper.title);
+void describe(const Paper& paper, const std::string& file, scenario::Facts& facts) {
+  facts.add("paper", paper.title);
   if (fs::path(file).filename() == "figures.yaml")
     for (const Figure& figure : paper.figures) {
       std::string runs;
@@ -220,17 +220,16 @@ void print_paper(const Paper& paper, const std::string& file, std::ostream& out)
                               : !figure.script.empty() ? "by figures/" + figure.script
                               : figure.panels.empty()  ? figure.drawing
                                                        : std::to_string(figure.panels.size()) + " panels";
-      scenario::print_line(out, figure.id, how + runs);
+      facts.add(figure.id, how + runs);
     }
   else
     for (const ClaimEntry& entry : paper.claims()) {
       const Claim& claim = entry.claim;
-      scenario::print_line(out, claim.id,
-                           std::string(claim.given   ? "goes in: "
-                                       : entry.holds ? "a statement: "
-                                                     : "a number: ") +
-                               claim.printed + (claim.fit ? "; belongs to the fit " + claim.fit->name : "") +
-                               "; if it does not agree: " + to_string(entry.otherwise));
+      facts.add(claim.id, std::string(claim.given   ? "goes in: "
+                                      : entry.holds ? "a statement: "
+                                                    : "a number: ") +
+                              claim.printed + (claim.fit ? "; belongs to the fit " + claim.fit->name : "") +
+                              "; if it does not agree: " + to_string(entry.otherwise));
     }
 }
 

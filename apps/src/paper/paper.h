@@ -12,6 +12,7 @@
 
 #include "json/json_value.h"
 #include "paper/claim.h"
+#include "simulate/run_text.h"
 
 namespace vericone::paper {
 
@@ -78,7 +79,7 @@ class Paper {
 };
 
 /// What the figures or the claims of a paper's file are, one a line, in plain words.
-void print_paper(const Paper& paper, const std::string& file, std::ostream& out);
+void describe(const Paper& paper, const std::string& file, scenario::Facts& facts);
 
 /// The parts that figures.yaml is made of. Throws InputError naming the field.
 std::vector<Figure> read_figures(const Json& fields);

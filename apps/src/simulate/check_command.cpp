@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
-using scenario::print_line, scenes::body_words, scenes::motion_words, scenes::brief;
+using scenes::body_words, scenes::motion_words, scenes::brief;
 
 std::string guarantee_words(const Pair& pair) {
   const Guarantee guarantee = pair.guarantee();
@@ -40,78 +40,78 @@ std::string now_words(const Pair& pair) {
   return brief(miss.distance) + " m apart";
 }
 
-void check_scene(const Json& fields, const std::string& file, std::ostream& out) {
+void check_scene(const Json& fields, const std::string& file, scenario::Facts& facts) {
   const scenes::Scene scene = input::scene_of(fields, file);
   const Pair pair = scene.pair();
   const Vector3d &v_a = scene.agent.velocity, &v_b = scene.obstacle.velocity;
   const bool planar = scene.planar.has_value();
-  print_line(out, "scene", file);
-  print_line(out, "agent",
-             (planar ? body_words(scene.planar->agent) : body_words(scene.agent.placed)) + "; " +
-                 motion_words(v_a, planar));
-  print_line(out, "obstacle",
-             (planar ? body_words(scene.planar->obstacle) : body_words(scene.obstacle.placed)) + "; " +
-                 motion_words(v_b, planar));
-  print_line(out, "now", now_words(pair));
-  print_line(out, "answers", guarantee_words(pair));
-  if (fields.contains("lidars")) print_line(out, "lidars", std::to_string(fields["lidars"].size()));
-  if (v_a == v_b) print_line(out, "note", "the velocities are equal: they never meet");
+  facts.add("scene", file);
+  facts.add("agent", (planar ? body_words(scene.planar->agent) : body_words(scene.agent.placed)) + "; " +
+                         motion_words(v_a, planar));
+  facts.add("obstacle", (planar ? body_words(scene.planar->obstacle) : body_words(scene.obstacle.placed)) +
+                            "; " + motion_words(v_b, planar));
+  facts.add("now", now_words(pair));
+  facts.add("answers", guarantee_words(pair));
+  if (fields.contains("lidars")) facts.add("lidars", std::to_string(fields["lidars"].size()));
+  if (v_a == v_b) facts.add("note", "the velocities are equal: they never meet");
 }
 
-void check_scenario(const Json& fields, const std::string& file, std::ostream& out) {
+void check_scenario(const Json& fields, const std::string& file, scenario::Facts& facts) {
   const simulation::Scenario scenario =
       scenario::read_scenario(fields, fs::path(file).stem().string(), fs::path(file).parent_path());
-  print_line(out, "scenario", file);
-  print_line(out, "time",
-             brief(scenario.duration) + " s at most, commands every " + brief(scenario.step) + " s");
+  facts.add("scenario", file);
+  facts.add("time", brief(scenario.duration) + " s at most, commands every " + brief(scenario.step) + " s");
   for (const simulation::Body& body : scenario.bodies) {
     std::string text = scenario::shape_words(body) + "; " +
                        motion_words(body.start.velocity, simulation::planar(body.shape));
     if (body.appears > 0) text += "; appears at " + brief(body.appears) + " s";
-    print_line(out, body.name, text);
-    if (body.pilot) print_line(out, "", scenario::agent_text(scenario, body));
+    facts.add(body.name, text);
+    if (body.pilot) facts.add("", scenario::agent_text(scenario, body));
     if (body.pilot && body.pilot->goal)
-      print_line(out, "",
-                 "goal (" + brief(body.pilot->goal->point.x()) + ", " + brief(body.pilot->goal->point.y()) +
-                     ", " + brief(body.pilot->goal->point.z()) + ") m");
+      facts.add("", "goal (" + brief(body.pilot->goal->point.x()) + ", " +
+                        brief(body.pilot->goal->point.y()) + ", " + brief(body.pilot->goal->point.z()) +
+                        ") m");
   }
   const auto pilots = std::count_if(scenario.bodies.begin(), scenario.bodies.end(),
                                     [](const simulation::Body& body) { return body.pilot.has_value(); });
   const std::size_t count = scenario.bodies.size();
-  print_line(out, "pairs", std::to_string(count * (count - 1) / 2) + ", each proved apart or met");
-  if (pilots == 0) print_line(out, "note", "no body has a pilot: all go straight on");
+  for (const simulation::MovingOrifice& orifice : scenario.orifices)
+    facts.add(orifice.name, scenario::orifice_words(orifice));
+  facts.add("pairs", std::to_string(count * (count - 1) / 2) + ", each proved apart or met");
+  if (pilots == 0) facts.add("note", "no body has a pilot: all go straight on");
 }
 
-void check_body(const std::string& file, std::ostream& out) {
+void check_body(const std::string& file, scenario::Facts& facts) {
   const fs::path path(file);
   const Json named{{"file", path.filename().string()}};
-  print_line(out, "body", file);
+  facts.add("body", file);
   // A planar one has two numbers where others have three.
   const Json body = input::body_fields(named, "", path.parent_path());
   const bool planar = body.contains("center") && body["center"].is_array() && body["center"].size() == 2;
-  print_line(out, "is",
-             planar ? body_words(input::read_planar_body(body, ""))
-                    : body_words(input::read_body(body, "", path.parent_path()).placed));
-  print_line(out, "use it",
-             "obstacle: {file: " + path.filename().string() +
-                 "} in a scene or a case, {name: B, file: " + path.filename().string() + "} in a scenario");
+  facts.add("is", planar ? body_words(input::read_planar_body(body, ""))
+                         : body_words(input::read_body(body, "", path.parent_path()).placed));
+  facts.add("use it", "obstacle: {file: " + path.filename().string() +
+                          "} in a scene or a case, {name: B, file: " + path.filename().string() +
+                          "} in a scenario");
 }
 
 }  // namespace
 
-int run_check(const std::string& file, std::ostream& out) {
+int run_check(const std::string& file, bool json, std::ostream& out) {
   const Json fields = input::read_scene_fields(file);
   if (!fields.is_object())
     throw InputError(file, input::quoted(fields),
                      "a scene, a scenario, a body, or figures or claims of a paper: a mapping of fields");
+  scenario::Facts facts;
   if (fields.contains("figures") || fields.contains("claims"))
-    paper::print_paper(paper::Paper(fs::absolute(file).parent_path().string()), file, out);
+    paper::describe(paper::Paper(fs::absolute(file).parent_path().string()), file, facts);
   else if (fields.contains("bodies"))
-    check_scenario(fields, file, out);
+    check_scenario(fields, file, facts);
   else if (fields.contains("agent"))
-    check_scene(fields, file, out);
+    check_scene(fields, file, facts);
   else
-    check_body(file, out);
+    check_body(file, facts);
+  facts.print(json, out);
   return 0;
 }
 

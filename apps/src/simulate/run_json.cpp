@@ -82,6 +82,25 @@ Json shape_json(const ShapeInTime& shape) {
   return {{"kind", "dented_quadric"}, {"dented", vector_json(axes)}, {"k", k_json(*shape.k())}};
 }
 
+Json passages_json(const Scenario& scenario, const Run& run) {
+  Json list = Json::array();
+  for (const PassageOutcome& passage : run.passages) {
+    const PassageProof& proof = passage.proof;
+    const bool apart = proof.verdict == PassageVerdict::passed || proof.verdict == PassageVerdict::missed;
+    list.push_back({{"agent", scenario.bodies[passage.agent].name},
+                    {"orifice", scenario.orifices[passage.orifice].name},
+                    {"ordered", passage.ordered},
+                    {"verdict", to_string(proof.verdict)},
+                    {"time", proof.verdict == PassageVerdict::passed ? Json(proof.time) : Json(nullptr)},
+                    {"from", proof.from},
+                    {"to", proof.to},
+                    {"least_distance", apart ? Json(proof.least_distance) : Json(nullptr)},
+                    {"place", vector_json(proof.place)},
+                    {"pieces", proof.pieces}});
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string shape_words(const simulation::Body& body) {
@@ -121,9 +140,44 @@ Json proof_json(const Scenario& scenario, const Run& run) {
         {{"a", scenario.bodies[pair.a].name},
          {"b", scenario.bodies[pair.b].name},
          {"why", pair.why == NotChecked::Why::together ? "together" : "no certified predicate"}});
-  return {{"verdict", run.proofs.empty() ? "none" : to_string(run.verdict())},
-          {"pairs", pairs},
-          {"not_checked", not_checked}};
+  Json json{{"verdict", run_verdict(run)}, {"pairs", pairs}, {"not_checked", not_checked}};
+  if (!scenario.orifices.empty()) json["passages"] = passages_json(scenario, run);
+  return json;
+}
+
+std::string run_verdict(const Run& run) {
+  const ProofVerdict worst = run.verdict();
+  if (worst != ProofVerdict::avoided) return to_string(worst);
+  bool ordered = false;
+  for (const PassageOutcome& passage : run.passages) {
+    if (passage.ordered && passage.proof.verdict == PassageVerdict::missed)
+      return to_string(PassageVerdict::missed);
+    ordered |= passage.ordered;
+  }
+  if (ordered) return to_string(PassageVerdict::passed);
+  return run.proofs.empty() ? "none" : to_string(worst);
+}
+
+Json orifices_json(const Scenario& scenario) {
+  Json list = Json::array();
+  for (const MovingOrifice& orifice : scenario.orifices) {
+    Json outline;
+    if (orifice.opening.polygonal()) {
+      outline = {{"polygon", Json::array()}};
+      for (const Eigen::Vector2d& x : orifice.opening.vertices())
+        outline["polygon"].push_back(vector_json(x));
+    } else {
+      outline = {{"semi_axes", vector_json(orifice.opening.semi_axes())}};
+    }
+    list.push_back({{"name", orifice.name},
+                    {"opening", outline},
+                    {"position", vector_json(orifice.position)},
+                    {"velocity", vector_json(orifice.velocity)},
+                    {"rotation", matrix_json(orifice.rotation)},
+                    {"spin", vector_json(orifice.spin)},
+                    {"wall", orifice.wall}});
+  }
+  return list;
 }
 
 Json shapes_json(const Scenario& scenario) {

@@ -23,8 +23,10 @@ std::vector<double> command_times(const Scenario& scenario, const Run& run) {
   std::vector<double> times{run.end};
   for (std::uint64_t k = 0; time_of_step(scenario, k) < run.end; ++k)
     times.push_back(time_of_step(scenario, k));
-  for (const Track& track : run.tracks)
-    for (const Arc& arc : track.arcs()) times.push_back(arc.from());
+  for (std::size_t i = 0; i < run.tracks.size(); ++i) {
+    if (scenario.bodies[i].vehicle) continue;  // its legs are the solver's steps
+    for (const auto& leg : run.tracks[i].legs()) times.push_back(leg->from());
+  }
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
@@ -153,24 +155,75 @@ std::string sights_csv(const Scenario& scenario, const Run& run) {
   return table;
 }
 
+std::string orifices_csv(const Scenario& scenario, const Run& run) {
+  std::string table =
+      "t [s],agent,orifice,r [m],theta [rad],phi [rad],V_r [m/s],V_theta [m/s],V_phi [m/s],y [m^2],m [m],"
+      "from_plane [m],a [m/s^2],demanded [m/s^2],delta [rad],gamma [rad],status\n";
+  for (const OrificeSample& s : run.orifices) {
+    const guidance::SpatialState& state = s.state;
+    const bool ours = scenario.bodies[s.agent].pilot->through->law == Through::Law::passage;
+    CsvRow row(table);
+    row.number(s.t).text(scenario.bodies[s.agent].name).text(scenario.orifices[s.orifice].name);
+    row.number(state.r).number(state.theta).number(state.phi);
+    row.number(state.v_r).number(state.v_theta).number(state.v_phi);
+    row.number(s.command.y).number(ours ? s.command.m : kNothing).number(s.from_plane);
+    command_fields(row, s.command.acceleration, s.command.demanded);
+    row.text(to_string(s.command.status));
+  }
+  return table;
+}
+
+std::string vehicles_csv(const Scenario& scenario, const Run& run) {
+  std::vector<std::string> columns;  // of all kinds
+  std::vector<std::vector<std::size_t>> places(scenario.bodies.size());
+  for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
+    if (!scenario.bodies[i].vehicle) continue;
+    for (const std::string& name : scenario.bodies[i].vehicle->channels()) {
+      const auto at = std::find(columns.begin(), columns.end(), name);
+      places[i].push_back(std::size_t(at - columns.begin()));
+      if (at == columns.end()) columns.push_back(name);
+    }
+  }
+  std::string table = "t [s],body";
+  for (const std::string& name : columns) table += "," + name;
+  table += "\n";
+  for (const VehicleSample& s : run.vehicles) {
+    std::vector<double> values(columns.size(), kNothing);
+    for (std::size_t k = 0; k < s.values.size(); ++k) values[places[s.body][k]] = s.values[k];
+    CsvRow row(table);
+    row.number(s.t).text(scenario.bodies[s.body].name);
+    for (const double value : values) row.number(value);
+  }
+  return table;
+}
+
 std::string events_csv(const Scenario& scenario, const Run& run) {
   std::string table = "t [s],event,agent,obstacle,value,unit\n";
   for (const Event& event : run.events) {
     const std::string unit = unit_of(scenario, event);
     CsvRow row(table);
     row.number(event.t).text(to_string(event.kind)).text(scenario.bodies[event.agent].name);
-    row.text(has_obstacle(event) ? scenario.bodies[event.obstacle].name : "");
+    row.text(obstacle_of(scenario, event));
     row.number(unit.empty() ? kNothing : event.value).text(unit);
   }
   return table;
 }
 
-bool has_obstacle(const Event& event) { return event.agent != event.obstacle; }
+bool of_orifice(const Event& event) {
+  return event.kind == EventKind::goes_through || event.kind == EventKind::goes_beside;
+}
+
+std::string obstacle_of(const Scenario& scenario, const Event& event) {
+  if (of_orifice(event)) return scenario.orifices[event.obstacle].name;
+  return event.agent != event.obstacle ? scenario.bodies[event.obstacle].name : "";
+}
 
 std::string unit_of(const Scenario& scenario, const Event& event) {
   switch (event.kind) {
     case EventKind::passes:
     case EventKind::cannot_avoid:
+    case EventKind::goes_through:
+    case EventKind::goes_beside:
       return "m";
     case EventKind::contact:
       return "s";

@@ -37,7 +37,7 @@ void print_bodies(const Scenario& scenario, std::ostream& out) {
 }
 
 std::string event_text(const Scenario& scenario, const Event& event) {
-  const std::string agent = scenario.bodies[event.agent].name, other = scenario.bodies[event.obstacle].name;
+  const std::string agent = scenario.bodies[event.agent].name, other = obstacle_of(scenario, event);
   const std::string unit = unit_of(scenario, event);
   switch (event.kind) {
     case EventKind::appears:
@@ -58,6 +58,11 @@ std::string event_text(const Scenario& scenario, const Event& event) {
       return agent + " reaches its goal";
     case EventKind::cannot_avoid:
       return agent + " finds no course that avoids " + other;
+    case EventKind::goes_through:
+    case EventKind::goes_beside:
+      return agent +
+             (event.kind == EventKind::goes_through ? " goes through " : " crosses the plane beside ") +
+             other + ", " + brief(event.value) + " m from its centre";
     case EventKind::contact:
       return agent + " and " + other + " meet: apart before " + brief(event.value) + " s, proved";
   }
@@ -72,8 +77,12 @@ std::string not_kept(const PairOutcome& pair) {
 /// The worst of all pairs, and what it leaves out.
 std::string verdict_text(const Scenario& scenario, const Run& run) {
   const ProofVerdict verdict = run.verdict();
-  std::string text = run.proofs.empty() ? "none: no pair of bodies could be checked" : to_string(verdict);
-  if (!run.proofs.empty() && verdict != ProofVerdict::undecided) text += ", proved";
+  std::string text = scenario.orifices.empty() ? to_string(verdict) : run_verdict(run);
+  if (run.proofs.empty() && run.passages.empty()) {
+    text = "none: no pair of bodies could be checked";
+  } else if (verdict != ProofVerdict::undecided) {
+    text += ", proved";
+  }
   const PairOutcome* worst = nullptr;
   for (const PairOutcome& pair : run.proofs)
     if (verdict == ProofVerdict::avoided && !pair.kept() &&
@@ -118,9 +127,40 @@ void print_pair(const Scenario& scenario, const PairOutcome& pair, std::ostream&
   }
 }
 
+void print_passages(const Scenario& scenario, const Run& run, std::ostream& out) {
+  for (const PassageOutcome& passage : run.passages) {
+    const PassageProof& proof = passage.proof;
+    const std::string names =
+        scenario.bodies[passage.agent].name + " through " + scenario.orifices[passage.orifice].name + ": ";
+    const Eigen::Vector3d& x = proof.place;
+    const std::string place = " at (" + brief(x.x()) + ", " + brief(x.y()) + ", " + brief(x.z()) + ") m";
+    const std::string rim = at_least_text(proof.least_distance, 4) + " m or more from the rim";
+    switch (proof.verdict) {
+      case PassageVerdict::passed:
+        print_line(out, "", names + "passed at " + brief(proof.time) + " s, " + rim + ", proved");
+        break;
+      case PassageVerdict::missed:
+        print_line(out, "", names + (passage.ordered ? "missed" : "not passed") + ", " + rim + ", proved");
+        break;
+      case PassageVerdict::touched:
+        print_line(out, "",
+                   names + "apart before " +
+                       bounds_text(proof.from, proof.to, " s, touching rim or wall at ") + " s" + place +
+                       ", both proved");
+        break;
+      case PassageVerdict::undecided:
+        print_line(out, "",
+                   names + "nearer than the proof resolves between " + bounds_text(proof.from, proof.to) +
+                       " s, near" + place);
+        break;
+    }
+  }
+}
+
 /// What a reader wants to see of many events.
 bool decisive(EventKind kind) {
-  return kind == EventKind::contact || kind == EventKind::cannot_avoid || kind == EventKind::reaches_goal;
+  return kind == EventKind::contact || kind == EventKind::cannot_avoid || kind == EventKind::reaches_goal ||
+         kind == EventKind::goes_through || kind == EventKind::goes_beside;
 }
 
 constexpr std::size_t kMostEvents = 30, kMostPairs = 10, kNearestPairs = 5;
@@ -164,11 +204,25 @@ void print_pairs(const Scenario& scenario, const Run& run, std::ostream& out) {
                  " of them avoided, proved: proof.json");
 }
 
+std::string through_text(const std::string& agent, const Through& through) {
+  const bool ours = through.law == Through::Law::passage;
+  std::string text = agent + ": " + to_string(through.law) + " through ";
+  for (std::size_t i = 0; i < through.orifices.size(); ++i)
+    text += (i == 0 ? "" : ", ") + through.orifices[i];
+  text += ours ? ", " + brief(through.passage.margin) + " m from the rim"
+               : ", w " + brief(through.source.reference) + " m^2";
+  text += ", gain " + brief(through.source.gain) + "/s";
+  if (const double most = ours ? through.passage.most : through.source.most; std::isfinite(most))
+    text += ", at most " + brief(most) + " m/s^2";
+  return text;
+}
+
 }  // namespace
 
 std::string agent_text(const Scenario& scenario, const simulation::Body& body) {
   const Pilot& pilot = *body.pilot;
   const guidance::GuideOptions& guide = pilot.guide;
+  if (pilot.through) return through_text(body.name, *pilot.through);
   std::string text = body.name + ": " + guidance::to_string(guide.law);
   if (guide.law == guidance::Law::clearance) {
     text += " to " + brief(guide.clearance.required) + " m";
@@ -183,19 +237,54 @@ std::string agent_text(const Scenario& scenario, const simulation::Body& body) {
   return text + (scenario.bodies.size() > 2 ? minds : "");
 }
 
+std::string orifice_words(const MovingOrifice& orifice) {
+  const Eigen::Vector2d& axes = orifice.opening.semi_axes();
+  const Eigen::Vector3d n = orifice.rotation.col(2), &v = orifice.velocity, &p = orifice.position;
+  const auto list = [](const Eigen::Vector3d& x) {
+    return "(" + brief(x.x()) + ", " + brief(x.y()) + ", " + brief(x.z()) + ")";
+  };
+  std::string text = orifice.opening.polygonal()
+                         ? "opening with " + std::to_string(orifice.opening.vertices().size()) + " corners"
+                     : axes.x() == axes.y() ? "round opening, radius " + brief(axes.x()) + " m"
+                                            : "elliptic opening, semi-axes " + brief(axes.x()) + " and " +
+                                                  brief(axes.y()) + " m";
+  text += orifice.wall ? " in a wall" : ", its rim alone";
+  text += ", at " + list(p) + " m, normal " + list(n);
+  text += v.isZero(0) ? ", at rest" : ", velocity " + list(v) + " m/s";
+  if (!orifice.spin.isZero(0)) text += ", turning at " + list(orifice.spin) + " rad/s";
+  return text;
+}
+
 void print_line(std::ostream& out, std::string label, const std::string& text) {
   label.resize(std::max<std::size_t>(20, label.size() + 1), ' ');
   out << label << text << '\n';
+}
+
+void Facts::print(bool json, std::ostream& out) const {
+  Json list = Json::array();
+  for (const auto& [label, text] : lines_) {
+    if (json)
+      list.push_back({{"label", label}, {"text", text}});
+    else
+      print_line(out, label, text);
+  }
+  if (json) out << list.dump(1) << '\n';
 }
 
 void print_run(const Scenario& scenario, const Run& run, double seconds, std::ostream& out) {
   print_line(out, "scenario", scenario.name);
   print_line(out, "verdict", verdict_text(scenario, run));
   print_pairs(scenario, run, out);
+  print_passages(scenario, run, out);
   print_bodies(scenario, out);
   print_line(out, "time",
              brief(run.end) + " s in steps of " + brief(scenario.step) + " s, computed and proved in " +
                  number_text(seconds, 2) + " s: " + number_text(run.end / seconds, 4) + " times real time");
+  for (const VehicleBeyond& beyond : run.limits_broken)
+    print_line(out, "beyond its limits",
+               scenario.bodies[beyond.body].name + " at " + brief(beyond.broken.t) +
+                   " s: " + beyond.broken.limit + " " + brief(beyond.broken.value) + ", declared " +
+                   brief(beyond.broken.allowed));
   print_events(scenario, run, out);
 }
 

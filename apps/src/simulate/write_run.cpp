@@ -24,7 +24,7 @@ std::string content_of(const fs::path& file) {
 
 Json run_json(const simulation::Scenario& scenario, const simulation::Run& run, const RunOrigin& origin) {
   std::size_t arcs = 0, agents = 0;
-  for (const simulation::Track& track : run.tracks) arcs += track.arcs().size();
+  for (const simulation::Track& track : run.tracks) arcs += track.legs().size();
   Json goals = Json::array();
   for (const simulation::Body& body : scenario.bodies) {
     agents += body.pilot.has_value();
@@ -32,20 +32,29 @@ Json run_json(const simulation::Scenario& scenario, const simulation::Run& run, 
     const simulation::Goal& goal = *body.pilot->goal;
     goals.push_back({{"agent", body.name}, {"point", vector_json(goal.point)}, {"reached", goal.reached}});
   }
-  return {{"scenario", scenario.name},
-          {"file", plain_text(origin.file.filename().string())},
-          {"verdict", simulation::to_string(run.verdict())},
-          {"bodies", scenario.bodies.size()},
-          {"agents", agents},
-          {"goals", goals},
-          {"end", run.end},
-          {"step", scenario.step},
-          {"arcs", arcs},
-          {"encounters", run.encounters.size()},
-          {"events", run.events.size()},
-          {"seconds", origin.seconds},
-          {"real_time_factor", run.end / origin.seconds},
-          {"provenance", provenance(origin.command_line, 1, {origin.file})}};
+  Json beyond = Json::array();
+  for (const simulation::VehicleBeyond& b : run.limits_broken)
+    beyond.push_back({{"body", scenario.bodies[b.body].name},
+                      {"t", b.broken.t},
+                      {"limit", b.broken.limit},
+                      {"value", b.broken.value},
+                      {"allowed", b.broken.allowed}});
+  Json json{{"scenario", scenario.name},
+            {"file", plain_text(origin.file.filename().string())},
+            {"verdict", scenario.orifices.empty() ? simulation::to_string(run.verdict()) : run_verdict(run)},
+            {"bodies", scenario.bodies.size()},
+            {"agents", agents},
+            {"goals", goals},
+            {"end", run.end},
+            {"step", scenario.step},
+            {"arcs", arcs},
+            {"encounters", run.encounters.size()},
+            {"events", run.events.size()},
+            {"seconds", origin.seconds},
+            {"real_time_factor", run.end / origin.seconds},
+            {"provenance", provenance(origin.command_line, 1, {origin.file})}};
+  if (!run.vehicles.empty()) json["limits_broken"] = beyond;
+  return json;
 }
 
 void write_run(const simulation::Scenario& scenario, const simulation::Run& run, const RunOrigin& origin,
@@ -54,6 +63,11 @@ void write_run(const simulation::Scenario& scenario, const simulation::Run& run,
   write_whole(folder / "encounters.csv", encounters_csv(scenario, run));
   if (scenario.planes_logged > 0) write_whole(folder / "planes.csv", planes_csv(scenario, run));
   if (!run.sights.empty()) write_whole(folder / "sights.csv", sights_csv(scenario, run));
+  if (!run.vehicles.empty()) write_whole(folder / "vehicles.csv", vehicles_csv(scenario, run));
+  if (!scenario.orifices.empty()) {
+    write_whole(folder / "orifices.csv", orifices_csv(scenario, run));
+    write_whole(folder / "orifices.json", orifices_json(scenario).dump(1) + "\n");
+  }
   write_whole(folder / "events.csv", events_csv(scenario, run));
   write_whole(folder / "proof.json", proof_json(scenario, run).dump(1) + "\n");
   write_whole(folder / "shapes.json", shapes_json(scenario).dump(1) + "\n");

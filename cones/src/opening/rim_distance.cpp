@@ -3,6 +3,7 @@
 
 #include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -87,6 +88,86 @@ class NearEllipsoid {
   Matrix3d axes_;
   Vector3d semi_;
   double reach_ = 0, loss2_ = 0;
+};
+
+/// The convex hull of two ellipsoids: all straight ways from one to the other.
+class NearBetween {
+ public:
+  NearBetween(const Ellipsoid& from, const Ellipsoid& to)
+      : ends_{&from, &to},
+        middle_(from.translated(0.5 * (to.center() - from.center()))),
+        shape_(middle_),
+        inverse_(middle_.factor().inverse()) {
+    for (int i = 0; i < 2; ++i) {
+      center_[i] = ends_[i]->center() - reference();
+      // What is defined by its shape has a factor that is right to rounding.
+      loss2_ = std::max(loss2_, ends_[i]->defined_by_factor() ? 0 : kRounding * ends_[i]->shape().norm());
+    }
+  }
+
+  [[nodiscard]] const Vector3d& reference() const { return middle_.center(); }
+  [[nodiscard]] double reach() const {
+    double most = 0;
+    for (int i = 0; i < 2; ++i)
+      most = std::max(most, center_[i].norm() + std::sqrt(ends_[i]->factor().squaredNorm() + loss2_));
+    return most * (1 + kRounding);
+  }
+  [[nodiscard]] double support(const Vector3d& n) const {
+    double most = -std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 2; ++i) {
+      const double r = ends_[i]->radius(n);
+      most = std::max(most, n.dot(center_[i]) + (loss2_ == 0 ? r : std::sqrt(r * r + loss2_)));
+    }
+    return most;
+  }
+
+  /// As if the first had been moved along the chord as it is: the normal is a guess, of which the bounds are
+  /// made; the point is one of the hull, between the supports of both.
+  [[nodiscard]] Near near(const Vector3d& q) const {
+    const Vector3d chord = inverse_ * (center_[1] - center_[0]);
+    const double length2 = chord.squaredNorm();
+    double share = length2 > 0 ? std::clamp(chord.dot(inverse_ * (q - center_[0])) / length2, 0.0, 1.0) : 0.5;
+    Near best;
+    double least = std::numeric_limits<double>::infinity();
+    for (int round = 0; round < 3; ++round) {
+      const Vector3d center = center_[0] + share * (center_[1] - center_[0]);
+      Vector3d n;
+      if (const Near at = shape_.near(q - center); at.normal) {
+        n = *at.normal;
+      } else {
+        // Whose points lie on straight ways from one end to the other.
+        const Matrix3d within =
+            (ends_[0]->factor() + share * (ends_[1]->factor() - ends_[0]->factor())).inverse();
+        const Vector3d u = within * (q - center);
+        if (!(u.squaredNorm() > 1)) return {q, std::nullopt};
+        n = (within.transpose() * u).normalized();
+      }
+      const Vector3d x = center_[0] + tip(0, n), y = center_[1] + tip(1, n), way = y - x;
+      const double along =
+          way.squaredNorm() > 0 ? std::clamp((q - x).dot(way) / way.squaredNorm(), 0.0, 1.0) : 0;
+      const Vector3d point = x + along * way;
+      if (const double distance = (q - point).norm(); distance < least) {
+        least = distance;
+        best = {point, n};
+      }
+      if (std::abs(along - share) < 1e-3) break;
+      share = along;
+    }
+    return best;
+  }
+
+ private:
+  [[nodiscard]] Vector3d tip(int i, const Vector3d& n) const {
+    const Vector3d u = ends_[i]->factor().transpose() * n;
+    return ends_[i]->factor() * (u / u.norm());
+  }
+
+  std::array<const Ellipsoid*, 2> ends_;
+  Ellipsoid middle_;
+  NearEllipsoid shape_;
+  Matrix3d inverse_;
+  std::array<Vector3d, 2> center_;
+  double loss2_ = 0;
 };
 
 class NearHull {
@@ -252,6 +333,11 @@ RimDistance search(const Body& body, const PlacedOpening& placed, const RimQuest
 
 RimDistance rim_distance(const Ellipsoid& body, const PlacedOpening& opening, const RimQuestion& question) {
   return search(NearEllipsoid(body), opening, question);
+}
+
+RimDistance rim_distance(const Ellipsoid& from, const Ellipsoid& to, const PlacedOpening& opening,
+                         const RimQuestion& question) {
+  return search(NearBetween(from, to), opening, question);
 }
 
 RimDistance rim_distance(const WorldBody& body, const PlacedOpening& opening, const RimQuestion& question) {

@@ -38,7 +38,8 @@ struct PlaneMotion {
 }  // namespace
 
 Arc::Arc(const Motion& start, const Vector3d& acceleration, Orientation orientation, double from, double to)
-    : start_(start), acceleration_(acceleration), orientation_(orientation), from_(from), to_(to) {
+    : Leg(from, to), acceleration_(acceleration), orientation_(orientation) {
+  start_ = start;
   if (!(to > from) || !std::isfinite(to))
     throw InputError("to", to_text(to), "a time after " + to_text(from) + " s");
   most_acceleration_ = acceleration.norm();

@@ -11,6 +11,7 @@
 #include "engagement.h"
 #include "observer.h"
 #include "run_events.h"
+#include "through.h"
 
 namespace vericone::simulation {
 namespace {
@@ -63,14 +64,24 @@ class Runner {
   Runner(const Scenario& scenario, const RunOptions& options) : scenario_(scenario), options_(options) {
     run_.tracks.reserve(scenario.bodies.size());
     for (const Body& body : scenario.bodies) {
-      run_.tracks.emplace_back(body.shape, body.start, body.orientation, body.appears);
+      vehicles_.push_back(body.vehicle ? body.vehicle->launch(body.start, body.appears, scenario.water)
+                                       : nullptr);
+      if (vehicles_.back())
+        run_.tracks.emplace_back(body.shape, vehicles_.back()->motion(), Orientation::fixed, body.appears);
+      else
+        run_.tracks.emplace_back(body.shape, body.start, body.orientation, body.appears);
       if (body.appears > 0)
         event({body.appears, EventKind::appears, run_.tracks.size() - 1, run_.tracks.size() - 1, 0});
     }
     navigators_.resize(scenario.bodies.size());
+    throughs_.resize(scenario.bodies.size());
     for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
       if (!scenario.bodies[i].pilot) continue;
       const Pilot& pilot = *scenario.bodies[i].pilot;
+      if (pilot.through) {
+        throughs_[i].emplace(i, pilot, scenario);
+        continue;
+      }
       if (guarded(pilot)) navigators_[i].emplace(courses_of(pilot));
       for (std::size_t j = 0; j < scenario.bodies.size(); ++j)
         if (j != i && (pilot.minds.empty() || contains(pilot.minds, scenario.bodies[j].name)))
@@ -102,7 +113,12 @@ class Runner {
       }
       if (done_ || (scenario_.stop_when_passed && all_passed(t))) break;
     }
-    if (options_.prove && !run_.interrupted) prove_pairs();
+    for (std::size_t i = 0; i < vehicles_.size(); ++i)
+      if (vehicles_[i] && vehicles_[i]->broken()) run_.limits_broken.push_back({i, *vehicles_[i]->broken()});
+    if (options_.prove && !run_.interrupted) {
+      prove_pairs();
+      prove_passages();
+    }
     std::stable_sort(run_.events.begin(), run_.events.end(),
                      [](const Event& x, const Event& y) { return x.t < y.t; });
     return std::move(run_);
@@ -151,10 +167,34 @@ class Runner {
     for (std::size_t i = 0; i < scenario_.bodies.size(); ++i)
       if (scenario_.bodies[i].pilot && present(i, t)) command(i, t, to);
     for (std::size_t i = 0; i < run_.tracks.size(); ++i)
-      if (present(i, t)) run_.tracks[i].advance(accelerations_[i], to);
+      if (present(i, t)) move(i, t, to);
     for (Followed& f : engagements_) passing(f, t, to);
+    for (auto& flight : throughs_)
+      if (flight && present(flight->agent(), t))
+        if (const auto crossed = flight->fly(run_.tracks[flight->agent()], t, to)) event(*crossed);
     for (std::size_t i = 0; i < scenario_.bodies.size(); ++i) reaching(i, t, to);
     before_ = t;
+  }
+
+  void move(std::size_t i, double t, double to) {
+    if (!vehicles_[i]) {
+      run_.tracks[i].advance(accelerations_[i], to);
+      return;
+    }
+    if (options_.log) vehicles_[i]->log(run_.vehicles.emplace_back(VehicleSample{t, i, {}}).values);
+    way_.clear();
+    VehicleCommand wanted{accelerations_[i], {}};
+    if (throughs_[i] && !throughs_[i]->done()) {
+      const guidance::OrificeAim aim = throughs_[i]->aim(states_[i], t);
+      wanted.aim = {aim.point - aim.seconds * aim.velocity, aim.velocity, aim.seconds};
+    } else if (const auto& pilot = scenario_.bodies[i].pilot;
+               pilot && pilot->goal && goal_open(i, *pilot->goal)) {
+      const double speed = states_[i].velocity.norm();
+      wanted.aim = {pilot->goal->point, Vector3d::Zero(),
+                    speed > 0 ? (pilot->goal->point - states_[i].position).norm() / speed : 0};
+    }
+    vehicles_[i]->advance(wanted, t, to, way_);
+    for (const Curve& curve : way_) run_.tracks[i].append(curve);
   }
 
   void observe(Followed& f, double t) {
@@ -173,6 +213,7 @@ class Runner {
 
   void command(std::size_t agent, double t, double to) {
     const Pilot& pilot = *scenario_.bodies[agent].pilot;
+    if (throughs_[agent] && !throughs_[agent]->done()) return command_through(*throughs_[agent], t);
     const Followed* attended = nullptr;
     for (const Followed& f : engagements_) {
       if (f.engagement.agent() != agent || !present(f.engagement.obstacle(), t) || !f.engagement.demands())
@@ -205,6 +246,13 @@ class Runner {
     }
   }
 
+  void command_through(ThroughFlight& flight, double t) {
+    const BodyState& agent = states_[flight.agent()];
+    const guidance::OrificeCommand said = flight.command(agent, t);
+    accelerations_[flight.agent()] = said.acceleration;
+    if (options_.log) run_.orifices.push_back(flight.sample(agent, t, said));
+  }
+
   /// Of all that it minds, not of the one met first alone.
   void guarded_command(std::size_t agent, double t, double step, const Followed*& attended) {
     const Pilot& pilot = *scenario_.bodies[agent].pilot;
@@ -232,6 +280,7 @@ class Runner {
 
   bool goal_open(std::size_t agent, const Goal& goal) const {
     if (reached_[agent]) return false;
+    if (throughs_[agent] && !throughs_[agent]->done()) return false;
     if (goal.after.empty()) return true;
     const std::size_t after = index_of(scenario_, goal.after);
     return std::any_of(engagements_.begin(), engagements_.end(), [&](const Followed& f) {
@@ -328,15 +377,17 @@ class Runner {
     for (const Body& body : scenario_.bodies)
       if (body.appears > t || (body.pilot && body.pilot->goal)) return false;
     return std::all_of(engagements_.begin(), engagements_.end(),
-                       [](const Followed& f) { return f.has_passed; });
+                       [](const Followed& f) { return f.has_passed; }) &&
+           std::all_of(throughs_.begin(), throughs_.end(),
+                       [](const auto& flight) { return !flight || flight->done(); });
   }
 
   /// Whether two bodies stay as they are to each other: pieces of one, perhaps.
   bool move_together(std::size_t i, std::size_t j) const {
     const auto steady = [&](std::size_t k) {
       const bool rigid = run_.tracks[k].shape().rigid() != nullptr;
-      return rigid && std::none_of(run_.tracks[k].arcs().begin(), run_.tracks[k].arcs().end(),
-                                   [](const Arc& arc) { return arc.accelerated(); });
+      return rigid && std::none_of(run_.tracks[k].legs().begin(), run_.tracks[k].legs().end(),
+                                   [](const auto& leg) { return leg->accelerated(); });
     };
     const Body &a = scenario_.bodies[i], &b = scenario_.bodies[j];
     return !flown(i) && !flown(j) && a.start.velocity == b.start.velocity && steady(i) && steady(j);
@@ -344,7 +395,7 @@ class Runner {
 
   /// Moved by a law, its own or a partner's.
   bool flown(std::size_t i) const {
-    if (scenario_.bodies[i].pilot) return true;
+    if (scenario_.bodies[i].pilot || vehicles_[i]) return true;
     return std::any_of(scenario_.bodies.begin(), scenario_.bodies.end(), [&](const Body& other) {
       return other.pilot && contains(other.pilot->partners, scenario_.bodies[i].name);
     });
@@ -373,6 +424,20 @@ class Runner {
       }
   }
 
+  void prove_passages() {
+    for (std::size_t i = 0; i < run_.tracks.size(); ++i) {
+      if (!flown(i) || !(run_.tracks[i].appears() < run_.end)) continue;
+      for (std::size_t k = 0; k < scenario_.orifices.size(); ++k) {
+        const MovingOrifice& orifice = scenario_.orifices[k];
+        const auto& pilot = scenario_.bodies[i].pilot;
+        const bool ordered = pilot && pilot->through && contains(pilot->through->orifices, orifice.name);
+        run_.passages.push_back(
+            {i, k, ordered,
+             prove_passage(run_.tracks[i], orifice, run_.tracks[i].appears(), run_.end, scenario_.proof)});
+      }
+    }
+  }
+
   /// Metres that `agent` is to keep from `other`.
   double required(std::size_t agent, std::size_t other) const {
     const auto& pilot = scenario_.bodies[agent].pilot;
@@ -387,8 +452,11 @@ class Runner {
   std::vector<Followed> engagements_;
   std::vector<BodyState> states_;
   std::vector<Vector3d> accelerations_;
+  std::vector<std::unique_ptr<Vehicle>> vehicles_;  // null: a point mass
+  std::vector<Curve> way_;
   std::vector<bool> aligned_, reached_, cannot_avoid_;
   std::vector<std::optional<guidance::Navigator>> navigators_;
+  std::vector<std::optional<ThroughFlight>> throughs_;
   std::vector<BodyState> minded_;
   std::vector<std::size_t> indices_;
   double before_ = -1;
@@ -416,6 +484,10 @@ const char* to_string(EventKind kind) {
       return "contact";
     case EventKind::cannot_avoid:
       return "cannot-avoid";
+    case EventKind::goes_through:
+      return "goes-through";
+    case EventKind::goes_beside:
+      return "goes-beside";
   }
   return "?";
 }
@@ -425,6 +497,10 @@ ProofVerdict Run::verdict() const {
   for (const PairOutcome& pair : proofs) {
     if (pair.proof.verdict == ProofVerdict::touched) return ProofVerdict::touched;
     if (pair.proof.verdict == ProofVerdict::undecided) worst = ProofVerdict::undecided;
+  }
+  for (const PassageOutcome& passage : passages) {
+    if (passage.proof.verdict == PassageVerdict::touched) return ProofVerdict::touched;
+    if (passage.proof.verdict == PassageVerdict::undecided) worst = ProofVerdict::undecided;
   }
   return worst;
 }

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <set>
 
+#include "check_orifices.h"
+
 namespace vericone::simulation {
 namespace {
 
@@ -118,6 +120,7 @@ void check_sensing(const Pilot& pilot, double step) {
 }
 
 void check_pilot(const Pilot& pilot, const Body& self, const Scenario& scenario) {
+  if (pilot.through) check_through(*pilot.through, self, scenario);
   check_laws(pilot.guide);
   const auto find = [&](const std::string& name) {
     return std::find_if(scenario.bodies.begin(), scenario.bodies.end(),
@@ -136,7 +139,7 @@ void check_pilot(const Pilot& pilot, const Body& self, const Scenario& scenario)
                        "a body without a pilot of its own: it carries out what this law says");
   if (!pilot.partners.empty() && !cooperates(pilot.guide.law))
     throw InputError("partners", pilot.partners.front(), "no partners with this law, or a cooperative one");
-  check_kinds(pilot, self, scenario);
+  if (!pilot.through) check_kinds(pilot, self, scenario);
   check_sensing(pilot, scenario.step);
   if (!pilot.goal) return;
   if (!pilot.goal->point.allFinite())
@@ -171,6 +174,10 @@ void check_body(const Body& body, const Scenario& scenario) {
   if (!(body.appears < scenario.duration))
     throw InputError("appears", to_text(body.appears),
                      "before the end, duration = " + to_text(scenario.duration));
+  if (body.vehicle) {
+    if (planar(body.shape)) throw InputError("vehicle", "of a planar body", "a body in space");
+    static_cast<void>(body.vehicle->launch(body.start, body.appears, scenario.water));
+  }
   if (!body.pilot) return;
   if (!body.start.velocity.any()) throw InputError("velocity", "0", "a heading: a body with a pilot moves");
   within("pilot", [&] { check_pilot(*body.pilot, body, scenario); });
@@ -180,7 +187,7 @@ void check_body(const Body& body, const Scenario& scenario) {
 
 bool guarded(const Pilot& pilot) {
   const guidance::Law law = pilot.guide.law;
-  return pilot.manner == Manner::guarded &&
+  return !pilot.through && pilot.manner == Manner::guarded &&
          (law == guidance::Law::avoidance || law == guidance::Law::clearance);
 }
 
@@ -197,10 +204,12 @@ void check(const Scenario& scenario) {
     throw InputError("step", to_text(scenario.step), "at least duration / 1e7");
   require_not_negative(scenario.proof.padding, "proof.padding", " (m)");
   require_positive(scenario.proof.resolution, "proof.resolution", " (s)");
+  require_not_negative(scenario.proof.drift, "proof.drift", " (m/s)");
   if (scenario.planes_logged < 0 || scenario.planes_logged > 10000)
     throw InputError("planes_logged", std::to_string(scenario.planes_logged), "from 0 to 10000");
   if (scenario.bodies.empty()) throw InputError("bodies", "none", "one body or more");
   std::set<std::string> names;
+  check_orifices(scenario);
   for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
     const Body& body = scenario.bodies[i];
     if (body.name.empty() || !names.insert(body.name).second)

@@ -11,12 +11,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The arc that a time lies in, at a common end the later one.
-std::vector<Arc>::const_iterator arc_at(const std::vector<Arc>& arcs, double t) {
-  if (t >= arcs.back().from()) return arcs.end() - 1;  // the present is asked for most
-  const auto after = std::upper_bound(arcs.begin(), arcs.end(), t,
-                                      [](double time, const Arc& arc) { return time < arc.from(); });
-  return after == arcs.begin() ? after : after - 1;
+using Legs = std::vector<std::shared_ptr<const Leg>>;
+
+/// The leg that a time lies in, at a common end the later one.
+Legs::const_iterator leg_at(const Legs& legs, double t) {
+  if (t >= legs.back()->from()) return legs.end() - 1;  // the present is asked for most
+  const auto after = std::upper_bound(legs.begin(), legs.end(), t,
+                                      [](double time, const auto& leg) { return time < leg->from(); });
+  return after == legs.begin() ? after : after - 1;
 }
 
 }  // namespace
@@ -28,17 +30,37 @@ Track::Track(ShapeInTime shape, const Motion& start, Orientation orientation, do
 
 void Track::advance(const Vector3d& acceleration, double to) {
   const double from = end();
-  if (!arcs_.empty() && !arcs_.back().accelerated() && acceleration.isZero(0) && to > from) {
-    arcs_.back() = Arc(arcs_.back().start(), acceleration, orientation_, arcs_.back().from(), to);
+  // A body that follows its velocity may turn at once, but only arcs carry it.
+  const auto straight = [this](const Leg& leg) {
+    return !leg.accelerated() && (orientation_ != Orientation::fixed || leg.most_turn_rate() == 0);
+  };
+  if (!legs_.empty() && straight(*legs_.back()) && acceleration.isZero(0) && to > from) {
+    legs_.back() =
+        std::make_shared<Arc>(legs_.back()->start(), acceleration, orientation_, legs_.back()->from(), to);
     return;
   }
-  arcs_.emplace_back(arcs_.empty() ? start_ : arcs_.back().end(), acceleration, orientation_, from, to);
+  legs_.push_back(std::make_shared<Arc>(legs_.empty() ? start_ : legs_.back()->end(), acceleration,
+                                        orientation_, from, to));
 }
 
-Motion Track::motion(double t) const { return arcs_.empty() ? start_ : arc_at(arcs_, t)->at(t); }
+void Track::append(const Curve& curve) {
+  constexpr double kJoin = 1e-12;
+  const Motion& reached = legs_.empty() ? start_ : legs_.back()->end();
+  if (orientation_ != Orientation::fixed)
+    throw InputError("orientation", "along the velocity", "fixed: a curve says itself how it turns");
+  if (curve.from() != end()) throw InputError("from", to_text(curve.from()), to_text(end()) + " s");
+  const double apart = (curve.start().position - reached.position).norm();
+  if (!(apart <= kJoin * (1 + reached.position.norm())))
+    throw InputError("position", to_text(apart) + " m off", "where the track ends");
+  if (!((curve.start().rotation - reached.rotation).norm() <= kJoin))
+    throw InputError("rotation", "another one", "that of the track's end");
+  legs_.push_back(std::make_shared<Curve>(curve));
+}
+
+Motion Track::motion(double t) const { return legs_.empty() ? start_ : (*leg_at(legs_, t))->at(t); }
 
 Vector3d Track::acceleration(double t) const {
-  return arcs_.empty() ? Vector3d::Zero() : arc_at(arcs_, t)->acceleration(t);
+  return legs_.empty() ? Vector3d::Zero() : (*leg_at(legs_, t))->acceleration(t);
 }
 
 guidance::BodyState Track::state(double t) const {
@@ -49,22 +71,24 @@ guidance::BodyState Track::state(double t) const {
   state.velocity = m.velocity;
   if (orientation_ != Orientation::fixed && m.velocity.norm() > kRestSpeed)
     state.turning = guidance::Turning::with_heading;
+  if (!legs_.empty()) state.omega = (*leg_at(legs_, t))->turn(t);
   state.rate = shape_rate_at(shape_, t, m.rotation);
   return state;
 }
 
 Track::Bounds Track::bounds(double from, double to) const {
   Bounds bounds;
-  if (arcs_.empty()) return bounds;
-  auto arc = arc_at(arcs_, from);
+  if (legs_.empty()) return bounds;
+  auto leg = leg_at(legs_, from);
   do {
-    bounds.acceleration = std::max(bounds.acceleration, arc->most_acceleration());
-    bounds.turn_rate = std::max(bounds.turn_rate, arc->most_turn_rate());
-    bounds.turn_acceleration = std::max(bounds.turn_acceleration, arc->most_turn_acceleration());
-    const Vector3d& before = arc->last_turn();
-    ++arc;
-    if (arc == arcs_.end() || !(arc->from() < to)) break;
-    bounds.turn_jumps += (arc->first_turn() - before).norm();
+    const Leg& now = **leg;
+    bounds.acceleration = std::max(bounds.acceleration, now.most_acceleration());
+    bounds.turn_rate = std::max(bounds.turn_rate, now.most_turn_rate());
+    bounds.turn_acceleration = std::max(bounds.turn_acceleration, now.most_turn_acceleration());
+    ++leg;
+    if (leg == legs_.end() || !((*leg)->from() < to)) break;
+    bounds.velocity_jumps += ((*leg)->start().velocity - now.end().velocity).norm();
+    bounds.turn_jumps += ((*leg)->first_turn() - now.last_turn()).norm();
   } while (true);
   return bounds;
 }

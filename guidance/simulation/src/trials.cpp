@@ -157,8 +157,8 @@ TrialOutcome fly_trial(const Scenario& scenario, std::uint64_t trial) {
     outcome.least_distance = std::min(outcome.least_distance, pair.proof.least_distance);
   }
   if (outcome.verdict != ProofVerdict::avoided) outcome.least_distance = 0;
-  for (const Arc& arc : run.tracks[agent].arcs())
-    outcome.effort += arc.most_acceleration() * (arc.to() - arc.from());
+  for (const auto& leg : run.tracks[agent].legs())
+    outcome.effort += leg->most_acceleration() * (leg->to() - leg->from());
   return outcome;
 }
 

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The engagement of two bodies in space: line of sight, velocities and the acceleration of A, each by azimuth and elevation."""
+"""The engagement in space of two bodies, or of a body and an orifice: line of sight, velocities and the acceleration of A,
+each by azimuth and elevation."""
 import numpy as np
 
 from vericone_figures.runs import Sheet, figure
 from vericone_figures.style import AGENT, EXACT, GREY, OBSTACLE, ONE_COLUMN, SLICE, plt, save
 
 data = figure()
+orifice = bool(data.get("orifice"))
+bar = "" if orifice else "bar"  # chapter 7 marks what is noisy
 sheet = Sheet()
 axes = plt.figure(figsize=(1.35 * ONE_COLUMN, 1.1 * ONE_COLUMN)).add_subplot(projection="3d")
 O, M = np.zeros(3), np.array([8.0, 5.0, 4.0])
@@ -43,24 +46,37 @@ def angles(start, along, color, azimuth_name, elevation_name, radius):
     axes.text(*(rise[18] + [0.15, 0.15, 0]), elevation_name, color=color, fontsize=7)
 
 
-ellipsoid(O, (2, 1.1, 0.8), AGENT)
-ellipsoid(M, (1.6, 1.2, 1.0), OBSTACLE)
+if orifice:
+    ellipsoid(O, (0.9, 0.9, 0.9), AGENT)
+    across, turn = np.array([0.35, 0.94, 0.0]), np.linspace(0, 2 * np.pi, 73)[:, None]
+    axes.plot(*(M + 1.9 * (np.cos(turn) * across + np.sin(turn) * [0, 0, 1])).T, color=OBSTACLE, linewidth=1.8)
+    axes.text(*(M + [0.2, 0.2, 2.1]), r"orifice, radius $R_B$", color=OBSTACLE, fontsize=7, ha="center")
+    axes.text(*(O + [0, 0, -1.6]), r"ball, radius $R_A$", color=AGENT, fontsize=7, ha="center")
+else:
+    ellipsoid(O, (2, 1.1, 0.8), AGENT)
+    ellipsoid(M, (1.6, 1.2, 1.0), OBSTACLE)
 axes.plot(*np.stack([O, M]).T, color=GREY, linewidth=1)
 axes.text(*(0.55 * M + [0, 0, 0.35]), "r", color=GREY, fontsize=7)
-axes.text(-0.5, -0.3, -0.6, "O", fontsize=7)
-axes.text(*(M + [0.2, 0.2, 0.2]), "M", fontsize=7)
-angles(O, M, GREY, r"$\barθ$", r"$\barφ$", 4.2)
+axes.text(-0.5, -0.3, -0.6, "$P_1$" if orifice else "O", fontsize=7)
+axes.text(*(M + [0.2, 0.2, 0.2]), "$P_2$" if orifice else "M", fontsize=7)
+
+
+def noisy(letter, index=""):
+    return "$%s$" % (("\\bar{%s}" % letter if bar else letter) + index)
+
+
+angles(O, M, GREY, noisy("θ"), noisy("φ"), 4.2)
 velocity_a, velocity_b = 4.5 * direction(-20, 35), 3.5 * direction(175, 8)
 arrow(O, velocity_a, AGENT, r"$V_A$")
 angles(O, velocity_a, AGENT, r"$β_A$", r"$α_A$", 2.6)
 arrow(M, velocity_b, OBSTACLE, r"$V_B$")
 across = np.cross(velocity_a, [0.3, 1, 0.2])
-arrow(O, 2.6 * across / np.linalg.norm(across), SLICE, r"$a_A\ (δ_A, γ_A)$")
+arrow(O, 2.6 * across / np.linalg.norm(across), SLICE, r"$a\ (δ, γ)$" if orifice else r"$a_A\ (δ_A, γ_A)$")
 u = M / np.linalg.norm(M)
 theta = np.array([-u[1], u[0], 0]) / np.hypot(u[0], u[1])
-arrow(M, 2 * u, EXACT, r"$\bar V_r$", dashed=True)
-arrow(M, 2 * theta, EXACT, r"$\bar V_θ$", dashed=True)
-arrow(M, 2 * np.cross(u, theta), EXACT, r"$\bar V_φ$", dashed=True)
+arrow(M, 2 * u, EXACT, noisy("V", "_r"), dashed=True)
+arrow(M, 2 * theta, EXACT, noisy("V", "_θ"), dashed=True)
+arrow(M, 2 * np.cross(u, theta), EXACT, noisy("V", "_φ"), dashed=True)
 axes.set_box_aspect((10, 8, 6.5), zoom=1.15)
 axes.set_xlim(-1, 10)
 axes.set_ylim(-2, 8)

@@ -50,7 +50,7 @@ Certificate by_distance(const MovingPair& pair, const Piece& piece) {
                       b = pair.b().bounds(piece.from.t, piece.to.t);
   const Vector3d c = piece.middle.between();
   const double chord = std::max((piece.from.between() - c).norm(), (piece.to.between() - c).norm());
-  const double bend = (a.acceleration + b.acceleration) * dt * dt / 8 * (1 + 1e-12);
+  const double bend = chord_deviation(a, b, dt) * (1 + 1e-12);
   // Taking a body into the other's frame rounds coordinates of the size of both.
   const double size =
       piece.middle.a.position.norm() + piece.middle.b.position.norm() + pair.reach_a() + pair.reach_b();

@@ -13,6 +13,7 @@
 
 #include "proof/meeting.h"
 #include "proof/nearness.h"
+#include "proof/padding.h"
 #include "proof/separation.h"
 
 namespace vericone::simulation {
@@ -48,7 +49,8 @@ class Search {
       : pair_(pair),
         distances_(by_distances(pair)),
         resolution_(options.resolution),
-        padding_(2 * options.padding) {}
+        padding_({2 * options.padding, options.resolution, options.drift},
+                 std::min(pair.a().appears(), pair.b().appears())) {}
 
   PairProof run(double from, double to) {
     const Moment first = pair_.at(from), last = pair_.at(to);
@@ -81,19 +83,20 @@ class Search {
     const Piece piece{span.from, pair_.at(0.5 * (span.from.t + span.to.t)), span.to};
     const Certificate found = certificate(piece, span.normal);
     const Vector3d normal = found.normal.isZero(0) ? span.normal : found.normal;
-    if (found.bound > padding_) {
-      leaves_.push_back({span, found.bound - padding_, found.gap, true});
+    const double padding = padding_.until(span.to.t);
+    if (found.bound > padding) {
+      leaves_.push_back({span, found.bound - padding, found.gap - padding_.drifted(piece.middle.t), true});
       leaves_.back().span.normal = normal;
       return false;
     }
     const bool halved = piece.middle.t > span.from.t && piece.middle.t < span.to.t &&
                         piece.duration() > shortest(span.from.t) &&
                         (leaves_.size() < kMostPieces || unresolved_);
-    if (found.gap <= padding_) {
+    if (found.gap <= padding) {
       const Meeting now = meeting(pair_, piece.middle);
       if (now == Meeting::meet) return met(span, piece.middle, normal, halved);
       if (now == Meeting::apart && !distances_ && delimited(pair_, piece.middle))
-        if (apart_by_inflation(pair_, piece, padding_, false)) {
+        if (apart_by_inflation(pair_, piece, padding, false)) {
           leaves_.push_back({span, 0, kNone, false});
           return false;
         }
@@ -184,17 +187,19 @@ class Search {
   /// What holds for the whole holds for the half.
   Leaf half(const Leaf& whole, const Moment& from, const Moment& to) const {
     const Piece piece{from, pair_.at(0.5 * (from.t + to.t)), to};
+    const double padding = padding_.until(to.t), drifted = padding_.drifted(piece.middle.t);
     if (!whole.by_planes) {
       Leaf leaf{{from, to, whole.span.normal}, whole.bound, kNone, false};
-      if (const auto inflation = apart_by_inflation(pair_, piece, padding_, true)) {
+      if (const auto inflation = apart_by_inflation(pair_, piece, padding, true)) {
         leaf.bound = std::max(leaf.bound, inflation->bound);
-        leaf.gap = inflation->gap;
+        leaf.gap = inflation->gap - drifted;
       }
       return leaf;
     }
     const Certificate c = certificate(piece, whole.span.normal);
-    const double bound = c.bound - padding_;
-    Leaf leaf{{from, to, whole.span.normal}, std::max(bound, whole.bound), c.gap > 0 ? c.gap : kNone, true};
+    const double bound = c.bound - padding;
+    const double gap = c.gap > 0 ? c.gap - drifted : kNone;
+    Leaf leaf{{from, to, whole.span.normal}, std::max(bound, whole.bound), gap, true};
     if (bound > whole.bound) leaf.span.normal = c.normal;
     return leaf;
   }
@@ -202,20 +207,13 @@ class Search {
   const MovingPair& pair_;
   bool distances_;  // certificates by distances, not by planes
   double resolution_;
-  double padding_;          // of both bodies together
+  Padding padding_;         // of both bodies together
   std::vector<Span> open_;  // the earliest last
   std::vector<Leaf> leaves_;
   std::optional<Span> unresolved_;  // the first
   std::optional<Moment> horizon_;   // they meet then
   PairProof proof_;
 };
-
-void require_time(const Track& a, const Track& b, double from, double to) {
-  const double first = std::max(a.appears(), b.appears()), last = std::min(a.end(), b.end());
-  if (!(from >= first)) throw InputError("from", to_text(from), "not before " + to_text(first) + " s");
-  if (!(to >= from) || !(to <= last))
-    throw InputError("to", to_text(to), "between from and " + to_text(last) + " s");
-}
 
 }  // namespace
 
@@ -231,11 +229,23 @@ const char* to_string(ProofVerdict verdict) {
   return "";
 }
 
-PairProof prove(const Track& a, const Track& b, double from, double to, const ProofOptions& options) {
-  require_time(a, b, from, to);
+void check(const ProofOptions& options) {
   if (!(options.padding >= 0)) throw InputError("padding", to_text(options.padding), "not negative (m)");
   if (!(options.resolution > 0))
     throw InputError("resolution", to_text(options.resolution), "a positive number (s)");
+  if (!(options.drift >= 0) || !std::isfinite(options.drift))
+    throw InputError("drift", to_text(options.drift), "not negative (m/s)");
+}
+
+void require_time(double first, double last, double from, double to) {
+  if (!(from >= first)) throw InputError("from", to_text(from), "not before " + to_text(first) + " s");
+  if (!(to >= from) || !(to <= last))
+    throw InputError("to", to_text(to), "between from and " + to_text(last) + " s");
+}
+
+PairProof prove(const Track& a, const Track& b, double from, double to, const ProofOptions& options) {
+  require_time(std::max(a.appears(), b.appears()), std::min(a.end(), b.end()), from, to);
+  check(options);
   const MovingPair pair(a, b);
   return Search(pair, options).run(from, to);
 }

@@ -33,7 +33,7 @@ class Separator {
         b_(pair.swept_b(piece.from.t, piece.to.t, piece.middle.b.rotation, half_turn(bounds_b_, piece))) {
     const double dt = piece.duration();
     // Positions are within |a| dt^2 / 8 of the chord, however the acceleration turns.
-    deviation_ = (bounds_a_.acceleration + bounds_b_.acceleration) * dt * dt / 8 * (1 + 1e-12);
+    deviation_ = chord_deviation(bounds_a_, bounds_b_, dt) * (1 + 1e-12);
     rounding_ = 1e-14 * (from_.norm() + to_.norm());
     // The support of a turning body is within this of the chord, on its upper side.
     bend_ = (a_.extent() * bend(bounds_a_, dt) + b_.extent() * bend(bounds_b_, dt)) * (1 + 1e-12);
@@ -168,6 +168,10 @@ SweptBody MovingPair::swept_b(double from, double to, const Eigen::Matrix3d& rot
 double half_turn(const Track::Bounds& bounds, const Piece& piece) {
   const double dt = piece.duration();
   return bounds.turn_rate == 0 || dt == 0 ? 0 : 0.5 * bounds.turn_rate * dt * (1 + 1e-12);
+}
+
+double chord_deviation(const Track::Bounds& a, const Track::Bounds& b, double dt) {
+  return (a.acceleration + b.acceleration) * dt * dt / 8 + (a.velocity_jumps + b.velocity_jumps) * dt / 4;
 }
 
 Certificate separate(const MovingPair& pair, const Piece& piece, const Vector3d& previous) {

@@ -56,6 +56,10 @@ struct Certificate {
 /// Half of what a body turns during a piece; nothing in no time, whatever the bound says.
 double half_turn(const Track::Bounds& bounds, const Piece& piece);
 
+/// How far the way from A's position to B's may be from its chord over `dt` seconds: accelerations bend it,
+/// and jumps of the velocities.
+double chord_deviation(const Track::Bounds& a, const Track::Bounds& b, double dt);
+
 /// By planes: one normal n with n.x smaller on A than on B by the bound at all times of the piece. Deviations
 /// from the chord, turning and changes of shape are allowed for. `previous`: a normal worth trying, or zero.
 Certificate separate(const MovingPair& pair, const Piece& piece, const Eigen::Vector3d& previous);

@@ -41,6 +41,12 @@ struct RimQuestion {
 [[nodiscard]] RimDistance rim_distance(const Ellipsoid& body, const PlacedOpening& opening,
                                        const RimQuestion& question = {});
 
+/// Of the convex hull of two ellipsoids: of all straight ways from one to the other, as of a body at both
+/// ends of a piece of time. `least` is within the tolerance of `most` where they are nearly parallel;
+/// otherwise it may stay lower.
+[[nodiscard]] RimDistance rim_distance(const Ellipsoid& from, const Ellipsoid& to,
+                                       const PlacedOpening& opening, const RimQuestion& question = {});
+
 /// Ellipsoids, and hulls of points, placed or not: whatever has a WorldBody::support_point(). A hull costs
 /// some ten supports for each point of the rim. Throws InputError naming "body" for any other.
 [[nodiscard]] RimDistance rim_distance(const WorldBody& body, const PlacedOpening& opening,

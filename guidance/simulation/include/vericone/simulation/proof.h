@@ -22,6 +22,9 @@ struct ProofOptions {
   double padding = 1e-8;
   /// Seconds. A piece of time shorter than this is not divided further: `undecided`.
   double resolution = 1e-7;
+  /// m/s. The padding grows by as much since the start of the tracks: the proof holds for every constant
+  /// current of at most this speed that carries the bodies, or some of them, off their tracks.
+  double drift = 0;
 };
 
 struct PairProof {
@@ -41,10 +44,10 @@ struct PairProof {
 /// Over [from, to], within the life of both tracks. Pairs: two planar bodies; ellipsoids, combined bodies and
 /// hulls in any combination that has a certified predicate (an ellipsoid and any other; two combined; two
 /// hulls); a placed body and any that Pair serves; throws InputError naming "bodies" for others. A planar and
-/// a spatial body do not mix. Throws InputError naming "from", "to", "padding" or "resolution". Method:
-/// docs/explanation/proof-of-runs.md. Cost: 0.1 ms for two ellipsoids, 0.3 ms with hulls and delimited
-/// bodies, milliseconds to tens of them where those meet; a placed body a distance and at most two misses of
-/// the Pair a piece.
+/// a spatial body do not mix. Throws InputError naming "from", "to", "padding", "resolution" or "drift".
+/// Method: docs/explanation/proof-of-runs.md. Cost: 0.1 ms for two ellipsoids, 0.3 ms with hulls and
+/// delimited bodies, milliseconds to tens of them where those meet; a placed body a distance and at most two
+/// misses of the Pair a piece.
 [[nodiscard]] PairProof prove(const Track& a, const Track& b, double from, double to,
                               const ProofOptions& options = {});
 

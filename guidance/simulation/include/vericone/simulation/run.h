@@ -3,6 +3,7 @@
 // A scenario carried out: what moved where, what was commanded, what happened, and what is proved of it.
 #pragma once
 
+#include <vericone/simulation/passage.h>
 #include <vericone/simulation/scenario.h>
 #include <cstddef>
 #include <cstdint>
@@ -49,6 +50,28 @@ struct SightSample {
   double y_deviation = 0, a_deviation = 0, v_deviation = 0;
 };
 
+/// What a vehicle logs at the time of a command.
+struct VehicleSample {
+  double t = 0;
+  std::size_t body = 0;
+  std::vector<double> values;  // in the order of VehicleModel::channels()
+};
+
+/// A vehicle that was beyond one of its limits.
+struct VehicleBeyond {
+  std::size_t body = 0;
+  LimitBroken broken;
+};
+
+/// One agent and the orifice that it heads for, at the time of a command.
+struct OrificeSample {
+  double t = 0;
+  std::size_t agent = 0, orifice = 0;  // of the scenario's
+  guidance::SpatialState state;        // of the centres
+  guidance::OrificeCommand command;
+  double from_plane = 0;  // m, of the agent's reference point, along the normal
+};
+
 enum class EventKind : std::uint8_t {
   appears,      // body `agent`
   enters_cone,  // y < 0 and closing from now on, as the law sees it (of an agent with a sensor: in truth)
@@ -58,15 +81,17 @@ enum class EventKind : std::uint8_t {
   reaches_goal,
   contact,       // proved
   cannot_avoid,  // every course tried meets `obstacle`, as far as a guarded pilot can foresee
+  goes_through,  // the agent's reference point crosses the plane of an orifice inside the rim
+  goes_beside,   // or outside of it
 };
 [[nodiscard]] const char* to_string(EventKind kind);
 
 struct Event {
   double t = 0;
   EventKind kind = EventKind::appears;
-  std::size_t agent = 0, obstacle = 0;  // equal where only one body is concerned
+  std::size_t agent = 0, obstacle = 0;  // equal where only one body is concerned; goes_*: of an orifice
   /// passes: distance of the centres, m; enters_cone: y (or m, metres) at that command; leaves_cone: what it
-  /// had to reach, cease or required; contact: the earliest time, s.
+  /// had to reach, cease or required; contact: the earliest time, s; goes_*: from the opening's centre, m.
   double value = 0;
 };
 
@@ -79,6 +104,12 @@ struct PairOutcome {
   [[nodiscard]] bool kept() const {
     return proof.verdict == ProofVerdict::avoided && proof.least_distance >= required;
   }
+};
+
+struct PassageOutcome {
+  std::size_t agent = 0, orifice = 0;
+  bool ordered = false;  // the agent was to pass it
+  PassageProof proof;
 };
 
 /// A pair without a verdict, and why.
@@ -95,13 +126,17 @@ struct Run {
   double end = 0;                           // s
   std::vector<EncounterSample> encounters;  // by time, agent, obstacle
   std::vector<PlaneSample> planes;
-  std::vector<SightSample> sights;  // of agents with a sensor; by time, agent, obstacle
-  std::vector<Event> events;        // by time
-  std::vector<PairOutcome> proofs;  // every pair of bodies that are there together, but:
+  std::vector<SightSample> sights;           // of agents with a sensor; by time, agent, obstacle
+  std::vector<VehicleSample> vehicles;       // by time, body
+  std::vector<VehicleBeyond> limits_broken;  // the first of each vehicle that broke one
+  std::vector<Event> events;                 // by time
+  std::vector<PairOutcome> proofs;           // every pair of bodies that are there together, but:
   std::vector<NotChecked> not_checked;
+  std::vector<OrificeSample> orifices;   // by time, agent
+  std::vector<PassageOutcome> passages;  // of every body that is flown, and every orifice
   bool interrupted = false;
 
-  /// touched if any pair touched; else undecided if any is; else avoided, of no pairs too.
+  /// touched if any pair or body and orifice touched; else undecided if any is; else avoided, of none too.
   [[nodiscard]] ProofVerdict verdict() const;
 };
 

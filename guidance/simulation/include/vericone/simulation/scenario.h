@@ -4,10 +4,15 @@
 #pragma once
 
 #include <vericone/guidance/guide.h>
+#include <vericone/guidance/orifice_law.h>
+#include <vericone/simulation/current.h>
+#include <vericone/simulation/moving_orifice.h>
 #include <vericone/simulation/proof.h>
 #include <vericone/simulation/sensor.h>
 #include <vericone/simulation/track.h>
+#include <vericone/simulation/vehicle.h>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,7 +24,7 @@ namespace vericone::simulation {
 struct Goal {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   double most = 0;     // m/s^2, with which it turns towards the point
-  std::string after;   // obstacle that has to be passed first; empty: none
+  std::string after;   // obstacle that has to be passed first; empty: none, or all orifices
   double reached = 1;  // metres; when all agents with goals have been this near the run ends
 };
 
@@ -42,8 +47,29 @@ enum class Passing : std::uint8_t {
   centres,   // V_r >= 0; always of the clearance law, which knows no cone
 };
 
+/// The way through orifices, one after the other. An orifice is behind the agent when its reference point has
+/// crossed the plane inside the rim and all of its body has left the plane.
+struct Through {
+  enum class Law : std::uint8_t {
+    orifice,  // the source's (2.4), of the circle about the centre that the rim holds and the ball about the
+              // agent
+    passage,  // ours, of the true outlines
+  } law = Law::passage;
+  std::vector<std::string> orifices;  // names, in this order
+  guidance::OrificeLawOptions source;
+  guidance::PassageLawOptions passage;
+  /// m/s, held by an acceleration along the velocity (of a vehicle along its level part: depth is its control's)
+  /// of gain_speed times what is missing. One for all orifices, or one for each; empty: nothing is done about it.
+  std::vector<double> speeds;
+  double gain_speed = 1;  // 1/s
+};
+[[nodiscard]] const char* to_string(Through::Law law);
+
 /// What flies a body. Bodies without one keep their velocity.
 struct Pilot {
+  /// In place of a law about bodies: `guide`, `manner`, `passing`, `minds`, `partners` and sensors are not
+  /// read.
+  std::optional<Through> through;
   guidance::GuideOptions guide;
   Manner manner = Manner::guarded;
   Passing passing = Passing::bisector;
@@ -68,6 +94,8 @@ struct Body {
   Orientation orientation = Orientation::heading;
   double appears = 0;  // s
   std::optional<Pilot> pilot;
+  /// What moves it in place of a point mass under its pilot's acceleration; its orientation is the vehicle's.
+  std::shared_ptr<const VehicleModel> vehicle;
 };
 
 struct Scenario {
@@ -77,6 +105,8 @@ struct Scenario {
   bool stop_when_passed = false;  // ends when every agent has passed all that it minds, and none is to come
   int planes_logged = 0;          // y and psi are logged on this many planes (Fig 6.9)
   std::vector<Body> bodies;
+  Current water;  // that vehicles swim in
+  std::vector<MovingOrifice> orifices;
   ProofOptions proof;
   std::uint64_t seed = 1;  // of all noise
 };

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// How a body moved: arcs between the times at which its command changed, integrated by Boost.odeint.
+// How a body moved: arcs between the times at which its command changed, integrated by Boost.odeint, or
+// curves that a vehicle swam or flew.
 #pragma once
 
 #include <vericone/guidance/body_state.h>
+#include <vericone/simulation/curve.h>
+#include <vericone/simulation/leg.h>
 #include <vericone/simulation/shape_in_time.h>
+#include <Eigen/Core>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -18,19 +22,12 @@ enum class Orientation : std::uint8_t {
             // azimuth
 };
 
-/// A point mass with an orientation.
-struct Motion {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  // of the body's frame in the world
-};
-
 /// Motion with an acceleration that is constant in the frame carried along by the velocity: its lateral part
 /// turns the velocity without changing the speed, its longitudinal part changes the speed alone. So it lies
 /// in one plane. A body slower than 1 mm/s is at rest: it has no heading to carry anything along, and from
 /// then on the acceleration stays as it is in space and the body does not turn; one that brakes beyond rest
 /// moves backwards until the end of the arc.
-class Arc {
+class Arc : public Leg {
  public:
   /// From `start` at time `from` until `to` > from, the acceleration as it stands at `from`. dopri5 with
   /// tolerance 1e-12 m and rad a step (relative 1e-14); dense output by one step of the method, of the length
@@ -38,25 +35,9 @@ class Arc {
   Arc(const Motion& start, const Eigen::Vector3d& acceleration, Orientation orientation, double from,
       double to);
 
-  [[nodiscard]] double from() const { return from_; }
-  [[nodiscard]] double to() const { return to_; }
-  /// from <= t <= to.
-  [[nodiscard]] Motion at(double t) const;
-  [[nodiscard]] Eigen::Vector3d acceleration(double t) const;
-  [[nodiscard]] const Motion& start() const { return start_; }
-  [[nodiscard]] const Motion& end() const { return end_; }
-  [[nodiscard]] bool accelerated() const { return most_acceleration_ > 0; }
-
-  /// Bounds over the arc: |a|, and the rate at which the body turns, rad/s; infinite where a level body turns
-  /// at once (a vertical velocity, a start that was not level).
-  [[nodiscard]] double most_acceleration() const { return most_acceleration_; }
-  [[nodiscard]] double most_turn_rate() const { return most_turn_rate_; }
-  /// Bound of |d2/dt2| of a direction that is fixed in the body, rad/s^2; infinite where it is not known
-  /// (level bodies that turn, a body that comes to rest).
-  [[nodiscard]] double most_turn_acceleration() const { return most_turn_acceleration_; }
-  /// Angular velocity at the start and at the end, rad/s.
-  [[nodiscard]] const Eigen::Vector3d& first_turn() const { return first_turn_; }
-  [[nodiscard]] const Eigen::Vector3d& last_turn() const { return last_turn_; }
+  [[nodiscard]] Motion at(double t) const override;
+  [[nodiscard]] Eigen::Vector3d acceleration(double t) const override;
+  [[nodiscard]] Eigen::Vector3d turn(double) const override { return Eigen::Vector3d::Zero(); }
 
  private:
   /// In the plane of the arc, from its start: along and across the first velocity, metres, and the angle that
@@ -76,22 +57,18 @@ class Arc {
   [[nodiscard]] double turn_rate_bound() const;
   void bound_turn_acceleration();
 
-  Motion start_, end_;
   Eigen::Vector3d acceleration_;
   Orientation orientation_;
-  double from_, to_;
   // The plane: unit vectors along the velocity at the start and along the lateral acceleration.
   Eigen::Vector3d ahead_ = Eigen::Vector3d::Zero(), aside_ = Eigen::Vector3d::Zero();
   double speed_ = 0, longitudinal_ = 0, lateral_ = 0;
   double carried_ = 0;  // seconds, until when the acceleration is carried along
   InPlane last_;        // then
-  double most_acceleration_ = 0, most_turn_rate_ = 0, most_turn_acceleration_ = 0;
-  Eigen::Vector3d first_turn_ = Eigen::Vector3d::Zero(), last_turn_ = Eigen::Vector3d::Zero();
   // The second step and all that follow: none in most arcs, which are as short as a step of guidance.
   std::shared_ptr<const std::vector<Step>> steps_;
 };
 
-/// A body's whole motion. Arcs follow each other without gap.
+/// A body's whole motion. Legs follow each other without gap; they are shared by copies of the track.
 class Track {
  public:
   Track(ShapeInTime shape, const Motion& start, Orientation orientation, double appears);
@@ -100,11 +77,17 @@ class Track {
   /// other are one. Throws InputError naming "to" where it is not after end().
   void advance(const Eigen::Vector3d& acceleration, double to);
 
+  /// Goes on along a curve from end(), where position and rotation are those reached, to 1e-12 (of 1 m and of
+  /// the distance from the origin). Its velocity may be another: a blow. Throws InputError naming "from",
+  /// "position" or "rotation", and "orientation" unless the track's is fixed: a curve says itself how it
+  /// turns.
+  void append(const Curve& curve);
+
   [[nodiscard]] double appears() const { return appears_; }
-  [[nodiscard]] double end() const { return arcs_.empty() ? appears_ : arcs_.back().to(); }
+  [[nodiscard]] double end() const { return legs_.empty() ? appears_ : legs_.back()->to(); }
   [[nodiscard]] const ShapeInTime& shape() const { return shape_; }
   [[nodiscard]] Orientation orientation() const { return orientation_; }
-  [[nodiscard]] const std::vector<Arc>& arcs() const { return arcs_; }
+  [[nodiscard]] const std::vector<std::shared_ptr<const Leg>>& legs() const { return legs_; }
 
   /// appears() <= t <= end().
   [[nodiscard]] Motion motion(double t) const;
@@ -115,9 +98,10 @@ class Track {
 
   /// Bounds over [from, to].
   struct Bounds {
-    double acceleration = 0;  // m/s^2
-    double turn_rate = 0;     // rad/s
-    /// Of directions fixed in the body: |d2/dt2| within arcs, and the sum of the jumps of d/dt between them.
+    double acceleration = 0;    // m/s^2
+    double turn_rate = 0;       // rad/s
+    double velocity_jumps = 0;  // m/s, their sum, between legs
+    /// Of directions fixed in the body: |d2/dt2| within legs, and the sum of the jumps of d/dt between them.
     double turn_acceleration = 0;  // rad/s^2
     double turn_jumps = 0;         // rad/s
   };
@@ -128,7 +112,7 @@ class Track {
   Motion start_;
   Orientation orientation_;
   double appears_;
-  std::vector<Arc> arcs_;
+  std::vector<std::shared_ptr<const Leg>> legs_;
 };
 
 }  // namespace vericone::simulation

@@ -3,7 +3,9 @@
 // Vehicles that are not point masses: what flies a body by its own equations of motion.
 #pragma once
 
-#include <vericone/simulation/track.h>
+#include <vericone/simulation/current.h>
+#include <vericone/simulation/curve.h>
+#include <vericone/simulation/leg.h>
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
@@ -24,6 +26,22 @@ struct VehicleCommand {
   std::optional<Aim> aim;
 };
 
+/// What no motion of a vehicle exceeds: proved of its equations, or declared and kept by the vehicle.
+struct VehicleLimits {
+  double speed = 0;            // m/s, through the water or air
+  double turn_rate = 0;        // rad/s, of its horizontal course
+  double climb = 0;            // m/s
+  double climb_jerk = 0;       // m/s^3; infinite if not limited
+  double top = 0, bottom = 0;  // z of the highest and lowest place it can be, m
+};
+
+/// The first time at which a vehicle was beyond one of its limits.
+struct LimitBroken {
+  double t = 0;       // s
+  std::string limit;  // "speed", "turn_rate", "climb", "top" or "bottom"
+  double value = 0, allowed = 0;
+};
+
 /// One under way.
 class Vehicle {
  public:
@@ -34,25 +52,22 @@ class Vehicle {
   virtual void advance(const VehicleCommand& command, double from, double to, std::vector<Curve>& way) = 0;
   /// Its inputs and states at the time reached, in the order of VehicleModel::channels().
   virtual void log(std::vector<double>& values) const = 0;
+  /// Watched on every step of the solver: nothing while it keeps what VehicleModel::limits() says.
+  [[nodiscard]] virtual std::optional<LimitBroken> broken() const = 0;
 };
 
 /// A kind of vehicle with its parameters.
 class VehicleModel {
  public:
   virtual ~VehicleModel() = default;
-  /// `start` at time t, seconds.
-  [[nodiscard]] virtual std::unique_ptr<Vehicle> launch(const Motion& start, double t) const = 0;
+  /// `start` at time t, seconds, in moving water. Throws InputError naming "position", "velocity" or
+  /// "rotation" for a start that the vehicle cannot be in.
+  [[nodiscard]] virtual std::unique_ptr<Vehicle> launch(const Motion& start, double t,
+                                                        const Current& water) const = 0;
   /// Columns of what it logs, with units: "bias [rad]".
   [[nodiscard]] virtual std::vector<std::string> channels() const = 0;
-  /// What no motion of it exceeds, proved of its equations or declared by the scenario and kept by the vehicle.
-  struct Limits {
-    double speed = 0;         // m/s, through the water or air
-    double turn_rate = 0;     // rad/s, of its horizontal course
-    double climb = 0;         // m/s
-    double climb_jerk = 0;    // m/s^3; infinite if not limited
-    double top = 0, bottom = 0;  // z of the highest and lowest place it can be, m
-  };
-  [[nodiscard]] virtual Limits limits() const = 0;
+  /// Of one launched with this start.
+  [[nodiscard]] virtual VehicleLimits limits(const Motion& start) const = 0;
 };
 
 }  // namespace vericone::simulation

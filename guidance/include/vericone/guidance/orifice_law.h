@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Laws that take an agent through an opening: the source's (2.2)-(2.4) as corrected, and ours, which steers
+// the clearance of the true shapes in metres. Pure functions of an instant. No allocation, no throw.
+#pragma once
+
+#include <vericone/guidance/body_state.h>
+#include <vericone/guidance/kinematics.h>
+#include <vericone/guidance/orifice.h>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+namespace vericone::guidance {
+
+enum class OrificeStatus : std::uint8_t {
+  steering,
+  saturated,  // steering with the most allowed
+  clear,      // it passes as it flies: nothing commanded
+  turning,    // the opening recedes, or lies behind: turns the velocity towards it with the most allowed
+  coasting,   // within the opening's reach, and through it as it flies: nothing commanded any more
+  no_effect,  // aimed at the centre, or inputs that do not change y: nothing commanded
+  no_relative_velocity,  // nothing commanded
+};
+[[nodiscard]] const char* to_string(OrificeStatus status);
+
+struct OrificeCommand {
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  // of A, m/s^2, saturated
+  double demanded = 0;                                     // its magnitude before saturation
+  double y = 0;  // (2.2), m^2: the miss of the centres squared less (R_B - R_A)^2
+  double m = 0;  // metres, of the passage law: clearance of the shadows
+  OrificeStatus status = OrificeStatus::clear;
+};
+
+/// (2.2): y = r^2 (V_theta^2 + V_phi^2) / V^2 - (R_B - R_A)^2, m^2, and what changes it: y' =
+/// by_acceleration.a for an acceleration a of A in the world; without acceleration y stays as it is (for
+/// constant velocities it is the squared miss of two points). V = 0: y as for V_r alone, no gradient.
+struct OrificeFunction {
+  double y = 0;
+  Eigen::Vector3d by_acceleration = Eigen::Vector3d::Zero();  // m s
+  double v_r = 0;                                             // m/s, negative: closing
+};
+[[nodiscard]] OrificeFunction orifice_function(const Cartesian<3>& motion, double opening_radius,
+                                               double agent_radius);
+
+struct OrificeLawOptions {
+  double gain = 0.1;                                      // K, 1/s: y' = -K (y - reference)
+  double reference = -0.1;                                // w, m^2: -(R_B - R_A)^2 < w < 0
+  double most = std::numeric_limits<double>::infinity();  // m/s^2
+  /// (delta, gamma): the acceleration is along this, with either sign. Left out: along the one that needs
+  /// least, which is perpendicular to the relative velocity (the source gives none).
+  std::optional<Direction> direction;
+};
+
+/// (2.4) with its third line corrected (errata 2.4), whose sign and size are those of y' along the direction.
+/// It drives y to the reference from either side, so that A passes sqrt(w + (R_B - R_A)^2) beside the centre,
+/// and takes every opening as facing the relative velocity: its tilt and its outline are not seen. (2.4)
+/// does not look at the sign of V_r; here A turns towards the centre while V_r >= 0, and within R_B of it,
+/// with y < 0, nothing is commanded. Cost: 30 ns.
+[[nodiscard]] OrificeCommand orifice_law(const Cartesian<3>& motion, double opening_radius,
+                                         double agent_radius, const OrificeLawOptions& options);
+
+struct PassageLawOptions {
+  double margin = 0.1;  // metres to keep from the rim, at least
+  double beyond =
+      0.05;         // metres more that it aims at, as far as the opening has room; nothing is commanded there
+  double gain = 1;  // K, 1/s: m' = -K (m - margin - beyond)
+  double most = std::numeric_limits<double>::infinity();  // m/s^2
+  bool longitudinal = false;  // may change the speed too; otherwise perpendicular to A's velocity
+};
+
+/// The clearance m of the shadows of A and of the opening along the relative velocity, metres, the opening as
+/// it will be turned when A gets there, driven to the margin by the least acceleration; where the opening has
+/// less room, to 0.95 of the clearance through its deepest point. Where m >= margin nothing is commanded.
+/// While A's centre moves away from the opening's plane, or along it, A turns towards the opening's deepest
+/// point. Bodies other than ellipsoids and hulls are seen as ellipsoids that contain them. Cost:
+/// docs/measured/benchmarks.md.
+[[nodiscard]] OrificeCommand passage_law(const BodyState& a, const OrificeState& orifice,
+                                         const PassageLawOptions& options);
+
+/// Where A is to be for the opening, and when.
+struct OrificeAim {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();     // m, in the world then
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, of that point
+  double seconds = 0;
+};
+/// The deepest point of the opening as it will be when A is there, with A's way straight and `speed` the
+/// speed with which A goes; left out: its closing speed, or, where it does not close in, its own. With a
+/// `margin` (metres) and a way so oblique that A would not keep it: first a point before the opening, on A's
+/// side, on the perpendicular through the deepest point.
+[[nodiscard]] OrificeAim orifice_aim(const BodyState& a, const OrificeState& orifice,
+                                     const std::optional<double>& speed = {},
+                                     const std::optional<double>& margin = {});
+
+}  // namespace vericone::guidance

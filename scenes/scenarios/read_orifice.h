@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Orifices, and the laws that take a pilot through them.
+#pragma once
+
+#include <vericone/simulation/scenario.h>
+#include <string>
+
+#include "json/json_forward.h"
+
+namespace vericone::scenario {
+
+simulation::MovingOrifice read_orifice(const Json& value, const std::string& path);
+
+/// Fields of a pilot whose law is one of orifices.
+simulation::Through read_through(const Json& value, const std::string& path, simulation::Through::Law law);
+
+}  // namespace vericone::scenario
