@@ -111,24 +111,57 @@ OrificeCommand orifice_law(const Cartesian<3>& motion, double opening_radius, do
   return command;
 }
 
-OrificeAim orifice_aim(const Vector3d& position, const Vector3d& velocity, const OrificeState& orifice) {
-  OrificeAim aim;
-  const auto point_of = [](const PlacedOpening& at) -> Vector3d {
+namespace {
+
+OpeningClearance clearance_of(const BodyState& a, const PlacedOpening& opening, const Vector3d& w) {
+  return a.shape.support_point(w) ? opening_clearance(a.shape, opening, w)
+                                  : opening_clearance(a.shape.containing_ellipsoid(), opening, w);
+}
+
+/// The opening moved so that A flies through its deepest point: what it has room for along w.
+double room_along(const BodyState& a, PlacedOpening opening, const Vector3d& w) {
+  opening.center = a.position - opening.axes * opening.opening.deepest();
+  return clearance_of(a, opening, w).distance;
+}
+
+/// Not worth more: of all the room there is.
+constexpr double kMostRoom = 0.95;
+
+}  // namespace
+
+OrificeAim orifice_aim(const BodyState& a, const OrificeState& orifice, const std::optional<double>& speed,
+                       const std::optional<double>& margin) {
+  const auto meet = [&](const auto& point_of) {
+    OrificeAim aim;
+    // The point turns and moves on the way: a few looks ahead.
+    aim.point = point_of(orifice.opening);
+    for (int i = 0; i < 8; ++i) {
+      const Vector3d c = aim.point - a.position;
+      double closing = speed.value_or(a.velocity.norm());
+      if (!speed && i == 0) {
+        const double relative = c.dot(a.velocity - orifice.velocity) / c.norm();
+        if (relative > 0.1 * closing) closing = relative;
+      }
+      aim.seconds = closing > 0 ? c.norm() / closing : 0;
+      const OrificeState then = orifice.after(aim.seconds);
+      aim.point = point_of(then.opening);
+      aim.velocity = then.velocity + then.spin.cross(Vector3d(aim.point - then.opening.center));
+    }
+    return aim;
+  };
+  const auto deepest = [](const PlacedOpening& at) -> Vector3d {
     return at.center + at.axes * at.opening.deepest();
   };
-  // The opening turns on the way: two looks ahead are as good as the guess of the time.
-  Vector3d point = point_of(orifice.opening);
-  for (int i = 0; i < 3; ++i) {
-    const Vector3d c = point - position, w = velocity - orifice.velocity;
-    const double closing = i == 0 ? c.dot(w) / c.norm() : velocity.norm();
-    const double speed = closing > 0.1 * velocity.norm() ? closing : velocity.norm();
-    aim.seconds = speed > 0 ? c.norm() / speed : 0;
-    const OrificeState then = orifice.after(aim.seconds);
-    point = point_of(then.opening);
-    aim.velocity = then.velocity + then.spin.cross(Vector3d(point - then.opening.center));
-  }
-  aim.point = point;
-  return aim;
+  const OrificeAim direct = meet(deepest);
+  if (!margin || !(direct.seconds > 0)) return direct;
+  const Vector3d w = (direct.point - a.position) / direct.seconds - orifice.velocity;
+  if (!(w.squaredNorm() > 0)) return direct;
+  const PlacedOpening then = orifice.after(direct.seconds).opening;
+  const double most = kMostRoom * room_along(a, then, then.normal());
+  if (room_along(a, then, w) >= std::min(*margin, most)) return direct;
+  const double side = then.normal().dot(a.position - orifice.opening.center) < 0 ? -1 : 1;
+  const double away = then.opening.reach() + 2 * a.shape.containing_ellipsoid().radius(then.normal());
+  return meet([&](const PlacedOpening& at) -> Vector3d { return deepest(at) + side * away * at.normal(); });
 }
 
 OrificeCommand passage_law(const BodyState& a, const OrificeState& orifice,
@@ -141,7 +174,7 @@ OrificeCommand passage_law(const BodyState& a, const OrificeState& orifice,
     command.status = OrificeStatus::no_relative_velocity;
     return command;
   }
-  const OrificeAim aim = orifice_aim(a.position, a.velocity, orifice);
+  const OrificeAim aim = orifice_aim(a, orifice, {}, options.margin);
   const double seconds = along != 0 ? to_plane / along : -1;
   const auto turn = [&] { return turn_towards(aim.point - a.position, a.velocity, options.most); };
   if (!(seconds > 0)) {
@@ -157,18 +190,15 @@ OrificeCommand passage_law(const BodyState& a, const OrificeState& orifice,
   // As it will be turned when A's centre is there; where it is then is in the relative velocity.
   PlacedOpening then = orifice.after(seconds).opening;
   then.center = orifice.opening.center;
-  const OpeningClearance now = opening_clearance(a.shape, then, w);
+  const OpeningClearance now = clearance_of(a, then, w);
   command.m = now.distance;
-  if (now.normal.isZero(0)) {
+  if (now.distance >= options.margin + options.beyond) return command;
+  const double room = kMostRoom * room_along(a, then, w);
+  if (!(room > 0) || now.normal.isZero(0)) {
     command = turn();
     command.m = now.distance;
     return command;
   }
-  if (now.distance >= options.margin + options.beyond) return command;
-  // What the opening has room for along this w.
-  PlacedOpening through_deepest = then;
-  through_deepest.center = a.position - then.axes * then.opening.deepest();
-  const double room = 0.95 * opening_clearance(a.shape, through_deepest, w).distance;
   const double wanted = std::min(options.margin + options.beyond, room);
   if (now.distance >= wanted) return command;
   Vector3d gradient = -now.time * now.normal;

@@ -103,6 +103,13 @@ simulation::Through read_through(const Json& value, const std::string& path, sim
   if (law == simulation::Through::Law::orifice)
     through.source.reference = read_number(require_field(value, path, "reference", "w in m^2, below 0"),
                                            path + ".reference", " (m^2)");
+  if_given(value, path, "speed", [&](const Json& v, const std::string& p) {
+    if (!v.is_array()) through.speeds = {read_positive(v, p, " (m/s)")};
+    for (std::size_t i = 0; v.is_array() && i < v.size(); ++i)
+      through.speeds.push_back(read_positive(v[i], at(p, i), " (m/s)"));
+  });
+  if_given(value, path, "gain_speed",
+           [&](const Json& v, const std::string& p) { through.gain_speed = read_positive(v, p, " (1/s)"); });
   metres("margin", through.passage.margin);
   metres("beyond", through.passage.beyond);
   if_given(value, path, "longitudinal",

@@ -54,7 +54,8 @@ const std::vector<OfLaws>& fields_of_laws() {
                                          {"side", of_planes},
                                          {"cease", {"avoidance", "cooperative-avoidance"}},
                                          {"mu", {"cooperative-avoidance"}},
-                                         {"gain_speed", {"matching-rendezvous"}},
+                                         {"gain_speed", {"matching-rendezvous", "orifice", "passage"}},
+      {"speed", of_orifices},
                                          {"clearance", {"clearance"}},
                                          {"manner", {"avoidance", "clearance"}},
                                          {"passing", of_planes},
@@ -185,7 +186,7 @@ simulation::Pilot read_pilot(const Json& value, const std::string& path, bool pl
       {"law",     "sector", "rates",       "plane",     "gain",   "reference", "most",      "cease",
        "side",    "mu",     "gain_speed",  "clearance", "minds",  "partners",  "goal",      "manner",
        "passing", "sensor", "estimator",   "filter",    "robust", "through",   "direction", "direction_deg",
-       "margin",  "beyond", "longitudinal"});
+       "margin",  "beyond", "longitudinal", "speed"});
   simulation::Pilot pilot;
   guidance::GuideOptions& guide = pilot.guide;
   const ReadLaw law = read_choice<ReadLaw>(

@@ -15,6 +15,7 @@
 #include "scenarios/read_orifice.h"
 #include "scenarios/read_pilot.h"
 #include "scenarios/read_shape.h"
+#include "scenarios/read_vehicle.h"
 #include "scenarios/scenario_fields.h"
 
 namespace vericone::scenario {
@@ -31,7 +32,7 @@ Json with_shape(const Json& value, const std::string& path) {
     throw InputError(path + ".position", quoted(value["position"]),
                      "given with shape; beside a body's own fields its place is center");
   constexpr const char* kOwn[] = {"name",        "velocity", "speed",   "heading", "heading_deg",
-                                  "orientation", "rotation", "appears", "pilot"};
+                                  "orientation", "rotation", "appears", "pilot",   "vehicle"};
   for (const auto& [key, field] : value.items()) {
     const bool own = std::find(std::begin(kOwn), std::end(kOwn), key) != std::end(kOwn);
     if (key == "center")
@@ -59,11 +60,17 @@ simulation::Body read_body(const Json& given, const std::string& path, const std
   const Json value = by_shape(given) ? given : with_shape(given, path);
   require_known(value, path,
                 {"name", "shape", "position", "velocity", "speed", "heading", "heading_deg", "orientation",
-                 "rotation", "appears", "pilot"});
+                 "rotation", "appears", "pilot", "vehicle"});
   simulation::Body body;
   body.name = read_text(require_field(value, path, "name", "a name, as text"), path + ".name", "a name");
-  body.shape = read_shape(require_field(value, path, "shape", "a mapping, such as {semi_axes: [3, 2, 1]}"),
-                          path + ".shape", folder);
+  if_given(value, path, "vehicle", [&](const Json& v, const std::string& p) {
+    const VehicleRead read = read_vehicle(v, p, value.contains("shape"));
+    body.vehicle = read.model;
+    body.shape = read.shape;
+  });
+  if (!body.vehicle || value.contains("shape"))
+    body.shape = read_shape(require_field(value, path, "shape", "a mapping, such as {semi_axes: [3, 2, 1]}"),
+                            path + ".shape", folder);
   const bool planar = simulation::planar(body.shape);
   read_motion(value, path, planar, body);
   if_given(value, path, "appears",
@@ -107,7 +114,7 @@ simulation::Scenario read_scenario(const Json& fields, const std::string& name,
   if (!fields.is_object()) throw InputError("scenario", quoted(fields), "a mapping with bodies");
   require_known(fields, "",
                 {"name", "duration", "step", "stop_when_passed", "planes_logged", "proof", "bodies", "seed",
-                 "orifices"});
+                 "orifices", "current"});
   simulation::Scenario scenario;
   scenario.name = name;
   if_given(fields, "", "name",
@@ -126,6 +133,8 @@ simulation::Scenario read_scenario(const Json& fields, const std::string& name,
   if_given(fields, "", "seed", [&](const Json& v, const std::string& p) {
     scenario.seed = std::uint64_t(read_count(v, p, 0, 2'000'000'000));
   });
+  if_given(fields, "", "current",
+           [&](const Json& v, const std::string& p) { scenario.water = read_current(v, p, scenario.seed); });
   const Json& bodies = require_field(fields, "", "bodies", "a list of bodies");
   if (!bodies.is_array() || bodies.empty()) throw InputError("bodies", quoted(bodies), "a list of bodies");
   for (std::size_t i = 0; i < bodies.size(); ++i)

@@ -342,6 +342,11 @@ def orifice(text=ORIFICE, pilot=THROUGH, agent="{semi_axes: [1, 1, 1]}", more=""
     return scenario(pilot=pilot, agent=agent, top="duration: 5\norifices: [%s%s]\n" % (text, more))
 
 
+def fish(vehicle, shape="", position="[0, 0, 0]", velocity="[0.1, 0, 0]", top=""):
+    return "%sduration: 5\nbodies:\n  - {name: F, %sposition: %s, velocity: %s, vehicle: %s}\n" % (top, shape, position, velocity,
+                                                                                                vehicle)
+
+
 # What is wrong, the scenario.
 SCENARIOS = [
     ("steps that no memory holds", scenario(top="duration: 5\nstep: 0.000002\n")),
@@ -436,6 +441,25 @@ SCENARIOS = [
     ("a shape of no pieces", scenario(BODY.replace("semi_axes: [2, 2, 2]", "pieces: []"))),
     ("pieces of two kinds", scenario(BODY.replace("semi_axes: [2, 2, 2]", "pieces: [{center: [0, 0, 0], "
                                                   "semi_axes: [1, 1, 1]}, {points: [[0, 0, 0]]}]"))),
+    ("a fish above the water", fish("{kind: fish, depth: -1}")),
+    ("a fish with more gas than its chamber holds", fish("{kind: fish, gas: 1.0e-5}")),
+    ("a fish that can never rise", fish("{kind: fish, neutral_gas: 9.0e-6}")),
+    ("a fish of negative mass", fish("{kind: fish, mass: -0.8}")),
+    ("a fish whose hinge is behind its body", fish("{kind: fish, hinge: 0.3}")),
+    ("a tail that folds over", fish("{kind: fish, most_bias_deg: 60}")),
+    ("a vehicle without a kind", fish("{depth: 3}")),
+    ("a vehicle of an unknown kind", fish("{kind: submarine}")),
+    ("an unknown field of a fish", fish("{kind: fish, colour: red}")),
+    ("a limit of nothing", fish("{kind: fish, limits: {speed: 0}}")),
+    ("a trial under control", fish("{kind: fish, trial: {amplitude_deg: 20}}")),
+    ("an amplitude beyond its most", fish("{kind: fish, control: none, trial: {amplitude_deg: 40}}")),
+    ("a shape and the vehicle's own", fish("{kind: fish, body: sphere}", "shape: {semi_axes: [1, 1, 1]}, ")),
+    ("a vehicle in the plane", fish("{kind: fish}", "shape: {semi_axes: [1, 1]}, ", "[0, 0]", "[1, 0]")),
+    ("a fish that starts upright", fish("{kind: fish}", velocity="[0, 0, 0.1]")),
+    ("a current of two numbers", fish("{kind: fish}", top="current: {uniform: [1, 0]}\n")),
+    ("a shear without a rate", fish("{kind: fish}", top="current: {shear: {level: 1}}\n")),
+    ("gusts whose longest period is the shorter", fish("{kind: fish}", top="current: {gusts: {most: 1, longest: 1}}\n")),
+    ("a current with an unknown field", fish("{kind: fish}", top="current: {wind: 1}\n")),
 ]
 # What is wrong, arguments after `campaign`.
 CAMPAIGNS = [

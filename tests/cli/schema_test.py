@@ -146,6 +146,14 @@ class Schemas(unittest.TestCase):
                 (top % ", pilot: {law: clearance, clearance: {zzz: 1}}", "bodies[0].pilot.clearance.zzz",
                  defs["clearance"]["properties"]),
                 (top % ", pilot: {law: avoidance, plane: {zzz: 1}}", "bodies[0].pilot.plane.zzz", defs["plane"]["properties"]),
+                (top % ", vehicle: {kind: fish, zzz: 1}", "bodies[0].vehicle.zzz", defs["vehicle"]["properties"]),
+                (top % ", vehicle: {kind: fish, limits: {zzz: 1}}", "bodies[0].vehicle.limits.zzz",
+                 defs["vehicle_limits"]["properties"]),
+                (top % ", vehicle: {kind: fish, control: none, trial: {zzz: 1}}", "bodies[0].vehicle.trial.zzz",
+                 defs["fish_trial"]["properties"]),
+                ("current: {zzz: 1}\n" + top % "", "current.zzz", defs["current"]["properties"]),
+                ("current: {shear: {zzz: 1}}\n" + top % "", "current.shear.zzz", defs["shear"]["properties"]),
+                ("current: {gusts: {zzz: 1}}\n" + top % "", "current.gusts.zzz", defs["gusts"]["properties"]),
                 ("proof: {zzz: 1}\n" + top % "", "proof.zzz", scenario["properties"]["proof"]["properties"])):
             self.assertEqual(self.taken("check", text, path), set(properties), path)
         pair = "agent: {center: [0, 0, 0], semi_axes: [1, 1, 1]}\nobstacle: %s\n"
@@ -163,7 +171,7 @@ class Schemas(unittest.TestCase):
         # A scenario's shape takes these, changes in time, and no velocity.
         shape = set(defs["shape"]["properties"])
         self.assertEqual(shape, fields - {"velocity"} | {"dented"})
-        own = {"name", "speed", "heading", "heading_deg", "orientation", "appears", "pilot", "velocity"}
+        own = {"name", "speed", "heading", "heading_deg", "orientation", "appears", "pilot", "vehicle", "velocity"}
         self.assertEqual(set(defs["as_in_scenes"]["properties"]), shape | own)
 
     def test_defaults_are_those_of_the_program(self):
@@ -203,6 +211,30 @@ class Schemas(unittest.TestCase):
                             open(os.path.join(out, "encounters.csv"), encoding="utf-8") as looks:
                         runs.append((rows.read(), looks.read()))
                 self.assertTrue(runs[0] == runs[1], "the runs differ")
+
+    def test_defaults_of_vehicles_and_currents_are_those_of_the_program(self):
+        defs = schema("scenario")["$defs"]
+
+        def defaults(name):
+            return {k: v["default"] for k, v in defs[name]["properties"].items() if "default" in v}
+
+        for control in ("ours", "source", "none"):
+            runs = []
+            for number in range(2):
+                vehicle = {**(defaults("vehicle") if number else {}), "kind": "fish", "control": control}
+                if control == "none":
+                    vehicle["trial"] = {**(defaults("fish_trial") if number else {}), "amplitude_deg": 20}
+                gusts = {**(defaults("gusts") if number else {}), "most": 0.01}
+                shear = {**(defaults("shear") if number else {}), "rate": [0.02, 0]}
+                current = {**(defaults("current") if number else {}), "gusts": gusts, "shear": shear}
+                body = {"name": "A", "position": [0, 0, 0], "velocity": [0.1, 0, 0], "vehicle": vehicle}
+                out = os.path.join(self.folder.name, f"fish-{control}-{number}")
+                path = self.write(json.dumps({"duration": 5, "step": 0.05, "current": current, "bodies": [body]}))
+                done = run("simulate", path, "--no-figures", "--quiet", "--out", out)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                with open(os.path.join(out, "bodies.csv"), encoding="utf-8") as rows:
+                    runs.append(rows.read())
+            self.assertTrue(runs[0] == runs[1], f"the runs under {control} differ")
 
     def test_fields_of_papers_are_those_of_the_program(self):
         folder = os.path.join(self.folder.name, "paper")

@@ -12,11 +12,13 @@ ROOT = Path(os.environ.get("VERICONE_SOURCE", Path(__file__).resolve().parents[2
 SOURCES = ("geometry", "cones", "guidance", "scenes", "verify", "apps", "papers", "benchmarks", "tests")
 
 # Libraries, and within them folders, each of which may include itself and what stands before it.
-LIBRARIES = ["geometry", "files", "octomap", "fitting", "lidar", "cones", "guidance", "simulation", "scenes", "scenarios", "verify"]
+LIBRARIES = ["geometry", "files", "octomap", "fitting", "lidar", "cones", "guidance", "simulation", "vehicles", "scenes", "scenarios", "verify"]
 BESIDE = {("fitting", "octomap"), ("fitting", "files"), ("fitting", "lidar"), ("lidar", "octomap"), ("lidar", "fitting"),
           ("cones", "files"), ("cones", "octomap"), ("cones", "fitting"), ("cones", "lidar"),
           ("guidance", "files"), ("guidance", "octomap"), ("guidance", "fitting"), ("guidance", "lidar"),
           ("simulation", "files"), ("simulation", "octomap"), ("simulation", "fitting"), ("simulation", "lidar"),
+          ("vehicles", "files"), ("vehicles", "octomap"), ("vehicles", "fitting"), ("vehicles", "lidar"), ("verify", "vehicles"),
+          ("scenes", "vehicles"),
           ("verify", "octomap"), ("verify", "fitting"), ("verify", "lidar"), ("verify", "guidance"),
           ("verify", "simulation"), ("verify", "scenes"), ("verify", "scenarios"), ("scenes", "guidance"),
           ("scenes", "simulation"), ("scenes", "fitting"), ("scenes", "lidar"), ("scenarios", "fitting"), ("scenarios", "lidar"), ("octomap", "fitting"), ("octomap", "lidar")}
@@ -30,6 +32,8 @@ def library_of(path):
         return parts[1]
     if parts[0] == "guidance" and parts[1] == "simulation":
         return "simulation"
+    if parts[0] == "guidance" and parts[1] == "vehicles":
+        return "vehicles"
     if parts[0] == "scenes" and parts[1] == "scenarios":
         return "scenarios"
     return parts[0]

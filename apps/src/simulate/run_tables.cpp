@@ -23,8 +23,10 @@ std::vector<double> command_times(const Scenario& scenario, const Run& run) {
   std::vector<double> times{run.end};
   for (std::uint64_t k = 0; time_of_step(scenario, k) < run.end; ++k)
     times.push_back(time_of_step(scenario, k));
-  for (const Track& track : run.tracks)
-    for (const auto& leg : track.legs()) times.push_back(leg->from());
+  for (std::size_t i = 0; i < run.tracks.size(); ++i) {
+    if (scenario.bodies[i].vehicle) continue;  // its legs are the solver's steps
+    for (const auto& leg : run.tracks[i].legs()) times.push_back(leg->from());
+  }
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;

@@ -76,6 +76,11 @@ void check_through(const Through& through, const Body& self, const Scenario& sce
   require_positive(through.source.gain, "gain", " (1/s)");
   require_positive(through.passage.gain, "gain", " (1/s)");
   require_positive(std::min(through.source.most, through.passage.most), "most", " (m/s^2)");
+  require_positive(through.gain_speed, "gain_speed", " (1/s)");
+  for (const double speed : through.speeds) require_positive(speed, "speed", " (m/s)");
+  if (through.speeds.size() > 1 && through.speeds.size() != through.orifices.size())
+    throw InputError("speed", std::to_string(through.speeds.size()) + " numbers",
+                     "one, or one for each of " + std::to_string(through.orifices.size()) + " orifices");
   if (!(through.passage.margin >= 0) || !std::isfinite(through.passage.margin))
     throw InputError("margin", to_text(through.passage.margin), "a finite number, 0 or more (m)");
   if (!(through.passage.beyond >= 0) || !std::isfinite(through.passage.beyond))

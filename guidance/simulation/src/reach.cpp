@@ -244,7 +244,7 @@ void check(const ReachLimits& limits) {
 ReachLimits limits_of(const Scenario& scenario, const Body& body) {
   ReachLimits limits;
   if (body.vehicle) {
-    const VehicleLimits own = body.vehicle->limits();
+    const VehicleLimits own = body.vehicle->limits(body.start);
     // The limits are those through the water, which carries the vehicle besides.
     const double water = scenario.water.most(own.bottom, own.top);
     limits.speed = own.speed + water;
@@ -259,12 +259,18 @@ ReachLimits limits_of(const Scenario& scenario, const Body& body) {
   const bool turns_only = through.law == Through::Law::passage && !through.passage.longitudinal;
   double most = through.law == Through::Law::passage ? through.passage.most : through.source.most;
   if (body.pilot->goal) most = std::max(most, body.pilot->goal->most);
-  limits.acceleration = most;
-  const double speed = body.start.velocity.norm();
+  double slowest = body.start.velocity.norm(), fastest = slowest;
+  for (const double speed : through.speeds) {
+    slowest = std::min(slowest, speed);
+    fastest = std::max(fastest, speed);
+  }
+  // What holds a speed adds to what is commanded, and goes beyond it only if its steps do.
+  if (through.speeds.empty()) limits.acceleration = most;
+  const bool holds = through.speeds.empty() || through.gain_speed * scenario.step <= 1;
   // A body at rest has no velocity to turn: what its law commands moves it.
-  if (!turns_only || speed <= 2 * kRestSpeed) return limits;
-  limits.speed = speed * (1 + 1e-12);
-  limits.turn_rate = most / speed * (1 + 1e-12);
+  if (!turns_only || !holds || slowest <= 2 * kRestSpeed) return limits;
+  limits.speed = fastest * (1 + 1e-12);
+  limits.turn_rate = most / slowest * (1 + 1e-12);
   return limits;
 }
 

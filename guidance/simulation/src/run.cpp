@@ -64,10 +64,12 @@ class Runner {
   Runner(const Scenario& scenario, const RunOptions& options) : scenario_(scenario), options_(options) {
     run_.tracks.reserve(scenario.bodies.size());
     for (const Body& body : scenario.bodies) {
-      run_.tracks.emplace_back(body.shape, body.start, body.vehicle ? Orientation::fixed : body.orientation,
-                               body.appears);
       vehicles_.push_back(body.vehicle ? body.vehicle->launch(body.start, body.appears, scenario.water)
                                        : nullptr);
+      if (vehicles_.back())
+        run_.tracks.emplace_back(body.shape, vehicles_.back()->motion(), Orientation::fixed, body.appears);
+      else
+        run_.tracks.emplace_back(body.shape, body.start, body.orientation, body.appears);
       if (body.appears > 0)
         event({body.appears, EventKind::appears, run_.tracks.size() - 1, run_.tracks.size() - 1, 0});
     }

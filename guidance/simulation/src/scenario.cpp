@@ -174,6 +174,10 @@ void check_body(const Body& body, const Scenario& scenario) {
   if (!(body.appears < scenario.duration))
     throw InputError("appears", to_text(body.appears),
                      "before the end, duration = " + to_text(scenario.duration));
+  if (body.vehicle) {
+    if (planar(body.shape)) throw InputError("vehicle", "of a planar body", "a body in space");
+    static_cast<void>(body.vehicle->launch(body.start, body.appears, scenario.water));
+  }
   if (!body.pilot) return;
   if (!body.start.velocity.any()) throw InputError("velocity", "0", "a heading: a body with a pilot moves");
   within("pilot", [&] { check_pilot(*body.pilot, body, scenario); });

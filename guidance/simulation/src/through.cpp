@@ -39,6 +39,23 @@ ThroughFlight::ThroughFlight(std::size_t agent, const Pilot& pilot, const Scenar
 }
 
 guidance::OrificeCommand ThroughFlight::command(const guidance::BodyState& body, double t) const {
+  guidance::OrificeCommand command = steer(body, t);
+  if (const auto wanted = speed()) {
+    Vector3d along = body.velocity;
+    if (scenario_->bodies[agent_].vehicle) along.z() = 0;
+    if (const double now = along.norm(); now > 0)
+      command.acceleration += through_->gain_speed * (*wanted - now) / now * along;
+  }
+  return command;
+}
+
+std::optional<double> ThroughFlight::speed() const {
+  const std::vector<double>& speeds = through_->speeds;
+  if (speeds.empty()) return std::nullopt;
+  return speeds[std::min(next_, speeds.size() - 1)];
+}
+
+guidance::OrificeCommand ThroughFlight::steer(const guidance::BodyState& body, double t) const {
   const guidance::OrificeState orifice = heading_for().at(t);
   if (through_->law == Through::Law::passage) return guidance::passage_law(body, orifice, through_->passage);
   return guidance::orifice_law({body.position, body.velocity, orifice.opening.center, orifice.velocity},
@@ -47,7 +64,9 @@ guidance::OrificeCommand ThroughFlight::command(const guidance::BodyState& body,
 }
 
 guidance::OrificeAim ThroughFlight::aim(const guidance::BodyState& body, double t) const {
-  return guidance::orifice_aim(body.position, body.velocity, heading_for().at(t));
+  std::optional<double> margin;
+  if (through_->law == Through::Law::passage) margin = through_->passage.margin;
+  return guidance::orifice_aim(body, heading_for().at(t), speed(), margin);
 }
 
 OrificeSample ThroughFlight::sample(const guidance::BodyState& body, double t,

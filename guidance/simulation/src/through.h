@@ -25,6 +25,8 @@ class ThroughFlight {
   std::optional<Event> fly(const Track& track, double from, double to);
 
  private:
+  guidance::OrificeCommand steer(const guidance::BodyState& body, double t) const;
+  std::optional<double> speed() const;  // to hold on the way to the next one
   const MovingOrifice& heading_for() const { return scenario_->orifices[orifice()]; }
 
   std::size_t agent_;

@@ -78,14 +78,18 @@ struct PassageLawOptions {
 [[nodiscard]] OrificeCommand passage_law(const BodyState& a, const OrificeState& orifice,
                                          const PassageLawOptions& options);
 
-/// Where A is to be for the opening, and when: the deepest point of the opening as it will be then, about,
-/// from the closing speed; where A does not close in, from its own speed.
+/// Where A is to be for the opening, and when.
 struct OrificeAim {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();     // m, in the world then
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, of that point
   double seconds = 0;
 };
-[[nodiscard]] OrificeAim orifice_aim(const Eigen::Vector3d& position, const Eigen::Vector3d& velocity,
-                                     const OrificeState& orifice);
+/// The deepest point of the opening as it will be when A is there, with A's way straight and `speed` the
+/// speed with which A goes; left out: its closing speed, or, where it does not close in, its own. With a
+/// `margin` (metres) and a way so oblique that A would not keep it: first a point before the opening, on A's
+/// side, on the perpendicular through the deepest point.
+[[nodiscard]] OrificeAim orifice_aim(const BodyState& a, const OrificeState& orifice,
+                                     const std::optional<double>& speed = {},
+                                     const std::optional<double>& margin = {});
 
 }  // namespace vericone::guidance

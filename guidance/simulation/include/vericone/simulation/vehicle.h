@@ -66,7 +66,8 @@ class VehicleModel {
                                                         const Current& water) const = 0;
   /// Columns of what it logs, with units: "bias [rad]".
   [[nodiscard]] virtual std::vector<std::string> channels() const = 0;
-  [[nodiscard]] virtual VehicleLimits limits() const = 0;
+  /// Of one launched with this start.
+  [[nodiscard]] virtual VehicleLimits limits(const Motion& start) const = 0;
 };
 
 }  // namespace vericone::simulation
