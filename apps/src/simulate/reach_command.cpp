@@ -85,6 +85,13 @@ Json time_json(const ReachTime& time) {
           {"limit", to_string(time.by)}};
 }
 
+/// What a vehicle broke of its own limits, on which all bounds stand.
+const LimitBroken* broken_by(const Run& run, std::size_t agent) {
+  const auto it = std::find_if(run.limits_broken.begin(), run.limits_broken.end(),
+                               [&](const VehicleBeyond& beyond) { return beyond.body == agent; });
+  return it == run.limits_broken.end() ? nullptr : &it->broken;
+}
+
 Json reach_json(const Scenario& scenario, const std::vector<AgentReach>& agents, const Flown& flown,
                 const ReachOptions& options) {
   Json json{{"scenario", scenario.name}, {"horizon", scenario.duration}, {"agents", Json::array()}};
@@ -111,6 +118,8 @@ Json reach_json(const Scenario& scenario, const std::vector<AgentReach>& agents,
                                 {"top", number(l.top)},
                                 {"bottom", number(l.bottom)}}},
                               {"orifices", orifices}});
+    if (const LimitBroken* broken = broken_by(flown.run, agent.agent))
+      json["agents"].back()["limit_broken"] = {{"limit", broken->limit}, {"t", broken->t}};
   }
   if (!options.current) return json;
   json["current"] = {{"recorded", flown.drift ? Json(*flown.drift) : Json(nullptr)},

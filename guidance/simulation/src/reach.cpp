@@ -251,7 +251,8 @@ ReachLimits limits_of(const Scenario& scenario, const Body& body) {
     limits.speed = own.speed + water;
     limits.climb = own.climb + water;
     limits.climb_jerk = water == 0 ? own.climb_jerk : kUnlimited;
-    limits.course_rate = water == 0 ? own.turn_rate : kUnlimited;
+    // Its turn rate is one of its heading, perhaps of a mean: what slips aside goes another way than it
+    // points.
     limits.top = own.top;
     limits.bottom = own.bottom;
     return limits;
