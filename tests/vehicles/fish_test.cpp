@@ -158,6 +158,7 @@ TEST(Fish, GasStaysWithinItsChamber) {
   bool full = false;
   for (const auto& log : rising.log) {
     EXPECT_LE(log[kGas], fish.chamber * (1 + 1e-12));
+    EXPECT_LE(log[kV3] + fish.neutral_gas / compression(fish, 2), most_gas(fish, log[kDepth]) * (1 + 1e-9));
     full |= log[kGas] > 0.999 * fish.chamber;
   }
   EXPECT_TRUE(full);
