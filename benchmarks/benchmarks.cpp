@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
   vericone::benchmarks::add_cone_benchmarks();
   vericone::benchmarks::add_measure_benchmarks();
   vericone::benchmarks::add_membership_benchmarks();
+  vericone::benchmarks::add_opening_benchmarks();
   vericone::benchmarks::add_fcl_benchmarks();
 #ifdef VERICONE_CORPUS
   vericone::benchmarks::add_corpus_benchmarks();

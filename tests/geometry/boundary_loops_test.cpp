@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/geometry/boundary_loops.h>
+#include <vericone/geometry/mesh/boundary_loops.h>
 #include <vericone/geometry/error.h>
 
 #include <algorithm>

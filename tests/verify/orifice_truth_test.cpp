@@ -52,5 +52,26 @@ TEST(OrificeTruth, BallAtAnAngle) {
   EXPECT_EQ(ball_through(9 * p + Vector3d(0, 8, 0), 9, down(std::sqrt(r2)), w), Transit::blocked);
 }
 
+TEST(OrificeTruth, OpeningsOfAnyOutline) {
+  const auto through = [](const Opening& opening, const Vector3d& p, double a, const Vector3d& w) {
+    return orifice_truth(Ellipsoid::from_axes(p, {a, a, a}),
+                         {opening, {0, 0, 0}, Eigen::Matrix<double, 3, 2>::Identity()}, w);
+  };
+  const Vector3d w(0, 0, 1);
+  EXPECT_EQ(through(Opening::circle(7), {3, 4, -9}, 2, w), Transit::grazes);
+  EXPECT_EQ(through(Opening::circle(7), {3, 4, -9}, up(2), w), Transit::blocked);
+  EXPECT_EQ(through(Opening::circle(7), {3, 4, -9}, down(2), w), Transit::passes);
+  EXPECT_EQ(through(Opening::circle(7), {3, 4, -9}, 2, -w), Transit::blocked);
+  EXPECT_EQ(through(Opening::ellipse({4, 2}), {3, 0, -9}, 1, w), Transit::grazes) << "osculating";
+  EXPECT_EQ(through(Opening::ellipse({4, 2}), {3, 0, -9}, up(1), w), Transit::blocked);
+  const Opening notched = Opening::polygon({{-9, -9}, {9, -9}, {9, 4}, {3, 4}, {3, 9}, {-9, 9}});
+  EXPECT_EQ(through(notched, {0, 0, -9}, 5, w), Transit::grazes) << "a vertex";
+  EXPECT_EQ(through(notched, {0, 0, -9}, up(5), w), Transit::blocked);
+  EXPECT_EQ(through(notched, {0, 0, -9}, down(5), w), Transit::passes);
+  EXPECT_EQ(through(notched, {6, 0, -9}, 3, w), Transit::grazes) << "an edge";
+  EXPECT_EQ(through(notched, {6, 7, -9}, 1, w), Transit::blocked) << "the wall";
+  EXPECT_EQ(through(notched, {20, 0, -9}, 1, w), Transit::blocked);
+}
+
 }  // namespace
 }  // namespace vericone::verify::orifice_truth_test

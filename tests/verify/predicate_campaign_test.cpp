@@ -25,6 +25,7 @@ std::uint64_t exact_every(const std::string& predicate) {
   const auto starts = [&](const char* text) { return predicate.rfind(text, 0) == 0; };
   return starts("point") || starts("velocity, sector") ? 1
          : starts("velocity, orifice")                 ? 64
+         : starts("velocity, opening")                 ? 64
          : starts("velocity")                          ? 4
                                                        : 64;
 }

@@ -103,7 +103,8 @@ class EarliestTime {
   ReachTime search(double horizon) {
     constexpr double kShortest = 1e-7;
     constexpr int kMostSteps = 100'000;
-    double t = left_.orifice ? std::max(start_.t, left_.when.not_before) : start_.t;
+    const double ready = left_.orifice ? std::max(start_.t, left_.when.not_before) : start_.t;
+    double t = std::max(ready, orifice_.appears);
     ReachTime found{t, left_.orifice ? left_.when.by : ReachLimit::none};
     if (std::isinf(t)) return found;
     for (int i = 0; i < kMostSteps; ++i) {
