@@ -5,6 +5,7 @@
 #include <vericone/geometry/error.h>
 #include <vericone/simulation/passage.h>
 
+#include <chrono>
 #include <iostream>
 
 #include "simulation/moving_pairs.h"
@@ -103,17 +104,20 @@ TEST(Passage, RandomPassesAgreeWithSamples) {
       static_cast<int>(testing::from_environment("VERICONE_CASES", testing::campaign_size(300, 10'000)));
   Counts counts;
   std::uint64_t pieces = 0;
+  double seconds = 0;
   for (int i = 0; i < cases; ++i) {
     SCOPED_TRACE("case " + std::to_string(i));
     const Pass pass = random_pass(random, random_kind(random));
+    const auto start = std::chrono::steady_clock::now();
     const PassageProof proof = prove_passage(pass.agent, pass.orifice, 0, pass.end);
+    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     ++counts.verdicts[static_cast<std::size_t>(proof.verdict)];
     pieces += proof.pieces;
     expect_sampled(pass, proof, samples);
   }
   std::cout << "[ passes   ] " << cases << ": passed " << counts.verdicts[0] << ", touched "
             << counts.verdicts[1] << ", missed " << counts.verdicts[2] << ", undecided " << counts.verdicts[3]
-            << "; pieces " << pieces << '\n';
+            << "; " << double(pieces) / cases << " pieces and " << 1e3 * seconds / cases << " ms a proof\n";
   EXPECT_LE(counts.of(PassageVerdict::undecided), cases / 1000);
   EXPECT_GT(counts.of(PassageVerdict::passed), cases / 8);
   EXPECT_GT(counts.of(PassageVerdict::touched), cases / 8);

@@ -163,6 +163,8 @@ const char* reason(ReachLimit limit) {
       return "too far above or below for how it climbs";
     case ReachLimit::height:
       return "above or below all places where it can be";
+    case ReachLimit::appearance:
+      return "it appears then";
   }
   return "";
 }
