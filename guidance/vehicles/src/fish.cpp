@@ -34,6 +34,17 @@ double terminal_speed(const FishParameters& fish) {
                    fish.drag_z);
 }
 
+/// |w''|, if |w| is at most `climb`: what valve or electrolyser do to the volume, what the depth does to it,
+/// and drag. Compression is at most 1, and changes by at most rho g |w| / P of itself.
+double most_jerk(const FishParameters& fish, double climb) {
+  const double weight = fish.density * fish.gravity;
+  const double lift = weight * std::max(fish.chamber - fish.neutral_gas, fish.neutral_gas);
+  const double volume =
+      std::max(fish.gas_rate, fish.valve_rate) + fish.chamber * weight * climb / fish.pressure;
+  return (weight * volume + 2 * fish.drag_z * climb * (lift + fish.drag_z * climb * climb) / fish.mass) /
+         fish.mass;
+}
+
 class Fish : public simulation::Vehicle {
  public:
   Fish(const FishOptions& options, const CycleMeans& means, const VehicleLimits& limits, const Motion& start,
@@ -250,7 +261,6 @@ class FishModel : public simulation::VehicleModel {
     constexpr double kNone = std::numeric_limits<double>::infinity();
     limits_.turn_rate = options.most_turn_rate.value_or(kNone);
     limits_.climb = std::min(options.most_climb.value_or(kNone), terminal_speed(fish));
-    limits_.climb_jerk = kNone;
     limits_.bottom = -kNone;
   }
 
@@ -271,6 +281,7 @@ class FishModel : public simulation::VehicleModel {
         options_.most_speed
             ? *options_.most_speed
             : std::hypot(most_swimming_speed(options_.parameters, start.velocity.norm()), limits.climb);
+    limits.climb_jerk = most_jerk(options_.parameters, limits.climb);
     limits.top = start.position.z() + options_.depth;
     return limits;
   }
