@@ -126,11 +126,11 @@ class Fish : public simulation::Vehicle {
     constexpr double kReplan = 0.1;  // s
     if (command.aim) {
       kept_ = over_ground(state_, around_.water, t_);
-      height_ = {state_.position.z(), state_.w, 0};
+      height_ = {state_.position.z(), kept_.z(), 0};
       if (t_ < planned_ + kReplan - 1e-9) return;
       planned_ = t_;
-      keeper_.plan(state_, around_.surface, t_, {command.aim->point.z(), command.aim->velocity.z(), 0},
-                   command.aim->seconds);
+      keeper_.plan(state_, around_.surface, t_, water_climb(),
+                   {command.aim->point.z(), command.aim->velocity.z(), 0}, command.aim->seconds);
       return;
     }
     const double dt = to - from;
@@ -141,10 +141,12 @@ class Fish : public simulation::Vehicle {
     height_.w = kept_.z();
     if (t_ >= planned_ + kReplan - 1e-9) {
       planned_ = t_;
-      keeper_.plan(state_, around_.surface, t_, height_, 0);
+      keeper_.plan(state_, around_.surface, t_, water_climb(), height_, 0);
     }
     height_.z += dt * height_.w;
   }
+
+  double water_climb() const { return around_.water.velocity(state_.position.z(), t_).z(); }
 
   double gas_rate(const VehicleCommand& command) const {
     const FishParameters& fish = options_.parameters;
@@ -152,7 +154,7 @@ class Fish : public simulation::Vehicle {
       case FishControl::none:
         return options_.trial.gas_rate;
       case FishControl::ours:
-        return keeper_.rate(state_, around_.surface, t_, around_.water.velocity(state_.position.z(), t_).z());
+        return keeper_.rate(state_, around_.surface, t_, water_climb());
       case FishControl::source:
         break;
     }

@@ -60,8 +60,8 @@ class Vehicle {
 class VehicleModel {
  public:
   virtual ~VehicleModel() = default;
-  /// `start` at time t, seconds, in moving water. Throws InputError naming "position", "velocity" or
-  /// "rotation" for a start that the vehicle cannot be in.
+  /// `start` at time t, seconds, in moving water; this model outlives it. Throws InputError naming
+  /// "position", "velocity" or "rotation" for a start that the vehicle cannot be in.
   [[nodiscard]] virtual std::unique_ptr<Vehicle> launch(const Motion& start, double t,
                                                         const Current& water) const = 0;
   /// Columns of what it logs, with units: "bias [rad]".
