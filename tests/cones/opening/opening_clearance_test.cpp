@@ -76,7 +76,9 @@ TEST(OpeningClearance, AgainstTheRimItselfAndTheVerdict) {
         ASSERT_EQ(m.distance > 0, through) << "case " << i << ", m " << m.distance;
       }
       (through ? passes : fails)++;
-      if (through) EXPECT_GT(m.time, 0);
+      if (through) {
+        EXPECT_GT(m.time, 0);
+      }
       if (m.distance > 0 && i % 4) {
         ++distances;
         const double truth = least_over_rim(
