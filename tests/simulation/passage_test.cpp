@@ -5,6 +5,7 @@
 #include <vericone/geometry/error.h>
 #include <vericone/simulation/passage.h>
 
+#include <chrono>
 #include <iostream>
 
 #include "simulation/moving_pairs.h"
@@ -103,17 +104,20 @@ TEST(Passage, RandomPassesAgreeWithSamples) {
       static_cast<int>(testing::from_environment("VERICONE_CASES", testing::campaign_size(300, 10'000)));
   Counts counts;
   std::uint64_t pieces = 0;
+  double seconds = 0;
   for (int i = 0; i < cases; ++i) {
     SCOPED_TRACE("case " + std::to_string(i));
     const Pass pass = random_pass(random, random_kind(random));
+    const auto start = std::chrono::steady_clock::now();
     const PassageProof proof = prove_passage(pass.agent, pass.orifice, 0, pass.end);
+    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     ++counts.verdicts[static_cast<std::size_t>(proof.verdict)];
     pieces += proof.pieces;
     expect_sampled(pass, proof, samples);
   }
   std::cout << "[ passes   ] " << cases << ": passed " << counts.verdicts[0] << ", touched "
             << counts.verdicts[1] << ", missed " << counts.verdicts[2] << ", undecided " << counts.verdicts[3]
-            << "; pieces " << pieces << '\n';
+            << "; " << double(pieces) / cases << " pieces and " << 1e3 * seconds / cases << " ms a proof\n";
   EXPECT_LE(counts.of(PassageVerdict::undecided), cases / 1000);
   EXPECT_GT(counts.of(PassageVerdict::passed), cases / 8);
   EXPECT_GT(counts.of(PassageVerdict::touched), cases / 8);
@@ -396,6 +400,51 @@ TEST(Passage, BodiesOfOtherKinds) {
             PassageVerdict::touched);
   EXPECT_EQ(prove_passage(straight(pair, {0.6, 0, -4}, {0, 0, 1}, 8), facing(1), 0, 8).verdict,
             PassageVerdict::undecided);
+}
+
+/// A square frame of eight triangles about a square window, which spins and moves: the same as the polygon
+/// without a wall, as long as the agent keeps to the frame's middle part.
+TEST(Passage, WindowsOfMeshesLikeTheirPolygons) {
+  const double in = 1, out = 6;
+  const std::vector<Vector3d> points{{-out, -out, 0}, {out, -out, 0}, {out, out, 0}, {-out, out, 0},
+                                     {-in, -in, 0},   {in, -in, 0},   {in, in, 0},   {-in, in, 0}};
+  const std::vector<Assembly::Triangle> triangles{{0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5},
+                                                  {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
+  const MeshWindow window(points, triangles, 1);
+  MovingOrifice polygon;
+  polygon.opening = Opening::polygon({{-in, -in}, {in, -in}, {in, in}, {-in, in}});
+  SCOPED_TRACE("seed 1915");
+  Random random(1915);
+  Counts counts;
+  for (int i = 0; i < testing::share(200); ++i) {
+    SCOPED_TRACE("case " + std::to_string(i));
+    Kind kind = random_kind(random);
+    kind.hull = kind.recedes = kind.tight = false;
+    Pass pass = random_pass(random, kind);
+    polygon.position = pass.orifice.position;
+    polygon.velocity = pass.orifice.velocity;
+    polygon.rotation = pass.orifice.rotation;
+    polygon.spin = pass.orifice.spin;
+    Track mesh(RigidShape{window.mesh()}, {polygon.position, polygon.velocity, polygon.rotation},
+               Orientation::fixed, 0);
+    mesh.append(Curve::steady(mesh.motion(0), polygon.spin, 0, pass.end));
+    const PassageProof proof = prove_passage(pass.agent, window, mesh, 0, pass.end);
+    const PassageProof flat = prove_passage(pass.agent, polygon, 0, pass.end);
+    // Beside the frame there is no wall.
+    const bool beside = flat.verdict == PassageVerdict::touched && proof.verdict == PassageVerdict::missed;
+    if (!beside) {
+      EXPECT_EQ(proof.verdict, flat.verdict);
+    }
+    ++counts.verdicts[static_cast<std::size_t>(proof.verdict)];
+    if (proof.verdict != PassageVerdict::passed) continue;
+    EXPECT_NEAR(proof.time, flat.time, 1e-9);
+    EXPECT_LE((proof.place - flat.place).norm(), 1e-7);
+    const Vector3d side = mesh.motion(0).rotation * window.flat().normal();
+    EXPECT_EQ(proof.direction, flat.direction * (side.dot(polygon.rotation.col(2)) > 0 ? 1 : -1));
+    EXPECT_LE(proof.least_distance, 1.02 * flat.least_distance + 1e-5) << "the rim is part of the mesh";
+  }
+  EXPECT_GT(counts.of(PassageVerdict::passed), testing::share(80));
+  EXPECT_GT(counts.of(PassageVerdict::touched), testing::share(20));
 }
 
 TEST(Passage, GrazingIsUndecidedAndBadInputIsNamed) {

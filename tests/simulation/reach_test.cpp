@@ -107,6 +107,10 @@ TEST(Reach, SecondOpeningsAreReachedFromTheFirst) {
   const auto carried = earliest_passages({}, limits, {&first, &second}, 1000);
   EXPECT_NEAR(carried[0].edge.not_before, 10 / 6.0, 1e-6);
   EXPECT_LE(carried[1].edge.not_before, 5 + 1e-6) << "met at the second's place";
+  first.appears = 6;  // 10 m away then, and 12 m within reach
+  EXPECT_EQ(earliest_passages({}, limits, {&first}, 1000)[0].edge.not_before, 6);
+  EXPECT_EQ(earliest_passages({}, limits, {&first}, 1000)[0].edge.by, ReachLimit::appearance);
+  first.appears = 0;
   const auto never = earliest_passages({}, limits, {&first, &second}, 1);
   EXPECT_EQ(never[0].edge.not_before, kNever);
   EXPECT_EQ(never[1].edge.not_before, kNever);

@@ -106,6 +106,7 @@ class EarliestTime {
     const double ready = left_.orifice ? std::max(start_.t, left_.when.not_before) : start_.t;
     double t = std::max(ready, orifice_.appears);
     ReachTime found{t, left_.orifice ? left_.when.by : ReachLimit::none};
+    if (orifice_.appears > ready) found.by = ReachLimit::appearance;
     if (std::isinf(t)) return found;
     for (int i = 0; i < kMostSteps; ++i) {
       look(t);
@@ -298,6 +299,8 @@ const char* to_string(ReachLimit limit) {
       return "climb";
     case ReachLimit::height:
       return "height";
+    case ReachLimit::appearance:
+      return "appearance";
   }
   return "";
 }
@@ -356,8 +359,9 @@ std::optional<double> largest_drift(const Scenario& scenario, const Run& run) {
     const auto passes = [&](double drift) {
       ProofOptions options = scenario.proof;
       options.drift = drift;
-      return prove_passage(track, scenario.orifices[passage.orifice], track.appears(), run.end, options)
-                 .verdict == PassageVerdict::passed;
+      const MovingOrifice& orifice = scenario.orifices[passage.orifice];
+      const double from = std::max(track.appears(), orifice.appears);
+      return prove_passage(track, orifice, from, run.end, options).verdict == PassageVerdict::passed;
     };
     double lo = 0, hi = most;
     if (passage.proof.verdict == PassageVerdict::passed)

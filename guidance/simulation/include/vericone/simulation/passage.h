@@ -4,6 +4,7 @@
 // has one, at all times and not only at the steps; on one side of it before and on the other after.
 #pragma once
 
+#include <vericone/cones/mesh_window.h>
 #include <vericone/simulation/moving_orifice.h>
 #include <vericone/simulation/proof.h>
 #include <cstdint>
@@ -46,5 +47,14 @@ struct PassageProof {
 /// docs/explanation/proof-of-runs.md.
 [[nodiscard]] PassageProof prove_passage(const Track& agent, const MovingOrifice& orifice, double from,
                                          double to, const ProofOptions& options = {});
+
+/// The same of a window of a mesh: apart from all of the mesh (prove()), and clear of the fan that spans the
+/// window at two times between which the way of its middle crosses that, signs counted. `mesh`: how
+/// window.mesh() moves, its own frame being that in which the window is (a window made without a pose).
+/// `least_distance` is from the mesh; `direction` is 1 towards the side from which the rim runs
+/// counterclockwise. The agent: an ellipsoid, a delimited body or a hull; InputError naming "agent" for
+/// others, and as prove() does.
+[[nodiscard]] PassageProof prove_passage(const Track& agent, const MeshWindow& window, const Track& mesh,
+                                         double from, double to, const ProofOptions& options = {});
 
 }  // namespace vericone::simulation
