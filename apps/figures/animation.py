@@ -115,14 +115,14 @@ for name, columns in tracks.items():
     bodies.append(body)
 
 for orifice in orifices(folder()):  # rims, as flat bands
-    times = np.linspace(0, run["end"], 2 if not orifice.spin.any() else MOST_ROWS)
+    times = np.linspace(orifice.appears, run["end"], 2 if not orifice.spin.any() else MOST_ROWS)
     points, triangles = orifice.band(0.06 * np.linalg.norm(orifice.own, axis=1).max())
     turns, before = [], None
     for t in times:
         q = np.array(quaternion(orifice.rotation(t)))
         turns.append(-q if before is not None and q @ before < 0 else q)
         before = turns[-1]
-    extent += [orifice.rim(t) for t in np.linspace(0, run["end"], 20)]
+    extent += [orifice.rim(t) for t in np.linspace(orifice.appears, run["end"], 20)]
     bodies.append({"name": orifice.name, "color": numbers(to_rgb(RIM), 3), "t": numbers(times, 9),
                    "at": numbers([orifice.center(t) for t in times], 9), "turn": numbers(turns),
                    "points": [numbers(p) for p in points], "triangles": triangles.tolist()})

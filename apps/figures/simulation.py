@@ -116,10 +116,10 @@ else:
         verdicts = {p["verdict"] for p in passages if p["orifice"] == rim.name and p["ordered"]}
         color = next((PASSAGE[v] for v in ("touched", "undecided", "missed", "passed") if v in verdicts), GREY)
         through = [p["time"] for p in passages if p["orifice"] == rim.name and p["time"] is not None]
-        for t in (through or [0, end]) if rim.velocity.any() or rim.spin.any() else [0]:
+        for t in (through or [rim.appears, end]) if rim.velocity.any() or rim.spin.any() else [0]:
             space.plot(*rim.rim(t).T, color=color, linewidth=1.4, zorder=6)
             extent.append(rim.rim(t))
-        at = rim.rim(through[0] if through else 0)
+        at = rim.rim(through[0] if through else rim.appears)
         space.text(*at[np.argmax(at[:, 2])], rim.name, fontsize=6, ha="center", va="bottom", color=color, zorder=9)
     for goal in run["goals"]:
         extent.append(np.array([goal["point"]]))

@@ -67,7 +67,7 @@ simulation::MovingOrifice read_orifice(const Json& value, const std::string& pat
   require_object(value, path);
   require_known(value, path,
                 {"name", "opening", "position", "velocity", "speed", "heading", "heading_deg", "normal",
-                 "rotation", "spin", "wall"});
+                 "rotation", "spin", "appears", "wall"});
   simulation::MovingOrifice orifice;
   orifice.name = read_text(require_field(value, path, "name", "a name, as text"), path + ".name", "a name");
   orifice.opening = read_opening(require_field(value, path, "opening", "a mapping, such as {radius: 0.5}"),
@@ -78,6 +78,8 @@ simulation::MovingOrifice read_orifice(const Json& value, const std::string& pat
   orifice.rotation = read_attitude(value, path);
   if_given(value, path, "spin",
            [&](const Json& v, const std::string& p) { orifice.spin = read_vector<3>(v, p, " (rad/s)"); });
+  if_given(value, path, "appears",
+           [&](const Json& v, const std::string& p) { orifice.appears = read_not_negative(v, p, " (s)"); });
   if_given(value, path, "wall", [&](const Json& v, const std::string& p) { orifice.wall = read_flag(v, p); });
   return orifice;
 }

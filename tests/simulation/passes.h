@@ -24,6 +24,8 @@ using Eigen::Vector3d;
 struct Kind {
   bool hull = false, ball = false;
   bool straight = false, turns = true;  // turns: with its heading
+  bool level = false, tumbles = false;  // turns without roll; spins, with a blow on its way
+  bool recedes = false;                 // flies the other way
   bool spins = true, wall = true;
   int outline = 0;     // 0: circle, 1: ellipse, 2: polygon
   bool tight = false;  // the opening is little larger than the body
@@ -40,6 +42,9 @@ inline Kind random_kind(Random& random) {
   kind.wall = flip(0.6);
   kind.outline = static_cast<int>(random.uniform(0, 3));
   kind.tight = flip(0.4);
+  kind.level = kind.turns && flip(0.3);
+  kind.tumbles = !kind.turns && flip(0.5);
+  kind.recedes = flip(0.05);
   return kind;
 }
 
@@ -81,8 +86,19 @@ inline Pass random_pass(Random& random, const Kind& kind) {
   }
   const Motion start{random.vector(3), random.rotation() * Vector3d(random.uniform(1, 4), 0, 0),
                      random.rotation()};
-  Track track(shape, start, kind.turns ? Orientation::heading : Orientation::fixed, 0);
-  if (kind.straight) {
+  Track track(shape, start,
+              kind.level   ? Orientation::level
+              : kind.turns ? Orientation::heading
+                           : Orientation::fixed,
+              0);
+  if (kind.tumbles) {
+    const Vector3d spin = random.vector(random.uniform(0, 2));
+    const double blow = end * random.uniform(0.3, 0.7);
+    track.append(Curve::steady(start, spin, 0, blow));
+    Motion after = track.motion(blow);
+    after.velocity += random.vector(0.5);
+    track.append(Curve::steady(after, spin + random.vector(0.3), blow, end));
+  } else if (kind.straight) {
     track.advance(Vector3d::Zero(), end);
   } else {
     Vector3d a = random.vector(1);
@@ -110,6 +126,7 @@ inline Pass random_pass(Random& random, const Kind& kind) {
   frame.col(1) = frame.col(2).cross(frame.col(0));
   frame = frame * random.rotation_about_z();
   orifice.position = there.position + off - orifice.velocity * passing;
+  if (kind.recedes) orifice.position += 8 * (start.position - there.position).normalized();
   const double rate = orifice.spin.norm();
   orifice.rotation =
       rate > 0 ? Matrix3d(Eigen::AngleAxisd(-rate * passing, orifice.spin / rate) * frame) : frame;

@@ -107,6 +107,26 @@ TEST(Proof, GrazingWithinThePaddingIsUndecided) {
   }
 }
 
+TEST(Proof, DriftOfAConstantCurrent) {
+  // Balls that pass at t = 4 with a gap of 0.5, carried towards each other by at most 4 C until then.
+  const Track a = straight(ball(1), {-20, 0, 0}, {5, 0, 0}, 10),
+              b = straight(ball(1), {0, 2.5, 0}, {0, 0, 0}, 10);
+  const auto with = [&](double drift, double to) { return prove(a, b, 0, to, {1e-8, 1e-7, drift}); };
+  EXPECT_EQ(with(0.12, 4.5).verdict, ProofVerdict::avoided);
+  EXPECT_EQ(with(0.13, 4.5).verdict, ProofVerdict::undecided);
+  // At t the distance is hypot(20 - 5 t, 2.5) - 2 at least, less t C.
+  const double least = with(0.1, 10).least_distance;
+  EXPECT_LE(least, 0.1);
+  EXPECT_GE(least, 0.09);
+  // Only one of them is carried, either way.
+  for (const double sign : {-1.0, 1.0}) {
+    const Track carried = straight(ball(1), {0, 2.5, 0}, {0, 0.1 * sign, 0}, 10);
+    EXPECT_GE(prove(a, carried, 0, 10).least_distance * 1.0102 + 1e-6, least);
+  }
+  // The time counts from when the first of them set out, not from the beginning of the question.
+  EXPECT_EQ(prove(a, b, 3.5, 4.5, {1e-8, 1e-7, 0.13}).verdict, ProofVerdict::undecided);
+}
+
 TEST(Proof, TurningEllipsoids) {
   SCOPED_TRACE("seed 32");
   Random random(32);

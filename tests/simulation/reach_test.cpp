@@ -107,6 +107,10 @@ TEST(Reach, SecondOpeningsAreReachedFromTheFirst) {
   const auto carried = earliest_passages({}, limits, {&first, &second}, 1000);
   EXPECT_NEAR(carried[0].edge.not_before, 10 / 6.0, 1e-6);
   EXPECT_LE(carried[1].edge.not_before, 5 + 1e-6) << "met at the second's place";
+  first.appears = 6;  // 10 m away then, and 12 m within reach
+  EXPECT_EQ(earliest_passages({}, limits, {&first}, 1000)[0].edge.not_before, 6);
+  EXPECT_EQ(earliest_passages({}, limits, {&first}, 1000)[0].edge.by, ReachLimit::appearance);
+  first.appears = 0;
   const auto never = earliest_passages({}, limits, {&first, &second}, 1);
   EXPECT_EQ(never[0].edge.not_before, kNever);
   EXPECT_EQ(never[1].edge.not_before, kNever);
@@ -139,7 +143,7 @@ TEST(Reach, NoTrackPassesBefore) {
     const double between = bounds.acceleration * pass.end / 1000;  // what the samples do not see
     if (i % 2 == 0) limits.speed = speed + between;
     if (i % 3 == 0) limits.climb = climb + between;
-    if (i % 5 == 0) limits.acceleration = bounds.acceleration;
+    if (i % 5 == 0 && !pass.kind.tumbles) limits.acceleration = bounds.acceleration;
     if (i % 7 == 0) {
       limits.top = top + climb * pass.end / 1000 + between;
       limits.bottom = bottom - climb * pass.end / 1000 - between;

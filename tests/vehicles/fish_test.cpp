@@ -10,6 +10,7 @@
 #include <vericone/vehicles/fish_body.h>
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "swimming.h"
 #include "vector_fish.h"
@@ -157,6 +158,7 @@ TEST(Fish, GasStaysWithinItsChamber) {
   bool full = false;
   for (const auto& log : rising.log) {
     EXPECT_LE(log[kGas], fish.chamber * (1 + 1e-12));
+    EXPECT_LE(log[kV3] + fish.neutral_gas / compression(fish, 2), most_gas(fish, log[kDepth]) * (1 + 1e-9));
     full |= log[kGas] > 0.999 * fish.chamber;
   }
   EXPECT_TRUE(full);
@@ -197,6 +199,48 @@ TEST(Fish, ItsBodyContainsTrunkAndTail) {
     EXPECT_LE(std::max(farthest, trunk.ahead + trunk.semi_axes.x()), radius);
   }
   EXPECT_NEAR(sphere_of({}), 0.1825, 1e-4);
+}
+
+TEST(Fish, NoMotionIsFasterThanItsLimit) {
+  FishOptions options;
+  const auto model = fish(options);
+  const double limit = model->limits({}).speed;
+  EXPECT_NEAR(limit, 6.89, 0.02);
+  // Above the energy of that speed the tail, however it moves, does not keep up with drag.
+  const FishParameters& p = options.parameters;
+  const double swimming = std::sqrt(limit * limit - std::pow(model->limits({}).climb, 2));
+  const double energy = 0.5 * (p.mass + std::min(p.added_x, p.added_y)) * swimming * swimming;
+  const double slope = 15.0 / 8 / p.blend, omega = 2 * std::numbers::pi * p.frequency, a = p.most_amplitude;
+  const double changes = 2 * p.most_bias + a, curvature = 10 / std::sqrt(3.0) / (p.blend * p.blend);
+  std::mt19937 engine(51);
+  std::uniform_real_distribution<double> part(-1, 1);
+  double nearest = -1e9;
+  for (int i = 0; i < 200000; ++i) {
+    const Vector3d direction = Vector3d(part(engine), part(engine), part(engine)).normalized();
+    const double e = energy * (1 + std::abs(part(engine)));
+    FishState state;
+    state.u = direction.x() * std::sqrt(2 * e / (p.mass + p.added_x));
+    state.v = direction.y() * std::sqrt(2 * e / (p.mass + p.added_y));
+    state.r = direction.z() * std::sqrt(2 * e / (p.inertia + p.added_inertia));
+    const TailAngle tail{part(engine) * most_tail_angle(p), part(engine) * (slope * changes + a * omega),
+                         part(engine) * (curvature * changes + 2 * slope * a * omega + a * omega * omega)};
+    const FishState rate = fish_rates(p, state, tail, 0, 3, {}, 0);
+    const double power = (p.mass + p.added_x) * state.u * rate.u + (p.mass + p.added_y) * state.v * rate.v +
+                         (p.inertia + p.added_inertia) * state.r * rate.r;
+    EXPECT_LT(power, 0);
+    nearest = std::max(nearest, power);
+  }
+  EXPECT_GT(nearest, -1e3);
+  // Nor does one that is driven as hard as can be.
+  options.control = FishControl::source;
+  options.gain_y = 10;
+  const Flown flown = fly(options, 30, [](double t, const Motion&) {
+    simulation::VehicleCommand command{Vector3d(10, 0, 0), {}};
+    command.aim =
+        simulation::VehicleCommand::Aim{{0, std::fmod(t, 4) < 2 ? 9.0 : -9.0, 0}, Vector3d::Zero(), 1};
+    return command;
+  });
+  for (const auto& log : flown.log) EXPECT_LT(std::hypot(log[kU], log[kV], log[kW]), limit);
 }
 
 TEST(Fish, BadParametersAreNamed) {

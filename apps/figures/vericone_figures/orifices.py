@@ -23,7 +23,7 @@ def turned(vector):
 
 class Orifice:
     def __init__(self, data):
-        self.name, self.wall = data["name"], data["wall"]
+        self.name, self.wall, self.appears = data["name"], data["wall"], data["appears"]
         self.position, self.velocity = np.array(data["position"]), np.array(data["velocity"])
         self.attitude, self.spin = np.array(data["rotation"]), np.array(data["spin"])
         opening = data["opening"]
@@ -36,10 +36,10 @@ class Orifice:
         self.own = np.column_stack([self.own, np.zeros(len(self.own))])
 
     def center(self, t):
-        return self.position + t * self.velocity
+        return self.position + (t - self.appears) * self.velocity
 
     def rotation(self, t):
-        return turned(t * self.spin) @ self.attitude
+        return turned((t - self.appears) * self.spin) @ self.attitude
 
     def rim(self, t):
         """A closed line."""

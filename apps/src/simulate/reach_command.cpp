@@ -57,7 +57,12 @@ std::optional<Flown> fly(const Scenario& scenario, const std::vector<AgentReach>
   Flown flown{simulate(scenario, run_options), {}, {}};
   if (flown.run.interrupted) return std::nullopt;
   if (!options.current) return flown;
-  flown.drift = largest_drift(scenario, flown.run);
+  // To the end: one that stops as soon as all is passed is behind the last opening by a hair.
+  Scenario whole = scenario;
+  whole.stop_when_passed = false;
+  const Run run = scenario.stop_when_passed ? simulate(whole, run_options) : flown.run;
+  if (run.interrupted) return std::nullopt;
+  flown.drift = largest_drift(whole, run);
   if (!any_vehicle(scenario, agents)) return flown;
   for (int i = 0; i < options.directions; ++i) {
     const double azimuth = 2 * std::numbers::pi * i / options.directions;
@@ -68,7 +73,7 @@ std::optional<Flown> fly(const Scenario& scenario, const std::vector<AgentReach>
     };
     constexpr double kFirst = 0.01;
     const auto current =
-        largest_current(scenario, {std::cos(azimuth), std::sin(azimuth), 0}, kFirst, options.runs, go_on);
+        largest_current(whole, {std::cos(azimuth), std::sin(azimuth), 0}, kFirst, options.runs, go_on);
     if (!going) return std::nullopt;
     flown.again.push_back({azimuth, current});
   }
@@ -83,6 +88,13 @@ Json time_json(const ReachTime& time) {
   return {{"not_before", number(time.not_before)},
           {"unreachable", std::isinf(time.not_before)},
           {"limit", to_string(time.by)}};
+}
+
+/// What a vehicle broke of its own limits, on which all bounds stand.
+const LimitBroken* broken_by(const Run& run, std::size_t agent) {
+  const auto it = std::find_if(run.limits_broken.begin(), run.limits_broken.end(),
+                               [&](const VehicleBeyond& beyond) { return beyond.body == agent; });
+  return it == run.limits_broken.end() ? nullptr : &it->broken;
 }
 
 Json reach_json(const Scenario& scenario, const std::vector<AgentReach>& agents, const Flown& flown,
@@ -111,6 +123,8 @@ Json reach_json(const Scenario& scenario, const std::vector<AgentReach>& agents,
                                 {"top", number(l.top)},
                                 {"bottom", number(l.bottom)}}},
                               {"orifices", orifices}});
+    if (const LimitBroken* broken = broken_by(flown.run, agent.agent))
+      json["agents"].back()["limit_broken"] = {{"limit", broken->limit}, {"t", broken->t}};
   }
   if (!options.current) return json;
   json["current"] = {{"recorded", flown.drift ? Json(*flown.drift) : Json(nullptr)},
@@ -149,6 +163,8 @@ const char* reason(ReachLimit limit) {
       return "too far above or below for how it climbs";
     case ReachLimit::height:
       return "above or below all places where it can be";
+    case ReachLimit::appearance:
+      return "it appears then";
   }
   return "";
 }

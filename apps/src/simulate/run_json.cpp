@@ -175,6 +175,7 @@ Json orifices_json(const Scenario& scenario) {
                     {"velocity", vector_json(orifice.velocity)},
                     {"rotation", matrix_json(orifice.rotation)},
                     {"spin", vector_json(orifice.spin)},
+                    {"appears", orifice.appears},
                     {"wall", orifice.wall}});
   }
   return list;

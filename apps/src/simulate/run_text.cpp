@@ -251,6 +251,7 @@ std::string orifice_words(const MovingOrifice& orifice) {
   text += orifice.wall ? " in a wall" : ", its rim alone";
   text += ", at " + list(p) + " m, normal " + list(n);
   text += v.isZero(0) ? ", at rest" : ", velocity " + list(v) + " m/s";
+  if (orifice.appears > 0) text += ", appears at " + brief(orifice.appears) + " s";
   if (!orifice.spin.isZero(0)) text += ", turning at " + list(orifice.spin) + " rad/s";
   return text;
 }

@@ -16,7 +16,10 @@ void require_finite(const Eigen::Vector3d& value, const char* field, const char*
     throw InputError(field, "a number that is not finite", std::string("finite") + unit);
 }
 
-void check_orifice(const MovingOrifice& orifice) {
+void check_orifice(const MovingOrifice& orifice, double duration) {
+  if (!(orifice.appears >= 0) || !(orifice.appears < duration))
+    throw InputError("appears", to_text(orifice.appears),
+                     "0 or more, before the end, duration = " + to_text(duration));
   require_finite(orifice.position, "position", " (m)");
   require_finite(orifice.velocity, "velocity", " (m/s)");
   require_finite(orifice.spin, "spin", " (rad/s)");
@@ -55,7 +58,7 @@ void check_orifices(const Scenario& scenario) {
       throw InputError(path + ".name", orifice.name.empty() ? "nothing" : orifice.name,
                        "a name that no other orifice and no body has");
     try {
-      check_orifice(orifice);
+      check_orifice(orifice, scenario.duration);
     } catch (const InputError& e) {
       throw e.within(path);
     }

@@ -5,6 +5,7 @@
 #include <vericone/simulation/sensor.h>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace vericone::simulation {
@@ -61,7 +62,11 @@ Vector3d Current::acceleration(double t) const {
 }
 
 double Current::most(double bottom, double top) const {
-  const auto steady = [&](double z) { return (uniform_ + (z - shear_.level) * gradient()).norm(); };
+  const auto steady = [&](double z) {
+    if (shear_.rate.isZero(0)) return uniform_.norm();
+    if (!std::isfinite(z)) return std::numeric_limits<double>::infinity();
+    return (uniform_ + (z - shear_.level) * gradient()).norm();
+  };
   return (std::max(steady(bottom), steady(top)) + gusts_) * (1 + 1e-12);
 }
 

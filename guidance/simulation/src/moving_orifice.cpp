@@ -5,7 +5,7 @@ namespace vericone::simulation {
 
 guidance::OrificeState MovingOrifice::at(double t) const {
   const guidance::OrificeState start{{opening, position, rotation.leftCols<2>()}, velocity, spin};
-  return start.after(t);
+  return start.after(t - appears);
 }
 
 }  // namespace vericone::simulation

@@ -103,8 +103,10 @@ class EarliestTime {
   ReachTime search(double horizon) {
     constexpr double kShortest = 1e-7;
     constexpr int kMostSteps = 100'000;
-    double t = left_.orifice ? std::max(start_.t, left_.when.not_before) : start_.t;
+    const double ready = left_.orifice ? std::max(start_.t, left_.when.not_before) : start_.t;
+    double t = std::max(ready, orifice_.appears);
     ReachTime found{t, left_.orifice ? left_.when.by : ReachLimit::none};
+    if (orifice_.appears > ready) found.by = ReachLimit::appearance;
     if (std::isinf(t)) return found;
     for (int i = 0; i < kMostSteps; ++i) {
       look(t);
@@ -250,7 +252,8 @@ ReachLimits limits_of(const Scenario& scenario, const Body& body) {
     limits.speed = own.speed + water;
     limits.climb = own.climb + water;
     limits.climb_jerk = water == 0 ? own.climb_jerk : kUnlimited;
-    limits.course_rate = water == 0 ? own.turn_rate : kUnlimited;
+    // Its turn rate is one of its heading, perhaps of a mean: what slips aside goes another way than it
+    // points.
     limits.top = own.top;
     limits.bottom = own.bottom;
     return limits;
@@ -296,6 +299,8 @@ const char* to_string(ReachLimit limit) {
       return "climb";
     case ReachLimit::height:
       return "height";
+    case ReachLimit::appearance:
+      return "appearance";
   }
   return "";
 }
@@ -354,8 +359,9 @@ std::optional<double> largest_drift(const Scenario& scenario, const Run& run) {
     const auto passes = [&](double drift) {
       ProofOptions options = scenario.proof;
       options.drift = drift;
-      return prove_passage(track, scenario.orifices[passage.orifice], track.appears(), run.end, options)
-                 .verdict == PassageVerdict::passed;
+      const MovingOrifice& orifice = scenario.orifices[passage.orifice];
+      const double from = std::max(track.appears(), orifice.appears);
+      return prove_passage(track, orifice, from, run.end, options).verdict == PassageVerdict::passed;
     };
     double lo = 0, hi = most;
     if (passage.proof.verdict == PassageVerdict::passed)

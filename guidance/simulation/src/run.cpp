@@ -184,7 +184,7 @@ class Runner {
     if (options_.log) vehicles_[i]->log(run_.vehicles.emplace_back(VehicleSample{t, i, {}}).values);
     way_.clear();
     VehicleCommand wanted{accelerations_[i], {}};
-    if (throughs_[i] && !throughs_[i]->done()) {
+    if (throughs_[i] && throughs_[i]->sees(t)) {
       const guidance::OrificeAim aim = throughs_[i]->aim(states_[i], t);
       wanted.aim = {aim.point - aim.seconds * aim.velocity, aim.velocity, aim.seconds};
     } else if (const auto& pilot = scenario_.bodies[i].pilot;
@@ -213,7 +213,10 @@ class Runner {
 
   void command(std::size_t agent, double t, double to) {
     const Pilot& pilot = *scenario_.bodies[agent].pilot;
-    if (throughs_[agent] && !throughs_[agent]->done()) return command_through(*throughs_[agent], t);
+    if (throughs_[agent] && !throughs_[agent]->done()) {
+      if (throughs_[agent]->sees(t)) command_through(*throughs_[agent], t);
+      return;
+    }
     const Followed* attended = nullptr;
     for (const Followed& f : engagements_) {
       if (f.engagement.agent() != agent || !present(f.engagement.obstacle(), t) || !f.engagement.demands())
@@ -429,11 +432,12 @@ class Runner {
       if (!flown(i) || !(run_.tracks[i].appears() < run_.end)) continue;
       for (std::size_t k = 0; k < scenario_.orifices.size(); ++k) {
         const MovingOrifice& orifice = scenario_.orifices[k];
+        const double from = std::max(run_.tracks[i].appears(), orifice.appears);
+        if (!(from < run_.end)) continue;
         const auto& pilot = scenario_.bodies[i].pilot;
         const bool ordered = pilot && pilot->through && contains(pilot->through->orifices, orifice.name);
         run_.passages.push_back(
-            {i, k, ordered,
-             prove_passage(run_.tracks[i], orifice, run_.tracks[i].appears(), run_.end, scenario_.proof)});
+            {i, k, ordered, prove_passage(run_.tracks[i], orifice, from, run_.end, scenario_.proof)});
       }
     }
   }

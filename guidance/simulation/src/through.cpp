@@ -87,7 +87,7 @@ OrificeSample ThroughFlight::sample(const guidance::BodyState& body, double t,
 }
 
 std::optional<Event> ThroughFlight::fly(const Track& track, double from, double to) {
-  if (done()) return std::nullopt;
+  if (!sees(from)) return std::nullopt;
   const auto seen = [&](double t) {
     return seen_from(heading_for().at(t).opening, track.motion(t).position);
   };

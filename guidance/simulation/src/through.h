@@ -14,6 +14,8 @@ class ThroughFlight {
   std::size_t agent() const { return agent_; }
   /// All are behind it.
   bool done() const { return next_ == order_.size(); }
+  /// There is one that it heads for, and that one is there.
+  bool sees(double t) const { return !done() && heading_for().appears <= t; }
   /// The orifice that it heads for. Requires !done().
   std::size_t orifice() const { return order_[next_]; }
 

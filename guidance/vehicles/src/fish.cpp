@@ -10,6 +10,7 @@
 
 #include "cycle_means.h"
 #include "depth_keeper.h"
+#include "speed_bound.h"
 #include "swim.h"
 #include "tail_control.h"
 #include "tail_drive.h"
@@ -247,7 +248,6 @@ class FishModel : public simulation::VehicleModel {
   explicit FishModel(const FishOptions& options) : options_(options), means_(options.parameters) {
     const FishParameters& fish = options.parameters;
     constexpr double kNone = std::numeric_limits<double>::infinity();
-    limits_.speed = options.most_speed.value_or(kNone);
     limits_.turn_rate = options.most_turn_rate.value_or(kNone);
     limits_.climb = std::min(options.most_climb.value_or(kNone), terminal_speed(fish));
     limits_.climb_jerk = kNone;
@@ -266,6 +266,11 @@ class FishModel : public simulation::VehicleModel {
 
   VehicleLimits limits(const Motion& start) const override {
     VehicleLimits limits = limits_;
+    limits.climb = std::max(limits.climb, options_.most_climb ? 0 : std::abs(start.velocity.z()));
+    limits.speed =
+        options_.most_speed
+            ? *options_.most_speed
+            : std::hypot(most_swimming_speed(options_.parameters, start.velocity.norm()), limits.climb);
     limits.top = start.position.z() + options_.depth;
     return limits;
   }

@@ -57,11 +57,11 @@ TailSetting our_tail(const FishOptions& options, const CycleMeans& means, const 
     const double within = 0.8 * *options.most_turn_rate;
     rate = std::clamp(rate, -within, within);
   }
-  // A tail that moves aside turns the body against it at once: with small amplitudes, which turn slowly, that
-  // would be more than the turn wanted, and the loop would swing.
+  // A tail set aside turns the body at once, by a third of the bias. With small amplitudes, which turn
+  // slowly, that would be more than the turn wanted, and the loop would swing.
   constexpr double kLeast = 0.26;
-  set.bias =
-      std::clamp(rate / (means.turn_gain() * std::max(set.amplitude, kLeast)), -fish.most_bias, fish.most_bias);
+  set.bias = std::clamp(rate / (means.turn_gain() * std::max(set.amplitude, kLeast)), -fish.most_bias,
+                        fish.most_bias);
   return set;
 }
 

@@ -468,7 +468,7 @@ const char* to_string(PassageVerdict verdict) {
 
 PassageProof prove_passage(const Track& agent, const MovingOrifice& orifice, double from, double to,
                            const ProofOptions& options) {
-  require_time(agent.appears(), agent.end(), from, to);
+  require_time(std::max(agent.appears(), orifice.appears), agent.end(), from, to);
   check(options);
   return PassageSearch(agent, orifice, options).run(from, to);
 }

@@ -4,6 +4,7 @@
 // has one, at all times and not only at the steps; on one side of it before and on the other after.
 #pragma once
 
+#include <vericone/cones/mesh_window.h>
 #include <vericone/simulation/moving_orifice.h>
 #include <vericone/simulation/proof.h>
 #include <cstdint>
@@ -38,7 +39,7 @@ struct PassageProof {
   std::uint64_t pieces = 0;  // pieces of time that were proved separately
 };
 
-/// Over [from, to], within the life of the track. Ellipsoids and hulls as they are. A delimited body is
+/// Over [from, to], within the life of the track and not before the opening appears. Ellipsoids and hulls as they are. A delimited body is
 /// proved to pass or to miss by its ellipsoid, a mesh, a cloud, boxes or a union by the ellipsoid that
 /// contains it; `touched` is said of the body itself, so of the latter never. The proof holds for all motions
 /// of the body within the padding of the track (ProofOptions); the opening moves exactly as it says. Throws
@@ -46,5 +47,14 @@ struct PassageProof {
 /// docs/explanation/proof-of-runs.md.
 [[nodiscard]] PassageProof prove_passage(const Track& agent, const MovingOrifice& orifice, double from,
                                          double to, const ProofOptions& options = {});
+
+/// The same of a window of a mesh: apart from all of the mesh (prove()), and clear of the fan that spans the
+/// window at two times between which the way of its middle crosses that, signs counted. `mesh`: how
+/// window.mesh() moves, its own frame being that in which the window is (a window made without a pose).
+/// `least_distance` is from the mesh; `direction` is 1 towards the side from which the rim runs
+/// counterclockwise. The agent: an ellipsoid, a delimited body or a hull; InputError naming "agent" for
+/// others, and as prove() does.
+[[nodiscard]] PassageProof prove_passage(const Track& agent, const MeshWindow& window, const Track& mesh,
+                                         double from, double to, const ProofOptions& options = {});
 
 }  // namespace vericone::simulation

@@ -40,11 +40,12 @@ struct ReachStart {
 
 /// Which limit an opening is out of by the most, at the time that is said.
 enum class ReachLimit : std::uint8_t {
-  none,     // there already
-  speed,    // too far for its speed or its acceleration
-  turning,  // too far aside for how fast it turns
-  climb,    // too far above or below for how fast it climbs
-  height,   // above the highest or below the lowest place where it can be
+  none,        // there already
+  speed,       // too far for its speed or its acceleration
+  turning,     // too far aside for how fast it turns
+  climb,       // too far above or below for how fast it climbs
+  height,      // above the highest or below the lowest place where it can be
+  appearance,  // it was not there before
 };
 [[nodiscard]] const char* to_string(ReachLimit limit);
 
