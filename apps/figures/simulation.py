@@ -118,6 +118,9 @@ else:
         through = [p["time"] for p in passages if p["orifice"] == rim.name and p["time"] is not None]
         for t in (through or [rim.appears, end]) if rim.velocity.any() or rim.spin.any() else [0]:
             space.plot(*rim.rim(t).T, color=color, linewidth=1.4, zorder=6)
+            if faces := rim.faces(t):
+                space.add_collection3d(Poly3DCollection(faces, facecolor=lit(faces, GREY), linewidth=0, alpha=0.35, zorder=1))
+                extent += faces
             extent.append(rim.rim(t))
         at = rim.rim(through[0] if through else rim.appears)
         space.text(*at[np.argmax(at[:, 2])], rim.name, fontsize=6, ha="center", va="bottom", color=color, zorder=9)
@@ -216,7 +219,7 @@ for event in marked:
     for axis in panels:
         axis.axvline(event["t"], color=color, linestyle=dash, linewidth=0.7)
 forest = not any(e["event"] != "contact" for e in marked)
-dotted = "out of the cone" if encounters else "beside an opening"
+dotted = "out of the cone" if encounters else "beside"
 figure.text(0.66, 0.985, "red: meets" if forest else "dotted: %s, dashed: passes, red: meets" % dotted, fontsize=6.5, va="top", color=GREY)
 for pair in [*proof["pairs"], *passages]:
     if pair["verdict"] == "touched":
