@@ -367,7 +367,7 @@ class BadInput(unittest.TestCase):
         return result.stderr
 
     def test_unknown_figure(self):
-        self.assertIn('figures: got 5.99, must be among 5.6, 5.7', self.refused("figures", "5.99"))
+        self.assertIn('figures: got 5.99, must be among 2.2, 2.3', self.refused("figures", "5.99"))
 
     def test_folder_that_is_a_file(self):
         with tempfile.NamedTemporaryFile() as file:

@@ -4,6 +4,7 @@
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/geometry/error.h>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -38,6 +39,11 @@ class EllipsoidShadow {
     return factor_ * (u / u.norm());
   }
   [[nodiscard]] Vector3d in_space(const Vector3d& n) const { return agent_.support_point(n); }
+  /// Of the direction in which it is thin.
+  [[nodiscard]] double thin_angle() const {
+    const Matrix2d s = factor_ * factor_.transpose();
+    return 0.5 * (std::atan2(2 * s(0, 1), s(0, 0) - s(1, 1)) + std::numbers::pi);
+  }
   /// The unit n with the largest n.x - h(n).
   [[nodiscard]] Vector2d towards(const Vector2d& x) const {
     const Matrix2d s = factor_ * factor_.transpose();
@@ -190,25 +196,49 @@ Least in_disc(const Shadow& agent, const Vector2d& center, const Matrix2d& p) {
     const double length = u.norm();
     return Pair2{n, center + p * (length > 0 ? Vector2d(u / length) : Vector2d(0, 0)), agent.farthest(n)};
   };
-  // From the direction in which the opening is thin: its support bends sharply only there.
+  // A grid of directions from the one in which the opening is thin. Between two of them g is to have one
+  // minimum at most: the support of a thin opening bends sharply about that direction, so more of them there;
+  // that of a thin agent bends the other way, so one where it does.
   const Matrix2d s = p * p.transpose();
-  const double angle = 0.5 * std::atan2(2 * s(0, 1), s(0, 0) - s(1, 1));
+  const double angle = 0.5 * std::atan2(2 * s(0, 1), s(0, 0) - s(1, 1)), across = s.trace();
   const Vector2d thin(-std::sin(angle), std::cos(angle)), along = turned_left(thin);
-  constexpr int kGrid = 24;
+  constexpr int kGrid = 24, kMore = 60;
+  constexpr double kStep = 2 * std::numbers::pi / kGrid;
   static const std::array<Vector2d, kGrid> kTurns = [] {
     std::array<Vector2d, kGrid> turns;
-    for (int i = 0; i < kGrid; ++i)
-      turns[i] = {std::cos(2 * std::numbers::pi * i / kGrid), std::sin(2 * std::numbers::pi * i / kGrid)};
+    for (int i = 0; i < kGrid; ++i) turns[i] = {std::cos(i * kStep), std::sin(i * kStep)};
     return turns;
   }();
-  std::array<Pair2, kGrid> nodes;
-  int first = 0;
-  for (int i = 0; i < kGrid; ++i) {
-    nodes[i] = at(kTurns[i].x() * thin + kTurns[i].y() * along);
-    if (nodes[i].g() < nodes[first].g()) first = i;
+  std::array<double, kMore> more;
+  int extra = 0;
+  const auto add = [&](double turn) {
+    more[extra++] = turn - 2 * std::numbers::pi * std::floor(turn / (2 * std::numbers::pi));
+  };
+  for (double w = std::max(std::abs(p.determinant()) / across, 1e-8);
+       w < 0.5 * kStep && extra + 4 <= kMore - 2; w *= 4)
+    for (const double turn : {w, -w, std::numbers::pi + w, std::numbers::pi - w}) add(turn);
+  if constexpr (Shadow::kSmooth) {
+    const double turn = agent.thin_angle() - angle - 0.5 * std::numbers::pi;
+    add(turn);
+    add(turn + std::numbers::pi);
   }
+  std::sort(more.begin(), more.begin() + extra);
+
+  std::array<Pair2, kGrid + kMore + 1> nodes;
+  int count = 0, next = 0, first = 0;
+  const auto node = [&](double c, double sine) {
+    nodes[count] = at(c * thin + sine * along);
+    if (nodes[count].g() < nodes[first].g()) first = count;
+    ++count;
+  };
+  for (int i = 0; i < kGrid; ++i) {
+    node(kTurns[i].x(), kTurns[i].y());
+    for (; next < extra && more[next] < (i + 1) * kStep; ++next)
+      if (more[next] > i * kStep) node(std::cos(more[next]), std::sin(more[next]));
+  }
+  nodes[count] = nodes[0];
   Pair2 best = nodes[first];
-  for (int i = 0; i < kGrid; ++i) look_between(nodes[i], nodes[(i + 1) % kGrid], at, Shadow::kSmooth, best);
+  for (int i = 0; i < count; ++i) look_between(nodes[i], nodes[i + 1], at, Shadow::kSmooth, best);
   return {best.g(), best.n};
 }
 
@@ -268,19 +298,17 @@ Least in_polygon(const Shadow& agent, const std::vector<Vector2d>& p) {
       at = i;
     }
   }
-  Least best;
-  // The rim's line at an edge, at the place that is opposite to the agent's support.
-  const auto edge_at = [&](std::size_t i, bool outwards, double& along) {
+  // Along the normal of an edge, outwards or inwards: the rim's point is opposite to the agent's support.
+  const auto across = [&](std::size_t i, bool outwards, double& along) {
     const Vector2d &a = p[i], edge = p[(i + 1) % count] - a;
-    Vector2d n = -turned_left(edge.normalized());
-    if (!outwards && n.dot(a) < 0) n = -n;
+    const Vector2d left = turned_left(edge.normalized()), n = outwards ? Vector2d(-left) : left;
     const Vector2d support = agent.farthest(n);
     along = edge.dot(support - a) / edge.squaredNorm();
     return Least{n.dot(a - support), n, i, std::clamp(along, 0.0, 1.0)};
   };
   double along = 0;
   if (!inside) {
-    const Least beyond = edge_at(at, true, along);
+    const Least beyond = across(at, true, along);
     if (along >= 0 && along <= 1) return beyond;
     // Beyond a vertex: the agent's point farthest from it.
     const std::size_t vertex = along < 0 ? at : (at + 1) % count;
@@ -293,16 +321,48 @@ Least in_polygon(const Shadow& agent, const std::vector<Vector2d>& p) {
     }
     return {n.dot(p[vertex] - agent.farthest(n)), n, vertex, 0};
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    const Least on_edge = edge_at(i, false, along);
-    if (along >= 0 && along <= 1 && on_edge.distance < best.distance) best = on_edge;
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    // Any n bounds the largest from below: first the one straight towards the vertex.
-    const Vector2d straight = p[i].normalized();
-    if (straight.dot(p[i] - agent.farthest(straight)) >= best.distance) continue;
-    const Vector2d n = agent.towards(p[i]);
-    if (const double g = n.dot(p[i] - agent.farthest(n)); g < best.distance) best = {g, n, i, 0};
+  // Of each edge the largest of min over the edge of n.x - h(n): across the edge, or beyond one of its ends.
+  // The edge that is nearest to the middle comes first, so that most others are seen not to be nearer.
+  Least best;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = (at + k) % count, j = (i + 1) % count;
+    const Vector2d straight = nearest_on_segment<Vector2d>(p[i], p[j], Vector2d::Zero()).normalized();
+    if (std::min(straight.dot(p[i]), straight.dot(p[j])) - straight.dot(agent.farthest(straight)) >=
+        best.distance)
+      continue;
+    Least apart;
+    apart.distance = -apart.distance;
+    for (const bool outwards : {true, false})
+      if (const Least one = across(i, outwards, along);
+          along >= 0 && along <= 1 && one.distance > apart.distance)
+        apart = one;
+    for (const std::size_t end : {i, j}) {
+      const Vector2d n = agent.towards(p[end]);
+      if (n.dot(p[i + j - end] - p[end]) < 0) continue;
+      if (const double g = n.dot(p[end] - agent.farthest(n)); g > apart.distance)
+        apart = {g, n, i, end == i ? 0.0 : 1.0};
+    }
+    if (std::isinf(apart.distance)) {
+      // Cut so that none of these is a maximum: the best of a grid, then by halving.
+      const auto on_rim = [&](const Vector2d& n) { return n.dot(p[i]) <= n.dot(p[j]) ? i : j; };
+      const auto to = [](double t) { return Vector2d(std::cos(t), std::sin(t)); };
+      constexpr double kStep = 2 * std::numbers::pi / 32;
+      double middle = 0;
+      for (double t = 0; t < 2 * std::numbers::pi; t += kStep)
+        if (const Vector2d n = to(t); n.dot(p[on_rim(n)] - agent.farthest(n)) > apart.distance) {
+          apart.distance = n.dot(p[on_rim(n)] - agent.farthest(n));
+          middle = t;
+        }
+      double low = middle - kStep, high = middle + kStep;
+      for (int step = 0; step < 50; ++step) {
+        const double t = 0.5 * (low + high);
+        const Vector2d n = to(t);
+        (turned_left(n).dot(p[on_rim(n)] - agent.farthest(n)) > 0 ? low : high) = t;
+      }
+      const Vector2d n = to(0.5 * (low + high));
+      apart = {n.dot(p[on_rim(n)] - agent.farthest(n)), n, i, on_rim(n) == i ? 0.0 : 1.0};
+    }
+    if (apart.distance < best.distance) best = apart;
   }
   return best;
 }

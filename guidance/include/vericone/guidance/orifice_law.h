@@ -52,7 +52,7 @@ struct OrificeLawOptions {
   std::optional<Direction> direction;
 };
 
-/// (2.4) with its third line corrected (errata 2.4), whose sign and size are those of y' along the direction.
+/// (2.4) with its third line corrected (errata 3.2), whose sign and size are those of y' along the direction.
 /// It drives y to the reference from either side, so that A passes sqrt(w + (R_B - R_A)^2) beside the centre,
 /// and takes every opening as facing the relative velocity: its tilt and its outline are not seen. (2.4)
 /// does not look at the sign of V_r; here A turns towards the centre while V_r >= 0, and within R_B of it,
