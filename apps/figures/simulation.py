@@ -216,7 +216,7 @@ for event in marked:
     for axis in panels:
         axis.axvline(event["t"], color=color, linestyle=dash, linewidth=0.7)
 forest = not any(e["event"] != "contact" for e in marked)
-dotted = "out of the cone" if encounters else "beside an opening"
+dotted = "out of the cone" if encounters else "beside"
 figure.text(0.66, 0.985, "red: meets" if forest else "dotted: %s, dashed: passes, red: meets" % dotted, fontsize=6.5, va="top", color=GREY)
 for pair in [*proof["pairs"], *passages]:
     if pair["verdict"] == "touched":

@@ -201,12 +201,15 @@ OrificeCommand passage_law(const BodyState& a, const OrificeState& orifice,
   }
   const double wanted = std::min(options.margin + options.beyond, room);
   if (now.distance >= wanted) return command;
+  // Fading where the margin is kept: what is still missing would ask for ever more as the time runs out.
+  const double missing = wanted - now.distance, kept = wanted - std::min(options.margin, room);
+  const double fade = now.distance > options.margin && kept > 0 ? std::min(1.0, missing / kept) : 1;
   Vector3d gradient = -now.time * now.normal;
   if (!options.longitudinal) {
     const Vector3d ahead = a.velocity.normalized();
     gradient -= ahead * ahead.dot(gradient);
   }
-  invert(gradient, options.gain * (wanted - now.distance), options.most, command);
+  invert(gradient, options.gain * missing * fade, options.most, command);
   command.m = now.distance;
   return command;
 }

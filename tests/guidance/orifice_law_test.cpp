@@ -213,7 +213,7 @@ TEST(PassageLaw, DrivesTheClearanceAsItPromises) {
     options.gain = 0.8;
     options.longitudinal = i % 2 == 0;
     const OrificeCommand command = passage_law(agent, orifice, options);
-    if (command.status != OrificeStatus::steering) continue;
+    if (command.status != OrificeStatus::steering || command.m > options.margin) continue;
     ++steered;
     const auto m_at = [&](double t) {
       BodyState moved = agent;

@@ -3,6 +3,16 @@
 printed of it must stand in the claims named."""
 
 PRINTED = {
+    "2.1": [("2.1/length", "0.32"), ("2.1/mass", "0.8"), ("2.1/chamber", "9"), ("2.1/forward", "0.13"), ("2.1/turning", "30.6"),
+            ("2.1/dive", "5"), ("2.1/rise", "10")],
+    "2.3.2": [("2.3.2/gas-rate", "1"), ("2.3.2/saturation", "1e-7")],
+    "2.4": [
+        ("2.4/start", "0"), ("2.4/speed", "5.4"), ("2.4/azimuth", "-38.35"), ("2.4/elevation", "15.8"), ("2.4/one-x", "4"),
+        ("2.4/one-y", "20"), ("2.4/one-z", "-50"), ("2.4/one-speed", "5.1"), ("2.4/one-azimuth", "-84.29"),
+        ("2.4/one-elevation", "11.25"), ("2.4/y-0", "0.92"), ("2.4/outside", "will not pass"), ("2.4/y-reached", "11.36"),
+        ("2.4/passes-one", "25.66"), ("2.4/two-x", "-6"), ("2.4/two-y", "30"), ("2.4/two-z", "50"), ("2.4/two-speed", "4.1"),
+        ("2.4/two-azimuth", "123.69"), ("2.4/two-elevation", "29.02"), ("2.4/y-two", "7.67"), ("2.4/y-two-reached", "54.2"),
+        ("2.4/passes-two", "55.6")],
     "5.4.1": [
         ("F1-position", "(0, 0)"), ("F1-axes", "(6, 2)"), ("F1-speed", "25"), ("F1-heading", "45"),
         ("F2-position", "(45, 0)"), ("F2-speed", "20"), ("F2-heading", "120"), ("y-0", "-0.0452"), ("saturation", "15"),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Ways of spatial bodies, with their surfaces at several times."""
+"""Ways of spatial bodies, with their surfaces at several times, and the rims of orifices when they are passed."""
 import numpy as np
 from matplotlib.colors import to_rgb
 from matplotlib.lines import Line2D
@@ -7,6 +7,7 @@ from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from vericone_figures.bodies import facets
+from vericone_figures.orifices import RIM, orifices
 from vericone_figures.runs import Sheet, dark, figure, first_run
 from vericone_figures.style import GREY, TWO_COLUMNS, plt, save
 from vericone_figures.tables import row_at
@@ -41,13 +42,24 @@ for name, body in run.bodies.items():
         for column in "xyz":
             sheet.add("centre of a body drawn, %s against t" % column, name, [row["t"]], [row[column]])
         p = np.array([row["x"], row["y"], row["z"]])
-        axes.text(*(p + [0, 0, np.vstack(faces)[:, 2].max() - p[2] + 1.5]), "%g s" % t, fontsize=6, color=dark(run.color(name)),
+        axes.text(*(p + [0, 0, np.vstack(faces)[:, 2].max() - p[2] + 0.75 * data.get("room", 2)]), "%g s" % t, fontsize=6, color=dark(run.color(name)),
                   ha="center", zorder=10, bbox={"boxstyle": "round,pad=0.05", "facecolor": "white", "edgecolor": "none",
                                                 "alpha": 0.6})
 if polygons:
     axes.add_collection3d(Poly3DCollection(polygons, facecolors=colors, edgecolors=colors, linewidths=0.15, zorder=5))
+rims = orifices(run.folder)
+for orifice in rims:
+    passed = [p["time"] for p in run.proof()["passages"] if p["orifice"] == orifice.name and p["time"] is not None]
+    t = passed[0] if passed else orifice.appears
+    rim = orifice.rim(t)
+    axes.plot(*rim.T, color=RIM, linewidth=1.6, zorder=4)
+    axes.text(*rim[np.argmax(rim[:, 2])], "%s, %.4g s" % (orifice.name, t), fontsize=6, color=dark(RIM), ha="center", va="bottom")
+    everything.append(rim)
+    for column, c in zip("xyz", rim.T):
+        sheet.add("rim, %s" % column, orifice.name, np.arange(len(c)), c)
 everything = np.vstack(everything)
-low, high = everything.min(axis=0) - 2, everything.max(axis=0) + 2
+room = data.get("room", 2)  # m, around everything
+low, high = everything.min(axis=0) - room, everything.max(axis=0) + room
 axes.set_xlim(low[0], high[0])
 axes.set_ylim(low[1], high[1])
 axes.set_zlim(low[2], high[2])
@@ -60,8 +72,9 @@ axes.set_xlabel("x [m]")
 axes.set_ylabel("y [m]", labelpad=-2)
 axes.set_zlabel("z [m]", labelpad=-4)
 axes.tick_params(pad=-1)
-axes.legend(handles=[Line2D([], [], color=run.color(n), label=n) for n in run.bodies], loc="upper left",
-            bbox_to_anchor=(0.02, 0.97))
+axes.legend(handles=[Line2D([], [], color=run.color(n), label=n) for n in run.bodies] +
+            [Line2D([], [], color=RIM, label="orifices, when passed")] * bool(rims), loc="lower left" if rims else "upper left",
+            bbox_to_anchor=(0.02, 0.03 if rims else 0.97))
 axes.text2D(0.98, 0.95, run.idle_note(), transform=axes.transAxes, fontsize=7, color=GREY, ha="right")
 sheet.write(data["name"])
 save(axes.figure, data["name"])

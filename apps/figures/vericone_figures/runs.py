@@ -32,7 +32,8 @@ class Run:
             return json.load(f)
 
     def agents(self):
-        return list(dict.fromkeys(agent for agent, _ in self.encounters))
+        through = groups(rows(self.folder, "orifices.csv"), "agent")
+        return list(dict.fromkeys([*(agent for agent, _ in self.encounters), *(agent for agent, in through)]))
 
     def color(self, name):
         agents = self.agents()[:1]

@@ -50,7 +50,7 @@ if orifice:
     ellipsoid(O, (0.9, 0.9, 0.9), AGENT)
     across, turn = np.array([0.35, 0.94, 0.0]), np.linspace(0, 2 * np.pi, 73)[:, None]
     axes.plot(*(M + 1.9 * (np.cos(turn) * across + np.sin(turn) * [0, 0, 1])).T, color=OBSTACLE, linewidth=1.8)
-    axes.text(*(M + [0.2, 0.2, 2.1]), r"orifice, radius $R_B$", color=OBSTACLE, fontsize=7, ha="center")
+    axes.text(*(M + [0.2, 0.2, 2.9]), r"orifice, radius $R_B$", color=OBSTACLE, fontsize=7, ha="center")
     axes.text(*(O + [0, 0, -1.6]), r"ball, radius $R_A$", color=AGENT, fontsize=7, ha="center")
 else:
     ellipsoid(O, (2, 1.1, 0.8), AGENT)

@@ -64,7 +64,7 @@ struct PassageLawOptions {
   double margin = 0.1;  // metres to keep from the rim, at least
   double beyond =
       0.05;         // metres more that it aims at, as far as the opening has room; nothing is commanded there
-  double gain = 1;  // K, 1/s: m' = -K (m - margin - beyond)
+  double gain = 1;  // K, 1/s: m' = -K (m - margin - beyond), fading where the margin is kept
   double most = std::numeric_limits<double>::infinity();  // m/s^2
   bool longitudinal = false;  // may change the speed too; otherwise perpendicular to A's velocity
 };
