@@ -5,12 +5,14 @@
 #include <vericone/geometry/body.h>
 #include <vericone/geometry/error.h>
 #include <vericone/testing/random_bodies.h>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <cmath>
 #include <iostream>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "cones/opening/random_openings.h"
 #include "support/campaign.h"
@@ -112,6 +114,46 @@ TEST(RimDistance, Hulls) {
     checked(body, placed, truth, 1e-9);
     if (HasFailure()) FAIL() << "case " << i;
   }
+}
+
+/// The hull of two ellipsoids against the hull of points of both, which lies in it and nearly fills it.
+TEST(RimDistance, BetweenTwoEllipsoids) {
+  RandomBodies random(1912);
+  SCOPED_TRACE(random.trace());
+  constexpr int kPoints = 400;
+  int apart = 0;
+  for (int i = 0; i < share(400); ++i) {
+    SCOPED_TRACE("case " + std::to_string(i));
+    const PlacedOpening placed = random_placed(random, i % 3, random.in_box(5));
+    const Vector3d axes(random.uniform(0.05, 0.4), random.uniform(0.05, 0.4), random.uniform(0.05, 0.4));
+    const Matrix3d turned = random.rotation();
+    // Parallel, or turned by up to half a radian, or anyhow.
+    const Vector3d turn = random.in_box(i % 4 == 0 ? 0 : i % 4 == 3 ? 3 : 0.3);
+    const Matrix3d other =
+        turn.isZero(0) ? turned : Matrix3d(Eigen::AngleAxisd(turn.norm(), turn.normalized()) * turned);
+    const Vector3d start = placed.center + random.in_box(1.5);
+    const Ellipsoid from = Ellipsoid::from_axes(start, axes, turned),
+                    to = Ellipsoid::from_axes(start + random.in_box(i % 2 ? 1.5 : 0.1), axes, other);
+    std::vector<Vector3d> points;
+    for (const Ellipsoid& end : {from, to})
+      for (int k = 0; k < kPoints; ++k) {
+        const double z = -1 + (2 * k + 1.0) / kPoints, r = std::sqrt(1 - z * z),
+                     angle = 2.399963229728653 * k;
+        points.push_back(end.center() + end.factor() * Vector3d(r * std::cos(angle), r * std::sin(angle), z));
+      }
+    const RimDistance d = rim_distance(from, to, placed, {.tolerance = 1e-3, .most_points = 2000});
+    const RimDistance within = rim_distance(WorldBody(HullBody(points)), placed, {.tolerance = 1e-3});
+    EXPECT_LE(d.least, within.most + 1e-12);
+    EXPECT_GE(d.most, within.least - 0.02 * axes.maxCoeff());
+    EXPECT_LE(d.least, rim_distance(from, placed).most + 1e-12);
+    EXPECT_LE(d.least, rim_distance(to, placed).most + 1e-12);
+    if (within.least < 0.05) continue;
+    ++apart;
+    // Of ends that are turned anyhow no nearness is promised.
+    const double share_of = i % 4 == 0 ? 0.99 : i % 4 == 3 ? 0 : 0.7;
+    EXPECT_GE(d.least, share_of * within.least - 0.02 * axes.maxCoeff());
+  }
+  EXPECT_GT(apart, share(100));
 }
 
 TEST(RimDistance, ManyVerticesAreTheCircle) {
