@@ -118,6 +118,9 @@ else:
         through = [p["time"] for p in passages if p["orifice"] == rim.name and p["time"] is not None]
         for t in (through or [rim.appears, end]) if rim.velocity.any() or rim.spin.any() else [0]:
             space.plot(*rim.rim(t).T, color=color, linewidth=1.4, zorder=6)
+            if faces := rim.faces(t):
+                space.add_collection3d(Poly3DCollection(faces, facecolor=lit(faces, GREY), linewidth=0, alpha=0.35, zorder=1))
+                extent += faces
             extent.append(rim.rim(t))
         at = rim.rim(through[0] if through else rim.appears)
         space.text(*at[np.argmax(at[:, 2])], rim.name, fontsize=6, ha="center", va="bottom", color=color, zorder=9)

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scenarios/read_orifice.h"
 
+#include <vericone/files/read_points.h>
 #include <Eigen/Geometry>
-#include <numbers>
+#include <utility>
+#include <vector>
 
 #include "input/fields.h"
 #include "input/spatial_body.h"
@@ -17,21 +19,57 @@ using Eigen::Vector2d, Eigen::Vector3d;
 using input::at, input::quoted, input::read_number, input::read_vector, input::require_field,
     input::require_known, input::require_object;
 
-Opening read_opening(const Json& value, const std::string& path) {
-  constexpr const char* kOne = "exactly one of radius, semi_axes, polygon";
-  require_object(value, path);
-  require_known(value, path, {"radius", "semi_axes", "polygon"});
-  if (value.size() != 1) throw InputError(path, quoted(value), kOne);
+/// A window of a mesh, and the flat opening that stands for it.
+void read_window(const Json& value, const std::string& path, const std::filesystem::path& folder,
+                 simulation::MovingOrifice& orifice) {
+  require_known(value, path, {"mesh", "loop", "scale"});
+  const std::string name = read_text(value["mesh"], path + ".mesh", "the name of a mesh file");
+  int loop = 0;
+  double scale = 1;
+  if_given(value, path, "loop",
+           [&](const Json& v, const std::string& p) { loop = read_count(v, p, 0, 1'000'000); });
+  if_given(value, path, "scale",
+           [&](const Json& v, const std::string& p) { scale = read_positive(v, p, ""); });
+  files::PointFile file;
   try {
-    if (value.contains("radius")) return Opening::circle(read_number(value["radius"], "radius", " (metres)"));
-    if (value.contains("semi_axes"))
-      return Opening::ellipse(read_vector<2>(value["semi_axes"], "semi_axes", " (metres)"));
-    const Json& list = value["polygon"];
-    if (!list.is_array()) throw InputError("polygon", quoted(list), "a list of [x, y] in metres");
-    std::vector<Vector2d> vertices;
-    for (std::size_t i = 0; i < list.size(); ++i)
-      vertices.push_back(read_vector<2>(list[i], at("polygon", i), " (metres)"));
-    return Opening::polygon(std::move(vertices));
+    file = files::read_points(folder / name);
+  } catch (const std::exception& e) {
+    throw InputError(path + ".mesh", name, std::string("a mesh that can be read: ") + e.what());
+  }
+  for (Vector3d& x : file.points) x *= scale;
+  try {
+    orifice.window = std::make_shared<const MeshWindow>(std::move(file.points),
+                                                        files::fan_triangles(file.faces), std::size_t(loop));
+    const PlacedOpening flat = orifice.window->flat();
+    orifice.opening = flat.opening;
+    orifice.flat_center = flat.center;
+    orifice.flat_axes = flat.axes;
+  } catch (const InputError& e) {
+    throw e.within(path);
+  }
+}
+
+Opening flat_opening(const Json& value) {
+  if (value.contains("radius")) return Opening::circle(read_number(value["radius"], "radius", " (metres)"));
+  if (value.contains("semi_axes"))
+    return Opening::ellipse(read_vector<2>(value["semi_axes"], "semi_axes", " (metres)"));
+  const Json& list = value["polygon"];
+  if (!list.is_array()) throw InputError("polygon", quoted(list), "a list of [x, y] in metres");
+  std::vector<Vector2d> vertices;
+  for (std::size_t i = 0; i < list.size(); ++i)
+    vertices.push_back(read_vector<2>(list[i], at("polygon", i), " (metres)"));
+  return Opening::polygon(std::move(vertices));
+}
+
+void read_opening(const Json& value, const std::string& path, const std::filesystem::path& folder,
+                  simulation::MovingOrifice& orifice) {
+  require_object(value, path);
+  if (value.contains("mesh")) return read_window(value, path, folder, orifice);
+  require_known(value, path, {"radius", "semi_axes", "polygon", "mesh", "loop", "scale"});
+  if (value.size() != 1 || value.contains("loop") || value.contains("scale"))
+    throw InputError(path, quoted(value), "exactly one of radius, semi_axes, polygon, mesh (with its loop)");
+  try {
+    orifice.opening = flat_opening(value);
   } catch (const InputError& e) {
     throw e.within(path);
   }
@@ -48,11 +86,17 @@ Eigen::Matrix3d facing(const Vector3d& normal) {
   return axes;
 }
 
-Eigen::Matrix3d read_attitude(const Json& value, const std::string& path) {
+Eigen::Matrix3d read_attitude(const Json& value, const std::string& path, bool window) {
   if (value.contains("rotation")) {
     if (value.contains("normal"))
       throw InputError(path + ".normal", quoted(value["normal"]), "left out beside rotation");
     return input::read_rotation(value, path);
+  }
+  // A mesh lies in its file as it is meant.
+  if (window) {
+    if (value.contains("normal"))
+      throw InputError(path + ".normal", quoted(value["normal"]), "left out of a mesh, or rotation");
+    return Eigen::Matrix3d::Identity();
   }
   const Vector3d normal =
       read_vector<3>(require_field(value, path, "normal", "[x, y, z], or rotation"), path + ".normal", "");
@@ -63,19 +107,20 @@ Eigen::Matrix3d read_attitude(const Json& value, const std::string& path) {
 
 }  // namespace
 
-simulation::MovingOrifice read_orifice(const Json& value, const std::string& path) {
+simulation::MovingOrifice read_orifice(const Json& value, const std::string& path,
+                                       const std::filesystem::path& folder) {
   require_object(value, path);
   require_known(value, path,
                 {"name", "opening", "position", "velocity", "speed", "heading", "heading_deg", "normal",
                  "rotation", "spin", "appears", "wall"});
   simulation::MovingOrifice orifice;
   orifice.name = read_text(require_field(value, path, "name", "a name, as text"), path + ".name", "a name");
-  orifice.opening = read_opening(require_field(value, path, "opening", "a mapping, such as {radius: 0.5}"),
-                                 path + ".opening");
+  read_opening(require_field(value, path, "opening", "a mapping, such as {radius: 0.5}"), path + ".opening",
+               folder, orifice);
   orifice.position = read_vector<3>(require_field(value, path, "position", "[x, y, z] in metres"),
                                     path + ".position", " (metres)");
   orifice.velocity = read_going(value, path, false).velocity;
-  orifice.rotation = read_attitude(value, path);
+  orifice.rotation = read_attitude(value, path, orifice.window != nullptr);
   if_given(value, path, "spin",
            [&](const Json& v, const std::string& p) { orifice.spin = read_vector<3>(v, p, " (rad/s)"); });
   if_given(value, path, "appears",

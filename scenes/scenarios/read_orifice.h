@@ -4,13 +4,16 @@
 #pragma once
 
 #include <vericone/simulation/scenario.h>
+#include <filesystem>
 #include <string>
 
 #include "json/json_forward.h"
 
 namespace vericone::scenario {
 
-simulation::MovingOrifice read_orifice(const Json& value, const std::string& path);
+/// Names of meshes are relative to `folder`.
+simulation::MovingOrifice read_orifice(const Json& value, const std::string& path,
+                                       const std::filesystem::path& folder);
 
 /// Fields of a pilot whose law is one of orifices.
 simulation::Through read_through(const Json& value, const std::string& path, simulation::Through::Law law);

@@ -27,7 +27,8 @@ class Fields(unittest.TestCase):
             for field in only.split() if only else nodes:
                 self.assertTrue(fields.said(name, nodes[field], "description"), f"{name} {definition} {field}")
         for name, definitions in (("body", ("body", "hyperboloid", "hyperbola")), ("scene", (None, "lidar", "pose_error")),
-                                  ("scenario", (None, "proof", "by_shape", "pilot", "goal", "plane", "clearance"))):
+                                  ("scenario", (None, "proof", "by_shape", "pilot", "goal", "plane", "clearance", "orifice", "opening", "vehicle",
+                                                "vehicle_limits", "fish_trial", "current", "shear", "gusts"))):
             for definition in definitions:
                 nodes, _ = fields.properties(name, definition)
                 self.assertEqual(shown.get((name, definition)), set(nodes), (name, definition))

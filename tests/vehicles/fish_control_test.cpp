@@ -80,7 +80,8 @@ TEST(FishControls, OursIsThereInTimeAndAtTheDepth) {
   start.velocity = 0.054 * Vector3d(std::cos(elevation) * std::cos(azimuth),
                                     std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
   start.rotation = Eigen::AngleAxisd(azimuth, Vector3d::UnitZ()).toRotationMatrix();
-  for (const Current& water : {Current(), Current({0.03, -0.02, 0}), Current({0.02, 0, 0}, {{0.02, 0}, 0})}) {
+  for (const Current& water :
+       {Current(), Current({0.03, -0.02, 0}), Current({0.02, 0, 0.004}, {{0.02, 0}, 0})}) {
     const double seconds = 32;
     const Flown flown = fly(
         options, seconds,

@@ -231,6 +231,24 @@ TEST(Fish, NoMotionIsFasterThanItsLimit) {
     nearest = std::max(nearest, power);
   }
   EXPECT_GT(nearest, -1e3);
+  // Up and down: nowhere faster than the terminal speed, nor with more jerk than the limit; the valve comes
+  // near.
+  const simulation::VehicleLimits limits = model->limits({});
+  for (const double rate : {-3e-5, 1e-7}) {
+    const Flown vertical = fly(trial(0, 0, rate), 40);
+    double jerk = 0;
+    for (std::size_t k = 0; k + 1 < vertical.way.size(); ++k) {
+      const simulation::Curve& curve = vertical.way[k];
+      EXPECT_LE(std::abs(curve.end().velocity.z()), limits.climb);
+      jerk =
+          std::max(jerk, std::abs(curve.acceleration(curve.to()).z() - curve.acceleration(curve.from()).z()) /
+                             (curve.to() - curve.from()));
+    }
+    EXPECT_LE(jerk, limits.climb_jerk);
+    if (rate < 0) {
+      EXPECT_GT(jerk, 0.5 * limits.climb_jerk);
+    }
+  }
   // Nor does one that is driven as hard as can be.
   options.control = FishControl::source;
   options.gain_y = 10;

@@ -27,6 +27,11 @@ class Orifice:
         self.position, self.velocity = np.array(data["position"]), np.array(data["velocity"])
         self.attitude, self.spin = np.array(data["rotation"]), np.array(data["spin"])
         opening = data["opening"]
+        self.mesh = np.array(opening["mesh"]["triangles"]).reshape(-1, 3, 3) if "mesh" in opening else None
+        if "rim" in opening:
+            rim = np.array(opening["rim"])
+            self.own = np.vstack([rim, rim[:1]])
+            return
         if "polygon" in opening:
             corners = np.array(opening["polygon"])
             self.own = np.vstack([corners, corners[:1]])
@@ -45,9 +50,14 @@ class Orifice:
         """A closed line."""
         return self.center(t) + self.own @ self.rotation(t).T
 
+    def faces(self, t):
+        """Of a window, the mesh around it; nothing of other orifices."""
+        return [] if self.mesh is None else list(self.center(t) + self.mesh @ self.rotation(t).T)
+
     def band(self, width):
         """The rim as a flat band, in its own frame: points and triangles. Outside of it a wall begins."""
-        outer = self.own + width * self.own / np.maximum(np.linalg.norm(self.own, axis=1, keepdims=True), 1e-12)
+        away = self.own - self.own[:-1].mean(axis=0)
+        outer = self.own + width * away / np.maximum(np.linalg.norm(away, axis=1, keepdims=True), 1e-12)
         n = len(self.own)
         sides = [[[i, i + 1, n + i], [i + 1, n + i + 1, n + i]] for i in range(n - 1)]
         return np.vstack([self.own, outer]), np.array(sides).reshape(-1, 3)

@@ -162,7 +162,11 @@ Json orifices_json(const Scenario& scenario) {
   Json list = Json::array();
   for (const MovingOrifice& orifice : scenario.orifices) {
     Json outline;
-    if (orifice.opening.polygonal()) {
+    if (orifice.window) {
+      outline = {{"rim", Json::array()}};
+      for (const Eigen::Vector3d& x : orifice.window->rim()) outline["rim"].push_back(vector_json(x));
+      outline["mesh"] = shown_pieces(*orifice.window->mesh().body.assembly(), {});
+    } else if (orifice.opening.polygonal()) {
       outline = {{"polygon", Json::array()}};
       for (const Eigen::Vector2d& x : orifice.opening.vertices())
         outline["polygon"].push_back(vector_json(x));

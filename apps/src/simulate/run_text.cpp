@@ -243,6 +243,11 @@ std::string orifice_words(const MovingOrifice& orifice) {
   const auto list = [](const Eigen::Vector3d& x) {
     return "(" + brief(x.x()) + ", " + brief(x.y()) + ", " + brief(x.z()) + ")";
   };
+  if (orifice.window)
+    return "window of a mesh with " + std::to_string(orifice.window->mesh().body.assembly()->size()) +
+           " triangles, rim of " + std::to_string(orifice.window->rim().size()) + " corners, mesh at " +
+           list(p) + " m" + (v.isZero(0) ? ", at rest" : ", velocity " + list(v) + " m/s") +
+           (orifice.spin.isZero(0) ? "" : ", turning at " + list(orifice.spin) + " rad/s");
   std::string text = orifice.opening.polygonal()
                          ? "opening with " + std::to_string(orifice.opening.vertices().size()) + " corners"
                      : axes.x() == axes.y() ? "round opening, radius " + brief(axes.x()) + " m"

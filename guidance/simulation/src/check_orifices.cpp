@@ -63,6 +63,16 @@ void check_orifices(const Scenario& scenario) {
       throw e.within(path);
     }
   }
+  for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
+    const Body& body = scenario.bodies[i];
+    const bool flown = body.pilot || body.vehicle;
+    const bool whole = body.shape.rigid() && body.shape.rigid()->placed();
+    for (const MovingOrifice& orifice : scenario.orifices)
+      if (flown && whole && orifice.window)
+        throw InputError(
+            "bodies[" + std::to_string(i) + "].shape", "a mesh, a cloud, a map or a union",
+            "an ellipsoid, a body with dents or a hull, where " + orifice.name + " is a window of a mesh");
+  }
   if (!scenario.orifices.empty() && !scenario.bodies.empty() && planar(scenario.bodies.front().shape))
     throw InputError("orifices", "given", "left out beside planar bodies: an opening is in space");
 }

@@ -436,10 +436,15 @@ class Runner {
         if (!(from < run_.end)) continue;
         const auto& pilot = scenario_.bodies[i].pilot;
         const bool ordered = pilot && pilot->through && contains(pilot->through->orifices, orifice.name);
-        run_.passages.push_back(
-            {i, k, ordered, prove_passage(run_.tracks[i], orifice, from, run_.end, scenario_.proof)});
+        run_.passages.push_back({i, k, ordered, passage(run_.tracks[i], orifice, from)});
       }
     }
+  }
+
+  PassageProof passage(const Track& track, const MovingOrifice& orifice, double from) const {
+    if (!orifice.window) return prove_passage(track, orifice, from, run_.end, scenario_.proof);
+    return prove_passage(track, *orifice.window, mesh_track(orifice, run_.end), from, run_.end,
+                         scenario_.proof);
   }
 
   /// Metres that `agent` is to keep from `other`.

@@ -67,10 +67,11 @@ bool DepthKeeper::feasible(const std::array<double, 6>& way, double seconds, dou
   return true;
 }
 
-void DepthKeeper::plan(const FishState& state, double surface, double t, const Height& goal, double seconds) {
+void DepthKeeper::plan(const FishState& state, double surface, double t, double water_climb,
+                       const Height& goal, double seconds) {
   const double depth = depth_of(state, surface);
   const FishForces forces = fish_forces(fish_, state, {}, surface);
-  const Height now{state.position.z(), state.w, (forces.lift - forces.drag_z) / fish_.mass};
+  const Height now{state.position.z(), state.w + water_climb, (forces.lift - forces.drag_z) / fish_.mass};
   // Plans go on from where the last one is, unless the fish is somewhere else by now.
   Height start = begun_ ? planned(t) : now;
   constexpr double kLost = 0.1;

@@ -25,9 +25,11 @@ class DepthKeeper {
       : fish_(fish), pole_(pole), climb_(climb) {}
 
   /// From here on: at `goal` (a height now and its rate) in `seconds`, or as soon as the limits let it.
-  void plan(const FishState& state, double surface, double t, const Height& goal, double seconds);
+  /// Heights are over ground, in water that rises at `water_climb`.
+  void plan(const FishState& state, double surface, double t, double water_climb, const Height& goal,
+            double seconds);
 
-  /// The gas rate to hold for a short time, within the limits. Velocities over ground: `climb` of the water.
+  /// The gas rate to hold for a short time, within the limits.
   double rate(const FishState& state, double surface, double t, double water_climb) const;
 
   /// The height planned for time t.

@@ -34,6 +34,17 @@ double terminal_speed(const FishParameters& fish) {
                    fish.drag_z);
 }
 
+/// |w''|, if |w| is at most `climb`: what valve or electrolyser do to the volume, what the depth does to it,
+/// and drag. Compression is at most 1, and changes by at most rho g |w| / P of itself.
+double most_jerk(const FishParameters& fish, double climb) {
+  const double weight = fish.density * fish.gravity;
+  const double lift = weight * std::max(fish.chamber - fish.neutral_gas, fish.neutral_gas);
+  const double volume =
+      std::max(fish.gas_rate, fish.valve_rate) + fish.chamber * weight * climb / fish.pressure;
+  return (weight * volume + 2 * fish.drag_z * climb * (lift + fish.drag_z * climb * climb) / fish.mass) /
+         fish.mass;
+}
+
 class Fish : public simulation::Vehicle {
  public:
   Fish(const FishOptions& options, const CycleMeans& means, const VehicleLimits& limits, const Motion& start,
@@ -115,11 +126,11 @@ class Fish : public simulation::Vehicle {
     constexpr double kReplan = 0.1;  // s
     if (command.aim) {
       kept_ = over_ground(state_, around_.water, t_);
-      height_ = {state_.position.z(), state_.w, 0};
+      height_ = {state_.position.z(), kept_.z(), 0};
       if (t_ < planned_ + kReplan - 1e-9) return;
       planned_ = t_;
-      keeper_.plan(state_, around_.surface, t_, {command.aim->point.z(), command.aim->velocity.z(), 0},
-                   command.aim->seconds);
+      keeper_.plan(state_, around_.surface, t_, water_climb(),
+                   {command.aim->point.z(), command.aim->velocity.z(), 0}, command.aim->seconds);
       return;
     }
     const double dt = to - from;
@@ -130,10 +141,12 @@ class Fish : public simulation::Vehicle {
     height_.w = kept_.z();
     if (t_ >= planned_ + kReplan - 1e-9) {
       planned_ = t_;
-      keeper_.plan(state_, around_.surface, t_, height_, 0);
+      keeper_.plan(state_, around_.surface, t_, water_climb(), height_, 0);
     }
     height_.z += dt * height_.w;
   }
+
+  double water_climb() const { return around_.water.velocity(state_.position.z(), t_).z(); }
 
   double gas_rate(const VehicleCommand& command) const {
     const FishParameters& fish = options_.parameters;
@@ -141,7 +154,7 @@ class Fish : public simulation::Vehicle {
       case FishControl::none:
         return options_.trial.gas_rate;
       case FishControl::ours:
-        return keeper_.rate(state_, around_.surface, t_, around_.water.velocity(state_.position.z(), t_).z());
+        return keeper_.rate(state_, around_.surface, t_, water_climb());
       case FishControl::source:
         break;
     }
@@ -250,7 +263,6 @@ class FishModel : public simulation::VehicleModel {
     constexpr double kNone = std::numeric_limits<double>::infinity();
     limits_.turn_rate = options.most_turn_rate.value_or(kNone);
     limits_.climb = std::min(options.most_climb.value_or(kNone), terminal_speed(fish));
-    limits_.climb_jerk = kNone;
     limits_.bottom = -kNone;
   }
 
@@ -271,6 +283,7 @@ class FishModel : public simulation::VehicleModel {
         options_.most_speed
             ? *options_.most_speed
             : std::hypot(most_swimming_speed(options_.parameters, start.velocity.norm()), limits.climb);
+    limits.climb_jerk = most_jerk(options_.parameters, limits.climb);
     limits.top = start.position.z() + options_.depth;
     return limits;
   }

@@ -37,7 +37,7 @@ struct OpeningClearance {
 /// To rounding, not certified. Throws InputError naming "relative_velocity" where w is zero or not finite.
 /// The least of several minima is searched for on 24 directions that start at the opening's thin one, or on
 /// the edges of a polygon, and refined; so openings and agents more than some 1e6 times as long as wide are
-/// seen to fewer digits. A w along the wall sees a line of the opening: m is negative then. Cost: about 1 us
+/// seen to fewer digits. A w along the wall sees a line of the opening: m is negative then. Cost: 1.6 us
 /// for circles and ellipses, linear in the vertices of a polygon (docs/measured/predicates.md).
 [[nodiscard]] OpeningClearance opening_clearance(const Ellipsoid& agent, const PlacedOpening& opening,
                                                  const Eigen::Vector3d& w);

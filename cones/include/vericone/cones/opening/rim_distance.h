@@ -37,7 +37,7 @@ struct RimQuestion {
 ///
 /// An ellipsoid is the one that is defined exactly (ellipsoid.h). Numbers that are not finite, or axes
 /// without a plane, give [0, infinity]. Cost:
-/// some ten microseconds to 1e-2, a few for a threshold (docs/measured/predicates.md).
+/// 1 to 4 us for an ellipsoid, to 1e-2; about 1 us for a threshold (docs/measured/predicates.md).
 [[nodiscard]] RimDistance rim_distance(const Ellipsoid& body, const PlacedOpening& opening,
                                        const RimQuestion& question = {});
 

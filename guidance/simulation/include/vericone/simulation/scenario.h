@@ -58,8 +58,9 @@ struct Through {
   std::vector<std::string> orifices;  // names, in this order
   guidance::OrificeLawOptions source;
   guidance::PassageLawOptions passage;
-  /// m/s, held by an acceleration along the velocity (of a vehicle along its level part: depth is its control's)
-  /// of gain_speed times what is missing. One for all orifices, or one for each; empty: nothing is done about it.
+  /// m/s, held by an acceleration along the velocity (of a vehicle along its level part: depth is its
+  /// control's) of gain_speed times what is missing. One for all orifices, or one for each; empty: nothing is
+  /// done about it.
   std::vector<double> speeds;
   double gain_speed = 1;  // 1/s
 };

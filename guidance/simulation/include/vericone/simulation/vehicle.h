@@ -29,9 +29,9 @@ struct VehicleCommand {
 /// What no motion of a vehicle exceeds: proved of its equations, or declared and kept by the vehicle.
 struct VehicleLimits {
   double speed = 0;            // m/s, through the water or air
-  double turn_rate = 0;        // rad/s, of its horizontal course
+  double turn_rate = 0;        // rad/s, of its heading, mean over a beat; infinite if not limited
   double climb = 0;            // m/s
-  double climb_jerk = 0;       // m/s^3; infinite if not limited
+  double climb_jerk = 0;       // m/s^3, of its velocity up; infinite if not limited
   double top = 0, bottom = 0;  // z of the highest and lowest place it can be, m
 };
 
@@ -60,8 +60,8 @@ class Vehicle {
 class VehicleModel {
  public:
   virtual ~VehicleModel() = default;
-  /// `start` at time t, seconds, in moving water. Throws InputError naming "position", "velocity" or
-  /// "rotation" for a start that the vehicle cannot be in.
+  /// `start` at time t, seconds, in moving water; this model outlives it. Throws InputError naming
+  /// "position", "velocity" or "rotation" for a start that the vehicle cannot be in.
   [[nodiscard]] virtual std::unique_ptr<Vehicle> launch(const Motion& start, double t,
                                                         const Current& water) const = 0;
   /// Columns of what it logs, with units: "bias [rad]".
