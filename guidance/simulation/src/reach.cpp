@@ -24,12 +24,23 @@ constexpr double kUnlimited = ReachLimits::kNone;
 class Gate {
  public:
   Gate(const MovingOrifice& orifice, double t, bool center)
-      : opening_(orifice.at(t).opening), center_(center) {}
+      : opening_(orifice.at(t).opening), center_(center) {
+    if (!orifice.window || center) return;
+    // A way through a window crosses the fan of its rim.
+    MovingOrifice mesh = orifice;
+    mesh.window.reset();
+    const PlacedOpening now = mesh.at(t).opening;
+    for (const Vector3d& x : orifice.window->rim())
+      rim_.push_back(now.center + now.axes * x.head<2>() + x.z() * now.normal());
+  }
 
   const Vector3d& center() const { return opening_.center; }
   /// The point farthest along n, and how far that is.
   Vector3d farthest(const Vector3d& n) const {
     if (center_) return opening_.center;
+    if (!rim_.empty())
+      return *std::max_element(rim_.begin(), rim_.end(),
+                               [&](const Vector3d& x, const Vector3d& y) { return n.dot(x) < n.dot(y); });
     const Vector2d across = opening_.axes.transpose() * n;
     const Opening& opening = opening_.opening;
     if (opening.polygonal()) {
@@ -50,7 +61,18 @@ class Gate {
 
   PlacedOpening opening_;
   bool center_;
+  std::vector<Vector3d> rim_;  // of a window
 };
+
+/// The largest distance of a point that counts from the one that the orifice turns about.
+double reach_of(const MovingOrifice& orifice, bool center) {
+  double most = center ? 0 : orifice.opening.reach();
+  if (orifice.window) {
+    most = orifice.flat_center.norm();
+    for (const Vector3d& x : orifice.window->rim()) most = std::max(most, x.norm());
+  }
+  return most * (1 + 1e-12);
+}
 
 /// How far a convex set is from another at least: what a plane between them tells.
 template <typename From, typename To>
@@ -95,9 +117,9 @@ class EarliestTime {
   EarliestTime(const ReachStart& start, const ReachLimits& limits, const MovingOrifice& orifice,
                const Left& left, bool center)
       : start_(start), limits_(limits), orifice_(orifice), left_(left), center_(center) {
-    own_ = orifice.velocity.norm() + (center ? 0 : orifice.spin.norm() * orifice.opening.reach());
+    own_ = orifice.velocity.norm() + orifice.spin.norm() * reach_of(orifice, center);
     if (left.orifice)
-      before_ = left.orifice->velocity.norm() + left.orifice->spin.norm() * left.orifice->opening.reach();
+      before_ = left.orifice->velocity.norm() + left.orifice->spin.norm() * reach_of(*left.orifice, false);
   }
 
   ReachTime search(double horizon) {
@@ -138,7 +160,7 @@ class EarliestTime {
     const double T = t - start_.t;
     // What rounding may move.
     const double slack = start_.offset + 1e-12 * (1 + start_.position.norm() + orifice_.position.norm() +
-                                                  own_ * std::abs(t) + orifice_.opening.reach());
+                                                  own_ * std::abs(t) + reach_of(orifice_, false));
     const Gate gate(orifice_, t, center_);
     const Vector3d& p = start_.position;
     Vector3d towards = gate.center() - p;
@@ -361,7 +383,11 @@ std::optional<double> largest_drift(const Scenario& scenario, const Run& run) {
       options.drift = drift;
       const MovingOrifice& orifice = scenario.orifices[passage.orifice];
       const double from = std::max(track.appears(), orifice.appears);
-      return prove_passage(track, orifice, from, run.end, options).verdict == PassageVerdict::passed;
+      const PassageProof proof =
+          orifice.window
+              ? prove_passage(track, *orifice.window, mesh_track(orifice, run.end), from, run.end, options)
+              : prove_passage(track, orifice, from, run.end, options);
+      return proof.verdict == PassageVerdict::passed;
     };
     double lo = 0, hi = most;
     if (passage.proof.verdict == PassageVerdict::passed)

@@ -121,7 +121,7 @@ TEST(RimDistance, BetweenTwoEllipsoids) {
   RandomBodies random(1912);
   SCOPED_TRACE(random.trace());
   constexpr int kPoints = 400;
-  int apart = 0;
+  int apart = 0, turned_a_little = 0, near = 0;
   for (int i = 0; i < share(400); ++i) {
     SCOPED_TRACE("case " + std::to_string(i));
     const PlacedOpening placed = random_placed(random, i % 3, random.in_box(5));
@@ -149,10 +149,16 @@ TEST(RimDistance, BetweenTwoEllipsoids) {
     EXPECT_LE(d.least, rim_distance(to, placed).most + 1e-12);
     if (within.least < 0.05) continue;
     ++apart;
-    // Of ends that are turned anyhow no nearness is promised.
-    const double share_of = i % 4 == 0 ? 0.99 : i % 4 == 3 ? 0 : 0.7;
-    EXPECT_GE(d.least, share_of * within.least - 0.02 * axes.maxCoeff());
+    const double slack = 0.02 * axes.maxCoeff();
+    if (i % 4 == 0) {
+      EXPECT_GE(d.least, 0.99 * within.least - slack);
+    }
+    if (i % 4 == 1 || i % 4 == 2) {
+      ++turned_a_little;
+      near += d.least >= 0.9 * within.least - slack;
+    }
   }
+  EXPECT_GE(near, 0.9 * turned_a_little);  // no promise, but of use
   EXPECT_GT(apart, share(100));
 }
 

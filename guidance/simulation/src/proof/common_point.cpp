@@ -46,12 +46,15 @@ double cross(const Vector2d& x, const Vector2d& y) { return x.x() * y.y() - x.y(
 
 /// Of a hull: the convex polygon of where segments between its points cross the plane.
 std::optional<Section> section_of(const HullBody& hull, double slack) {
+  // Of very many points some do: their hull is within the body.
+  constexpr std::size_t kMostPoints = 800;
+  const std::size_t stride = 1 + hull.size() / kMostPoints;
+  std::vector<Vector3d> above, below;
+  for (std::size_t k = 0; k < hull.size(); k += stride)
+    (hull.points()[k].z() > 0 ? above : below).push_back(hull.points()[k]);
   std::vector<Vector2d> points;
-  for (const Vector3d& above : hull.points())
-    if (above.z() > 0)
-      for (const Vector3d& below : hull.points())
-        if (below.z() < 0)
-          points.push_back((above + above.z() / (above.z() - below.z()) * (below - above)).head<2>());
+  for (const Vector3d& a : above)
+    for (const Vector3d& b : below) points.push_back((a + a.z() / (a.z() - b.z()) * (b - a)).head<2>());
   if (points.size() < 3) return std::nullopt;
   std::sort(points.begin(), points.end(), [](const Vector2d& p, const Vector2d& q) {
     return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y());

@@ -44,7 +44,8 @@ struct PassageProof {
 /// union by the ellipsoid that contains it; `touched` is said of the body itself, so of the latter never. The
 /// proof holds for all motions of the body within the padding of the track (ProofOptions); the opening moves
 /// exactly as it says. Throws InputError naming "agent" (a body of the plane), "from", "to", "padding",
-/// "resolution" or "drift". Method: docs/explanation/proof-of-runs.md.
+/// "resolution" or "drift". Method: docs/explanation/proof-of-runs.md. Cost: about 1 ms, most of it for the
+/// least distance (docs/measured/guidance.md).
 [[nodiscard]] PassageProof prove_passage(const Track& agent, const MovingOrifice& orifice, double from,
                                          double to, const ProofOptions& options = {});
 
