@@ -55,7 +55,7 @@ const std::vector<OfLaws>& fields_of_laws() {
                                          {"cease", {"avoidance", "cooperative-avoidance"}},
                                          {"mu", {"cooperative-avoidance"}},
                                          {"gain_speed", {"matching-rendezvous", "orifice", "passage"}},
-      {"speed", of_orifices},
+                                         {"speed", of_orifices},
                                          {"clearance", {"clearance"}},
                                          {"manner", {"avoidance", "clearance"}},
                                          {"passing", of_planes},
@@ -183,9 +183,9 @@ simulation::Pilot read_pilot(const Json& value, const std::string& path, bool pl
   require_object(value, path);
   require_known(
       value, path,
-      {"law",     "sector", "rates",       "plane",     "gain",   "reference", "most",      "cease",
-       "side",    "mu",     "gain_speed",  "clearance", "minds",  "partners",  "goal",      "manner",
-       "passing", "sensor", "estimator",   "filter",    "robust", "through",   "direction", "direction_deg",
+      {"law",     "sector", "rates",        "plane",     "gain",   "reference", "most",      "cease",
+       "side",    "mu",     "gain_speed",   "clearance", "minds",  "partners",  "goal",      "manner",
+       "passing", "sensor", "estimator",    "filter",    "robust", "through",   "direction", "direction_deg",
        "margin",  "beyond", "longitudinal", "speed"});
   simulation::Pilot pilot;
   guidance::GuideOptions& guide = pilot.guide;

@@ -141,7 +141,8 @@ simulation::Scenario read_scenario(const Json& fields, const std::string& name,
     scenario.bodies.push_back(read_body(bodies[i], at("bodies", i), folder));
   if_given(fields, "", "orifices", [&](const Json& v, const std::string& p) {
     if (!v.is_array() || v.empty()) throw InputError(p, quoted(v), "a list of orifices");
-    for (std::size_t i = 0; i < v.size(); ++i) scenario.orifices.push_back(read_orifice(v[i], at(p, i), folder));
+    for (std::size_t i = 0; i < v.size(); ++i)
+      scenario.orifices.push_back(read_orifice(v[i], at(p, i), folder));
   });
   for (simulation::Body& body : scenario.bodies)  // the outer loop's step is the scenario's
     if (body.pilot && body.pilot->guide.robust) body.pilot->guide.robust->model.dt = scenario.step;

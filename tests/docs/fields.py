@@ -72,12 +72,20 @@ def properties(name, definition):
     return node["properties"], node.get("required", [])
 
 
+def chosen(nodes, fields):
+    """All, those named, or after the word "but" all others."""
+    words = fields.split() if fields else []
+    if words[:1] == ["but"]:
+        return [field for field in nodes if field not in words]
+    return words or list(nodes)
+
+
 def table(name, definition=None, fields=None):
     nodes, required = properties(name, definition)
     rows = []
     readers = any("read_by" in node for node in nodes.values())
     head = ["field", *(["read by"] if readers else []), "type", "if left out", "meaning"]
-    for field in fields.split() if fields else nodes:
+    for field in chosen(nodes, fields):
         node = nodes[field]
         unit = said(name, node, "unit")
         cells = [f"`{field}`", *([node.get("read_by", "")] if readers else []),

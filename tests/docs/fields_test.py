@@ -23,8 +23,8 @@ class Fields(unittest.TestCase):
         shown = {}
         for name, definition, only in marks:
             nodes, _ = fields.properties(name, definition)
-            shown.setdefault((name, definition), set()).update(only.split() if only else nodes)
-            for field in only.split() if only else nodes:
+            shown.setdefault((name, definition), set()).update(fields.chosen(nodes, only))
+            for field in fields.chosen(nodes, only):
                 self.assertTrue(fields.said(name, nodes[field], "description"), f"{name} {definition} {field}")
         for name, definitions in (("body", ("body", "hyperboloid", "hyperbola")), ("scene", (None, "lidar", "pose_error")),
                                   ("scenario", (None, "proof", "by_shape", "pilot", "goal", "plane", "clearance", "orifice", "opening", "vehicle",

@@ -136,7 +136,8 @@ TEST(Verdict, NamesThePairsThatAreOneBody) {
   EXPECT_TRUE(run.proofs.empty());
   EXPECT_EQ(run.not_checked.size(), 3U);
   c.start.velocity.x() = 6;
-  const auto other = simulate(of({ball("A", 1, {0, 0, 0}, {5, 0, 0}), ball("B", 1, {1, 0, 0}, {5, 0, 0}), c}));
+  const auto other =
+      simulate(of({ball("A", 1, {0, 0, 0}, {5, 0, 0}), ball("B", 1, {1, 0, 0}, {5, 0, 0}), c}));
   EXPECT_EQ(other.proofs.size(), 2U);
   EXPECT_EQ(other.not_checked.size(), 1U);
 }

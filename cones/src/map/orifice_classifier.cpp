@@ -237,9 +237,10 @@ bool OrificeClassifier::hits_wall(const DirectionCell& cell) const {
   };
   for (int i = 0; i < 3; ++i) p[i] = Interval(o(i)) - Interval(best_point(i));
   const Interval height = dot3(normal, p), beyond = dot3(best_out, p);
-  const Interval nn = dot(intervals(normal), intervals(normal)), mn = dot(intervals(best_out), intervals(normal));
-  const Interval rim =
-      Interval(oracle_.orifice()->radius) * sqrt(dot(intervals(best_out), intervals(best_out)) - mn * mn / nn);
+  const Interval nn = dot(intervals(normal), intervals(normal)),
+                 mn = dot(intervals(best_out), intervals(normal));
+  const Interval rim = Interval(oracle_.orifice()->radius) *
+                       sqrt(dot(intervals(best_out), intervals(best_out)) - mn * mn / nn);
   return std::all_of(cell.begin(), cell.end(), [&](const Vector3d& x) {
     for (int i = 0; i < 3; ++i) d[i] = Interval(x(i));
     const Interval nd = dot3(normal, d);

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/map/classifiers.h>
 #include <vericone/cones/mesh_window.h>
-#include <vericone/geometry/mesh/boundary_loops.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/mesh/boundary_loops.h>
 #include <vericone/testing/random_bodies.h>
 #include <Eigen/Geometry>
 
