@@ -73,8 +73,8 @@ axes.set_ylabel("y [m]", labelpad=-2)
 axes.set_zlabel("z [m]", labelpad=-4)
 axes.tick_params(pad=-1)
 axes.legend(handles=[Line2D([], [], color=run.color(n), label=n) for n in run.bodies] +
-            [Line2D([], [], color=RIM, label="orifices, when passed")] * bool(rims), loc="lower left" if rims else "upper left",
-            bbox_to_anchor=(0.02, 0.03 if rims else 0.97))
+            [Line2D([], [], color=RIM, label="orifices, when passed")] * bool(rims), loc="upper left",
+            bbox_to_anchor=(0.7 if rims else 0.02, 0.99 if rims else 0.97))
 axes.text2D(0.98, 0.95, run.idle_note(), transform=axes.transAxes, fontsize=7, color=GREY, ha="right")
 sheet.write(data["name"])
 save(axes.figure, data["name"])
