@@ -177,6 +177,55 @@ bodies:
         self.assertEqual(touched["verdict"], "touched")
         return avoided["pairs"][0], touched["pairs"][0]
 
+    def test_openings_of_every_outline_are_passed(self):
+        """The example's three openings: passed, proved; where the middle crosses each plane, by code of its own."""
+        with open(os.path.join(SOURCE, "docs", "examples", "scenarios", "orifices.yaml"), encoding="utf-8") as f:
+            answer = self.simulate(f.read())
+        self.assertEqual(answer["proof"]["verdict"], "passed")
+        orifices = {o["name"]: o for o in json.loads(self.content("orifices.json"))}
+        way = [[float(r[c]) for c in ("t [s]", "x [m]", "y [m]", "z [m]")] for r in self.table("bodies.csv")]
+        for passage in answer["proof"]["passages"]:
+            self.assertEqual((passage["verdict"], passage["ordered"]), ("passed", True))
+            orifice = orifices[passage["orifice"]]
+            self.assertEqual(orifice["spin"][1:], [0, 0])
+            heights, t = [], passage["time"]
+            for row in (max(r for r in way if r[0] <= t), min(r for r in way if r[0] > t)):
+                c = [x - p - row[0] * v for x, p, v in zip(row[1:], orifice["position"], orifice["velocity"])]
+                angle = -row[0] * orifice["spin"][0]  # turned back about x
+                c = [c[0], math.cos(angle) * c[1] - math.sin(angle) * c[2], math.sin(angle) * c[1] + math.cos(angle) * c[2]]
+                x, y, z = (sum(orifice["rotation"][i][k] * c[i] for i in range(3)) for k in range(3))
+                heights.append(z)
+                outline = orifice["opening"]
+                if "semi_axes" in outline:
+                    self.assertLess((x / outline["semi_axes"][0]) ** 2 + (y / outline["semi_axes"][1]) ** 2, 1)
+                else:
+                    sides = [(a, b) for a, b in zip(outline["polygon"], outline["polygon"][1:] + outline["polygon"][:1])]
+                    crossed = sum((a[1] > y) != (b[1] > y) and x < a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]) for a, b in sides)
+                    self.assertEqual(crossed % 2, 1)
+            self.assertLess(heights[0] * heights[1], 0)
+        self.assertEqual([e["event"] for e in self.table("events.csv")], ["goes-through"] * 3)
+
+    def test_a_window_of_a_real_mesh_is_passed_and_another_one_is_not(self):
+        if not os.path.exists("/usr/share/doc/libcgal-dev/data.tar.gz"):
+            self.skipTest("libcgal-demo is not installed")
+        path = os.path.join(self.folder, "holes.off")
+        with tarfile.open("/usr/share/doc/libcgal-dev/data.tar.gz") as archive, open(path, "wb") as f:
+            f.write(archive.extractfile(next(m for m in archive.getmembers() if m.name.endswith("meshes/holes.off"))).read())
+        with open(os.path.join(SOURCE, "docs", "examples", "scenarios", "bust.yaml"), encoding="utf-8") as f:
+            text = f.read().replace("../../../build/windows/holes.off", path)
+        passage, = self.simulate(text)["proof"]["passages"]
+        self.assertEqual(passage["verdict"], "passed")
+        # No corner of the mesh is nearer to the middle than what is proved and the least half-length.
+        with open(path, encoding="utf-8") as f:
+            words = f.read().split()
+        corners = [[float(x) for x in words[4 + 3 * i:7 + 3 * i]] for i in range(int(words[1]))]
+        way = [[float(r[c + " [m]"]) for c in "xyz"] for r in self.table("bodies.csv")]
+        nearest = min(math.dist(p, corner) for p in way[::4] for corner in corners)
+        self.assertGreaterEqual(nearest, passage["least_distance"] + 0.05)
+        # Straight on, without the law, it meets the mesh or passes beside it.
+        straight = re.sub(r"most: 0.5", "most: 1.0e-6", text)
+        self.assertIn(self.simulate(straight)["proof"]["passages"][0]["verdict"], ("touched", "missed"))
+
     def test_a_mesh_is_avoided_and_touched_without_guidance(self):
         if not os.path.exists("/usr/share/doc/libcgal-dev/data.tar.gz"):
             self.skipTest("libcgal-demo is not installed")
