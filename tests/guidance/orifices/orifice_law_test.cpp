@@ -261,5 +261,28 @@ TEST(PassageLaw, LeavesAlonePassagesWithRoomAndTurnsBack) {
   EXPECT_GT(passage_law(agent, orifice, options).m, 0);
 }
 
+TEST(PassageLaw, EllipsoidsAndRoundOpeningsAllocateNothing) {
+  RandomBodies random(2601);
+  SCOPED_TRACE(random.trace());
+  std::vector<BodyState> agents;
+  for (int i = 0; i < 50; ++i)
+    agents.push_back(ellipsoid_state(random, vector(random, 2), vector(random, 1)));
+  OrificeState orifice;
+  orifice.spin = {0, 0.1, 0.2};
+  int turning = 0, steering = 0;
+  const auto before = vericone::testing::allocations();
+  for (const BodyState& agent : agents) {
+    const OrificeCommand command = passage_law(agent, orifice, {});
+    turning += command.status == OrificeStatus::turning;
+    steering += command.status == OrificeStatus::steering;
+    static_cast<void>(
+        orifice_law({agent.position, agent.velocity, orifice.opening.center, orifice.velocity}, 1, 0.4, {}));
+    static_cast<void>(orifice_aim(agent, orifice, 1.0, 0.1));
+  }
+  EXPECT_EQ(vericone::testing::allocations(), before);
+  EXPECT_GT(turning, 5);
+  EXPECT_GT(steering, 5);
+}
+
 }  // namespace
 }  // namespace vericone::guidance::orifice_law_test

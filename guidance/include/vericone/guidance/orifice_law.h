@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Laws that take an agent through an opening: the source's (2.2)-(2.4) as corrected, and ours, which steers
-// the clearance of the true shapes in metres. Pure functions of an instant. No allocation, no throw.
+// the clearance of the true shapes in metres. Pure functions of an instant. No throw of finite states; no
+// allocation of ellipsoids and round openings.
 #pragma once
 
 #include <vericone/guidance/body_state.h>
