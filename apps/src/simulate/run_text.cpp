@@ -211,7 +211,7 @@ std::string through_text(const std::string& agent, const Through& through) {
     text += (i == 0 ? "" : ", ") + through.orifices[i];
   text += ours ? ", " + brief(through.passage.margin) + " m from the rim"
                : ", w " + brief(through.source.reference) + " m^2";
-  text += ", gain " + brief(through.source.gain) + "/s";
+  text += ", gain " + brief(ours ? through.passage.gain : through.source.gain) + "/s";
   if (const double most = ours ? through.passage.most : through.source.most; std::isfinite(most))
     text += ", at most " + brief(most) + " m/s^2";
   return text;

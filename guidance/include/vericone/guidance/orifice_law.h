@@ -45,7 +45,7 @@ struct OrificeFunction {
                                                double agent_radius);
 
 struct OrificeLawOptions {
-  double gain = 0.1;                                      // K, 1/s: y' = -K (y - reference)
+  double gain = 1;                                        // K, 1/s: y' = -K (y - reference)
   double reference = -0.1;                                // w, m^2: -(R_B - R_A)^2 < w < 0
   double most = std::numeric_limits<double>::infinity();  // m/s^2
   /// (delta, gamma): the acceleration is along this, with either sign. Left out: along the one that needs
