@@ -174,9 +174,11 @@ OrificeCommand passage_law(const BodyState& a, const OrificeState& orifice,
     command.status = OrificeStatus::no_relative_velocity;
     return command;
   }
-  const OrificeAim aim = orifice_aim(a, orifice, {}, options.margin);
   const double seconds = along != 0 ? to_plane / along : -1;
-  const auto turn = [&] { return turn_towards(aim.point - a.position, a.velocity, options.most); };
+  const auto turn = [&] {
+    const OrificeAim aim = orifice_aim(a, orifice, {}, options.margin);
+    return turn_towards(aim.point - a.position, a.velocity, options.most);
+  };
   if (!(seconds > 0)) {
     // In the plane, or past it: through as long as some of the body is in it.
     const Ellipsoid body = a.shape.containing_ellipsoid();

@@ -145,6 +145,33 @@ TEST(Through, AMissedRingAndTheGoalThatWaits) {
   EXPECT_GT(reached[0].t, events_of(run, EventKind::goes_through).at(0).t);
 }
 
+/// The run ends with another agent's goal before the second ring is there: it was ordered, and is missed.
+TEST(Through, AnOrificeThatNeverCameIsMissed) {
+  Scenario scenario = flight({1, 0, 0}, Through::Law::passage);
+  scenario.orifices = {ring("O", {3, 0, 0}, {1, 0, 0}, 1), ring("late", {20, 0, 0}, {1, 0, 0}, 1)};
+  scenario.orifices[1].appears = 30;
+  scenario.bodies[0].pilot->through->orifices = {"O", "late"};
+  Body other = scenario.bodies[0];
+  other.name = "B";
+  other.start.position = {0, 9, 0};
+  other.pilot.emplace();
+  other.pilot->goal = Goal{{6, 9, 0}, 1, "", 0.5};
+  scenario.bodies.push_back(other);
+  const simulation::Run run = simulate(scenario);
+  EXPECT_LT(run.end, 30);
+  int late = 0;
+  for (const PassageOutcome& passage : run.passages) {
+    if (passage.agent != 0) continue;
+    const bool is_late = passage.orifice == 1;
+    late += is_late;
+    EXPECT_EQ(passage.proof.verdict, is_late ? PassageVerdict::missed : PassageVerdict::passed);
+  }
+  EXPECT_EQ(late, 1);
+  // It flew through the very centre of the first one, at the time of a command.
+  EXPECT_TRUE(std::any_of(run.orifices.begin(), run.orifices.end(),
+                          [](const OrificeSample& sample) { return sample.state.r == 0; }));
+}
+
 TEST(Through, ScenariosThatMakeNoSense) {
   const auto field_of = [](const Scenario& scenario) -> std::string {
     try {

@@ -433,9 +433,13 @@ class Runner {
       for (std::size_t k = 0; k < scenario_.orifices.size(); ++k) {
         const MovingOrifice& orifice = scenario_.orifices[k];
         const double from = std::max(run_.tracks[i].appears(), orifice.appears);
-        if (!(from < run_.end)) continue;
         const auto& pilot = scenario_.bodies[i].pilot;
         const bool ordered = pilot && pilot->through && contains(pilot->through->orifices, orifice.name);
+        if (!(from < run_.end)) {
+          // What was ordered and never came is missed.
+          if (ordered) run_.passages.push_back({i, k, ordered, {}});
+          continue;
+        }
         run_.passages.push_back({i, k, ordered, passage(run_.tracks[i], orifice, from)});
       }
     }

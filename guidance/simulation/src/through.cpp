@@ -73,9 +73,15 @@ OrificeSample ThroughFlight::sample(const guidance::BodyState& body, double t,
                                     const guidance::OrificeCommand& command) {
   const guidance::OrificeState orifice = heading_for().at(t);
   OrificeSample sample{t, agent_, this->orifice(), {}, command, 0};
-  sample.state =
-      guidance::spatial_state({body.position, body.velocity, orifice.opening.center, orifice.velocity},
-                              last_state_ ? &*last_state_ : nullptr);
+  // At the very centre there is no line of sight: the one before stands.
+  if (orifice.opening.center == body.position) {
+    sample.state = last_state_.value_or(guidance::SpatialState{});
+    sample.state.r = 0;
+  } else {
+    sample.state =
+        guidance::spatial_state({body.position, body.velocity, orifice.opening.center, orifice.velocity},
+                                last_state_ ? &*last_state_ : nullptr);
+  }
   last_state_ = sample.state;
   sample.from_plane = seen_from(orifice.opening, body.position).z();
   if (through_->law == Through::Law::passage)
