@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/exact/integer.h>
-#include <vericone/geometry/mesh_section.h>
+#include <vericone/geometry/mesh/mesh_section.h>
 #include <vericone/geometry/requires.h>
 
 #include <algorithm>

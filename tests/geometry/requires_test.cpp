@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <vericone/geometry/exact/integer.h>
 #include <vericone/geometry/interval.h>
-#include <vericone/geometry/mesh_section.h>
+#include <vericone/geometry/mesh/mesh_section.h>
 #include <vericone/geometry/requires.h>
 
 #include <array>

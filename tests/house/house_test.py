@@ -9,10 +9,10 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(os.environ.get("VERICONE_SOURCE", Path(__file__).resolve().parents[2]))
-SOURCES = ("geometry", "cones", "guidance", "scenes", "verify", "apps", "papers", "benchmarks", "tests")
+SOURCES = ("geometry", "cones", "guidance", "scenes", "vision", "verify", "apps", "papers", "benchmarks", "tests")
 
 # Libraries, and within them folders, each of which may include itself and what stands before it.
-LIBRARIES = ["geometry", "files", "octomap", "fitting", "lidar", "cones", "guidance", "simulation", "vehicles", "scenes", "scenarios", "verify"]
+LIBRARIES = ["geometry", "files", "octomap", "fitting", "lidar", "cones", "guidance", "simulation", "vehicles", "scenes", "scenarios", "vision", "vision/scene", "vision/footage", "vision/pursuit", "verify"]
 BESIDE = {("fitting", "octomap"), ("fitting", "files"), ("fitting", "lidar"), ("lidar", "octomap"), ("lidar", "fitting"),
           ("cones", "files"), ("cones", "octomap"), ("cones", "fitting"), ("cones", "lidar"),
           ("guidance", "files"), ("guidance", "octomap"), ("guidance", "fitting"), ("guidance", "lidar"),
@@ -22,6 +22,11 @@ BESIDE = {("fitting", "octomap"), ("fitting", "files"), ("fitting", "lidar"), ("
           ("verify", "octomap"), ("verify", "fitting"), ("verify", "lidar"), ("verify", "guidance"),
           ("verify", "simulation"), ("verify", "scenes"), ("verify", "scenarios"), ("scenes", "guidance"),
           ("scenes", "simulation"), ("scenes", "fitting"), ("scenes", "lidar"), ("scenarios", "fitting"), ("scenarios", "lidar"), ("octomap", "fitting"), ("octomap", "lidar")}
+# The tracker knows geometry alone; pictures and files nothing of guidance.
+BESIDE |= {(own, other) for own in ("vision", "vision/scene", "vision/footage")
+           for other in LIBRARIES[1:LIBRARIES.index("vision")]}
+BESIDE |= {("vision/footage", "vision/scene")} | {("verify", other) for other in LIBRARIES if other.startswith("vision")}
+BESIDE |= {("vision/pursuit", other) for other in ("files", "octomap", "fitting", "lidar", "scenes", "scenarios")}
 FAMILIES = ["", "answers", "ellipsoids", "planar", "combined", "hulls", "opening", "times", "assembly", "composite",
             "slices", "map", "pairs", "uncertain"]
 MOST_FILES = 25
@@ -36,6 +41,8 @@ def library_of(path):
         return "vehicles"
     if parts[0] == "scenes" and parts[1] == "scenarios":
         return "scenarios"
+    if parts[0] == "vision" and parts[1] in ("scene", "footage", "pursuit"):
+        return "vision/" + parts[1]
     return parts[0]
 
 
@@ -52,17 +59,19 @@ def includes(path):
 
 def public_headers():
     return {str(path).split("/include/", 1)[1]: path
-            for folder in ("geometry", "cones", "guidance", "scenes", "verify")
+            for folder in ("geometry", "cones", "guidance", "scenes", "vision", "verify")
             for path in (ROOT / folder).rglob("include/**/*.h")}
 
 
 class House(unittest.TestCase):
     def test_libraries_include_only_those_below(self):
         wrong = []
-        for path in sources("geometry", "cones", "guidance", "scenes", "verify"):
+        for path in sources("geometry", "cones", "guidance", "scenes", "vision", "verify"):
             own = library_of(path)
             for name in includes(path):
                 parts = name.split("/")
+                if parts[:2] == ["vericone", "vision"] and parts[2] in ("scene", "footage", "pursuit"):
+                    parts[1] = "vision/" + parts[2]
                 if parts[0] in ("apps", "papers", "benchmarks"):
                     wrong.append(f"{path}: {name}")
                 if parts[0] != "vericone" or parts[1] not in LIBRARIES:

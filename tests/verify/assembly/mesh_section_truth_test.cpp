@@ -5,7 +5,7 @@
 #include <CGAL/Polygon_mesh_slicer.h>
 #include <CGAL/Surface_mesh.h>
 #include <gtest/gtest.h>
-#include <vericone/geometry/mesh_section.h>
+#include <vericone/geometry/mesh/mesh_section.h>
 #include <vericone/verify/seeded_random.h>
 
 #include <Eigen/Geometry>

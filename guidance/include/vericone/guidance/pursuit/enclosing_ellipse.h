@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The ellipse of least area around several vehicles (source 4.2.1, Algorithm 1), with the rates of its axes
+// and foci, and labels of the foci that stay when it passes through a circle.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <span>
+#include <vector>
+
+namespace vericone::guidance {
+
+struct EnclosingEllipse {
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  double a = 0, b = 0;  // semi-axes, a >= b, m
+  double angle = 0;     // of the major axis, rad, unwrapped from ellipse to ellipse
+  std::array<Eigen::Vector2d, 2> foci{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  // Rates, of points that move with given velocities: analytic (implicit differentiation of the optimum).
+  Eigen::Vector2d centre_rate = Eigen::Vector2d::Zero();
+  double a_rate = 0, b_rate = 0, angle_rate = 0;
+  std::array<Eigen::Vector2d, 2> foci_rates{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  bool circle = false;  // a = b within rounding: no axis, foci in the centre, their rates those of the centre
+};
+
+/// One ellipse after another of the same vehicles.
+class EllipseFollower {
+ public:
+  /// `side`: of the axis-parallel square around every vehicle's centre, m (the source's 8).
+  explicit EllipseFollower(double side) : side_(side) {}
+  /// Of the vehicles' centres and velocities, m and m/s, at least one. Throws InputError naming "centres".
+  const EnclosingEllipse& step(std::span<const Eigen::Vector2d> centres,
+                               std::span<const Eigen::Vector2d> velocities);
+  [[nodiscard]] const EnclosingEllipse& ellipse() const { return ellipse_; }
+
+ private:
+  double side_;
+  bool started_ = false;
+  EnclosingEllipse ellipse_;
+};
+
+}  // namespace vericone::guidance
