@@ -79,8 +79,8 @@ namespace {
 
 /// Whether the command leaves files behind that nobody asked for; `cone` does not.
 bool always_writes(const std::string& words) {
-  constexpr const char* kWriters[] = {"accuracy", "campaign", "fit",      "gallery", "scan",
-                                      "shapes",   "signmap",  "simulate", "trials"};
+  constexpr const char* kWriters[] = {"accuracy", "campaign", "fit",     "gallery",  "pursue", "scan",
+                                      "shapes",   "signmap",  "simulate", "track",    "trials"};
   const std::string command = words.substr(0, words.find(' '));
   return std::find(std::begin(kWriters), std::end(kWriters), command) != std::end(kWriters);
 }

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <optional>
+#include <string>
+
+namespace vericone::pursue {
+
+struct PursueOptions {
+  std::string scenario;
+  std::string camera, tracker, law;  // empty: perspective, ours, ours
+  std::optional<double> duration;    // s
+  std::optional<std::uint64_t> seed;
+  std::string video, frames;  // file, folder; empty: none
+  std::uint64_t starts = 0, random = 0;
+  double within = 0.001;  // m
+  std::string out = "out/pursuit";
+  int threads = 0;
+  bool figures = true, quiet = false, json = false;
+  std::string command_line;
+};
+
+/// `vericone pursue`. Returns the exit status. Throws InputError.
+int run_pursue(const PursueOptions& options, std::ostream& out);
+
+}  // namespace vericone::pursue

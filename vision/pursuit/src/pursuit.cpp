@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/geometry/error.h>
+#include <vericone/simulation/track.h>
+#include <vericone/vision/pursuit/pursuit.h>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <deque>
+
+#include "bars.h"
+#include "pilot.h"
+
+namespace vericone::vision {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// What flies: a vehicle, or a point mass at a constant altitude.
+class Body {
+ public:
+  explicit Body(const Pursuit& pursuit) : motion_(pursuit.start) {
+    if (pursuit.vehicle) vehicle_ = pursuit.vehicle->launch(pursuit.start, 0, {});
+  }
+  [[nodiscard]] simulation::Motion motion() const { return vehicle_ ? vehicle_->motion() : motion_; }
+  void advance(const simulation::VehicleCommand& command, double from, double to) {
+    if (vehicle_) {
+      way_.clear();
+      vehicle_->advance(command, from, to, way_);
+      return;
+    }
+    Vector3d level = command.acceleration;
+    level.z() = 0;
+    const simulation::Motion end =
+        simulation::Arc(motion_, level, simulation::Orientation::fixed, from, to).end();
+    motion_.position = end.position;
+    motion_.velocity = end.velocity;
+  }
+  void log(std::vector<double>& values) const {
+    values.clear();
+    if (vehicle_) vehicle_->log(values);
+  }
+
+ private:
+  simulation::Motion motion_;
+  std::unique_ptr<simulation::Vehicle> vehicle_;
+  std::vector<simulation::Curve> way_;
+};
+
+/// A picture on its way from the camera to the tracker.
+struct Picture {
+  double t = 0;
+  std::uint64_t number = 0;
+  Image image;
+  Pose camera;
+  std::vector<simulation::RoadPoint> truth;  // of all cars
+  std::vector<VehicleTruth> seen;
+};
+
+class Flight {
+ public:
+  Flight(const Pursuit& pursuit, const PursuitOptions& options)
+      : pursuit_(pursuit),
+        options_(options),
+        body_(pursuit),
+        pilot_(pursuit),
+        true_follower_(pursuit.side),
+        view_(pursuit.eyes == Eyes::source ? pursuit.source_view : pursuit.perspective_view),
+        mount_(view_.mount),
+        bars_(view_.bars, pursuit.seed) {
+    for (std::size_t i = 0; i < pursuit.cars.size(); ++i)
+      if (pursuit.cars[i].followed) followed_.push_back(i);
+    if (pursuit.eyes == Eyes::exact) return;
+    SceneOptions scene = view_.scene;
+    scene.vehicles.clear();
+    for (const Car& car : pursuit.cars) scene.vehicles.push_back(car.look);
+    scene.seed = pursuit.seed;
+    scene_.emplace(scene);
+    PerceptionOptions perceive;
+    perceive.camera = view_.camera;
+    perceive.height = view_.height;
+    perceive.filter = pursuit.filter;
+    perceive.source = pursuit.tracker == Whose::source;
+    perceive.noise = pursuit.noise;
+    perceive.hidden_noise = pursuit.hidden_noise;
+    perception_.emplace(perceive, tracker_of(pursuit));
+  }
+
+  PursuitRun fly() {
+    const auto steps = std::uint64_t(std::ceil(pursuit_.duration / pursuit_.step - 1e-9));
+    const auto every = std::uint64_t(std::llround(pursuit_.picture_step / pursuit_.step));
+    for (std::uint64_t k = 0; k <= steps; ++k) {
+      const double t = double(k) * pursuit_.step;
+      const simulation::Motion own = body_.motion();
+      sample_ = {};
+      const bool due = k % every == 0;
+      if (due) look(own, t, k / every);
+      const auto start = std::chrono::steady_clock::now();
+      const bool told = tell(own, t);
+      simulation::VehicleCommand command;
+      if (told) command = pilot_.step(own, known_, view_.camera.focal, t, sample_);
+      if (told) {
+        keep_in_picture(own, command);
+        sample_.acceleration = command.acceleration;
+      }
+      sample_.controller = seconds_since(start) - sample_.ellipse_seconds;
+      if (due && told) log(own, t);
+      if (options_.progress && due && !options_.progress(t)) {
+        run_.interrupted = true;
+        break;
+      }
+      run_.end = t;
+      if (k < steps) body_.advance(command, t, double(k + 1) * pursuit_.step);
+    }
+    run_.layer_share = pilot_.layer_share();
+    close_hidden();
+    return std::move(run_);
+  }
+
+ private:
+  [[nodiscard]] std::vector<simulation::RoadPoint> cars_at(double t) const {
+    std::vector<simulation::RoadPoint> list;
+    for (const Car& car : pursuit_.cars) list.push_back(car.road->at(t));
+    return list;
+  }
+
+  /// Takes a picture, and perceives those that have arrived.
+  void look(const simulation::Motion& own, double t, std::uint64_t number) {
+    if (!perception_) return;
+    Picture picture;
+    picture.t = t;
+    picture.number = number;
+    std::optional<Vector3d> aim;
+    if (told_) aim = Vector3d(aim_.x(), aim_.y(), 0);
+    picture.camera = mount_.at(t, {own.position, own.rotation}, aim);
+    picture.truth = cars_at(t);
+    std::vector<PlacedVehicle> placed;
+    for (const simulation::RoadPoint& car : picture.truth)
+      placed.push_back({car.position, std::atan2(car.velocity.y(), car.velocity.x()), car.velocity});
+    if (bars_.step(own, view_.camera, t)) scene_->set_occluders(bars_.with(view_.scene.occluders));
+    scene_->render(view_.camera, picture.camera, placed, t, number, picture.image);
+    picture.seen = scene_->truth(view_.camera, picture.camera, placed, t);
+    under_way_.push_back(std::move(picture));
+    while (!under_way_.empty() && under_way_.front().t + view_.latency <= t + 1e-9) {
+      last_ = std::move(under_way_.front());
+      under_way_.pop_front();
+      perceive();
+    }
+  }
+
+  void perceive() {
+    if (run_.boxes.empty()) {
+      for (const std::size_t i : followed_) {
+        // The vehicles are detected in the first picture (source 3.2, 4.1): the one thing that is told.
+        if (!(last_->seen[i].visible > 0.99))
+          throw InputError("cars[" + std::to_string(i) + "]", "not whole in the first picture",
+                           "a start where the camera sees it");
+        run_.boxes.push_back(last_->seen[i].box);
+      }
+      perception_->start(last_->image, last_->camera, last_->t, run_.boxes);
+    } else {
+      perception_->step(last_->image, last_->camera, last_->t);
+    }
+    told_ = true;
+    follow_hidden();
+  }
+
+  /// What is believed now. Whether anything is.
+  bool tell(const simulation::Motion&, double t) {
+    known_.clear();
+    aim_.setZero();
+    if (!perception_) {
+      for (const std::size_t i : followed_) {
+        const simulation::RoadPoint car = pursuit_.cars[i].road->at(t);
+        known_.push_back({car.position, car.velocity, car.acceleration, Eigen::Matrix4d::Zero(), false});
+      }
+      return true;
+    }
+    if (!told_) return false;
+    double count = 0;
+    Vector2d sum = Vector2d::Zero();
+    for (const Followed& one : perception_->vehicles()) {
+      const guidance::Belief<6> belief = one.filter.predicted(t);
+      Known known;
+      known.position = {belief.mean[0], belief.mean[3]};
+      known.velocity = {belief.mean[1], belief.mean[4]};
+      known.acceleration = {belief.mean[2], belief.mean[5]};
+      constexpr int kOrder[] = {0, 3, 1, 4};
+      for (int r = 0; r < 4; ++r)
+        for (int c = 0; c < 4; ++c) known.covariance(r, c) = belief.covariance(kOrder[r], kOrder[c]);
+      known.left_out =
+          pursuit_.law == Whose::ours && one.hidden_since >= 0 && t - one.hidden_since > pursuit_.give_up;
+      if (!known.left_out) {
+        sum += known.position;
+        ++count;
+      }
+      known_.push_back(known);
+    }
+    if (count > 0) last_aim_ = sum / count;
+    aim_ = last_aim_;
+    return true;
+  }
+
+  /// A camera that tilts with the body keeps everything in its picture: the level acceleration is at most
+  /// what leaves it there, and where that is too little the UAS climbs, which brings everything nearer to the
+  /// middle.
+  void keep_in_picture(const simulation::Motion& own, simulation::VehicleCommand& command) {
+    constexpr double kEdge = 20, kMostWanted = 12, kClimb = 5, kGain = 0.5;  // px, m/s^2, m/s, 1/s
+    if (view_.mount.kind != MountKind::strapdown || !perception_) return;
+    const Vector2d wanted = command.acceleration.head<2>();
+    if (!(wanted.norm() > 1e-9)) return;
+    points_.clear();
+    for (const Known& one : known_)
+      if (!one.left_out) points_.emplace_back(one.position.x(), one.position.y(), view_.height);
+    const double most = most_acceleration_in_sight(view_.camera, own.position, 0, points_, wanted,
+                                                   kMostWanted, kEdge, command.acceleration.z());
+    if (wanted.norm() <= most) return;
+    command.acceleration.head<2>() *= most / wanted.norm();
+    command.acceleration.z() = std::max(command.acceleration.z(), kGain * (kClimb - own.velocity.z()));
+  }
+
+  void log(const simulation::Motion& own, double t) {
+    PursuitSample& sample = sample_;
+    sample.t = t;
+    sample.uas = own;
+    const std::vector<simulation::RoadPoint> truth = cars_at(t);
+    std::vector<simulation::RoadPoint> wanted;
+    for (const std::size_t i : followed_) wanted.push_back(truth[i]);
+    evaluate(pursuit_, own, wanted, true_follower_, sample);
+    for (std::size_t k = 0; k < followed_.size(); ++k) {
+      CarSample car;
+      car.truth = wanted[k];
+      if (!perception_) {
+        car.belief.mean << wanted[k].position.x(), wanted[k].velocity.x(), wanted[k].acceleration.x(),
+            wanted[k].position.y(), wanted[k].velocity.y(), wanted[k].acceleration.y();
+      } else {
+        const Followed& one = perception_->vehicles()[k];
+        car.truth = last_->truth[followed_[k]];  // when the picture was taken
+        car.belief = one.filter.belief();
+        car.measured = one.measured;
+        car.sighting = one.sighting;
+        car.seen = last_->seen[followed_[k]];
+        double best = 0;
+        for (std::size_t i = 0; i < pursuit_.cars.size(); ++i)
+          if (const double both = overlap(one.sighting.box, last_->seen[i].box);
+              i != followed_[k] && both > best) {
+            best = both;
+            car.other = last_->seen[i].box;
+          }
+      }
+      sample.cars.push_back(std::move(car));
+    }
+    if (perception_) {
+      sample.camera = last_->camera;
+      sample.camera_time = last_->t;
+      sample.filter = perception_->filter_seconds();
+      sample.tracker = perception_->tracker_seconds();
+      if (options_.picture) options_.picture(last_->image, sample, perception_->vehicles());
+    }
+    run_.vehicle.emplace_back();
+    body_.log(run_.vehicle.back());
+    run_.samples.push_back(sample);
+  }
+
+  /// From the truth, for the summary alone.
+  void follow_hidden() {
+    constexpr double kNothing = 0.02, kEnough = 0.5;  // visible parts
+    hidden_now_.resize(followed_.size());
+    for (std::size_t k = 0; k < followed_.size(); ++k) {
+      const VehicleTruth& seen = last_->seen[followed_[k]];
+      const Sighting& sighting = perception_->vehicles()[k].sighting;
+      const bool says_hidden = sighting.sight == Sight::total || sighting.sight == Sight::lost;
+      std::optional<HiddenTime>& now = hidden_now_[k];
+      if (!now && seen.visible <= kNothing) now = HiddenTime{k, last_->t, -1, std::nullopt, std::nullopt};
+      if (!now) continue;
+      if (!now->said && now->to < 0 && says_hidden) now->said = last_->t - now->from;
+      if (now->to < 0 && seen.visible >= kEnough) now->to = last_->t;
+      if (now->to >= 0 && sighting.measured && overlap(sighting.box, seen.box) > 0) {
+        now->regained = last_->t - now->to;
+        run_.hidden.push_back(*now);
+        now.reset();
+      } else if (now->to >= 0 && seen.visible <= kNothing) {  // hidden again before it was found
+        run_.hidden.push_back(*now);
+        now = HiddenTime{k, last_->t, -1, std::nullopt, std::nullopt};
+      }
+    }
+  }
+
+  void close_hidden() {
+    for (std::optional<HiddenTime>& now : hidden_now_)
+      if (now) run_.hidden.push_back(*now);
+    std::sort(run_.hidden.begin(), run_.hidden.end(),
+              [](const HiddenTime& a, const HiddenTime& b) { return a.from < b.from; });
+  }
+
+  static std::unique_ptr<Tracker> tracker_of(const Pursuit& pursuit) {
+    if (pursuit.tracker == Whose::source) return source_tracker();
+    TrackerOptions options;
+    options.frame_seconds = pursuit.picture_step;
+    return vision::tracker(options);
+  }
+
+  const Pursuit& pursuit_;
+  const PursuitOptions& options_;
+  Body body_;
+  Pilot pilot_;
+  guidance::EllipseFollower true_follower_;
+  const View& view_;
+  CameraMount mount_;
+  Bars bars_;
+  std::optional<Scene> scene_;
+  std::optional<Perception> perception_;
+  std::vector<std::size_t> followed_;
+  std::deque<Picture> under_way_;
+  std::optional<Picture> last_;
+  bool told_ = false;
+  std::vector<Known> known_;
+  std::vector<Vector3d> points_;
+  Vector2d aim_ = Vector2d::Zero(), last_aim_ = Vector2d::Zero();
+  PursuitSample sample_;
+  PursuitRun run_;
+  std::vector<std::optional<HiddenTime>> hidden_now_;
+};
+
+}  // namespace
+
+const char* to_string(Eyes eyes) {
+  return eyes == Eyes::exact ? "exact" : eyes == Eyes::source ? "source" : "perspective";
+}
+const char* to_string(Whose whose) { return whose == Whose::source ? "source" : "ours"; }
+
+PursuitRun pursue(const Pursuit& pursuit, const PursuitOptions& options) {
+  const double ratio = pursuit.picture_step / pursuit.step;
+  if (!(pursuit.step > 0)) throw InputError("step", std::to_string(pursuit.step), "a positive number (s)");
+  if (!(ratio > 0.5) || std::abs(ratio - std::round(ratio)) > 1e-6)
+    throw InputError("picture_step", std::to_string(pursuit.picture_step), "a whole number of steps (s)");
+  if (std::none_of(pursuit.cars.begin(), pursuit.cars.end(), [](const Car& car) { return car.followed; }))
+    throw InputError("cars", "none that is followed", "at least one");
+  return Flight(pursuit, options).fly();
+}
+
+}  // namespace vericone::vision

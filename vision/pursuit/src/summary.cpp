@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/vision/pursuit/pursuit.h>
+#include <algorithm>
+#include <cmath>
+
+namespace vericone::vision {
+
+PursuitSummary summarise(const Pursuit& pursuit, const PursuitRun& run) {
+  PursuitSummary summary;
+  summary.layer_share = run.layer_share;
+  double count = 0;
+  for (const PursuitSample& sample : run.samples) {
+    if (sample.t < run.end / 3) continue;
+    const double r = (sample.true_ellipse.centre - sample.uas.position.head<2>()).norm();
+    summary.mean_distance += r;
+    summary.most_distance = std::max(summary.most_distance, r);
+    summary.mean_speed_error += (sample.true_ellipse.centre_rate - sample.uas.velocity.head<2>()).norm();
+    ++count;
+  }
+  if (count > 0) {
+    summary.mean_distance /= count;
+    summary.mean_speed_error /= count;
+  }
+  std::size_t k = 0;
+  for (const Car& car : pursuit.cars) {
+    if (!car.followed) continue;
+    CarSummary one{car.name};
+    double pixels = 0, metres = 0, measured = 0;
+    for (const PursuitSample& sample : run.samples) {
+      const CarSample& c = sample.cars[k];
+      const Eigen::Vector2d believed(c.belief.mean[0], c.belief.mean[3]);
+      one.followed = overlap(c.sighting.box, c.seen.box) > 0;
+      one.in_view = c.seen.visible > 0;
+      if (!c.sighting.measured) continue;
+      ++measured;
+      pixels += (c.sighting.box.centre() - c.seen.box.centre()).squaredNorm();
+      metres += (believed - c.truth.position).squaredNorm();
+      const bool own = overlap(c.sighting.box, c.seen.box) > 0;
+      one.false_claims += !own;
+      one.swaps += !own && overlap(c.sighting.box, c.other) > 0;
+    }
+    if (measured > 0) {
+      one.pixels_rms = std::sqrt(pixels / measured);
+      one.error_rms = std::sqrt(metres / measured);
+    }
+    summary.cars.push_back(one);
+    ++k;
+  }
+  return summary;
+}
+
+}  // namespace vericone::vision
