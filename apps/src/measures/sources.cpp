@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <chrono>
 #include <fstream>
+#include <future>
+#include <semaphore>
 #include <sstream>
 
 #include "input/fields.h"
@@ -23,8 +26,9 @@ std::vector<std::string> words_of(const std::string& text) {
   return words;
 }
 
-/// A folder that is gone when this is.
-class TemporaryFolder {
+}  // namespace
+
+class Sources::TemporaryFolder {
  public:
   TemporaryFolder() {
     std::string name = (fs::temp_directory_path() / "vericone-XXXXXX").string();
@@ -37,13 +41,13 @@ class TemporaryFolder {
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const fs::path& path() const { return path_; }
+  [[nodiscard]] const fs::path& path() const { return path_; }
 
  private:
   fs::path path_;
 };
 
-}  // namespace
+Sources::~Sources() = default;
 
 Sources::Sources(fs::path folder, Show show, Changes changes)
     : folder_(std::move(folder)), show_(std::move(show)), changes_(std::move(changes)) {}
@@ -77,10 +81,14 @@ const PaperRun& Sources::run(const std::string& name, const std::string& path) {
 
 namespace {
 
+std::vector<std::string> out_words(const fs::path& out) {
+  return {"--quiet", "--out", fs::absolute(out).string()};
+}
+
 /// Whether the command leaves files behind that nobody asked for; `cone` does not.
 bool always_writes(const std::string& words) {
-  constexpr const char* kWriters[] = {"accuracy", "campaign", "fit",     "gallery",  "pursue", "scan",
-                                      "shapes",   "signmap",  "simulate", "track",    "trials"};
+  constexpr const char* kWriters[] = {"accuracy", "campaign", "fit",      "gallery", "pursue", "scan",
+                                      "shapes",   "signmap",  "simulate", "track",   "trials"};
   const std::string command = words.substr(0, words.find(' '));
   return std::find(std::begin(kWriters), std::end(kWriters), command) != std::end(kWriters);
 }
@@ -90,6 +98,11 @@ bool always_writes(const std::string& words) {
 std::string Sources::output_of(const std::string& words, const std::vector<std::string>& more,
                                const std::string& path) {
   if (!show_(words, 0)) throw Interrupted{};
+  return child_output(words, more, path);
+}
+
+std::string Sources::child_output(const std::string& words, const std::vector<std::string>& more,
+                                  const std::string& path) const {
   std::vector<std::string> arguments = words_of(words);
   arguments.insert(arguments.end(), more.begin(), more.end());
   const ChildOutput child = run_child(fs::read_symlink("/proc/self/exe"), arguments, folder_);
@@ -101,19 +114,61 @@ std::string Sources::output_of(const std::string& words, const std::vector<std::
   throw InputError(path, words, "a command that ends well; it says: " + said);
 }
 
+void Sources::prepare(const std::vector<std::string>& commands, int threads, const std::string& path) {
+  struct Work {
+    std::string words;
+    std::unique_ptr<TemporaryFolder> folder;
+    std::future<void> done;
+  };
+  std::vector<Work> list;
+  for (const std::string& words : commands)
+    if (!folders_.contains(words) &&
+        std::none_of(list.begin(), list.end(), [&](const Work& work) { return work.words == words; }))
+      list.push_back({words, std::make_unique<TemporaryFolder>(), {}});
+  std::counting_semaphore<> free(threads);
+  for (Work& work : list)
+    work.done = std::async(std::launch::async, [&free, &work, &path, this] {
+      free.acquire();
+      struct Release {
+        std::counting_semaphore<>& semaphore;
+        ~Release() { semaphore.release(); }
+      } const release{free};
+      if (interrupted()) return;
+      child_output(work.words, out_words(work.folder->path() / "out"), path);
+    });
+  std::size_t done = 0;
+  bool stop = false;
+  for (Work& work : list) {
+    while (work.done.wait_for(std::chrono::milliseconds(200)) != std::future_status::ready)
+      stop = !show_(work.words, double(done) / double(list.size())) || stop;
+    ++done;
+  }
+  if (stop || interrupted()) throw Interrupted{};
+  for (Work& work : list) {
+    work.done.get();
+    folders_[work.words] = std::move(work.folder);
+  }
+}
+
+fs::path Sources::files(const std::string& words, const std::string& path) {
+  std::unique_ptr<TemporaryFolder>& folder = folders_[words];
+  if (!folder) {
+    auto made = std::make_unique<TemporaryFolder>();
+    carry_out(words, made->path() / "out", path);
+    folder = std::move(made);
+  }
+  return folder->path() / "out";
+}
+
 const Table& Sources::table(const std::string& words, const std::string& file, const std::string& path) {
   if (const auto it = tables_.find({words, file}); it != tables_.end()) return it->second;
-  const TemporaryFolder folder;
-  carry_out(words, folder.path() / "out", path);
-  for (const auto& entry : fs::directory_iterator(folder.path() / "out"))
-    if (entry.path().extension() == ".csv") {
-      std::ifstream in(entry.path(), std::ios::binary);
-      std::ostringstream text;
-      text << in.rdbuf();
-      tables_[{words, entry.path().filename().string()}] = table_of_csv(text.str());
-    }
-  if (const auto it = tables_.find({words, file}); it != tables_.end()) return it->second;
-  throw InputError(path, file, "a table that vericone " + words + " writes, such as engagements.csv");
+  const fs::path source = files(words, path) / file;
+  if (source.extension() != ".csv" || !fs::exists(source))
+    throw InputError(path, file, "a table that vericone " + words + " writes, such as engagements.csv");
+  std::ifstream in(source, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return tables_[{words, file}] = table_of_csv(text.str());
 }
 
 const Json& Sources::answer(const std::string& words, const std::string& path) {
@@ -127,7 +182,7 @@ const Json& Sources::answer(const std::string& words, const std::string& path) {
 }
 
 void Sources::carry_out(const std::string& words, const fs::path& out, const std::string& path) {
-  output_of(words, {"--quiet", "--out", fs::absolute(out).string()}, path);
+  output_of(words, out_words(out), path);
 }
 
 }  // namespace vericone::paper

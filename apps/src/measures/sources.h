@@ -73,10 +73,16 @@ class Sources {
  public:
   /// `folder`: of the paper.
   Sources(std::filesystem::path folder, Show show, Changes changes = {});
+  ~Sources();
 
   /// By the name of its file in scenarios, without extension. Throws InputError of the scenario, or naming
   /// `path`.
   const PaperRun& run(const std::string& scenario, const std::string& path);
+  /// Carries out commands of one thread each, so many at the same time; files() and table() then have them.
+  void prepare(const std::vector<std::string>& commands, int threads, const std::string& path);
+  /// The folder that `vericone WORDS --out ...` wrote, carried out in the paper's folder; there as long as
+  /// this is.
+  std::filesystem::path files(const std::string& words, const std::string& path);
   /// A table that `vericone WORDS --out ...` writes, carried out in the paper's folder. Throws InputError
   /// naming `path`.
   const Table& table(const std::string& words, const std::string& file, const std::string& path);
@@ -89,6 +95,10 @@ class Sources {
   const Show& show() const { return show_; }
 
  private:
+  class TemporaryFolder;
+
+  std::string child_output(const std::string& words, const std::vector<std::string>& more,
+                           const std::string& path) const;
   std::string output_of(const std::string& words, const std::vector<std::string>& more,
                         const std::string& path);
 
@@ -96,6 +106,7 @@ class Sources {
   Show show_;
   Changes changes_;
   std::map<std::string, std::unique_ptr<PaperRun>> runs_;
+  std::map<std::string, std::unique_ptr<TemporaryFolder>> folders_;  // what commands wrote, by their words
   std::map<std::pair<std::string, std::string>, Table> tables_;
   std::map<std::string, Json> answers_;
 };

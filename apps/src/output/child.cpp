@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "output/child.h"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -26,7 +27,8 @@ ChildOutput run_child(const std::filesystem::path& program, const std::vector<st
   const std::string place = folder.string();
   std::array<std::array<int, 2>, 2> pipes{};
   for (auto& ends : pipes)
-    if (pipe(ends.data()) != 0) throw std::runtime_error("no pipe for " + words[0]);
+    // Ends that another child, started at the same time, does not get.
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe for " + words[0]);
   const pid_t parent = getpid(), child = fork();
   if (child < 0) throw std::runtime_error("could not start " + words[0]);
   if (child == 0) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "command/find_program.h"
+
 namespace vericone::paper {
 namespace {
 
@@ -81,12 +83,22 @@ Json fit_json(const Claim& claim) {
           {"of", claim.fit->claims}};
 }
 
+bool is_there(const std::string& command) { return command.empty() || find_program(command).has_value(); }
+
 }  // namespace
+
+std::map<std::string, int> left_out(const ClaimsFile& file) {
+  std::map<std::string, int> counts;
+  for (const ClaimEntry& entry : file.entries)
+    if (!is_there(entry.needs)) ++counts[entry.needs];
+  return counts;
+}
 
 std::vector<Claim> measure(ClaimsFile& file, Sources& sources) {
   Measures measures(sources);
   std::vector<Claim> claims;
-  for (const ClaimEntry& entry : file.entries) claims.push_back(measured(entry, measures));
+  for (const ClaimEntry& entry : file.entries)
+    if (is_there(entry.needs)) claims.push_back(measured(entry, measures));
   for (const Claim& claim : claims)
     if (claim.fit) claim.fit->explains = claim.fit->claims = 0;
   for (const Claim& claim : claims) {

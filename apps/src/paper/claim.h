@@ -59,7 +59,8 @@ struct Claim {
 
 /// A claim as it stands in claims.yaml. What it measures: numbers, or whether something holds.
 struct ClaimEntry {
-  Claim claim;  // what is known before anything is measured
+  Claim claim;        // what is known before anything is measured
+  std::string needs;  // a command in a program of its own, without which it is not measured; empty: none
   std::string unit;
   std::vector<double> printed;  // numbers that go in, read back by `ours`
   std::vector<Expression> ours;
@@ -76,8 +77,10 @@ struct ClaimsFile {
 
 /// Checks all that can be without a run. Throws InputError naming the field.
 ClaimsFile read_claims(const Json& fields);
-/// In the order of the file, every one measured.
+/// In the order of the file, every one measured but those whose program is not there.
 std::vector<Claim> measure(ClaimsFile& file, Sources& sources);
+/// How many are not measured for want of a program, by its command.
+std::map<std::string, int> left_out(const ClaimsFile& file);
 
 Json to_json(const Claim& claim);
 /// How many results and given values got each verdict.

@@ -62,8 +62,12 @@ int run_claims(const ClaimsOptions& options, std::ostream& out) {
   }
   if (options.json)
     out << json.dump(1) << '\n';
-  else
+  else {
     print_table(claims, options.given, out);
+    for (const auto& [command, count] : paper.left_out())
+      out << std::left << std::setw(12) << "not measured" << ' ' << count
+          << ", for want of the program vericone-" << command << '\n';
+  }
   return 0;
 }
 

@@ -78,6 +78,21 @@ class Maker {
             changes_),
         measures_(sources_) {}
 
+  /// What figures read of other commands, those that use one processor at the same time.
+  void prepare(const std::vector<Figure>& figures) {
+    std::vector<std::string> commands;
+    const auto add = [&](const std::string& words) {
+      if (words.starts_with("pursue ") && words.find(" --starts ") == std::string::npos)
+        commands.push_back(words);
+    };
+    for (const Figure& figure : figures) {
+      for (const auto& [role, words] : figure.data) add(words);
+      for (const Panel& panel : figure.panels)
+        for (const Line& line : panel.lines) add(line.series.command);
+    }
+    sources_.prepare(commands, threads_for(0), "figures.yaml: command");
+  }
+
   void make(const Figure& figure, double share) {
     const std::vector<std::string> scenarios = scenarios_of(figure);
     for (const std::string& scenario : scenarios) write_run(scenario);
@@ -190,6 +205,10 @@ class Maker {
       task["runs"][role] = (fs::path("..") / "runs" / scenario).string();
       origin["runs"][role] = "runs/" + scenario;
     }
+    for (const auto& [role, words] : figure.data) {
+      task["data"][role] = sources_.files(words, "figures.yaml: data").string();
+      origin["data"][role] = "vericone " + words;
+    }
     for (const Panel& panel : figure.panels) {
       Json drawn = panel.look;
       drawn["lines"] = Json::array();
@@ -261,6 +280,7 @@ int run_figures(const FiguresOptions& options, std::ostream& out) {
   try {
     Progress progress(options.quiet);
     Maker maker(options, folder, paper, figures, progress);
+    maker.prepare(figures);
     double made = 0;
     for (const Figure& figure : figures) maker.make(figure, made++ / double(figures.size()));
     maker.report();

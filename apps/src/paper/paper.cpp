@@ -86,8 +86,8 @@ Panel read_panel(const Json& fields, const std::string& path, const Json& of) {
 Figure read_figure(const Json& fields, const std::string& path) {
   require_object(fields, path);
   require_known(fields, path,
-                {"id", "caption", "runs", "of", "panels", "drawing", "script", "command", "picture", "table",
-                 "parameters", "columns"});
+                {"id", "caption", "runs", "data", "of", "panels", "drawing", "script", "command", "picture",
+                 "table", "parameters", "columns"});
   Figure figure;
   figure.id =
       read_id(require_field(fields, path, "id", "the figure's number or name, in quotes"), path + ".id");
@@ -96,6 +96,11 @@ Figure read_figure(const Json& fields, const std::string& path) {
     require_object(v, p);
     for (const auto& [role, scenario] : v.items())
       figure.runs.emplace_back(role, read_text(scenario, p + "." + role, "the name of a scenario"));
+  });
+  if_given(fields, path, "data", [&](const Json& v, const std::string& p) {
+    require_object(v, p);
+    for (const auto& [role, words] : v.items())
+      figure.data.emplace_back(role, read_text(words, p + "." + role, "a command of vericone"));
   });
   int ways = 0;
   for (const auto& [field, target] :
@@ -239,7 +244,9 @@ Json claims_json(const std::vector<Claim>& claims, const Paper& paper, const std
   for (const Claim& claim : claims) list.push_back(to_json(claim));
   Json origin = provenance(command_line, 1, files_of(paper.folder));
   if (!changed.is_null()) origin["changed"] = changed;
-  return {{"claims", list}, {"verdicts", count_verdicts(claims)}, {"provenance", origin}};
+  Json result{{"claims", list}, {"verdicts", count_verdicts(claims)}, {"provenance", origin}};
+  if (const auto missing = paper.left_out(); !missing.empty()) result["not_measured"] = missing;
+  return result;
 }
 
 }  // namespace vericone::paper

@@ -45,6 +45,7 @@ struct Figure {
   std::string id;                                         // of the source, "5.6"; of ours "laws-6.5"
   std::string caption;                                    // in our words
   std::vector<std::pair<std::string, std::string>> runs;  // role and scenario
+  std::vector<std::pair<std::string, std::string>> data;  // role and command, whose tables a script reads
   std::vector<Panel> panels;
   std::string drawing, script;          // one of ours for all papers; one in the paper's folder figures
   std::string command, picture, table;  // of another command: its files
@@ -73,6 +74,7 @@ class Paper {
   std::vector<Figure> chosen(const std::vector<std::string>& ids) const;
   const std::vector<ClaimEntry>& claims() const { return claims_.entries; }
   std::vector<Claim> measured_claims(Sources& sources);
+  [[nodiscard]] std::map<std::string, int> left_out() const { return paper::left_out(claims_); }
 
  private:
   ClaimsFile claims_;

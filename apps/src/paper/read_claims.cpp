@@ -178,7 +178,7 @@ ClaimEntry read_entry(const Json& fields, const std::string& path, const ClaimsF
                       const std::vector<std::shared_ptr<Fit>>& fits) {
   require_known(fields, path,
                 {"id", "section", "figures", "what", "printed", "unit", "given", "ours", "holds", "text",
-                 "tolerance", "fit", "otherwise", "engaged", "note", "values", "of"});
+                 "tolerance", "fit", "otherwise", "engaged", "note", "values", "of", "needs"});
   ClaimEntry entry;
   Claim& claim = entry.claim;
   claim.id = required_text(fields, path, "id", "a name of the claim's own");
@@ -187,6 +187,9 @@ ClaimEntry read_entry(const Json& fields, const std::string& path, const ClaimsF
   claim.figures = read_ids(require_field(fields, path, "figures", "a list of figures"), path + ".figures");
   if_given(fields, path, "given",
            [&](const Json& v, const std::string& p) { claim.given = scenario::read_flag(v, p); });
+  if_given(fields, path, "needs", [&](const Json& v, const std::string& p) {
+    entry.needs = scenario::read_text(v, p, "a command");
+  });
   if_given(fields, path, "unit", [&](const Json& v, const std::string& p) {
     if (!v.is_string()) throw InputError(p, quoted(v), "a unit, as text");
     entry.unit = v.get<std::string>();
