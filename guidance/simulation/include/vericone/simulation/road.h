@@ -21,22 +21,34 @@ class Road {
  public:
   virtual ~Road() = default;
   [[nodiscard]] virtual RoadPoint at(double t) const = 0;  // t >= 0, s
+  /// Times at which the acceleration jumps, ascending, s.
+  [[nodiscard]] virtual std::vector<double> jumps() const { return {}; }
 };
 
 /// Constant velocity, and pulses across it: `acceleration` to the left for `seconds`, then as much to the
-/// right.
+/// right: acceleration seconds^2 aside. Pulses that overlap add up.
 struct LaneChange {
-  double at = 0, seconds = 2, acceleration = 1;
+  double at = 0, seconds = 2, acceleration = 1;  // s, s, m/s^2
 };
+/// Throws InputError naming "velocity" (none to change lanes of, or not finite) or "changes[i].at",
+/// "...seconds",
+/// "...acceleration".
 [[nodiscard]] std::shared_ptr<const Road> lane_road(const Eigen::Vector2d& start,
                                                     const Eigen::Vector2d& velocity,
                                                     std::vector<LaneChange> changes);
-/// Fernandez-Guasti's squircle, moved so that it begins at `start` at the middle of its southern side.
+
+/// Fernandez-Guasti's squircle x^2 + y^2 - s^2 x^2 y^2 / r^2 = r^2, counter-clockwise once in `period` s, by
+/// the parameter p = 2 pi t / period - pi/2 (errata 2.1); moved so that it begins at `start`, the middle of
+/// its southern side, to the east. r: `radius`, m; s: `squareness`, 0 (a circle) to below 1 (a square).
+/// Position and both derivatives are analytic. Throws InputError naming "radius", "squareness" or "period".
 [[nodiscard]] std::shared_ptr<const Road> squircle_road(const Eigen::Vector2d& start, double radius,
                                                         double squareness, double period);
 
-/// The road as curves for a Track, to `error` m.
+/// The road as curves for a Track, z = height, x ahead along the velocity; the road's own time is t -
+/// `begins`. Pieces from jump to jump, halved until each is within half of `error` m of the road at eight
+/// places. At rest the heading is 0. Throws InputError naming "to" or
+/// "error". Cost: 10 us a curve.
 [[nodiscard]] std::vector<Curve> curves_of(const Road& road, double height, double from, double to,
-                                           double error);
+                                           double error, double begins = 0);
 
 }  // namespace vericone::simulation
