@@ -14,7 +14,7 @@ import re
 
 from pages import ROOT, text_of
 
-PAGES = ("docs/reference/formats.md", "docs/reference/scenarios.md")
+PAGES = ("docs/reference/formats.md", "docs/reference/pursuits.md", "docs/reference/scenarios.md")
 MARK = re.compile(r"^<!-- fields: (\w+)(?: (\w+))?(?:: ([\w ]+))? -->$")
 TYPES = {"string": "text", "boolean": "true or false", "integer": "whole number", "number": "number", "object": "object",
          "array": "list"}
