@@ -18,7 +18,7 @@ from house_test import ROOT, includes, public_headers
 BROUGHT_BY = {name: header for header, names in {
     "algorithm": "max min", "array": "array", "cmath": "abs copysign cos exp frexp hypot ilogb isfinite ldexp log nextafter sin sqrt",
     "concepts": "convertible_to same_as", "cstddef": "size_t", "cstdint": "int8_t int64_t uint8_t uint16_t uint32_t uint64_t",
-    "cstdlib": "getenv strtoull", "filesystem": "filesystem", "functional": "function", "iosfwd": "istream ostream",
+    "cstdlib": "getenv strtoull", "deque": "deque", "filesystem": "filesystem", "functional": "function", "iosfwd": "istream ostream",
     "limits": "numeric_limits", "memory": "shared_ptr unique_ptr", "numbers": "numbers", "optional": "nullopt optional",
     "random": "mt19937_64 seed_seq", "span": "span", "stdexcept": "invalid_argument", "string": "string to_string",
     "string_view": "string_view", "utility": "move pair swap", "variant": "get holds_alternative variant visit",

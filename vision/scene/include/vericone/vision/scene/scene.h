@@ -1,33 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Pictures of vehicles on the ground as a camera above sees them.
+// Pictures of vehicles on the ground as a camera above sees them: by rays for vehicles, so that they are
+// where they are to a small part of a pixel; by a warp for the ground.
 #pragma once
 
 #include <vericone/geometry/camera.h>
+#include <vericone/geometry/pose.h>
 #include <vericone/vision/image.h>
 #include <Eigen/Core>
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <span>
 #include <vector>
 
 namespace vericone::vision {
 
-/// The ground: a picture laid on it again and again, or one of our own making.
+/// The ground z = 0: a picture laid on it again and again, or one of our own making, with fields, roads and
+/// marks.
 struct Ground {
-  std::filesystem::path picture;  // empty: made from `seed`
-  double metres_per_pixel = 0.25;
+  Image picture;                   // north up, its lower left corner at the origin; empty: made from `seed`
+  double metres_per_pixel = 0.25;  // of the picture; ours repeats after 2048 of them
   std::uint64_t seed = 1;
-  bool plain = false;  // one colour with a few marks, as the source's chapter 3
+  bool plain = false;  // one colour, with marks of 15 x 0.5 m, as the source's
+  double marks = 0;    // of a plain ground, in a square kilometre; the source's chapter 3 has about 800
 };
 
 /// An upright block with a flat bottom, that stands on the ground or hangs over it: a bridge, a roof, a
-/// tree's crown; the source's bars are flat ones at height 0.
+/// tree's crown. One with its top at 0 covers whatever is on the ground there, as the source's bars do.
 struct Occluder {
   Eigen::Vector2d centre = Eigen::Vector2d::Zero(), size = Eigen::Vector2d::Zero();  // m, along x and y
   double bottom = 0, top = 0;                                                        // m
   double from = 0, to = 1e300;                                                       // s, when it is there
+  double texture = 0;  // 0: one colour, as the source's; 1: as rough as the ground
 };
 
 struct VehicleLook {
@@ -39,41 +43,49 @@ struct SceneOptions {
   Ground ground;
   std::vector<VehicleLook> vehicles;
   std::vector<Occluder> occluders;
-  double noise = 0;     // standard deviation, grey levels
-  double blur = 0;      // px, of the lens
-  double exposure = 0;  // s, of motion blur
-  double light = 1;     // of full sun; below 0.5 dusk
-  bool shadows = false;
+  double noise = 0;      // standard deviation, grey levels
+  double blur = 0;       // px, standard deviation, of the lens
+  double exposure = 0;   // s, of motion blur
+  double light = 1;      // of full sun; below 0.5 dusk
+  bool shadows = false;  // on the ground, towards the north-east
   int channels = 1;
   std::uint64_t seed = 1;  // of the noise
 };
 
-/// A vehicle at a time: where, m, on the ground; heading, rad from x to y.
+/// A vehicle at a time: where the middle of its bottom is, on the ground; heading, rad from x to y. Its
+/// velocity is for motion blur alone.
 struct PlacedVehicle {
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  // m
   double heading = 0;
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // m/s
 };
 
 /// What is true of a vehicle in a picture, for truth files and metrics alone.
 struct VehicleTruth {
-  Box box;             // of all of it, as if nothing hid it, even beyond the picture
-  double visible = 0;  // part of its pixels that the picture shows, 0 to 1
+  Box box;  // of all of it, as if nothing hid it, even beyond the picture; empty where it is behind
+  double visible = 0;  // part of its pixels that the picture shows, 0 to 1, of 32 x 32 rays within the box
 };
 
 class Scene {
  public:
-  /// Throws InputError naming "ground.picture", "occluders[i].size", "noise", ...
+  /// Throws InputError naming "ground.picture", "ground.metres_per_pixel", "ground.marks",
+  /// "vehicles[i].size", "occluders[i].size", ".bottom", ".texture" or ".to", "noise", "blur", "exposure",
+  /// "light" or "channels". Cost: 0.3 s where the ground is made.
   explicit Scene(const SceneOptions& options);
   ~Scene();
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;
 
-  /// The picture at a time t, s; `frame` counts pictures, for the noise. With `exposure`, `before` is the
-  /// camera's pose that long earlier.
+  /// The picture at a time t, s; `frame` counts pictures, for the noise: equal arguments give equal pictures.
+  /// With `exposure`, `before` is the camera's pose that long earlier (left out: it stood still). One vehicle
+  /// for each of SceneOptions::vehicles, else InputError naming "vehicles". Cost: docs/explanation/scene.md.
   void render(const Camera& camera, const Pose& pose, std::span<const PlacedVehicle> vehicles, double t,
               std::uint64_t frame, Image& image, const Pose* before = nullptr);
   [[nodiscard]] std::vector<VehicleTruth> truth(const Camera& camera, const Pose& pose,
-                                                std::span<const PlacedVehicle> vehicles, double t);
+                                                std::span<const PlacedVehicle> vehicles, double t) const;
+
+  /// In place of those there were: bars that come again ahead of a camera. Throws as the constructor.
+  void set_occluders(std::vector<Occluder> occluders);
 
  private:
   struct Parts;
