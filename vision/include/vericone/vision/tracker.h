@@ -45,6 +45,8 @@ class Tracker {
   /// The first picture, with a box around every target. Throws InputError naming "boxes[i]": outside of the
   /// picture, too small, without texture.
   virtual void start(const Image& image, std::span<const Box> boxes) = 0;
+  /// One target more, in the newest picture. Throws as start().
+  virtual void add(const Box& box) = 0;
   /// The next one. `ground`: (u, v, 1) of the picture before to this one, of points on the ground, from the
   /// camera's own motion; left out: estimated from the pictures. `expected`: one a target, or none at all,
   /// and then the tracker's own. Pictures of another size throw InputError naming "image".
@@ -53,12 +55,14 @@ class Tracker {
 };
 
 /// The source's (3.3.4, errata 2.3): 4 Shi-Tomasi points a target, pyramidal Lucas-Kanade, centroid
-/// adjustment, recovery by patches and SIFT within the expected box.
+/// adjustment, recovery by patches and SIFT within the expected box. It never says `lost`, and its boxes keep
+/// their size.
 struct SourceTrackerOptions {
   int corners = 4;
   double quality = 0.3, distance = 7;
   int window = 15, levels = 2;
   double most_error = 15, template_score = 0.9849, descriptor_distance = 250;
+  double patch = 0.25;  // side of a point's patch, of the box's longer one: 1.5 m of a vehicle of 6 m
 };
 [[nodiscard]] std::unique_ptr<Tracker> source_tracker(const SourceTrackerOptions& options = {});
 

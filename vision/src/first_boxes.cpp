@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "first_boxes.h"
+
+#include <vericone/geometry/error.h>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "opencv_image.h"
+
+namespace vericone::vision {
+namespace {
+
+constexpr double kLeastSide = 4;  // px: a window of Lucas-Kanade has no fewer
+// Of the slope across and along a corner, grey levels a pixel: sensor noise of one grey level stays below it.
+constexpr double kLeastSlope = 1.5;
+
+std::string size_text(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height) + " px";
+}
+
+}  // namespace
+
+void check_picture(const Image& image, const cv::Mat& before) {
+  if (image.width <= 0 || image.height <= 0 || (image.channels != 1 && image.channels != 3) ||
+      image.data.size() != std::size_t(image.width) * image.height * image.channels)
+    throw InputError("image",
+                     size_text(image.width, image.height) + ", " + std::to_string(image.data.size()) +
+                         " bytes of " + std::to_string(image.channels) + " channels",
+                     "a picture of 1 or 3 channels, 8 bits each");
+  if (!before.empty() && (before.cols != image.width || before.rows != image.height))
+    throw InputError("image", size_text(image.width, image.height),
+                     "as large as the first one, " + size_text(before.cols, before.rows));
+}
+
+void check_first_box(const cv::Mat& grey, const Box& box, const std::string& field) {
+  const std::string text =
+      to_text(box.x) + "," + to_text(box.y) + "," + to_text(box.w) + "," + to_text(box.h);
+  if (!std::isfinite(box.x + box.y + box.w + box.h) || !(box.w > 0) || !(box.h > 0))
+    throw InputError(field, text, "X,Y,W,H of a box in pixels, with W and H above 0");
+  if (box.w < kLeastSide || box.h < kLeastSide)
+    throw InputError(field, text, "at least " + to_text(kLeastSide) + " px wide and high");
+  if (box.x < -0.5 || box.y < -0.5 || box.x + box.w > grey.cols + 0.5 || box.y + box.h > grey.rows + 0.5)
+    throw InputError(field, text, "within the picture of " + size_text(grey.cols, grey.rows));
+  const cv::Rect inside = cv::Rect(cv::Point(int(std::floor(box.x)), int(std::floor(box.y))),
+                                   cv::Point(int(std::ceil(box.x + box.w)), int(std::ceil(box.y + box.h)))) &
+                          cv::Rect(0, 0, grey.cols, grey.rows);
+  cv::Mat floats, corners;
+  grey(inside).convertTo(floats, CV_32F);
+  cv::cornerMinEigenVal(floats, corners, 3, 3);
+  double most = 0;
+  cv::minMaxLoc(corners, nullptr, &most);
+  // The sum over 3 x 3 pixels of squared Sobel derivatives, 8 slopes each, that OpenCV divides by 4 x 3.
+  if (!(most > 9 * std::pow(8 * kLeastSlope / 12, 2)))
+    throw InputError(field, text, "around something with texture: nothing there can be followed");
+}
+
+}  // namespace vericone::vision

@@ -1,0 +1,409 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "target.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/video/tracking.hpp>
+
+namespace vericone::vision {
+namespace {
+
+constexpr int kMostPoints = 14;
+constexpr double kReturn = 0.7;  // px, there and back
+constexpr double kSpeed = 1.5,
+                 kChange = 1;      // own sizes a second: of the first velocity, and its change in a second
+constexpr double kMeasured = 0.5;  // px, standard deviation of a measured centre,
+constexpr double kMeasuredOfSize = 0.02;                 // and of its own size: a walker's swings
+constexpr double kTurnRate = 0.5, kScaleRate = 0.6;      // rad/s and 1/s over the ground
+constexpr double kTurnStep = 0.003, kScaleStep = 0.002;  // from picture to picture besides
+constexpr double kGate = 13.8;  // squared standard deviations: 1 in 1000 is beyond, of two dimensions
+constexpr double kKeep = 0.55, kRegain = 0.7;  // correlations
+constexpr double kVisible = 0.45, kWhole = 0.8;
+constexpr double kShared = 0.3;  // overlap with another target that is seen
+constexpr int kConfirm = 3;      // pictures that a regained target must go on as expected
+
+double size_of(const Box& box) { return std::sqrt(box.w * box.h); }
+
+Eigen::Vector2d shifted(const cv::Point2f& p, const cv::Point& by) {
+  return {double(p.x) + by.x, double(p.y) + by.y};
+}
+
+Eigen::Matrix2d round_covariance(double deviation) {
+  return Eigen::Matrix2d::Identity() * deviation * deviation;
+}
+
+}  // namespace
+
+Target::Target(const cv::Mat& grey, const Box& box, const TrackerOptions& options)
+    : options_(options), first_(box) {
+  view_.centre = box.centre();
+  const Eigen::Vector2d size(box.w, box.h);
+  anchor_ = Appearance(grey, view_, size);
+  recent_ = anchor_;
+  const double dt = options.frame_seconds, s = size_of(box);
+  filter_ = TargetFilter(view_.centre, kMeasured, kSpeed * s * dt, kChange * s * dt * dt);
+  seed(grey);
+}
+
+Box Target::box() const { return box_at(view_); }
+
+Box Target::box_at(const View& view) const {
+  const double c = std::abs(std::cos(view.turn)), s = std::abs(std::sin(view.turn));
+  // The box about an ellipse that fills the first one, turned.
+  const double w = view.scale * std::hypot(c * first_.w, s * first_.h),
+               h = view.scale * std::hypot(s * first_.w, c * first_.h);
+  return {view.centre.x() - 0.5 * w, view.centre.y() - 0.5 * h, w, h};
+}
+
+void Target::seed(const cv::Mat& grey) {
+  if (int(points_.size()) >= kMostPoints * 2 / 3) return;
+  const Box b = box();
+  const cv::Rect area = cv::Rect(cv::Point(int(std::lround(b.x)), int(std::lround(b.y))),
+                                 cv::Size(int(std::lround(b.w)), int(std::lround(b.h)))) &
+                        cv::Rect(0, 0, grey.cols, grey.rows);
+  if (area.width < 3 || area.height < 3) return;
+  const double apart = std::max(2.0, 0.12 * size_of(b));
+  std::vector<cv::Point2f> corners;
+  cv::goodFeaturesToTrack(grey(area), corners, kMostPoints, 0.05, apart, {}, 3);
+  for (const cv::Point2f& corner : corners) {
+    const cv::Point2f p(corner.x + float(area.x), corner.y + float(area.y));
+    const Eigen::Vector2d q =
+        Eigen::Rotation2Dd(-view_.turn) * (Eigen::Vector2d(p.x, p.y) - view_.centre) / view_.scale;
+    const double u = q.x() / (0.5 * first_.w), v = q.y() / (0.5 * first_.h);
+    if (u * u + v * v > 1) continue;  // a box's corners are the ground's
+    if (std::any_of(points_.begin(), points_.end(), [&](const auto& o) { return cv::norm(o - p) < apart; }))
+      continue;
+    points_.push_back(p);
+    if (int(points_.size()) >= kMostPoints) break;
+  }
+}
+
+std::optional<Target::Flow> Target::flow(const cv::Mat& before, const cv::Mat& now,
+                                         const Eigen::Matrix3d& ground, const View& was, const View& guess) {
+  const std::vector<cv::Point2f> points = std::exchange(points_, {});
+  if (points.empty()) return std::nullopt;
+  const Box b = box();
+  const double size = size_of(b);
+  // Only the surroundings: both crops moved with the guess, so that what is left to find is small.
+  const int reach = int(std::ceil(std::max(b.w, b.h) + 24));
+  const cv::Size crop(std::min(2 * reach, now.cols), std::min(2 * reach, now.rows));
+  const auto about = [&](const Eigen::Vector2d& c) {
+    return cv::Rect(cv::Point(std::clamp(int(std::lround(c.x())) - reach, 0, now.cols - crop.width),
+                              std::clamp(int(std::lround(c.y())) - reach, 0, now.rows - crop.height)),
+                    crop);
+  };
+  const cv::Rect a = about(was.centre), z = about(guess.centre);
+  const int window = std::clamp(int(0.5 * std::min(b.w, b.h)) | 1, 7, 15);
+  const cv::Mat from_picture = before(a).clone(), to_picture = now(z).clone();
+  std::vector<cv::Point2f> from, to, back;
+  const double turn = guess.turn - was.turn, grow = guess.scale / was.scale;
+  for (const cv::Point2f& p : points) {
+    const Eigen::Vector2d q =
+        guess.centre + grow * (Eigen::Rotation2Dd(turn) * (Eigen::Vector2d(p.x, p.y) - was.centre));
+    from.emplace_back(p.x - float(a.x), p.y - float(a.y));
+    to.emplace_back(float(q.x()) - float(z.x), float(q.y()) - float(z.y));
+  }
+  back = from;
+  const std::vector<cv::Point2f> guessed = to;
+  std::vector<std::uint8_t> found, returned;
+  std::vector<float> error;
+  const cv::TermCriteria until(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 20, 0.01);
+  std::vector<cv::Mat> pa, pz;
+  cv::buildOpticalFlowPyramid(from_picture, pa, {window, window}, 2);
+  cv::buildOpticalFlowPyramid(to_picture, pz, {window, window}, 2);
+  cv::calcOpticalFlowPyrLK(pa, pz, from, to, found, error, {window, window}, 2, until,
+                           cv::OPTFLOW_USE_INITIAL_FLOW);
+  cv::calcOpticalFlowPyrLK(pz, pa, to, back, returned, error, {window, window}, 1, until,
+                           cv::OPTFLOW_USE_INITIAL_FLOW);
+  std::vector<cv::Point2f> good0, good1;
+  for (std::size_t i = 0; i < from.size(); ++i)
+    if (found[i] && returned[i] && cv::norm(back[i] - from[i]) < kReturn) {
+      // A target that moves over the ground has no points that stay with it: they are what hides it.
+      const Eigen::Vector2d at = shifted(to[i], z.tl());
+      const Eigen::Vector2d own = shifted(guessed[i], z.tl());
+      const Eigen::Vector2d still = plane_step(ground, {points[i].x, points[i].y}).to;
+      if ((still - own).norm() > 1.5 && (at - still).norm() < 0.3 * (still - own).norm()) continue;
+      good0.push_back(points[i]);
+      good1.emplace_back(to[i].x + float(z.x), to[i].y + float(z.y));
+    }
+  if (good0.empty()) return std::nullopt;
+
+  Flow result;
+  result.view = guess;
+  const double off = 0.6 + 0.02 * size;
+  std::vector<std::uint8_t> on(good0.size(), 0);
+  bool fitted = false;
+  if (good0.size() >= 6 && size > 15) {
+    const cv::Mat fit = cv::estimateAffinePartial2D(good0, good1, on, cv::RANSAC, off, 100, 0.99);
+    if (!fit.empty() && 2 * cv::countNonZero(on) >= int(good0.size())) {
+      const double c = fit.at<double>(0, 0), s = fit.at<double>(1, 0), scale = std::hypot(c, s);
+      const double turned = std::atan2(s, c);
+      if (std::abs(scale / grow - 1) < 0.1 && std::abs(turned - turn) < 0.2) {
+        const Eigen::Vector2d& p = was.centre;
+        result.view.centre = {c * p.x() - s * p.y() + fit.at<double>(0, 2),
+                              s * p.x() + c * p.y() + fit.at<double>(1, 2)};
+        result.view.scale = was.scale * scale;
+        result.view.turn = was.turn + turned;
+        fitted = true;
+      }
+    }
+  }
+  if (!fitted) {
+    // The median of what is left over of the guess.
+    std::vector<double> us, vs;
+    std::vector<Eigen::Vector2d> lefts;
+    for (std::size_t i = 0; i < good0.size(); ++i) {
+      const Eigen::Vector2d q =
+          guess.centre +
+          grow * (Eigen::Rotation2Dd(turn) * (Eigen::Vector2d(good0[i].x, good0[i].y) - was.centre));
+      lefts.emplace_back(good1[i].x - q.x(), good1[i].y - q.y());
+      us.push_back(lefts.back().x());
+      vs.push_back(lefts.back().y());
+    }
+    const auto middle = us.size() / 2;
+    std::nth_element(us.begin(), us.begin() + middle, us.end());
+    std::nth_element(vs.begin(), vs.begin() + middle, vs.end());
+    const Eigen::Vector2d left(us[middle], vs[middle]);
+    for (std::size_t i = 0; i < good0.size(); ++i) on[i] = (lefts[i] - left).norm() < off;
+    result.view.centre = guess.centre + left;
+  }
+  for (std::size_t i = 0; i < good0.size(); ++i)
+    if (on[i]) points_.push_back(good1[i]), ++result.points;
+  return result;
+}
+
+/// Something that stood there when the target was last seen elsewhere is not the target.
+bool Target::was_there_before(const cv::Mat& now, const View& view) const {
+  const PlaneStep back = plane_step(last_seen_.ground.inverse(), view.centre);
+  if ((back.to - last_seen_.view.centre).norm() < 0.7 * size_of(box())) return false;
+  View then = view;
+  then.centre = back.to;
+  then.turn += back.turn();
+  then.scale *= back.scale();
+  const Appearance shown(now, view, {first_.w, first_.h});
+  return shown.align(last_seen_.picture, then, nullptr).correlation > 0.6;
+}
+
+std::optional<View> Target::search(const cv::Mat& now, const Eigen::Matrix2d& gate,
+                                   std::span<const Box> others) const {
+  const cv::Mat pattern = recent_.picture();
+  const double step = recent_.step() * view_.scale;  // picture px a sample
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(gate);
+  const double reach = std::sqrt(kGate * eigen.eigenvalues()(1));
+  double coarse = 1;
+  while (reach / (step * coarse) > 60 && coarse * 4 <= std::min(pattern.cols, pattern.rows)) coarse *= 2;
+  const int radius = std::min(120, int(std::ceil(reach / (step * coarse)))) + 1;
+  cv::Mat small = pattern;
+  if (coarse > 1) cv::resize(pattern, small, {}, 1 / coarse, 1 / coarse, cv::INTER_AREA);
+  const int w = small.cols + 2 * radius, h = small.rows + 2 * radius;
+  const double c = std::cos(view_.turn) * step * coarse, s = std::sin(view_.turn) * step * coarse;
+  // From a pixel of the search picture to the picture.
+  const double ox = 0.5 * (w - 1), oy = 0.5 * (h - 1);
+  const cv::Matx23d map(c, -s, view_.centre.x() - c * ox + s * oy, s, c, view_.centre.y() - s * ox - c * oy);
+  cv::Mat area, score;
+  cv::Mat source = now;
+  if (step * coarse > 1.5) {  // no finer than what is sampled
+    // Only near the target, to spare time.
+    cv::GaussianBlur(now, source, {}, 0.4 * step * coarse);
+  }
+  cv::warpAffine(source, area, map, {w, h}, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_CONSTANT, 0);
+  cv::matchTemplate(area, small, score, cv::TM_CCOEFF_NORMED);
+  const Eigen::Matrix2d inverse = gate.inverse();
+  struct Found {
+    View view;
+    double cost, correlation;
+  };
+  std::vector<Found> founds;
+  for (int k = 0; k < 5; ++k) {
+    double most = 0;
+    cv::Point at;
+    cv::minMaxLoc(score, nullptr, &most, nullptr, &at);
+    if (most < kRegain - 0.25) break;
+    Found f;
+    f.view = view_;
+    f.view.centre +=
+        Eigen::Vector2d(c * (at.x - radius) - s * (at.y - radius), s * (at.x - radius) + c * (at.y - radius));
+    const int nx = std::max(1, small.cols / 2), ny = std::max(1, small.rows / 2);
+    score(cv::Rect(at.x - nx, at.y - ny, 2 * nx + 1, 2 * ny + 1) & cv::Rect(0, 0, score.cols, score.rows)) =
+        -1.f;
+    const Form form = form_about(f.view, 10);
+    Agreement agreement = recent_.align(now, f.view, &form);
+    f.correlation = agreement.correlation;
+    const Eigen::Vector2d d = f.view.centre - view_.centre;
+    const double far = d.dot(inverse * d);
+    if (!like_itself(agreement) || far > kGate || std::abs(f.view.scale / view_.scale - 1) > 0.2 ||
+        std::abs(f.view.turn - view_.turn) > 0.35)
+      continue;
+    const Box there = box_at(f.view);
+    if (std::any_of(others.begin(), others.end(), [&](const Box& o) { return overlap(o, there) > kShared; }))
+      continue;  // another target's
+    if (was_there_before(now, f.view)) continue;
+    f.cost = far + std::pow((1 - f.correlation) / 0.1, 2);
+    founds.push_back(f);
+  }
+  if (founds.empty()) return std::nullopt;
+  std::sort(founds.begin(), founds.end(), [](const Found& a, const Found& b) { return a.cost < b.cost; });
+  for (std::size_t i = 1; i < founds.size(); ++i)
+    if ((founds[i].view.centre - founds[0].view.centre).norm() > 0.3 * size_of(box()) &&
+        founds[i].cost < founds[0].cost + 4)
+      return std::nullopt;  // two alike: the next pictures tell
+  return founds[0].view;
+}
+
+Form Target::form_about(const View& view, double times) const {
+  const double dt = options_.frame_seconds;
+  return {view, times * (kTurnStep + kTurnRate * dt), times * (kScaleStep + kScaleRate * dt)};
+}
+
+bool Target::like_itself(const Agreement& agreement) const {
+  return agreement.correlation > std::max(kRegain, usual_ - 0.12) &&
+         agreement.visible > std::max(0.6, usual_visible_ - 0.1);
+}
+
+double Target::deviation() const { return kMeasured + kMeasuredOfSize * size_of(box()); }
+
+bool Target::settle(const cv::Mat& now, const View& guess, View& view, Agreement& agreement, int points) {
+  const Form form = form_about(guess, 1);
+  agreement = recent_.align(now, view, &form);
+  View first = view;
+  const Agreement with_first = anchor_.align(now, first, &form);
+  const double size = size_of(box());
+  // What is taken in from picture to picture may creep; the first one does not.
+  if (with_first.correlation > 0.75 && with_first.correlation > agreement.correlation - 0.15 &&
+      (first.centre - view.centre).norm() < 0.15 * size + 1 && std::abs(first.turn - view.turn) < 0.2 &&
+      std::abs(first.scale / view.scale - 1) < 0.1) {
+    view.centre += 0.3 * (first.centre - view.centre);
+    view.turn += 0.3 * (first.turn - view.turn);
+    view.scale += 0.3 * (first.scale - view.scale);
+  }
+  return agreement.correlation > (points >= 4 ? kKeep : std::max(kKeep, usual_ - 0.25)) &&
+         agreement.visible > kVisible && agreement.inside > 0.6;
+}
+
+Sighting Target::hidden(const Eigen::Matrix2d& gate) {
+  followed_ = 0;
+  ++hidden_;
+  points_.clear();
+  Sighting s;
+  s.sight = hidden_ * options_.frame_seconds > options_.give_up ? Sight::lost : Sight::total;
+  s.box = box();
+  s.covariance = gate;
+  s.confidence = 0;
+  return s;
+}
+
+void Target::accept(const cv::Mat& now, const View& view, const Agreement& agreement) {
+  view_ = view;
+  // A picture that the camera left out makes a jump that is no new velocity.
+  const Eigen::Vector2d d = view.centre - filter_.centre();
+  const Eigen::Matrix2d r = round_covariance(deviation());
+  const double far = d.dot((filter_.covariance() + r).inverse() * d);
+  filter_.update(view.centre, r * std::max(1.0, far / 4));
+  hidden_ = 0;
+  ++followed_;
+  candidate_.reset();
+  if (agreement.visible > kWhole) {
+    usual_ += 0.1 * (agreement.correlation - usual_);
+    usual_visible_ += 0.1 * (agreement.visible - usual_visible_);
+  }
+  if (agreement.correlation > std::max(0.75, usual_ - 0.1) && agreement.visible > kWhole)
+    recent_.learn(now, view, 0.06);
+  const double finer = view.scale * anchor_.step();
+  if (agreement.correlation > 0.85 && agreement.visible > kWhole && (finer > 1.6 || finer < 0.6) &&
+      std::max(first_.w, first_.h) * view.scale < 30) {
+    anchor_ = Appearance(now, view, {first_.w, first_.h});
+    recent_ = anchor_;
+  }
+  seed(now);
+}
+
+Sighting Target::step(const cv::Mat& before, const cv::Mat& now, const Eigen::Matrix3d& ground,
+                      const Expectation* expected, std::span<const Box> others) {
+  const double dt = options_.frame_seconds;
+  const View was = view_;
+  filter_.set_acceleration(kChange * size_of(first_) * view_.scale * dt * dt);
+  filter_.predict(ground);
+  const PlaneStep step = plane_step(ground, was.centre);
+  View guess = was;
+  guess.turn += step.turn();
+  guess.scale *= step.scale();
+  guess.centre = filter_.centre();
+  Eigen::Matrix2d gate = filter_.covariance();
+  if (expected) {
+    guess.centre = expected->centre;
+    gate = expected->covariance;
+    if (hidden_ > 0) {
+      guess.scale = expected->scale;
+      guess.turn = expected->turn;
+    }
+  }
+  gate += round_covariance(deviation());
+
+  const double size = size_of(box());
+  const auto sighting = [&](const Agreement& agreement) {
+    Sighting s;
+    s.sight = agreement.visible > kWhole ? Sight::no_occlusion : Sight::partial;
+    s.box = box();
+    s.measured = true;
+    s.covariance = round_covariance(deviation());
+    s.confidence = std::clamp(agreement.correlation, 0.0, 1.0) * agreement.visible;
+    return s;
+  };
+  if (hidden_ == 0) {
+    const std::optional<Flow> followed = flow(before, now, ground, was, guess);
+    View view = followed && followed->points >= 3 ? followed->view : guess;
+    Agreement agreement;
+    bool good = settle(now, guess, view, agreement, followed ? followed->points : 0);
+    if (!good || agreement.visible < kWhole) {
+      View other = guess;
+      Agreement with_guess;
+      const bool again = settle(now, guess, other, with_guess, 0);
+      if (again && (!good || with_guess.correlation > agreement.correlation)) {
+        view = other;
+        agreement = with_guess;
+        good = true;
+      }
+    }
+    const Eigen::Vector2d d = view.centre - guess.centre;
+    const bool gated =
+        d.dot(gate.inverse() * d) < kGate || (d.norm() < 0.3 * size && agreement.correlation > 0.8);
+    if (good && gated && std::abs(view.scale / guess.scale - 1) < 0.15 &&
+        std::abs(view.turn - guess.turn) < 0.3) {
+      accept(now, view, agreement);
+      return sighting(agreement);
+    }
+    last_seen_ = {before.clone(), was, ground};
+    view_ = guess;
+    return hidden(gate);
+  }
+
+  // Hidden: what is found must go on as expected for some pictures before it is believed.
+  view_ = guess;
+  last_seen_.ground = ground * last_seen_.ground;
+  if (candidate_) {
+    View view = candidate_->view;
+    const PlaneStep along = plane_step(ground, view.centre + filter_.velocity());
+    view.centre = along.to;
+    view.turn += along.turn();
+    view.scale *= along.scale();
+    const View expected_view = view;
+    Agreement agreement;
+    const bool good = settle(now, expected_view, view, agreement, 0);
+    if (good && like_itself(agreement) && (view.centre - expected_view.centre).norm() < 1.5 + 0.08 * size) {
+      candidate_->view = view;
+      if (++candidate_->seen >= kConfirm) {
+        accept(now, view, agreement);
+        return sighting(agreement);
+      }
+      return hidden(gate);
+    }
+    candidate_.reset();
+  }
+  if (const std::optional<View> found = search(now, gate, others)) candidate_ = Candidate{*found, 1};
+  return hidden(gate);
+}
+
+}  // namespace vericone::vision

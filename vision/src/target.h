@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// One target of tracker(): what it looks like, where it goes, how much of it is seen.
+#pragma once
+
+#include <vericone/vision/tracker.h>
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "appearance.h"
+#include "target_filter.h"
+
+namespace vericone::vision {
+
+class Target {
+ public:
+  Target(const cv::Mat& grey, const Box& box, const TrackerOptions& options);
+
+  /// The target in `now`, `before` being the picture before.
+  Sighting step(const cv::Mat& before, const cv::Mat& now, const Eigen::Matrix3d& ground,
+                const Expectation* expected, std::span<const Box> others);
+  /// Where it is, or is expected, in the newest picture.
+  [[nodiscard]] Box box() const;
+  [[nodiscard]] bool seen() const { return hidden_ == 0; }
+
+ private:
+  struct Flow {
+    View view;
+    int points = 0;  // that agree with it
+  };
+  /// Points of the target followed from picture to picture, there and back, and the similarity of most of
+  /// them.
+  std::optional<Flow> flow(const cv::Mat& before, const cv::Mat& now, const Eigen::Matrix3d& ground,
+                           const View& was, const View& guess);
+  void seed(const cv::Mat& grey);
+  bool was_there_before(const cv::Mat& now, const View& view) const;
+  std::optional<View> search(const cv::Mat& now, const Eigen::Matrix2d& gate,
+                             std::span<const Box> others) const;
+  Form form_about(const View& view, double times) const;
+  [[nodiscard]] bool like_itself(const Agreement& agreement) const;
+  [[nodiscard]] double deviation() const;  // px, of a measured centre
+  bool settle(const cv::Mat& now, const View& guess, View& view, Agreement& agreement, int points);
+  [[nodiscard]] Box box_at(const View& view) const;
+  Sighting hidden(const Eigen::Matrix2d& gate);
+  void accept(const cv::Mat& now, const View& view, const Agreement& agreement);
+
+  TrackerOptions options_;
+  Box first_;
+  View view_;
+  Appearance anchor_, recent_;
+  TargetFilter filter_;
+  std::vector<cv::Point2f> points_;  // in the newest picture
+  struct Candidate {
+    View view;
+    int seen = 0;
+  };
+  std::optional<Candidate> candidate_;
+  struct LastSeen {
+    cv::Mat picture;
+    View view;
+    Eigen::Matrix3d ground = Eigen::Matrix3d::Identity();  // from there to the newest picture
+  };
+  LastSeen last_seen_;
+  int hidden_ = 0;                            // pictures since the last measurement
+  int followed_ = 0;                          // pictures in a row with one
+  double usual_ = 0.9, usual_visible_ = 0.9;  // of late
+};
+
+}  // namespace vericone::vision
