@@ -458,16 +458,32 @@ double growth_needed(const ExactBody<D>& body, const Eigen::Ref<const Points<D>>
   return sqrt_up(most / body.scale());
 }
 
+template <int D>
+struct Principal {
+  Vector<D> axes;
+  Square<D> rotation;
+
+  explicit Principal(const Square<D>& factor) {
+    const LeftSingular<D> svd = left_singular<D>(factor);
+    axes = svd.values;
+    rotation = svd.u;
+    if (rotation.determinant() < 0) rotation.col(D - 1) *= -1;
+  }
+};
+
+template <int D>
+BasicEllipsoid<D> principal_body(const Vector<D>& center, const Square<D>& factor) {
+  const Principal<D> principal(factor);
+  return BasicEllipsoid<D>::from_axes(center, principal.axes, principal.rotation);
+}
+
 /// The ellipsoid { p + F u } of the given factor, grown until it contains every point exactly. Turning F into
 /// axes and a rotation rounds, so growth and check repeat, with a margin that doubles, until the check
 /// passes.
 template <int D>
 BasicEllipsoid<D> containing_body(const Vector<D>& center, const Square<D>& factor,
                                   const Eigen::Ref<const Points<D>>& points, double tolerance) {
-  const LeftSingular<D> svd = left_singular<D>(factor);
-  Square<D> rotation = svd.u;
-  if (rotation.determinant() < 0) rotation.col(D - 1) *= -1;
-  Vector<D> axes = svd.values;
+  auto [axes, rotation] = Principal<D>(factor);
   for (double margin = 2 * kEps;; margin *= 2) {
     const ExactBody<D> trial(BasicEllipsoid<D>::from_axes(center, axes, rotation));
     axes *= growth_needed<D>(trial, points, std::max(1e-3 * tolerance, 64 * kEps)) * (1 + margin);
@@ -598,9 +614,15 @@ MinVolumeResult<D> min_volume_ellipsoid(const Eigen::Ref<const Points<D>>& point
   // In y the body is (y-c)^T C^{-1} (y-c) <= max g - 1 (source, (4.3), where n should read D).
   const Square<D> to_space = frame.axes * frame.extents.asDiagonal();
   const Square<D> root = cholesky<D>(dual.covariance()).lower;
-  result.body = containing_body<D>(frame.origin + to_space * dual.mean(),
-                                   to_space * root * std::sqrt(largest - 1), points, options.tolerance);
-  result.volume_ratio_bound = volume_ratio_bound<D>(result.body, points, result.support, result.weights);
+  const Vector<D> center = frame.origin + to_space * dual.mean();
+  const Square<D> factor = to_space * root * std::sqrt(largest - 1);
+  if (options.certified) {
+    result.body = containing_body<D>(center, factor, points, options.tolerance);
+    result.volume_ratio_bound = volume_ratio_bound<D>(result.body, points, result.support, result.weights);
+  } else {
+    result.body = principal_body<D>(center, factor);
+    result.volume_ratio_bound = std::numeric_limits<double>::quiet_NaN();
+  }
   return result;
 }
 

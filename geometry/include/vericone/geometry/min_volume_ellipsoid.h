@@ -14,6 +14,9 @@ struct MinVolumeOptions {
   double tolerance = 1e-7;
   /// Bound on the number of updates of the weights.
   int max_iterations = 100'000;
+  /// False: the body contains the points to rounding only, and volume_ratio_bound is NaN. The certificate is
+  /// most of the time of a few points.
+  bool certified = true;
 };
 
 enum class MinVolumeStatus {

@@ -20,14 +20,27 @@ struct EnclosingEllipse {
   Eigen::Vector2d centre_rate = Eigen::Vector2d::Zero();
   double a_rate = 0, b_rate = 0, angle_rate = 0;
   std::array<Eigen::Vector2d, 2> foci_rates{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
-  bool circle = false;  // a = b within rounding: no axis, foci in the centre, their rates those of the centre
+  /// a = b within 1e-9 of a: no axis, foci in the centre, their rates those of the centre, angle as before.
+  bool circle = false;
+
+  /// Half the width across the unit vector n, m: how far the ellipse reaches along n from its centre.
+  [[nodiscard]] double reach(const Eigen::Vector2d& n) const;
 };
+
+/// The ellipse of least area around points, and its rates: m and m/s. `near`: an angle, from which the major
+/// axis is at most a quarter turn away. Where a point begins or ceases to hold the ellipse its rates jump:
+/// they are those of the points that hold it now. Near a circle the foci move fast without bound, as the root
+/// of a^2 - b^2. Throws InputError naming "points" or "velocities". Error: 1e-10 of the size, rates 1e-7 of
+/// the speeds away from circles. Cost: 12 us for 12 points.
+[[nodiscard]] EnclosingEllipse enclosing_ellipse(const Eigen::Ref<const Eigen::Matrix2Xd>& points,
+                                                 const Eigen::Ref<const Eigen::Matrix2Xd>& velocities,
+                                                 double near);
 
 /// One ellipse after another of the same vehicles.
 class EllipseFollower {
  public:
   /// `side`: of the axis-parallel square around every vehicle's centre, m (the source's 8).
-  explicit EllipseFollower(double side) : side_(side) {}
+  explicit EllipseFollower(double side);
   /// Of the vehicles' centres and velocities, m and m/s, at least one. Throws InputError naming "centres".
   const EnclosingEllipse& step(std::span<const Eigen::Vector2d> centres,
                                std::span<const Eigen::Vector2d> velocities);
@@ -35,7 +48,6 @@ class EllipseFollower {
 
  private:
   double side_;
-  bool started_ = false;
   EnclosingEllipse ellipse_;
 };
 

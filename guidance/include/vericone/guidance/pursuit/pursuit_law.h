@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // A pursuit law of our own: it meets the ellipse (or disc) and matches its velocity, and always has a
-// command.
+// command. With x from the ellipse's centre to A and w its velocity (relative), it steers w towards
+//   w_d = -k x / sqrt(1 + k^2 |x| / most),
+// slow enough far away that half of `most` brakes it: a = a_T + w_d' + K (w_d - w). Unsaturated, w - w_d
+// decays as e^(-K t), then x as e^(-k t): w_d points to the centre, so that the course meets the ellipse
+// (m < 0) before they have met, and y_2 = w^2 goes to 0 with x. Nothing is divided by: not by the distance,
+// nor by the relative velocity, nor by the distance of the foci.
 #pragma once
 
 #include <vericone/guidance/pursuit/enclosing_ellipse.h>
@@ -10,19 +15,27 @@
 namespace vericone::guidance {
 
 struct PursuitGains {
-  double distance = 0.5;  // 1/s: the closing speed wanted is this times the distance, far away less
-  double speed = 1;       // 1/s, of the velocity error
-  double most = 10;       // m/s^2, of the whole
+  double distance = 0.5;  // k, 1/s: the closing speed wanted is this times the distance, far away less
+  double speed = 1;       // K, 1/s, of the velocity error
+  double most = 10;       // m/s^2, of the whole, above 0
 };
 
 struct PursuitStep {
-  Eigen::Vector2d acceleration = Eigen::Vector2d::Zero();  // m/s^2, saturated
+  Eigen::Vector2d acceleration = Eigen::Vector2d::Zero();  // in fixed axes, m/s^2, saturated
   double demanded = 0;                                     // m/s^2
-  double m = 0;  // m: miss distance of the ellipse; negative: A is on a course that meets it
-  double y1 = 0, y2 = 0;
+  double m = 0;                                            // m: see miss_distance
+  double y1 = 0, y2 = 0;  // the polynomial form of focal_law.h, and w^2, m^2/s^2
 };
 
-/// `covariance`: of relative position and velocity (4 numbers), zero where it is not known.
+/// How far the half-line from x along w (both relative to the ellipse: from its centre, to its velocity)
+/// passes the ellipse, m: the distance where it passes or leaves, minus the depth of its line where it meets.
+/// Negative exactly where a straight motion from now on meets the inside of the ellipse. w = 0: the distance
+/// of the point. Error: rounding of the sizes. Cost: 0.1 us.
+[[nodiscard]] double miss_distance(const Eigen::Vector2d& x, const Eigen::Vector2d& w,
+                                   const EnclosingEllipse& target);
+
+/// `position` and `velocity`: of A, in fixed axes, m and m/s. `target_acceleration`: of the ellipse's centre,
+/// m/s^2. Continuous in all of them. No allocation, no throw. Cost: 0.2 us.
 [[nodiscard]] PursuitStep pursuit_law(const Eigen::Vector2d& position, const Eigen::Vector2d& velocity,
                                       const EnclosingEllipse& target,
                                       const Eigen::Vector2d& target_acceleration, const PursuitGains& gains);
@@ -32,6 +45,13 @@ struct ConeConfidence {
   double probability = 0;  // in [0, 1]
   double y_low = 0, y_high = 0;
 };
+
+/// `covariance`: of (x, y, v_x, v_y) relative to the ellipse, m and m/s, positive semidefinite; the ellipse
+/// itself counts as known. The probability is that of m < 0 with Gaussian errors: a cubature of 256 points
+/// over three directions, exact in the fourth, within 0.01 of 10^6 draws on all random cases of the test. The
+/// bounds hold for every position and velocity within `deviations` of the mean (Mahalanobis), so with at
+/// least the probability that chi-squared of 4 degrees is below deviations^2: 0.939 for 3; they are not the
+/// least. No allocation, no throw. Cost: 15 us.
 [[nodiscard]] ConeConfidence cone_confidence(const Eigen::Vector2d& position, const Eigen::Vector2d& velocity,
                                              const EnclosingEllipse& target,
                                              const Eigen::Matrix4d& covariance, double deviations = 3);

@@ -16,16 +16,31 @@ struct VerticalGains {
   double altitude_p = 0.006, altitude_d = 0.003;
   double lock_p = 0.84, lock_d = 0.42;
   double most = 10;  // m/s^2
+  /// With the term 2 phi x_W x_S'^2 / x_S^3 that (4.23) leaves out of the inversion of (4.22).
+  bool exact = true;
 };
+
+/// phi of (4.17), px: of a picture `width` px wide with this field of view, rad.
+[[nodiscard]] double focal_length(double width, double field_of_view);
+/// u_S of (4.23), m/s^2 up, with phi x_W / x_S = z of (4.19), so that no focal length is needed. size > 0,
+/// px.
+[[nodiscard]] double size_acceleration(double size, double size_rate, double altitude,
+                                       const VerticalGains& gains);
+/// (4.24), its second sign corrected, m/s^2 up.
+[[nodiscard]] double altitude_acceleration(double wanted, double altitude, double climb, double p, double d);
 
 enum class VerticalMode : std::uint8_t { size, lock, altitude };
 [[nodiscard]] const char* to_string(VerticalMode mode);
 
+/// Algorithm 2 as it works (errata 3.4): outside the band of altitudes the altitude is driven; else a size
+/// out of its band is driven until it is near the wanted one; then the altitude is locked. No allocation, no
+/// throw.
 class VerticalLaw {
  public:
   explicit VerticalLaw(const VerticalGains& gains) : gains_(gains) {}
-  /// Acceleration up, m/s^2. size: x_S, px, and its rate; altitude, m, and its rate, up; focal: px.
-  double step(double size, double size_rate, double altitude, double climb, double focal);
+  /// Acceleration up, m/s^2. size: x_S, px, and its rate; altitude, m, and its rate, up. A size of 0, of what
+  /// is not in the picture, drives nothing.
+  double step(double size, double size_rate, double altitude, double climb);
   [[nodiscard]] VerticalMode mode() const { return mode_; }
 
  private:
