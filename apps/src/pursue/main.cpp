@@ -9,7 +9,7 @@
 namespace {
 
 int pursue_command(vericone::CommandLine& line) {
-  vericone::pursue::PursueOptions pursue;
+  vericone::pursuit::PursueOptions pursue;
   line.option("scenario", pursue.scenario, "Pursuit, YAML (docs/reference/pursuits.md)").required();
   line.option("--camera", pursue.camera, "perspective, source (straight down, clean) or exact (no pictures)")
       .shown_default("perspective");
@@ -33,7 +33,7 @@ int pursue_command(vericone::CommandLine& line) {
   line.flag("--json", pursue.json, "Print JSON");
   line.read();
   pursue.command_line = line.text();
-  return vericone::pursue::run_pursue(pursue, std::cout);
+  return vericone::pursuit::run_pursue(pursue, std::cout);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace vericone::pursue {
+namespace vericone::pursuit {
 
 vision::Image in_colour(const vision::Image& image) {
   if (image.channels == 3) return image;
@@ -35,4 +35,4 @@ void mark(vision::Image& image, const vision::Sighting& sighting) {
   }
 }
 
-}  // namespace vericone::pursue
+}  // namespace vericone::pursuit

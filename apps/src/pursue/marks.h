@@ -5,10 +5,10 @@
 
 #include <vericone/vision/tracker.h>
 
-namespace vericone::pursue {
+namespace vericone::pursuit {
 
 vision::Image in_colour(const vision::Image& image);
 /// Green where it is seen, yellow in part, red where it is hidden, grey where it is lost.
 void mark(vision::Image& image, const vision::Sighting& sighting);
 
-}  // namespace vericone::pursue
+}  // namespace vericone::pursuit

@@ -23,7 +23,7 @@
 #include "pursue/pursuit_tables.h"
 #include "pursue/read_pursuit.h"
 
-namespace vericone::pursue {
+namespace vericone::pursuit {
 namespace {
 
 namespace fs = std::filesystem;
@@ -78,7 +78,7 @@ Json summary_json(const Pursuit& pursuit, const PursuitRun& run, const PursuitSu
     cars.push_back(one);
   }
   Json boxes = Json::array();
-  for (const Box& box : run.boxes) boxes.push_back({box.x, box.y, box.w, box.h});
+  for (const vision::Box& box : run.boxes) boxes.push_back({box.x, box.y, box.w, box.h});
   return {{"pursuit", pursuit.name},
           {"camera", to_string(pursuit.eyes)},
           {"tracker", to_string(pursuit.tracker)},
@@ -170,17 +170,10 @@ class Recorder {
     }
     if (!frames_) return;
     write_whole(frames_->path() / "own.csv", own_csv(run));
-    const View& view = pursuit_.eyes == Eyes::source ? pursuit_.source_view : pursuit_.perspective_view;
-    PerceptionOptions perception;
-    perception.camera = view.camera;
-    perception.height = view.height;
-    perception.filter = pursuit_.filter;
-    perception.source = pursuit_.tracker == Whose::source;
-    perception.noise = pursuit_.noise;
-    perception.hidden_noise = pursuit_.hidden_noise;
-    write_whole(frames_->path() / "camera.yaml", perception_json(perception).dump(1) + "\n");  // JSON is YAML
+    write_whole(frames_->path() / "camera.yaml",
+                perception_json(perception_of(pursuit_)).dump(1) + "\n");  // JSON is YAML
     std::string boxes;
-    for (const Box& box : run.boxes)
+    for (const vision::Box& box : run.boxes)
       boxes += "--box " + to_text(box.x) + "," + to_text(box.y) + "," + to_text(box.w) + "," +
                to_text(box.h) + "\n";
     write_whole(frames_->path() / "boxes.txt", boxes);
@@ -269,4 +262,4 @@ int run_pursue(const PursueOptions& options, std::ostream& out) {
   return run_one(pursuit, options, text, out);
 }
 
-}  // namespace vericone::pursue
+}  // namespace vericone::pursuit

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace vericone::pursue {
+namespace vericone::pursuit {
 
 struct PursueOptions {
   std::string scenario;
@@ -25,4 +25,4 @@ struct PursueOptions {
 /// `vericone pursue`. Returns the exit status. Throws InputError.
 int run_pursue(const PursueOptions& options, std::ostream& out);
 
-}  // namespace vericone::pursue
+}  // namespace vericone::pursuit

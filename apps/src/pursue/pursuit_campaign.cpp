@@ -21,7 +21,7 @@
 #include "output/threads.h"
 #include "simulate/csv_row.h"
 
-namespace vericone::pursue {
+namespace vericone::pursuit {
 namespace {
 
 namespace fs = std::filesystem;
@@ -284,4 +284,4 @@ int run_random(const Pursuit& pursuit, const PursueOptions& options, std::ostrea
                 text.str(), out);
 }
 
-}  // namespace vericone::pursue
+}  // namespace vericone::pursuit

@@ -7,7 +7,7 @@
 
 #include "simulate/csv_row.h"
 
-namespace vericone::pursue {
+namespace vericone::pursuit {
 namespace {
 
 using Eigen::Vector2d;
@@ -17,7 +17,7 @@ using namespace vision;
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 CsvRow& vector(CsvRow& row, const Vector2d& v) { return row.number(v.x()).number(v.y()); }
-CsvRow& box(CsvRow& row, const Box& b) { return row.number(b.x).number(b.y).number(b.w).number(b.h); }
+CsvRow& box(CsvRow& row, const vision::Box& b) { return row.number(b.x).number(b.y).number(b.w).number(b.h); }
 
 /// r, theta, V_r and V_theta of a point against the UAS.
 void engagement(CsvRow& row, const simulation::Motion& own, const Vector2d& position,
@@ -186,4 +186,4 @@ std::string hidden_csv(const Pursuit& pursuit, const PursuitRun& run) {
   return table;
 }
 
-}  // namespace vericone::pursue
+}  // namespace vericone::pursuit

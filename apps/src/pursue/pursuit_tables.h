@@ -8,7 +8,7 @@
 
 #include "json/json_forward.h"
 
-namespace vericone::pursue {
+namespace vericone::pursuit {
 
 /// t, place, velocity and commands of the UAS, the laws' outputs, the ellipse, the camera's view; a row a
 /// picture.
@@ -26,4 +26,4 @@ std::string times_csv(const vision::PursuitRun& run);
 std::string truth_csv(const vision::PursuitRun& run);
 std::string hidden_csv(const vision::Pursuit& pursuit, const vision::PursuitRun& run);
 
-}  // namespace vericone::pursue
+}  // namespace vericone::pursuit

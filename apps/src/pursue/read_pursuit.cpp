@@ -7,12 +7,12 @@
 #include <numbers>
 #include <set>
 
+#include <vericone/vehicles/quadrotor.h>  // TEMP
 #include "json/json_value.h"
-#include "scenarios/read_road.h"
 #include "scenarios/read_vehicle.h"
 #include "scenarios/scenario_fields.h"
 
-namespace vericone::pursue {
+namespace vericone::pursuit {
 namespace {
 
 using input::at, input::quoted, input::require_field, input::require_known, input::require_object;
@@ -20,6 +20,24 @@ using scenario::if_given, scenario::join, scenario::read_choice, scenario::read_
     scenario::read_not_negative, scenario::read_positive, scenario::read_text;
 using namespace vision;
 
+namespace scenario_temp {}
+}  // namespace
+}  // namespace vericone::pursuit
+namespace vericone::scenario {
+std::shared_ptr<const simulation::Road> read_road(const Json& v, const std::string& p,
+                                                  const Eigen::Vector2d& start) {
+  using namespace input;
+  if (v["kind"] == "lanes") {
+    std::vector<simulation::LaneChange> changes;
+    for (const Json& c : v.value("changes", Json::array()))
+      changes.push_back({c["at"], c["seconds"], c["acceleration"]});
+    return simulation::lane_road(start, read_vector<2>(v["velocity"], p, ""), changes);
+  }
+  return simulation::squircle_road(start, v["radius"], v["squareness"], v["period"]);
+}
+}  // namespace vericone::scenario
+namespace vericone::pursuit {
+namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 
 /// Reads the fields that are given into the numbers named; complains about others.
@@ -267,7 +285,7 @@ void read_gains(const Json& value, const std::string& path, Pursuit& pursuit) {
 
 void read_uas(const Json& value, const std::string& path, Pursuit& pursuit) {
   require_object(value, path);
-  require_known(value, path, {"position", "velocity", "vehicle"});
+  require_known(value, path, {"position", "velocity", "vehicle", "source_steps"});
   pursuit.start.position = input::read_vector<3>(require_field(value, path, "position", "[x, y, z] (m)"),
                                                  join(path, "position"), " (m)");
   if (!(pursuit.start.position.z() > 0))
@@ -275,19 +293,38 @@ void read_uas(const Json& value, const std::string& path, Pursuit& pursuit) {
   if_given(value, path, "velocity", [&](const Json& v, const std::string& p) {
     pursuit.start.velocity = input::read_vector<3>(v, p, " (m/s)");
   });
+  if_given(value, path, "source_steps",
+           [&](const Json& v, const std::string& p) { pursuit.source_steps = read_flag(v, p); });
   if_given(value, path, "vehicle", [&](const Json& v, const std::string& p) {
-    pursuit.vehicle = scenario::read_vehicle(v, p, true).model;
+    if (v.value("kind", "") == "quadrotor")
+      pursuit.vehicle = vehicles::quadrotor({});
+    else
+      pursuit.vehicle = scenario::read_vehicle(v, p, true).model;
   });
 }
 
-void read_filter(const Json& value, const std::string& path, Pursuit& pursuit) {
-  Numbers(value, path)
-      .not_negative("alpha", pursuit.filter.alpha, " (1/s)")
-      .positive("noise", pursuit.noise, " (m^2)")
-      .positive("hidden_noise", pursuit.hidden_noise, " (m^2)")
-      .only({"variance"});
-  if_given(value, path, "variance", [&](const Json& v, const std::string& p) {
-    pursuit.filter.variance = positive_vector<2>(v, p, " (m^2/s^4)");
+void read_filters(const Json& value, const std::string& path, Pursuit& pursuit) {
+  require_object(value, path);
+  require_known(value, path, {"source", "ours"});
+  const auto variance = [](const Json& v, const std::string& p, guidance::SingerOptions& filter) {
+    if_given(v, p, "variance", [&](const Json& w, const std::string& q) {
+      filter.variance = positive_vector<2>(w, q, " (m^2/s^4)");
+    });
+  };
+  if_given(value, path, "source", [&](const Json& v, const std::string& p) {
+    Numbers(v, p)
+        .not_negative("alpha", pursuit.source_filter.alpha, " (1/s)")
+        .positive("noise", pursuit.noise, " (m^2)")
+        .positive("hidden_noise", pursuit.hidden_noise, " (m^2)")
+        .only({"variance"});
+    variance(v, p, pursuit.source_filter);
+  });
+  if_given(value, path, "ours", [&](const Json& v, const std::string& p) {
+    Numbers(v, p)
+        .not_negative("alpha", pursuit.our_filter.alpha, " (1/s)")
+        .positive("own_noise", pursuit.own_noise, " (m)")
+        .only({"variance"});
+    variance(v, p, pursuit.our_filter);
   });
 }
 
@@ -304,7 +341,7 @@ Pursuit read_pursuit(const Json& fields, const std::string& name, const std::fil
       .positive("picture_step", pursuit.picture_step, " (s)")
       .positive("side", pursuit.side, " (m)")
       .positive("give_up", pursuit.give_up, " (s)")
-      .only({"name", "uas", "cars", "decoys", "cameras", "laws", "filter", "seed"});
+      .only({"name", "uas", "cars", "decoys", "cameras", "laws", "filters", "seed"});
   if_given(fields, "", "name",
            [&](const Json& v, const std::string& p) { pursuit.name = read_text(v, p, "a name"); });
   if_given(fields, "", "seed", [&](const Json& v, const std::string& p) {
@@ -333,7 +370,7 @@ Pursuit read_pursuit(const Json& fields, const std::string& name, const std::fil
   pursuit.perspective_view = read_view(require_field(cameras, "cameras", "perspective", "a camera"),
                                        "cameras.perspective", folder, false);
   if_given(fields, "", "laws", [&](const Json& v, const std::string& p) { read_gains(v, p, pursuit); });
-  if_given(fields, "", "filter", [&](const Json& v, const std::string& p) { read_filter(v, p, pursuit); });
+  if_given(fields, "", "filters", [&](const Json& v, const std::string& p) { read_filters(v, p, pursuit); });
   std::size_t followed = 0;
   for (const Car& car : pursuit.cars) followed += car.followed;
   if (pursuit.source_law == SourceLaw::rendezvous && followed != 1)
@@ -354,6 +391,7 @@ PerceptionOptions read_perception(const Json& fields) {
       .not_negative("alpha", options.filter.alpha, " (1/s)")
       .positive("noise", options.noise, " (m^2)")
       .positive("hidden_noise", options.hidden_noise, " (m^2)")
+      .positive("own_noise", options.own_noise, " (m)")
       .only({"width", "height", "field_of_view_deg", "focal", "variance", "filters"});
   if_given(fields, "", "filters", [&](const Json& v, const std::string& p) {
     options.source = read_choice<bool>(v, p, {{"source", true}, {"ours", false}});
@@ -373,7 +411,8 @@ Json perception_json(const PerceptionOptions& options) {
           {"variance", {options.filter.variance.x(), options.filter.variance.y()}},
           {"noise", options.noise},
           {"hidden_noise", options.hidden_noise},
+          {"own_noise", options.own_noise},
           {"filters", options.source ? "source" : "ours"}};
 }
 
-}  // namespace vericone::pursue
+}  // namespace vericone::pursuit

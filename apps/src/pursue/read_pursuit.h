@@ -9,7 +9,7 @@
 
 #include "json/json_forward.h"
 
-namespace vericone::pursue {
+namespace vericone::pursuit {
 
 /// Throws InputError with the field's path: "cars[1].road.changes[0].at", "cameras.perspective.noise", ...
 /// Pictures of the ground are found relative to `folder`.
@@ -20,4 +20,4 @@ vision::Pursuit read_pursuit(const Json& fields, const std::string& name,
 vision::PerceptionOptions read_perception(const Json& fields);
 Json perception_json(const vision::PerceptionOptions& options);
 
-}  // namespace vericone::pursue
+}  // namespace vericone::pursuit

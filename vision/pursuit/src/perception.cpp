@@ -2,10 +2,11 @@
 #include <vericone/geometry/error.h>
 #include <vericone/vision/pursuit/perception.h>
 #include <Eigen/LU>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <string>
+
+#include "stopwatch.h"
 
 namespace vericone::vision {
 namespace {
@@ -13,10 +14,6 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// d(pixel) / d(x, y) of a point at `point`.
 Matrix2d ground_rates(const Camera& camera, const Pose& pose, const Vector3d& point) {
@@ -125,16 +122,16 @@ void Perception::take(std::size_t i, const Sighting& sighting, const Pose& camer
 }
 
 void Perception::step(const Image& image, const Pose& camera, double t) {
-  auto start = std::chrono::steady_clock::now();
+  auto start = Clock::now();
   const Eigen::Matrix3d ground = plane_homography(options_.camera, camera);
   const Eigen::Matrix3d moved = ground * ground_->inverse();
   ground_ = ground;
   for (std::size_t i = 0; i < vehicles_.size(); ++i) expectations_[i] = expected(i, camera, t);
   filter_seconds_ = seconds_since(start);
-  start = std::chrono::steady_clock::now();
+  start = Clock::now();
   const std::vector<Sighting>& sightings = tracker_->step(image, moved, expectations_);
   tracker_seconds_ = seconds_since(start);
-  start = std::chrono::steady_clock::now();
+  start = Clock::now();
   for (std::size_t i = 0; i < vehicles_.size(); ++i) take(i, sightings[i], camera, t);
   filter_seconds_ += seconds_since(start);
 }

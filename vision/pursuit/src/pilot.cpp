@@ -2,8 +2,9 @@
 #include "pilot.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+
+#include "stopwatch.h"
 
 namespace vericone::vision {
 namespace {
@@ -52,7 +53,7 @@ Pilot::Pilot(const Pursuit& pursuit)
     : pursuit_(pursuit),
       follower_(pursuit.side),
       law_(pursuit.focal, pursuit.form),
-      foci_{guidance::SingerFilter(pursuit.filter), guidance::SingerFilter(pursuit.filter)} {
+      foci_{guidance::SingerFilter(pursuit.source_filter), guidance::SingerFilter(pursuit.source_filter)} {
   if (pursuit.vertical) vertical_.emplace(*pursuit.vertical);
 }
 
@@ -164,9 +165,9 @@ simulation::VehicleCommand Pilot::step(const simulation::Motion& own, std::span<
     if (level > limit) command.acceleration.head<2>() *= limit / level;
     return command;
   }
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   sample.ellipse = follower_.step(centres_, velocities_);
-  sample.ellipse_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  sample.ellipse_seconds = seconds_since(start);
   if (pursuit_.law == Whose::ours)
     ours(own, known, sample);
   else if (pursuit_.source_law == SourceLaw::rendezvous)
@@ -190,11 +191,12 @@ void evaluate(const Pursuit& pursuit, const simulation::Motion& own,
   }
   sample.true_ellipse = follower.step(centres, velocities);
   if (pursuit.source_law == SourceLaw::rendezvous) {
-    const guidance::PlanarState state =
-        guidance::planar_state(engagement(own, truth[0].position, truth[0].velocity));
-    const double r2 = state.r * state.r, radius2 = std::pow(pursuit.rendezvous.radius, 2);
-    sample.true_y2 = state.v_r * state.v_r + state.v_theta * state.v_theta;
-    sample.true_y1 = r2 * state.v_theta * state.v_theta - radius2 * sample.true_y2;
+    // (3.1) without angles, so that it has a value where both are in one place: r V_theta is r x V.
+    const Vector2d r = truth[0].position - own.position.head<2>(),
+                   v = truth[0].velocity - own.velocity.head<2>();
+    sample.true_y2 = v.squaredNorm();
+    sample.true_y1 =
+        std::pow(r.x() * v.y() - r.y() * v.x(), 2) - std::pow(pursuit.rendezvous.radius, 2) * sample.true_y2;
     return;
   }
   const guidance::FocalRates rates =

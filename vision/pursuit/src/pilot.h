@@ -22,7 +22,7 @@ class Pilot {
   /// The command at a time that does not go back, and what was thought on the way, into `sample`; `focal`: of
   /// the camera, px.
   simulation::VehicleCommand step(const simulation::Motion& own, std::span<const Known> known, double focal,
-                                  double t, double most, PursuitSample& sample);
+                                  double t, PursuitSample& sample);
   [[nodiscard]] double layer_share() const { return steps_ ? double(in_layer_) / double(steps_) : 0; }
 
  private:

@@ -3,12 +3,12 @@
 #include <vericone/simulation/track.h>
 #include <vericone/vision/pursuit/pursuit.h>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <deque>
 
 #include "bars.h"
 #include "pilot.h"
+#include "stopwatch.h"
 
 namespace vericone::vision {
 namespace {
@@ -16,14 +16,10 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 /// What flies: a vehicle, or a point mass at a constant altitude.
 class Body {
  public:
-  explicit Body(const Pursuit& pursuit) : motion_(pursuit.start) {
+  explicit Body(const Pursuit& pursuit) : motion_(pursuit.start), source_(pursuit.source_steps) {
     if (pursuit.vehicle) vehicle_ = pursuit.vehicle->launch(pursuit.start, 0, {});
   }
   [[nodiscard]] simulation::Motion motion() const { return vehicle_ ? vehicle_->motion() : motion_; }
@@ -35,6 +31,11 @@ class Body {
     }
     Vector3d level = command.acceleration;
     level.z() = 0;
+    if (source_) {
+      motion_.velocity += (to - from) * level;
+      motion_.position += (to - from) * motion_.velocity;
+      return;
+    }
     const simulation::Motion end =
         simulation::Arc(motion_, level, simulation::Orientation::fixed, from, to).end();
     motion_.position = end.position;
@@ -47,8 +48,32 @@ class Body {
 
  private:
   simulation::Motion motion_;
+  bool source_;
   std::unique_ptr<simulation::Vehicle> vehicle_;
   std::vector<simulation::Curve> way_;
+};
+
+/// A road whose velocities add up step by step, as those of the source's simulator do.
+class SummedRoad : public simulation::Road {
+ public:
+  SummedRoad(std::shared_ptr<const simulation::Road> road, double step, double duration)
+      : road_(std::move(road)), step_(step), places_{road_->at(0).position} {
+    while (double(places_.size()) * step < duration + 2 * step)
+      places_.push_back(places_.back() + step * road_->at(double(places_.size()) * step).velocity);
+  }
+  [[nodiscard]] simulation::RoadPoint at(double t) const override {
+    simulation::RoadPoint point = road_->at(t);
+    const double steps = std::clamp(t / step_, 0.0, double(places_.size() - 2));
+    const auto k = std::size_t(steps + 1e-9);
+    const double rest = std::max(0.0, steps - double(k));
+    point.position = (1 - rest) * places_[k] + rest * places_[k + 1];
+    return point;
+  }
+
+ private:
+  std::shared_ptr<const simulation::Road> road_;
+  double step_;
+  std::vector<Vector2d> places_;
 };
 
 /// A picture on its way from the camera to the tracker.
@@ -80,14 +105,7 @@ class Flight {
     for (const Car& car : pursuit.cars) scene.vehicles.push_back(car.look);
     scene.seed = pursuit.seed;
     scene_.emplace(scene);
-    PerceptionOptions perceive;
-    perceive.camera = view_.camera;
-    perceive.height = view_.height;
-    perceive.filter = pursuit.filter;
-    perceive.source = pursuit.tracker == Whose::source;
-    perceive.noise = pursuit.noise;
-    perceive.hidden_noise = pursuit.hidden_noise;
-    perception_.emplace(perceive, tracker_of(pursuit));
+    perception_.emplace(perception_of(pursuit), tracker_of(pursuit));
   }
 
   PursuitRun fly() {
@@ -99,7 +117,7 @@ class Flight {
       sample_ = {};
       const bool due = k % every == 0;
       if (due) look(own, t, k / every);
-      const auto start = std::chrono::steady_clock::now();
+      const auto start = Clock::now();
       const bool told = tell(own, t);
       simulation::VehicleCommand command;
       if (told) command = pilot_.step(own, known_, view_.camera.focal, t, sample_);
@@ -128,14 +146,21 @@ class Flight {
     return list;
   }
 
+  [[nodiscard]] Vector2d middle_of(const std::vector<simulation::RoadPoint>& cars) const {
+    Vector2d sum = Vector2d::Zero();
+    for (const std::size_t i : followed_) sum += cars[i].position;
+    return sum / double(followed_.size());
+  }
+
   /// Takes a picture, and perceives those that have arrived.
   void look(const simulation::Motion& own, double t, std::uint64_t number) {
     if (!perception_) return;
     Picture picture;
     picture.t = t;
     picture.number = number;
-    std::optional<Vector3d> aim;
-    if (told_) aim = Vector3d(aim_.x(), aim_.y(), 0);
+    // Before anything is believed the camera looks where whoever detected the vehicles has turned it.
+    const Vector2d at = told_ ? aim_ : middle_of(cars_at(t));
+    const std::optional<Vector3d> aim = Vector3d(at.x(), at.y(), 0);
     picture.camera = mount_.at(t, {own.position, own.rotation}, aim);
     picture.truth = cars_at(t);
     std::vector<PlacedVehicle> placed;
@@ -333,6 +358,19 @@ const char* to_string(Eyes eyes) {
 }
 const char* to_string(Whose whose) { return whose == Whose::source ? "source" : "ours"; }
 
+PerceptionOptions perception_of(const Pursuit& pursuit) {
+  const View& view = pursuit.eyes == Eyes::source ? pursuit.source_view : pursuit.perspective_view;
+  PerceptionOptions options;
+  options.camera = view.camera;
+  options.height = view.height;
+  options.source = pursuit.tracker == Whose::source;
+  options.filter = options.source ? pursuit.source_filter : pursuit.our_filter;
+  options.noise = pursuit.noise;
+  options.hidden_noise = pursuit.hidden_noise;
+  options.own_noise = pursuit.own_noise;
+  return options;
+}
+
 PursuitRun pursue(const Pursuit& pursuit, const PursuitOptions& options) {
   const double ratio = pursuit.picture_step / pursuit.step;
   if (!(pursuit.step > 0)) throw InputError("step", std::to_string(pursuit.step), "a positive number (s)");
@@ -340,7 +378,11 @@ PursuitRun pursue(const Pursuit& pursuit, const PursuitOptions& options) {
     throw InputError("picture_step", std::to_string(pursuit.picture_step), "a whole number of steps (s)");
   if (std::none_of(pursuit.cars.begin(), pursuit.cars.end(), [](const Car& car) { return car.followed; }))
     throw InputError("cars", "none that is followed", "at least one");
-  return Flight(pursuit, options).fly();
+  if (!pursuit.source_steps) return Flight(pursuit, options).fly();
+  Pursuit stepped = pursuit;
+  for (Car& car : stepped.cars)
+    car.road = std::make_shared<SummedRoad>(car.road, pursuit.step, pursuit.duration);
+  return Flight(stepped, options).fly();
 }
 
 }  // namespace vericone::vision

@@ -69,6 +69,8 @@ struct Pursuit {
   simulation::Motion start;    // of the UAS
   /// A point mass that turns with its heading, at a constant altitude, where there is none.
   std::shared_ptr<const simulation::VehicleModel> vehicle;
+  /// A point mass steps as the source's simulator does: the new velocity moves it for the whole step.
+  bool source_steps = false;
   std::vector<Car> cars;
   View source_view, perspective_view;
   Eyes eyes = Eyes::perspective;
@@ -79,10 +81,12 @@ struct Pursuit {
   guidance::FocalGains focal;
   guidance::PursuitGains ours;
   std::optional<guidance::VerticalGains> vertical;  // none: the altitude is kept
-  guidance::SingerOptions filter;
+  guidance::SingerOptions source_filter;
   double noise = 1, hidden_noise = 10;  // m^2, of the source's filters
-  double side = 8;                      // m, of the square around every vehicle
-  double give_up = 10;                  // s that a vehicle is hidden, until it is left out of the ellipse
+  guidance::SingerOptions our_filter{.alpha = 0.2, .variance = {0.5, 0.5}};
+  double own_noise = 0.03;  // m, of ours: PerceptionOptions::own_noise
+  double side = 8;          // m, of the square around every vehicle
+  double give_up = 10;      // s that a vehicle is hidden, until it is left out of the ellipse
   std::uint64_t seed = 1;
 };
 
@@ -139,6 +143,9 @@ struct PursuitOptions {
   /// false ends the run there, `interrupted`.
   std::function<bool(double t)> progress;
 };
+
+/// The perception of the pursuit's eyes and tracker.
+[[nodiscard]] PerceptionOptions perception_of(const Pursuit& pursuit);
 
 /// Deterministic. Throws InputError naming "picture_step", "cars", "cars[1]" (not in the first picture), ...
 [[nodiscard]] PursuitRun pursue(const Pursuit& pursuit, const PursuitOptions& options = {});
