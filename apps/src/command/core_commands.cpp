@@ -6,6 +6,8 @@
 
 #include "accuracy/accuracy.h"
 #include "accuracy/combined_accuracy.h"
+#include "chase/estimate_command.h"
+#include "chase/law_command.h"
 #include "cone/cone.h"
 #include "cone/query.h"
 #include "cone/shapes.h"
@@ -80,6 +82,46 @@ int robust_law_command(CommandLine& line) {
   line.quiet();
   line.read();
   return run_robust_law(cases, std::cout);
+}
+
+int law_command(CommandLine& line) {
+  std::string cases;
+  line.option("states", cases, "File of states (docs/explanation/pursuit.md), or - for standard input")
+      .required();
+  bool json = true;
+  line.flag("--json", json, "Print JSON; this command prints nothing else");
+  line.quiet();
+  line.read();
+  return run_law(cases, std::cout);
+}
+
+int estimate_command(CommandLine& line) {
+  EstimateOptions estimate;
+  std::string out;
+  line.option("track", estimate.track,
+              "CSV with the columns t, x, y (s, m; x and y empty where hidden) and, where it has one, r (m); "
+              "- for "
+              "standard input")
+      .required();
+  line.option("--alpha", estimate.alpha, "Of Singer's model, 1/s");
+  line.option("--variance", estimate.variance, "Of the acceleration along x and y, m^2/s^4")
+      .words(2, 2)
+      .shown_type("X Y")
+      .shown_default("0.1 0.05");
+  line.option("--noise", estimate.noise,
+              "Standard deviation of a measured coordinate, m, where r does not say");
+  line.option(
+      "--hidden", estimate.hidden,
+      "skip: a hidden target gives no measurement; source: its last estimate, with 10 times the variance");
+  const auto folder =
+      line.option("--out", out, "Folder for the table of estimates; if not given, it is printed");
+  line.flag("--json", estimate.json, "Print JSON");
+  line.quiet();
+  line.read();
+  if (folder.given()) estimate.out = out;
+  estimate.command_line = line.text();
+  run_estimate(estimate, std::cout);
+  return 0;
 }
 
 int accuracy_command(CommandLine& line) {
@@ -175,7 +217,9 @@ std::map<std::string, Command> core_commands() {
           {"signmap", signmap_command},
           {"gallery", gallery_command},
           {"shapes", shapes_command},
-          {"robust-law", robust_law_command}};
+          {"robust-law", robust_law_command},
+          {"law", law_command},
+          {"estimate", estimate_command}};
 }
 
 }  // namespace vericone

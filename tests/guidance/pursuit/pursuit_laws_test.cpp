@@ -4,11 +4,13 @@
 // commands are flown on Cartesian paths, y is computed from those alone. What the source prints wrongly is
 // flown on the same states.
 #include <gtest/gtest.h>
+#include <vericone/guidance/pursuit/focal_law.h>
 #include <vericone/guidance/pursuit/rendezvous_law.h>
 #include <vericone/guidance/pursuit/vertical_law.h>
 
 #include "guidance/law_promises.h"
 #include "guidance/pursuit/printed_pursuit.h"
+#include "support/allocations.h"
 
 namespace vericone::guidance::pursuit_laws_test {
 namespace {
@@ -400,6 +402,20 @@ TEST(VerticalLaw, DrivesLocksAndDrivesAgain) {
   for (int i = 0; i < 100; ++i) z += 0.01 * (climb += 0.01 * law.step(0, 0, z, climb));
   EXPECT_EQ(law.mode(), VerticalMode::lock);
   EXPECT_NEAR(z, before, 0.01);
+}
+
+TEST(PursuitLaws, AllocateNothing) {
+  RandomBodies random(3999);
+  const FocalState focal = random_focal_chase(random, 2).at(0);
+  const PlanarState chase = random_chase(random).state();
+  FocalLaw law({}, FocalForm::source);
+  VerticalLaw vertical({});
+  const std::size_t before = testing::allocations();
+  double sum = rendezvous_law(chase, Vector2d::Zero(), {}).lateral + rendezvous_cone(chase, 1).y1;
+  for (const FocalForm form : {FocalForm::source, FocalForm::polynomial}) sum += focal_cone(focal, form).y1;
+  sum += law.step(focal, 0).lateral + vertical.step(100, 1, 300, 0) + least_focal_sum(focal);
+  EXPECT_EQ(testing::allocations(), before);
+  EXPECT_TRUE(std::isfinite(sum));
 }
 
 TEST(PursuitNames, OfEveryStatus) {
