@@ -29,8 +29,10 @@ PursuitSummary summarise(const Pursuit& pursuit, const PursuitRun& run) {
     for (const PursuitSample& sample : run.samples) {
       const CarSample& c = sample.cars[k];
       const Eigen::Vector2d believed(c.belief.mean[0], c.belief.mean[3]);
-      one.followed = overlap(c.sighting.box, c.seen.box) > 0;
       one.in_view = c.seen.visible > 0;
+      constexpr double kEnough = 0.5;  // visible part: a vehicle that is hidden is not lost yet
+      if (c.seen.visible >= kEnough)
+        one.followed = c.sighting.measured && overlap(c.sighting.box, c.seen.box) > 0;
       if (!c.sighting.measured) continue;
       ++measured;
       pixels += (c.sighting.box.centre() - c.seen.box.centre()).squaredNorm();

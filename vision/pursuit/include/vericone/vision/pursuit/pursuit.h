@@ -158,7 +158,7 @@ struct CarSummary {
   std::size_t swaps = 0;         // pictures in which its box met another car and not its own
   std::size_t false_claims = 0;  // pictures in which a measured box met nothing of its car
   bool in_view = false;          // at the end, by the truth
-  bool followed = false;         // at the end: its box meets it
+  bool followed = false;         // when it was seen last: measured, and its box meets it
 };
 struct PursuitSummary {
   double mean_distance = 0, most_distance = 0;  // m, to the centre of the true ellipse, last two thirds
