@@ -15,7 +15,8 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from command import VERICONE, run  # noqa: E402
 
 PROGRAMS = os.environ["VERICONE_PROGRAMS"].split()
-NEEDS = {"fit": "VERICONE_FITTING", "scan": "VERICONE_LIDAR", "verify": "VERICONE_VERIFY"}
+NEEDS = {"fit": "VERICONE_FITTING", "pursue": "VERICONE_VISION", "scan": "VERICONE_LIDAR", "track": "VERICONE_VISION",
+         "verify": "VERICONE_VERIFY"}
 HEAVY = ("CGAL", "gmp", "mpfr", "ceres", "embree", "Open3D", "opencv", "qhull")
 
 

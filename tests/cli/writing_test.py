@@ -29,6 +29,11 @@ PLANAR = json.dumps({"agent": {"center": [0, 0], "semi_axes": [1, 2]}, "agent_ve
                      "obstacle": {"center": [9, 1], "semi_axes": [3, 2], "hyperbolas": [{"semi_axes": [1, 1]}]}})
 PIECES = json.dumps({"agent": BALL, "obstacle": {"mesh": "t.off"}, "agent_velocity": [1, 0, 0]})
 
+PURSUIT = json.dumps({
+    "duration": 20, "step": 0.02, "picture_step": 0.04, "uas": {"position": [0, 0, 120], "velocity": [20, 0, 0]},
+    "cars": [{"name": "B", "position": [5, 5], "road": {"kind": "lanes", "velocity": [20, 0]}}],
+    "cameras": {"source": {"width": 320, "height": 240, "field_of_view_deg": 50, "ground": {"plain": True}},
+                "perspective": {"width": 320, "height": 240, "field_of_view_deg": 50, "mount": {"kind": "gimbal"}}}})
 NOISE = SCENARIO.replace("law: clearance, clearance: {required: 1}", "law: avoidance, manner: source")
 
 # Words of each command that writes.
@@ -49,11 +54,14 @@ WRITERS = {
     "claims": ["claims", "--quiet"],
     "figures": ["figures", "5.6", "--quiet"],
     "fit": ["fit", "ball.xyz", "--shape", "ellipsoid", "--no-figures", "--quiet"],
+    "pursue": ["pursue", "pursuit.yaml", "--camera", "exact", "--duration", "400", "--no-figures", "--quiet"],
+    "pursue from starts": ["pursue", "pursuit.yaml", "--camera", "exact", "--duration", "200", "--starts", "8", "--threads", "1",
+                           "--no-figures", "--quiet"],
     "scan": ["scan", "scan.yaml", "--levels", "2", "--no-figures", "--quiet"],
 }
 # Of these an interruption leaves what was done by then; of the others nothing but a table to go on with.
 BY_PARTS = ("gallery", "figures")
-RESUMED = ("accuracy", "accuracy of dents", "campaign", "trials")
+RESUMED = ("accuracy", "accuracy of dents", "campaign", "pursue from starts", "trials")
 
 # Long work, and what it says on standard error once it is at work; None: it is given half a second.
 LONG = {
@@ -74,6 +82,8 @@ LONG = {
     "figures": (["figures"], "running"),
     "fit": (["fit", "ball.xyz", "--shape", "star", "--pieces", "4", "--no-figures"], "reading"),
     "fit with cones": (["fit", "ball.xyz", "--shape", "ellipsoid", "--cone", "around:100", "--no-figures"], "reading"),
+    "pursue": (["pursue", "pursuit.yaml", "--duration", "9000", "--no-figures"], "pursuing"),
+    "pursue from starts": (["pursue", "pursuit.yaml", "--camera", "exact", "--starts", "100000", "--no-figures"], None),
     "scan": (["scan", "scan.yaml", "--levels", "8", "--planes", "8000", "--no-figures"], None),
     "verify of predicates": (["verify", "--cases", "10000000000", "--pairs", "0"], None),
     "verify of pairs": (["verify", "--cases", "0", "--pairs", "1000000"], None),
@@ -81,7 +91,7 @@ LONG = {
 
 
 def there(words):
-    return words[0] in PROGRAMS or words[0] not in ("fit", "scan", "verify")
+    return words[0] in PROGRAMS or words[0] not in ("fit", "pursue", "scan", "track", "verify")
 
 
 class InPreparedFolder(InFolder):
@@ -94,7 +104,7 @@ class InPreparedFolder(InFolder):
             n = math.hypot(*x)
             points += "%f %f %f\n" % (3 * x[0] / n, 2 * x[1] / n, x[2] / n)
         for name, content in {"scene.yaml": SCENE, "scenario.yaml": SCENARIO, "noise.yaml": NOISE, "t.off": MESH, "u.off": MESH,
-                              "mesh.yaml": PIECES, "scan.yaml": LIDARS, "ball.xyz": points, "planar.yaml": PLANAR,
+                              "mesh.yaml": PIECES, "scan.yaml": LIDARS, "pursuit.yaml": PURSUIT, "ball.xyz": points, "planar.yaml": PLANAR,
                               "near.yaml": SCENE.replace("[5, 0", "[3.05, 0"),
                               "dents.yaml": SCENE.replace("[5, 0", "[3.05, 0").replace("[2, 2, 2]}", "[2, 2, 2], hyperboloids: [{sheets: 2, "
                                                           "semi_axes: [1, 1, 1]}]}")}.items():

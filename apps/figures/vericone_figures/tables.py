@@ -21,7 +21,7 @@ def rows(folder, name):
     if not os.path.exists(path):
         return []
     with open(path, newline="", encoding="utf-8") as f:
-        table = csv.reader(f)
+        table = csv.reader(line for line in f if not line.startswith("#"))  # a line of settings
         names = [n.split(" [")[0] for n in next(table)]
         return [{n: v if n in WORDS else number(v) for n, v in zip(names, row)} for row in table]
 

@@ -113,6 +113,20 @@ std::vector<double> Measures::column(const Expression& formula, Rows& rows, Scop
   return result;
 }
 
+namespace {
+
+/// The rows with the words of a series.
+Table with_words(Table table, const Series& series) {
+  for (const auto& [column, word] : series.words) {
+    if (!table.words.contains(column) && table.rows > 0)
+      throw InputError(series.path + "." + column, word, "left out: " + series.table + " has no such column");
+    if (table.rows > 0) table = table.with(column, word);
+  }
+  return table;
+}
+
+}  // namespace
+
 Table Measures::table_of(const Series& series, Scope& scope) {
   if (series.range) {
     const double from = value(series.range->first, scope), to = value(series.range->second, scope);
@@ -122,7 +136,8 @@ Table Measures::table_of(const Series& series, Scope& scope) {
       table.numbers["s"].push_back(from + i * (to - from) / (series.count - 1));
     return table;
   }
-  if (!series.command.empty()) return sources_.table(series.command, series.table, series.path + ".table");
+  if (!series.command.empty())
+    return with_words(sources_.table(series.command, series.table, series.path + ".table"), series);
   const PaperRun& run = sources_.run(series.run, series.path + ".run");
   for (const auto& [column, word] : series.words)
     if (column == "body" || column == "agent" || (column == "obstacle" && series.table != "events"))
@@ -136,13 +151,7 @@ Table Measures::table_of(const Series& series, Scope& scope) {
         run, agent, obstacle, *series.trial, series.path,
         [&](const std::string& name, const Expression& formula) { return named(name, &scope, formula); });
   }
-  Table table = run.table(series.table, series.path + ".table");
-  for (const auto& [column, word] : series.words) {
-    if (!table.words.contains(column) && table.rows > 0)
-      throw InputError(series.path + "." + column, word, "left out: " + series.table + " has no such column");
-    if (table.rows > 0) table = table.with(column, word);
-  }
-  return table;
+  return with_words(run.table(series.table, series.path + ".table"), series);
 }
 
 std::vector<std::string> Measures::words(const Series& series, const std::string& column, Scope& scope) {

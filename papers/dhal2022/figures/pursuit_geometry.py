@@ -16,10 +16,11 @@ A = np.array([uas["x"], uas["y"]])
 several = len(cars) > 1
 
 
-def arrow(start, along, color, name, scale=1.5):
+def arrow(start, along, color, name, scale=1.0):
     end = start + scale * along
     axes.annotate("", end, start, arrowprops={"arrowstyle": "->", "color": color, "linewidth": 1.3})
     axes.annotate(name, end, xytext=(3, 3), textcoords="offset points", color=color, fontsize=7)
+    axes.plot(*end, alpha=0)  # the axes are as wide as the arrows
     sheet.add("arrow", name, [start[0], end[0]], [start[1], end[1]])
 
 
@@ -37,7 +38,7 @@ outline = centre + np.outer(a * np.cos(turn), axis) + np.outer(b * np.sin(turn),
 axes.fill(*outline.T, facecolor=EXACT, alpha=0.2, edgecolor=EXACT)
 sheet.add("outline", "E" if several else "R", *outline.T)
 directions = np.unwrap(np.arctan2(outline[:, 1] - A[1], outline[:, 0] - A[0]))
-far = 1.15 * np.linalg.norm(centre - A)
+far = 1.2 * np.linalg.norm(centre - A)
 low, high = directions.min(), directions.max()
 wedge = np.array([A, *(A + far * np.array([np.cos(t), np.sin(t)]) for t in np.linspace(low, high, 30))])
 axes.fill(*wedge.T, facecolor=SLICE, alpha=0.15, label="rendezvous cone X, of relative velocities")
@@ -62,6 +63,6 @@ axes.annotate("A", A, xytext=(-9, 4), textcoords="offset points", color=AGENT, f
 axes.set_aspect("equal", adjustable="datalim")
 axes.set_xlabel("x, east [m]")
 axes.set_ylabel("y, north [m]")
-axes.legend(loc="upper right")
+axes.legend(loc="lower left")
 sheet.write(data["name"])
 save(fig, data["name"])
