@@ -10,7 +10,7 @@
 namespace vericone::vision {
 namespace {
 
-constexpr double kLeastSide = 4;  // px: a window of Lucas-Kanade has no fewer
+constexpr double kLeastSide = 2, kLeastLength = 5;  // px: less has no form that could be told from others'
 // Of the slope across and along a corner, grey levels a pixel: sensor noise of one grey level stays below it.
 constexpr double kLeastSlope = 1.5;
 
@@ -37,8 +37,10 @@ void check_first_box(const cv::Mat& grey, const Box& box, const std::string& fie
       to_text(box.x) + "," + to_text(box.y) + "," + to_text(box.w) + "," + to_text(box.h);
   if (!std::isfinite(box.x + box.y + box.w + box.h) || !(box.w > 0) || !(box.h > 0))
     throw InputError(field, text, "X,Y,W,H of a box in pixels, with W and H above 0");
-  if (box.w < kLeastSide || box.h < kLeastSide)
-    throw InputError(field, text, "at least " + to_text(kLeastSide) + " px wide and high");
+  if (std::min(box.w, box.h) < kLeastSide || std::max(box.w, box.h) < kLeastLength)
+    throw InputError(
+        field, text,
+        "at least " + to_text(kLeastLength) + " px long and " + to_text(kLeastSide) + " px wide");
   if (box.x < -0.5 || box.y < -0.5 || box.x + box.w > grey.cols + 0.5 || box.y + box.h > grey.rows + 0.5)
     throw InputError(field, text, "within the picture of " + size_text(grey.cols, grey.rows));
   const cv::Rect inside = cv::Rect(cv::Point(int(std::floor(box.x)), int(std::floor(box.y))),

@@ -15,15 +15,19 @@ constexpr int kMostPoints = 14;
 constexpr double kReturn = 0.7;  // px, there and back
 constexpr double kSpeed = 1.5,
                  kChange = 1;      // own sizes a second: of the first velocity, and its change in a second
-constexpr double kMeasured = 0.5;  // px, standard deviation of a measured centre,
-constexpr double kMeasuredOfSize = 0.02;                 // and of its own size: a walker's swings
-constexpr double kTurnRate = 0.5, kScaleRate = 0.6;      // rad/s and 1/s over the ground
+constexpr double kMeasured = 0.3;  // px, standard deviation of a measured centre,
+constexpr double kMeasuredOfSize = 0.01;             // and of its own size: a walker's swings
+constexpr double kTurnRate = 0.5, kScaleRate = 0.6;  // rad/s and 1/s over the ground
+constexpr double kTurnMemory = 0.5;                  // s, over which a target's turning is told from a wobble
 constexpr double kTurnStep = 0.003, kScaleStep = 0.002;  // from picture to picture besides
 constexpr double kGate = 13.8;  // squared standard deviations: 1 in 1000 is beyond, of two dimensions
 constexpr double kKeep = 0.55, kRegain = 0.7;  // correlations
 constexpr double kVisible = 0.45, kWhole = 0.8;
-constexpr double kShared = 0.3;  // overlap with another target that is seen
-constexpr int kConfirm = 3;      // pictures that a regained target must go on as expected
+constexpr double kShared = 0.3;    // overlap with another target that is seen
+constexpr double kFarWait = 0.5;   // s, of one at the edge of the gate
+constexpr double kNear = 2;        // squared standard deviations
+constexpr double kMostReach = 40;  // samples to each side that one picture's search goes
+constexpr int kConfirm = 3;        // pictures that a regained target must go on as expected
 
 double size_of(const Box& box) { return std::sqrt(box.w * box.h); }
 
@@ -187,27 +191,42 @@ bool Target::was_there_before(const cv::Mat& now, const View& view) const {
   return shown.align(last_seen_.picture, then, nullptr).correlation > 0.6;
 }
 
-std::optional<View> Target::search(const cv::Mat& now, const Eigen::Matrix2d& gate,
-                                   std::span<const Box> others) const {
+std::optional<Target::Candidate> Target::search(const cv::Mat& now, const Eigen::Matrix2d& gate,
+                                                std::span<const Box> others) const {
   const cv::Mat pattern = recent_.picture();
   const double step = recent_.step() * view_.scale;  // picture px a sample
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(gate);
   const double reach = std::sqrt(kGate * eigen.eigenvalues()(1));
   double coarse = 1;
-  while (reach / (step * coarse) > 60 && coarse * 4 <= std::min(pattern.cols, pattern.rows)) coarse *= 2;
-  const int radius = std::min(120, int(std::ceil(reach / (step * coarse)))) + 1;
+  while (reach / (step * coarse) > kMostReach && coarse * 8 <= std::min(pattern.cols, pattern.rows))
+    coarse *= 2;
   cv::Mat small = pattern;
   if (coarse > 1) cv::resize(pattern, small, {}, 1 / coarse, 1 / coarse, cv::INTER_AREA);
+  // A large gate is searched in parts, one a picture; so are turns besides the expected one.
+  const double sample = step * coarse;
+  const int parts = std::max(1, int(std::ceil(reach / (sample * kMostReach))));
+  const int radius = int(std::ceil(reach / (sample * parts))) + 1, part = hidden_ % (parts * parts);
+  const double cell = 2 * reach / parts;
+  View about = view_;
+  about.centre += Eigen::Vector2d((part % parts + 0.5) * cell - reach, (part / parts + 0.5) * cell - reach);
+  const double turns[] = {0, 0.25, -0.25};
+  if (hidden_ * options_.frame_seconds > 0.5) about.turn += turns[hidden_ / (parts * parts) % 3];
   const int w = small.cols + 2 * radius, h = small.rows + 2 * radius;
-  const double c = std::cos(view_.turn) * step * coarse, s = std::sin(view_.turn) * step * coarse;
-  // From a pixel of the search picture to the picture.
-  const double ox = 0.5 * (w - 1), oy = 0.5 * (h - 1);
-  const cv::Matx23d map(c, -s, view_.centre.x() - c * ox + s * oy, s, c, view_.centre.y() - s * ox - c * oy);
-  cv::Mat area, score;
-  cv::Mat source = now;
-  if (step * coarse > 1.5) {  // no finer than what is sampled
-    // Only near the target, to spare time.
-    cv::GaussianBlur(now, source, {}, 0.4 * step * coarse);
+  const double c = std::cos(about.turn) * sample, s = std::sin(about.turn) * sample;
+  // From a pixel of the search picture to the picture, of which only what is needed is smoothed.
+  const double ox = 0.5 * (w - 1), oy = 0.5 * (h - 1), half = std::hypot(ox, oy) * sample + 2;
+  const cv::Rect needed =
+      cv::Rect(int(std::floor(about.centre.x() - half)), int(std::floor(about.centre.y() - half)),
+               int(2 * half) + 2, int(2 * half) + 2) &
+      cv::Rect(0, 0, now.cols, now.rows);
+  if (needed.width < small.cols || needed.height < small.rows) return std::nullopt;
+  const cv::Matx23d map(c, -s, about.centre.x() - c * ox + s * oy - needed.x, s, c,
+                        about.centre.y() - s * ox - c * oy - needed.y);
+  cv::Mat area, score, source = now(needed);
+  if (sample > 1.5) {
+    cv::Mat smooth;
+    cv::GaussianBlur(source, smooth, {}, 0.4 * sample);
+    source = smooth;
   }
   cv::warpAffine(source, area, map, {w, h}, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_CONSTANT, 0);
   cv::matchTemplate(area, small, score, cv::TM_CCOEFF_NORMED);
@@ -217,13 +236,13 @@ std::optional<View> Target::search(const cv::Mat& now, const Eigen::Matrix2d& ga
     double cost, correlation;
   };
   std::vector<Found> founds;
-  for (int k = 0; k < 5; ++k) {
+  for (int k = 0; k < 4; ++k) {
     double most = 0;
     cv::Point at;
     cv::minMaxLoc(score, nullptr, &most, nullptr, &at);
     if (most < kRegain - 0.25) break;
     Found f;
-    f.view = view_;
+    f.view = about;
     f.view.centre +=
         Eigen::Vector2d(c * (at.x - radius) - s * (at.y - radius), s * (at.x - radius) + c * (at.y - radius));
     const int nx = std::max(1, small.cols / 2), ny = std::max(1, small.rows / 2);
@@ -235,7 +254,7 @@ std::optional<View> Target::search(const cv::Mat& now, const Eigen::Matrix2d& ga
     const Eigen::Vector2d d = f.view.centre - view_.centre;
     const double far = d.dot(inverse * d);
     if (!like_itself(agreement) || far > kGate || std::abs(f.view.scale / view_.scale - 1) > 0.2 ||
-        std::abs(f.view.turn - view_.turn) > 0.35)
+        std::abs(f.view.turn - view_.turn) > 0.6)
       continue;
     const Box there = box_at(f.view);
     if (std::any_of(others.begin(), others.end(), [&](const Box& o) { return overlap(o, there) > kShared; }))
@@ -250,7 +269,7 @@ std::optional<View> Target::search(const cv::Mat& now, const Eigen::Matrix2d& ga
     if ((founds[i].view.centre - founds[0].view.centre).norm() > 0.3 * size_of(box()) &&
         founds[i].cost < founds[0].cost + 4)
       return std::nullopt;  // two alike: the next pictures tell
-  return founds[0].view;
+  return Candidate{founds[0].view, founds[0].cost, 1};
 }
 
 Form Target::form_about(const View& view, double times) const {
@@ -325,10 +344,10 @@ Sighting Target::step(const cv::Mat& before, const cv::Mat& now, const Eigen::Ma
   const double dt = options_.frame_seconds;
   const View was = view_;
   filter_.set_acceleration(kChange * size_of(first_) * view_.scale * dt * dt);
-  filter_.predict(ground);
+  filter_.predict(ground, turning_);
   const PlaneStep step = plane_step(ground, was.centre);
   View guess = was;
-  guess.turn += step.turn();
+  guess.turn += step.turn() + turning_;
   guess.scale *= step.scale();
   guess.centre = filter_.centre();
   Eigen::Matrix2d gate = filter_.covariance();
@@ -372,6 +391,8 @@ Sighting Target::step(const cv::Mat& before, const cv::Mat& now, const Eigen::Ma
         d.dot(gate.inverse() * d) < kGate || (d.norm() < 0.3 * size && agreement.correlation > 0.8);
     if (good && gated && std::abs(view.scale / guess.scale - 1) < 0.15 &&
         std::abs(view.turn - guess.turn) < 0.3) {
+      const double rate = std::min(0.5, dt / kTurnMemory);
+      turning_ += rate * (view.turn - guess.turn);
       accept(now, view, agreement);
       return sighting(agreement);
     }
@@ -385,24 +406,28 @@ Sighting Target::step(const cv::Mat& before, const cv::Mat& now, const Eigen::Ma
   last_seen_.ground = ground * last_seen_.ground;
   if (candidate_) {
     View view = candidate_->view;
-    const PlaneStep along = plane_step(ground, view.centre + filter_.velocity());
-    view.centre = along.to;
-    view.turn += along.turn();
+    const PlaneStep along = plane_step(ground, view.centre);
+    view.centre = along.to + guess.centre - step.to;  // as it was expected to move itself
+    view.turn += along.turn() + turning_;
     view.scale *= along.scale();
     const View expected_view = view;
     Agreement agreement;
     const bool good = settle(now, expected_view, view, agreement, 0);
     if (good && like_itself(agreement) && (view.centre - expected_view.centre).norm() < 1.5 + 0.08 * size) {
       candidate_->view = view;
-      if (++candidate_->seen >= kConfirm) {
+      // One that is far from where it is expected waits for longer: the right one may come out yet.
+      if (++candidate_->seen >= kConfirm + kFarWait * candidate_->cost / kGate / dt) {
         accept(now, view, agreement);
         return sighting(agreement);
       }
-      return hidden(gate);
+    } else {
+      candidate_.reset();
     }
-    candidate_.reset();
   }
-  if (const std::optional<View> found = search(now, gate, others)) candidate_ = Candidate{*found, 1};
+  if (!candidate_ || candidate_->cost > kNear) {
+    const std::optional<Candidate> found = search(now, gate, others);
+    if (found && (!candidate_ || found->cost < candidate_->cost - kNear)) candidate_ = found;
+  }
   return hidden(gate);
 }
 

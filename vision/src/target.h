@@ -31,14 +31,19 @@ class Target {
     View view;
     int points = 0;  // that agree with it
   };
+  struct Candidate {
+    View view;
+    double cost = 0;  // squared standard deviations from what is expected
+    int seen = 0;
+  };
   /// Points of the target followed from picture to picture, there and back, and the similarity of most of
   /// them.
   std::optional<Flow> flow(const cv::Mat& before, const cv::Mat& now, const Eigen::Matrix3d& ground,
                            const View& was, const View& guess);
   void seed(const cv::Mat& grey);
   bool was_there_before(const cv::Mat& now, const View& view) const;
-  std::optional<View> search(const cv::Mat& now, const Eigen::Matrix2d& gate,
-                             std::span<const Box> others) const;
+  std::optional<Candidate> search(const cv::Mat& now, const Eigen::Matrix2d& gate,
+                                  std::span<const Box> others) const;
   Form form_about(const View& view, double times) const;
   [[nodiscard]] bool like_itself(const Agreement& agreement) const;
   [[nodiscard]] double deviation() const;  // px, of a measured centre
@@ -53,10 +58,6 @@ class Target {
   Appearance anchor_, recent_;
   TargetFilter filter_;
   std::vector<cv::Point2f> points_;  // in the newest picture
-  struct Candidate {
-    View view;
-    int seen = 0;
-  };
   std::optional<Candidate> candidate_;
   struct LastSeen {
     cv::Mat picture;
@@ -64,6 +65,7 @@ class Target {
     Eigen::Matrix3d ground = Eigen::Matrix3d::Identity();  // from there to the newest picture
   };
   LastSeen last_seen_;
+  double turning_ = 0;                        // rad a picture over the ground
   int hidden_ = 0;                            // pictures since the last measurement
   int followed_ = 0;                          // pictures in a row with one
   double usual_ = 0.9, usual_visible_ = 0.9;  // of late

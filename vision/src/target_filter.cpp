@@ -24,12 +24,13 @@ TargetFilter::TargetFilter(const Eigen::Vector2d& centre, double position, doubl
   p_ = Eigen::Vector4d(p, p, v, v).asDiagonal();
 }
 
-void TargetFilter::predict(const Eigen::Matrix3d& ground) {
+void TargetFilter::predict(const Eigen::Matrix3d& ground, double turn) {
   const PlaneStep step = plane_step(ground, x_.head<2>() + x_.tail<2>());
   Eigen::Matrix4d f = Eigen::Matrix4d::Zero();
-  f.topLeftCorner<2, 2>() = f.topRightCorner<2, 2>() = f.bottomRightCorner<2, 2>() = step.slope;
+  f.topLeftCorner<2, 2>() = f.topRightCorner<2, 2>() = step.slope;
+  f.bottomRightCorner<2, 2>() = step.slope * Eigen::Rotation2Dd(turn).toRotationMatrix();
   x_.head<2>() = step.to;
-  x_.tail<2>() = step.slope * x_.tail<2>();
+  x_.tail<2>() = f.bottomRightCorner<2, 2>() * x_.tail<2>();
   p_ = f * p_ * f.transpose();
   const double a = acceleration_ * acceleration_;
   for (int i = 0; i < 2; ++i) {

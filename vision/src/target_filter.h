@@ -23,7 +23,8 @@ class TargetFilter {
   /// picture to picture.
   TargetFilter(const Eigen::Vector2d& centre, double position, double speed, double acceleration);
 
-  void predict(const Eigen::Matrix3d& ground);
+  /// `turn`: of the velocity over the ground, rad a picture.
+  void predict(const Eigen::Matrix3d& ground, double turn = 0);
   void update(const Eigen::Vector2d& centre, const Eigen::Matrix2d& covariance);
 
   [[nodiscard]] Eigen::Vector2d centre() const { return x_.head<2>(); }

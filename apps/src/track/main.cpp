@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The program `vericone-track`, which links OpenCV with its codecs (Apache-2.0; FFmpeg's are LGPL and GPL).
+#include <iostream>
+
+#include "command/program.h"
+#include "track/track_command.h"
+
+namespace {
+
+int track_command(vericone::CommandLine& line) {
+  vericone::TrackOptions track;
+  line.option("video", track.video, "A video, or a folder of pictures in the order of their names")
+      .required();
+  line.option("--box", track.boxes,
+              "Targets: X,Y,W,H in pixels, from the left and top edge; or X,Y,W,H,FRAME, from 1")
+      .words(1, -1)
+      .shown_type("X,Y,W,H[,FRAME] ...")
+      .shown_default("");
+  line.option(
+      "--truth", track.truth,
+      "File of the true boxes: x,y,w,h a frame, or frame,id,x,y,w,h; without --box it gives the first ones");
+  line.option("--tracker", track.tracker, "source: as chapters 3 and 4 have it; or ours");
+  line.option("--frames", track.frames, "Pictures to look at, at most");
+  line.option("--rate", track.rate, "Pictures a second, where the video does not say it; 30 if nobody does");
+  line.option("--out", track.out, "Folder for tables, video and picture");
+  line.negative_flag("--no-video", track.video_out, "No video with the boxes");
+  line.negative_flag("--no-figures", track.figures, "No video and no picture of the tracks");
+  line.flag("--quiet", track.quiet, "No progress");
+  line.flag("--json", track.json, "Print JSON: metrics.json");
+  line.read();
+  track.command_line = line.text();
+  return vericone::run_track(track, std::cout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return vericone::run_program(argc, argv, "track", track_command); }

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vericone {
+
+struct TrackOptions {
+  std::string video;
+  std::vector<std::string> boxes;
+  std::string truth;
+  std::string tracker = "ours";
+  std::optional<int> frames;   // how many, at most
+  std::optional<double> rate;  // pictures a second, where the file does not say it or is wrong
+  std::string out = "out/track";
+  bool figures = true, video_out = true;
+  bool json = false, quiet = false;
+  std::string command_line;
+};
+
+/// `vericone track`: targets followed through a video or a folder of pictures. Writes tracks.csv,
+/// metrics.json, provenance.json, a video with the boxes and a picture of the tracks to `out`
+/// (docs/howto/track.md). Throws InputError naming an option; of a video that is cut off after what could be
+/// read is written. Returns the exit status.
+int run_track(const TrackOptions& options, std::ostream& out);
+
+}  // namespace vericone
