@@ -102,7 +102,10 @@ class Flight {
     if (pursuit.eyes == Eyes::exact) return;
     SceneOptions scene = view_.scene;
     scene.vehicles.clear();
-    for (const Car& car : pursuit.cars) scene.vehicles.push_back(car.look);
+    for (const Car& car : pursuit.cars) {
+      scene.vehicles.push_back(car.look);
+      if (pursuit.eyes == Eyes::source) scene.vehicles.back().size.z() = 0;  // sprites
+    }
     scene.seed = pursuit.seed;
     scene_.emplace(scene);
     perception_.emplace(perception_of(pursuit), tracker_of(pursuit));
@@ -123,6 +126,7 @@ class Flight {
       if (told) command = pilot_.step(own, known_, view_.camera.focal, t, sample_);
       if (told) {
         keep_in_picture(own, command);
+        keep_gimbal_up(command);
         sample_.acceleration = command.acceleration;
       }
       sample_.controller = seconds_since(start) - sample_.ellipse_seconds;
@@ -248,6 +252,19 @@ class Flight {
     command.acceleration.z() = std::max(command.acceleration.z(), kGain * (kClimb - own.velocity.z()));
   }
 
+  /// A gimbal keeps up with a body that tilts no faster than it turns: the level acceleration changes at most
+  /// so fast.
+  void keep_gimbal_up(simulation::VehicleCommand& command) {
+    constexpr double kPart = 0.7, kGravity = 9.81;  // of the gimbal's rate; m/s^2
+    if (view_.mount.kind != MountKind::gimbal || pursuit_.eyes != Eyes::perspective || !pursuit_.vehicle ||
+        pursuit_.law != Whose::ours)
+      return;
+    const double most = kPart * kGravity * view_.mount.rate * pursuit_.step;
+    const Vector2d change = command.acceleration.head<2>() - commanded_;
+    if (change.norm() > most) command.acceleration.head<2>() = commanded_ + change * (most / change.norm());
+    commanded_ = command.acceleration.head<2>();
+  }
+
   void log(const simulation::Motion& own, double t) {
     PursuitSample& sample = sample_;
     sample.t = t;
@@ -345,6 +362,7 @@ class Flight {
   bool told_ = false;
   std::vector<Known> known_;
   std::vector<Vector3d> points_;
+  Vector2d commanded_ = Vector2d::Zero();  // the level acceleration before
   Vector2d aim_ = Vector2d::Zero(), last_aim_ = Vector2d::Zero();
   PursuitSample sample_;
   PursuitRun run_;

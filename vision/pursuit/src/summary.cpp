@@ -7,6 +7,7 @@ namespace vericone::vision {
 
 PursuitSummary summarise(const Pursuit& pursuit, const PursuitRun& run) {
   PursuitSummary summary;
+  const View& view = pursuit.eyes == Eyes::source ? pursuit.source_view : pursuit.perspective_view;
   summary.layer_share = run.layer_share;
   double count = 0;
   for (const PursuitSample& sample : run.samples) {
@@ -29,8 +30,8 @@ PursuitSummary summarise(const Pursuit& pursuit, const PursuitRun& run) {
     for (const PursuitSample& sample : run.samples) {
       const CarSample& c = sample.cars[k];
       const Eigen::Vector2d believed(c.belief.mean[0], c.belief.mean[3]);
-      one.in_view = c.seen.visible > 0;
-      constexpr double kEnough = 0.5;  // visible part: a vehicle that is hidden is not lost yet
+      one.in_view = view.camera.sees(c.seen.box.centre());
+      constexpr double kEnough = 0.9;  // visible part: a vehicle that is hidden is not lost yet
       if (c.seen.visible >= kEnough)
         one.followed = c.sighting.measured && overlap(c.sighting.box, c.seen.box) > 0;
       if (!c.sighting.measured) continue;

@@ -17,7 +17,9 @@ namespace vericone::vision {
 
 struct PerceptionOptions {
   Camera camera;
-  double height = 0;  // m, of the middle of a vehicle above the ground
+  /// m, of the middle of a vehicle above the ground. What a tracker follows of it is
+  /// higher, so that from aside it is not where the middle of a box is: the perception puts that right.
+  double height = 0;
   guidance::SingerOptions filter;
   double start_speed = 20;        // m/s, deviation of each component of a velocity that nobody has seen yet
   double start_acceleration = 1;  // m/s^2, the same
@@ -55,12 +57,17 @@ class Perception {
   [[nodiscard]] double filter_seconds() const { return filter_seconds_; }
 
  private:
+  /// From what is followed of a vehicle to its middle, m.
+  [[nodiscard]] Eigen::Vector2d aside(std::size_t i) const;
   [[nodiscard]] Expectation expected(std::size_t i, const Pose& camera, double t);
   void take(std::size_t i, const Sighting& sighting, const Pose& camera, double t);
 
   struct Reference {
-    double scale = 0;               // px a metre in the first picture
-    std::optional<double> heading;  // in the picture, rad, the first one known
+    double scale = 0;                                 // px a metre in the first picture
+    std::optional<double> heading;                    // in the picture, rad, the first one known
+    double course = 0;                                // on the ground then, rad, x to y
+    double turn = 0;                                  // since, on the ground, rad, x to y
+    Eigen::Vector2d aside = Eigen::Vector2d::Zero();  // m, from what is followed to the middle, then
   };
 
   PerceptionOptions options_;

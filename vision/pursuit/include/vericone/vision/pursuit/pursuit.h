@@ -157,7 +157,7 @@ struct CarSummary {
   double error_rms = 0;          // m, of the estimate, where it says so
   std::size_t swaps = 0;         // pictures in which its box met another car and not its own
   std::size_t false_claims = 0;  // pictures in which a measured box met nothing of its car
-  bool in_view = false;          // at the end, by the truth
+  bool in_view = false;          // at the end: the middle of its true box is in the picture, hidden or not
   bool followed = false;         // when it was seen last: measured, and its box meets it
 };
 struct PursuitSummary {
