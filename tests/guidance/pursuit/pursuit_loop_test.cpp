@@ -297,12 +297,16 @@ TEST(PursuitLoop, GroupsOfThree) {
   const GroupFlight lane_polynomial = follow_group(lanes, 150, {}, FocalForm::polynomial, false);
   const GroupFlight lane_ours = follow_group(lanes, 150, {}, FocalForm::source, true);
   const GroupFlight source = follow_group(squircles, 390, second, FocalForm::source, false);
+  FocalGains narrow = second;
+  narrow.singular = 10;
+  const GroupFlight source_narrow = follow_group(squircles, 390, narrow, FocalForm::source, false);
   const GroupFlight polynomial = follow_group(squircles, 390, second, FocalForm::polynomial, false);
   const GroupFlight ours = follow_group(squircles, 390, second, FocalForm::source, true);
   report("4.3.0.1, source", lane_source);
   report("4.3.0.1, polynomial", lane_polynomial);
   report("4.3.0.1, ours", lane_ours);
   report("4.3.0.2, source", source);
+  report("4.3.0.2, source, layer where |det| < 10", source_narrow);
   report("4.3.0.2, polynomial", polynomial);
   report("4.3.0.2, ours", ours);
   EXPECT_GT(lane_source.layer, 0.2);
