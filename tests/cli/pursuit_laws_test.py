@@ -29,7 +29,7 @@ class PursuitLaws(unittest.TestCase):
         result = call("law", EXAMPLES / "law.jsonl")
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         lane, parked, focal, between, vertical, ours = map(json.loads, result.stdout.splitlines())
-        # errata 5.2
+        # errata 4.3
         self.assertAlmostEqual(lane["lateral"], -0.818093, 6)
         self.assertAlmostEqual(lane["longitudinal"], -0.909, 6)
         self.assertAlmostEqual(lane["y1"], 74364.5, 1)

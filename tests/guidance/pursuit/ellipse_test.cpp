@@ -18,7 +18,7 @@ using Eigen::Matrix2Xd, Eigen::Vector2d;
 using testing::Errors, testing::Form, testing::Path, testing::RandomBodies, testing::at_angle,
     testing::kStates, testing::richardson_derivative;
 
-/// errata 5.2: 4.3.0.1 at t = 0.
+/// errata 4.3: 4.3.0.1 at t = 0.
 TEST(EnclosingEllipse, KnownValuesOfTheLaneRun) {
   const std::vector<Vector2d> centres{{100, -150}, {100, -120}, {90, -135}},
       velocities(3, Vector2d(22.22, 0));

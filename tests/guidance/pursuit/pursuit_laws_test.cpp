@@ -148,7 +148,7 @@ TEST(RendezvousKinematics, TheColumnOfTheVehiclesAcceleration) {
   EXPECT_GT(printed.median(), 1);
 }
 
-/// errata 5.2.
+/// errata 4.3.
 TEST(RendezvousLaw, KnownValuesOfTheLaneRun) {
   const Cartesian<2> start{{0, 0}, {31.31, 0}, {50, -30}, {22.22, 0}};
   const PlanarState s = planar_state(start);
@@ -164,7 +164,7 @@ TEST(RendezvousLaw, KnownValuesOfTheLaneRun) {
 }
 
 TEST(RendezvousLaw, CommandsNothingWhereItIsSingular) {
-  // 3.4.2 starts with V_r = 0 (errata 5.2).
+  // 3.4.2 starts with V_r = 0 (errata 4.3).
   const PlanarState s = planar_state({{0, 0}, {31.31, 0}, {0, -20}, {20, 0}});
   const PursuitCommand command = rendezvous_law(s, Vector2d(0, 1), {});
   EXPECT_EQ(command.status, PursuitStatus::singular);
@@ -385,7 +385,7 @@ TEST(VerticalLaw, SizeFollowsItsEquation) {
   EXPECT_GT(printed.worst(), 1e-2);
 }
 
-/// (4.17) and errata 5.2.
+/// (4.17) and errata 4.3.
 TEST(VerticalLaw, FocalLengthAndSizeOfTheLaneRun) {
   const double focal = focal_length(1000, 50 * M_PI / 180);
   EXPECT_NEAR(focal, 1072.2535, 1e-4);

@@ -74,7 +74,7 @@ Road squircle(const Vector2d& start) {
   };
 }
 
-TEST(Roads, AsErrata21HasThem) {
+TEST(Roads, AsTheErrataHaveThem) {
   const Road road = squircle({0, -20});
   double slowest = HUGE_VAL, fastest = 0;
   for (double t = 0; t < 360; t += 0.1) {
@@ -219,7 +219,7 @@ TEST(PursuitLoop, Squircle) {
   }
 }
 
-/// errata 2.2: without sign(-V_r) the UAS matches the velocity first and parks beside the vehicle.
+/// errata 3.3: without sign(-V_r) the UAS matches the velocity first and parks beside the vehicle.
 TEST(PursuitLoop, WithoutTheSignItParks) {
   RendezvousGains gains;
   gains.closing = false;
