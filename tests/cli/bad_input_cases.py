@@ -39,6 +39,7 @@ def planar(agent_velocity=(1, 0), **obstacle):
             "agent_velocity": list(agent_velocity), "obstacle_velocity": [0, 0]}
 
 
+TRACK = "t,x,y\n0,1,2\n"
 # Files in the folder that the commands run in.
 FILES = {"junk.obj": "v 1 2\n", "points.xyz": "0 0 0\n1 0 0\n", "cut.bt": "# Octomap OcTree binary file\nid OcTree\n"}
 CUBE = {"points": [[x, y, z] for x in (9, 11) for y in (-1, 1) for z in (-1, 1)]}
@@ -49,6 +50,46 @@ def pieces(agent=None, **obstacle):
     return {"id": 7, "agent": agent or {"center": [0, 0, 0], "semi_axes": [1, 2, 3]}, "obstacle": obstacle,
             "agent_velocity": [1, 0, 0], "obstacle_velocity": [0, 0, 0]}
 
+
+AT_REST = {"position": [0, 0], "velocity": [20, 0]}
+AHEAD = {"position": [50, -30], "velocity": [22, 0]}
+
+
+def law(name="rendezvous", **changes):
+    """A line of `vericone law` with changes; a value of ... leaves a field out."""
+    fields = {"rendezvous": {"vehicle": AHEAD}, "focal": {"vehicles": [AHEAD]}, "pursuit": {"vehicles": [AHEAD]},
+              "vertical": {"size": 127, "size_rate": 0, "altitude": 425, "climb": 0}}.get(name, {})
+    agent = {} if name == "vertical" else {"agent": AT_REST}
+    return {k: v for k, v in {"id": 7, "law": name, **agent, **fields, **changes}.items() if v is not ...}
+
+
+# What is wrong, the line of the law.
+LAWS = [
+    ("an unknown law", law("chase")),
+    ("no law", law(law=...)),
+    ("no agent", law(agent=...)),
+    ("an agent without velocity", law(agent={"position": [0, 0]})),
+    ("an agent in space", law(agent={"position": [0, 0, 150], "velocity": [20, 0]})),
+    ("a vehicle where the agent is", law(vehicle={"position": [0, 0], "velocity": [22, 0]})),
+    ("a vehicle beyond all fields", law(vehicle={"position": [1e9, 0], "velocity": [22, 0]})),
+    ("an unknown gain", law(gains={"K1": 1})),
+    ("a negative gain", law(gains={"cone": -1})),
+    ("no acceleration at all", law(gains={"most": 0})),
+    ("no vehicles", law("focal", vehicles=[])),
+    ("vehicles without size", law("pursuit", side=0)),
+    ("foci and vehicles", law("focal", foci=[[100, -10], [100, 14]])),
+    ("foci without velocities", law("focal", vehicles=..., foci=[[100, -10], [100, 14]], a=20)),
+    ("an ellipse smaller than its foci are apart",
+     law("focal", vehicles=..., foci=[[100, -10], [100, 14]], foci_velocities=[[5, 0], [5, 0]], a=10)),
+    ("an unknown form", law("focal", form="best")),
+    ("a negative size", law("vertical", size=-1)),
+    ("a camera below the ground", law("vertical", altitude=-5)),
+    ("no climb", law("vertical", climb=...)),
+    ("a covariance that is none", law("pursuit", covariance=[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, -1, 0], [0, 0, 0, 1]])),
+    ("an unsymmetric covariance", law("pursuit", covariance=[[1, 1, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])),
+    ("deviations of nothing", law("pursuit", deviations=2)),
+    ("a broken line of states", "{\"law\": "),
+]
 
 # What is wrong, the line of the query.
 QUERIES = [
@@ -238,6 +279,26 @@ COMMANDS = [
     ("a gallery of nothing", ["gallery"], None),
     ("a gallery with a large radius", ["gallery", "nowhere.obj", "--radius", "2"], None),
     ("cases that do not exist", ["query", "nowhere.jsonl"], None),
+    ("states that do not exist", ["law", "nowhere.jsonl"], None),
+    ("a track that does not exist", ["estimate", "nowhere.csv"], None),
+    ("a track without a header", ["estimate", "FILE.csv"], ""),
+    ("a track without y", ["estimate", "FILE.csv"], "t,x\n0,1\n"),
+    ("a track with an unknown column", ["estimate", "FILE.csv"], "t,x,y,speed\n0,1,2,3\n"),
+    ("a track with a column twice", ["estimate", "FILE.csv"], "t,x,y,x\n0,1,2,3\n"),
+    ("a track with a word", ["estimate", "FILE.csv"], TRACK + "0.1,one,2\n"),
+    ("a track with half a measurement", ["estimate", "FILE.csv"], TRACK + "0.1,1,\n"),
+    ("a track that goes back", ["estimate", "FILE.csv"], TRACK + "-0.1,1,2\n"),
+    ("a track with a short line", ["estimate", "FILE.csv"], TRACK + "0.1,1\n"),
+    ("a track without a time", ["estimate", "FILE.csv"], TRACK + ",1,2\n"),
+    ("a track with a noise of 0", ["estimate", "FILE.csv"], "t,x,y,r\n0,1,2,0\n"),
+    ("a track without a measurement", ["estimate", "FILE.csv"], "t,x,y\n0,,\n0.1,,\n"),
+    ("a track with a number out of range", ["estimate", "FILE.csv"], TRACK + "0.1,1e999,2\n"),
+    ("a negative alpha", ["estimate", "FILE.csv", "--alpha", "-0.1"], TRACK),
+    ("one variance", ["estimate", "FILE.csv", "--variance", "0.1"], TRACK),
+    ("a negative variance", ["estimate", "FILE.csv", "--variance", "0.1", "-1"], TRACK),
+    ("no noise", ["estimate", "FILE.csv", "--noise", "0"], TRACK),
+    ("hidden targets that are guessed", ["estimate", "FILE.csv", "--hidden", "guess"], TRACK),
+    ("estimates in a folder that cannot be made", ["estimate", "FILE.csv", "--out", "/proc/vericone"], TRACK),
     ("no engagements", ["accuracy", "--engagements", "0"], None),
     ("a single plane count", ["accuracy", "--planes", "36"], None),
     ("a plane count twice", ["accuracy", "--planes", "36,36"], None),
@@ -486,13 +547,13 @@ TRIALS = [
 ]
 
 
-def run_queries(vericone):
-    lines = [q if isinstance(q, str) else json.dumps(q) for _, q in QUERIES]
+def run_queries(vericone, cases=None, command="query"):
+    lines = [q if isinstance(q, str) else json.dumps(q) for _, q in cases or QUERIES]
     with tempfile.TemporaryDirectory() as folder:
         for name, content in FILES.items():
             with open(os.path.join(folder, name), "w", encoding="utf-8") as f:
                 f.write(content)
-        result = subprocess.run([vericone, "query", "-"], input="\n".join(lines) + "\n", capture_output=True, text=True,
+        result = subprocess.run([vericone, command, "-"], input="\n".join(lines) + "\n", capture_output=True, text=True,
                                 check=False, cwd=folder)
     answers = [json.loads(line) for line in result.stdout.splitlines()]
     return lines, answers, result
@@ -500,7 +561,8 @@ def run_queries(vericone):
 
 def run_command(vericone, arguments, scene):
     with tempfile.TemporaryDirectory() as folder:
-        name = "scan.off" if "FILE.off" in arguments else "scene.yaml"
+        name = {"FILE.off": "scan.off", "FILE.csv": "track.csv"}.get(
+            next((a for a in arguments if a.startswith("FILE")), ""), "scene.yaml")
         if scene is not None:
             with open(os.path.join(folder, name), "w", encoding="utf-8") as f:
                 f.write(scene)
@@ -574,6 +636,10 @@ def table(vericone):
             "In a file of cases the run goes on with the next line and ends with 2. This table is made and checked by",
             "`tests/cli`.", "", "## Lines of `vericone query`", "", "| what | input | answer |", "|---|---|---|"]
     for (what, _), line, answer in zip(QUERIES, lines, answers):
+        text.append("| %s | %s | %s |" % (what, cell(line), cell(answer.get("error", "no error"))))
+    lines, answers, _ = run_queries(vericone, LAWS, "law")
+    text += ["", "## Lines of `vericone law`", "", "| what | input | answer |", "|---|---|---|"]
+    for (what, _), line, answer in zip(LAWS, lines, answers):
         text.append("| %s | %s | %s |" % (what, cell(line), cell(answer.get("error", "no error"))))
     text += ["", "## Commands and scenes", "", "| what | command | message |", "|---|---|---|"]
     for what, arguments, scene in COMMANDS:

@@ -9,17 +9,23 @@ from command import SOURCE, VERICONE
 
 class BadInput(unittest.TestCase):
     def test_every_bad_line_names_its_field(self):
-        _, answers, result = bad_input_cases.run_queries(VERICONE)
+        self.every_line(bad_input_cases.QUERIES, "query")
+
+    def test_every_bad_state_names_its_field(self):
+        self.every_line(bad_input_cases.LAWS, "law")
+
+    def every_line(self, cases, command):
+        _, answers, result = bad_input_cases.run_queries(VERICONE, cases, command)
         self.assertEqual(result.returncode, 2)
         self.assertEqual(result.stderr, "")
-        self.assertEqual(len(answers), len(bad_input_cases.QUERIES))
-        for (what, _), answer in zip(bad_input_cases.QUERIES, answers):
+        self.assertEqual(len(answers), len(cases))
+        for (what, _), answer in zip(cases, answers):
             with self.subTest(what):
                 self.assertIn("error", answer)
                 self.assertRegex(answer["error"], r"^\S.*: got .+, must be .+")
                 self.assertNotIn("\n", answer["error"])
                 if what not in ("a line that is a list", "a line that is a number", "a broken line", "not a number",
-                                "a number out of range", "a field given twice", "a line nested too deeply"):
+                                "a number out of range", "a field given twice", "a line nested too deeply", "a broken line of states"):
                     self.assertEqual(answer["id"], 7)
 
     def test_every_bad_command_says_why(self):

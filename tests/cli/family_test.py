@@ -90,9 +90,9 @@ class Family(unittest.TestCase):
                 self.assertRegex(text, r"[ ,]%s[ ,\n]" % option, name)
 
     def test_options_mean_the_same_everywhere(self):
-        have = {"--quiet": "cone query accuracy signmap gallery shapes reach simulate campaign trials claims figures scan fit verify",
-                "--json": "cone query accuracy signmap gallery shapes reach simulate campaign trials claims figures scan fit verify",
-                "--out": "cone accuracy signmap gallery shapes simulate campaign trials claims figures scan fit",
+        have = {"--quiet": "cone query law estimate accuracy signmap gallery shapes reach simulate campaign trials claims figures scan fit verify",
+                "--json": "cone query law estimate accuracy signmap gallery shapes reach simulate campaign trials claims figures scan fit verify",
+                "--out": "cone estimate accuracy signmap gallery shapes simulate campaign trials claims figures scan fit",
                 "--no-figures": "cone accuracy signmap gallery shapes simulate campaign trials scan fit",
                 "--threads": "cone accuracy gallery campaign trials verify", "--seed": "accuracy signmap campaign trials scan fit verify"}
         for option, commands in have.items():

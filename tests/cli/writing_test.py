@@ -43,6 +43,7 @@ WRITERS = {
     "accuracy": ["accuracy", "-N", "60", "--planes", "4,8", "--threads", "1", "--no-figures", "--quiet"],
     "accuracy of dents": ["accuracy", "--obstacle", "biconcave", "-N", "6", "--planes", "4,8", "--tolerance", "0.2",
                           "--no-figures", "--quiet"],
+    "estimate": ["estimate", "track.csv"],
     "campaign": ["campaign", "-N", "15", "--threads", "1", "--no-figures", "--quiet"],
     "cone": ["cone", "scene.yaml", "--map", "0.05", "--no-figures"],
     "cone in the plane": ["cone", "planar.yaml", "--no-figures"],
@@ -76,6 +77,8 @@ LONG = {
     "cone of dents": (["cone", "dents.yaml", "--map", "0.0001", "--tolerance", "1e-7", "--threads", "1"], None),
     "cone of pieces": (["cone", "mesh.yaml", "--map", "0.0005", "--out", "out"], None),
     "query": (["query", "-"], None),
+    "law": (["law", "-"], None),
+    "estimate": (["estimate", "-"], None),
     "signmap": (["signmap", "--cells", "2001", "--no-figures"], None),
     "shapes": (["shapes", "--resolution", "0.02", "--no-figures"], None),
     "claims": (["claims"], "measuring"),
@@ -105,6 +108,9 @@ class InPreparedFolder(InFolder):
             points += "%f %f %f\n" % (3 * x[0] / n, 2 * x[1] / n, x[2] / n)
         for name, content in {"scene.yaml": SCENE, "scenario.yaml": SCENARIO, "noise.yaml": NOISE, "t.off": MESH, "u.off": MESH,
                               "mesh.yaml": PIECES, "scan.yaml": LIDARS, "pursuit.yaml": PURSUIT, "ball.xyz": points, "planar.yaml": PLANAR,
+        track = "t,x,y\n" + "".join("%g,%g,%g\n" % (0.1 * i, 2 * i, i % 7) for i in range(200))
+        for name, content in {"track.csv": track, "scene.yaml": SCENE, "scenario.yaml": SCENARIO, "noise.yaml": NOISE, "t.off": MESH, "u.off": MESH,
+                              "mesh.yaml": PIECES, "scan.yaml": LIDARS, "ball.xyz": points, "planar.yaml": PLANAR,
                               "near.yaml": SCENE.replace("[5, 0", "[3.05, 0"),
                               "dents.yaml": SCENE.replace("[5, 0", "[3.05, 0").replace("[2, 2, 2]}", "[2, 2, 2], hyperboloids: [{sheets: 2, "
                                                           "semi_axes: [1, 1, 1]}]}")}.items():
@@ -266,7 +272,7 @@ class WritersDraw(InPreparedFolder):
         active = {**os.environ, "PATH": os.path.join(environment, "bin") + ":" + os.environ["PATH"],
                   "VIRTUAL_ENV": environment, "PYTHONPATH": self.folder}
         for name, words in WRITERS.items():
-            if not there(words) or name == "claims":
+            if not there(words) or name in ("claims", "estimate"):
                 continue
             with self.subTest(command=name):
                 shutil.rmtree(self.out, ignore_errors=True)

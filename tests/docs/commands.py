@@ -23,6 +23,8 @@ EXAMPLES = {
     "cone": "cone docs/examples/source-6.5.yaml --method slice --planes 72",
     "query": "query docs/examples/cases.jsonl --rung",
     "robust-law": "robust-law docs/examples/robust-law.jsonl",
+    "law": "law docs/examples/law.jsonl",
+    "estimate": "estimate docs/examples/track.csv --noise 0.3",
     "accuracy": "accuracy -N 500 --planes 8,16,32 --no-figures --quiet",
     "signmap": "signmap --seed 12 --no-figures",
     "gallery": "gallery build/scans/elephant.off --no-figures --quiet",

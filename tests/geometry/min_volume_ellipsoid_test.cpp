@@ -262,6 +262,27 @@ TEST(MinVolumeEllipsoid, NoContainingBodyIsSmaller) {
   }
 }
 
+/// Without a certificate: the same body to rounding, which no bound vouches for.
+TEST(MinVolumeEllipsoid, WithoutACertificate) {
+  Random random(31);
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 50; ++i) {
+    Matrix2Xd points(2, 12);
+    for (Eigen::Index k = 0; k < 12; ++k)
+      points.col(k) = Vector2d(random.uniform(-50, 50), random.uniform(-9, 9));
+    MinVolumeOptions options;
+    const MinVolumeResult<2> proved = min_volume_ellipsoid<2>(points, options);
+    options.certified = false;
+    const MinVolumeResult<2> quick = min_volume_ellipsoid<2>(points, options);
+    EXPECT_TRUE(quick.converged());
+    EXPECT_TRUE(std::isnan(quick.volume_ratio_bound));
+    EXPECT_EQ(quick.support, proved.support);
+    EXPECT_EQ(quick.weights, proved.weights);
+    EXPECT_LT((quick.body.shape() - proved.body.shape()).norm(), 1e-9 * proved.body.shape().norm());
+    EXPECT_LT((quick.body.center() - proved.body.center()).norm(), 1e-12 * 50);
+  }
+}
+
 TEST(MinVolumeEllipsoid, SaysWhenItDidNotConverge) {
   Random random(333);
   SCOPED_TRACE(random.trace());

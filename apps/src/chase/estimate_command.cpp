@@ -111,6 +111,7 @@ class TrackReader {
       ++number_;
       if (line.find_first_not_of(" \t\r") != std::string::npos) return true;
     }
+    if (interrupted()) throw std::runtime_error("interrupted");
     return false;
   }
   std::optional<double> number(const std::vector<std::string>& fields, std::size_t column,
@@ -196,7 +197,6 @@ Estimates estimate(const EstimateOptions& options) {
     all.table += '\n';
     all.rows.push_back(std::move(json));
   }
-  if (interrupted()) throw std::runtime_error("interrupted");
   if (all.measured == 0) throw InputError("x", "no measurement", "at least one in the track");
   return all;
 }

@@ -219,7 +219,7 @@ Json focal(const Json& value) {
       if (value.contains(field)) throw InputError(field, quoted(value[field]), "given with vehicles only");
     state.foci = read_two(value, "foci", " (m)", true);
     state.velocities = read_two(value, "foci_velocities", " (m/s)", true);
-    state.a = required(value, "", "a", "the semi-major axis, m");
+    state.a = required(value, "", "a", "a number: the semi-major axis (m)");
     if_given(value, "", "a_rate",
              [&](const Json& v, const std::string& p) { state.a_rate = read_bounded(v, p, " (m/s)"); });
     const double half = 0.5 * (state.foci[0] - state.foci[1]).norm();
@@ -275,10 +275,10 @@ Json focal(const Json& value) {
 
 Json vertical(const Json& value) {
   require_known(value, "", {"id", "law", "size", "size_rate", "altitude", "climb", "gains"});
-  const double size = required(value, "", "size", "x_S, px"),
-               rate = required(value, "", "size_rate", "the rate of x_S, px/s"),
-               altitude = required(value, "", "altitude", "m"),
-               climb = required(value, "", "climb", "m/s, up");
+  const double size = required(value, "", "size", "a number: x_S (px)"),
+               rate = required(value, "", "size_rate", "a number: the rate of x_S (px/s)"),
+               altitude = required(value, "", "altitude", "a number (m)"),
+               climb = required(value, "", "climb", "a number (m/s, up)");
   if (!(size >= 0)) throw InputError("size", quoted(value["size"]), "a number, 0 or more (px)");
   if (!(altitude > 0)) throw InputError("altitude", quoted(value["altitude"]), "a positive number (m)");
   VerticalGains gains;

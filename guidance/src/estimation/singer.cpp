@@ -11,7 +11,7 @@ namespace {
 /// printed brackets lose every digit for small x, so there they are sums of powers.
 struct Brackets {
   double position_acceleration;  // (e^-x - 1 + x) / x^2
-  double q11, q12, q13, q22;     // the brackets of errata 2.2, over x^5, x^4, x^3, x^3
+  double q11, q12, q13, q22;     // the brackets of errata 4.3, over x^5, x^4, x^3, x^3
 };
 
 Brackets series(double x) {

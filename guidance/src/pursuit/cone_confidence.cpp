@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Matrix2d, Eigen::Matrix4d, Eigen::Vector2d, Eigen::Vector3d, Eigen::Vector4d;
 
-constexpr int kPoints = 256;
+constexpr int kPoints = 509, kStep = 187;
 
 double normal_below(double x) { return 0.5 * std::erfc(-x * std::numbers::sqrt2 / 2); }
 
@@ -26,18 +26,17 @@ double normal_quantile(double p) {
   return x;
 }
 
-/// Normal numbers of three directions. Even steps in the first, which is to matter most; multiples of the
-/// powers of 1 / 1.3247..., the even spread of two numbers at once, in the others.
+/// Normal numbers of three directions: a Korobov lattice (1, g, g^2), g the best of a search over random
+/// engagements. Even steps in the first direction, which is to matter most.
 const std::array<Vector3d, kPoints>& normal_points() {
   static const std::array<Vector3d, kPoints> points = [] {
-    constexpr double plastic = 1.32471795724474602596;
     std::array<Vector3d, kPoints> p;
     for (int i = 0; i < kPoints; ++i) {
-      const auto part = [&](double step) {
-        return normal_quantile(0.5 / kPoints + (1 - 1.0 / kPoints) * std::fmod(0.5 + step * i, 1.0));
+      // The middles of steps: odd parts of 2 kPoints, as every step is odd.
+      const auto at = [&](int step) {
+        return normal_quantile((2 * i + 1) * step % (2 * kPoints) / (2.0 * kPoints));
       };
-      p[static_cast<std::size_t>(i)] = {normal_quantile((i + 0.5) / kPoints), part(1 / plastic),
-                                        part(1 / (plastic * plastic))};
+      p[static_cast<std::size_t>(i)] = {at(1), at(kStep), at(kStep * kStep % kPoints)};
     }
     return p;
   }();

@@ -125,7 +125,30 @@ TEST(RendezvousLaw, DoesWhatItPromises) {
   EXPECT_GT(printed_gradient.median(), 1e-2);
 }
 
-/// errata 5.2.
+/// The column of a_B before (3.1) has seven entries of eight: beta' is missing, and the last of them, V_B',
+/// stands where beta' should.
+TEST(RendezvousKinematics, TheColumnOfTheVehiclesAcceleration) {
+  RandomBodies random(3001);
+  SCOPED_TRACE(random.trace());
+  Errors right, speed, printed;
+  for (std::size_t i = 0; i < kStates; ++i) {
+    Chase c = random_chase(random);
+    if (c.b.v.norm() < 1 || c.b.a.norm() < 0.1) continue;
+    const double beta = std::atan2(c.b.v.y(), c.b.v.x()), delta = std::atan2(c.b.a.y(), c.b.a.x());
+    const double a_b = c.b.a.norm(), v_b = c.b.v.norm();
+    const double turn =
+        richardson_derivative([&](double t) { return testing::angle_between(c.b.v, c.b.velocity(t)); }, 1e-3);
+    const double faster = richardson_derivative([&](double t) { return c.b.velocity(t).norm(); }, 1e-3);
+    right.add(std::abs(turn - std::sin(delta - beta) / v_b * a_b) * v_b / a_b);
+    speed.add(std::abs(faster - std::cos(delta - beta) * a_b) / a_b);
+    printed.add(std::abs(turn - std::cos(delta - beta) * a_b) * v_b / a_b);
+  }
+  EXPECT_LT(right.worst(), 1e-6);
+  EXPECT_LT(speed.worst(), 1e-6);
+  EXPECT_GT(printed.median(), 1);
+}
+
+/// errata 4.3.
 TEST(RendezvousLaw, KnownValuesOfTheLaneRun) {
   const Cartesian<2> start{{0, 0}, {31.31, 0}, {50, -30}, {22.22, 0}};
   const PlanarState s = planar_state(start);
@@ -141,7 +164,7 @@ TEST(RendezvousLaw, KnownValuesOfTheLaneRun) {
 }
 
 TEST(RendezvousLaw, CommandsNothingWhereItIsSingular) {
-  // 3.4.2 starts with V_r = 0 (errata 5.2).
+  // 3.4.2 starts with V_r = 0 (errata 4.3).
   const PlanarState s = planar_state({{0, 0}, {31.31, 0}, {0, -20}, {20, 0}});
   const PursuitCommand command = rendezvous_law(s, Vector2d(0, 1), {});
   EXPECT_EQ(command.status, PursuitStatus::singular);
@@ -233,6 +256,17 @@ TEST(FocalCone, RatesUnderAnyAccelerations) {
     EXPECT_LT(second.worst(), 1e-6);
     EXPECT_GT(without_stretch.median(), 1e-3);
   }
+}
+
+/// Straight flight past a rigid ellipse changes y_1 by nothing: the first entry of M_1 in (4.11) is 0.
+TEST(FocalCone, IsAConstantOfStraightMotion) {
+  RandomBodies random(4112);
+  SCOPED_TRACE(random.trace());
+  for (const FocalForm form : {FocalForm::source, FocalForm::polynomial})
+    for (int i = 0; i < 200; ++i) {
+      const FocalRates f = focal_cone(random_focal_chase(random, 0).at(0), form);
+      EXPECT_NEAR(f.drift1, 0, 1e-10 * f.by_acceleration1.norm());
+    }
 }
 
 /// (4.12)-(4.14).
@@ -351,7 +385,7 @@ TEST(VerticalLaw, SizeFollowsItsEquation) {
   EXPECT_GT(printed.worst(), 1e-2);
 }
 
-/// (4.17) and errata 5.2.
+/// (4.17) and errata 4.3.
 TEST(VerticalLaw, FocalLengthAndSizeOfTheLaneRun) {
   const double focal = focal_length(1000, 50 * M_PI / 180);
   EXPECT_NEAR(focal, 1072.2535, 1e-4);
@@ -402,6 +436,36 @@ TEST(VerticalLaw, DrivesLocksAndDrivesAgain) {
   for (int i = 0; i < 100; ++i) z += 0.01 * (climb += 0.01 * law.step(0, 0, z, climb));
   EXPECT_EQ(law.mode(), VerticalMode::lock);
   EXPECT_NEAR(z, before, 0.01);
+}
+
+/// As printed: while the size is near the wanted one (it is not) drive it, then lock the altitude; within the
+/// band drive. So a wrong size is never driven.
+TEST(VerticalLaw, Algorithm2AsPrintedLocksTheWrongSize) {
+  const VerticalGains gains;
+  const double focal = focal_length(1000, 50 * M_PI / 180), world = 50;
+  double z[] = {280, 280}, climb[] = {0, 0}, cruise = 0;
+  bool locked = false;
+  VerticalLaw law(gains);
+  for (int i = 0; i < 40'000; ++i) {
+    const auto size = [&](int k) { return world * focal / z[k]; };
+    const auto rate = [&](int k) { return -size(k) * climb[k] / z[k]; };
+    double a[] = {law.step(size(0), rate(0), z[0], climb[0]), 0};
+    const double error = std::abs(size(1) - gains.size);
+    if (!(error < gains.size_band) && !(error < gains.size_near)) {
+      if (!locked) cruise = z[1];
+      locked = true;
+      a[1] = altitude_acceleration(cruise, z[1], climb[1], gains.lock_p, gains.lock_d);
+    } else {
+      locked = false;
+      a[1] = size_acceleration(size(1), rate(1), z[1], gains);
+    }
+    for (int k = 0; k < 2; ++k) {
+      climb[k] += 0.01 * a[k];
+      z[k] += 0.01 * climb[k];
+    }
+  }
+  EXPECT_LT(std::abs(world * focal / z[0] - gains.size), gains.size_band);
+  EXPECT_GT(std::abs(world * focal / z[1] - gains.size), 2 * gains.size_band);
 }
 
 TEST(PursuitLaws, AllocateNothing) {

@@ -74,7 +74,7 @@ Road squircle(const Vector2d& start) {
   };
 }
 
-TEST(Roads, AsErrata21HasThem) {
+TEST(Roads, AsTheErrataHaveThem) {
   const Road road = squircle({0, -20});
   double slowest = HUGE_VAL, fastest = 0;
   for (double t = 0; t < 360; t += 0.1) {
@@ -219,7 +219,7 @@ TEST(PursuitLoop, Squircle) {
   }
 }
 
-/// errata 2.2: without sign(-V_r) the UAS matches the velocity first and parks beside the vehicle.
+/// errata 3.3: without sign(-V_r) the UAS matches the velocity first and parks beside the vehicle.
 TEST(PursuitLoop, WithoutTheSignItParks) {
   RendezvousGains gains;
   gains.closing = false;
@@ -297,12 +297,16 @@ TEST(PursuitLoop, GroupsOfThree) {
   const GroupFlight lane_polynomial = follow_group(lanes, 150, {}, FocalForm::polynomial, false);
   const GroupFlight lane_ours = follow_group(lanes, 150, {}, FocalForm::source, true);
   const GroupFlight source = follow_group(squircles, 390, second, FocalForm::source, false);
+  FocalGains narrow = second;
+  narrow.singular = 10;
+  const GroupFlight source_narrow = follow_group(squircles, 390, narrow, FocalForm::source, false);
   const GroupFlight polynomial = follow_group(squircles, 390, second, FocalForm::polynomial, false);
   const GroupFlight ours = follow_group(squircles, 390, second, FocalForm::source, true);
   report("4.3.0.1, source", lane_source);
   report("4.3.0.1, polynomial", lane_polynomial);
   report("4.3.0.1, ours", lane_ours);
   report("4.3.0.2, source", source);
+  report("4.3.0.2, source, layer where |det| < 10", source_narrow);
   report("4.3.0.2, polynomial", polynomial);
   report("4.3.0.2, ours", ours);
   EXPECT_GT(lane_source.layer, 0.2);

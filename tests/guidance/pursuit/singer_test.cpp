@@ -89,7 +89,7 @@ TEST(Singer, EveryEntryAgainstVanLoanInFiftyDigits) {
   EXPECT_LT(of_noise, 1e-12);
 }
 
-/// The brackets as errata 2.2 has them, which is what the library's closed form is for large alpha dt only.
+/// The brackets as errata 4.3 has them, which is what the library's closed form is for large alpha dt only.
 TEST(Singer, TheClosedFormLosesEveryDigitForSmallSteps) {
   const double alpha = 0.1, dt = 1e-3, x = alpha * dt, e = std::exp(-x);
   const double q11 = (1 - e * e + 2 * x + 2 * x * x * x / 3 - 2 * x * x - 4 * x * e) / std::pow(alpha, 4);
@@ -99,7 +99,7 @@ TEST(Singer, TheClosedFormLosesEveryDigitForSmallSteps) {
 }
 
 TEST(Singer, KnownValues) {
-  // MathWorks' singerProcessNoise (errata 2.2).
+  // MathWorks' singerProcessNoise (errata 4.3).
   const Eigen::Matrix3d q = singer_noise(1.0 / 20, 1, 1);
   const double known[] = {0.00486356, 0.01209188, 0.01585581, 0.03211199, 0.04757138, 0.09516258};
   int k = 0;

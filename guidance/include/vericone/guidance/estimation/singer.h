@@ -16,7 +16,7 @@ namespace vericone::guidance {
 [[nodiscard]] Eigen::Matrix3d singer_transition(double alpha, double dt);
 /// 2 alpha sigma^2 Q of (3.9) for a variance of the acceleration sigma^2, m^2/s^4 (entries in m^2, m^2/s and
 /// so on). Relative error of every entry below 1e-12 for every alpha dt: the closed form loses all digits
-/// below 1e-3 (errata 2.2). Cost: 0.1 us.
+/// below 1e-3 (errata 3.3). Cost: 0.1 us.
 [[nodiscard]] Eigen::Matrix3d singer_noise(double alpha, double variance, double dt);
 
 struct SingerOptions {

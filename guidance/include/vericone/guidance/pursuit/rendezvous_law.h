@@ -16,7 +16,7 @@ struct RendezvousGains {
   double radius = 0.1;      // R, m
   double most = 10;         // m/s^2, of each component
   double singular = 0.01;   // nothing commanded where |2 V_r V_theta r^2| is below this
-  bool closing = true;      // K_1 sign(-V_r), without which the UAS parks beside the vehicle (errata 2.2)
+  bool closing = true;      // K_1 sign(-V_r), without which the UAS parks beside the vehicle (errata 3.3)
 };
 
 enum class PursuitStatus : std::uint8_t {
