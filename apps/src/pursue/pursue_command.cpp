@@ -2,7 +2,9 @@
 #include "pursue/pursue_command.h"
 
 #include <vericone/geometry/error.h>
+#include <vericone/vision/footage/annotate.h>
 #include <vericone/vision/footage/footage.h>
+#include <algorithm>
 #include <filesystem>
 #include <iomanip>
 #include <ostream>
@@ -18,7 +20,6 @@
 #include "output/progress.h"
 #include "output/provenance.h"
 #include "output/staged_folder.h"
-#include "pursue/marks.h"
 #include "pursue/pursuit_campaign.h"
 #include "pursue/pursuit_tables.h"
 #include "pursue/read_pursuit.h"
@@ -130,10 +131,20 @@ void print(const Pursuit& pursuit, const PursuitRun& run, const PursuitSummary& 
   line("time", number_text(seconds, 3) + " s");
 }
 
+Image in_colour(const Image& image) {
+  if (image.channels == 3) return image;
+  Image result(image.width, image.height, 3);
+  for (std::size_t i = 0; i < image.data.size(); ++i)
+    std::fill_n(result.data.begin() + std::ptrdiff_t(3 * i), 3, image.data[i]);
+  return result;
+}
+
 /// Everything that `track --own` needs to repeat the run's estimates.
 class Recorder {
  public:
   Recorder(const PursueOptions& options, const Pursuit& pursuit) : pursuit_(pursuit) {
+    for (const Car& car : pursuit.cars)
+      if (car.followed) names_.push_back(car.name);
     if (!options.frames.empty()) frames_.emplace(options.frames, "--frames");
     if (!options.video.empty()) {
       const fs::path file = options.video;
@@ -155,7 +166,8 @@ class Recorder {
     }
     if (writer_) {
       Image marked = in_colour(image);
-      for (const Followed& one : vehicles) mark(marked, one.sighting);
+      for (std::size_t i = 0; i < vehicles.size(); ++i)
+        draw_sighting(marked, vehicles[i].sighting, names_[i]);
       writer_->add(marked);
     }
     ++count_;
@@ -170,8 +182,9 @@ class Recorder {
     }
     if (!frames_) return;
     write_whole(frames_->path() / "own.csv", own_csv(run));
-    write_whole(frames_->path() / "camera.yaml",
-                perception_json(perception_of(pursuit_)).dump(1) + "\n");  // JSON is YAML
+    write_whole(
+        frames_->path() / "camera.yaml",
+        perception_json({perception_of(pursuit_), pursuit_.picture_step}).dump(1) + "\n");  // JSON is YAML
     std::string boxes;
     for (const vision::Box& box : run.boxes)
       boxes += "--box " + to_text(box.x) + "," + to_text(box.y) + "," + to_text(box.w) + "," +
@@ -182,6 +195,7 @@ class Recorder {
 
  private:
   const Pursuit& pursuit_;
+  std::vector<std::string> names_;
   std::optional<StagedFolder> frames_, video_;
   std::optional<VideoWriter> writer_;
   fs::path video_file_;

@@ -381,9 +381,10 @@ Pursuit read_pursuit(const Json& fields, const std::string& name, const std::fil
   return pursuit;
 }
 
-PerceptionOptions read_perception(const Json& fields) {
+SeenBy read_perception(const Json& fields) {
   const std::string none;
-  PerceptionOptions options;
+  SeenBy seen{{}, 0.04};
+  PerceptionOptions& options = seen.perception;
   if (!fields.is_object()) throw InputError("camera", quoted(fields), "a mapping with width, height, ...");
   options.camera = read_camera(fields, "");
   Numbers(fields, none)
@@ -392,6 +393,7 @@ PerceptionOptions read_perception(const Json& fields) {
       .positive("noise", options.noise, " (m^2)")
       .positive("hidden_noise", options.hidden_noise, " (m^2)")
       .positive("own_noise", options.own_noise, " (m)")
+      .positive("picture_step", seen.picture_step, " (s)")
       .only({"width", "height", "field_of_view_deg", "focal", "variance", "filters"});
   if_given(fields, "", "filters", [&](const Json& v, const std::string& p) {
     options.source = read_choice<bool>(v, p, {{"source", true}, {"ours", false}});
@@ -399,10 +401,11 @@ PerceptionOptions read_perception(const Json& fields) {
   if_given(fields, "", "variance", [&](const Json& v, const std::string& p) {
     options.filter.variance = positive_vector<2>(v, p, " (m^2/s^4)");
   });
-  return options;
+  return seen;
 }
 
-Json perception_json(const PerceptionOptions& options) {
+Json perception_json(const SeenBy& seen) {
+  const PerceptionOptions& options = seen.perception;
   return {{"width", options.camera.width},
           {"height", options.camera.height},
           {"focal", options.camera.focal},
@@ -412,6 +415,7 @@ Json perception_json(const PerceptionOptions& options) {
           {"noise", options.noise},
           {"hidden_noise", options.hidden_noise},
           {"own_noise", options.own_noise},
+          {"picture_step", seen.picture_step},
           {"filters", options.source ? "source" : "ours"}};
 }
 

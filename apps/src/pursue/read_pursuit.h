@@ -16,8 +16,13 @@ namespace vericone::pursuit {
 vision::Pursuit read_pursuit(const Json& fields, const std::string& name,
                              const std::filesystem::path& folder);
 
-/// A camera and what a perception needs beside it, for `track --own`: the fields of camera_json.
-vision::PerceptionOptions read_perception(const Json& fields);
-Json perception_json(const vision::PerceptionOptions& options);
+/// What saw a pursuit, for `track --own`.
+struct SeenBy {
+  vision::PerceptionOptions perception;
+  double picture_step = 0;  // s
+};
+/// Throws InputError with the field's path.
+SeenBy read_perception(const Json& fields);
+Json perception_json(const SeenBy& seen);
 
 }  // namespace vericone::pursuit

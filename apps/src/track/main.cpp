@@ -20,7 +20,15 @@ int track_command(vericone::CommandLine& line) {
   line.option(
       "--truth", track.truth,
       "File of the true boxes: x,y,w,h a frame, or frame,id,x,y,w,h; without --box it gives the first ones");
-  line.option("--tracker", track.tracker, "source: as chapters 3 and 4 have it; or ours");
+  line.option("--tracker", track.tracker, "source: as chapters 3 and 4 have it; or ours")
+      .shown_default("ours, or that of --camera");
+  const auto own =
+      line.option("--own", track.own,
+                  "Where the camera was at each picture, own.csv of vericone pursue --frames: also writes "
+                  "estimates.csv, the targets on the ground");
+  line.option("--camera", track.camera,
+              "The camera of --own and what the filters need, camera.yaml of the same")
+      .needs(own);
   line.option("--frames", track.frames, "Pictures to look at, at most");
   line.option("--rate", track.rate, "Pictures a second, where the video does not say it; 30 if nobody does");
   line.option("--out", track.out, "Folder for tables, video and picture");

@@ -21,7 +21,9 @@
 #include "output/progress.h"
 #include "output/provenance.h"
 #include "output/staged_folder.h"
+#include "pursue/pursuit_tables.h"
 #include "track/metrics.h"
+#include "track/own.h"
 #include "track/truth.h"
 
 namespace vericone {
@@ -48,10 +50,11 @@ double rate_of(const vision::Reader& reader, const TrackOptions& options) {
   return reader.rate() >= 0.1 ? reader.rate() : kUsualRate;
 }
 
-std::unique_ptr<vision::Tracker> tracker_of(const TrackOptions& options, double rate) {
-  if (options.tracker == "source") return vision::source_tracker();
-  if (options.tracker == "ours") return vision::tracker({.frame_seconds = 1 / rate});
-  throw InputError("--tracker", options.tracker, "source or ours");
+/// `seconds`: from picture to picture.
+std::unique_ptr<vision::Tracker> tracker_of(const std::string& name, double seconds) {
+  if (name == "source") return vision::source_tracker();
+  if (name == "ours" || name.empty()) return vision::tracker({.frame_seconds = seconds});
+  throw InputError("--tracker", name, "source or ours");
 }
 
 /// A target as the command numbers it: those that are marked later come later.
@@ -82,12 +85,28 @@ class Follower {
   Follower(const TrackOptions& options, const std::vector<FirstBox>& boxes, Run& run)
       : options_(options), targets_(in_order(boxes)), run_(run) {
     run_.said.resize(boxes.size());
+    if (options.own.empty()) return;
+    for (const FirstBox& box : boxes)
+      if (box.frame != 1)
+        throw InputError("--box", "one of frame " + std::to_string(box.frame), "of frame 1, with --own");
+    own_.emplace(read_own(options.own, options.camera));
+    if (!options.tracker.empty()) own_->perception.source = options.tracker == "source";
+    perception_.emplace(own_->perception,
+                        tracker_of(own_->perception.source ? "source" : "ours", own_->seconds));
+    estimates_ = pursuit::estimates_header();
   }
 
-  /// The next picture, as it is and in grey.
+  /// Of --own.
+  [[nodiscard]] const std::string& estimates() const { return estimates_; }
+
+  /// The next picture, in grey.
   void take(const Image& grey) {
+    if (perception_) {
+      perceive(grey);
+      return;
+    }
     const std::size_t frame = ++run_.pictures;
-    if (!tracker_) tracker_ = tracker_of(options_, run_.rate);
+    if (!tracker_) tracker_ = tracker_of(options_.tracker, 1 / run_.rate);
     if (following_ > 0) {
       const auto start = Clock::now();
       const std::vector<Sighting>& sightings = tracker_->step(grey, std::nullopt, {});
@@ -119,10 +138,42 @@ class Follower {
   std::size_t next_frame() const { return targets_[following_].first.frame; }
 
  private:
+  void perceive(const Image& grey) {
+    const std::size_t frame = run_.pictures++;
+    if (frame >= own_->poses.size())
+      throw InputError("--own", options_.own + " of " + std::to_string(own_->poses.size()) + " rows",
+                       "a row for each picture");
+    const OwnPose& own = own_->poses[frame];
+    if (grey.width != own_->perception.camera.width || grey.height != own_->perception.camera.height)
+      throw InputError("--camera", options_.camera,
+                       "of pictures of " + std::to_string(grey.width) + " x " + std::to_string(grey.height) +
+                           " pixels, as these are");
+    if (frame == 0) {
+      std::vector<vision::Box> boxes;
+      for (const Target& target : targets_) boxes.push_back(target.first.box);
+      try {
+        perception_->start(grey, own.camera, own.t, boxes);
+      } catch (const InputError& error) {
+        throw InputError("--box", error.value(), error.requirement());
+      }
+      following_ = targets_.size();
+    } else {
+      const auto start = Clock::now();
+      perception_->step(grey, own.camera, own.t);
+      run_.seconds.push_back(seconds_since(start));
+    }
+    for (std::size_t i = 0; i < following_; ++i)
+      run_.said[targets_[i].given].push_back({frame + 1, perception_->vehicles()[i].sighting});
+    estimates_ += pursuit::estimates_csv(frame, own.t, perception_->vehicles());
+  }
+
   const TrackOptions& options_;
   std::vector<Target> targets_;
   Run& run_;
   std::unique_ptr<vision::Tracker> tracker_;
+  std::optional<Own> own_;
+  std::optional<vision::Perception> perception_;
+  std::string estimates_;
   std::size_t following_ = 0;
 };
 
@@ -173,7 +224,7 @@ Json metrics_json(const TrackOptions& options, const Run& run, const Truth* trut
   std::vector<double> ms = run.seconds;
   for (double& x : ms) x *= 1e3;
   Json result{{"video", options.video},
-              {"tracker", options.tracker},
+              {"tracker", options.tracker.empty() ? "ours" : options.tracker},
               {"targets", run.said.size()},
               {"pictures", run.pictures},
               {"rate", run.rate},
@@ -229,7 +280,9 @@ int run_track(const TrackOptions& options, std::ostream& out) {
   if (options.frames && *options.frames < 2)
     throw InputError("--frames", std::to_string(*options.frames), "2 or more");
   Run run;
-  static_cast<void>(tracker_of(options, run.rate));  // a wrong name is told before any work
+  static_cast<void>(tracker_of(options.tracker, 1 / run.rate));  // a wrong name is told before any work
+  if (options.own.empty() != options.camera.empty())
+    throw InputError(options.own.empty() ? "--own" : "--camera", "nothing", "given with the other one");
   const auto reader = vision::open_footage(options.video, 3, "video");
   run.rate = rate_of(*reader, options);
 
@@ -260,13 +313,15 @@ int run_track(const TrackOptions& options, std::ostream& out) {
 
   const Json metrics = metrics_json(options, run, truth ? &*truth : nullptr, broken);
   write_whole(stage / "tracks.csv", csv(run));
+  if (!options.own.empty()) write_whole(stage / "estimates.csv", follower.estimates());
   write_whole(stage / "metrics.json", metrics.dump(1) + "\n");
   std::vector<std::filesystem::path> inputs;
   if (std::filesystem::is_regular_file(options.video)) inputs.emplace_back(options.video);
   if (truth) inputs.emplace_back(options.truth);
   write_whole(stage / "provenance.json", provenance(options.command_line, 1, inputs).dump(1) + "\n");
   if (options.figures) draw_figures("tracks.py", stage);
-  const auto files = folder.publish({"tracks.pdf", "tracks.png", "tracks.mp4", "first_picture.png"});
+  const auto files =
+      folder.publish({"estimates.csv", "tracks.pdf", "tracks.png", "tracks.mp4", "first_picture.png"});
   if (options.json) {
     out << metrics.dump(1) << '\n';
   } else {

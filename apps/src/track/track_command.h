@@ -12,7 +12,8 @@ struct TrackOptions {
   std::string video;
   std::vector<std::string> boxes;
   std::string truth;
-  std::string tracker = "ours";
+  std::string tracker;         // empty: ours, or the one of `camera`
+  std::string own, camera;     // own.csv and camera.yaml of a pursuit; empty: nothing is known of the camera
   std::optional<int> frames;   // how many, at most
   std::optional<double> rate;  // pictures a second, where the file does not say it or is wrong
   std::string out = "out/track";
@@ -22,9 +23,9 @@ struct TrackOptions {
 };
 
 /// `vericone track`: targets followed through a video or a folder of pictures. Writes tracks.csv,
-/// metrics.json, provenance.json, a video with the boxes and a picture of the tracks to `out`
-/// (docs/howto/track.md). Throws InputError naming an option; of a video that is cut off after what could be
-/// read is written. Returns the exit status.
+/// metrics.json, provenance.json (with `own` estimates.csv too: where the targets are on the ground), a video
+/// with the boxes and a picture of the tracks to `out` (docs/howto/track.md). Throws InputError naming an
+/// option; of a video that is cut off after what could be read is written. Returns the exit status.
 int run_track(const TrackOptions& options, std::ostream& out);
 
 }  // namespace vericone
