@@ -27,6 +27,7 @@ constexpr double kShared = 0.3;    // overlap with another target that is seen
 constexpr double kFarWait = 0.5;   // s, of one at the edge of the gate
 constexpr double kNear = 2;        // squared standard deviations
 constexpr double kMostReach = 40;  // samples to each side that one picture's search goes
+constexpr double kUnsure = 0.2;    // own sizes, standard deviation of where it is expected
 constexpr int kConfirm = 3;        // pictures that a regained target must go on as expected
 
 double size_of(const Box& box) { return std::sqrt(box.w * box.h); }
@@ -398,6 +399,17 @@ Sighting Target::step(const cv::Mat& before, const cv::Mat& now, const Eigen::Ma
     }
     last_seen_ = {before.clone(), was, ground};
     view_ = guess;
+    // Where its velocity is not known yet, it is not where it was expected: it is looked for before it is
+    // called hidden.
+    const double reach = std::sqrt(gate.eigenvalues().real().maxCoeff());
+    if (reach > kUnsure * size)
+      if (const std::optional<Candidate> found = search(now, gate, others)) {
+        View there = found->view;
+        if (settle(now, found->view, there, agreement, 0) && like_itself(agreement)) {
+          accept(now, there, agreement);
+          return sighting(agreement);
+        }
+      }
     return hidden(gate);
   }
 
