@@ -195,7 +195,7 @@ Estimates estimate(const EstimateOptions& options) {
       json.push_back(number_or_null(numbers[k]));
     }
     all.table += '\n';
-    all.rows.push_back(std::move(json));
+    if (options.json) all.rows.push_back(std::move(json));
   }
   if (all.measured == 0) throw InputError("x", "no measurement", "at least one in the track");
   return all;

@@ -215,8 +215,7 @@ Json focal(const Json& value) {
   state.velocity = agent.velocity;
   Json ellipse;
   if (value.contains("foci")) {
-    for (const char* field : {"side"})
-      if (value.contains(field)) throw InputError(field, quoted(value[field]), "given with vehicles only");
+    if (value.contains("side")) throw InputError("side", quoted(value["side"]), "given with vehicles only");
     state.foci = read_two(value, "foci", " (m)", true);
     state.velocities = read_two(value, "foci_velocities", " (m/s)", true);
     state.a = required(value, "", "a", "a number: the semi-major axis (m)");

@@ -130,9 +130,14 @@ Innovation<2> SingerFilter::step_as_source(const Eigen::Matrix2d& noise, double 
 }
 
 Eigen::Matrix2d SingerFilter::position_covariance() const {
-  const Covariance& p = belief_.covariance;
-  Eigen::Matrix2d c;
-  c << p(0, 0), p(0, 3), p(3, 0), p(3, 3);
+  return motion_covariance().topLeftCorner<2, 2>();
+}
+
+Eigen::Matrix4d SingerFilter::motion_covariance() const {
+  constexpr int kOrder[] = {0, 3, 1, 4};
+  Eigen::Matrix4d c;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) c(i, j) = belief_.covariance(kOrder[i], kOrder[j]);
   return c;
 }
 

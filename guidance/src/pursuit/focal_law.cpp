@@ -96,7 +96,7 @@ void polynomial_form(const FocalState& state, const Sight (&sights)[2], FocalRat
              4 * b2_rate * n * n;
 }
 
-double heading_of(const Vector2d& v) { return std::atan2(v.y(), v.x()); }
+double angle_of(const Vector2d& v) { return std::atan2(v.y(), v.x()); }
 
 }  // namespace
 
@@ -156,7 +156,7 @@ PursuitCommand FocalLaw::step(const FocalState& state, double time) {
   PursuitCommand command;
   command.y1 = f.y1;
   command.y2 = f.y2;
-  const double alpha = heading_of(state.velocity);
+  const double alpha = angle_of(state.velocity);
   const Vector2d ahead(std::cos(alpha), std::sin(alpha));
   const double determinant = cross(f.by_acceleration1, f.by_acceleration2);
   const Vector2d to_focus = state.foci[0] - state.position;
@@ -166,9 +166,9 @@ PursuitCommand FocalLaw::step(const FocalState& state, double time) {
   in_layer_ = time < until_ || (gains_.layer_when_receding && receding);
   if (in_layer_) {
     // (4.15), (4.16) with E_c the first focus; the sign of K_r as corrected.
-    const double theta = heading_of(to_focus), r = to_focus.norm();
+    const double theta = angle_of(to_focus), r = to_focus.norm();
     const double beyond = std::max(0.0, r - gains_.near);
-    command.lateral = gains_.heading * wrapped(heading_of(state.velocities[0]) - alpha) +
+    command.lateral = gains_.heading * wrapped(angle_of(state.velocities[0]) - alpha) +
                       (beyond > 0 ? gains_.sight * wrapped(theta - alpha) : 0);
     command.longitudinal = gains_.speed_error * (state.velocities[0].norm() - state.velocity.norm()) +
                            gains_.distance * (to_focus.dot(ahead) >= 0 ? 1 : -1) * beyond;

@@ -3,6 +3,7 @@
 // The laws in closed loop with exact states: the source's runs 3.4.1, 3.4.2, 4.3.0.1 and 4.3.0.2, 40 starts
 // within 1 mm.
 #include <gtest/gtest.h>
+#include <vericone/guidance/estimation/singer.h>
 #include <vericone/guidance/pursuit/focal_law.h>
 #include <vericone/guidance/pursuit/pursuit_law.h>
 #include <vericone/guidance/pursuit/rendezvous_law.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 namespace vericone::guidance::pursuit_loop_test {
 namespace {
@@ -216,6 +218,61 @@ TEST(PursuitLoop, Squircle) {
     EXPECT_LT(s.most, std::min(source.least, exact.least));
     EXPECT_LT(s.most - s.least, 0.01);
     EXPECT_LT(s.apart, 0.01);
+  }
+}
+
+/// What Singer's filter makes of positions with errors of 0.3 m, hidden for 1.5 s of every 10 s, and nothing
+/// of the truth.
+class Watched {
+ public:
+  Watched(Steer law, std::uint64_t seed) : law_(std::move(law)), random_(seed) {}
+  Vector2d operator()(const Vector2d& p, const Vector2d& v, const Vehicle& truth) {
+    const double time = 0.1 * step_++;
+    const Vector2d error = 0.3 * std::sqrt(-2 * std::log(1 - random_.uniform())) * random_.direction_2d();
+    std::optional<Vector2d> seen = truth.position + error;
+    if (std::fmod(time, 10) > 8.5) seen.reset();
+    filter_.step(seen, 0.09 * Eigen::Matrix2d::Identity(), time);
+    return law_(p, v, {filter_.position(), filter_.velocity(), filter_.acceleration()});
+  }
+
+ private:
+  Steer law_;
+  RandomBodies random_;
+  SingerFilter filter_;
+  int step_ = 0;
+};
+
+TEST(PursuitLoop, WithTheFilterAndHiddenTargets) {
+  const struct {
+    const char* name;
+    Road road;
+    double duration;
+    RendezvousGains gains;
+  } runs[] = {{"3.4.1", lane_of_3_4_1(), 149, {}},
+              {"3.4.2", squircle({0, -20}), 671, {.cone = 1.4, .speed = 0.09}}};
+  for (const auto& run : runs) {
+    const auto of = [&](const Steer& law) {
+      std::pair<double, double> worst{0, 0};  // mean r; paths apart
+      for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        const Flight one = fly(run.road, run.duration, Vector2d::Zero(), Watched(law, seed), Motion::exact);
+        const Flight other =
+            fly(run.road, run.duration, Vector2d(1e-3, 0), Watched(law, seed), Motion::exact);
+        worst.first = std::max({worst.first, one.mean_r, other.mean_r});
+        for (std::size_t k = 0; k < one.path.size(); ++k)
+          worst.second = std::max(worst.second, (one.path[k] - other.path[k]).norm());
+      }
+      return worst;
+    };
+    const auto ours = of(our_law(10)), gentle = of(our_law(3)), source = of(source_law(run.gains));
+    std::printf(
+        "%s, watched: mean r and paths apart at most: ours %.2f m, %.1e m; 3 m/s^2 %.2f m, %.1e m; "
+        "source %.1f m, %.0f m\n",
+        run.name, ours.first, ours.second, gentle.first, gentle.second, source.first, source.second);
+    for (const auto& [mean, apart] : {ours, gentle}) {
+      EXPECT_LT(mean, 1);
+      EXPECT_LT(mean, source.first);
+      EXPECT_LT(apart, 0.01);
+    }
   }
 }
 

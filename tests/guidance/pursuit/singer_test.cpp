@@ -235,10 +235,19 @@ TEST(SingerFilter, StartsWithTheFirstMeasurement) {
   EXPECT_EQ(filter.position(), Eigen::Vector2d(3, -4));
   EXPECT_EQ(filter.velocity(), Eigen::Vector2d(0, 0));
   EXPECT_EQ(filter.position_covariance(), r);
+  Eigen::Matrix4d motion = Eigen::Matrix4d::Zero();
+  motion.diagonal() << 1, 1, 900, 900;
+  EXPECT_EQ(filter.motion_covariance(), motion);
   const Innovation<2> hidden = filter.step(std::nullopt, r, 2);
   EXPECT_FALSE(hidden.accepted);
   EXPECT_TRUE(std::isnan(hidden.nis));
   EXPECT_EQ(filter.time(), 2);
+  // Where it went, its velocity says: in the place of (x, x') and of (y, y') alone.
+  const Eigen::Matrix4d moved = filter.motion_covariance();
+  EXPECT_GT(moved(0, 2), 100);
+  EXPECT_GT(moved(1, 3), 100);
+  EXPECT_EQ(moved(0, 1), 0);
+  EXPECT_EQ(moved(0, 3), 0);
 }
 
 /// Nothing seen: the mean goes on as predicted, the source's falls behind; and predicted() changes nothing.

@@ -55,6 +55,8 @@ class SingerFilter {
   [[nodiscard]] Eigen::Vector2d velocity() const { return {belief_.mean[1], belief_.mean[4]}; }
   [[nodiscard]] Eigen::Vector2d acceleration() const { return {belief_.mean[2], belief_.mean[5]}; }
   [[nodiscard]] Eigen::Matrix2d position_covariance() const;
+  /// Of (x, y, x', y'), as cone_confidence takes it: m and m/s.
+  [[nodiscard]] Eigen::Matrix4d motion_covariance() const;
 
  private:
   Innovation<2> corrected(const Eigen::Vector2d& measured, const Eigen::Matrix2d& noise);

@@ -15,13 +15,17 @@ namespace vericone::guidance {
 /// A and the foci of the ellipse, in fixed axes; m, m/s, m/s^2.
 struct FocalState {
   Eigen::Vector2d position = Eigen::Vector2d::Zero(), velocity = Eigen::Vector2d::Zero();  // of A
-  std::array<Eigen::Vector2d, 2> foci{}, velocities{}, accelerations{};
+  using Two = std::array<Eigen::Vector2d, 2>;
+  Two foci{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  Two velocities{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  Two accelerations{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
   double a = 0, a_rate = 0;  // semi-major axis and its rate
 };
 
 /// source: (4.6), (4.7) with |V_theta|. polynomial: 4 V^2 [(P_1 x V)(P_2 x V) - b^2 V^2] with P_i from A to a
 /// focus and V the mean of the foci's relative velocities (errata 3.4): the same number where the ellipse is
-/// rigid, and with a gradient between the foci, where the source's has none.
+/// rigid and both foci are on one side of A's course, and with a gradient between them, where the source's
+/// has none.
 enum class FocalForm : std::uint8_t { source, polynomial };
 
 /// y_1 (m^2 times the fourth power of a speed), y_2 = V^2 of (4.9) with E_c the first focus, and what changes
