@@ -21,7 +21,7 @@ KINDS = {".h", ".cpp", ".py", ".md", ".txt", ".yaml", ".json", ".cmake", ".js", 
 # What other programs take: CTest, CMake, git, googletest, Google Benchmark, g++, and this project's scripts.
 OF_OTHERS = re.compile(r"--(gtest_\w+|benchmark_\w+|preset|build|install|prefix|target|param|tree|table|before|narrow|"
                        r"again|test-dir|as-needed)$")
-PROGRAMS = {"fit", "scan", "verify"} - set(os.environ.get("VERICONE_PROGRAMS", "").split())
+PROGRAMS = {"fit", "pursue", "scan", "track", "verify"} - set(os.environ.get("VERICONE_PROGRAMS", "").split())
 # Not of this form: a table that its own test writes, a log, a page under work.
 OF_ANOTHER_FORM = {"docs/reference/bad-input.md", "CHANGELOG.md", "docs/reference/papers.md"}
 WIDTH = 120
@@ -201,7 +201,7 @@ class Words(unittest.TestCase):
         wrong, seen = [], 0
         for where, line in self.lines():
             for piece in re.split(r"[|;]|&&", line):
-                call = re.search(r"(?:^|[ (])(?:\./run|(?:build/release/apps/)?vericone(?: |-(?=fit|scan|verify))) *([a-z][a-z-]*)(?![\w:.])(.*)", piece)
+                call = re.search(r"(?:^|[ (])(?:\./run|(?:build/release/apps/)?vericone(?: |-(?=fit|pursue|scan|track|verify))) *([a-z][a-z-]*)(?![\w:.])(.*)", piece)
                 if not call or call.group(1) in PROGRAMS:
                     continue
                 name, rest = call.groups()
