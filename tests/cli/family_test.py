@@ -90,11 +90,14 @@ class Family(unittest.TestCase):
                 self.assertRegex(text, r"[ ,]%s[ ,\n]" % option, name)
 
     def test_options_mean_the_same_everywhere(self):
-        have = {"--quiet": "cone query law estimate accuracy signmap gallery shapes reach simulate campaign trials claims figures scan fit verify",
-                "--json": "cone query law estimate accuracy signmap gallery shapes reach simulate campaign trials claims figures scan fit verify",
-                "--out": "cone estimate accuracy signmap gallery shapes simulate campaign trials claims figures scan fit",
-                "--no-figures": "cone accuracy signmap gallery shapes simulate campaign trials scan fit",
-                "--threads": "cone accuracy gallery campaign trials verify", "--seed": "accuracy signmap campaign trials scan fit verify"}
+        have = {"--quiet": "cone query law estimate accuracy signmap gallery shapes reach simulate campaign trials claims figures pursue scan fit track "
+                           "verify",
+                "--json": "cone query law estimate accuracy signmap gallery shapes reach simulate campaign trials claims figures pursue scan fit track "
+                          "verify",
+                "--out": "cone estimate accuracy signmap gallery shapes simulate campaign trials claims figures pursue scan fit track",
+                "--no-figures": "cone accuracy signmap gallery shapes simulate campaign trials pursue scan fit track",
+                "--threads": "cone accuracy gallery campaign trials pursue verify",
+                "--seed": "accuracy signmap campaign trials pursue scan fit verify"}
         for option, commands in have.items():
             for name in commands.split():
                 if name in NEEDS and name not in PROGRAMS:
