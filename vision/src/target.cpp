@@ -249,7 +249,7 @@ std::optional<Target::Candidate> Target::search(const cv::Mat& now, const Eigen:
     const int nx = std::max(1, small.cols / 2), ny = std::max(1, small.rows / 2);
     score(cv::Rect(at.x - nx, at.y - ny, 2 * nx + 1, 2 * ny + 1) & cv::Rect(0, 0, score.cols, score.rows)) =
         -1.f;
-    const Form form = form_about(f.view, 10);
+    const Form form = form_about(f.view, 3);
     Agreement agreement = recent_.align(now, f.view, &form);
     f.correlation = agreement.correlation;
     const Eigen::Vector2d d = f.view.centre - view_.centre;
@@ -295,9 +295,9 @@ bool Target::settle(const cv::Mat& now, const View& guess, View& view, Agreement
   if (with_first.correlation > 0.75 && with_first.correlation > agreement.correlation - 0.15 &&
       (first.centre - view.centre).norm() < 0.15 * size + 1 && std::abs(first.turn - view.turn) < 0.2 &&
       std::abs(first.scale / view.scale - 1) < 0.1) {
-    view.centre += 0.3 * (first.centre - view.centre);
-    view.turn += 0.3 * (first.turn - view.turn);
-    view.scale += 0.3 * (first.scale - view.scale);
+    view.centre += 0.5 * (first.centre - view.centre);
+    view.turn += 0.5 * (first.turn - view.turn);
+    view.scale += 0.5 * (first.scale - view.scale);
   }
   return agreement.correlation > (points >= 4 ? kKeep : std::max(kKeep, usual_ - 0.25)) &&
          agreement.visible > kVisible && agreement.inside > 0.6;
@@ -330,7 +330,7 @@ void Target::accept(const cv::Mat& now, const View& view, const Agreement& agree
     usual_visible_ += 0.1 * (agreement.visible - usual_visible_);
   }
   if (agreement.correlation > std::max(0.75, usual_ - 0.1) && agreement.visible > kWhole)
-    recent_.learn(now, view, 0.06);
+    recent_.learn(now, view, 0.09);
   const double finer = view.scale * anchor_.step();
   if (agreement.correlation > 0.85 && agreement.visible > kWhole && (finer > 1.6 || finer < 0.6) &&
       std::max(first_.w, first_.h) * view.scale < 30) {
