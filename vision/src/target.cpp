@@ -234,7 +234,7 @@ std::optional<Target::Candidate> Target::search(const cv::Mat& now, const Eigen:
   const Eigen::Matrix2d inverse = gate.inverse();
   struct Found {
     View view;
-    double cost, correlation;
+    double cost = 0, correlation = 0, far = 0;
   };
   std::vector<Found> founds;
   for (int k = 0; k < 4; ++k) {
@@ -254,13 +254,14 @@ std::optional<Target::Candidate> Target::search(const cv::Mat& now, const Eigen:
     f.correlation = agreement.correlation;
     const Eigen::Vector2d d = f.view.centre - view_.centre;
     const double far = d.dot(inverse * d);
-    if (!like_itself(agreement) || far > kGate || std::abs(f.view.scale / view_.scale - 1) > 0.2 ||
+    if (!like_itself(agreement, far) || far > kGate || std::abs(f.view.scale / view_.scale - 1) > 0.2 ||
         std::abs(f.view.turn - view_.turn) > 0.6)
       continue;
     const Box there = box_at(f.view);
     if (std::any_of(others.begin(), others.end(), [&](const Box& o) { return overlap(o, there) > kShared; }))
       continue;  // another target's
     if (was_there_before(now, f.view)) continue;
+    f.far = far;
     f.cost = far + std::pow((1 - f.correlation) / 0.1, 2);
     founds.push_back(f);
   }
@@ -270,7 +271,7 @@ std::optional<Target::Candidate> Target::search(const cv::Mat& now, const Eigen:
     if ((founds[i].view.centre - founds[0].view.centre).norm() > 0.3 * size_of(box()) &&
         founds[i].cost < founds[0].cost + 4)
       return std::nullopt;  // two alike: the next pictures tell
-  return Candidate{founds[0].view, founds[0].cost, 1};
+  return Candidate{founds[0].view, founds[0].cost, founds[0].far, 1};
 }
 
 Form Target::form_about(const View& view, double times) const {
@@ -278,9 +279,11 @@ Form Target::form_about(const View& view, double times) const {
   return {view, times * (kTurnStep + kTurnRate * dt), times * (kScaleStep + kScaleRate * dt)};
 }
 
-bool Target::like_itself(const Agreement& agreement) const {
-  return agreement.correlation > std::max(kRegain, usual_ - 0.12) &&
-         agreement.visible > std::max(0.6, usual_visible_ - 0.1);
+bool Target::like_itself(const Agreement& agreement, double far) const {
+  // Right where it is expected it may look less like itself: the light and the ground about it change.
+  const double allowed = far < kNear ? 2 : 1;
+  return agreement.correlation > std::max(kRegain - (allowed - 1) * 0.1, usual_ - 0.12 * allowed) &&
+         agreement.visible > std::max(0.6 - (allowed - 1) * 0.1, usual_visible_ - 0.1 * allowed);
 }
 
 double Target::deviation() const { return kMeasured + kMeasuredOfSize * size_of(box()); }
@@ -405,7 +408,7 @@ Sighting Target::step(const cv::Mat& before, const cv::Mat& now, const Eigen::Ma
     if (reach > kUnsure * size)
       if (const std::optional<Candidate> found = search(now, gate, others)) {
         View there = found->view;
-        if (settle(now, found->view, there, agreement, 0) && like_itself(agreement)) {
+        if (settle(now, found->view, there, agreement, 0) && like_itself(agreement, found->far)) {
           accept(now, there, agreement);
           return sighting(agreement);
         }
@@ -425,7 +428,8 @@ Sighting Target::step(const cv::Mat& before, const cv::Mat& now, const Eigen::Ma
     const View expected_view = view;
     Agreement agreement;
     const bool good = settle(now, expected_view, view, agreement, 0);
-    if (good && like_itself(agreement) && (view.centre - expected_view.centre).norm() < 1.5 + 0.08 * size) {
+    if (good && like_itself(agreement, candidate_->far) &&
+        (view.centre - expected_view.centre).norm() < 1.5 + 0.08 * size) {
       candidate_->view = view;
       // One that is far from where it is expected waits for longer: the right one may come out yet.
       if (++candidate_->seen >= kConfirm + kFarWait * candidate_->cost / kGate / dt) {

@@ -33,7 +33,8 @@ class Target {
   };
   struct Candidate {
     View view;
-    double cost = 0;  // squared standard deviations from what is expected
+    double cost = 0;  // squared standard deviations from what is expected, of place and looks
+    double far = 0;   // the same of its place
     int seen = 0;
   };
   /// Points of the target followed from picture to picture, there and back, and the similarity of most of
@@ -45,7 +46,8 @@ class Target {
   std::optional<Candidate> search(const cv::Mat& now, const Eigen::Matrix2d& gate,
                                   std::span<const Box> others) const;
   Form form_about(const View& view, double times) const;
-  [[nodiscard]] bool like_itself(const Agreement& agreement) const;
+  /// `far`: squared standard deviations from where it is expected.
+  [[nodiscard]] bool like_itself(const Agreement& agreement, double far) const;
   [[nodiscard]] double deviation() const;  // px, of a measured centre
   bool settle(const cv::Mat& now, const View& guess, View& view, Agreement& agreement, int points);
   [[nodiscard]] Box box_at(const View& view) const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The four printed pursuits (source 3.4, 4.3; gains, roads and bars of errata 2.1), as the YAML files of the
+// The four printed pursuits (source 3.4, 4.3; gains, roads and bars of errata 4.3), as the YAML files of the
 // paper have them.
 #pragma once
 

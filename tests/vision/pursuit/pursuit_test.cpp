@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Pursuits in closed loop: exact states against the figures of errata 5.2, and from pixels.
+// Pursuits in closed loop: exact states against the figures of errata 4.3, and from pixels.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The source's bars: they hide what they cover, and stand again ahead of the UAS once they have left its
-// picture (errata 2.1).
+// picture (errata 4.3).
 #pragma once
 
 #include <vericone/simulation/leg.h>

@@ -54,7 +54,7 @@ class Tracker {
                                             std::span<const Expectation> expected) = 0;
 };
 
-/// The source's (3.3.4, errata 2.3): 4 Shi-Tomasi points a target, pyramidal Lucas-Kanade, centroid
+/// The source's (3.3.4, errata 4.3): 4 Shi-Tomasi points a target, pyramidal Lucas-Kanade, centroid
 /// adjustment, recovery by patches and SIFT within the expected box. It never says `lost`, and its boxes keep
 /// their size.
 struct SourceTrackerOptions {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Ways of vehicles on the ground, by formulas: lane changes and the squircle of chapters 3 and 4
-// (errata 2.1).
+// (errata 4.3).
 #pragma once
 
 #include <vericone/simulation/curve.h>
@@ -38,7 +38,7 @@ struct LaneChange {
                                                     std::vector<LaneChange> changes);
 
 /// Fernandez-Guasti's squircle x^2 + y^2 - s^2 x^2 y^2 / r^2 = r^2, counter-clockwise once in `period` s, by
-/// the parameter p = 2 pi t / period - pi/2 (errata 2.1); moved so that it begins at `start`, the middle of
+/// the parameter p = 2 pi t / period - pi/2 (errata 4.3); moved so that it begins at `start`, the middle of
 /// its southern side, to the east. r: `radius`, m; s: `squareness`, 0 (a circle) to below 1 (a square).
 /// Position and both derivatives are analytic. Throws InputError naming "radius", "squareness" or "period".
 [[nodiscard]] std::shared_ptr<const Road> squircle_road(const Eigen::Vector2d& start, double radius,

@@ -12,7 +12,7 @@
 namespace vericone::vehicles {
 
 struct QuadrotorOptions {
-  double mass = 4.3259;                                               // kg (errata 2.4)
+  double mass = 4.3259;                                               // kg (errata 4.3)
   Eigen::Vector3d inertia = Eigen::Vector3d(0.0845, 0.0845, 0.1377);  // kg m^2
   double gravity = 9.81;                                              // m/s^2
   double gain_attitude = 100, gain_rate = 10;                         // N m/rad, N m s/rad, (4.29)
@@ -43,7 +43,7 @@ struct ThrustAndTilt {
   double roll = 0, pitch = 0;  // rad, phi_d and theta_d
 };
 
-/// (4.25), and the kinematics that print leaves out (errata 2.4). Not defined at a pitch of 90 degrees.
+/// (4.25), and the kinematics that print leaves out (errata 4.3). Not defined at a pitch of 90 degrees.
 [[nodiscard]] QuadrotorState quadrotor_rates(const QuadrotorOptions& quadrotor, const QuadrotorState& state,
                                              const Wrench& wrench);
 

@@ -8,6 +8,7 @@
 #include <vericone/guidance/estimation/singer.h>
 #include <vericone/vision/tracker.h>
 #include <Eigen/Core>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <span>

@@ -13,6 +13,7 @@
 #include <vericone/vision/pursuit/perception.h>
 #include <vericone/vision/scene/mount.h>
 #include <vericone/vision/scene/scene.h>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -31,7 +32,7 @@ struct Car {
 };
 
 /// Bars that hide what they cover, and stand again ahead of the UAS once they have left its picture
-/// (errata 2.1).
+/// (errata 4.3).
 struct FlyingBars {
   int count = 0;
   Eigen::Vector2d size = Eigen::Vector2d(15, 0);  // m, along x and y; 0 along y: all of the picture
