@@ -408,6 +408,47 @@ def fish(vehicle, shape="", position="[0, 0, 0]", velocity="[0.1, 0, 0]", top=""
                                                                                                 vehicle)
 
 
+CAR = "{name: B, position: [5, 5], road: {kind: lanes, velocity: [20, 0]}}"
+CAMERA = "{width: 320, height: 240, field_of_view_deg: 50}"
+
+
+def pursuit(car=CAR, camera=CAMERA, uas="{position: [0, 0, 120], velocity: [20, 0, 0]}", top="duration: 2\n"):
+    return ("%suas: %s\ncars:\n  - %s\ncameras:\n  source: {width: 320, height: 240, field_of_view_deg: 50}\n  perspective: %s\n"
+            % (top, uas, car, camera))
+
+
+# What is wrong, the words after `pursue FILE`, the pursuit.
+PURSUITS = [
+    ("a field of view of 180 degrees", [], pursuit(camera=CAMERA.replace("50", "180"))),
+    ("no field of view", [], pursuit(camera="{width: 320, height: 240}")),
+    ("a picture of no pixels", [], pursuit(camera=CAMERA.replace("320", "0"))),
+    ("a gimbal that does not turn", [], pursuit(camera=CAMERA.replace("}", ", mount: {kind: gimbal, rate_deg: 0}}"))),
+    ("a mount that is not known", [], pursuit(camera=CAMERA.replace("}", ", mount: {kind: glued}}"))),
+    ("negative noise", [], pursuit(camera=CAMERA.replace("}", ", noise: -1}"))),
+    ("a roof below its bottom", [], pursuit(camera=CAMERA.replace("}", ", occluders: [{center: [0, 0], size: [1, 1], bottom: 5, "
+                                                                       "top: 4}]}"))),
+    ("a ground that is not there", [], pursuit(camera=CAMERA.replace("}", ", ground: {picture: nowhere.png}}"))),
+    ("a camera under the ground", [], pursuit(uas="{position: [0, 0, -1]}")),
+    ("no cars", [], pursuit().replace("cars:\n  - " + CAR, "cars: []")),
+    ("two cars of one name", [], pursuit(car=CAR + "\n  - " + CAR)),
+    ("a car without a road", [], pursuit(car="{name: B, position: [5, 5]}")),
+    ("a road that is not known", [], pursuit(car=CAR.replace("lanes", "spiral"))),
+    ("a car that the camera does not see", [], pursuit(car=CAR.replace("[5, 5]", "[5, 500]"))),
+    ("pictures between steps", [], pursuit(top="duration: 2\nstep: 0.02\npicture_step: 0.05\n")),
+    ("a gain of zero, of a pursuit", [], pursuit(top="duration: 2\nlaws: {source: {kind: rendezvous, K_1: 0}}\n")),
+    ("a law of one car for two", [], pursuit(car=CAR + "\n  - " + CAR.replace("B,", "C,"),
+                                             top="duration: 2\nlaws: {source: {kind: rendezvous}}\n")),
+    ("a variance of one number", [], pursuit(top="duration: 2\nfilters: {ours: {variance: [1]}}\n")),
+    ("an unknown field of a pursuit", [], pursuit(top="speed: 2\n")),
+    ("an unknown camera", ["--camera", "eagle"], pursuit()),
+    ("a video of no pictures", ["--camera", "exact", "--video", "v.mp4"], pursuit()),
+    ("a video of another kind", ["--video", "v.gif"], pursuit()),
+    ("a pursuit of no time", ["--duration", "0"], pursuit()),
+    ("starts and occlusions at once", ["--starts", "3", "--random", "3"], pursuit()),
+    ("random occlusions without pictures", ["--random", "3", "--camera", "exact"], pursuit()),
+]
+
+
 # What is wrong, the scenario.
 SCENARIOS = [
     ("steps that no memory holds", scenario(top="duration: 5\nstep: 0.000002\n")),
@@ -606,6 +647,15 @@ def run_trials(vericone, arguments):
         return result, sorted(set(os.listdir(folder)) - {"scenario.yaml"})
 
 
+def run_pursuit(vericone, arguments, text):
+    with tempfile.TemporaryDirectory() as folder:
+        with open(os.path.join(folder, "pursuit.yaml"), "w", encoding="utf-8") as f:
+            f.write(text)
+        result = subprocess.run([vericone, "pursue", "pursuit.yaml", *arguments, "--no-figures", "--quiet"], capture_output=True,
+                                text=True, check=False, cwd=folder)
+        return result, sorted(set(os.listdir(folder)) - {"pursuit.yaml"})
+
+
 def scenario_rows(vericone):
     def cell(text):
         return "`" + " ".join(text.split()).replace("|", "\\|") + "`"
@@ -614,6 +664,10 @@ def scenario_rows(vericone):
     for what, given in SCENARIOS:
         result, _ = run_scenario(vericone, given)
         text.append("| %s | %s | %s |" % (what, cell(given), cell(result.stderr)))
+    text += ["", "## Pursuits", "", "| what | words after `vericone pursue pursuit.yaml` | pursuit | message |", "|---|---|---|---|"]
+    for what, arguments, given in PURSUITS:
+        result, _ = run_pursuit(vericone, arguments, given)
+        text.append("| %s | %s | %s | %s |" % (what, cell(" ".join(arguments)) if arguments else "", cell(given), cell(result.stderr)))
     text += ["", "## Campaigns", "", "| what | command | message |", "|---|---|---|"]
     for what, arguments in CAMPAIGNS:
         result, _ = run_campaign(vericone, arguments)
