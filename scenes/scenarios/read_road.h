@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vericone/simulation/scenario.h>
+#include <string>
+
+#include "json/json_forward.h"
+
+namespace vericone::scenario {
+
+/// The fields position and road of a body into its `start` and `road`. Throws InputError with `path` before
+/// the field; those of other motions are none beside a road.
+void read_road(const Json& value, const std::string& path, bool planar, simulation::Body& body);
+
+}  // namespace vericone::scenario
