@@ -14,6 +14,7 @@
 #include "scenarios/read_motion.h"
 #include "scenarios/read_orifice.h"
 #include "scenarios/read_pilot.h"
+#include "scenarios/read_road.h"
 #include "scenarios/read_shape.h"
 #include "scenarios/read_vehicle.h"
 #include "scenarios/scenario_fields.h"
@@ -31,8 +32,8 @@ Json with_shape(const Json& value, const std::string& path) {
   if (value.contains("position"))
     throw InputError(path + ".position", quoted(value["position"]),
                      "given with shape; beside a body's own fields its place is center");
-  constexpr const char* kOwn[] = {"name",        "velocity", "speed",   "heading", "heading_deg",
-                                  "orientation", "rotation", "appears", "pilot",   "vehicle"};
+  constexpr const char* kOwn[] = {"name",     "velocity", "speed", "heading", "heading_deg", "orientation",
+                                  "rotation", "appears",  "pilot", "vehicle", "road"};
   for (const auto& [key, field] : value.items()) {
     const bool own = std::find(std::begin(kOwn), std::end(kOwn), key) != std::end(kOwn);
     if (key == "center")
@@ -60,19 +61,24 @@ simulation::Body read_body(const Json& given, const std::string& path, const std
   const Json value = by_shape(given) ? given : with_shape(given, path);
   require_known(value, path,
                 {"name", "shape", "position", "velocity", "speed", "heading", "heading_deg", "orientation",
-                 "rotation", "appears", "pilot", "vehicle"});
+                 "rotation", "appears", "pilot", "vehicle", "road"});
   simulation::Body body;
   body.name = read_text(require_field(value, path, "name", "a name, as text"), path + ".name", "a name");
+  bool own_shape = false;
   if_given(value, path, "vehicle", [&](const Json& v, const std::string& p) {
     const VehicleRead read = read_vehicle(v, p, value.contains("shape"));
     body.vehicle = read.model;
-    body.shape = read.shape;
+    own_shape = read.shape.has_value();
+    if (own_shape) body.shape = *read.shape;
   });
-  if (!body.vehicle || value.contains("shape"))
+  if (!own_shape)
     body.shape = read_shape(require_field(value, path, "shape", "a mapping, such as {semi_axes: [3, 2, 1]}"),
                             path + ".shape", folder);
   const bool planar = simulation::planar(body.shape);
-  read_motion(value, path, planar, body);
+  if (value.contains("road"))
+    read_road(value, path, planar, body);
+  else
+    read_motion(value, path, planar, body);
   if_given(value, path, "appears",
            [&](const Json& v, const std::string& p) { body.appears = read_not_negative(v, p, " (s)"); });
   if_given(value, path, "pilot",

@@ -3,6 +3,7 @@
 
 #include <vericone/vehicles/fish.h>
 #include <vericone/vehicles/fish_body.h>
+#include <vericone/vehicles/quadrotor.h>
 #include <array>
 #include <numbers>
 #include <utility>
@@ -15,7 +16,7 @@ namespace vericone::scenario {
 namespace {
 
 using input::quoted, input::read_number, input::require_field, input::require_known, input::require_object;
-using vehicles::FishControl, vehicles::FishOptions, vehicles::FishParameters;
+using vehicles::FishControl, vehicles::FishOptions, vehicles::FishParameters, vehicles::QuadrotorOptions;
 
 constexpr double kDegree = std::numbers::pi / 180;
 
@@ -123,12 +124,37 @@ FishOptions read_fish(const Json& value, const std::string& path) {
   return options;
 }
 
-}  // namespace
+QuadrotorOptions read_quadrotor(const Json& value, const std::string& path) {
+  require_known(value, path,
+                {"kind", "mass", "inertia", "gravity", "gain_attitude", "gain_rate", "most_thrust",
+                 "most_torque", "most_tilt_deg", "period", "solver_step"});
+  QuadrotorOptions options;
+  const auto positive = [&](const char* field, const char* unit, double& to, double scale = 1) {
+    if_given(value, path, field,
+             [&](const Json& v, const std::string& p) { to = scale * read_positive(v, p, unit); });
+  };
+  positive("mass", " (kg)", options.mass);
+  if_given(value, path, "inertia", [&](const Json& v, const std::string& p) {
+    options.inertia = input::read_vector<3>(v, p, " (kg m^2)");
+  });
+  positive("gravity", " (m/s^2)", options.gravity);
+  positive("gain_attitude", " (N m/rad)", options.gain_attitude);
+  positive("gain_rate", " (N m s/rad)", options.gain_rate);
+  options.most_thrust = 2 * options.mass * options.gravity;
+  positive("most_thrust", " (N)", options.most_thrust);
+  positive("most_torque", " (N m)", options.most_torque);
+  if_given(value, path, "most_tilt_deg", [&](const Json& v, const std::string& p) {
+    constexpr double kMost = 80;
+    const double tilt = read_positive(v, p, " (degrees)");
+    if (!(tilt <= kMost)) throw InputError(p, quoted(v), "at most 80 degrees");
+    options.most_tilt = kDegree * tilt;
+  });
+  positive("period", " (s)", options.period);
+  positive("solver_step", " (s)", options.step);
+  return options;
+}
 
-VehicleRead read_vehicle(const Json& value, const std::string& path, bool shape_given) {
-  require_object(value, path);
-  const Json& kind = require_field(value, path, "kind", "fish");
-  if (kind != "fish") throw InputError(join(path, "kind"), quoted(kind), "fish");
+VehicleRead read_fish_and_body(const Json& value, const std::string& path, bool shape_given) {
   const FishOptions options = read_fish(value, path);
   VehicleRead read;
   read.model = input::within(path, [&] { return vehicles::fish(options); });
@@ -145,6 +171,17 @@ VehicleRead read_vehicle(const Json& value, const std::string& path, bool shape_
                                       : vehicles::ellipsoid_of(options.parameters);
   read.shape = simulation::RigidShape{CombinedEllipsoid(Ellipsoid::from_axes(Eigen::Vector3d::Zero(), axes))};
   return read;
+}
+
+}  // namespace
+
+VehicleRead read_vehicle(const Json& value, const std::string& path, bool shape_given) {
+  require_object(value, path);
+  const Json& kind = require_field(value, path, "kind", "fish or quadrotor");
+  if (kind == "fish") return read_fish_and_body(value, path, shape_given);
+  if (kind != "quadrotor") throw InputError(join(path, "kind"), quoted(kind), "fish or quadrotor");
+  const QuadrotorOptions options = read_quadrotor(value, path);
+  return {input::within(path, [&] { return vehicles::quadrotor(options); }), {}};
 }
 
 simulation::Current read_current(const Json& value, const std::string& path, std::uint64_t seed) {

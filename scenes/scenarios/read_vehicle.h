@@ -6,17 +6,18 @@
 #include <vericone/simulation/scenario.h>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "json/json_forward.h"
 
 namespace vericone::scenario {
 
-/// The vehicle, and the shape that it gives its body where the scenario gives none. Both throw InputError
-/// with `path` before the field.
+/// The vehicle, and the shape that it gives its body where the scenario gives none: a fish has one. Both
+/// throw InputError with `path` before the field.
 struct VehicleRead {
   std::shared_ptr<const simulation::VehicleModel> model;
-  simulation::ShapeInTime shape;
+  std::optional<simulation::ShapeInTime> shape;
 };
 VehicleRead read_vehicle(const Json& value, const std::string& path, bool shape_given);
 

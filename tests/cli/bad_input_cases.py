@@ -403,6 +403,18 @@ def orifice(text=ORIFICE, pilot=THROUGH, agent="{semi_axes: [1, 1, 1]}", more=""
     return scenario(pilot=pilot, agent=agent, top="duration: 5\norifices: [%s%s]\n" % (text, more))
 
 
+def drone(fields, most=9):
+    return ("duration: 9\nstep: 0.1\nbodies:\n"
+            "  - name: D\n    shape: {semi_axes: [1, 1, 1]}\n    position: [0, 0, 9]\n    velocity: [4, 0, 0]\n"
+            "    vehicle: {kind: quadrotor, %s}\n"
+            "    pilot: {law: clearance, most: %s, goal: {point: [0, 30, 0], most: %s}}\n"
+            "  - {name: B, shape: {semi_axes: [1, 1, 1]}, position: [90, 0, 0]}\n" % (fields, most, most))
+
+
+def road(road, more=""):
+    return "duration: 5\nbodies:\n  - {name: C, shape: {semi_axes: [1, 1, 1]}, position: [0, 0, 0], %sroad: %s}\n" % (more, road)
+
+
 def fish(vehicle, shape="", position="[0, 0, 0]", velocity="[0.1, 0, 0]", top=""):
     return "%sduration: 5\nbodies:\n  - {name: F, %sposition: %s, velocity: %s, vehicle: %s}\n" % (top, shape, position, velocity,
                                                                                                 vehicle)
@@ -557,6 +569,25 @@ SCENARIOS = [
     ("an amplitude beyond its most", fish("{kind: fish, control: none, trial: {amplitude_deg: 40}}")),
     ("a shape and the vehicle's own", fish("{kind: fish, body: sphere}", "shape: {semi_axes: [1, 1, 1]}, ")),
     ("a vehicle in the plane", fish("{kind: fish}", "shape: {semi_axes: [1, 1]}, ", "[0, 0]", "[1, 0]")),
+    ("a quadrotor without a shape", fish("{kind: quadrotor}")),
+    ("a quadrotor that cannot hover", drone("most_thrust: 40")),
+    ("a quadrotor of two moments of inertia", drone("inertia: [0.1, 0.1]")),
+    ("a quadrotor of an inertia that no body has", drone("inertia: [0.1, 0.1, 0.3]")),
+    ("a quadrotor on its side", drone("most_tilt_deg: 90")),
+    ("thrust and torques held for too long", drone("period: 0.02")),
+    ("a quadrotor that tumbles", drone("gain_rate: 0.2, period: 0.001, most_tilt_deg: 80, most_thrust: 400", 90)),
+    ("an unknown field of a quadrotor", drone("depth: 3")),
+    ("a quadrotor that starts upright", fish("{kind: quadrotor}", "shape: {semi_axes: [1, 1, 1]}, ", velocity="[0, 0, 1]")),
+    ("a road of an unknown kind", road("{kind: motorway}")),
+    ("a road and a velocity", road("{kind: lanes, velocity: [1, 0]}", "velocity: [1, 0, 0], ")),
+    ("a road and a pilot", road("{kind: lanes, velocity: [1, 0]}", "pilot: {law: avoidance, most: 1}, ")),
+    ("a lane without a velocity", road("{kind: lanes}")),
+    ("a change of the lane at rest", road("{kind: lanes, velocity: [0, 0], changes: [{at: 1, acceleration: 1}]}")),
+    ("a change of the lane before the start", road("{kind: lanes, velocity: [1, 0], changes: [{at: -1, acceleration: 1}]}")),
+    ("a change of the lane that takes no time",
+     road("{kind: lanes, velocity: [1, 0], changes: [{at: 1, acceleration: 1, seconds: 0}]}")),
+    ("a squircle with corners", road("{kind: squircle, radius: 9, period: 9, squareness: 1}")),
+    ("a squircle of no size", road("{kind: squircle, radius: 0, period: 9}")),
     ("a fish that starts upright", fish("{kind: fish}", velocity="[0, 0, 0.1]")),
     ("a current of two numbers", fish("{kind: fish}", top="current: {uniform: [1, 0]}\n")),
     ("a shear without a rate", fish("{kind: fish}", top="current: {shear: {level: 1}}\n")),

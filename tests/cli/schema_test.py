@@ -137,6 +137,7 @@ class Schemas(unittest.TestCase):
     def test_fields_are_those_of_the_program(self):
         scenario, scene, body = schema("scenario"), schema("scene"), schema("body")
         top = "duration: 5\nbodies:\n  - {name: A, shape: {semi_axes: [1, 1, 1]}, position: [0, 0, 0], velocity: [1, 0, 0]%s}\n"
+        road = "duration: 5\nbodies:\n  - {name: A, shape: {semi_axes: [1, 1, 1]}, position: [0, 0, 0], road: {%s}}\n"
         defs = scenario["$defs"]
         for text, path, properties in (
                 ("zzz: 1\n" + top % "", "zzz", scenario["properties"]),
@@ -147,6 +148,11 @@ class Schemas(unittest.TestCase):
                  defs["clearance"]["properties"]),
                 (top % ", pilot: {law: avoidance, plane: {zzz: 1}}", "bodies[0].pilot.plane.zzz", defs["plane"]["properties"]),
                 (top % ", vehicle: {kind: fish, zzz: 1}", "bodies[0].vehicle.zzz", defs["vehicle"]["properties"]),
+                (top % ", vehicle: {kind: quadrotor, zzz: 1}", "bodies[0].vehicle.zzz", defs["quadrotor"]["properties"]),
+                (road % "kind: lanes, velocity: [1, 0], zzz: 1", "bodies[0].road.zzz", defs["lanes"]["properties"]),
+                (road % "kind: lanes, velocity: [1, 0], changes: [{zzz: 1}]", "bodies[0].road.changes[0].zzz",
+                 defs["lane_change"]["properties"]),
+                (road % "kind: squircle, zzz: 1", "bodies[0].road.zzz", defs["squircle"]["properties"]),
                 (top % ", vehicle: {kind: fish, limits: {zzz: 1}}", "bodies[0].vehicle.limits.zzz",
                  defs["vehicle_limits"]["properties"]),
                 (top % ", vehicle: {kind: fish, control: none, trial: {zzz: 1}}", "bodies[0].vehicle.trial.zzz",
@@ -171,7 +177,7 @@ class Schemas(unittest.TestCase):
         # A scenario's shape takes these, changes in time, and no velocity.
         shape = set(defs["shape"]["properties"])
         self.assertEqual(shape, fields - {"velocity"} | {"dented"})
-        own = {"name", "speed", "heading", "heading_deg", "orientation", "appears", "pilot", "vehicle", "velocity"}
+        own = {"name", "speed", "heading", "heading_deg", "orientation", "appears", "pilot", "vehicle", "road", "velocity"}
         self.assertEqual(set(defs["as_in_scenes"]["properties"]), shape | own)
 
     def test_defaults_are_those_of_the_program(self):
@@ -235,6 +241,23 @@ class Schemas(unittest.TestCase):
                 with open(os.path.join(out, "bodies.csv"), encoding="utf-8") as rows:
                     runs.append(rows.read())
             self.assertTrue(runs[0] == runs[1], f"the runs under {control} differ")
+        runs = []
+        for number in range(2):
+            agent = {"name": "A", "shape": {"semi_axes": [1, 1, 1]}, "position": [0, 0, 0], "velocity": [1, 2, 0],
+                     "vehicle": {**(defaults("quadrotor") if number else {}), "kind": "quadrotor"},
+                     "pilot": {"law": "clearance", "most": 9, "goal": {"point": [20, -9, 3], "most": 4}}}
+            change = {**(defaults("lane_change") if number else {}), "at": 1, "acceleration": 1}
+            others = [{"name": name, "shape": {"semi_axes": [1, 1, 1]}, "position": [9 + at, 2, 0], "road": road}
+                      for name, at, road in (("B", 0, {"kind": "lanes", "velocity": [0, -1], "changes": [change]}),
+                                             ("C", 9, {**(defaults("squircle") if number else {}), "kind": "squircle",
+                                                       "radius": 9, "period": 9}))]
+            out = os.path.join(self.folder.name, f"quadrotor-{number}")
+            path = self.write(json.dumps({"duration": 5, "step": 0.05, "bodies": [agent, *others]}))
+            done = run("simulate", path, "--no-figures", "--quiet", "--out", out)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with open(os.path.join(out, "bodies.csv"), encoding="utf-8") as rows:
+                runs.append(rows.read())
+        self.assertTrue(runs[0] == runs[1], "the runs of a quadrotor and roads differ")
 
     def test_fields_of_papers_are_those_of_the_program(self):
         folder = os.path.join(self.folder.name, "paper")

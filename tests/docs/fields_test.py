@@ -28,7 +28,7 @@ class Fields(unittest.TestCase):
                 self.assertTrue(fields.said(name, nodes[field], "description"), f"{name} {definition} {field}")
         for name, definitions in (("body", ("body", "hyperboloid", "hyperbola")), ("scene", (None, "lidar", "pose_error")),
                                   ("scenario", (None, "proof", "by_shape", "pilot", "goal", "plane", "clearance", "orifice", "opening", "vehicle",
-                                                "vehicle_limits", "fish_trial", "current", "shear", "gusts"))):
+                                                "vehicle_limits", "fish_trial", "quadrotor", "lanes", "lane_change", "squircle", "current", "shear", "gusts"))):
             for definition in definitions:
                 nodes, _ = fields.properties(name, definition)
                 self.assertEqual(shown.get((name, definition)), set(nodes), (name, definition))

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <set>
 
-#include <vericone/vehicles/quadrotor.h>  // TEMP
 #include "json/json_value.h"
+#include "scenarios/read_road.h"
 #include "scenarios/read_vehicle.h"
 #include "scenarios/scenario_fields.h"
 
@@ -20,24 +20,6 @@ using scenario::if_given, scenario::join, scenario::read_choice, scenario::read_
     scenario::read_not_negative, scenario::read_positive, scenario::read_text;
 using namespace vision;
 
-namespace scenario_temp {}
-}  // namespace
-}  // namespace vericone::pursuit
-namespace vericone::scenario {
-std::shared_ptr<const simulation::Road> read_road(const Json& v, const std::string& p,
-                                                  const Eigen::Vector2d& start) {
-  using namespace input;
-  if (v["kind"] == "lanes") {
-    std::vector<simulation::LaneChange> changes;
-    for (const Json& c : v.value("changes", Json::array()))
-      changes.push_back({c["at"], c["seconds"], c["acceleration"]});
-    return simulation::lane_road(start, read_vector<2>(v["velocity"], p, ""), changes);
-  }
-  return simulation::squircle_road(start, v["radius"], v["squareness"], v["period"]);
-}
-}  // namespace vericone::scenario
-namespace vericone::pursuit {
-namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 
 /// Reads the fields that are given into the numbers named; complains about others.
@@ -296,10 +278,7 @@ void read_uas(const Json& value, const std::string& path, Pursuit& pursuit) {
   if_given(value, path, "source_steps",
            [&](const Json& v, const std::string& p) { pursuit.source_steps = read_flag(v, p); });
   if_given(value, path, "vehicle", [&](const Json& v, const std::string& p) {
-    if (v.value("kind", "") == "quadrotor")
-      pursuit.vehicle = vehicles::quadrotor({});
-    else
-      pursuit.vehicle = scenario::read_vehicle(v, p, true).model;
+    pursuit.vehicle = scenario::read_vehicle(v, p, true).model;
   });
 }
 

@@ -64,6 +64,7 @@ void check_scenario(const Json& fields, const std::string& file, scenario::Facts
   for (const simulation::Body& body : scenario.bodies) {
     std::string text = scenario::shape_words(body) + "; " +
                        motion_words(body.start.velocity, simulation::planar(body.shape));
+    if (body.road) text += "; along a road";
     if (body.appears > 0) text += "; appears at " + brief(body.appears) + " s";
     facts.add(body.name, text);
     if (body.pilot) facts.add("", scenario::agent_text(scenario, body));
@@ -72,8 +73,9 @@ void check_scenario(const Json& fields, const std::string& file, scenario::Facts
                         brief(body.pilot->goal->point.y()) + ", " + brief(body.pilot->goal->point.z()) +
                         ") m");
   }
-  const auto pilots = std::count_if(scenario.bodies.begin(), scenario.bodies.end(),
-                                    [](const simulation::Body& body) { return body.pilot.has_value(); });
+  const auto pilots =
+      std::count_if(scenario.bodies.begin(), scenario.bodies.end(),
+                    [](const simulation::Body& body) { return body.pilot || body.vehicle || body.road; });
   const std::size_t count = scenario.bodies.size();
   for (const simulation::MovingOrifice& orifice : scenario.orifices)
     facts.add(orifice.name, scenario::orifice_words(orifice));

@@ -24,7 +24,7 @@ std::vector<double> command_times(const Scenario& scenario, const Run& run) {
   for (std::uint64_t k = 0; time_of_step(scenario, k) < run.end; ++k)
     times.push_back(time_of_step(scenario, k));
   for (std::size_t i = 0; i < run.tracks.size(); ++i) {
-    if (scenario.bodies[i].vehicle) continue;  // its legs are the solver's steps
+    if (scenario.bodies[i].vehicle || scenario.bodies[i].road) continue;  // legs as their solver makes them
     for (const auto& leg : run.tracks[i].legs()) times.push_back(leg->from());
   }
   std::sort(times.begin(), times.end());

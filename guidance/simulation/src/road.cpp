@@ -185,6 +185,14 @@ std::shared_ptr<const Road> squircle_road(const Vector2d& start, double radius, 
   return std::make_shared<Squircle>(start, radius, squareness, period);
 }
 
+Motion start_of(const Road& road, double height) {
+  const Along along{road, height, 0};
+  const RoadPoint start = road.at(0);
+  const Jet jet = along.jet(start);
+  return {jet.value, jet.first,
+          Eigen::AngleAxisd(along.heading(start), Vector3d::UnitZ()).toRotationMatrix()};
+}
+
 std::vector<Curve> curves_of(const Road& road, double height, double from, double to, double error,
                              double begins) {
   if (!(to > from) || !std::isfinite(to))

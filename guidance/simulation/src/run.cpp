@@ -68,6 +68,9 @@ class Runner {
                                        : nullptr);
       if (vehicles_.back())
         run_.tracks.emplace_back(body.shape, vehicles_.back()->motion(), Orientation::fixed, body.appears);
+      else if (body.road)
+        run_.tracks.emplace_back(body.shape, start_of(*body.road, body.start.position.z()),
+                                 Orientation::fixed, body.appears);
       else
         run_.tracks.emplace_back(body.shape, body.start, body.orientation, body.appears);
       if (body.appears > 0)
@@ -177,6 +180,12 @@ class Runner {
   }
 
   void move(std::size_t i, double t, double to) {
+    if (const Body& body = scenario_.bodies[i]; body.road) {
+      constexpr double kError = 1e-6;
+      for (const Curve& curve : curves_of(*body.road, body.start.position.z(), t, to, kError, body.appears))
+        run_.tracks[i].append(curve);
+      return;
+    }
     if (!vehicles_[i]) {
       run_.tracks[i].advance(accelerations_[i], to);
       return;
@@ -193,7 +202,11 @@ class Runner {
       wanted.aim = {pilot->goal->point, Vector3d::Zero(),
                     speed > 0 ? (pilot->goal->point - states_[i].position).norm() / speed : 0};
     }
-    vehicles_[i]->advance(wanted, t, to, way_);
+    try {
+      vehicles_[i]->advance(wanted, t, to, way_);
+    } catch (const InputError& e) {
+      throw e.within("bodies[" + std::to_string(i) + "]");
+    }
     for (const Curve& curve : way_) run_.tracks[i].append(curve);
   }
 

@@ -137,6 +137,10 @@ void check_pilot(const Pilot& pilot, const Body& self, const Scenario& scenario)
     if (find(pilot.partners[i])->pilot)
       throw InputError(at("partners", i), pilot.partners[i],
                        "a body without a pilot of its own: it carries out what this law says");
+  for (std::size_t i = 0; i < pilot.partners.size(); ++i)
+    if (find(pilot.partners[i])->road)
+      throw InputError(at("partners", i), pilot.partners[i],
+                       "a body without a road, which leaves it no choice");
   if (!pilot.partners.empty() && !cooperates(pilot.guide.law))
     throw InputError("partners", pilot.partners.front(), "no partners with this law, or a cooperative one");
   if (!pilot.through) check_kinds(pilot, self, scenario);
@@ -177,6 +181,14 @@ void check_body(const Body& body, const Scenario& scenario) {
   if (body.vehicle) {
     if (planar(body.shape)) throw InputError("vehicle", "of a planar body", "a body in space");
     static_cast<void>(body.vehicle->launch(body.start, body.appears, scenario.water));
+  }
+  if (body.road) {
+    if (body.pilot || body.vehicle)
+      throw InputError("road", "that of a body with a pilot or a vehicle", "left out: these move the body");
+    const Motion first = start_of(*body.road, body.start.position.z());
+    if (!first.position.isApprox(body.start.position, 1e-12) &&
+        (first.position - body.start.position).norm() > 1e-9)
+      throw InputError("road", "one that begins elsewhere", "one that begins at the body's position");
   }
   if (!body.pilot) return;
   if (!body.start.velocity.any()) throw InputError("velocity", "0", "a heading: a body with a pilot moves");

@@ -124,7 +124,7 @@ class Quadrotor : public simulation::Vehicle {
     state_ = state_of(x);
     constexpr double kTumbles = 1.5;  // rad
     if (!(std::abs(state_.angles.y()) < kTumbles))
-      throw InputError("vehicle", "a quadrotor that tumbles at " + to_text(to) + " s",
+      throw InputError("vehicle", "a quadrotor that tumbles at " + to_text(std::round(1e3 * to) / 1e3) + " s",
                        "one whose gains, torques and inertia keep it upright");
     const At end = at();
     const double h = to - from;

@@ -44,6 +44,9 @@ struct LaneChange {
 [[nodiscard]] std::shared_ptr<const Road> squircle_road(const Eigen::Vector2d& start, double radius,
                                                         double squareness, double period);
 
+/// What a body on it starts as, z = height.
+[[nodiscard]] Motion start_of(const Road& road, double height);
+
 /// The road as curves for a Track, z = height, x ahead along the velocity; the road's own time is t -
 /// `begins`. Pieces from jump to jump, halved until each is within half of `error` m of the road at eight
 /// places. At rest the heading is 0. Throws InputError naming "to" or

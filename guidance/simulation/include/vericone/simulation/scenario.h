@@ -8,6 +8,7 @@
 #include <vericone/simulation/current.h>
 #include <vericone/simulation/moving_orifice.h>
 #include <vericone/simulation/proof.h>
+#include <vericone/simulation/road.h>
 #include <vericone/simulation/sensor.h>
 #include <vericone/simulation/track.h>
 #include <vericone/simulation/vehicle.h>
@@ -97,6 +98,9 @@ struct Body {
   std::optional<Pilot> pilot;
   /// What moves it in place of a point mass under its pilot's acceleration; its orientation is the vehicle's.
   std::shared_ptr<const VehicleModel> vehicle;
+  /// What a body without pilot and vehicle follows, to 1e-6 m and rad, in place of its velocity; its time
+  /// begins when the body appears. `start` is start_of it.
+  std::shared_ptr<const Road> road;
 };
 
 struct Scenario {
