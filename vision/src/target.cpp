@@ -23,7 +23,13 @@ constexpr double kTurnStep = 0.003, kScaleStep = 0.002;  // from picture to pict
 constexpr double kGate = 13.8;  // squared standard deviations: 1 in 1000 is beyond, of two dimensions
 constexpr double kKeep = 0.55, kRegain = 0.7;  // correlations
 constexpr double kVisible = 0.45, kWhole = 0.8;
-constexpr double kShared = 0.3;    // overlap with another target that is seen
+constexpr double kShared = 0.3;       // overlap with another target that is seen
+constexpr double kClearlyBetter = 4;  // squared standard deviations
+constexpr double kRivals = 4;         // own sizes: how far others that look the same are looked for
+constexpr double kRivalEvery = 0.4;   // s, after which they are looked for again
+constexpr double kRivalMemory = 6;    // s, for which one that is not seen is taken to be still there
+constexpr int kMostAlike = 4;
+constexpr double kFormFree = 3;    // times the usual change of form, of what is found again
 constexpr double kFarWait = 0.5;   // s, of one at the edge of the gate
 constexpr double kNear = 2;        // squared standard deviations
 constexpr double kMostReach = 40;  // samples to each side that one picture's search goes
@@ -42,8 +48,9 @@ Eigen::Matrix2d round_covariance(double deviation) {
 
 }  // namespace
 
-Target::Target(const cv::Mat& grey, const Box& box, const TrackerOptions& options)
+Target::Target(const cv::Mat& grey, const Box& box, const TrackerOptions& options, std::size_t number)
     : options_(options), first_(box) {
+  phase_ = int(3 * number) % std::max(1, int(kRivalEvery / options.frame_seconds));
   view_.centre = box.centre();
   const Eigen::Vector2d size(box.w, box.h);
   anchor_ = Appearance(grey, view_, size);
@@ -192,26 +199,17 @@ bool Target::was_there_before(const cv::Mat& now, const View& view) const {
   return shown.align(last_seen_.picture, then, nullptr).correlation > 0.6;
 }
 
-std::optional<Target::Candidate> Target::search(const cv::Mat& now, const Eigen::Matrix2d& gate,
-                                                std::span<const Box> others) const {
+std::vector<Target::Match> Target::look_alikes(const cv::Mat& grey, const View& about, double reach,
+                                               double far) const {
   const cv::Mat pattern = recent_.picture();
-  const double step = recent_.step() * view_.scale;  // picture px a sample
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(gate);
-  const double reach = std::sqrt(kGate * eigen.eigenvalues()(1));
+  const double step = recent_.step() * about.scale;  // picture px a sample
   double coarse = 1;
   while (reach / (step * coarse) > kMostReach && coarse * 8 <= std::min(pattern.cols, pattern.rows))
     coarse *= 2;
   cv::Mat small = pattern;
   if (coarse > 1) cv::resize(pattern, small, {}, 1 / coarse, 1 / coarse, cv::INTER_AREA);
-  // A large gate is searched in parts, one a picture; so are turns besides the expected one.
   const double sample = step * coarse;
-  const int parts = std::max(1, int(std::ceil(reach / (sample * kMostReach))));
-  const int radius = int(std::ceil(reach / (sample * parts))) + 1, part = hidden_ % (parts * parts);
-  const double cell = 2 * reach / parts;
-  View about = view_;
-  about.centre += Eigen::Vector2d((part % parts + 0.5) * cell - reach, (part / parts + 0.5) * cell - reach);
-  const double turns[] = {0, 0.25, -0.25};
-  if (hidden_ * options_.frame_seconds > 0.5) about.turn += turns[hidden_ / (parts * parts) % 3];
+  const int radius = std::min(int(kMostReach), int(std::ceil(reach / sample))) + 1;
   const int w = small.cols + 2 * radius, h = small.rows + 2 * radius;
   const double c = std::cos(about.turn) * sample, s = std::sin(about.turn) * sample;
   // From a pixel of the search picture to the picture, of which only what is needed is smoothed.
@@ -219,11 +217,11 @@ std::optional<Target::Candidate> Target::search(const cv::Mat& now, const Eigen:
   const cv::Rect needed =
       cv::Rect(int(std::floor(about.centre.x() - half)), int(std::floor(about.centre.y() - half)),
                int(2 * half) + 2, int(2 * half) + 2) &
-      cv::Rect(0, 0, now.cols, now.rows);
-  if (needed.width < small.cols || needed.height < small.rows) return std::nullopt;
+      cv::Rect(0, 0, grey.cols, grey.rows);
+  if (needed.width < small.cols || needed.height < small.rows) return {};
   const cv::Matx23d map(c, -s, about.centre.x() - c * ox + s * oy - needed.x, s, c,
                         about.centre.y() - s * ox - c * oy - needed.y);
-  cv::Mat area, score, source = now(needed);
+  cv::Mat area, score, source = grey(needed);
   if (sample > 1.5) {
     cv::Mat smooth;
     cv::GaussianBlur(source, smooth, {}, 0.4 * sample);
@@ -231,47 +229,90 @@ std::optional<Target::Candidate> Target::search(const cv::Mat& now, const Eigen:
   }
   cv::warpAffine(source, area, map, {w, h}, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_CONSTANT, 0);
   cv::matchTemplate(area, small, score, cv::TM_CCOEFF_NORMED);
-  const Eigen::Matrix2d inverse = gate.inverse();
-  struct Found {
-    View view;
-    double cost = 0, correlation = 0, far = 0;
-  };
-  std::vector<Found> founds;
-  for (int k = 0; k < 4; ++k) {
+  std::vector<Match> matches;
+  for (int k = 0; k < kMostAlike; ++k) {
     double most = 0;
     cv::Point at;
     cv::minMaxLoc(score, nullptr, &most, nullptr, &at);
     if (most < kRegain - 0.25) break;
-    Found f;
-    f.view = about;
-    f.view.centre +=
-        Eigen::Vector2d(c * (at.x - radius) - s * (at.y - radius), s * (at.x - radius) + c * (at.y - radius));
+    const double x = at.x - radius, y = at.y - radius;
+    Match match;
+    match.view = about;
+    match.view.centre += Eigen::Vector2d(c * x - s * y, s * x + c * y);
     const int nx = std::max(1, small.cols / 2), ny = std::max(1, small.rows / 2);
     score(cv::Rect(at.x - nx, at.y - ny, 2 * nx + 1, 2 * ny + 1) & cv::Rect(0, 0, score.cols, score.rows)) =
         -1.f;
-    const Form form = form_about(f.view, 3);
-    Agreement agreement = recent_.align(now, f.view, &form);
-    f.correlation = agreement.correlation;
-    const Eigen::Vector2d d = f.view.centre - view_.centre;
-    const double far = d.dot(inverse * d);
-    if (!like_itself(agreement, far) || far > kGate || std::abs(f.view.scale / view_.scale - 1) > 0.2 ||
-        std::abs(f.view.turn - view_.turn) > 0.6)
-      continue;
-    const Box there = box_at(f.view);
-    if (std::any_of(others.begin(), others.end(), [&](const Box& o) { return overlap(o, there) > kShared; }))
-      continue;  // another target's
-    if (was_there_before(now, f.view)) continue;
-    f.far = far;
-    f.cost = far + std::pow((1 - f.correlation) / 0.1, 2);
-    founds.push_back(f);
+    const Form form = form_about(match.view, kFormFree);
+    match.agreement = recent_.align(grey, match.view, &form);
+    if (like_itself(match.agreement, far)) matches.push_back(match);
   }
-  if (founds.empty()) return std::nullopt;
-  std::sort(founds.begin(), founds.end(), [](const Found& a, const Found& b) { return a.cost < b.cost; });
-  for (std::size_t i = 1; i < founds.size(); ++i)
-    if ((founds[i].view.centre - founds[0].view.centre).norm() > 0.3 * size_of(box()) &&
-        founds[i].cost < founds[0].cost + 4)
+  return matches;
+}
+
+void Target::remember_rivals(const cv::Mat& grey) {
+  // Some are hidden before the target is, as those ahead of it under a bridge: they are kept for a while.
+  std::erase_if(rivals_,
+                [&](const Rival& r) { return (age_ - r.seen) * options_.frame_seconds > kRivalMemory; });
+  const double size = size_of(box());
+  for (const Match& match : look_alikes(grey, view_, kRivals * size, kGate)) {
+    const Eigen::Vector2d d = match.view.centre - view_.centre;
+    if (d.norm() < 0.5 * size) continue;
+    const Eigen::Vector2d beside = Eigen::Rotation2Dd(-view_.turn) * d / view_.scale;
+    const auto same = std::find_if(rivals_.begin(), rivals_.end(), [&](const Rival& r) {
+      return (r.beside - beside).norm() * view_.scale < 0.5 * size;
+    });
+    if (same == rivals_.end()) {
+      rivals_.push_back({beside, age_});
+    } else {
+      *same = {beside, age_};
+    }
+  }
+}
+
+std::optional<Target::Candidate> Target::search(const cv::Mat& now, const Eigen::Matrix2d& gate,
+                                                std::span<const Box> others) const {
+  const double size = size_of(box());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(gate);
+  const double reach = std::sqrt(kGate * eigen.eigenvalues()(1));
+  // A large gate is searched in parts, one a picture; so are turns besides the expected one.
+  const int parts = std::max(1, int(std::ceil(reach / (kMostReach * recent_.step() * view_.scale))));
+  const int part = hidden_ % (parts * parts);
+  const double cell = 2 * reach / parts;
+  View about = view_;
+  about.centre += Eigen::Vector2d((part % parts + 0.5) * cell - reach, (part / parts + 0.5) * cell - reach);
+  const double turns[] = {0, 0.25, -0.25};
+  if (hidden_ * options_.frame_seconds > 0.5) about.turn += turns[hidden_ / (parts * parts) % 3];
+  const Eigen::Matrix2d inverse = gate.inverse();
+  const auto far_from = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return (a - b).dot(inverse * (a - b));
+  };
+  const auto is_rival = [&](const Eigen::Vector2d& centre, double far) {
+    return std::any_of(rivals_.begin(), rivals_.end(), [&](const Rival& r) {
+      const Eigen::Vector2d there = view_.centre + view_.scale * (Eigen::Rotation2Dd(view_.turn) * r.beside);
+      return (age_ - r.seen) * options_.frame_seconds < kRivalMemory && far_from(centre, there) < far;
+    });
+  };
+  std::vector<Candidate> found;
+  for (const Match& match : look_alikes(now, about, 0.5 * cell, 0)) {
+    const View& view = match.view;
+    const double far = far_from(view.centre, view_.centre);
+    const Box there = box_at(view);
+    if (far > kGate || !like_itself(match.agreement, far) || std::abs(view.scale / view_.scale - 1) > 0.2 ||
+        std::abs(view.turn - view_.turn) > 0.6 ||
+        std::any_of(others.begin(), others.end(),
+                    [&](const Box& o) { return overlap(o, there) > kShared; }) ||
+        is_rival(view.centre, far) || was_there_before(now, view))
+      continue;
+    found.push_back({view, far + std::pow((1 - match.agreement.correlation) / 0.1, 2), far, 1});
+  }
+  if (found.empty()) return std::nullopt;
+  std::sort(found.begin(), found.end(),
+            [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+  for (const Candidate& other : found)
+    if ((other.view.centre - found[0].view.centre).norm() > 0.3 * size &&
+        other.cost < found[0].cost + kClearlyBetter)
       return std::nullopt;  // two alike: the next pictures tell
-  return Candidate{founds[0].view, founds[0].cost, founds[0].far, 1};
+  return found[0];
 }
 
 Form Target::form_about(const View& view, double times) const {
@@ -341,11 +382,14 @@ void Target::accept(const cv::Mat& now, const View& view, const Agreement& agree
     recent_ = anchor_;
   }
   seed(now);
+  if (agreement.visible > kWhole && age_ % std::max(1, int(kRivalEvery / options_.frame_seconds)) == phase_)
+    remember_rivals(now);
 }
 
 Sighting Target::step(const cv::Mat& before, const cv::Mat& now, const Eigen::Matrix3d& ground,
                       const Expectation* expected, std::span<const Box> others) {
   const double dt = options_.frame_seconds;
+  ++age_;
   const View was = view_;
   filter_.set_acceleration(kChange * size_of(first_) * view_.scale * dt * dt);
   filter_.predict(ground, turning_);

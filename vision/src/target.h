@@ -17,7 +17,8 @@ namespace vericone::vision {
 
 class Target {
  public:
-  Target(const cv::Mat& grey, const Box& box, const TrackerOptions& options);
+  /// `number`: of the target, from 0.
+  Target(const cv::Mat& grey, const Box& box, const TrackerOptions& options, std::size_t number);
 
   /// The target in `now`, `before` being the picture before.
   Sighting step(const cv::Mat& before, const cv::Mat& now, const Eigen::Matrix3d& ground,
@@ -43,6 +44,14 @@ class Target {
                            const View& was, const View& guess);
   void seed(const cv::Mat& grey);
   bool was_there_before(const cv::Mat& now, const View& view) const;
+  struct Match {
+    View view;
+    Agreement agreement;
+  };
+  /// Where a picture shows what looks like the target (like_itself), up to `reach` px to each side of a view.
+  std::vector<Match> look_alikes(const cv::Mat& grey, const View& about, double reach, double far) const;
+  /// Those beside the target, which are taken to go on beside it.
+  void remember_rivals(const cv::Mat& grey);
   std::optional<Candidate> search(const cv::Mat& now, const Eigen::Matrix2d& gate,
                                   std::span<const Box> others) const;
   Form form_about(const View& view, double times) const;
@@ -67,9 +76,16 @@ class Target {
     Eigen::Matrix3d ground = Eigen::Matrix3d::Identity();  // from there to the newest picture
   };
   LastSeen last_seen_;
-  double turning_ = 0;                        // rad a picture over the ground
-  int hidden_ = 0;                            // pictures since the last measurement
-  int followed_ = 0;                          // pictures in a row with one
+  struct Rival {
+    Eigen::Vector2d beside;  // first-picture px from the target, turned with it
+    int seen;                // age_ then
+  };
+  std::vector<Rival> rivals_;
+  int age_ = 0;         // pictures
+  int phase_ = 0;       // of the pictures in which rivals are looked for: not all targets in the same
+  double turning_ = 0;  // rad a picture over the ground
+  int hidden_ = 0;      // pictures since the last measurement
+  int followed_ = 0;    // pictures in a row with one
   double usual_ = 0.9, usual_visible_ = 0.9;  // of late
 };
 

@@ -24,13 +24,13 @@ class Ours : public Tracker {
     before_ = grey;
     targets_.clear();
     moving_ = false;
-    for (const Box& box : boxes) targets_.emplace_back(grey, box, options_);
+    for (const Box& box : boxes) targets_.emplace_back(grey, box, options_, targets_.size());
   }
 
   void add(const Box& box) override {
     if (before_.empty()) throw InputError("image", "none", "a first picture before any box");
     check_first_box(before_, box, "boxes[" + std::to_string(targets_.size()) + "]");
-    targets_.emplace_back(before_, box, options_);
+    targets_.emplace_back(before_, box, options_, targets_.size());
   }
 
   const std::vector<Sighting>& step(const Image& image, const std::optional<Eigen::Matrix3d>& ground,
