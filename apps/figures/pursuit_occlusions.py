@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs with one vehicle hidden: how soon it is said, and how soon the vehicle is found again."""
+import os
+
 import numpy as np
 
 from vericone_figures.style import AGENT, SLICE, TWO_COLUMNS, folder, plt, save
 from vericone_figures.tables import groups, rows
 
-table = groups(rows(folder(), "occlusions.csv"))[()]
+# The table stands beside the pictures' folder until all of them are there.
+table = groups(rows(os.path.join(folder(), ".."), "occlusions.csv.partial"))[()]
 count = len(table["run"])
 figure, (said, found) = plt.subplots(1, 2, figsize=(TWO_COLUMNS, 2.2), constrained_layout=True, sharey=True)
 for axes, name, color, label in ((said, "said", SLICE, "until total is said [s]"),

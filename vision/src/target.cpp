@@ -402,15 +402,18 @@ Sighting Target::step(const cv::Mat& before, const cv::Mat& now, const Eigen::Ma
   if (expected) {
     guess.centre = expected->centre;
     gate = expected->covariance;
-    if (hidden_ > 0) {
-      guess.scale = expected->scale;
-      guess.turn = expected->turn;
+    // From how it looked when it was seen last: what it is followed by may have grown against the first
+    // picture.
+    if (hidden_ > 0 && told_) {
+      guess.scale = told_->view.scale * expected->scale / told_->scale;
+      guess.turn = told_->view.turn + expected->turn - told_->turn;
     }
   }
   gate += round_covariance(deviation());
 
   const double size = size_of(box());
   const auto sighting = [&](const Agreement& agreement) {
+    if (expected) told_ = Told{view_, expected->scale, expected->turn};
     Sighting s;
     s.sight = agreement.visible > kWhole ? Sight::no_occlusion : Sight::partial;
     s.box = box();

@@ -76,6 +76,12 @@ class Target {
     Eigen::Matrix3d ground = Eigen::Matrix3d::Identity();  // from there to the newest picture
   };
   LastSeen last_seen_;
+  /// How it looked when it was measured last, and what was expected then.
+  struct Told {
+    View view;
+    double scale, turn;
+  };
+  std::optional<Told> told_;
   struct Rival {
     Eigen::Vector2d beside;  // first-picture px from the target, turned with it
     int seen;                // age_ then
