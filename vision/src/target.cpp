@@ -361,7 +361,7 @@ void Target::accept(const cv::Mat& now, const View& view, const Agreement& agree
   const Eigen::Vector2d d = view.centre - filter_.centre();
   const Eigen::Matrix2d r = round_covariance(deviation());
   const double far = d.dot((filter_.covariance() + r).inverse() * d);
-  filter_.update(view.centre, r * std::max(1.0, far / 4));
+  filter_.update(view.centre, hidden_ > 0 ? r : r * std::max(1.0, far / 4));
   hidden_ = 0;
   ++followed_;
   candidate_.reset();
@@ -395,13 +395,12 @@ Sighting Target::step(const cv::Mat& before, const cv::Mat& now, const Eigen::Ma
   guess.scale *= step.scale();
   guess.centre = filter_.centre();
   Eigen::Matrix2d gate = filter_.covariance();
-  if (expected) {
+  if (expected && hidden_ > 0) {  // what is seen needs no advice
+    filter_.place(expected->centre, expected->covariance);
     guess.centre = expected->centre;
+    guess.scale = expected->scale;
+    guess.turn = expected->turn;
     gate = expected->covariance;
-    if (hidden_ > 0) {
-      guess.scale = expected->scale;
-      guess.turn = expected->turn;
-    }
   }
   gate += round_covariance(deviation());
 
