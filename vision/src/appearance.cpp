@@ -11,7 +11,7 @@ namespace {
 constexpr int kMostAcross = 36;     // samples along the longer side: more cost time and gain nothing
 constexpr double kMargin = 0.15;    // of the size, on each side: the target's edge against the ground
 constexpr double kLeastMargin = 2;  // px
-constexpr double kMarginWeight = 0.3;
+constexpr double kMarginWeight = 0.15;
 constexpr double kNoise = 4;            // grey levels: what no camera's and no codec's pixel stays within
 constexpr double kFirstVariance = 100;  // grey levels squared, before anything is known of a pixel
 constexpr double kLeastContrast = 2;    // grey levels

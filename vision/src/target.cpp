@@ -365,7 +365,7 @@ void Target::accept(const cv::Mat& now, const View& view, const Agreement& agree
   const Eigen::Vector2d d = view.centre - filter_.centre();
   const Eigen::Matrix2d r = round_covariance(deviation());
   const double far = d.dot((filter_.covariance() + r).inverse() * d);
-  filter_.update(view.centre, r * std::max(1.0, far / 4));
+  filter_.update(view.centre, hidden_ > 0 ? r : r * std::max(1.0, far / 4));
   hidden_ = 0;
   ++followed_;
   candidate_.reset();
@@ -399,12 +399,16 @@ Sighting Target::step(const cv::Mat& before, const cv::Mat& now, const Eigen::Ma
   guess.scale *= step.scale();
   guess.centre = filter_.centre();
   Eigen::Matrix2d gate = filter_.covariance();
-  if (expected) {
+  // What is seen needs no advice, once its velocity is known.
+  if (expected && (hidden_ > 0 || followed_ < kConfirm)) {
     guess.centre = expected->centre;
     gate = expected->covariance;
+  }
+  if (expected && hidden_ > 0) {
+    filter_.place(expected->centre, expected->covariance);
     // From how it looked when it was seen last: what it is followed by may have grown against the first
     // picture.
-    if (hidden_ > 0 && told_) {
+    if (told_) {
       guess.scale = told_->view.scale * expected->scale / told_->scale;
       guess.turn = told_->view.turn + expected->turn - told_->turn;
     }

@@ -41,6 +41,13 @@ void TargetFilter::predict(const Eigen::Matrix3d& ground, double turn) {
   }
 }
 
+void TargetFilter::place(const Eigen::Vector2d& centre, const Eigen::Matrix2d& covariance) {
+  x_.head<2>() = centre;
+  p_.topLeftCorner<2, 2>() = covariance;
+  p_.topRightCorner<2, 2>().setZero();
+  p_.bottomLeftCorner<2, 2>().setZero();
+}
+
 void TargetFilter::update(const Eigen::Vector2d& centre, const Eigen::Matrix2d& covariance) {
   const Eigen::Matrix<double, 4, 2> ph = p_.leftCols<2>();
   const Eigen::Matrix2d s = ph.topRows<2>() + covariance;

@@ -25,6 +25,8 @@ class TargetFilter {
 
   /// `turn`: of the velocity over the ground, rad a picture.
   void predict(const Eigen::Matrix3d& ground, double turn = 0);
+  /// Somebody else knows where the target is; its velocity stays.
+  void place(const Eigen::Vector2d& centre, const Eigen::Matrix2d& covariance);
   void update(const Eigen::Vector2d& centre, const Eigen::Matrix2d& covariance);
 
   [[nodiscard]] Eigen::Vector2d centre() const { return x_.head<2>(); }
