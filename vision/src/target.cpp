@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMostPoints = 14;
 constexpr double kReturn = 0.7;  // px, there and back
-constexpr double kSpeed = 1.5,
+constexpr double kSpeed = 2,
                  kChange = 1;      // own sizes a second: of the first velocity, and its change in a second
 constexpr double kMeasured = 0.3;  // px, standard deviation of a measured centre,
 constexpr double kMeasuredOfSize = 0.01;             // and of its own size: a walker's swings
@@ -426,6 +426,20 @@ Sighting Target::step(const cv::Mat& before, const cv::Mat& now, const Eigen::Ma
       if (again && (!good || with_guess.correlation > agreement.correlation)) {
         view = other;
         agreement = with_guess;
+        good = true;
+      }
+    }
+    if (!good) {
+      // A picture left out, a first velocity unknown: it may be too far for both, but within the gate.
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(gate);
+      double nearest = kGate;
+      for (const Match& match : look_alikes(now, guess, std::sqrt(kGate * eigen.eigenvalues()(1)))) {
+        const Eigen::Vector2d off = match.view.centre - guess.centre;
+        const double far = off.dot(gate.inverse() * off);
+        if (far >= nearest) continue;
+        nearest = far;
+        view = match.view;
+        agreement = match.agreement;
         good = true;
       }
     }
