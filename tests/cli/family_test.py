@@ -15,7 +15,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from command import VERICONE, run  # noqa: E402
 
 PROGRAMS = os.environ["VERICONE_PROGRAMS"].split()
-NEEDS = {"fit": "VERICONE_FITTING", "scan": "VERICONE_LIDAR", "verify": "VERICONE_VERIFY"}
+NEEDS = {"fit": "VERICONE_FITTING", "scan": "VERICONE_LIDAR", "track": "VERICONE_VISION", "verify": "VERICONE_VERIFY"}
 HEAVY = ("CGAL", "gmp", "mpfr", "ceres", "embree", "Open3D", "opencv", "qhull")
 
 
@@ -89,10 +89,10 @@ class Family(unittest.TestCase):
                 self.assertRegex(text, r"[ ,]%s[ ,\n]" % option, name)
 
     def test_options_mean_the_same_everywhere(self):
-        have = {"--quiet": "cone query accuracy signmap gallery shapes reach simulate campaign trials claims figures scan fit verify",
-                "--json": "cone query accuracy signmap gallery shapes reach simulate campaign trials claims figures scan fit verify",
-                "--out": "cone accuracy signmap gallery shapes simulate campaign trials claims figures scan fit",
-                "--no-figures": "cone accuracy signmap gallery shapes simulate campaign trials scan fit",
+        have = {"--quiet": "cone query accuracy signmap gallery shapes reach simulate campaign trials claims figures scan fit track verify",
+                "--json": "cone query accuracy signmap gallery shapes reach simulate campaign trials claims figures scan fit track verify",
+                "--out": "cone accuracy signmap gallery shapes simulate campaign trials claims figures scan fit track",
+                "--no-figures": "cone accuracy signmap gallery shapes simulate campaign trials scan fit track",
                 "--threads": "cone accuracy gallery campaign trials verify", "--seed": "accuracy signmap campaign trials scan fit verify"}
         for option, commands in have.items():
             for name in commands.split():

@@ -16,7 +16,7 @@ class Commands(unittest.TestCase):
     maxDiff = None
 
     def test_the_page_is_written_from_the_helps(self):
-        if not {"fit", "scan", "verify"} <= set(os.environ["VERICONE_PROGRAMS"].split()):
+        if not {"fit", "scan", "track", "verify"} <= set(os.environ["VERICONE_PROGRAMS"].split()):
             self.skipTest("needs the programs fit, scan and verify")
         written = "".join("\n".join(map(commands.wrapped, part.split("\n"))) + "\n"
                           for part in commands.reference(os.environ["VERICONE"]))
@@ -24,7 +24,7 @@ class Commands(unittest.TestCase):
                          "write it again: tests/docs/commands.py says how")
 
     def test_the_manual_page_is_written_from_the_helps(self):
-        if not {"fit", "scan", "verify"} <= set(os.environ["VERICONE_PROGRAMS"].split()):
+        if not {"fit", "scan", "track", "verify"} <= set(os.environ["VERICONE_PROGRAMS"].split()):
             self.skipTest("needs the programs fit, scan and verify")
         page = ROOT / "apps/completion/vericone.1"
         self.assertEqual("".join(part + "\n" for part in commands.manual(os.environ["VERICONE"])), text_of(page),

@@ -29,7 +29,7 @@ class Examples(unittest.TestCase):
 
     def setUp(self):
         archive = Path(os.environ["VERICONE_CGAL_MESHES"])
-        if not archive.exists() or not {"fit", "scan", "verify"} <= set(os.environ["VERICONE_PROGRAMS"].split()):
+        if not archive.exists() or not {"fit", "scan", "track", "verify"} <= set(os.environ["VERICONE_PROGRAMS"].split()):
             self.skipTest("needs libcgal-demo and the programs fit, scan and verify")
         self.folder = Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, self.folder)
