@@ -5,9 +5,11 @@ the table as well, so neither can go stale."""
 import json
 import math
 import os
+import struct
 import subprocess
 import sys
 import tempfile
+import zlib
 
 GOOD_AGENT = {"center": [0, 0, 0], "semi_axes": [1, 2, 3], "rotation": [1, 0, 0, 0]}
 GOOD_OBSTACLE = {"center": [10, 0, 0], "shape": [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}
@@ -386,6 +388,56 @@ FITS = [
 ]
 
 
+def png(width, height, grey):
+    """A grey picture; grey(u, v) of each pixel."""
+    def chunk(name, data):
+        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+    lines = b"".join(b"\0" + bytes(grey(u, v) for u in range(width)) for v in range(height))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b""))
+
+
+def street(k, width=64, height=48):
+    """A chequered thing of 16 x 10 px, k pixels further to the right, on plain ground."""
+    return png(width, height, lambda u, v: (60 + 90 * ((u - k) // 4 % 2 ^ v // 4 % 2)) if 8 + k <= u < 24 + k and 16 <= v < 26 else 100)
+
+
+FRAMES = {"frames/%d.png" % k: street(k) for k in range(4)}
+BOX = ["--box", "8,16,16,10"]
+# What is wrong, arguments after `track`, files.
+TRACKS = [
+    ("a video that is not there", ["none.mp4", *BOX], {}),
+    ("a video that is text", ["video.mp4", *BOX], {"video.mp4": b"hello\n"}),
+    ("a folder without pictures", ["frames", *BOX], {"frames/notes.txt": b"hello\n"}),
+    ("a picture that is cut off", ["frames", *BOX], {**FRAMES, "frames/2.png": street(2)[:70]}),
+    ("pictures of two sizes", ["frames", *BOX], {**FRAMES, "frames/3.png": street(3, 66)}),
+    ("no boxes", ["frames"], FRAMES),
+    ("a box of three numbers", ["frames", "--box", "8,16,16"], FRAMES),
+    ("a box of words", ["frames", "--box", "8,16,wide,10"], FRAMES),
+    ("a box without width", ["frames", "--box", "8,16,0,10"], FRAMES),
+    ("a box that is infinite", ["frames", "--box", "8,16,inf,10"], FRAMES),
+    ("a box outside of the picture", ["frames", "--box", "60,16,16,10"], FRAMES),
+    ("a second box outside of it", ["frames", *BOX, "--box", "8,-16,16,10"], FRAMES),
+    ("a box too small", ["frames", "--box", "8,16,4,3"], FRAMES),
+    ("a box without texture", ["frames", "--box", "40,2,16,10"], FRAMES),
+    ("a box in frame 0", ["frames", "--box", "8,16,16,10,0"], FRAMES),
+    ("a box in a frame after the end", ["frames", "--box", "8,16,16,10,9"], FRAMES),
+    ("a tracker that is not there", ["frames", *BOX, "--tracker", "best"], FRAMES),
+    ("a truth that is not there", ["frames", *BOX, "--truth", "none.txt"], FRAMES),
+    ("a truth without boxes", ["frames", *BOX, "--truth", "truth.txt"], {**FRAMES, "truth.txt": b"\n"}),
+    ("a truth of words", ["frames", *BOX, "--truth", "truth.txt"], {**FRAMES, "truth.txt": b"8,16,16,10\na car\n"}),
+    ("a truth of another length", ["frames", *BOX, "--truth", "truth.txt"], {**FRAMES, "truth.txt": b"8,16,16,10\n" * 3}),
+    ("a truth longer than the video", ["frames", *BOX, "--truth", "truth.txt"],
+     {**FRAMES, "truth.txt": b"1,1,8,16,16,10\n7,1,8,16,16,10\n"}),
+    ("a truth of other targets", ["frames", *BOX, "--truth", "truth.txt"],
+     {**FRAMES, "truth.txt": b"1,1,8,16,16,10\n1,2,8,16,16,10\n"}),
+    ("a truth with a box twice", ["frames", *BOX, "--truth", "truth.txt"],
+     {**FRAMES, "truth.txt": b"1,1,8,16,16,10\n1,1,8,16,16,10\n"}),
+    ("a rate of nothing", ["frames", *BOX, "--rate", "0"], FRAMES),
+    ("one picture alone", ["frames", *BOX, "--frames", "1"], FRAMES),
+]
+
+
 BODY = "{name: B, shape: {semi_axes: [2, 2, 2]}, position: [20, 0, 0], velocity: [-1, 0, 0]}"
 PILOT = "{law: avoidance, most: 15}"
 
@@ -653,6 +705,17 @@ def run_fit(vericone, arguments, files):
         return result, sorted(set(os.listdir(folder)) - set(files))
 
 
+def run_track(vericone, arguments, files):
+    with tempfile.TemporaryDirectory() as folder:
+        for name, content in files.items():
+            os.makedirs(os.path.dirname(os.path.join(folder, name)), exist_ok=True)
+            with open(os.path.join(folder, name), "wb") as f:
+                f.write(content)
+        result = subprocess.run([vericone, "track", *arguments, "--no-figures", "--quiet"], capture_output=True, text=True,
+                                check=False, cwd=folder)
+        return result, sorted(set(os.listdir(folder)) - {name.split("/")[0] for name in files})
+
+
 def run_scenario(vericone, text):
     with tempfile.TemporaryDirectory() as folder:
         with open(os.path.join(folder, "scenario.yaml"), "w", encoding="utf-8") as f:
@@ -735,6 +798,10 @@ def table(vericone):
         result, _ = run_fit(vericone, arguments, files)
         text.append("| %s | %s | %s |" % (what, cell("vericone fit " + " ".join(arguments)),
                                                    cell(result.stderr.strip())))
+    text += ["", "## Tracks", "", "The folder `frames` has four small pictures.", "", "| what | command | message |", "|---|---|---|"]
+    for what, arguments, files in TRACKS:
+        result, _ = run_track(vericone, arguments, files)
+        text.append("| %s | %s | %s |" % (what, cell("vericone track " + " ".join(arguments)), cell(result.stderr.strip())))
     return "\n".join(text + scenario_rows(vericone)) + "\n"
 
 

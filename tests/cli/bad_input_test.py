@@ -37,6 +37,13 @@ class BadInput(unittest.TestCase):
                 self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
                 self.assertLessEqual(len(left), 1, "something half written: %s" % left)
 
+    def test_every_bad_track_says_why(self):
+        for what, arguments, files in bad_input_cases.TRACKS:
+            with self.subTest(what):
+                result, left = bad_input_cases.run_track(VERICONE, arguments, files)
+                self.assertEqual((result.returncode, result.stdout, left), (2, "", []))
+                self.assertRegex(result.stderr, r"^vericone: \S.*: got .+, must be .+\n$")
+
     def test_the_table_is_the_truth(self):
         with open(os.path.join(SOURCE, "docs", "reference", "bad-input.md"), encoding="utf-8") as f:
             self.assertEqual(f.read(), bad_input_cases.table(VERICONE))

@@ -15,9 +15,10 @@ import subprocess
 import time
 import unittest
 
+from bad_input_cases import street
 from hostile_test import SCENARIO, SCENE, VERICONE, InFolder
 
-PROGRAMS = os.environ.get("VERICONE_PROGRAMS", "fit scan verify").split()
+PROGRAMS = os.environ.get("VERICONE_PROGRAMS", "fit scan track verify").split()
 KILLS = int(os.environ.get("VERICONE_KILLS", "2"))
 
 MESH = "OFF\n4 4 0\n0 0 0\n3 0 0\n0 2 0\n0 0 1\n3 0 1 2\n3 0 1 3\n3 0 2 3\n3 1 2 3\n"
@@ -59,6 +60,7 @@ WRITERS = {
     "pursue from starts": ["pursue", "pursuit.yaml", "--camera", "exact", "--duration", "200", "--starts", "8", "--threads", "1",
                            "--no-figures", "--quiet"],
     "scan": ["scan", "scan.yaml", "--levels", "2", "--no-figures", "--quiet"],
+    "track": ["track", "frames", "--box", "8,16,16,10", "--no-figures", "--quiet"],
 }
 # Of these an interruption leaves what was done by then; of the others nothing but a table to go on with.
 BY_PARTS = ("gallery", "figures")
@@ -88,6 +90,7 @@ LONG = {
     "pursue": (["pursue", "pursuit.yaml", "--duration", "9000", "--no-figures"], "pursuing"),
     "pursue from starts": (["pursue", "pursuit.yaml", "--camera", "exact", "--starts", "100000", "--no-figures"], None),
     "scan": (["scan", "scan.yaml", "--levels", "8", "--planes", "8000", "--no-figures"], None),
+    "track": (["track", "frames", "--box", "8,16,16,10"], "following"),
     "verify of predicates": (["verify", "--cases", "10000000000", "--pairs", "0"], None),
     "verify of pairs": (["verify", "--cases", "0", "--pairs", "1000000"], None),
 }
@@ -115,6 +118,10 @@ class InPreparedFolder(InFolder):
                               "dents.yaml": SCENE.replace("[5, 0", "[3.05, 0").replace("[2, 2, 2]}", "[2, 2, 2], hyperboloids: [{sheets: 2, "
                                                           "semi_axes: [1, 1, 1]}]}")}.items():
             self.write(name, content)
+        os.mkdir(os.path.join(self.folder, "frames"))
+        for k in range(24):
+            with open(os.path.join(self.folder, "frames", "%d.png" % k), "wb") as f:
+                f.write(street(k))
         self.out = os.path.join(self.folder, "out")
 
     def digest(self, name, content):
@@ -123,7 +130,7 @@ class InPreparedFolder(InFolder):
             return content.rstrip().endswith(b"%%EOF")
         if name.endswith(".md"):
             return content.endswith(b"|\n")
-        if name.endswith(".json") and (b'"seconds' in content or b'"finished"' in content):
+        if name.endswith(".json") and (b'"seconds' in content or b'"finished"' in content or b'"ms_median' in content):
             return bool(json.loads(content))
         return hashlib.sha256(content).hexdigest()
 
@@ -253,7 +260,7 @@ class WritersRefused(InPreparedFolder):
                     shutil.rmtree(self.out, ignore_errors=True)
                     os.mkdir(self.out)
                     names = ("accuracy", "engagement", "scans", "campaign", "trials", "cone", "cone_map", "signmap", "simulation", "fit",
-                             "visible_section", "scan_convergence")
+                             "visible_section", "scan_convergence", "tracks")
                     for picture in names:
                         self.write("out/%s.png" % picture, "old")
                     self.write("out/mine.png", "not ours")

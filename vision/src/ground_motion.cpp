@@ -64,8 +64,11 @@ void GroundMotion::start(const cv::Mat& grey) {
 }
 
 void GroundMotion::find_corners(std::span<const Box> targets) {
-  // Derivatives lie between the levels of the pyramid; level 1 is a quarter of the full resolution.
-  const cv::Mat& level = before_[2];
+  // Derivatives lie between the levels of the pyramid; level 1 is a quarter of the full resolution. A small
+  // picture has none.
+  const bool coarse = before_.size() > 2;
+  const cv::Mat& level = before_[coarse ? 2 : 0];
+  const float scale = coarse ? 2 : 1;
   cv::Mat strength;
   cv::cornerMinEigenVal(level, strength, 3, 3);
   std::vector<char> taken(kCellsAcross * kCellsDown, 0);
@@ -85,7 +88,7 @@ void GroundMotion::find_corners(std::span<const Box> targets) {
       double most = 0;
       cv::Point at;
       cv::minMaxLoc(strength(cell), nullptr, &most, nullptr, &at);
-      const cv::Point2f p(2 * float(cell.x + at.x), 2 * float(cell.y + at.y));
+      const cv::Point2f p(scale * float(cell.x + at.x), scale * float(cell.y + at.y));
       // Whether a corner is one is seen when it is followed there and back: at night all are weak.
       if (most > 0 && p.x > 4 && p.y > 4 && p.x < float(half_.cols - 5) && p.y < float(half_.rows - 5) &&
           !covered(p, targets))

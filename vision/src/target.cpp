@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMostPoints = 14;
 constexpr double kReturn = 0.7;  // px, there and back
-constexpr double kSpeed = 1.5,
+constexpr double kSpeed = 2,
                  kChange = 1;      // own sizes a second: of the first velocity, and its change in a second
 constexpr double kMeasured = 0.3;  // px, standard deviation of a measured centre,
 constexpr double kMeasuredOfSize = 0.01;             // and of its own size: a walker's swings
@@ -33,7 +33,6 @@ constexpr double kFormFree = 3;    // times the usual change of form, of what is
 constexpr double kFarWait = 0.5;   // s, of one at the edge of the gate
 constexpr double kNear = 2;        // squared standard deviations
 constexpr double kMostReach = 40;  // samples to each side that one picture's search goes
-constexpr double kUnsure = 0.2;    // own sizes, standard deviation of where it is expected
 constexpr int kConfirm = 3;        // pictures that a regained target must go on as expected
 
 double size_of(const Box& box) { return std::sqrt(box.w * box.h); }
@@ -441,6 +440,20 @@ Sighting Target::step(const cv::Mat& before, const cv::Mat& now, const Eigen::Ma
         good = true;
       }
     }
+    if (!good) {
+      // A picture left out, a first velocity unknown: it may be too far for both, but within the gate.
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(gate);
+      double nearest = kGate;
+      for (const Match& match : look_alikes(now, guess, std::sqrt(kGate * eigen.eigenvalues()(1)), kGate)) {
+        const Eigen::Vector2d off = match.view.centre - guess.centre;
+        const double far = off.dot(gate.inverse() * off);
+        if (far >= nearest) continue;
+        nearest = far;
+        view = match.view;
+        agreement = match.agreement;
+        good = true;
+      }
+    }
     const Eigen::Vector2d d = view.centre - guess.centre;
     const bool gated =
         d.dot(gate.inverse() * d) < kGate || (d.norm() < 0.3 * size && agreement.correlation > 0.8);
@@ -453,17 +466,6 @@ Sighting Target::step(const cv::Mat& before, const cv::Mat& now, const Eigen::Ma
     }
     last_seen_ = {before.clone(), was, ground};
     view_ = guess;
-    // Where its velocity is not known yet, it is not where it was expected: it is looked for before it is
-    // called hidden.
-    const double reach = std::sqrt(gate.eigenvalues().real().maxCoeff());
-    if (reach > kUnsure * size)
-      if (const std::optional<Candidate> found = search(now, gate, others)) {
-        View there = found->view;
-        if (settle(now, found->view, there, agreement, 0) && like_itself(agreement, found->far)) {
-          accept(now, there, agreement);
-          return sighting(agreement);
-        }
-      }
     return hidden(gate);
   }
 

@@ -164,16 +164,20 @@ class Recorder {
       name << std::setw(6) << std::setfill('0') << count_ << ".png";
       write_picture(frames_->path() / name.str(), image);
     }
-    if (writer_) {
+    const bool shown = shown_.empty() && sample.t >= kShown * pursuit_.duration;
+    if (writer_ || shown) {
       Image marked = in_colour(image);
       for (std::size_t i = 0; i < vehicles.size(); ++i)
         draw_sighting(marked, vehicles[i].sighting, names_[i]);
-      writer_->add(marked);
+      if (writer_) writer_->add(marked);
+      if (shown) shown_ = std::move(marked);
     }
     ++count_;
   }
 
   [[nodiscard]] const std::string& estimates() const { return estimates_; }
+  /// A picture of about the middle of the run, with boxes; empty of a run that has none.
+  [[nodiscard]] const Image& shown() const { return shown_; }
 
   void finish(const PursuitRun& run) {
     if (writer_) {
@@ -194,7 +198,10 @@ class Recorder {
   }
 
  private:
+  static constexpr double kShown = 0.55;  // of the duration
+
   const Pursuit& pursuit_;
+  Image shown_;
   std::vector<std::string> names_;
   std::optional<StagedFolder> frames_, video_;
   std::optional<VideoWriter> writer_;
@@ -241,6 +248,7 @@ int run_one(const Pursuit& pursuit, const PursueOptions& options, const std::str
     recorder.finish(run);
     if (options.figures) {
       progress.show("drawing", 0);
+      if (!recorder.shown().empty()) write_picture(folder.path() / "seen.png", recorder.shown());
       draw_figures("pursuit.py", folder.path());
     }
   }

@@ -15,7 +15,7 @@ int track_command(vericone::CommandLine& line) {
   line.option("--box", track.boxes,
               "Targets: X,Y,W,H in pixels, from the left and top edge; or X,Y,W,H,FRAME, from 1")
       .words(1, -1)
-      .shown_type("X,Y,W,H[,FRAME] ...")
+      .shown_type("X,Y,W,H[,FRAME]")
       .shown_default("");
   line.option(
       "--truth", track.truth,

@@ -53,6 +53,18 @@ TEST(GroundMotion, IsNotThatOfTheTargets) {
   }
 }
 
+TEST(GroundMotion, OfASmallPicture) {
+  Camera camera;
+  camera.width = 64;
+  camera.height = 48;
+  GroundMotion ground;
+  ground.start(grey(street::picture(camera, {}, {}, 0)));
+  camera.above.x() += 0.6;  // 2 px
+  const Eigen::Matrix3d found = ground.step(grey(street::picture(camera, {}, {}, 1)), {});
+  const Eigen::Vector2d p(32, 24), q = (found * p.homogeneous()).hnormalized();
+  EXPECT_LT((q - p + Eigen::Vector2d(2, 0)).norm(), 0.4);
+}
+
 TEST(GroundMotion, GoesOnWhereNothingIsSeen) {
   Camera camera;
   GroundMotion ground;
