@@ -27,7 +27,7 @@ Pose random_pose(std::mt19937& engine) {
 }
 
 TEST(Camera, FieldOfViewIsThatOfTheSource) {
-  // (4.17) with pixels of 6.25 um: 47 degrees over a sensor of 5 mm, 800 px; errata 5.2 for what it covers.
+  // (4.17) with pixels of 6.25 um: 47 degrees over a sensor of 5 mm, 800 px; errata 4.3 for what it covers.
   const Camera three = Camera::of_field_of_view(800, 600, 47 * kDegree);
   EXPECT_NEAR(three.focal * 6.25e-6, 2.5e-3 / std::tan(23.5 * kDegree), 1e-15);
   for (const auto& [degrees, half] : {std::pair{47.0, 147.8}, {50.0, 158.5}}) {
