@@ -30,6 +30,7 @@ EXAMPLES = {
     "gallery": "gallery build/scans/elephant.off --no-figures --quiet",
     "scan": "scan docs/examples/scan.yaml --no-figures --quiet",
     "fit": "fit build/scans/elephant.off --shape ellipsoid --pieces 4 --no-figures --quiet",
+    "track": "track docs/examples/street --truth docs/examples/street-truth.txt --no-figures --quiet",
     "shapes": "shapes --figure notch --no-figures",
     "check": "check docs/examples/scenarios/clearance.yaml",
     "reach": "reach docs/examples/scenarios/orifices.yaml --current --quiet",

@@ -66,7 +66,7 @@ TEST(Road, SquareOfNothingIsACircle) {
   }
 }
 
-/// Those of 3.4.1 (errata 2.1).
+/// Those of 3.4.1 (errata 4.3).
 std::shared_ptr<const Road> lanes() {
   std::vector<LaneChange> changes;
   for (const auto& [t, a] : {std::pair{5.0, -1.0}, {15, 1}, {25, -1}, {35, -1}, {55, 1}, {75, -1}, {105, 1}})

@@ -43,9 +43,11 @@ void check_first_box(const cv::Mat& grey, const Box& box, const std::string& fie
         "at least " + to_text(kLeastLength) + " px long and " + to_text(kLeastSide) + " px wide");
   if (box.x < -0.5 || box.y < -0.5 || box.x + box.w > grey.cols + 0.5 || box.y + box.h > grey.rows + 0.5)
     throw InputError(field, text, "within the picture of " + size_text(grey.cols, grey.rows));
-  const cv::Rect inside = cv::Rect(cv::Point(int(std::floor(box.x)), int(std::floor(box.y))),
-                                   cv::Point(int(std::ceil(box.x + box.w)), int(std::ceil(box.y + box.h)))) &
-                          cv::Rect(0, 0, grey.cols, grey.rows);
+  // With its edges: something plain on other ground has corners.
+  const cv::Rect inside =
+      cv::Rect(cv::Point(int(std::floor(box.x)) - 2, int(std::floor(box.y)) - 2),
+               cv::Point(int(std::ceil(box.x + box.w)) + 2, int(std::ceil(box.y + box.h)) + 2)) &
+      cv::Rect(0, 0, grey.cols, grey.rows);
   cv::Mat floats, corners;
   grey(inside).convertTo(floats, CV_32F);
   cv::cornerMinEigenVal(floats, corners, 3, 3);

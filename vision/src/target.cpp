@@ -12,11 +12,11 @@ namespace vericone::vision {
 namespace {
 
 constexpr int kMostPoints = 14;
-constexpr double kReturn = 0.7;  // px, there and back
-constexpr double kSpeed = 2,
-                 kChange = 1;      // own sizes a second: of the first velocity, and its change in a second
-constexpr double kMeasured = 0.3;  // px, standard deviation of a measured centre,
-constexpr double kMeasuredOfSize = 0.01;             // and of its own size: a walker's swings
+constexpr double kReturn = 0.7;           // px, there and back
+constexpr double kFirstSpeed = 0.2;       // own sizes a picture, standard deviation of what is not known yet
+constexpr double kChange = 1;             // own sizes a second, of the velocity in a second
+constexpr double kMeasured = 0.3;         // px, standard deviation of a measured centre,
+constexpr double kMeasuredOfSize = 0.01;  // and of its own size: a walker's swings
 constexpr double kTurnRate = 0.5, kScaleRate = 0.6;  // rad/s and 1/s over the ground
 constexpr double kTurnMemory = 0.5;                  // s, over which a target's turning is told from a wobble
 constexpr double kTurnStep = 0.003, kScaleStep = 0.002;  // from picture to picture besides
@@ -55,7 +55,7 @@ Target::Target(const cv::Mat& grey, const Box& box, const TrackerOptions& option
   anchor_ = Appearance(grey, view_, size);
   recent_ = anchor_;
   const double dt = options.frame_seconds, s = size_of(box);
-  filter_ = TargetFilter(view_.centre, kMeasured, kSpeed * s * dt, kChange * s * dt * dt);
+  filter_ = TargetFilter(view_.centre, kMeasured, kFirstSpeed * s, kChange * s * dt * dt);
   seed(grey);
 }
 
