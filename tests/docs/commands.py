@@ -31,6 +31,7 @@ EXAMPLES = {
     "scan": "scan docs/examples/scan.yaml --no-figures --quiet",
     "fit": "fit build/scans/elephant.off --shape ellipsoid --pieces 4 --no-figures --quiet",
     "track": "track docs/examples/street --truth docs/examples/street-truth.txt --no-figures --quiet",
+    "pursue": "pursue docs/examples/pursuits/two.yaml --duration 4 --no-figures --quiet",
     "shapes": "shapes --figure notch --no-figures",
     "check": "check docs/examples/scenarios/clearance.yaml",
     "reach": "reach docs/examples/scenarios/orifices.yaml --current --quiet",
