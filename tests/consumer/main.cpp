@@ -9,6 +9,10 @@ using namespace vericone;
 const char* simulated(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& velocity);
 #endif
 
+#ifdef WITH_VISION
+bool tracked();
+#endif
+
 int main() {
   const Ellipsoid a = Ellipsoid::from_axes({0, 0, 0}, {1, 1, 1}),
                   b = Ellipsoid::from_axes({5, 0, 0}, {2, 2, 2});
@@ -23,6 +27,9 @@ int main() {
   const auto step = guidance::guide(agent, obstacle, {}, memory, 0);
   if (!step || !(step->a.y() > 0)) return 2;
 
+#ifdef WITH_VISION
+  if (!tracked()) return 3;
+#endif
 #ifdef WITH_SIMULATION
   std::printf("%s\n", simulated(a, b, agent.velocity));
 #endif

@@ -142,17 +142,26 @@ Image in_colour(const Image& image) {
 /// Everything that `track --own` needs to repeat the run's estimates.
 class Recorder {
  public:
-  Recorder(const PursueOptions& options, const Pursuit& pursuit) : pursuit_(pursuit) {
+  /// `out`: the folder of all else, where the video may be too.
+  Recorder(const PursueOptions& options, const Pursuit& pursuit, const StagedFolder& out)
+      : pursuit_(pursuit) {
     for (const Car& car : pursuit.cars)
       if (car.followed) names_.push_back(car.name);
-    if (!options.frames.empty()) frames_.emplace(options.frames, "--frames");
+    const auto is_out = [&](const fs::path& folder) {
+      return fs::weakly_canonical(folder) == fs::weakly_canonical(options.out);
+    };
+    if (!options.frames.empty()) {
+      if (is_out(options.frames)) throw InputError("--frames", options.frames, "another folder than --out");
+      frames_.emplace(options.frames, "--frames");
+    }
     if (!options.video.empty()) {
-      const fs::path file = options.video;
+      const fs::path file = options.video,
+                     folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
       if (file.extension() != ".mp4") throw InputError("--video", options.video, "a file ending in .mp4");
-      video_.emplace(file.has_parent_path() ? file.parent_path() : fs::path("."), "--video");
+      if (!is_out(folder)) video_.emplace(folder, "--video");
       const View& view = pursuit.eyes == Eyes::source ? pursuit.source_view : pursuit.perspective_view;
-      video_file_ = video_->path() / file.filename();
-      writer_.emplace(video_file_, view.camera.width, view.camera.height, 1 / pursuit.picture_step);
+      writer_.emplace((video_ ? *video_ : out).path() / file.filename(), view.camera.width,
+                      view.camera.height, 1 / pursuit.picture_step);
     }
     estimates_ = estimates_header();
   }
@@ -182,7 +191,7 @@ class Recorder {
   void finish(const PursuitRun& run) {
     if (writer_) {
       writer_->close();
-      video_->publish({});
+      if (video_) video_->publish({});
     }
     if (!frames_) return;
     write_whole(frames_->path() / "own.csv", own_csv(run));
@@ -205,7 +214,6 @@ class Recorder {
   std::vector<std::string> names_;
   std::optional<StagedFolder> frames_, video_;
   std::optional<VideoWriter> writer_;
-  fs::path video_file_;
   std::string estimates_;
   std::size_t count_ = 0;
 };
@@ -213,7 +221,7 @@ class Recorder {
 int run_one(const Pursuit& pursuit, const PursueOptions& options, const std::string& text,
             std::ostream& out) {
   StagedFolder folder(options.out, "--out");
-  Recorder recorder(options, pursuit);
+  Recorder recorder(options, pursuit, folder);
   PursuitRun run;
   PursuitSummary summary;
   double seconds = 0;
