@@ -493,6 +493,7 @@ PURSUITS = [
                                                                        "top: 4}]}"))),
     ("a ground that is not there", [], pursuit(camera=CAMERA.replace("}", ", ground: {picture: nowhere.png}}"))),
     ("a camera under the ground", [], pursuit(uas="{position: [0, 0, -1]}")),
+    ("a point mass that climbs", [], pursuit(uas="{position: [0, 0, 120], velocity: [20, 0, 1]}")),
     ("no cars", [], pursuit().replace("cars:\n  - " + CAR, "cars: []")),
     ("two cars of one name", [], pursuit(car=CAR + "\n  - " + CAR)),
     ("a car without a road", [], pursuit(car="{name: B, position: [5, 5]}")),

@@ -280,6 +280,9 @@ void read_uas(const Json& value, const std::string& path, Pursuit& pursuit) {
   if_given(value, path, "vehicle", [&](const Json& v, const std::string& p) {
     pursuit.vehicle = scenario::read_vehicle(v, p, true).model;
   });
+  if (!pursuit.vehicle && pursuit.start.velocity.z() != 0)
+    throw InputError(join(path, "velocity") + "[2]", to_text(pursuit.start.velocity.z()),
+                     "0 without a vehicle: a point mass keeps its altitude");
 }
 
 void read_filters(const Json& value, const std::string& path, Pursuit& pursuit) {

@@ -75,6 +75,16 @@ TEST(PursuitExact, TheBoundaryLayerSpeaksAboutHalfOfTheTimeAndOursNeverNeedsOne)
   }
 }
 
+TEST(PursuitExact, AQuadrotorWithoutAVerticalLawKeepsItsAltitude) {
+  Pursuit pursuit = exact(three_lanes(), Whose::ours);
+  pursuit.vertical.reset();
+  pursuit.duration = 30;
+  const PursuitRun run = pursue(pursuit);
+  for (const PursuitSample& sample : run.samples)
+    EXPECT_NEAR(sample.uas.position.z(), pursuit.start.position.z(), 5) << sample.t;
+  EXPECT_NEAR(run.samples.back().uas.position.z(), pursuit.start.position.z(), 0.1);
+}
+
 void expect_followed(const Pursuit& pursuit, const PursuitRun& run, double pixels) {
   for (const CarSummary& car : summarise(pursuit, run).cars) {
     SCOPED_TRACE(car.name);

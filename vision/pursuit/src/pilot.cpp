@@ -136,7 +136,12 @@ double Pilot::climb(const simulation::Motion& own, std::span<const Known> known,
   const auto [size, rate] = size_in_picture(sample.ellipse, wider, focal, z, own.velocity.z());
   sample.size = size;
   sample.off_centre = (sample.ellipse.centre - own.position.head<2>()).norm() * focal / z;
-  if (!vertical_) return 0;
+  if (!vertical_) {
+    // The altitude of the start is held, with the gains of one that Algorithm 2 has locked.
+    constexpr guidance::VerticalGains kHold;
+    return guidance::altitude_acceleration(pursuit_.start.position.z(), z, own.velocity.z(), kHold.lock_p,
+                                           kHold.lock_d);
+  }
   const double up = vertical_->step(size, rate, z, own.velocity.z());
   sample.mode = vertical_->mode();
   return up;
