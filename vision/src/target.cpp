@@ -29,11 +29,13 @@ constexpr double kRivals = 4;         // own sizes: how far others that look the
 constexpr double kRivalEvery = 0.4;   // s, after which they are looked for again
 constexpr double kRivalMemory = 6;    // s, for which one that is not seen is taken to be still there
 constexpr int kMostAlike = 4;
-constexpr double kFormFree = 3;    // times the usual change of form, of what is found again
-constexpr double kFarWait = 0.5;   // s, of one at the edge of the gate
-constexpr double kNear = 2;        // squared standard deviations
-constexpr double kMostReach = 40;  // samples to each side that one picture's search goes
-constexpr int kConfirm = 3;        // pictures that a regained target must go on as expected
+constexpr double kFormFree = 3;     // times the usual change of form, of what is found again
+constexpr double kFarWait = 0.5;    // s, of one at the edge of the gate
+constexpr double kAloneWait = 0.1;  // the same where nothing that looks like it was seen beside it
+constexpr double kNear = 2;         // squared standard deviations
+constexpr double kMostReach = 40;   // samples to each side that one picture's search goes
+constexpr int kKnown = 3;           // pictures after which a first velocity is known
+constexpr double kConfirm = 0.1;    // s for which a regained target must go on as expected
 
 double size_of(const Box& box) { return std::sqrt(box.w * box.h); }
 
@@ -48,7 +50,9 @@ Eigen::Matrix2d round_covariance(double deviation) {
 }  // namespace
 
 Target::Target(const cv::Mat& grey, const Box& box, const TrackerOptions& options, std::size_t number)
-    : options_(options), first_(box) {
+    : options_(options),
+      confirmed_(std::max(1, int(std::lround(kConfirm / options.frame_seconds)))),
+      first_(box) {
   phase_ = int(3 * number) % std::max(1, int(kRivalEvery / options.frame_seconds));
   view_.centre = box.centre();
   const Eigen::Vector2d size(box.w, box.h);
@@ -399,7 +403,7 @@ Sighting Target::step(const cv::Mat& before, const cv::Mat& now, const Eigen::Ma
   guess.centre = filter_.centre();
   Eigen::Matrix2d gate = filter_.covariance();
   // What is seen needs no advice, once its velocity is known.
-  if (expected && (hidden_ > 0 || followed_ < kConfirm)) {
+  if (expected && (hidden_ > 0 || followed_ < kKnown)) {
     guess.centre = expected->centre;
     gate = expected->covariance;
   }
@@ -485,7 +489,8 @@ Sighting Target::step(const cv::Mat& before, const cv::Mat& now, const Eigen::Ma
         (view.centre - expected_view.centre).norm() < 1.5 + 0.08 * size) {
       candidate_->view = view;
       // One that is far from where it is expected waits for longer: the right one may come out yet.
-      if (++candidate_->seen >= kConfirm + kFarWait * candidate_->cost / kGate / dt) {
+      const double wait = rivals_.empty() ? kAloneWait : kFarWait;
+      if (++candidate_->seen >= confirmed_ + wait * candidate_->cost / kGate / dt) {
         accept(now, view, agreement);
         return sighting(agreement);
       }

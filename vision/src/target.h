@@ -64,6 +64,7 @@ class Target {
   void accept(const cv::Mat& now, const View& view, const Agreement& agreement);
 
   TrackerOptions options_;
+  int confirmed_;  // pictures that a regained target must go on as expected
   Box first_;
   View view_;
   Appearance anchor_, recent_;
