@@ -490,7 +490,8 @@ Sighting Target::step(const cv::Mat& before, const cv::Mat& now, const Eigen::Ma
       candidate_->view = view;
       // One that is far from where it is expected waits for longer: the right one may come out yet.
       const double wait = rivals_.empty() ? kAloneWait : kFarWait;
-      if (++candidate_->seen >= confirmed_ + wait * candidate_->cost / kGate / dt) {
+      const int least = rivals_.empty() ? confirmed_ : std::max(2, confirmed_);
+      if (++candidate_->seen >= least + wait * candidate_->cost / kGate / dt) {
         accept(now, view, agreement);
         return sighting(agreement);
       }
