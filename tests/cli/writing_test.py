@@ -109,11 +109,9 @@ class InPreparedFolder(InFolder):
             x = [rng.gauss(0, 1) for _ in range(3)]
             n = math.hypot(*x)
             points += "%f %f %f\n" % (3 * x[0] / n, 2 * x[1] / n, x[2] / n)
-        for name, content in {"scene.yaml": SCENE, "scenario.yaml": SCENARIO, "noise.yaml": NOISE, "t.off": MESH, "u.off": MESH,
-                              "mesh.yaml": PIECES, "scan.yaml": LIDARS, "pursuit.yaml": PURSUIT, "ball.xyz": points, "planar.yaml": PLANAR,
         track = "t,x,y\n" + "".join("%g,%g,%g\n" % (0.1 * i, 2 * i, i % 7) for i in range(200))
         for name, content in {"track.csv": track, "scene.yaml": SCENE, "scenario.yaml": SCENARIO, "noise.yaml": NOISE, "t.off": MESH, "u.off": MESH,
-                              "mesh.yaml": PIECES, "scan.yaml": LIDARS, "ball.xyz": points, "planar.yaml": PLANAR,
+                              "mesh.yaml": PIECES, "scan.yaml": LIDARS, "pursuit.yaml": PURSUIT, "ball.xyz": points, "planar.yaml": PLANAR,
                               "near.yaml": SCENE.replace("[5, 0", "[3.05, 0"),
                               "dents.yaml": SCENE.replace("[5, 0", "[3.05, 0").replace("[2, 2, 2]}", "[2, 2, 2], hyperboloids: [{sheets: 2, "
                                                           "semi_axes: [1, 1, 1]}]}")}.items():
