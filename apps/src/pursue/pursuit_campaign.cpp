@@ -14,6 +14,7 @@
 #include "json/json_value.h"
 #include "measures/table.h"
 #include "output/figures.h"
+#include "output/file_hash.h"
 #include "output/interrupt.h"
 #include "output/number_text.h"
 #include "output/provenance.h"
@@ -41,7 +42,8 @@ class Random {
 };
 
 std::string settings_of(const Pursuit& pursuit, const PursueOptions& options, const char* what) {
-  return "# vericone pursue " + fs::path(options.scenario).filename().string() + ", " + what + ", camera " +
+  return "# vericone pursue " + fs::path(options.scenario).filename().string() + " (sha256 " +
+         sha256_of_file(options.scenario).substr(0, 16) + ")" + ", " + what + ", camera " +
          to_string(pursuit.eyes) + ", tracker " + to_string(pursuit.tracker) + ", law " +
          to_string(pursuit.law) + ", " + to_text(pursuit.duration) + " s, seed " +
          std::to_string(pursuit.seed);

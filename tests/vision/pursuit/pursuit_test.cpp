@@ -220,6 +220,27 @@ TEST(PursuitFromPixels, OldPicturesAreSeenAsOld) {
   expect_followed(pursuit, run, 1.5);
 }
 
+/// With the shutter open for long, what moves in the picture is drawn out: grey levels next to each other
+/// differ less.
+TEST(PursuitFromPixels, AnExposureBlursByTheCamerasOwnMotion) {
+  const auto roughness = [](double exposure) {
+    Pursuit pursuit = seen(three_lanes(), Eyes::perspective, 0.4);
+    pursuit.perspective_view.mount.kind = MountKind::north_up;  // the ground passes below at 31 m/s
+    pursuit.perspective_view.scene.noise = 0;
+    pursuit.perspective_view.scene.exposure = exposure;
+    double sum = 0;
+    PursuitOptions options;
+    options.picture = [&](const Image& image, const PursuitSample&, const std::vector<Followed>&) {
+      sum = 0;
+      for (std::size_t i = 1; i < image.data.size(); ++i)
+        sum += std::abs(int(image.data[i]) - int(image.data[i - 1]));
+    };
+    static_cast<void>(pursue(pursuit, options));
+    return sum;
+  };
+  EXPECT_LT(roughness(0.03), 0.95 * roughness(0));
+}
+
 TEST(PursuitRefuses, WhatItCannotFly) {
   Pursuit pursuit = lanes();
   pursuit.picture_step = 0.25;

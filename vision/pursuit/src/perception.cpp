@@ -16,8 +16,9 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// What a tracker follows is the roof of a vehicle, or its outline, which is about as high as its middle: between both.
-/// Measured with boxes 1.6 m high: 1.0 px RMS at worst, against 1.8 (outline) and 1.3 (roof).
+/// What a tracker follows is the roof of a vehicle, or its outline, which is about as high as its middle:
+/// between both. Over the first 60 s of 4.3.0.1 this gave 0.5 px RMS at worst, the height of the middle 1.8,
+/// the roof's 1.3.
 constexpr double kFollowed = 1.5;  // of the height of the middle
 
 /// d(pixel) / d(x, y) of a point at `point`.
@@ -67,7 +68,8 @@ void Perception::start(const Image& image, const Pose& camera, double t, std::sp
     vehicles_.push_back(one);
     Reference reference;
     reference.scale = scale_at(options_.camera, camera, *place);
-    if (const auto roof = ground_point(options_.camera, camera, boxes[i].centre(), kFollowed * options_.height))
+    if (const auto roof =
+            ground_point(options_.camera, camera, boxes[i].centre(), kFollowed * options_.height))
       reference.aside = place->head<2>() - roof->head<2>();
     references_.push_back(reference);
   }
@@ -82,7 +84,8 @@ Expectation Perception::expected(std::size_t i, const Pose& camera, double t) {
   constexpr double kSpeedKnown = 2;  // deviations of the velocity that a speed has to be, to be a direction
   Expectation result;
   const guidance::Belief<6> belief = vehicles_[i].filter.predicted(t);
-  const Vector3d place = on_ground(Vector2d(belief.mean[0], belief.mean[3]) - aside(i), kFollowed * options_.height);
+  const Vector3d place =
+      on_ground(Vector2d(belief.mean[0], belief.mean[3]) - aside(i), kFollowed * options_.height);
   const Vector3d seen = camera.to_body(place);
   const auto pixel = options_.camera.project(seen);
   if (!pixel) {  // behind the camera: nowhere in the picture
@@ -119,7 +122,8 @@ void Perception::take(std::size_t i, const Sighting& sighting, const Pose& camer
   one.sighting = sighting;
   one.measured.reset();
   if (sighting.measured)
-    if (const auto roof = ground_point(options_.camera, camera, sighting.box.centre(), kFollowed * options_.height)) {
+    if (const auto roof =
+            ground_point(options_.camera, camera, sighting.box.centre(), kFollowed * options_.height)) {
       const Vector2d middle = roof->head<2>() + aside(i);
       const Vector3d place = on_ground(middle, options_.height);
       if (const auto pixel = options_.camera.project(camera.to_body(place))) {

@@ -2,6 +2,7 @@
 #include <vericone/geometry/error.h>
 #include <vericone/simulation/track.h>
 #include <vericone/vision/pursuit/pursuit.h>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -79,7 +80,6 @@ class SummedRoad : public simulation::Road {
 /// A picture on its way from the camera to the tracker.
 struct Picture {
   double t = 0;
-  std::uint64_t number = 0;
   Image image;
   Pose camera;
   std::vector<simulation::RoadPoint> truth;  // of all cars
@@ -121,7 +121,7 @@ class Flight {
       const bool due = k % every == 0;
       if (due) look(own, t, k / every);
       const auto start = Clock::now();
-      const bool told = tell(own, t);
+      const bool told = tell(t);
       simulation::VehicleCommand command;
       if (told) command = pilot_.step(own, known_, view_.camera.focal, t, sample_);
       if (told) {
@@ -161,7 +161,6 @@ class Flight {
     if (!perception_) return;
     Picture picture;
     picture.t = t;
-    picture.number = number;
     // Before anything is believed the camera looks where whoever detected the vehicles has turned it.
     const Vector2d at = told_ ? aim_ : middle_of(cars_at(t));
     const std::optional<Vector3d> aim = Vector3d(at.x(), at.y(), 0);
@@ -171,7 +170,10 @@ class Flight {
     for (const simulation::RoadPoint& car : picture.truth)
       placed.push_back({car.position, std::atan2(car.velocity.y(), car.velocity.x()), car.velocity});
     if (bars_.step(own, view_.camera, t)) scene_->set_occluders(bars_.with(view_.scene.occluders));
-    scene_->render(view_.camera, picture.camera, placed, t, number, picture.image);
+    const std::optional<Pose> before = when_opened(picture.camera);
+    scene_->render(view_.camera, picture.camera, placed, t, number, picture.image,
+                   before ? &*before : nullptr);
+    looked_ = picture.camera;
     picture.seen = scene_->truth(view_.camera, picture.camera, placed, t);
     under_way_.push_back(std::move(picture));
     while (!under_way_.empty() && under_way_.front().t + view_.latency <= t + 1e-9) {
@@ -179,6 +181,15 @@ class Flight {
       under_way_.pop_front();
       perceive();
     }
+  }
+
+  /// Where the camera was when the shutter opened, between the last picture and this one.
+  [[nodiscard]] std::optional<Pose> when_opened(const Pose& now) const {
+    if (!looked_ || !(view_.scene.exposure > 0)) return std::nullopt;
+    const double back = std::min(1.0, view_.scene.exposure / pursuit_.picture_step);
+    const Eigen::Quaterniond from(now.rotation), to(looked_->rotation);
+    return Pose{now.position + back * (looked_->position - now.position),
+                from.slerp(back, to).toRotationMatrix()};
   }
 
   void perceive() {
@@ -199,7 +210,7 @@ class Flight {
   }
 
   /// What is believed now. Whether anything is.
-  bool tell(const simulation::Motion&, double t) {
+  bool tell(double t) {
     known_.clear();
     aim_.setZero();
     if (!perception_) {
@@ -359,6 +370,7 @@ class Flight {
   std::vector<std::size_t> followed_;
   std::deque<Picture> under_way_;
   std::optional<Picture> last_;
+  std::optional<Pose> looked_;  // the camera at the last picture taken
   bool told_ = false;
   std::vector<Known> known_;
   std::vector<Vector3d> points_;
