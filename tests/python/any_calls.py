@@ -19,6 +19,7 @@ import resource
 import signal
 import sys
 import tempfile
+import time
 from decimal import Decimal
 from typing import Any, Callable as Function
 
@@ -32,6 +33,7 @@ SECONDS_A_CALL = 1.0  # then it is interrupted
 DEAF_SECONDS = 20  # then it has not heard
 MOST_BYTES = 6 * 2**30  # of address space: what asks for more gets a MemoryError
 KEPT = 6  # objects of a type
+EXAMPLES, QUICK_SECONDS = 2, 2e-3  # of calls of one name
 
 
 class TooLong(BaseException):
@@ -215,7 +217,8 @@ class Calls:
         self.answered: dict[str, int] = {}
         self.calls = 0
         self.log = log
-        self.deaf = False
+        # Of each name, calls that were answered and calls that were refused, quickly: (what, arguments, named ones).
+        self.examples: dict[tuple[str, bool], list[tuple[Any, list[Any], dict[str, Any]]]] = {}
 
     def keep(self, value: Any, draw: random.Random, depth: int = 0) -> None:
         kind = type(value)
@@ -283,6 +286,8 @@ class Calls:
             os.pwrite(self.log, f"{self.calls}: {text}\n".encode("utf-8", "backslashreplace"), 0)
         self.calls += 1
         wrong: BaseException | None = None
+        answered = False
+        began = time.perf_counter()
         faulthandler.dump_traceback_later(DEAF_SECONDS, exit=True)
         signal.setitimer(signal.ITIMER_REAL, SECONDS_A_CALL)
         try:
@@ -290,6 +295,7 @@ class Calls:
                 result = target(*positional, **named)
             finally:
                 signal.setitimer(signal.ITIMER_REAL, 0)
+            answered = True
             self.answered[name] = self.answered.get(name, 0) + 1
             self.keep(result, draw)
         except vericone.InputError as error:
@@ -301,6 +307,9 @@ class Calls:
             wrong = error
         finally:
             faulthandler.cancel_dump_traceback_later()
+        own = self.examples.setdefault((name, answered), [])
+        if len(own) < EXAMPLES and time.perf_counter() - began < QUICK_SECONDS:
+            own.append((target, positional, named))
         if wrong is None:
             return None
         fault = f"{name}: {type(wrong).__name__}: {str(wrong)[:160]}"
@@ -324,10 +333,26 @@ def prepare() -> None:
     os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
 
 
+def search(calls: Calls, examples: int) -> None:
+    """Calls that hypothesis chooses, and makes small where one is wrong: it raises AssertionError then."""
+    import hypothesis
+    from hypothesis import strategies
+
+    @hypothesis.settings(max_examples=examples, deadline=None, derandomize=True, database=None,
+                         suppress_health_check=list(hypothesis.HealthCheck))
+    @hypothesis.given(strategies.randoms(use_true_random=False))
+    def one(draw: random.Random) -> None:
+        wrong = calls.make(draw)
+        assert wrong is None, wrong
+
+    one()
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--calls", type=int, default=10_000)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--hypothesis", type=int, default=0, help="examples that hypothesis chooses afterwards")
     parser.add_argument("--only", default="", help="part of the names that are called")
     parser.add_argument("--log", default="", help="file for the call that is being made")
     options = parser.parse_args()
@@ -342,6 +367,8 @@ def main() -> int:
                 calls.also(draw)
             else:
                 calls.make(draw)
+        if options.hypothesis and not calls.faults:
+            search(calls, options.hypothesis)
         os.chdir("/")
     never = [c.name for c in calls.callables if c.name not in calls.answered]
     for fault in calls.faults.values():

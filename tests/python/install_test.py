@@ -12,8 +12,7 @@ import pytest
 
 MOST_BYTES = 15_000_000  # of the wheel
 
-if "VERICONE_PRELOAD" in os.environ:
-    pytest.skip("a build with sanitizers is not installed", allow_module_level=True)
+pytestmark = pytest.mark.skipif("VERICONE_PRELOAD" in os.environ, reason="a build with sanitizers is not installed")
 
 
 def run(*command: str | Path, cwd: Path) -> str:

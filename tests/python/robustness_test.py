@@ -16,9 +16,9 @@ import pytest
 PROGRAM = Path(__file__).parent / "any_calls.py"
 
 
-def called(tmp_path: Path, calls: int, seed: int, timeout: int) -> dict[str, Any]:
+def called(tmp_path: Path, calls: int, seed: int, timeout: int, *more: str) -> dict[str, Any]:
     log = tmp_path / "call"
-    done = subprocess.run([sys.executable, PROGRAM, "--calls", str(calls), "--seed", str(seed), "--log", log], capture_output=True,
+    done = subprocess.run([sys.executable, PROGRAM, "--calls", str(calls), "--seed", str(seed), "--log", log, *more], capture_output=True,
                           text=True, check=False, timeout=timeout)
     last = log.read_text(encoding="utf-8") if log.exists() else "before the first call"
     died = f"status {done.returncode} in call {last}\n{done.stderr[-4000:]}"
@@ -36,6 +36,11 @@ def test_any_object_shape_and_dtype(tmp_path: Path, seed: int) -> None:
     assert report["faults"] == 0, report["text"]
     # Not only refusals: enough calls got through.
     assert report["answered"] > 0.1 * report["calls"]
+
+
+def test_what_hypothesis_chooses(tmp_path: Path) -> None:
+    report = called(tmp_path, 1_000, 3, 280, "--hypothesis", "500")
+    assert report["faults"] == 0, report["text"]
 
 
 @pytest.mark.campaign
