@@ -110,6 +110,8 @@ def test_the_source_distribution_holds_what_a_build_reads(source: Path, tmp_path
     run(sys.executable, "setup.py", "-q", "sdist", "-d", tmp_path, cwd=source)
     (archive,) = tmp_path.glob("*.tar.gz")
     assert archive.stat().st_size < MOST_BYTES
+    if not (source / ".git").exists():
+        pytest.skip("not a checkout: which files are the project's is not known")
     names = {name.split("/", 1)[1] for name in run("tar", "-tzf", archive, cwd=tmp_path).split() if "/" in name}
     tracked = run("git", "ls-files", "CMakeLists.txt", "cmake", "geometry", "cones", "guidance", "scenes", "vision", "python",
                   "setup.py", "pyproject.toml", "LICENSE", cwd=source).split()

@@ -55,11 +55,14 @@ def headers() -> list[Path]:
     return [path for library in LIBRARIES for path in sorted((ROOT / library).rglob("include/vericone/**/*.h"))]
 
 
-def test_every_name_of_the_headers_is_listed(names: list[dict[str, str]]) -> None:
-    listed = {re.split(r"::", entry["cpp"])[-1].split("<")[0] for entry in names} | {part for entry in names for part in entry["cpp"].split("::")}
-    found = [(path.name, name) for path in headers() for name in declared(path.read_text(encoding="utf-8"))]
-    assert len(found) > 500
-    assert [f"{header}: {name}" for header, name in found if name not in listed] == []
+@pytest.mark.parametrize("header", headers(), ids=lambda path: str(path).split("/include/vericone/")[1])
+def test_every_name_of_a_header_is_listed(names: list[dict[str, str]], header: Path) -> None:
+    listed = {part.split("<")[0] for entry in names for part in entry["cpp"].split("::")}
+    assert [name for name in declared(header.read_text(encoding="utf-8")) if name not in listed] == []
+
+
+def test_the_other_reader_sees_the_headers() -> None:
+    assert sum(len(list(declared(path.read_text(encoding="utf-8")))) for path in headers()) > 700
 
 
 def resolve(name: str) -> Any:

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Docstrings: whatever is public has one, and that of a quantity names its unit, itself or by the class that it is of."""
+
+import inspect
+import re
+from typing import Any
+
+import pytest
+
+import signatures
+
+import vericone
+
+# A word for a unit, or for a number that has none.
+UNIT = re.compile(
+    r"\b(m|metres?|km|mm|m/s(\^2)?|s|seconds?|ms|us|ns|rad|radians?|rad/s(\^2)?|degrees?|1/s|1/m|m\^[23]|kg|N|Hz|pixels?|px|K|Pa"
+    r"|unit|dimensionless|without a unit|ratio|relative|fraction|share|part|times as|probability|quantile|likelihood|orthonormal|rotation"
+    r"|normalised|sine|cosine|tangent|weights?|exponent|quaternion|standard deviations?|sigmas?|coefficients?|parameter|number of|index)\b")
+QUANTITY = re.compile(r"\bfloat\b|float64|\bArray\b|NDArray|\bInterval\b")
+
+
+def documented() -> list[signatures.Callable]:
+    return [c for c in signatures.callables(vericone) if c.kind in ("function", "class", "method", "static", "property")]
+
+
+def value_of(name: str) -> Any:
+    value: Any = vericone
+    for part in name.split("."):
+        value = inspect.getattr_static(value, part) if inspect.isclass(value) else getattr(value, part)
+    return value
+
+
+def owner_doc(c: signatures.Callable) -> str:
+    return inspect.getdoc(value_of(c.owner)) or "" if c.owner else ""
+
+
+BY_OWNER: dict[str, list[signatures.Callable]] = {}
+for _c in documented():
+    BY_OWNER.setdefault(_c.owner or _c.name, []).append(_c)
+
+
+@pytest.mark.parametrize("owner", sorted(BY_OWNER))
+def test_docstrings(owner: str) -> None:
+    """Each function, class and method has a docstring; each that answers a quantity says in which unit."""
+    silent = [c.name for c in BY_OWNER[owner] if c.kind != "property" and not inspect.getdoc(value_of(c.name)) and not owner_doc(c)]
+    assert silent == []
+    without = []
+    for c in BY_OWNER[owner]:
+        if c.kind == "class" or not any(QUANTITY.search(s.returns) for s in c.signatures):
+            continue
+        if not UNIT.search(f"{inspect.getdoc(value_of(c.name)) or ''}\n{owner_doc(c)}"):
+            without.append(c.name)
+    assert without == []
+
+
+def test_there_are_many() -> None:
+    assert len(documented()) > 1000
