@@ -18,6 +18,7 @@
 #include "json/json_value.h"
 #include "output/figures.h"
 #include "output/interrupt.h"
+#include "output/output_file.h"
 #include "output/progress.h"
 #include "output/provenance.h"
 #include "output/staged_folder.h"

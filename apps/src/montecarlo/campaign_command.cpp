@@ -9,9 +9,10 @@
 
 #include "input/stopwatch.h"
 #include "json/json_value.h"
-#include "montecarlo/summary.h"
+#include "montecarlo/summary_text.h"
 #include "output/figures.h"
 #include "output/interrupt.h"
+#include "output/output_file.h"
 #include "output/provenance.h"
 #include "output/resumable_table.h"
 #include "output/staged_folder.h"

@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "output/interrupt.h"
+#include "output/output_file.h"
 #include "output/progress.h"
 #include "output/provenance.h"
 #include "output/staged_folder.h"

@@ -220,6 +220,7 @@ class Writer {
 
   // Sums along the tree: the error grows with its depth, not with the number of cells.
   Areas write(std::uint32_t index, const std::array<std::uint32_t, 3>& corners) {
+    if (++written_ % 4096 == 0) checkpoint();
     const Node& node = nodes_[index];
     Areas sum{};
     if (node.parts == 0) {
@@ -249,6 +250,7 @@ class Writer {
 
   const std::vector<Node>& nodes_;
   ConeMap& map_;
+  std::uint64_t written_ = 0;
   std::unordered_map<std::uint64_t, std::uint32_t> middles_;
 };
 

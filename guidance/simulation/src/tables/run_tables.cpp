@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/guidance/clearance_law.h>
+#include <vericone/simulation/run_tables.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
@@ -7,13 +8,10 @@
 #include <optional>
 #include <vector>
 
-#include "simulate/csv_row.h"
-#include "simulate/run_files.h"
+#include "tables/rows.h"
 
-namespace vericone::scenario {
+namespace vericone::simulation {
 namespace {
-
-using namespace simulation;
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
@@ -34,15 +32,15 @@ std::vector<double> command_times(const Scenario& scenario, const Run& run) {
 
 double k_at(const ShapeInTime& shape, double t) { return shape.k() ? shape.k()->at(t) : kNothing; }
 
-void body_row(std::string& table, const simulation::Body& body, const Track& track, double t,
-              guidance::Direction& heading, bool first) {
+void body_row(Table& table, const Body& body, const Track& track, double t, guidance::Direction& heading,
+              bool first) {
   const Motion motion = track.motion(t);
   const Eigen::Vector3d a = track.acceleration(t);
   const double speed = motion.velocity.norm();
   guidance::Direction now = guidance::direction_of(motion.velocity, heading);
   if (!first) now.azimuth = guidance::unwrapped(now.azimuth, heading.azimuth);
   heading = now;
-  CsvRow row(table);
+  Row row(table);
   row.number(t).text(body.name).vector(motion.position).vector(motion.velocity);
   row.number(speed).number(now.azimuth).number(now.elevation).vector(a).number(a.norm());
   row.number(planar(body.shape) && speed > 0 ? motion.velocity.cross(a).z() / speed : kNothing);
@@ -59,7 +57,7 @@ double clearance_of(const Scenario& scenario, const Run& run, const EncounterSam
   return guidance::law_clearance(a, b);
 }
 
-void command_fields(CsvRow& row, const Eigen::Vector3d& acceleration, std::optional<double> demanded) {
+void command_fields(Row& row, const Eigen::Vector3d& acceleration, std::optional<double> demanded) {
   const guidance::DirectedAcceleration directed = guidance::directed(acceleration);
   row.number(directed.magnitude);
   if (demanded) row.number(*demanded);
@@ -72,10 +70,11 @@ void command_fields(CsvRow& row, const Eigen::Vector3d& acceleration, std::optio
 
 }  // namespace
 
-std::string bodies_csv(const Scenario& scenario, const Run& run) {
-  std::string table =
-      "t [s],body,x [m],y [m],z [m],vx [m/s],vy [m/s],vz [m/s],speed [m/s],azimuth [rad],elevation [rad],"
-      "ax [m/s^2],ay [m/s^2],az [m/s^2],a [m/s^2],lateral [m/s^2],qw,qx,qy,qz,k\n";
+Table bodies_table(const Scenario& scenario, const Run& run) {
+  Table table =
+      table_of("bodies",
+               "t [s],body,x [m],y [m],z [m],vx [m/s],vy [m/s],vz [m/s],speed [m/s],azimuth [rad],elevation "
+               "[rad],ax [m/s^2],ay [m/s^2],az [m/s^2],a [m/s^2],lateral [m/s^2],qw,qx,qy,qz,k");
   std::vector<guidance::Direction> headings(run.tracks.size());
   std::vector<bool> seen(run.tracks.size(), false);
   for (const double t : command_times(scenario, run))
@@ -87,14 +86,15 @@ std::string bodies_csv(const Scenario& scenario, const Run& run) {
   return table;
 }
 
-std::string encounters_csv(const Scenario& scenario, const Run& run) {
-  std::string table =
-      "t [s],agent,obstacle,r [m],theta [rad],phi [rad],V_r [m/s],V_theta [m/s],V_phi [m/s],y,psi [rad],"
-      "theta_b [rad],V_r_hat [m/s],plane [rad],m [m],a [m/s^2],demanded [m/s^2],delta [rad],gamma [rad],"
-      "a_B [m/s^2],delta_B [rad],gamma_B [rad],status,attended\n";
+Table encounters_table(const Scenario& scenario, const Run& run) {
+  Table table =
+      table_of("encounters",
+               "t [s],agent,obstacle,r [m],theta [rad],phi [rad],V_r [m/s],V_theta [m/s],V_phi [m/s],y,psi "
+               "[rad],theta_b [rad],V_r_hat [m/s],plane [rad],m [m],a [m/s^2],demanded [m/s^2],delta "
+               "[rad],gamma [rad],a_B [m/s^2],delta_B [rad],gamma_B [rad],status,attended");
   for (const EncounterSample& s : run.encounters) {
     const guidance::SpatialState& state = s.state;
-    CsvRow row(table);
+    Row row(table);
     row.number(s.t).text(scenario.bodies[s.agent].name).text(scenario.bodies[s.obstacle].name);
     row.number(state.r).number(state.theta).number(state.phi);
     row.number(state.v_r).number(state.v_theta).number(state.v_phi);
@@ -103,15 +103,16 @@ std::string encounters_csv(const Scenario& scenario, const Run& run) {
     row.number(clearance_of(scenario, run, s));
     command_fields(row, s.step.a, s.step.demanded);
     command_fields(row, s.step.b, std::nullopt);
-    row.text(to_string(s.step.status)).text(s.attended ? "1" : "0");
+    row.text(to_string(s.step.status)).number(s.attended ? 1 : 0);
   }
   return table;
 }
 
-std::string planes_csv(const Scenario& scenario, const Run& run) {
-  std::string table = "t [s],agent,obstacle,azimuth [rad],y,psi [rad],theta_b [rad],V_r_hat [m/s]\n";
+Table planes_table(const Scenario& scenario, const Run& run) {
+  Table table =
+      table_of("planes", "t [s],agent,obstacle,azimuth [rad],y,psi [rad],theta_b [rad],V_r_hat [m/s]");
   for (const PlaneSample& s : run.planes) {
-    CsvRow row(table);
+    Row row(table);
     row.number(s.t).text(scenario.bodies[s.agent].name).text(scenario.bodies[s.obstacle].name);
     row.number(s.plane.azimuth).number(s.plane.y).number(s.plane.psi).number(s.plane.theta_b);
     row.number(s.plane.v_r_hat);
@@ -119,16 +120,16 @@ std::string planes_csv(const Scenario& scenario, const Run& run) {
   return table;
 }
 
-std::string sights_csv(const Scenario& scenario, const Run& run) {
-  std::string table =
-      "t [s],agent,obstacle,x [m],y [m],z [m],vx [m/s],vy [m/s],vz [m/s],believed_x [m],believed_y [m],"
-      "believed_z [m],believed_vx [m/s],believed_vy [m/s],believed_vz [m/s],r [m],V_r [m/s],V_theta [m/s],"
-      "V_phi [m/s],true_y,measured_y,used_y,true_psi [rad],measured_psi [rad],true_theta_b [rad],"
-      "measured_theta_b [rad],y_deviation,a,a_deviation,v [1/s],v_deviation [1/s],inner [m/s^2],"
-      "outer [m/s^2],outer_status,gamma,"
-      "norm [s]\n";
+Table sights_table(const Scenario& scenario, const Run& run) {
+  Table table =
+      table_of("sights",
+               "t [s],agent,obstacle,x [m],y [m],z [m],vx [m/s],vy [m/s],vz [m/s],believed_x [m],believed_y "
+               "[m],believed_z [m],believed_vx [m/s],believed_vy [m/s],believed_vz [m/s],r [m],V_r "
+               "[m/s],V_theta [m/s],V_phi [m/s],true_y,measured_y,used_y,true_psi [rad],measured_psi "
+               "[rad],true_theta_b [rad],measured_theta_b [rad],y_deviation,a,a_deviation,v "
+               "[1/s],v_deviation [1/s],inner [m/s^2],outer [m/s^2],outer_status,gamma,norm [s]");
   for (const SightSample& s : run.sights) {
-    CsvRow row(table);
+    Row row(table);
     row.number(s.t).text(scenario.bodies[s.agent].name).text(scenario.bodies[s.obstacle].name);
     row.vector(s.measurement.position).vector(s.measurement.velocity);
     row.vector(s.believed_position).vector(s.believed_velocity);
@@ -155,14 +156,15 @@ std::string sights_csv(const Scenario& scenario, const Run& run) {
   return table;
 }
 
-std::string orifices_csv(const Scenario& scenario, const Run& run) {
-  std::string table =
-      "t [s],agent,orifice,r [m],theta [rad],phi [rad],V_r [m/s],V_theta [m/s],V_phi [m/s],y [m^2],m [m],"
-      "from_plane [m],a [m/s^2],demanded [m/s^2],delta [rad],gamma [rad],status\n";
+Table orifices_table(const Scenario& scenario, const Run& run) {
+  Table table =
+      table_of("orifices",
+               "t [s],agent,orifice,r [m],theta [rad],phi [rad],V_r [m/s],V_theta [m/s],V_phi [m/s],y "
+               "[m^2],m [m],from_plane [m],a [m/s^2],demanded [m/s^2],delta [rad],gamma [rad],status");
   for (const OrificeSample& s : run.orifices) {
     const guidance::SpatialState& state = s.state;
     const bool ours = scenario.bodies[s.agent].pilot->through->law == Through::Law::passage;
-    CsvRow row(table);
+    Row row(table);
     row.number(s.t).text(scenario.bodies[s.agent].name).text(scenario.orifices[s.orifice].name);
     row.number(state.r).number(state.theta).number(state.phi);
     row.number(state.v_r).number(state.v_theta).number(state.v_phi);
@@ -173,7 +175,7 @@ std::string orifices_csv(const Scenario& scenario, const Run& run) {
   return table;
 }
 
-std::string vehicles_csv(const Scenario& scenario, const Run& run) {
+Table vehicles_table(const Scenario& scenario, const Run& run) {
   std::vector<std::string> columns;  // of all kinds
   std::vector<std::vector<std::size_t>> places(scenario.bodies.size());
   for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
@@ -184,29 +186,38 @@ std::string vehicles_csv(const Scenario& scenario, const Run& run) {
       if (at == columns.end()) columns.push_back(name);
     }
   }
-  std::string table = "t [s],body";
-  for (const std::string& name : columns) table += "," + name;
-  table += "\n";
+  Table table = table_of("vehicles", "t [s],body");
+  for (const std::string& name : columns) table.columns.push_back(column(name));
   for (const VehicleSample& s : run.vehicles) {
     std::vector<double> values(columns.size(), kNothing);
     for (std::size_t k = 0; k < s.values.size(); ++k) values[places[s.body][k]] = s.values[k];
-    CsvRow row(table);
+    Row row(table);
     row.number(s.t).text(scenario.bodies[s.body].name);
     for (const double value : values) row.number(value);
   }
   return table;
 }
 
-std::string events_csv(const Scenario& scenario, const Run& run) {
-  std::string table = "t [s],event,agent,obstacle,value,unit\n";
+Table events_table(const Scenario& scenario, const Run& run) {
+  Table table = table_of("events", "t [s],event,agent,obstacle,value,unit");
   for (const Event& event : run.events) {
     const std::string unit = unit_of(scenario, event);
-    CsvRow row(table);
+    Row row(table);
     row.number(event.t).text(to_string(event.kind)).text(scenario.bodies[event.agent].name);
     row.text(obstacle_of(scenario, event));
     row.number(unit.empty() ? kNothing : event.value).text(unit);
   }
   return table;
+}
+
+std::vector<Table> run_tables(const Scenario& scenario, const Run& run) {
+  std::vector<Table> tables{bodies_table(scenario, run), encounters_table(scenario, run)};
+  if (scenario.planes_logged > 0) tables.push_back(planes_table(scenario, run));
+  if (!run.sights.empty()) tables.push_back(sights_table(scenario, run));
+  if (!run.vehicles.empty()) tables.push_back(vehicles_table(scenario, run));
+  if (!scenario.orifices.empty()) tables.push_back(orifices_table(scenario, run));
+  tables.push_back(events_table(scenario, run));
+  return tables;
 }
 
 bool of_orifice(const Event& event) {
@@ -240,4 +251,4 @@ std::string unit_of(const Scenario& scenario, const Event& event) {
   return "";
 }
 
-}  // namespace vericone::scenario
+}  // namespace vericone::simulation

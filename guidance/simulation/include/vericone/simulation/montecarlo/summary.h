@@ -1,23 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
+//
+// What the rows of a campaign say together.
 #pragma once
 
+#include <vericone/simulation/montecarlo/row.h>
+#include <cstddef>
 #include <cstdint>
-#include <iosfwd>
 #include <string>
 #include <vector>
 
-#include "json/json_forward.h"
-#include "montecarlo/table.h"
-
 namespace vericone::montecarlo {
+
+inline constexpr double kBin = 0.25, kLastBin = 15;  // m
 
 /// Outcomes of one law, or of straight flight.
 struct Counts {
   std::uint64_t avoided = 0, infeasible = 0, called_safe_and_met = 0, undecided = 0;
   double median_peak = 0, median_left_cone = 0;  // m/s^2, s; NaN where there is none
-  std::vector<double> least_distances;           // histogram
+  /// Histogram of the proved least distances of those avoided: how many are in each bin of kBin; the last has
+  /// all from kLastBin on.
+  std::vector<double> least_distances;
 
-  std::uint64_t met() const { return infeasible + called_safe_and_met; }
+  [[nodiscard]] std::uint64_t met() const { return infeasible + called_safe_and_met; }
 };
 
 /// Counts of outcomes, and what was called safe and met all the same.
@@ -36,14 +40,10 @@ struct Summary {
   std::vector<OfLaw> laws;
 };
 
-Summary summarise(const std::vector<Row>& rows, const std::vector<Flown>& laws);
-Json to_json(const Summary& summary);
-
-/// One row a law.
-std::string summary_csv(const Summary& summary);
-void print_summary(const Summary& summary, std::ostream& out);
+/// Of rows with an outcome for each of the laws.
+[[nodiscard]] Summary summarise(const std::vector<Row>& rows, const std::vector<Flown>& laws);
 
 /// Runs that a statement proved to be right called safe and that met: there are none.
-std::uint64_t violations(const Summary& summary);
+[[nodiscard]] std::uint64_t violations(const Summary& summary);
 
 }  // namespace vericone::montecarlo

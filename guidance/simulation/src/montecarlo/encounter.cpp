@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "montecarlo/encounter.h"
-
 #include <vericone/cones/cone_geometry.h>
+#include <vericone/cones/random_engagement.h>
+#include <vericone/simulation/montecarlo/encounter.h>
 #include <cmath>
 #include <numbers>
-
-#include "accuracy/engagements.h"
 
 namespace vericone::montecarlo {
 namespace {
 
-using accuracy::Random;
 using Eigen::Vector3d;
+using engagements::Random;
 
 constexpr double kSlowest = 5, kFastest = 15;  // m/s
 constexpr double kLeastClosing = 3;            // m/s, of the relative velocity
@@ -46,7 +44,7 @@ double Encounter::scale() const {
 }
 
 Encounter random_encounter(std::uint64_t seed, std::uint64_t index) {
-  const auto [a, b] = accuracy::random_engagement(seed, index);
+  const auto [a, b] = engagements::random_engagement(seed, index);
   Random random(~seed, index);  // not the numbers that made the bodies
   const Vector3d along = aim(a, b, random).normalized();
   const double speed_a = random.uniform(kSlowest, kFastest), speed_b = random.uniform(kSlowest, kFastest);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "montecarlo/table.h"
-
 #include <vericone/geometry/error.h>
+#include <vericone/simulation/montecarlo/row.h>
 #include <charconv>
 #include <cmath>
 #include <fstream>

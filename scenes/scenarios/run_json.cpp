@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulate/run_files.h"
-
-#include <vericone/scenes/words.h>
+#include "scenarios/run_json.h"
 
 #include "json/json_value.h"
 #include "pieces/decimate.h"
@@ -102,12 +100,6 @@ Json passages_json(const Scenario& scenario, const Run& run) {
 }
 
 }  // namespace
-
-std::string shape_words(const simulation::Body& body) {
-  const WorldBody shape = shape_at(body.shape, body.appears, body.start.position, body.start.rotation);
-  return (shape.planar() ? scenes::body_words(*shape.flat()) : scenes::body_words(shape.as_placed())) +
-         (body.shape.rigid() ? "" : ", k may change");
-}
 
 Json proof_json(const Scenario& scenario, const Run& run) {
   Json pairs = Json::array();

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "montecarlo/outcome.h"
-
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/geometry/error.h>
 #include <vericone/guidance/plane_view.h>
+#include <vericone/simulation/montecarlo/outcome.h>
 #include <vericone/simulation/run.h>
 #include <algorithm>
 #include <cmath>

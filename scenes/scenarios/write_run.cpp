@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/simulation/run_tables.h>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 
 #include "json/json_value.h"
 #include "json/plain_text.h"
-#include "output/provenance.h"
-#include "simulate/run_files.h"
+#include "output/output_file.h"
+#include "scenarios/run_json.h"
 
 namespace vericone::scenario {
 namespace {
@@ -21,6 +23,10 @@ std::string content_of(const fs::path& file) {
 }
 
 }  // namespace
+
+std::string proof_text(const simulation::Scenario& scenario, const simulation::Run& run) {
+  return proof_json(scenario, run).dump(1) + "\n";
+}
 
 Json run_json(const simulation::Scenario& scenario, const simulation::Run& run, const RunOrigin& origin) {
   std::size_t arcs = 0, agents = 0;
@@ -52,24 +58,18 @@ Json run_json(const simulation::Scenario& scenario, const simulation::Run& run, 
             {"events", run.events.size()},
             {"seconds", origin.seconds},
             {"real_time_factor", run.end / origin.seconds},
-            {"provenance", provenance(origin.command_line, 1, {origin.file})}};
+            {"provenance", origin.provenance.empty() ? Json(nullptr) : Json::parse(origin.provenance)}};
   if (!run.vehicles.empty()) json["limits_broken"] = beyond;
   return json;
 }
 
 void write_run(const simulation::Scenario& scenario, const simulation::Run& run, const RunOrigin& origin,
                const fs::path& folder) {
-  write_whole(folder / "bodies.csv", bodies_csv(scenario, run));
-  write_whole(folder / "encounters.csv", encounters_csv(scenario, run));
-  if (scenario.planes_logged > 0) write_whole(folder / "planes.csv", planes_csv(scenario, run));
-  if (!run.sights.empty()) write_whole(folder / "sights.csv", sights_csv(scenario, run));
-  if (!run.vehicles.empty()) write_whole(folder / "vehicles.csv", vehicles_csv(scenario, run));
-  if (!scenario.orifices.empty()) {
-    write_whole(folder / "orifices.csv", orifices_csv(scenario, run));
+  for (const simulation::Table& table : simulation::run_tables(scenario, run))
+    write_whole(folder / (table.name + ".csv"), csv(table));
+  if (!scenario.orifices.empty())
     write_whole(folder / "orifices.json", orifices_json(scenario).dump(1) + "\n");
-  }
-  write_whole(folder / "events.csv", events_csv(scenario, run));
-  write_whole(folder / "proof.json", proof_json(scenario, run).dump(1) + "\n");
+  write_whole(folder / "proof.json", proof_text(scenario, run));
   write_whole(folder / "shapes.json", shapes_json(scenario).dump(1) + "\n");
   write_whole(folder / "run.json", run_json(scenario, run, origin).dump(1) + "\n");
   write_whole(folder / "scenario.yaml", origin.text.empty() ? content_of(origin.file) : origin.text);

@@ -28,6 +28,9 @@ class OutputFile {
   int file_;
 };
 
+/// A file of this content. Throws std::runtime_error naming the path and the reason.
+void write_whole(const std::filesystem::path& path, std::string_view content);
+
 /// Returns once a file, or the names in a folder, are on the disk.
 void sync_to_disk(const std::filesystem::path& path);
 

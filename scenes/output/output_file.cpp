@@ -43,6 +43,12 @@ void OutputFile::fail(int error) const {
                            std::generic_category().message(error));
 }
 
+void write_whole(const std::filesystem::path& path, std::string_view content) {
+  OutputFile file(path);
+  file.write(content);
+  file.close();
+}
+
 void sync_to_disk(const std::filesystem::path& path) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return;
