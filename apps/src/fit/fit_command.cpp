@@ -2,6 +2,7 @@
 #include "fit/fit_command.h"
 
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -186,7 +187,7 @@ int run_fit(const FitCommandOptions& given, std::ostream& out) {
     files = folder.publish(names_of_files());
     print(a, given, files, out);
     return succeeded(a.result, given) ? 0 : 1;
-  } catch (const fitting::Interrupted&) {
+  } catch (const Interrupted&) {
     return kExitInterrupted;
   }
 }

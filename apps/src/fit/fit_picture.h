@@ -2,7 +2,7 @@
 #pragma once
 
 #include <vericone/fitting/fit.h>
-#include <vericone/geometry/combined_surface.h>
+#include <vericone/geometry/mesh/combined_surface.h>
 
 #include "fit/fit_sample.h"
 #include "json/json_forward.h"

@@ -2,6 +2,7 @@
 #include "paper/figures_command.h"
 
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
 #include <algorithm>
 #include <cmath>
 #include <fstream>

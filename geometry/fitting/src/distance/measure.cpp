@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/fitting/measure.h>
-#include <vericone/geometry/combined_surface.h>
+#include <vericone/geometry/mesh/combined_surface.h>
 #include <vericone/geometry/error.h>
 #include <Eigen/Geometry>
 #include <algorithm>
