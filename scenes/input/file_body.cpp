@@ -113,7 +113,8 @@ std::string remembered_fields(const Json& value, const std::string& path, const 
   Json fields = value;
   fields.erase("velocity");
   fields = body_fields(fields, path, folder);
-  follow_names(fields, std::filesystem::absolute(folder).lexically_normal());
+  std::error_code gone;  // the current folder
+  follow_names(fields, (std::filesystem::current_path(gone) / folder).lexically_normal());
   return fields.dump();
 }
 
