@@ -72,7 +72,8 @@ void write_run(const simulation::Scenario& scenario, const simulation::Run& run,
   write_whole(folder / "proof.json", proof_text(scenario, run));
   write_whole(folder / "shapes.json", shapes_json(scenario).dump(1) + "\n");
   write_whole(folder / "run.json", run_json(scenario, run, origin).dump(1) + "\n");
-  write_whole(folder / "scenario.yaml", origin.text.empty() ? content_of(origin.file) : origin.text);
+  if (!origin.text.empty() || !origin.file.empty())
+    write_whole(folder / "scenario.yaml", origin.text.empty() ? content_of(origin.file) : origin.text);
 }
 
 }  // namespace vericone::scenario

@@ -72,7 +72,7 @@ Flown flown(const std::string& name, const FlightSettings& settings, double most
   } else if (name == "clearance") {
     guide.law = guidance::Law::clearance;
   } else if (name != "exact") {
-    throw InputError("--laws", name, "slice, exact, motion or clearance");
+    throw InputError("laws", name, "slice, exact, motion or clearance");
   }
   return law;
 }

@@ -50,25 +50,6 @@ class Fields {
   std::istringstream in_;
 };
 
-Row parse(const std::string& line, std::size_t laws) {
-  Fields fields(line);
-  Row row;
-  fields.text();  // the index
-  for (double* x : {&row.distance, &row.speed_agent, &row.speed_obstacle, &row.closing}) *x = fields.number();
-  row.straight.outcome = fields.outcome();
-  row.straight.y_slice = fields.number();
-  row.straight.slice_called_safe = fields.flag();
-  row.straight.y_exact = fields.number();
-  row.straight.exact_called_safe = fields.flag();
-  for (std::size_t i = 0; i < laws; ++i) {
-    Outcome o = fields.outcome();
-    o.peak = fields.number();
-    o.left_cone = fields.number();
-    row.outcomes.push_back(o);
-  }
-  return row;
-}
-
 }  // namespace
 
 Row measure(std::uint64_t seed, std::uint64_t index, const std::vector<Flown>& laws,
@@ -115,6 +96,25 @@ std::string csv_row(std::uint64_t index, const Row& row) {
   return text;
 }
 
+Row row_of(const std::string& line, std::size_t laws) {
+  Fields fields(line);
+  Row row;
+  fields.text();  // the index
+  for (double* x : {&row.distance, &row.speed_agent, &row.speed_obstacle, &row.closing}) *x = fields.number();
+  row.straight.outcome = fields.outcome();
+  row.straight.y_slice = fields.number();
+  row.straight.slice_called_safe = fields.flag();
+  row.straight.y_exact = fields.number();
+  row.straight.exact_called_safe = fields.flag();
+  for (std::size_t i = 0; i < laws; ++i) {
+    Outcome o = fields.outcome();
+    o.peak = fields.number();
+    o.left_cone = fields.number();
+    row.outcomes.push_back(o);
+  }
+  return row;
+}
+
 std::vector<Row> read_table(const std::filesystem::path& file, std::size_t laws) {
   std::ifstream in(file);
   std::string line;
@@ -123,7 +123,7 @@ std::vector<Row> read_table(const std::filesystem::path& file, std::size_t laws)
   std::vector<Row> rows;
   for (std::size_t number = 3; std::getline(in, line); ++number) {
     try {
-      rows.push_back(parse(line, laws));
+      rows.push_back(row_of(line, laws));
     } catch (const std::exception& e) {
       throw std::runtime_error(file.string() + ":" + std::to_string(number) + ": " + e.what());
     }

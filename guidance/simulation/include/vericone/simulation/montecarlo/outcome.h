@@ -30,7 +30,7 @@ struct FlightSettings {
 /// Without saturation: accelerations up to this.
 inline constexpr double kUnlimited = 1000;  // m/s^2
 
-/// The laws by name, each with saturation and without. Throws InputError naming "--laws".
+/// The laws by name, each with saturation and without. Throws InputError naming "laws".
 [[nodiscard]] std::vector<Flown> flown_laws(const std::vector<std::string>& names,
                                             const FlightSettings& settings);
 

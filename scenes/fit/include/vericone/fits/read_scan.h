@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The file that `vericone fit` is given, as a sample.
+// A file of points, a mesh or a map as a sample, for fits.
 #pragma once
 
 #include <vericone/fitting/sample.h>
-#include <filesystem>
+#include <cstddef>
 #include <string>
 #include <vector>
 
-namespace vericone::fit {
+namespace vericone::fits {
 
+/// What a file had.
 enum class ScanKind { mesh, cloud, octree };
 
+/// A sample, and where it came from.
 struct Scan {
   std::string file;  // as given
   std::string format;
@@ -21,14 +23,15 @@ struct Scan {
   std::size_t cells = 0;
   /// What was left out or changed in reading.
   std::vector<std::string> notes;
-  double seconds = 0;
+  double seconds = 0;  // it took to read
 };
 
 /// A mesh (equal points made one) where the file has faces, a cloud otherwise; of an octree map the corners
-/// of its occupied cells. Throws InputError naming the file.
-Scan read_scan(const std::string& file);
+/// of its occupied cells, unknown space taken for free. Throws InputError naming the file. Linear in its
+/// size.
+[[nodiscard]] Scan read_scan(const std::string& file);
 
 /// "mesh of 5558 triangles and 2775 points", "cloud of ... points", "... corners of ... occupied cells".
-std::string describe(const Scan& scan);
+[[nodiscard]] std::string describe(const Scan& scan);
 
-}  // namespace vericone::fit
+}  // namespace vericone::fits

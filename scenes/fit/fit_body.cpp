@@ -12,7 +12,6 @@
 #include "input/planar_body.h"
 #include "input/spatial_body.h"
 #include "json/json_value.h"
-#include "picture/shape_json.h"
 
 namespace vericone::fit {
 namespace {

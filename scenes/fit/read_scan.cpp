@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fit/fit_sample.h"
-
 #include <vericone/files/triangle_mesh.h>
+#include <vericone/fits/read_scan.h>
 #include <vericone/geometry/error.h>
 #include <algorithm>
+#include <filesystem>
 
 #include "input/assembly_body.h"
 #include "input/octree_body.h"
 #include "input/stopwatch.h"
 
-namespace vericone::fit {
+namespace vericone::fits {
 namespace {
 
 std::string count(std::size_t n, const std::string& one, const std::string& many) {
@@ -110,4 +110,4 @@ std::string describe(const Scan& scan) {
          " points";
 }
 
-}  // namespace vericone::fit
+}  // namespace vericone::fits

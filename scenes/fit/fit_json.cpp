@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "json/json_value.h"
-#include "picture/shape_json.h"
 
 namespace vericone::fit {
 namespace {
@@ -84,7 +83,7 @@ Json candidates_json(const std::vector<fitting::Candidate>& candidates, Mode mod
   return list;
 }
 
-Json certificate_json(const fitting::FitResult& result, const Scan& scan) {
+Json certificate_json(const fitting::FitResult& result, const fits::Scan& scan) {
   const fitting::Certificate& c = result.certificate;
   const bool mesh = scan.sample.is_mesh();
   return {{"points", c.points},
@@ -123,7 +122,7 @@ std::string to_string(Mode mode) {
   return "";
 }
 
-std::string statement(const fitting::FitResult& result, const Scan& scan) {
+std::string statement(const fitting::FitResult& result, const fits::Scan& scan) {
   const fitting::Certificate& c = result.certificate;
   if (!result.certified)
     return "nothing is proved; by exact arithmetic " + of_all(c.points_inside, c.points, "points") +
@@ -137,7 +136,7 @@ std::string statement(const fitting::FitResult& result, const Scan& scan) {
   return text + ": proved in exact arithmetic of the numbers in quadrics";
 }
 
-Json fit_json(const Scan& scan, const fitting::FitOptions& options, const fitting::FitResult& result,
+Json fit_json(const fits::Scan& scan, const fitting::FitOptions& options, const fitting::FitResult& result,
               const std::vector<Json>& bodies) {
   Json json{{"file", scan.file},
             {"format", scan.format},
