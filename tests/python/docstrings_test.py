@@ -11,12 +11,14 @@ import signatures
 
 import vericone
 
-# A word for a unit, or for a number that has none.
-UNIT = re.compile(
-    r"\b(m|metres?|km|mm|m/s(\^2)?|s|seconds?|ms|us|ns|rad|radians?|rad/s(\^2)?|degrees?|1/s|1/m|m\^[23]|kg|N|Hz|pixels?|px|K|Pa"
-    r"|unit|dimensionless|without a unit|ratio|relative|fraction|share|part|times as|probability|quantile|likelihood|orthonormal|rotation"
-    r"|normalised|sine|cosine|tangent|weights?|exponent|quaternion|standard deviations?|sigmas?|coefficients?|parameter|number of|index)\b")
-QUANTITY = re.compile(r"\bfloat\b|float64|\bArray\b|NDArray|\bInterval\b")
+# A word for a unit, or for a number that has none; or signs of units: m/s^2, 1/s, px^2.
+WORDS = (r"metres?|km|mm|seconds?|radians?|degrees?|steradians?|pixels?|units?|no unit|dimensionless|ratio|relative|fraction|share|part of|parts?"
+         r"|times as|times the|probability|quantile|likelihood|orthonormal|rotation|normalised|sine|cosine|tangent|weights?|exponent|quaternion"
+         r"|standard deviations?|sigmas?|coefficients?|0 to 1|scale|factor|per second|noise|homogeneous")
+SIGN = r"(?:m|s|ms|us|ns|rad|sr|kg|N|Hz|px|K|Pa|W)(?:\^\d)?"
+UNIT = re.compile(rf"\b(?i:{WORDS})\b|(?<![\w/^])(?:(?:1|{SIGN})/{SIGN}|{SIGN})(?![\w^])")
+# What a stub says of what has a unit: numbers, arrays of them, intervals.
+QUANTITY = re.compile(r"\bfloat\b|_Floats|\bInterval\b")
 
 
 def documented() -> list[signatures.Callable]:

@@ -69,15 +69,28 @@ def _described(body: list[ast.stmt], method: bool) -> dict[str, tuple[str, list[
     return found
 
 
-def _stub_of(module: ModuleType) -> ast.Module | None:
-    """What describes it: the stub beside it, or its own source."""
-    if module.__file__ is None:
-        return None
-    path = Path(module.__file__)
-    for candidate in (path.parent / (path.name.split(".")[0] + ".pyi"), path):
-        if candidate.suffix in (".py", ".pyi") and candidate.exists():
-            return ast.parse(candidate.read_text(encoding="utf-8"))
+def _file_of(module: str, package: ModuleType) -> Path | None:
+    """What describes a module: its stub, or its own source."""
+    base = Path(package.__path__[0], *module.split(".")[1:])
+    for candidate in (base.with_suffix(".pyi"), base / "__init__.pyi", base.with_suffix(".py"), base / "__init__.py"):
+        if candidate.exists():
+            return candidate
     return None
+
+
+def _stub_of(module: ModuleType, package: ModuleType) -> list[ast.stmt]:
+    """What is said of its names, those that it takes from private modules of the package included."""
+    path = _file_of(module.__name__, package)
+    if path is None:
+        return []
+    body = ast.parse(path.read_text(encoding="utf-8")).body
+    said = list(body)
+    for node in body:
+        if isinstance(node, ast.ImportFrom) and node.module and node.module.startswith(package.__name__ + "._"):
+            private = _file_of(node.module, package)
+            if private:
+                said += ast.parse(private.read_text(encoding="utf-8")).body
+    return said
 
 
 def callables(package: ModuleType) -> list[Callable]:
@@ -85,12 +98,10 @@ def callables(package: ModuleType) -> list[Callable]:
     found: dict[str, Callable] = {}
     seen: set[int] = set()
     for module in modules(package):
-        stub = _stub_of(module)
-        if stub is None:
-            continue
+        stub = _stub_of(module, package)
         space = module.__name__.removeprefix(package.__name__).removeprefix(".")
-        functions = _described(stub.body, False)
-        classes = {node.name: node for node in stub.body if isinstance(node, ast.ClassDef)}
+        functions = _described(stub, False)
+        classes = {node.name: node for node in stub if isinstance(node, ast.ClassDef)}
         for name, value in sorted(vars(module).items()):
             full = f"{space}.{name}" if space else name
             if name.startswith("_") or inspect.ismodule(value) or id(value) in seen:

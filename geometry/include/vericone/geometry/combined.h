@@ -19,9 +19,11 @@ namespace vericone {
 template <int D>
 struct Delimiter {
   Eigen::Matrix<double, D, D> matrix;  // symmetric bit for bit, 1 / m^2
-  double level = 1;
+  double level = 1;                    // dimensionless
 
-  [[nodiscard]] double value(const Eigen::Matrix<double, D, 1>& y) const { return y.dot(matrix * y) - level; }
+  [[nodiscard]] double value(const Eigen::Matrix<double, D, 1>& y) const {
+    return y.dot(matrix * y) - level;
+  }  // no unit
 };
 
 /// How a delimiter changes beyond moving and turning with its body.
@@ -119,7 +121,7 @@ using CombinedEllipsoid = BasicCombined<3>;
 /// A corner of a planar body: where two of its boundary conics cross. Conic 0 is the ellipse, i + 1 the
 /// delimiter i.
 struct Corner {
-  Eigen::Vector2d point = Eigen::Vector2d::Zero();
+  Eigen::Vector2d point = Eigen::Vector2d::Zero();  // m
   int first = 0, second = 0;
 };
 

@@ -29,7 +29,9 @@ class BasicQuadric {
   /// `matrix` must be finite, symmetric bit for bit and not zero. Throws InputError naming "quadric".
   explicit BasicQuadric(const Matrix& matrix);
 
-  [[nodiscard]] const Matrix& matrix() const { return matrix_; }
+  [[nodiscard]] const Matrix& matrix() const {
+    return matrix_;
+  }  // of any scale, which is the unit of value()
 
   /// x~^T Q x~.
   [[nodiscard]] double value(const Vector& x) const;

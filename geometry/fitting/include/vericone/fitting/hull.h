@@ -32,7 +32,7 @@ struct Piece {
 
   /// For the shape `ellipse` only: the footprint, and where z ends (low = high: the points are planar).
   std::optional<Ellipse> footprint;
-  double low = 0, high = 0;
+  double low = 0, high = 0;  // m
 
   /// What is proved is proved of these numbers. The first is the ellipsoid (or elliptic cylinder), then one
   /// for each delimiter (or, where low < high, the slab between them).
@@ -57,7 +57,9 @@ struct Certificate {
   [[nodiscard]] bool all_inside() const {
     return points_inside == points && triangles_inside == triangles && margins_inside == points;
   }
-  [[nodiscard]] double coverage() const { return points ? double(points_inside) / double(points) : 1; }
+  [[nodiscard]] double coverage() const {
+    return points ? double(points_inside) / double(points) : 1;
+  }  // 0 to 1
 };
 
 /// Points and triangles of a mesh (the points that triangles use), or of a cloud, against pieces given by

@@ -21,7 +21,8 @@ struct Belief {
 /// What a measurement of M numbers said.
 template <int M>
 struct Innovation {
-  Eigen::Matrix<double, M, 1> residual = Eigen::Matrix<double, M, 1>::Zero();  // measured less expected
+  Eigen::Matrix<double, M, 1> residual =
+      Eigen::Matrix<double, M, 1>::Zero();  // measured less expected, in the unit measured
   /// Normalised innovation squared: chi-squared with M degrees of freedom where the model is right. NaN where
   /// the innovation has no covariance.
   double nis = 0;
@@ -83,7 +84,7 @@ template <int N>
 class Gate {
  public:
   explicit Gate(double most_nis, int patience = 5) : most_(most_nis), patience_(patience) {}
-  [[nodiscard]] double most() const { return most_; }
+  [[nodiscard]] double most() const { return most_; }  // standard deviations, squared
   /// Whether to start again.
   bool lost(bool accepted) {
     refused_ = accepted ? 0 : refused_ + 1;

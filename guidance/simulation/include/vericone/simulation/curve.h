@@ -15,7 +15,7 @@ using Quintic = std::array<Eigen::Vector3d, 6>;
 /// A vector at a time, with its first two derivatives.
 struct Jet {
   Eigen::Vector3d value = Eigen::Vector3d::Zero(), first = Eigen::Vector3d::Zero(),
-                  second = Eigen::Vector3d::Zero();
+                  second = Eigen::Vector3d::Zero();  // m, and m by the parameter's unit once and twice
 };
 
 /// The one that has these jets at 0 and after `duration` seconds (Hermite). Of a function with a sixth
