@@ -29,8 +29,7 @@ struct Camera {
   [[nodiscard]] bool sees(const Eigen::Vector2d& pixel, double margin = 0) const;
 };
 
-/// The attitude (rotation) of a camera that looks straight down, the top of its picture to the north (world
-/// y).
+/// The rotation of a camera that looks straight down, the top of its picture to the north (world y).
 [[nodiscard]] Eigen::Matrix3d nadir();
 
 /// Where a pixel's ray meets the plane z = height; nothing where it does not, in front of the camera.

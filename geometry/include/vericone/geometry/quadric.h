@@ -19,7 +19,7 @@ enum class QuadricKind {
 };
 
 /// x~^T Q x~ with x~ = (x, 1): a conic (D = 2; source, (5.2)-(5.3)) or a quadric (D = 3; source,
-/// (6.1)-(6.2)).
+/// (6.1)-(6.2)). Q has any scale; what is measured by it has that unit.
 template <int D>
 class BasicQuadric {
  public:
@@ -29,9 +29,7 @@ class BasicQuadric {
   /// `matrix` must be finite, symmetric bit for bit and not zero. Throws InputError naming "quadric".
   explicit BasicQuadric(const Matrix& matrix);
 
-  [[nodiscard]] const Matrix& matrix() const {
-    return matrix_;
-  }  // of any scale, which is the unit of value()
+  [[nodiscard]] const Matrix& matrix() const { return matrix_; }
 
   /// x~^T Q x~.
   [[nodiscard]] double value(const Vector& x) const;

@@ -18,8 +18,7 @@ struct ContainingFit {
   bool converged = false;  // first-order conditions hold to `stationarity`
   /// Largest relative violation of the first-order conditions of a local minimum of log volume.
   double stationarity = 0;
-  /// Ellipses and ellipsoids: volume over least volume, a ratio, is at most this, proved
-  /// (min_volume_ellipsoid.h).
+  /// Ellipses and ellipsoids: ratio of volume to least volume, at most, proved (min_volume_ellipsoid.h).
   double volume_ratio_bound = 0;
   int starts = 0, iterations = 0;
 };

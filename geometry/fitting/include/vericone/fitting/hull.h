@@ -39,7 +39,7 @@ struct Piece {
   std::vector<Quadric> quadrics;
 };
 
-/// What exact arithmetic says of a hull and a sample.
+/// What exact arithmetic says of a hull and a sample. Coverage is the part of the points that is inside.
 struct Certificate {
   std::size_t points = 0, points_inside = 0;
   /// Of a mesh. A triangle counts as inside where one piece contains all of it.
@@ -57,9 +57,7 @@ struct Certificate {
   [[nodiscard]] bool all_inside() const {
     return points_inside == points && triangles_inside == triangles && margins_inside == points;
   }
-  [[nodiscard]] double coverage() const {
-    return points ? double(points_inside) / double(points) : 1;
-  }  // 0 to 1
+  [[nodiscard]] double coverage() const { return points ? double(points_inside) / double(points) : 1; }
 };
 
 /// Points and triangles of a mesh (the points that triangles use), or of a cloud, against pieces given by

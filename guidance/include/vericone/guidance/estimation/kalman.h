@@ -18,11 +18,10 @@ struct Belief {
   Eigen::Matrix<double, N, N> covariance = Eigen::Matrix<double, N, N>::Zero();
 };
 
-/// What a measurement of M numbers said.
+/// What a measurement of M numbers, each in its unit, said.
 template <int M>
 struct Innovation {
-  Eigen::Matrix<double, M, 1> residual =
-      Eigen::Matrix<double, M, 1>::Zero();  // measured less expected, in the unit measured
+  Eigen::Matrix<double, M, 1> residual = Eigen::Matrix<double, M, 1>::Zero();  // measured less expected
   /// Normalised innovation squared: chi-squared with M degrees of freedom where the model is right. NaN where
   /// the innovation has no covariance.
   double nis = 0;

@@ -55,8 +55,7 @@ struct TailAngle {
   return surface - state.position.z();
 }
 
-/// What (2.5) divides by, a ratio: surface pressure over that at a depth. A depth above the surface counts as
-/// 0.
+/// Divisor of (2.5), ratio: surface pressure over that at a depth. A depth above the surface counts as 0.
 [[nodiscard]] double compression(const FishParameters& fish, double depth);
 
 /// In the chamber, m^3: never above `chamber`; what would be is on its way out.

@@ -110,7 +110,7 @@ struct PursuitSample {
   double lateral = 0, longitudinal = 0;                    // m/s^2
   guidance::EnclosingEllipse ellipse, true_ellipse;        // believed and true
   double y1 = 0, y2 = 0, true_y1 = 0, true_y2 = 0;         // y_2 m^2/s^2, y_1 in the unit of its law
-  double probability = 0, y_low = 0, y_high = 0;           // ours: of the cone, from the covariance; y as y_1
+  double probability = 0, y_low = 0, y_high = 0;           // ours: probability of the cone; y as y_1
   double m = 0;                                            // ours, m
   double size = 0, off_centre = 0;                         // x_S, x_C, px
   guidance::VerticalMode mode = guidance::VerticalMode::size;
