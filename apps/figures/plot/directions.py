@@ -4,8 +4,8 @@ import numpy as np
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from vericone_figures import course as courses
-from vericone_figures.style import EXACT, plt
+from . import course as courses
+from .style import EXACT, plt
 
 NEAR_TO_FAR = "viridis_r"
 

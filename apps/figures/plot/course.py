@@ -3,7 +3,7 @@
 pictures."""
 import numpy as np
 
-from vericone_figures.style import GREY
+from .style import GREY
 
 COLORS = {"in": "#c01f1f", "on": "#b07d00", "out": "#0f7f80", "touching": "#c01f1f", "overlapping": "#c01f1f"}
 WORDS = {"in": "collides", "on": "grazes", "out": "passes", "touching": "touching now", "overlapping": "overlapping now",

@@ -5,7 +5,7 @@ import os
 
 import numpy as np
 
-from vericone_figures.style import GREY
+from .style import GREY
 
 RIM = "#b08a1e"
 COLORS = {"passed": "#3a8f4d", "missed": GREY, "touched": "red", "undecided": "#b07d00"}

@@ -6,7 +6,7 @@ import itertools
 import numpy as np
 from matplotlib.colors import to_rgb
 
-from vericone_figures.style import AGENT, EXACT, GREY, OBSTACLE, SLICE, plt
+from .style import AGENT, EXACT, GREY, OBSTACLE, SLICE, plt
 
 MANY = 8  # bodies, or lines: more of them nobody can tell apart
 
