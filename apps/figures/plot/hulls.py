@@ -3,6 +3,7 @@
 where points touch the hull."""
 from typing import Any
 
+import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_rgb
@@ -10,8 +11,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
 
+from .kinds import Array, Axes, Data
 from .solids import Solid, View, draw_lines
-from .style import EXACT, GREY, SLICE, TWO_COLUMNS, plt
+from .style import EXACT, GREY, SLICE, TWO_COLUMNS
 
 SCAN, TOUCH = "#7f8f7a", "#c01f1f"
 FRONT, SIDE, ABOVE, ASKEW = View(-90, 0), View(0, 0), View(-90, 90), View(-60, 25)
@@ -20,7 +22,7 @@ FRONT, SIDE, ABOVE, ASKEW = View(-90, 0), View(0, 0), View(-90, 90), View(-60, 2
 class Cylinder:
     """The upright cylinder over a footprint, with what Solid has of it for outlines: its rims, and its sides."""
 
-    def __init__(self, piece):
+    def __init__(self, piece: Data) -> None:
         footprint, mesh = piece["footprint"], piece["mesh"]
         self.center = np.zeros(3)
         self.points = np.array(mesh["vertices"])
@@ -30,29 +32,29 @@ class Cylinder:
             footprint["factor"]).T
         self.heights = (footprint["low"], footprint["high"])
 
-    def rims(self):
+    def rims(self) -> Array:
         return [np.column_stack([self.ring, np.full(len(self.ring), z)]) for z in self.heights]
 
-    def contours(self, toward):
+    def contours(self, toward: Array) -> Array:
         across = self.ring @ np.array([-toward[1], toward[0]])
         if np.hypot(*toward[:2]) < 1e-9:
             return []
         return [np.array([[*self.ring[i], z] for z in self.heights]) for i in (across.argmin(), across.argmax())]
 
-    def hides(self, points, _):
+    def hides(self, points: Array, _: Any) -> Array:
         return np.zeros(len(points), bool)
 
-    def beside(self, points):
+    def beside(self, points: Array) -> Array:
         return [points]
 
 
-def corner_normals(triangles):
+def corner_normals(triangles: Array) -> Array:
     normal = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     length = np.linalg.norm(normal, axis=1)
     return normal / np.where(length > 0, length, 1)[:, None]
 
 
-def draw_scan(axes, view, scan):
+def draw_scan(axes: Axes, view: "View", scan: Data) -> None:
     if "points" in scan:
         points = np.array(scan["points"])
         depth = points @ view.toward
@@ -72,7 +74,7 @@ def draw_scan(axes, view, scan):
                                        linewidths=0.2, zorder=2, rasterized=True))
 
 
-def draw_hull(axes, view, solids):
+def draw_hull(axes: Axes, view: "View", solids: Any) -> None:
     for s in solids:
         corners = s.points[s.triangles] + s.center
         front = corner_normals(corners) @ view.toward > 0
@@ -90,7 +92,7 @@ def draw_hull(axes, view, solids):
                    zorder=6)
 
 
-def draw(axes, view, data, solids):
+def draw(axes: Axes, view: "View", data: Data, solids: Any) -> None:
     draw_scan(axes, view, data["scan"])
     draw_hull(axes, view, solids)
     if data["touching"]:
@@ -98,14 +100,14 @@ def draw(axes, view, data, solids):
                   markeredgecolor=TOUCH, markeredgewidth=0.6, zorder=8)
 
 
-def flat_range(view, points):
+def flat_range(view: "View", points: Array) -> Array:
     flat = view.project(points)
     low, high = flat.min(axis=0), flat.max(axis=0)
     pad = 0.05 * (high - low).max()
     return low - pad, high + pad
 
 
-def limits(axes, view, points):
+def limits(axes: Axes, view: "View", points: Array) -> None:
     low, high = flat_range(view, points)
     axes.set_xlim(low[0], high[0])
     axes.set_ylim(low[1], high[1])
@@ -114,9 +116,9 @@ def limits(axes, view, points):
     axes.locator_params(nbins=6)
 
 
-def parts(data):
+def parts(data: Data) -> tuple[list[Any], Array]:
     """The pieces of the hull, and all points that must be seen."""
-    solids = [Cylinder(p) if "footprint" in p else Solid(p, colors=(EXACT, SLICE)) for p in data["hull"]]
+    solids: list[Any] = [Cylinder(p) if "footprint" in p else Solid(p, colors=(EXACT, SLICE)) for p in data["hull"]]
     scan = data["scan"]
     shown = np.array(scan["points"]) if "points" in scan else np.array(scan["triangles"]).reshape(-1, 3)
     return solids, np.vstack([s.points + s.center for s in solids] + [shown])

@@ -3,11 +3,12 @@
 and where the scene's relative velocity leads, seen from the obstacle."""
 from typing import Any
 
+import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.patches import Arc, Patch, Wedge
 
 from . import course as courses
-from .style import AGENT, EXACT, GREY, OBSTACLE, ONE_COLUMN, plt
+from .style import AGENT, EXACT, GREY, OBSTACLE, ONE_COLUMN
 
 
 def engagement(data: dict[str, Any]) -> plt.Figure:
@@ -36,8 +37,8 @@ def engagement(data: dict[str, Any]) -> plt.Figure:
         length = max(1.15 * np.linalg.norm(travel), 1.3 * radius)
         arrow = agent + length * w / courses.speed(course)
         seen.append(arrow[None])
-    seen = np.vstack(seen)
-    low, high = seen.min(axis=0), seen.max(axis=0)
+    everything = np.vstack(seen)
+    low, high = everything.min(axis=0), everything.max(axis=0)
     pad = 0.05 * (high - low).max()
     low, high = low - pad, high + pad
     # At most one and a half times as high as wide, and no flatter than a third.
@@ -82,7 +83,7 @@ def engagement(data: dict[str, Any]) -> plt.Figure:
         axes.plot(*gap.T, color="k", linewidth=1.2, marker="o", markersize=2.2, zorder=7)
         # Beside the middle of the gap, on the side with more room.
         across = np.array([-1, 1]) * (gap[1] - gap[0])[::-1]
-        across = across / max(np.linalg.norm(across), 1e-300) if course["miss_distance"] > 0 else np.array([0.0, 1.0])
+        across = across / max(float(np.linalg.norm(across)), 1e-300) if course["miss_distance"] > 0 else np.array([0.0, 1.0])
         middle = gap.mean(axis=0)
         taken = np.vstack([*outlines.values(), outlines["agent"] + travel, *(agent + s * (sector - agent) for s in (0.4, 0.7, 1))])
         room = [np.linalg.norm(middle + side * 0.13 * size[0] * across - taken, axis=1).min() for side in (1, -1)]

@@ -2,16 +2,19 @@
 """A run: the bodies on their ways at several times; y, clearance and accelerations over time."""
 import json
 import os
+from collections.abc import Iterable, Sequence
 from typing import Any
 
+import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.patches import Circle, Patch
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from .bodies import MANY, body_colors, is_planar, lit, outline, polygons, posed, rotation, surface
+from .kinds import Array, Axes, Data, Figure, Path, Row, Shape, Tables
 from .orifices import COLORS as PASSAGE
 from .orifices import orifices
-from .style import GREY, TWO_COLUMNS, plt
+from .style import GREY, TWO_COLUMNS
 from .tables import groups, row_at, rows
 
 NEAREST = 6  # pairs that are drawn over time where there are more
@@ -22,7 +25,8 @@ DASHES = {"leaves-cone": ":", "passes": "--", "goes-through": "--", "goes-beside
 class Flown:
     """What is drawn of a run: its tables by the names of their columns, its shapes, what is proved."""
 
-    def __init__(self, bodies, encounters, events, proof, run, shapes, rims=(), ways=None):
+    def __init__(self, bodies: Tables, encounters: Tables, events: Sequence[Row], proof: Data, run: Data, shapes: dict[str, Shape],
+                 rims: Iterable[Any] = (), ways: Tables | None = None) -> None:
         self.bodies, self.encounters, self.events = bodies, encounters, events
         self.proof, self.run, self.shapes, self.rims, self.ways = proof, run, shapes, list(rims), ways or {}
         self.passages = proof.get("passages", [])
@@ -31,17 +35,17 @@ class Flown:
         self.end = run["end"]
         self.instants = np.linspace(0, self.end, 5)
         self.colors = body_colors(list(bodies), self.agents)  # the same in all panels
-        self.both_once = {frozenset(pair): pair for pair in reversed(encounters)}.values()
+        self.both_once: Any = {frozenset(pair): pair for pair in reversed(encounters)}.values()
         self.pairs = sorted(self.both_once, key=self.nearness)[:NEAREST]
 
-    def nearness(self, pair):
+    def nearness(self, pair: Any) -> Any:
         """Of two bodies: what is proved of their distance; of those that touched none is nearer."""
         for p in self.proof["pairs"]:
             if {p["a"], p["b"]} == set(pair):
                 return p["least_distance"] if p["verdict"] == "avoided" else -1
         return np.nanmin(self.encounters[pair]["m"], initial=np.inf)
 
-    def around(self, row):
+    def around(self, row: Row) -> Array:
         """Of a map: what is around the agents' ways, cut open a little above them; in its own frame."""
         ways = np.vstack([np.stack([self.bodies[n][c] for c in "xyz"], axis=-1) for n in self.agents or self.bodies])
         own = (ways - [row["x"], row["y"], row["z"]]) @ rotation(row)
@@ -49,9 +53,9 @@ class Flown:
         return own.min(axis=0) - [aside, aside, 1], own.max(axis=0) + [aside, aside, 0.2]
 
 
-def flown(folder) -> Flown:
+def flown(folder: Path) -> Flown:
     """From the folder of a run, as `vericone simulate --out` writes it."""
-    def read(name):
+    def read(name: str) -> Any:
         with open(os.path.join(folder, name), encoding="utf-8") as f:
             return json.load(f)
 
@@ -61,7 +65,7 @@ def flown(folder) -> Flown:
                  groups(rows(folder, "orifices.csv"), "agent", "orifice"))
 
 
-def draw_pair(axis, run, pair, values):
+def draw_pair(axis: Axes, run: Flown, pair: tuple[str, str], values: Array) -> tuple[Any, ...]:
     """In the colour of the other body; of several agents in both bodies' colours."""
     t, (agent, other) = run.encounters[pair]["t"], pair
     lines = axis.plot(t, values, color=run.colors[agent if len(run.agents) > 1 else other], linewidth=1.2)
@@ -70,7 +74,7 @@ def draw_pair(axis, run, pair, values):
     return tuple(lines)
 
 
-def ways_in_plane(space, run):
+def ways_in_plane(space: Axes, run: Flown) -> None:
     """Planar bodies on their ways."""
     bodies, colors = run.bodies, run.colors
     middle_point = np.mean([[c["x"][0], c["y"][0]] for c in bodies.values()], axis=0)
@@ -81,7 +85,7 @@ def ways_in_plane(space, run):
                        alpha=0.15 + 0.5 * t / run.end, linewidth=0.6)
         if len(bodies) > MANY:  # no legend: beside its start, outwards
             start = np.array([columns["x"][0], columns["y"][0]])
-            out = (start - middle_point) / max(np.linalg.norm(start - middle_point), 1e-12)
+            out = (start - middle_point) / max(float(np.linalg.norm(start - middle_point)), 1e-12)
             space.annotate(name, start, fontsize=6, xytext=9 * out, textcoords="offset points", ha="center", va="center",
                            color=colors[name])
     for goal in run.run["goals"]:
@@ -95,7 +99,7 @@ def ways_in_plane(space, run):
     space.set_ylabel("y (m)")
 
 
-def draw_shape(space, run, name, row, alpha, order):
+def draw_shape(space: Axes, run: Flown, name: str, row: Row, alpha: float, order: int) -> list[Any]:
     """A body in space as it stands at a row of its table. Returns points of it."""
     shape, color, extent = run.shapes[name], run.colors[name], []
     faces = [posed(f, row) for f in polygons(shape, run.around(row))]
@@ -117,7 +121,7 @@ def draw_shape(space, run, name, row, alpha, order):
     return extent
 
 
-def draw_rims(space, run):
+def draw_rims(space: Axes, run: Flown) -> list[Any]:
     """Orifices when they are passed, else when they appear and at the end. Returns points of them."""
     extent = []
     for rim in run.rims:
@@ -135,7 +139,7 @@ def draw_rims(space, run):
     return extent
 
 
-def ways_in_space(space, run):
+def ways_in_space(space: Axes, run: Flown) -> None:
     """Spatial bodies on their ways, orifices, goals."""
     bodies, colors, extent = run.bodies, run.colors, []
     for name, columns in bodies.items():
@@ -157,7 +161,7 @@ def ways_in_space(space, run):
     frame(space, np.vstack(extent))
 
 
-def frame(space, extent, zoom=0.95):
+def frame(space: Axes, extent: Array, zoom: float = 0.95) -> None:
     """Equal scales around points (n, 3), metres; flat scenes are not drawn flatter than a quarter."""
     sides = np.maximum(np.ptp(extent, axis=0), 0.25 * np.ptp(extent, axis=0).max())
     middle_point = (extent.min(axis=0) + extent.max(axis=0)) / 2
@@ -172,7 +176,7 @@ def frame(space, extent, zoom=0.95):
         space.locator_params(axis=name, nbins=5 if sides[i] > 0.5 * sides.max() else 3)
 
 
-def curves_of_ways(axis, run, column, edge, text):
+def curves_of_ways(axis: Axes, run: Flown, column: str, edge: str, text: str) -> None:
     for i, ((agent, name), w) in enumerate(run.ways.items()):
         axis.plot(w["t"], w[column], color=run.colors[agent], linewidth=1.2, linestyle=("-", "--", "-.", ":")[i % 4],
                   label="%s, %s" % (agent, name) if len(run.agents) > 1 else name)
@@ -181,7 +185,7 @@ def curves_of_ways(axis, run, column, edge, text):
         axis.legend(frameon=False, fontsize=6, title=edge, title_fontsize=6)
 
 
-def over_time(figure, run):
+def over_time(figure: Figure, run: Flown) -> Any:
     """What there is to show over time, from the top: panels by name, and the lines of the pairs."""
     has_y = any(np.isfinite(c["y"]).any() for c in run.encounters.values())
     wanted = []
@@ -228,7 +232,7 @@ def over_time(figure, run):
     return panels, drawn
 
 
-def legend(figure, run, drawn):
+def legend(figure: Figure, run: Flown, drawn: Any) -> None:
     """One, below the bodies: it covers nothing."""
     if len(run.bodies) <= MANY:
         named = [(Patch(facecolor=run.colors[n], alpha=0.8), n) for n in run.colors]
@@ -248,7 +252,7 @@ def legend(figure, run, drawn):
                       handlelength=1.8, columnspacing=1.2, labelspacing=0.3)
 
 
-def mark_events(figure, panels, run):
+def mark_events(figure: Figure, panels: Any, run: Flown) -> None:
     marked = [e for e in run.events if e["event"] in DASHES]
     marked += [{"event": "contact", "t": p["to"]} for p in run.passages if p["verdict"] == "touched"]
     if len(marked) > 2 * MANY:  # a forest says nothing; contacts always do
@@ -264,7 +268,7 @@ def mark_events(figure, panels, run):
                 va="top", color=GREY)
 
 
-def mark_contacts(space, run):
+def mark_contacts(space: Axes, run: Flown) -> None:
     for pair in [*run.proof["pairs"], *run.passages]:
         if pair["verdict"] == "touched":
             place = pair["place"][:2] if run.planar else pair["place"]

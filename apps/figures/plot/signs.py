@@ -2,17 +2,18 @@
 """Answers around an exactly grazing velocity, one cell a double."""
 from typing import Any
 
+import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 
-from .style import TWO_COLUMNS, plt
+from .style import TWO_COLUMNS
 
 ANSWERS = {"in": "#d1602b", "on": "#111111", "out": "#cfe0f0"}
 RUNGS = {"triage": "#e8efe6", "interval": "#8fbf8a", "exact": "#2f6b3a"}
 
 
-def sign_map(data: dict[str, Any], grids: dict[str, np.ndarray]) -> plt.Figure:
+def sign_map(data: dict[str, Any], grids: dict[str, Any]) -> plt.Figure:
     """Plain doubles, the library, and the rung that decided: signmap.json, and for "naive", "library" and "rung" the
     indices into ANSWERS and RUNGS, of shape (cells, cells)."""
     n = data["cells"]

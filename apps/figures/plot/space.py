@@ -2,21 +2,23 @@
 """Engagements in space: bodies, the cone of colliding velocities at the agent, and where a relative velocity leads."""
 from typing import Any
 
+import matplotlib.pyplot as plt
 import numpy as np
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from . import course as courses
-from .style import AGENT, EXACT, GREY, OBSTACLE, SLICE, TWO_COLUMNS, plt
+from .kinds import Array, Axes, Data
+from .style import AGENT, EXACT, GREY, OBSTACLE, SLICE, TWO_COLUMNS
 
 
-def basis(axis):
+def basis(axis: Array) -> tuple[Array, Array]:
     """Two unit vectors across a direction."""
     first = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])
     first /= np.linalg.norm(first)
     return first, np.cross(axis, first)
 
 
-def ellipsoid(body, shift=(0, 0, 0)):
+def ellipsoid(body: Data, shift: Array = (0, 0, 0)) -> Array:
     """A grid on the surface {"center", "factor"}, coordinates first."""
     u, v = np.meshgrid(np.linspace(0, 2 * np.pi, 49), np.linspace(0, np.pi, 25))
     sphere = np.stack([np.cos(u) * np.sin(v), np.sin(u) * np.sin(v), np.cos(v)])
@@ -24,7 +26,7 @@ def ellipsoid(body, shift=(0, 0, 0)):
     return points + (np.array(body["center"]) + np.array(shift))[:, None, None]
 
 
-def cone(axes, apex, axis, directions, reach, color, alpha):
+def cone(axes: Axes, apex: Array, axis: Array, directions: Array, reach: float, color: Any, alpha: float) -> Array:
     """The cone of a polygon of directions, as far as the plane at `reach` metres along its axis. Returns its rim."""
     tips = apex + directions / np.maximum(directions @ axis, 0.2)[:, None] * reach
     faces = [[apex, tips[i], tips[(i + 1) % len(tips)]] for i in range(len(tips))]
@@ -33,7 +35,7 @@ def cone(axes, apex, axis, directions, reach, color, alpha):
     return tips
 
 
-def travel(axes, course, agent, reach, moved=None):
+def travel(axes: Axes, course: Data, agent: Array, reach: float, moved: Any = None) -> Any:
     """The way along a relative velocity, to the first contact or to where it is nearest, else `reach` metres. `moved`: the
     agent's surface after a shift. Returns points that must be seen."""
     velocity = np.array(course["velocity"])
@@ -55,7 +57,7 @@ def travel(axes, course, agent, reach, moved=None):
     return seen
 
 
-def frame(axes, extent, zoom=0.88):
+def frame(axes: Axes, extent: Array, zoom: float = 0.88) -> None:
     """Equal scales around points (n, 3), metres; room for the labels."""
     axes.set_box_aspect(np.ptp(extent, axis=0), zoom=zoom)
     for name, i in (("x", 0), ("y", 1), ("z", 2)):
@@ -67,7 +69,7 @@ def frame(axes, extent, zoom=0.88):
     axes.tick_params(pad=-2, labelsize=6)
 
 
-def look_across(axes, axis, velocity, other):
+def look_across(axes: Axes, axis: Array, velocity: Array, other: Any) -> None:
     """Across the plane that holds the line of centres and the velocity: the contact is then in profile. `other` is used
     where the velocity is along the line."""
     normal = np.cross(axis, velocity)
@@ -81,7 +83,7 @@ def look_across(axes, axis, velocity, other):
                    azim=np.degrees(np.arctan2(normal[1], normal[0])) + aside)
 
 
-def at_distance_one(directions, axis):
+def at_distance_one(directions: Array, axis: Array) -> Array:
     """Where directions meet the plane at distance 1 along the axis, as a closed line: two arrays."""
     first, second = basis(axis)
     on_plane = directions / (directions @ axis)[:, None]
@@ -89,7 +91,7 @@ def at_distance_one(directions, axis):
     return closed @ first, closed @ second
 
 
-def section(axes, data, axis, course):
+def section(axes: Axes, data: Data, axis: Array, course: Data) -> None:
     """Slice cone and true cone at distance 1 along the line of centres, and velocities."""
     first, second = basis(axis)
     exact, slices = np.array(data["exact_directions"]), np.array(data["slice_directions"])
@@ -119,7 +121,7 @@ def engagement(data: dict[str, Any]) -> plt.Figure:
     velocity, and one between the two cones, which is shown in space where the scene has none."""
     agent, obstacle = np.array(data["agent"]["center"]), np.array(data["obstacle"]["center"])
     axis = obstacle - agent
-    distance = np.linalg.norm(axis)
+    distance = float(np.linalg.norm(axis))
     axis = axis / distance
     exact, slices = np.array(data["exact_directions"]), np.array(data["slice_directions"])
     course = data.get("course") or {k[4:]: v for k, v in data.items() if k.startswith("gap_")}

@@ -3,38 +3,44 @@
 what is undecided, and the rim of the region around that direction."""
 from itertools import combinations
 from typing import Any
+from collections.abc import Callable
 
+import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from . import course as courses
-from .style import EXACT, GREY, TWO_COLUMNS, plt
+from .kinds import Array, Axes, Data
+from .style import EXACT, GREY, TWO_COLUMNS
 
 COLORS = {"i": "#e0a58a", "o": "#dcebf5", "u": GREY}
 NAMES = {"i": "collides", "o": "safe", "u": "undecided"}
 RIM = EXACT
 
 
-def unit(x):
+def unit(x: Any) -> Array:
     return x / np.linalg.norm(x, axis=-1, keepdims=True)
 
 
-def dot(a, b):
+def dot(a: Array, b: Array) -> Array:
     return np.einsum("...i,...i", a, b)
 
 
 class Map:
     """Labels of directions: cells are parts of an icosahedron's faces, halved along their edges."""
 
-    def __init__(self, data):
+    def __init__(self, data: Data) -> None:
         corners = np.array(data["corners"])
         cells = corners[np.array(data["cells"])]
         self.labels = np.frombuffer(data["labels"].encode(), np.uint8)
         roots = corners[:12]
         edge = min(np.linalg.norm(a - b) for a, b in combinations(roots, 2))
-        near = lambda a, b: np.linalg.norm(a - b) < 1.2 * edge
+
+        def near(a: Array, b: Array) -> bool:
+            return bool(np.linalg.norm(a - b) < 1.2 * edge)
+
         self.faces = np.array([f if np.linalg.det(f) > 0 else (f[0], f[2], f[1]) for f in combinations(roots, 3)
                                if near(f[0], f[1]) and near(f[1], f[2]) and near(f[2], f[0])])
         level = np.round(np.log2(edge / np.linalg.norm(cells[:, 0] - cells[:, 1], axis=1))).astype(int)
@@ -46,7 +52,7 @@ class Map:
             order = np.argsort(number)
             self.index.append((number[order], here[order]))
 
-    def descend(self, directions, levels):
+    def descend(self, directions: Array, levels: int) -> Array:
         """Numbers of the cells of each level that contain the directions."""
         inside = [np.min([directions @ np.cross(a, b), directions @ np.cross(b, c), directions @ np.cross(c, a)],
                          axis=0) for a, b, c in self.faces]
@@ -56,7 +62,7 @@ class Map:
         for _ in range(levels):
             ab, bc, ca = 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)
 
-            def beyond(p, q, corner):
+            def beyond(p: Any, q: Any, corner: Any) -> Array:
                 normal = np.cross(p, q)
                 return dot(directions, normal) * dot(corner, normal) > 0
 
@@ -67,7 +73,7 @@ class Map:
             result.append(number)
         return result
 
-    def label(self, directions):
+    def label(self, directions: Array) -> Array:
         found = np.zeros(len(directions), np.uint8)
         for (numbers, cells), here in zip(self.index, self.descend(directions, len(self.index) - 1)):
             if len(numbers) == 0:
@@ -78,7 +84,7 @@ class Map:
         return found
 
 
-def show(axes, labels, extent):
+def show(axes: Axes, labels: Any, extent: Array) -> None:
     order = "iou"
     number = np.zeros(labels.shape, int)
     for k, letter in enumerate(order):
@@ -87,39 +93,49 @@ def show(axes, labels, extent):
                 origin="lower", interpolation="nearest", aspect="equal")
 
 
-def frame(towards):
+def frame(towards: Array) -> tuple[Array, Array]:
     up = np.array([0, 0, 1.0]) if abs(towards[2]) < 0.999 else np.array([1.0, 0, 0])
     up = unit(up - (up @ towards) * towards)
     return np.cross(towards, up), up
 
 
-def mark(axes, data, project):
+def on_view(directions: Array, towards: Array) -> Array:
+    """Degrees to the right of and above a unit direction; angles from it keep their size (azimuthal equidistant)."""
+    right, up = frame(towards)
+    d = unit(np.array(directions))
+    angle = np.arctan2(np.linalg.norm(np.cross(d, towards), axis=-1), d @ towards)
+    across = np.stack([d @ right, d @ up], axis=-1)
+    length = np.linalg.norm(across, axis=-1, keepdims=True)
+    return np.degrees(angle)[..., None] * across / np.maximum(length, 1e-300)
+
+
+def on_sky(x: Any, y: Any, towards: Array) -> Array:
+    """The unit directions that on_view() shows at (x, y), degrees."""
+    right, up = frame(towards)
+    angle = np.hypot(x, y)
+    across = (x[..., None] * right + y[..., None] * up) / np.maximum(angle, 1e-300)[..., None]
+    t = np.radians(angle)[..., None]
+    return np.cos(t) * towards + np.sin(t) * across
+
+
+def mark(axes: Axes, data: Data, project: Callable[[Any], Any]) -> None:
     """The scene's velocity, where the data have it."""
     if data.get("course"):
         axes.plot(*np.ravel(project(data["course"]["velocity"])), "o", color=courses.color(data["course"]), markersize=5,
                   markeredgecolor="w", markeredgewidth=0.7)
 
 
-def view(axes, sphere, data, towards, pixels=900):
+def view(axes: Axes, sphere: "Map", data: Data, towards: Array, pixels: int = 900) -> None:
     """Angles from the direction keep their size: azimuthal equidistant."""
-    right, up = frame(towards)
-
-    def project(d):
-        d = unit(np.array(d))
-        angle = np.arctan2(np.linalg.norm(np.cross(d, towards), axis=-1), d @ towards)
-        across = np.stack([d @ right, d @ up], axis=-1)
-        length = np.linalg.norm(across, axis=-1, keepdims=True)
-        return np.degrees(angle)[..., None] * across / np.maximum(length, 1e-300)
+    def project(d: Any) -> Array:
+        return on_view(d, towards)
 
     loops = [project(loop) for loop in data["region"]["boundary"]] if data["region"] else []
     reach = max((np.abs(loop).max() for loop in loops), default=60)
     reach = min(1.35 * reach, 100) if loops else 60
     x = (np.arange(pixels) + 0.5) / pixels * 2 * reach - reach
     x, y = np.meshgrid(x, x)
-    angle = np.hypot(x, y)
-    across = (x[..., None] * right + y[..., None] * up) / np.maximum(angle, 1e-300)[..., None]
-    t = np.radians(angle)[..., None]
-    directions = np.cos(t) * towards + np.sin(t) * across
+    directions = on_sky(x, y, towards)
     show(axes, sphere.label(directions.reshape(-1, 3)).reshape(x.shape), (-reach, reach, -reach, reach))
     for loop in loops:
         axes.plot(*np.vstack([loop, loop[:1]]).T, color=RIM, linewidth=1)
@@ -132,14 +148,14 @@ def view(axes, sphere, data, towards, pixels=900):
     axes.set_title("as seen by the agent", fontsize=8)
 
 
-def whole(axes, sphere, data, towards, pixels=1440):
+def whole(axes: Axes, sphere: "Map", data: Data, towards: Array, pixels: int = 1440) -> None:
     azimuth = np.radians((np.arange(pixels) + 0.5) / pixels * 360 - 180)
     elevation = np.radians((np.arange(pixels // 2) + 0.5) / pixels * 360 - 90)
     a, e = np.meshgrid(azimuth, elevation)
     directions = np.stack([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)], axis=-1)
     show(axes, sphere.label(directions.reshape(-1, 3)).reshape(a.shape), (-180, 180, -90, 90))
 
-    def project(d):
+    def project(d: Any) -> Array:
         d = unit(np.array(d))
         return np.degrees(np.stack([np.arctan2(d[..., 1], d[..., 0]), np.arcsin(np.clip(d[..., 2], -1, 1))], axis=-1))
 
@@ -148,7 +164,8 @@ def whole(axes, sphere, data, towards, pixels=1440):
         jump = np.flatnonzero(np.abs(np.diff(points[:, 0])) > 180) + 1
         points = np.insert(points, jump, np.nan, axis=0)
         axes.plot(*points.T, color=RIM, linewidth=1)
-    axes.plot(*project(towards), "k+", markersize=5)
+    if towards is not None:
+        axes.plot(*project(towards), "k+", markersize=5)
     mark(axes, data, project)
     axes.set_xlim(180, -180)  # as seen from inside
     axes.set_ylim(-90, 90)
@@ -157,6 +174,13 @@ def whole(axes, sphere, data, towards, pixels=1440):
     axes.set_xlabel("azimuth (deg)")
     axes.set_ylabel("elevation (deg)")
     axes.set_title("all directions of relative velocity", fontsize=8)
+
+
+def handles(data: Data) -> list[Any]:
+    """What the colours mean, with solid angles."""
+    size = {"i": data["colliding"], "o": data["safe"], "u": data["undecided"]}
+    return [Patch(facecolor=COLORS[k], edgecolor="#888888", linewidth=0.4, label="%s %.4g sr" % (NAMES[k], size[k]))
+            for k in "iou"]
 
 
 def cone_map(data: dict[str, Any]) -> plt.Figure:
@@ -169,20 +193,18 @@ def cone_map(data: dict[str, Any]) -> plt.Figure:
     for axes in (left, right):
         axes.set_axisbelow(False)
         axes.grid(False)
-    size = {"i": data["colliding"], "o": data["safe"], "u": data["undecided"]}
-    handles = [Patch(facecolor=COLORS[k], edgecolor="#888888", linewidth=0.4, label="%s %.4g sr" % (NAMES[k], size[k]))
-               for k in "iou"]
+    shown = handles(data)
     region = data["region"]
     if region:
-        handles.append(Line2D([], [], color=RIM, label="region around +: %s, %.4g to %.4g sr" % (
+        shown.append(Line2D([], [], color=RIM, label="region around +: %s, %.4g to %.4g sr" % (
             NAMES[region["label"][0]], region["solid_angle"], region["most_solid_angle"])))
     else:
-        handles.append(Line2D([], [], color="k", marker="+", linestyle="", label="direction asked about: undecided"))
+        shown.append(Line2D([], [], color="k", marker="+", linestyle="", label="direction asked about: undecided"))
     course = data.get("course")
     if course:
-        handles.append(Line2D([], [], color=courses.color(course), marker="o", linestyle="", label="the scene's velocity, " +
+        shown.append(Line2D([], [], color=courses.color(course), marker="o", linestyle="", label="the scene's velocity, " +
                               courses.sentence(course)))
-    figure.legend(handles=handles, loc="lower center", ncols=min(len(handles), 4 if not course else 3), frameon=False, columnspacing=1.2)
+    figure.legend(handles=shown, loc="lower center", ncols=min(len(shown), 4 if not course else 3), frameon=False, columnspacing=1.2)
     title = data["title"] or "Cone map"
     figure.suptitle("%s: %s cells, edges below %.3g rad%s" % (
         title, format(len(data["cells"]), ","), data["resolution"], "" if data["complete"] else ", not complete"),
