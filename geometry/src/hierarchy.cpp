@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/hierarchy.h>
+#include <vericone/geometry/stop.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +13,8 @@ namespace {
 
 constexpr int kBins = 16;
 constexpr std::uint32_t kMostInLeaf = 4;
+/// Nodes of as many pieces ask whether to stop: all that is below one of fewer takes a millisecond.
+constexpr std::size_t kWorthAsking = 4096;
 /// Beyond this the pieces are halved by number, whatever their places: no tree is deeper than twice this.
 constexpr int kDeepestBySurface = 48;
 /// What those who descend leave room for.
@@ -78,6 +81,7 @@ class Builder {
       tasks.pop_back();
       deepest = std::max(deepest, task.depth);
       const std::span<Item> items(items_.data() + task.first, task.last - task.first);
+      if (items.size() >= kWorthAsking) checkpoint();
       Extent all, middles;
       for (const Item& item : items) {
         all.include(item.extent);

@@ -4,6 +4,7 @@
 #include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/exact/rational.h>
+#include <vericone/geometry/stop.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
@@ -187,6 +188,7 @@ class DualAscent {
     int stalled = 0;
     double best = value(llt_, u_);
     while (iterations < limit && stalled < kStallLimit && residual() > tolerance) {
+      checkpoint();
       todd_yildirim_step();
       ++iterations;
       for (int k = 0; k < kNewtonSteps && iterations < limit; ++k) {
@@ -363,6 +365,7 @@ class ExactBody {
 
   /// |adj(F) (x - p)|^2, to be held against det(F)^2.
   Rational scaled_form(const Vector<D>& x) const {
+    checkpoint();  // all of a million points may come here
     Rational sum = 0;
     exact::RationalVector<D> d;
     for (int j = 0; j < D; ++j) d[j] = Rational(x(j)) - p_[j];
@@ -485,6 +488,7 @@ BasicEllipsoid<D> containing_body(const Vector<D>& center, const Square<D>& fact
                                   const Eigen::Ref<const Points<D>>& points, double tolerance) {
   auto [axes, rotation] = Principal<D>(factor);
   for (double margin = 2 * kEps;; margin *= 2) {
+    checkpoint();
     const ExactBody<D> trial(BasicEllipsoid<D>::from_axes(center, axes, rotation));
     axes *= growth_needed<D>(trial, points, std::max(1e-3 * tolerance, 64 * kEps)) * (1 + margin);
     const auto body = BasicEllipsoid<D>::from_axes(center, axes, rotation);
@@ -578,6 +582,7 @@ MinVolumeResult<D> min_volume_ellipsoid(const Eigen::Ref<const Points<D>>& point
   dual.start_uniform();
   double largest = 0;
   while (true) {
+    checkpoint();
     dual.maximize(std::clamp(0.01 * options.tolerance, 16 * kEps, 1e-3), options.max_iterations,
                   result.iterations);
     const Violations<D> v = violations<D>(y, dual.mean(), dual.covariance());

@@ -2,6 +2,7 @@
 #include "surface_mesh.h"
 
 #include <vericone/geometry/decompositions.h>
+#include <vericone/geometry/stop.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -131,6 +132,7 @@ void SurfaceMesh::quarter_all() {
   };
   std::vector<Triangle> finer;
   for (const Triangle& t : triangles_) {
+    checkpoint();
     const auto [a, b, c] = t.nodes;
     const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
     for (const std::array<int, 3>& n : {std::array{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}})
@@ -201,6 +203,7 @@ bool SurfaceMesh::bisect_marked() {
   std::map<Edge, int> marked;
   std::map<Edge, std::vector<int>> around;
   for (int i = 0; i < static_cast<int>(triangles_.size()); ++i) {
+    checkpoint();
     Triangle& t = triangles_[static_cast<std::size_t>(i)];
     longest_first(t);
     for (std::size_t k = 0; k < 3; ++k) around[edge(t.nodes[k], t.nodes[(k + 1) % 3])].push_back(i);
@@ -238,6 +241,7 @@ bool SurfaceMesh::bisect_marked() {
     }
   };
   for (const Triangle& t : triangles_) {
+    checkpoint();
     const auto [a, b, c] = t.nodes;
     const auto it = marked.find(edge(a, b));
     if (it == marked.end()) {
@@ -352,6 +356,7 @@ void SurfaceMesh::cut(int m) {
     return (a.direction * radius(a) - b.direction * radius(b)).norm();
   };
   for (const Triangle& t : triangles_) {
+    checkpoint();
     const auto sign = [&](int i) { return signs[static_cast<std::size_t>(i)]; };
     auto n = t.nodes;
     int split_edges = 0;

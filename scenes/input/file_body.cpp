@@ -109,6 +109,15 @@ Json body_fields(const Json& value, const std::string& path, const Path& folder)
   return without_files(value, path, folder, 0);
 }
 
+std::string remembered_fields(const Json& value, const std::string& path, const Path& folder) {
+  Json fields = value;
+  fields.erase("velocity");
+  fields = body_fields(fields, path, folder);
+  std::error_code gone;  // the current folder
+  follow_names(fields, (std::filesystem::current_path(gone) / folder).lexically_normal());
+  return fields.dump();
+}
+
 bool is_union(const Json& value) { return value.is_object() && value.contains("pieces"); }
 
 Placed read_union(const Json& value, const std::string& path, const Path& folder) {

@@ -13,6 +13,10 @@ namespace vericone::input {
 /// before the field.
 Json body_fields(const Json& value, const std::string& path, const std::filesystem::path& folder);
 
+/// SceneBody::fields of what body_fields() takes; a velocity beside it is left out.
+std::string remembered_fields(const Json& value, const std::string& path,
+                              const std::filesystem::path& folder);
+
 /// Whether the fields say that the body is a union.
 bool is_union(const Json& value);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/scenes/scene.h>
 
+#include "input/file_body.h"
 #include "input/scene.h"
 #include "json/json_value.h"
 
@@ -27,7 +28,10 @@ Scene scene_of_text(const std::string& text, const std::filesystem::path& file) 
 }
 
 SceneBody read_body(const std::filesystem::path& file) {
-  return input::read_body({{"file", file.filename().string()}}, "", file.parent_path());
+  const Json named{{"file", file.filename().string()}};
+  SceneBody body = input::read_body(named, "", file.parent_path());
+  body.fields = input::remembered_fields(named, "", file.parent_path());
+  return body;
 }
 
 }  // namespace vericone::scenes

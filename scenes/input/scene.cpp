@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "input/fields.h"
+#include "input/file_body.h"
 #include "input/text_source.h"
 #include "json/json_value.h"
 #include "json/plain_text.h"
@@ -187,8 +188,11 @@ Json scene_fields(const std::string& text, const std::string& path) {
 Json read_scene_fields(const std::string& path) { return scene_fields(read_scene_text(path), path); }
 
 Scene scene_of(const Json& fields, const std::string& path) {
-  return read_engagement(fields, Velocities::optional, {"name", "lidars", "pose_error"},
-                         std::filesystem::path(path).parent_path());
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  Scene scene = read_engagement(fields, Velocities::optional, {"name", "lidars", "pose_error"}, folder);
+  scene.agent.fields = remembered_fields(fields["agent"], "agent", folder);
+  scene.obstacle.fields = remembered_fields(fields["obstacle"], "obstacle", folder);
+  return scene;
 }
 
 }  // namespace vericone::input

@@ -6,6 +6,7 @@
 #include <vericone/cones/assembly/assembly_oracle.h>
 #include <vericone/cones/combined/cone.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
 #include <vericone/testing/random_bodies.h>
 
 #include <cmath>
@@ -269,7 +270,7 @@ TEST(ConeComparison, StopsWhenAsked) {
     return share < 0.6;
   };
   EXPECT_THROW(compare_cones(scan, hull_of({ball({0, 0, 0}, 1)}), one(ball({3, 0, 0}, 1)), options),
-               fitting::Interrupted);
+               Interrupted);
   EXPECT_GE(last, 0.6);
 }
 

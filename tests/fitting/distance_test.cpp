@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/fitting/measure.h>
-#include <vericone/geometry/combined_surface.h>
+#include <vericone/geometry/mesh/combined_surface.h>
 #include <vericone/geometry/error.h>
 
 #include <Eigen/Geometry>

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <vericone/fitting/fit.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
 
 #include <Eigen/Geometry>
 

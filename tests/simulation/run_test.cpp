@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
 #include <vericone/simulation/run.h>
 #include <vericone/testing/random_bodies.h>
 #include <cmath>
@@ -294,6 +295,17 @@ TEST(Run, BodiesAppearWhenTheyAreSaidTo) {
   const auto run = simulate(scenario);
   EXPECT_EQ(run.encounters.front().t, 1.2345);
   EXPECT_EQ(run.tracks[1].motion(1.2345).position, scenario.bodies[1].start.position);
+}
+
+TEST(Run, EndsWhereItIsAskedToStop) {
+  Stop stop;
+  RunOptions options;
+  options.progress = [&](double t) {
+    if (t >= 1) stop.request();
+    return true;
+  };
+  const StopScope scope(&stop);
+  EXPECT_THROW(static_cast<void>(simulate(encounter(), options)), Interrupted);
 }
 
 TEST(Run, CanBeInterrupted) {

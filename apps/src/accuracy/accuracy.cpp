@@ -28,6 +28,7 @@
 #include "output/figures.h"
 #include "output/file_hash.h"
 #include "output/interrupt.h"
+#include "output/output_file.h"
 #include "output/provenance.h"
 #include "output/resumable_table.h"
 #include "output/staged_folder.h"

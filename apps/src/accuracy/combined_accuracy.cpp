@@ -20,6 +20,7 @@
 #include "json/json_value.h"
 #include "output/figures.h"
 #include "output/interrupt.h"
+#include "output/output_file.h"
 #include "output/provenance.h"
 #include "output/resumable_table.h"
 #include "output/staged_folder.h"

@@ -24,6 +24,7 @@
 #include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/figures.h"
+#include "output/output_file.h"
 #include "output/provenance.h"
 #include "output/staged_folder.h"
 #include "picture/slice_json.h"

@@ -4,7 +4,7 @@
 #include <vericone/cones/combined/cone.h>
 #include <vericone/cones/combined/sector.h>
 #include <vericone/cones/slices/combined_slice_cone.h>
-#include <vericone/geometry/combined_surface.h>
+#include <vericone/geometry/mesh/combined_surface.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

@@ -13,6 +13,7 @@
 #include "cone/shape_engagements.h"
 #include "json/json_value.h"
 #include "output/figures.h"
+#include "output/output_file.h"
 #include "output/provenance.h"
 #include "output/staged_folder.h"
 #include "picture/shape_json.h"

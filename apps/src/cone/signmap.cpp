@@ -16,6 +16,7 @@
 
 #include "json/json_value.h"
 #include "output/figures.h"
+#include "output/output_file.h"
 #include "output/provenance.h"
 #include "output/staged_folder.h"
 

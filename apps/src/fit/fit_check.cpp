@@ -6,7 +6,7 @@
 #include <ostream>
 #include <sstream>
 
-#include "fit/fit_sample.h"
+#include <vericone/fits/read_scan.h>
 #include "input/fields.h"
 #include "json/json_value.h"
 
@@ -110,7 +110,7 @@ int check_fit(const std::string& file, const std::string& result, bool json, std
       throw InputError(result, e.field() + ": " + e.value(), e.requirement());
     }
   }();
-  const fit::Scan scan = fit::read_scan(file);
+  const fits::Scan scan = fits::read_scan(file);
   const fitting::Certificate found = fitting::check(claim.pieces, scan.sample, claim.margin);
   const Json answer = found_json(claim, found);
   const bool good = holds(claim, found);
@@ -121,7 +121,7 @@ int check_fit(const std::string& file, const std::string& result, bool json, std
   const auto row = [&](const char* label, std::size_t inside, std::size_t all) {
     out << label << inside << " of " << all << " inside, " << all - inside << " outside\n";
   };
-  out << "scan                " << describe(scan) << '\n';
+  out << "scan                " << fits::describe(scan) << '\n';
   row("points              ", found.points_inside, found.points);
   if (scan.sample.is_mesh()) row("triangles           ", found.triangles_inside, found.triangles);
   if (claim.margin > 0) row("with the margin     ", found.margins_inside, found.points);

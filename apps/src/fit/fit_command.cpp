@@ -2,21 +2,22 @@
 #include "fit/fit_command.h"
 
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 
 #include "fit/cone/cone_json.h"
-#include "fit/fit_body.h"
 #include "fit/fit_check.h"
 #include "fit/fit_json.h"
 #include "fit/fit_picture.h"
 #include "fit/fit_text.h"
-#include "fit/hull_files.h"
+#include "fit/write_fit.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/figures.h"
 #include "output/interrupt.h"
+#include "output/output_file.h"
 #include "output/progress.h"
 #include "output/provenance.h"
 #include "output/staged_folder.h"
@@ -55,7 +56,7 @@ fitting::FitOptions fit_options(const FitCommandOptions& given, Progress& progre
 }
 
 /// What is wrong with the points is wrong with the file; what is wrong with an option has its name.
-fitting::FitResult fit_or_explain(const fit::Scan& scan, const fitting::FitOptions& options) {
+fitting::FitResult fit_or_explain(const fits::Scan& scan, const fitting::FitOptions& options) {
   try {
     return fitting::fit(scan.sample, options);
   } catch (const InputError& e) {
@@ -70,13 +71,6 @@ fitting::FitResult fit_or_explain(const fit::Scan& scan, const fitting::FitOptio
                                                      : ""));
     throw InputError(scan.file, e.field() + ": " + e.value(), e.requirement());
   }
-}
-
-std::string title_of(const fit::Scan& scan, const fitting::FitResult& result) {
-  std::string text = fs::path(scan.file).filename().string() + ": " + fit::to_string(result.mode) + ", " +
-                     fitting::to_string(result.shape);
-  if (result.pieces.size() > 1) text += ", " + std::to_string(result.pieces.size()) + " pieces";
-  return text;
 }
 
 /// What was asked for: a proof where something is to be inside, surfaces that the solver arrived at.
@@ -100,7 +94,7 @@ const std::vector<std::string>& names_of_files() {
 }
 
 struct Answer {
-  fit::Scan scan;
+  fits::Scan scan;
   fitting::FitResult result;
   std::vector<Json> bodies;
   double seconds = 0;  // the fit with its proof
@@ -114,13 +108,11 @@ Answer answer_of(const FitCommandOptions& given, Progress& progress) {
   if (!given.cone.empty()) request = read_cone_request(given.cone);
   Answer a;
   progress.show("reading " + given.file, 0);
-  a.scan = fit::read_scan(given.file);
+  a.scan = fits::read_scan(given.file);
   const auto start = Clock::now();
   a.result = fit_or_explain(a.scan, options);
   a.seconds = seconds_since(start);
-  const auto inside = a.result.certified ? fit::points_inside(a.result.pieces, a.scan.sample)
-                                         : std::vector<Eigen::Vector3d>();
-  a.bodies = fit::enclosing_body_fields(a.result.pieces, inside);
+  a.bodies = fit::bodies_of(a.result, a.scan.sample);
   a.json = fit::fit_json(a.scan, options, a.result, a.bodies);
   if (request) {
     ConeComparisonOptions cones;
@@ -135,19 +127,14 @@ Answer answer_of(const FitCommandOptions& given, Progress& progress) {
 
 void write_files(const Answer& a, const FitCommandOptions& given, StagedFolder& folder, Progress& progress) {
   const fs::path& stage = folder.path();
-  // The path is in provenance.json.
-  const std::string comment = "Fitted to " + title_of(a.scan, a.result);
+  const std::string title = fit::title_of(a.scan, a.result);
   const std::vector<CombinedSurface> surfaces = fit::hull_surfaces(a.result.pieces);
-  write_whole(stage / "fit.json", json_text(a.json) + "\n");
-  write_whole(stage / "body.yaml", fit::body_yaml(a.bodies, comment));
-  write_whole(stage / "hull.obj", fit::hull_obj(surfaces));
-  write_whole(stage / "hull.ply", fit::hull_ply(surfaces));
+  fit::write_files(a.json, a.bodies, title, surfaces, stage);
   std::vector<fs::path> inputs{given.file};
   if (fs::is_regular_file(given.cone)) inputs.emplace_back(given.cone);
   write_whole(stage / "provenance.json", provenance(given.command_line, 1, inputs).dump(1) + "\n");
   if (!given.figures) return;
   progress.show("drawing", 0);
-  const std::string title = title_of(a.scan, a.result);
   write_whole(stage / "fit_picture.json", fit::fit_picture(a.scan, a.result, surfaces, title).dump() + "\n");
   draw_figures("fit.py", stage);
   if (!a.cones) return;
@@ -186,7 +173,7 @@ int run_fit(const FitCommandOptions& given, std::ostream& out) {
     files = folder.publish(names_of_files());
     print(a, given, files, out);
     return succeeded(a.result, given) ? 0 : 1;
-  } catch (const fitting::Interrupted&) {
+  } catch (const Interrupted&) {
     return kExitInterrupted;
   }
 }

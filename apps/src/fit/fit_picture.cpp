@@ -18,7 +18,7 @@ Json footprint_json(const fitting::Piece& piece) {
 
 }  // namespace
 
-Json fit_picture(const Scan& scan, const fitting::FitResult& result,
+Json fit_picture(const fits::Scan& scan, const fitting::FitResult& result,
                  const std::vector<CombinedSurface>& surfaces, const std::string& title) {
   const fitting::Sample& sample = scan.sample;
   const Assembly pieces =

@@ -2,15 +2,15 @@
 #pragma once
 
 #include <vericone/fitting/fit.h>
-#include <vericone/geometry/combined_surface.h>
+#include <vericone/geometry/mesh/combined_surface.h>
 
-#include "fit/fit_sample.h"
+#include <vericone/fits/read_scan.h>
 #include "json/json_forward.h"
 
 namespace vericone::fit {
 
 /// What apps/figures/fit.py draws: the scan, thinned to what a picture shows, and the pieces of the hull.
-Json fit_picture(const Scan& scan, const fitting::FitResult& result,
+Json fit_picture(const fits::Scan& scan, const fitting::FitResult& result,
                  const std::vector<CombinedSurface>& surfaces, const std::string& title);
 
 }  // namespace vericone::fit

@@ -61,10 +61,10 @@ std::string distances(const fitting::DistanceStatistics& d) {
 
 }  // namespace
 
-void print_fit(const Scan& scan, const fitting::FitResult& fit, double seconds, std::ostream& out) {
+void print_fit(const fits::Scan& scan, const fitting::FitResult& fit, double seconds, std::ostream& out) {
   row(out, "certified", (fit.certified ? "yes: " : "no: ") + statement(fit, scan));
   row(out, "scan",
-      describe(scan) + " (" + std::filesystem::path(scan.file).filename().string() +
+      fits::describe(scan) + " (" + std::filesystem::path(scan.file).filename().string() +
           "), whose unit is taken as the metre");
   row(out, "hull", hull(fit));
   if (!fit.why.empty()) row(out, "why", fit.why);

@@ -4,11 +4,11 @@
 #include <vericone/fitting/fit.h>
 #include <iosfwd>
 
-#include "fit/fit_sample.h"
+#include <vericone/fits/read_scan.h>
 
 namespace vericone::fit {
 
 /// The table of `vericone fit`. `seconds`: the fit with its proof.
-void print_fit(const Scan& scan, const fitting::FitResult& result, double seconds, std::ostream& out);
+void print_fit(const fits::Scan& scan, const fitting::FitResult& result, double seconds, std::ostream& out);
 
 }  // namespace vericone::fit

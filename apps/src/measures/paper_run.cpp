@@ -3,6 +3,7 @@
 
 #include <vericone/guidance/guide.h>
 #include <vericone/guidance/plane_view.h>
+#include <vericone/simulation/run_tables.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -12,7 +13,6 @@
 #include "input/scene.h"
 #include "input/stopwatch.h"
 #include "scenarios/read_scenario.h"
-#include "simulate/run_files.h"
 
 namespace vericone::paper {
 namespace {
@@ -87,19 +87,19 @@ const Table& PaperRun::table(const std::string& name, const std::string& path) c
   if (const auto it = tables_.find(name); it != tables_.end()) return it->second;
   Table made;
   if (name == "bodies")
-    made = table_of_csv(scenario::bodies_csv(scenario, run));
+    made = table_of_csv(csv(simulation::bodies_table(scenario, run)));
   else if (name == "encounters")
-    made = table_of_csv(scenario::encounters_csv(scenario, run));
+    made = table_of_csv(csv(simulation::encounters_table(scenario, run)));
   else if (name == "planes")
-    made = table_of_csv(scenario::planes_csv(scenario, run));
+    made = table_of_csv(csv(simulation::planes_table(scenario, run)));
   else if (name == "sights")
-    made = table_of_csv(scenario::sights_csv(scenario, run));
+    made = table_of_csv(csv(simulation::sights_table(scenario, run)));
   else if (name == "events")
-    made = table_of_csv(scenario::events_csv(scenario, run));
+    made = table_of_csv(csv(simulation::events_table(scenario, run)));
   else if (name == "orifices")
-    made = table_of_csv(scenario::orifices_csv(scenario, run));
+    made = table_of_csv(csv(simulation::orifices_table(scenario, run)));
   else if (name == "vehicles")
-    made = table_of_csv(scenario::vehicles_csv(scenario, run));
+    made = table_of_csv(csv(simulation::vehicles_table(scenario, run)));
   else if (name == "proofs")
     made = proofs_of(scenario, run);
   else if (name == "passages")

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/geometry/stop.h>
 #include <algorithm>
 #include <chrono>
 #include <fstream>

@@ -65,7 +65,6 @@ std::optional<Json::json_pointer> pointer_to(const Json& fields, const std::stri
 /// `text`: the value, as YAML. Throws InputError naming --set where the field's parent is not there.
 void set_field(Json& fields, const std::string& path, const std::string& text);
 
-struct Interrupted {};
 /// Called with what is under way and its share; false interrupts, and the caller throws Interrupted.
 using Show = std::function<bool(const std::string& what, double share)>;
 

@@ -2,16 +2,16 @@
 #include "montecarlo/campaign_command.h"
 
 #include <vericone/geometry/error.h>
-#include <algorithm>
-#include <cmath>
+#include <vericone/simulation/montecarlo/campaign.h>
 #include <filesystem>
 #include <ostream>
 
 #include "input/stopwatch.h"
 #include "json/json_value.h"
-#include "montecarlo/summary.h"
+#include "montecarlo/summary_text.h"
 #include "output/figures.h"
 #include "output/interrupt.h"
+#include "output/output_file.h"
 #include "output/provenance.h"
 #include "output/resumable_table.h"
 #include "output/staged_folder.h"
@@ -22,55 +22,35 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void require_positive(const char* option, double value, const char* unit) {
-  if (!(value > 0) || !std::isfinite(value))
-    throw InputError(option, to_text(value), std::string("a positive number") + unit);
+Campaign campaign_of(const CampaignOptions& o) {
+  return {o.engagements, o.seed, o.laws, {o.step, o.most, o.gain, o.reference, o.required}};
 }
 
-void validate(const CampaignOptions& o) {
-  if (o.engagements < 1 || o.engagements > 100'000'000)
-    throw InputError("--engagements", std::to_string(o.engagements), "between 1 and 100000000");
-  threads_for(o.threads);
-  require_positive("--most", o.most, " (m/s^2)");
-  if (!(o.most < kUnlimited))
-    throw InputError("--most", to_text(o.most),
-                     "below " + to_text(kUnlimited) + " m/s^2, which is unlimited here");
-  require_positive("--gain", o.gain, " (1/s)");
-  if (!std::isfinite(o.reference)) throw InputError("--reference", to_text(o.reference), "a finite number");
-  require_positive("--required", o.required, " (m)");
-  require_positive("--step", o.step, " (s)");
-  if (o.step < 1e-4) throw InputError("--step", to_text(o.step), "0.0001 s or more");
-  for (std::size_t i = 0; i < o.laws.size(); ++i)
-    if (std::count(o.laws.begin(), o.laws.end(), o.laws[i]) > 1)
-      throw InputError("--laws", o.laws[i], "given once");
-}
-
-std::string settings_line(const CampaignOptions& o) {
-  std::string laws;
-  for (const std::string& name : o.laws) laws += (laws.empty() ? "" : "+") + name;
-  return "# vericone campaign, seed " + std::to_string(o.seed) + ", " + std::to_string(o.engagements) +
-         " engagements, laws " + laws + ", most " + to_text(o.most) + ", gain " + to_text(o.gain) +
-         ", reference " + to_text(o.reference) + ", required " + to_text(o.required) + ", step " +
-         to_text(o.step);
+/// The laws; whatever is wrong is named by its option.
+std::vector<Flown> laws_of_options(const Campaign& campaign) {
+  try {
+    return laws_of(campaign);
+  } catch (const InputError& e) {
+    throw InputError("--" + e.field(), e.value(), e.requirement());
+  }
 }
 
 }  // namespace
 
 int run_campaign(const CampaignOptions& options, std::ostream& out) {
-  validate(options);
-  const FlightSettings settings{options.step, options.most, options.gain, options.reference,
-                                options.required};
-  const std::vector<Flown> laws = flown_laws(options.laws, settings);
+  threads_for(options.threads);
+  const Campaign campaign = campaign_of(options);
+  const std::vector<Flown> laws = laws_of_options(campaign);
   StagedFolder folder(options.out, "--out");
   const auto start = Clock::now();
   ResumableTable table{folder, "engagements.csv"};
-  table.settings = settings_line(options);
+  table.settings = settings_line(campaign);
   table.header = csv_header(laws);
   table.count = options.engagements;
   table.threads = threads_for(options.threads);
   table.quiet = options.quiet;
   table.label = "engagements";
-  table.row = [&](std::uint64_t i) { return csv_row(i, measure(options.seed, i, laws, settings)); };
+  table.row = [&](std::uint64_t i) { return csv_row(i, measure(campaign.seed, i, laws, campaign.flight)); };
   if (run_table(table) == TableOutcome::interrupted) {
     out << "interrupted; the same command goes on where it stopped (" << options.out << ")\n";
     return kExitInterrupted;

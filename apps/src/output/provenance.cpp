@@ -11,7 +11,6 @@
 #include "json/json_value.h"
 #include "json/plain_text.h"
 #include "output/file_hash.h"
-#include "output/output_file.h"
 
 namespace vericone {
 namespace {
@@ -69,12 +68,6 @@ Json provenance(const std::string& command_line, int threads,
           {"threads", threads},
           {"inputs", hashes(inputs)},
           {"finished", now()}};
-}
-
-void write_whole(const std::filesystem::path& path, const std::string& content) {
-  OutputFile file(path);
-  file.write(content);
-  file.close();
 }
 
 }  // namespace vericone

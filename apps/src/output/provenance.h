@@ -14,8 +14,4 @@ namespace vericone {
 Json provenance(const std::string& command_line, int threads,
                 const std::vector<std::filesystem::path>& inputs);
 
-/// For files in a StagedFolder, which nobody sees before they are whole. Throws std::runtime_error naming the
-/// path.
-void write_whole(const std::filesystem::path& path, const std::string& content);
-
 }  // namespace vericone

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "paper/claims_command.h"
 
+#include <vericone/geometry/stop.h>
 #include <iomanip>
 #include <optional>
 #include <ostream>
 
 #include "output/interrupt.h"
+#include "output/output_file.h"
 #include "output/progress.h"
 #include "output/provenance.h"
 #include "output/staged_folder.h"

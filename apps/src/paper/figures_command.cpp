@@ -2,6 +2,8 @@
 #include "paper/figures_command.h"
 
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
+#include <vericone/scenarios/run_files.h>
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -13,13 +15,13 @@
 #include "json/json_value.h"
 #include "output/figures.h"
 #include "output/interrupt.h"
+#include "output/output_file.h"
 #include "output/progress.h"
 #include "output/provenance.h"
 #include "output/staged_folder.h"
 #include "output/threads.h"
 #include "paper/paper.h"
 #include "paper/papers_folder.h"
-#include "simulate/run_files.h"
 
 namespace vericone::paper {
 namespace {
@@ -150,8 +152,10 @@ class Maker {
     if (!written_.insert(name).second) return;
     const PaperRun& run = sources_.run(name, "figures.yaml: runs");
     StagedFolder folder(out_ / "runs" / name, "--out");
-    scenario::write_run(run.scenario, run.run, {run.file, options_.command_line, run.seconds, run.text},
-                        folder.path());
+    scenario::write_run(
+        run.scenario, run.run,
+        {run.file, provenance(options_.command_line, 1, {run.file}).dump(), run.seconds, run.text},
+        folder.path());
     folder.publish({"planes.csv"});
   }
 

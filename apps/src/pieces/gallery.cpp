@@ -15,6 +15,7 @@
 #include "json/json_value.h"
 #include "output/figures.h"
 #include "output/interrupt.h"
+#include "output/output_file.h"
 #include "output/output_folder.h"
 #include "output/provenance.h"
 #include "output/staged_folder.h"

@@ -10,6 +10,7 @@
 #include "cone/answer.h"
 #include "json/json_value.h"
 #include "output/figures.h"
+#include "output/output_file.h"
 #include "output/provenance.h"
 #include "pieces/decimate.h"
 

@@ -17,6 +17,7 @@
 #include "output/file_hash.h"
 #include "output/interrupt.h"
 #include "output/number_text.h"
+#include "output/output_file.h"
 #include "output/provenance.h"
 #include "output/resumable_table.h"
 #include "output/threads.h"

@@ -14,7 +14,6 @@
 #include "json/json_value.h"
 #include "paper/paper.h"
 #include "scenarios/read_scenario.h"
-#include "simulate/run_files.h"
 #include "simulate/run_text.h"
 
 namespace vericone {

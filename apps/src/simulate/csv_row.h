@@ -2,22 +2,12 @@
 #pragma once
 
 #include <vericone/geometry/error.h>
+#include <vericone/simulation/table.h>
 #include <Eigen/Core>
 #include <cmath>
 #include <string>
 
 namespace vericone::scenario {
-
-/// Text as a field of a table: in quotes where a comma, a quote or a new line is in it.
-inline std::string csv_text(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
-}
 
 /// Appends rows to a table. Numbers are the shortest that read back as the same doubles; NaN is nothing.
 class CsvRow {
@@ -29,7 +19,7 @@ class CsvRow {
 
   CsvRow& text(const std::string& text) {
     separate();
-    table_ += csv_text(text);
+    table_ += simulation::csv_field(text);
     return *this;
   }
   CsvRow& number(double x) {

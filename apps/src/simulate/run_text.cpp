@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulate/run_text.h"
 
+#include <vericone/scenarios/run_files.h>
+#include <vericone/scenes/words.h>
+#include <vericone/simulation/run_tables.h>
 #include <algorithm>
 #include <cstdio>
 #include <ostream>
 #include <utility>
 #include <vector>
 
+#include "json/json_value.h"
 #include "output/number_text.h"
-#include "simulate/run_files.h"
 
 namespace vericone::scenario {
 namespace {
@@ -292,6 +295,12 @@ void print_run(const Scenario& scenario, const Run& run, double seconds, std::os
                    " s: " + beyond.broken.limit + " " + brief(beyond.broken.value) + ", declared " +
                    brief(beyond.broken.allowed));
   print_events(scenario, run, out);
+}
+
+std::string shape_words(const simulation::Body& body) {
+  const WorldBody shape = shape_at(body.shape, body.appears, body.start.position, body.start.rotation);
+  return (shape.planar() ? scenes::body_words(*shape.flat()) : scenes::body_words(shape.as_placed())) +
+         (body.shape.rigid() ? "" : ", k may change");
 }
 
 }  // namespace vericone::scenario

@@ -13,6 +13,9 @@ namespace vericone::scenario {
 void print_run(const simulation::Scenario& scenario, const simulation::Run& run, double seconds,
                std::ostream& out);
 
+/// What a body is at its start, in plain words, and that it changes where it does.
+std::string shape_words(const simulation::Body& body);
+
 /// What a pilot does, in a line.
 std::string agent_text(const simulation::Scenario& scenario, const simulation::Body& body);
 

@@ -10,9 +10,10 @@
 #include "output/figures.h"
 #include "output/interrupt.h"
 #include "output/progress.h"
+#include "output/provenance.h"
 #include "output/staged_folder.h"
 #include "scenarios/read_scenario.h"
-#include "simulate/run_files.h"
+#include "scenarios/run_json.h"
 #include "simulate/run_text.h"
 
 namespace vericone {
@@ -46,7 +47,8 @@ int run_simulate(const SimulateOptions& options, std::ostream& out) {
     seconds = seconds_since(start);
     if (run->interrupted) return kExitInterrupted;
     progress.show("writing", 0);
-    const scenario::RunOrigin origin{options.scenario, options.command_line, seconds, text};
+    const scenario::RunOrigin origin{
+        options.scenario, provenance(options.command_line, 1, {options.scenario}).dump(), seconds, text};
     summary = scenario::run_json(scenario, *run, origin);
     scenario::write_run(scenario, *run, origin, folder.path());
     if (options.figures || options.animate) progress.show("drawing", 0);

@@ -18,6 +18,7 @@
 #include "output/figures.h"
 #include "output/interrupt.h"
 #include "output/number_text.h"
+#include "output/output_file.h"
 #include "output/progress.h"
 #include "output/provenance.h"
 #include "output/staged_folder.h"

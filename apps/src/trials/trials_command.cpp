@@ -2,6 +2,7 @@
 #include "trials/trials_command.h"
 
 #include <vericone/geometry/error.h>
+#include <vericone/simulation/montecarlo/encounter.h>
 #include <vericone/simulation/trials.h>
 #include <algorithm>
 #include <cmath>
@@ -12,10 +13,10 @@
 
 #include "input/stopwatch.h"
 #include "json/json_value.h"
-#include "montecarlo/encounter.h"
 #include "output/figures.h"
 #include "output/file_hash.h"
 #include "output/interrupt.h"
+#include "output/output_file.h"
 #include "output/provenance.h"
 #include "output/resumable_table.h"
 #include "output/staged_folder.h"

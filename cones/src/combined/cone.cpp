@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/combined/cone.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -51,6 +52,7 @@ CombinedCone combined_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& 
   const auto add = [&](int first, int last) {
     std::vector<std::pair<int, int>> waiting{{first, last}};
     while (!waiting.empty()) {
+      checkpoint();
       const auto [from, to] = waiting.back();
       waiting.pop_back();
       const ConeWedge s = tracer.wedge(from, to);

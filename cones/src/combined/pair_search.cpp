@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "combined/pair_search.h"
 
+#include <vericone/geometry/stop.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
@@ -91,7 +92,8 @@ bool PairSearch::none_between(const IntervalVector3& from, const IntervalVector3
   for (const int i : a_.roots())
     for (const int j : b_.roots())
       if (least(i, j) >= 0) stack_.emplace_back(i, j);
-  while (!stack_.empty()) {
+  for (unsigned step = 1; !stack_.empty(); ++step) {
+    if (step % 1024 == 0) checkpoint();
     const auto [i, j] = stack_.back();
     last_ = {i, j};
     if (pairs_ >= end) return false;

@@ -3,6 +3,7 @@
 
 #include <vericone/cones/ellipsoids/contact_frame.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
@@ -298,6 +299,7 @@ TrueCone true_cone(const Ellipsoid& a, const Ellipsoid& b, int samples) {
   Lanes solid_angle = Lanes::Zero(), area = Lanes::Zero();
   bool bounded = true;
   for (int i = 0; i <= last; ++i) {
+    if (i % 4096 == 0) checkpoint();
     const Silhouette::Points p = silhouette.at(i);
     const Lanes distance = dot(p.contact, p.contact).sqrt(), normal = dot(p.normal, p.normal).sqrt();
     const Lanes over_distance = distance.inverse(), over_normal = normal.inverse();

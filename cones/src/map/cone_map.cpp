@@ -2,6 +2,7 @@
 #include <vericone/cones/map/cone_map.h>
 
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <atomic>
@@ -85,12 +86,17 @@ struct Undecided {
   Frontier frontier;
 };
 
-/// Runs f(0) ... f(count - 1), each once, in any order; rethrows what one of them throws.
+/// Runs f(0) ... f(count - 1), each once, in any order; rethrows what one of them throws. Asked to stop,
+/// throws Interrupted after those that are under way.
 template <typename F>
 void for_all(std::size_t count, int threads, const F& f) {
   std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < count; i = next++) f(i);
+  const auto work = [&next, &f, count, stop = stop_of_this_thread()] {
+    const StopScope scope(stop);
+    for (std::size_t i = next++; i < count; i = next++) {
+      checkpoint();
+      f(i);
+    }
   };
   std::vector<std::future<void>> others;
   for (int t = 1; t < std::min<int>(threads, static_cast<int>(count)); ++t)
@@ -214,6 +220,7 @@ class Writer {
 
   // Sums along the tree: the error grows with its depth, not with the number of cells.
   Areas write(std::uint32_t index, const std::array<std::uint32_t, 3>& corners) {
+    if (++written_ % 4096 == 0) checkpoint();
     const Node& node = nodes_[index];
     Areas sum{};
     if (node.parts == 0) {
@@ -243,6 +250,7 @@ class Writer {
 
   const std::vector<Node>& nodes_;
   ConeMap& map_;
+  std::uint64_t written_ = 0;
   std::unordered_map<std::uint64_t, std::uint32_t> middles_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -303,6 +304,7 @@ RimDistance search(const Body& body, const PlacedOpening& placed, const RimQuest
     std::make_heap(heap.begin(), heap.end());
   }
   while (found.points < question.most_points) {
+    checkpoint();
     found.least = std::min(heap.front().least, found.most);
     if (answered()) break;
     std::pop_heap(heap.begin(), heap.end());

@@ -6,6 +6,7 @@
 #include <vericone/cones/planar/sector.h>
 #include <vericone/cones/slices/slice_cone.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
 #include <numbers>
 #include <string>
 
@@ -17,10 +18,11 @@ inline void require_planes(int planes) {
     throw InputError("planes", std::to_string(planes), "a whole number from 1 to 1000000");
 }
 
-/// look(azimuth, across) on each, until it returns false; whether it never did.
+/// look(azimuth, across) on each, until it returns false; whether it never did. Asked to stop, throws Interrupted.
 template <typename Look>
 bool on_planes(const AxisFrame& frame, int planes, const Look& look) {
   for (int j = 0; j < planes; ++j) {
+    checkpoint();
     const double azimuth = std::numbers::pi * j / planes;
     if (!look(azimuth, frame.across(azimuth))) return false;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/uncertain/probability.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -208,6 +209,7 @@ class Outline {
 Probability standard_measure(const Shadow& shadow, const ProbabilityOptions& options) {
   Outline outline(shadow);
   while (true) {
+    checkpoint();
     const Measure least = polygon_measure(outline.inner()), most = polygon_measure(outline.outer());
     Probability p;
     p.least = std::clamp(least.value - least.rounding, 0.0, 1.0);

@@ -3,6 +3,8 @@
 // Clouds without a header, as the KITTI and nuScenes data sets have them: float32 x, y, z, intensity, and
 // with nuScenes the ring.
 #include "binary.h"
+
+#include <vericone/geometry/stop.h>
 #include "source.h"
 
 namespace vericone::files {
@@ -17,7 +19,8 @@ Parsed parse_kitti(const Source& source) {
   Parsed parsed{.format = nuscenes ? "nuScenes" : "KITTI"};
   parsed.points.resize(count);
   const char* at = source.bytes.data();
-  for (Eigen::Vector3d& p : parsed.points) {
+  for (std::size_t n = 0; Eigen::Vector3d& p : parsed.points) {
+    if (++n % 4096 == 0) checkpoint();
     for (std::ptrdiff_t i = 0; i < 3; ++i) p(i) = little_endian<float>(at + 4 * i);
     at += stride;
   }

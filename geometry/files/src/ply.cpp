@@ -5,6 +5,7 @@
 #include "ply_header.h"
 
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -155,6 +156,7 @@ void read_element(const Source& source, const PlyElement& element, Values& value
     parsed.points.reserve(element.count);
   }
   for (std::uint64_t i = 0; i < element.count; ++i) {
+    if (i % 4096 == 0) checkpoint();
     const auto where = [&] { return element.name + " " + std::to_string(i); };
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
     for (std::size_t k = 0; k < roles.size(); ++k) {

@@ -2,6 +2,7 @@
 //
 // STL, ascii and binary. An own reader, as for the other meshes: assimp 5.2 and OpenMesh 9.0 read ascii
 // coordinates into floats, and assimp takes a file for ascii by its first word, which binary files have too.
+#include <vericone/geometry/stop.h>
 #include <algorithm>
 #include <cctype>
 
@@ -41,6 +42,7 @@ Parsed parse_binary(const Source& source) {
   const std::size_t facets = facets_of_binary(source.bytes);
   parsed.faces.reserve(facets);
   for (std::size_t f = 0; f < facets; ++f) {
+    if (f % 4096 == 0) checkpoint();
     // A normal, which the corners tell better, the corners, and two bytes that mean different things.
     const char* at = source.bytes.data() + kHeader + kFacet * f + 12;
     std::vector<std::uint32_t> face(3);

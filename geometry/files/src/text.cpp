@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "text.h"
 
+#include <vericone/geometry/stop.h>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -53,7 +54,7 @@ bool Lines::take_line(std::string_view& line) {
   const std::size_t end = std::min(rest_.find('\n'), rest_.size());
   line = rest_.substr(0, end);
   rest_.remove_prefix(std::min(end + 1, rest_.size()));
-  ++read_;
+  if (++read_ % 4096 == 0) checkpoint();
   line = line.substr(0, line.find('#'));
   line = line.substr(0, line.find_last_not_of(kBlanks) + 1);
   return true;

@@ -4,6 +4,7 @@
 #include <vericone/fitting/fit.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
+#include <vericone/geometry/stop.h>
 
 #include <Eigen/Geometry>
 

@@ -5,6 +5,7 @@
 #include <open3d/pipelines/registration/Registration.h>
 #include <open3d/utility/Logging.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
 #include <vericone/lidar/fuse.h>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -81,6 +82,7 @@ class Alignment {
             const FuseOptions& options)
       : poses_(initial.begin(), initial.end()) {
     for (std::size_t i = 0; i < scans.size(); ++i) {
+      checkpoint();
       auto cloud = std::make_shared<PointCloud>(scans[i]);
       if (options.voxel > 0) cloud = cloud->VoxelDownSample(options.voxel);
       cloud->EstimateNormals(open3d::geometry::KDTreeSearchParamKNN(kNeighbours));
@@ -94,6 +96,7 @@ class Alignment {
   double sweep(double distance) {
     double farthest = 0;
     for (std::size_t i = 1; i < clouds_.size(); ++i) {
+      checkpoint();
       const registration::RegistrationResult result = registration::RegistrationICP(
           clouds_[i], others(i), distance, Eigen::Matrix4d::Identity(),
           registration::TransformationEstimationPointToPlane(),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
 #include <vericone/lidar/scan.h>
 
 #include <algorithm>
@@ -67,8 +68,11 @@ Scan scan(const MeshScene& scene, const Lidar& lidar, const Eigen::Isometry3d& a
   scan.pose = agent * lidar.pose;
   const std::size_t count = lidar.beams.size();
   scan.beams.assign(count, Beam::missed);
+  const Stop* const stop = stop_of_this_thread();
   const auto measure = [&](std::size_t from, std::size_t to, std::vector<Return>& returns) {
+    const StopScope scope(stop);
     for (std::size_t i = from; i < to; ++i) {
+      if (i % 256 == 0 && stop_requested()) return;
       const Vector3d beam = lidar.beams.direction(i), direction = scan.pose.linear() * beam;
       const std::optional<Hit> hit = scene.first_hit(scan.pose.translation(), direction, 0, lidar.max_range);
       if (!hit) continue;
@@ -94,6 +98,7 @@ Scan scan(const MeshScene& scene, const Lidar& lidar, const Eigen::Isometry3d& a
     workers.emplace_back([&, part] { measure(start(part), start(part + 1), parts[part]); });
   measure(start(0), start(1), parts[0]);
   workers.clear();
+  checkpoint();
   for (const auto& part : parts) scan.returns.insert(scan.returns.end(), part.begin(), part.end());
   return scan;
 }

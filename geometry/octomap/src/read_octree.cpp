@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/octomap/read_octree.h>
+#include <vericone/geometry/stop.h>
 
 #include <octomap/ColorOcTree.h>
 #include <octomap/OcTree.h>
@@ -44,6 +45,7 @@ class Cells {
       cell.is_known = true;
       cell.log_odds = !is_decided_ ? node->getLogOdds() : tree_.isNodeOccupied(node) ? kCertain : -kCertain;
     }
+    if (cells_.size() % 4096 == 0) checkpoint();
     cells_.push_back(cell);
   }
 

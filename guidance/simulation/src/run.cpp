@@ -3,6 +3,7 @@
 
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
 #include <vericone/guidance/navigator.h>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -103,6 +104,7 @@ class Runner {
       // Commands at multiples of the step, and where a body appears.
       const double next = std::min(time_of_step(scenario_, k), scenario_.duration);
       while (t < next && !done_) {
+        checkpoint();
         double to = next;
         for (const Body& body : scenario_.bodies)
           if (body.appears > t && body.appears < to) to = body.appears;

@@ -5,7 +5,7 @@
 #include <vericone/cones/ellipsoids/true_cone.h>
 #include <vericone/cones/map/classifiers.h>
 #include <vericone/cones/map/regions.h>
-#include <vericone/fitting/fit.h>
+#include <vericone/geometry/stop.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -81,7 +81,7 @@ BodyCone cone_by_map(const DirectionClassifier& classifier, const MapSettings& s
       return !stopped;
     };
   const ConeMap map = cone_map(classifier, options);
-  if (stopped) throw fitting::Interrupted{};
+  if (stopped) throw Interrupted{};
   BodyCone cone;
   cone.low = map.colliding;
   cone.high = map.colliding + map.undecided;

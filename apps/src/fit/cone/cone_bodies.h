@@ -24,7 +24,7 @@ struct BodyCone {
 struct MapSettings {
   double resolution = 0.01;  // radians
   int threads = 1;
-  std::function<bool(double)> progress;  // false stops, which throws fitting::Interrupted
+  std::function<bool(double)> progress;  // false stops, which throws Interrupted
 };
 
 BodyCone cone_by_map(const DirectionClassifier& classifier, const MapSettings& settings);

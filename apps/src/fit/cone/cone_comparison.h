@@ -47,7 +47,7 @@ struct ConeComparisonOptions {
   /// where it is wider); 1e-4 to 1. The scan's bracket is about twice this wide, relative.
   double resolution = 0.002;
   int threads = 0;  // of cone maps, which do not depend on it; 0: as many as the machine has
-  /// Told what is being done and the share done; returns false to stop, which throws fitting::Interrupted.
+  /// Told what is being done and the share done; returns false to stop, which throws Interrupted.
   std::function<bool(const std::string& what, double share)> progress;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "containing/barrier.h"
 
+#include <vericone/geometry/stop.h>
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 
@@ -122,6 +123,7 @@ int centre(const Barrier& barrier, double mu, VectorXd& x, VectorXd& multipliers
   double value = 0;
   int steps = 0;
   for (; steps < kNewtonSteps; ++steps) {
+    checkpoint();
     if (!barrier.value(x, mu, value, &slacks)) break;
     const VectorXd target = central(slacks, mu);
     if (multipliers.size() != slacks.size()) multipliers = target;

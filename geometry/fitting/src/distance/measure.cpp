@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/fitting/measure.h>
-#include <vericone/geometry/combined_surface.h>
+#include <vericone/geometry/mesh/combined_surface.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -85,6 +86,7 @@ DistanceStatistics scan_to_hull(const std::vector<Piece>& pieces, const Sample& 
     if (!p.footprint) bodies.emplace_back(p.body);
   Statistics all;
   for (const std::uint32_t i : require_points(sample)) {
+    checkpoint();
     const Vector3d& x = sample.points[i];
     double least = std::numeric_limits<double>::infinity();
     for (const BodyDistance& d : bodies) least = std::min(least, d(x));
@@ -112,6 +114,7 @@ std::optional<DistanceStatistics> hull_to_scan(const std::vector<Piece>& pieces,
   Statistics all;
   std::size_t at = 0;
   for (int k = 0; k < samples; ++k) {
+    checkpoint();
     const double target = (k + 0.5) / samples * boundary.area.back();
     while (at + 1 < boundary.area.size() && boundary.area[at] < target) ++at;
     const auto& [corners, of] = boundary.parts[at];

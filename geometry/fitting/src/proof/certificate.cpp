@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/fitting/hull.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
 
 #include <algorithm>
 #include <cmath>
@@ -63,6 +64,7 @@ class Checking {
 
  private:
   Place place(std::size_t piece, std::uint32_t point, bool exactly) {
+    checkpoint();
     Place& p = place_[point];
     const Eigen::Vector3d& x = sample_.points[point];
     if (p == Place::unasked) {
@@ -109,8 +111,10 @@ class Checking {
   }
 
   void ask_balls(std::size_t piece) {
-    for (const std::uint32_t i : used_)
+    for (const std::uint32_t i : used_) {
+      checkpoint();
       if (!ball_[i]) ball_[i] = pieces_[piece].contains_ball(sample_.points[i], margin_);
+    }
   }
 
   std::vector<std::size_t> touching() const {

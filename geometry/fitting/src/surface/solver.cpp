@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/solver.h"
 
+#include <vericone/geometry/stop.h>
 #include <ceres/ceres.h>
 #include <algorithm>
 #include <cmath>
@@ -31,7 +32,7 @@ class Batch : public ceres::EvaluationCallback {
     if (have_rows_ || (have_values_ && !with_jacobians)) return;
     const Surfaces surfaces(model_, parameters_);
     const auto n = static_cast<std::size_t>(model_.size());
-    for (std::size_t i = 0; i < values_.size(); ++i)
+    for (std::size_t i = 0; i < values_.size() && !(i % 1024 == 0 && stop_requested()); ++i)
       values_[i] = surfaces.distance(cloud_.points[i], with_jacobians ? &rows_[i * n] : nullptr);
     have_values_ = true;
     have_rows_ = with_jacobians;
@@ -46,6 +47,14 @@ class Batch : public ceres::EvaluationCallback {
   const Parameters& parameters_;  // Ceres moves them
   std::vector<double> values_, rows_;
   bool have_values_ = false, have_rows_ = false;
+};
+
+/// Nothing may be thrown through Ceres.
+class StopBetweenSteps : public ceres::IterationCallback {
+ public:
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
+    return stop_requested() ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
+  }
 };
 
 class PointCost : public ceres::CostFunction {
@@ -161,8 +170,11 @@ Solution descend(const SurfaceModel& model, const Parameters& start, const Cloud
   options.function_tolerance = 1e-14;
   options.gradient_tolerance = 1e-15;
   options.parameter_tolerance = 1e-13;
+  StopBetweenSteps stop;
+  options.callbacks.push_back(&stop);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
+  checkpoint();
   s.cost = summary.final_cost;
   s.iterations = static_cast<int>(summary.iterations.size());
   s.converged = summary.termination_type == ceres::CONVERGENCE;

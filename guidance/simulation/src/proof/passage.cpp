@@ -6,6 +6,7 @@
 #include <vericone/simulation/passage.h>
 
 #include <vericone/cones/opening/rim_distance.h>
+#include <vericone/geometry/stop.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -81,6 +82,7 @@ class PassageSearch {
     if (const auto place = meeting(first)) return touched(from, first, *place);
     open_.push_back({first, last});
     while (!open_.empty()) {
+      checkpoint();
       const TimeSpan span = open_.back();
       open_.pop_back();
       if (step(span)) return proof_;

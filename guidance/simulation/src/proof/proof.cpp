@@ -5,6 +5,7 @@
 #include <vericone/simulation/proof.h>
 
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -57,6 +58,7 @@ class Search {
     if (meeting(pair_, first) == Meeting::meet) return touched(from, first, Vector3d::Zero());
     open_.push_back({first, last});
     while (!open_.empty()) {
+      checkpoint();
       const Span span = open_.back();
       open_.pop_back();
       if (step(span)) return proof_;

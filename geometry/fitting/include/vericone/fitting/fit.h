@@ -34,8 +34,6 @@ struct FitOptions {
   std::function<bool(const std::string& what, double share)> progress;
 };
 
-struct Interrupted {};
-
 /// One shape that `auto` tried.
 struct Candidate {
   Shape shape = Shape::ellipsoid;

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/geometry/error.h>
+#include <vericone/simulation/montecarlo/row.h>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace vericone::montecarlo {
+namespace {
+
+std::string field(double x) { return std::isnan(x) ? "" : to_text(x); }
+
+std::string outcome_fields(const Outcome& o) {
+  return std::string(to_string(o.fate)) + "," + (o.called_safe ? "1" : "0") + "," + field(o.least_distance);
+}
+
+/// The fields of a line, one after the other.
+class Fields {
+ public:
+  explicit Fields(const std::string& line) : in_(line) {}
+
+  std::string text() {
+    std::string value;
+    if (!std::getline(in_, value, ',') && !in_.eof()) throw std::runtime_error("too few fields");
+    return value;
+  }
+  double number() {
+    const std::string value = text();
+    if (value.empty()) return std::numeric_limits<double>::quiet_NaN();
+    double x = 0;
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), x);
+    if (error != std::errc() || end != value.data() + value.size())
+      throw std::runtime_error("no number: " + value);
+    return x;
+  }
+  bool flag() { return number() != 0; }
+  Outcome outcome() {
+    Outcome o;
+    const std::string fate = text();
+    if (!fate_of(fate)) throw std::runtime_error("no outcome: " + fate);
+    o.fate = *fate_of(fate);
+    o.called_safe = flag();
+    o.least_distance = number();
+    return o;
+  }
+
+ private:
+  std::istringstream in_;
+};
+
+}  // namespace
+
+Row measure(std::uint64_t seed, std::uint64_t index, const std::vector<Flown>& laws,
+            const FlightSettings& settings) {
+  const Encounter encounter = random_encounter(seed, index);
+  Row row;
+  row.distance = (encounter.obstacle.start.position - encounter.agent.start.position).norm();
+  row.speed_agent = encounter.agent.start.velocity.norm();
+  row.speed_obstacle = encounter.obstacle.start.velocity.norm();
+  row.closing = encounter.relative_velocity().norm();
+  row.straight = fly_straight(encounter);
+  // The second half of the laws is the first without saturation. A run that stays below the limit without it
+  // is the same run with it.
+  const std::size_t half = laws.size() / 2;
+  row.outcomes.resize(laws.size());
+  for (std::size_t i = 0; i < half; ++i) {
+    Outcome& free = row.outcomes[half + i];
+    free = fly(encounter, laws[half + i], settings);
+    row.outcomes[i] = free.peak < settings.most ? free : fly(encounter, laws[i], settings);
+  }
+  return row;
+}
+
+std::string csv_header(const std::vector<Flown>& laws) {
+  std::string header =
+      "index,distance [m],agent speed [m/s],obstacle speed [m/s],relative speed [m/s],straight,straight safe,"
+      "straight least distance [m],y slice,slice safe,y exact,exact safe";
+  for (const Flown& law : laws)
+    for (const char* column : {"", " safe", " least distance [m]", " peak [m/s^2]", " left cone [s]"})
+      header += "," + law.name + column;
+  return header;
+}
+
+std::string csv_row(std::uint64_t index, const Row& row) {
+  std::string text = std::to_string(index);
+  for (const double x : {row.distance, row.speed_agent, row.speed_obstacle, row.closing})
+    text += "," + field(x);
+  const StraightOutcome& s = row.straight;
+  text += "," + outcome_fields(s.outcome);
+  text += "," + field(s.y_slice) + (s.slice_called_safe ? ",1" : ",0");
+  text += "," + field(s.y_exact) + (s.exact_called_safe ? ",1" : ",0");
+  for (const Outcome& o : row.outcomes)
+    text += "," + outcome_fields(o) + "," + field(o.peak) + "," + field(o.left_cone);
+  return text;
+}
+
+Row row_of(const std::string& line, std::size_t laws) {
+  Fields fields(line);
+  Row row;
+  fields.text();  // the index
+  for (double* x : {&row.distance, &row.speed_agent, &row.speed_obstacle, &row.closing}) *x = fields.number();
+  row.straight.outcome = fields.outcome();
+  row.straight.y_slice = fields.number();
+  row.straight.slice_called_safe = fields.flag();
+  row.straight.y_exact = fields.number();
+  row.straight.exact_called_safe = fields.flag();
+  for (std::size_t i = 0; i < laws; ++i) {
+    Outcome o = fields.outcome();
+    o.peak = fields.number();
+    o.left_cone = fields.number();
+    row.outcomes.push_back(o);
+  }
+  return row;
+}
+
+std::vector<Row> read_table(const std::filesystem::path& file, std::size_t laws) {
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);  // settings
+  std::getline(in, line);  // header
+  std::vector<Row> rows;
+  for (std::size_t number = 3; std::getline(in, line); ++number) {
+    try {
+      rows.push_back(row_of(line, laws));
+    } catch (const std::exception& e) {
+      throw std::runtime_error(file.string() + ":" + std::to_string(number) + ": " + e.what());
+    }
+  }
+  return rows;
+}
+
+}  // namespace vericone::montecarlo

@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "convert.h"
+
+#include <vericone/geometry/error.h>
+
+namespace vericone::python {
+namespace {
+
+constexpr const char* kNumber = "a real number that a double holds exactly";
+
+[[noreturn]] void rounded(const Place& place, const std::string& value) {
+  throw InputError(place.text(), value, kNumber);
+}
+
+std::string shown(PyObject* given) {
+  const auto text = py::reinterpret_steal<py::object>(PyObject_Repr(given));
+  if (!text) {
+    PyErr_Clear();
+    return "?";
+  }
+  std::string shown = py::str(text);
+  if (shown.size() > 60) shown = shown.substr(0, 57) + "...";
+  return shown;
+}
+
+bool is_array(PyObject* given) { return py::detail::npy_api::get().PyArray_Check_(given); }
+
+const py::object& numpy_function(const char* name) {
+  static auto& functions = *new std::unordered_map<std::string, py::object>;
+  auto& function = functions[name];
+  if (!function) function = py::module_::import("numpy").attr(name);
+  return function;
+}
+
+std::string shape_text(std::span<const Py_ssize_t> shape) {
+  std::string text = "(";
+  for (const Py_ssize_t n : shape) text += (n < 0 ? std::string("n") : std::to_string(n)) + ", ";
+  if (shape.size() > 1) text.resize(text.size() - 2);
+  return (shape.size() == 1 ? text.substr(0, text.size() - 1) : text) + ")";
+}
+
+/// Names the first number of a list that is no double.
+void check_numbers(PyObject* given, const Place& place, int depth = 0) {
+  if (depth > 8) return;
+  if (is_array(given)) {
+    const py::dtype type = py::reinterpret_borrow<py::array>(given).dtype();
+    if (type.kind() == 'O') {
+      const py::object list = py::handle(given).attr("tolist")();
+      if (PyList_Check(list.ptr())) check_numbers(list.ptr(), place, depth + 1);
+    }
+    return;
+  }
+  if (PyList_Check(given) || PyTuple_Check(given)) {
+    for (Py_ssize_t i = 0; i < PySequence_Fast_GET_SIZE(given); ++i)
+      check_numbers(PySequence_Fast_GET_ITEM(given, i), {&place, nullptr, i}, depth + 1);
+    return;
+  }
+  (void)number_from(given, place);
+}
+
+py::array array_from(PyObject* given, std::span<const Py_ssize_t> shape, const Place& place, bool whole) {
+  py::object array;
+  if (is_array(given)) {
+    array = py::reinterpret_borrow<py::object>(given);
+  } else {
+    if (!is_sequence(given) && !PyObject_HasAttrString(given, "__array__"))
+      wrong_type(place, ("an array of shape " + shape_text(shape)).c_str(), given);
+    if (!whole) check_numbers(given, place);
+    try {
+      array = numpy_function("asarray")(py::handle(given));
+    } catch (py::error_already_set& error) {
+      if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) throw;
+      wrong_type(place, ("an array of shape " + shape_text(shape)).c_str(), given);
+    }
+  }
+  auto numbers = py::reinterpret_borrow<py::array>(array);
+  const char kind = numbers.dtype().kind();
+  // An empty list has no type of its own.
+  const bool empty = numbers.size() == 0 && !is_array(given);
+  if (whole ? kind != 'i' && kind != 'u' && !empty
+            : (kind != 'f' && kind != 'i' && kind != 'u') || (kind == 'f' && numbers.itemsize() > 8))
+    throw InputError(place.text(), "an array of " + std::string(py::str(numbers.dtype())),
+                     whole ? "an array of integers" : "an array of real numbers that doubles hold exactly");
+  if (empty && shape.size() > 1) {
+    std::vector<Py_ssize_t> none(shape.begin(), shape.end());
+    for (Py_ssize_t& n : none) n = std::max<Py_ssize_t>(n, 0);
+    return py::array(py::dtype(whole ? "i8" : "f8"), none);
+  }
+  bool fits = numbers.ndim() == static_cast<Py_ssize_t>(shape.size());
+  for (std::size_t i = 0; fits && i < shape.size(); ++i)
+    fits = shape[i] < 0 || numbers.shape(static_cast<Py_ssize_t>(i)) == shape[i];
+  if (!fits) {
+    std::vector<Py_ssize_t> own(numbers.shape(), numbers.shape() + numbers.ndim());
+    throw InputError(place.text(), "an array of shape " + shape_text(own), "of shape " + shape_text(shape));
+  }
+  if (whole ? kind == 'u' && numbers.itemsize() == 8 : kind != 'f' && numbers.itemsize() == 8) {
+    const auto most = whole ? std::uint64_t{1} << 63 : std::uint64_t{1} << 53;
+    const py::object wide = numpy_function("abs")(numbers);
+    if (numbers.size() > 0 && !py::bool_(wide.attr("max")() <= py::int_(most)))
+      throw InputError(place.text(), "an integer beyond " + std::string(whole ? "2^63" : "2^53"), kNumber);
+  }
+  return numpy_function("ascontiguousarray")(numbers, py::dtype(whole ? "i8" : "f8"));
+}
+
+}  // namespace
+
+py::object strict_array(PyObject* given, const Place& place) {
+  check_numbers(given, place);
+  try {
+    return numpy_function("asarray")(py::handle(given));
+  } catch (py::error_already_set& error) {
+    if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) throw;
+    wrong_type(place, "an array of real numbers, its rows equally long", given);
+  }
+}
+
+bool is_number(PyObject* given) {
+  return PyFloat_Check(given) || PyLong_Check(given) ||
+         (PyNumber_Check(given) && !is_sequence(given) && !PyComplex_Check(given));
+}
+
+bool is_sequence(PyObject* given) {
+  if (PyList_Check(given) || PyTuple_Check(given)) return true;
+  if (is_array(given)) return py::detail::array_proxy(given)->nd > 0;
+  return PySequence_Check(given) && !PyUnicode_Check(given) && !PyBytes_Check(given) && !PyByteArray_Check(given) &&
+         !PyDict_Check(given);
+}
+
+py::object fast_sequence(PyObject* given, const Place& place) {
+  if (!is_sequence(given)) wrong_type(place, "a list", given);
+  PyObject* list = PySequence_Fast(given, "");
+  if (!list) throw py::error_already_set();
+  return py::reinterpret_steal<py::object>(list);
+}
+
+double number_from(PyObject* given, const Place& place) {
+  if (PyFloat_Check(given)) return PyFloat_AS_DOUBLE(given);
+  if (PyBool_Check(given) || PyUnicode_Check(given) || PyComplex_Check(given) || is_sequence(given))
+    wrong_type(place, "a real number", given);
+  if (PyIndex_Check(given)) {
+    const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(given));
+    if (!whole) throw py::error_already_set();
+    const double x = PyLong_AsDouble(whole.ptr());
+    if (x == -1 && PyErr_Occurred()) {
+      PyErr_Clear();
+      rounded(place, shown(given));
+    }
+    const auto back = py::reinterpret_steal<py::object>(PyLong_FromDouble(x));
+    if (PyObject_RichCompareBool(back.ptr(), whole.ptr(), Py_EQ) != 1) rounded(place, shown(given));
+    return x;
+  }
+  if (!PyNumber_Check(given)) wrong_type(place, "a real number", given);
+  const auto number = py::reinterpret_steal<py::object>(PyNumber_Float(given));
+  if (!number) {
+    if (PyErr_ExceptionMatches(PyExc_OverflowError)) {
+      PyErr_Clear();
+      rounded(place, shown(given));
+    }
+    if (!PyErr_ExceptionMatches(PyExc_TypeError) && !PyErr_ExceptionMatches(PyExc_ValueError))
+      throw py::error_already_set();
+    PyErr_Clear();
+    wrong_type(place, "a real number", given);
+  }
+  const double x = PyFloat_AS_DOUBLE(number.ptr());
+  if (x == x) {  // what is not a double stays what it is: a Fraction of 1/3, a longdouble
+    const int same = PyObject_RichCompareBool(number.ptr(), given, Py_EQ);
+    if (same < 0) throw py::error_already_set();
+    if (same == 0) rounded(place, shown(given));
+  }
+  return x;
+}
+
+long long integer_from(PyObject* given, long long least, unsigned long long most, const Place& place) {
+  if (PyBool_Check(given) || !PyIndex_Check(given) || is_sequence(given)) wrong_type(place, "an integer", given);
+  const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(given));
+  if (!whole) {
+    PyErr_Clear();
+    wrong_type(place, "an integer", given);
+  }
+  if (!py::bool_(py::int_(least) <= whole && whole <= py::int_(most)))
+    throw InputError(place.text(), shown(given),
+                     "an integer from " + std::to_string(least) + " to " + std::to_string(most));
+  if (py::bool_(whole > py::int_(std::numeric_limits<long long>::max())))
+    return static_cast<long long>(PyLong_AsUnsignedLongLong(whole.ptr()));
+  return PyLong_AsLongLong(whole.ptr());
+}
+
+bool Convert<bool>::from(PyObject* given, const Place& place) {
+  if (given == Py_True) return true;
+  if (given == Py_False) return false;
+  static const py::object numpy_bool = py::module_::import("numpy").attr("bool_");
+  if (!py::isinstance(given, numpy_bool)) wrong_type(place, "True or False", given);
+  return PyObject_IsTrue(given) == 1;
+}
+
+std::string text_from(PyObject* given, const Place& place) {
+  if (!PyUnicode_Check(given)) wrong_type(place, "text", given);
+  const auto bytes =
+      py::reinterpret_steal<py::object>(PyUnicode_AsEncodedString(given, "utf-8", "surrogateescape"));
+  if (!bytes) {
+    PyErr_Clear();
+    throw InputError(place.text(), shown(given), "text that UTF-8 can say");
+  }
+  std::string text(PyBytes_AS_STRING(bytes.ptr()), static_cast<std::size_t>(PyBytes_GET_SIZE(bytes.ptr())));
+  if (text.find('\0') != std::string::npos) throw InputError(place.text(), shown(given), "text without a zero byte");
+  return text;
+}
+
+std::filesystem::path Convert<std::filesystem::path>::from(PyObject* given, const Place& place) {
+  PyObject* text = PyOS_FSPath(given);
+  if (!text) {
+    if (!PyErr_ExceptionMatches(PyExc_TypeError)) throw py::error_already_set();
+    PyErr_Clear();
+    wrong_type(place, "a path", given);
+  }
+  const auto held = py::reinterpret_steal<py::object>(text);
+  if (PyBytes_Check(text)) return std::string(PyBytes_AS_STRING(text));
+  return text_from(text, place);
+}
+PyObject* Convert<std::filesystem::path>::to(const std::filesystem::path& path) {
+  static const py::object make = py::module_::import("pathlib").attr("Path");
+  return make(py::reinterpret_steal<py::object>(Convert<std::string>::to(path.string()))).release().ptr();
+}
+bool Convert<std::filesystem::path>::could(PyObject* given) {
+  return PyUnicode_Check(given) || PyBytes_Check(given) || PyObject_HasAttrString(given, "__fspath__");
+}
+
+py::array doubles_from(PyObject* given, std::span<const Py_ssize_t> shape, const Place& place) {
+  return array_from(given, shape, place, false);
+}
+py::array integers_from(PyObject* given, std::span<const Py_ssize_t> shape, const Place& place) {
+  return array_from(given, shape, place, true);
+}
+PyObject* doubles_to(const double* data, std::span<const Py_ssize_t> shape) {
+  py::array_t<double> array(std::vector<Py_ssize_t>(shape.begin(), shape.end()));
+  if (array.size() > 0) std::memcpy(array.mutable_data(), data, static_cast<std::size_t>(array.size()) * 8);
+  return array.release().ptr();
+}
+
+void fixed_from(PyObject* given, int rows, int columns, double* out, const Place& place) {
+  const int count = rows * columns;
+  if (is_array(given)) {
+    const auto* array = py::detail::array_proxy(given);
+    if (columns == 1 && array->nd == 1 && array->dimensions[0] == rows && array->strides[0] == 8 &&
+        py::detail::array_descriptor_proxy(array->descr)->type == 'd' &&
+        (array->flags & py::detail::npy_api::NPY_ARRAY_ALIGNED_) &&
+        py::detail::array_descriptor_proxy(array->descr)->byteorder != '>') {
+      std::memcpy(out, array->data, static_cast<std::size_t>(count) * 8);
+      return;
+    }
+  } else if (columns == 1 && (PyList_Check(given) || PyTuple_Check(given)) &&
+             PySequence_Fast_GET_SIZE(given) == rows) {
+    for (Py_ssize_t i = 0; i < rows; ++i)
+      out[i] = number_from(PySequence_Fast_GET_ITEM(given, i), {&place, nullptr, i});
+    return;
+  }
+  const Py_ssize_t shape[2] = {rows, columns};
+  const py::array array = doubles_from(given, {shape, columns == 1 ? 1u : 2u}, place);
+  std::memcpy(out, array.data(), static_cast<std::size_t>(count) * 8);
+}
+
+Eigen::Isometry3d Convert<Eigen::Isometry3d>::from(PyObject* given, const Place& place) {
+  const auto m = Convert<Eigen::Matrix4d>::from(given, place);
+  if (m.row(3) != Eigen::RowVector4d(0, 0, 0, 1))
+    throw InputError(place.text() + "[3]", "another row", "0, 0, 0, 1, the last row of a rigid motion");
+  Eigen::Isometry3d t;
+  t.matrix() = m;
+  return t;
+}
+
+Callable::Callable(PyObject* function)
+    : function_(Py_NewRef(function), [](PyObject* held) {
+        if (!Py_IsInitialized()) return;
+        const py::gil_scoped_acquire hold;
+        Py_DECREF(held);
+      }) {}
+
+py::object Callable::operator()(std::initializer_list<PyObject*> arguments) const {
+  py::tuple all(arguments.size());
+  Py_ssize_t i = 0;
+  for (PyObject* argument : arguments) PyTuple_SET_ITEM(all.ptr(), i++, argument);
+  PyObject* answer = PyObject_CallObject(function_.get(), all.ptr());
+  if (!answer) throw py::error_already_set();
+  return py::reinterpret_steal<py::object>(answer);
+}
+
+void* object_from(PyObject* given, const TypeInfo& info, std::shared_ptr<void>& made, const Place& place) {
+  if (is_instance(given, info)) return value_of(given, info);
+  if (info.stand_in) made = info.stand_in(given, place);
+  if (!made) wrong_type(place, (std::string("a vericone.") + info.name).c_str(), given);
+  return made.get();
+}
+
+bool could_be(PyObject* given, const TypeInfo& info) {
+  return is_instance(given, info) || (info.has_stand_in && info.has_stand_in(given));
+}
+
+// Rationals.
+
+WholeNumber whole_from(PyObject* given, const Place& place) {
+  if (PyBool_Check(given) || !PyIndex_Check(given)) wrong_type(place, "an integer", given);
+  const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(given));
+  if (!whole) throw py::error_already_set();
+  const bool negative = py::bool_(whole < py::int_(0));
+  const auto digits = py::reinterpret_steal<py::object>(
+      PyNumber_ToBase(negative ? py::object(-whole).ptr() : whole.ptr(), 16));  // "0x..."
+  const WholeNumber x(std::string(py::str(digits)));
+  return negative ? WholeNumber(-x) : x;
+}
+
+PyObject* whole_to(const WholeNumber& x) {
+  const std::string digits = WholeNumber(boost::multiprecision::abs(x)).str(0, std::ios_base::hex);
+  auto whole = py::reinterpret_steal<py::object>(PyLong_FromString(digits.c_str(), nullptr, 16));
+  if (!whole) throw py::error_already_set();
+  return x < 0 ? py::object(-whole).release().ptr() : whole.release().ptr();
+}
+
+Rational rational_from(PyObject* given, const Place& place) {
+  if (PyFloat_Check(given)) {
+    const double x = PyFloat_AS_DOUBLE(given);
+    if (!std::isfinite(x)) throw InputError(place.text(), to_text(x), "a rational number");
+    return Rational(x);
+  }
+  if (PyIndex_Check(given) && !PyBool_Check(given)) return Rational(whole_from(given, place));
+  if (!PyBool_Check(given) && PyObject_HasAttrString(given, "numerator") &&
+      PyObject_HasAttrString(given, "denominator")) {
+    const py::object top = py::handle(given).attr("numerator"), bottom = py::handle(given).attr("denominator");
+    const WholeNumber divisor = whole_from(bottom.ptr(), place);
+    if (divisor == 0) throw InputError(place.text(), shown(given), "a rational number");
+    return Rational(whole_from(top.ptr(), place), divisor);
+  }
+  wrong_type(place, "a Fraction, an int or a float", given);
+}
+
+PyObject* rational_to(const Rational& x) {
+  static const py::object make = py::module_::import("fractions").attr("Fraction");
+  const auto top = py::reinterpret_steal<py::object>(whole_to(WholeNumber(boost::multiprecision::numerator(x))));
+  const auto bottom =
+      py::reinterpret_steal<py::object>(whole_to(WholeNumber(boost::multiprecision::denominator(x))));
+  return make(top, bottom).release().ptr();
+}
+
+}  // namespace vericone::python

@@ -1,0 +1,553 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "object.h"
+
+#include <pybind11/numpy.h>
+#include <structmember.h>
+#include <cstring>
+#include <deque>
+#include <sstream>
+#include <unordered_map>
+
+#include "call.h"
+
+namespace vericone::python {
+namespace {
+
+using Registry = std::unordered_map<std::string, std::unique_ptr<TypeInfo>>;
+
+Registry* registry = nullptr;
+PyTypeObject* base_type = nullptr;  // of all objects
+PyObject* module_names = nullptr;
+std::string module_name;
+
+// Tables of C keep what they point to for ever.
+std::deque<std::vector<PyGetSetDef>> getters;
+std::deque<std::string> texts;
+const char* keep(std::string text) { return texts.emplace_back(std::move(text)).c_str(); }
+
+const TypeInfo& info_of(PyObject* object) { return *reinterpret_cast<Instance*>(object)->info; }
+
+void* own_value(PyObject* object) { return reinterpret_cast<Instance*>(object)->value.get(); }
+
+void destroy(PyObject* self) {
+  auto* instance = reinterpret_cast<Instance*>(self);
+  PyTypeObject* type = Py_TYPE(self);
+  if (instance->weak_references) PyObject_ClearWeakRefs(self);
+  instance->value.~shared_ptr();
+  instance->lock.~unique_ptr();
+  Py_XDECREF(instance->kept);
+  type->tp_free(self);
+  Py_DECREF(type);
+}
+
+PyObject* get_field(PyObject* self, void* closure) {
+  const auto& field = *static_cast<const Field*>(closure);
+  try {
+    return field.converter->to(static_cast<const char*>(own_value(self)) + field.offset);
+  } catch (...) {
+    return raise_current();
+  }
+}
+
+/// What defines an object, as a tuple: of a record the values of its fields. Null, without an error, where
+/// nothing does.
+PyObject* state_of(PyObject* self) {
+  const TypeInfo& info = info_of(self);
+  if (info.state) return info.state(own_value(self));
+  if (info.fields.empty()) return nullptr;
+  py::tuple state(info.fields.size());
+  for (std::size_t i = 0; i < info.fields.size(); ++i) {
+    PyObject* part = get_field(self, const_cast<Field*>(&info.fields[i]));
+    if (!part) throw py::error_already_set();
+    PyTuple_SET_ITEM(state.ptr(), static_cast<Py_ssize_t>(i), part);
+  }
+  return state.release().ptr();
+}
+
+bool equal(PyObject* a, PyObject* b) {
+  if (a == b) return true;
+  if (PyFloat_Check(a) && PyFloat_Check(b)) {
+    const double x = PyFloat_AS_DOUBLE(a), y = PyFloat_AS_DOUBLE(b);
+    return x == y || (x != x && y != y);
+  }
+  if (py::isinstance<py::array>(a) && py::isinstance<py::array>(b)) {
+    const auto x = py::reinterpret_borrow<py::array>(a), y = py::reinterpret_borrow<py::array>(b);
+    const bool numbers = x.dtype().kind() == 'f' && y.dtype().kind() == 'f';
+    return py::bool_(py::module_::import("numpy").attr("array_equal")(x, y, numbers));
+  }
+  if ((PyList_Check(a) && PyList_Check(b)) || (PyTuple_Check(a) && PyTuple_Check(b))) {
+    const Py_ssize_t n = PySequence_Fast_GET_SIZE(a);
+    if (n != PySequence_Fast_GET_SIZE(b)) return false;
+    for (Py_ssize_t i = 0; i < n; ++i)
+      if (!equal(PySequence_Fast_GET_ITEM(a, i), PySequence_Fast_GET_ITEM(b, i))) return false;
+    return true;
+  }
+  const int same = PyObject_RichCompareBool(a, b, Py_EQ);
+  if (same < 0) throw py::error_already_set();
+  return same != 0;
+}
+
+PyObject* compare(PyObject* a, PyObject* b, int operation) {
+  if ((operation != Py_EQ && operation != Py_NE) || Py_TYPE(a) != Py_TYPE(b)) Py_RETURN_NOTIMPLEMENTED;
+  try {
+    bool same = a == b;
+    if (!same) {
+      const auto x = py::reinterpret_steal<py::object>(state_of(a));
+      if (!x && !PyErr_Occurred()) Py_RETURN_NOTIMPLEMENTED;  // by identity
+      const auto y = py::reinterpret_steal<py::object>(state_of(b));
+      same = equal(x.ptr(), y.ptr());
+    }
+    return PyBool_FromLong(same == (operation == Py_EQ));
+  } catch (...) {
+    return raise_current();
+  }
+}
+
+/// Short: numbers as they are, long arrays by their shape.
+std::string brief(PyObject* part) {
+  if (py::isinstance<py::array>(part)) {
+    const auto array = py::reinterpret_borrow<py::array>(part);
+    if (array.size() <= 16) return py::str(py::repr(array.attr("tolist")()));
+    return "<array " + std::string(py::str(py::repr(array.attr("shape")))) + ">";
+  }
+  if (PyList_Check(part) && PyList_GET_SIZE(part) > 4)
+    return "<list of " + std::to_string(PyList_GET_SIZE(part)) + ">";
+  return py::str(py::repr(py::handle(part)));
+}
+
+std::string short_name(const TypeInfo& info) {
+  const char* dot = std::strrchr(info.name, '.');
+  return dot ? dot + 1 : info.name;
+}
+
+PyObject* represent(PyObject* self) {
+  const TypeInfo& info = info_of(self);
+  try {
+    const auto state = py::reinterpret_steal<py::object>(state_of(self));
+    std::string text = short_name(info) + "(";
+    if (!state) {
+      text = "<vericone." + std::string(info.name) + ">";
+      return Convert<std::string>::to(text);
+    }
+    std::istringstream names(info.state_names);
+    for (Py_ssize_t i = 0; i < PyTuple_GET_SIZE(state.ptr()); ++i) {
+      std::string name;
+      if (info.state)
+        names >> name;
+      else
+        name = info.fields[static_cast<std::size_t>(i)].name;
+      text += (i > 0 ? ", " : "") + (name.empty() ? "" : name + "=") +
+              brief(PyTuple_GET_ITEM(state.ptr(), i));
+    }
+    return Convert<std::string>::to(text + ")");
+  } catch (...) {
+    return raise_current();
+  }
+}
+
+PyObject* reduce(PyObject* self, PyObject*) {
+  try {
+    auto state = py::reinterpret_steal<py::object>(state_of(self));
+    if (!state || (!info_of(self).restore && !info_of(self).make))
+      throw WrongType{"a " + short_name(info_of(self)) + " cannot be pickled: keep what it was made of"};
+    const py::object restore = py::module_::import("vericone._core").attr("_restore");
+    return py::make_tuple(restore, py::make_tuple(py::handle(reinterpret_cast<PyObject*>(Py_TYPE(self))), state))
+        .release()
+        .ptr();
+  } catch (...) {
+    return raise_current();
+  }
+}
+
+PyObject* restore(PyObject*, PyObject* arguments) {
+  try {
+    PyObject *type = nullptr, *state = nullptr;
+    if (!PyArg_ParseTuple(arguments, "OO!:_restore", &type, &PyTuple_Type, &state)) return nullptr;
+    const TypeInfo* info = nullptr;
+    for (const auto& entry : *registry)
+      if (reinterpret_cast<PyObject*>(entry.second->type) == type) info = entry.second.get();
+    if (!info || (!info->restore && !info->make)) throw WrongType{"there is nothing to restore of this type"};
+    if (info->restore) return new_instance(*info, info->restore(state));
+    if (PyTuple_GET_SIZE(state) != static_cast<Py_ssize_t>(info->fields.size()))
+      throw WrongType{"a " + short_name(*info) + " has another number of fields: it was pickled by another version"};
+    auto value = info->make();
+    for (std::size_t i = 0; i < info->fields.size(); ++i) {
+      PyObject* part = PyTuple_GET_ITEM(state, static_cast<Py_ssize_t>(i));
+      const Field& field = info->fields[i];
+      if (!(part == Py_None && !field.converter->column))
+        field.converter->from(static_cast<char*>(value.get()) + field.offset, part, {nullptr, field.name});
+    }
+    return new_instance(*info, std::move(value));
+  } catch (...) {
+    return raise_current();
+  }
+}
+
+PyObject* copy(PyObject* self, PyObject*) {
+  const TypeInfo& info = info_of(self);
+  if (!info.machine) return Py_NewRef(self);  // immutable
+  if (!info.copy) {
+    PyErr_Format(PyExc_TypeError, "a %s cannot be copied", short_name(info).c_str());
+    return nullptr;
+  }
+  try {
+    const std::lock_guard hold(*reinterpret_cast<Instance*>(self)->lock);
+    return new_instance(info, info.copy(own_value(self)));
+  } catch (...) {
+    return raise_current();
+  }
+}
+
+PyObject* deep_copy(PyObject* self, PyObject*) { return copy(self, nullptr); }
+
+void set_fields(const TypeInfo& info, void* value, PyObject* named, std::vector<bool>& set) {
+  PyObject *key = nullptr, *given = nullptr;
+  Py_ssize_t at = 0;
+  while (named && PyDict_Next(named, &at, &key, &given)) {
+    const char* name = PyUnicode_AsUTF8(key);
+    if (!name) throw py::error_already_set();
+    std::size_t i = 0;
+    while (i < info.fields.size() && std::strcmp(info.fields[i].name, name) != 0) ++i;
+    if (i == info.fields.size()) {
+      std::string known;
+      for (const Field& field : info.fields) known += (known.empty() ? "" : ", ") + std::string(field.name);
+      throw WrongType{short_name(info) + " has no field '" + name + "'; it has " + known};
+    }
+    const Field& field = info.fields[i];
+    field.converter->from(static_cast<char*>(value) + field.offset, given, {nullptr, field.name});
+    set[i] = true;
+  }
+}
+
+}  // namespace
+
+PyObject* construct_record(const TypeInfo& info, PyObject* arguments, PyObject* named) noexcept {
+  try {
+    auto value = info.make();
+    std::vector<bool> set(info.fields.size());
+    const Py_ssize_t n = PyTuple_GET_SIZE(arguments);
+    if (n > static_cast<Py_ssize_t>(info.fields.size()))
+      throw WrongType{short_name(info) + " has " + std::to_string(info.fields.size()) + " fields, got " +
+                      std::to_string(n) + " values"};
+    for (Py_ssize_t i = 0; i < n; ++i) {
+      const Field& field = info.fields[static_cast<std::size_t>(i)];
+      if (named && PyDict_GetItemString(named, field.name))
+        throw WrongType{short_name(info) + "() got '" + field.name + "' twice"};
+      field.converter->from(static_cast<char*>(value.get()) + field.offset, PyTuple_GET_ITEM(arguments, i),
+                            {nullptr, field.name});
+      set[static_cast<std::size_t>(i)] = true;
+    }
+    set_fields(info, value.get(), named, set);
+    for (std::size_t i = 0; i < set.size(); ++i)
+      if (info.fields[i].required && !set[i])
+        throw WrongType{short_name(info) + "() needs '" + info.fields[i].name + "'"};
+    return new_instance(info, std::move(value));
+  } catch (...) {
+    return raise_current();
+  }
+}
+
+namespace {
+
+PyObject* replace(PyObject* self, PyObject* arguments, PyObject* named) {
+  const TypeInfo& info = info_of(self);
+  try {
+    if (!info.make || !info.copy) throw WrongType{"a " + short_name(info) + " has no fields to replace"};
+    if (PyTuple_GET_SIZE(arguments) != 0) throw WrongType{"replace() takes names: replace(field=value)"};
+    auto value = info.copy(own_value(self));
+    std::vector<bool> set(info.fields.size());
+    set_fields(info, value.get(), named, set);
+    return new_instance(info, std::move(value));
+  } catch (...) {
+    return raise_current();
+  }
+}
+
+PyObject* display(PyObject* self, PyObject*) {
+  try {
+    return py::module_::import("vericone.display").attr("html")(py::handle(self)).release().ptr();
+  } catch (...) {
+    return raise_current();
+  }
+}
+
+PyMethodDef base_methods[] = {
+    {"__reduce__", reduce, METH_NOARGS, "For pickle."},
+    {"__copy__", copy, METH_NOARGS, "Itself, where it never changes."},
+    {"__deepcopy__", deep_copy, METH_O, "Itself, where it never changes."},
+    {"_repr_html_", display, METH_NOARGS, "What Jupyter shows; None where there is nothing to see."},
+    {nullptr, nullptr, 0, nullptr}};
+PyMethodDef record_methods[] = {
+    {"replace", reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(&replace)),
+     METH_VARARGS | METH_KEYWORDS, "replace($self, /, **fields)\n--\n\nAnother record, with these fields changed."},
+    {nullptr, nullptr, 0, nullptr}};
+PyMethodDef restore_method = {"_restore", restore, METH_VARARGS, "For pickle."};
+
+PyObject* cannot_make(PyTypeObject* type, PyObject*, PyObject*) {
+  PyErr_Format(PyExc_TypeError, "a %s is not made by itself: functions return it", type->tp_name);
+  return nullptr;
+}
+
+PyMemberDef base_members[] = {
+    {"__weaklistoffset__", T_PYSSIZET, offsetof(Instance, weak_references), READONLY, nullptr},
+    {nullptr, 0, 0, 0, nullptr}};
+
+void make_base_type() {
+  PyType_Slot slots[] = {{Py_tp_dealloc, reinterpret_cast<void*>(&destroy)},
+                         {Py_tp_repr, reinterpret_cast<void*>(&represent)},
+                         {Py_tp_richcompare, reinterpret_cast<void*>(&compare)},
+                         {Py_tp_hash, reinterpret_cast<void*>(&PyObject_HashNotImplemented)},
+                         {Py_tp_methods, base_methods},
+                         {Py_tp_members, base_members},
+                         {Py_tp_new, reinterpret_cast<void*>(&cannot_make)},
+                         {Py_tp_doc, const_cast<char*>("A value or an object of the C++ library.")},
+                         {0, nullptr}};
+  PyType_Spec spec{"vericone._core._Object", sizeof(Instance), 0, Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE, slots};
+  base_type = reinterpret_cast<PyTypeObject*>(PyType_FromSpec(&spec));
+  if (!base_type) throw py::error_already_set();
+}
+
+}  // namespace
+
+std::string Place::text() const {
+  std::string text = outer ? outer->text() : "";
+  if (name) return text.empty() ? name : text + "." + name;
+  return text + "[" + std::to_string(index) + "]";
+}
+
+void wrong_type(const Place& place, const char* wanted, PyObject* given) {
+  throw WrongType{place.text() + ": got " + std::string(Py_TYPE(given)->tp_name) + ", must be " + wanted};
+}
+
+TypeInfo& type_of(const std::type_info& type) {
+  auto& info = (*registry)[type.name()];
+  if (!info) info = std::make_unique<TypeInfo>();
+  return *info;
+}
+
+bool is_object(PyObject* object) { return PyObject_TypeCheck(object, base_type); }
+
+bool is_instance(PyObject* object, const TypeInfo& info) {
+  if (!is_object(object)) return false;
+  for (const TypeInfo* own = &info_of(object); own; own = own->base)
+    if (own == &info) return true;
+  return false;
+}
+
+void* value_of(PyObject* object, const TypeInfo& info) {
+  void* value = own_value(object);
+  for (const TypeInfo* own = &info_of(object); own != &info; own = own->base) value = own->to_base(value);
+  return value;
+}
+
+std::shared_ptr<void> shared_of(PyObject* object, const TypeInfo& info) {
+  return {reinterpret_cast<Instance*>(object)->value, value_of(object, info)};
+}
+
+PyObject* new_instance(const TypeInfo& info, std::shared_ptr<void> value) {
+  if (!info.type) throw WrongType{"there is no Python type for what C++ returned here"};
+  PyObject* self = info.type->tp_alloc(info.type, 0);
+  if (!self) throw py::error_already_set();
+  auto* instance = reinterpret_cast<Instance*>(self);
+  new (&instance->value) std::shared_ptr<void>(std::move(value));
+  new (&instance->lock) std::unique_ptr<std::recursive_mutex>;
+  if (info.machine) instance->lock = std::make_unique<std::recursive_mutex>();
+  instance->info = &info;
+  return self;
+}
+
+py::dict names_of(const std::string& space) {
+  const auto names = py::reinterpret_borrow<py::dict>(module_names);
+  if (!names.contains(space)) names[py::str(space)] = py::dict();
+  return names[py::str(space)];
+}
+
+namespace {
+
+/// "guidance.GuideMemory.Past": the namespaces are those of the names, the rest are types.
+void put(const char* name, const py::object& what) {
+  std::string space, rest = name;
+  py::object at;
+  for (std::size_t dot; (dot = rest.find('.')) != std::string::npos; rest.erase(0, dot + 1)) {
+    const std::string part = rest.substr(0, dot);
+    if (at)
+      at = at.attr(part.c_str());
+    else if (names_of(space).contains(part))
+      at = names_of(space)[part.c_str()];
+    else
+      space += (space.empty() ? "" : ".") + part;
+  }
+  const std::string module = "vericone" + (space.empty() ? "" : "." + space);
+  what.attr("__module__") = module;
+  const std::string whole = name;
+  what.attr("__qualname__") = space.empty() ? whole : whole.substr(space.size() + 1);
+  if (at)
+    PyObject_SetAttrString(at.ptr(), rest.c_str(), what.ptr());
+  else
+    names_of(space)[rest.c_str()] = what;
+}
+
+}  // namespace
+
+void add_type(TypeInfo& info, const char* doc, PyMethodDef* methods, newfunc construct) {
+  std::vector<PyGetSetDef>& fields = getters.emplace_back();
+  for (Field& field : info.fields) fields.push_back({field.name, get_field, nullptr, field.doc, &field});
+  fields.push_back({});
+  PyType_Slot slots[] = {{Py_tp_new, reinterpret_cast<void*>(construct ? construct : &cannot_make)},
+                         {Py_tp_doc, const_cast<char*>(doc)},
+                         {Py_tp_getset, fields.data()},
+                         {Py_tp_methods, methods ? methods : record_methods},
+                         {0, nullptr}};
+  const char* name = keep("vericone." + std::string(info.name));
+  PyType_Spec spec{name, 0, 0, static_cast<unsigned>(Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE), slots};
+  const py::object bases = py::make_tuple(
+      py::handle(reinterpret_cast<PyObject*>(info.base ? info.base->type : base_type)));
+  info.type = reinterpret_cast<PyTypeObject*>(PyType_FromSpecWithBases(&spec, bases.ptr()));
+  if (!info.type) throw py::error_already_set();
+  const py::handle type(reinterpret_cast<PyObject*>(info.type));
+  if (info.make && methods)
+    for (PyMethodDef* method = record_methods; method->ml_name; ++method) {
+      const auto bound = py::reinterpret_steal<py::object>(PyDescr_NewMethod(info.type, method));
+      type.attr(method->ml_name) = bound;
+    }
+  put(info.name, py::reinterpret_borrow<py::object>(type));
+}
+
+void add_enum(const std::type_info& type, const char* name, const char* members, const char* doc) {
+  static const py::object make = py::module_::import("enum").attr("IntEnum");
+  TypeInfo& info = type_of(type);
+  info.name = name;
+  py::list pairs;
+  std::istringstream text(members);
+  std::string member;
+  for (long long value = 0; text >> member >> value;) pairs.append(py::make_tuple(member, value));
+  const py::object made = make(short_name(info), pairs);
+  made.attr("__doc__") = doc;
+  put(name, made);
+  for (const py::handle pair : pairs) {
+    const py::object value = pair[py::int_(1)];
+    info.members.emplace_back(value.cast<long long>(), made(value).release().ptr());
+  }
+  info.type = reinterpret_cast<PyTypeObject*>(made.inc_ref().ptr());
+}
+
+PyObject* enum_member(const TypeInfo& info, long long value) {
+  for (const auto& [number, member] : info.members)
+    if (number == value) return Py_NewRef(member);
+  return PyLong_FromLongLong(value);
+}
+
+long long enum_value(const TypeInfo& info, PyObject* given, const Place& place) {
+  const bool own = PyObject_TypeCheck(given, info.type);
+  if (!own && (!PyLong_CheckExact(given))) wrong_type(place, (std::string("a ") + info.name).c_str(), given);
+  const long long value = PyLong_AsLongLong(given);
+  if (value == -1 && PyErr_Occurred()) PyErr_Clear();
+  for (const auto& [number, member] : info.members)
+    if (number == value) return value;
+  std::string names;
+  for (const auto& [number, member] : info.members)
+    names += (names.empty() ? "" : ", ") + std::string(py::str(py::handle(member).attr("name")));
+  throw InputError(place.text(), py::str(py::handle(given)), "one of " + names);
+}
+
+void add_function(const char* space, PyMethodDef* method) {
+  const std::string module = std::string("vericone") + (*space ? "." : "") + space;
+  const py::str name(module);
+  const auto function = py::reinterpret_steal<py::object>(PyCFunction_NewEx(method, nullptr, name.ptr()));
+  names_of(space)[method->ml_name] = function;
+}
+
+void begin_module(py::module_& module) {
+  module_name = py::str(module.attr("__name__"));
+  const py::dict names;
+  module.attr("_names") = names;
+  module_names = names.ptr();
+  if (module_name == "vericone._core") {
+    registry = new Registry;
+    make_base_type();
+    module.attr("_types") = py::capsule(registry);
+    module.attr("_Object") = py::handle(reinterpret_cast<PyObject*>(base_type));
+    const py::str name("vericone._core");
+    module.attr("_restore") =
+        py::reinterpret_steal<py::object>(PyCFunction_NewEx(&restore_method, nullptr, name.ptr()));
+  } else {
+    const py::module_ core = py::module_::import("vericone._core");
+    registry = core.attr("_types").cast<py::capsule>().get_pointer<Registry>();
+    base_type = reinterpret_cast<PyTypeObject*>(core.attr("_Object").ptr());
+  }
+}
+
+// Rows of arrays of records. What a record has no room for makes it no row.
+
+namespace {
+
+template <class F>
+bool each_column(const TypeInfo& info, F&& f) {
+  for (const Field& field : info.fields)
+    if (!field.converter->column || !f(field.name, *field.converter->column)) return false;
+  for (const DerivedColumn& derived : info.derived)
+    if (!derived.column || !f(derived.name, *derived.column)) return false;
+  return true;
+}
+
+Py_ssize_t column_size(const Column& column) {
+  return column.record ? record_size(*column.record(), false) : column.size;
+}
+
+}  // namespace
+
+Py_ssize_t record_size(const TypeInfo& info, bool) {
+  Py_ssize_t size = 0;
+  const bool all = each_column(info, [&](const char*, const Column& column) {
+    const Py_ssize_t part = column_size(column);
+    size += (part + 7) / 8 * 8;
+    return part > 0;
+  });
+  return all && !info.fields.empty() ? size : 0;
+}
+
+py::object record_dtype(const TypeInfo& info, bool) {
+  py::list names, formats, offsets;
+  Py_ssize_t size = 0;
+  each_column(info, [&](const char* name, const Column& column) {
+    names.append(name);
+    if (column.record)
+      formats.append(record_dtype(*column.record(), false));
+    else
+      formats.append(column.format());
+    offsets.append(size);
+    size += (column_size(column) + 7) / 8 * 8;
+    return true;
+  });
+  py::dict description;
+  description["names"] = names;
+  description["formats"] = formats;
+  description["offsets"] = offsets;
+  description["itemsize"] = size;
+  const py::module_ numpy = py::module_::import("numpy");
+  return numpy.attr("dtype")(py::make_tuple(numpy.attr("record"), numpy.attr("dtype")(description)));
+}
+
+void write_record(void* row, const TypeInfo& info, const void* record) {
+  auto* at = static_cast<char*>(row);
+  for (const Field& field : info.fields) {
+    const Column& column = *field.converter->column;
+    column.write(at, static_cast<const char*>(record) + field.offset);
+    at += (column_size(column) + 7) / 8 * 8;
+  }
+  for (const DerivedColumn& derived : info.derived) {
+    derived.write(at, record);
+    at += (column_size(*derived.column) + 7) / 8 * 8;
+  }
+}
+
+void write_no_record(void* row, const TypeInfo& info) {
+  auto* at = static_cast<char*>(row);
+  each_column(info, [&](const char*, const Column& column) {
+    column.write_nothing(at);
+    at += (column_size(column) + 7) / 8 * 8;
+    return true;
+  });
+}
+
+}  // namespace vericone::python

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// C++ values as Python objects. One layout for all of them: a shared pointer to the value and, for those that
+// change, a lock. The tables that describe the types are generated from the public headers.
+#pragma once
+
+#include <pybind11/pybind11.h>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <typeinfo>
+#include <vector>
+
+namespace vericone::python {
+
+namespace py = pybind11;
+
+/// Where in the arguments of a call a value stands: "options.plane.choice", "bodies[3]".
+struct Place {
+  const Place* outer = nullptr;
+  const char* name = nullptr;  // null: an index
+  Py_ssize_t index = 0;
+
+  [[nodiscard]] std::string text() const;
+};
+
+/// An argument of a kind that the parameter does not take: the next overload is tried, and none is a
+/// TypeError.
+struct WrongType {
+  std::string message;
+};
+[[noreturn]] void wrong_type(const Place& place, const char* wanted, PyObject* given);
+
+/// How values of one C++ type come from and go to Python, without their type.
+struct Converter {
+  PyObject* (*to)(const void* value);
+  void (*from)(void* value, PyObject* given, const Place& place);
+  const struct Column* column;  // null: not a column of an array of records
+};
+
+/// How a value lies in the row of a numpy record array.
+struct Column {
+  std::string (*format)();  // of numpy: "f8", "(3,)f8"; of a record "" (see fields)
+  Py_ssize_t size;
+  void (*write)(void* row, const void* value);
+  void (*write_nothing)(void* row);
+  const struct TypeInfo* (*record)() = nullptr;
+};
+
+struct Field {
+  const char* name;
+  std::size_t offset;  // in the value
+  const Converter* converter;
+  bool required;  // C++ gives it no value of its own
+  const char* doc;
+};
+
+/// A method without arguments that an array of records has as a column too.
+struct DerivedColumn {
+  const char* name;
+  const Column* column;
+  void (*write)(void* row, const void* record);
+};
+
+struct TypeInfo {
+  const char* name = "";       // "guidance.NavigatorOptions"
+  PyTypeObject* type = nullptr;
+  std::shared_ptr<void> (*make)() = nullptr;                 // by default; of records
+  std::shared_ptr<void> (*copy)(const void*) = nullptr;      // null: there is only one
+  std::vector<Field> fields;                                 // of records
+  std::vector<DerivedColumn> derived;
+  TypeInfo* base = nullptr;
+  void* (*to_base)(void*) = nullptr;
+  bool machine = false;                                      // changes: one call at a time
+  /// The plain values that define an object, and the object of such values: what ==, pickle and repr go by.
+  PyObject* (*state)(const void*) = nullptr;
+  std::shared_ptr<void> (*restore)(PyObject* state) = nullptr;
+  const char* state_names = "";                              // of its parts: "center, shape"
+  /// Other types that stand for one of this: null where the object is none of them.
+  std::shared_ptr<void> (*stand_in)(PyObject* given, const Place& place) = nullptr;
+  bool (*has_stand_in)(PyObject* given) = nullptr;
+  std::vector<std::pair<long long, PyObject*>> members;  // of an enumeration
+};
+
+/// The description of a type, the same in all modules of the package; `name` is that of the C++ type.
+TypeInfo& type_of(const std::type_info& type);
+template <class T>
+TypeInfo& type_of() {
+  static TypeInfo& info = type_of(typeid(T));
+  return info;
+}
+
+struct Instance {
+  PyObject_HEAD;
+  std::shared_ptr<void> value;
+  const TypeInfo* info;
+  std::unique_ptr<std::recursive_mutex> lock;  // of machines
+  PyObject* kept;                              // what the value refers to
+  PyObject* weak_references;
+};
+
+[[nodiscard]] bool is_object(PyObject* object);  // of any type of the library that is no enumeration
+[[nodiscard]] bool is_instance(PyObject* object, const TypeInfo& info);
+/// The value, seen as one of `info` (its own type or a base).
+[[nodiscard]] void* value_of(PyObject* object, const TypeInfo& info);
+/// As it is held, seen so.
+[[nodiscard]] std::shared_ptr<void> shared_of(PyObject* object, const TypeInfo& info);
+/// A new reference.
+[[nodiscard]] PyObject* new_instance(const TypeInfo& info, std::shared_ptr<void> value);
+
+/// Makes the Python type of `info` (its fields included) in the namespace that its name says.
+void add_type(TypeInfo& info, const char* doc, PyMethodDef* methods, newfunc construct);
+/// An enum.IntEnum of these members, separated by spaces: "disjoint 0 touching 1".
+void add_enum(const std::type_info& type, const char* name, const char* members, const char* doc);
+[[nodiscard]] PyObject* enum_member(const TypeInfo& info, long long value);
+[[nodiscard]] long long enum_value(const TypeInfo& info, PyObject* given, const Place& place);
+
+/// The dictionary of a namespace of this module: "" or "guidance". Borrowed.
+[[nodiscard]] py::dict names_of(const std::string& space);
+/// A function, or a method where `info` says of which type.
+void add_function(const char* space, PyMethodDef* method);
+
+/// Sets up what all modules of the package share. The first is _core; others find what it has made.
+void begin_module(py::module_& module);
+
+/// The numpy dtype of records of this type, or null where a field is no column.
+[[nodiscard]] py::object record_dtype(const TypeInfo& info, bool optional);
+[[nodiscard]] Py_ssize_t record_size(const TypeInfo& info, bool optional);
+void write_record(void* row, const TypeInfo& info, const void* record);
+void write_no_record(void* row, const TypeInfo& info);
+
+}  // namespace vericone::python

@@ -1,0 +1,416 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the commands `simulate`, `campaign`, `fit` and `scan` do, as functions: from files, arrays or values to values, and
+to the same files where asked. They are attributes of the package: vericone.simulate and so on."""
+
+from __future__ import annotations
+
+import contextlib
+import csv
+import datetime
+import hashlib
+import importlib
+import json
+import os
+import shutil
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple, TextIO, Union
+
+import numpy as np
+import numpy.typing as npt
+
+if TYPE_CHECKING:
+    import pandas
+
+    from . import InputError, files, fits, fitting, lidar, montecarlo, scenes, simulation
+
+__all__ = ["Campaign", "MeshScan", "as_frame", "campaign", "fit", "read_scenario", "read_scene", "read_table", "run_tables",
+           "scan", "simulate", "units", "write_scene"]
+
+PathLike = Union[str, "os.PathLike[str]"]
+# Called with the share done, 0 to 1; False stops.
+Progress = Callable[[float], object]
+Array = npt.NDArray[Any]
+
+_BLOCK = 50  # engagements that are written together
+_WORDS = ("body", "agent", "obstacle", "orifice", "status", "outer_status", "event", "unit")
+
+
+def _part(name: str) -> Any:
+    """A module of the package, loaded when it is needed: importing the package loads no file reader and no solver."""
+    return importlib.import_module("vericone." + name)
+
+
+def _refuse(field: str, value: object, requirement: str) -> InputError:
+    error: InputError = importlib.import_module("vericone").InputError(field, str(value), requirement)
+    return error
+
+
+@contextlib.contextmanager
+def _whole(folder: PathLike) -> Iterator[Path]:
+    """A folder within `folder` whose files are moved to it together at the end, or are gone."""
+    target = Path(folder)
+    target.mkdir(parents=True, exist_ok=True)
+    stage = target / f".partial-{os.getpid()}"
+    shutil.rmtree(stage, ignore_errors=True)
+    stage.mkdir()
+    try:
+        yield stage
+        for file in sorted(stage.iterdir()):
+            os.replace(file, target / file.name)
+    finally:
+        shutil.rmtree(stage, ignore_errors=True)
+
+
+def _provenance(call: str, inputs: Iterable[Path]) -> dict[str, object]:
+    """What it takes to get the same result again."""
+    hashes = [{"file": str(file), "sha256": hashlib.sha256(file.read_bytes()).hexdigest() if file.is_file() else None}
+              for file in inputs]
+    version = getattr(importlib.import_module("vericone"), "__version__", None)
+    now = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")
+    return {"command": call, "version": version, "inputs": hashes, "finished": now}
+
+
+def _share_of(progress: Progress | None, whole: float) -> Callable[[float], bool] | None:
+    """What C++ calls with the part of `whole` that is done."""
+    if progress is None:
+        return None
+    return lambda done: progress(done / whole) is not False
+
+
+# Scenes and scenarios --------------------------------------------------------------------------------------------------
+
+
+def read_scene(file: PathLike) -> scenes.Scene:
+    """The two bodies (metres), their velocities (m/s) and what they make, from a scene (YAML or JSON) and the files it
+    names. Raises InputError naming the file or the field."""
+    result: scenes.Scene = _part("scenes").read_scene(os.fspath(file))
+    return result
+
+
+def write_scene(scene: scenes.Scene, file: PathLike) -> None:
+    """Writes a scene that read_scene() reads as the same, to the bit; lengths in metres, velocities in m/s. Raises
+    InputError naming a body that no fields give."""
+    _part("scenes").write_scene(scene, os.fspath(file))
+
+
+def read_scenario(file: PathLike) -> simulation.Scenario:
+    """What is to be flown, from a scenario (YAML): bodies (metres, m/s), pilots, goals, times (s). Raises InputError
+    naming the file or the field."""
+    result: simulation.Scenario = _part("scenario").read_scenario(os.fspath(file))
+    return result
+
+
+# Tables ----------------------------------------------------------------------------------------------------------------
+
+
+def _type_of(columns: Sequence[tuple[str, str, Array]]) -> np.dtype[Any]:
+    """Of rows of columns (name, unit, values). A unit is in the title, so that array["r [m]"] is array["r"]."""
+    return np.dtype([((f"{name} [{unit}]", name) if unit else name, values.dtype)  # type: ignore[misc]
+                     for name, unit, values in columns])
+
+
+def _rows_of(columns: Sequence[tuple[str, str, Array]]) -> Array:
+    rows = np.empty(len(columns[0][2]) if columns else 0, dtype=_type_of(columns))
+    for name, _, values in columns:
+        rows[name] = values
+    return rows
+
+
+def _words(words: Sequence[str]) -> Array:
+    return np.array(words, dtype=f"U{max([1, *map(len, words)])}")
+
+
+def run_tables(scenario: simulation.Scenario, run: simulation.Run) -> dict[str, Array]:
+    """What a run says, as structured arrays by name: bodies, encounters, events, and planes, sights, vehicles, orifices
+    where there are any. Columns and numbers are those of the command's CSV files (docs/reference/scenarios.md); NaN is
+    an empty field. units() has their units; array["V_r [m/s]"] is array["V_r"]."""
+    return {table.name: _rows_of([(c.name, c.unit, _words(c.words) if c.text else np.asarray(c.numbers, dtype=float))
+                                  for c in table.columns])
+            for table in _part("simulation").run_tables(scenario, run)}
+
+
+def units(table: Array) -> dict[str, str]:
+    """The unit of each column of a table, as "m/s"; the empty text where there is none."""
+    found = {}
+    for name in table.dtype.names or ():
+        title = (table.dtype.fields or {})[name][2:]
+        found[name] = str(title[0])[len(name) + 2:-1] if title else ""
+    return found
+
+
+def as_frame(table: Array) -> pandas.DataFrame:
+    """The table as a pandas.DataFrame, with units() in its attrs["units"]. Needs pandas."""
+    pandas_module = importlib.import_module("pandas")
+    frame: pandas.DataFrame = pandas_module.DataFrame({name: table[name] for name in table.dtype.names or ()})
+    frame.attrs["units"] = units(table)
+    return frame
+
+
+def _number(field: str) -> float:
+    return float(field) if field else float("nan")
+
+
+def _table_of(lines: TextIO | Iterable[str], source: str) -> Array:
+    rows = list(csv.reader(line for line in lines if not line.startswith("#")))
+    if not rows:
+        raise _refuse("file", source, "a table with a line of column names")
+    columns: list[tuple[str, str, Array]] = []
+    for i, header in enumerate(rows[0]):
+        fields = [row[i] if i < len(row) else "" for row in rows[1:]]
+        name, _, unit = header.partition(" [")
+        try:
+            values = _words(fields) if name in _WORDS else np.array([_number(field) for field in fields], dtype=float)
+        except ValueError:
+            values = _words(fields)
+        columns.append((name, unit.removesuffix("]"), values))
+    return _rows_of(columns)
+
+
+def read_table(file: PathLike) -> Array:
+    """A CSV file of a command (bodies.csv, engagements.csv, ...) as a structured array; as run_tables(), with the units
+    that its header has. Numbers are the doubles that were written."""
+    path = Path(file)
+    if not path.is_file():
+        raise _refuse("file", path, "the path of a CSV file")
+    with open(path, encoding="utf-8", newline="") as lines:
+        return _table_of(lines, str(path))
+
+
+# Runs ------------------------------------------------------------------------------------------------------------------
+
+
+def simulate(scenario: PathLike | simulation.Scenario, *, seed: int | None = None, out: PathLike | None = None,
+             progress: Progress | None = None, trial: int = 0, log: bool = True, prove: bool = True) -> simulation.Run:
+    """Carries out a scenario, or the one of a file: what moved where (metres, seconds), what was commanded, what
+    happened, and what is proved of it. `seed` in place of the scenario's; `trial` other noise of the same seed.
+
+    `out`: a folder for the files of `vericone simulate` (docs/reference/scenarios.md), all of them or none. `progress` is
+    called with the share of the duration that was flown; where it returns False the run ends there, `interrupted`, and
+    nothing is written. Raises InputError naming the file or the field."""
+    simulation_module, scenario_module = _part("simulation"), _part("scenario")
+    file, text = None, ""
+    if isinstance(scenario, (str, os.PathLike)):
+        file = Path(scenario)
+        scenario = read_scenario(file)
+        text = file.read_text(encoding="utf-8") if file.is_file() else ""
+    changed = scenario if seed is None else scenario.replace(seed=seed)
+    options = simulation_module.RunOptions(trial=trial, log=log, prove=prove, progress=_share_of(progress, changed.duration))
+    start = time.perf_counter()
+    run: simulation.Run = simulation_module.simulate(changed, options)
+    seconds = time.perf_counter() - start
+    if out is not None and not run.interrupted:
+        call = f"vericone.simulate({str(file) if file else changed.name!r}, seed={seed}, trial={trial})"
+        origin = scenario_module.RunOrigin(file=str(file or ""), seconds=seconds, text=text,
+                                           provenance=json.dumps(_provenance(call, [file] if file else [])))
+        with _whole(out) as stage:
+            scenario_module.write_run(changed, run, origin, str(stage))
+    return run
+
+
+class Campaign(NamedTuple):
+    """What campaign() found: `rows`, a structured array, a row for each engagement; `summary` of all; `violations`,
+    how many flights met that a proved statement had called safe: none, if the theorems hold. `finished` is False
+    where progress stopped it."""
+    rows: Array
+    summary: montecarlo.Summary
+    violations: int
+    finished: bool
+
+
+def _lines_done(partial: Path, settings: str, header: str, count: int) -> list[str]:
+    """The whole rows of an unfinished table, which is cut after the last of them."""
+    if not partial.is_file():
+        return []
+    with open(partial, encoding="utf-8", newline="") as file:
+        lines = file.read().split("\n")[:-1]
+    if not lines:
+        return []
+    if lines[0] != settings:
+        raise _refuse("out", partial.parent, "a folder without the unfinished run of other settings that " + partial.name +
+                      " holds; delete that file to give it up")
+    return lines[2:2 + count] if len(lines) > 1 and lines[1] == header else []
+
+
+class _Rows(NamedTuple):
+    """Computes rows of a campaign: lines of its table."""
+    campaign: montecarlo.Campaign
+    laws: list[montecarlo.Flown]
+
+    def block(self, first: int, last: int) -> list[str]:
+        module = _part("montecarlo")
+        return [module.csv_row(i, module.measure(self.campaign.seed, i, self.laws, self.campaign.flight))
+                for i in range(first, last)]
+
+
+def _fill(rows: _Rows, lines: list[str], threads: int, grown: Callable[[list[str]], bool]) -> bool:
+    """Appends the rows that are missing to `lines`, in their order; grown() is told of those that came, and stops. The
+    result does not depend on `threads`."""
+    count, first = rows.campaign.engagements, len(lines)
+    ahead: dict[int, list[str]] = {}
+    pending: set[Future[tuple[int, list[str]]]] = set()
+    pool = ThreadPoolExecutor(max_workers=threads)
+
+    def block(at: int) -> tuple[int, list[str]]:
+        return at, rows.block(at, min(at + _BLOCK, count))
+
+    try:
+        while len(lines) < count:
+            while first < count and len(pending) < 2 * threads:
+                pending.add(pool.submit(block, first))
+                first = min(first + _BLOCK, count)
+            done, pending = wait(pending, return_when=FIRST_COMPLETED)
+            ahead.update(future.result() for future in done)
+            while len(lines) in ahead:
+                more = ahead.pop(len(lines))
+                lines += more
+                if not grown(more):
+                    return len(lines) == count
+    finally:
+        pool.shutdown(wait=True, cancel_futures=True)
+    return True
+
+
+def campaign(settings: montecarlo.Campaign | None = None, *, out: PathLike | None = None, threads: int = 0,
+             progress: Progress | None = None, resume: bool = True) -> Campaign:
+    """Random engagements of moving ellipsoids under every law, each with a proof of what became of it: `vericone
+    campaign` (docs/measured/campaign.md). `settings` has their number, the seed, the laws and their limits (m/s^2, 1/s,
+    m, s); `threads` how many work at once, 0 for all processors. 3 ms an engagement.
+
+    `out`: a folder for engagements.csv, which grows as engagements.csv.partial: interrupted, the same call goes on
+    there, or begins anew without `resume`. `progress` is called with the share done; False stops. Raises InputError
+    naming a setting, or `out` where it holds an unfinished run of other settings."""
+    module = _part("montecarlo")
+    asked: montecarlo.Campaign = settings if settings is not None else module.Campaign()
+    laws = list(module.laws_of(asked))
+    if not 0 <= threads <= 1024:
+        raise _refuse("threads", threads, "between 1 and 1024, or 0 for all")
+    workers = threads or os.cpu_count() or 1
+    first_lines = [module.settings_line(asked), module.csv_header(laws)]
+    lines: list[str] = []
+    with contextlib.ExitStack() as stack:
+        grow: TextIO | None = None
+        partial = None
+        if out is not None:
+            folder = Path(out)
+            folder.mkdir(parents=True, exist_ok=True)
+            partial = folder / "engagements.csv.partial"
+            lines = _lines_done(partial, *first_lines, asked.engagements) if resume else []
+            grow = stack.enter_context(open(partial, "w", encoding="utf-8", newline=""))
+            grow.writelines(line + "\n" for line in first_lines + lines)
+            grow.flush()
+
+        def grown(more: list[str]) -> bool:
+            if grow is not None:
+                grow.writelines(line + "\n" for line in more)
+                grow.flush()
+            return progress is None or progress(len(lines) / asked.engagements) is not False
+
+        finished = _fill(_Rows(asked, laws), lines, workers, grown)
+    if partial is not None and finished:
+        os.replace(partial, partial.with_suffix(""))
+    rows = [module.row_of(line, len(laws)) for line in lines]
+    summary = module.summarise(rows, laws)
+    return Campaign(_table_of([line + "\n" for line in [first_lines[1], *lines]], "the campaign"), summary,
+                    int(module.violations(summary)), finished)
+
+
+# Fits ------------------------------------------------------------------------------------------------------------------
+
+
+def _named(kind: Any, field: str, name: Any) -> Any:
+    """An enumerator by its name, as commands write it."""
+    if not isinstance(name, str):
+        return name
+    known = {member.name.rstrip("_").replace("_", "-"): member for member in kind}
+    if name.replace("_", "-") not in known:
+        raise _refuse(field, name, "one of " + ", ".join(known))
+    return known[name.replace("_", "-")]
+
+
+def _scan_of(data: Any) -> fits.Scan:
+    module, fitting_module = _part("fits"), _part("fitting")
+    if isinstance(data, (str, os.PathLike)):
+        result: fits.Scan = module.read_scan(os.fspath(data))
+        return result
+    kind = module.ScanKind.cloud
+    if isinstance(data, tuple) and len(data) == 2:
+        data = fitting_module.Sample(points=data[0], triangles=data[1])
+    elif hasattr(data, "points") and hasattr(data, "triangles"):
+        data = data if isinstance(data, fitting_module.Sample) else fitting_module.Sample(points=data.points,
+                                                                                        triangles=data.triangles)
+    else:
+        data = fitting_module.Sample(points=data)
+    if len(data.triangles):
+        kind = module.ScanKind.mesh
+    made: fits.Scan = module.Scan(file="", format="", kind=kind, sample=data)
+    return made
+
+
+def fit(data: PathLike | npt.ArrayLike | tuple[npt.ArrayLike, npt.ArrayLike] | files.TriangleMesh | fitting.Sample, *,
+        mode: str | fitting.Mode = "containing", shape: str | fitting.Shape | None = None, coverage: float | None = None,
+        margin: float = 0.0, pieces: int = 1, seed: int = 1, out: PathLike | None = None,
+        progress: Callable[[str, float], object] | None = None) -> fitting.FitResult:
+    """Ellipsoids, delimited by hyperboloids where that helps, about points (metres) as `vericone fit` finds them
+    (docs/explanation/fitting.md), with the proof that what was to be inside is.
+
+    `data`: a file (mesh, cloud, octree map), points (n, 3), points and triangles, or a mesh. `mode`: "containing",
+    "least-squares" or "robust"; `shape`: "ellipse", "ellipsoid", "biconcave", "biconvex", "star", or None to choose;
+    `coverage`: the share of the points to be inside; `margin` (m) about each; `pieces`: the bodies of the union. `out`:
+    a folder for fit.json, body.yaml, hull.obj and hull.ply. `progress` is called with what is done and its share; False
+    stops with KeyboardInterrupt. Raises InputError naming the file, "points" or the option."""
+    module, fits_module = _part("fitting"), _part("fits")
+    options = module.FitOptions(mode=_named(module.Mode, "mode", mode),
+                                shape=None if shape is None or shape == "auto" else _named(module.Shape, "shape", shape),
+                                coverage=coverage, margin=margin, pieces=pieces, seed=seed,
+                                progress=None if progress is None else lambda what, share: progress(what, share) is not False)
+    given = _scan_of(data)
+    start = time.perf_counter()
+    result: fitting.FitResult = module.fit(given.sample, options)
+    seconds = time.perf_counter() - start
+    if out is not None:
+        with _whole(out) as stage:
+            fits_module.write_fit(given, options, result, seconds, str(stage))
+            call = f"vericone.fit({given.file!r}, mode={mode!r}, shape={shape!r}, coverage={coverage}, margin={margin}, " \
+                   f"pieces={pieces}, seed={seed})"
+            inputs = [Path(given.file)] if given.file else []
+            (stage / "provenance.json").write_text(json.dumps(_provenance(call, inputs), indent=1) + "\n", encoding="utf-8")
+    return result
+
+
+# Scans -----------------------------------------------------------------------------------------------------------------
+
+
+class MeshScan(NamedTuple):
+    """What LiDARs saw: `points` (n, 3), metres, in the world, of all of them; `sensor` (n,), which one saw each; `scans`,
+    what each of them returned."""
+    points: Array
+    sensor: Array
+    scans: list[lidar.Scan]
+
+
+def scan(scene: PathLike | scenes.Scene, lidars: Sequence[lidar.Lidar], *, seed: int = 1) -> MeshScan:
+    """What LiDARs on the agent of a scene return of its obstacle, a mesh (docs/explanation/lidar.md). Their poses are in
+    the agent's own frame: the centre of its ellipsoid (metres), turned as the ellipsoid's axes are. `seed` decides noise
+    and dropouts; the i-th LiDAR has seed + i. Raises InputError naming "agent", "obstacle" or a field of a LiDAR."""
+    module = _part("lidar")
+    given = read_scene(scene) if isinstance(scene, (str, os.PathLike)) else scene
+    agent, obstacle = given.agent.ellipsoid(), given.obstacle.pieces()
+    if agent is None:
+        raise _refuse("agent", given.agent.name, "an ellipsoid")
+    if obstacle is None or len(obstacle.by_slot().triangles) == 0:
+        raise _refuse("obstacle", given.obstacle.name, "a mesh for the LiDARs to see")
+    pose = given.obstacle.placed.pose
+    corners = np.asarray(obstacle.by_slot().triangles, dtype=float).reshape(-1, 3)
+    points = np.asarray(pose.position) + corners @ np.asarray(pose.rotation).T
+    mesh = module.MeshScene(points, np.arange(len(points), dtype=np.uint32).reshape(-1, 3))
+    place = np.eye(4)
+    place[:3, 3] = agent.center()
+    factor = np.asarray(agent.factor())
+    place[:3, :3] = factor / np.linalg.norm(factor, axis=0)
+    scans = [module.scan(mesh, one, place, seed + i) for i, one in enumerate(lidars)]
+    seen = [np.asarray(one.world_points(), dtype=float).reshape(-1, 3) for one in scans]
+    sensor = np.repeat(np.arange(len(seen)), [len(part) for part in seen])
+    return MeshScan(np.concatenate(seen) if seen else np.empty((0, 3)), sensor, scans)

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A fitted hull as JSON (docs/reference/formats.md), and what is proved of it in words.
+#pragma once
+
+#include <vericone/fits/read_scan.h>
+#include <vericone/fitting/fit.h>
+
+#include "json/json_forward.h"
+
+namespace vericone::fit {
+
+std::string to_string(fitting::Mode mode);
+
+/// What exact arithmetic says, in one sentence.
+std::string statement(const fitting::FitResult& result, const fits::Scan& scan);
+
+/// Every field is always there; null: does not apply or is not known. `bodies`: the fields of each piece for
+/// scenes (fit_body.h).
+Json fit_json(const fits::Scan& scan, const fitting::FitOptions& options, const fitting::FitResult& result,
+              const std::vector<Json>& bodies);
+
+}  // namespace vericone::fit

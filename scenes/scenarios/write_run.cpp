@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/simulation/run_tables.h>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "json/json_value.h"
+#include "json/plain_text.h"
+#include "output/output_file.h"
+#include "scenarios/run_json.h"
+
+namespace vericone::scenario {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in) throw std::runtime_error("could not read " + file.string());
+  return text.str();
+}
+
+}  // namespace
+
+std::string proof_text(const simulation::Scenario& scenario, const simulation::Run& run) {
+  return proof_json(scenario, run).dump(1) + "\n";
+}
+
+Json run_json(const simulation::Scenario& scenario, const simulation::Run& run, const RunOrigin& origin) {
+  std::size_t arcs = 0, agents = 0;
+  for (const simulation::Track& track : run.tracks) arcs += track.legs().size();
+  Json goals = Json::array();
+  for (const simulation::Body& body : scenario.bodies) {
+    agents += body.pilot.has_value();
+    if (!body.pilot || !body.pilot->goal) continue;
+    const simulation::Goal& goal = *body.pilot->goal;
+    goals.push_back({{"agent", body.name}, {"point", vector_json(goal.point)}, {"reached", goal.reached}});
+  }
+  Json beyond = Json::array();
+  for (const simulation::VehicleBeyond& b : run.limits_broken)
+    beyond.push_back({{"body", scenario.bodies[b.body].name},
+                      {"t", b.broken.t},
+                      {"limit", b.broken.limit},
+                      {"value", b.broken.value},
+                      {"allowed", b.broken.allowed}});
+  Json json{{"scenario", scenario.name},
+            {"file", plain_text(origin.file.filename().string())},
+            {"verdict", scenario.orifices.empty() ? simulation::to_string(run.verdict()) : run_verdict(run)},
+            {"bodies", scenario.bodies.size()},
+            {"agents", agents},
+            {"goals", goals},
+            {"end", run.end},
+            {"step", scenario.step},
+            {"arcs", arcs},
+            {"encounters", run.encounters.size()},
+            {"events", run.events.size()},
+            {"seconds", origin.seconds},
+            {"real_time_factor", run.end / origin.seconds},
+            {"provenance", origin.provenance.empty() ? Json(nullptr) : Json::parse(origin.provenance)}};
+  if (!run.vehicles.empty()) json["limits_broken"] = beyond;
+  return json;
+}
+
+void write_run(const simulation::Scenario& scenario, const simulation::Run& run, const RunOrigin& origin,
+               const fs::path& folder) {
+  for (const simulation::Table& table : simulation::run_tables(scenario, run))
+    write_whole(folder / (table.name + ".csv"), csv(table));
+  if (!scenario.orifices.empty())
+    write_whole(folder / "orifices.json", orifices_json(scenario).dump(1) + "\n");
+  write_whole(folder / "proof.json", proof_text(scenario, run));
+  write_whole(folder / "shapes.json", shapes_json(scenario).dump(1) + "\n");
+  write_whole(folder / "run.json", run_json(scenario, run, origin).dump(1) + "\n");
+  if (!origin.text.empty() || !origin.file.empty())
+    write_whole(folder / "scenario.yaml", origin.text.empty() ? content_of(origin.file) : origin.text);
+}
+
+}  // namespace vericone::scenario
