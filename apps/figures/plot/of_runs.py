@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs and fits."""
-import os
 import sys
+import tempfile
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -14,17 +14,29 @@ from .solids import View
 from .style import TWO_COLUMNS, style
 
 
-def run(folder: str | os.PathLike[str]) -> tuple[Any, ...]:
-    """Draws a run from the folder that `simulate(..., out=folder)` or `vericone simulate --out` wrote: the bodies on their
-    ways (metres), y, miss distances (metres) and accelerations (m/s²) over time (seconds), and the verdict. Returns the
-    axes, that of the ways first."""
+def flown_of(source: Any, scenario: Any) -> runs.Flown:
+    """From a run's folder, or from a Run and its Scenario by the files that it would leave."""
+    if scenario is None:
+        return runs.flown(source)
+    library = sys.modules["vericone"]
+    with tempfile.TemporaryDirectory() as folder:
+        origin = library.scenario.RunOrigin(file="", seconds=0.0, text="", provenance="{}")
+        library.scenario.write_run(scenario, source, origin, folder)
+        return runs.flown(folder)
+
+
+def run(source: Any, scenario: Any = None) -> tuple[Any, ...]:
+    """Draws a run: the bodies on their ways (metres), y, miss distances (metres) and accelerations (m/s²) over time
+    (seconds), and the verdict. `source`: the folder that `simulate(..., out=folder)` or `vericone simulate --out` wrote,
+    or a Run, with its Scenario. Returns the axes, that of the ways first."""
+    flown = flown_of(source, scenario)
     with style():
-        return tuple(runs.picture(runs.flown(folder)).axes)
+        return tuple(runs.picture(flown).axes)
 
 
-def ways(folder: str | os.PathLike[str], *, axes: Any = None) -> Any:
-    """Draws the ways of a run's bodies alone, metres, from its folder; returns the axes of the plane or of space."""
-    flown = runs.flown(folder)
+def ways(source: Any, scenario: Any = None, *, axes: Any = None) -> Any:
+    """Draws the ways of a run's bodies alone, metres; `source` as of run(). Returns the axes of the plane or of space."""
+    flown = flown_of(source, scenario)
     with style():
         if axes is None:
             figure = plt.figure(figsize=(0.6 * TWO_COLUMNS, 3.6))
