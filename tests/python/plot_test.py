@@ -191,6 +191,6 @@ def test_the_page_about_pictures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     monkeypatch.chdir(tmp_path)
     for code in re.findall(r"^```python\n(.*?)^```", page, re.MULTILINE | re.DOTALL):
         exec(compile(code, "plots.md", "exec"), {})
-    assert sorted(file.name for file in tmp_path.iterdir()) == ["cones.pdf", "engagement.png"]
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["engagement.pdf", "pictures.png"]
     told = set(re.findall(r"`(\w+)\(", page))
-    assert set(plot.__all__) - told == {"directions_around"}
+    assert set(plot.__all__) - told == {"directions_around", "style"}
