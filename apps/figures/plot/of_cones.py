@@ -34,6 +34,11 @@ def seen_from_agent(axes: Any, towards: Numbers) -> Any:
     return axes
 
 
+def above(axes: Any) -> None:
+    """The legend, where it covers nothing."""
+    axes.legend(loc="lower left", bbox_to_anchor=(0, 1), frameon=False, borderaxespad=0.2, labelspacing=0.2)
+
+
 def on_view(axes: Any, directions: Numbers) -> Any:
     """Where directions (..., 3) are on axes of directions, degrees."""
     return sphere.on_view(np.asarray(directions, float), TOWARDS[axes])
@@ -62,7 +67,7 @@ def cone(thing: Any, *, axes: Any = None, towards: Numbers | None = None, color:
         for n, loop in enumerate(outer):
             axes.plot(*on_view(axes, np.vstack([loop, loop[:1]])).T, ".-" if has(thing, "slices") else "-", color=color,
                       markersize=3, linewidth=1, label=None if n else "%s: %s" % (label or "cone", size))
-        axes.legend(loc="upper right")
+        above(axes)
     return axes
 
 
@@ -74,7 +79,7 @@ def velocity(relative_velocity: Numbers, *, axes: Any, verdict: Any = None, labe
         axes.plot(*on_view(axes, relative_velocity), "o", color=color, markersize=5, markeredgecolor="w",
                   markeredgewidth=0.7, label=text, zorder=5)
         if text:
-            axes.legend(loc="upper right")
+            above(axes)
     return axes
 
 
@@ -199,6 +204,7 @@ def clearance_field(pair: Any, speed: float, obstacle_velocity: Numbers = (0.0, 
         if low < 0 < high:
             line = np.linspace(-reach, reach, n)
             axes.contour(line, line, miss, levels=[0.0], colors="k", linewidths=0.9)
+        axes.set_aspect("equal", adjustable="box")
         axes.grid(False)
         bar = axes.figure.colorbar(image, ax=axes, shrink=0.85)
         bar.set_label("miss distance (m), below 0: meets")
