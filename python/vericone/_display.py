@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What objects show in Jupyter: a picture and the numbers that matter, with units. Loaded when the first one is shown."""
+"""What objects show in Jupyter: a picture and the numbers that matter, with units. Loaded when the first one is
+shown."""
 from __future__ import annotations
 
 import base64

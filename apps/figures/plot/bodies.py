@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bodies of a run (docs/reference/scenarios.md) as curves and meshes: true outlines and surfaces. Those of quadrics are star-shaped
-about their centres: a distance for every direction, the least over what delimits them."""
+"""Bodies of a run (docs/reference/scenarios.md) as curves and meshes: true outlines and surfaces. Those of quadrics are
+star-shaped about their centres: a distance for every direction, the least over what delimits them."""
 import itertools
 from typing import Any
 
@@ -51,8 +51,8 @@ def outline(shape: Shape, row: Row, n: int = 181) -> Array:
 
 
 def surface(shape: Shape, row: Row, n: int = 25) -> Array:
-    """A body's boundary in space as a grid; not of hulls. Rings about its x axis, the axis of its dents, so that rims run
-    along the mesh."""
+    """A body's boundary in space as a grid; not of hulls. Rings about its x axis, the axis of its dents, so that rims
+    run along the mesh."""
     polar, around = np.linspace(0, np.pi, n), np.linspace(0, 2 * np.pi, 2 * n - 1)
     s = np.sin(polar)[:, None]
     u = np.stack(np.broadcast_arrays(np.cos(polar)[:, None], s * np.cos(around), s * np.sin(around)), axis=-1)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""vericone's objects as the plain numbers that the drawing code takes (docs/reference/formats.md). They are known by what
-they have, not by their types: the scripts of the command draw without the library's modules."""
+"""vericone's objects as the plain numbers that the drawing code takes (docs/reference/formats.md). They are known by
+what they have, not by their types: the scripts of the command draw without the library's modules."""
 from typing import Any
 
 import numpy as np
@@ -38,7 +38,8 @@ def quadric_shape(body: Any) -> dict[str, Any]:
     """Of an ellipse or ellipsoid, delimited or not."""
     ellipsoid = body.ellipsoid() if has(body, "delimiters") else body
     center, factor = np.asarray(ellipsoid.center()), np.asarray(ellipsoid.factor())
-    delimiters = [{"matrix": np.asarray(d.matrix), "level": d.level} for d in body.delimiters()] if body is not ellipsoid else []
+    given = [] if body is ellipsoid else body.delimiters()
+    delimiters = [{"matrix": np.asarray(d.matrix), "level": d.level} for d in given]
     return {"kind": "ellipse" if len(center) == 2 else "ellipsoid", "center": center, "factor": factor,
             "delimiters": delimiters}
 
@@ -61,14 +62,14 @@ def box_triangles(low: Any, high: Any) -> Any:
     """Twelve triangles a box, from opposite corners (n, 3)."""
     corner = np.array([[i & 1, i >> 1 & 1, i >> 2] for i in range(8)])
     at = np.where(corner[None], high[:, None], low[:, None])
-    sides = [[0, 1, 3], [0, 3, 2], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4], [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4],
-             [1, 3, 7], [1, 7, 5]]
+    sides = [[0, 1, 3], [0, 3, 2], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4], [2, 3, 7], [2, 7, 6], [0, 2, 6],
+             [0, 6, 4], [1, 3, 7], [1, 7, 5]]
     return at[:, sides].reshape(-1, 3, 3)
 
 
 def shape_and_row(thing: Any) -> tuple[dict[str, Any], dict[str, float]]:
-    """What a body is and where it stands. Takes ellipses, ellipsoids, combined bodies, hulls, assemblies, bodies, placed
-    ones, bodies of scenes and of the world, meshes ({points, triangles}), and arrays of points (n, 3)."""
+    """What a body is and where it stands. Takes ellipses, ellipsoids, combined bodies, hulls, assemblies, bodies,
+    placed ones, bodies of scenes and of the world, meshes ({points, triangles}), and arrays of points (n, 3)."""
     if isinstance(thing, dict):
         return thing, row_of([0, 0, 0], np.eye(3))
     if isinstance(thing, (np.ndarray, list, tuple)):

@@ -76,7 +76,7 @@ def draw_in_space(axes: Any, shape: dict[str, Any], row: dict[str, float], color
         points = posed(shape["points"], row)
         axes.scatter(*points.T, s=1.5, color=color, linewidths=0, alpha=alpha)
         return points
-    quadrics = [p for p in shape["pieces"] if p["kind"] != "hull"] if "pieces" in shape else [shape] * ("factor" in shape)
+    quadrics = [p for p in shape.get("pieces", [shape]) if "factor" in p]
     seen = []
     for quadric in quadrics:
         grid = surface(quadric, row, 31)
@@ -85,16 +85,16 @@ def draw_in_space(axes: Any, shape: dict[str, Any], row: dict[str, float], color
     if not quadrics:
         faces = [posed(face, row) for face in faces_of(shape)]
         edges = {"edgecolor": "k", "linewidth": 0.2} if len(faces) <= 300 else {"linewidth": 0}
-        axes.add_collection3d(Poly3DCollection(faces, facecolor=np.column_stack([lit(faces, color), np.full(len(faces), alpha)]),
-                                               **edges))
+        shaded = np.column_stack([lit(faces, color), np.full(len(faces), alpha)])
+        axes.add_collection3d(Poly3DCollection(faces, facecolor=shaded, **edges))
         seen += faces
     return np.vstack(seen)
 
 
 def body(thing: Any, *, axes: Any = None, color: Any = OBSTACLE, alpha: float = 0.7, label: str | None = None) -> Any:
-    """Draws a body where it stands, metres, and returns the axes: of the plane for ellipses and combined ellipses, else of
-    space. `thing`: an ellipsoid, a combined body, a hull, an assembly, a Body, a Placed, a mesh, or points (n, 3). `axes`:
-    on which to draw; they grow. Cost: a second for 50,000 triangles."""
+    """Draws a body where it stands, metres, and returns the axes: of the plane for ellipses and combined ellipses, else
+    of space. `thing`: an ellipsoid, a combined body, a hull, an assembly, a Body, a Placed, a mesh, or points (n, 3).
+    `axes`: on which to draw; they grow. Cost: a second for 50,000 triangles."""
     shape, row = shape_and_row(thing)
     flat = shape["kind"] == "ellipse"
     with style():

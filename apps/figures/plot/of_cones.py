@@ -21,7 +21,8 @@ TOWARDS: "WeakKeyDictionary[Any, Any]" = WeakKeyDictionary()  # of axes that sho
 
 
 def seen_from_agent(axes: Any, towards: Numbers) -> Any:
-    """Axes of directions: angles from the direction in their middle keep their size, degrees (azimuthal equidistant)."""
+    """Axes of directions: angles from the direction in their middle keep their size, degrees (azimuthal
+    equidistant)."""
     if axes is None:
         axes = plt.figure(figsize=(3.9, 3.5), constrained_layout=True).add_subplot()
     if axes not in TOWARDS:
@@ -46,10 +47,10 @@ def on_view(axes: Any, directions: Numbers) -> Any:
 
 def cone(thing: Any, *, axes: Any = None, towards: Numbers | None = None, color: Any = None,
          label: str | None = None) -> Any:
-    """Draws the directions of relative velocity that collide, as the agent sees them, in degrees from the line of sight,
-    and returns the axes. `thing`: a Cone (filled: surely collides; line: surely safe beyond), TrueCone, SliceCone,
-    PolyhedralCone or ConeMap; several on the same axes compare. Solid angles in the legend are steradian. `towards`: the
-    direction in the middle, the cone's axis if left out."""
+    """Draws the directions of relative velocity that collide, as the agent sees them, in degrees from the line of
+    sight, and returns the axes. `thing`: a Cone (filled: surely collides; line: surely safe beyond), TrueCone,
+    SliceCone, PolyhedralCone or ConeMap; several on the same axes compare. Solid angles in the legend are steradian.
+    `towards`: the direction in the middle, the cone's axis if left out."""
     if has(thing, "cells", "corners"):
         return cone_map(thing, axes=axes, towards=towards)
     inner, outer, axis = loops_of(thing)
@@ -72,7 +73,8 @@ def cone(thing: Any, *, axes: Any = None, towards: Numbers | None = None, color:
 
 
 def velocity(relative_velocity: Numbers, *, axes: Any, verdict: Any = None, label: str | None = None) -> Any:
-    """Marks the direction of a relative velocity (m/s) on axes of directions, in the colour of its verdict; returns them."""
+    """Marks the direction of a relative velocity (m/s) on axes of directions, in the colour of its verdict; returns
+    them."""
     with style():
         color = courses.COLORS.get(word(verdict), GREY) if verdict is not None else "k"
         text = label or (courses.WORDS.get(word(verdict)) if verdict is not None else None)
@@ -84,8 +86,8 @@ def velocity(relative_velocity: Numbers, *, axes: Any, verdict: Any = None, labe
 
 
 def cone_map(thing: Any, *, axes: Any = None, towards: Numbers | None = None, pixels: int = 600) -> Any:
-    """Draws a ConeMap and returns the axes: around the direction `towards` as the agent sees it, degrees from it; without
-    one the whole sphere by azimuth and elevation, degrees. Solid angles in the legend are steradian."""
+    """Draws a ConeMap and returns the axes: around the direction `towards` as the agent sees it, degrees from it;
+    without one the whole sphere by azimuth and elevation, degrees. Solid angles in the legend are steradian."""
     data = map_data(thing)
     labels = sphere.Map(data)
     with style():
@@ -104,9 +106,9 @@ def cone_map(thing: Any, *, axes: Any = None, towards: Numbers | None = None, pi
 
 def sector(thing: Any, *, axes: Any = None, radius: float = 1.0, center: Numbers = (0.0, 0.0),
            color: Any = EXACT, label: str | None = None) -> Any:
-    """Draws the colliding directions of a plane and returns the axes. A PlaneSector: in its plane, the line of sight to the
-    right, `across` up. A Sector of two planar bodies: at `center`, metres, in world axes, with its tangents. `radius` in
-    the units of the axes."""
+    """Draws the colliding directions of a plane and returns the axes. A PlaneSector: in its plane, the line of sight to
+    the right, `across` up. A Sector of two planar bodies: at `center`, metres, in world axes, with its tangents.
+    `radius` in the units of the axes."""
     low, high = ((-thing.right.angle, thing.left.angle) if has(thing, "line_of_sight") else
                  (thing.theta_b - 0.5 * thing.psi, thing.theta_b + 0.5 * thing.psi))
     with style():
@@ -116,11 +118,12 @@ def sector(thing: Any, *, axes: Any = None, radius: float = 1.0, center: Numbers
             axes.set_ylabel("across (1)" if has(thing, "line_of_sight") else "y (m)")
         degrees = np.degrees([low, high])
         axes.add_patch(Wedge(center, radius, *degrees, facecolor=color, alpha=0.15, linewidth=0))
-        axes.add_patch(Arc(center, 2 * radius, 2 * radius, theta1=degrees[0], theta2=degrees[1], color=color, linewidth=0.9))
+        axes.add_patch(Arc(center, 2 * radius, 2 * radius, theta1=degrees[0], theta2=degrees[1], color=color,
+                           linewidth=0.9))
         for n, angle in enumerate((low, high)):
             tip = np.asarray(center) + radius * np.array([np.cos(angle), np.sin(angle)])
-            axes.plot(*np.stack([center, tip]).T, color=color, linewidth=1,
-                      label=None if n else "%s, $\\psi$ = %.4g°" % (label or "colliding directions", np.degrees(high - low)))
+            text = "%s, $\\psi$ = %.4g°" % (label or "colliding directions", np.degrees(high - low))
+            axes.plot(*np.stack([center, tip]).T, color=color, linewidth=1, label=None if n else text)
         for edge in (thing.left, thing.right):
             if has(edge, "point_on_a"):
                 points = np.stack([edge.point_on_a, edge.point_on_b])
@@ -134,9 +137,9 @@ def sector(thing: Any, *, axes: Any = None, radius: float = 1.0, center: Numbers
 
 def engagement(pair: Any, agent_velocity: Numbers | None = None, obstacle_velocity: Numbers = (0.0, 0.0, 0.0), *,
                cone: Any = True, axes: Any = None) -> Any:
-    """Draws a Pair in space, metres, and returns the axes: the agent (green), the obstacle (violet), the cone of relative
-    velocities that collide as far as the obstacle, and where the velocities (m/s) lead, seen from the obstacle. `cone`:
-    one that is there already, or whether to ask the pair for it (of meshes seconds: pair.cone())."""
+    """Draws a Pair in space, metres, and returns the axes: the agent (green), the obstacle (violet), the cone of
+    relative velocities that collide as far as the obstacle, and where the velocities (m/s) lead, seen from the
+    obstacle. `cone`: one that is there already, or whether to ask the pair for it (of meshes seconds: pair.cone())."""
     agent, obstacle = pair.agent(), pair.obstacle()
     start, end = np.asarray(agent.middle()), np.asarray(obstacle.middle())
     distance = float(np.linalg.norm(end - start))
@@ -157,11 +160,13 @@ def engagement(pair: Any, agent_velocity: Numbers | None = None, obstacle_veloci
                 way = courses.travel(course)
                 way = way if way is not None and np.any(way) else 0.5 * distance * sphere.unit(course["velocity"])
                 axes.plot(*np.stack([start, start + way]).T, color=says, linewidth=1.5, zorder=6)
-                axes.quiver(*(start + 0.8 * way), *(0.2 * way), color=says, linewidth=1.5, arrow_length_ratio=0.5, zorder=6)
+                axes.quiver(*(start + 0.8 * way), *(0.2 * way), color=says, linewidth=1.5, arrow_length_ratio=0.5,
+                            zorder=6)
                 fit_space(axes, np.stack([start, start + way]))
             if "contact_point" in course:
                 axes.plot(*course["contact_point"][:, None], "o", color=says, markersize=4, zorder=9)
-            axes.text2D(0.02, 0.98, courses.sentence(course), transform=axes.transAxes, color=says, fontsize=8, va="top")
+            axes.text2D(0.02, 0.98, courses.sentence(course), transform=axes.transAxes, color=says, fontsize=8,
+                        va="top")
             axis = end - start
             if np.linalg.norm(np.cross(axis, course["velocity"])) > 0:
                 in_space.look_across(axes, axis / distance, np.asarray(course["velocity"]), np.ones(3))
@@ -180,8 +185,8 @@ def plane_engagement(agent: Any, obstacle: Any, sector_of_pair: Any = None, *, a
 
 
 def directions_around(towards: Numbers, reach: float = 60.0, n: int = 121) -> Any:
-    """Unit directions (n, n, 3) for a picture as the agent sees it: up to `reach` degrees right, left, up and down of the
-    one in the middle."""
+    """Unit directions (n, n, 3) for a picture as the agent sees it: up to `reach` degrees right, left, up and down of
+    the one in the middle."""
     x, y = np.meshgrid(np.linspace(-reach, reach, n), np.linspace(-reach, reach, n))
     return sphere.on_sky(x, y, sphere.unit(np.asarray(towards, float)))
 
@@ -189,8 +194,8 @@ def directions_around(towards: Numbers, reach: float = 60.0, n: int = 121) -> An
 def clearance_field(pair: Any, speed: float, obstacle_velocity: Numbers = (0.0, 0.0, 0.0), *, reach: float = 60.0,
                     n: int = 121, axes: Any = None) -> Any:
     """Draws by how much a pair misses for every heading of the agent at `speed` (m/s): metres, negative where they meet
-    (then how far the agent would have to be shifted); the line is where they graze. Headings in degrees from the line of
-    sight. Returns the axes. Cost: n² questions, asked in one call."""
+    (then how far the agent would have to be shifted); the line is where they graze. Headings in degrees from the line
+    of sight. Returns the axes. Cost: n² questions, asked in one call."""
     towards = np.asarray(pair.obstacle().middle()) - np.asarray(pair.agent().middle())
     headings = directions_around(towards, reach, n)
     miss = np.asarray(pair.miss(speed * headings, np.asarray(obstacle_velocity, float)).distance)
@@ -214,8 +219,8 @@ def clearance_field(pair: Any, speed: float, obstacle_velocity: Numbers = (0.0, 
 
 
 def sign_map(verdicts: Any, *, axes: Any = None, title: str | None = None, unit: str = "ulps") -> Any:
-    """Draws verdicts (n, n) of velocities beside each other, the middle one in the middle, as colours of in, on and out;
-    returns the axes. `unit`: what a step is called."""
+    """Draws verdicts (n, n) of velocities beside each other, the middle one in the middle, as colours of in, on and
+    out; returns the axes. `unit`: what a step is called."""
     grid = np.asarray(verdicts)
     half = [size // 2 + 0.5 for size in grid.shape]
     with style():

@@ -27,15 +27,16 @@ def flown_of(source: Any, scenario: Any) -> runs.Flown:
 
 def run(source: Any, scenario: Any = None) -> tuple[Any, ...]:
     """Draws a run: the bodies on their ways (metres), y, miss distances (metres) and accelerations (m/s²) over time
-    (seconds), and the verdict. `source`: the folder that `simulate(..., out=folder)` or `vericone simulate --out` wrote,
-    or a Run, with its Scenario. Returns the axes, that of the ways first."""
+    (seconds), and the verdict. `source`: the folder that `simulate(..., out=folder)` or `vericone simulate --out`
+    wrote, or a Run, with its Scenario. Returns the axes, that of the ways first."""
     flown = flown_of(source, scenario)
     with style():
         return tuple(runs.picture(flown).axes)
 
 
 def ways(source: Any, scenario: Any = None, *, axes: Any = None) -> Any:
-    """Draws the ways of a run's bodies alone, metres; `source` as of run(). Returns the axes of the plane or of space."""
+    """Draws the ways of a run's bodies alone, metres; `source` as of run(). Returns the axes of the plane or of
+    space."""
     flown = flown_of(source, scenario)
     with style():
         if axes is None:
@@ -64,7 +65,8 @@ def piece_data(piece: Any) -> dict[str, Any]:
         around = [[i, (i + 1) % n, n + i] for i in range(n)] + [[(i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
         return {"footprint": {"center": piece.footprint.center(), "factor": piece.footprint.factor(), "low": piece.low,
                               "high": piece.high},
-                "mesh": {"vertices": np.vstack([np.column_stack([ring, np.full(n, z)]) for z in (piece.low, piece.high)]),
+                "mesh": {"vertices": np.vstack([np.column_stack([ring, np.full(n, z)])
+                                                for z in (piece.low, piece.high)]),
                          "triangles": around, "quadrics": np.zeros(2 * n, int)}}
     return {"body": quadric_shape(piece.body), "part": "whole", "mesh": mesh_of(piece.body)}
 
@@ -82,9 +84,9 @@ def fit_data(result: Any, sample: Any) -> dict[str, Any]:
 
 
 def fit(result: Any, sample: Any, *, axes: Any = None, azimuth: float = -60.0, elevation: float = 25.0) -> Any:
-    """Draws a FitResult over the points (n, 3) or mesh that it was made of, metres. Without `axes`: from the front, from
-    the side, from above and askew, and returns the four axes; else askew alone, seen from `azimuth` and `elevation`
-    (degrees), and returns `axes`."""
+    """Draws a FitResult over the points (n, 3) or mesh that it was made of, metres. Without `axes`: from the front,
+    from the side, from above and askew, and returns the four axes; else askew alone, seen from `azimuth` and
+    `elevation` (degrees), and returns `axes`."""
     data = fit_data(result, sample)
     with style():
         if axes is None:

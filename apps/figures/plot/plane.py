@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Engagements in the plane: both bodies, the inner common tangents, the sector of colliding velocities drawn at the agent,
-and where the scene's relative velocity leads, seen from the obstacle."""
+"""Engagements in the plane: both bodies, the inner common tangents, the sector of colliding velocities drawn at the
+agent, and where the scene's relative velocity leads, seen from the obstacle."""
 from typing import Any
 
 import matplotlib.pyplot as plt

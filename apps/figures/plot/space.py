@@ -36,8 +36,8 @@ def cone(axes: Axes, apex: Array, axis: Array, directions: Array, reach: float, 
 
 
 def travel(axes: Axes, course: Data, agent: Array, reach: float, moved: Any = None) -> Any:
-    """The way along a relative velocity, to the first contact or to where it is nearest, else `reach` metres. `moved`: the
-    agent's surface after a shift. Returns points that must be seen."""
+    """The way along a relative velocity, to the first contact or to where it is nearest, else `reach` metres. `moved`:
+    the agent's surface after a shift. Returns points that must be seen."""
     velocity = np.array(course["velocity"])
     way, seen = courses.travel(course), []
     if way is not None and way.any():  # where it first touches, or is nearest

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Common look of the figures: IEEE widths, fonts that are embedded as TrueType; colours mean the same in all of them."""
+"""Common look of the figures: IEEE widths, fonts that are embedded as TrueType; colours mean the same in all of
+them."""
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
