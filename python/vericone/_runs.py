@@ -24,9 +24,9 @@ import numpy.typing as npt
 if TYPE_CHECKING:
     import pandas
 
-    from . import InputError, files, fits, fitting, lidar, montecarlo, scenes, simulation
+    from . import InputError, files, fits, fitting, montecarlo, scanning, scenes, simulation
 
-__all__ = ["Campaign", "MeshScan", "as_frame", "campaign", "fit", "read_scenario", "read_scene", "read_table", "run_tables",
+__all__ = ["Campaign", "Scanned", "as_frame", "campaign", "fit", "read_scenario", "read_scene", "read_table", "run_tables",
            "scan", "simulate", "units", "write_scene"]
 
 PathLike = Union[str, "os.PathLike[str]"]
@@ -383,34 +383,26 @@ def fit(data: PathLike | npt.ArrayLike | tuple[npt.ArrayLike, npt.ArrayLike] | f
 # Scans -----------------------------------------------------------------------------------------------------------------
 
 
-class MeshScan(NamedTuple):
-    """What LiDARs saw: `points` (n, 3), metres, in the world, of all of them; `sensor` (n,), which one saw each; `scans`,
-    what each of them returned."""
+class Scanned(NamedTuple):
+    """What LiDARs saw: `points` (n, 3), metres, in the world, fused where their poses were known badly (empty where that
+    failed: seen.not_fused says why); `seen`, the scans themselves; `study`, how near the cones of finer and finer scans
+    (sr, rad) are to that of all that can be seen; None where it was not asked for."""
     points: Array
-    sensor: Array
-    scans: list[lidar.Scan]
+    seen: scanning.Seen
+    study: scanning.Study | None
 
 
-def scan(scene: PathLike | scenes.Scene, lidars: Sequence[lidar.Lidar], *, seed: int = 1) -> MeshScan:
-    """What LiDARs on the agent of a scene return of its obstacle, a mesh (docs/explanation/lidar.md). Their poses are in
-    the agent's own frame: the centre of its ellipsoid (metres), turned as the ellipsoid's axes are. `seed` decides noise
-    and dropouts; the i-th LiDAR has seed + i. Raises InputError naming "agent", "obstacle" or a field of a LiDAR."""
-    module = _part("lidar")
-    given = read_scene(scene) if isinstance(scene, (str, os.PathLike)) else scene
-    agent, obstacle = given.agent.ellipsoid(), given.obstacle.pieces()
-    if agent is None:
-        raise _refuse("agent", given.agent.name, "an ellipsoid")
-    if obstacle is None or len(obstacle.by_slot().triangles) == 0:
-        raise _refuse("obstacle", given.obstacle.name, "a mesh for the LiDARs to see")
-    pose = given.obstacle.placed.pose
-    corners = np.asarray(obstacle.by_slot().triangles, dtype=float).reshape(-1, 3)
-    points = np.asarray(pose.position) + corners @ np.asarray(pose.rotation).T
-    mesh = module.MeshScene(points, np.arange(len(points), dtype=np.uint32).reshape(-1, 3))
-    place = np.eye(4)
-    place[:3, 3] = agent.center()
-    factor = np.asarray(agent.factor())
-    place[:3, :3] = factor / np.linalg.norm(factor, axis=0)
-    scans = [module.scan(mesh, one, place, seed + i) for i, one in enumerate(lidars)]
-    seen = [np.asarray(one.world_points(), dtype=float).reshape(-1, 3) for one in scans]
-    sensor = np.repeat(np.arange(len(seen)), [len(part) for part in seen])
-    return MeshScan(np.concatenate(seen) if seen else np.empty((0, 3)), sensor, scans)
+def scan(scene: PathLike | scanning.Setup, *, seed: int = 1, planes: int = 36, levels: int = 5, study: bool = True,
+         told: Callable[[str], object] | None = None) -> Scanned:
+    """What the LiDARs of a scene return of its obstacle, a mesh, and what cone they get from it: `vericone scan`
+    (docs/explanation/lidar.md). `scene`: a file, or a scanning.Setup made of an agent, a mesh (metres) and LiDARs, of
+    which seed, planes and levels are replaced. `told` hears a line now and then. Raises InputError naming the file, the
+    field, "agent" or "lidars"."""
+    module = _part("scanning")
+    setup = module.read_scan_scene(os.fspath(scene)).setup if isinstance(scene, (str, os.PathLike)) else scene
+    setup = setup.replace(seed=seed, planes=planes, levels=levels)
+    seen = module.look(setup, _part("lidar").MeshScene(setup.points, setup.triangles), setup.lidars)
+    found = None
+    if study:
+        found = module.study(setup, told) if told is not None else module.study(setup)
+    return Scanned(np.asarray(seen.points, dtype=float).reshape(-1, 3), seen, found)
