@@ -2,6 +2,7 @@
 #include "call.h"
 
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -46,7 +47,9 @@ PyObject* dispatch(const char* name, std::span<const Overload> overloads, PyObje
         continue;
       }
       try {
-        return overload.call(given);
+        PyObject* answer = overload.call(given);
+        if (!answer && !PyErr_Occurred()) throw WrongType{"no answer"};
+        return answer;
       } catch (const WrongType& wrong) {
         if (overloads.size() == 1) throw;
         last = wrong.message;
@@ -125,6 +128,15 @@ PyObject* call(const char* name, std::span<const Overload> overloads, PyObject* 
   return dispatch(name, overloads, self, arguments, n, names, arguments + n);
 }
 
+PyObject* call_many(const char* name, std::span<const Overload> overloads, PyObject* const* arguments, Py_ssize_t n,
+                    PyObject* names) noexcept {
+  if (n < 1) {
+    PyErr_Format(PyExc_TypeError, "%s(): the objects are missing", name);
+    return nullptr;
+  }
+  return dispatch(name, overloads, arguments[0], arguments + 1, n - 1, names, arguments + n);
+}
+
 PyObject* construct(const char* name, std::span<const Overload> overloads, PyTypeObject*, PyObject* arguments,
                     PyObject* named) noexcept {
   std::vector<PyObject*> values;
@@ -143,8 +155,11 @@ PyObject* construct(const char* name, std::span<const Overload> overloads, PyTyp
   } catch (...) {
     return raise_current();
   }
-  return dispatch(name, overloads, nullptr, PySequence_Fast_ITEMS(arguments), PyTuple_GET_SIZE(arguments),
-                  names.ptr(), values.data());
+  PyObject* made = dispatch(name, overloads, nullptr, PySequence_Fast_ITEMS(arguments), PyTuple_GET_SIZE(arguments),
+                            names.ptr(), values.data());
+  // Some classes refer to what they were made of.
+  if (made) reinterpret_cast<Instance*>(made)->kept = PyTuple_Pack(2, arguments, named ? named : Py_None);
+  return made;
 }
 
 // Errors ---------------------------------------------------------------------------------------------------
@@ -167,9 +182,8 @@ PyObject* raise_current(const std::string& at) noexcept {
       PyErr_SetString(PyExc_OSError, error.what());
     } catch (const std::exception& error) {
       PyErr_SetString(PyExc_RuntimeError, error.what());
-    } catch (...) {
-      if (PyErr_CheckSignals() == 0 && !PyErr_Occurred())
-        PyErr_SetString(PyExc_KeyboardInterrupt, "stopped by a callback");
+    } catch (const Interrupted&) {
+      if (PyErr_CheckSignals() == 0) PyErr_SetString(PyExc_KeyboardInterrupt, "stopped by a callback");
     }
   } catch (...) {
     if (!PyErr_Occurred()) PyErr_SetString(PyExc_RuntimeError, "an error in C++ that has no text");
@@ -212,7 +226,7 @@ std::optional<py::error_already_set> wait_for(std::condition_variable& condition
     if (ended) return raised;
     if (!raised && PyErr_CheckSignals() != 0) {
       raised.emplace();
-      stop.ask();
+      stop.request();
     }
   }
 }
@@ -232,7 +246,7 @@ void run_interruptibly(PyObject* self, const std::function<void()>& work) {
   std::recursive_mutex* machine = self && is_object(self) ? reinterpret_cast<Instance*>(self)->lock.get() : nullptr;
   std::thread worker([&] {
     try {
-      const StopScope heard(stop);
+      const StopScope heard(&stop);
       std::unique_lock<std::recursive_mutex> hold;
       if (machine) hold = std::unique_lock(*machine);
       work();
@@ -623,7 +637,7 @@ void answer_all(Given& given, std::span<const Many* const> many, std::span<const
     Py_ssize_t size = whole ? 4096 : 16;
     auto looked = Clock::now();
     std::optional<py::error_already_set> raised;
-    while (!stop.asked()) {
+    while (!stop.requested()) {
       const Py_ssize_t begin = next.fetch_add(size);
       if (begin >= walk.count()) break;
       const Py_ssize_t count = std::min(size, walk.count() - begin);
@@ -666,7 +680,7 @@ void answer_all(Given& given, std::span<const Many* const> many, std::span<const
         const py::gil_scoped_acquire hold;
         if (PyErr_CheckSignals() != 0) {
           raised.emplace();
-          stop.ask();
+          stop.request();
         }
       }
     }
@@ -683,7 +697,7 @@ void answer_all(Given& given, std::span<const Many* const> many, std::span<const
     for (int t = 0; t < extra; ++t)
       others.emplace_back([&] {
         {
-          const StopScope heard(stop);
+          const StopScope heard(&stop);
           (void)work(false);
         }
         const std::lock_guard lock(mutex);
@@ -698,6 +712,7 @@ void answer_all(Given& given, std::span<const Many* const> many, std::span<const
       std::recursive_mutex* machine =
           given.self && is_object(given.self) ? reinterpret_cast<Instance*>(given.self)->lock.get() : nullptr;
       const py::gil_scoped_release quiet;
+      const StopScope heard(&stop);
       std::unique_lock<std::recursive_mutex> hold;
       if (machine) hold = std::unique_lock(*machine);
       raised = work(true);

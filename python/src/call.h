@@ -69,8 +69,11 @@ PyObject* call(const char* name, std::span<const Overload> overloads, PyObject* 
 /// As call(), of a tuple and a dictionary.
 PyObject* construct(const char* name, std::span<const Overload> overloads, PyTypeObject* type, PyObject* arguments,
                     PyObject* named) noexcept;
-/// A record from the values of its fields by name.
-PyObject* construct_record(PyTypeObject* type, PyObject* arguments, PyObject* named) noexcept;
+/// A record from the values of its fields, in their order or by name.
+PyObject* construct_record(const TypeInfo& info, PyObject* arguments, PyObject* named) noexcept;
+/// A method about many objects: the first argument is the object, or a list of them.
+PyObject* call_many(const char* name, std::span<const Overload> overloads, PyObject* const* arguments, Py_ssize_t n,
+                    PyObject* names) noexcept;
 /// What is being thrown, as an exception of Python; returns null.
 PyObject* raise_current(const std::string& at = {}) noexcept;
 
@@ -130,6 +133,21 @@ class Many {
   Many(const Given& given, int i, int components);
   /// Objects of a type.
   Many(const Given& given, int i, const TypeInfo& info);
+  /// One, where nothing is given: a number, or a vector that outlives this.
+  Many(const char* name, double number) : name_(name), components_(1), scalar_(true) {
+    numbers_[0] = number;
+    one_ = numbers_;
+  }
+  template <int N>
+  Many(const char* name, const Eigen::Matrix<double, N, 1>* vector) : name_(name), components_(N) {
+    std::memcpy(numbers_, vector->data(), sizeof(double) * N);
+    one_ = numbers_;
+  }
+  /// One object, which outlives this.
+  template <class T>
+  Many(const char* name, const T* object) : name_(name), one_(object) {}
+  Many(const Many&) = delete;
+  Many& operator=(const Many&) = delete;
 
   [[nodiscard]] bool single() const { return single_; }
   [[nodiscard]] const std::vector<Py_ssize_t>& shape() const { return shape_; }
@@ -201,15 +219,6 @@ decltype(auto) one(const Many& many) {
     return load<E>(static_cast<const char*>(many.one()));
 }
 
-/// Whether arrays hold values of this type; else they hold objects.
-template <class R>
-[[nodiscard]] bool is_column() {
-  if constexpr (Convert<R>::kColumn == nullptr)
-    return false;
-  else
-    return !Convert<R>::kColumn->record || record_size(*Convert<R>::kColumn->record(), false) > 0;
-}
-
 /// Answers f(argument...) of one question or of all that the arguments broadcast to. E...: the type of each.
 template <class... E, class F, class... M>
 PyObject* answer(Given& given, int threads, F&& f, const M&... m) {
@@ -219,22 +228,28 @@ PyObject* answer(Given& given, int threads, F&& f, const M&... m) {
   const Many* all[] = {&m...};
   const std::vector<Py_ssize_t> shape = broadcast(all);
   using Function = std::remove_reference_t<F>;
-  if (is_column<R>()) {
-    if constexpr (Convert<R>::kColumn != nullptr) {
-      const Output outputs[] = {make_output(Convert<R>::kColumn, shape)};
-      const Kernel kernel = [](void* function, const Part& part, Py_ssize_t& at) {
-        const Py_ssize_t size = part.step[7];
-        for (at = 0; at < part.count; ++at) {
-          [&]<std::size_t... K>(std::index_sequence<K...>) {
-            const R result = (*static_cast<Function*>(function))(load<E>(part.in[K] + at * part.step[K])...);
-            Convert<R>::kColumn->write(part.out[0] + at * size, &result);
-          }(std::index_sequence_for<E...>{});
-        }
-      };
-      answer_all(given, all, shape, outputs, threads, kernel, &f);
-      return outputs[0].array.inc_ref().ptr();
+  const Output outputs[] = {make_output(Convert<R>::kColumn, shape)};
+  const Kernel kernel = [](void* function, const Part& part, Py_ssize_t& at) {
+    const Py_ssize_t size = part.step[7];
+    for (at = 0; at < part.count; ++at) {
+      [&]<std::size_t... K>(std::index_sequence<K...>) {
+        const R result = (*static_cast<Function*>(function))(load<E>(part.in[K] + at * part.step[K])...);
+        Convert<R>::kColumn->write(part.out[0] + at * size, &result);
+      }(std::index_sequence_for<E...>{});
     }
-  }
+  };
+  answer_all(given, all, shape, outputs, threads, kernel, &f);
+  return outputs[0].array.inc_ref().ptr();
+}
+
+/// As answer(), where the answers are no columns of numbers: an array of objects.
+template <class... E, class F, class... M>
+PyObject* answer_objects(Given& given, int threads, F&& f, const M&... m) {
+  using R = std::remove_cvref_t<std::invoke_result_t<F, decltype(load<E>(nullptr))...>>;
+  if ((m.single() && ...)) return to_python(run(given, [&]() -> R { return f(one<E>(m)...); }));
+  const Many* all[] = {&m...};
+  const std::vector<Py_ssize_t> shape = broadcast(all);
+  using Function = std::remove_reference_t<F>;
   Py_ssize_t count = 1;
   for (const Py_ssize_t n : shape) count *= n;
   std::vector<std::optional<R>> results(static_cast<std::size_t>(count));

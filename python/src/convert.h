@@ -5,6 +5,8 @@
 #pragma once
 
 #include <pybind11/numpy.h>
+#include <vericone/geometry/error.h>
+#include <vericone/geometry/interval.h>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
@@ -269,6 +271,20 @@ struct Convert<T> {
 template <class T>
 struct IsRecord : std::false_type {};  // the generated tables say which are
 
+/// An enclosure in an array: its two ends.
+struct IntervalColumn {
+  static std::string format() { return "(2,)f8"; }
+  static void write(void* row, const void* value) {
+    const auto& interval = *static_cast<const Interval*>(value);
+    static_cast<double*>(row)[0] = interval.lo();
+    static_cast<double*>(row)[1] = interval.hi();
+  }
+  static void write_nothing(void* row) {
+    static_cast<double*>(row)[0] = static_cast<double*>(row)[1] = std::numeric_limits<double>::quiet_NaN();
+  }
+  static constexpr Column kColumn{&format, 16, &write, &write_nothing};
+};
+
 template <class T>
 struct Convert {
   static T from(PyObject* given, const Place& place)
@@ -286,7 +302,11 @@ struct Convert {
   static void write_nothing(void* row) { write_no_record(row, type_of<T>()); }
   static const TypeInfo* record() { return &type_of<T>(); }
   static constexpr Column kOwn{&format, -1, &write, &write_nothing, &record};
-  static constexpr const Column* kColumn = IsRecord<T>::value ? &kOwn : nullptr;
+  static constexpr const Column* column() {
+    if constexpr (std::is_same_v<T, Interval>) return &IntervalColumn::kColumn;
+    return IsRecord<T>::value ? &kOwn : nullptr;
+  }
+  static constexpr const Column* kColumn = column();
 };
 template <class T>
 struct Convert<std::shared_ptr<T>> {
@@ -540,6 +560,23 @@ struct Convert<std::span<T>> {
     return Convert<std::vector<V>>::to(std::vector<V>(list.begin(), list.end()));
   }
   static constexpr const Column* kColumn = nullptr;
+};
+
+/// Truth values side by side, which a vector of bool does not have.
+struct Flags {
+  std::unique_ptr<bool[]> data;
+  std::size_t size = 0;
+  operator std::span<const bool>() const { return {data.get(), size}; }  // NOLINT: that is what it is for
+};
+template <>
+struct Convert<Flags> {
+  static Flags from(PyObject* given, const Place& place) {
+    const auto list = Convert<std::vector<bool>>::from(given, place);
+    Flags flags{std::make_unique<bool[]>(list.size()), list.size()};
+    for (std::size_t i = 0; i < list.size(); ++i) flags.data[i] = list[i];
+    return flags;
+  }
+  static bool could(PyObject* given) { return is_sequence(given); }
 };
 
 // Callbacks.

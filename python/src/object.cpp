@@ -54,7 +54,7 @@ PyObject* get_field(PyObject* self, void* closure) {
 PyObject* state_of(PyObject* self) {
   const TypeInfo& info = info_of(self);
   if (info.state) return info.state(own_value(self));
-  if (!info.make) return nullptr;
+  if (info.fields.empty()) return nullptr;
   py::tuple state(info.fields.size());
   for (std::size_t i = 0; i < info.fields.size(); ++i) {
     PyObject* part = get_field(self, const_cast<Field*>(&info.fields[i]));
@@ -93,7 +93,7 @@ PyObject* compare(PyObject* a, PyObject* b, int operation) {
     bool same = a == b;
     if (!same) {
       const auto x = py::reinterpret_steal<py::object>(state_of(a));
-      if (!x) Py_RETURN_NOTIMPLEMENTED;  // by identity
+      if (!x && !PyErr_Occurred()) Py_RETURN_NOTIMPLEMENTED;  // by identity
       const auto y = py::reinterpret_steal<py::object>(state_of(b));
       same = equal(x.ptr(), y.ptr());
     }
@@ -218,6 +218,36 @@ void set_fields(const TypeInfo& info, void* value, PyObject* named, std::vector<
     set[i] = true;
   }
 }
+
+}  // namespace
+
+PyObject* construct_record(const TypeInfo& info, PyObject* arguments, PyObject* named) noexcept {
+  try {
+    auto value = info.make();
+    std::vector<bool> set(info.fields.size());
+    const Py_ssize_t n = PyTuple_GET_SIZE(arguments);
+    if (n > static_cast<Py_ssize_t>(info.fields.size()))
+      throw WrongType{short_name(info) + " has " + std::to_string(info.fields.size()) + " fields, got " +
+                      std::to_string(n) + " values"};
+    for (Py_ssize_t i = 0; i < n; ++i) {
+      const Field& field = info.fields[static_cast<std::size_t>(i)];
+      if (named && PyDict_GetItemString(named, field.name))
+        throw WrongType{short_name(info) + "() got '" + field.name + "' twice"};
+      field.converter->from(static_cast<char*>(value.get()) + field.offset, PyTuple_GET_ITEM(arguments, i),
+                            {nullptr, field.name});
+      set[static_cast<std::size_t>(i)] = true;
+    }
+    set_fields(info, value.get(), named, set);
+    for (std::size_t i = 0; i < set.size(); ++i)
+      if (info.fields[i].required && !set[i])
+        throw WrongType{short_name(info) + "() needs '" + info.fields[i].name + "'"};
+    return new_instance(info, std::move(value));
+  } catch (...) {
+    return raise_current();
+  }
+}
+
+namespace {
 
 PyObject* replace(PyObject* self, PyObject* arguments, PyObject* named) {
   const TypeInfo& info = info_of(self);

@@ -48,6 +48,17 @@ ErrorSet ErrorSet::zonotope(std::span<const Vector3d> generators) {
   return set;
 }
 
+ErrorSet ErrorSet::sum(double radius, std::vector<Eigen::Matrix3d> factors,
+                       std::vector<Eigen::Vector3d> segments) {
+  ErrorSet set = ball(radius);
+  for (std::size_t i = 0; i < factors.size(); ++i)
+    if (!factors[i].allFinite())
+      throw InputError("factors[" + std::to_string(i) + "]", "a number that is not finite", "finite (m or m/s)");
+  set.segments_ = zonotope(segments).segments_;
+  set.factors_ = std::move(factors);
+  return set;
+}
+
 ErrorSet operator+(ErrorSet x, const ErrorSet& y) {
   x.radius_ += y.radius_;
   x.factors_.insert(x.factors_.end(), y.factors_.begin(), y.factors_.end());

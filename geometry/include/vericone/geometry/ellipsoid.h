@@ -77,6 +77,17 @@ class BasicEllipsoid {
   /// The image under x -> scale * x, scale > 0.
   [[nodiscard]] BasicEllipsoid scaled(double scale) const;
 
+  /// Of another one's stored numbers, without any check: the same body bit for bit.
+  [[nodiscard]] static BasicEllipsoid trusted(const Vector& center, const Matrix& shape, const Matrix& factor,
+                                              bool defined_by_factor) {
+    BasicEllipsoid body;
+    body.center_ = center;
+    body.shape_ = shape;
+    body.factor_ = factor;
+    body.defined_by_factor_ = defined_by_factor;
+    return body;
+  }
+
  private:
   Vector center_ = Vector::Zero();
   Matrix shape_ = Matrix::Identity();

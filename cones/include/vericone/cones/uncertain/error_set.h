@@ -31,6 +31,12 @@ class ErrorSet {
   /// finite.
   [[nodiscard]] static ErrorSet zonotope(std::span<const Eigen::Vector3d> generators);
 
+  /// The sums of the errors of a ball, of ellipsoids { F u : |u| <= 1 } and of segments { s g : |s| <= 1 }: a
+  /// set of what radius(), factors() and segments() say. Throws InputError naming "ball", "factors[i]" or
+  /// "zonotope[i]" where a number is not finite, or the radius negative.
+  [[nodiscard]] static ErrorSet sum(double radius, std::vector<Eigen::Matrix3d> factors,
+                                    std::vector<Eigen::Vector3d> segments);
+
   /// Every sum of an error of one and one of the other.
   friend ErrorSet operator+(ErrorSet x, const ErrorSet& y);
 

@@ -1,0 +1,483 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What Python sees: every public C++ name resolved, templates instantiated, the kind of each type known. A name that
+cannot be bound must be in rules.py with its reason, else generating fails."""
+from __future__ import annotations
+
+import dataclasses
+import keyword
+import re
+
+import rules
+from cxxtypes import Type, parse
+from headers import Class, Enum, Function, Interface
+
+EIGEN = {
+    "Eigen::Vector2d": ("2", "1"), "Eigen::Vector3d": ("3", "1"), "Eigen::Vector4d": ("4", "1"),
+    "Eigen::Matrix2d": ("2", "2"), "Eigen::Matrix3d": ("3", "3"), "Eigen::Matrix4d": ("4", "4"),
+    "Eigen::VectorXd": ("-1", "1"), "Eigen::MatrixXd": ("-1", "-1"), "Eigen::Matrix2Xd": ("2", "-1"),
+    "Eigen::Matrix3Xd": ("3", "-1"),
+}
+INTEGERS = {"int", "unsigned int", "unsigned", "long", "unsigned long", "std::size_t", "std::uint64_t", "std::uint32_t",
+            "std::uint16_t", "std::uint8_t", "std::int64_t", "std::int32_t", "std::int8_t", "std::int16_t", "size_t", "Eigen::Index",
+            "std::ptrdiff_t", "std::uint_fast32_t"}
+STANDARD = {"std::optional", "std::vector", "std::array", "std::span", "std::variant", "std::pair", "std::function",
+            "std::shared_ptr", "std::unique_ptr", "std::string", "std::string_view", "std::filesystem::path", "std::monostate",
+            "Eigen::Matrix", "Eigen::Ref", "Eigen::Isometry3d", "void", "char", "double", "float", "bool", "function()"}
+RATIONAL = "vericone::exact::Rational"
+WHOLE = "vericone::exact::Integer"
+
+
+class Unbound(Exception):
+    """A type that Python has no form of."""
+
+
+def python_name(name: str) -> str:
+    return name + "_" if keyword.iskeyword(name) else name
+
+
+@dataclasses.dataclass
+class Argument:
+    name: str
+    type: Type              # as C++ declares it, resolved
+    default: str | None     # C++
+    role: str               # "value", "many", "asked" (rung=True), "changed", "memory"
+
+
+@dataclasses.dataclass
+class Callable_:
+    name: str               # in Python
+    cpp: Function
+    call: str               # C++ expression to call: "vericone::clearance", "{self}.verdict", "vericone::Body::pieces"
+    arguments: list[Argument]
+    result: Type
+    doc: str
+    many: bool = False      # takes one or many
+    whole: str = ""         # a C++ call of its own for many vectors
+    long_work: bool = False
+    module: str = ""
+
+
+@dataclasses.dataclass
+class Group:
+    """Overloads of one name."""
+    name: str
+    overloads: list[Callable_]
+    static: bool = False
+
+
+@dataclasses.dataclass
+class Record:
+    """A class or a struct."""
+    cpp: str                # "vericone::BasicEllipsoid<3>"
+    path: tuple[str, ...]   # in Python: ("guidance", "GuideMemory", "Past")
+    space: tuple[str, ...]  # its namespaces
+    source: Class
+    module: str
+    doc: str
+    fields: list[tuple[str, Type, bool, str, str | None]] = dataclasses.field(default_factory=list)  # name, type, required, doc, default
+    constructors: list[Callable_] = dataclasses.field(default_factory=list)
+    methods: list[Group] = dataclasses.field(default_factory=list)
+    base: str | None = None
+    stand_ins: list[Type] = dataclasses.field(default_factory=list)
+    machine: bool = False
+
+    @property
+    def is_record(self) -> bool:
+        return bool(self.fields) and not self.source.private_data
+
+    @property
+    def name(self) -> str:
+        return ".".join(self.path)
+
+
+@dataclasses.dataclass
+class PyEnum:
+    cpp: str
+    path: tuple[str, ...]
+    space: tuple[str, ...]
+    source: Enum
+    module: str
+
+    @property
+    def name(self) -> str:
+        return ".".join(self.path)
+
+
+@dataclasses.dataclass
+class Name:
+    cpp: str
+    kind: str
+    header: str
+    python: str = ""
+    reason: str = ""
+    doc: str = ""
+
+
+def module_of(header: str) -> str:
+    for prefix, module in rules.MODULES:
+        if header.startswith(prefix):
+            return module
+    raise SystemExit(f"no module for {header}")
+
+
+class Model:
+    def __init__(self, interface: Interface) -> None:
+        self.interface = interface
+        self.namespaces: set[tuple[str, ...]] = {()}
+        self.class_sources = {c.path: c for c in interface.classes}
+        self.enum_sources = {e.path: e for e in interface.enums}
+        for entry in (*interface.classes, *interface.enums, *interface.functions):
+            scope = entry.scope
+            while scope and (scope in self.class_sources):
+                scope = scope[:-1]
+            self.namespaces.add(scope)
+        self.records: dict[str, Record] = {}
+        self.enums: dict[str, PyEnum] = {}
+        self.functions: dict[tuple[tuple[str, ...], str, str], Group] = {}
+        self.names: list[Name] = []
+        self.problems: list[str] = []
+        self._declare()
+        self._define()
+
+    # Names ------------------------------------------------------------------------------------------------
+
+    def _space(self, scope: tuple[str, ...]) -> tuple[str, ...]:
+        while scope not in self.namespaces:
+            scope = scope[:-1]
+        return scope
+
+    def resolve(self, text: str, scope: tuple[str, ...], values: dict[str, str] | None = None) -> Type:
+        return self._resolve(parse(text), scope, values or {})
+
+    def _resolve(self, kind: Type, scope: tuple[str, ...], values: dict[str, str]) -> Type:
+        arguments = tuple(self._resolve(a, scope, values) for a in kind.arguments)
+        name = kind.name
+        if name in values or re.fullmatch(r"[\w]+\+\d+", name):
+            for key, value in values.items():
+                name = re.sub(rf"\b{key}\b", value, name)
+            if re.fullmatch(r"\d+\+\d+", name):
+                name = str(eval(name))  # noqa: S307: two numbers
+            return Type(name)
+        if re.fullmatch(r"-?\d+", name):
+            return Type(name)
+        if name == "Eigen::Dynamic":
+            return Type("-1")
+        if name in EIGEN:
+            rows, columns = EIGEN[name]
+            return Type("Eigen::Matrix", (Type("double"), Type(rows), Type(columns)), kind.const, kind.reference)
+        if name == "Eigen::Matrix":
+            arguments = arguments[:3]
+        if name in INTEGERS or name in STANDARD or name == "unsigned":
+            return Type(name, arguments, kind.const, kind.reference)
+        if name.startswith("vericone::"):
+            name = name[len("vericone::"):]
+            scopes: list[tuple[str, ...]] = [()]
+        else:
+            scopes = [scope[:n] for n in range(len(scope), -1, -1)]
+        parts = tuple(re.sub(r"<[^>]*>", "", name).split("::"))
+        for outer in scopes:
+            path = (*outer, *parts)
+            if path in (("exact", "Rational"), ("exact", "Integer")):
+                return Type("vericone::" + "::".join(path), (), kind.const, kind.reference)
+            if path in self.class_sources or path in self.enum_sources:
+                if path in self.class_sources and self.class_sources[path].template and not arguments and values:
+                    # The name of a template within itself.
+                    arguments = tuple(Type(values[p]) for p in self.class_sources[path].template if p in values)
+                return Type("vericone::" + "::".join(path), arguments, kind.const, kind.reference)
+            if path in self.interface.aliases:
+                target, _ = self.interface.aliases[path]
+                inner = self._resolve(parse(target), path[:-1], self._alias_values(path, arguments))
+                return dataclasses.replace(inner, const=kind.const or inner.const, reference=kind.reference or inner.reference)
+            if path[:-1] in self.class_sources and path[-1] in self.class_sources[path[:-1]].aliases:
+                inner = self._resolve(parse(self.class_sources[path[:-1]].aliases[path[-1]]), path[:-1], values)
+                return dataclasses.replace(inner, const=kind.const or inner.const, reference=kind.reference or inner.reference)
+        raise Unbound(f"unknown type {kind.text()}")
+
+    def _alias_values(self, path: tuple[str, ...], arguments: tuple[Type, ...]) -> dict[str, str]:
+        return dict(zip(("D",), (a.text() for a in arguments)))
+
+    def key(self, kind: Type) -> str:
+        return kind.plain().text()
+
+    def record(self, kind: Type) -> Record | None:
+        return self.records.get(self.key(kind))
+
+    def enum(self, kind: Type) -> PyEnum | None:
+        return self.enums.get(self.key(kind))
+
+    # Declarations -----------------------------------------------------------------------------------------
+
+    def _declare(self) -> None:
+        for source in self.interface.enums:
+            path = source.path
+            if "::".join(path) in rules.SKIPPED:
+                continue
+            cpp = "vericone::" + "::".join(path)
+            self.enums[cpp] = PyEnum(cpp, path, self._space(source.scope), source, module_of(source.header))
+        for cls in self.interface.classes:
+            full = "::".join(cls.path)
+            if full in rules.SKIPPED or any(full.startswith(s + "::") for s in rules.SKIPPED if s in map("::".join, self.class_sources)):
+                continue
+            space = self._space(cls.scope)
+            if cls.template:
+                if full not in rules.INSTANCES:
+                    self.problems.append(f"{full}: a template without instances in rules.py")
+                    continue
+                for name, values in rules.INSTANCES[full]:
+                    arguments = ", ".join(values)
+                    cpp = f"vericone::{full}<{arguments}>"
+                    self.records[cpp] = Record(cpp, (*cls.scope, name), space, cls, module_of(cls.header), cls.doc)
+            else:
+                cpp = f"vericone::{full}"
+                self.records[cpp] = Record(cpp, cls.path, space, cls, module_of(cls.header), cls.doc)
+
+    def _define(self) -> None:
+        for source in self.interface.enums:
+            full = "::".join(source.path)
+            self.names.append(Name(full, "enum", source.header, "" if full in rules.SKIPPED else full.replace("::", "."),
+                                   rules.SKIPPED.get(full, ""), source.doc))
+        for cls in self.interface.classes:
+            full = "::".join(cls.path)
+            if full in rules.SKIPPED:
+                self.names.append(Name(full, "class", cls.header, "", rules.SKIPPED[full], cls.doc))
+        for record in self.records.values():
+            self._define_record(record)
+        for function in self.interface.functions:
+            self._define_function(function)
+        for path, doc, header in self.interface.constants:
+            full = "::".join(path)
+            reason = rules.SKIPPED.get(full, "")
+            self.names.append(Name(full, "constant", header, "" if reason else full.replace("::", "."), reason, doc))
+            if not reason:
+                self.problems.append(f"{full}: a constant that is neither bound nor has a reason")
+        for path, (_, header) in self.interface.aliases.items():
+            full = "::".join(path)
+            self.names.append(Name(full, "alias", header, full.replace("::", ".") if any(
+                r.path == path for r in self.records.values()) else "", rules.SKIPPED.get(full, "the type it stands for is bound")))
+        known = {n.cpp for n in self.names}
+        for full in rules.SKIPPED:
+            if full not in known:
+                self.problems.append(f"{full}: in SKIPPED of rules.py, and not in the headers")
+
+    def _values(self, record: Record) -> dict[str, str]:
+        if not record.source.template:
+            return {}
+        return dict(zip(record.source.template, re.search(r"<(.*)>", record.cpp).group(1).split(", ")))  # type: ignore[union-attr]
+
+    def _define_record(self, record: Record) -> None:
+        source = record.source
+        values = self._values(record)
+        path = source.path
+        full = "::".join(path)
+        self.names.append(Name(full, "struct" if source.struct else "class", source.header, record.name, "", source.doc))
+        for base in source.bases:
+            try:
+                resolved = self.record(self.resolve(base, source.scope, values))
+            except Unbound:
+                resolved = None
+            record.base = resolved.cpp if resolved else None
+        for field in source.fields:
+            name = f"{full}::{field.name}"
+            if name in rules.SKIPPED:
+                self.names.append(Name(name, "field", source.header, "", rules.SKIPPED[name], field.doc))
+                continue
+            try:
+                kind = self.resolve(field.type, path, values)
+                self.check(kind, field=True)
+            except (Unbound, ValueError) as error:
+                self.problems.append(f"{name}: {error}")
+                continue
+            needs = field.default is None and self.kind(kind) in ("number", "integer", "boolean", "fixed", "enum")
+            record.fields.append((field.name, kind, needs, field.doc, field.default))
+            self.names.append(Name(name, "field", source.header, f"{record.name}.{python_name(field.name)}", "", field.doc))
+        groups: dict[str, Group] = {}
+        for method in source.methods:
+            name = f"{full}::{method.name}" if not method.constructor else f"{full}::{full.split('::')[-1]}"
+            if name in rules.SKIPPED or method.name.startswith("operator") or method.name.startswith("~"):
+                reason = rules.SKIPPED.get(name, "an operator")
+                self.names.append(Name(name, "method", source.header, "", reason, method.doc))
+                continue
+            made = self._callable(method, path, values, record)
+            if made is None:
+                continue
+            if method.constructor:
+                if not source.abstract:
+                    record.constructors.append(made)
+                    if len(method.parameters) >= 1 and not method.explicit and all(
+                            p.default is not None for p in method.parameters[1:]):
+                        first = made.arguments[0].type
+                        if first.plain().text() != record.cpp:
+                            record.stand_ins.append(first)
+                self.names.append(Name(name, "constructor", source.header, record.name, "", method.doc))
+                continue
+            group = groups.setdefault(made.name, Group(made.name, [], method.static))
+            group.overloads.append(made)
+            if not method.const and not method.static:
+                record.machine = True
+            self.names.append(Name(name, "method", source.header, f"{record.name}.{made.name}", "", method.doc))
+        record.methods = list(groups.values())
+        if record.name in rules.IMMUTABLE:
+            record.machine = False
+
+    def _define_function(self, function: Function) -> None:
+        full = "::".join((*function.scope, function.name))
+        if full in rules.SKIPPED or function.name.startswith("operator"):
+            if not any(n.cpp == full for n in self.names):
+                self.names.append(Name(full, "function", function.header, "", rules.SKIPPED.get(full, "an operator"), function.doc))
+            return
+        versions: list[dict[str, str]] = [{}]
+        if function.template:
+            if not all(p in rules.DIMENSIONS for p in function.template):
+                self.problems.append(f"{full}: a template of {', '.join(function.template)}")
+                return
+            versions = [dict(zip(function.template, v)) for v in rules.FUNCTION_INSTANCES.get(full, [("2",), ("3",)])]
+        module = module_of(function.header)
+        space = self._space(function.scope)
+        python = ".".join((*space, python_name(function.name)))
+        for values in versions:
+            made = self._callable(function, function.scope, values, None)
+            if made is None:
+                return
+            group = self.functions.setdefault((space, function.name, module), Group(python_name(function.name), []))
+            group.overloads.append(made)
+        self.names.append(Name(full, "function", function.header, python, "", function.doc))
+
+    # Callables --------------------------------------------------------------------------------------------
+
+    def _callable(self, f: Function, scope: tuple[str, ...], values: dict[str, str], record: Record | None) -> Callable_ | None:
+        full = "::".join((*scope, f.name)) if record else "::".join((*f.scope, f.name))
+        try:
+            arguments = []
+            for p in f.parameters:
+                kind = self.resolve(p.type, scope, values)
+                self.check(kind)
+                arguments.append(Argument(python_name(p.name), kind, p.default, self._role(full, p.name, kind)))
+            result = self.resolve("void" if f.constructor else f.result, scope, values)
+            if not f.constructor:
+                self.check(result, result=True)
+        except (Unbound, ValueError) as error:
+            if (full, str(len(f.parameters))) not in rules.SKIPPED_OVERLOADS:
+                self.problems.append(f"{full}({', '.join(p.type for p in f.parameters)}) -> {f.result}: {error}")
+            else:
+                self.names.append(Name(full, "overload", f.header, "", rules.SKIPPED_OVERLOADS[(full, str(len(f.parameters)))], f.doc))
+            return None
+        if (full, ", ".join(p.type for p in f.parameters)) in rules.SKIPPED_OVERLOADS:
+            self.names.append(Name(full, "overload", f.header, "",
+                                   rules.SKIPPED_OVERLOADS[(full, ", ".join(p.type for p in f.parameters))], f.doc))
+            return None
+        if record and not f.static and not f.constructor:
+            call = "self." + f.name
+        elif record:
+            call = record.cpp if f.constructor else f"{record.cpp}::{f.name}"
+        else:
+            instance = f"<{', '.join(values[p] for p in f.template)}>" if f.template else ""
+            call = f"vericone::{full}{instance}"
+        made = Callable_(python_name(f.name), f, call, arguments, result, f.doc, module=module_of(f.header))
+        made.long_work = full in rules.LONG
+        made.whole = rules.WHOLE.get((full, len([a for a in arguments if a.role != "asked"])), "")
+        question = record is None or f.const
+        made.many = (question and not f.constructor and not f.static and full not in rules.SINGLE
+                     and f.header.startswith(rules.MANY_FOLDERS) and self.answers(result)
+                     and not any(a.role in ("changed", "memory") for a in arguments)
+                     and any(self.is_question(a) for a in arguments))
+        if made.many:
+            for a in arguments:
+                if a.role == "value" and self.is_question(a):
+                    a.role = "many"
+        return made
+
+    def _role(self, full: str, name: str, kind: Type) -> str:
+        if kind.reference == "*" and not kind.const:
+            return "asked" if kind.name in rules.ASKED else "memory"
+        if kind.reference == "&" and not kind.const:
+            return "changed"
+        if kind.name == "std::span" and not kind.arguments[0].const and not full.startswith("vericone::never"):
+            return "changed"
+        return "value"
+
+    def is_question(self, a: Argument) -> bool:
+        kind = self.kind(a.type)
+        if a.type.reference == "*" or a.role not in ("value", "many"):
+            return False
+        if kind == "number" or (kind == "fixed" and a.type.arguments[2].name == "1" and int(a.type.arguments[1].name) <= 4):
+            return True
+        if kind == "class":
+            record = self.record(a.type)
+            assert record
+            return not record.path[-1].endswith(rules.NOT_QUESTIONS) and not record.machine
+        return False
+
+    def answers(self, result: Type) -> bool:
+        """Whether many of these make an array."""
+        kind = self.kind(result)
+        if kind in ("number", "integer", "boolean", "enum", "fixed"):
+            return result.reference != "*"
+        if kind == "class":
+            return True
+        if kind == "optional":
+            return self.answers(result.arguments[0])
+        return False
+
+    def is_column(self, kind: Type) -> bool:
+        """As Convert<T>::kColumn, of records with all their fields."""
+        what = self.kind(kind)
+        if what in ("number", "integer", "boolean", "enum", "fixed"):
+            return True
+        if what == "array":
+            return self.kind(kind.arguments[0]) in ("number", "integer", "boolean")
+        if what == "optional":
+            return self.is_column(kind.arguments[0])
+        if what == "class":
+            if kind.name == "vericone::Interval":
+                return True
+            record = self.record(kind)
+            return bool(record and record.is_record and record.fields and all(self.is_column(t) for _, t, _, _, _ in record.fields))
+        return False
+
+    # Kinds of types ---------------------------------------------------------------------------------------
+
+    def kind(self, kind: Type) -> str:
+        name = kind.name
+        if name in ("double", "float"):
+            return "number"
+        if name == "bool":
+            return "boolean"
+        if name == "void":
+            return "none"
+        if name in INTEGERS:
+            return "integer"
+        if name in ("std::string", "std::string_view") or (name == "char" and kind.reference == "*"):
+            return "text"
+        if name == "std::filesystem::path":
+            return "path"
+        if name in ("Eigen::Matrix", "Eigen::Ref"):
+            matrix = kind.arguments[0] if name == "Eigen::Ref" else kind
+            return "fixed" if int(matrix.arguments[1].name) > 0 and int(matrix.arguments[2].name) > 0 else "matrix"
+        if name == "Eigen::Isometry3d":
+            return "motion"
+        if name == RATIONAL:
+            return "rational"
+        if name == WHOLE:
+            return "whole"
+        if name.startswith("std::"):
+            return name[5:]
+        if self.enum(kind):
+            return "enum"
+        if self.record(kind):
+            return "class"
+        raise Unbound(f"{kind.text()} has no form in Python")
+
+    def check(self, kind: Type, result: bool = False, field: bool = False) -> None:
+        what = self.kind(kind)
+        if what == "function":
+            for part in kind.arguments[0].arguments:
+                self.check(part)
+            return
+        if what in ("variant", "optional", "vector", "array", "span", "pair", "shared_ptr", "unique_ptr"):
+            for part in kind.arguments:
+                if not re.fullmatch(r"\d+", part.name):
+                    self.check(part)
+        if kind.reference == "*" and field and what != "text":
+            raise Unbound("a pointer")
+        if kind.reference == "**" or (what == "vector" and kind.arguments[0].reference):
+            raise Unbound("a list of pointers")

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What cannot be read off the headers: which module has what, which templates are instantiated, what is left out and
+why, what takes one or many, what takes long. A public name that is neither bound nor here stops the build."""
+from __future__ import annotations
+
+# Headers below these folders are in these modules; the first that fits.
+MODULES = [
+    ("geometry/files", "_files"), ("geometry/octomap", "_octomap"), ("geometry/fitting", "_fitting"),
+    ("geometry/lidar", "_lidar"), ("geometry", "_core"), ("cones", "_core"), ("guidance", "_core"),
+    ("scenes", "_files"), ("vision", "_vision"),
+]
+# Where the public headers are, in folders named include.
+FOLDERS = ["geometry", "geometry/files", "geometry/octomap", "geometry/fitting", "geometry/lidar", "cones", "guidance",
+           "guidance/simulation", "guidance/vehicles", "scenes", "scenes/scenarios", "vision", "vision/scene", "vision/footage",
+           "vision/pursuit"]
+# Headers whose functions may take one or many.
+MANY_FOLDERS = ("geometry/include", "cones/include", "guidance/include")
+
+DIMENSIONS = ("D", "N", "M")
+INSTANCES = {
+    "BasicEllipsoid": [("Ellipse", ("2",)), ("Ellipsoid", ("3",))],
+    "BasicQuadric": [("Conic", ("2",)), ("Quadric", ("3",))],
+    "BasicCombined": [("CombinedEllipse", ("2",)), ("CombinedEllipsoid", ("3",))],
+    "Delimiter": [("Delimiter2", ("2",)), ("Delimiter3", ("3",))],
+    "DelimiterRate": [("DelimiterRate2", ("2",)), ("DelimiterRate3", ("3",))],
+    "NearestPoints": [("NearestPoints2", ("2",)), ("NearestPoints3", ("3",))],
+    "MinVolumeResult": [("MinVolumeResult2", ("2",)), ("MinVolumeResult3", ("3",))],
+    "exact::RationalBody": [("RationalBody2", ("2",)), ("RationalBody3", ("3",))],
+    "ContactFrame": [("ContactFrame2", ("2",)), ("ContactFrame3", ("3",))],
+    "SymmetricEigen": [("SymmetricEigen2", ("2",)), ("SymmetricEigen3", ("3",))],
+    "Cholesky": [("Cholesky2", ("2",)), ("Cholesky3", ("3",))],
+    "LeftSingular": [("LeftSingular2", ("2",)), ("LeftSingular3", ("3",))],
+    "guidance::Cartesian": [("Cartesian2", ("2",)), ("Cartesian3", ("3",))],
+    "guidance::Belief": [("Belief2", ("2",)), ("Belief6", ("6",))],
+    "guidance::Innovation": [("Innovation1", ("1",)), ("Innovation2", ("2",)), ("Innovation6", ("6",))],
+}
+FUNCTION_INSTANCES: dict[str, list[tuple[str, ...]]] = {
+    "guidance::predict": [("2",), ("6",)],
+    "guidance::correct": [("2", "1"), ("6", "1"), ("6", "2"), ("6", "6")],
+    "guidance::error_squared": [("2",), ("6",)],
+}
+
+# C++ name: why Python has none.
+SKIPPED: dict[str, str] = {
+    "climb": "a template of C++ for those who write predicates",
+    "decided_by": "a template of C++ for those who write predicates",
+    "rung_counts": "counts by tags, which are types of C++; a Python program counts the rungs that it is given",
+    "Hierarchy::Node::low": "bounds in the layout of the C++ tree",
+    "Hierarchy::Node::high": "bounds in the layout of the C++ tree",
+    "SpatialMotion::rate_a": "a pointer; bodies are rigid here, SectorPlanes and PlaneCones take those that change",
+    "SpatialMotion::rate_b": "a pointer; bodies are rigid here, SectorPlanes and PlaneCones take those that change",
+    "Tracked": "a number that counts its own roundings, for proofs of bounds within C++",
+    "RoundingCount": "a number that counts its own roundings, for proofs of bounds within C++",
+    "simulation::earliest_passages": "takes pointers; reach() asks it for a scenario",
+    "library_and_program_need_the_same_EIGEN_MAX_STATIC_ALIGN_BYTES_16": "a check of the C++ linker",
+    "kCompiledAlike": "a check of the C++ linker",
+    "kBodyKinds": "list(BodyKind)",
+    "InputError": "InputError of the package: a ValueError with field, value and requirement",
+}
+# (C++ name, types of the parameters): why Python has not this overload.
+SKIPPED_OVERLOADS: dict[tuple[str, str], str] = {}
+
+# Enumerations and records that are filled in through a pointer where the caller asks: rung=True.
+ASKED = ("vericone::Rung", "vericone::Effort")
+# Records whose names end so are not questions: they are not taken as lists.
+NOT_QUESTIONS = ("Options", "Memory", "Gains", "Parameters", "Limits")
+# Functions that take one only, although their parameters look like questions.
+SINGLE: set[str] = set()
+# Functions that may take more than a few tenths of a second: they can be interrupted.
+LONG: set[str] = set()
+# Calls of C++ for many vectors at once, by the function for one and its number of parameters.
+WHOLE = {("ConeOracle::membership", 1): "memberships"}
+# Classes that change by some of their calls only as far as nobody sees.
+IMMUTABLE: set[str] = set()

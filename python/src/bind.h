@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What the generated sources of a module say of its types, beside the calls.
+#pragma once
+
+#include <cstddef>
+
+#include "call.h"
+
+namespace vericone::python {
+
+template <class T>
+void describe(TypeInfo& info) {
+  if constexpr (std::is_default_constructible_v<T> && std::is_copy_constructible_v<T>)
+    info.make = [] { return std::shared_ptr<void>(std::make_shared<T>()); };
+  if constexpr (std::is_copy_constructible_v<T>)
+    info.copy = [](const void* value) {
+      return std::shared_ptr<void>(std::make_shared<T>(*static_cast<const T*>(value)));
+    };
+}
+
+template <class T, class Base>
+void inherit(TypeInfo& info) {
+  info.base = &type_of<Base>();
+  info.to_base = [](void* value) -> void* { return static_cast<Base*>(static_cast<T*>(value)); };
+}
+
+template <class T, class F>
+void derive(TypeInfo& info, const char* name, F) {
+  using R = std::remove_cvref_t<std::invoke_result_t<F, const T&>>;
+  info.derived.push_back({name, Convert<R>::kColumn, [](void* row, const void* record) {
+                            const R value = F{}(*static_cast<const T*>(record));
+                            Convert<R>::kColumn->write(row, &value);
+                          }});
+}
+
+/// A function of the vectorcall convention, as a table of methods holds it.
+inline PyCFunction method(PyObject* (*function)(PyObject*, PyObject* const*, Py_ssize_t, PyObject*)) {
+  return reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(function));
+}
+
+inline bool could_many(PyObject* given) { return is_number(given) || is_sequence(given); }
+template <class T>
+bool could_be_many(PyObject* given) {
+  return could_be(given, type_of<T>()) || is_sequence(given);
+}
+template <class T>
+bool could_be_or_none(PyObject* given) {
+  return given == Py_None || could_be(given, type_of<T>());
+}
+
+}  // namespace vericone::python
