@@ -276,3 +276,18 @@ def test_writing_refuses_what_no_file_holds(tmp_path: Path) -> None:
     with pytest.raises(vericone.InputError) as raised:
         files.write_points(tmp_path / "a.ply", [[0.0, float("nan"), 0.0]])
     assert raised.value.field == "points[0][1]" and not os.listdir(tmp_path)
+
+
+def test_the_page_of_files_and_runs_says_what_works(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its blocks, one after the other, in a folder that has docs/ beside."""
+    (tmp_path / "docs").symlink_to(ROOT / "docs")
+    monkeypatch.chdir(tmp_path)
+    page = (ROOT / "docs/howto/python-files.md").read_text(encoding="utf-8")
+    blocks = [part.split("```")[0] for part in page.split("```python\n")[1:]]
+    assert len(blocks) >= 4
+    names: dict[str, Any] = {}
+    for block in blocks:
+        exec(compile(block, "python-files.md", "exec"), names)  # noqa: S102
+    assert (tmp_path / "copy.yaml").exists() and (tmp_path / "out/fit/body.yaml").exists()
+    assert names["unit"] == "m/s" and same_bits(names["speed"], names["bodies"]["speed"])
+    assert names["found"].violations == 0 and names["result"].certified
