@@ -215,7 +215,8 @@ class Calls:
     """Calls the package; remembers what it returned, for later arguments, and what went wrong."""
 
     def __init__(self, log: int | None = None, most: str = "") -> None:
-        self.callables = signatures.callables(vericone)
+        # What draws is Python, of matplotlib's manners.
+        self.callables = [c for c in signatures.callables(vericone) if not c.name.startswith(("plot.", "display."))]
         # Called most; what they take comes from the others.
         self.favoured = [c for c in self.callables if c.name.startswith(most)]
         self.pool: dict[str, list[Any]] = {}
@@ -247,15 +248,15 @@ class Calls:
         positional, named = arguments.for_call(arguments.one_of(chosen.signatures) if chosen.signatures else signatures.Signature())
         target = chosen.target
         if chosen.owner and chosen.kind != "static":
-            own = self.pool.get(chosen.owner) or self.pool.get(chosen.owner.split(".")[-1])
-            receiver = arguments.one_of(own) if own else arguments.thing()
+            own = self.pool.get(chosen.owner)
             if not own:
-                return None
+                return None  # none was made yet
+            receiver = arguments.one_of(own)
             if chosen.kind == "property":
                 positional, named = [], {}
                 target = lambda: getattr(receiver, chosen.target)  # noqa: E731
             else:
-                target = getattr(receiver, chosen.target)
+                target = lambda *some, **others: getattr(receiver, chosen.target)(*some, **others)  # noqa: E731
         return self.run(chosen.name, target, positional, named, draw)
 
     def also(self, draw: random.Random) -> str | None:
