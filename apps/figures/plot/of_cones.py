@@ -10,8 +10,7 @@ from matplotlib.colors import ListedColormap, TwoSlopeNorm
 from matplotlib.patches import Arc, Patch, Wedge
 
 from . import course as courses
-from . import space as in_space
-from . import sphere
+from . import in_space, sphere
 from .objects import Numbers, course_of, has, loops_of, map_data, shape_and_row, solid_angle_of, word
 from .of_bodies import body, fit_space, space
 from .signs import ANSWERS
