@@ -7,11 +7,11 @@ from __future__ import annotations
 MODULES = [
     ("geometry/files", "_files"), ("geometry/octomap", "_octomap"), ("geometry/fitting", "_fitting"),
     ("geometry/lidar", "_lidar"), ("geometry", "_core"), ("cones", "_core"), ("guidance", "_core"),
-    ("scenes", "_files"), ("vision", "_vision"),
+    ("scenes/fit", "_fitting"), ("scenes/scan", "_lidar"), ("scenes", "_files"), ("vision", "_vision"),
 ]
 # Where the public headers are, in folders named include.
 FOLDERS = ["geometry", "geometry/files", "geometry/octomap", "geometry/fitting", "geometry/lidar", "cones", "guidance",
-           "guidance/simulation", "guidance/vehicles", "scenes", "scenes/scenarios", "vision", "vision/scene", "vision/footage",
+           "guidance/simulation", "guidance/vehicles", "scenes", "scenes/scenarios", "scenes/fit", "scenes/scan", "vision", "vision/scene", "vision/footage",
            "vision/pursuit"]
 # Headers whose functions may take one or many.
 MANY_FOLDERS = ("geometry/include", "cones/include", "guidance/include")
@@ -54,7 +54,18 @@ SKIPPED: dict[str, str] = {
     "simulation::earliest_passages": "takes pointers; reach() asks it for a scenario",
     "library_and_program_need_the_same_EIGEN_MAX_STATIC_ALIGN_BYTES_16": "a check of the C++ linker",
     "kCompiledAlike": "a check of the C++ linker",
+    "Stop": "Ctrl-C and progress= end long work in Python",
+    "StopScope": "Ctrl-C and progress= end long work in Python",
+    "stop_of_this_thread": "Ctrl-C and progress= end long work in Python",
+    "stop_requested": "Ctrl-C and progress= end long work in Python",
+    "checkpoint": "Ctrl-C and progress= end long work in Python",
+    "Interrupted": "KeyboardInterrupt",
+    "require_sound_arithmetic": "asked when the package is imported",
+    "vision::Perception::Perception": "takes a tracker for its own; pursue() makes one",
     "kBodyKinds": "list(BodyKind)",
+    "montecarlo::kUnlimited": "what Flown.guide has of a law without saturation",
+    "montecarlo::kBin": "0.25 m, the width of a bin of Counts.least_distances",
+    "montecarlo::kLastBin": "15 m, where the last bin of Counts.least_distances begins",
     "InputError": "InputError of the package: a ValueError with field, value and requirement",
 }
 # (C++ name, types of the parameters): why Python has not this overload.
@@ -67,7 +78,22 @@ NOT_QUESTIONS = ("Options", "Memory", "Gains", "Parameters", "Limits")
 # Functions that take one only, although their parameters look like questions.
 SINGLE: set[str] = set()
 # Functions that may take more than a few tenths of a second: they can be interrupted.
-LONG: set[str] = set()
+LONG: set[str] = {
+    "Assembly::boxes", "Assembly::cloud", "Assembly::mesh", "Assembly::polyhedra", "Body::containing_ellipsoid", "Hierarchy::Hierarchy",
+    "Pair::cone", "combined_cone", "combined_slice_cone", "cone_bounds", "cone_map", "mesh_section", "min_volume_ellipsoid",
+    "plane_intervals", "probability_of_passing_through", "regions", "region_around", "slice_cone",
+    "surface", "visible_cone", "volume",
+    "files::read_points", "files::triangle_mesh", "files::write_points", "octomap::boxes_by_kind", "octomap::obstacle_boxes", "octomap::read_octree",
+    "fits::read_scan", "fits::write_fit", "fitting::check", "fitting::enclose", "fitting::fit", "fitting::containing_fit", "fitting::fit_surface",
+    "fitting::convex_hull", "fitting::hull_to_scan", "fitting::scan_to_hull", "fitting::volume",
+    "lidar::MeshScene::MeshScene", "lidar::fuse", "lidar::scan", "lidar::visible_part",
+    "scanning::look", "scanning::plane_section_picture", "scanning::read_scan_scene", "scanning::study",
+    "scenario::read_scenario", "scenario::scenario_of_text", "scenario::write_run",
+    "scenes::read_body", "scenes::read_scene", "scenes::scene_of_text", "scenes::write_body", "scenes::write_scene",
+    "simulation::fly_trial", "simulation::largest_current", "simulation::prove", "simulation::prove_passage", "simulation::reach", "simulation::run_tables", "simulation::simulate",
+    "montecarlo::fly", "montecarlo::fly_straight",
+    "vision::pursue",
+}
 # Calls of C++ for many vectors at once, by the function for one and its number of parameters.
 WHOLE = {("ConeOracle::membership", 1): "memberships"}
 # Classes that change by some of their calls only as far as nobody sees.

@@ -12,6 +12,7 @@ import importlib
 import json
 import os
 import shutil
+import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
@@ -22,11 +23,9 @@ import numpy as np
 import numpy.typing as npt
 
 if TYPE_CHECKING:
-    import pandas
+    from . import InputError, files, fits, fitting, montecarlo, scanning, scenes, simulation
 
-    from . import InputError, files, fits, fitting, lidar, montecarlo, scenes, simulation
-
-__all__ = ["Campaign", "MeshScan", "as_frame", "campaign", "fit", "read_scenario", "read_scene", "read_table", "run_tables",
+__all__ = ["Campaign", "Scanned", "as_frame", "campaign", "fit", "read_scenario", "read_scene", "read_table", "run_tables",
            "scan", "simulate", "units", "write_scene"]
 
 PathLike = Union[str, "os.PathLike[str]"]
@@ -52,6 +51,7 @@ def _refuse(field: str, value: object, requirement: str) -> InputError:
 def _whole(folder: PathLike) -> Iterator[Path]:
     """A folder within `folder` whose files are moved to it together at the end, or are gone."""
     target = Path(folder)
+    fresh = not target.exists()
     target.mkdir(parents=True, exist_ok=True)
     stage = target / f".partial-{os.getpid()}"
     shutil.rmtree(stage, ignore_errors=True)
@@ -62,6 +62,8 @@ def _whole(folder: PathLike) -> Iterator[Path]:
             os.replace(file, target / file.name)
     finally:
         shutil.rmtree(stage, ignore_errors=True)
+        if fresh and not any(target.iterdir()):
+            target.rmdir()
 
 
 def _provenance(call: str, inputs: Iterable[Path]) -> dict[str, object]:
@@ -77,7 +79,8 @@ def _share_of(progress: Progress | None, whole: float) -> Callable[[float], bool
     """What C++ calls with the part of `whole` that is done."""
     if progress is None:
         return None
-    return lambda done: progress(done / whole) is not False
+    asked = progress
+    return lambda done: asked(done / whole) is not False
 
 
 # Scenes and scenarios --------------------------------------------------------------------------------------------------
@@ -108,8 +111,8 @@ def read_scenario(file: PathLike) -> simulation.Scenario:
 
 def _type_of(columns: Sequence[tuple[str, str, Array]]) -> np.dtype[Any]:
     """Of rows of columns (name, unit, values). A unit is in the title, so that array["r [m]"] is array["r"]."""
-    return np.dtype([((f"{name} [{unit}]", name) if unit else name, values.dtype)  # type: ignore[misc]
-                     for name, unit, values in columns])
+    fields: list[Any] = [((f"{name} [{unit}]", name) if unit else name, values.dtype) for name, unit, values in columns]
+    return np.dtype(fields)
 
 
 def _rows_of(columns: Sequence[tuple[str, str, Array]]) -> Array:
@@ -134,17 +137,13 @@ def run_tables(scenario: simulation.Scenario, run: simulation.Run) -> dict[str, 
 
 def units(table: Array) -> dict[str, str]:
     """The unit of each column of a table, as "m/s"; the empty text where there is none."""
-    found = {}
-    for name in table.dtype.names or ():
-        title = (table.dtype.fields or {})[name][2:]
-        found[name] = str(title[0])[len(name) + 2:-1] if title else ""
-    return found
+    fields: Any = table.dtype.fields or {}
+    return {name: fields[name][2][len(name) + 2:-1] if len(fields[name]) > 2 else "" for name in table.dtype.names or ()}
 
 
-def as_frame(table: Array) -> pandas.DataFrame:
+def as_frame(table: Array) -> Any:
     """The table as a pandas.DataFrame, with units() in its attrs["units"]. Needs pandas."""
-    pandas_module = importlib.import_module("pandas")
-    frame: pandas.DataFrame = pandas_module.DataFrame({name: table[name] for name in table.dtype.names or ()})
+    frame = importlib.import_module("pandas").DataFrame({name: table[name] for name in table.dtype.names or ()})
     frame.attrs["units"] = units(table)
     return frame
 
@@ -239,10 +238,10 @@ class _Rows(NamedTuple):
     campaign: montecarlo.Campaign
     laws: list[montecarlo.Flown]
 
-    def block(self, first: int, last: int) -> list[str]:
+    def block(self, first: int, last: int, stopped: threading.Event) -> list[str]:
         module = _part("montecarlo")
         return [module.csv_row(i, module.measure(self.campaign.seed, i, self.laws, self.campaign.flight))
-                for i in range(first, last)]
+                for i in range(first, last) if not stopped.is_set()]
 
 
 def _fill(rows: _Rows, lines: list[str], threads: int, grown: Callable[[list[str]], bool]) -> bool:
@@ -251,10 +250,11 @@ def _fill(rows: _Rows, lines: list[str], threads: int, grown: Callable[[list[str
     count, first = rows.campaign.engagements, len(lines)
     ahead: dict[int, list[str]] = {}
     pending: set[Future[tuple[int, list[str]]]] = set()
+    stopped = threading.Event()
     pool = ThreadPoolExecutor(max_workers=threads)
 
     def block(at: int) -> tuple[int, list[str]]:
-        return at, rows.block(at, min(at + _BLOCK, count))
+        return at, rows.block(at, min(at + _BLOCK, count), stopped)
 
     try:
         while len(lines) < count:
@@ -269,6 +269,7 @@ def _fill(rows: _Rows, lines: list[str], threads: int, grown: Callable[[list[str
                 if not grown(more):
                     return len(lines) == count
     finally:
+        stopped.set()
         pool.shutdown(wait=True, cancel_futures=True)
     return True
 
@@ -288,7 +289,7 @@ def campaign(settings: montecarlo.Campaign | None = None, *, out: PathLike | Non
     if not 0 <= threads <= 1024:
         raise _refuse("threads", threads, "between 1 and 1024, or 0 for all")
     workers = threads or os.cpu_count() or 1
-    first_lines = [module.settings_line(asked), module.csv_header(laws)]
+    line_of_settings, header = module.settings_line(asked), module.csv_header(laws)
     lines: list[str] = []
     with contextlib.ExitStack() as stack:
         grow: TextIO | None = None
@@ -297,9 +298,9 @@ def campaign(settings: montecarlo.Campaign | None = None, *, out: PathLike | Non
             folder = Path(out)
             folder.mkdir(parents=True, exist_ok=True)
             partial = folder / "engagements.csv.partial"
-            lines = _lines_done(partial, *first_lines, asked.engagements) if resume else []
+            lines = _lines_done(partial, line_of_settings, header, asked.engagements) if resume else []
             grow = stack.enter_context(open(partial, "w", encoding="utf-8", newline=""))
-            grow.writelines(line + "\n" for line in first_lines + lines)
+            grow.writelines(line + "\n" for line in [line_of_settings, header, *lines])
             grow.flush()
 
         def grown(more: list[str]) -> bool:
@@ -313,7 +314,7 @@ def campaign(settings: montecarlo.Campaign | None = None, *, out: PathLike | Non
         os.replace(partial, partial.with_suffix(""))
     rows = [module.row_of(line, len(laws)) for line in lines]
     summary = module.summarise(rows, laws)
-    return Campaign(_table_of([line + "\n" for line in [first_lines[1], *lines]], "the campaign"), summary,
+    return Campaign(_table_of([line + "\n" for line in [header, *lines]], "the campaign"), summary,
                     int(module.violations(summary)), finished)
 
 
@@ -362,10 +363,11 @@ def fit(data: PathLike | npt.ArrayLike | tuple[npt.ArrayLike, npt.ArrayLike] | f
     a folder for fit.json, body.yaml, hull.obj and hull.ply. `progress` is called with what is done and its share; False
     stops with KeyboardInterrupt. Raises InputError naming the file, "points" or the option."""
     module, fits_module = _part("fitting"), _part("fits")
+    tell = progress
     options = module.FitOptions(mode=_named(module.Mode, "mode", mode),
                                 shape=None if shape is None or shape == "auto" else _named(module.Shape, "shape", shape),
                                 coverage=coverage, margin=margin, pieces=pieces, seed=seed,
-                                progress=None if progress is None else lambda what, share: progress(what, share) is not False)
+                                progress=None if tell is None else lambda what, share: tell(what, share) is not False)
     given = _scan_of(data)
     start = time.perf_counter()
     result: fitting.FitResult = module.fit(given.sample, options)
@@ -383,34 +385,26 @@ def fit(data: PathLike | npt.ArrayLike | tuple[npt.ArrayLike, npt.ArrayLike] | f
 # Scans -----------------------------------------------------------------------------------------------------------------
 
 
-class MeshScan(NamedTuple):
-    """What LiDARs saw: `points` (n, 3), metres, in the world, of all of them; `sensor` (n,), which one saw each; `scans`,
-    what each of them returned."""
+class Scanned(NamedTuple):
+    """What LiDARs saw: `points` (n, 3), metres, in the world, fused where their poses were known badly (empty where that
+    failed: seen.not_fused says why); `seen`, the scans themselves; `study`, how near the cones of finer and finer scans
+    (sr, rad) are to that of all that can be seen; None where it was not asked for."""
     points: Array
-    sensor: Array
-    scans: list[lidar.Scan]
+    seen: scanning.Seen
+    study: scanning.Study | None
 
 
-def scan(scene: PathLike | scenes.Scene, lidars: Sequence[lidar.Lidar], *, seed: int = 1) -> MeshScan:
-    """What LiDARs on the agent of a scene return of its obstacle, a mesh (docs/explanation/lidar.md). Their poses are in
-    the agent's own frame: the centre of its ellipsoid (metres), turned as the ellipsoid's axes are. `seed` decides noise
-    and dropouts; the i-th LiDAR has seed + i. Raises InputError naming "agent", "obstacle" or a field of a LiDAR."""
-    module = _part("lidar")
-    given = read_scene(scene) if isinstance(scene, (str, os.PathLike)) else scene
-    agent, obstacle = given.agent.ellipsoid(), given.obstacle.pieces()
-    if agent is None:
-        raise _refuse("agent", given.agent.name, "an ellipsoid")
-    if obstacle is None or len(obstacle.by_slot().triangles) == 0:
-        raise _refuse("obstacle", given.obstacle.name, "a mesh for the LiDARs to see")
-    pose = given.obstacle.placed.pose
-    corners = np.asarray(obstacle.by_slot().triangles, dtype=float).reshape(-1, 3)
-    points = np.asarray(pose.position) + corners @ np.asarray(pose.rotation).T
-    mesh = module.MeshScene(points, np.arange(len(points), dtype=np.uint32).reshape(-1, 3))
-    place = np.eye(4)
-    place[:3, 3] = agent.center()
-    factor = np.asarray(agent.factor())
-    place[:3, :3] = factor / np.linalg.norm(factor, axis=0)
-    scans = [module.scan(mesh, one, place, seed + i) for i, one in enumerate(lidars)]
-    seen = [np.asarray(one.world_points(), dtype=float).reshape(-1, 3) for one in scans]
-    sensor = np.repeat(np.arange(len(seen)), [len(part) for part in seen])
-    return MeshScan(np.concatenate(seen) if seen else np.empty((0, 3)), sensor, scans)
+def scan(scene: PathLike | scanning.Setup, *, seed: int = 1, planes: int = 36, levels: int = 5, study: bool = True,
+         told: Callable[[str], object] | None = None) -> Scanned:
+    """What the LiDARs of a scene return of its obstacle, a mesh, and what cone they get from it: `vericone scan`
+    (docs/explanation/lidar.md). `scene`: a file, or a scanning.Setup made of an agent, a mesh (metres) and LiDARs, of
+    which seed, planes and levels are replaced. `told` hears a line now and then. Raises InputError naming the file, the
+    field, "agent" or "lidars"."""
+    module = _part("scanning")
+    setup = module.read_scan_scene(os.fspath(scene)).setup if isinstance(scene, (str, os.PathLike)) else scene
+    setup = setup.replace(seed=seed, planes=planes, levels=levels)
+    seen = module.look(setup, _part("lidar").MeshScene(setup.points, setup.triangles), setup.lidars)
+    found = None
+    if study:
+        found = module.study(setup, told) if told is not None else module.study(setup)
+    return Scanned(np.asarray(seen.points, dtype=float).reshape(-1, 3), seen, found)

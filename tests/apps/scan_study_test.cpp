@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scan/study.h"
+#include "scan/study_json.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -9,10 +9,10 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(os.environ.get("VERICONE_SOURCE", Path(__file__).resolve().parents[2]))
-SOURCES = ("geometry", "cones", "guidance", "scenes", "vision", "verify", "apps", "papers", "benchmarks", "tests")
+SOURCES = ("geometry", "cones", "guidance", "scenes", "vision", "verify", "apps", "papers", "benchmarks", "python", "tests")
 
 # Libraries, and within them folders, each of which may include itself and what stands before it.
-LIBRARIES = ["geometry", "files", "octomap", "fitting", "lidar", "cones", "guidance", "simulation", "vehicles", "scenes", "scenarios", "fits", "vision", "vision/scene", "vision/footage", "vision/pursuit", "verify"]
+LIBRARIES = ["geometry", "files", "octomap", "fitting", "lidar", "cones", "guidance", "simulation", "vehicles", "scenes", "scenarios", "fits", "scanning", "vision", "vision/scene", "vision/footage", "vision/pursuit", "verify"]
 BESIDE = {("fitting", "octomap"), ("fitting", "files"), ("fitting", "lidar"), ("lidar", "octomap"), ("lidar", "fitting"),
           ("cones", "files"), ("cones", "octomap"), ("cones", "fitting"), ("cones", "lidar"),
           ("guidance", "files"), ("guidance", "octomap"), ("guidance", "fitting"), ("guidance", "lidar"),
@@ -21,12 +21,12 @@ BESIDE = {("fitting", "octomap"), ("fitting", "files"), ("fitting", "lidar"), ("
           ("scenes", "vehicles"),
           ("verify", "octomap"), ("verify", "fitting"), ("verify", "lidar"), ("verify", "guidance"),
           ("verify", "simulation"), ("verify", "scenes"), ("verify", "scenarios"), ("scenes", "guidance"),
-          ("fits", "simulation"), ("fits", "scenarios"), ("fits", "lidar"), ("verify", "fits"), ("scenes", "simulation"), ("scenes", "fitting"), ("scenes", "lidar"), ("scenarios", "fitting"), ("scenarios", "lidar"), ("octomap", "fitting"), ("octomap", "lidar")}
+          ("fits", "simulation"), ("fits", "scenarios"), ("fits", "lidar"), ("verify", "fits"), ("verify", "scanning"), ("scanning", "fits"), ("scanning", "scenarios"), ("scanning", "simulation"), ("scanning", "fitting"), ("scenes", "simulation"), ("scenes", "fitting"), ("scenes", "lidar"), ("scenarios", "fitting"), ("scenarios", "lidar"), ("octomap", "fitting"), ("octomap", "lidar")}
 # The tracker knows geometry alone; pictures and files nothing of guidance.
 BESIDE |= {(own, other) for own in ("vision", "vision/scene", "vision/footage")
            for other in LIBRARIES[1:LIBRARIES.index("vision")]}
 BESIDE |= {("vision/footage", "vision/scene")} | {("verify", other) for other in LIBRARIES if other.startswith("vision")}
-BESIDE |= {("vision/pursuit", other) for other in ("files", "octomap", "fitting", "lidar", "scenes", "scenarios", "fits")}
+BESIDE |= {("vision/pursuit", other) for other in ("files", "octomap", "fitting", "lidar", "scenes", "scenarios", "fits", "scanning")}
 FAMILIES = ["", "answers", "ellipsoids", "planar", "combined", "hulls", "opening", "times", "assembly", "composite",
             "slices", "map", "pairs", "uncertain"]
 MOST_FILES = 25
@@ -39,8 +39,8 @@ def library_of(path):
         return "simulation"
     if parts[0] == "guidance" and parts[1] == "vehicles":
         return "vehicles"
-    if parts[0] == "scenes" and parts[1] in ("scenarios", "fit"):
-        return {"scenarios": "scenarios", "fit": "fits"}[parts[1]]
+    if parts[0] == "scenes" and parts[1] in ("scenarios", "fit", "scan"):
+        return {"scenarios": "scenarios", "fit": "fits", "scan": "scanning"}[parts[1]]
     if parts[0] == "vision" and parts[1] in ("scene", "footage", "pursuit"):
         return "vision/" + parts[1]
     return parts[0]
@@ -72,7 +72,7 @@ class House(unittest.TestCase):
                 parts = name.split("/")
                 if parts[:2] == ["vericone", "vision"] and parts[2] in ("scene", "footage", "pursuit"):
                     parts[1] = "vision/" + parts[2]
-                if parts[0] in ("apps", "papers", "benchmarks"):
+                if parts[0] in ("apps", "papers", "benchmarks", "python"):
                     wrong.append(f"{path}: {name}")
                 if parts[0] != "vericone" or parts[1] not in LIBRARIES:
                     continue

@@ -4,14 +4,13 @@
 #include <vericone/cones/slices/visible_cone.h>
 #include <vericone/geometry/error.h>
 #include <vericone/lidar/scan.h>
+#include <vericone/scanning/read_scan_scene.h>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <optional>
 #include <sstream>
 
-#include "input/assembly_body.h"
-#include "input/scene.h"
-#include "input/spatial_body.h"
 #include "json/json_value.h"
 #include "output/figures.h"
 #include "output/number_text.h"
@@ -20,9 +19,7 @@
 #include "output/staged_folder.h"
 #include "output/threads.h"
 #include "picture/slice_json.h"
-#include "pieces/world_mesh.h"
-#include "scan/lidar_fields.h"
-#include "scan/study.h"
+#include "scan/study_json.h"
 #include "scan/study_parts.h"
 
 namespace vericone {
@@ -30,39 +27,6 @@ namespace {
 
 using namespace scanning;
 using Eigen::Vector3d;
-
-struct LidarScene {
-  scenes::Scene bodies;
-  Eigen::Matrix3d agent_rotation;
-  SceneLidars lidars;
-};
-
-LidarScene read(const std::string& path) {
-  const Json fields = input::read_scene_fields(path);
-  SceneLidars lidars = read_lidars(fields);
-  scenes::Scene bodies = input::scene_of(fields, path);
-  if (bodies.obstacle.field != "mesh" || !(bodies.agent.ellipsoid() || bodies.agent.hull()))
-    throw InputError("obstacle", "no mesh", "a mesh for the lidars to see");
-  if (!bodies.agent.ellipsoid()) throw InputError("agent", "a hull", "an ellipsoid");
-  return {std::move(bodies), input::read_rotation(fields["agent"], "agent"), std::move(lidars)};
-}
-
-Setup setup_of(const LidarScene& scene, const ScanOptions& options) {
-  Setup setup;
-  setup.agent = *scene.bodies.agent.ellipsoid();
-  setup.agent_pose.translation() = setup.agent.center();
-  setup.agent_pose.linear() = scene.agent_rotation;
-  WorldMesh mesh = world_mesh(*scene.bodies.obstacle.pieces(), scene.bodies.obstacle.placed.pose);
-  setup.points = std::move(mesh.points);
-  setup.triangles = std::move(mesh.triangles);
-  setup.lidars = scene.lidars.lidars;
-  setup.position_error = scene.lidars.position_error;
-  setup.rotation_error = scene.lidars.rotation_error;
-  setup.seed = options.seed;
-  setup.planes = options.planes;
-  setup.levels = options.levels;
-  return setup;
-}
 
 std::string ply(const std::vector<Vector3d>& points) {
   std::ostringstream out;
@@ -109,14 +73,18 @@ void print(const Seen& seen, std::size_t beams, bool fused, const VisibleCone* c
 }  // namespace
 
 void run_scan(const ScanOptions& options, std::ostream& out) {
-  const LidarScene scene = read(options.scene);
+  const ScanScene read = read_scan_scene(options.scene);
   StagedFolder folder(options.out, "--out");
-  const Setup setup = setup_of(scene, options);
-  std::ostream* log = options.quiet ? nullptr : &std::cerr;
+  Setup setup = read.setup;
+  setup.seed = options.seed;
+  setup.planes = options.planes;
+  setup.levels = options.levels;
+  std::function<void(const std::string&)> told;
+  if (!options.quiet) told = [](const std::string& line) { std::cerr << line << '\n'; };
   const lidar::MeshScene mesh(setup.points, setup.triangles);
   const Seen seen = look(setup, mesh, setup.lidars);
-  if (log) *log << seen.points.size() << " returns\n";
-  Json result = parsed(study(setup, log));
+  if (told) told(std::to_string(seen.points.size()) + " returns");
+  Json result = parsed(study(setup, told));
   std::size_t beams = 0;
   for (const lidar::Lidar& l : setup.lidars) beams += l.beams.size();
   result["planes"] = options.planes;
@@ -136,7 +104,7 @@ void run_scan(const ScanOptions& options, std::ostream& out) {
     Json sectors = polyhedral_json(cone->polyhedral());
     sectors["axis"] = {cone->axis.x(), cone->axis.y(), cone->axis.z()};
     sectors["planes_without_answer"] = cone->planes_without_answer();
-    sectors["sectors"] = sectors_json(*cone, scene.bodies);
+    sectors["sectors"] = sectors_json(*cone, read.scene);
     result["sectors"] = sectors;
   }
 
@@ -146,7 +114,7 @@ void run_scan(const ScanOptions& options, std::ostream& out) {
   write_whole(stage / "section.json", parsed(plane_section_picture(setup, options.azimuth)).dump() + "\n");
   // The lidars' rays run on all processors.
   const std::vector<std::filesystem::path> inputs{
-      options.scene, std::filesystem::path(options.scene).parent_path() / scene.bodies.obstacle.file};
+      options.scene, std::filesystem::path(options.scene).parent_path() / read.scene.obstacle.file};
   write_whole(stage / "provenance.json",
               provenance(options.command_line, threads_for(0), inputs).dump(1) + "\n");
   if (options.figures)
@@ -156,7 +124,7 @@ void run_scan(const ScanOptions& options, std::ostream& out) {
   std::ostream silent(nullptr);
   std::ostream& text = options.json ? silent : out;
   if (options.json) out << result.dump(1) << '\n';
-  text << "obstacle            " << scene.bodies.obstacle.name << '\n';
+  text << "obstacle            " << read.scene.obstacle.name << '\n';
   print(seen, beams, fused, cone ? &*cone : nullptr, text);
   const std::filesystem::path shown = options.out;
   text << "written             " << (shown / "cloud.ply").string() << ", " << (shown / "scan.json").string()

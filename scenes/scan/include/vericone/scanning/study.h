@@ -6,15 +6,18 @@
 
 #include <vericone/geometry/ellipsoid.h>
 #include <vericone/lidar/lidar.h>
+#include <vericone/lidar/scan.h>
+#include <Eigen/Geometry>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <iosfwd>
 #include <string>
 #include <vector>
 
 namespace vericone::scanning {
 
+/// An agent, the LiDARs on it, and the mesh that they see.
 struct Setup {
   Ellipsoid agent;
   /// From the agent's frame, in which the lidars' poses are given, to the world's.
@@ -40,6 +43,7 @@ struct HalfPlaneCone {
   double solid_angle = 0;  // sr, of the polygon of the edges; NaN where an edge is missing
 };
 
+/// What scans of one fineness give.
 struct Level {
   int fineness = 1;
   std::size_t beams = 0, returned = 0, missed = 0, dropped = 0, too_near = 0;
@@ -53,6 +57,7 @@ struct Level {
   double seconds_scan = 0, seconds_sections = 0, seconds_cone = 0;
 };
 
+/// What LiDARs see of a mesh, against all of it.
 struct Study {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  // from the agent's centre to that of the seen points
   std::vector<Level> levels;
@@ -61,9 +66,23 @@ struct Study {
   double visible_area = 0, whole_area = 0;       // m^2 of surface
 };
 
-/// Progress (a line now and then) goes to `log` unless null. Throws InputError, also where the lidars see
-/// nothing ("lidars").
-Study study(const Setup& setup, std::ostream* log = nullptr);
+/// All lidars' scans together.
+struct Seen {
+  std::vector<lidar::Scan> scans;
+  std::vector<Eigen::Vector3d> points;  // in the world; of scans that were to be fused, the fused cloud
+  double half_thickness = 0;            // m, of the slabs that stand for planes
+  std::string not_fused;                // why the scans could not be fused: there are no points then
+  double fusion_error = 0;              // m, the farthest that a point is from where the true poses have it
+};
+/// One scan of each LiDAR; the i-th has a seed of its own, which the setup's decides. Requires the mesh of
+/// the setup.
+[[nodiscard]] Seen look(const Setup& setup, const lidar::MeshScene& scene,
+                        const std::vector<lidar::Lidar>& lidars);
+
+/// Finer and finer scans, the cone of what can be seen and that of the whole mesh. `told` hears a line now
+/// and then. Throws InputError, also where the lidars see nothing ("lidars"). Cost: seconds to minutes
+/// (docs/explanation/lidar.md).
+[[nodiscard]] Study study(const Setup& setup, const std::function<void(const std::string& line)>& told = {});
 
 /// Fig 6.7 of the source for these bodies: the section by the plane through `Study::axis` at an azimuth.
 struct PlaneSectionPicture {
@@ -82,10 +101,7 @@ struct PlaneSectionPicture {
   int tried = 0;
 };
 
-PlaneSectionPicture plane_section_picture(const Setup& setup, double azimuth);
-
-/// Everything as JSON for apps/figures/scan_convergence.py and visible_section.py.
-void write_json(const Study& study, std::ostream& out);
-void write_json(const PlaneSectionPicture& picture, std::ostream& out);
+/// `azimuth`: radians. Throws as study().
+[[nodiscard]] PlaneSectionPicture plane_section_picture(const Setup& setup, double azimuth);
 
 }  // namespace vericone::scanning

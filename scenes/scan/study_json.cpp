@@ -2,7 +2,7 @@
 #include <cmath>
 #include <ostream>
 
-#include "scan/study.h"
+#include "scan/study_json.h"
 
 #include "json/json_value.h"
 

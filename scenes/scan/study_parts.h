@@ -5,22 +5,11 @@
 
 #include <vericone/cones/assembly/assembly_oracle.h>
 #include <vericone/lidar/scan.h>
+#include <vericone/scanning/study.h>
 #include <string>
 #include <vector>
 
-#include "scan/study.h"
-
 namespace vericone::scanning {
-
-/// All lidars' scans together.
-struct Seen {
-  std::vector<lidar::Scan> scans;
-  std::vector<Eigen::Vector3d> points;  // in the world
-  double half_thickness = 0;            // m, of the slabs that stand for planes
-  std::string not_fused;                // then there are no points
-  double fusion_error = 0;              // m
-};
-Seen look(const Setup& setup, const lidar::MeshScene& scene, const std::vector<lidar::Lidar>& lidars);
 
 /// Replaces seen.points by the cloud of the scans fused from poses that are off as `setup` says.
 void fuse_scans(const Setup& setup, Seen& seen);

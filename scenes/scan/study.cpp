@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scan/study.h"
-
 #include <vericone/cones/assembly/assembly_oracle.h>
 #include <vericone/cones/slices/visible_cone.h>
 #include <vericone/geometry/error.h>
@@ -10,7 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <ostream>
+#include <sstream>
 
 #include "input/stopwatch.h"
 #include "scan/study_parts.h"
@@ -137,7 +135,7 @@ AssemblyOracle oracle_of(const Setup& setup, Assembly obstacle) {
   return oracle;
 }
 
-Study study(const Setup& setup, std::ostream* log) {
+Study study(const Setup& setup, const std::function<void(const std::string& line)>& told) {
   check(setup);
   Study study;
   const lidar::MeshScene scene(setup.points, setup.triangles);
@@ -184,8 +182,11 @@ Study study(const Setup& setup, std::ostream* log) {
       level.cone = true_cone(oracle_of(setup, Assembly::cloud(seen.points, 0)), study.axis, setup.planes);
       level.seconds_cone = seconds_since(start);
     }
-    if (log)
-      *log << level.beams << " beams, " << level.returned << " returns, " << level.seconds_scan << " s\n";
+    if (told) {
+      std::ostringstream line;
+      line << level.beams << " beams, " << level.returned << " returns, " << level.seconds_scan << " s";
+      told(line.str());
+    }
     study.levels.push_back(std::move(level));
   }
 
@@ -206,7 +207,7 @@ Study study(const Setup& setup, std::ostream* log) {
   study.whole_sections = half_planes(visible_cone(
       setup.agent, mesh_section_points(setup.points, setup.triangles), towards, setup.planes, directly));
   study.whole_cone = true_cone(whole, study.axis, setup.planes);
-  if (log) *log << part.triangles.size() << " pieces of the surface seen\n";
+  if (told) told(std::to_string(part.triangles.size()) + " pieces of the surface seen");
   return study;
 }
 

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vericone/scanning/study.h>
+#include <iosfwd>
+
+namespace vericone::scanning {
+
+/// Everything as JSON for apps/figures/scan_convergence.py and visible_section.py.
+void write_json(const Study& study, std::ostream& out);
+void write_json(const PlaneSectionPicture& picture, std::ostream& out);
+
+}  // namespace vericone::scanning
