@@ -136,6 +136,16 @@ def sector(thing: Any, *, axes: Any = None, radius: float = 1.0, center: Numbers
     return axes
 
 
+def look_at(axes: Any, axis: Any, velocity: Any) -> None:
+    """From the side of the line of centres, the agent on the left; from above, where the velocity turns off it sideways."""
+    if abs(axis[2]) > 0.9:  # it rises: across the plane that holds both
+        in_space.look_across(axes, axis, velocity if np.any(np.cross(axis, velocity)) else np.ones(3), np.ones(3))
+        return
+    normal = np.cross(axis, velocity)
+    upwards = abs(normal[2]) / max(float(np.linalg.norm(normal)), 1e-300)
+    axes.view_init(elev=20 + 30 * upwards, azim=np.degrees(np.arctan2(axis[1], axis[0])) - 70)
+
+
 def engagement(pair: Any, agent_velocity: Numbers | None = None, obstacle_velocity: Numbers = (0.0, 0.0, 0.0), *,
                cone: Any = True, axes: Any = None) -> Any:
     """Draws a Pair in space, metres, and returns the axes: the agent (green), the obstacle (violet), the cone of
@@ -170,9 +180,7 @@ def engagement(pair: Any, agent_velocity: Numbers | None = None, obstacle_veloci
                 axes.plot(*course["contact_point"][:, None], "o", color=says, markersize=4, zorder=9)
             axes.text2D(0.02, 0.98, courses.sentence(course), transform=axes.transAxes, color=says, fontsize=8,
                         va="top")
-            axis = end - start
-            if np.linalg.norm(np.cross(axis, course["velocity"])) > 0:
-                in_space.look_across(axes, axis / distance, np.asarray(course["velocity"]), np.ones(3))
+            look_at(axes, (end - start) / distance, np.asarray(course["velocity"]))
     return axes
 
 
