@@ -55,9 +55,6 @@ SKIPPED: dict[str, str] = {
     "library_and_program_need_the_same_EIGEN_MAX_STATIC_ALIGN_BYTES_16": "a check of the C++ linker",
     "kCompiledAlike": "a check of the C++ linker",
     "kBodyKinds": "list(BodyKind)",
-    "montecarlo::kUnlimited": "what Flown.guide has of a law without saturation",
-    "montecarlo::kBin": "0.25 m, the width of a bin of Counts.least_distances",
-    "montecarlo::kLastBin": "15 m, where the last bin of Counts.least_distances begins",
     "InputError": "InputError of the package: a ValueError with field, value and requirement",
 }
 # (C++ name, types of the parameters): why Python has not this overload.
