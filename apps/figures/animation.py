@@ -7,10 +7,10 @@ import os
 import numpy as np
 from matplotlib.colors import to_rgb
 
-from vericone_figures.bodies import body_colors, is_planar, outline, polygons, posed, radii, surface
-from vericone_figures.orifices import RIM, orifices, quaternion
+from plot.bodies import body_colors, is_planar, outline, polygons, posed, radii, surface
+from plot.orifices import RIM, orifices, quaternion
 from vericone_figures.style import folder, read
-from vericone_figures.tables import groups, rows
+from plot.tables import groups, rows
 
 MOST_ROWS = 400  # of a body; in between the page interpolates
 HAPPENS = {"enters-cone": "enters the cone of", "leaves-cone": "leaves the cone of", "aligned": "is aligned with its goal",

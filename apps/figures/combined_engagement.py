@@ -3,8 +3,8 @@
 cone of the convex hulls, a plane section with its tangents, a velocity."""
 import numpy as np
 
-from vericone_figures import course as courses
-from vericone_figures.solids import HYPERBOLOID, ELLIPSOID, Solid, View, draw_lines, draw_solids, frame, scale_bar, triad
+from plot import course as courses
+from plot.solids import HYPERBOLOID, ELLIPSOID, Solid, View, draw_lines, draw_solids, frame, scale_bar, triad
 from vericone_figures.style import AGENT, EXACT, GREY, SLICE, TWO_COLUMNS, plt, read, save
 
 VIEWS = {"section": (-70, 32), "notch": (133, 14)}

@@ -2,7 +2,7 @@
 """The source's conic (5.5): an ellipse dented by a hyperbola, from dented_conic.json."""
 import numpy as np
 
-from vericone_figures.solids import ELLIPSOID, HYPERBOLOID
+from plot.solids import ELLIPSOID, HYPERBOLOID
 from vericone_figures.style import TWO_COLUMNS, plt, read, save
 
 data = read("dented_conic.json")

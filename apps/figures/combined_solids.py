@@ -2,7 +2,7 @@
 """Combined quadrics in space, from the figures with "panels" that shapes.json lists."""
 import numpy as np
 
-from vericone_figures.solids import ELLIPSOID, HYPERBOLOID, Solid, View, draw_lines, draw_solids, frame, scale_bar, triad
+from plot.solids import ELLIPSOID, HYPERBOLOID, Solid, View, draw_lines, draw_solids, frame, scale_bar, triad
 from vericone_figures.style import TWO_COLUMNS, plt, read, save
 
 VIEWS = {"biconcave": (28, 18), "biconvex": (-62, 20), "stars": (25, 25)}

@@ -4,8 +4,8 @@ elevation, coloured by the distance to the first contact."""
 import numpy as np
 from matplotlib.colors import ListedColormap
 
-from vericone_figures import course as courses
-from vericone_figures.directions import NEAR_TO_FAR, colour_bar, mark, masked, norm_of
+from plot import course as courses
+from plot.directions import NEAR_TO_FAR, colour_bar, mark, masked, norm_of
 from vericone_figures.style import AGENT, OBSTACLE, TWO_COLUMNS, plt, read, save
 
 data = read("pieces.json")

@@ -5,9 +5,9 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import to_rgb
 
-from vericone_figures import course as courses
-from vericone_figures.directions import along_axis, colour_bar
-from vericone_figures.solids import View, frame, scale_bar, triad
+from plot import course as courses
+from plot.directions import along_axis, colour_bar
+from plot.solids import View, frame, scale_bar, triad
 from vericone_figures.style import AGENT, EXACT, GREY, OBSTACLE, TWO_COLUMNS, plt, read, save
 
 data = read("pieces.json")

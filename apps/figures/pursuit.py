@@ -5,7 +5,7 @@ import os
 import numpy as np
 
 from vericone_figures.style import AGENT, GREY, SLICE, TWO_COLUMNS, folder, plt, save
-from vericone_figures.tables import groups, rows
+from plot.tables import groups, rows
 
 COLORS = ["#8d6bb0", "#1f6fb4", "#d1602b", "#5aa3d9", "#a08030", "#b04070"]
 STATES = {"partial": "#e0a020", "total": "#c03030", "lost": GREY}

@@ -5,7 +5,7 @@ import os
 import numpy as np
 
 from vericone_figures.style import AGENT, SLICE, TWO_COLUMNS, folder, plt, save
-from vericone_figures.tables import groups, rows
+from plot.tables import groups, rows
 
 # The table stands beside the pictures' folder until all of them are there.
 table = groups(rows(os.path.join(folder(), ".."), "occlusions.csv.partial"))[()]

@@ -359,6 +359,10 @@ class Emitter:
             for space, entries in spaces.items():
                 tables.append(f"  static PyMethodDef functions_{len(tables)}[] = {{\n    {(',' + chr(10) + '    ').join(entries)},\n    {{}}}};\n"
                               f'  for (PyMethodDef* f = functions_{len(tables)}; f->ml_name; ++f) add_function("{space}", f);\n')
+            if k == 0:
+                for path, kind, _, module in self.model.constants:
+                    if module == self.module:
+                        tables.append(f'  add_constant("{".".join(path[:-1])}", "{path[-1]}", to_python({kind.plain().text()}(vericone::{"::".join(path)})));\n')
             if many_names:
                 tables.append("  static PyMethodDef many[] = {\n" + "\n".join(many_names) + "\n    {}};\n"
                               '  for (PyMethodDef* f = many; f->ml_name; ++f) add_function("_many", f);\n')

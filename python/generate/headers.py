@@ -86,7 +86,7 @@ class Interface:
     enums: list[Enum] = dataclasses.field(default_factory=list)
     functions: list[Function] = dataclasses.field(default_factory=list)
     aliases: dict[tuple[str, ...], tuple[str, str]] = dataclasses.field(default_factory=dict)  # type, header
-    constants: list[tuple[tuple[str, ...], str, str]] = dataclasses.field(default_factory=list)  # path, doc, header
+    constants: list[tuple[tuple[str, ...], str, str, str]] = dataclasses.field(default_factory=list)  # path, type, doc, header
 
 
 class Comments:
@@ -216,7 +216,8 @@ class Reader:
                 self.interface.aliases[(*scope, cursor.spelling)] = (
                     _join(tokens[tokens.index("=") + 1 :]), self._header(cursor))
         elif cursor.kind == Kind.VAR_DECL:
-            self.interface.constants.append(((*scope, cursor.spelling), self.comments.of(cursor), self._header(cursor)))
+            self.interface.constants.append(
+                ((*scope, cursor.spelling), cursor.type.spelling, self.comments.of(cursor), self._header(cursor)))
 
     def _template(self, cursor: clang.Cursor) -> list[str]:
         return [c.spelling for c in cursor.get_children()

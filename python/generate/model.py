@@ -134,6 +134,7 @@ class Model:
         self.records: dict[str, Record] = {}
         self.enums: dict[str, PyEnum] = {}
         self.functions: dict[tuple[tuple[str, ...], str, str], Group] = {}
+        self.constants: list[tuple[tuple[str, ...], Type, str, str]] = []  # path, type, comment, module
         self.names: list[Name] = []
         self.problems: list[str] = []
         self._declare()
@@ -244,12 +245,18 @@ class Model:
             self._define_record(record)
         for function in self.interface.functions:
             self._define_function(function)
-        for path, doc, header in self.interface.constants:
+        for path, kind, doc, header in self.interface.constants:
             full = "::".join(path)
             reason = rules.SKIPPED.get(full, "")
             self.names.append(Name(full, "constant", header, "" if reason else full.replace("::", "."), reason, doc))
-            if not reason:
-                self.problems.append(f"{full}: a constant that is neither bound nor has a reason")
+            if reason:
+                continue
+            try:
+                resolved = self.resolve(kind, path[:-1])
+                self.check(resolved)
+                self.constants.append((path, resolved, doc, module_of(header)))
+            except (Unbound, ValueError) as error:
+                self.problems.append(f"{full}: {error}")
         for path, (_, header) in self.interface.aliases.items():
             full = "::".join(path)
             self.names.append(Name(full, "alias", header, full.replace("::", ".") if any(

@@ -11,7 +11,7 @@ from model import Argument, Callable_, Group, Model, Record, python_name
 HEAD = '''# SPDX-License-Identifier: BSD-3-Clause
 from __future__ import annotations
 
-from enum import IntEnum
+from vericone._enums import NamedInt as _NamedInt
 from fractions import Fraction
 from os import PathLike
 from pathlib import Path
@@ -259,7 +259,7 @@ class Stubs:
         return text
 
     def enum(self, enum, indent: str) -> str:  # type: ignore[no-untyped-def]
-        text = f"{indent}class {enum.path[-1]}(IntEnum):\n" + quoted(enum.source.doc, indent + "    ")
+        text = f"{indent}class {enum.path[-1]}(_NamedInt):\n" + quoted(enum.source.doc, indent + "    ")
         for name, value, doc in enum.source.members:
             text += f"{indent}    {python_name(name)} = {value}" + (f"  # {doc.splitlines()[0]}" if doc else "") + "\n"
         return text
@@ -275,6 +275,9 @@ class Stubs:
         for (space, _, _), group in merged(self.model):
             if space == self.space:
                 body += "\n" + self.definitions(group, False, "", without_head(docstring(self.model, group, None)))
+        for path, kind, doc, _ in self.model.constants:
+            if path[:-1] == self.space:
+                body += f"\n{path[-1]}: {self.given(kind)}" + (f"  # {doc.splitlines()[0]}" if doc else "") + "\n"
         imports = "".join(
             f"from vericone import _root as _root\n" if not space else
             f"import vericone.{'.'.join(space)} as _{'_'.join(space)}\n" for space in sorted(self.imports))
@@ -295,6 +298,8 @@ def package(model: Model) -> dict[str, str]:
         spaces.setdefault(record.space, set()).add(record.module)
     for enum in model.enums.values():
         spaces.setdefault(enum.space, set()).add(enum.module)
+    for path, _, _, module in model.constants:
+        spaces.setdefault(path[:-1], set()).add(module)
     for space, _, module in model.functions:
         spaces.setdefault(space, set()).add(module)
     files: dict[str, str] = {}

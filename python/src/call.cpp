@@ -17,7 +17,7 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kBetweenSignals = std::chrono::milliseconds(25);
 
 PyObject* input_error_type() {
-  static const py::object type = py::module_::import("vericone._errors").attr("InputError");
+  static const py::object& type = *new py::object(py::module_::import("vericone._errors").attr("InputError"));
   return type.ptr();
 }
 
@@ -207,7 +207,7 @@ Quiet::~Quiet() {
 namespace {
 
 bool in_main_thread() {
-  static const py::object threading = py::module_::import("threading");
+  static const py::object& threading = *new py::object(py::module_::import("threading"));
   return threading.attr("get_ident")().equal(threading.attr("main_thread")().attr("ident"));
 }
 
@@ -406,8 +406,8 @@ std::vector<Py_ssize_t> broadcast(std::span<const Many* const> many) {
 }
 
 Output make_output(const Column* column, std::span<const Py_ssize_t> shape) {
-  static const py::object empty = py::module_::import("numpy").attr("empty");
-  static const py::object records = py::module_::import("numpy").attr("recarray");
+  static const py::object& empty = *new py::object(py::module_::import("numpy").attr("empty"));
+  static const py::object& records = *new py::object(py::module_::import("numpy").attr("recarray"));
   py::tuple sizes(shape.size());
   for (std::size_t d = 0; d < shape.size(); ++d) sizes[d] = shape[d];
   Output output;
@@ -634,7 +634,7 @@ void answer_all(Given& given, std::span<const Many* const> many, std::span<const
   const auto work = [&](bool watches) {
     std::vector<std::vector<double>> room(many.size());
     Part part;
-    Py_ssize_t size = whole ? 4096 : 16;
+    Py_ssize_t size = whole ? 1024 : 16;
     auto looked = Clock::now();
     std::optional<py::error_already_set> raised;
     while (!stop.requested()) {

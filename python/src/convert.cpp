@@ -188,7 +188,7 @@ long long integer_from(PyObject* given, long long least, unsigned long long most
 bool Convert<bool>::from(PyObject* given, const Place& place) {
   if (given == Py_True) return true;
   if (given == Py_False) return false;
-  static const py::object numpy_bool = py::module_::import("numpy").attr("bool_");
+  static const py::object& numpy_bool = *new py::object(py::module_::import("numpy").attr("bool_"));
   if (!py::isinstance(given, numpy_bool)) wrong_type(place, "True or False", given);
   return PyObject_IsTrue(given) == 1;
 }
@@ -218,7 +218,7 @@ std::filesystem::path Convert<std::filesystem::path>::from(PyObject* given, cons
   return text_from(text, place);
 }
 PyObject* Convert<std::filesystem::path>::to(const std::filesystem::path& path) {
-  static const py::object make = py::module_::import("pathlib").attr("Path");
+  static const py::object& make = *new py::object(py::module_::import("pathlib").attr("Path"));
   return make(py::reinterpret_steal<py::object>(Convert<std::string>::to(path.string()))).release().ptr();
 }
 bool Convert<std::filesystem::path>::could(PyObject* given) {
@@ -297,14 +297,22 @@ bool could_be(PyObject* given, const TypeInfo& info) {
 
 // Rationals.
 
+namespace {
+
+py::object negated(const py::object& number) {
+  return py::reinterpret_steal<py::object>(PyNumber_Negative(number.ptr()));
+}
+
+}  // namespace
+
 WholeNumber whole_from(PyObject* given, const Place& place) {
   if (PyBool_Check(given) || !PyIndex_Check(given)) wrong_type(place, "an integer", given);
   const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(given));
   if (!whole) throw py::error_already_set();
   const bool negative = py::bool_(whole < py::int_(0));
   const auto digits = py::reinterpret_steal<py::object>(
-      PyNumber_ToBase(negative ? py::object(-whole).ptr() : whole.ptr(), 16));  // "0x..."
-  const WholeNumber x(std::string(py::str(digits)));
+      PyNumber_ToBase(negative ? negated(whole).ptr() : whole.ptr(), 16));  // "0x..."
+  const WholeNumber x{std::string(py::str(digits))};
   return negative ? WholeNumber(-x) : x;
 }
 
@@ -312,7 +320,7 @@ PyObject* whole_to(const WholeNumber& x) {
   const std::string digits = WholeNumber(boost::multiprecision::abs(x)).str(0, std::ios_base::hex);
   auto whole = py::reinterpret_steal<py::object>(PyLong_FromString(digits.c_str(), nullptr, 16));
   if (!whole) throw py::error_already_set();
-  return x < 0 ? py::object(-whole).release().ptr() : whole.release().ptr();
+  return x < 0 ? negated(whole).release().ptr() : whole.release().ptr();
 }
 
 Rational rational_from(PyObject* given, const Place& place) {
@@ -333,7 +341,7 @@ Rational rational_from(PyObject* given, const Place& place) {
 }
 
 PyObject* rational_to(const Rational& x) {
-  static const py::object make = py::module_::import("fractions").attr("Fraction");
+  static const py::object& make = *new py::object(py::module_::import("fractions").attr("Fraction"));
   const auto top = py::reinterpret_steal<py::object>(whole_to(WholeNumber(boost::multiprecision::numerator(x))));
   const auto bottom =
       py::reinterpret_steal<py::object>(whole_to(WholeNumber(boost::multiprecision::denominator(x))));

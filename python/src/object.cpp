@@ -414,7 +414,7 @@ void add_type(TypeInfo& info, const char* doc, PyMethodDef* methods, newfunc con
 }
 
 void add_enum(const std::type_info& type, const char* name, const char* members, const char* doc) {
-  static const py::object make = py::module_::import("enum").attr("IntEnum");
+  static const py::object& make = *new py::object(py::module_::import("vericone._enums").attr("NamedInt"));
   TypeInfo& info = type_of(type);
   info.name = name;
   py::list pairs;
@@ -455,6 +455,10 @@ void add_function(const char* space, PyMethodDef* method) {
   const py::str name(module);
   const auto function = py::reinterpret_steal<py::object>(PyCFunction_NewEx(method, nullptr, name.ptr()));
   names_of(space)[method->ml_name] = function;
+}
+
+void add_constant(const char* space, const char* name, PyObject* value) {
+  names_of(space)[name] = py::reinterpret_steal<py::object>(value);
 }
 
 void begin_module(py::module_& module) {

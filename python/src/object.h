@@ -92,7 +92,7 @@ TypeInfo& type_of() {
 }
 
 struct Instance {
-  PyObject_HEAD;
+  PyObject ob_base;
   std::shared_ptr<void> value;
   const TypeInfo* info;
   std::unique_ptr<std::recursive_mutex> lock;  // of machines
@@ -120,6 +120,8 @@ void add_enum(const std::type_info& type, const char* name, const char* members,
 [[nodiscard]] py::dict names_of(const std::string& space);
 /// A function, or a method where `info` says of which type.
 void add_function(const char* space, PyMethodDef* method);
+/// Takes the reference.
+void add_constant(const char* space, const char* name, PyObject* value);
 
 /// Sets up what all modules of the package share. The first is _core; others find what it has made.
 void begin_module(py::module_& module);

@@ -9,7 +9,7 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(os.environ.get("VERICONE_SOURCE", Path(__file__).resolve().parents[2]))
-SOURCES = ("geometry", "cones", "guidance", "scenes", "vision", "verify", "apps", "papers", "benchmarks", "tests")
+SOURCES = ("geometry", "cones", "guidance", "scenes", "vision", "verify", "apps", "papers", "benchmarks", "python", "tests")
 
 # Libraries, and within them folders, each of which may include itself and what stands before it.
 LIBRARIES = ["geometry", "files", "octomap", "fitting", "lidar", "cones", "guidance", "simulation", "vehicles", "scenes", "scenarios", "fits", "scanning", "vision", "vision/scene", "vision/footage", "vision/pursuit", "verify"]
@@ -72,7 +72,7 @@ class House(unittest.TestCase):
                 parts = name.split("/")
                 if parts[:2] == ["vericone", "vision"] and parts[2] in ("scene", "footage", "pursuit"):
                     parts[1] = "vision/" + parts[2]
-                if parts[0] in ("apps", "papers", "benchmarks"):
+                if parts[0] in ("apps", "papers", "benchmarks", "python"):
                     wrong.append(f"{path}: {name}")
                 if parts[0] != "vericone" or parts[1] not in LIBRARIES:
                     continue

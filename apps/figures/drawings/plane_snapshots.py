@@ -2,10 +2,10 @@
 """Planar bodies at several times, with their velocities and the sector of the inner common tangents."""
 import numpy as np
 
-from vericone_figures.bodies import outline
+from plot.bodies import outline
 from vericone_figures.runs import Sheet, figure, first_run
 from vericone_figures.style import BOUND, ONE_COLUMN, TWO_COLUMNS, plt, save
-from vericone_figures.tables import row_at
+from plot.tables import row_at
 
 CLEAR = {"boxstyle": "round,pad=0.1", "facecolor": "white", "edgecolor": "none", "alpha": 0.85}
 data = figure()

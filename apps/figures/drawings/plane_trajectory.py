@@ -2,10 +2,10 @@
 """Ways of planar bodies, with their true outlines at several times."""
 import numpy as np
 
-from vericone_figures.bodies import outline
+from plot.bodies import outline
 from vericone_figures.runs import Sheet, dark, figure, first_run
 from vericone_figures.style import ONE_COLUMN, TWO_COLUMNS, plt, save
-from vericone_figures.tables import row_at
+from plot.tables import row_at
 
 data = figure()
 run = first_run(data)

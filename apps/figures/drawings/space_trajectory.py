@@ -6,11 +6,11 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-from vericone_figures.bodies import facets
-from vericone_figures.orifices import RIM, orifices
+from plot.bodies import facets
+from plot.orifices import RIM, orifices
 from vericone_figures.runs import Sheet, dark, figure, first_run
 from vericone_figures.style import GREY, TWO_COLUMNS, plt, save
-from vericone_figures.tables import row_at
+from plot.tables import row_at
 
 data = figure()
 run = first_run(data)

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What all pictures share: one style, tables of runs, bodies, solids, directions."""
+"""What the scripts share: their folder, the runs and tables in it. What they draw with is the package plot."""

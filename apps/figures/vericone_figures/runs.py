@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.colors import to_rgb
 
 from vericone_figures import style
-from vericone_figures.tables import groups, rows
+from plot.tables import groups, rows
 
 COLORS = [style.EXACT, style.SLICE, style.OBSTACLE, "#b08a1e", style.GREY]
 

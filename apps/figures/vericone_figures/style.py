@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Common look of the figures: IEEE widths, embedded TrueType fonts, PDF and PNG side by side."""
+"""What every script does with its folder: read the data, save PDF and PNG side by side. No screen is needed."""
 import json
 import os
 import sys
@@ -8,16 +8,10 @@ os.environ.setdefault("SOURCE_DATE_EPOCH", "0")  # the same data give the same b
 import matplotlib  # noqa: E402
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
+from plot.style import (AGENT, BOUND, EXACT, GREY, LOOK, OBSTACLE, ONE_COLUMN, SLICE, TWO_COLUMNS,  # noqa: E402, F401
+                        plt)
 
-ONE_COLUMN, TWO_COLUMNS = 3.5, 7.16  # inches
-SLICE, EXACT, BOUND, AGENT, OBSTACLE, GREY = "#d1602b", "#1f6fb4", "#5aa3d9", "#3a8f4d", "#8d6bb0", "#6b6b6b"
-
-plt.rcParams.update({
-    "pdf.fonttype": 42, "ps.fonttype": 42, "font.size": 8, "axes.labelsize": 8, "axes.titlesize": 8,
-    "legend.fontsize": 7, "xtick.labelsize": 7, "ytick.labelsize": 7, "axes.grid": True, "grid.alpha": 0.3,
-    "grid.linewidth": 0.5, "lines.linewidth": 1.2, "lines.markersize": 3.5, "savefig.dpi": 200,
-})
+plt.rcParams.update(LOOK)
 
 
 def folder():

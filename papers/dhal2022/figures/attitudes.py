@@ -2,7 +2,7 @@
 """The same two orifices in several attitudes, from above: the ways of the agent, the rims when they are passed."""
 import numpy as np
 
-from vericone_figures.orifices import RIM, orifices
+from plot.orifices import RIM, orifices
 from vericone_figures.runs import Sheet, figure
 from vericone_figures.style import AGENT, TWO_COLUMNS, plt, save
 

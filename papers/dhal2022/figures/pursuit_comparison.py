@@ -4,7 +4,7 @@ import numpy as np
 
 from vericone_figures.runs import COLORS, Sheet, figure
 from vericone_figures.style import AGENT, SLICE, TWO_COLUMNS, plt, save
-from vericone_figures.tables import groups, rows
+from plot.tables import groups, rows
 
 data = figure()
 sheet = Sheet()

@@ -4,7 +4,7 @@ import numpy as np
 
 from vericone_figures.runs import COLORS, Sheet, figure
 from vericone_figures.style import EXACT, GREY, ONE_COLUMN, SLICE, plt, save
-from vericone_figures.tables import groups, row_at, rows
+from plot.tables import groups, row_at, rows
 
 SIDE = 8.0  # m, of the square around every vehicle
 data = figure()

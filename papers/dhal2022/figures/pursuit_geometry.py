@@ -4,7 +4,7 @@ import numpy as np
 
 from vericone_figures.runs import COLORS, Sheet, figure
 from vericone_figures.style import AGENT, EXACT, GREY, ONE_COLUMN, SLICE, plt, save
-from vericone_figures.tables import groups, row_at, rows
+from plot.tables import groups, row_at, rows
 
 data = figure()
 folder = data["data"]["run"]

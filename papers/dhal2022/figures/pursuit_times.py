@@ -2,7 +2,7 @@
 """Box plots of the times of one picture, beside the source's means."""
 from vericone_figures.runs import Sheet, figure
 from vericone_figures.style import EXACT, SLICE, TWO_COLUMNS, plt, save
-from vericone_figures.tables import groups, rows
+from plot.tables import groups, rows
 
 data = figure()
 times = groups(rows(data["data"]["run"], "times.csv"))[()]

@@ -2,7 +2,7 @@
 """Ways of a UAS and the vehicles that it follows, in space."""
 from vericone_figures.runs import COLORS, Sheet, figure
 from vericone_figures.style import AGENT, TWO_COLUMNS, plt, save
-from vericone_figures.tables import groups, rows
+from plot.tables import groups, rows
 
 data = figure()
 folder = data["data"]["run"]

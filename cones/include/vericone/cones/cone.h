@@ -39,8 +39,8 @@ struct Cone {
   std::optional<Relation> relation;
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  // unit, from the agent towards the obstacle
 
-  std::vector<DirectionLoop> inner, outer;
-  Interval solid_angle;  // steradian; contains the true one
+  std::vector<DirectionLoop> inner, outer;  // unit vectors
+  Interval solid_angle;                     // steradian; contains the true one
   /// Area of the section by the plane at distance 1 along the axis; contains the true one. Nothing where the
   /// outer cone reaches 90 degrees from the axis, and of maps.
   std::optional<Interval> section;

@@ -38,7 +38,7 @@ struct AxisFrame {
 struct PolyhedralCone {
   std::vector<Eigen::Vector3d> directions;  // unit
   double solid_angle = 0;                   // steradian
-  double cross_section_area = 0;            // see polygon_section_area
+  double cross_section_area = 0;            // dimensionless: see polygon_section_area
 };
 
 }  // namespace vericone

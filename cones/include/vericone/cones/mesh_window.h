@@ -27,7 +27,7 @@ class MeshWindow {
 
   /// The whole mesh, this window's wall and all else.
   [[nodiscard]] const Placed& mesh() const { return mesh_; }
-  /// In the world, in order; the last is joined to the first.
+  /// In the world (m), in order; the last is joined to the first.
   [[nodiscard]] const std::vector<Eigen::Vector3d>& rim() const { return rim_; }
 
   /// How often the straight way from one point to another crosses the fan, counted with signs: +1 where it

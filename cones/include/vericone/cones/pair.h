@@ -33,7 +33,7 @@ struct PairOptions {
 struct Guarantee {
   /// True: every verdict is right and none is `undecided`. False: verdicts are right or `undecided`.
   bool exact = true;
-  double tolerance = 0;  // where not exact: see PairOptions
+  double tolerance = 0;  // relative; where not exact: see PairOptions
   const char* family =
       "";  // who answers: "ellipsoids", "combined", "hulls", "assembly", "composite", "union"
 };
@@ -43,7 +43,7 @@ struct Contact {
   /// Seconds from now. Nothing is touched before `earliest`; where verdict() is not `undecided` they touch or
   /// overlap at `latest`. Both are proved.
   double earliest = 0, latest = std::numeric_limits<double>::infinity();
-  double time = 0;  // the best estimate; NaN where there is none
+  double time = 0;  // s, the best estimate; NaN where there is none
   /// Rounded, at that time, in the world: the point of the obstacle, and the unit normal from the agent
   /// towards it. Nothing where the pair does not say (two combined quadrics; bodies that overlap now).
   std::optional<Eigen::Vector3d> point, normal;
@@ -65,7 +65,7 @@ struct Miss {
   /// meet.
   double distance = 0;
 
-  /// Its derivative to w = v_agent - v_obstacle.
+  /// Its derivative to w = v_agent - v_obstacle, s.
   [[nodiscard]] Eigen::Vector3d gradient_velocity() const { return -time * normal; }
 };
 

@@ -63,8 +63,8 @@ class PlaneCones {
   [[nodiscard]] std::optional<PlaneOpening> on(const Eigen::Vector3d& u, const Eigen::Vector3d& e,
                                                std::span<Moving> moving = {}) const;
 
-  /// d psi / d azimuth as the plane turns about the line of sight, in closed form: true sectors of
-  /// ellipsoids; nothing for others.
+  /// d psi / d azimuth, rad / rad, as the plane turns about the line of sight, in closed form: true sectors
+  /// of ellipsoids; nothing for others.
   [[nodiscard]] std::optional<double> opening_slope(const Eigen::Vector3d& e) const;
 
   /// Radians to which the edges are right, where that is not rounding.

@@ -26,7 +26,7 @@ struct GrazingEdge {
   double error = 0;
   // Where they graze each other, metres: of A from its reference point, of B from its own, as they stand now.
   Eigen::Vector3d on_a = Eigen::Vector3d::Zero(), on_b = Eigen::Vector3d::Zero();
-  Eigen::Vector3d contact = Eigen::Vector3d::Zero();  // displacement of A that brings it to that contact
+  Eigen::Vector3d contact = Eigen::Vector3d::Zero();  // m, by which A moves to that contact
   // Unit, of both bodies there, from A towards B; perpendicular to the edge, not in the plane. Zero where
   // neither it nor the points are known.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();

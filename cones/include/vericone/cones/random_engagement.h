@@ -26,7 +26,7 @@ class Random {
 };
 
 struct Range {
-  double low, high;
+  double low, high;  // in the unit of what is drawn
 };
 
 /// What engagements are drawn from, uniformly.

@@ -60,8 +60,8 @@ class Assembly {
   /// The pieces by *slot* of the hierarchy, so that those of a leaf lie side by side. Only that of kind() is
   /// filled.
   struct Storage {
-    std::vector<std::array<Eigen::Vector3d, 3>> triangles;
-    std::vector<Eigen::Vector3d> balls;
+    std::vector<std::array<Eigen::Vector3d, 3>> triangles;  // m
+    std::vector<Eigen::Vector3d> balls;                     // m
     std::vector<Box> boxes;
     std::vector<HullBody> hulls;
   };

@@ -88,10 +88,10 @@ struct Placed {
   Placed(Body what, Pose where = {})
       : body(std::move(what)), pose(std::move(where)) {}  // NOLINT: at the origin
 
-  [[nodiscard]] double support(const Eigen::Vector3d& n) const {
+  [[nodiscard]] double support(const Eigen::Vector3d& n) const {  // m
     return n.dot(pose.position) + body.support(pose.rotation.transpose() * n);
   }
-  [[nodiscard]] Eigen::Vector3d middle() const { return pose.to_world(body.middle()); }
+  [[nodiscard]] Eigen::Vector3d middle() const { return pose.to_world(body.middle()); }  // m
   /// Its numbers are rounded once.
   [[nodiscard]] Ellipsoid containing_ellipsoid() const;
 };

@@ -29,13 +29,13 @@ struct Camera {
   [[nodiscard]] bool sees(const Eigen::Vector2d& pixel, double margin = 0) const;
 };
 
-/// The attitude of a camera that looks straight down, the top of its picture to the north (world y).
+/// The rotation of a camera that looks straight down, the top of its picture to the north (world y).
 [[nodiscard]] Eigen::Matrix3d nadir();
 
 /// Where a pixel's ray meets the plane z = height; nothing where it does not, in front of the camera.
 [[nodiscard]] std::optional<Eigen::Vector3d> ground_point(const Camera& camera, const Pose& pose,
                                                           const Eigen::Vector2d& pixel, double height = 0);
-/// H of the plane z = height: (u, v, 1) ~ H (x, y, 1), world x and y.
+/// H of the plane z = height, m to px: (u, v, 1) ~ H (x, y, 1), world x and y.
 [[nodiscard]] Eigen::Matrix3d plane_homography(const Camera& camera, const Pose& pose, double height = 0);
 
 }  // namespace vericone

@@ -15,11 +15,11 @@ namespace vericone {
 
 /// The region { y : y^T M y <= level } about the centre of a body; level >= 0, so that it contains the
 /// centre. M indefinite: the side of a hyperboloid (level > 0) or of its asymptotic cone (level = 0) that the
-/// centre is on. What an exact predicate takes as the region are these stored numbers.
+/// centre is on; y in metres. What an exact predicate takes as the region are these stored numbers.
 template <int D>
 struct Delimiter {
   Eigen::Matrix<double, D, D> matrix;  // symmetric bit for bit, 1 / m^2
-  double level = 1;
+  double level = 1;                    // dimensionless, as is value()
 
   [[nodiscard]] double value(const Eigen::Matrix<double, D, 1>& y) const { return y.dot(matrix * y) - level; }
 };
@@ -119,7 +119,7 @@ using CombinedEllipsoid = BasicCombined<3>;
 /// A corner of a planar body: where two of its boundary conics cross. Conic 0 is the ellipse, i + 1 the
 /// delimiter i.
 struct Corner {
-  Eigen::Vector2d point = Eigen::Vector2d::Zero();
+  Eigen::Vector2d point = Eigen::Vector2d::Zero();  // m
   int first = 0, second = 0;
 };
 

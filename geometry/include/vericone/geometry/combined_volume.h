@@ -9,7 +9,7 @@ namespace vericone {
 
 struct VolumeEstimate {
   double value = 0;  // m^3
-  /// Estimate of the error from two quadrature rules, and of rounding; not a proved bound.
+  /// Estimate of the error (m^3) from two quadrature rules, and of rounding; not a proved bound.
   double error = 0;
 };
 

@@ -20,7 +20,7 @@ struct SymmetricEigen {
 template <int N>
 [[nodiscard]] SymmetricEigen<N> symmetric_eigen(const Eigen::Matrix<double, N, N>& a);
 
-/// Its values alone, the same bits, in half the time.
+/// Its values alone, in the unit of `a`, the same bits, in half the time.
 template <int N>
 [[nodiscard]] Eigen::Matrix<double, N, 1> symmetric_eigenvalues(const Eigen::Matrix<double, N, N>& a);
 
@@ -45,15 +45,15 @@ template <int N>
 /// a = u diag(values) v^T, v left out: values decrease, u is orthogonal.
 template <int N>
 struct LeftSingular {
-  Eigen::Matrix<double, N, 1> values;
-  Eigen::Matrix<double, N, N> u;
+  Eigen::Matrix<double, N, 1> values;  // in the unit of the matrix
+  Eigen::Matrix<double, N, N> u;       // orthonormal
 };
 template <int N>
 [[nodiscard]] LeftSingular<N> left_singular(const Eigen::Matrix<double, N, N>& a);
 template <int N>
-[[nodiscard]] Eigen::Matrix<double, N, 1> singular_values(const Eigen::Matrix<double, N, N>& a);
+[[nodiscard]] Eigen::Matrix<double, N, 1> singular_values(const Eigen::Matrix<double, N, N>& a);  // unit: a's
 
-/// The orthogonal matrix nearest to `a`: u v^T of its singular vectors.
+/// The orthonormal matrix nearest to `a`: u v^T of its singular vectors.
 template <int N>
 [[nodiscard]] Eigen::Matrix<double, N, N> nearest_orthogonal(const Eigen::Matrix<double, N, N>& a);
 
@@ -61,10 +61,10 @@ template <int N>
 /// is singular. `a` is overwritten, b becomes x. No allocation.
 void solve_square(Eigen::Ref<Eigen::MatrixXd> a, Eigen::Ref<Eigen::VectorXd> b);
 
-/// x of least |a x - b|, any size; of several the shortest, however the rank falls short.
+/// x (unit of b / a) of least |a x - b|, any size; of several the shortest, however the rank falls short.
 [[nodiscard]] Eigen::VectorXd shortest_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
-/// x of least |a x - b|, any size: quicker, one of several.
+/// x (unit of b / a) of least |a x - b|, any size: quicker, one of several.
 [[nodiscard]] Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
 }  // namespace vericone

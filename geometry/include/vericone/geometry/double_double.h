@@ -10,7 +10,7 @@
 namespace vericone {
 
 struct DoubleDouble {
-  double hi = 0, lo = 0;
+  double hi = 0, lo = 0;  // in the unit of the number
 
   DoubleDouble() = default;
   DoubleDouble(double x) : hi(x) {}  // NOLINT(google-explicit-constructor): a double is one exactly

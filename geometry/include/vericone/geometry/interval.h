@@ -102,7 +102,7 @@ class Interval {
   double mid_ = 0, rad_ = 0;
 };
 
-/// The smallest interval that contains both.
+/// The smallest interval that contains both, in their unit.
 [[nodiscard]] inline Interval hull(const Interval& x, const Interval& y) {
   return Interval::between(std::min(x.lo(), y.lo()), std::max(x.hi(), y.hi()));
 }

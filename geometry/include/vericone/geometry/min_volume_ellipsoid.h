@@ -10,7 +10,7 @@
 namespace vericone {
 
 struct MinVolumeOptions {
-  /// Bound on optimality_gap at which the iteration may stop; positive and below 1.
+  /// Bound on optimality_gap, relative, at which the iteration may stop; positive and below 1.
   double tolerance = 1e-7;
   /// Bound on the number of updates of the weights.
   int max_iterations = 100'000;

@@ -42,7 +42,7 @@ template <int D>
   }
 }
 
-/// R M R^T, symmetric bit for bit.
+/// R M R^T, in the unit of M, symmetric bit for bit.
 template <int D>
 [[nodiscard]] Eigen::Matrix<double, D, D> turned(const Eigen::Matrix<double, D, D>& r,
                                                  const Eigen::Matrix<double, D, D>& m) {

@@ -19,7 +19,7 @@ enum class QuadricKind {
 };
 
 /// x~^T Q x~ with x~ = (x, 1): a conic (D = 2; source, (5.2)-(5.3)) or a quadric (D = 3; source,
-/// (6.1)-(6.2)).
+/// (6.1)-(6.2)). Q has any scale; what is measured by it has that unit.
 template <int D>
 class BasicQuadric {
  public:

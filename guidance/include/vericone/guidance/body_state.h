@@ -17,8 +17,8 @@ enum class Turning : std::uint8_t {
 
 struct BodyState {
   WorldBody shape;  // its centre is `position`; of hulls, the reference point
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // m
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s
   Eigen::Vector3d omega =
       Eigen::Vector3d::Zero();  // rad/s; of a body that turns with its heading, beyond that
   Turning turning = Turning::none;

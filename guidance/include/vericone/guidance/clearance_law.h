@@ -26,7 +26,7 @@ struct ClearanceOptions {
 
 struct ClearanceCommand {
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  // of A, m/s^2, saturated
-  double demanded = 0;                                     // its magnitude before saturation
+  double demanded = 0;                                     // m/s^2, before saturation
   double m = 0;                                            // metres
   double drift = 0;  // m' without any acceleration of A, m/s: turning and changing bodies
   Eigen::Vector3d by_acceleration = Eigen::Vector3d::Zero();  // gradient of m' with respect to it, s

@@ -36,8 +36,8 @@ struct GuideOptions {
   PlaneOptions plane;
   LawOptions inversion;
   ClearanceOptions clearance;
-  double mu = 0;                           // cooperative avoidance: a_B = mu a_A
-  double gain_speed = 1;                   // K_2 of matching
+  double mu = 0;                           // ratio; cooperative avoidance: a_B = mu a_A
+  double gain_speed = 1;                   // 1/s, K_2 of matching
   PlaneFilterOptions filter;               // of what is read on the plane; of the avoidance law alone
   std::optional<OuterLoopOptions> robust;  // (7.14) of the avoidance law
   /// Standard deviations to keep: of y (7.7), added to reference and cease of the avoidance law; of the miss
@@ -50,10 +50,10 @@ struct GuideOptions {
 
 /// What one step hands to the next; a fresh one starts an engagement.
 struct GuideMemory {
-  std::optional<Eigen::Vector3d> across;
+  std::optional<Eigen::Vector3d> across;  // unit
   struct Past {
-    double time, psi, theta_b;  // theta_b against fixed axes: with the angle the line of sight has turned
-    Eigen::Vector3d line_of_sight;
+    double time, psi, theta_b;      // s, rad, rad; theta_b against fixed axes
+    Eigen::Vector3d line_of_sight;  // unit
   };
   std::optional<Past> past;
   EdgeMemory edges;
@@ -65,7 +65,7 @@ struct GuideReading {
   PlanarState state;       // with the errors of measurement
   PlaneCone cone;          // its rates are those used
   Measured deviations;     // standard deviations of these, as far as the agent knows them
-  double y = 0;            // as used: filtered where y is
+  double y = 0;            // dimensionless, as used: filtered where y is
   double inner = 0;        // m/s^2, lateral acceleration of the inner loop, saturated
   RobustCorrection outer;  // of the outer loop, where there is one; else as it starts
   bool corrected = false;  // the outer loop was asked
@@ -74,11 +74,11 @@ struct GuideReading {
 struct GuideStep {
   Eigen::Vector3d a = Eigen::Vector3d::Zero(), b = Eigen::Vector3d::Zero();  // accelerations of both, m/s^2
   LawStatus status = LawStatus::clear;
-  double demanded = 0;          // |a| before saturation
-  double y = 0, v_r_hat = 0;    // on the plane of `across`; of the clearance law 0
+  double demanded = 0;          // m/s^2, |a| before saturation
+  double y = 0, v_r_hat = 0;    // on the plane of `across`, v_r_hat m/s; of the clearance law 0
   double psi = 0, theta_b = 0;  // rad; theta_b from the line of sight
   double m = 0;                 // metres, clearance law only
-  Eigen::Vector3d across = Eigen::Vector3d::Zero();
+  Eigen::Vector3d across = Eigen::Vector3d::Zero();  // unit
   std::optional<GuideReading> reading;  // of avoidance that measures, filters or corrects, where it looked
 };
 

@@ -9,7 +9,7 @@
 
 namespace vericone::guidance {
 
-/// Positions and velocities of two bodies in fixed axes.
+/// Positions (m) and velocities (m/s) of two bodies in fixed axes.
 template <int D>
 struct Cartesian {
   using Vector = Eigen::Matrix<double, D, 1>;
@@ -17,26 +17,26 @@ struct Cartesian {
   Vector p_b = Vector::Zero(), v_b = Vector::Zero();
 };
 
-/// The angle that differs from `angle` by whole turns and from `near` by at most half a turn: for histories
-/// without jumps.
+/// The angle (rad) that differs from `angle` by whole turns and from `near` by at most half a turn: for
+/// histories without jumps.
 [[nodiscard]] double unwrapped(double angle, double near);
 
-/// Azimuth in (-pi, pi], elevation in [-pi/2, pi/2].
+/// Azimuth in (-pi, pi], elevation in [-pi/2, pi/2], rad.
 struct Direction {
   double azimuth = 0, elevation = 0;
 };
 
 /// Of a vector; where it is vertical or zero, an angle that has no value is that of `otherwise`.
 [[nodiscard]] Direction direction_of(const Eigen::Vector3d& v, const Direction& otherwise = {});
-[[nodiscard]] Eigen::Vector3d unit_vector(const Direction& direction);
+[[nodiscard]] Eigen::Vector3d unit_vector(const Direction& direction);  // unit, as it says
 
 /// An engagement in one plane. In space it is the projection on a plane through the line of sight; then
 /// `v_normal` and `plane_spin` say how it moves out of that plane.
 struct PlanarState {
-  double r = 0, theta = 0;          // line of sight from A to B
-  double v_theta = 0, v_r = 0;      // of V = V_B - V_A
-  double alpha = 0, beta = 0;       // headings of A and B, of their projections in space
-  double speed_a = 0, speed_b = 0;  // of the projections in space
+  double r = 0, theta = 0;          // line of sight from A to B, m and rad
+  double v_theta = 0, v_r = 0;      // of V = V_B - V_A, m/s
+  double alpha = 0, beta = 0;       // headings of A and B, of their projections in space, rad
+  double speed_a = 0, speed_b = 0;  // of the projections in space, m/s
   double v_normal = 0;    // component of V along u x e: u the line of sight, e the plane's axis of V_theta
   double plane_spin = 0;  // rad/s, of the plane about u, beyond the turning of the line of sight
 };
@@ -47,7 +47,7 @@ struct PlanarInputs {
 };
 
 struct PlanarRates {
-  double r = 0, theta = 0, v_theta = 0, v_r = 0, alpha = 0, beta = 0, speed_a = 0, speed_b = 0;
+  double r = 0, theta = 0, v_theta = 0, v_r = 0, alpha = 0, beta = 0, speed_a = 0, speed_b = 0;  // per s
 };
 
 /// (5.8), (5.13), (5.15) together, and the terms v_normal^2 / r in V_r and plane_spin v_normal in V_theta
@@ -64,10 +64,10 @@ struct PlanarRates {
 /// An engagement in space, (6.10)'s states. At the poles, phi = +-pi/2, theta has no value and its rate none
 /// either: see at_pole.
 struct SpatialState {
-  double r = 0, theta = 0, phi = 0;  // line of sight from A to B: azimuth, elevation
-  double v_theta = 0, v_phi = 0, v_r = 0;
-  Direction heading_a, heading_b;  // (beta, alpha) of the source: azimuth, elevation
-  double speed_a = 0, speed_b = 0;
+  double r = 0, theta = 0, phi = 0;        // m, rad: line of sight from A to B, azimuth, elevation
+  double v_theta = 0, v_phi = 0, v_r = 0;  // m/s
+  Direction heading_a, heading_b;          // (beta, alpha) of the source: azimuth, elevation
+  double speed_a = 0, speed_b = 0;         // m/s
 };
 
 /// An acceleration of (6.10): magnitude and direction (delta, gamma).
@@ -78,10 +78,10 @@ struct DirectedAcceleration {
 [[nodiscard]] DirectedAcceleration directed(const Eigen::Vector3d& acceleration);
 
 struct SpatialRates {
-  double r = 0, theta = 0, phi = 0, v_theta = 0, v_phi = 0, v_r = 0;
+  double r = 0, theta = 0, phi = 0, v_theta = 0, v_phi = 0, v_r = 0;  // m/s, rad/s, m/s^2
   Direction heading_a, heading_b;
-  double speed_a = 0, speed_b = 0;
-  bool at_pole = false;  // cos(phi) is 0: theta, v_theta and v_phi have no rates, they are 0 here
+  double speed_a = 0, speed_b = 0;  // m/s^2
+  bool at_pole = false;             // cos(phi) is 0: theta, v_theta and v_phi have no rates, they are 0 here
 };
 
 /// (6.10) with the V_phi row corrected (errata 3.6), and the rates of headings and speeds for accelerations

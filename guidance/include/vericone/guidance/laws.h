@@ -25,10 +25,10 @@ struct PlaneCone {
 
 /// (5.10), y, its parts, and what changes it: y' = drift + by_lateral_a a_A + ... along the kinematics.
 struct ConeRates {
-  double y = 0;
-  double v_r_hat = 0, v_theta_hat = 0;  // along and across the bisector
+  double y = 0;                         // dimensionless
+  double v_r_hat = 0, v_theta_hat = 0;  // m/s, along and across the bisector
   double drift = 0;                     // 1/s
-  double by_lateral_a = 0, by_longitudinal_a = 0, by_lateral_b = 0, by_longitudinal_b = 0;
+  double by_lateral_a = 0, by_longitudinal_a = 0, by_lateral_b = 0, by_longitudinal_b = 0;  // 1/s per m/s^2
 
   [[nodiscard]] bool colliding() const { return y < 0 && v_r_hat < 0; }
 };
@@ -53,7 +53,7 @@ struct LawOptions {
   double gain = 1;                                        // K, 1/s
   double reference = 0;                                   // w: y' = -K (y - w)
   double most = std::numeric_limits<double>::infinity();  // saturation, m/s^2
-  /// Avoidance commands nothing where y >= cease. The source stops at y > 0.
+  /// Dimensionless. Avoidance commands nothing where y >= cease. The source stops at y > 0.
   double cease = 0;
   /// Sign of A's lateral acceleration where both sides are as good (on_bisector, ineffective).
   double side = 1;
@@ -63,7 +63,7 @@ struct LawOptions {
 
 struct LawCommand {
   double a = 0;         // lateral acceleration of A, m/s^2, saturated
-  double demanded = 0;  // before saturation
+  double demanded = 0;  // m/s^2, before saturation
   ConeRates rates;
   LawStatus status = LawStatus::clear;
 };
@@ -74,8 +74,8 @@ struct LawCommand {
                                    const LawOptions& options);
 
 struct CooperativeCommand {
-  double a = 0, b = 0;  // lateral accelerations of A and B, m/s^2
-  double demanded_a = 0, demanded_b = 0;
+  double a = 0, b = 0;                    // lateral accelerations of A and B, m/s^2
+  double demanded_a = 0, demanded_b = 0;  // m/s^2
   ConeRates rates;
   LawStatus status = LawStatus::clear;
 };
@@ -90,10 +90,10 @@ struct CooperativeCommand {
                                                         const LawOptions& options);
 
 struct MatchingCommand {
-  double lateral = 0, longitudinal = 0;  // of A, m/s^2
-  double demanded_lateral = 0, demanded_longitudinal = 0;
+  double lateral = 0, longitudinal = 0;                    // of A, m/s^2
+  double demanded_lateral = 0, demanded_longitudinal = 0;  // m/s^2
   ConeRates rates;
-  double speed_squared = 0;  // y_2 = V_r^2 + V_theta^2
+  double speed_squared = 0;  // y_2 = V_r^2 + V_theta^2, m^2/s^2
   LawStatus status = LawStatus::steering;
 };
 

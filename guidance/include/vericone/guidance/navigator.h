@@ -24,8 +24,8 @@ struct NavigatorOptions {
 
 /// Where the agent wants to go.
 struct Destination {
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  double most = 0;  // m/s^2, with which it turns towards the point
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  // m
+  double most = 0;                                  // m/s^2, with which it turns towards the point
 };
 
 enum class NavigatorStatus : std::uint8_t {

@@ -50,9 +50,9 @@ struct NoiseGradients {
 /// What is known of a and b for robust_law.h from the linearisation: a in 1 -+ 3 deviations, |b| from what
 /// errors of three deviations leave of it to its most.
 struct NoiseRange {
-  double a_low = 1, a_high = 1;
+  double a_low = 1, a_high = 1;  // dimensionless
   double b = 0;                  // of the true state, (7.16), 1/m
-  double b_low = 0, b_high = 0;  // of |b|
+  double b_low = 0, b_high = 0;  // of |b|, 1/m
 };
 [[nodiscard]] NoiseRange noise_range(const PlanarState& state, const PlaneCone& cone,
                                      const Measured& deviations);

@@ -27,7 +27,7 @@ enum class OrificeStatus : std::uint8_t {
 
 struct OrificeCommand {
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  // of A, m/s^2, saturated
-  double demanded = 0;                                     // its magnitude before saturation
+  double demanded = 0;                                     // m/s^2, before saturation
   double y = 0;  // (2.2), m^2: the miss of the centres squared less (R_B - R_A)^2
   double m = 0;  // metres, of the passage law: clearance of the shadows
   OrificeStatus status = OrificeStatus::clear;
@@ -83,7 +83,7 @@ struct PassageLawOptions {
 struct OrificeAim {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();     // m, in the world then
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, of that point
-  double seconds = 0;
+  double seconds = 0;                                  // s
 };
 /// The deepest point of the opening as it will be when A is there, with A's way straight and `speed` the
 /// speed with which A goes; left out: its closing speed, or, where it does not close in, its own. With a

@@ -36,7 +36,7 @@ struct PlaneOptions {
 /// One candidate: for the choice, and for pictures of y and psi on all planes (Fig 6.9).
 struct PlaneCandidate {
   double azimuth = 0;  // of `across` about the line of sight, rad from AxisFrame(line of sight).e1
-  double psi = 0, theta_b = 0, y = 0, v_r_hat = 0;
+  double psi = 0, theta_b = 0, y = 0, v_r_hat = 0;  // rad, rad, dimensionless, m/s
 };
 
 /// All `planes` candidates. Those on which there is no sector are left out.

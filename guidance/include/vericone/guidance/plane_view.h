@@ -70,7 +70,7 @@ bool fill_cone(PlaneView& view, const BodyState& a, const BodyState& b, SectorMe
 [[nodiscard]] BodyState advanced(const BodyState& body, double dt,
                                  const Eigen::Vector3d& acceleration = Eigen::Vector3d::Zero());
 
-/// Angular velocity: omega, and v x a / |v|^2 where it turns with its heading.
+/// Angular velocity, rad/s: omega, and v x a / |v|^2 where it turns with its heading.
 [[nodiscard]] Eigen::Vector3d angular_velocity(const BodyState& body, const Eigen::Vector3d& acceleration);
 
 }  // namespace vericone::guidance

@@ -35,8 +35,8 @@ enum class Attenuation : std::uint8_t {
 
 struct RobustOptions {
   double mu = 1;            // bound of the influence of noise, s
-  double state_weight = 1;  // Q^ of (7.18), > 0
-  double input_weight = 0;  // R^ of (7.18), >= 0
+  double state_weight = 1;  // dimensionless, Q^ of (7.18), > 0
+  double input_weight = 0;  // s^4/m^2, R^ of (7.18), >= 0
   Polytope polytope = Polytope::containing;
   Attenuation attenuation = Attenuation::stated;
 };
@@ -55,7 +55,7 @@ struct RobustCorrection {
   RobustStatus status = RobustStatus::solved;
   double gain = 0;   // of u = gain z, m/s^2: Y / Q of (7.19)
   double delta = 0;  // u, m/s^2, between the limits: what is added to the inner loop's command
-  double gamma = 0;  // least upper bound of the cost (7.18)
+  double gamma = 0;  // least upper bound of the cost (7.18), in its unit
   double norm = 0;   // largest H-infinity norm of v -> z over the corners, s
 };
 

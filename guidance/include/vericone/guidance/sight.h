@@ -37,7 +37,7 @@ struct PlaneFilterOptions {
   bool y = false, rates = false;
   double intensity_y = 0.01;     // 1/s^3
   double intensity_angle = 0.1;  // rad^2/s^3
-  double gate = 16;
+  double gate = 16;              // standard deviations, squared
 
   [[nodiscard]] bool any() const { return y || rates; }
 };

@@ -24,7 +24,7 @@ struct Reading {
     bool unknown_occupied = true;
   };
   std::optional<Map> map = {};                 // of an octree map
-  double seconds_read = 0, seconds_built = 0;  // the file; the tree of boxes
+  double seconds_read = 0, seconds_built = 0;  // s: the file; the tree of boxes
 };
 
 /// A body as a file gives it.

@@ -67,8 +67,8 @@ struct SourceTrackerOptions {
 [[nodiscard]] std::unique_ptr<Tracker> source_tracker(const SourceTrackerOptions& options = {});
 
 struct TrackerOptions {
-  double frame_seconds = 1.0 / 30;
-  double give_up = 5;  // s hidden, until `lost` is said
+  double frame_seconds = 1.0 / 30;  // s
+  double give_up = 5;               // s hidden, until `lost` is said
 };
 [[nodiscard]] std::unique_ptr<Tracker> tracker(const TrackerOptions& options = {});
 

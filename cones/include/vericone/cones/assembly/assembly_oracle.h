@@ -38,7 +38,7 @@ struct AssemblyContact {
   /// The best estimate, earliest <= time <= latest; nothing is known of it, nor of the point, beyond these:
   /// they are far apart where a piece is 1e8 times as large as the agent.
   double time = 0;
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();   // of the body that is touched first, at that time
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();   // m, of the body touched first, at that time
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // unit, from the agent towards the body
   std::uint32_t piece = 0;                           // its index in the order the pieces were given
 };
@@ -46,7 +46,7 @@ struct AssemblyContact {
 /// The least distance between the agent and the body from now on.
 struct AssemblyMiss {
   double least = 0, most = 0;  // metres; the true distance lies between, least = 0 where they meet
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  // of the body, where they pass nearest
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  // m, of the body, where they pass nearest
   /// Unit, from the agent towards the body where they are nearest or first touch; zero where they meet now.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double time = 0;  // when, seconds >= 0

@@ -117,10 +117,10 @@ struct CombinedCone {
   PolyhedralCone inner, outer;
 
   double solid_angle = 0;        // steradian, the middle of the two
-  double solid_angle_error = 0;  // half their difference: a bound, not an estimate
+  double solid_angle_error = 0;  // sr, half their difference: a bound, no estimate
   /// The same for the section at distance 1 along the axis; infinite where outer reaches 90 degrees.
   double cross_section_area = 0;
-  double cross_section_area_error = 0;
+  double cross_section_area_error = 0;  // dimensionless
 
   std::uint64_t boxes = 0;  // searched: a measure of effort that is the same on every machine
 };

@@ -28,7 +28,7 @@ struct CompositeContact : AssemblyContact {
 
 /// The least distance from now on; `point` is of the obstacle, where it stands now.
 struct CompositeMiss : AssemblyMiss {
-  Eigen::Vector3d agent_point = Eigen::Vector3d::Zero();  // of the agent, where it stands now
+  Eigen::Vector3d agent_point = Eigen::Vector3d::Zero();  // m, of the agent, where it stands now
   std::uint32_t agent_piece = 0;
 };
 

@@ -45,7 +45,7 @@ struct Separation {
 [[nodiscard]] std::optional<double> time_to_contact(const Ellipsoid& a, const Ellipsoid& b,
                                                     const Eigen::Vector3d& w);
 
-/// The same for prepared bodies and w = v_a - v_b, whose verdict is that of the unrounded difference.
+/// In seconds, of prepared bodies and w = v_a - v_b, whose verdict is that of the unrounded difference.
 [[nodiscard]] std::optional<double> time_to_contact(const ConeOracle& oracle, const Eigen::Vector3d& v_a,
                                                     const Eigen::Vector3d& v_b);
 

@@ -58,7 +58,7 @@ template <int D>
 [[nodiscard]] double maximise_contact(const Eigen::Matrix<double, D, 1>& center,
                                       const Eigen::Matrix<double, D, 1>& sigma);
 
-/// f at x = lambda / (1 - lambda).
+/// f at x = lambda / (1 - lambda), dimensionless.
 template <int D>
 [[nodiscard]] double contact_value(double ratio, const Eigen::Matrix<double, D, 1>& center,
                                    const Eigen::Matrix<double, D, 1>& sigma) {

@@ -59,13 +59,13 @@ class OrificeOracle {
   OrificeOracle(const Ellipsoid& agent, PlacedOpening opening);
 
   [[nodiscard]] const Ellipsoid& agent() const { return agent_; }
-  /// What it was made from: one of the two is there.
+  /// What it was made from: one of the two is there. Metres.
   [[nodiscard]] const std::optional<Orifice>& orifice() const { return orifice_; }
   [[nodiscard]] const std::optional<PlacedOpening>& placed() const { return placed_; }
   [[nodiscard]] const Eigen::Vector3d& center() const {
     return orifice_ ? orifice_->center : placed_->center;
   }
-  /// Perpendicular to the wall, of any length; of a PlacedOpening rounded.
+  /// Perpendicular to the wall, of any length, no unit; of a PlacedOpening rounded.
   [[nodiscard]] const Eigen::Vector3d& normal() const { return normal_; }
   /// Whether the region inside is convex: then so are the directions that pass.
   [[nodiscard]] bool convex() const { return !placed_ || placed_->opening.convex(); }

@@ -23,7 +23,7 @@ struct RimDistance {
 
 /// When to stop. Whatever stops first, both bounds hold.
 struct RimQuestion {
-  double tolerance = 1e-3;  // most - least <= tolerance * most
+  double tolerance = 1e-3;  // relative: most - least <= tolerance * most
   /// Metres: also as soon as least > threshold or most <= threshold, which is cheap. Negative: none.
   double threshold = -1;
   std::uint32_t most_points = 10000;

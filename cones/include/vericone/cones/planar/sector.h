@@ -92,7 +92,7 @@ struct ConeFunction {
 [[nodiscard]] ConeFunction cone_function(double psi, double theta_b, const Eigen::Vector2d& v_a,
                                          const Eigen::Vector2d& v_b);
 
-/// (5.10) itself, from V_r, V_theta and the angle theta of the line of sight.
+/// (5.10) itself, dimensionless, from V_r, V_theta and the angle theta of the line of sight.
 [[nodiscard]] double cone_function_y(double v_r, double v_theta, double theta, double theta_b, double psi);
 
 }  // namespace vericone

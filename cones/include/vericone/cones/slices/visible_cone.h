@@ -40,7 +40,7 @@ using PlanePoints = std::function<std::vector<Eigen::Vector2d>(const PlaneFrame&
 void order_by_bearing(std::vector<Eigen::Vector2d>& points);
 
 struct VisiblePlane {
-  double azimuth = 0;          // as in Slice
+  double azimuth = 0;          // rad, as in Slice
   std::optional<Slice> slice;  // edges need not be positive: the axis may be outside of the sector
   NoSector reason = NoSector::none;
   std::size_t points = 0;  // of the obstacle on this plane

@@ -20,13 +20,13 @@ struct GaussianErrors {
 };
 
 struct Probability {
-  double least = 0, most = 1;  // it lies between
-  double estimate = 0;         // between the two
+  double least = 0, most = 1;  // the probability lies between
+  double estimate = 0;         // of the probability, between the two
   int points = 0;              // of the shadow's boundary that were needed
 };
 
 struct ProbabilityOptions {
-  double relative = 1e-4, absolute = 0;  // of most - least; the larger counts
+  double relative = 1e-4, absolute = 0;  // of most - least, relative or as a probability; the larger counts
   int most_points = 4096;
 };
 

@@ -44,7 +44,7 @@ struct RelativeError {
 /// doubles that they are, and the exact predicates say of them what is said here.
 struct RobustAnswer {
   RobustVerdict verdict = RobustVerdict::undecided;
-  /// `out`: from A towards B. For all errors the gap along it stays open:
+  /// `out`: unit, from A towards B. For all errors the gap along it stays open:
   ///   n.c - h_A(n) - h_B(-n) - h_P(n) > max(0, T (n.w + h_W(n)))
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   /// `depends`: one that collides and one that passes, with attitudes and sizes as given.

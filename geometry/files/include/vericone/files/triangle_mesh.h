@@ -51,7 +51,7 @@ struct MeshReport {
 };
 
 struct TriangleMesh {
-  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3d> points;  // in the unit of the file
   /// Indices into `points`.
   std::vector<std::array<std::uint32_t, 3>> triangles;
   MeshReport report;

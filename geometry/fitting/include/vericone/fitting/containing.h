@@ -14,11 +14,11 @@ struct ContainingOptions {
 
 struct ContainingFit {
   Piece piece;             // in the frame of the points given; tight to rounding, not yet proved
-  double volume = 0;       // of the body (footprints: area)
+  double volume = 0;       // of the body (footprints: area), unit of the sample, cubed
   bool converged = false;  // first-order conditions hold to `stationarity`
-  /// Largest violation of the first-order conditions of a local minimum of log volume.
+  /// Largest relative violation of the first-order conditions of a local minimum of log volume.
   double stationarity = 0;
-  /// Ellipses and ellipsoids: volume over least volume is at most this, proved (min_volume_ellipsoid.h).
+  /// Ellipses and ellipsoids: ratio of volume to least volume, at most, proved (min_volume_ellipsoid.h).
   double volume_ratio_bound = 0;
   int starts = 0, iterations = 0;
 };

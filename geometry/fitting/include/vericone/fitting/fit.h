@@ -39,9 +39,9 @@ struct Candidate {
   Shape shape = Shape::ellipsoid;
   bool converged = false;
   double volume = 0;  // of the first piece's fit; least squares and robust: of the body
-  double noise = 0;   // least squares and robust
+  double noise = 0;   // least squares and robust, unit of the sample
   int parameters = 0;
-  double score = 0;  // the least wins
+  double score = 0;  // dimensionless; the least wins
 };
 
 struct FitResult {
@@ -52,12 +52,12 @@ struct FitResult {
   bool certified = false;  // what was asked to be inside is proved to be
   double inflation = 1;    // the largest factor by which a surface was moved to be proved
   std::optional<VolumeEstimate> volume;
-  std::optional<double> area;  // footprints
-  std::optional<double> scan_volume;
-  std::optional<double> convex_hull_volume;
-  std::optional<double> ellipsoid_volume;  // of the minimum-volume ellipsoid of the same points
-  double volume_ratio_bound = 0;           // ellipses and ellipsoids in one piece; else 0
-  double stationarity = 0;                 // containing: largest of the pieces
+  std::optional<double> area;                // of footprints, unit of the sample, squared
+  std::optional<double> scan_volume;         // unit of the sample, cubed
+  std::optional<double> convex_hull_volume;  // unit of the sample, cubed
+  std::optional<double> ellipsoid_volume;  // of the least ellipsoid of the points, unit of the sample, cubed
+  double volume_ratio_bound = 0;           // ratio; ellipses and ellipsoids in one piece; else 0
+  double stationarity = 0;                 // relative; containing: largest of the pieces
   DistanceStatistics scan_to_hull;
   std::optional<DistanceStatistics> hull_to_scan;
   std::vector<SurfaceFit> surfaces;   // least squares and robust: one a piece, in the world

@@ -32,14 +32,14 @@ struct Piece {
 
   /// For the shape `ellipse` only: the footprint, and where z ends (low = high: the points are planar).
   std::optional<Ellipse> footprint;
-  double low = 0, high = 0;
+  double low = 0, high = 0;  // m
 
   /// What is proved is proved of these numbers. The first is the ellipsoid (or elliptic cylinder), then one
   /// for each delimiter (or, where low < high, the slab between them).
   std::vector<Quadric> quadrics;
 };
 
-/// What exact arithmetic says of a hull and a sample.
+/// What exact arithmetic says of a hull and a sample. Coverage is the part of the points that is inside.
 struct Certificate {
   std::size_t points = 0, points_inside = 0;
   /// Of a mesh. A triangle counts as inside where one piece contains all of it.

@@ -40,7 +40,7 @@ struct SurfaceFit {
   /// One standard deviation of centre (3) and of the ellipsoid's semi-axes (3, decreasing), from the
   /// curvature of the cost at the solution, for independent noise.
   Eigen::Vector3d center_error = Eigen::Vector3d::Zero(), axes_error = Eigen::Vector3d::Zero();
-  /// Of the centre, so that its error along any direction can be told.
+  /// Of the centre, unit of the sample squared, so that its error along any direction can be told.
   Eigen::Matrix3d center_covariance = Eigen::Matrix3d::Zero();
   /// Share of the ellipsoid's area that has points near it (within 3 * noise, and within a cell of a grid of
   /// up to 400 directions, as seen from the centre where the ellipsoid is the unit ball).

@@ -15,11 +15,11 @@ namespace vericone::fitting {
 /// body, on a surface or on a rim.
 [[nodiscard]] double signed_distance(const CombinedEllipsoid& body, const Eigen::Vector3d& point);
 
-/// The same to an ellipse, in the plane.
+/// The same to an ellipse, in the plane, unit of the body.
 [[nodiscard]] double signed_distance(const Ellipse& body, const Eigen::Vector2d& point);
 
-/// To a union: the least over the pieces; inside a lower bound of the depth where pieces overlap. For
-/// footprints the horizontal distance.
+/// To a union, unit of the body: the least over the pieces; inside a lower bound of the depth where pieces
+/// overlap. For footprints the horizontal distance.
 [[nodiscard]] double signed_distance(const std::vector<Piece>& pieces, const Eigen::Vector3d& point);
 
 struct DistanceStatistics {

@@ -14,7 +14,7 @@ struct FuseOptions {
   /// Points farther apart than this never correspond, metres: above the error of the initial poses at the
   /// points. It is halved from stage to stage down to the last one below.
   double max_distance = 0.5;
-  double last_distance = 0.05;
+  double last_distance = 0.05;  // m
   /// Points are thinned to one a voxel of this size for the alignment, metres; 0: all are used.
   double voxel = 0;
   /// A stage ends when no point of any scan moves by more than this, metres; how many sweeps it may take.
@@ -22,7 +22,7 @@ struct FuseOptions {
   int max_sweeps = 100;
   /// The least part of each scan's points that must have a counterpart.
   double least_overlap = 0.3;
-  /// The least of `ScanFit::weakest`.
+  /// The least of `ScanFit::weakest`, dimensionless.
   double least_weakest = 1e-4;
 };
 
@@ -40,7 +40,7 @@ struct Fusion {
   std::string reason;  // one line, empty where converged
   /// From each sensor's frame to that of the first initial pose, which is kept; empty unless converged.
   std::vector<Eigen::Isometry3d> poses;
-  std::vector<Eigen::Vector3d> cloud;  // all points in that frame; empty unless converged
+  std::vector<Eigen::Vector3d> cloud;  // m, all points in that frame; empty unless converged
   std::vector<ScanFit> fits;           // of each scan against all others, also where not converged
   int sweeps = 0;
 };

@@ -31,8 +31,8 @@ struct Scan {
   std::vector<Beam> beams;      // one for every beam
 
   [[nodiscard]] std::size_t count(Beam what) const;
-  [[nodiscard]] std::vector<Eigen::Vector3d> sensor_points() const;
-  [[nodiscard]] std::vector<Eigen::Vector3d> world_points() const;
+  [[nodiscard]] std::vector<Eigen::Vector3d> sensor_points() const;  // m
+  [[nodiscard]] std::vector<Eigen::Vector3d> world_points() const;   // m
 };
 
 /// Every beam's first hit. `agent` from the agent's frame to the world's. Noise and dropout are a function of

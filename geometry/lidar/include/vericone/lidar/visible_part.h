@@ -10,9 +10,9 @@
 namespace vericone::lidar {
 
 struct SurfacePart {
-  std::vector<Eigen::Vector3d> points;
-  std::vector<Triangle> triangles;  // pieces of the mesh's triangles, not joined
-  double area = 0;                  // m^2
+  std::vector<Eigen::Vector3d> points;  // m
+  std::vector<Triangle> triangles;      // pieces of the mesh's triangles, not joined
+  double area = 0;                      // m^2
 };
 
 /// Pieces of triangles whose corners and middle are within the field of view and the ranges of some lidar and

@@ -18,7 +18,7 @@ struct Belief {
   Eigen::Matrix<double, N, N> covariance = Eigen::Matrix<double, N, N>::Zero();
 };
 
-/// What a measurement of M numbers said.
+/// What a measurement of M numbers, each in its unit, said.
 template <int M>
 struct Innovation {
   Eigen::Matrix<double, M, 1> residual = Eigen::Matrix<double, M, 1>::Zero();  // measured less expected
@@ -83,7 +83,7 @@ template <int N>
 class Gate {
  public:
   explicit Gate(double most_nis, int patience = 5) : most_(most_nis), patience_(patience) {}
-  [[nodiscard]] double most() const { return most_; }
+  [[nodiscard]] double most() const { return most_; }  // standard deviations, squared
   /// Whether to start again.
   bool lost(bool accepted) {
     refused_ = accepted ? 0 : refused_ + 1;

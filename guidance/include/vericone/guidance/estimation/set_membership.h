@@ -14,8 +14,8 @@ namespace vericone::guidance {
 
 /// Closed, with low <= high.
 struct Bounds {
-  double low = 0, high = 0;
-  [[nodiscard]] double middle() const { return 0.5 * (low + high); }
+  double low = 0, high = 0;                                           // in the unit bounded
+  [[nodiscard]] double middle() const { return 0.5 * (low + high); }  // in the unit bounded
 };
 
 /// One axis. The possible pairs (position, velocity) are the polygon's points, each moved by at most `slack`

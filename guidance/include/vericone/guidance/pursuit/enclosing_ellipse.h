@@ -12,14 +12,14 @@
 namespace vericone::guidance {
 
 struct EnclosingEllipse {
-  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
-  double a = 0, b = 0;  // semi-axes, a >= b, m
-  double angle = 0;     // of the major axis, rad, unwrapped from ellipse to ellipse
-  std::array<Eigen::Vector2d, 2> foci{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();  // m
+  double a = 0, b = 0;                               // semi-axes, a >= b, m
+  double angle = 0;  // of the major axis, rad, unwrapped from ellipse to ellipse
+  std::array<Eigen::Vector2d, 2> foci{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};  // m
   // Rates, of points that move with given velocities: analytic (implicit differentiation of the optimum).
-  Eigen::Vector2d centre_rate = Eigen::Vector2d::Zero();
-  double a_rate = 0, b_rate = 0, angle_rate = 0;
-  std::array<Eigen::Vector2d, 2> foci_rates{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  Eigen::Vector2d centre_rate = Eigen::Vector2d::Zero();  // m/s
+  double a_rate = 0, b_rate = 0, angle_rate = 0;          // m/s, m/s, rad/s
+  std::array<Eigen::Vector2d, 2> foci_rates{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};  // m/s
   /// a = b within 1e-9 of a: no axis, foci in the centre, their rates those of the centre, angle as before.
   bool circle = false;
 

@@ -48,12 +48,12 @@ struct FocalRates {
 struct FocalGains {
   double cone = 1;                  // K_1, 1/s; the source's is 0 where y_1 < 0
   double speed = 0.11;              // K_2, 1/s
-  double reference = 0;             // y_1d
+  double reference = 0;             // y_1d, in the unit of y_1
   double most = 10;                 // m/s^2, of each component
   double singular = 10;             // |denominator| below which the boundary layer's law takes over
   double stay = 2;                  // s, for which it then stays in force
   bool layer_when_receding = true;  // also where V_r1 > 0
-  // (4.15), (4.16)
+  // (4.15), (4.16): m/s^2 per unit of what each multiplies
   double heading = 10, sight = 0, speed_error = 0.2, distance = 0;
   double near = 5;  // m: `sight` and `distance` count beyond it
 };

@@ -15,7 +15,7 @@ struct RendezvousGains {
   double reference = -0.1;  // y_1d, m^4/s^2
   double radius = 0.1;      // R, m
   double most = 10;         // m/s^2, of each component
-  double singular = 0.01;   // nothing commanded where |2 V_r V_theta r^2| is below this
+  double singular = 0.01;   // m^4/s^2: nothing commanded where |2 V_r V_theta r^2| is below this
   bool closing = true;      // K_1 sign(-V_r), without which the UAS parks beside the vehicle (errata 3.3)
 };
 
@@ -28,7 +28,7 @@ enum class PursuitStatus : std::uint8_t {
 
 struct PursuitCommand {
   double lateral = 0, longitudinal = 0;  // of A, at its heading + pi/2 and along it, m/s^2, saturated
-  double y1 = 0, y2 = 0;                 // y_2 in m^2/s^2
+  double y1 = 0, y2 = 0;                 // y_1 in the unit of its law, y_2 in m^2/s^2
   PursuitStatus status = PursuitStatus::steering;
 };
 

@@ -12,10 +12,10 @@ namespace vericone::guidance {
 struct VerticalGains {
   double size = 240, size_band = 20, size_near = 5;  // x_S: wanted, where it begins to act, where it ends, px
   double altitude = 200, altitude_band = 100;        // z: wanted and most beside it, m
-  double size_p = 0.018, size_d = 0.012;
-  double altitude_p = 0.006, altitude_d = 0.003;
-  double lock_p = 0.84, lock_d = 0.42;
-  double most = 10;  // m/s^2
+  double size_p = 0.018, size_d = 0.012;             // 1/s^2 and 1/s
+  double altitude_p = 0.006, altitude_d = 0.003;     // 1/s^2 and 1/s
+  double lock_p = 0.84, lock_d = 0.42;               // 1/s^2 and 1/s
+  double most = 10;                                  // m/s^2
   /// With the term 2 phi x_W x_S'^2 / x_S^3 that (4.23) leaves out of the inversion of (4.22).
   bool exact = true;
 };

@@ -12,7 +12,7 @@ namespace vericone::simulation {
 /// A vector that is a polynomial of degree 5 of the time since its beginning: coefficients of 1, t, ..., t^5.
 using Quintic = std::array<Eigen::Vector3d, 6>;
 
-/// A vector at a time, with its first two derivatives.
+/// A vector at a time, in its unit, with its first two derivatives.
 struct Jet {
   Eigen::Vector3d value = Eigen::Vector3d::Zero(), first = Eigen::Vector3d::Zero(),
                   second = Eigen::Vector3d::Zero();

@@ -9,8 +9,8 @@ namespace vericone::simulation {
 
 /// A point mass with an orientation.
 struct Motion {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();      // m
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      // m/s
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  // of the body's frame in the world
 };
 

@@ -29,8 +29,8 @@ struct PassageProof {
   /// touched: apart before `from`, proved; meeting at `to`, proved. undecided: the first piece of time
   /// without proof. Otherwise the interval asked about.
   double from = 0, to = 0;  // s
-  /// passed: where the middle crosses. touched: a point that body and rim or wall have in common. Otherwise
-  /// the point of the rim next to the body, about.
+  /// Metres. passed: where the middle crosses. touched: a point that body and rim or wall have in common.
+  /// Otherwise the point of the rim next to the body, about.
   Eigen::Vector3d place = Eigen::Vector3d::Zero();
   /// passed, missed: the distance of the body from the rim was never below this, proved, metres; and when
   /// they came nearest, about. Within 1 % of the least distance (1e-6 m) of ellipsoids and hulls; of other

@@ -32,7 +32,7 @@ struct PairProof {
   /// touched: apart before `from`, proved; meeting at `to`, proved. undecided: the first piece of time
   /// without proof. avoided: the interval asked about.
   double from = 0, to = 0;  // s
-  /// touched: a point near both bodies at `to`. Otherwise where they come nearest.
+  /// Metres. touched: a point near both bodies at `to`. Otherwise where they come nearest.
   Eigen::Vector3d place = Eigen::Vector3d::Zero();
   /// avoided: the distance was never below this, proved, metres; and when they came nearest, about. Within 1
   /// % of the least distance of the convex hulls (1e-6 m) in nearly all runs; a rougher bound where one is in

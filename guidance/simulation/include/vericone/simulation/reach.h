@@ -31,8 +31,8 @@ struct ReachLimits {
 
 /// Where an agent sets out.
 struct ReachStart {
-  double t = 0;  // s
-  Eigen::Vector3d position = Eigen::Vector3d::Zero(), velocity = Eigen::Vector3d::Zero();
+  double t = 0;                                                                            // s
+  Eigen::Vector3d position = Eigen::Vector3d::Zero(), velocity = Eigen::Vector3d::Zero();  // m, m/s
   double climb_acceleration = 0;  // m/s^2, for `climb_jerk`
   /// Metres: how far the point that passes, the body's middle, is from the reference point at most.
   double offset = 0;

@@ -16,7 +16,7 @@ namespace vericone::simulation {
 
 /// One agent and one of the bodies it minds, at the time of a command. Body indices are the scenario's.
 struct EncounterSample {
-  double t = 0;
+  double t = 0;  // s
   std::size_t agent = 0, obstacle = 0;
   guidance::SpatialState state;  // (6.10)'s states; planar scenarios have phi = 0
   guidance::GuideStep step;      // what the law says for this obstacle alone
@@ -27,7 +27,7 @@ struct EncounterSample {
 
 /// The same moment on all planes.
 struct PlaneSample {
-  double t = 0;
+  double t = 0;  // s
   std::size_t agent = 0, obstacle = 0;
   guidance::PlaneCandidate plane;
 };
@@ -35,26 +35,26 @@ struct PlaneSample {
 /// What an agent with a sensor measured of an obstacle at the time of a command, and what its law made of it,
 /// beside the truth. On the plane that the law looked at; `on_plane` is false where it looked at none.
 struct SightSample {
-  double t = 0;
+  double t = 0;  // s
   std::size_t agent = 0, obstacle = 0;
   Measurement measurement;
   guidance::SpatialState measured;                       // as measured: r, V_r, V_theta, V_phi, ...
-  Eigen::Vector3d believed_position, believed_velocity;  // as given to the law
+  Eigen::Vector3d believed_position, believed_velocity;  // m, m/s, as given to the law
   bool on_plane = false;
   guidance::PlanarState state;  // true
   guidance::PlaneCone cone;     // true, with the rates in closed form
-  double y = 0;                 // true
+  double y = 0;                 // dimensionless, true
   guidance::GuideReading reading;
   /// (7.4), (7.5) of this measurement, and the deviations that (7.7), (7.8), (7.13) give for it.
   guidance::NoiseTerms terms;
-  double y_deviation = 0, a_deviation = 0, v_deviation = 0;
+  double y_deviation = 0, a_deviation = 0, v_deviation = 0;  // dimensionless, dimensionless, 1/s
 };
 
 /// What a vehicle logs at the time of a command.
 struct VehicleSample {
-  double t = 0;
+  double t = 0;  // s
   std::size_t body = 0;
-  std::vector<double> values;  // in the order of VehicleModel::channels()
+  std::vector<double> values;  // in the order and the units of VehicleModel::channels()
 };
 
 /// A vehicle that was beyond one of its limits.
@@ -65,7 +65,7 @@ struct VehicleBeyond {
 
 /// One agent and the orifice that it heads for, at the time of a command.
 struct OrificeSample {
-  double t = 0;
+  double t = 0;                        // s
   std::size_t agent = 0, orifice = 0;  // of the scenario's
   guidance::SpatialState state;        // of the centres
   guidance::OrificeCommand command;
@@ -87,7 +87,7 @@ enum class EventKind : std::uint8_t {
 [[nodiscard]] const char* to_string(EventKind kind);
 
 struct Event {
-  double t = 0;
+  double t = 0;  // s
   EventKind kind = EventKind::appears;
   std::size_t agent = 0, obstacle = 0;  // equal where only one body is concerned; goes_*: of an orifice
   /// passes: distance of the centres, m; enters_cone: y (or m, metres) at that command; leaves_cone: what it

@@ -23,8 +23,8 @@ namespace vericone::simulation {
 /// Where an agent wants to go once nothing threatens it. Turning towards it may cost a margin what one step
 /// turns, before the law is asked again.
 struct Goal {
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  double most = 0;     // m/s^2, with which it turns towards the point
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  // m
+  double most = 0;                                  // m/s^2, with which it turns towards the point
   std::string after;   // obstacle that has to be passed first; empty: none, or all orifices
   double reached = 1;  // metres; when all agents with goals have been this near the run ends
 };

@@ -52,7 +52,7 @@ struct Draw {
   std::uint64_t pair = 0;  // which agent sees which body
   std::uint64_t step = 0;  // number of the command
 
-  /// Uniform in (0, 1), and standard normal, of a channel.
+  /// Uniform in (0, 1), and standard normal, dimensionless, of a channel.
   [[nodiscard]] double uniform(std::uint64_t channel) const;
   [[nodiscard]] double normal(std::uint64_t channel) const;
 };

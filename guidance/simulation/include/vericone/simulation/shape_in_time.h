@@ -20,7 +20,7 @@ struct Oscillation {
   [[nodiscard]] double rate_at(double t) const;  // 1/s; at a corner of |...| that of the side after t
   /// Bounds of k over [from, to], widened by a few roundings.
   struct Range {
-    double low, high;
+    double low, high;  // in the unit of what oscillates
   };
   [[nodiscard]] Range range(double from, double to) const;
 };
@@ -40,7 +40,7 @@ struct DentedConic {
 /// Its counterpart in space, (x/a)^2 + |(y/b)^2 + (z/c)^2 - k| <= 1: the ellipsoid (a, b, c) sqrt(1 + k)
 /// delimited by the two-sheeted hyperboloid (a, b, c) sqrt(1 - k). k = 0: the ellipsoid (a, b, c).
 struct DentedQuadric {
-  Eigen::Vector3d semi_axes = Eigen::Vector3d::Ones();
+  Eigen::Vector3d semi_axes = Eigen::Vector3d::Ones();  // m
   Oscillation k;
 };
 
@@ -56,7 +56,7 @@ class ShapeInTime {
   [[nodiscard]] const WorldBody* rigid() const { return rigid_ ? &*rigid_ : nullptr; }
   /// Of one with dents: how deep they are, otherwise null.
   [[nodiscard]] const Oscillation* k() const { return rigid_ ? nullptr : &k_; }
-  /// Of one with dents, for k = 0: a_c, b_c and 0 in the plane.
+  /// Metres. Of one with dents, for k = 0: a_c, b_c and 0 in the plane.
   [[nodiscard]] const Eigen::Vector3d& semi_axes() const { return semi_axes_; }
 
  private:
@@ -86,7 +86,7 @@ void check(const ShapeInTime& shape);
 [[nodiscard]] WorldBody shape_over(const ShapeInTime& shape, double from, double to,
                                    const Eigen::Vector3d& position, const Eigen::Matrix3d& rotation);
 
-/// The largest distance of a point of the body from its reference point, at any time; rounded up.
+/// The largest distance (m) of a point of the body from its reference point, at any time; rounded up.
 [[nodiscard]] double reach(const ShapeInTime& shape);
 
 }  // namespace vericone::simulation

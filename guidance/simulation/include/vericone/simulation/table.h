@@ -14,7 +14,7 @@ struct Column {
   std::string name;  // "V_r"
   std::string unit;  // "m/s"; empty: none
   bool text = false;
-  std::vector<double> numbers = {};  // NaN: nothing
+  std::vector<double> numbers = {};  // in that unit; NaN: nothing
   std::vector<std::string> words = {};
 };
 

@@ -37,9 +37,9 @@ struct VehicleLimits {
 
 /// The first time at which a vehicle was beyond one of its limits.
 struct LimitBroken {
-  double t = 0;       // s
-  std::string limit;  // "speed", "turn_rate", "climb", "top" or "bottom"
-  double value = 0, allowed = 0;
+  double t = 0;                   // s
+  std::string limit;              // "speed", "turn_rate", "climb", "top" or "bottom"
+  double value = 0, allowed = 0;  // in the unit of what is limited
 };
 
 /// One under way.

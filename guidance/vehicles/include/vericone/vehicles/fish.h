@@ -40,7 +40,7 @@ struct FishOptions {
   double gain_y = 1;          // K_y, rad/m
   double gain_alpha = 1;      // K_alpha1, 0 to 1
   double gain_heading = 0.4;  // 1/s: turn rate for an error of the heading
-  double gain_speed = 0.5;    // of an error of the mean speed
+  double gain_speed = 0.5;    // dimensionless, of an error of the mean speed
   double depth_pole = 0.4;    // 1/s, threefold, of the depth loop
   FishTrial trial;
   /// Declared and kept: m/s through the water, at every instant; rad/s of heading, mean over a cycle; m/s up

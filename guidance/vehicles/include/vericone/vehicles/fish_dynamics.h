@@ -55,7 +55,7 @@ struct TailAngle {
   return surface - state.position.z();
 }
 
-/// What (2.5) divides by: surface pressure over that at a depth. A depth above the surface counts as 0.
+/// Divisor of (2.5), ratio: surface pressure over that at a depth. A depth above the surface counts as 0.
 [[nodiscard]] double compression(const FishParameters& fish, double depth);
 
 /// In the chamber, m^3: never above `chamber`; what would be is on its way out.
@@ -79,7 +79,7 @@ struct FishForces {
                                    double gas_rate, double surface, const simulation::Current& water,
                                    double t);
 
-/// Velocity over ground.
+/// Velocity over ground, m/s.
 [[nodiscard]] Eigen::Vector3d over_ground(const FishState& state, const simulation::Current& water, double t);
 
 /// 1/2 ((m + m_ax) u^2 + (m + m_ay) v^2 + (J_z + J_a) r^2), J: of swimming, heave left out.

@@ -58,7 +58,7 @@ struct ThrustAndTilt {
 [[nodiscard]] Wrench quadrotor_wrench(const QuadrotorOptions& quadrotor, const QuadrotorState& state,
                                       const ThrustAndTilt& wanted, double yaw);
 
-/// Body axes as a Motion has them, x forward, y left, z up.
+/// Body axes (orthonormal) as a Motion has them, x forward, y left, z up.
 [[nodiscard]] Eigen::Matrix3d quadrotor_rotation(const QuadrotorState& state);
 
 /// Starts level, with the heading of the body's x axis, which it keeps; the accelerations of commands steer,

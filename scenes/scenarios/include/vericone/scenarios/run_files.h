@@ -14,7 +14,7 @@ namespace vericone::scenario {
 struct RunOrigin {
   std::filesystem::path file;   // of the scenario; empty: a program made it, and no file is copied
   std::string provenance = {};  // JSON: what it takes to get the same result again; empty: not known
-  double seconds = 0;           // of the computation
+  double seconds = 0;           // s, of the computation
   std::string text = {};        // of the file; empty: it is read
 };
 

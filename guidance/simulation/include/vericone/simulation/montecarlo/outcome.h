@@ -23,7 +23,7 @@ struct FlightSettings {
   double step = 0.05;       // s
   double most = 15;         // m/s^2, with saturation
   double gain = 4;          // 1/s
-  double reference = 0.05;  // of y
+  double reference = 0.05;  // of y, dimensionless
   double required = 1;      // m, of the clearance law
 };
 

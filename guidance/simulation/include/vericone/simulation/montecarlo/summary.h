@@ -17,8 +17,8 @@ inline constexpr double kBin = 0.25, kLastBin = 15;  // m
 struct Counts {
   std::uint64_t avoided = 0, infeasible = 0, called_safe_and_met = 0, undecided = 0;
   double median_peak = 0, median_left_cone = 0;  // m/s^2, s; NaN where there is none
-  /// Histogram of the proved least distances of those avoided: how many are in each bin of kBin; the last has
-  /// all from kLastBin on.
+  /// Histogram of the proved least distances of those avoided: how many (no unit) in each bin of kBin; the
+  /// last has all from kLastBin on.
   std::vector<double> least_distances;
 
   [[nodiscard]] std::uint64_t met() const { return infeasible + called_safe_and_met; }

@@ -94,25 +94,25 @@ struct Pursuit {
 /// Of one vehicle, when a picture was taken (with exact eyes: every picture_step).
 struct CarSample {
   simulation::RoadPoint truth;
-  guidance::Belief<6> belief;  // of the time of the picture
-  std::optional<Eigen::Vector2d> measured;
+  guidance::Belief<6> belief;               // of the time of the picture
+  std::optional<Eigen::Vector2d> measured;  // m
   Sighting sighting;
   VehicleTruth seen;  // in the picture
   Box other;          // the true box of another car that the sighting's box meets best
 };
 
 struct PursuitSample {
-  double t = 0;
+  double t = 0;  // s
   simulation::Motion uas;
   Pose camera;                                             // of the picture perceived last ...
   double camera_time = 0;                                  // s, taken then
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  // commanded, m/s^2
-  double lateral = 0, longitudinal = 0;
-  guidance::EnclosingEllipse ellipse, true_ellipse;  // believed and true
-  double y1 = 0, y2 = 0, true_y1 = 0, true_y2 = 0;
-  double probability = 0, y_low = 0, y_high = 0;  // ours: of the cone, from the covariance
-  double m = 0;                                   // ours, m
-  double size = 0, off_centre = 0;                // x_S, x_C, px
+  double lateral = 0, longitudinal = 0;                    // m/s^2
+  guidance::EnclosingEllipse ellipse, true_ellipse;        // believed and true
+  double y1 = 0, y2 = 0, true_y1 = 0, true_y2 = 0;         // y_2 m^2/s^2, y_1 in the unit of its law
+  double probability = 0, y_low = 0, y_high = 0;           // ours: probability of the cone; y as y_1
+  double m = 0;                                            // ours, m
+  double size = 0, off_centre = 0;                         // x_S, x_C, px
   guidance::VerticalMode mode = guidance::VerticalMode::size;
   bool layer = false;           // the source's law had no command of its own
   std::vector<CarSample> cars;  // those followed
@@ -130,11 +130,11 @@ struct HiddenTime {
 
 struct PursuitRun {
   std::vector<PursuitSample> samples;
-  std::vector<std::vector<double>> vehicle;  // channels of the vehicle, one a sample
+  std::vector<std::vector<double>> vehicle;  // channels of the vehicle, in their units, one a sample
   std::vector<Box> boxes;                    // given to the tracker with the first picture
   std::vector<HiddenTime> hidden;
   double layer_share = 0;  // of the commands, by the boundary layer's law
-  double end = 0;
+  double end = 0;          // s
   bool interrupted = false;
 };
 
@@ -164,7 +164,7 @@ struct CarSummary {
 struct PursuitSummary {
   double mean_distance = 0, most_distance = 0;  // m, to the centre of the true ellipse, last two thirds
   double mean_speed_error = 0;                  // m/s, against the centre's velocity, last two thirds
-  double layer_share = 0;
+  double layer_share = 0;                       // part of the commands
   std::vector<CarSummary> cars;
 };
 [[nodiscard]] PursuitSummary summarise(const Pursuit& pursuit, const PursuitRun& run);

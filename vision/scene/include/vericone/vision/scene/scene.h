@@ -19,7 +19,7 @@ namespace vericone::vision {
 /// marks.
 struct Ground {
   Image picture;                   // north up, its lower left corner at the origin; empty: made from `seed`
-  double metres_per_pixel = 0.25;  // of the picture; ours repeats after 2048 of them
+  double metres_per_pixel = 0.25;  // m/px, of the picture; ours repeats after 2048 px
   std::uint64_t seed = 1;
   bool plain = false;  // one colour, with marks of 15 x 0.5 m, as the source's
   double marks = 0;    // of a plain ground, in a square kilometre; the source's chapter 3 has about 800
@@ -46,7 +46,7 @@ struct SceneOptions {
   double noise = 0;      // standard deviation, grey levels
   double blur = 0;       // px, standard deviation, of the lens
   double exposure = 0;   // s, of motion blur
-  double light = 1;      // of full sun; below 0.5 dusk
+  double light = 1;      // part of full sun; below 0.5 dusk
   bool shadows = false;  // on the ground, towards the north-east
   int channels = 1;
   std::uint64_t seed = 1;  // of the noise

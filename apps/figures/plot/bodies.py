@@ -1,24 +1,27 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bodies of a run (docs/reference/scenarios.md) as curves and meshes: true outlines and surfaces. Those of quadrics are star-shaped
-about their centres: a distance for every direction, the least over what delimits them."""
+"""Bodies of a run (docs/reference/scenarios.md) as curves and meshes: true outlines and surfaces. Those of quadrics are
+star-shaped about their centres: a distance for every direction, the least over what delimits them."""
 import itertools
+from typing import Any
 
+import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import to_rgb
 
-from vericone_figures.style import AGENT, EXACT, GREY, OBSTACLE, SLICE, plt
+from .kinds import Array, Row, Shape
+from .style import AGENT, EXACT, GREY, OBSTACLE, SLICE
 
 MANY = 8  # bodies, or lines: more of them nobody can tell apart
 
 
-def rotation(row):
+def rotation(row: Row) -> Array:
     w, x, y, z = (row[n] for n in ("qw", "qx", "qy", "qz"))
     return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
                      [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
                      [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
 
 
-def regions(shape, k):
+def regions(shape: Shape, k: float) -> list[tuple[Array, float]]:
     """Pairs (M, level): the body is where x.Mx <= level for all."""
     if shape["kind"] in ("dented_conic", "dented_quadric"):
         axes = np.array(shape.get("dented") or [shape["a_c"], shape["b_c"]])
@@ -29,7 +32,7 @@ def regions(shape, k):
     return [(inverse.T @ inverse, 1.0)] + [(np.array(d["matrix"]), d["level"]) for d in shape.get("delimiters", [])]
 
 
-def radii(shape, k, directions):
+def radii(shape: Shape, k: float, directions: Array) -> Array:
     """How far the body reaches from its centre."""
     reach = np.full(directions.shape[:-1], np.inf)
     for m, level in regions(shape, k):
@@ -39,7 +42,7 @@ def radii(shape, k, directions):
     return reach
 
 
-def outline(shape, row, n=181):
+def outline(shape: Shape, row: Row, n: int = 181) -> Array:
     """A planar body's boundary at a row of bodies.csv."""
     angle = np.linspace(0, 2 * np.pi, n)
     u = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
@@ -47,9 +50,9 @@ def outline(shape, row, n=181):
     return points @ rotation(row)[:2, :2].T + [row["x"], row["y"]]
 
 
-def surface(shape, row, n=25):
-    """A body's boundary in space as a grid; not of hulls. Rings about its x axis, the axis of its dents, so that rims run
-    along the mesh."""
+def surface(shape: Shape, row: Row, n: int = 25) -> Array:
+    """A body's boundary in space as a grid; not of hulls. Rings about its x axis, the axis of its dents, so that rims
+    run along the mesh."""
     polar, around = np.linspace(0, np.pi, n), np.linspace(0, 2 * np.pi, 2 * n - 1)
     s = np.sin(polar)[:, None]
     u = np.stack(np.broadcast_arrays(np.cos(polar)[:, None], s * np.cos(around), s * np.sin(around)), axis=-1)
@@ -59,7 +62,7 @@ def surface(shape, row, n=25):
     return points @ rotation(row).T + [row["x"], row["y"], row["z"]]
 
 
-def facets(shape, row, n=25):
+def facets(shape: Shape, row: Row, n: int = 25) -> Array:
     """Polygons of a body in space, and their outer normals."""
     if shape["kind"] == "hull":
         faces, middle = [posed(f, row) for f in hull_faces(shape["points"])], posed(np.mean(shape["points"], axis=0), row)
@@ -78,7 +81,7 @@ def facets(shape, row, n=25):
     return shown, np.array(normals)
 
 
-def hull_faces(points):
+def hull_faces(points: Array) -> list[Array]:
     """Corners of the facets of the convex hull of few points, in order around each."""
     points = np.unique(np.array(points), axis=0)
     size, seen, faces = np.ptp(points, axis=0).max(), set(), []
@@ -102,7 +105,7 @@ def hull_faces(points):
     return faces
 
 
-def polygons(shape, near=None):
+def polygons(shape: Shape, near: Any = None) -> list[Any]:
     """Faces of a mesh, a map or a union of hulls in the body's own frame, and the points of a cloud as small squares;
     nothing of shapes that surface() draws. `near`: two corners of the box beyond which a map is left out, own frame."""
     if "triangles" in shape:
@@ -126,7 +129,7 @@ def polygons(shape, near=None):
     return [face for piece in shape.get("pieces", []) if piece["kind"] == "hull" for face in hull_faces(piece["points"])]
 
 
-def lit(faces, color):
+def lit(faces: Any, color: Any) -> Array:
     """The colour of each face under a light from above; both sides of a face are the same."""
     corners = np.array([f[:3] for f in faces])
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -135,16 +138,16 @@ def lit(faces, color):
     return np.clip(np.array(to_rgb(color)) * (0.45 + 0.55 * light[:, None]), 0, 1)
 
 
-def is_planar(shapes):
+def is_planar(shapes: Any) -> bool:
     return all(s["kind"] in ("ellipse", "dented_conic") for s in shapes.values())
 
 
-def body_colors(names, agents):
+def body_colors(names: list[str], agents: list[str]) -> dict[str, Any]:
     """One colour a body, agents first: what all pictures of a run have."""
     ordered = agents + [n for n in names if n not in agents]
     few = [AGENT, EXACT, SLICE, OBSTACLE, "#b0894f", "#c2418f", "#2aa3a3", GREY]
     return dict(zip(ordered, few if len(ordered) <= MANY else plt.get_cmap("turbo")(np.linspace(0.05, 0.95, len(ordered)))))
 
 
-def posed(points, row):
+def posed(points: Array, row: Row) -> Array:
     return np.asarray(points) @ rotation(row).T + [row["x"], row["y"], row["z"]]

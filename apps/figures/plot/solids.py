@@ -2,9 +2,14 @@
 """Combined quadrics in parallel projection with true outlines: the rims, and the contours where surfaces turn away
 from the eye, as lines; what is behind something is found by intersecting the line of sight with the quadrics, not
 with the mesh."""
+from collections.abc import Iterator
+from typing import Any
+
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import to_rgb
+
+from .kinds import Array, Axes, Data
 
 ELLIPSOID, HYPERBOLOID, HIDDEN = "#8d6bb0", "#dd9a3c", "#9a9a9a"
 
@@ -12,7 +17,7 @@ ELLIPSOID, HYPERBOLOID, HIDDEN = "#8d6bb0", "#dd9a3c", "#9a9a9a"
 class View:
     """Parallel projection along the direction from the eye; angles in degrees."""
 
-    def __init__(self, azimuth, elevation):
+    def __init__(self, azimuth: float, elevation: float) -> None:
         a, e = np.radians([azimuth, elevation])
         self.toward = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])  # to the eye
         self.right = np.array([-np.sin(a), np.cos(a), 0])
@@ -20,14 +25,14 @@ class View:
         self.light = self.toward + 0.5 * self.up - 0.45 * self.right
         self.light /= np.linalg.norm(self.light)
 
-    def project(self, points):
+    def project(self, points: Array) -> Array:
         return np.stack([points @ self.right, points @ self.up], axis=-1)
 
 
 class Solid:
     """One entry of "solids": the body's forms, which of its quadrics are shown, and their triangles."""
 
-    def __init__(self, data, colors=(ELLIPSOID, HYPERBOLOID), shift=(0, 0, 0)):
+    def __init__(self, data: Data, colors: Any = (ELLIPSOID, HYPERBOLOID), shift: Array = (0, 0, 0)) -> None:
         body = data["body"]
         self.center = np.array(body["center"]) + np.array(shift)
         inverse = np.linalg.inv(np.array(body["factor"]))
@@ -42,10 +47,10 @@ class Solid:
         self.closed = data["part"] == "whole"
         self.colors = [np.array(to_rgb(c)) for c in colors]
 
-    def color(self, quadric):
+    def color(self, quadric: int) -> Any:
         return self.colors[min(quadric, len(self.colors) - 1)]
 
-    def hides(self, points, toward):
+    def hides(self, points: Array, toward: Array) -> Array:
         """Whether the way from each point to the eye meets a shown surface."""
         p = points - self.center
         hidden = np.zeros(len(p), bool)
@@ -64,7 +69,7 @@ class Solid:
                     hidden |= hit
         return hidden
 
-    def beside(self, points):
+    def beside(self, points: Array) -> Array:
         """Points of chords of the surface moved off it: outwards, and inwards if the inside may be seen."""
         p = points - self.center
         if not self.closed:
@@ -72,14 +77,14 @@ class Solid:
         size = np.max([np.einsum("ij,jk,ik->i", p, m, p) / level for m, level in self.forms if level > 0], axis=0)
         return [self.center + 1.002 * p / np.sqrt(size)[:, None]]
 
-    def gradients(self, points):
+    def gradients(self, points: Array) -> Array:
         """Of each triangle's form at a point of it."""
         g = np.empty_like(points)
         for q in np.unique(self.quadrics):
             g[self.quadrics == q] = points[self.quadrics == q] @ self.forms[q][0]
         return g
 
-    def cut(self, other):
+    def cut(self, other: Any) -> Array:
         """Cuts the triangles along the surfaces of another solid about the same centre; returns the curves."""
         links = []
         for m, level in other.forms:
@@ -87,7 +92,7 @@ class Solid:
             values[np.abs(values) < 1e-9] = 0
             points, new, triangles, quadrics = list(self.points), {}, [], []
 
-            def crossing(i, j, form):
+            def crossing(i: Any, j: Any, form: Any) -> Array:
                 key = (min(i, j), max(i, j))
                 if key not in new:
                     y, d = self.points[i], self.points[j] - self.points[i]
@@ -120,7 +125,7 @@ class Solid:
             self.points, self.triangles, self.quadrics = np.array(points), np.array(triangles), np.array(quadrics)
         return chains([[(i, self.points[i]), (j, self.points[j])] for i, j in links], self.center)
 
-    def contours(self, toward):
+    def contours(self, toward: Array) -> Array:
         """Where the surface turns away: toward.M y = 0, a plane through the centre for each quadric, so exact."""
         links = []
         values = np.stack([self.gradients(self.points[self.triangles[:, k]]) @ toward for k in range(3)], axis=1)
@@ -139,9 +144,9 @@ class Solid:
             links.append(ends)
         return chains(links, self.center)
 
-    def rims(self):
+    def rims(self) -> Array:
         """Edges between different quadrics, and the borders of open surfaces."""
-        seen = {}
+        seen: dict[Any, list[int]] = {}
         for t, q in zip(self.triangles, self.quadrics):
             for k in range(3):
                 e = tuple(sorted((t[k], t[(k + 1) % 3])))
@@ -150,16 +155,17 @@ class Solid:
         return chains(links, self.center)
 
 
-def chains(links, center):
+def chains(links: Any, center: Array) -> list[Array]:
     """Joins segments with the same ends to polylines."""
-    at, where = {}, {}
+    at: dict[Any, list[int]] = {}
+    where: dict[Any, Array] = {}
     for n, link in enumerate(links):
         for key, point in link:
             at.setdefault(key, []).append(n)
             where[key] = point
     used, lines = set(), []
 
-    def walk(key):
+    def walk(key: Any) -> Array:
         line = [key]
         while True:
             following = [n for n in at[key] if n not in used]
@@ -176,7 +182,7 @@ def chains(links, center):
     return lines
 
 
-def runs(line, hidden):
+def runs(line: Array, hidden: Array) -> Any:
     """The line cut where it becomes hidden or visible: (points, hidden)."""
     start = 0
     for i in range(1, len(hidden) + 1):
@@ -185,12 +191,13 @@ def runs(line, hidden):
             start = i
 
 
-def refined(line, steps=4):
+def refined(line: Array, steps: int = 4) -> Array:
     s = np.arange(0, len(line) - 1 + 1e-9, 1 / steps)
     return np.stack([np.interp(s, np.arange(len(line)), c) for c in line.T], axis=1)
 
 
-def draw_lines(axes, view, lines, solids, surface=None, color="k", width=0.9, hidden_width=0.5, zorder=5):
+def draw_lines(axes: Axes, view: View, lines: Any, solids: Any,
+               surface: Any = None, color: Any = "k", width: float = 0.9, hidden_width: float = 0.5, zorder: float = 5) -> None:
     """Lines, on the surface of a solid or free; what is behind one of the solids dashed or left out."""
     if not lines:
         return
@@ -210,7 +217,7 @@ def draw_lines(axes, view, lines, solids, surface=None, color="k", width=0.9, hi
         start += len(line) - 1
 
 
-def draw_solids(axes, view, solids, hidden_rims=True, alpha=1.0, fill=True):
+def draw_solids(axes: Axes, view: View, solids: Any, hidden_rims: bool = True, alpha: float = 1.0, fill: bool = True) -> None:
     faces, colors, depths = [], [], []
     for s in solids:
         corners = s.points[s.triangles]
@@ -240,7 +247,7 @@ def draw_solids(axes, view, solids, hidden_rims=True, alpha=1.0, fill=True):
         draw_lines(axes, view, s.rims(), solids, s, hidden_width=0.45 if hidden_rims else 0)
 
 
-def frame(axes, view, points, margin=0.04, below=0.14):
+def frame(axes: Axes, view: View, points: Array, margin: float = 0.04, below: float = 0.14) -> None:
     """Limits around all points with room below for the scale bar, from which lengths are read; no ticks."""
     flat = view.project(points)
     low, high = flat.min(axis=0), flat.max(axis=0)
@@ -251,7 +258,7 @@ def frame(axes, view, points, margin=0.04, below=0.14):
     axes.axis("off")
 
 
-def triad(axes, view, length=0.1, at=(0.1, 0.1)):
+def triad(axes: Axes, view: View, length: float = 0.1, at: Any = (0.1, 0.1)) -> None:
     """The directions of x, y and z in a corner, in parts of the axes' width."""
     inset = axes.inset_axes([at[0] - length, at[1] - length, 2 * length, 2 * length])
     for name, e in zip("xyz", np.eye(3)):
@@ -267,7 +274,7 @@ def triad(axes, view, length=0.1, at=(0.1, 0.1)):
     inset.axis("off")
 
 
-def scale_bar(axes, length, x=0.97, y=0.04):
+def scale_bar(axes: Axes, length: float, x: Any = 0.97, y: Any = 0.04) -> None:
     """A bar of `length` metres in the lower right corner."""
     x1 = axes.get_xlim()[0] + x * np.ptp(axes.get_xlim())
     y0 = axes.get_ylim()[0] + y * np.ptp(axes.get_ylim())

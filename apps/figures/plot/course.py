@@ -1,34 +1,37 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a pair of velocities leads to, "course" of the data (apps/src/cone/course.h): colours and words, the same in all
 pictures."""
+from typing import Any
+
 import numpy as np
 
-from vericone_figures.style import GREY
+from .kinds import Data
+from .style import GREY
 
 COLORS = {"in": "#c01f1f", "on": "#b07d00", "out": "#0f7f80", "touching": "#c01f1f", "overlapping": "#c01f1f"}
 WORDS = {"in": "collides", "on": "grazes", "out": "passes", "touching": "touching now", "overlapping": "overlapping now",
          "undecided": "undecided"}
 
 
-def color(course):
+def color(course: Data) -> Any:
     return COLORS.get(course["verdict"], GREY)
 
 
-def word(course):
+def word(course: Data) -> str:
     return WORDS[course["verdict"]]
 
 
-def speed(course):
+def speed(course: Data) -> float:
     largest = np.abs(course["velocity"]).max()
-    return largest * np.linalg.norm(np.array(course["velocity"]) / (largest or 1))
+    return float(largest * np.linalg.norm(np.array(course["velocity"]) / (largest or 1)))
 
 
-def metres(x):
+def metres(x: Any) -> str:
     """A length in four digits, or all before the point."""
     return "%.0f m" % x if 1e4 <= x < 1e9 else "%.4g m" % x
 
 
-def sentence(course):
+def sentence(course: Data) -> str:
     """One line: what happens, when, and at which distance."""
     says, w = word(course), speed(course)
     if course.get("contact_time"):
@@ -43,7 +46,7 @@ def sentence(course):
     return "out: passes at %s after %.4g s" % (far, course["nearest_time"])
 
 
-def travel(course):
+def travel(course: Data) -> Any:
     """How far the agent goes until the first contact, or until it is nearest; nothing where neither is known."""
     time = course.get("contact_time", course.get("nearest_time"))
     return None if time is None else time * np.array(course["velocity"])

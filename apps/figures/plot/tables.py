@@ -2,20 +2,23 @@
 """Tables as the commands write them, by the names of their columns without units."""
 import csv
 import os
+from typing import Any
 
 import numpy as np
+
+from .kinds import Path
 
 WORDS = ("body", "agent", "obstacle", "orifice", "event", "status", "unit")
 
 
-def number(text):
+def number(text: str) -> Any:
     try:
         return float(text)
     except ValueError:
         return float("nan") if text == "" else text
 
 
-def rows(folder, name):
+def rows(folder: Path, name: str) -> list[dict[str, Any]]:
     """The rows of a table, each a dictionary; none where there is no such file."""
     path = os.path.join(folder, name)
     if not os.path.exists(path):
@@ -26,15 +29,15 @@ def rows(folder, name):
         return [{n: v if n in WORDS else number(v) for n, v in zip(names, row)} for row in table]
 
 
-def groups(table, *keys):
+def groups(table: Any, *keys: str) -> Any:
     """Columns as arrays, one group for each different value of the keys, in order of appearance."""
-    found = {}
+    found: dict[Any, Any] = {}
     for row in table:
         found.setdefault(tuple(row[k] for k in keys), []).append(row)
     return {key: {n: np.array([r[n] for r in part]) for n in part[0]} for key, part in found.items()}
 
 
-def row_at(columns, t):
+def row_at(columns: Any, t: float) -> dict[str, Any]:
     """The row nearest in time."""
     i = int(np.argmin(np.abs(columns["t"] - t)))
     return {n: v[i] for n, v in columns.items()}

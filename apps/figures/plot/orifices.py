@@ -2,16 +2,18 @@
 """Orifices of a run (orifices.json): where their rims are at a time."""
 import json
 import os
+from typing import Any
 
 import numpy as np
 
-from vericone_figures.style import GREY
+from .kinds import Array, Data, Path
+from .style import GREY
 
 RIM = "#b08a1e"
 COLORS = {"passed": "#3a8f4d", "missed": GREY, "touched": "red", "undecided": "#b07d00"}
 
 
-def turned(vector):
+def turned(vector: Array) -> Array:
     """The rotation by a rotation vector."""
     angle = np.linalg.norm(vector)
     if angle == 0:
@@ -22,7 +24,7 @@ def turned(vector):
 
 
 class Orifice:
-    def __init__(self, data):
+    def __init__(self, data: Data) -> None:
         self.name, self.wall, self.appears = data["name"], data["wall"], data["appears"]
         self.position, self.velocity = np.array(data["position"]), np.array(data["velocity"])
         self.attitude, self.spin = np.array(data["rotation"]), np.array(data["spin"])
@@ -40,21 +42,21 @@ class Orifice:
             self.own = np.stack([np.cos(angle), np.sin(angle)], axis=-1) * opening["semi_axes"]
         self.own = np.column_stack([self.own, np.zeros(len(self.own))])
 
-    def center(self, t):
+    def center(self, t: float) -> Array:
         return self.position + (t - self.appears) * self.velocity
 
-    def rotation(self, t):
+    def rotation(self, t: float) -> Array:
         return turned((t - self.appears) * self.spin) @ self.attitude
 
-    def rim(self, t):
+    def rim(self, t: float) -> Array:
         """A closed line."""
         return self.center(t) + self.own @ self.rotation(t).T
 
-    def faces(self, t):
+    def faces(self, t: float) -> list[Any]:
         """Of a window, the mesh around it; nothing of other orifices."""
         return [] if self.mesh is None else list(self.center(t) + self.mesh @ self.rotation(t).T)
 
-    def band(self, width):
+    def band(self, width: float) -> Array:
         """The rim as a flat band, in its own frame: points and triangles. Outside of it a wall begins."""
         away = self.own - self.own[:-1].mean(axis=0)
         outer = self.own + width * away / np.maximum(np.linalg.norm(away, axis=1, keepdims=True), 1e-12)
@@ -63,7 +65,7 @@ class Orifice:
         return np.vstack([self.own, outer]), np.array(sides).reshape(-1, 3)
 
 
-def orifices(folder):
+def orifices(folder: Path) -> list[Orifice]:
     """All of a run; none of a run without."""
     path = os.path.join(folder, "orifices.json")
     if not os.path.exists(path):
@@ -72,7 +74,7 @@ def orifices(folder):
         return [Orifice(data) for data in json.load(f)]
 
 
-def quaternion(matrix):
+def quaternion(matrix: Array) -> Array:
     """w, x, y, z of a rotation."""
     values, vectors = np.linalg.eigh(np.array([
         [matrix[0, 0] - matrix[1, 1] - matrix[2, 2], matrix[0, 1] + matrix[1, 0], matrix[0, 2] + matrix[2, 0],

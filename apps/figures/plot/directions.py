@@ -1,20 +1,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Directions as pictures: distance to the first contact by colour, safe directions white."""
+from typing import Any
+
+import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from vericone_figures import course as courses
-from vericone_figures.style import EXACT, plt
+from . import course as courses
+from .kinds import Array, Axes, Data
+from .style import EXACT
 
 NEAR_TO_FAR = "viridis_r"
 
 
-def masked(rows):
-    return np.ma.masked_invalid(np.array([[np.nan if x is None else x for x in row] for row in rows]))
+def masked(rows: Any) -> Array:
+    return np.ma.masked_invalid(np.array([[np.nan if x is None else x for x in row] for row in rows]))  # type: ignore[no-untyped-call]
 
 
-def norm_of(values):
+def norm_of(values: Any) -> Array:
     """Logarithmic where distances differ much."""
     seen = values.compressed()
     if not len(seen):
@@ -23,7 +27,7 @@ def norm_of(values):
     return LogNorm(low, high) if 0 < 5 * low < high else Normalize(low, high)
 
 
-def colour_bar(axes, image):
+def colour_bar(axes: Axes, image: Any) -> None:
     bar = plt.colorbar(image, ax=axes, shrink=0.85, pad=0.03)
     bar.set_label("distance to first contact (m)")
     if isinstance(image.norm, LogNorm):
@@ -33,7 +37,7 @@ def colour_bar(axes, image):
     bar.ax.tick_params(labelsize=6)
 
 
-def in_view(data, direction):
+def in_view(data: Data, direction: Array) -> Array:
     """Degrees to the right and up from the axis."""
     d = np.array(direction) / np.linalg.norm(direction)
     x, y = d @ np.array(data["view"]["right"]), d @ np.array(data["view"]["up"])
@@ -41,7 +45,7 @@ def in_view(data, direction):
     return away * np.array([x, y]) / max(np.hypot(x, y), 1e-12)
 
 
-def along_axis(axes, data):
+def along_axis(axes: Axes, data: Data) -> Any:
     """Around the axis: the angle from it is the distance from the middle, in degrees."""
     reach = np.degrees(data["view"]["reach"])
     values = masked(data["view"]["distances"])
@@ -63,7 +67,7 @@ def along_axis(axes, data):
     return image
 
 
-def mark(axes, at, course):
+def mark(axes: Axes, at: Any, course: Data) -> None:
     """The scene's relative velocity among the directions."""
     axes.plot(*at, "o", color=courses.color(course), markersize=4.5, markeredgecolor="w", markeredgewidth=0.6, zorder=4,
               label="the scene's velocity: %s" % courses.word(course))

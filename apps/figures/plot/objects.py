@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""vericone's objects as the plain numbers that the drawing code takes (docs/reference/formats.md). They are known by
+what they have, not by their types: the scripts of the command draw without the library's modules."""
+from typing import Any
+
+import numpy as np
+
+from .orifices import quaternion
+
+Numbers = Any  # what numpy makes an array of
+
+
+def has(thing: Any, *names: str) -> bool:
+    return all(hasattr(thing, name) for name in names)
+
+
+def value(thing: Any) -> Any:
+    """A field is read, a method without arguments is called."""
+    return thing() if callable(thing) else thing
+
+
+def word(answer: Any) -> str:
+    """The name of a value of an enumeration: "in" of Verdict.in_."""
+    return str(getattr(answer, "name", answer)).rstrip("_")
+
+
+def row_of(position: Numbers, rotation: Numbers) -> dict[str, float]:
+    """A pose as a row of bodies.csv."""
+    turn = np.eye(3)
+    given = np.asarray(rotation, float)
+    turn[:len(given), :len(given)] = given
+    x, y, z = [*np.asarray(position, float), 0.0][:3]
+    w, i, j, k = quaternion(turn)
+    return {"x": x, "y": y, "z": z, "qw": w, "qx": i, "qy": j, "qz": k, "k": float("nan")}
+
+
+def quadric_shape(body: Any) -> dict[str, Any]:
+    """Of an ellipse or ellipsoid, delimited or not."""
+    ellipsoid = body.ellipsoid() if has(body, "delimiters") else body
+    center, factor = np.asarray(ellipsoid.center()), np.asarray(ellipsoid.factor())
+    given = [] if body is ellipsoid else body.delimiters()
+    delimiters = [{"matrix": np.asarray(d.matrix), "level": d.level} for d in given]
+    return {"kind": "ellipse" if len(center) == 2 else "ellipsoid", "center": center, "factor": factor,
+            "delimiters": delimiters}
+
+
+def assembly_shape(assembly: Any) -> dict[str, Any]:
+    """Of triangles, balls, boxes or hulls."""
+    kind, parts = word(assembly.kind()), assembly.by_slot()
+    if kind == "triangle":
+        return {"kind": "mesh", "triangles": np.asarray(parts.triangles, float).reshape(-1, 3, 3)}
+    if kind == "ball":
+        return {"kind": "cloud", "points": np.asarray(parts.balls, float), "radius": assembly.radius()}
+    if kind == "box":
+        low = np.array([np.asarray(box.low) for box in parts.boxes])
+        high = np.array([np.asarray(box.high) for box in parts.boxes])
+        return {"kind": "boxes", "triangles": box_triangles(low, high)}
+    return {"kind": "pieces", "pieces": [{"kind": "hull", "points": np.asarray(h.points())} for h in parts.hulls]}
+
+
+def box_triangles(low: Any, high: Any) -> Any:
+    """Twelve triangles a box, from opposite corners (n, 3)."""
+    corner = np.array([[i & 1, i >> 1 & 1, i >> 2] for i in range(8)])
+    at = np.where(corner[None], high[:, None], low[:, None])
+    sides = [[0, 1, 3], [0, 3, 2], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4], [2, 3, 7], [2, 7, 6], [0, 2, 6],
+             [0, 6, 4], [1, 3, 7], [1, 7, 5]]
+    return at[:, sides].reshape(-1, 3, 3)
+
+
+def shape_and_row(thing: Any) -> tuple[dict[str, Any], dict[str, float]]:
+    """What a body is and where it stands. Takes ellipses, ellipsoids, combined bodies, hulls, assemblies, bodies,
+    placed ones, bodies of scenes and of the world, meshes ({points, triangles}), and arrays of points (n, 3)."""
+    if isinstance(thing, dict):
+        return thing, row_of([0, 0, 0], np.eye(3))
+    if isinstance(thing, (np.ndarray, list, tuple)):
+        points = np.asarray(thing, float)
+        if points.ndim != 2 or points.shape[1] != 3:
+            raise ValueError("body: points of shape (n, 3) are wanted, these are %s" % (points.shape,))
+        return {"kind": "cloud", "points": points, "radius": 0.0}, row_of([0, 0, 0], np.eye(3))
+    if has(thing, "placed") and value(thing.placed) is not None:
+        return shape_and_row(value(thing.placed))
+    if has(thing, "body", "pose"):
+        shape, _ = shape_and_row(thing.body)
+        return shape, row_of(thing.pose.position, thing.pose.rotation)
+    at_origin = row_of([0, 0, 0], np.eye(3))
+    if has(thing, "factor", "center") or has(thing, "delimiters", "ellipsoid"):
+        return quadric_shape(thing), at_origin
+    if has(thing, "by_slot"):
+        return assembly_shape(thing), at_origin
+    if has(thing, "flat") and (thing.flat() is not None):
+        return quadric_shape(thing.flat()), at_origin
+    if has(thing, "quadric", "hull"):
+        for part in ("quadric", "hull", "assembly"):
+            if has(thing, part) and (found := getattr(thing, part)()) is not None:
+                return shape_and_row(found)[0], at_origin
+        return {"kind": "pieces", "pieces": [quadric_shape(q) for q in thing.quadrics()]}, at_origin
+    if has(thing, "points", "triangles"):
+        points, triangles = np.asarray(value(thing.points), float), np.asarray(value(thing.triangles))
+        if len(triangles):
+            return {"kind": "mesh", "triangles": points[triangles]}, at_origin
+        return {"kind": "cloud", "points": points, "radius": 0.0}, at_origin
+    if has(thing, "points"):
+        return {"kind": "hull", "points": np.asarray(value(thing.points), float)}, at_origin
+    raise TypeError("body: %s is none; a body, a placed one, a mesh, or points (n, 3) are" % type(thing).__name__)
+
+
+def course_of(pair: Any, agent_velocity: Numbers, obstacle_velocity: Numbers) -> dict[str, Any]:
+    """What a pair of velocities (m/s) leads to, as apps/src/cone/course.h writes it."""
+    contact, miss = pair.contact(agent_velocity, obstacle_velocity), pair.miss(agent_velocity, obstacle_velocity)
+    course: dict[str, Any] = {"velocity": np.subtract(agent_velocity, obstacle_velocity),
+                              "verdict": word(pair.verdict(agent_velocity, obstacle_velocity))}
+    if contact is not None:
+        course["contact_time"] = contact.time if np.isfinite(contact.time) else contact.earliest
+        if contact.point is not None:
+            course["contact_point"] = np.asarray(contact.point)
+    elif course["verdict"] == "out":
+        course["miss_distance"], course["nearest_time"] = miss.distance, miss.time
+    return course
+
+
+def loops_of(cone: Any) -> tuple[list[Any], list[Any], Any]:
+    """Inner and outer polygons of directions of a cone of any kind, and its axis (nothing where it does not say)."""
+    axis = np.asarray(cone.axis) if has(cone, "axis") else None
+    if has(cone, "inner", "outer"):
+        inner, outer = cone.inner, cone.outer
+        if has(inner, "directions"):  # bounds of a cone of two ellipsoids
+            inner, outer = [inner.directions], [outer.directions]
+        return [np.asarray(x) for x in inner], [np.asarray(x) for x in outer], axis
+    if has(cone, "boundary"):
+        loop = np.array([np.asarray(sample.direction) for sample in cone.boundary])
+    elif has(cone, "directions"):
+        loop = np.asarray(cone.directions)
+    elif has(cone, "polyhedral"):
+        loop = np.asarray(cone.polyhedral().directions)
+    else:
+        raise TypeError("cone: %s is none; a Cone, TrueCone, SliceCone or PolyhedralCone is" % type(cone).__name__)
+    return [loop], [loop], axis
+
+
+def solid_angle_of(cone: Any) -> tuple[float, float]:
+    """Steradian, between which the true value lies; of a slice cone its own twice."""
+    angle = value(cone.solid_angle) if has(cone, "solid_angle") else cone.polyhedral().solid_angle
+    if has(angle, "lo", "hi"):
+        return float(angle.lo()), float(angle.hi())
+    off = cone.solid_angle_error if has(cone, "solid_angle_error") else 0.0
+    return float(angle) - off, float(angle) + off
+
+
+def map_data(cone_map: Any) -> dict[str, Any]:
+    """A map as cone_map.json has it, without its region."""
+    cells = cone_map.cells
+    letters = "".join("iou"[int(cell.label)] for cell in cells)
+    return {"title": "", "corners": np.asarray(cone_map.corners),
+            "cells": np.array([np.asarray(cell.corners) for cell in cells]), "labels": letters,
+            "colliding": cone_map.colliding, "safe": cone_map.safe, "undecided": cone_map.undecided,
+            "complete": cone_map.complete, "region": None}

@@ -1,0 +1,239 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Cones of colliding velocities: in space at the agent, as the agent sees them, as maps of all directions; sectors of
+planes; verdicts and clearances of many velocities."""
+from typing import Any
+from weakref import WeakKeyDictionary
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.colors import ListedColormap, TwoSlopeNorm
+from matplotlib.patches import Arc, Patch, Wedge
+
+from . import course as courses
+from . import space as in_space
+from . import sphere
+from .objects import Numbers, course_of, has, loops_of, map_data, shape_and_row, solid_angle_of, word
+from .of_bodies import body, fit_space, space
+from .signs import ANSWERS
+from .style import AGENT, EXACT, GREY, OBSTACLE, SLICE, style
+
+TOWARDS: "WeakKeyDictionary[Any, Any]" = WeakKeyDictionary()  # of axes that show directions: the one in their middle
+
+
+def seen_from_agent(axes: Any, towards: Numbers) -> Any:
+    """Axes of directions: angles from the direction in their middle keep their size, degrees (azimuthal
+    equidistant)."""
+    if axes is None:
+        axes = plt.figure(figsize=(3.9, 3.5), constrained_layout=True).add_subplot()
+    if axes not in TOWARDS:
+        TOWARDS[axes] = sphere.unit(np.asarray(towards, float))
+        axes.set_aspect("equal", adjustable="datalim")
+        axes.set_axisbelow(True)
+        axes.set_xlabel("to the right of the line of sight (deg)")
+        axes.set_ylabel("above it (deg)")
+        axes.plot(0, 0, "+", color=GREY, markersize=5)
+    return axes
+
+
+def above(axes: Any) -> None:
+    """The legend, where it covers nothing."""
+    axes.legend(loc="lower left", bbox_to_anchor=(0, 1), frameon=False, borderaxespad=0.2, labelspacing=0.2)
+
+
+def on_view(axes: Any, directions: Numbers) -> Any:
+    """Where directions (..., 3) are on axes of directions, degrees."""
+    return sphere.on_view(np.asarray(directions, float), TOWARDS[axes])
+
+
+def cone(thing: Any, *, axes: Any = None, towards: Numbers | None = None, color: Any = None,
+         label: str | None = None) -> Any:
+    """Draws the directions of relative velocity that collide, as the agent sees them, in degrees from the line of
+    sight, and returns the axes. `thing`: a Cone (filled: surely collides; line: surely safe beyond), TrueCone,
+    SliceCone, PolyhedralCone or ConeMap; several on the same axes compare. Solid angles in the legend are steradian.
+    `towards`: the direction in the middle, the cone's axis if left out."""
+    if has(thing, "cells", "corners"):
+        return cone_map(thing, axes=axes, towards=towards)
+    inner, outer, axis = loops_of(thing)
+    if not outer:
+        raise ValueError("cone: it has no border; the bodies are not apart, or nothing was drawn of it")
+    if color is None:
+        color = SLICE if has(thing, "slices") else EXACT
+    middle = axis if axis is not None and towards is None else towards
+    with style():
+        axes = seen_from_agent(axes, middle if middle is not None else np.mean(outer[0], axis=0))
+        for loop in inner:
+            axes.fill(*on_view(axes, loop).T, color=color, alpha=0.2, linewidth=0)
+        low, high = solid_angle_of(thing)
+        size = "%.4g sr" % low if high - low < 1e-4 * high else "%.4g to %.4g sr" % (low, high)
+        for n, loop in enumerate(outer):
+            axes.plot(*on_view(axes, np.vstack([loop, loop[:1]])).T, ".-" if has(thing, "slices") else "-", color=color,
+                      markersize=3, linewidth=1, label=None if n else "%s: %s" % (label or "cone", size))
+        above(axes)
+    return axes
+
+
+def velocity(relative_velocity: Numbers, *, axes: Any, verdict: Any = None, label: str | None = None) -> Any:
+    """Marks the direction of a relative velocity (m/s) on axes of directions, in the colour of its verdict; returns
+    them."""
+    with style():
+        color = courses.COLORS.get(word(verdict), GREY) if verdict is not None else "k"
+        text = label or (courses.WORDS.get(word(verdict)) if verdict is not None else None)
+        axes.plot(*on_view(axes, relative_velocity), "o", color=color, markersize=5, markeredgecolor="w",
+                  markeredgewidth=0.7, label=text, zorder=5)
+        if text:
+            above(axes)
+    return axes
+
+
+def cone_map(thing: Any, *, axes: Any = None, towards: Numbers | None = None, pixels: int = 600) -> Any:
+    """Draws a ConeMap and returns the axes: around the direction `towards` as the agent sees it, degrees from it;
+    without one the whole sphere by azimuth and elevation, degrees. Solid angles in the legend are steradian."""
+    data = map_data(thing)
+    labels = sphere.Map(data)
+    with style():
+        if axes is None:
+            axes = plt.figure(figsize=(4.6, 3.6 if towards is not None else 2.9), constrained_layout=True).add_subplot()
+        if towards is not None:
+            direction = sphere.unit(np.asarray(towards, float))
+            TOWARDS[axes] = direction
+            sphere.view(axes, labels, data, direction, pixels)
+        else:
+            sphere.whole(axes, labels, data, None, 2 * pixels)
+        axes.grid(False)
+        axes.legend(handles=sphere.handles(data), loc="upper center", bbox_to_anchor=(0.5, -0.2), ncol=3, frameon=False)
+    return axes
+
+
+def sector(thing: Any, *, axes: Any = None, radius: float = 1.0, center: Numbers = (0.0, 0.0),
+           color: Any = EXACT, label: str | None = None) -> Any:
+    """Draws the colliding directions of a plane and returns the axes. A PlaneSector: in its plane, the line of sight to
+    the right, `across` up. A Sector of two planar bodies: at `center`, metres, in world axes, with its tangents.
+    `radius` in the units of the axes."""
+    low, high = ((-thing.right.angle, thing.left.angle) if has(thing, "line_of_sight") else
+                 (thing.theta_b - 0.5 * thing.psi, thing.theta_b + 0.5 * thing.psi))
+    with style():
+        if axes is None:
+            axes = plt.figure(figsize=(3.9, 3.2), constrained_layout=True).add_subplot()
+            axes.set_xlabel("along the line of sight (1)" if has(thing, "line_of_sight") else "x (m)")
+            axes.set_ylabel("across (1)" if has(thing, "line_of_sight") else "y (m)")
+        degrees = np.degrees([low, high])
+        axes.add_patch(Wedge(center, radius, *degrees, facecolor=color, alpha=0.15, linewidth=0))
+        axes.add_patch(Arc(center, 2 * radius, 2 * radius, theta1=degrees[0], theta2=degrees[1], color=color,
+                           linewidth=0.9))
+        for n, angle in enumerate((low, high)):
+            tip = np.asarray(center) + radius * np.array([np.cos(angle), np.sin(angle)])
+            text = "%s, $\\psi$ = %.4g°" % (label or "colliding directions", np.degrees(high - low))
+            axes.plot(*np.stack([center, tip]).T, color=color, linewidth=1, label=None if n else text)
+        for edge in (thing.left, thing.right):
+            if has(edge, "point_on_a"):
+                points = np.stack([edge.point_on_a, edge.point_on_b])
+                axes.plot(*points.T, ".-", color=GREY, linewidth=0.7, markersize=4)
+        if has(thing, "line_of_sight"):
+            axes.plot([0, radius], [0, 0], "--", color=GREY, linewidth=0.7, label="line of sight")
+        axes.set_aspect("equal", adjustable="datalim")
+        axes.legend(loc="upper left")
+    return axes
+
+
+def engagement(pair: Any, agent_velocity: Numbers | None = None, obstacle_velocity: Numbers = (0.0, 0.0, 0.0), *,
+               cone: Any = True, axes: Any = None) -> Any:
+    """Draws a Pair in space, metres, and returns the axes: the agent (green), the obstacle (violet), the cone of
+    relative velocities that collide as far as the obstacle, and where the velocities (m/s) lead, seen from the
+    obstacle. `cone`: one that is there already, or whether to ask the pair for it (of meshes seconds: pair.cone())."""
+    agent, obstacle = pair.agent(), pair.obstacle()
+    start, end = np.asarray(agent.middle()), np.asarray(obstacle.middle())
+    distance = float(np.linalg.norm(end - start))
+    shown = pair.cone() if cone is True else cone or None
+    with style():
+        axes = axes if axes is not None else space((4.6, 4.0))
+        body(agent, axes=axes, color=AGENT)
+        body(obstacle, axes=axes, color=OBSTACLE)
+        if shown is not None:
+            _, outer, axis = loops_of(shown)
+            axis = (end - start) / distance if axis is None or not np.any(axis) else axis
+            for loop in outer:
+                fit_space(axes, in_space.cone(axes, start, axis, loop, distance, EXACT, 0.12))
+        if agent_velocity is not None:
+            course = course_of(pair, agent_velocity, obstacle_velocity)
+            says = courses.color(course)
+            if np.any(course["velocity"]):
+                way = courses.travel(course)
+                way = way if way is not None and np.any(way) else 0.5 * distance * sphere.unit(course["velocity"])
+                axes.plot(*np.stack([start, start + way]).T, color=says, linewidth=1.5, zorder=6)
+                axes.quiver(*(start + 0.8 * way), *(0.2 * way), color=says, linewidth=1.5, arrow_length_ratio=0.5,
+                            zorder=6)
+                fit_space(axes, np.stack([start, start + way]))
+            if "contact_point" in course:
+                axes.plot(*course["contact_point"][:, None], "o", color=says, markersize=4, zorder=9)
+            axes.text2D(0.02, 0.98, courses.sentence(course), transform=axes.transAxes, color=says, fontsize=8,
+                        va="top")
+            axis = end - start
+            if np.linalg.norm(np.cross(axis, course["velocity"])) > 0:
+                in_space.look_across(axes, axis / distance, np.asarray(course["velocity"]), np.ones(3))
+    return axes
+
+
+def plane_engagement(agent: Any, obstacle: Any, sector_of_pair: Any = None, *, axes: Any = None) -> Any:
+    """Draws two planar bodies, metres, with their Sector of colliding directions at the agent; returns the axes."""
+    axes = body(agent, axes=axes, color=AGENT, label="agent")
+    body(obstacle, axes=axes, color=OBSTACLE, label="obstacle")
+    if sector_of_pair is not None:
+        center = np.asarray(shape_and_row(agent)[0]["center"])
+        apart = float(np.linalg.norm(np.asarray(shape_and_row(obstacle)[0]["center"]) - center))
+        sector(sector_of_pair, axes=axes, center=center, radius=0.6 * apart)
+    return axes
+
+
+def directions_around(towards: Numbers, reach: float = 60.0, n: int = 121) -> Any:
+    """Unit directions (n, n, 3) for a picture as the agent sees it: up to `reach` degrees right, left, up and down of
+    the one in the middle."""
+    x, y = np.meshgrid(np.linspace(-reach, reach, n), np.linspace(-reach, reach, n))
+    return sphere.on_sky(x, y, sphere.unit(np.asarray(towards, float)))
+
+
+def clearance_field(pair: Any, speed: float, obstacle_velocity: Numbers = (0.0, 0.0, 0.0), *, reach: float = 60.0,
+                    n: int = 121, axes: Any = None) -> Any:
+    """Draws by how much a pair misses for every heading of the agent at `speed` (m/s): metres, negative where they meet
+    (then how far the agent would have to be shifted); the line is where they graze. Headings in degrees from the line
+    of sight. Returns the axes. Cost: n² questions, asked in one call."""
+    towards = np.asarray(pair.obstacle().middle()) - np.asarray(pair.agent().middle())
+    headings = directions_around(towards, reach, n)
+    miss = np.asarray(pair.miss(speed * headings, np.asarray(obstacle_velocity, float)).distance)
+    with style():
+        axes = seen_from_agent(axes, towards)
+        low, high = float(np.nanmin(miss)), float(np.nanmax(miss))
+        norm = TwoSlopeNorm(0.0, min(low, -1e-12), max(high, 1e-12))
+        half = reach * (1 + 1 / (n - 1))
+        image = axes.imshow(miss, origin="lower", extent=(-half, half, -half, half), cmap="RdBu", norm=norm,
+                            interpolation="nearest")
+        if low < 0 < high:
+            line = np.linspace(-reach, reach, n)
+            axes.contour(line, line, miss, levels=[0.0], colors="k", linewidths=0.9)
+        axes.set_aspect("equal", adjustable="box")
+        axes.grid(False)
+        bar = axes.figure.colorbar(image, ax=axes, shrink=0.85)
+        bar.set_label("miss distance (m), below 0: meets")
+        axes.set_xlabel("heading, to the right of the line of sight (deg)")
+        axes.set_ylabel("heading, above it (deg)")
+    return axes
+
+
+def sign_map(verdicts: Any, *, axes: Any = None, title: str | None = None, unit: str = "ulps") -> Any:
+    """Draws verdicts (n, n) of velocities beside each other, the middle one in the middle, as colours of in, on and
+    out; returns the axes. `unit`: what a step is called."""
+    grid = np.asarray(verdicts)
+    half = [size // 2 + 0.5 for size in grid.shape]
+    with style():
+        if axes is None:
+            axes = plt.figure(figsize=(3.0, 3.2), constrained_layout=True).add_subplot()
+        axes.imshow(grid, origin="lower", cmap=ListedColormap(list(ANSWERS.values())), vmin=0, vmax=2,
+                    extent=(-half[1], half[1], -half[0], half[0]), interpolation="nearest")
+        axes.set_xlabel("%s of $w_x$" % unit)
+        axes.set_ylabel("%s of $w_y$" % unit)
+        axes.grid(False)
+        if title:
+            axes.set_title(title)
+        axes.legend(handles=[Patch(facecolor=color, edgecolor=GREY, linewidth=0.4, label=answer)
+                             for answer, color in ANSWERS.items()],
+                    loc="upper center", bbox_to_anchor=(0.5, -0.18), ncol=3, frameon=False, handlelength=1.2)
+    return axes

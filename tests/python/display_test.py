@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What objects show in Jupyter: numbers with units, and a picture."""
+import base64
+import re
+import subprocess
+import sys
+from typing import Any
+
+import numpy as np
+import pytest
+
+import vericone as vc
+
+pytest.importorskip("matplotlib")
+
+BALL = vc.Ellipsoid.from_axes([0, 0, 0], [1, 1, 1])
+AHEAD = vc.Ellipsoid.from_axes([10 / 3, 0, 0], [1, 1, 1])
+PAIR = vc.Pair(BALL, AHEAD)
+PICTURED: dict[str, tuple[Any, str]] = {
+    "ellipse": (vc.Ellipse.from_axes([1, 2], [3, 1]), "m²"), "ellipsoid": (BALL, "m³"),
+    "combined": (vc.CombinedEllipsoid(BALL, [vc.hyperboloid(2, [0.3, 0.5, 0.5])]), "1 hyperboloids"),
+    "hull": (vc.HullBody.box([0, 0, 0], [1, 1, 1]), "8"), "body": (vc.Body(BALL), "ellipsoid"),
+    "placed": (vc.Placed(BALL, vc.Pose(position=[1, 2, 3])), "(1, 2, 3) m"), "pair": (PAIR, "exact"),
+    "cloud": (vc.Assembly.cloud(np.eye(3), 0.1), "3 of the kind ball"),
+    "cone": (PAIR.cone(), " sr, proved"), "true cone": (vc.true_cone(BALL, AHEAD, 24), " sr"),
+    "slice cone": (vc.slice_cone(BALL, AHEAD, 24), "too small"),
+    "map": (vc.cone_map([PAIR], vc.ConeMapOptions(resolution=0.1)), " sr"),
+    "sector": (PAIR.sector([0, 1, 0]), "degrees"),
+}
+NUMBERS: dict[str, tuple[Any, str]] = {
+    "contact": (PAIR.contact([1, 0, 0], [0, 0, 0]), " s, proved"), "miss": (PAIR.miss([1, 3, 0], [0, 0, 0]), " m, proved"),
+    "interval": (vc.Interval.between(1.0, 2.0), "1 to 2, proved"),
+}
+
+
+@pytest.mark.parametrize("name", PICTURED)
+def test_a_picture_and_numbers(name: str) -> None:
+    thing, text = PICTURED[name]
+    shown = thing._repr_html_()
+    assert text in shown and "vericone." + type(thing).__name__ in shown
+    picture = re.search(r"data:image/png;base64,([^']+)'", shown)
+    assert picture is not None and base64.b64decode(picture.group(1)).startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize("name", NUMBERS)
+def test_numbers_alone(name: str) -> None:
+    thing, text = NUMBERS[name]
+    shown = thing._repr_html_()
+    assert text in shown and "<img" not in shown
+
+
+def test_what_its_text_says_shows_nothing() -> None:
+    assert vc.ConeOptions()._repr_html_() is None
+
+
+def test_showing_opens_no_window_and_keeps_no_figure() -> None:
+    import matplotlib.pyplot as plt
+    before = plt.get_fignums()
+    PAIR._repr_html_()
+    assert plt.get_fignums() == before
+
+
+def test_numbers_without_matplotlib() -> None:
+    code = ("import sys; sys.modules['matplotlib'] = None; import vericone as vc; "
+            "shown = vc.Ellipsoid()._repr_html_(); assert 'm³' in shown and '<img' not in shown")
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_importing_the_package_loads_no_display() -> None:
+    code = "import sys, vericone; assert 'vericone._display' not in sys.modules and 'matplotlib' not in sys.modules"
+    subprocess.run([sys.executable, "-c", code], check=True)

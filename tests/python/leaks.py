@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""leaks.py [--calls N] [--repeats N]: makes calls of everything in the package (any_calls.py), then each of them again and
+again, answered and refused ones, and counts the bytes that stay allocated. Run it with PYTHONMALLOC=malloc, so that every
+byte is counted. The last line of standard output is JSON: calls, names, leaks (bytes that each call leaves behind)."""
+
+import argparse
+import ctypes
+import gc
+import json
+import os
+import random
+import sys
+import tempfile
+from typing import Any
+
+from any_calls import DOCUMENTED, Calls, prepare
+
+# What memory of a call may stay: caches of Python and numpy fill up, but not by more and more with every call.
+MOST_BYTES_A_CALL = 1.0
+
+
+class MallInfo(ctypes.Structure):
+    """struct mallinfo2 of glibc."""
+
+    _fields_ = [(name, ctypes.c_size_t) for name in ("arena", "ordblks", "smblks", "hblks", "hblkhd", "usmblks", "fsmblks", "uordblks",
+                                                     "fordblks", "keepcost")]
+
+
+LIBC = ctypes.CDLL(None)
+LIBC.mallinfo2.restype = MallInfo
+
+
+def allocated() -> int:
+    """Bytes in use, of all threads."""
+    gc.collect()
+    info = LIBC.mallinfo2()
+    return int(info.uordblks + info.hblkhd)
+
+
+def repeat(example: tuple[Any, list[Any], dict[str, Any]], times: int) -> None:
+    target, positional, named = example
+    for _ in range(times):
+        try:
+            target(*positional, **named)
+        except DOCUMENTED:
+            pass
+
+
+def left_by(example: tuple[Any, list[Any], dict[str, Any]], times: int) -> float:
+    """Bytes a call. What grows by less and less, or once, is a cache: the least of three series counts."""
+    repeat(example, 20)
+    least = float("inf")
+    for _ in range(3):
+        before = allocated()
+        repeat(example, times)
+        least = min(least, (allocated() - before) / times)
+        if least <= 0:
+            break
+    return least
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--calls", type=int, default=10_000)
+    parser.add_argument("--repeats", type=int, default=100)
+    parser.add_argument("--seed", type=int, default=5)
+    options = parser.parse_args()
+    if os.environ.get("PYTHONMALLOC") != "malloc":
+        sys.exit("PYTHONMALLOC: got nothing, must be malloc, or Python's own memory is not counted")
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        prepare()
+        calls, draw = Calls(), random.Random(options.seed)
+        while calls.calls < options.calls:
+            calls.make(draw)
+        leaks: dict[str, float] = {}
+        count = 0
+        for (name, answered), examples in sorted(calls.examples.items(), key=lambda item: item[0]):
+            for example in examples:
+                left = left_by(example, options.repeats)
+                count += options.repeats
+                if left > MOST_BYTES_A_CALL:
+                    leaks[f"{name}{'' if answered else ', refused'}"] = left
+        os.chdir("/")
+    print(json.dumps({"calls": count, "names": len({name for name, _ in calls.examples}), "leaks": leaks}))
+    return 1 if leaks else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The notebooks run from their first cell to their last, in a process of their own, and their asserts hold. They are kept
+without outputs. VERICONE_NOTEBOOK_OUTPUT names a folder for what the run made, to look at."""
+import os
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+nbformat = pytest.importorskip("nbformat", reason="Debian's python3-nbformat is not installed")
+nbclient = pytest.importorskip("nbclient", reason="Debian's python3-nbclient is not installed")
+pytest.importorskip("ipykernel", reason="Debian's python3-ipykernel is not installed")
+pytest.importorskip("matplotlib", reason="Debian's python3-matplotlib is not installed")
+
+ROOT = Path(os.environ.get("VERICONE_SOURCE", Path(__file__).resolve().parents[2]))
+NOTEBOOKS = sorted((ROOT / "examples" / "notebooks").glob("*.ipynb"))
+
+
+def read(file: Path) -> Any:
+    return nbformat.read(file, as_version=4)
+
+
+def test_there_are_six() -> None:
+    assert [file.stem[0] for file in NOTEBOOKS] == list("123456")
+
+
+@pytest.mark.parametrize("file", NOTEBOOKS, ids=lambda file: str(file.stem))
+def test_runs(file: Path) -> None:
+    notebook = read(file)
+    nbclient.NotebookClient(notebook, timeout=120, kernel_name="python3",
+                            resources={"metadata": {"path": str(ROOT)}}).execute()
+    shown = [output for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs]
+    folder = os.environ.get("VERICONE_NOTEBOOK_OUTPUT")
+    if folder:
+        nbformat.write(notebook, Path(folder) / file.name)
+    assert len([output for output in shown if "image/png" in output.get("data", {})]) >= 2
+    code = "\n".join(cell.source for cell in notebook.cells if cell.cell_type == "code")
+    assert code.count("assert ") >= 4
+
+
+@pytest.mark.parametrize("file", NOTEBOOKS, ids=lambda file: str(file.stem))
+def test_is_kept_without_outputs(file: Path) -> None:
+    notebook = read(file)
+    nbformat.validate(notebook)
+    for cell in notebook.cells:
+        assert cell.cell_type != "code" or (not cell.outputs and cell.execution_count is None)
+    assert file.stat().st_size < 20_000

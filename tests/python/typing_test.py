@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a type checker says of the package, of the examples and of the code in notebooks; what the stubs say of the modules."""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import pytest
+
+
+def checked(source: Path, *arguments: str | Path) -> str:
+    """What mypy prints of files that use the package; "" where it finds nothing."""
+    with tempfile.TemporaryDirectory() as cache:
+        done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--no-error-summary", "--config-file", source / "pyproject.toml",
+                               "--cache-dir", cache, *arguments], capture_output=True, text=True, check=False,
+                              env=os.environ | {"MYPYPATH": os.environ["PYTHONPATH"]})
+    return done.stdout + done.stderr
+
+
+def test_the_package_is_typed(source: Path, build: Path) -> None:
+    assert checked(source, "-p", "vericone") == ""
+
+
+def test_examples_are_typed(source: Path) -> None:
+    files = sorted((source / "examples/python").glob("*.py"))
+    assert files
+    assert checked(source, *files) == ""
+
+
+def test_code_in_notebooks_is_typed(source: Path, tmp_path: Path) -> None:
+    """Each notebook as one program, its cells in their order, without the lines for IPython alone."""
+    files = []
+    for notebook in sorted((source / "examples/python").rglob("*.ipynb")):
+        cells = json.loads(notebook.read_text(encoding="utf-8"))["cells"]
+        lines = [line for cell in cells if cell["cell_type"] == "code" for line in "".join(cell["source"]).split("\n") if not line.startswith(("%", "!"))]
+        files.append(tmp_path / (notebook.stem.replace("-", "_") + ".py"))
+        files[-1].write_text("\n".join(lines) + "\n", encoding="utf-8")
+    if not files:
+        pytest.skip("there are no notebooks")
+    assert checked(source, *files) == ""
+
+
+def test_wrong_types_are_noticed(source: Path, tmp_path: Path) -> None:
+    """The types say something: a pair of numbers is refused, and what comes back is known."""
+    file = tmp_path / "wrong.py"
+    file.write_text("import vericone\nvericone.Pair(1.0, 2.0)\n"
+                    "x: str = vericone.Ellipsoid.from_axes([0, 0, 0], [1, 1, 1]).volume()\n", encoding="utf-8")
+    told = checked(source, file)
+    assert "wrong.py:2" in told and "wrong.py:3" in told
+
+
+def test_stubs_agree_with_the_modules(source: Path, tmp_path: Path) -> None:
+    """mypy's stubtest, without exceptions."""
+    done = subprocess.run([sys.executable, "-m", "mypy.stubtest", "vericone", "--mypy-config-file", source / "pyproject.toml"], cwd=tmp_path,
+                          capture_output=True, text=True, check=False, env=os.environ | {"MYPYPATH": os.environ["PYTHONPATH"]})
+    assert done.returncode == 0, (done.stdout + done.stderr)[-6000:]
