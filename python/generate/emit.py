@@ -367,7 +367,10 @@ class Emitter:
                 tables.append("  static PyMethodDef many[] = {\n" + "\n".join(many_names) + "\n    {}};\n"
                               '  for (PyMethodDef* f = many; f->ml_name; ++f) add_function("_many", f);\n')
             head = f'#include "{self.module}.h"\n\n' + "\n".join(self.defaults) + "\n"
-            enum_text = "".join(self.enum(e) for e in enums) if k == 0 else ""
+            nested = {r.path for r in model.records.values()}
+            enum_text = "".join(self.enum(e) for e in enums if e.path[:-1] not in nested) if k == 0 else ""
+            # Those within a type follow it.
+            types += [self.enum(e) for e in enums if any(e.path[:-1] == r.path for r in some)]
             files[f"{self.module}_{k}.cpp"] = (
                 head + "namespace vericone::python {\nnamespace {\n" + "".join(before) + "}  // namespace\n\n" +
                 f"void add_enums_{k}() {{\n{enum_text}}}\n\nvoid add_types_{k}() {{\n{''.join(types)}}}\n\nvoid add_functions_{k}() {{\n{''.join(tables)}}}\n}}\n")

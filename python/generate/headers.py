@@ -246,6 +246,7 @@ class Reader:
             "class" not in _tokens(cursor)[:12])
         made.template = self._template(cursor) if cursor.kind == Kind.CLASS_TEMPLATE else []
         made.abstract = cursor.is_abstract_record() if not made.template else False
+        self.interface.classes.append(made)  # before the types within it
         path = (*scope, cursor.spelling)
         group = ""
         last_line = 0
@@ -292,7 +293,6 @@ class Reader:
         made.default_constructible = not own or any(
             public and not [p for p in self._function(c, path).parameters if p.default is None]
             for c, public in constructors if c in own)
-        self.interface.classes.append(made)
 
 
 def public_headers(root: str, folders: list[str]) -> Iterator[str]:

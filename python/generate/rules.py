@@ -59,10 +59,13 @@ SKIPPED: dict[str, str] = {
     "stop_of_this_thread": "Ctrl-C and progress= end long work in Python",
     "stop_requested": "Ctrl-C and progress= end long work in Python",
     "checkpoint": "Ctrl-C and progress= end long work in Python",
-    "Interrupted": "KeyboardInterrupt",
+    "Interrupted": "KeyboardInterrupt stands for it",
     "require_sound_arithmetic": "asked when the package is imported",
     "vision::Perception::Perception": "takes a tracker for its own; pursue() makes one",
-    "kBodyKinds": "list(BodyKind)",
+    "kBodyKinds": "list(BodyKind) has them",
+    "montecarlo::kUnlimited": "what Flown.guide has of a law without saturation",
+    "montecarlo::kBin": "0.25 m, the width of a bin of Counts.least_distances",
+    "montecarlo::kLastBin": "15 m, where the last bin of Counts.least_distances begins",
     "InputError": "InputError of the package: a ValueError with field, value and requirement",
 }
 # (C++ name, types of the parameters): why Python has not this overload.

@@ -265,7 +265,7 @@ PyObject* replace(PyObject* self, PyObject* arguments, PyObject* named) {
 
 PyObject* display(PyObject* self, PyObject*) {
   try {
-    return py::module_::import("vericone.display").attr("html")(py::handle(self)).release().ptr();
+    return py::module_::import("vericone._display").attr("html")(py::handle(self)).release().ptr();
   } catch (...) {
     return raise_current();
   }

@@ -2,7 +2,8 @@
 """Collision, rendezvous and orifice cones with certified bounds.
 
 The names are those of the C++ library, and so are the namespaces: vericone.Pair, vericone.guidance.Navigator,
-vericone.fitting.fit. Vectors are arrays of shape (3,), or (..., 3) for many questions at once.
+vericone.fitting.fit. Vectors are arrays of shape (3,), or (..., 3) for many questions at once. What the commands do with
+files is here too: vericone.simulate, campaign, fit, scan, read_scene.
 """
 from __future__ import annotations
 
@@ -12,20 +13,23 @@ from typing import Any
 from vericone._errors import InputError as InputError
 from vericone._root import *  # noqa: F401,F403
 
-_MODULES = ("exact", "engagements", "guidance", "simulation", "vehicles", "files", "scenes", "scenario", "octomap", "fitting",
-            "lidar", "vision", "plot", "display", "montecarlo", "fits", "scanning")
-# What commands do, as functions.
-_RUNS = ("Campaign", "Scanned", "as_frame", "campaign", "fit", "read_scenario", "read_scene", "read_table", "run_tables", "scan",
-         "simulate", "units", "write_scene")
+# Loaded when they are first asked for.
+_MODULES = ("engagements", "exact", "files", "fits", "fitting", "guidance", "lidar", "montecarlo", "octomap", "plot", "scanning",
+            "scenario", "scenes", "simulation", "vehicles", "vision")
+_LATER = {"many": "_many", "Many": "_many", **dict.fromkeys(
+    ("Campaign", "Scanned", "as_frame", "campaign", "fit", "read_scenario", "read_scene", "read_table", "run_tables", "scan",
+     "simulate", "units", "write_scene"), "_runs")}
 
 
 def __getattr__(name: str) -> Any:
     if name in _MODULES:
         return importlib.import_module("vericone." + name)
-    if name in _RUNS:
-        return getattr(importlib.import_module("vericone._runs"), name)
+    if name in _LATER:
+        value = getattr(importlib.import_module("vericone." + _LATER[name]), name)
+        globals()[name] = value
+        return value
     raise AttributeError(f"module 'vericone' has no attribute '{name}'")
 
 
 def __dir__() -> list[str]:
-    return sorted([*globals(), *_MODULES, *_RUNS])
+    return sorted({*globals(), *_MODULES, *_LATER})

@@ -1,5 +1,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
+from vericone import (
+    engagements as engagements,
+    exact as exact,
+    files as files,
+    fits as fits,
+    fitting as fitting,
+    guidance as guidance,
+    lidar as lidar,
+    montecarlo as montecarlo,
+    octomap as octomap,
+    plot as plot,
+    scanning as scanning,
+    scenario as scenario,
+    scenes as scenes,
+    simulation as simulation,
+    vehicles as vehicles,
+    vision as vision,
+)
 from vericone._errors import InputError as InputError
+from vericone._many import Many as Many, many as many
 from vericone._root import *
 from vericone._runs import (
     Campaign as Campaign,
