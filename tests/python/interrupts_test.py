@@ -15,7 +15,7 @@ import pytest
 MAKE = """
 import numpy as np, vericone
 from vericone import *
-from vericone import files, lidar, montecarlo, simulation
+from vericone import files, fitting, lidar, montecarlo, simulation
 random = np.random.default_rng(1)
 def ball(n, scale=1.0):
     x = random.normal(size=(n, 3))
@@ -43,6 +43,13 @@ CALLS = {
     "minimum-volume ellipsoid": ("x = ball(3 * 10**6).T", "[min_volume_ellipsoid(x) for _ in range(100)]"),
     "cone of a mesh": ("x = ball(3000) + [9, 0, 0]; p = Pair(Placed(Body(ellipsoid([0, 0, 0]))), Placed(Body(Assembly.cloud(x, 0.02))))",
                        "p.cone(ConeOptions(resolution=1e-4))"),
+    "cone of two clouds": ("x = ball(300); p = Pair(Placed(Body(Assembly.cloud(x, 0.1))), Placed(Body(Assembly.cloud(x + [9, 0, 0], 0.1))))",
+                           "p.cone(ConeOptions(resolution=1e-4))"),
+    "fusion": ("x = ball(200000) * [3, 2, 1]; s = [x, ball(200000) * [3, 2, 1] + 0.02]", "lidar.fuse(s, [np.eye(4), np.eye(4)])"),
+    "distances": ("x = ball(60000); r = vericone.fit(x[:100], shape='biconvex'); s = fitting.Sample(points=x)",
+                  "[fitting.scan_to_hull(r.pieces, s) for _ in range(1000)]"),
+    "certificate": ("x = ball(60000); r = vericone.fit(x[:100], shape='biconvex'); s = fitting.Sample(points=x)",
+                    "[fitting.check([p.quadrics for p in r.pieces], s) for _ in range(1000)]"),
     "combined cone": ("a, b = star([0, 0, 0]), star([6, 1, 0])", "combined_cone(a, b, 1e-7)"),
     "slice cone": ("a, b = ellipsoid([0, 0, 0], (3, 2, 1)), ellipsoid([9, 0, 0])", "[slice_cone(a, b, 1000000) for _ in range(9)]"),
     "combined slice cone": ("a, b = star([0, 0, 0]), star([6, 1, 0])", "[combined_slice_cone(a, b, 1000000) for _ in range(9)]"),
