@@ -12,7 +12,7 @@ b = vc.exact.RationalBody3([third * 10, 0, 0], identity)
 graze = [Fraction(4), Fraction(3), Fraction(0)]
 tiny = Fraction(1, 10**100)
 for step in (Fraction(0), -tiny, tiny):
-    print(vc.exact.membership(a, b, [graze[0], graze[1] + step, graze[2]]).name.rstrip("_"))
+    print(vc.exact.membership(a, b, [graze[0], graze[1] + step, graze[2]]))
 assert vc.exact.membership(a, b, graze) == vc.Membership.on
 assert vc.exact.membership(a, b, [4, 3 - tiny, 0]) == vc.Membership.in_
 assert vc.exact.membership(a, b, [4, 3 + tiny, 0]) == vc.Membership.out

@@ -9,6 +9,6 @@ still = [0, 0, 0]  # m/s
 for climb in (0.0, 2.0, 5.0):
     velocity = [8, 0, climb]
     contact = pair.contact(velocity, still)
-    print(pair.verdict(velocity, still).name.rstrip("_"),  # exact: in, on, out
+    print(pair.verdict(velocity, still),  # exact: in, on, out
           "after %.6f s" % contact.time if contact is not None else
           "passes at %.6f m" % pair.miss(velocity, still).distance)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The velocity nearest to the one wanted that passes a mesh at two metres: steps along the gradient of the miss distance."""
+"""A velocity near the one wanted that passes a mesh at two metres: steps along the gradient of the miss distance."""
 import numpy as np
 
 import vericone as vc

@@ -8,7 +8,7 @@ folder = Path(__file__).resolve().parents[2] / "docs" / "examples"
 scene = vc.scenes.read_scene(folder / "biconcave.yaml")
 pair = scene.pair()
 print(scene.agent.name, "and", scene.obstacle.name)
-print(pair.verdict(scene.agent.velocity, scene.obstacle.velocity).name.rstrip("_"))
+print(pair.verdict(scene.agent.velocity, scene.obstacle.velocity))
 cone = pair.cone()
 print("solid angle between %.4f and %.4f sr, proved" % (cone.solid_angle.lo(), cone.solid_angle.hi()))
 try:

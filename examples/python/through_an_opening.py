@@ -9,5 +9,5 @@ axes = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])  # the opening's x and y i
 window = vc.PlacedOpening(opening=vc.Opening.polygon([[-1, -0.6], [1, -0.6], [1, 0.6], [0, 0.2], [-1, 0.6]]),
                           center=[5, 0, 0], axes=axes)
 oracle = vc.OrificeOracle(drone, window)
-for aim in ([5, 0, -0.2], [5, 0, 0.05], [5, 0.9, 0]):
+for aim in ([5, 0, -0.2], [5, 0, 0.15], [5, 0.9, 0]):
     print(aim, oracle.transit(np.array(aim, float)).name)

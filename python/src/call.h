@@ -120,6 +120,10 @@ template <class T>
 [[nodiscard]] PyObject* tuple_of(std::initializer_list<PyObject*> parts);
 /// A copy of what a pointer points to, or nothing.
 template <class T>
+[[nodiscard]] std::optional<std::vector<T>> copied(const std::vector<T>* value) {
+  return value ? std::optional(*value) : std::nullopt;
+}
+template <class T>
 [[nodiscard]] std::shared_ptr<std::remove_const_t<T>> copied(T* value) {
   return value ? std::make_shared<std::remove_const_t<T>>(*value) : nullptr;
 }

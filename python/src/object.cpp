@@ -252,7 +252,7 @@ namespace {
 PyObject* replace(PyObject* self, PyObject* arguments, PyObject* named) {
   const TypeInfo& info = info_of(self);
   try {
-    if (!info.make || !info.copy) throw WrongType{"a " + short_name(info) + " has no fields to replace"};
+    if (info.fields.empty() || !info.copy) throw WrongType{"a " + short_name(info) + " has no fields to replace"};
     if (PyTuple_GET_SIZE(arguments) != 0) throw WrongType{"replace() takes names: replace(field=value)"};
     auto value = info.copy(own_value(self));
     std::vector<bool> set(info.fields.size());
@@ -281,6 +281,7 @@ PyMethodDef record_methods[] = {
     {"replace", reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(&replace)),
      METH_VARARGS | METH_KEYWORDS, "replace($self, /, **fields)\n--\n\nAnother record, with these fields changed."},
     {nullptr, nullptr, 0, nullptr}};
+PyMethodDef no_methods[] = {{nullptr, nullptr, 0, nullptr}};
 PyMethodDef restore_method = {"_restore", restore, METH_VARARGS, "For pickle."};
 
 PyObject* cannot_make(PyTypeObject* type, PyObject*, PyObject*) {
@@ -406,7 +407,7 @@ void add_type(TypeInfo& info, const char* doc, PyMethodDef* methods, newfunc con
   PyType_Slot slots[] = {{Py_tp_new, reinterpret_cast<void*>(construct ? construct : &cannot_make)},
                          {Py_tp_doc, const_cast<char*>(doc)},
                          {Py_tp_getset, fields.data()},
-                         {Py_tp_methods, methods ? methods : record_methods},
+                         {Py_tp_methods, methods ? methods : info.fields.empty() ? no_methods : record_methods},
                          {0, nullptr}};
   const char* name = keep("vericone." + std::string(info.name));
   PyType_Spec spec{name, 0, 0, static_cast<unsigned>(Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE), slots};
@@ -415,7 +416,7 @@ void add_type(TypeInfo& info, const char* doc, PyMethodDef* methods, newfunc con
   info.type = reinterpret_cast<PyTypeObject*>(PyType_FromSpecWithBases(&spec, bases.ptr()));
   if (!info.type) throw py::error_already_set();
   const py::handle type(reinterpret_cast<PyObject*>(info.type));
-  if (info.make && methods)
+  if (!info.fields.empty() && methods)
     for (PyMethodDef* method = record_methods; method->ml_name; ++method) {
       const auto bound = py::reinterpret_steal<py::object>(PyDescr_NewMethod(info.type, method));
       type.attr(method->ml_name) = bound;

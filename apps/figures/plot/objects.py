@@ -87,13 +87,13 @@ def shape_and_row(thing: Any) -> tuple[dict[str, Any], dict[str, float]]:
         return quadric_shape(thing), at_origin
     if has(thing, "by_slot"):
         return assembly_shape(thing), at_origin
-    if has(thing, "flat") and (thing.flat() is not None):
-        return quadric_shape(thing.flat()), at_origin
-    if has(thing, "quadric", "hull"):
-        for part in ("quadric", "hull", "assembly"):
-            if has(thing, part) and (found := getattr(thing, part)()) is not None:
-                return shape_and_row(found)[0], at_origin
-        return {"kind": "pieces", "pieces": [quadric_shape(q) for q in thing.quadrics()]}, at_origin
+    if has(thing, "flat", "quadric", "hull"):  # a body of the world that is not placed
+        return shape_and_row(next(part for part in (thing.flat(), thing.quadric(), thing.hull()) if part is not None))
+    if has(thing, "kind", "shape"):
+        made_of = thing.shape()
+        if not isinstance(made_of, list):
+            return shape_and_row(made_of)
+        return {"kind": "pieces", "pieces": [quadric_shape(piece) for piece in made_of]}, at_origin
     if has(thing, "points", "triangles"):
         points, triangles = np.asarray(value(thing.points), float), np.asarray(value(thing.triangles))
         if len(triangles):
@@ -105,14 +105,14 @@ def shape_and_row(thing: Any) -> tuple[dict[str, Any], dict[str, float]]:
 
 
 def course_of(pair: Any, agent_velocity: Numbers, obstacle_velocity: Numbers) -> dict[str, Any]:
-    """What a pair of velocities (m/s) leads to, as apps/src/cone/course.h writes it."""
+    """What a pair of velocities (m/s) leads to, seen from the obstacle, as apps/src/cone/course.h writes it."""
     contact, miss = pair.contact(agent_velocity, obstacle_velocity), pair.miss(agent_velocity, obstacle_velocity)
     course: dict[str, Any] = {"velocity": np.subtract(agent_velocity, obstacle_velocity),
                               "verdict": word(pair.verdict(agent_velocity, obstacle_velocity))}
     if contact is not None:
         course["contact_time"] = contact.time if np.isfinite(contact.time) else contact.earliest
         if contact.point is not None:
-            course["contact_point"] = np.asarray(contact.point)
+            course["contact_point"] = contact.point - course["contact_time"] * np.asarray(obstacle_velocity, float)
     elif course["verdict"] == "out":
         course["miss_distance"], course["nearest_time"] = miss.distance, miss.time
     return course

@@ -10,10 +10,9 @@ from matplotlib.colors import ListedColormap, TwoSlopeNorm
 from matplotlib.patches import Arc, Patch, Wedge
 
 from . import course as courses
-from . import space as in_space
-from . import sphere
+from . import in_space, sphere
 from .objects import Numbers, course_of, has, loops_of, map_data, shape_and_row, solid_angle_of, word
-from .of_bodies import body, fit_space, space
+from .of_bodies import body, draw_in_space, fit_space, space
 from .signs import ANSWERS
 from .style import AGENT, EXACT, GREY, OBSTACLE, SLICE, style
 
@@ -85,9 +84,11 @@ def velocity(relative_velocity: Numbers, *, axes: Any, verdict: Any = None, labe
     return axes
 
 
-def cone_map(thing: Any, *, axes: Any = None, towards: Numbers | None = None, pixels: int = 600) -> Any:
-    """Draws a ConeMap and returns the axes: around the direction `towards` as the agent sees it, degrees from it;
-    without one the whole sphere by azimuth and elevation, degrees. Solid angles in the legend are steradian."""
+def cone_map(thing: Any, *, axes: Any = None, towards: Numbers | None = None, reach: float = 60.0,
+             pixels: int = 600) -> Any:
+    """Draws a ConeMap and returns the axes: around the direction `towards` as the agent sees it, up to `reach` degrees
+    from it; without one the whole sphere by azimuth and elevation, degrees. Solid angles in the legend are
+    steradian."""
     data = map_data(thing)
     labels = sphere.Map(data)
     with style():
@@ -96,7 +97,7 @@ def cone_map(thing: Any, *, axes: Any = None, towards: Numbers | None = None, pi
         if towards is not None:
             direction = sphere.unit(np.asarray(towards, float))
             TOWARDS[axes] = direction
-            sphere.view(axes, labels, data, direction, pixels)
+            sphere.view(axes, labels, data, direction, pixels, reach)
         else:
             sphere.whole(axes, labels, data, None, 2 * pixels)
         axes.grid(False)
@@ -135,6 +136,16 @@ def sector(thing: Any, *, axes: Any = None, radius: float = 1.0, center: Numbers
     return axes
 
 
+def look_at(axes: Any, axis: Any, velocity: Any) -> None:
+    """From the side of the line of centres, the agent on the left; from above, where the velocity turns off it sideways."""
+    if abs(axis[2]) > 0.9:  # it rises: across the plane that holds both
+        in_space.look_across(axes, axis, velocity if np.any(np.cross(axis, velocity)) else np.ones(3), np.ones(3))
+        return
+    normal = np.cross(axis, velocity)
+    upwards = abs(normal[2]) / max(float(np.linalg.norm(normal)), 1e-300)
+    axes.view_init(elev=20 + 30 * upwards, azim=np.degrees(np.arctan2(axis[1], axis[0])) - 70)
+
+
 def engagement(pair: Any, agent_velocity: Numbers | None = None, obstacle_velocity: Numbers = (0.0, 0.0, 0.0), *,
                cone: Any = True, axes: Any = None) -> Any:
     """Draws a Pair in space, metres, and returns the axes: the agent (green), the obstacle (violet), the cone of
@@ -162,14 +173,14 @@ def engagement(pair: Any, agent_velocity: Numbers | None = None, obstacle_veloci
                 axes.plot(*np.stack([start, start + way]).T, color=says, linewidth=1.5, zorder=6)
                 axes.quiver(*(start + 0.8 * way), *(0.2 * way), color=says, linewidth=1.5, arrow_length_ratio=0.5,
                             zorder=6)
-                fit_space(axes, np.stack([start, start + way]))
+                shape, row = shape_and_row(agent)  # where it first touches, or is nearest
+                then = dict(zip("xyz", np.array([row[c] for c in "xyz"]) + way))
+                fit_space(axes, draw_in_space(axes, shape, {**row, **then}, AGENT, 0.15))
             if "contact_point" in course:
                 axes.plot(*course["contact_point"][:, None], "o", color=says, markersize=4, zorder=9)
             axes.text2D(0.02, 0.98, courses.sentence(course), transform=axes.transAxes, color=says, fontsize=8,
                         va="top")
-            axis = end - start
-            if np.linalg.norm(np.cross(axis, course["velocity"])) > 0:
-                in_space.look_across(axes, axis / distance, np.asarray(course["velocity"]), np.ones(3))
+            look_at(axes, (end - start) / distance, np.asarray(course["velocity"]))
     return axes
 
 

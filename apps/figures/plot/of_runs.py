@@ -7,8 +7,7 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 
-from . import hulls
-from . import runs
+from . import hulls, runs
 from .objects import has, quadric_shape, value, word
 from .solids import View
 from .style import TWO_COLUMNS, style

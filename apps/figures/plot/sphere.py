@@ -125,14 +125,16 @@ def mark(axes: Axes, data: Data, project: Callable[[Any], Any]) -> None:
                   markeredgecolor="w", markeredgewidth=0.7)
 
 
-def view(axes: Axes, sphere: "Map", data: Data, towards: Array, pixels: int = 900) -> None:
+def view(axes: Axes, sphere: "Map", data: Data, towards: Array, pixels: int = 900,
+         reach: float | None = None) -> None:
     """Angles from the direction keep their size: azimuthal equidistant."""
     def project(d: Any) -> Array:
         return on_view(d, towards)
 
     loops = [project(loop) for loop in data["region"]["boundary"]] if data["region"] else []
-    reach = max((np.abs(loop).max() for loop in loops), default=60)
-    reach = min(1.35 * reach, 100) if loops else 60
+    if reach is None:
+        reach = max((np.abs(loop).max() for loop in loops), default=60)
+        reach = min(1.35 * reach, 100) if loops else 60
     x = (np.arange(pixels) + 0.5) / pixels * 2 * reach - reach
     x, y = np.meshgrid(x, x)
     directions = on_sky(x, y, towards)
