@@ -133,6 +133,11 @@ REQUIRES: dict[str, tuple[str, str, str, str]] = {
     **{f"exact::{name}": (f"{_TRIMMED.format('p')} && {_TRIMMED.format('q')}", "p, q", "no number, or a leading 0",
                           "coefficients of which the last is not 0")
        for name in ("gcd", "surely_coprime")},
+    "exact::log2_floor": ("[](const auto& n) { if constexpr (requires { n.numerator; }) return n.numerator != 0; else return n != 0; }(x)", "x", "0", "another number than 0"),
+    "exact::sign_changes_at_infinity": ("std::ranges::none_of(chain, [](const auto& f) { return f.empty(); })", "chain", "a part without coefficients",
+                                        "of polynomials with coefficients"),
+    "simulation::share_of": ("successes <= trials && confidence > 0 && confidence < 1", "successes", "more than there are trials, or no confidence",
+                             "at most the trials, with a confidence between 0 and 1"),
     "exact::divide_exactly": (f"{_TRIMMED.format('p')} && {_TRIMMED.format('q')} && p.size() >= q.size()", "q", "no divisor of p",
                               "a divisor of p, with a last coefficient that is not 0"),
 }

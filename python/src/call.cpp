@@ -164,6 +164,16 @@ PyObject* construct(const char* name, std::span<const Overload> overloads, PyTyp
 
 // Errors ---------------------------------------------------------------------------------------------------
 
+namespace {
+
+/// What a user gave need not be UTF-8.
+py::object any_text(const std::string& text) {
+  return py::reinterpret_steal<py::object>(
+      PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "backslashreplace"));
+}
+
+}  // namespace
+
 PyObject* raise_current(const std::string& at) noexcept {
   try {
     try {
@@ -174,7 +184,9 @@ PyObject* raise_current(const std::string& at) noexcept {
       PyErr_SetString(PyExc_TypeError, (at + wrong.message).c_str());
     } catch (const InputError& error) {
       const py::object type = py::reinterpret_borrow<py::object>(input_error_type());
-      const py::object made = type(error.field(), error.value(), error.requirement());
+      // Of a file the field says where in it; nowhere is the whole of it.
+      const py::object made =
+          type(any_text(error.field().empty() ? "path" : error.field()), any_text(error.value()), any_text(error.requirement()));
       PyErr_SetObject(type.ptr(), made.ptr());
     } catch (const std::bad_alloc&) {
       PyErr_NoMemory();

@@ -54,10 +54,11 @@ def main() -> int:
             calls.make(draw)
         examples = [(name, example) for (name, answered), own in sorted(calls.examples.items(), key=lambda item: item[0]) if answered
                     for example in own]
-        # What answers otherwise when it is asked again has a memory: it is called by all threads, and not compared.
-        first = [answer(example) for _, example in examples]
-        second = [answer(example) for _, example in examples]
-        steady = [same(a, b) for a, b in zip(first, second)]
+        # What answers otherwise when it is asked again, as often as the threads will, has a memory: it is called by all
+        # threads, and not compared.
+        expected = [answer(example) for _, example in examples]
+        again = options.threads * options.rounds + 1
+        steady = [all(same(answer(example), was) for _ in range(again)) for (_, example), was in zip(examples, expected)]
         differ: dict[str, str] = {}
         start = threading.Barrier(options.threads)
 
@@ -69,8 +70,8 @@ def main() -> int:
                 for i in order:
                     name, example = examples[i]
                     got = answer(example)
-                    if steady[i] and not same(got, second[i]):
-                        differ[name] = f"{described(got)} instead of {described(second[i])}"
+                    if steady[i] and not same(got, expected[i]):
+                        differ[name] = f"{described(got)} instead of {described(expected[i])}"
 
         threads = [threading.Thread(target=work, args=(i,)) for i in range(options.threads)]
         for thread in threads:
