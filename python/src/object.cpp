@@ -395,16 +395,6 @@ void put(const char* name, const py::object& what) {
     PyObject_SetAttrString(at.ptr(), rest.c_str(), what.ptr());
   else
     names_of(space)[rest.c_str()] = what;
-  // A type within this one may have come before it, and been taken for one of a namespace.
-  const auto names = py::reinterpret_borrow<py::dict>(module_names);
-  if (!PyType_Check(what.ptr()) || !names.contains(whole)) return;
-  const py::dict inner = names[py::str(whole)];
-  for (const auto& [own, type] : inner) {
-    type.attr("__module__") = module;
-    type.attr("__qualname__") = std::string(py::str(what.attr("__qualname__"))) + "." + std::string(py::str(own));
-    PyObject_SetAttr(what.ptr(), own.ptr(), type.ptr());
-  }
-  names.attr("pop")(whole);
 }
 
 }  // namespace
