@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+import rules
 from cxxtypes import Type
 from docs import docstring
 from model import Argument, Callable_, Group, Model, PyEnum, Record, python_name
@@ -63,6 +64,10 @@ class Emitter:
             text = "{}"
         self.defaults.append(f"namespace {space} {{ static {kind} {name}() {{ return {text}; }} }}")
         return f"{space}::{name}()"
+
+    @staticmethod
+    def full(call: Callable_, record: Record | None) -> str:
+        return "::".join((*(record.source.path if record else call.cpp.scope), call.cpp.name))
 
     def overload(self, call: Callable_, record: Record | None) -> tuple[str, str, str]:
         """The function of one overload, its table of parameters, and their names."""
@@ -149,6 +154,11 @@ class Emitter:
         if call.cpp.constructor:
             target = object_type
         braces = f"{target}({', '.join(passed)})"
+        if call.cpp.name and self.full(call, record) in rules.REQUIRES:
+            condition, field, got, need = rules.REQUIRES[self.full(call, record)]
+            for i, a in enumerate(call.arguments):
+                condition = re.sub(rf"\b{a.name}\b", passed[i], condition)
+            braces = f'(require({condition}, "{field}", "{got}", "{need}"), {braces})'
         if call.many:
             elements = ", ".join(e for _, e in many)
             variables = ", ".join(v for v, _ in many)

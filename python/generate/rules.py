@@ -114,3 +114,41 @@ LONG: set[str] = {
 WHOLE = {("ConeOracle::membership", 1): "memberships"}
 # Classes that change by some of their calls only as far as nobody sees.
 IMMUTABLE: set[str] = set()
+
+# What C++ requires of its callers, where a release does not look: C++ name: condition in C++, of the object `self` and of
+# the parameters; which input breaks it, what was given, what would be right.
+_TRIMMED = "(!{0}.empty() && {0}.back() != 0)"
+REQUIRES: dict[str, tuple[str, str, str, str]] = {
+    **{f"WorldBody::{name}": (condition, "body", got, need) for name, condition, got, need in (
+        ("gauge", "self.flat() || self.quadric()", "a hull, or a body with a pose", "an ellipse, an ellipsoid or a combined body"),
+        ("inflated", "self.flat() || self.quadric()", "a hull, or a body with a pose", "an ellipse, an ellipsoid or a combined body"),
+        ("containing_ellipse", "self.planar()", "a body of space", "a planar one"),
+        ("containing_ellipsoid", "!self.planar()", "a planar body", "one of space"))},
+    **{f"guidance::SetMembershipFilter::{name}": ("self.started()", "filter", "no measurement", "one that has met a measurement")
+       for name in ("position", "velocity", "position_radius", "velocity_radius")},
+    "guidance::SetMembershipFilter::axis": ("self.started() && i >= 0 && i < 3", "i", "no such axis, or no measurement",
+                                            "0, 1 or 2, of a filter that has met a measurement"),
+    "lidar::BeamPattern::direction": ("beam < self.size()", "beam", "no such beam", "below size()"),
+    "ConeMap::cell": ("i < self.cells.size()", "i", "no such cell", "below the number of cells"),
+    "Assembly::piece": ("i < self.size()", "i", "no such piece", "below size()"),
+    "least_squares": ("a.rows() == b.size()", "b", "another number of rows than a has", "of as many numbers as a has rows"),
+    "shortest_least_squares": ("a.rows() == b.size()", "b", "another number of rows than a has", "of as many numbers as a has rows"),
+    "solve_square": ("a.rows() == a.cols() && a.rows() == b.size() && a.rows() <= 16", "a", "a matrix of another shape",
+                     "square, of at most 16 rows, as many as b has numbers"),
+    "mesh_section": ("std::ranges::all_of(points, [](const auto& x) { return x.allFinite(); }) && std::ranges::all_of(triangles, "
+                     "[&](const auto& t) { return std::ranges::all_of(t, [&](auto k) { return k < points.size(); }); })",
+                     "triangles", "corners that are no points, or not finite", "indices of finite points"),
+    "convex_reach": ("oracle.relation() == Relation::disjoint && oracle.obstacle().size() == 1", "oracle", "another pair",
+                     "of disjoint bodies, the obstacle of one piece"),
+    "exact_time_to_contact": ("v_a.allFinite() && v_b.allFinite()", "velocity", "a number that is not finite", "finite (m/s)"),
+    "OrificeOracle::exact_transit": ("w.allFinite()", "w", "a number that is not finite", "finite (m/s)"),
+    "simulation::mesh_track": ("orifice.window != nullptr", "orifice", "no window", "with a window"),
+    **{f"exact::{name}": (_TRIMMED.format("p"), "p", "no number, or a leading 0", "coefficients of which the last is not 0")
+       for name in ("real_roots", "real_roots_in", "positive_roots", "sturm_chain", "squarefree_part", "distinct_positive_roots",
+                    "between_positive_roots")},
+    **{f"exact::{name}": (f"{_TRIMMED.format('p')} && {_TRIMMED.format('q')}", "p, q", "no number, or a leading 0",
+                          "coefficients of which the last is not 0")
+       for name in ("gcd", "surely_coprime")},
+    "exact::divide_exactly": (f"{_TRIMMED.format('p')} && {_TRIMMED.format('q')} && p.size() >= q.size()", "q", "no divisor of p",
+                              "a divisor of p, with a last coefficient that is not 0"),
+}

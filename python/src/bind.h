@@ -34,6 +34,11 @@ void derive(TypeInfo& info, const char* name, F) {
                           }});
 }
 
+/// What C++ leaves to its callers (REQUIRES of generate/rules.py).
+inline void require(bool holds, const char* field, const char* given, const char* requirement) {
+  if (!holds) throw InputError(field, given, requirement);
+}
+
 /// A function of the vectorcall convention, as a table of methods holds it.
 inline PyCFunction method(PyObject* (*function)(PyObject*, PyObject* const*, Py_ssize_t, PyObject*)) {
   return reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(function));
