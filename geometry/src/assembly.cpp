@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/assembly.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
 #include <cmath>
 #include <string>
 
@@ -12,6 +13,9 @@ void require_finite(const std::string& field, const Eigen::Vector3d& x) {
     if (!std::isfinite(x(k)))
       throw InputError(field + "[" + std::to_string(k) + "]", to_text(x(k)), "a finite number (m)");
 }
+
+/// Pieces between two checkpoints.
+constexpr std::size_t kPiecesWorthAsking = 4096;
 
 std::string at(const char* field, std::size_t i) {
   return std::string(field) + "[" + std::to_string(i) + "]";
@@ -79,6 +83,7 @@ struct Assembly::Data {
     std::vector<Piece>& placed = storage.*where;
     placed.reserve(pieces.size());
     for (const std::uint32_t i : hierarchy.order()) {
+      if (placed.size() % kPiecesWorthAsking == 0) checkpoint();
       slot[i] = static_cast<std::uint32_t>(placed.size());
       placed.push_back(std::move(pieces[i]));
     }
@@ -87,10 +92,12 @@ struct Assembly::Data {
 
 Assembly Assembly::mesh(std::vector<Eigen::Vector3d> points, std::vector<Triangle> triangles) {
   require_count("triangles", triangles.size(), "triangle");
-  for (std::size_t i = 0; i < points.size(); ++i) require_finite(at("points", i), points[i]);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!points[i].allFinite()) require_finite(at("points", i), points[i]);
   std::vector<std::array<Eigen::Vector3d, 3>> pieces(triangles.size());
   std::vector<Box> boxes(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
+    if (i % kPiecesWorthAsking == 0) checkpoint();
     for (std::size_t k = 0; k < 3; ++k) {
       if (triangles[i][k] >= points.size())
         throw InputError(at("triangles", i) + "[" + std::to_string(k) + "]", std::to_string(triangles[i][k]),
@@ -111,7 +118,8 @@ Assembly Assembly::cloud(std::vector<Eigen::Vector3d> points, double radius) {
     throw InputError("radius", to_text(radius), "a finite number >= 0 (m)");
   std::vector<Box> boxes(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    require_finite(at("points", i), points[i]);
+    if (i % kPiecesWorthAsking == 0) checkpoint();
+    if (!points[i].allFinite()) require_finite(at("points", i), points[i]);
     boxes[i] = around(points[i], radius);
   }
   auto data = std::make_shared<Data>();
@@ -124,6 +132,7 @@ Assembly Assembly::cloud(std::vector<Eigen::Vector3d> points, double radius) {
 Assembly Assembly::boxes(std::vector<Box> boxes) {
   require_count("boxes", boxes.size(), "box");
   for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (i % kPiecesWorthAsking == 0) checkpoint();
     require_finite(at("boxes", i) + ".low", boxes[i].low);
     require_finite(at("boxes", i) + ".high", boxes[i].high);
     for (int k = 0; k < 3; ++k)

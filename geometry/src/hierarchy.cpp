@@ -58,6 +58,7 @@ class Builder {
   Builder(std::span<const Box> boxes, std::vector<Hierarchy::Node>& nodes)
       : nodes_(nodes), items_(boxes.size()) {
     for (std::size_t i = 0; i < boxes.size(); ++i) {
+      if (i % kWorthAsking == 0) checkpoint();
       items_[i].piece = static_cast<std::uint32_t>(i);
       for (int k = 0; k < 3; ++k) {
         items_[i].extent.low[k] = rounded_down(boxes[i].low(k));

@@ -148,10 +148,10 @@ def _default(cursor: clang.Cursor) -> str | None:
     tokens = _tokens(cursor)
     depth = 0
     for i, token in enumerate(tokens):
-        if token in "([{<":
+        if token in ("(", "[", "{", "<"):
             depth += 1
-        elif token in ")]}>":
-            depth -= 1
+        elif token in (")", "]", "}", ">", ">>"):
+            depth -= len(token)
         if token == "=" and depth == 0:
             return _join([t for t in tokens[i + 1 :] if not t.startswith("//")])
         if token == "{" and depth == 1 and i > 0 and cursor.kind == Kind.FIELD_DECL and i == tokens.index(cursor.spelling) + 1:

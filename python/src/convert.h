@@ -208,7 +208,13 @@ struct Convert<Eigen::Matrix<double, R, C, O, MR, MC>> {
     const Py_ssize_t shape[2] = {m.rows(), m.cols()};
     return doubles_to(numbers.data(), {shape, C == 1 ? 1u : 2u});
   }
-  static bool could(PyObject* given) { return is_sequence(given); }
+  /// Overloads are told apart by the number of rows: points of the plane or of space.
+  static bool could(PyObject* given) {
+    if (!is_sequence(given)) return false;
+    const Py_ssize_t rows = PyObject_Size(given);
+    if (rows < 0) PyErr_Clear();
+    return R < 0 || rows < 0 || rows == R;
+  }
   static constexpr const Column* kColumn = nullptr;
 };
 template <>

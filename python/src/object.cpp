@@ -252,7 +252,7 @@ namespace {
 PyObject* replace(PyObject* self, PyObject* arguments, PyObject* named) {
   const TypeInfo& info = info_of(self);
   try {
-    if (!info.make || !info.copy) throw WrongType{"a " + short_name(info) + " has no fields to replace"};
+    if (info.fields.empty() || !info.copy) throw WrongType{"a " + short_name(info) + " has no fields to replace"};
     if (PyTuple_GET_SIZE(arguments) != 0) throw WrongType{"replace() takes names: replace(field=value)"};
     auto value = info.copy(own_value(self));
     std::vector<bool> set(info.fields.size());
@@ -281,6 +281,7 @@ PyMethodDef record_methods[] = {
     {"replace", reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(&replace)),
      METH_VARARGS | METH_KEYWORDS, "replace($self, /, **fields)\n--\n\nAnother record, with these fields changed."},
     {nullptr, nullptr, 0, nullptr}};
+PyMethodDef no_methods[] = {{nullptr, nullptr, 0, nullptr}};
 PyMethodDef restore_method = {"_restore", restore, METH_VARARGS, "For pickle."};
 
 PyObject* cannot_make(PyTypeObject* type, PyObject*, PyObject*) {
@@ -356,6 +357,16 @@ PyObject* new_instance(const TypeInfo& info, std::shared_ptr<void> value) {
   return self;
 }
 
+namespace {
+
+/// Where users find the names of a namespace.
+std::string module_of(const std::string& space) {
+  if (space == "verify") return "vericone_verify";
+  return "vericone" + (space.empty() ? "" : "." + space);
+}
+
+}  // namespace
+
 py::dict names_of(const std::string& space) {
   const auto names = py::reinterpret_borrow<py::dict>(module_names);
   if (!names.contains(space)) names[py::str(space)] = py::dict();
@@ -377,14 +388,23 @@ void put(const char* name, const py::object& what) {
     else
       space += (space.empty() ? "" : ".") + part;
   }
-  const std::string module = "vericone" + (space.empty() ? "" : "." + space);
-  what.attr("__module__") = module;
+  what.attr("__module__") = module_of(space);
   const std::string whole = name;
   what.attr("__qualname__") = space.empty() ? whole : whole.substr(space.size() + 1);
   if (at)
     PyObject_SetAttrString(at.ptr(), rest.c_str(), what.ptr());
   else
     names_of(space)[rest.c_str()] = what;
+  // A type within this one may have come before it, and been taken for one of a namespace.
+  const auto names = py::reinterpret_borrow<py::dict>(module_names);
+  if (!PyType_Check(what.ptr()) || !names.contains(whole)) return;
+  const py::dict inner = names[py::str(whole)];
+  for (const auto& [own, type] : inner) {
+    type.attr("__module__") = module;
+    type.attr("__qualname__") = std::string(py::str(what.attr("__qualname__"))) + "." + std::string(py::str(own));
+    PyObject_SetAttr(what.ptr(), own.ptr(), type.ptr());
+  }
+  names.attr("pop")(whole);
 }
 
 }  // namespace
@@ -396,7 +416,7 @@ void add_type(TypeInfo& info, const char* doc, PyMethodDef* methods, newfunc con
   PyType_Slot slots[] = {{Py_tp_new, reinterpret_cast<void*>(construct ? construct : &cannot_make)},
                          {Py_tp_doc, const_cast<char*>(doc)},
                          {Py_tp_getset, fields.data()},
-                         {Py_tp_methods, methods ? methods : record_methods},
+                         {Py_tp_methods, methods ? methods : info.fields.empty() ? no_methods : record_methods},
                          {0, nullptr}};
   const char* name = keep("vericone." + std::string(info.name));
   PyType_Spec spec{name, 0, 0, static_cast<unsigned>(Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE), slots};
@@ -405,7 +425,7 @@ void add_type(TypeInfo& info, const char* doc, PyMethodDef* methods, newfunc con
   info.type = reinterpret_cast<PyTypeObject*>(PyType_FromSpecWithBases(&spec, bases.ptr()));
   if (!info.type) throw py::error_already_set();
   const py::handle type(reinterpret_cast<PyObject*>(info.type));
-  if (info.make && methods)
+  if (!info.fields.empty() && methods)
     for (PyMethodDef* method = record_methods; method->ml_name; ++method) {
       const auto bound = py::reinterpret_steal<py::object>(PyDescr_NewMethod(info.type, method));
       type.attr(method->ml_name) = bound;
@@ -451,8 +471,7 @@ long long enum_value(const TypeInfo& info, PyObject* given, const Place& place) 
 }
 
 void add_function(const char* space, PyMethodDef* method) {
-  const std::string module = std::string("vericone") + (*space ? "." : "") + space;
-  const py::str name(module);
+  const py::str name(module_of(space));
   const auto function = py::reinterpret_steal<py::object>(PyCFunction_NewEx(method, nullptr, name.ptr()));
   names_of(space)[method->ml_name] = function;
 }

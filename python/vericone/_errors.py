@@ -9,6 +9,8 @@ class InputError(ValueError):
     Of many questions at once the field has the index: `relative_velocity[123456][1]`.
     """
 
+    __module__ = "vericone"
+
     def __init__(self, field: str, value: str, requirement: str) -> None:
         super().__init__(f"{field}: got {value}, must be {requirement}")
         self.field = field

@@ -158,14 +158,18 @@ class Arguments:
             choices += [lambda: self.one_of(self.pool[self.one_of(known)])] * 4
             if any(word.split(".")[-1] in ("Sequence", "list", "Iterable") for word in words):
                 choices += [lambda: [self.one_of(self.pool[self.one_of(known)]) for _ in range(self.draw.randrange(4))]] * 4
-        if any("rray" in word for word in words):
+        if any("rray" in word for word in words) or "Sequence" in words and "_Number" in words:
             shape = self.one_of([(3,), (3,), (3,), (2,), (2,), (3, 3), (2, 2), (4,), (5, 3), (6, 2), (20, 3)])
             choices += [lambda: self.floats(shape), lambda: abs(self.floats(shape)), lambda: np.eye(3), self.array]
         for word in words:
             name = word.split(".")[-1]
-            if name in ("float", "Real", "floating"):
+            if name in ("float", "_Number"):
                 choices += [lambda: self.draw.uniform(-5, 5), lambda: self.draw.uniform(0, 1), lambda: self.one_of(NUMBERS)]
-            elif name in ("int", "SupportsIndex", "integer"):
+            elif name == "_Exact":
+                choices += [lambda: fractions.Fraction(self.draw.randrange(-9, 9), self.draw.randrange(1, 9))]
+            elif name == "Callable":
+                choices += [lambda: lambda *_: None, lambda: lambda *_: True]
+            elif name in ("int", "SupportsIndex"):
                 choices += [lambda: self.draw.randrange(-2, 20), lambda: self.draw.randrange(1, 5), lambda: self.one_of(NUMBERS)]
             elif name == "bool":
                 choices += [lambda: self.draw.random() < 0.5]
@@ -211,7 +215,8 @@ class Calls:
     """Calls the package; remembers what it returned, for later arguments, and what went wrong."""
 
     def __init__(self, log: int | None = None, most: str = "") -> None:
-        self.callables = signatures.callables(vericone)
+        # What draws is Python, of matplotlib's manners.
+        self.callables = [c for c in signatures.callables(vericone) if not c.name.startswith(("plot.", "display."))]
         # Called most; what they take comes from the others.
         self.favoured = [c for c in self.callables if c.name.startswith(most)]
         self.pool: dict[str, list[Any]] = {}
@@ -243,15 +248,15 @@ class Calls:
         positional, named = arguments.for_call(arguments.one_of(chosen.signatures) if chosen.signatures else signatures.Signature())
         target = chosen.target
         if chosen.owner and chosen.kind != "static":
-            own = self.pool.get(chosen.owner) or self.pool.get(chosen.owner.split(".")[-1])
-            receiver = arguments.one_of(own) if own else arguments.thing()
+            own = self.pool.get(chosen.owner)
             if not own:
-                return None
+                return None  # none was made yet
+            receiver = arguments.one_of(own)
             if chosen.kind == "property":
                 positional, named = [], {}
                 target = lambda: getattr(receiver, chosen.target)  # noqa: E731
             else:
-                target = getattr(receiver, chosen.target)
+                target = lambda *some, **others: getattr(receiver, chosen.target)(*some, **others)  # noqa: E731
         return self.run(chosen.name, target, positional, named, draw)
 
     def also(self, draw: random.Random) -> str | None:
@@ -356,6 +361,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--hypothesis", type=int, default=0, help="examples that hypothesis chooses afterwards")
     parser.add_argument("--most", default="", help="what the names begin with that are called most: guidance.")
+    parser.add_argument("--without", nargs="*", default=[], help="names that are not called, to look for further faults")
     parser.add_argument("--log", default="", help="file for the call that is being made")
     options = parser.parse_args()
     log = os.open(options.log, os.O_RDWR | os.O_CREAT, 0o644) if options.log else None
@@ -363,6 +369,8 @@ def main() -> int:
         os.chdir(folder)
         prepare()
         calls = Calls(log, options.most)
+        calls.callables = [c for c in calls.callables if c.name not in options.without]
+        calls.favoured = [c for c in calls.favoured if c.name not in options.without]
         draw = random.Random(options.seed)
         while calls.calls < options.calls:
             if draw.random() < 0.05:

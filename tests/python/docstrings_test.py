@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Docstrings: whatever is public has one, and that of a quantity names its unit, itself or by the class that it is of."""
+"""The docstring of a quantity names its unit, itself or by that of the class that it is of."""
 
 import inspect
 import re
@@ -43,9 +43,7 @@ for _c in documented():
 
 @pytest.mark.parametrize("owner", sorted(BY_OWNER))
 def test_docstrings(owner: str) -> None:
-    """Each function, class and method has a docstring; each that answers a quantity says in which unit."""
-    silent = [c.name for c in BY_OWNER[owner] if c.kind != "property" and not inspect.getdoc(value_of(c.name)) and not owner_doc(c)]
-    assert silent == []
+    """Each quantity that is answered, or is a field, says in which unit."""
     without = []
     for c in BY_OWNER[owner]:
         if c.kind == "class" or not any(QUANTITY.search(s.returns) for s in c.signatures):

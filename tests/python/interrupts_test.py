@@ -15,6 +15,7 @@ import pytest
 MAKE = """
 import numpy as np, vericone
 from vericone import *
+from vericone import files, fitting, lidar, montecarlo, simulation
 random = np.random.default_rng(1)
 def ball(n, scale=1.0):
     x = random.normal(size=(n, 3))
@@ -24,7 +25,7 @@ def ellipsoid(center, axes=(1, 1, 1)):
 def star(center):
     return CombinedEllipsoid(ellipsoid(center, (2, 2, 1)), [hyperboloid(2, [0.9, 0.8, 0.8]), hyperboloid(2, [0.9, 0.8, 0.8],
         rotation_from_heading(1.2, 0.4))])
-def scenario(duration=1e5, step=1e-3):
+def scenario(duration=1e5, step=0.01):
     def body(name, x, v):
         return simulation.Body(name=name, shape=simulation.ShapeInTime(simulation.RigidShape(CombinedEllipsoid(ellipsoid([0, 0, 0])))),
                                start=simulation.Motion(position=x, velocity=v))
@@ -39,9 +40,16 @@ CALLS = {
                                "vericone.campaign(montecarlo.Campaign(engagements=10**6), out=d)"),
     "fit": ("x = ball(60000) * [3, 2, 1]", "vericone.fit(x, shape='star', mode='least-squares')"),
     "containing fit": ("x = np.concatenate([ball(50000) + [1.5, 0, 0], ball(50000) - [1.5, 0, 0]])", "vericone.fit(x)"),
-    "minimum-volume ellipsoid": ("x = ball(3 * 10**6)", "[min_volume_ellipsoid(x) for _ in range(100)]"),
+    "minimum-volume ellipsoid": ("x = ball(3 * 10**6).T", "[min_volume_ellipsoid(x) for _ in range(100)]"),
     "cone of a mesh": ("x = ball(3000) + [9, 0, 0]; p = Pair(Placed(Body(ellipsoid([0, 0, 0]))), Placed(Body(Assembly.cloud(x, 0.02))))",
                        "p.cone(ConeOptions(resolution=1e-4))"),
+    "cone of two clouds": ("x = ball(300); p = Pair(Placed(Body(Assembly.cloud(x, 0.1))), Placed(Body(Assembly.cloud(x + [9, 0, 0], 0.1))))",
+                           "p.cone(ConeOptions(resolution=1e-4))"),
+    "fusion": ("x = ball(200000) * [3, 2, 1]; s = [x, ball(200000) * [3, 2, 1] + 0.02]", "lidar.fuse(s, [np.eye(4), np.eye(4)])"),
+    "distances": ("x = ball(60000); r = vericone.fit(x[:100], shape='biconvex'); s = fitting.Sample(points=x)",
+                  "[fitting.scan_to_hull(r.pieces, s) for _ in range(1000)]"),
+    "certificate": ("x = ball(60000); r = vericone.fit(x[:100], shape='biconvex'); s = fitting.Sample(points=x)",
+                    "[fitting.check([p.quadrics for p in r.pieces], s) for _ in range(1000)]"),
     "combined cone": ("a, b = star([0, 0, 0]), star([6, 1, 0])", "combined_cone(a, b, 1e-7)"),
     "slice cone": ("a, b = ellipsoid([0, 0, 0], (3, 2, 1)), ellipsoid([9, 0, 0])", "[slice_cone(a, b, 1000000) for _ in range(9)]"),
     "combined slice cone": ("a, b = star([0, 0, 0]), star([6, 1, 0])", "[combined_slice_cone(a, b, 1000000) for _ in range(9)]"),

@@ -29,10 +29,10 @@ class Callable:
 
 
 def modules(package: ModuleType) -> list[ModuleType]:
-    """The package and what it holds, private modules and what cannot be imported here left out."""
+    """The package and its modules, private ones, parts of modules and what cannot be imported here left out."""
     found = [package]
     for info in pkgutil.walk_packages(package.__path__, package.__name__ + "."):
-        if any(part.startswith("_") for part in info.name.split(".")):
+        if info.name.count(".") > package.__name__.count(".") + 1 or any(part.startswith("_") for part in info.name.split(".")):
             continue
         try:
             found.append(importlib.import_module(info.name))

@@ -18,7 +18,8 @@ inline void require_planes(int planes) {
     throw InputError("planes", std::to_string(planes), "a whole number from 1 to 1000000");
 }
 
-/// look(azimuth, across) on each, until it returns false; whether it never did. Asked to stop, throws Interrupted.
+/// look(azimuth, across) on each, until it returns false; whether it never did. Asked to stop, throws
+/// Interrupted.
 template <typename Look>
 bool on_planes(const AxisFrame& frame, int planes, const Look& look) {
   for (int j = 0; j < planes; ++j) {

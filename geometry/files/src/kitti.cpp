@@ -19,8 +19,9 @@ Parsed parse_kitti(const Source& source) {
   Parsed parsed{.format = nuscenes ? "nuScenes" : "KITTI"};
   parsed.points.resize(count);
   const char* at = source.bytes.data();
-  for (std::size_t n = 0; Eigen::Vector3d& p : parsed.points) {
-    if (++n % 4096 == 0) checkpoint();
+  std::size_t read = 0;
+  for (Eigen::Vector3d& p : parsed.points) {
+    if (++read % 4096 == 0) checkpoint();
     for (std::ptrdiff_t i = 0; i < 3; ++i) p(i) = little_endian<float>(at + 4 * i);
     at += stride;
   }

@@ -103,8 +103,9 @@ Parsed parse_las(const Source& source) {
   Parsed parsed{.format = "LAS 1." + std::to_string(h.minor)};
   parsed.points.resize(h.count);
   const char* at = source.bytes.data() + h.points_at;
-  for (std::size_t n = 0; Eigen::Vector3d& p : parsed.points) {
-    if (++n % 4096 == 0) checkpoint();
+  std::size_t read = 0;
+  for (Eigen::Vector3d& p : parsed.points) {
+    if (++read % 4096 == 0) checkpoint();
     // One rounding, of the exact sum.
     for (std::ptrdiff_t i = 0; i < 3; ++i)
       p(i) = std::fma(double(little_endian<std::int32_t>(at + 4 * i)), h.scale(i), h.offset(i));

@@ -2,8 +2,8 @@
 //
 // PCD, ascii, binary and binary_compressed. An own reader, with liblzf for the compression: PCL, whose format
 // it is, needs 225 MB of packages.
-#include <vericone/geometry/stop.h>
 #include <lzf.h>
+#include <vericone/geometry/stop.h>
 
 #include <limits>
 
@@ -91,8 +91,9 @@ void read_binary(const Source& source, const PcdHeader& header, Parsed& parsed) 
   expect_end(source, body.substr(header.points * stride));
   parsed.points.resize(header.points);
   const char* at = body.data();
-  for (std::size_t n = 0; Eigen::Vector3d& p : parsed.points) {
-    if (++n % 4096 == 0) checkpoint();
+  std::size_t read = 0;
+  for (Eigen::Vector3d& p : parsed.points) {
+    if (++read % 4096 == 0) checkpoint();
     for (std::size_t i = 0; i < 3; ++i)
       p(Eigen::Index(i)) = value(at + offset[i], header.fields[header.coordinates[i]]);
     at += stride;

@@ -187,4 +187,8 @@ void write_points(const std::filesystem::path& path, std::span<const Vector3d> p
   }
 }
 
+void write_points(const std::filesystem::path& path, std::span<const Vector3d> points) {
+  write_points(path, points, {});
+}
+
 }  // namespace vericone::files

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/octomap/read_octree.h>
 #include <vericone/geometry/stop.h>
+#include <vericone/octomap/read_octree.h>
 
 #include <octomap/ColorOcTree.h>
 #include <octomap/OcTree.h>

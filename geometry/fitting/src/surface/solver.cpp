@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/solver.h"
 
-#include <vericone/geometry/stop.h>
 #include <ceres/ceres.h>
+#include <vericone/geometry/stop.h>
 #include <algorithm>
 #include <cmath>
 #include <deque>

@@ -36,8 +36,8 @@ struct SceneBody {
   /// and the file's name as written, empty for points. Empty for others.
   std::string field = {}, file = {};
   std::optional<Reading> reading = {};  // of those from a file
-  /// What its file says of it, as JSON with absolute names of files, for write_scene(); empty for a body that a
-  /// program made.
+  /// What its file says of it, as JSON with absolute names of files, for write_scene(); empty for a body that
+  /// a program made.
   std::string fields = {};
 
   /// What it is: of each of these one is there, unless it is a union of quadrics. A combined quadric, a hull

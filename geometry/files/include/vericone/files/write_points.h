@@ -22,6 +22,9 @@ namespace vericone::files {
 /// std::runtime_error naming the path where it cannot be written. Linear in the points and triangles, 0.2 s a
 /// million as text.
 void write_points(const std::filesystem::path& path, std::span<const Eigen::Vector3d> points,
-                  std::span<const std::array<std::uint32_t, 3>> triangles = {});
+                  std::span<const std::array<std::uint32_t, 3>> triangles);
+
+/// The same of a cloud.
+void write_points(const std::filesystem::path& path, std::span<const Eigen::Vector3d> points);
 
 }  // namespace vericone::files
