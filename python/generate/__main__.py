@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""generate ROOT OUT PARTS INCLUDE... : the C++ sources of all modules, the stubs and the list of names, from the headers
+"""generate ROOT OUT PARTS MODULES INCLUDE... (MODULES: those of CMake, separated by commas): the C++ sources of all modules, the stubs and the list of names, from the headers
 of the library below ROOT. Files that stay the same are not touched."""
 from __future__ import annotations
 
@@ -29,8 +29,9 @@ def write(path: str, text: str) -> None:
 
 
 def main() -> None:
-    root, out, parts, *includes = sys.argv[1:]
-    folders = [os.path.join(prefix, "include") for prefix in rules.FOLDERS]
+    root, out, parts, wanted, *includes = sys.argv[1:]
+    modules = wanted.split(",")
+    folders = [os.path.join(prefix, "include") for prefix in (*rules.FOLDERS, *(["verify"] if "_verify" in modules else []))]
     found = sorted(headers.public_headers(root, folders))
     interface = headers.Reader(root).read(found, [*(os.path.join(root, f) for f in folders), *includes])
     model = models.Model(interface)
@@ -42,7 +43,7 @@ def main() -> None:
         for name, text in emit.Emitter(model, module).sources(count).items():
             write(os.path.join(out, "src", name), text)
     for name, text in stubs.package(model).items():
-        write(os.path.join(out, "package", name), text)
+        write(os.path.join(out, name), text)
     names = [vars(n) for n in model.names]
     write(os.path.join(out, "names.json"), json.dumps(names, indent=1))
 

@@ -164,6 +164,8 @@ class Emitter:
             variables = ", ".join(v for v, _ in many)
             plain = braces.replace(", @asked", "").replace("@asked", "")
             answer = "answer" if self.model.is_column(call.result) else "answer_objects"
+            if call.long_work:
+                answer += "_long"
             if call.result.reference == "*":
                 raise SystemExit(f"{call.call}: returns a pointer to many")
             parameters = ", ".join(lambda_parameters)
@@ -183,6 +185,7 @@ class Emitter:
                 lines.append("}")
             lines.append(f"return {answer}<{elements}>(g, threads, [&]({parameters}) {{ return {plain}; }}, {variables});")
         else:
+            run = "run_long" if call.long_work else "run"
             if asked:
                 i, a = asked
                 kind = a.type.plain().text()
@@ -202,13 +205,13 @@ class Emitter:
             if accessor and not (call.result.reference == "*" and what != "text"):
                 lines.append(f"return to_python({braces});")
             elif what == "none" and not call.cpp.constructor:
-                lines.append(f"run(g, [&] {{ {body} }});")
+                lines.append(f"{run}(g, [&] {{ {body} }});")
                 if changed:
                     lines.append(f"return {'to_python(' + changed[0] + ')' if len(changed) == 1 else 'tuple_of({' + ', '.join(f'to_python({c})' for c in changed) + '})'};")
                 else:
                     lines.append("Py_RETURN_NONE;")
             else:
-                lines.append(f"auto result = run(g, [&] {{ {body} }});")
+                lines.append(f"auto result = {run}(g, [&] {{ {body} }});")
                 if call.cpp.constructor:
                     lines.append(f"return new_instance(type_of<{object_type}>(), std::move(result));")
                 elif asked:
@@ -351,7 +354,7 @@ class Emitter:
                 chunks[-1][0].append(item)
             else:
                 chunks[-1][1].append(item)
-        main = [f'#include "bind.h"\n\nnamespace vericone::python {{\n']
+        main = ["\nnamespace vericone::python {\n"]
         calls: list[str] = []
         for k, (some, some_functions) in enumerate(chunks):
             self.defaults = []
@@ -390,7 +393,8 @@ class Emitter:
         extra = "void describe_values();\n" if self.module == "_core" else ""
         after = "  vericone::python::describe_values();\n" if self.module == "_core" else ""
         main.append(extra + "}\n\nPYBIND11_MODULE(" + self.module + ", module) {\n  vericone::python::begin_module(module);\n" + "\n".join(calls) + "\n" + after + "}\n")
-        files[f"{self.module}_main.cpp"] = "".join(main)
+        last = f"{self.module}_{parts - 1}.cpp"
+        files[last] = files.get(last, f'#include "{self.module}.h"\n') + "".join(main)
         return files
 
     def _result(self, call: Callable_) -> str:

@@ -262,8 +262,9 @@ class Model:
             self.names.append(Name(full, "alias", header, full.replace("::", ".") if any(
                 r.path == path for r in self.records.values()) else "", rules.SKIPPED.get(full, "the type it stands for is bound")))
         known = {n.cpp for n in self.names}
+        parsed = any(n.cpp.startswith("verify::") for n in self.names)
         for full in rules.SKIPPED:
-            if full not in known:
+            if full not in known and (parsed or not full.startswith("verify::")):
                 self.problems.append(f"{full}: in SKIPPED of rules.py, and not in the headers")
 
     def _values(self, record: Record) -> dict[str, str]:
@@ -380,7 +381,7 @@ class Model:
             instance = f"<{', '.join(values[p] for p in f.template)}>" if f.template else ""
             call = f"vericone::{full}{instance}"
         made = Callable_(python_name(f.name), f, call, arguments, result, f.doc, module=module_of(f.header))
-        made.long_work = full in rules.LONG
+        made.long_work = full in rules.LONG or f.header.startswith("verify/")
         made.whole = rules.WHOLE.get((full, len([a for a in arguments if a.role != "asked"])), "")
         question = record is None or f.const
         made.many = (question and not f.constructor and not f.static and full not in rules.SINGLE

@@ -307,9 +307,17 @@ def package(model: Model) -> dict[str, str]:
         name = "/".join(space) or "_root"
         if len(space) > 1:
             raise SystemExit("a namespace within a namespace: " + "::".join(space))
-        files[f"{name}.pyi"] = Stubs(model, space).text()
+        if space == ("verify",):  # a package of its own, under another licence
+            files["package_verify/__init__.pyi"] = Stubs(model, space).text()
+            files["package_verify/__init__.py"] = (
+                '# SPDX-License-Identifier: GPL-3.0-or-later\n"""The exact cross-checks with CGAL: the names of the C++ namespace '
+                'vericone::verify."""\nfrom vericone import _core as _core\nfrom vericone_verify import _verify as _module\n\n'
+                'globals().update(_module._names["verify"])\n')
+            files["package_verify/py.typed"] = ""
+            continue
+        files[f"package/{name}.pyi"] = Stubs(model, space).text()
         title = f"vericone::{'::'.join(space)}" if space else "vericone"
-        files[f"{name}.py"] = (
+        files[f"package/{name}.py"] = (
             f'# SPDX-License-Identifier: BSD-3-Clause\n"""The names of the C++ namespace {title}."""\n'
             "from vericone._load import fill as _fill\n\n"
             f'_fill(globals(), "{".".join(space)}", {sorted(modules)!r})\n')

@@ -96,19 +96,19 @@ void run_interruptibly(PyObject* self, const std::function<void()>& work);
 
 template <class F>
 auto run(Given& given, F&& f) {
+  const Quiet quiet(given.self);
+  return std::remove_cvref_t<std::invoke_result_t<F>>(f());
+}
+/// Of work that may take long.
+template <class F>
+auto run_long(Given& given, F&& f) {
   using R = std::remove_cvref_t<std::invoke_result_t<F>>;
   if constexpr (std::is_void_v<R>) {
-    if (given.long_work) return run_interruptibly(given.self, f);
-    const Quiet quiet(given.self);
-    return f();
+    run_interruptibly(given.self, f);
   } else {
-    if (given.long_work) {
-      std::optional<R> result;
-      run_interruptibly(given.self, [&] { result.emplace(f()); });
-      return std::move(*result);
-    }
-    const Quiet quiet(given.self);
-    return R(f());
+    std::optional<R> result;
+    run_interruptibly(given.self, [&] { result.emplace(f()); });
+    return std::move(*result);
   }
 }
 
@@ -272,6 +272,18 @@ PyObject* answer_objects(Given& given, int threads, F&& f, const M&... m) {
   return objects_of(shape, [&](Py_ssize_t i) {
     return Convert<R>::to(std::move(*results[static_cast<std::size_t>(i)]));
   });
+}
+
+/// Of work that may take long.
+template <class... E, class F, class... M>
+PyObject* answer_long(Given& given, int threads, F&& f, const M&... m) {
+  if ((m.single() && ...)) return to_python(run_long(given, [&] { return f(one<E>(m)...); }));
+  return answer<E...>(given, threads, std::forward<F>(f), m...);
+}
+template <class... E, class F, class... M>
+PyObject* answer_objects_long(Given& given, int threads, F&& f, const M&... m) {
+  if ((m.single() && ...)) return to_python(run_long(given, [&] { return f(one<E>(m)...); }));
+  return answer_objects<E...>(given, threads, std::forward<F>(f), m...);
 }
 
 /// As answer(), of f(argument..., X&) that fills in an X as well (a rung): both are returned.

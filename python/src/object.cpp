@@ -357,6 +357,16 @@ PyObject* new_instance(const TypeInfo& info, std::shared_ptr<void> value) {
   return self;
 }
 
+namespace {
+
+/// Where users find the names of a namespace.
+std::string module_of(const std::string& space) {
+  if (space == "verify") return "vericone_verify";
+  return "vericone" + (space.empty() ? "" : "." + space);
+}
+
+}  // namespace
+
 py::dict names_of(const std::string& space) {
   const auto names = py::reinterpret_borrow<py::dict>(module_names);
   if (!names.contains(space)) names[py::str(space)] = py::dict();
@@ -378,24 +388,13 @@ void put(const char* name, const py::object& what) {
     else
       space += (space.empty() ? "" : ".") + part;
   }
-  const std::string module = "vericone" + (space.empty() ? "" : "." + space);
-  what.attr("__module__") = module;
+  what.attr("__module__") = module_of(space);
   const std::string whole = name;
   what.attr("__qualname__") = space.empty() ? whole : whole.substr(space.size() + 1);
   if (at)
     PyObject_SetAttrString(at.ptr(), rest.c_str(), what.ptr());
   else
     names_of(space)[rest.c_str()] = what;
-  // A type within this one may have come before it, and been taken for one of a namespace.
-  const auto names = py::reinterpret_borrow<py::dict>(module_names);
-  if (!PyType_Check(what.ptr()) || !names.contains(whole)) return;
-  const py::dict inner = names[py::str(whole)];
-  for (const auto& [own, type] : inner) {
-    type.attr("__module__") = module;
-    type.attr("__qualname__") = std::string(py::str(what.attr("__qualname__"))) + "." + std::string(py::str(own));
-    PyObject_SetAttr(what.ptr(), own.ptr(), type.ptr());
-  }
-  names.attr("pop")(whole);
 }
 
 }  // namespace
@@ -462,8 +461,7 @@ long long enum_value(const TypeInfo& info, PyObject* given, const Place& place) 
 }
 
 void add_function(const char* space, PyMethodDef* method) {
-  const std::string module = std::string("vericone") + (*space ? "." : "") + space;
-  const py::str name(module);
+  const py::str name(module_of(space));
   const auto function = py::reinterpret_steal<py::object>(PyCFunction_NewEx(method, nullptr, name.ptr()));
   names_of(space)[method->ml_name] = function;
 }

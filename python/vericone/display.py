@@ -217,7 +217,7 @@ def run(thing: Any) -> tuple[Rows, bool, Draw | None]:
     def draw(axes: Any) -> None:
         from . import plot
         for n, track in enumerate(thing.tracks):
-            plot.track(track, axes=axes, color="C%d" % (n % 10))
+            plot.track(track, axes=axes, color="C%d" % (n % 10), bodies=3)
 
     return rows, False, draw
 

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What objects show in Jupyter: numbers with units, and a picture."""
 import base64
+import os
 import re
 import subprocess
 import sys
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,6 +15,7 @@ import vericone as vc
 
 pytest.importorskip("matplotlib")
 
+ROOT = Path(os.environ.get("VERICONE_SOURCE", Path(__file__).resolve().parents[2]))
 BALL = vc.Ellipsoid.from_axes([0, 0, 0], [1, 1, 1])
 AHEAD = vc.Ellipsoid.from_axes([10 / 3, 0, 0], [1, 1, 1])
 PAIR = vc.Pair(BALL, AHEAD)
@@ -26,6 +29,8 @@ PICTURED: dict[str, tuple[Any, str]] = {
     "slice cone": (vc.slice_cone(BALL, AHEAD, 24), "too small"),
     "map": (vc.cone_map([PAIR], vc.ConeMapOptions(resolution=0.1)), " sr"),
     "sector": (PAIR.sector([0, 1, 0]), "degrees"),
+    "fit": (vc.fitting.fit(vc.fitting.Sample(points=np.random.default_rng(1).normal(size=(100, 3))),
+                           vc.fitting.FitOptions(shape=vc.fitting.Shape.ellipsoid)), "100 of 100 points, exact"),
 }
 NUMBERS: dict[str, tuple[Any, str]] = {
     "contact": (PAIR.contact([1, 0, 0], [0, 0, 0]), " s, proved"), "miss": (PAIR.miss([1, 3, 0], [0, 0, 0]), " m, proved"),
@@ -40,6 +45,12 @@ def test_a_picture_and_numbers(name: str) -> None:
     assert text in shown and "vericone." + type(thing).__name__ in shown
     picture = re.search(r"data:image/png;base64,([^']+)'", shown)
     assert picture is not None and base64.b64decode(picture.group(1)).startswith(b"\x89PNG")
+
+
+def test_runs_say_what_is_proved() -> None:
+    scenario = vc.read_scenario(ROOT / "docs/examples/scenarios/clearance.yaml")
+    shown = vc.simulate(scenario)._repr_html_()
+    assert len(re.findall(r"avoided, [\d.]+ m or more apart, proved", shown)) == 3 and "data:image/png" in shown
 
 
 @pytest.mark.parametrize("name", NUMBERS)

@@ -24,11 +24,17 @@ def test_there_are_six() -> None:
     assert [file.stem[0] for file in NOTEBOOKS] == list("123456")
 
 
-@pytest.mark.parametrize("file", NOTEBOOKS, ids=lambda file: str(file.stem))
-def test_runs(file: Path) -> None:
+def executed(file: Path, folder: Path) -> Any:
+    """The notebook as it is after a run in a folder."""
     notebook = read(file)
     nbclient.NotebookClient(notebook, timeout=120, kernel_name="python3",
-                            resources={"metadata": {"path": str(ROOT)}}).execute()
+                            resources={"metadata": {"path": str(folder)}}).execute()
+    return notebook
+
+
+@pytest.mark.parametrize("file", NOTEBOOKS, ids=lambda file: str(file.stem))
+def test_runs(file: Path) -> None:
+    notebook = executed(file, ROOT)
     shown = [output for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs]
     folder = os.environ.get("VERICONE_NOTEBOOK_OUTPUT")
     if folder:
@@ -36,6 +42,13 @@ def test_runs(file: Path) -> None:
     assert len([output for output in shown if "image/png" in output.get("data", {})]) >= 2
     code = "\n".join(cell.source for cell in notebook.cells if cell.cell_type == "code")
     assert code.count("assert ") >= 4
+
+
+@pytest.mark.parametrize("file", [file for file in NOTEBOOKS if file.stem[0] in "45"], ids=lambda file: str(file.stem))
+def test_runs_without_scans(file: Path, tmp_path: Path) -> None:
+    """It says that there are none, and takes a body of its own."""
+    notebook = executed(file, tmp_path)
+    assert "no scan here" in "".join(output.get("text", "") for cell in notebook.cells for output in cell.get("outputs", []))
 
 
 @pytest.mark.parametrize("file", NOTEBOOKS, ids=lambda file: str(file.stem))

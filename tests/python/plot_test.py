@@ -129,6 +129,20 @@ def test_engagements_of_every_kind() -> None:
     plot.engagement(mesh, [1.0, 0, 0], cone=False)
 
 
+def test_lines_arrows_and_openings() -> None:
+    square = vc.PlacedOpening(opening=vc.Opening.polygon([[-1, -1], [1, -1], [1, 1], [-1, 1]]), center=[5, 0, 0],
+                              axes=[[0, 0], [1, 0], [0, 1]])
+    axes = plot.opening(square)
+    rim = np.column_stack(axes.lines[0].get_data_3d())
+    assert np.allclose(rim[:, 0], 5) and np.allclose(np.abs(rim[:, 1:]), 1) and np.array_equal(rim[0], rim[-1])
+    plot.line([[0, 0, 0], [5, 0, 0]], axes=axes, label="way")
+    plot.arrow([0, 0, 0], [0, 0, 9], axes=axes)
+    assert np.allclose(EXTENTS[axes], [[0, -1, -1], [5, 1, 9]])
+    assert plot.arrow([0, 0], [1, 2], axes=plot.plane()).get_xlabel() == "x (m)"
+    ring = plot.opening(vc.PlacedOpening(opening=vc.Opening.circle(2.0)))
+    assert np.allclose(np.hypot(*ring.lines[0].get_data_3d()[:2]), 2)
+
+
 def test_sectors() -> None:
     sector = vc.Pair(BALL, AHEAD).sector([0, 1, 0])
     assert sector is not None

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bodies of every kind, points, openings and ways, on axes of the plane or of space, metres."""
+import importlib
 from typing import Any
 from weakref import WeakKeyDictionary
 
@@ -63,11 +64,12 @@ def faces_of(shape: dict[str, Any]) -> list[Any]:
 
 
 def hull_triangles(points: Any) -> list[Any]:
+    """Of a hull of many points, where SciPy is installed; else its points are drawn."""
     try:
-        from scipy.spatial import ConvexHull
+        hull = importlib.import_module("scipy.spatial").ConvexHull(points)
     except ImportError:
         return []
-    return list(points[ConvexHull(points).simplices])
+    return list(points[hull.simplices])
 
 
 def draw_in_space(axes: Any, shape: dict[str, Any], row: dict[str, float], color: Any, alpha: float) -> Any:

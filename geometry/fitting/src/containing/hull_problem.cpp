@@ -2,6 +2,7 @@
 #include "containing/hull_problem.h"
 
 #include <vericone/geometry/decompositions.h>
+#include <vericone/geometry/stop.h>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -191,6 +192,7 @@ std::vector<double> HullProblem::greatest(
     most[std::size_t(c.surface)] = std::max(most[std::size_t(c.surface)], value);
     if (worst && value > above) (*worst)[std::size_t(c.surface)].emplace_back(value, c);
   };
+  checkpoint();
   for (std::uint32_t i = 0; i < points_.size(); ++i)
     for (int s = 0; s < int(surfaces); ++s) {
       const Constraint c{Constraint::point, s, i};

@@ -3,6 +3,7 @@
 
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/exact/rational.h>
+#include <vericone/geometry/stop.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -60,12 +61,14 @@ class Search {
   Search(const QuadraticForm& form, const Sample& sample) : form_(form), sample_(sample) {}
 
   void add_point(std::uint32_t i) {
+    checkpoint();
     const Interval value = form_.narrowly_at(sample_.points[i]).value;
     points_.add(i, upper(value), lower(value));
   }
 
   /// A form l^T C l with l >= 0, sum 1, is at most its largest entry, and the corners are values.
   void add_triangle(std::uint32_t t) {
+    checkpoint();
     const Polars c = polars(t);
     double most = -kInfinity, least = -kInfinity;
     for (std::size_t i = 0; i < 3; ++i) {

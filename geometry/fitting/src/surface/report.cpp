@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/report.h"
 
+#include <vericone/geometry/stop.h>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -70,6 +71,7 @@ MatrixXd covariance(const FittedSurface& fit, const Cloud& cloud) {
   MatrixXd b = MatrixXd::Zero(h.rows(), h.cols());
   VectorXd all(n);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (i % 256 == 0) checkpoint();
     const double r = surfaces.distance(cloud.points[i], all.data()), w = cloud.weights[i];
     const VectorXd row = all(free);
     double variance = fit.noise * fit.noise;
@@ -105,6 +107,7 @@ double seen_share(const FittedSurface& fit, const Cloud& cloud) {
   }
   double seen = 0, all = 0;
   for (const Vector3d& g : directions(count, planar)) {
+    checkpoint();
     const Vector3d d = planar ? Vector3d(0, g.x(), g.y()) : g;
     // Area of the ellipsoid's surface over that of the ball: |F^-T d| det F; plane: |F tangent|.
     const double area = planar ? std::hypot(axes(1) * d.z(), axes(2) * d.y()) : d.cwiseQuotient(axes).norm();

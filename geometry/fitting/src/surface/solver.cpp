@@ -121,8 +121,10 @@ Cloud thinned(const Cloud& cloud, std::size_t most) {
 VectorXd residuals(const SurfaceModel& model, const Parameters& parameters, const Cloud& cloud) {
   const Surfaces surfaces(model, parameters);
   VectorXd r(static_cast<Eigen::Index>(cloud.points.size()));
-  for (Eigen::Index i = 0; i < r.size(); ++i)
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    if (i % 256 == 0) checkpoint();
     r(i) = surfaces.distance(cloud.points[static_cast<std::size_t>(i)], nullptr);
+  }
   return r;
 }
 
@@ -131,6 +133,7 @@ VectorXd cost_gradient(const SurfaceModel& model, const Parameters& parameters, 
   const Surfaces surfaces(model, parameters);
   VectorXd row(model.size()), sum = VectorXd::Zero(model.size());
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (i % 256 == 0) checkpoint();
     const double r = surfaces.distance(cloud.points[i], row.data());
     sum += cloud.weights[i] * influence(r, cutoff) * row;
   }

@@ -2,6 +2,7 @@
 #include "surface/start.h"
 
 #include <vericone/geometry/decompositions.h>
+#include <vericone/geometry/stop.h>
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
@@ -193,6 +194,7 @@ Scored improved(const Scored& start, const Cloud& cloud, double k) {
   Scored best = start;
   Candidate c = start.candidate;
   for (int round = 0; round < 5; ++round) {
+    checkpoint();
     const std::vector<Residual> r = rough_residuals(c, cloud);
     const double near = 3 * robust_scale(r, 1e-12);
     Cloud inliers;
@@ -225,6 +227,7 @@ std::vector<Scored> trials(const Cloud& cloud, std::uint64_t seed, std::size_t m
   Cloud sample;
   sample.weights.assign(kSize, 1.0);
   for (int t = 0; t < kTrials; ++t) {
+    checkpoint();
     sample.points.clear();
     for (int i = 0; i < kSize; ++i) {
       const double at = double(engine() >> 11) * 0x1p-53 * sum;
@@ -278,6 +281,7 @@ Cloud concentrated(const Cloud& cloud, double share) {
   Matrix3d inverse = Matrix3d::Identity();
   Cloud part;
   for (int round = 0; round < kRounds; ++round) {
+    checkpoint();
     std::vector<Residual> far(cloud.points.size());
     for (std::size_t i = 0; i < far.size(); ++i) {
       const Vector3d y = cloud.points[i] - center;
