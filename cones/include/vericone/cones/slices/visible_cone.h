@@ -36,7 +36,7 @@ using PlanePoints = std::function<std::vector<Eigen::Vector2d>(const PlaneFrame&
                                               std::span<const std::array<std::uint32_t, 3>> triangles);
 
 /// Points of a plane in the order of their bearing from its origin, the nearer of two first: from one extreme
-/// end to the other for points on the side of its x axis.
+/// end to the other for points on the side of its x axis. Metres, or any other unit.
 void order_by_bearing(std::vector<Eigen::Vector2d>& points);
 
 struct VisiblePlane {
