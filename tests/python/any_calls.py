@@ -222,7 +222,7 @@ class Calls:
     def __init__(self, log: int | None = None, most: str = "") -> None:
         # What draws is Python, of matplotlib's manners.
         self.callables = [c for c in signatures.callables(vericone) if not c.name.startswith(("plot.", "display."))
-                          and not (isinstance(c.target, type) and issubclass(c.target, enum.Enum))]
+                          and not (isinstance(c.target, type) and issubclass(c.target, (enum.Enum, BaseException)))]
         # Called most; what they take comes from the others.
         self.favoured = [c for c in self.callables if c.name.startswith(most)]
         self.pool: dict[str, list[Any]] = {}

@@ -46,7 +46,7 @@ def test_docstrings(owner: str) -> None:
     """Each quantity that is answered, or is a field, says in which unit."""
     without = []
     for c in BY_OWNER[owner]:
-        if c.kind == "class" or not any(QUANTITY.search(s.returns) for s in c.signatures):
+        if c.kind == "class" or not any(QUANTITY.search(s.returns) and "Callable" not in s.returns for s in c.signatures):
             continue
         if not UNIT.search(f"{inspect.getdoc(value_of(c.name)) or ''}\n{owner_doc(c)}"):
             without.append(c.name)

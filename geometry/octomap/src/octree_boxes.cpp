@@ -44,6 +44,22 @@ void check(const OctreeMeaning& meaning) {
   }
 }
 
+/// Whoever makes a tree by hand may make one that is none: its cells must fill the cube, depth first.
+void check(const Octree& octree) {
+  if (!(octree.resolution > 0) || !std::isfinite(octree.resolution))
+    throw InputError("octree.resolution", to_text(octree.resolution), "a finite number above 0 (m)");
+  std::uint64_t filled = 0;  // cells of the finest level
+  for (const OctreeCell& cell : octree.cells) {
+    const std::uint64_t volume = cell.depth > kDepth ? 0 : std::uint64_t(1) << (3 * (kDepth - cell.depth));
+    if (volume == 0 || filled % volume != 0)
+      throw InputError("octree.cells", "others", "children of a tree, depth first");
+    filled += volume;
+  }
+  if (filled != std::uint64_t(1) << (3 * kDepth))
+    throw InputError("octree.cells", std::to_string(octree.cells.size()) + " cells",
+                     "all that fill the cube of the tree");
+}
+
 /// The part of the region outside of the cube of the tree: slabs before and behind it on x, then, between
 /// those, on y, then on z.
 void add_beyond(const Octree& octree, Box region, std::vector<Box>& boxes) {
@@ -133,6 +149,7 @@ CellKind kind_of(const OctreeCell& cell, const OctreeMeaning& meaning) {
 
 OctreeBoxes boxes_by_kind(const Octree& octree, const OctreeMeaning& meaning) {
   check(meaning);
+  check(octree);
   const Box region = meaning.region.value_or(octree.bounds);
   OctreeBoxes boxes;
   for (const OctreeCell& cell : octree.cells) {
@@ -154,6 +171,7 @@ OctreeBoxes boxes_by_kind(const Octree& octree, const OctreeMeaning& meaning) {
 
 std::vector<Box> obstacle_boxes(const Octree& octree, const OctreeMeaning& meaning) {
   check(meaning);
+  check(octree);
   std::vector<Box> boxes;
   Merger(octree, meaning, boxes).run();
   if (meaning.unknown_occupied) add_beyond(octree, meaning.region.value_or(octree.bounds), boxes);
