@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import os
 import signal
 import subprocess
 import sys
@@ -40,11 +39,11 @@ CALLS = {
                                "vericone.campaign(montecarlo.Campaign(engagements=10**6), out=d)"),
     "fit": ("x = ball(60000) * [3, 2, 1]", "vericone.fit(x, shape='star', mode='least-squares')"),
     "containing fit": ("x = np.concatenate([ball(50000) + [1.5, 0, 0], ball(50000) - [1.5, 0, 0]])", "vericone.fit(x)"),
-    "minimum-volume ellipsoid": ("x = ball(3 * 10**6).T", "[min_volume_ellipsoid(x) for _ in range(100)]"),
+    "minimum-volume ellipsoid": ("x = ball(10**6).T", "[min_volume_ellipsoid(x) for _ in range(100)]"),
     "cone of a mesh": ("x = ball(3000) + [9, 0, 0]; p = Pair(Placed(Body(ellipsoid([0, 0, 0]))), Placed(Body(Assembly.cloud(x, 0.02))))",
-                       "p.cone(ConeOptions(resolution=1e-4))"),
+                       "[p.cone(ConeOptions(resolution=1e-4)) for _ in range(100)]"),
     "cone of two clouds": ("x = ball(300); p = Pair(Placed(Body(Assembly.cloud(x, 0.1))), Placed(Body(Assembly.cloud(x + [9, 0, 0], 0.1))))",
-                           "p.cone(ConeOptions(resolution=1e-4))"),
+                           "[p.cone(ConeOptions(resolution=1e-4)) for _ in range(100)]"),
     # A step of Open3D is not to be stopped: 10 us a point.
     "fusion": ("x = ball(6000) * [3, 2, 1]; s = [x, ball(6000) * [3, 2, 1] + 0.02]",
                "[lidar.fuse(s, [np.eye(4), np.eye(4)]) for _ in range(100)]"),
@@ -107,8 +106,8 @@ def interrupted_after(make: str, call: str, wait: float, after: str = "pass") ->
 def test_ctrl_c_ends_it(name: str) -> None:
     make, call = CALLS[name]
     # Once more where the machine itself did not give the child its turn.
-    seconds = min(interrupted_after(make, call, 0.5) for _ in range(1 if os.environ.get("VERICONE_ONCE") else 2))
-    assert seconds < 0.3
+    seconds = interrupted_after(make, call, 0.5)
+    assert seconds < 0.3 or interrupted_after(make, call, 0.5) < 0.3
 
 
 def test_what_was_interrupted_can_be_asked_again() -> None:
