@@ -2,6 +2,7 @@
 """The typed stubs of the package, and the Python modules of the namespaces, from the model."""
 from __future__ import annotations
 
+import re
 import textwrap
 
 from cxxtypes import Type
@@ -154,12 +155,20 @@ class Stubs:
 
     # Calls ------------------------------------------------------------------------------------------------
 
-    def _parameters(self, call: Callable_, style: str, asked: str) -> list[str]:
+    def _parameters(self, call: Callable_, style: str, asked: str, group: Group | None = None) -> list[str]:
         """style: "one", "many"; asked: the annotation of rung."""
         parts, star = [], False
-        for a in call.arguments:
+        for i, a in enumerate(call.arguments):
             kind = self.model.kind(a.type)
-            text = self.taken(a.type, self.alone)
+            text = self.taken(a.type)
+            if kind == "class" and group:
+                # What stands for a kind may have an overload of its own.
+                own = self.taken(a.type, False)
+                others = {self.taken(c.arguments[i].type, False) for c in group.overloads
+                          if len(c.arguments) > i and self.model.kind(c.arguments[i].type) == "class"} - {own}
+                if text.startswith("Union["):
+                    kept = [t for t in re.findall(r"[\w.]+", text[6:-1]) if t not in others and t != "Union"]
+                    text = f"Union[{', '.join(dict.fromkeys(kept))}]" if len(set(kept)) > 1 else own
             if a.role == "many":
                 if style == "one":
                     text = "Sequence[_Number]" if kind == "fixed" else text
@@ -192,23 +201,21 @@ class Stubs:
 
     def definitions(self, group: Group, method: bool, indent: str, doc: str, constructor: bool = False) -> str:
         versions: list[tuple[list[str], str]] = []
-        # What stands for another kind has an overload of its own, where there are several.
-        self.alone = len(group.overloads) == 1
         for call in group.overloads:
             result = "None" if constructor else self._result(call)
             asks = any(a.role == "asked" for a in call.arguments)
             if call.many:
-                versions.append((self._parameters(call, "one", "Literal[False]"), result))
+                versions.append((self._parameters(call, "one", "Literal[False]", group), result))
                 if asks:
                     enum = next(a for a in call.arguments if a.role == "asked")
-                    versions.append((self._parameters(call, "one", "Literal[True]"), f"tuple[{result}, {self.given(enum.type.plain())}]"))
-                versions.append((self._parameters(call, "many", "bool"), "Any"))
+                    versions.append((self._parameters(call, "one", "Literal[True]", group), f"tuple[{result}, {self.given(enum.type.plain())}]"))
+                versions.append((self._parameters(call, "many", "bool", group), "Any"))
             elif asks:
                 enum = next(a for a in call.arguments if a.role == "asked")
-                versions.append((self._parameters(call, "one", "Literal[False]"), result))
-                versions.append((self._parameters(call, "one", "Literal[True]"), f"tuple[{result}, {self.given(enum.type.plain())}]"))
+                versions.append((self._parameters(call, "one", "Literal[False]", group), result))
+                versions.append((self._parameters(call, "one", "Literal[True]", group), f"tuple[{result}, {self.given(enum.type.plain())}]"))
             else:
-                versions.append((self._parameters(call, "one", "bool"), result))
+                versions.append((self._parameters(call, "one", "bool", group), result))
         # Overloads that only shapes tell apart are one to a type checker.
         by_types: dict[tuple[str, ...], tuple[list[str], list[str]]] = {}
         for parameters, result in versions:

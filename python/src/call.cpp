@@ -35,8 +35,9 @@ std::string signature_text(std::span<const Parameter> parameters) {
   return text + ")";
 }
 
-PyObject* dispatch(const char* name, std::span<const Overload> overloads, PyObject* self, PyObject* const* positional,
-                   Py_ssize_t n, PyObject* names, PyObject* const* named) noexcept {
+PyObject* dispatch(const char* name, std::span<const Overload> overloads, PyObject* self,
+                   PyObject* const* positional, Py_ssize_t n, PyObject* names,
+                   PyObject* const* named) noexcept {
   try {
     std::string why, last;
     for (const Overload& overload : overloads) {
@@ -73,8 +74,8 @@ PyObject* dispatch(const char* name, std::span<const Overload> overloads, PyObje
 
 // Arguments ------------------------------------------------------------------------------------------------
 
-bool Given::bind(std::span<const Parameter> parameters, PyObject* const* positional, Py_ssize_t n, PyObject* names,
-                 PyObject* const* named, std::string& why) {
+bool Given::bind(std::span<const Parameter> parameters, PyObject* const* positional, Py_ssize_t n,
+                 PyObject* names, PyObject* const* named, std::string& why) {
   parameters_ = parameters;
   Py_ssize_t most = 0;
   for (const Parameter& p : parameters) most += !p.keyword_only;
@@ -90,8 +91,9 @@ bool Given::bind(std::span<const Parameter> parameters, PyObject* const* positio
     std::size_t i = 0;
     while (i < parameters.size() && std::strcmp(parameters[i].name, name) != 0) ++i;
     if (i == parameters.size() || values_[i]) {
-      why = i == parameters.size() ? "has no parameter '" + std::string(name) + "'; it is " + signature_text(parameters)
-                                   : "got '" + std::string(name) + "' twice";
+      why = i == parameters.size()
+                ? "has no parameter '" + std::string(name) + "'; it is " + signature_text(parameters)
+                : "got '" + std::string(name) + "' twice";
       return false;
     }
     values_[i] = named[k];
@@ -103,7 +105,8 @@ bool Given::bind(std::span<const Parameter> parameters, PyObject* const* positio
       return false;
     }
     if (values_[i] && p.could && !p.could(values_[i])) {
-      why = std::string(p.name) + ": got " + std::string(Py_TYPE(values_[i])->tp_name) + ", which it does not take";
+      why = std::string(p.name) + ": got " + std::string(Py_TYPE(values_[i])->tp_name) +
+            ", which it does not take";
       return false;
     }
   }
@@ -123,13 +126,13 @@ int Given::threads(int i) const {
   return n > 0 ? n : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-PyObject* call(const char* name, std::span<const Overload> overloads, PyObject* self, PyObject* const* arguments,
-               Py_ssize_t n, PyObject* names) noexcept {
+PyObject* call(const char* name, std::span<const Overload> overloads, PyObject* self,
+               PyObject* const* arguments, Py_ssize_t n, PyObject* names) noexcept {
   return dispatch(name, overloads, self, arguments, n, names, arguments + n);
 }
 
-PyObject* call_many(const char* name, std::span<const Overload> overloads, PyObject* const* arguments, Py_ssize_t n,
-                    PyObject* names) noexcept {
+PyObject* call_many(const char* name, std::span<const Overload> overloads, PyObject* const* arguments,
+                    Py_ssize_t n, PyObject* names) noexcept {
   if (n < 1) {
     PyErr_Format(PyExc_TypeError, "%s(): the objects are missing", name);
     return nullptr;
@@ -155,8 +158,8 @@ PyObject* construct(const char* name, std::span<const Overload> overloads, PyTyp
   } catch (...) {
     return raise_current();
   }
-  PyObject* made = dispatch(name, overloads, nullptr, PySequence_Fast_ITEMS(arguments), PyTuple_GET_SIZE(arguments),
-                            names.ptr(), values.data());
+  PyObject* made = dispatch(name, overloads, nullptr, PySequence_Fast_ITEMS(arguments),
+                            PyTuple_GET_SIZE(arguments), names.ptr(), values.data());
   // Some classes refer to what they were made of.
   if (made) reinterpret_cast<Instance*>(made)->kept = PyTuple_Pack(2, arguments, named ? named : Py_None);
   return made;
@@ -185,8 +188,8 @@ PyObject* raise_current(const std::string& at) noexcept {
     } catch (const InputError& error) {
       const py::object type = py::reinterpret_borrow<py::object>(input_error_type());
       // Of a file the field says where in it; nowhere is the whole of it.
-      const py::object made =
-          type(any_text(error.field().empty() ? "path" : error.field()), any_text(error.value()), any_text(error.requirement()));
+      const py::object made = type(any_text(error.field().empty() ? "path" : error.field()),
+                                   any_text(error.value()), any_text(error.requirement()));
       PyErr_SetObject(type.ptr(), made.ptr());
     } catch (const std::bad_alloc&) {
       PyErr_NoMemory();
@@ -225,8 +228,8 @@ bool in_main_thread() {
 
 /// Waits until `done`, and looks for signals meanwhile; the global lock is held when it is called and after.
 /// What a signal raises is returned.
-std::optional<py::error_already_set> wait_for(std::condition_variable& condition, std::mutex& mutex, const bool& done,
-                                              Stop& stop) {
+std::optional<py::error_already_set> wait_for(std::condition_variable& condition, std::mutex& mutex,
+                                              const bool& done, Stop& stop) {
   std::optional<py::error_already_set> raised;
   while (true) {
     bool ended = false;
@@ -255,7 +258,8 @@ void run_interruptibly(PyObject* self, const std::function<void()>& work) {
   std::mutex mutex;
   std::condition_variable condition;
   bool done = false;
-  std::recursive_mutex* machine = self && is_object(self) ? reinterpret_cast<Instance*>(self)->lock.get() : nullptr;
+  std::recursive_mutex* machine =
+      self && is_object(self) ? reinterpret_cast<Instance*>(self)->lock.get() : nullptr;
   std::thread worker([&] {
     try {
       const StopScope heard(&stop);
@@ -335,8 +339,10 @@ void Many::read_numbers(PyObject* given, const Place& place) {
   if (!scalar_ && (dimensions == 0 || array.shape(array.ndim() - 1) != components_)) {
     std::string own = "(";
     for (std::size_t d = 0; d < dimensions; ++d)
-      own += std::to_string(array.shape(static_cast<Py_ssize_t>(d))) + (d + 1 < dimensions || d == 0 ? ", " : "");
-    if (dimensions > 1 || own.ends_with(", ")) own = own.ends_with(", ") ? own.substr(0, own.size() - 1) : own;
+      own += std::to_string(array.shape(static_cast<Py_ssize_t>(d))) +
+             (d + 1 < dimensions || d == 0 ? ", " : "");
+    if (dimensions > 1 || own.ends_with(", "))
+      own = own.ends_with(", ") ? own.substr(0, own.size() - 1) : own;
     throw InputError(place.text(), "an array of shape " + own + ")", wanted);
   }
   // Halves, and numbers of another byte order, become doubles first: rare, and exact.
@@ -409,8 +415,10 @@ std::vector<Py_ssize_t> broadcast(std::span<const Many* const> many) {
       Py_ssize_t& n = shape[shape.size() - own.size() + d];
       if (own[d] == n || own[d] == 1) continue;
       if (n != 1)
-        throw InputError(m->name(), std::to_string(own[d]) + " of them along an axis where others are " + std::to_string(n),
-                         "of shapes that broadcast together");
+        throw InputError(
+            m->name(),
+            std::to_string(own[d]) + " of them along an axis where others are " + std::to_string(n),
+            "of shapes that broadcast together");
       n = own[d];
     }
   }
@@ -424,7 +432,8 @@ Output make_output(const Column* column, std::span<const Py_ssize_t> shape) {
   for (std::size_t d = 0; d < shape.size(); ++d) sizes[d] = shape[d];
   Output output;
   if (column->record) {
-    output.array = py::module_::import("numpy").attr("empty")(sizes, record_dtype(*column->record(), false))
+    output.array = py::module_::import("numpy")
+                       .attr("empty")(sizes, record_dtype(*column->record(), false))
                        .attr("view")(records);
     output.size = record_size(*column->record(), false);
   } else {
@@ -443,8 +452,7 @@ PyObject* objects_of(std::span<const Py_ssize_t> shape, const std::function<PyOb
     count *= shape[d];
   }
   const py::object array = py::module_::import("numpy").attr("empty")(count, "O");
-  for (Py_ssize_t i = 0; i < count; ++i)
-    array[py::int_(i)] = py::reinterpret_steal<py::object>(item(i));
+  for (Py_ssize_t i = 0; i < count; ++i) array[py::int_(i)] = py::reinterpret_steal<py::object>(item(i));
   return array.attr("reshape")(sizes).release().ptr();
 }
 
@@ -516,7 +524,8 @@ class Walk {
   }
 
   /// Numbers not laid out as doubles one after the other are copied to `room`.
-  void part(Py_ssize_t begin, Py_ssize_t count, std::span<std::vector<double>> room, Part& part, bool dense) const {
+  void part(Py_ssize_t begin, Py_ssize_t count, std::span<std::vector<double>> room, Part& part,
+            bool dense) const {
     part.count = count;
     for (std::size_t k = 0; k < many_.size(); ++k) {
       const Many& m = *many_[k];
@@ -551,7 +560,8 @@ class Walk {
   /// "[5][2]" of question i.
   [[nodiscard]] std::string index(Py_ssize_t i) const {
     std::string text;
-    for (std::size_t d = shape_.size(); d-- > 0; i /= shape_[d]) text = "[" + std::to_string(i % shape_[d]) + "]" + text;
+    for (std::size_t d = shape_.size(); d-- > 0; i /= shape_[d])
+      text = "[" + std::to_string(i % shape_[d]) + "]" + text;
     return text;
   }
   /// The index in the argument's own array, without the axes along which it is repeated.
@@ -602,16 +612,26 @@ class Walk {
   }
   void copy_numbers(std::size_t k, Py_ssize_t begin, Py_ssize_t count, double* out) const {
     switch (many_[k]->kind_) {
-      case 'd': return copy_as<double>(k, begin, count, out);
-      case 'f': return copy_as<float>(k, begin, count, out);
-      case 'b': return copy_as<std::int8_t>(k, begin, count, out);
-      case 'h': return copy_as<std::int16_t>(k, begin, count, out);
-      case 'i': return copy_as<std::int32_t>(k, begin, count, out);
-      case 'q': return copy_as<std::int64_t>(k, begin, count, out);
-      case 'B': return copy_as<std::uint8_t>(k, begin, count, out);
-      case 'H': return copy_as<std::uint16_t>(k, begin, count, out);
-      case 'I': return copy_as<std::uint32_t>(k, begin, count, out);
-      default: return copy_as<std::uint64_t>(k, begin, count, out);
+      case 'd':
+        return copy_as<double>(k, begin, count, out);
+      case 'f':
+        return copy_as<float>(k, begin, count, out);
+      case 'b':
+        return copy_as<std::int8_t>(k, begin, count, out);
+      case 'h':
+        return copy_as<std::int16_t>(k, begin, count, out);
+      case 'i':
+        return copy_as<std::int32_t>(k, begin, count, out);
+      case 'q':
+        return copy_as<std::int64_t>(k, begin, count, out);
+      case 'B':
+        return copy_as<std::uint8_t>(k, begin, count, out);
+      case 'H':
+        return copy_as<std::uint16_t>(k, begin, count, out);
+      case 'I':
+        return copy_as<std::uint32_t>(k, begin, count, out);
+      default:
+        return copy_as<std::uint64_t>(k, begin, count, out);
     }
   }
 
@@ -703,8 +723,8 @@ void answer_all(Given& given, std::span<const Many* const> many, std::span<const
   {
     const bool aside = given.long_work && in_main_thread();  // one question alone may be long
     std::vector<std::thread> others;
-    const int extra = static_cast<int>(
-        std::min<Py_ssize_t>(threads, std::max<Py_ssize_t>(walk.count(), 1)) - (aside ? 0 : 1));
+    const int extra = static_cast<int>(std::min<Py_ssize_t>(threads, std::max<Py_ssize_t>(walk.count(), 1)) -
+                                       (aside ? 0 : 1));
     running = extra;
     for (int t = 0; t < extra; ++t)
       others.emplace_back([&] {
@@ -743,7 +763,8 @@ void answer_all(Given& given, std::span<const Many* const> many, std::span<const
                          (rounded.many->scalar() ? "" : "[" + std::to_string(rounded.component) + "]"),
                      rounded.value, "a number that a double holds exactly");
   } catch (const InputError& error) {
-    // The field as C++ names it, with the question's index after its first word, and the number that is not finite.
+    // The field as C++ names it, with the question's index after its first word, and the number that is not
+    // finite.
     const std::size_t end = std::min(error.field().find_first_of("[."), error.field().size());
     std::string index = walk.index(failed_at), rest = error.field().substr(end);
     Py_ssize_t component = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Calls from Python: arguments bound to parameters, overloads chosen, one question or many answered without the
-// global lock, and what C++ throws made an exception of Python.
+// Calls from Python: arguments bound to parameters, overloads chosen, one question or many answered without
+// the global lock, and what C++ throws made an exception of Python.
 #pragma once
 
 #include <initializer_list>
@@ -64,16 +64,16 @@ class Given {
 };
 
 /// `name`, for messages. The vectorcall convention of methods.
-PyObject* call(const char* name, std::span<const Overload> overloads, PyObject* self, PyObject* const* arguments,
-               Py_ssize_t n, PyObject* names) noexcept;
+PyObject* call(const char* name, std::span<const Overload> overloads, PyObject* self,
+               PyObject* const* arguments, Py_ssize_t n, PyObject* names) noexcept;
 /// As call(), of a tuple and a dictionary.
-PyObject* construct(const char* name, std::span<const Overload> overloads, PyTypeObject* type, PyObject* arguments,
-                    PyObject* named) noexcept;
+PyObject* construct(const char* name, std::span<const Overload> overloads, PyTypeObject* type,
+                    PyObject* arguments, PyObject* named) noexcept;
 /// A record from the values of its fields, in their order or by name.
 PyObject* construct_record(const TypeInfo& info, PyObject* arguments, PyObject* named) noexcept;
 /// A method about many objects: the first argument is the object, or a list of them.
-PyObject* call_many(const char* name, std::span<const Overload> overloads, PyObject* const* arguments, Py_ssize_t n,
-                    PyObject* names) noexcept;
+PyObject* call_many(const char* name, std::span<const Overload> overloads, PyObject* const* arguments,
+                    Py_ssize_t n, PyObject* names) noexcept;
 /// What is being thrown, as an exception of Python; returns null.
 PyObject* raise_current(const std::string& at = {}) noexcept;
 
@@ -90,8 +90,9 @@ class Quiet {
   PyThreadState* state_;
 };
 
-/// Runs `work` in a thread of its own while this one waits for it and for signals: what a signal raises is thrown
-/// here, once `work` has heard of it and ended. For work in the main thread; elsewhere it is run at once.
+/// Runs `work` in a thread of its own while this one waits for it and for signals: what a signal raises is
+/// thrown here, once `work` has heard of it and ended. For work in the main thread; elsewhere it is run at
+/// once.
 void run_interruptibly(PyObject* self, const std::function<void()>& work);
 
 template <class F>
@@ -197,7 +198,8 @@ struct Output {
 [[nodiscard]] std::vector<Py_ssize_t> broadcast(std::span<const Many* const> many);
 void answer_all(Given& given, std::span<const Many* const> many, std::span<const Py_ssize_t> shape,
                 std::span<const Output> outputs, int threads, Kernel kernel, void* f, Kernel whole = nullptr);
-[[nodiscard]] PyObject* objects_of(std::span<const Py_ssize_t> shape, const std::function<PyObject*(Py_ssize_t)>& item);
+[[nodiscard]] PyObject* objects_of(std::span<const Py_ssize_t> shape,
+                                   const std::function<PyObject*(Py_ssize_t)>& item);
 
 template <class E>
 decltype(auto) load(const char* at) {
@@ -239,7 +241,8 @@ PyObject* answer(Given& given, int threads, F&& f, const M&... m) {
       [&]<std::size_t... K>(std::index_sequence<K...>) {
         const R result = (*static_cast<Function*>(function))(load<E>(part.in[K] + at * part.step[K])...);
         Convert<R>::kColumn->write(part.out[0] + at * size, &result);
-      }(std::index_sequence_for<E...>{});
+      }
+      (std::index_sequence_for<E...>{});
     }
   };
   answer_all(given, all, shape, outputs, threads, kernel, &f);
@@ -262,16 +265,15 @@ PyObject* answer_objects(Given& given, int threads, F&& f, const M&... m) {
   output.data = reinterpret_cast<char*>(results.data());
   const Output outputs[] = {output};
   const Kernel kernel = [](void* function, const Part& part, Py_ssize_t& at) {
-    for (at = 0; at < part.count; ++at)
-      [&]<std::size_t... K>(std::index_sequence<K...>) {
+    for (at = 0; at < part.count; ++at) [&]<std::size_t... K>(std::index_sequence<K...>) {
         reinterpret_cast<std::optional<R>*>(part.out[0])[at].emplace(
             (*static_cast<Function*>(function))(load<E>(part.in[K] + at * part.step[K])...));
-      }(std::index_sequence_for<E...>{});
+      }
+    (std::index_sequence_for<E...>{});
   };
   answer_all(given, all, shape, outputs, threads, kernel, &f);
-  return objects_of(shape, [&](Py_ssize_t i) {
-    return Convert<R>::to(std::move(*results[static_cast<std::size_t>(i)]));
-  });
+  return objects_of(
+      shape, [&](Py_ssize_t i) { return Convert<R>::to(std::move(*results[static_cast<std::size_t>(i)])); });
 }
 
 /// Of work that may take long.
@@ -299,16 +301,19 @@ PyObject* answer_with(Given& given, int threads, F&& f, const M&... m) {
   const std::vector<Py_ssize_t> shape = broadcast(all);
   using Function = std::remove_reference_t<F>;
   if constexpr (Convert<R>::kColumn != nullptr && Convert<X>::kColumn != nullptr) {
-    const Output outputs[] = {make_output(Convert<R>::kColumn, shape), make_output(Convert<X>::kColumn, shape)};
+    const Output outputs[] = {make_output(Convert<R>::kColumn, shape),
+                              make_output(Convert<X>::kColumn, shape)};
     const Kernel kernel = [](void* function, const Part& part, Py_ssize_t& at) {
       const Py_ssize_t size = part.step[7], more_size = part.step[6];
       for (at = 0; at < part.count; ++at) {
         [&]<std::size_t... K>(std::index_sequence<K...>) {
           X more{};
-          const R result = (*static_cast<Function*>(function))(load<E>(part.in[K] + at * part.step[K])..., more);
+          const R result =
+              (*static_cast<Function*>(function))(load<E>(part.in[K] + at * part.step[K])..., more);
           Convert<R>::kColumn->write(part.out[0] + at * size, &result);
           Convert<X>::kColumn->write(part.out[1] + at * more_size, &more);
-        }(std::index_sequence_for<E...>{});
+        }
+        (std::index_sequence_for<E...>{});
       }
     };
     answer_all(given, all, shape, outputs, threads, kernel, &f);

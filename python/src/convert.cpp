@@ -122,8 +122,8 @@ bool is_number(PyObject* given) {
 bool is_sequence(PyObject* given) {
   if (PyList_Check(given) || PyTuple_Check(given)) return true;
   if (is_array(given)) return py::detail::array_proxy(given)->nd > 0;
-  return PySequence_Check(given) && !PyUnicode_Check(given) && !PyBytes_Check(given) && !PyByteArray_Check(given) &&
-         !PyDict_Check(given);
+  return PySequence_Check(given) && !PyUnicode_Check(given) && !PyBytes_Check(given) &&
+         !PyByteArray_Check(given) && !PyDict_Check(given);
 }
 
 py::object fast_sequence(PyObject* given, const Place& place) {
@@ -171,7 +171,8 @@ double number_from(PyObject* given, const Place& place) {
 }
 
 long long integer_from(PyObject* given, long long least, unsigned long long most, const Place& place) {
-  if (PyBool_Check(given) || !PyIndex_Check(given) || is_sequence(given)) wrong_type(place, "an integer", given);
+  if (PyBool_Check(given) || !PyIndex_Check(given) || is_sequence(given))
+    wrong_type(place, "an integer", given);
   const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(given));
   if (!whole) {
     PyErr_Clear();
@@ -202,7 +203,8 @@ std::string text_from(PyObject* given, const Place& place) {
     throw InputError(place.text(), shown(given), "text that UTF-8 can say");
   }
   std::string text(PyBytes_AS_STRING(bytes.ptr()), static_cast<std::size_t>(PyBytes_GET_SIZE(bytes.ptr())));
-  if (text.find('\0') != std::string::npos) throw InputError(place.text(), shown(given), "text without a zero byte");
+  if (text.find('\0') != std::string::npos)
+    throw InputError(place.text(), shown(given), "text without a zero byte");
   return text;
 }
 
@@ -332,7 +334,8 @@ Rational rational_from(PyObject* given, const Place& place) {
   if (PyIndex_Check(given) && !PyBool_Check(given)) return Rational(whole_from(given, place));
   if (!PyBool_Check(given) && PyObject_HasAttrString(given, "numerator") &&
       PyObject_HasAttrString(given, "denominator")) {
-    const py::object top = py::handle(given).attr("numerator"), bottom = py::handle(given).attr("denominator");
+    const py::object top = py::handle(given).attr("numerator"),
+                     bottom = py::handle(given).attr("denominator");
     const WholeNumber divisor = whole_from(bottom.ptr(), place);
     if (divisor == 0) throw InputError(place.text(), shown(given), "a rational number");
     return Rational(whole_from(top.ptr(), place), divisor);
@@ -342,7 +345,8 @@ Rational rational_from(PyObject* given, const Place& place) {
 
 PyObject* rational_to(const Rational& x) {
   static const py::object& make = *new py::object(py::module_::import("fractions").attr("Fraction"));
-  const auto top = py::reinterpret_steal<py::object>(whole_to(WholeNumber(boost::multiprecision::numerator(x))));
+  const auto top =
+      py::reinterpret_steal<py::object>(whole_to(WholeNumber(boost::multiprecision::numerator(x))));
   const auto bottom =
       py::reinterpret_steal<py::object>(whole_to(WholeNumber(boost::multiprecision::denominator(x))));
   return make(top, bottom).release().ptr();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// C++ types from and to Python objects: numbers, text, vectors and matrices, lists, optional values, callbacks,
-// rationals, and the types of the library.
+// C++ types from and to Python objects: numbers, text, vectors and matrices, lists, optional values,
+// callbacks, rationals, and the types of the library.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -66,7 +66,9 @@ template <class T>
 struct NumberColumn {
   static std::string format() {
     if constexpr (std::is_same_v<T, bool>) return "?";
-    return std::string(1, std::is_floating_point_v<T> ? 'f' : std::is_signed_v<T> ? 'i' : 'u') +
+    return std::string(1, std::is_floating_point_v<T> ? 'f'
+                          : std::is_signed_v<T>       ? 'i'
+                                                      : 'u') +
            std::to_string(sizeof(T));
   }
   static void write(void* row, const void* value) { std::memcpy(row, value, sizeof(T)); }
@@ -79,7 +81,7 @@ struct NumberColumn {
 };
 
 template <class T>
-  requires std::is_floating_point_v<T>
+requires std::is_floating_point_v<T>
 struct Convert<T> {
   static T from(PyObject* given, const Place& place) {
     const double x = number_from(given, place);
@@ -90,8 +92,7 @@ struct Convert<T> {
   static constexpr const Column* kColumn = &NumberColumn<T>::kColumn;
 };
 template <class T>
-  requires(std::is_integral_v<T> && !std::is_same_v<T, bool>)
-struct Convert<T> {
+requires(std::is_integral_v<T> && !std::is_same_v<T, bool>) struct Convert<T> {
   static T from(PyObject* given, const Place& place) {
     return static_cast<T>(integer_from(given, static_cast<long long>(std::numeric_limits<T>::min()),
                                        std::numeric_limits<T>::max(), place));
@@ -159,14 +160,13 @@ struct FixedColumn {
     auto* out = static_cast<double*>(row);
     for (int i = 0; i < R * C; ++i) *out++ = std::numeric_limits<double>::quiet_NaN();
   }
-  static constexpr Column kColumn{&format, R * C * 8, &write, &write_nothing};
+  static constexpr Column kColumn{&format, R* C * 8, &write, &write_nothing};
 };
 /// Into `out`, C order; a (3,) array of doubles at once.
 void fixed_from(PyObject* given, int rows, int columns, double* out, const Place& place);
 
 template <int R, int C, int O, int MR, int MC>
-  requires(R > 0 && C > 0)
-struct Convert<Eigen::Matrix<double, R, C, O, MR, MC>> {
+requires(R > 0 && C > 0) struct Convert<Eigen::Matrix<double, R, C, O, MR, MC>> {
   using M = Eigen::Matrix<double, R, C, O, MR, MC>;
   static M from(PyObject* given, const Place& place) {
     double numbers[R * C];
@@ -187,8 +187,7 @@ struct Convert<Eigen::Matrix<double, R, C, O, MR, MC>> {
   static constexpr const Column* kColumn = &FixedColumn<R, C>::kColumn;
 };
 template <int R, int C, int O, int MR, int MC>
-  requires(R < 0 || C < 0)
-struct Convert<Eigen::Matrix<double, R, C, O, MR, MC>> {
+requires(R < 0 || C < 0) struct Convert<Eigen::Matrix<double, R, C, O, MR, MC>> {
   using M = Eigen::Matrix<double, R, C, O, MR, MC>;
   static M from(PyObject* given, const Place& place) {
     const Py_ssize_t shape[2] = {R, C};
@@ -253,7 +252,7 @@ struct Convert<WholeNumber> {
 
 // Types of the library.
 template <class T>
-  requires std::is_enum_v<T>
+requires std::is_enum_v<T>
 struct Convert<T> {
   static T from(PyObject* given, const Place& place) {
     return static_cast<T>(enum_value(type_of<T>(), given, place));
@@ -293,15 +292,11 @@ struct IntervalColumn {
 
 template <class T>
 struct Convert {
-  static T from(PyObject* given, const Place& place)
-    requires std::is_copy_constructible_v<T>
-  {
+  static T from(PyObject* given, const Place& place) requires std::is_copy_constructible_v<T> {
     std::shared_ptr<void> made;
     return *static_cast<T*>(object_from(given, type_of<T>(), made, place));
   }
-  static PyObject* to(T value) {
-    return new_instance(type_of<T>(), std::make_shared<T>(std::move(value)));
-  }
+  static PyObject* to(T value) { return new_instance(type_of<T>(), std::make_shared<T>(std::move(value))); }
   static bool could(PyObject* given) { return could_be(given, type_of<T>()); }
   static std::string format() { return ""; }
   static void write(void* row, const void* value) { write_record(row, type_of<T>(), value); }
@@ -374,9 +369,8 @@ struct Convert<std::optional<T>> {
   static constexpr bool kHas = Convert<T>::kColumn != nullptr;
   static constexpr Column make() {
     if constexpr (kHas)
-      return {&format,
-              std::is_integral_v<T> && !std::is_same_v<T, bool> ? 8 : Convert<T>::kColumn->size, &write,
-              &write_nothing, Convert<T>::kColumn->record};
+      return {&format, std::is_integral_v<T> && !std::is_same_v<T, bool> ? 8 : Convert<T>::kColumn->size,
+              &write, &write_nothing, Convert<T>::kColumn->record};
     else
       return {};
   }
@@ -442,7 +436,9 @@ struct Convert<std::vector<T>> {
       list.reserve(static_cast<std::size_t>(a.size()));
       for (Py_ssize_t i = 0; i < a.size(); ++i) {
         const Place at{&place, nullptr, i};
-        if (!std::in_range<T>(x[i])) (void)integer_from(py::int_(x[i]).ptr(), static_cast<long long>(std::numeric_limits<T>::min()), std::numeric_limits<T>::max(), at);
+        if (!std::in_range<T>(x[i]))
+          (void)integer_from(py::int_(x[i]).ptr(), static_cast<long long>(std::numeric_limits<T>::min()),
+                             std::numeric_limits<T>::max(), at);
         list.push_back(static_cast<T>(x[i]));
       }
     } else {
@@ -490,7 +486,7 @@ struct Convert<std::vector<Eigen::Matrix<double, D, 1>>> {  // points: (n, D)
   static constexpr const Column* kColumn = nullptr;
 };
 template <class T, std::size_t N>
-  requires std::is_integral_v<T>
+requires std::is_integral_v<T>
 struct Convert<std::vector<std::array<T, N>>> {  // triangles: (n, 3)
   using V = std::array<T, N>;
   static std::vector<V> from(PyObject* given, const Place& place) {
@@ -502,7 +498,9 @@ struct Convert<std::vector<std::array<T, N>>> {  // triangles: (n, 3)
       for (std::size_t j = 0; j < N; ++j, ++x) {
         const Place row{&place, nullptr, static_cast<Py_ssize_t>(i)};
         const Place at{&row, nullptr, static_cast<Py_ssize_t>(j)};
-        if (!std::in_range<T>(*x)) (void)integer_from(py::int_(*x).ptr(), static_cast<long long>(std::numeric_limits<T>::min()), std::numeric_limits<T>::max(), at);
+        if (!std::in_range<T>(*x))
+          (void)integer_from(py::int_(*x).ptr(), static_cast<long long>(std::numeric_limits<T>::min()),
+                             std::numeric_limits<T>::max(), at);
         list[i][j] = static_cast<T>(*x);
       }
     return list;
@@ -548,8 +546,7 @@ struct Convert<std::array<T, N>> {
   static std::string format() { return "(" + std::to_string(N) + ",)" + Convert<T>::kColumn->format(); }
   static void write(void* row, const void* value) {
     for (std::size_t i = 0; i < N; ++i)
-      Convert<T>::kColumn->write(static_cast<char*>(row) + i * sizeof(T),
-                                 static_cast<const T*>(value) + i);
+      Convert<T>::kColumn->write(static_cast<char*>(row) + i * sizeof(T), static_cast<const T*>(value) + i);
   }
   static void write_nothing(void* row) {
     for (std::size_t i = 0; i < N; ++i)

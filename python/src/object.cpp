@@ -136,8 +136,8 @@ PyObject* represent(PyObject* self) {
         names >> name;
       else
         name = info.fields[static_cast<std::size_t>(i)].name;
-      text += (i > 0 ? ", " : "") + (name.empty() ? "" : name + "=") +
-              brief(PyTuple_GET_ITEM(state.ptr(), i));
+      text +=
+          (i > 0 ? ", " : "") + (name.empty() ? "" : name + "=") + brief(PyTuple_GET_ITEM(state.ptr(), i));
     }
     return Convert<std::string>::to(text + ")");
   } catch (...) {
@@ -151,7 +151,8 @@ PyObject* reduce(PyObject* self, PyObject*) {
     if (!state || (!info_of(self).restore && !info_of(self).make))
       throw WrongType{"a " + short_name(info_of(self)) + " cannot be pickled: keep what it was made of"};
     const py::object restore = py::module_::import("vericone._core").attr("_restore");
-    return py::make_tuple(restore, py::make_tuple(py::handle(reinterpret_cast<PyObject*>(Py_TYPE(self))), state))
+    return py::make_tuple(restore,
+                          py::make_tuple(py::handle(reinterpret_cast<PyObject*>(Py_TYPE(self))), state))
         .release()
         .ptr();
   } catch (...) {
@@ -169,7 +170,8 @@ PyObject* restore(PyObject*, PyObject* arguments) {
     if (!info || (!info->restore && !info->make)) throw WrongType{"there is nothing to restore of this type"};
     if (info->restore) return new_instance(*info, info->restore(state));
     if (PyTuple_GET_SIZE(state) != static_cast<Py_ssize_t>(info->fields.size()))
-      throw WrongType{"a " + short_name(*info) + " has another number of fields: it was pickled by another version"};
+      throw WrongType{"a " + short_name(*info) +
+                      " has another number of fields: it was pickled by another version"};
     auto value = info->make();
     for (std::size_t i = 0; i < info->fields.size(); ++i) {
       PyObject* part = PyTuple_GET_ITEM(state, static_cast<Py_ssize_t>(i));
@@ -252,7 +254,8 @@ namespace {
 PyObject* replace(PyObject* self, PyObject* arguments, PyObject* named) {
   const TypeInfo& info = info_of(self);
   try {
-    if (info.fields.empty() || !info.copy) throw WrongType{"a " + short_name(info) + " has no fields to replace"};
+    if (info.fields.empty() || !info.copy)
+      throw WrongType{"a " + short_name(info) + " has no fields to replace"};
     if (PyTuple_GET_SIZE(arguments) != 0) throw WrongType{"replace() takes names: replace(field=value)"};
     auto value = info.copy(own_value(self));
     std::vector<bool> set(info.fields.size());
@@ -279,7 +282,8 @@ PyMethodDef base_methods[] = {
     {nullptr, nullptr, 0, nullptr}};
 PyMethodDef record_methods[] = {
     {"replace", reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(&replace)),
-     METH_VARARGS | METH_KEYWORDS, "replace($self, /, **fields)\n--\n\nAnother record, with these fields changed."},
+     METH_VARARGS | METH_KEYWORDS,
+     "replace($self, /, **fields)\n--\n\nAnother record, with these fields changed."},
     {nullptr, nullptr, 0, nullptr}};
 PyMethodDef no_methods[] = {{nullptr, nullptr, 0, nullptr}};
 PyMethodDef restore_method = {"_restore", restore, METH_VARARGS, "For pickle."};
@@ -303,7 +307,8 @@ void make_base_type() {
                          {Py_tp_new, reinterpret_cast<void*>(&cannot_make)},
                          {Py_tp_doc, const_cast<char*>("A value or an object of the C++ library.")},
                          {0, nullptr}};
-  PyType_Spec spec{"vericone._core._Object", sizeof(Instance), 0, Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE, slots};
+  PyType_Spec spec{"vericone._core._Object", sizeof(Instance), 0, Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE,
+                   slots};
   base_type = reinterpret_cast<PyTypeObject*>(PyType_FromSpec(&spec));
   if (!base_type) throw py::error_already_set();
 }
@@ -406,12 +411,14 @@ void add_type(TypeInfo& info, const char* doc, PyMethodDef* methods, newfunc con
   PyType_Slot slots[] = {{Py_tp_new, reinterpret_cast<void*>(construct ? construct : &cannot_make)},
                          {Py_tp_doc, const_cast<char*>(doc)},
                          {Py_tp_getset, fields.data()},
-                         {Py_tp_methods, methods ? methods : info.fields.empty() ? no_methods : record_methods},
+                         {Py_tp_methods, methods               ? methods
+                                         : info.fields.empty() ? no_methods
+                                                               : record_methods},
                          {0, nullptr}};
   const char* name = keep("vericone." + std::string(info.name));
   PyType_Spec spec{name, 0, 0, static_cast<unsigned>(Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE), slots};
-  const py::object bases = py::make_tuple(
-      py::handle(reinterpret_cast<PyObject*>(info.base ? info.base->type : base_type)));
+  const py::object bases =
+      py::make_tuple(py::handle(reinterpret_cast<PyObject*>(info.base ? info.base->type : base_type)));
   info.type = reinterpret_cast<PyTypeObject*>(PyType_FromSpecWithBases(&spec, bases.ptr()));
   if (!info.type) throw py::error_already_set();
   const py::handle type(reinterpret_cast<PyObject*>(info.type));

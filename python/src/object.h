@@ -64,19 +64,19 @@ struct DerivedColumn {
 };
 
 struct TypeInfo {
-  const char* name = "";       // "guidance.NavigatorOptions"
+  const char* name = "";  // "guidance.NavigatorOptions"
   PyTypeObject* type = nullptr;
-  std::shared_ptr<void> (*make)() = nullptr;                 // by default; of records
-  std::shared_ptr<void> (*copy)(const void*) = nullptr;      // null: there is only one
-  std::vector<Field> fields;                                 // of records
+  std::shared_ptr<void> (*make)() = nullptr;             // by default; of records
+  std::shared_ptr<void> (*copy)(const void*) = nullptr;  // null: there is only one
+  std::vector<Field> fields;                             // of records
   std::vector<DerivedColumn> derived;
   TypeInfo* base = nullptr;
   void* (*to_base)(void*) = nullptr;
-  bool machine = false;                                      // changes: one call at a time
+  bool machine = false;  // changes: one call at a time
   /// The plain values that define an object, and the object of such values: what ==, pickle and repr go by.
   PyObject* (*state)(const void*) = nullptr;
   std::shared_ptr<void> (*restore)(PyObject* state) = nullptr;
-  const char* state_names = "";                              // of its parts: "center, shape"
+  const char* state_names = "";  // of its parts: "center, shape"
   /// Other types that stand for one of this: null where the object is none of them.
   std::shared_ptr<void> (*stand_in)(PyObject* given, const Place& place) = nullptr;
   bool (*has_stand_in)(PyObject* given) = nullptr;

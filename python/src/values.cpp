@@ -35,7 +35,9 @@ void describe_value(const char* names, State, Restore) {
   TypeInfo& info = type_of<T>();
   info.state_names = names;
   info.state = [](const void* value) { return State{}(*static_cast<const T*>(value)); };
-  info.restore = [](PyObject* state) -> std::shared_ptr<void> { return std::make_shared<T>(Restore{}(state)); };
+  info.restore = [](PyObject* state) -> std::shared_ptr<void> {
+    return std::make_shared<T>(Restore{}(state));
+  };
 }
 
 template <int D>
@@ -46,16 +48,15 @@ void describe_dimension() {
   describe_value<BasicEllipsoid<D>>(
       "center shape factor defined_by_factor",
       [](const auto& x) { return state_of(x.center(), x.shape(), x.factor(), x.defined_by_factor()); },
-      [](PyObject* state) {
-        return std::apply(&BasicEllipsoid<D>::trusted, parts<V, M, M, bool>(state));
-      });
+      [](PyObject* state) { return std::apply(&BasicEllipsoid<D>::trusted, parts<V, M, M, bool>(state)); });
   describe_value<BasicQuadric<D>>(
       "matrix", [](const auto& x) { return state_of(x.matrix()); },
       [](PyObject* state) { return BasicQuadric<D>(std::get<0>(parts<Q>(state))); });
   describe_value<BasicCombined<D>>(
       "ellipsoid delimiters", [](const auto& x) { return state_of(x.ellipsoid(), x.delimiters()); },
       [](PyObject* state) {
-        return std::apply(&BasicCombined<D>::trusted, parts<BasicEllipsoid<D>, std::vector<Delimiter<D>>>(state));
+        return std::apply(&BasicCombined<D>::trusted,
+                          parts<BasicEllipsoid<D>, std::vector<Delimiter<D>>>(state));
       });
 }
 
@@ -92,7 +93,8 @@ PyObject* assembly_state(const Assembly& x) {
 Assembly restored_assembly(PyObject* state) {
   const auto kind = Convert<PieceKind>::from(PyTuple_GET_ITEM(state, 0), {nullptr, "kind"});
   PyObject* pieces = PyTuple_GET_ITEM(state, 2);
-  if (kind == PieceKind::hull) return Assembly::polyhedra(Convert<std::vector<HullBody>>::from(pieces, {nullptr, "pieces"}));
+  if (kind == PieceKind::hull)
+    return Assembly::polyhedra(Convert<std::vector<HullBody>>::from(pieces, {nullptr, "pieces"}));
   const auto points = Convert<std::vector<Eigen::Vector3d>>::from(pieces, {nullptr, "pieces"});
   if (kind == PieceKind::ball)
     return Assembly::cloud(points, Convert<double>::from(PyTuple_GET_ITEM(state, 1), {nullptr, "radius"}));
@@ -134,7 +136,8 @@ void describe_values() {
       [](PyObject* state) {
         PyObject* shape = PyTuple_GET_ITEM(state, 0);
         const Place place{nullptr, "shape"};
-        if (PyList_Check(shape)) return Body::pieces(Convert<std::vector<CombinedEllipsoid>>::from(shape, place));
+        if (PyList_Check(shape))
+          return Body::pieces(Convert<std::vector<CombinedEllipsoid>>::from(shape, place));
         return Convert<Body>::from(shape, place);
       });
   describe_value<Placed>(
@@ -148,9 +151,12 @@ void describe_values() {
                          : x.hull()    ? copy_of(x.hull())
                                        : copy_of(x.placed())});
       },
-      [](PyObject* state) { return Convert<WorldBody>::from(PyTuple_GET_ITEM(state, 0), {nullptr, "body"}); });
+      [](PyObject* state) {
+        return Convert<WorldBody>::from(PyTuple_GET_ITEM(state, 0), {nullptr, "body"});
+      });
   describe_value<ErrorSet>(
-      "radius factors segments", [](const auto& x) { return state_of(x.radius(), x.factors(), x.segments()); },
+      "radius factors segments",
+      [](const auto& x) { return state_of(x.radius(), x.factors(), x.segments()); },
       [](PyObject* state) {
         return std::apply(&ErrorSet::sum,
                           parts<double, std::vector<Eigen::Matrix3d>, std::vector<Eigen::Vector3d>>(state));
@@ -162,7 +168,8 @@ void describe_values() {
         return vertices.empty() ? Opening::ellipse(axes) : Opening::polygon(vertices);
       });
   describe_value<Pair>(
-      "agent obstacle", [](const auto& x) { return state_of(x.agent(), x.obstacle(), x.guarantee().tolerance); },
+      "agent obstacle",
+      [](const auto& x) { return state_of(x.agent(), x.obstacle(), x.guarantee().tolerance); },
       [](PyObject* state) {
         auto [agent, obstacle, tolerance] = parts<Placed, Placed, double>(state);
         PairOptions options;

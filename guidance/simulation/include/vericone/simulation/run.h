@@ -38,8 +38,9 @@ struct SightSample {
   double t = 0;  // s
   std::size_t agent = 0, obstacle = 0;
   Measurement measurement;
-  guidance::SpatialState measured;                       // as measured: r, V_r, V_theta, V_phi, ...
-  Eigen::Vector3d believed_position, believed_velocity;  // m, m/s, as given to the law
+  guidance::SpatialState measured;                              // as measured: r, V_r, V_theta, V_phi, ...
+  Eigen::Vector3d believed_position = Eigen::Vector3d::Zero();  // m, as given to the law
+  Eigen::Vector3d believed_velocity = Eigen::Vector3d::Zero();  // m/s, as given to the law
   bool on_plane = false;
   guidance::PlanarState state;  // true
   guidance::PlaneCone cone;     // true, with the rates in closed form
