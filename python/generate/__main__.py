@@ -44,8 +44,10 @@ def main() -> None:
             write(os.path.join(out, "src", name), text)
     for name, text in stubs.package(model).items():
         write(os.path.join(out, name), text)
-    names = [vars(n) for n in model.names]
-    write(os.path.join(out, "names.json"), json.dumps(names, indent=1))
+    own = [vars(n) for n in model.names if not n.cpp.startswith("verify::")]
+    write(os.path.join(out, "names.json"), json.dumps(own, indent=1))
+    apart = [vars(n) for n in model.names if n.cpp.startswith("verify::")]
+    write(os.path.join(out, "names_verify.json"), json.dumps(apart, indent=1))
 
 
 main()

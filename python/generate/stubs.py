@@ -159,7 +159,7 @@ class Stubs:
         parts, star = [], False
         for a in call.arguments:
             kind = self.model.kind(a.type)
-            text = self.taken(a.type)
+            text = self.taken(a.type, self.alone)
             if a.role == "many":
                 if style == "one":
                     text = "Sequence[_Number]" if kind == "fixed" else text
@@ -192,6 +192,8 @@ class Stubs:
 
     def definitions(self, group: Group, method: bool, indent: str, doc: str, constructor: bool = False) -> str:
         versions: list[tuple[list[str], str]] = []
+        # What stands for another kind has an overload of its own, where there are several.
+        self.alone = len(group.overloads) == 1
         for call in group.overloads:
             result = "None" if constructor else self._result(call)
             asks = any(a.role == "asked" for a in call.arguments)
@@ -207,7 +209,15 @@ class Stubs:
                 versions.append((self._parameters(call, "one", "Literal[True]"), f"tuple[{result}, {self.given(enum.type.plain())}]"))
             else:
                 versions.append((self._parameters(call, "one", "bool"), result))
-        unique = list({(tuple(p), r): None for p, r in versions})
+        # Overloads that only shapes tell apart are one to a type checker.
+        by_types: dict[tuple[str, ...], tuple[list[str], list[str]]] = {}
+        for parameters, result in versions:
+            types = tuple(p.split(":", 1)[-1].strip().removesuffix(" = ...") for p in parameters)
+            by_types.setdefault(types, (parameters, []))[1].append(result)
+        unique = []
+        for parameters, results in by_types.values():
+            results = list(dict.fromkeys(results))
+            unique.append((tuple(parameters), results[0] if len(results) == 1 else "Any" if "Any" in results else f"Union[{', '.join(results)}]"))
         name = "__init__" if constructor else group.name
         text = ""
         # What is broader comes last.
@@ -303,6 +313,11 @@ def package(model: Model) -> dict[str, str]:
     for space, _, module in model.functions:
         spaces.setdefault(space, set()).add(module)
     files: dict[str, str] = {}
+    for module in {m for modules in spaces.values() for m in modules}:
+        folder = "package_verify" if module == "_verify" else "package"
+        files[f"{folder}/{module}.pyi"] = (
+            "# SPDX-License-Identifier: BSD-3-Clause\n# Compiled; its names are those of the modules of the namespaces.\n"
+            "from typing import Any\n\n_names: dict[str, dict[str, Any]]\n")
     for space, modules in spaces.items():
         name = "/".join(space) or "_root"
         if len(space) > 1:

@@ -31,11 +31,11 @@ class Many:
         return len(self.objects)
 
     def __getattr__(self, name: str) -> Callable[..., Any]:
-        from vericone import _core
+        from vericone._load import module
 
         if self._type is not None and not name.startswith("__"):
             space = self._type.__module__.removeprefix("vericone").removeprefix(".")
-            question = _core._names["_many"].get(f"{space + '.' if space else ''}{self._type.__qualname__}.{name}")
+            question = module("_core")._names["_many"].get(f"{space + '.' if space else ''}{self._type.__qualname__}.{name}")
             if question is not None:
                 return functools.partial(question, self.objects)
         kind = self._type.__name__ if self._type else "nothing"

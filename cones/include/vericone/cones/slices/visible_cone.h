@@ -35,8 +35,8 @@ using PlanePoints = std::function<std::vector<Eigen::Vector2d>(const PlaneFrame&
 [[nodiscard]] PlanePoints mesh_section_points(std::span<const Eigen::Vector3d> points,
                                               std::span<const std::array<std::uint32_t, 3>> triangles);
 
-/// Points (m) of a plane in the order of their bearing from its origin, the nearer first: from one extreme
-/// end to the other for points on the side of its x axis.
+/// Points of a plane in the order of their bearing from its origin, the nearer of two first: from one extreme
+/// end to the other for points on the side of its x axis. Metres, or any other unit.
 void order_by_bearing(std::vector<Eigen::Vector2d>& points);
 
 struct VisiblePlane {

@@ -50,7 +50,8 @@ class Vehicle {
   [[nodiscard]] virtual Motion motion() const = 0;
   /// Carries out the command until `to`, and appends its motion since `from`, the time reached, to `way`.
   virtual void advance(const VehicleCommand& command, double from, double to, std::vector<Curve>& way) = 0;
-  /// Its inputs and states at the time reached, in the order and units of VehicleModel::channels().
+  /// Its inputs and states at the time reached, in the order of VehicleModel::channels(),
+  /// which says their units.
   virtual void log(std::vector<double>& values) const = 0;
   /// Watched on every step of the solver: nothing while it keeps what VehicleModel::limits() says.
   [[nodiscard]] virtual std::optional<LimitBroken> broken() const = 0;

@@ -141,7 +141,7 @@ struct PursuitRun {
 struct PursuitOptions {
   /// Called with every picture and what was seen in it; sample.cars has the boxes.
   std::function<void(const Image&, const PursuitSample&, const std::vector<Followed>&)> picture;
-  /// false ends the run there, `interrupted`.
+  /// Called with the seconds flown; false ends the run there, `interrupted`.
   std::function<bool(double t)> progress;
 };
 
