@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/geometry/error.h>
 #include <vericone/geometry/exact/algebraic.h>
 
 #include <algorithm>
@@ -363,7 +364,10 @@ int sign_changes_at_infinity(const std::vector<Polynomial>& chain) {
 RealRoot::RealRoot(Dyadic x) { set(std::move(x)); }
 
 RealRoot::RealRoot(std::shared_ptr<const Polynomial> p, Dyadic lo, Dyadic hi)
-    : p_(std::move(p)), lo_(std::move(lo)), hi_(std::move(hi)), sign_lo_(exact::sign_at(*p_, lo_)) {}
+    : p_(p && !p->empty() ? std::move(p) : throw InputError("p", "no polynomial", "one with coefficients")),
+      lo_(std::move(lo)),
+      hi_(std::move(hi)),
+      sign_lo_(exact::sign_at(*p_, lo_)) {}
 
 void RealRoot::set(Dyadic x) {
   x = reduced(std::move(x));
