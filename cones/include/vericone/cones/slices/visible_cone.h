@@ -35,13 +35,8 @@ using PlanePoints = std::function<std::vector<Eigen::Vector2d>(const PlaneFrame&
 [[nodiscard]] PlanePoints mesh_section_points(std::span<const Eigen::Vector3d> points,
                                               std::span<const std::array<std::uint32_t, 3>> triangles);
 
-<<<<<<< HEAD
 /// Points (m) of a plane in the order of their bearing from its origin, the nearer first: from one extreme
 /// end to the other for points on the side of its x axis.
-=======
-/// Points of a plane in the order of their bearing from its origin, the nearer of two first: from one extreme
-/// end to the other for points on the side of its x axis. Metres, or any other unit.
->>>>>>> 91c02af1257ab963590070a21f900caa16a7bda7
 void order_by_bearing(std::vector<Eigen::Vector2d>& points);
 
 struct VisiblePlane {

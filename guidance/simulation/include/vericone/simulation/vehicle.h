@@ -50,12 +50,7 @@ class Vehicle {
   [[nodiscard]] virtual Motion motion() const = 0;
   /// Carries out the command until `to`, and appends its motion since `from`, the time reached, to `way`.
   virtual void advance(const VehicleCommand& command, double from, double to, std::vector<Curve>& way) = 0;
-<<<<<<< HEAD
   /// Its inputs and states at the time reached, in the order and units of VehicleModel::channels().
-=======
-  /// Its inputs and states at the time reached, in the order of VehicleModel::channels(),
-  /// which says their units.
->>>>>>> 91c02af1257ab963590070a21f900caa16a7bda7
   virtual void log(std::vector<double>& values) const = 0;
   /// Watched on every step of the solver: nothing while it keeps what VehicleModel::limits() says.
   [[nodiscard]] virtual std::optional<LimitBroken> broken() const = 0;
