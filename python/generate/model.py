@@ -324,8 +324,8 @@ class Model:
                 record.machine = True
             self.names.append(Name(name, "method", source.header, f"{record.name}.{made.name}", "", method.doc))
         record.methods = list(groups.values())
-        if record.name in rules.IMMUTABLE:
-            record.machine = False
+        if record.name in rules.MACHINES:
+            record.machine = True
 
     def _define_function(self, function: Function) -> None:
         full = "::".join((*function.scope, function.name))
@@ -360,6 +360,8 @@ class Model:
                 kind = self.resolve(p.type, scope, values)
                 self.check(kind)
                 arguments.append(Argument(python_name(p.name), kind, p.default, self._role(full, p.name, kind)))
+            if f.constructor:  # an object keeps no pointer to what Python has no hold of
+                arguments = [a for a in arguments if a.role != "memory"]
             result = self.resolve("void" if f.constructor else f.result, scope, values)
             if not f.constructor:
                 self.check(result, result=True)

@@ -112,8 +112,8 @@ LONG: set[str] = {
 }
 # Calls of C++ for many vectors at once, by the function for one and its number of parameters.
 WHOLE = {("ConeOracle::membership", 1): "memberships"}
-# Classes that change by some of their calls only as far as nobody sees.
-IMMUTABLE: set[str] = set()
+# Classes whose const calls change what nobody sees: one call at a time too.
+MACHINES = {"PlaneCones"}
 
 # What C++ requires of its callers, where a release does not look: C++ name: condition in C++, of the object `self` and of
 # the parameters; which input breaks it, what was given, what would be right.

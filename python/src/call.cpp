@@ -36,8 +36,8 @@ std::string signature_text(std::span<const Parameter> parameters) {
 }
 
 PyObject* dispatch(const char* name, std::span<const Overload> overloads, PyObject* self,
-                   PyObject* const* positional, Py_ssize_t n, PyObject* names,
-                   PyObject* const* named) noexcept {
+                   PyObject* const* positional, Py_ssize_t n, PyObject* names, PyObject* const* named,
+                   bool keep = false) noexcept {
   try {
     std::string why, last;
     for (const Overload& overload : overloads) {
@@ -50,6 +50,7 @@ PyObject* dispatch(const char* name, std::span<const Overload> overloads, PyObje
       try {
         PyObject* answer = overload.call(given);
         if (!answer && !PyErr_Occurred()) throw WrongType{"no answer"};
+        if (answer && keep) reinterpret_cast<Instance*>(answer)->made = std::move(given.made());
         return answer;
       } catch (const WrongType& wrong) {
         if (overloads.size() == 1) throw;
@@ -159,7 +160,7 @@ PyObject* construct(const char* name, std::span<const Overload> overloads, PyTyp
     return raise_current();
   }
   PyObject* made = dispatch(name, overloads, nullptr, PySequence_Fast_ITEMS(arguments),
-                            PyTuple_GET_SIZE(arguments), names.ptr(), values.data());
+                            PyTuple_GET_SIZE(arguments), names.ptr(), values.data(), true);
   // Some classes refer to what they were made of.
   if (made) reinterpret_cast<Instance*>(made)->kept = PyTuple_Pack(2, arguments, named ? named : Py_None);
   return made;

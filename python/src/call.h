@@ -55,6 +55,9 @@ class Given {
   bool bind(std::span<const Parameter> parameters, PyObject* const* positional, Py_ssize_t n, PyObject* names,
             PyObject* const* named, std::string& why);
 
+  /// What was made of arguments that stand for others.
+  [[nodiscard]] std::vector<std::shared_ptr<void>>& made() { return made_; }
+
  private:
   [[nodiscard]] void* object(int i, const TypeInfo& info);
 

@@ -35,6 +35,7 @@ void destroy(PyObject* self) {
   if (instance->weak_references) PyObject_ClearWeakRefs(self);
   instance->value.~shared_ptr();
   instance->lock.~unique_ptr();
+  instance->made.~vector();
   Py_XDECREF(instance->kept);
   type->tp_free(self);
   Py_DECREF(type);
@@ -268,7 +269,7 @@ PyObject* replace(PyObject* self, PyObject* arguments, PyObject* named) {
 
 PyObject* display(PyObject* self, PyObject*) {
   try {
-    return py::module_::import("vericone._display").attr("html")(py::handle(self)).release().ptr();
+    return py::module_::import("vericone.display").attr("html")(py::handle(self)).release().ptr();
   } catch (...) {
     return raise_current();
   }
@@ -357,6 +358,7 @@ PyObject* new_instance(const TypeInfo& info, std::shared_ptr<void> value) {
   auto* instance = reinterpret_cast<Instance*>(self);
   new (&instance->value) std::shared_ptr<void>(std::move(value));
   new (&instance->lock) std::unique_ptr<std::recursive_mutex>;
+  new (&instance->made) std::vector<std::shared_ptr<void>>;
   if (info.machine) instance->lock = std::make_unique<std::recursive_mutex>();
   instance->info = &info;
   return self;

@@ -97,6 +97,7 @@ struct Instance {
   const TypeInfo* info;
   std::unique_ptr<std::recursive_mutex> lock;  // of machines
   PyObject* kept;                              // what the value refers to
+  std::vector<std::shared_ptr<void>> made;     // and what stood for some of it
   PyObject* weak_references;
 };
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bodies of every kind, points, openings and ways, on axes of the plane or of space, metres."""
 import importlib
+import weakref
 from typing import Any
-from weakref import WeakKeyDictionary as _WeakKeyDictionary
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -13,7 +13,7 @@ from .objects import Numbers, shape_and_row
 from .style import AGENT, OBSTACLE, style
 
 FEW = 60  # points of a hull whose faces are found here
-EXTENTS: "_WeakKeyDictionary[Any, Any]" = _WeakKeyDictionary()  # of axes in space: corners of what is drawn on them
+EXTENTS: "weakref.WeakKeyDictionary[Any, Any]" = weakref.WeakKeyDictionary()  # of axes in space: corners of what is drawn on them
 
 
 def space(figsize: tuple[float, float] = (4.2, 3.8)) -> Any:

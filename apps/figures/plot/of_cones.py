@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Cones of colliding velocities: in space at the agent, as the agent sees them, as maps of all directions; sectors of
 planes; verdicts and clearances of many velocities."""
+import weakref
 from typing import Any
-from weakref import WeakKeyDictionary as _WeakKeyDictionary
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -16,7 +16,7 @@ from .of_bodies import body, draw_in_space, fit_space, space
 from .signs import ANSWERS
 from .style import AGENT, EXACT, GREY, OBSTACLE, SLICE, style
 
-TOWARDS: "_WeakKeyDictionary[Any, Any]" = _WeakKeyDictionary()  # of axes that show directions: the one in their middle
+TOWARDS: "weakref.WeakKeyDictionary[Any, Any]" = weakref.WeakKeyDictionary()  # of axes that show directions: the one in their middle
 
 
 def seen_from_agent(axes: Any, towards: Numbers) -> Any:

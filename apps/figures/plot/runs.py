@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A run: the bodies on their ways at several times; y, clearance and accelerations over time."""
+import collections.abc
 import json
 import os
-from collections.abc import Iterable as _Iterable, Sequence as _Sequence
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -25,8 +25,8 @@ DASHES = {"leaves-cone": ":", "passes": "--", "goes-through": "--", "goes-beside
 class Flown:
     """What is drawn of a run: its tables by the names of their columns, its shapes, what is proved."""
 
-    def __init__(self, bodies: Tables, encounters: Tables, events: _Sequence[Row], proof: Data, run: Data,
-                 shapes: dict[str, Shape], rims: _Iterable[Any] = (), ways: Tables | None = None) -> None:
+    def __init__(self, bodies: Tables, encounters: Tables, events: collections.abc.Sequence[Row], proof: Data, run: Data,
+                 shapes: dict[str, Shape], rims: collections.abc.Iterable[Any] = (), ways: Tables | None = None) -> None:
         self.bodies, self.encounters, self.events = bodies, encounters, events
         self.proof, self.run, self.shapes, self.rims, self.ways = proof, run, shapes, list(rims), ways or {}
         self.passages = proof.get("passages", [])

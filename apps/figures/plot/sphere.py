@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Maps of all directions: around one of them, as the agent sees it, and the whole sphere; what collides, what is safe,
 what is undecided, and the rim of the region around that direction."""
+import collections.abc
 from itertools import combinations
 from typing import Any
-from collections.abc import Callable as _Callable
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -118,7 +118,7 @@ def on_sky(x: Any, y: Any, towards: Array) -> Array:
     return np.cos(t) * towards + np.sin(t) * across
 
 
-def mark(axes: Axes, data: Data, project: _Callable[[Any], Any]) -> None:
+def mark(axes: Axes, data: Data, project: collections.abc.Callable[[Any], Any]) -> None:
     """The scene's velocity, where the data have it."""
     if data.get("course"):
         axes.plot(*np.ravel(project(data["course"]["velocity"])), "o", color=courses.color(data["course"]), markersize=5,
