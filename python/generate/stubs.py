@@ -256,7 +256,7 @@ class Stubs:
         for enum in self.model.enums.values():
             if enum.path[:-1] == record.path:
                 text += self.enum(enum, inner)
-        if record.constructors and not record.source.abstract:
+        if record.constructors and not record.source.abstract and any(c.arguments for c in record.constructors):
             text += self.definitions(Group("__init__", record.constructors), True, inner, "", constructor=True)
         elif record.is_record and record.source.default_constructible:
             needs = [n for _, _, n, _, _ in record.fields]

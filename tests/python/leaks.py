@@ -17,7 +17,7 @@ from typing import Any
 from any_calls import DOCUMENTED, Calls, prepare
 
 # What memory of a call may stay: caches of Python and numpy fill up, but not by more and more with every call.
-MOST_BYTES_A_CALL = 1.0
+MOST_BYTES_A_CALL = 8  # a block has 24 or more: of every third call
 
 
 class MallInfo(ctypes.Structure):

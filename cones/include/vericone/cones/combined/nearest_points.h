@@ -10,9 +10,11 @@ namespace vericone {
 /// Where two bodies are nearest while the agent moves by w t and the obstacle stands still.
 template <int D>
 struct NearestPoints {
-  double time = 0;                                    // s
-  double distance = 0;                                // m
-  Eigen::Matrix<double, D, 1> on_agent, on_obstacle;  // m, at that time
+  using Vector = Eigen::Matrix<double, D, 1>;
+
+  double time = 0;                                                 // s
+  double distance = 0;                                             // m
+  Vector on_agent = Vector::Zero(), on_obstacle = Vector::Zero();  // m, at that time
 };
 
 /// Of all times from `from` to `to` (seconds, `to` may be infinite). Estimates, nothing is proved: the

@@ -45,7 +45,7 @@ struct TangentRef {
 /// A moves with the velocity w relative to B, from now on.
 struct Encounter {
   Ellipsoid a, b;
-  Eigen::Vector3d w;  // v_A - v_B
+  Eigen::Vector3d w = Eigen::Vector3d::Zero();  // v_A - v_B
 };
 
 /// Which of two times to contact is earlier: negative when that of p is, zero when they are the same,
