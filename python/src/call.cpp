@@ -599,6 +599,29 @@ class Walk {
     if (even_[k] && n == 3) {
       const char* from = at(k, begin);
       const Py_ssize_t step = single_step_[k], inner = m.inner_;
+      if constexpr (std::is_floating_point_v<T>) {  // the two orders of arrays, without a turn for each
+                                                    // number
+        const auto* x = reinterpret_cast<const T*>(from);
+        if (step == sizeof(T)) {
+          const auto* y = reinterpret_cast<const T*>(from + inner);
+          const auto* z = reinterpret_cast<const T*>(from + 2 * inner);
+          for (Py_ssize_t i = 0; i < count; ++i) {
+            out[3 * i] = static_cast<double>(x[i]);
+            out[3 * i + 1] = static_cast<double>(y[i]);
+            out[3 * i + 2] = static_cast<double>(z[i]);
+          }
+          return;
+        }
+        if (inner == sizeof(T) && step % static_cast<Py_ssize_t>(sizeof(T)) == 0) {
+          const Py_ssize_t row = step / static_cast<Py_ssize_t>(sizeof(T));
+          for (Py_ssize_t i = 0; i < count; ++i, x += row, out += 3) {
+            out[0] = static_cast<double>(x[0]);
+            out[1] = static_cast<double>(x[1]);
+            out[2] = static_cast<double>(x[2]);
+          }
+          return;
+        }
+      }
       for (Py_ssize_t i = 0; i < count; ++i, from += step, out += 3) {
         out[0] = exact<T>(from, m, 0);
         out[1] = exact<T>(from + inner, m, 1);

@@ -35,3 +35,5 @@ from vericone._runs import (
     units as units,
     write_scene as write_scene,
 )
+
+def __dir__() -> list[str]: ...

@@ -24,7 +24,7 @@ def leaks(*arguments: str, path: str = "", timeout: int = 280) -> dict[str, Any]
 
 
 def test_calls_leave_nothing_behind() -> None:
-    report = leaks("--calls", "6000", "--repeats", "50")
+    report = leaks("--calls", "2500", "--repeats", "40")
     assert report["leaks"] == {}
     assert report["names"] > 100
 
