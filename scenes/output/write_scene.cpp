@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <unistd.h>
 #include <vericone/files/write_points.h>
 #include <vericone/geometry/error.h>
 #include <vericone/scenes/write_scene.h>
@@ -216,7 +215,7 @@ bool gives(const Gives& read) {
 }
 
 void write_all(const std::vector<Beside>& files, const fs::path& file, const Json& fields) {
-  const fs::path partial = file.string() + ".partial-" + std::to_string(::getpid());
+  const fs::path partial = files::partial_path(file);
   std::error_code ignored;
   try {
     write_whole(partial, fields.dump(1) + "\n");

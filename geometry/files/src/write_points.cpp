@@ -5,6 +5,7 @@
 #include <vericone/geometry/stop.h>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cctype>
 #include <cmath>
@@ -167,14 +168,20 @@ void require_valid(std::span<const Vector3d> points, std::span<const Triangle> t
 
 }  // namespace
 
+std::filesystem::path partial_path(const std::filesystem::path& path) {
+  static std::atomic<std::uint64_t> writers = 0;
+  std::filesystem::path partial = path;
+  partial += ".partial-" + std::to_string(::getpid()) + "-" + std::to_string(++writers);
+  return partial;
+}
+
 void write_points(const std::filesystem::path& path, std::span<const Vector3d> points,
                   std::span<const Triangle> triangles) {
   require_valid(points, triangles);
   std::string extension = path.extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const std::string bytes = Content(points, triangles).of(extension, path);
-  std::filesystem::path partial = path;
-  partial += ".partial-" + std::to_string(::getpid());
+  const std::filesystem::path partial = partial_path(path);
   std::ofstream out(partial, std::ios::binary);
   out.write(bytes.data(), std::streamsize(bytes.size()));
   out.close();

@@ -27,4 +27,7 @@ void write_points(const std::filesystem::path& path, std::span<const Eigen::Vect
 /// The same of a cloud.
 void write_points(const std::filesystem::path& path, std::span<const Eigen::Vector3d> points);
 
+/// A name beside `path` for what is being written, which no other writer has, in this process or in another.
+[[nodiscard]] std::filesystem::path partial_path(const std::filesystem::path& path);
+
 }  // namespace vericone::files
