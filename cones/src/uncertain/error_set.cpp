@@ -53,7 +53,8 @@ ErrorSet ErrorSet::sum(double radius, std::vector<Eigen::Matrix3d> factors,
   ErrorSet set = ball(radius);
   for (std::size_t i = 0; i < factors.size(); ++i)
     if (!factors[i].allFinite())
-      throw InputError("factors[" + std::to_string(i) + "]", "a number that is not finite", "finite (m or m/s)");
+      throw InputError("factors[" + std::to_string(i) + "]", "a number that is not finite",
+                       "finite (m or m/s)");
   set.segments_ = zonotope(segments).segments_;
   set.factors_ = std::move(factors);
   return set;

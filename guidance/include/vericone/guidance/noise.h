@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What errors of measurement make of the avoidance law: the error of y, and the error dynamics z' = -K a z +
-// v that the inner loop leaves, (7.1)-(7.13) as corrected (docs/explanation/robust-law.md). V_r, V_theta, theta, theta_b,
-// psi, psi' and theta_b' are measured; the agent's own heading is known. Metres, seconds, radians.
+// v that the inner loop leaves, (7.1)-(7.13) as corrected (docs/explanation/robust-law.md). V_r, V_theta,
+// theta, theta_b, psi, psi' and theta_b' are measured; the agent's own heading is known. Metres, seconds,
+// radians.
 #pragma once
 
 #include <vericone/guidance/laws.h>
