@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/length.h>
 #include <vericone/geometry/requires.h>
 #include <vericone/guidance/kinematics.h>
 
@@ -87,7 +88,7 @@ PlanarState planar_state(const Cartesian<2>& motion) {
     throw InputError("obstacle.center", "[" + to_text(motion.p_b.x()) + ", " + to_text(motion.p_b.y()) + "]",
                      "different from the agent's centre");
   PlanarState s;
-  s.r = c.stableNorm();
+  s.r = detail::length(c);
   const Vector2d u = c / s.r;
   s.theta = std::atan2(c.y(), c.x());
   s.v_r = v.dot(u);
@@ -117,7 +118,7 @@ Vector3d unit_vector(const Direction& direction) {
 }
 
 DirectedAcceleration directed(const Vector3d& acceleration) {
-  return {acceleration.stableNorm(), direction_of(acceleration)};
+  return {detail::length(acceleration), direction_of(acceleration)};
 }
 
 SpatialRates spatial_rates(const SpatialState& s, const DirectedAcceleration& a,
@@ -153,7 +154,7 @@ SpatialState spatial_state(const Cartesian<3>& motion, const SpatialState* previ
         "[" + to_text(motion.p_b.x()) + ", " + to_text(motion.p_b.y()) + ", " + to_text(motion.p_b.z()) + "]",
         "different from the agent's centre");
   SpatialState s;
-  s.r = c.stableNorm();
+  s.r = detail::length(c);
   const Direction before = previous ? Direction{previous->theta, previous->phi} : Direction{};
   const Direction sight = heading_of(c, previous ? &before : nullptr);
   s.theta = sight.azimuth;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/geometry/length.h>
 #include <vericone/scenes/words.h>
 #include <cmath>
 #include <cstdio>
@@ -85,7 +86,7 @@ std::string body_words(const CombinedEllipse& body) { return quadric_words<2>(bo
 std::string motion_words(const Eigen::Vector3d& velocity, bool planar) {
   if (velocity.isZero(0)) return "at rest";
   const double degree = std::numbers::pi / 180;
-  std::string text = "moves at " + brief(velocity.stableNorm()) + " m/s, azimuth " +
+  std::string text = "moves at " + brief(detail::length(velocity)) + " m/s, azimuth " +
                      brief(std::atan2(velocity.y(), velocity.x()) / degree);
   if (!planar)
     text += ", elevation " + brief(std::atan2(velocity.z(), std::hypot(velocity.x(), velocity.y())) / degree);

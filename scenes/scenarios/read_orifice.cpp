@@ -2,6 +2,7 @@
 #include "scenarios/read_orifice.h"
 
 #include <vericone/files/read_points.h>
+#include <vericone/geometry/length.h>
 #include <Eigen/Geometry>
 #include <utility>
 #include <vector>
@@ -100,7 +101,7 @@ Eigen::Matrix3d read_attitude(const Json& value, const std::string& path, bool w
   }
   const Vector3d normal =
       read_vector<3>(require_field(value, path, "normal", "[x, y, z], or rotation"), path + ".normal", "");
-  if (!(normal.stableNorm() > 0))
+  if (!(detail::length(normal) > 0))
     throw InputError(path + ".normal", quoted(value["normal"]), "a direction, not 0");
   return facing(normal / normal.cwiseAbs().maxCoeff());
 }

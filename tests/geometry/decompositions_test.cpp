@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/geometry/decompositions.h>
+#include <vericone/geometry/length.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "support/allocations.h"
 #include "support/random.h"
@@ -78,6 +80,44 @@ TEST(Decompositions, LeastSquaresAreEigensOfEveryRank) {
     ASSERT_EQ(least_squares(a, b), VectorXd(a.colPivHouseholderQr().solve(b))) << random.trace();
   }
   EXPECT_EQ(shortest_least_squares(MatrixXd::Zero(3, 2), VectorXd::Ones(3)), VectorXd::Zero(2));
+}
+
+TEST(Decompositions, OfNothing) {
+  EXPECT_EQ(least_squares(MatrixXd(0, 0), VectorXd(0)).size(), 0);
+  EXPECT_EQ(shortest_least_squares(MatrixXd(3, 0), VectorXd::Ones(3)).size(), 0);
+  EXPECT_EQ(least_squares(MatrixXd(0, 2), VectorXd(0)), VectorXd::Zero(2));
+}
+
+TEST(Length, IsTheSameWhereverTheVectorLies) {
+  Random random(5);
+  alignas(64) double room[8];
+  int differ = 0;
+  for (int k = 0; k < 10'000; ++k) {
+    const Vector3d v(random.normal(), random.normal(), random.normal());
+    Eigen::Map<Vector3d> even(room), odd(room + 1);
+    even = v;
+    const double here = detail::length(even), stable = even.stableNorm();
+    odd = v;
+    ASSERT_EQ(detail::length(odd), here);
+    ASSERT_NEAR(here, v.norm(), 4e-16 * here);
+    differ += odd.stableNorm() != stable;
+  }
+  EXPECT_GT(differ, 0) << "Eigen's own is now the same too: length() is not needed any more";
+}
+
+TEST(Length, NeitherOverflowsNorUnderflows) {
+  for (const double scale : {1e-320, 1e-300, 1e-160, 1.0, 1e160, 1e300}) {
+    EXPECT_NEAR(detail::length(Vector3d(3 * scale, 4 * scale, 0)) / scale, 5, 5e-4) << scale;
+    if (scale > 1e-307) {
+      EXPECT_NEAR(detail::length(Vector3d(3 * scale, 4 * scale, 0)) / scale, 5, 1e-14) << scale;
+    }
+  }
+  constexpr double kInfinite = std::numeric_limits<double>::infinity(),
+                   kNoNumber = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(detail::length(Vector3d(0, 0, 0)), 0);
+  EXPECT_EQ(detail::length(Vector3d(1, -kInfinite, 0)), kInfinite);
+  EXPECT_TRUE(std::isnan(detail::length(Vector3d(1, kNoNumber, 0))));
+  EXPECT_TRUE(std::isnan(detail::length(Vector3d(kNoNumber, kNoNumber, kNoNumber))));
 }
 
 }  // namespace

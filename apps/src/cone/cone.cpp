@@ -7,6 +7,7 @@
 #include <vericone/cones/slices/combined_slice_cone.h>
 #include <vericone/cones/slices/slice_cone.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/length.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -174,7 +175,7 @@ namespace {
 void require_measurable(const scenes::Scene& scene) {
   const Eigen::Vector3d c = scene.obstacle.quadric()->center() - scene.agent.quadric()->center();
   if (std::isfinite(c.squaredNorm())) return;
-  throw InputError("obstacle.center", to_text(c.stableNorm()) + " m from the agent's",
+  throw InputError("obstacle.center", to_text(detail::length(c)) + " m from the agent's",
                    "at most 1e154 m from it: a cone's numbers need squared lengths (query has the verdict)");
 }
 

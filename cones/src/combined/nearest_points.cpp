@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/combined/nearest_points.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/length.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -49,9 +50,9 @@ class Search {
   using Body = BasicCombined<D>;
 
   Search(const Body& a, const Body& b, const Vector& w, double from, double to)
-      : a_(a), b_(b), speed_(w.stableNorm()) {
+      : a_(a), b_(b), speed_(detail::length(w)) {
     const Vector c = b.center() - a.center();
-    unit_ = std::max({c.stableNorm(), a.ellipsoid().factor().norm(), b.ellipsoid().factor().norm()});
+    unit_ = std::max({detail::length(c), a.ellipsoid().factor().norm(), b.ellipsoid().factor().norm()});
     if (!(speed_ > 0)) return;
     along_ = w / speed_;
     first_ = from * speed_ / unit_;
@@ -73,7 +74,7 @@ class Search {
     result.time = speed_ > 0 ? s / speed_ : 0;
     result.on_agent = p + s * along_;
     result.on_obstacle = q;
-    result.distance = (q - result.on_agent).stableNorm();
+    result.distance = detail::length(q - result.on_agent);
     return result;
   }
 

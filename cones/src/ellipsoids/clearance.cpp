@@ -4,6 +4,7 @@
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/cones/ellipsoids/contact_frame.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/length.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
@@ -53,7 +54,7 @@ class ShadowGap {
     return c_.cwiseAbs().maxCoeff() > kDistant * (a_.cwiseAbs().maxCoeff() + b_.cwiseAbs().maxCoeff());
   }
   Vector2d center_line() const { return c_.stableNormalized(); }
-  double center_distance() const { return c_.stableNorm(); }
+  double center_distance() const { return detail::length(c_); }
 
   /// Whether doubles near the normal n resolve g to some nine digits. Of shadows with an axis ratio beyond
   /// 1e16 they need not: the next normal may be one of a width that is larger by orders of magnitude.
@@ -210,7 +211,7 @@ Clearance clearance(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& w) {
     m.time *= 0.125;
     return m;
   }
-  const double speed = w.stableNorm();
+  const double speed = detail::length(w);
   const AxisFrame frame(w / speed);
   const ShadowGap shadows(a, b, frame);
   Clearance m;
@@ -235,7 +236,8 @@ Separation separation(const Ellipsoid& a, const Ellipsoid& b) {
   if (rel == Relation::overlapping) return {};
   const double far = frame.center_line.cwiseAbs().maxCoeff(),
                width = a.factor().cwiseAbs().maxCoeff() + b.factor().cwiseAbs().maxCoeff();
-  if (far > kDistant * width) return {frame.center_line.stableNorm(), frame.center_line.stableNormalized()};
+  if (far > kDistant * width)
+    return {detail::length(frame.center_line), frame.center_line.stableNormalized()};
   if (far > 1e140 && std::isfinite(far)) {
     // The same in another unit of length, in which squares stay within the doubles.
     const int e = std::ilogb(far);

@@ -3,6 +3,7 @@
 
 #include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/length.h>
 #include <vericone/geometry/mesh/boundary_loops.h>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -83,14 +84,14 @@ MeshWindow::MeshWindow(std::vector<Vector3d> points, std::vector<Assembly::Trian
 }
 
 int MeshWindow::crossings_along(const Vector3d& from, const Vector3d& w) const {
-  return crossings(from, from + (1e3 * ((middle_ - from).norm() + 1) / w.stableNorm()) * w);
+  return crossings(from, from + (1e3 * ((middle_ - from).norm() + 1) / detail::length(w)) * w);
 }
 
 int MeshWindow::crossings(const Vector3d& from, const Vector3d& to) const {
   const Vector3d way = to - from;
-  const double length = way.stableNorm();
-  if (!(length > 0)) return 0;
-  const Vector3d d = way / length, e1 = d.unitOrthogonal(), e2 = d.cross(e1);
+  const double way_length = detail::length(way);
+  if (!(way_length > 0)) return 0;
+  const Vector3d d = way / way_length, e1 = d.unitOrthogonal(), e2 = d.cross(e1);
   const auto seen = [&](const Vector3d& x) { return Vector2d(e1.dot(x - from), e2.dot(x - from)); };
   const Vector2d middle = seen(middle_);
   int sum = 0;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/geometry/length.h>
 #include <vericone/guidance/pursuit/pursuit_law.h>
 #include <algorithm>
 #include <cmath>
@@ -68,7 +69,7 @@ double miss_distance(const Vector2d& x, const Vector2d& w, const EnclosingEllips
   const Vector2d major(std::cos(target.angle), std::sin(target.angle)), minor(-major.y(), major.x());
   const Vector2d in_axes(major.dot(x), minor.dot(x)), course(major.dot(w), minor.dot(w));
   const bool outside = std::hypot(in_axes.x() / target.a, in_axes.y() / target.b) > 1;
-  const double speed = w.stableNorm();
+  const double speed = detail::length(w);
   if (outside || speed == 0) {
     const Nearest nearest = nearest_on_ellipse(target.a, target.b, in_axes);
     if (speed == 0 || nearest.normal.dot(course) >= 0) return nearest.distance;

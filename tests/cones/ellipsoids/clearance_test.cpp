@@ -345,5 +345,22 @@ TEST(Clearance, OfVeryThinDiscs) {
   EXPECT_LT(absent, 150);
 }
 
+TEST(Clearance, IsTheSameWhereverTheVelocityLies) {
+  RandomBodies random(613);
+  SCOPED_TRACE(random.trace());
+  alignas(64) double room[8];
+  for (int i = 0; i < 2000; ++i) {
+    const Ellipsoid a = sphere(kStill, 1), b = sphere(random.in_box(9), random.uniform(0.1, 3));
+    const Vector3d w = random.direction();
+    auto* const even = new (room) Vector3d(w);
+    const Clearance here = clearance(a, b, *even);
+    auto* const odd = new (room + 1) Vector3d(w);
+    const Clearance there = clearance(a, b, *odd);
+    ASSERT_EQ(there.distance, here.distance);
+    ASSERT_EQ(there.time, here.time);
+    ASSERT_EQ(there.normal, here.normal);
+  }
+}
+
 }  // namespace
 }  // namespace vericone::clearance_test
