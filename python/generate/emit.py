@@ -138,7 +138,7 @@ class Emitter:
                 passed.append(variable)
             else:
                 storage = self.storage(a.type)
-                value = f"g.get<{storage}>({i})"
+                value = f"g.{'present' if 'shared_ptr' in storage and a.default is None else 'get'}<{storage}>({i})"
                 if a.default is not None:
                     value = f"g.has({i}) ? {value} : {self.default(call, a, record)}"
                 lines.append(f"{storage} {variable} = {value};")

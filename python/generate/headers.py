@@ -275,10 +275,15 @@ class Reader:
                 if "delete" in _tokens(c)[-3:]:
                     continue
                 function = self._function(c, path)
-                if function.doc:
+                # A comment goes for those that follow without a gap; that of a constructor for itself.
+                if c.kind == Kind.CONSTRUCTOR:
+                    group = ""
+                elif function.doc:
                     group = function.doc
-                elif c.extent.start.line == last_line + 1 and not c.kind == Kind.CONSTRUCTOR:
+                elif c.extent.start.line == last_line + 1:
                     function.doc = group
+                else:
+                    group = ""
                 last_line = c.extent.end.line
                 if c.kind == Kind.CONSTRUCTOR and (c.is_copy_constructor() or c.is_move_constructor()):
                     continue

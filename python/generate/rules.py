@@ -106,7 +106,7 @@ LONG: set[str] = {
     "scanning::look", "scanning::plane_section_picture", "scanning::read_scan_scene", "scanning::study",
     "scenario::read_scenario", "scenario::scenario_of_text", "scenario::write_run",
     "scenes::read_body", "scenes::read_scene", "scenes::scene_of_text", "scenes::write_body", "scenes::write_scene",
-    "simulation::fly_trial", "simulation::largest_current", "simulation::prove", "simulation::prove_passage", "simulation::reach", "simulation::run_tables", "simulation::simulate",
+    "simulation::Vehicle::advance", "simulation::fly_trial", "simulation::largest_current", "simulation::prove", "simulation::prove_passage", "simulation::reach", "simulation::run_tables", "simulation::simulate",
     "montecarlo::fly", "montecarlo::fly_straight",
     "vision::pursue",
 }
@@ -119,16 +119,26 @@ MACHINES = {"PlaneCones"}
 # the parameters; which input breaks it, what was given, what would be right.
 _TRIMMED = "(!{0}.empty() && {0}.back() != 0)"
 REQUIRES: dict[str, tuple[str, str, str, str]] = {
-    **{f"WorldBody::{name}": (condition, "body", got, need) for name, condition, got, need in (
-        ("gauge", "self.flat() || self.quadric()", "a hull, or a body with a pose", "an ellipse, an ellipsoid or a combined body"),
-        ("inflated", "self.flat() || self.quadric()", "a hull, or a body with a pose", "an ellipse, an ellipsoid or a combined body"),
-        ("containing_ellipse", "self.planar()", "a body of space", "a planar one"),
-        ("containing_ellipsoid", "!self.planar()", "a planar body", "one of space"))},
     **{f"guidance::SetMembershipFilter::{name}": ("self.started()", "filter", "no measurement", "one that has met a measurement")
        for name in ("position", "velocity", "position_radius", "velocity_radius")},
     "guidance::SetMembershipFilter::axis": ("self.started() && i >= 0 && i < 3", "i", "no such axis, or no measurement",
                                             "0, 1 or 2, of a filter that has met a measurement"),
     "lidar::BeamPattern::direction": ("beam < self.size()", "beam", "no such beam", "below size()"),
+    "vision::Image::Image": ("w > 0 && h > 0 && (c == 1 || c == 3) && double(w) * h < 1e9", "size", "no size of a picture",
+                             "w x h pixels of 1 or 3 channels"),
+    "simulation::Vehicle::advance": ("from_ >= 0 && to >= from_ && to - from_ <= 1e5", "to", "no time after from", "from the time reached, to a "
+                                     "later one, less than 1e5 s on"),
+    "Interval::between": ("!(lo > hi)", "lo", "above hi", "at most hi"),
+    "guidance::planar_rates": ("state.r > 0", "state.r", "no positive number", "positive (m)"),
+    "guidance::plane_states": ("a.position != b.position && ((a.planar() && b.planar()) || !(b.position - a.position).cross(across).isZero(0))",
+                               "across", "bodies in one place, or a direction along their line", "across the line between bodies apart"),
+    "exact::Dyadic::of": ("std::isfinite(finite)", "finite", "no finite number", "finite"),
+    "exact::grid_exponent": ("std::isfinite(x)", "x", "no finite number", "finite"),
+    "exact::on_grid": ("std::isfinite(x) && std::abs(e) <= 10000", "x, e", "no finite number, or a grid beyond doubles",
+                       "a finite multiple of 2^e, e between -10000 and 10000"),
+    "exact::direction_on_grid": ("[](const auto& x) { if constexpr (requires { x.allFinite(); }) return x.allFinite(); else return true; }(v)", "v",
+                                 "a number that is not finite", "finite"),
+    "exact::difference_on_grid": ("x.allFinite() && y.allFinite()", "x, y", "a number that is not finite", "finite"),
     "ConeMap::cell": ("i < self.cells.size()", "i", "no such cell", "below the number of cells"),
     "Assembly::piece": ("i < self.size()", "i", "no such piece", "below size()"),
     "least_squares": ("a.rows() == b.size()", "b", "another number of rows than a has", "of as many numbers as a has rows"),
@@ -150,8 +160,9 @@ REQUIRES: dict[str, tuple[str, str, str, str]] = {
                           "coefficients of which the last is not 0")
        for name in ("gcd", "surely_coprime")},
     "exact::log2_floor": ("[](const auto& n) { if constexpr (requires { n.numerator; }) return n.numerator != 0; else return n != 0; }(x)", "x", "0", "another number than 0"),
-    "exact::sign_changes_at_infinity": ("std::ranges::none_of(chain, [](const auto& f) { return f.empty(); })", "chain", "a part without coefficients",
-                                        "of polynomials with coefficients"),
+    **{f"exact::sign_changes_at_{where}": ("std::ranges::none_of(chain, [](const auto& f) { return f.empty(); })", "chain",
+                                           "a part without coefficients", "of polynomials with coefficients")
+       for where in ("zero", "infinity")},
     "simulation::share_of": ("successes <= trials && confidence > 0 && confidence < 1", "successes", "more than there are trials, or no confidence",
                              "at most the trials, with a confidence between 0 and 1"),
     "exact::divide_exactly": (f"{_TRIMMED.format('p')} && {_TRIMMED.format('q')} && p.size() >= q.size()", "q", "no divisor of p",

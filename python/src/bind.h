@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-#include "call.h"
+#include "batch.h"
 
 namespace vericone::python {
 

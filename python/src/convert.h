@@ -34,6 +34,12 @@ namespace vericone::python {
 /// ::could(object) says at once whether it may be one; kColumn is how arrays of records hold it.
 template <class T>
 struct Convert;
+/// Where Convert<T> has no column, kColumn is null by its type: sanitizers take comparisons of addresses out
+/// of constant expressions.
+template <bool Has>
+using ColumnOrNone = std::conditional_t<Has, const Column*, std::nullptr_t>;
+template <class T>
+inline constexpr bool kIsColumn = !std::is_same_v<decltype(Convert<T>::kColumn), const std::nullptr_t>;
 
 [[nodiscard]] double number_from(PyObject* given, const Place& place);
 [[nodiscard]] long long integer_from(PyObject* given, long long least, unsigned long long most,
@@ -101,7 +107,7 @@ requires(std::is_integral_v<T> && !std::is_same_v<T, bool>) struct Convert<T> {
     if constexpr (std::is_signed_v<T>) return PyLong_FromLongLong(x);
     return PyLong_FromUnsignedLongLong(x);
   }
-  static bool could(PyObject* given) { return PyIndex_Check(given); }
+  static bool could(PyObject* given) { return PyIndex_Check(given) && !is_sequence(given); }
   static constexpr const Column* kColumn = &NumberColumn<T>::kColumn;
 };
 template <>
@@ -120,7 +126,7 @@ struct Convert<std::string> {
     return PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "surrogateescape");
   }
   static bool could(PyObject* given) { return PyUnicode_Check(given); }
-  static constexpr const Column* kColumn = nullptr;
+  static constexpr std::nullptr_t kColumn = nullptr;
 };
 template <>
 struct Convert<const char*> {
@@ -128,19 +134,19 @@ struct Convert<const char*> {
     if (!text) Py_RETURN_NONE;
     return PyUnicode_DecodeUTF8(text, static_cast<Py_ssize_t>(std::strlen(text)), "surrogateescape");
   }
-  static constexpr const Column* kColumn = nullptr;
+  static constexpr std::nullptr_t kColumn = nullptr;
 };
 template <>
 struct Convert<std::string_view> {
   static PyObject* to(std::string_view text) { return Convert<std::string>::to(std::string(text)); }
-  static constexpr const Column* kColumn = nullptr;
+  static constexpr std::nullptr_t kColumn = nullptr;
 };
 template <>
 struct Convert<std::filesystem::path> {
   static std::filesystem::path from(PyObject* given, const Place& place);
   static PyObject* to(const std::filesystem::path& path);
   static bool could(PyObject* given);
-  static constexpr const Column* kColumn = nullptr;
+  static constexpr std::nullptr_t kColumn = nullptr;
 };
 
 // Vectors and matrices of fixed size.
@@ -214,7 +220,7 @@ requires(R < 0 || C < 0) struct Convert<Eigen::Matrix<double, R, C, O, MR, MC>> 
     if (rows < 0) PyErr_Clear();
     return R < 0 || rows < 0 || rows == R;
   }
-  static constexpr const Column* kColumn = nullptr;
+  static constexpr std::nullptr_t kColumn = nullptr;
 };
 template <>
 struct Convert<Eigen::Isometry3d> {  // 4 x 4
@@ -223,7 +229,7 @@ struct Convert<Eigen::Isometry3d> {  // 4 x 4
     return Convert<Eigen::Matrix4d>::to(Eigen::Matrix4d(t.matrix()));
   }
   static bool could(PyObject* given) { return is_sequence(given); }
-  static constexpr const Column* kColumn = nullptr;
+  static constexpr std::nullptr_t kColumn = nullptr;
 };
 
 // Rationals: fractions.Fraction, int, float.
@@ -240,14 +246,14 @@ struct Convert<Rational> {
   static Rational from(PyObject* given, const Place& place) { return rational_from(given, place); }
   static PyObject* to(const Rational& x) { return rational_to(x); }
   static bool could(PyObject* given) { return is_number(given); }
-  static constexpr const Column* kColumn = nullptr;
+  static constexpr std::nullptr_t kColumn = nullptr;
 };
 template <>
 struct Convert<WholeNumber> {
   static WholeNumber from(PyObject* given, const Place& place) { return whole_from(given, place); }
   static PyObject* to(const WholeNumber& x) { return whole_to(x); }
-  static bool could(PyObject* given) { return PyIndex_Check(given); }
-  static constexpr const Column* kColumn = nullptr;
+  static bool could(PyObject* given) { return PyIndex_Check(given) && !is_sequence(given); }
+  static constexpr std::nullptr_t kColumn = nullptr;
 };
 
 // Types of the library.
@@ -303,11 +309,15 @@ struct Convert {
   static void write_nothing(void* row) { write_no_record(row, type_of<T>()); }
   static const TypeInfo* record() { return &type_of<T>(); }
   static constexpr Column kOwn{&format, -1, &write, &write_nothing, &record};
-  static constexpr const Column* column() {
-    if constexpr (std::is_same_v<T, Interval>) return &IntervalColumn::kColumn;
-    return IsRecord<T>::value ? &kOwn : nullptr;
+  static constexpr ColumnOrNone<std::is_same_v<T, Interval> || IsRecord<T>::value> column() {
+    if constexpr (std::is_same_v<T, Interval>)
+      return &IntervalColumn::kColumn;
+    else if constexpr (IsRecord<T>::value)
+      return &kOwn;
+    else
+      return nullptr;
   }
-  static constexpr const Column* kColumn = column();
+  static constexpr ColumnOrNone<std::is_same_v<T, Interval> || IsRecord<T>::value> kColumn = column();
 };
 template <class T>
 struct Convert<std::shared_ptr<T>> {
@@ -322,14 +332,14 @@ struct Convert<std::shared_ptr<T>> {
     return new_instance(type_of<V>(), std::const_pointer_cast<V>(value));
   }
   static bool could(PyObject* given) { return given == Py_None || is_instance(given, type_of<V>()); }
-  static constexpr const Column* kColumn = nullptr;
+  static constexpr std::nullptr_t kColumn = nullptr;
 };
 template <class T>
 struct Convert<std::unique_ptr<T>> {
   static PyObject* to(std::unique_ptr<T> value) {
     return Convert<std::shared_ptr<T>>::to(std::shared_ptr<T>(std::move(value)));
   }
-  static constexpr const Column* kColumn = nullptr;
+  static constexpr std::nullptr_t kColumn = nullptr;
 };
 
 // Optional, variants, pairs.
@@ -366,7 +376,7 @@ struct Convert<std::optional<T>> {
     else
       Convert<T>::kColumn->write_nothing(row);
   }
-  static constexpr bool kHas = Convert<T>::kColumn != nullptr;
+  static constexpr bool kHas = kIsColumn<T>;
   static constexpr Column make() {
     if constexpr (kHas)
       return {&format, std::is_integral_v<T> && !std::is_same_v<T, bool> ? 8 : Convert<T>::kColumn->size,
@@ -375,7 +385,13 @@ struct Convert<std::optional<T>> {
       return {};
   }
   static constexpr Column kOwn = make();
-  static constexpr const Column* kColumn = kHas ? &kOwn : nullptr;
+  static constexpr ColumnOrNone<kHas> column() {
+    if constexpr (kHas)
+      return &kOwn;
+    else
+      return nullptr;
+  }
+  static constexpr ColumnOrNone<kHas> kColumn = column();
 };
 template <class A, class B>
 struct Convert<std::pair<A, B>> {
@@ -394,7 +410,7 @@ struct Convert<std::pair<A, B>> {
     return both;
   }
   static bool could(PyObject* given) { return is_sequence(given); }
-  static constexpr const Column* kColumn = nullptr;
+  static constexpr std::nullptr_t kColumn = nullptr;
 };
 template <class... A>
 struct Convert<std::variant<A...>> {
@@ -410,12 +426,12 @@ struct Convert<std::variant<A...>> {
         [](const auto& x) -> PyObject* { return Convert<std::remove_cvref_t<decltype(x)>>::to(x); }, value);
   }
   static bool could(PyObject* given) { return (Convert<A>::could(given) || ...); }
-  static constexpr const Column* kColumn = nullptr;
+  static constexpr std::nullptr_t kColumn = nullptr;
 };
 template <>
 struct Convert<std::monostate> {
   static PyObject* to(std::monostate) { Py_RETURN_NONE; }
-  static constexpr const Column* kColumn = nullptr;
+  static constexpr std::nullptr_t kColumn = nullptr;
 };
 
 // Lists. Of numbers and vectors they are arrays.
@@ -466,7 +482,7 @@ struct Convert<std::vector<T>> {
     }
   }
   static bool could(PyObject* given) { return is_sequence(given); }
-  static constexpr const Column* kColumn = nullptr;
+  static constexpr std::nullptr_t kColumn = nullptr;
 };
 template <int D>
 struct Convert<std::vector<Eigen::Matrix<double, D, 1>>> {  // points: (n, D)
@@ -483,7 +499,7 @@ struct Convert<std::vector<Eigen::Matrix<double, D, 1>>> {  // points: (n, D)
     return doubles_to(points.empty() ? nullptr : points[0].data(), shape);
   }
   static bool could(PyObject* given) { return is_sequence(given); }
-  static constexpr const Column* kColumn = nullptr;
+  static constexpr std::nullptr_t kColumn = nullptr;
 };
 template <class T, std::size_t N>
 requires std::is_integral_v<T>
@@ -511,7 +527,7 @@ struct Convert<std::vector<std::array<T, N>>> {  // triangles: (n, 3)
     return a.release().ptr();
   }
   static bool could(PyObject* given) { return is_sequence(given); }
-  static constexpr const Column* kColumn = nullptr;
+  static constexpr std::nullptr_t kColumn = nullptr;
 };
 template <class T, std::size_t N>
 struct Convert<std::array<T, N>> {
@@ -553,7 +569,13 @@ struct Convert<std::array<T, N>> {
       Convert<T>::kColumn->write_nothing(static_cast<char*>(row) + i * sizeof(T));
   }
   static constexpr Column kOwn{&format, static_cast<Py_ssize_t>(N * sizeof(T)), &write, &write_nothing};
-  static constexpr const Column* kColumn = std::is_arithmetic_v<T> ? &kOwn : nullptr;
+  static constexpr ColumnOrNone<std::is_arithmetic_v<T>> column() {
+    if constexpr (std::is_arithmetic_v<T>)
+      return &kOwn;
+    else
+      return nullptr;
+  }
+  static constexpr ColumnOrNone<std::is_arithmetic_v<T>> kColumn = column();
 };
 /// Only returned: what it views is copied.
 template <class T>
@@ -562,7 +584,7 @@ struct Convert<std::span<T>> {
     using V = std::remove_const_t<T>;
     return Convert<std::vector<V>>::to(std::vector<V>(list.begin(), list.end()));
   }
-  static constexpr const Column* kColumn = nullptr;
+  static constexpr std::nullptr_t kColumn = nullptr;
 };
 
 /// Truth values side by side, which a vector of bool does not have.
@@ -608,7 +630,7 @@ struct Convert<std::function<R(A...)>> {
     Py_RETURN_NONE;
   }
   static bool could(PyObject* given) { return given == Py_None || PyCallable_Check(given); }
-  static constexpr const Column* kColumn = nullptr;
+  static constexpr std::nullptr_t kColumn = nullptr;
 };
 
 template <class T>

@@ -55,4 +55,20 @@ Innovation<6> ConstantVelocityFilter::step(const State& measured, const Covarian
   return said;
 }
 
+template void predict<2>(Belief<2>&, const Eigen::Matrix2d&, const Eigen::Matrix2d&);
+template void predict<6>(Belief<6>&, const Eigen::Matrix<double, 6, 6>&, const Eigen::Matrix<double, 6, 6>&);
+template Innovation<1> correct<2, 1>(Belief<2>&, const Eigen::Matrix<double, 1, 1>&,
+                                     const Eigen::Matrix<double, 1, 2>&, const Eigen::Matrix<double, 1, 1>&,
+                                     double);
+template Innovation<1> correct<6, 1>(Belief<6>&, const Eigen::Matrix<double, 1, 1>&,
+                                     const Eigen::Matrix<double, 1, 6>&, const Eigen::Matrix<double, 1, 1>&,
+                                     double);
+template Innovation<2> correct<6, 2>(Belief<6>&, const Eigen::Vector2d&, const Eigen::Matrix<double, 2, 6>&,
+                                     const Eigen::Matrix2d&, double);
+template Innovation<6> correct<6, 6>(Belief<6>&, const Eigen::Matrix<double, 6, 1>&,
+                                     const Eigen::Matrix<double, 6, 6>&, const Eigen::Matrix<double, 6, 6>&,
+                                     double);
+template double error_squared<2>(const Belief<2>&, const Eigen::Vector2d&);
+template double error_squared<6>(const Belief<6>&, const Eigen::Matrix<double, 6, 1>&);
+
 }  // namespace vericone::guidance

@@ -78,6 +78,25 @@ template <int N>
   return factor.matrixL().solve(truth - belief.mean).squaredNorm();
 }
 
+// Compiled in the library; of other sizes where they are used.
+extern template void predict<2>(Belief<2>&, const Eigen::Matrix2d&, const Eigen::Matrix2d&);
+extern template void predict<6>(Belief<6>&, const Eigen::Matrix<double, 6, 6>&,
+                                const Eigen::Matrix<double, 6, 6>&);
+extern template Innovation<1> correct<2, 1>(Belief<2>&, const Eigen::Matrix<double, 1, 1>&,
+                                            const Eigen::Matrix<double, 1, 2>&,
+                                            const Eigen::Matrix<double, 1, 1>&, double);
+extern template Innovation<1> correct<6, 1>(Belief<6>&, const Eigen::Matrix<double, 1, 1>&,
+                                            const Eigen::Matrix<double, 1, 6>&,
+                                            const Eigen::Matrix<double, 1, 1>&, double);
+extern template Innovation<2> correct<6, 2>(Belief<6>&, const Eigen::Vector2d&,
+                                            const Eigen::Matrix<double, 2, 6>&, const Eigen::Matrix2d&,
+                                            double);
+extern template Innovation<6> correct<6, 6>(Belief<6>&, const Eigen::Matrix<double, 6, 1>&,
+                                            const Eigen::Matrix<double, 6, 6>&,
+                                            const Eigen::Matrix<double, 6, 6>&, double);
+extern template double error_squared<2>(const Belief<2>&, const Eigen::Vector2d&);
+extern template double error_squared<6>(const Belief<6>&, const Eigen::Matrix<double, 6, 1>&);
+
 /// Counts what the gate refuses. A filter that refuses this many measurements one after another has lost what
 /// it follows, and starts again from the last.
 class Gate {
