@@ -183,6 +183,7 @@ void solve_square(Eigen::Ref<MatrixXd> a, Eigen::Ref<VectorXd> b) {
 }
 
 VectorXd shortest_least_squares(const MatrixXd& a, const VectorXd& b) {
+  if (a.size() == 0) return VectorXd::Zero(a.cols());
   const Eigen::CompleteOrthogonalDecomposition<MatrixXd> decomposition(a);
   const Index rank = decomposition.rank(), rest = a.cols() - rank;
   VectorXd x = VectorXd::Zero(a.cols());
@@ -200,6 +201,7 @@ VectorXd shortest_least_squares(const MatrixXd& a, const VectorXd& b) {
 }
 
 VectorXd least_squares(const MatrixXd& a, const VectorXd& b) {
+  if (a.size() == 0) return VectorXd::Zero(a.cols());
   const Eigen::ColPivHouseholderQR<MatrixXd> decomposition(a);
   const Index rank = decomposition.nonzeroPivots();
   const VectorXd z = triangular_part(decomposition.matrixQR(), decomposition.hCoeffs(), rank, b);

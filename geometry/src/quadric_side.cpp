@@ -390,6 +390,8 @@ Sign side(const RationalMatrix<D + 1>& quadric, const RationalVector<D>& point) 
 
 template <int D>
 Sign side(const RationalBody<D>& body, const RationalVector<D>& point) {
+  if (!positive_definite<D>(body.shape))
+    throw InputError("body.shape", "not positive definite", "symmetric and positive definite");
   return sign_of(side_by_shape<D, Rational>([&](int i, int j) { return body.shape[i][j]; },
                                             [&](int i) { return Rational(point[i] - body.center[i]); }));
 }

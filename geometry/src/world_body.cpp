@@ -4,7 +4,6 @@
 #include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/pose.h>
-#include <vericone/geometry/requires.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
@@ -214,6 +213,11 @@ Ellipsoid containing_by_covariance(const HullBody& hull) {
   return Ellipsoid::from_shape(mean, (shape + shape.transpose()) / 2);
 }
 
+void require_quadric(const WorldBody& body) {
+  if (!body.flat() && !body.quadric())
+    throw InputError("body", "a hull, or a body with a pose", "an ellipse, an ellipsoid or a combined body");
+}
+
 }  // namespace
 
 bool WorldBody::planar() const { return std::holds_alternative<CombinedEllipse>(kind_); }
@@ -238,18 +242,18 @@ std::optional<Vector3d> WorldBody::support_point(const Vector3d& n) const {
 }
 
 double WorldBody::gauge(const Vector3d& x) const {
-  VERICONE_REQUIRES(flat() || quadric());
+  require_quadric(*this);
   if (flat()) return flat()->gauge(Eigen::Vector2d(x.head<2>() - flat()->center()));
   return quadric()->gauge(x - quadric()->center());
 }
 
 Ellipse WorldBody::containing_ellipse() const {
-  VERICONE_REQUIRES(planar());
+  if (!planar()) throw InputError("body", "one of space", "a planar one");
   return containing(*flat());
 }
 
 Ellipsoid WorldBody::containing_ellipsoid() const {
-  VERICONE_REQUIRES(!planar());
+  if (planar()) throw InputError("body", "a planar one", "one of space");
   if (quadric()) return containing(*quadric());
   return hull() ? containing_by_covariance(*hull()) : placed()->containing_ellipsoid();
 }
@@ -266,7 +270,7 @@ WorldBody WorldBody::moved(const Vector3d& from, const Vector3d& to, const Vecto
 }
 
 WorldBody WorldBody::inflated(double distance) const {
-  VERICONE_REQUIRES(flat() || quadric());
+  require_quadric(*this);
   if (flat()) return inflated_by<2>(*flat(), distance);
   return inflated_by<3>(*quadric(), distance);
 }

@@ -9,6 +9,12 @@
 #include <cmath>
 
 namespace vericone::guidance {
+namespace {
+
+/// Looks at a turn; one that takes more is not safe, as far as anyone can say in time.
+constexpr int kMostLooks = 100'000;
+
+}  // namespace
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -95,7 +101,12 @@ Navigator::Foreseen Navigator::foresee(const Moment& now, const Course& course, 
     // The turn. Between two looks nothing moves farther than this.
     const double closing = now.speed + other.velocity.norm() + (now.carried ? rate * now.reach : 0);
     const double least_step = 0.25 * now.step, end = std::min(turning, course.until);
+    int looks = 0;
     for (double t = 0; end > 0;) {
+      if (++looks > kMostLooks) {
+        result.see(-kFar, required, i);
+        break;
+      }
       const double d = apart(t);
       result.see(d, required, i);
       if (d < required && t > 0) break;

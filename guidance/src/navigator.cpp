@@ -3,6 +3,7 @@
 
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/cones/ellipsoids/clearance.h>
+#include <vericone/geometry/error.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -201,6 +202,7 @@ bool Navigator::search(const Moment& now, const Vector3d& wanted, double less_th
 
 NavigatorStep Navigator::step(const BodyState& agent, std::span<const BodyState> others,
                               const std::optional<Destination>& destination, double time, double step) {
+  if (!(step > 0 && step < kFar)) throw InputError("step", to_text(step), "positive and finite (s)");
   NavigatorStep result;
   Moment now;
   now.position = agent.position;

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -39,8 +38,7 @@ void OutputFile::close() {
 }
 
 void OutputFile::fail(int error) const {
-  throw std::runtime_error("could not write " + path_.string() + ": " +
-                           std::generic_category().message(error));
+  throw std::system_error(error, std::generic_category(), "could not write " + path_.string());
 }
 
 void write_whole(const std::filesystem::path& path, std::string_view content) {

@@ -7,7 +7,7 @@
 namespace vericone {
 
 /// A file that is written from its start, or from its end on. What fails is told at once, as
-/// std::runtime_error naming the path and the reason.
+/// std::system_error naming the path and the reason.
 class OutputFile {
  public:
   enum class Start { anew, at_end };
@@ -28,7 +28,7 @@ class OutputFile {
   int file_;
 };
 
-/// A file of this content. Throws std::runtime_error naming the path and the reason.
+/// A file of this content. Throws std::system_error naming the path and the reason.
 void write_whole(const std::filesystem::path& path, std::string_view content);
 
 /// Returns once a file, or the names in a folder, are on the disk.

@@ -25,6 +25,7 @@ std::string content_of(const fs::path& file) {
 }  // namespace
 
 std::string proof_text(const simulation::Scenario& scenario, const simulation::Run& run) {
+  simulation::require_run_of(scenario, run);
   return proof_json(scenario, run).dump(1) + "\n";
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/geometry/error.h>
 #include <vericone/geometry/world_body.h>
 
 #include <gtest/gtest.h>
@@ -95,6 +96,14 @@ TEST(WorldBody, InflatedHoldsAllThatIsNear) {
       EXPECT_LE(flat_around.gauge(near), 1 + 1e-12);
     }
   }
+}
+
+TEST(WorldBody, WhatABodyOfAnotherKindHasNotIsRefused) {
+  const WorldBody flat{CombinedEllipse(Ellipse())}, hull{HullBody::box({0, 0, 0}, {1, 1, 1})};
+  EXPECT_THROW((void)flat.containing_ellipsoid(), InputError);
+  EXPECT_THROW((void)hull.containing_ellipse(), InputError);
+  EXPECT_THROW((void)hull.gauge({0, 0, 0}), InputError);
+  EXPECT_THROW((void)hull.inflated(0.1), InputError);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 //
 // What a run says as tables, and tables as text.
 #include <gtest/gtest.h>
+#include <vericone/geometry/error.h>
 #include <vericone/simulation/run_tables.h>
 
 #include <limits>
@@ -56,6 +57,31 @@ TEST(RunTables, HaveARowForEachBodyAndCommand) {
   EXPECT_EQ(tables[0].columns[2].numbers[9], run.tracks[1].motion(1).position.x());
   EXPECT_EQ(tables[1].rows(), run.encounters.size());
   EXPECT_EQ(tables[2].rows(), run.events.size());
+}
+
+TEST(RunTables, OfTheRunOfAnotherScenarioAreRefused) {
+  Scenario scenario;
+  scenario.duration = 1;
+  scenario.step = 0.25;
+  scenario.bodies = {ball("A", {0, 0, 0}, {1, 0, 0}), ball("B", {9, 0, 0}, {-1, 0, 0})};
+  scenario.bodies[0].pilot.emplace();
+  const simulation::Run run = simulate(scenario);
+  Scenario other = scenario;
+  other.bodies.pop_back();
+  EXPECT_THROW((void)run_tables(other, run), InputError);
+  other = scenario;
+  other.step = 0;
+  EXPECT_THROW((void)run_tables(other, run), InputError);
+  simulation::Run wrong = run;
+  wrong.encounters[0].obstacle = 2;
+  EXPECT_THROW((void)run_tables(scenario, wrong), InputError);
+  wrong = run;
+  wrong.encounters[0].t = 7;
+  EXPECT_THROW((void)encounters_table(scenario, wrong), InputError);
+  wrong = run;
+  wrong.events.push_back({0, EventKind::goes_through, 0, 0, 0});
+  EXPECT_THROW((void)events_table(scenario, wrong), InputError);
+  EXPECT_THROW((void)obstacle_of(scenario, {0, EventKind::passes, 0, 17, 0}), InputError);
 }
 
 }  // namespace

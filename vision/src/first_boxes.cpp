@@ -21,12 +21,7 @@ std::string size_text(int width, int height) {
 }  // namespace
 
 void check_picture(const Image& image, const cv::Mat& before) {
-  if (image.width <= 0 || image.height <= 0 || (image.channels != 1 && image.channels != 3) ||
-      image.data.size() != std::size_t(image.width) * image.height * image.channels)
-    throw InputError("image",
-                     size_text(image.width, image.height) + ", " + std::to_string(image.data.size()) +
-                         " bytes of " + std::to_string(image.channels) + " channels",
-                     "a picture of 1 or 3 channels, 8 bits each");
+  require_whole(image);
   if (!before.empty() && (before.cols != image.width || before.rows != image.height))
     throw InputError("image", size_text(image.width, image.height),
                      "as large as the first one, " + size_text(before.cols, before.rows));

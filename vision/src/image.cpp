@@ -1,8 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/geometry/error.h>
 #include <vericone/vision/image.h>
 #include <algorithm>
+#include <string>
 
 namespace vericone::vision {
+
+void require_whole(const Image& image) {
+  if (image.width <= 0 || image.height <= 0 || (image.channels != 1 && image.channels != 3) ||
+      image.data.size() != std::size_t(image.width) * std::size_t(image.height) * std::size_t(image.channels))
+    throw InputError("image",
+                     std::to_string(image.width) + " x " + std::to_string(image.height) + " px, " +
+                         std::to_string(image.data.size()) + " bytes of " + std::to_string(image.channels) +
+                         " channels",
+                     "a picture of 1 or 3 channels, 8 bits each");
+}
 
 double overlap(const Box& a, const Box& b) {
   const double w = std::min(a.x + a.w, b.x + b.w) - std::max(a.x, b.x),

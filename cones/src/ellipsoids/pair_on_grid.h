@@ -3,6 +3,7 @@
 // Two bodies in integers.
 #pragma once
 
+#include <vericone/geometry/error.h>
 #include <vericone/geometry/exact/body.h>
 #include <vericone/geometry/exact/integer.h>
 
@@ -38,6 +39,8 @@ struct PairOnGrid {
   /// The unit of length is one part in the common denominator of all lengths and squared lengths.
   PairOnGrid(const RationalBody<D>& body_a, const RationalBody<D>& body_b) {
     Integer common = 1;
+    require_ellipsoid(body_a.shape, "a.shape");
+    require_ellipsoid(body_b.shape, "b.shape");
     for (const auto* body : {&body_a, &body_b})
       for (int i = 0; i < D; ++i) {
         common = lcm(common, denominator(body->center[i]));
@@ -54,6 +57,14 @@ struct PairOnGrid {
   }
 
  private:
+  static void require_ellipsoid(const RationalMatrix<D>& shape, const char* field) {
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j < i; ++j)
+        if (shape[i][j] != shape[j][i])
+          throw InputError(field, "not symmetric", "symmetric and positive definite");
+    if (!positive_definite<D>(shape))
+      throw InputError(field, "not positive definite", "symmetric and positive definite");
+  }
   static IntegerMatrix<D> shape(const BasicEllipsoid<D>& body, int e) {
     IntegerMatrix<D> s;
     if (!body.defined_by_factor()) {

@@ -275,6 +275,9 @@ std::size_t cell_at(const ConeMap& map, const Vector3d& direction) {
   double most = -std::numeric_limits<double>::infinity();
   const Vector3d d = direction.stableNormalized();
   for (std::size_t i = 0; i < map.cells.size() && !(most >= 0); ++i) {
+    if (std::ranges::any_of(map.cells[i].corners, [&map](auto k) { return k >= map.corners.size(); }))
+      throw InputError("map.cells[" + std::to_string(i) + "]", "a corner that there is not",
+                       "of corners of the map, as cone_map() returns it");
     const auto [a, b, c] = map.cell(i);
     const double least = std::min({d.dot(a.cross(b - a)), d.dot(b.cross(c - b)), d.dot(c.cross(a - c))});
     if (least > most) {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/map/regions.h>
 
+#include <vericone/geometry/error.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <string>
 #include <unordered_map>
 #include <utility>
 
@@ -46,8 +48,20 @@ struct CellSide {
   }
 };
 
-/// In pairs: those of one edge follow each other.
+[[noreturn]] void refuse(const std::string& field, const std::string& what) {
+  throw InputError(field, what, "that of a division of the sphere, as cone_map() returns it");
+}
+
+/// In pairs: those of one edge follow each other. Throws InputError where the map is no division of the
+/// sphere.
 std::vector<CellSide> sides_of(const ConeMap& map) {
+  const auto is_corner = [&map](Index i) { return i < map.corners.size(); };
+  for (std::size_t c = 0; c < map.cells.size(); ++c)
+    if (!std::ranges::all_of(map.cells[c].corners, is_corner))
+      refuse("map.cells[" + std::to_string(c) + "]", "a corner that there is not");
+  for (std::size_t i = 0; i < map.between.size(); ++i)
+    if (!std::ranges::all_of(map.between[i], is_corner))
+      refuse("map.between[" + std::to_string(i) + "]", "a corner that there is not");
   std::unordered_map<std::uint64_t, Index> middles;
   middles.reserve(map.between.size());
   for (Index i = 0; i < map.between.size(); ++i)
@@ -55,12 +69,15 @@ std::vector<CellSide> sides_of(const ConeMap& map) {
   std::vector<CellSide> sides;
   sides.reserve(4 * map.cells.size());
   std::vector<Edge> stack;
+  // A corner divides an edge of each of two cells at most.
+  std::size_t left = 3 * map.cells.size() + 4 * map.between.size();
   for (Index c = 0; c < map.cells.size(); ++c) {
     const auto& corners = map.cells[c].corners;
     stack = {{corners[0], corners[1]}, {corners[1], corners[2]}, {corners[2], corners[0]}};
     while (!stack.empty()) {
       const auto [a, b] = stack.back();
       stack.pop_back();
+      if (left-- == 0) refuse("map.between", "a corner that divides an edge which ends in it");
       if (const auto m = middles.find(key(a, b)); m != middles.end()) {
         stack.push_back({a, m->second});
         stack.push_back({m->second, b});
@@ -70,6 +87,10 @@ std::vector<CellSide> sides_of(const ConeMap& map) {
     }
   }
   std::sort(sides.begin(), sides.end());
+  for (std::size_t i = 0; i < sides.size(); i += 2)
+    if (i + 1 == sides.size() || sides[i].edge != sides[i + 1].edge ||
+        sides[i].rising == sides[i + 1].rising || (i > 0 && sides[i - 1].edge == sides[i].edge))
+      refuse("map.cells[" + std::to_string(sides[i].cell) + "]", "an edge without a cell beyond it");
   return sides;
 }
 

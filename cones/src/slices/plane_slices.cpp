@@ -2,6 +2,7 @@
 #include "slices/plane_slices.h"
 
 #include <vericone/cones/slices/visible_sector.h>
+#include <vericone/geometry/error.h>
 #include <vericone/geometry/requires.h>
 #include <vericone/geometry/scaled_inverse.h>
 #include <Eigen/Geometry>
@@ -78,7 +79,8 @@ Sections sections_of(const CombinedEllipsoid& a, const CombinedEllipsoid& b, con
 
 SectorRates section_rates(const Sections& sections, const CombinedEllipsoid& a, const CombinedEllipsoid& b,
                           const Vector3d& u, const Vector3d& e, const SpatialMotion& motion) {
-  VERICONE_REQUIRES(sections.disjoint());
+  if (!sections.disjoint())
+    throw InputError("obstacle", "a body that meets the agent on the plane", "apart from it");
   const Vector3d v = motion.v_b - motion.v_a;
   const double distance = (b.center() - a.center()).norm();
   // The axes (u, e) turn with the line of sight, and about it.

@@ -7,12 +7,13 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <cerrno>
 #include <cctype>
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <stdexcept>
 #include <string>
+#include <system_error>
 
 namespace vericone::files {
 namespace {
@@ -182,15 +183,17 @@ void write_points(const std::filesystem::path& path, std::span<const Vector3d> p
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const std::string bytes = Content(points, triangles).of(extension, path);
   const std::filesystem::path partial = partial_path(path);
+  errno = 0;
   std::ofstream out(partial, std::ios::binary);
   out.write(bytes.data(), std::streamsize(bytes.size()));
   out.close();
   std::error_code failure;
+  if (!out) failure = {errno ? errno : EIO, std::generic_category()};
   if (out) std::filesystem::rename(partial, path, failure);
-  if (!out || failure) {
+  if (failure) {
     std::error_code ignored;
     std::filesystem::remove(partial, ignored);
-    throw std::runtime_error("could not write " + path.string() + (failure ? ": " + failure.message() : ""));
+    throw std::system_error(failure, "could not write " + path.string());
   }
 }
 

@@ -14,6 +14,8 @@ using Eigen::Vector3d;
 
 Box cube(double resolution, const std::array<std::uint16_t, 3>& key, int depth) {
   constexpr int kOrigin = 1 << (kDepth - 1);
+  if (depth < 0 || depth > kDepth)
+    throw InputError("cell.depth", std::to_string(depth), "between 0 and " + std::to_string(kDepth));
   Box box;
   for (std::size_t i = 0; i < 3; ++i) {
     const int low = int(key[i]) - kOrigin;

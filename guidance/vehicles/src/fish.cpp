@@ -2,6 +2,7 @@
 #include <vericone/vehicles/fish.h>
 
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -89,6 +90,7 @@ class Fish : public simulation::Vehicle {
     constexpr double kOne = 1e-9;
     follow(command, from, to);
     while (t_ < to) {
+      checkpoint();
       while (tail_.cycle(cycle_) <= t_ + kOne) begin_cycle(command);
       double next = std::min({to, tail_.cycle(cycle_), t_ + options_.step});
       if (to - next < kOne) next = to;

@@ -2,6 +2,7 @@
 #include <vericone/vehicles/quadrotor.h>
 
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -73,6 +74,7 @@ class Quadrotor : public simulation::Vehicle {
     constexpr double kOne = 1e-9;
     double t = from;
     while (t < to) {
+      checkpoint();
       if (set_ <= t + kOne) {
         wrench_ =
             quadrotor_wrench(options_, state_, thrust_and_tilt(options_, state_, command.acceleration), yaw_);

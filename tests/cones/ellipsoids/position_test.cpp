@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/exact_position.h>
+#include <vericone/cones/ellipsoids/exact_predicates.h>
 #include <vericone/cones/ellipsoids/position.h>
+#include <vericone/geometry/error.h>
 #include <vericone/geometry/exact/body.h>
 #include <vericone/testing/random_bodies.h>
 #include <Eigen/LU>
@@ -483,6 +485,13 @@ TEST(Position, RationalBodies) {
     }
   b.center = {Rational(2, 3), 0, 0};
   EXPECT_EQ(exact::position<3>(b, a), Position::a_inside_b_touching);
+  b.shape[2][2] = 0;
+  EXPECT_THROW((void)exact::position<3>(b, a), InputError) << "a disc is no ellipsoid";
+  b.shape[2][2] = Rational(1, 9);
+  b.shape[0][1] = Rational(1, 90);
+  EXPECT_THROW((void)exact::relation<3>(b, a), InputError) << "not symmetric";
+  EXPECT_THROW((void)exact::membership(a, RationalBody<3>(), {Rational(1), Rational(0), Rational(0)}),
+               InputError);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/cones/map/regions.h>
+#include <vericone/geometry/error.h>
 
 #include <map>
 #include <set>
@@ -212,6 +213,28 @@ TEST(ConeMapRegions, WhereARegionTouchesItselfInACorner) {
   EXPECT_EQ(all[0].boundary[0].size(), 6);
   EXPECT_TRUE(all[0].surely_separate);
   EXPECT_NEAR(all[0].most_solid_angle, 4 * std::numbers::pi, 1e-12);
+}
+
+TEST(ConeMapRegions, WhatIsNoDivisionOfTheSphereIsRefused) {
+  const ConeMap whole = cone_map(ring({1, 0, 0}, -1, 4), at(1));
+  ConeMap map = whole;
+  map.cells[3].corners[1] = 99;
+  EXPECT_THROW((void)regions(map), InputError);
+  EXPECT_THROW((void)cell_at(map, whole.corners[whole.cells.back().corners[0]]), InputError);
+  map = whole;
+  map.cells.pop_back();
+  EXPECT_THROW((void)regions(map), InputError) << "a hole";
+  map = whole;
+  std::swap(map.cells[0].corners[0], map.cells[0].corners[1]);
+  EXPECT_THROW((void)regions(map), InputError) << "a cell seen from within";
+  map = whole;
+  map.between[4] = {0, 1};  // corners 4 and 1 divide each other's edges, without end
+  map.between[1] = {0, 4};
+  map.cells[0].corners = {0, 1, 4};
+  EXPECT_THROW((void)regions(map), InputError);
+  map = whole;
+  map.between[0] = {0, 99};
+  EXPECT_THROW((void)regions(map), InputError);
 }
 
 }  // namespace

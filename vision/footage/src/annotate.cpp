@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/geometry/error.h>
 #include <vericone/vision/footage/annotate.h>
 #include <algorithm>
 #include <cmath>
@@ -36,12 +37,15 @@ void dashed(cv::Mat& picture, const cv::Point& a, const cv::Point& b, const cv::
 }  // namespace
 
 Image grey_of(const Image& image) {
+  require_whole(image);
   if (image.channels == 1) return image;
   const cv::Mat seen(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.data.data()));
   return to_image(seen, 1);
 }
 
 void draw_sighting(Image& image, const Sighting& sighting, const std::string& name) {
+  require_whole(image);
+  if (image.channels != 3) throw InputError("image", "one of 1 channel", "of 3 channels, to draw in colour");
   cv::Mat picture(image.height, image.width, CV_8UC3, image.data.data());
   // A box that is expected far away is no line to draw.
   const Box& b = sighting.box;

@@ -2,6 +2,7 @@
 #include <vericone/geometry/error.h>
 #include <vericone/vision/footage/footage.h>
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -10,7 +11,7 @@
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <stdexcept>
+#include <system_error>
 #include <vector>
 
 #include "codecs.h"
@@ -75,14 +76,17 @@ Image read_picture(const std::filesystem::path& file, int channels, const std::s
 }
 
 void write_picture(const std::filesystem::path& file, const Image& image) {
+  require_whole(image);
   silence_codecs();
   const cv::Mat seen(image.height, image.width, CV_8UC(image.channels),
                      const_cast<std::uint8_t*>(image.data.data()));
   Bytes bytes;
-  if (!cv::imencode(".png", seen, bytes)) throw std::runtime_error(file.string() + ": no picture to write");
+  if (!cv::imencode(".png", seen, bytes)) throw InputError("image", "nothing to write", "a picture");
+  errno = 0;
   std::ofstream out(file, std::ios::binary);
   out.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
-  if (!out.flush()) throw std::runtime_error(file.string() + ": cannot be written");
+  if (!out.flush())
+    throw std::system_error(errno ? errno : EIO, std::generic_category(), "could not write " + file.string());
 }
 
 }  // namespace vericone::vision

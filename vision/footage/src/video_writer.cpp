@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/geometry/error.h>
 #include <vericone/vision/footage/footage.h>
+#include <cerrno>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
-#include <stdexcept>
+#include <system_error>
 
 #include "codecs.h"
 
@@ -19,21 +21,27 @@ VideoWriter::VideoWriter(const std::filesystem::path& file, int width, int heigh
     : parts_(new Parts{file, width, height, {}, {}}) {
   silence_codecs();
   const cv::Size even(width & ~1, height & ~1);
+  if (!(even.width > 0 && even.height > 0))
+    throw InputError("size", std::to_string(width) + " x " + std::to_string(height) + " px",
+                     "of 2 x 2 px at least");
+  if (!(rate > 0)) throw InputError("rate", to_text(rate), "positive (pictures a second)");
   for (const int codec :
        {cv::VideoWriter::fourcc('a', 'v', 'c', '1'), cv::VideoWriter::fourcc('m', 'p', '4', 'v')})
-    if (even.width > 0 && even.height > 0 && rate > 0 &&
-        parts_->writer.open(file.string(), cv::CAP_FFMPEG, codec, rate, even, true))
+    if (parts_->writer.open(file.string(), cv::CAP_FFMPEG, codec, rate, even, true))
       return;
-  throw std::runtime_error(file.string() + ": a video of " + std::to_string(width) + " x " +
-                           std::to_string(height) + " px cannot be written");
+  throw std::system_error(EIO, std::generic_category(),
+                          "could not write " + file.string() + ", a video of " + std::to_string(width) + " x " +
+                              std::to_string(height) + " px");
 }
 VideoWriter::~VideoWriter() = default;
 VideoWriter::VideoWriter(VideoWriter&&) noexcept = default;
 VideoWriter& VideoWriter::operator=(VideoWriter&&) noexcept = default;
 
 void VideoWriter::add(const Image& image) {
+  require_whole(image);
   if (image.width != parts_->width || image.height != parts_->height)
-    throw std::runtime_error(parts_->file.string() + ": a picture of another size");
+    throw InputError("image", std::to_string(image.width) + " x " + std::to_string(image.height) + " px",
+                     std::to_string(parts_->width) + " x " + std::to_string(parts_->height) + " px, as the video");
   const cv::Mat seen(image.height, image.width, CV_8UC(image.channels),
                      const_cast<std::uint8_t*>(image.data.data()));
   const cv::Rect even(0, 0, image.width & ~1, image.height & ~1);
@@ -48,7 +56,8 @@ void VideoWriter::close() {
   parts_->writer.release();
   std::error_code error;
   if (std::filesystem::file_size(parts_->file, error) == 0 || error)
-    throw std::runtime_error(parts_->file.string() + ": cannot be written");
+    throw std::system_error(error ? error.value() : EIO, std::generic_category(),
+                            "could not write " + parts_->file.string());
 }
 
 }  // namespace vericone::vision

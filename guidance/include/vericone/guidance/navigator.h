@@ -66,7 +66,8 @@ class Navigator {
  public:
   explicit Navigator(const NavigatorOptions& options) : options_(options) {}
 
-  /// At `time`; the command is held for `step` seconds. All bodies planar or all spatial.
+  /// At `time`; the command is held for `step` seconds. All bodies planar or all spatial. Throws InputError
+  /// naming "step" unless it is positive.
   NavigatorStep step(const BodyState& agent, std::span<const BodyState> others,
                      const std::optional<Destination>& destination, double time, double step);
 

@@ -23,7 +23,7 @@ class Fields {
 
   std::string text() {
     std::string value;
-    if (!std::getline(in_, value, ',') && !in_.eof()) throw std::runtime_error("too few fields");
+    if (!std::getline(in_, value, ',') && !in_.eof()) throw InputError("row", "too few fields", "one that csv_row() wrote for as many laws");
     return value;
   }
   double number() {
@@ -32,14 +32,14 @@ class Fields {
     double x = 0;
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), x);
     if (error != std::errc() || end != value.data() + value.size())
-      throw std::runtime_error("no number: " + value);
+      throw InputError("row", "'" + value + "'", "a number there");
     return x;
   }
   bool flag() { return number() != 0; }
   Outcome outcome() {
     Outcome o;
     const std::string fate = text();
-    if (!fate_of(fate)) throw std::runtime_error("no outcome: " + fate);
+    if (!fate_of(fate)) throw InputError("row", "'" + fate + "'", "the name of a fate there");
     o.fate = *fate_of(fate);
     o.called_safe = flag();
     o.least_distance = number();
@@ -117,6 +117,7 @@ Row row_of(const std::string& line, std::size_t laws) {
 
 std::vector<Row> read_table(const std::filesystem::path& file, std::size_t laws) {
   std::ifstream in(file);
+  if (!in) throw InputError("file", file.string(), "a table that can be read");
   std::string line;
   std::getline(in, line);  // settings
   std::getline(in, line);  // header
@@ -124,8 +125,8 @@ std::vector<Row> read_table(const std::filesystem::path& file, std::size_t laws)
   for (std::size_t number = 3; std::getline(in, line); ++number) {
     try {
       rows.push_back(row_of(line, laws));
-    } catch (const std::exception& e) {
-      throw std::runtime_error(file.string() + ":" + std::to_string(number) + ": " + e.what());
+    } catch (const InputError& error) {
+      throw InputError(file.string() + ":" + std::to_string(number), error.value(), error.requirement());
     }
   }
   return rows;

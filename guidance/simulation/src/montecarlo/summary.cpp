@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/geometry/error.h>
 #include <vericone/simulation/montecarlo/summary.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace vericone::montecarlo {
 namespace {
@@ -44,6 +46,11 @@ bool word_is_proof(const Flown& law) {
 }  // namespace
 
 Summary summarise(const std::vector<Row>& rows, const std::vector<Flown>& laws) {
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i].outcomes.size() < laws.size())
+      throw InputError("rows[" + std::to_string(i) + "].outcomes",
+                       std::to_string(rows[i].outcomes.size()) + " outcomes",
+                       "one for each law, " + std::to_string(laws.size()));
   const auto number = [&](auto which) {
     return std::uint64_t(std::count_if(rows.begin(), rows.end(), which));
   };

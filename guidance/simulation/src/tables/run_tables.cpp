@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/geometry/error.h>
 #include <vericone/guidance/clearance_law.h>
 #include <vericone/simulation/run_tables.h>
 #include <Eigen/Geometry>
@@ -6,6 +7,8 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "tables/rows.h"
@@ -68,9 +71,67 @@ void command_fields(Row& row, const Eigen::Vector3d& acceleration, std::optional
   }
 }
 
+[[noreturn]] void refuse(const std::string& list, std::size_t i, const std::string& what) {
+  throw InputError("run." + list + "[" + std::to_string(i) + "]", what, "of a run of this scenario");
+}
+
+void require_event_of(const Scenario& scenario, const Event& event) {
+  const bool there = event.agent < scenario.bodies.size() &&
+                     event.obstacle < (of_orifice(event) ? scenario.orifices.size() : scenario.bodies.size());
+  if (!there) throw InputError("event", "of bodies that there are not", "of a run of this scenario");
+}
+
 }  // namespace
 
+void require_run_of(const Scenario& scenario, const Run& run) {
+  const std::size_t bodies = scenario.bodies.size(), orifices = scenario.orifices.size();
+  if (run.tracks.size() != bodies)
+    throw InputError("run.tracks", std::to_string(run.tracks.size()) + " tracks",
+                     "one for each body of the scenario, " + std::to_string(bodies));
+  if (!(scenario.step > 0 && run.end / scenario.step < 1e9))
+    throw InputError("run.end", to_text(run.end),
+                     "the end of a run in steps of " + to_text(scenario.step) + " s");
+  // Every pair of indices, and how many there are of what they count.
+  const auto each = [](const char* list, const auto& samples, std::size_t first, std::size_t second,
+                       auto indices) {
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const auto [a, b] = indices(samples[i]);
+      if (a >= first || b >= second) refuse(list, i, "a body or an orifice that there is not");
+    }
+  };
+  using Both = std::pair<std::size_t, std::size_t>;
+  const auto encounter = [](const auto& s) { return Both(s.agent, s.obstacle); };
+  const auto pair = [](const auto& s) { return Both(s.a, s.b); };
+  const auto through = [](const auto& s) { return Both(s.agent, s.orifice); };
+  const auto alone = [](const auto& s) { return Both(s.body, s.body); };
+  each("encounters", run.encounters, bodies, bodies, encounter);
+  each("planes", run.planes, bodies, bodies, encounter);
+  each("sights", run.sights, bodies, bodies, encounter);
+  each("vehicles", run.vehicles, bodies, bodies, alone);
+  each("limits_broken", run.limits_broken, bodies, bodies, alone);
+  each("proofs", run.proofs, bodies, bodies, pair);
+  each("not_checked", run.not_checked, bodies, bodies, pair);
+  each("orifices", run.orifices, bodies, orifices, through);
+  each("passages", run.passages, bodies, orifices, through);
+  for (const Event& event : run.events) require_event_of(scenario, event);
+  for (std::size_t i = 0; i < run.encounters.size(); ++i)
+    for (const std::size_t body : {run.encounters[i].agent, run.encounters[i].obstacle})
+      if (!(run.encounters[i].t >= run.tracks[body].appears() &&
+            run.encounters[i].t <= run.tracks[body].end()))
+        refuse("encounters", i, to_text(run.encounters[i].t) + " s, when a body is not there");
+  for (std::size_t i = 0; i < run.vehicles.size(); ++i) {
+    const auto& model = scenario.bodies[run.vehicles[i].body].vehicle;
+    if (!model || model->channels().size() < run.vehicles[i].values.size())
+      refuse("vehicles", i, "more values than the body has channels");
+  }
+  for (std::size_t i = 0; i < run.orifices.size(); ++i) {
+    const auto& pilot = scenario.bodies[run.orifices[i].agent].pilot;
+    if (!pilot || !pilot->through) refuse("orifices", i, "a body that heads for none");
+  }
+}
+
 Table bodies_table(const Scenario& scenario, const Run& run) {
+  require_run_of(scenario, run);
   Table table =
       table_of("bodies",
                "t [s],body,x [m],y [m],z [m],vx [m/s],vy [m/s],vz [m/s],speed [m/s],azimuth [rad],elevation "
@@ -87,6 +148,7 @@ Table bodies_table(const Scenario& scenario, const Run& run) {
 }
 
 Table encounters_table(const Scenario& scenario, const Run& run) {
+  require_run_of(scenario, run);
   Table table =
       table_of("encounters",
                "t [s],agent,obstacle,r [m],theta [rad],phi [rad],V_r [m/s],V_theta [m/s],V_phi [m/s],y,psi "
@@ -109,6 +171,7 @@ Table encounters_table(const Scenario& scenario, const Run& run) {
 }
 
 Table planes_table(const Scenario& scenario, const Run& run) {
+  require_run_of(scenario, run);
   Table table =
       table_of("planes", "t [s],agent,obstacle,azimuth [rad],y,psi [rad],theta_b [rad],V_r_hat [m/s]");
   for (const PlaneSample& s : run.planes) {
@@ -121,6 +184,7 @@ Table planes_table(const Scenario& scenario, const Run& run) {
 }
 
 Table sights_table(const Scenario& scenario, const Run& run) {
+  require_run_of(scenario, run);
   Table table =
       table_of("sights",
                "t [s],agent,obstacle,x [m],y [m],z [m],vx [m/s],vy [m/s],vz [m/s],believed_x [m],believed_y "
@@ -157,6 +221,7 @@ Table sights_table(const Scenario& scenario, const Run& run) {
 }
 
 Table orifices_table(const Scenario& scenario, const Run& run) {
+  require_run_of(scenario, run);
   Table table =
       table_of("orifices",
                "t [s],agent,orifice,r [m],theta [rad],phi [rad],V_r [m/s],V_theta [m/s],V_phi [m/s],y "
@@ -176,6 +241,7 @@ Table orifices_table(const Scenario& scenario, const Run& run) {
 }
 
 Table vehicles_table(const Scenario& scenario, const Run& run) {
+  require_run_of(scenario, run);
   std::vector<std::string> columns;  // of all kinds
   std::vector<std::vector<std::size_t>> places(scenario.bodies.size());
   for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
@@ -199,6 +265,7 @@ Table vehicles_table(const Scenario& scenario, const Run& run) {
 }
 
 Table events_table(const Scenario& scenario, const Run& run) {
+  require_run_of(scenario, run);
   Table table = table_of("events", "t [s],event,agent,obstacle,value,unit");
   for (const Event& event : run.events) {
     const std::string unit = unit_of(scenario, event);
@@ -225,11 +292,13 @@ bool of_orifice(const Event& event) {
 }
 
 std::string obstacle_of(const Scenario& scenario, const Event& event) {
+  require_event_of(scenario, event);
   if (of_orifice(event)) return scenario.orifices[event.obstacle].name;
   return event.agent != event.obstacle ? scenario.bodies[event.obstacle].name : "";
 }
 
 std::string unit_of(const Scenario& scenario, const Event& event) {
+  require_event_of(scenario, event);
   switch (event.kind) {
     case EventKind::passes:
     case EventKind::cannot_avoid:

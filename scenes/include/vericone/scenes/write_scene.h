@@ -15,7 +15,7 @@ namespace vericone::scenes {
 ///
 /// What was written is read again first; nothing is written, or all. Throws InputError naming "agent" or
 /// "obstacle" for a body made by a program that no fields give to the bit (one delimited by hyperboloids, a
-/// map's boxes), and naming the path where it is no file's; std::runtime_error where it cannot be written.
+/// map's boxes), and naming the path where it is no file's; std::system_error where it cannot be written.
 /// Cost: that of reading it.
 void write_scene(const Scene& scene, const std::filesystem::path& file);
 

@@ -19,7 +19,7 @@ namespace vericone::files {
 /// The file is there as a whole at the end, or as it was before. Throws InputError naming "path" for another
 /// extension, "points[i][k]" for a number that is not finite or, in .stl, no float, "triangles[i][k]" for an
 /// index without a point and "triangles" where the format has no triangles or cannot do without;
-/// std::runtime_error naming the path where it cannot be written. Linear in the points and triangles, 0.2 s a
+/// std::system_error naming the path where it cannot be written. Linear in the points and triangles, 0.2 s a
 /// million as text.
 void write_points(const std::filesystem::path& path, std::span<const Eigen::Vector3d> points,
                   std::span<const std::array<std::uint32_t, 3>> triangles);

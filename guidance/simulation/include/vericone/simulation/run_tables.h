@@ -10,6 +10,10 @@
 
 namespace vericone::simulation {
 
+/// Throws InputError naming "run" where it tells of bodies, orifices or steps that the scenario has not: it is
+/// a run of another. All that takes both asks this.
+void require_run_of(const Scenario& scenario, const Run& run);
+
 /// One row a body and command time from its appearance.
 [[nodiscard]] Table bodies_table(const Scenario& scenario, const Run& run);
 /// One row an agent, an obstacle and a command time.
@@ -26,7 +30,7 @@ namespace vericone::simulation {
 [[nodiscard]] Table events_table(const Scenario& scenario, const Run& run);
 
 /// Those that a run has: bodies, encounters, events; planes where they are logged, sights where an agent has
-/// a sensor, vehicles and orifices where there are any. Requires a run of this scenario.
+/// a sensor, vehicles and orifices where there are any.
 [[nodiscard]] std::vector<Table> run_tables(const Scenario& scenario, const Run& run);
 
 /// Of an event: what its value is, "m", "s" or "1", empty where it has none; and the other body's name, or

@@ -18,7 +18,7 @@ namespace vericone::fits {
                                     const std::string& comment);
 
 /// fit.json, body.yaml, hull.obj and hull.ply into `folder`, which must exist. `options` are those that the
-/// result was made with; `seconds` what it took. Throws std::runtime_error naming the path that cannot be
+/// result was made with; `seconds` what it took. Throws std::system_error naming the path that cannot be
 /// written, and as body_text().
 void write_fit(const Scan& scan, const fitting::FitOptions& options, const fitting::FitResult& result,
                double seconds, const std::filesystem::path& folder);

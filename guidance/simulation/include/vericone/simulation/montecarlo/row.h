@@ -26,9 +26,9 @@ struct Row {
 /// The line of columns, and a row as a line, both without their ends.
 [[nodiscard]] std::string csv_header(const std::vector<Flown>& laws);
 [[nodiscard]] std::string csv_row(std::uint64_t index, const Row& row);
-/// The row of such a line, of as many laws. Throws std::runtime_error for another.
+/// The row of such a line, of as many laws. Throws InputError naming "row" for another.
 [[nodiscard]] Row row_of(const std::string& line, std::size_t laws);
-/// Reads a file of a line of settings, csv_header() and rows. Throws std::runtime_error naming file and line.
+/// Reads a file of a line of settings, csv_header() and rows. Throws InputError naming file and line.
 [[nodiscard]] std::vector<Row> read_table(const std::filesystem::path& file, std::size_t laws);
 
 }  // namespace vericone::montecarlo

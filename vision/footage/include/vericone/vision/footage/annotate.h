@@ -9,12 +9,12 @@
 
 namespace vericone::vision {
 
-/// A copy in grey, as trackers want it.
+/// A copy in grey, as trackers want it. Throws InputError naming "image".
 [[nodiscard]] Image grey_of(const Image& image);
 
 /// A box into a picture of 3 channels, coloured by what the tracker says of it: green seen, yellow partly
 /// hidden, red hidden, violet lost; where it is only expected, dashed. Its name and confidence stand above
-/// it.
+/// it. Throws InputError naming "image".
 void draw_sighting(Image& image, const Sighting& sighting, const std::string& name);
 
 }  // namespace vericone::vision

@@ -32,8 +32,8 @@ class Reader {
                                                    const std::string& field);
 
 /// A video file (MP4 with H.264 where the system can encode it, which browsers play; MPEG-4 otherwise). An
-/// odd width or height loses its last column or row: neither codec has them. Throws std::runtime_error where
-/// it cannot be written.
+/// odd width or height loses its last column or row: neither codec has them. Throws InputError naming
+/// "size" or "rate"; std::system_error where it cannot be written.
 class VideoWriter {
  public:
   /// `rate`: pictures a second, above 0.
@@ -41,7 +41,7 @@ class VideoWriter {
   ~VideoWriter();
   VideoWriter(VideoWriter&&) noexcept;
   VideoWriter& operator=(VideoWriter&&) noexcept;
-  /// A picture of the size said, of 1 or 3 channels. Throws std::runtime_error for another one.
+  /// A picture of the size said, of 1 or 3 channels. Throws InputError naming "image" for another one.
   void add(const Image& image);
   /// Returns once the file is whole.
   void close();
@@ -51,7 +51,7 @@ class VideoWriter {
   std::unique_ptr<Parts> parts_;
 };
 
-/// PNG. Throws std::runtime_error naming the file where it cannot be written.
+/// PNG. Throws InputError naming "image"; std::system_error naming the file where it cannot be written.
 void write_picture(const std::filesystem::path& file, const Image& image);
 /// Throws InputError naming `field`.
 [[nodiscard]] Image read_picture(const std::filesystem::path& file, int channels, const std::string& field);
