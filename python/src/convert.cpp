@@ -2,6 +2,7 @@
 #include "convert.h"
 
 #include <vericone/geometry/error.h>
+#include <algorithm>
 
 namespace vericone::python {
 namespace {
@@ -12,6 +13,7 @@ constexpr const char* kNumber = "a real number that a double holds exactly";
   throw InputError(place.text(), value, kNumber);
 }
 
+/// In one line, and short.
 std::string shown(PyObject* given) {
   const auto text = py::reinterpret_steal<py::object>(PyObject_Repr(given));
   if (!text) {
@@ -19,6 +21,7 @@ std::string shown(PyObject* given) {
     return "?";
   }
   std::string shown = py::str(text);
+  std::replace(shown.begin(), shown.end(), '\n', ' ');
   if (shown.size() > 60) shown = shown.substr(0, 57) + "...";
   return shown;
 }

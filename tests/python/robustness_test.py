@@ -30,7 +30,8 @@ def called(tmp_path: Path, calls: int, seed: int, timeout: int, *more: str) -> d
     return report
 
 
-SPACES = ["", "exact.", "files.", "fitting.", "guidance.", "lidar.", "octomap.", "scenarios.", "scenes.", "simulation.", "vehicles.", "vision."]
+SPACES = ["", "engagements.", "exact.", "files.", "fits.", "fitting.", "guidance.", "lidar.", "montecarlo.", "octomap.", "scanning.", "scenario.",
+          "scenes.", "simulation.", "vehicles.", "vision."]
 
 
 @pytest.mark.parametrize("space", SPACES)

@@ -133,8 +133,8 @@ CombinedCone combined_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& 
 
 std::vector<PlaneInterval> plane_intervals(const CombinedOracle& oracle, const Vector3d& x_axis,
                                            const Vector3d& y_axis, double resolution) {
-  if (!(resolution > 0) || !(resolution < 1))
-    throw InputError("resolution", to_text(resolution), "between 0 and 1 (radians)");
+  if (!(resolution >= 1e-12) || !(resolution < 1))
+    throw InputError("resolution", to_text(resolution), "between 1e-12 and 1 (radians)");
   std::vector<PlaneInterval> result;
   const auto direction = [&](double t) -> Vector3d { return std::cos(t) * x_axis + std::sin(t) * y_axis; };
   const auto append = [&](double from, double to, Certified answer) {
@@ -145,6 +145,7 @@ std::vector<PlaneInterval> plane_intervals(const CombinedOracle& oracle, const V
     }
   };
   const auto resolve = [&](const auto& self, double from, double to) -> void {
+    checkpoint();
     const Certified middle = oracle.membership(direction(0.5 * (from + to)));
     const bool all = middle == Certified::in
                          ? oracle.all_in(direction(from), direction(to))
