@@ -7,6 +7,7 @@ from __future__ import annotations
 import contextlib
 import csv
 import datetime
+import fcntl
 import hashlib
 import importlib
 import json
@@ -23,7 +24,7 @@ import numpy as np
 import numpy.typing as npt
 
 if TYPE_CHECKING:
-    from . import InputError, files, fits, fitting, montecarlo, scanning, scenes, simulation
+    from . import InputError, VisibleCone, files, fits, fitting, montecarlo, scanning, scenes, simulation
 
 __all__ = ["Campaign", "Scanned", "as_frame", "campaign", "fit", "read_scenario", "read_scene", "read_table", "run_tables",
            "scan", "simulate", "units", "write_scene"]
@@ -45,6 +46,20 @@ def _part(name: str) -> Any:
 def _refuse(field: str, value: object, requirement: str) -> InputError:
     error: InputError = importlib.import_module("vericone").InputError(field, str(value), requirement)
     return error
+
+
+@contextlib.contextmanager
+def _locked(folder: Path) -> Iterator[None]:
+    """Nobody else goes on with the unfinished table of `folder` meanwhile, as the command locks it too."""
+    lock = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+    try:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise _refuse("out", folder, "a folder that nobody else is writing to") from None
+        yield
+    finally:
+        os.close(lock)
 
 
 @contextlib.contextmanager
@@ -297,6 +312,7 @@ def campaign(settings: montecarlo.Campaign | None = None, *, out: PathLike | Non
         if out is not None:
             folder = Path(out)
             folder.mkdir(parents=True, exist_ok=True)
+            stack.enter_context(_locked(folder))
             partial = folder / "engagements.csv.partial"
             lines = _lines_done(partial, line_of_settings, header, asked.engagements) if resume else []
             grow = stack.enter_context(open(partial, "w", encoding="utf-8", newline=""))
@@ -310,8 +326,8 @@ def campaign(settings: montecarlo.Campaign | None = None, *, out: PathLike | Non
             return progress is None or progress(len(lines) / asked.engagements) is not False
 
         finished = _fill(_Rows(asked, laws), lines, workers, grown)
-    if partial is not None and finished:
-        os.replace(partial, partial.with_suffix(""))
+        if partial is not None and finished:
+            os.replace(partial, partial.with_suffix(""))
     rows = [module.row_of(line, len(laws)) for line in lines]
     summary = module.summarise(rows, laws)
     return Campaign(_table_of([line + "\n" for line in [header, *lines]], "the campaign"), summary,
@@ -388,23 +404,36 @@ def fit(data: PathLike | npt.ArrayLike | tuple[npt.ArrayLike, npt.ArrayLike] | f
 class Scanned(NamedTuple):
     """What LiDARs saw: `points` (n, 3), metres, in the world, fused where their poses were known badly (empty where that
     failed: seen.not_fused says why); `seen`, the scans themselves; `study`, how near the cones of finer and finer scans
-    (sr, rad) are to that of all that can be seen; None where it was not asked for."""
+    (sr, rad) are to that of all that can be seen; `cone`, the source's sectors of the points. The last two are None where
+    they were not asked for."""
     points: Array
     seen: scanning.Seen
     study: scanning.Study | None
+    cone: VisibleCone | None
 
 
 def scan(scene: PathLike | scanning.Setup, *, seed: int = 1, planes: int = 36, levels: int = 5, study: bool = True,
-         told: Callable[[str], object] | None = None) -> Scanned:
+         azimuth: float = 0.0, out: PathLike | None = None, told: Callable[[str], object] | None = None) -> Scanned:
     """What the LiDARs of a scene return of its obstacle, a mesh, and what cone they get from it: `vericone scan`
     (docs/explanation/lidar.md). `scene`: a file, or a scanning.Setup made of an agent, a mesh (metres) and LiDARs, of
-    which seed, planes and levels are replaced. `told` hears a line now and then. Raises InputError naming the file, the
-    field, "agent" or "lidars"."""
+    which seed, planes and levels are replaced. Without `study` the LiDARs look once, in a moment.
+
+    `out`: a folder for cloud.ply, scan.json and section.json, the picture on the plane at `azimuth` (rad), all of them or
+    none. `told` hears a line now and then. Raises InputError naming the file, the field, "agent" or "lidars"."""
     module = _part("scanning")
-    setup = module.read_scan_scene(os.fspath(scene)).setup if isinstance(scene, (str, os.PathLike)) else scene
-    setup = setup.replace(seed=seed, planes=planes, levels=levels)
-    seen = module.look(setup, _part("lidar").MeshScene(setup.points, setup.triangles), setup.lidars)
-    found = None
-    if study:
-        found = module.study(setup, told) if told is not None else module.study(setup)
-    return Scanned(np.asarray(seen.points, dtype=float).reshape(-1, 3), seen, found)
+    read = module.read_scan_scene(os.fspath(scene)) if isinstance(scene, (str, os.PathLike)) else None
+    setup = (read.setup if read else scene).replace(seed=seed, planes=planes, levels=levels)
+    if not study and out is not None:
+        raise _refuse("study", study, "True where files are written: they hold it")
+    if not study:
+        seen = module.look(setup, _part("lidar").MeshScene(setup.points, setup.triangles), setup.lidars)
+        return Scanned(np.asarray(seen.points, dtype=float).reshape(-1, 3), seen, None, None)
+    found = module.scan_and_study(setup, *([] if told is None else [told]))
+    if out is not None:
+        velocities = [read.scene.agent.velocity, read.scene.obstacle.velocity] if read else [np.zeros(3), np.zeros(3)]
+        with _whole(out) as stage:
+            module.write_scan(setup, found, *velocities, azimuth, str(stage))
+            inputs = [Path(scene), Path(scene).parent / read.scene.obstacle.file] if read else []  # type: ignore[arg-type]
+            call = f"vericone.scan({str(scene) if read else 'setup'!r}, seed={seed}, planes={planes}, levels={levels}, azimuth={azimuth})"
+            (stage / "provenance.json").write_text(json.dumps(_provenance(call, inputs), indent=1) + "\n", encoding="utf-8")
+    return Scanned(np.asarray(found.seen.points, dtype=float).reshape(-1, 3), found.seen, found.study, found.cone)

@@ -161,6 +161,20 @@ def test_campaigns_go_on_where_they_were_stopped(tmp_path: Path) -> None:
     assert finished.rows.tolist().__repr__() == whole.rows.tolist().__repr__()
 
 
+def test_two_campaigns_do_not_write_to_one_folder(tmp_path: Path) -> None:
+    settings = montecarlo.Campaign(engagements=60)
+
+    def second(_: float) -> bool:
+        with pytest.raises(vericone.InputError, match="out: got .*nobody else is writing to"):
+            vericone.campaign(settings, out=tmp_path)
+        done = subprocess.run([COMMAND, "campaign", "-N", "60", "--out", str(tmp_path)], capture_output=True, text=True, check=False)
+        assert done.returncode != 0 and "no other run is writing to" in done.stderr
+        return False
+
+    assert not vericone.campaign(settings, out=tmp_path, progress=second).finished
+    assert vericone.campaign(settings, out=tmp_path).finished
+
+
 # Fits ------------------------------------------------------------------------------------------------------------------
 
 
@@ -222,12 +236,24 @@ def test_scans_are_those_of_the_command(tmp_path: Path) -> None:
                             "--out", str(tmp_path)], capture_output=True, text=True, check=False)
     if probe.returncode != 0:
         pytest.skip(probe.stderr)
-    found = vericone.scan(ROOT / "docs/examples/scan.yaml", levels=1)
+    found = vericone.scan(ROOT / "docs/examples/scan.yaml", levels=1, out=tmp_path / "ours")
     read = files.read_points(tmp_path / "cloud.ply")
     assert same_bits(np.asarray(read.points), found.points)
     study = json.loads((tmp_path / "scan.json").read_text())
     assert found.study is not None and study["cloud"]["points"] == len(found.points)
     assert study["levels"][0]["cone"]["solid_angle"] == found.study.levels[0].cone.solid_angle
+    for name in ("cloud.ply", "section.json"):
+        assert (tmp_path / "ours" / name).read_bytes() == (tmp_path / name).read_bytes()
+    ours = json.loads((tmp_path / "ours/scan.json").read_text())
+    for one in (*study["levels"], *ours["levels"]):
+        for seconds in [key for key in one if key.startswith("seconds")]:
+            del one[seconds]
+    assert ours == study and found.cone is not None and len(found.cone.planes) == 36
+    assert json.loads((tmp_path / "ours/provenance.json").read_text())["inputs"][0]["sha256"]
+    assert vericone.scan(ROOT / "docs/examples/scan.yaml", levels=1, study=False).study is None
+    with pytest.raises(vericone.InputError, match="study: got False"):
+        vericone.scan(ROOT / "docs/examples/scan.yaml", study=False, out=tmp_path / "none")
+    assert not (tmp_path / "none").exists()
 
 
 # Scenes and files ------------------------------------------------------------------------------------------------------
@@ -274,6 +300,15 @@ def test_points_are_written_as_they_are_read(name: str, tmp_path: Path) -> None:
     read = files.read_points(tmp_path / name)
     assert same_bits(np.asarray(read.points), points)
     assert [list(face) for face in read.faces] == triangles.tolist()
+
+
+def test_files_that_cannot_be_written_are_errors_of_the_system(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    for write in (lambda path: files.write_points(path, [[0.0, 0, 0]]), lambda path: vericone.scenes.write_body(scenes.SceneBody(), path)):
+        with pytest.raises(FileNotFoundError, match="could not write .*none"):
+            write(tmp_path / "none/a.ply")
+        with pytest.raises(NotADirectoryError, match="could not write .*file"):
+            write(tmp_path / "file/a.ply")
 
 
 def test_writing_refuses_what_no_file_holds(tmp_path: Path) -> None:

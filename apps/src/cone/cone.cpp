@@ -28,7 +28,7 @@
 #include "output/output_file.h"
 #include "output/provenance.h"
 #include "output/staged_folder.h"
-#include "picture/slice_json.h"
+#include "output/slice_json.h"
 #include "pieces/assembly_cone.h"
 #include "pieces/pair_cone.h"
 #include "pieces/pieces_cone.h"

@@ -11,7 +11,7 @@
 #include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/number_text.h"
-#include "picture/slice_json.h"
+#include "output/slice_json.h"
 
 namespace vericone {
 namespace {

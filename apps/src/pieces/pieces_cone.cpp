@@ -13,7 +13,7 @@
 #include "output/number_text.h"
 #include "output/staged_folder.h"
 #include "output/threads.h"
-#include "picture/slice_json.h"
+#include "output/slice_json.h"
 #include "pieces/assembly_cone.h"
 #include "pieces/pieces_picture.h"
 #include "pieces/world_mesh.h"

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scan/run_scan.h"
 
-#include <vericone/cones/slices/visible_cone.h>
-#include <vericone/geometry/error.h>
-#include <vericone/lidar/scan.h>
 #include <vericone/scanning/read_scan_scene.h>
+#include <vericone/scanning/write_scan.h>
 #include <filesystem>
 #include <functional>
 #include <iostream>
-#include <optional>
-#include <sstream>
 
 #include "json/json_value.h"
 #include "output/figures.h"
@@ -18,9 +14,6 @@
 #include "output/provenance.h"
 #include "output/staged_folder.h"
 #include "output/threads.h"
-#include "picture/slice_json.h"
-#include "scan/study_json.h"
-#include "scan/study_parts.h"
 
 namespace vericone {
 namespace {
@@ -28,46 +21,19 @@ namespace {
 using namespace scanning;
 using Eigen::Vector3d;
 
-std::string ply(const std::vector<Vector3d>& points) {
-  std::ostringstream out;
-  out << "ply\nformat ascii 1.0\ncomment metres, world frame; made by vericone scan\nelement vertex "
-      << points.size() << "\nproperty double x\nproperty double y\nproperty double z\nend_header\n";
-  for (const Vector3d& x : points)
-    out << to_text(x.x()) << ' ' << to_text(x.y()) << ' ' << to_text(x.z()) << '\n';
-  return out.str();
-}
-
-/// The source's sectors of the fused cloud.
-Json sectors_json(const VisibleCone& cone, const scenes::Scene& bodies) {
-  Json sectors = Json::array();
-  for (const VisiblePlane& plane : cone.planes) {
-    Json one{{"azimuth", plane.azimuth}, {"points", plane.points}, {"tried", plane.tried}};
-    if (plane.slice) {
-      one.update(sector_json(*plane.slice, cone.axis, bodies.agent.velocity, bodies.obstacle.velocity));
-    } else {
-      one["reason"] = to_string(plane.reason);
-    }
-    sectors.push_back(one);
-  }
-  return sectors;
-}
-
-Json parsed(const auto& what) {
-  std::ostringstream text;
-  write_json(what, text);
-  return Json::parse(text.str());
-}
-
-/// `cone`: null where the scans could not be fused.
-void print(const Seen& seen, std::size_t beams, bool fused, const VisibleCone* cone, std::ostream& out) {
+void print(const Setup& setup, const Findings& found, std::ostream& out) {
+  const Seen& seen = found.seen;
+  std::size_t beams = 0;
+  for (const lidar::Lidar& l : setup.lidars) beams += l.beams.size();
+  const bool fused = setup.position_error > 0 || setup.rotation_error > 0;
   out << "returns             " << seen.points.size() << " of " << beams << " beams\n";
   if (fused && seen.not_fused.empty())
     out << "fusion              points are at most " << at_most_text(seen.fusion_error, 2)
         << " m from where the true poses have them\n";
   if (fused && !seen.not_fused.empty()) out << "fusion              failed: " << seen.not_fused << '\n';
-  if (cone)
-    out << "sectors             " << number_text(cone->polyhedral().solid_angle) << " sr on "
-        << cone->planes.size() << " planes, none on " << cone->planes_without_answer() << '\n';
+  if (found.cone)
+    out << "sectors             " << number_text(found.cone->polyhedral().solid_angle) << " sr on "
+        << found.cone->planes.size() << " planes, none on " << found.cone->planes_without_answer() << '\n';
 }
 
 }  // namespace
@@ -81,37 +47,10 @@ void run_scan(const ScanOptions& options, std::ostream& out) {
   setup.levels = options.levels;
   std::function<void(const std::string&)> told;
   if (!options.quiet) told = [](const std::string& line) { std::cerr << line << '\n'; };
-  const lidar::MeshScene mesh(setup.points, setup.triangles);
-  const Seen seen = look(setup, mesh, setup.lidars);
-  if (told) told(std::to_string(seen.points.size()) + " returns");
-  Json result = parsed(study(setup, told));
-  std::size_t beams = 0;
-  for (const lidar::Lidar& l : setup.lidars) beams += l.beams.size();
-  result["planes"] = options.planes;
-  result["seed"] = options.seed;
-  result["cloud"] = {
-      {"beams", beams}, {"points", seen.points.size()}, {"half_thickness", seen.half_thickness}};
-  const bool fused = setup.position_error > 0 || setup.rotation_error > 0;
-  result["fusion"] = nullptr;
-  if (fused)
-    result["fusion"] = {{"failed", seen.not_fused.empty() ? Json(nullptr) : Json(seen.not_fused)},
-                        {"error", seen.not_fused.empty() ? Json(seen.fusion_error) : Json(nullptr)}};
-  result["sectors"] = nullptr;
-  std::optional<VisibleCone> cone;
-  if (seen.not_fused.empty()) {
-    cone = visible_cone(setup.agent, points_near_plane(seen.points, seen.half_thickness),
-                        center_of(seen.points), options.planes);
-    Json sectors = polyhedral_json(cone->polyhedral());
-    sectors["axis"] = {cone->axis.x(), cone->axis.y(), cone->axis.z()};
-    sectors["planes_without_answer"] = cone->planes_without_answer();
-    sectors["sectors"] = sectors_json(*cone, read.scene);
-    result["sectors"] = sectors;
-  }
-
+  const Findings found = scan_and_study(setup, told);
+  const Vector3d &v_agent = read.scene.agent.velocity, &v_obstacle = read.scene.obstacle.velocity;
   const std::filesystem::path& stage = folder.path();
-  write_whole(stage / "cloud.ply", ply(seen.points));
-  write_whole(stage / "scan.json", result.dump(1) + "\n");
-  write_whole(stage / "section.json", parsed(plane_section_picture(setup, options.azimuth)).dump() + "\n");
+  write_scan(setup, found, v_agent, v_obstacle, options.azimuth, stage);
   // The lidars' rays run on all processors.
   const std::vector<std::filesystem::path> inputs{
       options.scene, std::filesystem::path(options.scene).parent_path() / read.scene.obstacle.file};
@@ -123,9 +62,9 @@ void run_scan(const ScanOptions& options, std::ostream& out) {
       {"visible_section.pdf", "visible_section.png", "scan_convergence.pdf", "scan_convergence.png"});
   std::ostream silent(nullptr);
   std::ostream& text = options.json ? silent : out;
-  if (options.json) out << result.dump(1) << '\n';
+  if (options.json) out << scan_text(setup, found, v_agent, v_obstacle);
   text << "obstacle            " << read.scene.obstacle.name << '\n';
-  print(seen, beams, fused, cone ? &*cone : nullptr, text);
+  print(setup, found, text);
   const std::filesystem::path shown = options.out;
   text << "written             " << (shown / "cloud.ply").string() << ", " << (shown / "scan.json").string()
        << '\n';

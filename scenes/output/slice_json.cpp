@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "picture/slice_json.h"
+#include "output/slice_json.h"
 
 #include <vericone/cones/cone_geometry.h>
 #include <cmath>
