@@ -478,7 +478,7 @@ void answer_all(Given& given, std::span<const Many* const> many, std::span<const
         return false;
       }
     }
-    return false;
+    return true;  // each alone is answered
   };
   const Py_ssize_t block = whole && walk.copies() ? kBlock : std::numeric_limits<Py_ssize_t>::max();
   // One thread's work; the caller's looks for signals between its parts. What one raises is returned.
