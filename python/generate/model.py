@@ -354,6 +354,10 @@ class Model:
 
     def _callable(self, f: Function, scope: tuple[str, ...], values: dict[str, str], record: Record | None) -> Callable_ | None:
         full = "::".join((*scope, f.name)) if record else "::".join((*f.scope, f.name))
+        reason = rules.SKIPPED_OVERLOADS.get((full, ", ".join(p.type for p in f.parameters)))
+        if reason:
+            self.names.append(Name(full, "overload", f.header, "", reason, f.doc))
+            return None
         try:
             arguments = []
             for p in f.parameters:
@@ -366,14 +370,7 @@ class Model:
             if not f.constructor:
                 self.check(result, result=True)
         except (Unbound, ValueError) as error:
-            if (full, str(len(f.parameters))) not in rules.SKIPPED_OVERLOADS:
-                self.problems.append(f"{full}({', '.join(p.type for p in f.parameters)}) -> {f.result}: {error}")
-            else:
-                self.names.append(Name(full, "overload", f.header, "", rules.SKIPPED_OVERLOADS[(full, str(len(f.parameters)))], f.doc))
-            return None
-        if (full, ", ".join(p.type for p in f.parameters)) in rules.SKIPPED_OVERLOADS:
-            self.names.append(Name(full, "overload", f.header, "",
-                                   rules.SKIPPED_OVERLOADS[(full, ", ".join(p.type for p in f.parameters))], f.doc))
+            self.problems.append(f"{full}({', '.join(p.type for p in f.parameters)}) -> {f.result}: {error}")
             return None
         if record and not f.static and not f.constructor:
             call = "self." + f.name

@@ -339,7 +339,7 @@ class Walk {
   [[nodiscard]] bool in_place(std::size_t k, bool dense) const {
     const Many& m = *many_[k];
     return (m.components_ == 0 || (m.kind_ == 'd' && (m.inner_ == 8 || m.components_ == 1))) && even_[k] &&
-           (!dense || single_step_[k] == 8 * m.components_);
+           (!dense || single_step_[k] % 8 == 0);
   }
   template <class T>
   void copy_as(std::size_t k, Py_ssize_t begin, Py_ssize_t count, double* out) const {

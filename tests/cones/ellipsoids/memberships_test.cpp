@@ -4,10 +4,10 @@
 // that answer both against the exact rung, where their bounds are strained: far from |w| = 1, thin, distant,
 // tangent.
 #include <gtest/gtest.h>
-#include <vericone/testing/random_bodies.h>
 #include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/cones/ellipsoids/true_cone.h>
 #include <vericone/geometry/error.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <array>
 #include <limits>
@@ -103,6 +103,29 @@ TEST(Memberships, EqualThoseOfSingleCallsAtEveryWidth) {
   // Every answer and every rung has its part.
   for (const int count : counts) EXPECT_GT(count, share(10'000));
   for (const int count : rungs) EXPECT_GT(count, share(10'000));
+}
+
+TEST(Memberships, OfVectorsWithinAnArrayOfOtherThings) {
+  RandomBodies random(533);
+  SCOPED_TRACE(random.trace());
+  const ConeOracle oracle = unit_balls();
+  for (const std::ptrdiff_t step : {3, 4, 6, 7, 40, 3000, 0, -3, -5}) {
+    const auto room = static_cast<std::size_t>(std::abs(step));
+    for (const std::size_t count : {0, 1, 63, 64, 65, 200, 1100}) {
+      std::vector<double> numbers(room * count + 3, std::numeric_limits<double>::quiet_NaN());
+      const std::size_t first = step < 0 && count > 0 ? room * (count - 1) : 0;
+      const auto at = [&](std::size_t i) {
+        return Eigen::Map<Vector3d>(numbers.data() + first + step * std::ptrdiff_t(i));
+      };
+      for (std::size_t i = 0; i < count; ++i) at(i) = random.direction();
+      for (const VectorWidth width : kWidths) {
+        std::vector<Membership> out(count, Membership::on);
+        oracle.memberships(StridedVectors{numbers.data() + first, count, step}, out, width);
+        for (std::size_t i = 0; i < count; ++i)
+          ASSERT_EQ(out[i], oracle.membership(at(i))) << step << ' ' << i;
+      }
+    }
+  }
 }
 
 TEST(Memberships, OfAnyNumberOfVelocities) {

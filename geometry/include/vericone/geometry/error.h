@@ -7,7 +7,8 @@
 
 namespace vericone {
 
-/// The one exception of the library: an input that no answer exists for.
+/// An input that no answer exists for. Beside it the library throws std::system_error where a file cannot be
+/// written, and Interrupted (stop.h) where it was asked to stop.
 ///
 /// `what()` is one line, "FIELD: got VALUE, must be REQUIREMENT", for example
 /// "obstacle.semi_axes[1]: got -2, must be a positive finite number". Overlapping bodies, grazing

@@ -40,16 +40,18 @@ class WorldBody {
   /// The point farthest along n of an ellipsoid or a hull, placed or not, rounded; nothing of other bodies.
   [[nodiscard]] std::optional<Eigen::Vector3d> support_point(const Eigen::Vector3d& n) const;
 
-  /// Below 1 inside, above 1 outside: BasicCombined::gauge() about the centre. Requires flat() or quadric().
+  /// Below 1 inside, above 1 outside: BasicCombined::gauge() about the centre. Throws InputError naming
+  /// "body" unless it is flat() or quadric().
   [[nodiscard]] double gauge(const Eigen::Vector3d& x) const;
 
   /// The ellipse that stands for a body where only that will do, and contains it: itself, or
-  /// bounding_ellipsoid(). Requires planar().
+  /// bounding_ellipsoid(). Throws InputError naming "body" unless it is planar().
   [[nodiscard]] Ellipse containing_ellipse() const;
 
   /// The ellipsoid. An ellipsoid is itself; a combined body's is its bounding_ellipsoid(); a hull's is about
   /// the mean of its points, of their covariance, widened until it holds them all: linear in their number,
-  /// not least. Of a placed body: Placed::containing_ellipsoid(), found once a body. Requires a spatial body.
+  /// not least. Of a placed body: Placed::containing_ellipsoid(), found once a body. Throws InputError naming
+  /// "body" for a planar one.
   [[nodiscard]] Ellipsoid containing_ellipsoid() const;
 
   /// The largest distance of a point of the body from the origin, rounded up; of a placed body that of the
@@ -69,8 +71,8 @@ class WorldBody {
 
   /// A body that contains all points within `distance` > 0 of this one. The ellipsoid: of the ellipsoids
   /// (1 + 1/p) S + (1 + p) distance^2, which all contain the sum with the ball, one that fits round bodies. A
-  /// delimiter: (y + e)^T M (y + e) <= level + 2 |e| |M y| + |e|^2 |M| with y in the ellipsoid. Requires
-  /// flat() or quadric().
+  /// delimiter: (y + e)^T M (y + e) <= level + 2 |e| |M y| + |e|^2 |M| with y in the ellipsoid. Throws
+  /// InputError naming "body" unless it is flat() or quadric().
   [[nodiscard]] WorldBody inflated(double distance) const;
 
  private:
