@@ -181,7 +181,7 @@ class Emitter:
                 lines.append("if (m_self.single()) {")
                 lines.append(f"  const auto& self = *static_cast<const {object_type}*>(m_self.one());")
                 lines.append(f"  return answer_whole<{vector}>(g, threads, [&](const auto& {lambda_parameters[1].split()[-1]}) {{ return {plain}; }}, "
-                             f"[&](StridedVectors in, const auto& out) {{ self.{call.whole}(in, out); }}, {many[1][0]});")
+                             f"[&](const double* in, Py_ssize_t step, const auto& out) {{ self.{call.whole}(in, step, out); }}, {many[1][0]});")
                 lines.append("}")
             lines.append(f"return {answer}<{elements}>(g, threads, [&]({parameters}) {{ return {plain}; }}, {variables});")
         else:

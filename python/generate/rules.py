@@ -62,7 +62,6 @@ SKIPPED: dict[str, str] = {
     "stop_requested": "Ctrl-C and progress= end long work in Python",
     "checkpoint": "Ctrl-C and progress= end long work in Python",
     "Interrupted": "KeyboardInterrupt stands for it",
-    "StridedVectors": "arrays of any strides are taken as they are",
     "require_sound_arithmetic": "asked when the package is imported",
     "vision::Perception::Perception": "takes a tracker for its own; pursue() makes one",
     "verify::SpatialFamilyReport::gap_medians": "medians by number of planes, as C++ has them; print() says them",
@@ -87,7 +86,7 @@ SKIPPED: dict[str, str] = {
 }
 # (C++ name, types of the parameters): why Python has not this overload.
 SKIPPED_OVERLOADS: dict[tuple[str, str], str] = {
-    ("ConeOracle::memberships", "vericone::StridedVectors, std::span<Membership>, vericone::VectorWidth"): "membership() takes arrays of any strides",
+    ("ConeOracle::memberships", "const double *, std::ptrdiff_t, std::span<Membership>, vericone::VectorWidth"): "membership() takes arrays of any strides",
 }
 
 # Enumerations and records that are filled in through a pointer where the caller asks: rung=True.

@@ -199,7 +199,8 @@ PyObject* answer_with(Given& given, int threads, F&& f, const M&... m) {
   }
 }
 
-/// As answer(), where C++ has a call of its own for many vectors: whole(StridedVectors, span of answers).
+/// As answer(), where C++ has a call of its own for many vectors: whole(first, doubles
+/// to the next, span of answers).
 template <class V, class F, class G>
 PyObject* answer_whole(Given& given, int threads, F&& f, G&& whole, const Many& m) {
   using R = std::remove_cvref_t<std::invoke_result_t<F, const V&>>;
@@ -216,9 +217,8 @@ PyObject* answer_whole(Given& given, int threads, F&& f, G&& whole, const Many& 
   };
   const Kernel at_once = [](void* function, const Part& part, Py_ssize_t&) {
     const auto count = static_cast<std::size_t>(part.count);
-    (*static_cast<Both*>(function)->whole)(
-        {reinterpret_cast<const double*>(part.in[0]), count, part.step[0] / 8},
-        std::span<R>(reinterpret_cast<R*>(part.out[0]), count));
+    (*static_cast<Both*>(function)->whole)(reinterpret_cast<const double*>(part.in[0]), part.step[0] / 8,
+                                           std::span<R>(reinterpret_cast<R*>(part.out[0]), count));
   };
   return answer_columns(given, all, {Convert<R>::kColumn}, threads, each, &both, at_once);
 }

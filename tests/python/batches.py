@@ -140,7 +140,7 @@ class Batches:
         """Whether there was something to compare."""
         arguments = Arguments(self.draw, self.calls.pool)
         kinds = {name: annotation for name, annotation, _, _ in signature.parameters}
-        if not set(many) <= set(kinds) or signature.returns == "Any":
+        if not {*many, "threads"} <= set(kinds) or signature.returns == "Any":
             return False
         target = chosen.target
         receiver = None

@@ -111,22 +111,23 @@ VectorWidth widest_of_the_machine() { return VectorWidth::two; }
 AnswerBlocks* answers_by(VectorWidth) { return answer_by_two; }
 #endif
 
-Eigen::Vector3d vector_at(const StridedVectors& w, std::size_t i) {
-  return Eigen::Map<const Eigen::Vector3d>(w.first + w.step * std::ptrdiff_t(i));
+Eigen::Vector3d vector_at(const double* w, std::ptrdiff_t step, std::size_t i) {
+  return Eigen::Map<const Eigen::Vector3d>(w + step * std::ptrdiff_t(i));
 }
 
 /// Any number of velocities up to kChunk: what is over after whole blocks goes through one filled up with the
 /// last.
-bool answer_chunk(AnswerBlocks* answer, const detail::VelocityForms& f, const StridedVectors& w,
-                  Membership* out) {
-  const std::size_t blocks = w.size / kBlock, rest = w.size % kBlock;
-  bool decided = answer(f, w.first, w.step, blocks, out);
+bool answer_chunk(AnswerBlocks* answer, const detail::VelocityForms& f, const double* w, std::ptrdiff_t step,
+                  std::span<Membership> out) {
+  const std::size_t blocks = out.size() / kBlock, rest = out.size() % kBlock;
+  bool decided = answer(f, w, step, blocks, out.data());
   if (rest == 0) return decided;
   std::array<Eigen::Vector3d, kBlock> block;
   std::array<Membership, kBlock> answers;
-  for (std::size_t i = 0; i < kBlock; ++i) block[i] = vector_at(w, blocks * kBlock + std::min(i, rest - 1));
+  for (std::size_t i = 0; i < kBlock; ++i)
+    block[i] = vector_at(w, step, blocks * kBlock + std::min(i, rest - 1));
   decided &= answer(f, block[0].data(), 3, 1, answers.data());
-  std::copy_n(answers.begin(), rest, out + blocks * kBlock);
+  std::copy_n(answers.begin(), rest, out.begin() + blocks * kBlock);
   return decided;
 }
 
@@ -140,22 +141,23 @@ VectorWidth widest_vectors() {
 void ConeOracle::memberships(std::span<const Eigen::Vector3d> w, std::span<Membership> out,
                              VectorWidth at_most) const {
   static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double));
-  memberships(StridedVectors{w.empty() ? nullptr : w.front().data(), w.size(), 3}, out, at_most);
+  if (out.size() != w.size())
+    throw InputError("out", std::to_string(out.size()) + " answers",
+                     "as many as velocities, " + std::to_string(w.size()));
+  if (!w.empty()) memberships(w.front().data(), 3, out, at_most);
 }
 
-void ConeOracle::memberships(StridedVectors w, std::span<Membership> out, VectorWidth at_most) const {
-  if (out.size() != w.size)
-    throw InputError("out", std::to_string(out.size()) + " answers",
-                     "as many as velocities, " + std::to_string(w.size));
+void ConeOracle::memberships(const double* w, std::ptrdiff_t step, std::span<Membership> out,
+                             VectorWidth at_most) const {
   AnswerBlocks* const answer = answers_by(at_most);
-  for (std::size_t begin = 0; begin < w.size; begin += kChunk) {
-    const std::size_t end = std::min(w.size, begin + kChunk);
-    const StridedVectors chunk{w.first + w.step * std::ptrdiff_t(begin), end - begin, w.step};
+  for (std::size_t begin = 0; begin < out.size(); begin += kChunk) {
+    const std::size_t end = std::min(out.size(), begin + kChunk);
+    const double* const chunk = w + step * std::ptrdiff_t(begin);
     std::size_t left = 0;
-    if (!answer_chunk(answer, forms_, chunk, &out[begin]))
+    if (!answer_chunk(answer, forms_, chunk, step, out.subspan(begin, end - begin)))
       for (std::size_t i = begin; i < end; ++i) {
         if (out[i] != Membership::on) continue;
-        const Eigen::Vector3d v = vector_at(w, i);
+        const Eigen::Vector3d v = vector_at(w, step, i);
         if (!v.allFinite()) require_finite_velocity(v, ("w[" + std::to_string(i) + "]").c_str());
         out[i] = climb_all(v, Eigen::Vector3d::Zero(), nullptr);
         ++left;

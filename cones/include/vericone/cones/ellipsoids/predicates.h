@@ -94,14 +94,6 @@ enum class VectorWidth : std::uint8_t { two = 2, four = 4, eight = 8 };
 /// The most that this machine has and the library knows: eight with AVX-512, four with AVX2, else two.
 [[nodiscard]] VectorWidth widest_vectors();
 
-/// Vectors within an array of other things: their three numbers side by side, and the next vector `step`
-/// doubles on, backwards where that is negative.
-struct StridedVectors {
-  const double* first = nullptr;
-  std::size_t size = 0;
-  std::ptrdiff_t step = 3;
-};
-
 /// Two ellipsoids prepared for many velocities.
 ///
 /// The constructor finds their relation exactly and, for disjoint bodies, a normal n with n.c > rho_A + rho_B
@@ -137,7 +129,9 @@ class ConeOracle {
   /// not depend on `at_most`, the widest registers to use of those the machine has.
   void memberships(std::span<const Eigen::Vector3d> w, std::span<Membership> out,
                    VectorWidth at_most = VectorWidth::eight) const;
-  void memberships(StridedVectors w, std::span<Membership> out,
+  /// The same of velocities within an array of other things: the numbers of each side by side, the first at
+  /// `w`, the next `step` doubles on, backwards where that is negative; as many as `out` has room for.
+  void memberships(const double* w, std::ptrdiff_t step, std::span<Membership> out,
                    VectorWidth at_most = VectorWidth::eight) const;
 
   /// Floating point with a proved error bound; nothing when it cannot decide. Never answers `on`.
