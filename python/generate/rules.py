@@ -152,6 +152,8 @@ REQUIRES: dict[str, tuple[str, str, str, str]] = {
                      "triangles", "corners that are no points, or not finite", "indices of finite points"),
     "convex_reach": ("oracle.relation() == Relation::disjoint && oracle.obstacle().size() == 1", "oracle", "another pair",
                      "of disjoint bodies, the obstacle of one piece"),
+    **{f"{oracle}::exact_membership": ("v_a.allFinite() && v_b.allFinite()", "velocity", "a number that is not finite", "finite (m/s)")
+       for oracle in ("ConeOracle", "HullOracle", "SectorOracle")},
     "exact_time_to_contact": ("v_a.allFinite() && v_b.allFinite()", "velocity", "a number that is not finite", "finite (m/s)"),
     "OrificeOracle::exact_transit": ("w.allFinite()", "w", "a number that is not finite", "finite (m/s)"),
     "simulation::mesh_track": ("orifice.window != nullptr", "orifice", "no window", "with a window"),
