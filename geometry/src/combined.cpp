@@ -9,7 +9,7 @@
 #include <numbers>
 #include <string>
 
-#include <vericone/geometry/scaled_inverse.h>
+#include <vericone/geometry/lengths.h>
 
 namespace vericone {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/length.h>
+#include <vericone/geometry/lengths.h>
 #include <vericone/geometry/requires.h>
 #include <vericone/guidance/kinematics.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/geometry/length.h>
+#include <vericone/geometry/lengths.h>
 #include <vericone/scenes/words.h>
 #include <cmath>
 #include <cstdio>

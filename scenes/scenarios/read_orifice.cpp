@@ -2,7 +2,7 @@
 #include "scenarios/read_orifice.h"
 
 #include <vericone/files/read_points.h>
-#include <vericone/geometry/length.h>
+#include <vericone/geometry/lengths.h>
 #include <Eigen/Geometry>
 #include <utility>
 #include <vector>

@@ -7,7 +7,7 @@
 #include <vericone/cones/slices/combined_slice_cone.h>
 #include <vericone/cones/slices/slice_cone.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/length.h>
+#include <vericone/geometry/lengths.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -27,8 +27,8 @@
 #include "output/figures.h"
 #include "output/output_file.h"
 #include "output/provenance.h"
-#include "output/staged_folder.h"
 #include "output/slice_json.h"
+#include "output/staged_folder.h"
 #include "pieces/assembly_cone.h"
 #include "pieces/pair_cone.h"
 #include "pieces/pieces_cone.h"

@@ -2,7 +2,7 @@
 #include "combined/planar_boundary.h"
 
 #include <vericone/geometry/double_double.h>
-#include <vericone/geometry/scaled_inverse.h>
+#include <vericone/geometry/lengths.h>
 #include <cmath>
 
 namespace vericone {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/combined/sector.h>
-#include <vericone/geometry/scaled_inverse.h>
+#include <vericone/geometry/lengths.h>
 #include <Eigen/LU>
 
 #include "planar/sector_parts.h"

@@ -4,7 +4,7 @@
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/cones/ellipsoids/contact_frame.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/length.h>
+#include <vericone/geometry/lengths.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include <vericone/geometry/scaled_inverse.h>
+#include <vericone/geometry/lengths.h>
 
 namespace vericone {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/length.h>
+#include <vericone/geometry/lengths.h>
 #include <vericone/geometry/mesh/boundary_loops.h>
 #include <Eigen/Geometry>
 #include <algorithm>

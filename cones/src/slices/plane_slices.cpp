@@ -3,8 +3,8 @@
 
 #include <vericone/cones/slices/visible_sector.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/lengths.h>
 #include <vericone/geometry/requires.h>
-#include <vericone/geometry/scaled_inverse.h>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <vector>

@@ -2,7 +2,7 @@
 #include "distance/body_distance.h"
 
 #include <vericone/geometry/decompositions.h>
-#include <vericone/geometry/scaled_inverse.h>
+#include <vericone/geometry/lengths.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -5,7 +5,7 @@
 // that its error is one of the overlaps alone.
 #include <vericone/fitting/measure.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/scaled_inverse.h>
+#include <vericone/geometry/lengths.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>

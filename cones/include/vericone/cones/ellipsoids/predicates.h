@@ -28,6 +28,7 @@
 #include <vericone/geometry/interval.h>
 #include <vericone/geometry/sign.h>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>

@@ -1,12 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The length of a vector, the same wherever the vector lies in memory.
+// Lengths of any unit, and of vectors anywhere in memory.
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <cmath>
 
-namespace vericone::detail {
+namespace vericone {
+
+/// F^{-1} for lengths of any unit: the determinant of a body of 1e103 metres would overflow. Powers of two
+/// are exact.
+template <int D>
+[[nodiscard]] Eigen::Matrix<double, D, D> scaled_inverse(const Eigen::Matrix<double, D, D>& f) {
+  const double scale = std::ldexp(1.0, -std::ilogb(f.cwiseAbs().maxCoeff()));
+  return Eigen::Matrix<double, D, D>(f * scale).inverse() * scale;
+}
+
+namespace detail {
 
 /// |v|, to 3 units in the last place, without overflow or underflow in between. Eigen's stableNorm() adds in
 /// an order that depends on the address of v, so that its last bit does too.
@@ -20,4 +31,6 @@ template <typename Derived>
   return std::sqrt((v * scale).squaredNorm()) / scale;
 }
 
-}  // namespace vericone::detail
+}  // namespace detail
+
+}  // namespace vericone
