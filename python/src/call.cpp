@@ -195,7 +195,8 @@ PyObject* raise_current(const std::string& at) noexcept {
       std::string text = error.what();
       if (known && text.ends_with(reason)) text.resize(text.size() - reason.size());
       const auto type = py::reinterpret_borrow<py::object>(PyExc_OSError);
-      const py::object made = known ? type(error.code().value(), any_text(text)) : type(any_text(error.what()));
+      const py::object made =
+          known ? type(error.code().value(), any_text(text)) : type(any_text(error.what()));
       PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(made.ptr())), made.ptr());
     } catch (const std::exception& error) {
       PyErr_SetString(PyExc_RuntimeError, error.what());

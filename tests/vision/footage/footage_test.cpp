@@ -91,7 +91,8 @@ TEST_F(Footage, AVideoComesBack) {
   const fs::path file = folder / "a.mp4";
   VideoWriter writer(file, 97, 65, 25);
   for (int k = 0; k < 12; ++k) writer.add(wave(97, 65, k % 2 == 0 ? 3 : 1, 0.2 * k));
-  EXPECT_EQ(refusal([&] { writer.add(wave(64, 64, 1, 0)); }), "image: got 64 x 64 px, must be 97 x 65 px, as the video");
+  EXPECT_EQ(refusal([&] { writer.add(wave(64, 64, 1, 0)); }),
+            "image: got 64 x 64 px, must be 97 x 65 px, as the video");
   writer.close();
   const auto reader = open_footage(file, 3, "video");
   EXPECT_NEAR(reader->rate(), 25, 0.01);

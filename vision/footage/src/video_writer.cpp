@@ -27,11 +27,10 @@ VideoWriter::VideoWriter(const std::filesystem::path& file, int width, int heigh
   if (!(rate > 0)) throw InputError("rate", to_text(rate), "positive (pictures a second)");
   for (const int codec :
        {cv::VideoWriter::fourcc('a', 'v', 'c', '1'), cv::VideoWriter::fourcc('m', 'p', '4', 'v')})
-    if (parts_->writer.open(file.string(), cv::CAP_FFMPEG, codec, rate, even, true))
-      return;
+    if (parts_->writer.open(file.string(), cv::CAP_FFMPEG, codec, rate, even, true)) return;
   throw std::system_error(EIO, std::generic_category(),
-                          "could not write " + file.string() + ", a video of " + std::to_string(width) + " x " +
-                              std::to_string(height) + " px");
+                          "could not write " + file.string() + ", a video of " + std::to_string(width) +
+                              " x " + std::to_string(height) + " px");
 }
 VideoWriter::~VideoWriter() = default;
 VideoWriter::VideoWriter(VideoWriter&&) noexcept = default;
@@ -40,8 +39,9 @@ VideoWriter& VideoWriter::operator=(VideoWriter&&) noexcept = default;
 void VideoWriter::add(const Image& image) {
   require_whole(image);
   if (image.width != parts_->width || image.height != parts_->height)
-    throw InputError("image", std::to_string(image.width) + " x " + std::to_string(image.height) + " px",
-                     std::to_string(parts_->width) + " x " + std::to_string(parts_->height) + " px, as the video");
+    throw InputError(
+        "image", std::to_string(image.width) + " x " + std::to_string(image.height) + " px",
+        std::to_string(parts_->width) + " x " + std::to_string(parts_->height) + " px, as the video");
   const cv::Mat seen(image.height, image.width, CV_8UC(image.channels),
                      const_cast<std::uint8_t*>(image.data.data()));
   const cv::Rect even(0, 0, image.width & ~1, image.height & ~1);

@@ -23,7 +23,8 @@ class Fields {
 
   std::string text() {
     std::string value;
-    if (!std::getline(in_, value, ',') && !in_.eof()) throw InputError("row", "too few fields", "one that csv_row() wrote for as many laws");
+    if (!std::getline(in_, value, ',') && !in_.eof())
+      throw InputError("row", "too few fields", "one that csv_row() wrote for as many laws");
     return value;
   }
   double number() {

@@ -20,7 +20,8 @@ struct Image {
   [[nodiscard]] bool empty() const { return data.empty(); }
 };
 
-/// Throws InputError naming "image" unless it has 1 or 3 channels, and as many bytes as its pixels times them.
+/// Throws InputError naming "image" unless it has 1 or 3 channels, and as many bytes as its pixels times
+/// them.
 void require_whole(const Image& image);
 
 /// Upright, in pixels: left and top edge, width and height.

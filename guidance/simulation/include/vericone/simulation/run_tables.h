@@ -10,8 +10,8 @@
 
 namespace vericone::simulation {
 
-/// Throws InputError naming "run" where it tells of bodies, orifices or steps that the scenario has not: it is
-/// a run of another. All that takes both asks this.
+/// Throws InputError naming "run" where it tells of bodies, orifices or steps that the scenario has not: it
+/// is a run of another. All that takes both asks this.
 void require_run_of(const Scenario& scenario, const Run& run);
 
 /// One row a body and command time from its appearance.
