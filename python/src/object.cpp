@@ -113,6 +113,12 @@ std::string brief(PyObject* part) {
   }
   if (PyList_Check(part) && PyList_GET_SIZE(part) > 4)
     return "<list of " + std::to_string(PyList_GET_SIZE(part)) + ">";
+  if (PyList_Check(part)) {
+    std::string text;
+    for (Py_ssize_t i = 0; i < PyList_GET_SIZE(part); ++i)
+      text += (i > 0 ? ", " : "[") + brief(PyList_GET_ITEM(part, i));
+    return text.empty() ? "[]" : text + "]";
+  }
   return py::str(py::repr(py::handle(part)));
 }
 

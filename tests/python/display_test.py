@@ -80,3 +80,9 @@ def test_numbers_without_matplotlib() -> None:
 def test_importing_the_package_loads_no_display() -> None:
     code = "import sys, vericone; assert 'vericone.display' not in sys.modules and 'matplotlib' not in sys.modules"
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_text_is_short() -> None:
+    """Long arrays are named by their shape, within lists too."""
+    shown = repr(vc.Pair(vc.Ellipsoid(), vc.Ellipsoid.from_axes([10, 2, 0], [2, 3, 1])).cone())
+    assert "inner=[<array (" in shown and len(shown) < 1_500
