@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/slices/visible_sector.h>
 #include <vericone/geometry/error.h>
-#include <Eigen/LU>
+#include <vericone/geometry/lengths.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,13 +24,15 @@ struct SightLine {
   std::size_t point = 0;  // index of on_b
 
   SightLine(const Vector2d& a, const Vector2d& b, std::size_t index)
-      : on_a(a), on_b(b), direction((b - a).normalized()), point(index) {}
+      : on_a(a), on_b(b), direction(b - a), point(index) {
+    if (const double length = detail::length(direction); length > 0) direction /= length;
+  }
 
   /// 1 left, -1 right, 0 on the line, for a point seen from `from`.
   int side(const Vector2d& x, const Vector2d& from) const {
     const Vector2d way = x - from;
     const double s = cross(direction, way);
-    return std::abs(s) <= kOnLine * way.norm() ? 0 : s > 0 ? 1 : -1;
+    return std::abs(s) <= kOnLine * detail::length(way) ? 0 : s > 0 ? 1 : -1;
   }
 };
 
@@ -40,7 +42,7 @@ using Tangents = std::optional<std::array<SightLine, 2>>;
 
 class EllipticAgent {
  public:
-  explicit EllipticAgent(const Ellipse& body) : body_(body), inverse_(body.factor().inverse()) {}
+  explicit EllipticAgent(const Ellipse& body) : body_(body), inverse_(scaled_inverse<2>(body.factor())) {}
 
   Vector2d center() const { return body_.center(); }
   bool contains(const Vector2d& p) const { return (inverse_ * (p - body_.center())).squaredNorm() <= 1; }
@@ -119,6 +121,14 @@ class PointAgent {
   Vector2d center_;
 };
 
+void require_finite(const char* field, std::span<const Vector2d> points) {
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (const int k : {0, 1})
+      if (!std::isfinite(points[i](k)))
+        throw InputError(std::string(field) + "[" + std::to_string(i) + "][" + std::to_string(k) + "]",
+                         to_text(points[i](k)), "a finite number (m)");
+}
+
 /// left = true: the obstacle on the right of the line.
 bool separates(const SightLine& line, bool left, std::span<const Vector2d> chain) {
   const int wrong = left ? 1 : -1;
@@ -158,6 +168,7 @@ template <typename Agent>
 VisibleSector search(const Agent& agent, std::span<const Vector2d> all, const SearchOptions& options) {
   if (options.keep_every < 1)
     throw InputError("keep_every", std::to_string(options.keep_every), "a positive whole number");
+  require_finite("chain", all);
   std::vector<Vector2d> chain;
   std::vector<std::size_t> index;
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -224,10 +235,12 @@ VisibleSector visible_sector(const Ellipse& agent, std::span<const Vector2d> cha
 VisibleSector visible_sector(std::span<const Vector2d> agent, std::span<const Vector2d> chain,
                              const SearchOptions& options) {
   if (agent.empty()) throw InputError("agent", "no points", "one point at least");
+  require_finite("agent", agent);
   return search(PointAgent(agent), chain, options);
 }
 
 VisibleSector sector_of_points(const Ellipse& agent, std::span<const Vector2d> points) {
+  require_finite("points", points);
   const EllipticAgent a(agent);
   VisibleSector result;
   if (points.empty()) result.reason = NoSector::no_points;
@@ -236,19 +249,20 @@ VisibleSector sector_of_points(const Ellipse& agent, std::span<const Vector2d> p
   if (result.reason != NoSector::none) return result;
   // While agent and points can be separated, all tangents are within half a turn of each other, and the
   // tangent through a point beyond an edge makes a larger angle.
-  const auto extreme = [&](bool left) {
-    const auto tangent = [&](std::size_t i) {
+  const auto extreme = [&](bool left) -> std::optional<SightLine> {
+    std::optional<SightLine> best;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (best && !(cross(best->direction, points[i] - best->on_b) * (left ? 1 : -1) > 0)) continue;
       ++result.tried;
-      return (*a.tangents(points[i], i))[left ? 0 : 1];
-    };
-    SightLine best = tangent(0);
-    for (std::size_t i = 1; i < points.size(); ++i)
-      if (cross(best.direction, points[i] - best.on_b) * (left ? 1 : -1) > 0) best = tangent(i);
+      const Tangents tangents = a.tangents(points[i], i);
+      if (!tangents) return std::nullopt;  // beyond what doubles measure against the agent's axes
+      best = (*tangents)[left ? 0 : 1];
+    }
     return best;
   };
-  const SightLine left = extreme(true), right = extreme(false);
-  if (separates(left, true, points) && separates(right, false, points))
-    set_sector(result, left, right);
+  const std::optional<SightLine> left = extreme(true), right = extreme(false);
+  if (left && right && separates(*left, true, points) && separates(*right, false, points))
+    set_sector(result, *left, *right);
   else
     result.reason = NoSector::no_tangents;
   return result;
@@ -256,6 +270,8 @@ VisibleSector sector_of_points(const Ellipse& agent, std::span<const Vector2d> p
 
 VisibleSector sector_of_points(std::span<const Vector2d> agent, std::span<const Vector2d> points) {
   if (agent.empty()) throw InputError("agent", "no points", "one point at least");
+  require_finite("agent", agent);
+  require_finite("points", points);
   VisibleSector result;
   if (points.empty()) {
     result.reason = NoSector::no_points;

@@ -246,5 +246,41 @@ TEST(VisibleSector, DegenerateInputHasAnAnswer) {
   EXPECT_THROW(visible_sector(agent, far, {.keep_every = 0}), InputError);
 }
 
+TEST(VisibleSector, NumbersThatAreNotFiniteOrBeyondDoubles) {
+  const auto refused = [](auto&& ask) -> std::string {
+    try {
+      ask();
+      return "";
+    } catch (const InputError& error) {
+      return error.field();
+    }
+  };
+  const double infinite = std::numeric_limits<double>::infinity(), nan = std::nan("");
+  const std::vector<Vector2d> good{{2, 0}, {3, 1}}, bad{{2, 0}, {3, 1}, {2, nan}, {infinite, 0}};
+  EXPECT_EQ(refused([&] { visible_sector(Ellipse(), bad); }), "chain[2][1]");
+  EXPECT_EQ(refused([&] { visible_sector(good, bad); }), "chain[2][1]");
+  EXPECT_EQ(refused([&] { visible_sector(bad, good); }), "agent[2][1]");
+  EXPECT_EQ(refused([&] { sector_of_points(Ellipse(), bad); }), "points[2][1]");
+  EXPECT_EQ(refused([&] { sector_of_points(good, bad); }), "points[2][1]");
+  EXPECT_EQ(refused([&] { sector_of_points(bad, good); }), "agent[2][1]");
+  // Numbers of which a square is beyond doubles: a sector of finite numbers, or none.
+  for (const double size : {1e-150, 1e-80, 1e80, 1e150})
+    for (const double way : {1e-310, 1.0, 1e307}) {
+      const auto agent = Ellipse::from_axes({0, 0}, {size, size});
+      const std::vector<Vector2d> points{{way, 0}, {way, way}};
+      for (const VisibleSector& s : {visible_sector(agent, points), sector_of_points(agent, points)}) {
+        EXPECT_EQ(s.sector.has_value(), s.reason == NoSector::none) << size << ' ' << way;
+        if (s.sector) EXPECT_TRUE(std::isfinite(s.sector->psi) && std::isfinite(s.sector->theta_b));
+      }
+    }
+  // The sector of a disc of 0.6 d against two points at d: the same at every scale of which squares are.
+  const auto psi = [](double d) {
+    const std::vector<Vector2d> points{{d, 0}, {d, 0.3 * d}};
+    return visible_sector(Ellipse::from_axes({0, 0}, {0.6 * d, 0.6 * d}), points).sector->psi;
+  };
+  EXPECT_NEAR(psi(1e-149), psi(1), 1e-13);
+  EXPECT_NEAR(psi(1e149), psi(1), 1e-13);
+}
+
 }  // namespace
 }  // namespace vericone::visible_sector_test

@@ -40,7 +40,8 @@ struct SearchOptions {
 /// and that of the points on opposite sides and all points on one. Until one is found for each edge the
 /// search goes on with the next points inwards. Points within 1e-13 (relative to their distance from the
 /// contact) of a tangent count as on it. Where the sector exists the search finds it, whatever the order: the
-/// order decides how soon. Time O(n) for each point tried. Throws InputError naming "keep_every".
+/// order decides how soon. Time O(n) for each point tried. Throws InputError naming "keep_every", and a
+/// number of a point that is not finite ("chain[3][0]"), as all of these do.
 [[nodiscard]] VisibleSector visible_sector(const Ellipse& agent, std::span<const Eigen::Vector2d> chain,
                                            const SearchOptions& options = {});
 
