@@ -2,6 +2,8 @@
 #include "call.h"
 
 #include <vericone/geometry/error.h>
+#include <algorithm>
+#include <cstring>
 #include <new>
 #include <system_error>
 #include <thread>
@@ -30,7 +32,7 @@ std::string signature_text(std::span<const Parameter> parameters) {
 
 PyObject* dispatch(const char* name, std::span<const Overload> overloads, PyObject* self,
                    PyObject* const* positional, Py_ssize_t n, PyObject* names, PyObject* const* named,
-                   bool keep = false) noexcept {
+                   PyTypeObject* type = nullptr) noexcept {
   try {
     std::string why, last;
     for (const Overload& overload : overloads) {
@@ -43,7 +45,7 @@ PyObject* dispatch(const char* name, std::span<const Overload> overloads, PyObje
       try {
         PyObject* answer = overload.call(given);
         if (!answer && !PyErr_Occurred()) throw WrongType{"no answer"};
-        if (answer && keep) reinterpret_cast<Instance*>(answer)->made = std::move(given.made());
+        if (answer && type) reinterpret_cast<Instance*>(answer)->made = std::move(given.made());
         return answer;
       } catch (const WrongType& wrong) {
         if (overloads.size() == 1) throw;
@@ -52,12 +54,17 @@ PyObject* dispatch(const char* name, std::span<const Overload> overloads, PyObje
     }
     std::string message = std::string(name) + "(): " + last;
     if (overloads.size() > 1) {
+      std::vector<std::string> known;  // some differ by types alone
+      for (const Overload& overload : overloads) {
+        std::string text = name + signature_text(overload.parameters);
+        if (std::find(known.begin(), known.end(), text) == known.end()) known.push_back(std::move(text));
+      }
       message = std::string(name) + "(): these arguments fit none of";
-      for (const Overload& overload : overloads)
-        message += std::string(&overload == overloads.data() ? " " : "; ") + name +
-                   signature_text(overload.parameters);
+      for (const std::string& text : known) message += (&text == known.data() ? " " : "; ") + text;
       message += "; the last: " + last;
     }
+    const std::string makers = type ? makers_text(type) : "";
+    if (!makers.empty()) message += "; or use " + makers.substr(2);
     throw WrongType{message};
   } catch (...) {
     return raise_current();
@@ -134,8 +141,8 @@ PyObject* call_many(const char* name, std::span<const Overload> overloads, PyObj
   return dispatch(name, overloads, arguments[0], arguments + 1, n - 1, names, arguments + n);
 }
 
-PyObject* construct(const char* name, std::span<const Overload> overloads, PyTypeObject*, PyObject* arguments,
-                    PyObject* named) noexcept {
+PyObject* construct(const char* name, std::span<const Overload> overloads, PyTypeObject* type,
+                    PyObject* arguments, PyObject* named) noexcept {
   std::vector<PyObject*> values;
   py::object names;
   try {
@@ -153,7 +160,7 @@ PyObject* construct(const char* name, std::span<const Overload> overloads, PyTyp
     return raise_current();
   }
   PyObject* made = dispatch(name, overloads, nullptr, PySequence_Fast_ITEMS(arguments),
-                            PyTuple_GET_SIZE(arguments), names.ptr(), values.data(), true);
+                            PyTuple_GET_SIZE(arguments), names.ptr(), values.data(), type);
   // Some classes refer to what they were made of.
   if (made) reinterpret_cast<Instance*>(made)->kept = PyTuple_Pack(2, arguments, named ? named : Py_None);
   return made;

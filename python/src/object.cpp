@@ -6,6 +6,7 @@
 #include <cstring>
 #include <deque>
 #include <sstream>
+#include <string_view>
 #include <unordered_map>
 
 #include "call.h"
@@ -230,6 +231,25 @@ void set_fields(const TypeInfo& info, void* value, PyObject* named, std::vector<
 
 }  // namespace
 
+std::string makers_text(PyTypeObject* type) {
+  // What is static in these types makes one.
+  std::string text;
+  for (; type && text.empty(); type = type->tp_base) {
+    const std::string_view whole = type->tp_name;
+    const std::string own(whole.substr(whole.rfind('.') + 1));
+    PyObject *name = nullptr, *value = nullptr;
+    for (Py_ssize_t at = 0; type->tp_dict && PyDict_Next(type->tp_dict, &at, &name, &value);)
+      if (PyObject_TypeCheck(value, &PyStaticMethod_Type) && PyUnicode_Check(name) &&
+          PyUnicode_READ_CHAR(name, 0) != '_') {
+        if (const char* its = PyUnicode_AsUTF8(name))
+          text += ", " + own + "." + its + "()";
+        else
+          PyErr_Clear();
+      }
+  }
+  return text;
+}
+
 PyObject* construct_record(const TypeInfo& info, PyObject* arguments, PyObject* named) noexcept {
   try {
     auto value = info.make();
@@ -296,7 +316,9 @@ PyMethodDef no_methods[] = {{nullptr, nullptr, 0, nullptr}};
 PyMethodDef restore_method = {"_restore", restore, METH_VARARGS, "For pickle."};
 
 PyObject* cannot_make(PyTypeObject* type, PyObject*, PyObject*) {
-  PyErr_Format(PyExc_TypeError, "a %s is not made by itself: functions return it", type->tp_name);
+  const std::string makers = makers_text(type);
+  const std::string how = makers.empty() ? "functions return it" : "use " + makers.substr(2);
+  PyErr_Format(PyExc_TypeError, "a %s is not made by itself: %s", type->tp_name, how.c_str());
   return nullptr;
 }
 

@@ -110,6 +110,9 @@ struct Instance {
 /// A new reference.
 [[nodiscard]] PyObject* new_instance(const TypeInfo& info, std::shared_ptr<void> value);
 
+/// How objects of a type are made, beside its constructor: ", Ellipse.from_axes(), Ellipse.from_shape()";
+/// empty where nothing of its own does.
+[[nodiscard]] std::string makers_text(PyTypeObject* type);
 /// Makes the Python type of `info` (its fields included) in the namespace that its name says.
 void add_type(TypeInfo& info, const char* doc, PyMethodDef* methods, newfunc construct);
 /// An enum.IntEnum of these members, separated by spaces: "disjoint 0 touching 1".

@@ -8,6 +8,7 @@ files is here too: vericone.simulate, campaign, fit, scan, read_scene.
 from __future__ import annotations
 
 import importlib
+import sys
 from typing import Any
 
 from vericone._errors import InputError as InputError
@@ -28,7 +29,7 @@ def __getattr__(name: str) -> Any:
         value = getattr(importlib.import_module("vericone." + _LATER[name]), name)
         globals()[name] = value
         return value
-    raise AttributeError(f"module 'vericone' has no attribute '{name}'")
+    raise AttributeError(f"module 'vericone' has no attribute '{name}'", name=name, obj=sys.modules[__name__])
 
 
 def __dir__() -> list[str]:

@@ -86,3 +86,19 @@ def test_text_is_short() -> None:
     """Long arrays are named by their shape, within lists too."""
     shown = repr(vc.Pair(vc.Ellipsoid(), vc.Ellipsoid.from_axes([10, 2, 0], [2, 3, 1])).cone())
     assert "inner=[<array (" in shown and len(shown) < 1_500
+
+
+def test_refusals_say_how_objects_are_made() -> None:
+    for make, made_by in ((lambda: vc.Ellipsoid([0, 0, 0], np.eye(3)), "Ellipsoid.from_axes()"), (lambda: vc.Ellipse(center=[0, 0]), "Ellipse.from_axes()"),
+                          (lambda: vc.Assembly([[0, 0, 0]]), "use Assembly.mesh(), Assembly.cloud()"), (lambda: vc.Opening(), "Opening.polygon()"),
+                          (lambda: vc.HullBody(3, 4, 5), "HullBody.box()")):
+        with pytest.raises(TypeError, match=re.escape(made_by)):
+            make()  # type: ignore[no-untyped-call]
+    with pytest.raises(TypeError) as raised:
+        vc.Pair(1, 2)  # type: ignore[call-overload]
+    assert str(raised.value).count("Pair(agent, obstacle, options=...)") == 1
+
+
+def test_names_with_a_slip_are_suggested() -> None:
+    done = subprocess.run([sys.executable, "-c", "import vericone; vericone.Ellipsiod()"], capture_output=True, text=True, check=False)
+    assert "Did you mean: 'Ellipsoid'?" in done.stderr
