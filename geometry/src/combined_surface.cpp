@@ -8,6 +8,8 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "surface_mesh.h"
@@ -18,6 +20,17 @@ namespace {
 void require_resolution(double resolution, double least) {
   if (!(resolution >= least && resolution <= 1))
     throw InputError("resolution", to_text(resolution), "between " + to_text(least) + " and 1");
+}
+
+void require_vertices(const CombinedSurface& surface) {
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int v = surface.triangles[i].vertices[k];
+      if (v < 0 || static_cast<std::size_t>(v) >= surface.vertices.size())
+        throw InputError("triangles[" + std::to_string(i) + "].vertices[" + std::to_string(k) + "]",
+                         std::to_string(v),
+                         "the index of one of the " + std::to_string(surface.vertices.size()) + " vertices");
+    }
 }
 
 /// Leaves out the vertices that no triangle uses.
@@ -77,6 +90,7 @@ CombinedSurface surface(const CombinedEllipsoid& body, double resolution) {
 }
 
 CombinedSurface part(const CombinedSurface& surface, SurfacePart which) {
+  require_vertices(surface);
   CombinedSurface chosen{surface.vertices, {}};
   for (const auto& t : surface.triangles)
     if ((t.quadric == 0) == (which == SurfacePart::ellipsoid)) chosen.triangles.push_back(t);
@@ -84,6 +98,7 @@ CombinedSurface part(const CombinedSurface& surface, SurfacePart which) {
 }
 
 std::vector<std::array<int, 2>> rims(const CombinedSurface& surface) {
+  require_vertices(surface);
   std::map<std::pair<int, int>, int> first;
   std::vector<std::array<int, 2>> found;
   for (const auto& t : surface.triangles)
@@ -96,6 +111,7 @@ std::vector<std::array<int, 2>> rims(const CombinedSurface& surface) {
 }
 
 double enclosed_volume(const CombinedSurface& surface) {
+  require_vertices(surface);
   if (surface.vertices.empty()) return 0;
   const Eigen::Vector3d origin = surface.vertices.front();  // near the body: no cancellation
   double sum = 0;
@@ -111,9 +127,10 @@ double enclosed_volume(const CombinedSurface& surface) {
 std::string to_obj(const CombinedSurface& surface) {
   std::string text = "# surface of a combined quadric, metres\n";
   for (const auto& p : surface.vertices) append_point(text.append("v "), p);
-  int quadrics = 0;
-  for (const auto& t : surface.triangles) quadrics = std::max(quadrics, t.quadric + 1);
-  for (int i = 0; i < quadrics; ++i) {
+  require_vertices(surface);
+  std::set<int> quadrics;
+  for (const auto& t : surface.triangles) quadrics.insert(t.quadric);
+  for (const int i : quadrics) {
     text.append("g quadric_").append(std::to_string(i)).append("\n");
     for (const auto& t : surface.triangles) {
       if (t.quadric != i) continue;
@@ -131,6 +148,7 @@ std::string to_ply(const CombinedSurface& surface) {
                      "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
                      std::to_string(surface.triangles.size()) +
                      "\nproperty list uchar int vertex_indices\nproperty int quadric\nend_header\n";
+  require_vertices(surface);
   for (const auto& p : surface.vertices) append_point(text, p);
   for (const auto& t : surface.triangles) {
     text.append("3");

@@ -148,8 +148,6 @@ class Emitter:
         if call.many:
             table.append('{"threads", nullptr, true, true}')
             lines.append(f"const int threads = g.threads({threads});")
-        if call.long_work:
-            lines.append("g.long_work = true;")
         target = call.call
         if call.cpp.constructor:
             target = object_type
@@ -164,8 +162,6 @@ class Emitter:
             variables = ", ".join(v for v, _ in many)
             plain = braces.replace(", @asked", "").replace("@asked", "")
             answer = "answer" if self.model.is_column(call.result) else "answer_objects"
-            if call.long_work:
-                answer += "_long"
             if call.result.reference == "*":
                 raise SystemExit(f"{call.call}: returns a pointer to many")
             parameters = ", ".join(lambda_parameters)
@@ -185,7 +181,6 @@ class Emitter:
                 lines.append("}")
             lines.append(f"return {answer}<{elements}>(g, threads, [&]({parameters}) {{ return {plain}; }}, {variables});")
         else:
-            run = "run_long" if call.long_work else "run"
             if asked:
                 i, a = asked
                 kind = a.type.plain().text()
@@ -205,13 +200,13 @@ class Emitter:
             if accessor and not (call.result.reference == "*" and what != "text"):
                 lines.append(f"return to_python({braces});")
             elif what == "none" and not call.cpp.constructor:
-                lines.append(f"{run}(g, [&] {{ {body} }});")
+                lines.append(f"run(g, [&] {{ {body} }});")
                 if changed:
                     lines.append(f"return {'to_python(' + changed[0] + ')' if len(changed) == 1 else 'tuple_of({' + ', '.join(f'to_python({c})' for c in changed) + '})'};")
                 else:
                     lines.append("Py_RETURN_NONE;")
             else:
-                lines.append(f"auto result = {run}(g, [&] {{ {body} }});")
+                lines.append(f"auto result = run(g, [&] {{ {body} }});")
                 if call.cpp.constructor:
                     lines.append(f"return new_instance(type_of<{object_type}>(), std::move(result));")
                 elif asked:
@@ -229,7 +224,7 @@ class Emitter:
         function = f"PyObject* call_{number}([[maybe_unused]] Given& g) {{\n  {body}\n}}\n"
         parameters_table = (f"constexpr Parameter parameters_{number}[] = {{{', '.join(table)}}};\n" if table else
                             f"constexpr std::span<const Parameter> parameters_{number}{{}};\n")
-        return function + parameters_table, f"{{parameters_{number}, call_{number}}}", ""
+        return function + parameters_table, f"{{parameters_{number}, call_{number}{', true' if call.long_work else ''}}}", ""
 
     def group(self, group: Group, record: Record | None, many_names: list[str]) -> tuple[str, str]:
         """C++ of a group of overloads, and its entry in a table of methods."""
@@ -284,8 +279,8 @@ class Emitter:
             construct = f"new_{number}"
         elif (record.is_record or (record.source.default_constructible and not record.source.abstract)) and \
                 record.source.default_constructible:
-            before.append(f"PyObject* new_{number}(PyTypeObject*, PyObject* arguments, PyObject* named) {{\n"
-                          f"  return construct_record(type_of<{record.cpp}>(), arguments, named);\n}}\n")
+            before.append(f"PyObject* new_{number}(PyTypeObject* type, PyObject* arguments, PyObject* named) {{\n"
+                          f"  return construct_record(type_of<{record.cpp}>(), type, arguments, named);\n}}\n")
             construct = f"new_{number}"
         lines = ["  {", f"    using T = {record.cpp};", f"    TypeInfo& info = type_of<{record.cpp}>();", f'    info.name = "{record.name}";',
                  f"    describe<{record.cpp}>(info);"]

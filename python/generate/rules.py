@@ -86,7 +86,9 @@ SKIPPED: dict[str, str] = {
 }
 # (C++ name, types of the parameters): why Python has not this overload.
 SKIPPED_OVERLOADS: dict[tuple[str, str], str] = {
-    ("ConeOracle::memberships", "const double *, std::ptrdiff_t, std::span<Membership>, vericone::VectorWidth"): "membership() takes arrays of any strides",
+    ("ConeOracle::memberships", parameters): "membership() takes arrays of any strides"
+    for parameters in ("const double *, std::ptrdiff_t, std::span<Membership>, vericone::VectorWidth",
+                       "std::span<const Eigen::Vector3d>, std::span<Membership>, vericone::VectorWidth")
 }
 
 # Enumerations and records that are filled in through a pointer where the caller asks: rung=True.
@@ -141,7 +143,8 @@ REQUIRES: dict[str, tuple[str, str, str, str]] = {
     "exact::direction_on_grid": ("[](const auto& x) { if constexpr (requires { x.allFinite(); }) return x.allFinite(); else return true; }(v)", "v",
                                  "a number that is not finite", "finite"),
     "exact::difference_on_grid": ("x.allFinite() && y.allFinite()", "x, y", "a number that is not finite", "finite"),
-    "ConeMap::cell": ("i < self.cells.size()", "i", "no such cell", "below the number of cells"),
+    "ConeMap::cell": ("i < self.cells.size() && std::ranges::all_of(self.cells[i].corners, [&](auto k) { return k < self.corners.size(); })", "i",
+                      "no such cell, or corners that the map does not have", "a cell of a map as cone_map() returns it"),
     "Assembly::piece": ("i < self.size()", "i", "no such piece", "below size()"),
     "least_squares": ("a.rows() == b.size()", "b", "another number of rows than a has", "of as many numbers as a has rows"),
     "shortest_least_squares": ("a.rows() == b.size()", "b", "another number of rows than a has", "of as many numbers as a has rows"),
@@ -154,6 +157,12 @@ REQUIRES: dict[str, tuple[str, str, str, str]] = {
                      "of disjoint bodies, the obstacle of one piece"),
     **{f"{oracle}::exact_membership": ("v_a.allFinite() && v_b.allFinite()", "velocity", "a number that is not finite", "finite (m/s)")
        for oracle in ("ConeOracle", "HullOracle", "SectorOracle")},
+    "exact_side": ("point.allFinite()", "point", "a number that is not finite", "finite"),
+    "exact_earlier": ("p.w.allFinite() && q.w.allFinite()", "w", "a number that is not finite", "finite (m/s)"),
+    "exact_facing_orifice_transit": ("center_line.allFinite() && w.allFinite() && std::isfinite(agent_radius) && std::isfinite(opening_radius)",
+                                     "center_line, w", "a number that is not finite", "finite"),
+    **{f"vehicles::{name}": ("(vericone::vehicles::check(quadrotor), true)", "quadrotor", "no options", "as check() asks")
+       for name in ("quadrotor_rates", "thrust_and_tilt", "quadrotor_wrench")},
     "exact_time_to_contact": ("v_a.allFinite() && v_b.allFinite()", "velocity", "a number that is not finite", "finite (m/s)"),
     "OrificeOracle::exact_transit": ("w.allFinite()", "w", "a number that is not finite", "finite (m/s)"),
     "simulation::mesh_track": ("orifice.window != nullptr", "orifice", "no window", "with a window"),

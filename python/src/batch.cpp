@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <limits>
+#include <system_error>
 #include <thread>
 #ifdef __SSE2__
 #include <emmintrin.h>
@@ -19,7 +20,7 @@ constexpr Py_ssize_t kBlock = 256;
 
 }  // namespace
 
-Many::Many(const Given& given, int i, int components)
+Many::Many(Given& given, int i, int components)
     : name_(given.place(i).name), components_(std::max(components, 1)), scalar_(components == 0) {
   PyObject* value = given.value(i);
   const Place place = given.place(i);
@@ -91,13 +92,16 @@ void Many::read_numbers(PyObject* given, const Place& place) {
   }
 }
 
-Many::Many(const Given& given, int i, const TypeInfo& info) : name_(given.place(i).name) {
+Many::Many(Given& given, int i, const TypeInfo& info) : name_(given.place(i).name) {
   PyObject* value = given.value(i);
   const Place place = given.place(i);
   if (could_be(value, info)) {
     std::shared_ptr<void> made;
     one_ = object_from(value, info, made, place);
-    if (made) made_.push_back(std::move(made));
+    if (made)
+      made_.push_back(std::move(made));
+    else
+      given.machines.add(value);
     return;
   }
   py::object list;
@@ -121,7 +125,10 @@ Many::Many(const Given& given, int i, const TypeInfo& info) : name_(given.place(
   for (Py_ssize_t k = 0; k < PyTuple_GET_SIZE(list.ptr()); ++k) {
     std::shared_ptr<void> made;
     objects_.push_back(object_from(PyTuple_GET_ITEM(list.ptr(), k), info, made, {&place, nullptr, k}));
-    if (made) made_.push_back(std::move(made));
+    if (made)
+      made_.push_back(std::move(made));
+    else
+      given.machines.add(PyTuple_GET_ITEM(list.ptr(), k));
   }
   data_ = reinterpret_cast<const char*>(objects_.data());
 }
@@ -435,7 +442,9 @@ void answer_all(Given& given, std::span<const Many* const> many, std::span<const
                 std::span<const Output> outputs, int threads, Kernel kernel, void* f, Kernel whole) {
   const Walk walk(many, shape);
   std::atomic<Py_ssize_t> next{0};
-  Stop stop;
+  Stop own;  // where nobody beyond asks to stop
+  const Stop* const outer = stop_of_this_thread();
+  const Stop* const heard = outer ? outer : &own;
   std::mutex mutex;
   Py_ssize_t failed_at = walk.count();
   std::exception_ptr failure;
@@ -462,6 +471,7 @@ void answer_all(Given& given, std::span<const Many* const> many, std::span<const
       walk.part(first, count, room, part, whole != nullptr);
       (whole ? whole : kernel)(f, part, at);
       return true;
+    } catch (const Rounded&) {  // of any of them
     } catch (...) {
       if (!whole) {
         fail(first + at);
@@ -489,7 +499,7 @@ void answer_all(Given& given, std::span<const Many* const> many, std::span<const
     Py_ssize_t size = whole ? std::clamp<Py_ssize_t>(walk.count() / (8 * threads), 512, 16384) : 16;
     auto looked = std::chrono::steady_clock::now();
     std::optional<py::error_already_set> raised;
-    while (!stop.requested()) {
+    while (!heard->requested()) {
       const Py_ssize_t begin = next.fetch_add(size);
       if (begin >= walk.count()) break;
       const Py_ssize_t end = std::min(begin + size, walk.count());
@@ -508,9 +518,9 @@ void answer_all(Given& given, std::span<const Many* const> many, std::span<const
       if (watches && now - looked > kBetweenSignals) {
         looked = now;
         const py::gil_scoped_acquire hold;
-        if (PyErr_CheckSignals() != 0) {
+        if (!outer && PyErr_CheckSignals() != 0) {
           raised.emplace();
-          stop.request();
+          own.request();
         }
       }
     }
@@ -519,32 +529,26 @@ void answer_all(Given& given, std::span<const Many* const> many, std::span<const
 
   std::optional<py::error_already_set> raised;
   {
-    const bool aside = given.long_work && in_main_thread();  // one question alone may be long
-    const int extra = static_cast<int>(std::min<Py_ssize_t>(threads, std::max<Py_ssize_t>(walk.count(), 1)) -
-                                       (aside ? 0 : 1));
-    Completion others(extra);
-    std::vector<std::thread> workers;
-    for (int t = 0; t < extra; ++t)
-      workers.emplace_back([&] {
-        {
-          const StopScope heard(&stop);
-          (void)work(false);
-        }
-        others.finish();
-      });
-    if (aside) raised = others.wait(stop);
-    std::recursive_mutex* machine =
-        given.self && is_object(given.self) ? reinterpret_cast<Instance*>(given.self)->lock.get() : nullptr;
     const py::gil_scoped_release quiet;
-    if (!aside) {
-      const StopScope heard(&stop);
-      std::unique_lock<std::recursive_mutex> hold;
-      if (machine) hold = std::unique_lock(*machine);
-      raised = work(true);
+    const std::lock_guard hold(given.machines);
+    // Machines: one call at a time.
+    const auto useful = given.machines.none() ? std::clamp<Py_ssize_t>(walk.count(), 1, threads) : 1;
+    std::vector<std::jthread> others;
+    for (Py_ssize_t t = 1; t < useful; ++t) {
+      try {
+        others.emplace_back([&] {
+          const StopScope scope(heard);
+          (void)work(false);
+        });
+      } catch (const std::system_error&) {
+        break;  // the system gives no more: these are enough
+      }
     }
-    for (auto& worker : workers) worker.join();
+    const StopScope scope(heard);
+    raised = work(true);
   }
   if (raised) throw std::move(*raised);
+  if (heard->requested()) throw Interrupted{};
   if (!failure) return;
   try {
     std::rethrow_exception(failure);

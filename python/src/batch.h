@@ -11,9 +11,9 @@ namespace vericone::python {
 class Many {
  public:
   /// Numbers: `components` of one (0: a scalar).
-  Many(const Given& given, int i, int components);
+  Many(Given& given, int i, int components);
   /// Objects of a type.
-  Many(const Given& given, int i, const TypeInfo& info);
+  Many(Given& given, int i, const TypeInfo& info);
   /// One, where nothing is given: a number, or a vector that outlives this.
   Many(const char* name, double number) : name_(name), components_(1), scalar_(true) {
     numbers_[0] = number;
@@ -153,18 +153,6 @@ PyObject* answer_objects(Given& given, int threads, F&& f, const M&... m) {
   answer_all(given, all, shape, {&output, 1}, threads, kernel, &f);
   return objects_of(
       shape, [&](Py_ssize_t i) { return Convert<R>::to(std::move(*results[static_cast<std::size_t>(i)])); });
-}
-
-/// Of work that may take long.
-template <class... E, class F, class... M>
-PyObject* answer_long(Given& given, int threads, F&& f, const M&... m) {
-  if ((m.single() && ...)) return to_python(run_long(given, [&] { return f(one<E>(m)...); }));
-  return answer<E...>(given, threads, std::forward<F>(f), m...);
-}
-template <class... E, class F, class... M>
-PyObject* answer_objects_long(Given& given, int threads, F&& f, const M&... m) {
-  if ((m.single() && ...)) return to_python(run_long(given, [&] { return f(one<E>(m)...); }));
-  return answer_objects<E...>(given, threads, std::forward<F>(f), m...);
 }
 
 /// As answer(), of f(argument..., X&) that fills in an X as well (a rung): both are returned.

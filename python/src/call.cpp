@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "call.h"
 
+#include <unistd.h>
 #include <vericone/geometry/error.h>
 #include <algorithm>
+#include <condition_variable>
 #include <cstring>
+#include <mutex>
 #include <new>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 namespace vericone::python {
 namespace {
@@ -30,6 +34,98 @@ std::string signature_text(std::span<const Parameter> parameters) {
   return text + ")";
 }
 
+// Long work ------------------------------------------------------------------------------------------------
+
+bool in_main_thread() {
+  static const py::object& threading = *new py::object(py::module_::import("threading"));
+  return threading.attr("get_ident")().equal(threading.attr("main_thread")().attr("ident"));
+}
+
+/// How long a call that was asked to end is waited for.
+constexpr auto kPatience = std::chrono::milliseconds(200);
+
+/// A call in a thread of its own. All that it needs is here, so that it may be left to itself.
+struct Aside {
+  Given given;
+  Stop stop;
+  PyObject* answer = nullptr;
+  std::exception_ptr thrown;
+  std::mutex mutex;
+  std::condition_variable condition;
+  bool ended = false;
+
+  Aside() = default;
+  ~Aside() { Py_XDECREF(answer); }  // where nobody takes it; the global lock is held
+  Aside(const Aside&) = delete;
+  Aside& operator=(const Aside&) = delete;
+};
+
+/// Waits for it when Python ends: until then its steps and what it holds are there.
+void leave(std::thread worker) {
+  static auto& left = *new std::vector<std::thread>;
+  static const pid_t process = [] {
+    py::module_::import("atexit").attr("register")(py::cpp_function([] {
+      const py::gil_scoped_release quiet;
+      if (getpid() != process) return;  // a fork has none of these threads
+      for (std::thread& one : left) one.join();
+      left.clear();
+    }));
+    return getpid();
+  }();
+  left.push_back(std::move(worker));
+}
+
+/// The call runs in a thread beside the main one, which waits for it and for signals. What a signal raises is
+/// thrown here once the call has heard of it and ended, or after kPatience: a step of another library that
+/// hears nothing goes on without us, and what it returns is dropped.
+PyObject* call_aside(const Overload& overload, Given& given) {
+  auto aside = std::make_shared<Aside>();
+  given.keep();
+  aside->given = std::move(given);
+  std::thread worker([call = overload.call, aside]() mutable {
+    const py::gil_scoped_acquire hold;
+    try {
+      const StopScope heard(&aside->stop);
+      aside->answer = call(aside->given);
+      if (!aside->answer) throw py::error_already_set();
+    } catch (...) {
+      aside->thrown = std::current_exception();
+    }
+    {
+      const std::lock_guard lock(aside->mutex);
+      aside->ended = true;
+    }
+    aside->condition.notify_all();
+    aside.reset();  // here: the global lock is held
+  });
+  std::optional<py::error_already_set> raised;
+  std::chrono::steady_clock::time_point late;
+  bool ended = false;
+  while (true) {
+    {
+      const py::gil_scoped_release quiet;
+      std::unique_lock lock(aside->mutex);
+      ended = aside->condition.wait_for(lock, kBetweenSignals, [&] { return aside->ended; });
+    }
+    if (ended || (raised && std::chrono::steady_clock::now() > late)) break;
+    if (!raised && PyErr_CheckSignals() != 0) {
+      raised.emplace();
+      aside->stop.request();
+      late = std::chrono::steady_clock::now() + kPatience;
+    }
+  }
+  if (ended) {
+    const py::gil_scoped_release quiet;
+    worker.join();
+  } else {
+    leave(std::move(worker));
+  }
+  if (raised) throw std::move(*raised);
+  given = std::move(aside->given);
+  if (aside->thrown) std::rethrow_exception(aside->thrown);
+  return std::exchange(aside->answer, nullptr);
+}
+
 PyObject* dispatch(const char* name, std::span<const Overload> overloads, PyObject* self,
                    PyObject* const* positional, Py_ssize_t n, PyObject* names, PyObject* const* named,
                    PyTypeObject* type = nullptr) noexcept {
@@ -43,7 +139,8 @@ PyObject* dispatch(const char* name, std::span<const Overload> overloads, PyObje
         continue;
       }
       try {
-        PyObject* answer = overload.call(given);
+        PyObject* answer =
+            overload.long_work && in_main_thread() ? call_aside(overload, given) : overload.call(given);
         if (!answer && !PyErr_Occurred()) throw WrongType{"no answer"};
         if (answer && type) reinterpret_cast<Instance*>(answer)->made = std::move(given.made());
         return answer;
@@ -117,8 +214,17 @@ bool Given::bind(std::span<const Parameter> parameters, PyObject* const* positio
 void* Given::object(int i, const TypeInfo& info) {
   std::shared_ptr<void> made;
   void* value = object_from(this->value(i), info, made, place(i));
-  if (made) made_.push_back(std::move(made));
+  if (made)
+    made_.push_back(std::move(made));
+  else
+    machines.add(this->value(i));
   return value;
+}
+
+void Given::keep() {
+  if (self) kept_.push_back(py::reinterpret_borrow<py::object>(self));
+  for (PyObject* value : values_)
+    if (value) kept_.push_back(py::reinterpret_borrow<py::object>(value));
 }
 
 int Given::threads(int i) const {
@@ -161,9 +267,14 @@ PyObject* construct(const char* name, std::span<const Overload> overloads, PyTyp
   }
   PyObject* made = dispatch(name, overloads, nullptr, PySequence_Fast_ITEMS(arguments),
                             PyTuple_GET_SIZE(arguments), names.ptr(), values.data(), type);
+  if (!made) return nullptr;
   // Some classes refer to what they were made of.
-  if (made) reinterpret_cast<Instance*>(made)->kept = PyTuple_Pack(2, arguments, named ? named : Py_None);
-  return made;
+  reinterpret_cast<Instance*>(made)->kept = PyTuple_Pack(2, arguments, named ? named : Py_None);
+  try {
+    return as_type(made, type);
+  } catch (...) {
+    return raise_current();
+  }
 }
 
 // Errors ---------------------------------------------------------------------------------------------------
@@ -218,76 +329,11 @@ PyObject* raise_current(const std::string& at) noexcept {
 
 // The global lock ------------------------------------------------------------------------------------------
 
-Quiet::Quiet(PyObject* self) : state_(nullptr) {
-  if (self && is_object(self)) lock_ = reinterpret_cast<Instance*>(self)->lock.get();
-  state_ = PyEval_SaveThread();
-  if (lock_) lock_->lock();
-}
+Quiet::Quiet(Machines& machines) : machines_(machines), state_(PyEval_SaveThread()) { machines_.lock(); }
 
 Quiet::~Quiet() {
-  if (lock_) lock_->unlock();
+  machines_.unlock();
   PyEval_RestoreThread(state_);
-}
-
-bool in_main_thread() {
-  static const py::object& threading = *new py::object(py::module_::import("threading"));
-  return threading.attr("get_ident")().equal(threading.attr("main_thread")().attr("ident"));
-}
-
-void Completion::finish() {
-  const std::lock_guard lock(mutex_);
-  --running_;
-  condition_.notify_all();
-}
-
-std::optional<py::error_already_set> Completion::wait(Stop& stop) {
-  std::optional<py::error_already_set> raised;
-  while (true) {
-    bool ended = false;
-    {
-      const py::gil_scoped_release quiet;
-      std::unique_lock lock(mutex_);
-      ended = condition_.wait_for(lock, kBetweenSignals, [&] { return running_ == 0; });
-    }
-    if (ended) return raised;
-    if (!raised && PyErr_CheckSignals() != 0) {
-      raised.emplace();
-      stop.request();
-    }
-  }
-}
-
-void run_interruptibly(PyObject* self, const std::function<void()>& work) {
-  if (!in_main_thread()) {
-    const Quiet quiet(self);
-    return work();
-  }
-  Stop stop;
-  std::exception_ptr thrown;
-  Completion one(1);
-  std::recursive_mutex* machine =
-      self && is_object(self) ? reinterpret_cast<Instance*>(self)->lock.get() : nullptr;
-  std::thread worker([&] {
-    try {
-      const StopScope heard(&stop);
-      std::unique_lock<std::recursive_mutex> hold;
-      if (machine) hold = std::unique_lock(*machine);
-      work();
-    } catch (...) {
-      thrown = std::current_exception();
-    }
-    one.finish();
-  });
-  auto raised = one.wait(stop);
-  {
-    const py::gil_scoped_release quiet;
-    worker.join();
-  }
-  if (raised) {
-    thrown = nullptr;
-    throw std::move(*raised);
-  }
-  if (thrown) std::rethrow_exception(thrown);
 }
 
 PyObject* tuple_of(std::initializer_list<PyObject*> parts) {

@@ -6,9 +6,7 @@
 
 #include <vericone/geometry/stop.h>
 #include <chrono>
-#include <condition_variable>
 #include <initializer_list>
-#include <mutex>
 #include <tuple>
 
 #include "convert.h"
@@ -25,6 +23,7 @@ class Given;
 struct Overload {
   std::span<const Parameter> parameters;
   PyObject* (*call)(Given&);
+  bool long_work = false;  // may take more than a few tenths of a second: Ctrl-C ends it
 };
 
 /// The arguments of one call.
@@ -33,7 +32,7 @@ class Given {
   static constexpr int kMost = 40;
   /// Of the object itself; of a function about many objects `self` may be a sequence of them.
   PyObject* self = nullptr;
-  bool long_work = false;  // may take more than a few tenths of a second: can be interrupted
+  Machines machines;  // among the arguments that are not copied
 
   [[nodiscard]] bool has(int i) const { return values_[i] != nullptr; }
   [[nodiscard]] PyObject* value(int i) const { return i < 0 ? self : values_[i]; }  // -1: self
@@ -72,6 +71,9 @@ class Given {
   bool bind(std::span<const Parameter> parameters, PyObject* const* positional, Py_ssize_t n, PyObject* names,
             PyObject* const* named, std::string& why);
 
+  /// Holds on to all arguments: this goes to another thread.
+  void keep();
+
   /// What was made of arguments that stand for others.
   [[nodiscard]] std::vector<std::shared_ptr<void>>& made() { return made_; }
 
@@ -81,6 +83,7 @@ class Given {
   std::span<const Parameter> parameters_;
   PyObject* values_[kMost] = {};
   std::vector<std::shared_ptr<void>> made_;
+  std::vector<py::object> kept_;
 };
 
 /// `name`, for messages. The vectorcall convention of methods.
@@ -90,69 +93,35 @@ PyObject* call(const char* name, std::span<const Overload> overloads, PyObject* 
 PyObject* construct(const char* name, std::span<const Overload> overloads, PyTypeObject* type,
                     PyObject* arguments, PyObject* named) noexcept;
 /// A record from the values of its fields, in their order or by name.
-PyObject* construct_record(const TypeInfo& info, PyObject* arguments, PyObject* named) noexcept;
+PyObject* construct_record(const TypeInfo& info, PyTypeObject* type, PyObject* arguments,
+                           PyObject* named) noexcept;
 /// A method about many objects: the first argument is the object, or a list of them.
 PyObject* call_many(const char* name, std::span<const Overload> overloads, PyObject* const* arguments,
                     Py_ssize_t n, PyObject* names) noexcept;
 /// What is being thrown, as an exception of Python; returns null.
 PyObject* raise_current(const std::string& at = {}) noexcept;
 
-/// The global lock is released, and a machine is locked, as long as this lives.
+/// The global lock is released, and the machines are locked, as long as this lives.
 class Quiet {
  public:
-  explicit Quiet(PyObject* self);
+  explicit Quiet(Machines& machines);
   ~Quiet();
   Quiet(const Quiet&) = delete;
   Quiet& operator=(const Quiet&) = delete;
 
  private:
-  std::recursive_mutex* lock_ = nullptr;
+  Machines& machines_;
   PyThreadState* state_;
 };
 
 /// How often a thread that waits or works looks for signals.
 inline constexpr auto kBetweenSignals = std::chrono::milliseconds(25);
-[[nodiscard]] bool in_main_thread();
-
-/// What threads have still to do, for the main thread that waits for them.
-class Completion {
- public:
-  explicit Completion(int threads) : running_(threads) {}
-  /// Of one of the threads.
-  void finish();
-  /// Waits until all have finished, and looks for signals meanwhile: what one raises is returned, once `stop`
-  /// has been requested and heard of. The global lock is held before and after.
-  [[nodiscard]] std::optional<py::error_already_set> wait(Stop& stop);
-
- private:
-  std::mutex mutex_;
-  std::condition_variable condition_;
-  int running_;
-};
-
-/// Runs `work` in a thread of its own while this one waits for it and for signals: what a signal raises is
-/// thrown here, once `work` has heard of it and ended. For work in the main thread; elsewhere it is run at
-/// once.
-void run_interruptibly(PyObject* self, const std::function<void()>& work);
 
 template <class F>
 auto run(Given& given, F&& f) {
-  const Quiet quiet(given.self);
+  const Quiet quiet(given.machines);
   return std::remove_cvref_t<std::invoke_result_t<F>>(f());
 }
-/// Of work that may take long.
-template <class F>
-auto run_long(Given& given, F&& f) {
-  using R = std::remove_cvref_t<std::invoke_result_t<F>>;
-  if constexpr (std::is_void_v<R>) {
-    run_interruptibly(given.self, f);
-  } else {
-    std::optional<R> result;
-    run_interruptibly(given.self, [&] { result.emplace(f()); });
-    return std::move(*result);
-  }
-}
-
 template <class T>
 [[nodiscard]] PyObject* to_python(T&& value) {
   return Convert<std::remove_cvref_t<T>>::to(std::forward<T>(value));

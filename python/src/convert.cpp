@@ -54,8 +54,10 @@ void check_numbers(PyObject* given, const Place& place, int depth = 0) {
     return;
   }
   if (PyList_Check(given) || PyTuple_Check(given)) {
-    for (Py_ssize_t i = 0; i < PySequence_Fast_GET_SIZE(given); ++i)
-      check_numbers(PySequence_Fast_GET_ITEM(given, i), {&place, nullptr, i}, depth + 1);
+    for (Py_ssize_t i = 0; i < PySequence_Fast_GET_SIZE(given); ++i) {
+      const auto item = py::reinterpret_borrow<py::object>(PySequence_Fast_GET_ITEM(given, i));
+      check_numbers(item.ptr(), {&place, nullptr, i}, depth + 1);
+    }
     return;
   }
   (void)number_from(given, place);
@@ -131,7 +133,7 @@ bool is_sequence(PyObject* given) {
 
 py::object fast_sequence(PyObject* given, const Place& place) {
   if (!is_sequence(given)) wrong_type(place, "a list", given);
-  PyObject* list = PySequence_Fast(given, "");
+  PyObject* list = PySequence_Tuple(given);  // stays as it is, whatever its items do when they are converted
   if (!list) throw py::error_already_set();
   return py::reinterpret_steal<py::object>(list);
 }
@@ -255,8 +257,12 @@ void fixed_from(PyObject* given, int rows, int columns, double* out, const Place
     }
   } else if (columns == 1 && (PyList_Check(given) || PyTuple_Check(given)) &&
              PySequence_Fast_GET_SIZE(given) == rows) {
-    for (Py_ssize_t i = 0; i < rows; ++i)
-      out[i] = number_from(PySequence_Fast_GET_ITEM(given, i), {&place, nullptr, i});
+    for (Py_ssize_t i = 0; i < rows; ++i) {
+      if (PySequence_Fast_GET_SIZE(given) != rows)  // a number's own conversion has changed the list
+        wrong_type(place, "a list that stays as it is", given);
+      const auto number = py::reinterpret_borrow<py::object>(PySequence_Fast_GET_ITEM(given, i));
+      out[i] = number_from(number.ptr(), {&place, nullptr, i});
+    }
     return;
   }
   const Py_ssize_t shape[2] = {rows, columns};

@@ -300,6 +300,7 @@ template <class T>
 struct Convert {
   static T from(PyObject* given, const Place& place) requires std::is_copy_constructible_v<T> {
     std::shared_ptr<void> made;
+    const Hold hold(given);
     return *static_cast<T*>(object_from(given, type_of<T>(), made, place));
   }
   static PyObject* to(T value) { return new_instance(type_of<T>(), std::make_shared<T>(std::move(value))); }

@@ -3,8 +3,10 @@
 
 #include <pybind11/numpy.h>
 #include <structmember.h>
+#include <algorithm>
 #include <cstring>
 #include <deque>
+#include <functional>
 #include <sstream>
 #include <string_view>
 #include <unordered_map>
@@ -45,6 +47,7 @@ void destroy(PyObject* self) {
 PyObject* get_field(PyObject* self, void* closure) {
   const auto& field = *static_cast<const Field*>(closure);
   try {
+    const Hold hold(self);
     return field.converter->to(static_cast<const char*>(own_value(self)) + field.offset);
   } catch (...) {
     return raise_current();
@@ -55,6 +58,7 @@ PyObject* get_field(PyObject* self, void* closure) {
 /// nothing does.
 PyObject* state_of(PyObject* self) {
   const TypeInfo& info = info_of(self);
+  const Hold hold(self);
   if (info.state) return info.state(own_value(self));
   if (info.fields.empty()) return nullptr;
   py::tuple state(info.fields.size());
@@ -201,7 +205,7 @@ PyObject* copy(PyObject* self, PyObject*) {
     return nullptr;
   }
   try {
-    const std::lock_guard hold(*reinterpret_cast<Instance*>(self)->lock);
+    const Hold hold(self);
     return new_instance(info, info.copy(own_value(self)));
   } catch (...) {
     return raise_current();
@@ -250,7 +254,8 @@ std::string makers_text(PyTypeObject* type) {
   return text;
 }
 
-PyObject* construct_record(const TypeInfo& info, PyObject* arguments, PyObject* named) noexcept {
+PyObject* construct_record(const TypeInfo& info, PyTypeObject* type, PyObject* arguments,
+                           PyObject* named) noexcept {
   try {
     auto value = info.make();
     std::vector<bool> set(info.fields.size());
@@ -270,7 +275,7 @@ PyObject* construct_record(const TypeInfo& info, PyObject* arguments, PyObject* 
     for (std::size_t i = 0; i < set.size(); ++i)
       if (info.fields[i].required && !set[i])
         throw WrongType{short_name(info) + "() needs '" + info.fields[i].name + "'"};
-    return new_instance(info, std::move(value));
+    return as_type(new_instance(info, std::move(value)), type);
   } catch (...) {
     return raise_current();
   }
@@ -283,6 +288,7 @@ PyObject* replace(PyObject* self, PyObject* arguments, PyObject* named) {
   try {
     if (info.fields.empty() || !info.copy)
       throw WrongType{"a " + short_name(info) + " has no fields to replace"};
+    const Hold hold(self);
     if (PyTuple_GET_SIZE(arguments) != 0) throw WrongType{"replace() takes names: replace(field=value)"};
     auto value = info.copy(own_value(self));
     std::vector<bool> set(info.fields.size());
@@ -375,6 +381,40 @@ void* value_of(PyObject* object, const TypeInfo& info) {
   return value;
 }
 
+namespace {
+
+std::recursive_mutex* lock_of(PyObject* object) {
+  return is_object(object) ? reinterpret_cast<Instance*>(object)->lock.get() : nullptr;
+}
+
+}  // namespace
+
+Hold::Hold(PyObject* object) : lock_(lock_of(object)) {
+  if (!lock_ || lock_->try_lock()) return;
+  const py::gil_scoped_release quiet;  // who has it may be waiting for the global lock
+  lock_->lock();
+}
+
+Hold::~Hold() {
+  if (lock_) lock_->unlock();
+}
+
+void Machines::add(PyObject* object) {
+  std::recursive_mutex* const lock = lock_of(object);
+  if (!lock) return;
+  // The same order for all threads: none waits for another in a circle.
+  const auto at = std::lower_bound(locks_.begin(), locks_.end(), lock, std::less<>());
+  if (at == locks_.end() || *at != lock) locks_.insert(at, lock);
+}
+
+void Machines::lock() {
+  for (std::recursive_mutex* lock : locks_) lock->lock();
+}
+
+void Machines::unlock() {
+  for (std::recursive_mutex* lock : locks_) lock->unlock();
+}
+
 std::shared_ptr<void> shared_of(PyObject* object, const TypeInfo& info) {
   return {reinterpret_cast<Instance*>(object)->value, value_of(object, info)};
 }
@@ -389,6 +429,20 @@ PyObject* new_instance(const TypeInfo& info, std::shared_ptr<void> value) {
   new (&instance->made) std::vector<std::shared_ptr<void>>;
   if (info.machine) instance->lock = std::make_unique<std::recursive_mutex>();
   instance->info = &info;
+  return self;
+}
+
+PyObject* as_type(PyObject* made, PyTypeObject* type) {
+  if (type == Py_TYPE(made)) return made;
+  const auto plain = py::reinterpret_steal<py::object>(made);
+  PyObject* self = type->tp_alloc(type, 0);
+  if (!self) throw py::error_already_set();
+  auto *to = reinterpret_cast<Instance*>(self), *from = reinterpret_cast<Instance*>(made);
+  new (&to->value) std::shared_ptr<void>(std::move(from->value));
+  new (&to->lock) std::unique_ptr<std::recursive_mutex>(std::move(from->lock));
+  new (&to->made) std::vector<std::shared_ptr<void>>(std::move(from->made));
+  to->kept = std::exchange(from->kept, nullptr);
+  to->info = from->info;
   return self;
 }
 

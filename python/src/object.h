@@ -105,10 +105,35 @@ struct Instance {
 [[nodiscard]] bool is_instance(PyObject* object, const TypeInfo& info);
 /// The value, seen as one of `info` (its own type or a base).
 [[nodiscard]] void* value_of(PyObject* object, const TypeInfo& info);
+/// While its value is read with the global lock held: of a machine, no other thread changes it meanwhile.
+class Hold {
+ public:
+  explicit Hold(PyObject* object);
+  ~Hold();
+  Hold(const Hold&) = delete;
+  Hold& operator=(const Hold&) = delete;
+
+ private:
+  std::recursive_mutex* lock_;
+};
+/// The machines that a call uses, locked together, without the global lock. No other call uses them then.
+class Machines {
+ public:
+  void add(PyObject* object);  // nothing, where it is none
+  [[nodiscard]] bool none() const { return locks_.empty(); }
+  void lock();
+  void unlock();
+
+ private:
+  std::vector<std::recursive_mutex*> locks_;  // in the order of their addresses, each once
+};
 /// As it is held, seen so.
 [[nodiscard]] std::shared_ptr<void> shared_of(PyObject* object, const TypeInfo& info);
 /// A new reference.
 [[nodiscard]] PyObject* new_instance(const TypeInfo& info, std::shared_ptr<void> value);
+/// What was just made, as one of `type`: its own, or a class that a program has derived from it. Takes the
+/// reference.
+[[nodiscard]] PyObject* as_type(PyObject* made, PyTypeObject* type);
 
 /// How objects of a type are made, beside its constructor: ", Ellipse.from_axes(), Ellipse.from_shape()";
 /// empty where nothing of its own does.

@@ -339,20 +339,36 @@ TEST(Surface, PinchedBodiesShareTheirCentre) {
   EXPECT_NEAR(enclosed_volume(t), volume(cones).value, 2e-2 * volume(cones).value);
 }
 
+int lines(const std::string& text, const std::string& beginning) {
+  int count = 0;
+  for (std::size_t at = 0; at < text.size(); at = text.find('\n', at) + 1)
+    count += text.compare(at, beginning.size(), beginning) == 0;
+  return count;
+}
+
 TEST(Surface, FilesHoldTheSameTriangles) {
   const CombinedSurface s = surface(testing::biconcave(), 0.5);
-  const auto lines = [](const std::string& text, const std::string& beginning) {
-    int count = 0;
-    for (std::size_t at = 0; at < text.size(); at = text.find('\n', at) + 1)
-      count += text.compare(at, beginning.size(), beginning) == 0;
-    return count;
-  };
   const std::string obj = to_obj(s), ply = to_ply(s);
   EXPECT_EQ(lines(obj, "v "), static_cast<int>(s.vertices.size()));
   EXPECT_EQ(lines(obj, "f "), static_cast<int>(s.triangles.size()));
   EXPECT_EQ(lines(obj, "g quadric_"), 2);
   EXPECT_EQ(lines(ply, "3 "), static_cast<int>(s.triangles.size()));
   EXPECT_EQ(lines(ply, "element face " + std::to_string(s.triangles.size())), 1);
+}
+
+TEST(Surface, OfASurfaceMadeByHandVerticesMustBeThere) {
+  for (const int vertex : {-1, 3, 2'147'483'647}) {
+    const CombinedSurface s{{Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY()}, {{{0, 1, vertex}, 0}}};
+    EXPECT_THROW((void)part(s, SurfacePart::ellipsoid), InputError);
+    EXPECT_THROW((void)rims(s), InputError);
+    EXPECT_THROW((void)enclosed_volume(s), InputError);
+    EXPECT_THROW((void)to_obj(s), InputError);
+    EXPECT_THROW((void)to_ply(s), InputError);
+  }
+  // Quadrics are names: any numbers.
+  const CombinedSurface s{{Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY()},
+                          {{{0, 1, 2}, 2'147'483'647}}};
+  EXPECT_EQ(lines(to_obj(s), "g quadric_"), 1);
 }
 
 TEST(Surface, RefusesOtherResolutions) {

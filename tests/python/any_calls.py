@@ -21,6 +21,7 @@ import signal
 import sys
 import tempfile
 import time
+import types
 from decimal import Decimal
 from typing import Any, Callable as Function
 
@@ -88,6 +89,35 @@ class Liar:
         return "Liar()"
 
 
+class Clearing:
+    """A number in a list that it empties when it is asked for its value."""
+
+    def __init__(self, home: list[Any]) -> None:
+        self.home = home
+
+    def __float__(self) -> float:
+        self.home.clear()
+        return 1.0
+
+    def __index__(self) -> int:
+        self.home.clear()
+        return 1
+
+    def __repr__(self) -> str:
+        return "Clearing()"
+
+
+def clearing(length: int, at: int, rows: int) -> list[Any]:
+    """A list of numbers, or of `rows` of them, that is emptied while it is read."""
+    home: list[Any] = [1.0] * length
+    home[at % length] = Clearing(home)
+    if not rows:
+        return home
+    outer: list[Any] = [home, *([1.0] * length for _ in range(rows))]
+    outer[-1][0] = Clearing(outer)
+    return outer
+
+
 class Arguments:
     """Draws values, from what `draw` chooses; hypothesis can choose for it, and makes a counterexample small."""
 
@@ -150,7 +180,8 @@ class Arguments:
             return self.one_of(self.pool[self.one_of(sorted(self.pool))])
         if kind == 6:
             return self.one_of([None, ..., (), [], {}, set(), object(), Strange(), Liar(), int, vericone, vericone.InputError, len, iter([1]), range(3),
-                                slice(None), memoryview(b"12345678"), bytearray(8), np.dtype("f8"), np.array(None), lambda *a, **k: None, NotImplemented])
+                                slice(None), memoryview(b"12345678"), bytearray(8), np.dtype("f8"), np.array(None), lambda *a, **k: None, NotImplemented,
+                                clearing(self.one_of([2, 3, 3, 4, 6]), self.draw.randrange(6), self.one_of([0, 0, 1, 3]))])
         return [self.thing() for _ in range(self.draw.randrange(4))]
 
     def of_kind(self, annotation: str) -> Any:
@@ -208,6 +239,61 @@ class Arguments:
         return positional, named
 
 
+class Spoiler:
+    """Changes something deep inside a value that was answered: an index, a number, a length, a part that is another's."""
+
+    INDICES = (-1, 0, 1, 2, 3, 5, 17, 1000, 2**20, 2**31 - 1, -(2**31))
+    NUMBERS = (0.0, -1.0, 1e-300, 1e300, float("nan"), float("inf"))
+
+    def __init__(self, draw: random.Random, pool: dict[str, list[Any]]) -> None:
+        self.draw = draw
+        self.pool = pool
+
+    def fields(self, record: Any) -> list[str]:
+        return [name for name, own in vars(type(record)).items() if isinstance(own, types.GetSetDescriptorType)]
+
+    def spoilt(self, value: Any, depth: int = 0) -> Any:
+        draw = self.draw
+        if isinstance(value, enum.Enum):
+            return draw.choice(list(type(value)))
+        if isinstance(value, (bool, str, bytes, type(None))) or depth > 6:
+            return value
+        if isinstance(value, (int, np.integer)):
+            return draw.choice([*self.INDICES, int(value) + 1, int(value) - 1])
+        if isinstance(value, (float, np.floating)):
+            return draw.choice([*self.NUMBERS, -float(value), float(value) * draw.uniform(0.5, 2)])
+        if isinstance(value, np.ndarray) and value.dtype.names is None:
+            changed = value.copy()
+            if changed.ndim and len(changed) and draw.random() < 0.5:
+                return draw.choice([changed[:-1], changed[:0], changed[1:], np.concatenate([changed, changed[:1]])])
+            if changed.size:
+                flat = changed.reshape(-1)
+                flat[draw.randrange(flat.size)] = self.spoilt(flat[draw.randrange(flat.size)].item(), depth + 1)
+            return changed
+        if isinstance(value, (list, tuple)):
+            parts = list(value)
+            how = draw.randrange(6)
+            if how == 0:
+                parts = parts[:-1]
+            elif how == 1:
+                parts = parts + parts[:1]
+            elif how == 2 and depth > 0:
+                parts = []
+            elif parts:
+                i = draw.randrange(len(parts))
+                parts[i] = self.spoilt(parts[i], depth + 1)
+            return type(value)(parts) if type(value) in (list, tuple) else parts
+        if hasattr(value, "replace") and (fields := self.fields(value)):
+            deep = [name for name in fields if not isinstance(getattr(value, name), (bool, str, bytes, type(None)))]
+            if deep:
+                name = draw.choice(deep)
+                return value.replace(**{name: self.spoilt(getattr(value, name), depth + 1)})
+            return value
+        kind = type(value)
+        others = next((own for own in self.pool.values() if type(own[0]) is kind), None)
+        return draw.choice(others) if others else value
+
+
 def described(value: Any) -> str:
     if isinstance(value, np.ndarray):
         return f"array({str(value.tolist())[:200]}, dtype={value.dtype}, shape={value.shape}, strides={value.strides})"
@@ -223,6 +309,7 @@ class Calls:
         # What draws is Python, of matplotlib's manners.
         self.callables = [c for c in signatures.callables(vericone) if not c.name.startswith(("plot.", "display."))
                           and not (isinstance(c.target, type) and issubclass(c.target, (enum.Enum, BaseException)))]
+        self.functions = {c.name for c in self.callables if c.kind != "property" and c.target != "replace"}
         # Called most; what they take comes from the others.
         self.favoured = [c for c in self.callables if c.name.startswith(most)]
         self.pool: dict[str, list[Any]] = {}
@@ -257,13 +344,32 @@ class Calls:
             own = self.pool.get(chosen.owner)
             if not own:
                 return None  # none was made yet
-            receiver = arguments.one_of(own)
+            # The receiver is the first of what is given.
             if chosen.kind == "property":
                 positional, named = [], {}
-                target = lambda: getattr(receiver, chosen.target)  # noqa: E731
+                target = lambda receiver: getattr(receiver, chosen.target)  # noqa: E731
             else:
-                target = lambda *some, **others: getattr(receiver, chosen.target)(*some, **others)  # noqa: E731
+                target = lambda receiver, /, *some, **others: getattr(receiver, chosen.target)(*some, **others)  # noqa: E731
+            positional.insert(0, arguments.one_of(own))
         return self.run(chosen.name, target, positional, named, draw)
+
+    def spoil(self, draw: random.Random) -> str | None:
+        """A call that was answered, with one of its arguments spoilt."""
+        answered = [key for key, examples in self.examples.items() if key[1] and examples and key[0] in self.functions]
+        if not answered:
+            return None
+        name, _ = draw.choice(answered)
+        target, positional, named = draw.choice(self.examples[name, True])
+        places: list[Any] = [*range(len(positional)), *named]
+        if not places:
+            return None
+        positional, named, place = list(positional), dict(named), draw.choice(places)
+        given = positional if isinstance(place, int) else named
+        try:
+            given[place] = Spoiler(draw, self.pool).spoilt(given[place])
+        except (*DOCUMENTED, ValueError, OverflowError):
+            return None  # the record itself refuses it
+        return self.run(name, target, positional, named, draw)
 
     def also(self, draw: random.Random) -> str | None:
         """What every value can: print, compare, copy, pickle, be changed into another."""
@@ -330,8 +436,11 @@ class Calls:
         finally:
             faulthandler.cancel_dump_traceback_later()
         own = self.examples.setdefault((name, answered), [])
-        if len(own) < EXAMPLES and time.perf_counter() - began < QUICK_SECONDS:
-            own.append((target, positional, named))
+        if time.perf_counter() - began < QUICK_SECONDS:
+            if len(own) < EXAMPLES:
+                own.append((target, positional, named))
+            elif draw.random() < 0.2:
+                own[draw.randrange(EXAMPLES)] = (target, positional, named)
         if wrong is None:
             return None
         fault = f"{name}: {type(wrong).__name__}: {str(wrong)[:160]}"
@@ -377,6 +486,7 @@ def main() -> int:
     parser.add_argument("--hypothesis", type=int, default=0, help="examples that hypothesis chooses afterwards")
     parser.add_argument("--most", default="", help="what the names begin with that are called most: guidance.")
     parser.add_argument("--without", nargs="*", default=[], help="names that are not called, to look for further faults")
+    parser.add_argument("--bare", action="store_true", help="begin without objects: of a package that has none of vericone's")
     parser.add_argument("--log", default="", help="file for the call that is being made")
     options = parser.parse_args()
     log = os.open(options.log, os.O_RDWR | os.O_CREAT, 0o644) if options.log else None
@@ -387,9 +497,17 @@ def main() -> int:
         calls.callables = [c for c in calls.callables if c.name not in options.without]
         calls.favoured = [c for c in calls.favoured if c.name not in options.without]
         draw = random.Random(options.seed)
+        if not options.bare:
+            import made
+
+            for thing in made.objects():
+                calls.keep(thing, draw)
         while calls.calls < options.calls:
-            if draw.random() < 0.05:
+            kind = draw.random()
+            if kind < 0.05:
                 calls.also(draw)
+            elif kind < 0.35:
+                calls.spoil(draw)
             else:
                 calls.make(draw)
         if options.hypothesis and not calls.faults:

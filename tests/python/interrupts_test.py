@@ -44,9 +44,10 @@ CALLS = {
                        "[p.cone(ConeOptions(resolution=1e-4)) for _ in range(100)]"),
     "cone of two clouds": ("x = ball(300); p = Pair(Placed(Body(Assembly.cloud(x, 0.1))), Placed(Body(Assembly.cloud(x + [9, 0, 0], 0.1))))",
                            "[p.cone(ConeOptions(resolution=1e-4)) for _ in range(100)]"),
-    # A step of Open3D is not to be stopped: 10 us a point.
-    "fusion": ("x = ball(6000) * [3, 2, 1]; s = [x, ball(6000) * [3, 2, 1] + 0.02]",
+    # Steps of Open3D and Qhull hear nothing, and take seconds here: they are left behind.
+    "fusion": ("x = ball(150000) * [3, 2, 1]; s = [x, ball(150000) * [3, 2, 1] + 0.02]",
                "[lidar.fuse(s, [np.eye(4), np.eye(4)]) for _ in range(100)]"),
+    "convex hull": ("x = ball(200000)", "[fitting.convex_hull(x) for _ in range(100)]"),
     "distances": ("x = ball(60000); r = vericone.fit(x[:100], shape='biconvex'); s = fitting.Sample(points=x)",
                   "[fitting.scan_to_hull(r.pieces, s) for _ in range(1000)]"),
     "certificate": ("x = ball(60000); r = vericone.fit(x[:100], shape='biconvex'); s = fitting.Sample(points=x)",

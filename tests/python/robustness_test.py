@@ -62,7 +62,7 @@ def test_the_search_finds_what_is_planted(tmp_path: Path) -> None:
         "import ctypes\nclass InputError(ValueError):\n    field = value = requirement = 'x'\n"
         "def wrong(a: float) -> float:\n    raise KeyError(a)\n", encoding="utf-8")
     environment = os.environ | {"PYTHONPATH": str(tmp_path)}
-    command = [sys.executable, str(PROGRAM), "--calls", "200"]
+    command = [sys.executable, str(PROGRAM), "--calls", "200", "--bare"]
     found = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     assert found.returncode == 1 and "wrong: KeyError" in found.stdout, found.stdout + found.stderr
     with open(folder / "__init__.py", "a", encoding="utf-8") as file:

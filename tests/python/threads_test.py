@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Eight threads on shared objects get the answers of one; and while the library works, Python goes on."""
 
+import copy
 import json
 import os
 import signal
@@ -143,3 +144,50 @@ def test_an_interruption_ends_a_long_call(setup: str, call: str) -> None:
     assert words[0] == "interrupted", words
     # 0.3 s are promised on a quiet machine.
     assert float(words[1]) - sent < 1.0
+
+
+def test_what_changes_is_used_by_one_call_at_a_time() -> None:
+    """Also where it is an argument, is copied or printed: others read it while one thread changes it."""
+    exact, simulation = vericone.exact, vericone.simulation
+    root = exact.real_roots([-2, 0, 1])[1]
+    bounds = exact.Dyadic.of(1.5)
+    still = simulation.Motion()
+
+    def track(at: float) -> Any:
+        return simulation.Track(simulation.ShapeInTime(simulation.RigidShape(vericone.CombinedEllipsoid(vericone.Ellipsoid()))), still.replace(position=[at, 0, 0]),
+                                simulation.Orientation.fixed, 0.0)
+
+    moving, other = track(0), track(10)
+    moving.advance([0, 0, 0], 1.0)
+    other.advance([0, 0, 0], 1.0)
+
+    def work(i: int) -> list[Any]:
+        found = []
+        for step in range(1, 41):
+            if i == 0:
+                root.refine(60 * step)
+                moving.advance([0.1, 0, 0], moving.end() + 1)
+            else:
+                found.append((exact.compare(root, bounds)[0], exact.sign_at([-1, 1], root)[0], repr(copy.copy(root))[:1],
+                              simulation.prove(moving, other, 0, 1), len(moving.legs()) > 0))
+        return found
+
+    answers = at_once(work)
+    assert all(answer == answers[1][0] for found in answers[1:] for answer in found)
+    assert moving.end() == 41
+
+
+def test_a_machine_that_cannot_have_so_many_threads() -> None:
+    """Asked for more threads than there can be, the questions are answered by those that there are."""
+    program = """
+import resource, numpy as np, vericone
+pair = vericone.Pair(vericone.Ellipsoid(), vericone.Ellipsoid.from_axes([10, 2, 0], [2, 3, 1]))
+velocities = np.random.default_rng(1).normal(size=(20_000, 3))
+expected = pair.verdict(velocities, [0, 0, 0])
+used = int(next(line for line in open("/proc/self/status") if line.startswith("VmSize")).split()[1]) * 1024
+resource.setrlimit(resource.RLIMIT_AS, (used + 2**26, used + 2**26))
+assert np.array_equal(pair.verdict(velocities, [0, 0, 0], threads=1000), expected)
+print("as before")
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+    assert done.stdout == "as before\n", f"status {done.returncode}\n{done.stderr}"

@@ -52,9 +52,7 @@ class EdgeSearch {
     const Vector3d apart = c_ + point_b_ - point_a_;
     angle_ = std::atan2(apart.dot(side_), apart.dot(u_));
     way_ = apart.norm();
-    if (start.touched_a.count > 0 && start.touched_b.count > 0) {
-      take(touched_a_, start.touched_a);
-      take(touched_b_, start.touched_b);
+    if (take(touched_a_, start.touched_a, a_) && take(touched_b_, start.touched_b, b_)) {
       if (first_multipliers() && settle()) return true;
       // Another surface has come into play.
       point_a_ = start.on_a / distance;
@@ -103,9 +101,16 @@ class EdgeSearch {
   Vector3d across() const { return -std::sin(angle_) * u_ + std::cos(angle_) * side_; }
   Vector3d normal() const { return across() + tilt_ * p_; }
 
-  static void take(Touched& touched, const TouchedSurfaces& from) {
+  /// Whether it says what is touched, and the body has that.
+  static bool take(Touched& touched, const TouchedSurfaces& from, const Body& body) {
     touched.count = 0;
-    for (int k = 0; k < from.count; ++k) touched.add(from.surface[k]);
+    if (from.count < 1 || from.count > kMostTouched) return false;
+    for (int k = 0; k < from.count; ++k) {
+      if (from.surface[k] < 0 || static_cast<std::size_t>(from.surface[k]) >= body.matrix.size())
+        return false;
+      touched.add(from.surface[k]);
+    }
+    return true;
   }
 
   static double value(const Body& body, int i, const Vector3d& y) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/combined/sector.h>
+#include <vericone/geometry/error.h>
 #include <vericone/geometry/lengths.h>
 #include <Eigen/LU>
+#include <string>
 
 #include "planar/sector_parts.h"
 
@@ -51,6 +53,13 @@ struct ChangingBody {
   }
 };
 
+void require_conics_of(const CombinedEllipse& body, const Touch& touch, const char* field) {
+  for (const int conic : {touch.first, touch.second})
+    if (conic < 0 || static_cast<std::size_t>(conic) > body.delimiters().size())
+      throw InputError(field, "conic " + std::to_string(conic),
+                       "of the body: 0 to " + std::to_string(body.delimiters().size()));
+}
+
 }  // namespace
 
 // For an edge from p on A to q on B, q - p = kappa d, the inner normal n keeps n.(q - p) = 0; with the points
@@ -60,6 +69,10 @@ SectorRates combined_sector_rates(const CombinedSector& combined, const Combined
                                   const std::vector<DelimiterRate<2>>& rates_a,
                                   const std::vector<DelimiterRate<2>>& rates_b) {
   require_edges(combined.sector);
+  require_conics_of(a, combined.left_a, "sector.left_a");
+  require_conics_of(a, combined.right_a, "sector.right_a");
+  require_conics_of(b, combined.left_b, "sector.left_b");
+  require_conics_of(b, combined.right_b, "sector.right_b");
   const ChangingBody changing_a{a, motion.shape_rate_a, rates_a, motion.omega_a},
       changing_b{b, motion.shape_rate_b, rates_b, motion.omega_b};
   const auto edge_rate = [&](const SectorEdge& edge, const Touch& on_a, const Touch& on_b, double side) {

@@ -47,6 +47,8 @@ double BeamPattern::spacing() const {
 
 BeamPattern spinning(std::vector<double> elevations, int azimuths) {
   if (azimuths < 1) throw InputError("azimuths", std::to_string(azimuths), "a positive whole number");
+  if (double(azimuths) * std::max<double>(1, double(elevations.size())) > kMostBeams)
+    throw InputError("azimuths", std::to_string(azimuths), "no more than 2^28 beams in all");
   BeamPattern beams;
   beams.elevations = std::move(elevations);
   for (int i = 0; i < azimuths; ++i) beams.azimuths.push_back(2 * pi * i / azimuths);

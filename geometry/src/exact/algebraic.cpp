@@ -172,10 +172,10 @@ Interval enclosure_of_magnitude(const Integer& m, unsigned exponent) {
   const int shift = log2_floor(m) - 52;
   const Integer top =
       shift > 0 ? Integer(m >> static_cast<unsigned>(shift)) : Integer(m << static_cast<unsigned>(-shift));
-  const int e = shift - static_cast<int>(exponent);
+  const long long e = shift - static_cast<long long>(exponent);
   const auto bits = static_cast<double>(static_cast<long long>(top));
   if (e > 2000) return {0, std::numeric_limits<double>::infinity()};
-  const double lo = e < -2000 ? 0 : std::ldexp(bits, e);
+  const double lo = e < -2000 ? 0 : std::ldexp(bits, static_cast<int>(e));
   const bool rounded = shift > 0 && (top << static_cast<unsigned>(shift)) != m;
   const bool normal = e >= -1074 && e <= 971;
   if (!rounded && normal) return lo;
@@ -192,7 +192,8 @@ int log2_floor(const Integer& x) { return static_cast<int>(msb(Integer(abs(x))))
 int log2_floor(const Dyadic& x) { return log2_floor(x.numerator) - static_cast<int>(x.exponent); }
 
 Dyadic Dyadic::power_of_two(int e) {
-  return e >= 0 ? Dyadic{Integer(1) << static_cast<unsigned>(e), 0} : Dyadic{1, static_cast<unsigned>(-e)};
+  return e >= 0 ? Dyadic{Integer(1) << static_cast<unsigned>(e), 0}
+                : Dyadic{1, 0U - static_cast<unsigned>(e)};
 }
 
 Dyadic Dyadic::of(double finite) {

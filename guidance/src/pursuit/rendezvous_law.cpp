@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/geometry/error.h>
 #include <vericone/guidance/pursuit/rendezvous_law.h>
 #include <algorithm>
 #include <cmath>
@@ -18,6 +19,7 @@ const char* to_string(PursuitStatus status) {
 }
 
 void saturate(PursuitCommand& command, double most) {
+  if (!(most >= 0)) throw InputError("most", to_text(most), "0 or more (m/s^2)");
   const auto limit = [&](double& a) {
     const double limited = std::clamp(a, -most, most);
     if (limited != a && command.status == PursuitStatus::steering) command.status = PursuitStatus::saturated;

@@ -166,6 +166,8 @@ class QuadrotorModel : public simulation::VehicleModel {
   QuadrotorOptions options_;
 };
 
+}  // namespace
+
 void check(const QuadrotorOptions& options) {
   const auto positive = [](double value, const std::string& field, const char* unit) {
     if (!(value > 0) || !std::isfinite(value))
@@ -198,8 +200,6 @@ void check(const QuadrotorOptions& options) {
     throw InputError("period", to_text(options.period),
                      "below " + to_text(longest) + " s: the attitude loop would swing up");
 }
-
-}  // namespace
 
 QuadrotorState quadrotor_rates(const QuadrotorOptions& quadrotor, const QuadrotorState& state,
                                const Wrench& wrench) {

@@ -2,14 +2,13 @@
 //
 // Edges found by Newton's method against the certified oracle and against what a contact is.
 #include <gtest/gtest.h>
-#include <vericone/testing/random_bodies.h>
 #include <vericone/cones/combined/cone.h>
 #include <vericone/cones/combined/edge.h>
 #include <vericone/cones/cone_geometry.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <cmath>
 #include <numbers>
-
 
 namespace vericone::combined_edge_test {
 namespace {
@@ -70,6 +69,15 @@ TEST(CombinedEdges, AreWhereTheOracleSaysSo) {
     EXPECT_NEAR(edge->normal.norm(), 1, 1e-12);
     EXPECT_NEAR(edge->normal.dot(d), 0, 1e-9) << i;
     // There may be a contact farther out, never one that is not in the cone.
+    // Surfaces that the bodies do not have are as good as none.
+    for (const auto& [count, surface] : {std::pair{1, 9}, {1, -1}, {7, 0}, {-2, 0}}) {
+      CombinedEdge foreign = farthest(a, b, side);
+      foreign.touched_a.count = foreign.touched_b.count = count;
+      foreign.touched_a.surface[0] = foreign.touched_b.surface[0] = surface;
+      const auto again = CombinedEdges(a, b).near(frame.axis, side, foreign);
+      ASSERT_TRUE(again) << i;
+      EXPECT_EQ(again->angle, edge->angle) << i;
+    }
     const double known = bisected(oracle, frame.axis, side);
     EXPECT_LT(edge->angle, known + 1e-6) << i;
     right += std::abs(edge->angle - known) < 1e-6;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/cones/combined/sector.h>
+#include <vericone/geometry/error.h>
 
 #include <cmath>
 #include <numbers>
@@ -172,6 +173,18 @@ TEST(CombinedSectorRates, EllipsesAsBefore) {
     ASSERT_NEAR(combined.psi, plain.psi, 1e-12 * scale) << "case " << i;
     ASSERT_NEAR(combined.theta_b, plain.theta_b, 1e-12 * scale) << "case " << i;
   }
+}
+
+TEST(CombinedSectorRates, RefusesASectorOfOtherBodies) {
+  const CombinedEllipse a = Ellipse(), b = Ellipse::from_axes({5, 1}, {1, 2});
+  const CombinedSector own = combined_sector(a, b);
+  for (const int conic : {-1, 1, 2'147'483'647})
+    for (Touch CombinedSector::*touch : {&CombinedSector::left_a, &CombinedSector::left_b,
+                                         &CombinedSector::right_a, &CombinedSector::right_b}) {
+      CombinedSector other = own;
+      (other.*touch).second = conic;
+      EXPECT_THROW((void)combined_sector_rates(other, a, b, {}), InputError);
+    }
 }
 
 }  // namespace

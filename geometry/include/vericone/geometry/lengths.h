@@ -13,7 +13,9 @@ namespace vericone {
 /// are exact.
 template <int D>
 [[nodiscard]] Eigen::Matrix<double, D, D> scaled_inverse(const Eigen::Matrix<double, D, D>& f) {
-  const double scale = std::ldexp(1.0, -std::ilogb(f.cwiseAbs().maxCoeff()));
+  const double most = f.cwiseAbs().maxCoeff();
+  if (!(most > 0) || std::isinf(most)) return f.inverse();  // there is none: infinite, or not numbers
+  const double scale = std::ldexp(1.0, -std::ilogb(most));
   return Eigen::Matrix<double, D, D>(f * scale).inverse() * scale;
 }
 

@@ -36,7 +36,8 @@ struct CombinedSector {
 
 /// Rates of psi and theta_b, rad/s, in closed form; an edge through a corner moves with the corner. The
 /// motion's shape rates are those of the ellipses; missing delimiter rates are zero. Throws
-/// InputError naming "sector.relation" where it is not that of disjoint bodies.
+/// InputError naming "sector.relation" where it is not that of disjoint bodies, and "sector.left_a" (and so
+/// on) where it touches a conic that the body does not have.
 [[nodiscard]] SectorRates combined_sector_rates(const CombinedSector& sector, const CombinedEllipse& a,
                                                 const CombinedEllipse& b, const PlanarMotion& motion,
                                                 const std::vector<DelimiterRate<2>>& rates_a = {},

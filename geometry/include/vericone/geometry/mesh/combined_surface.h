@@ -33,7 +33,8 @@ enum class SurfacePart {
   delimiters,  // its hyperboloid delimited by ellipsoid (HDE, (6.7)); both together: (6.8), (6.9)
 };
 
-/// The triangles on the ellipsoid, or those on the delimiters, with the vertices they need.
+/// The triangles on the ellipsoid, or those on the delimiters, with the vertices they need. This and what
+/// follows throw InputError naming "triangles[i].vertices[k]" where that is no vertex of the surface.
 [[nodiscard]] CombinedSurface part(const CombinedSurface& surface, SurfacePart which);
 
 /// The edges between triangles on different quadrics, each once.

@@ -32,7 +32,7 @@ struct PursuitCommand {
   PursuitStatus status = PursuitStatus::steering;
 };
 
-/// Brings each component to at most `most`, m/s^2, and says so.
+/// Brings each component to at most `most`, m/s^2, and says so. Throws InputError naming "most" below 0.
 void saturate(PursuitCommand& command, double most);
 
 /// (3.1), (3.2), and what A's accelerations change of them: y' = by_lateral a_lat + by_longitudinal a_long,

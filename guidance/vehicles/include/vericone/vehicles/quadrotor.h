@@ -23,6 +23,10 @@ struct QuadrotorOptions {
   double step = 0.001;   // s, the longest of the solver
 };
 
+/// Throws InputError naming "mass", "inertia[i]", ..., "period" (longer than the attitude loop bears). What
+/// follows expects options of which this is true.
+void check(const QuadrotorOptions& options);
+
 /// The twelve states, or their rates.
 struct QuadrotorState {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // m, in our world, z up
@@ -65,9 +69,8 @@ struct ThrustAndTilt {
 /// aims do not. Between two settings of thrust and torques, which are `period` apart from the start on, its
 /// way is one curve. After ten seconds of commands that jump, the default step is 1e-7 m and 2e-9 rad off the
 /// equations. (4.25) has no drag: no current moves it, and no speed is the highest, so every limit is
-/// infinite. Throws InputError naming "mass", "inertia[i]", ..., "period" (longer than the attitude loop
-/// bears); advance() throws one naming "vehicle" where it tumbles, at a pitch of 86 degrees. Cost: 0.5 us for
-/// each step of the solver.
+/// infinite. Throws as check() does; advance() throws an InputError naming "vehicle" where it tumbles, at a
+/// pitch of 86 degrees. Cost: 0.5 us for each step of the solver.
 [[nodiscard]] std::shared_ptr<const simulation::VehicleModel> quadrotor(const QuadrotorOptions& options);
 
 }  // namespace vericone::vehicles
