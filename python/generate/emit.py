@@ -69,6 +69,22 @@ class Emitter:
     def full(call: Callable_, record: Record | None) -> str:
         return "::".join((*(record.source.path if record else call.cpp.scope), call.cpp.name))
 
+    def requires(self, call: Callable_, record: Record | None, passed: list[str]) -> str:
+        """What C++ asks of its callers, as expressions that throw."""
+        found = []
+        full = self.full(call, record)
+        own = rules.REQUIRES.get(f"{full}/{len(call.arguments)}", rules.REQUIRES.get(full))
+        if own:
+            condition, field, got, need = own
+            for i, a in enumerate(call.arguments):
+                condition = re.sub(rf"\b{a.name}\b", passed[i], condition)
+            found.append(f'require({condition}, "{field}", "{got}", "{need}")')
+        for i, a in enumerate(call.arguments):
+            if a.type.plain().text() in rules.REQUIRES_OF_TYPES:
+                condition, field, got, need = rules.REQUIRES_OF_TYPES[a.type.plain().text()]
+                found.insert(0, f'require({condition.format(passed[i])}, "{a.name}.{field}", "{got}", "{need}")')
+        return ", ".join(found)
+
     def overload(self, call: Callable_, record: Record | None) -> tuple[str, str, str]:
         """The function of one overload, its table of parameters, and their names."""
         self.counter += 1
@@ -152,11 +168,9 @@ class Emitter:
         if call.cpp.constructor:
             target = object_type
         braces = f"{target}({', '.join(passed)})"
-        if call.cpp.name and self.full(call, record) in rules.REQUIRES:
-            condition, field, got, need = rules.REQUIRES[self.full(call, record)]
-            for i, a in enumerate(call.arguments):
-                condition = re.sub(rf"\b{a.name}\b", passed[i], condition)
-            braces = f'(require({condition}, "{field}", "{got}", "{need}"), {braces})'
+        requires = self.requires(call, record, passed)
+        if requires:
+            braces = f"({requires}, {braces})"
         if call.many:
             elements = ", ".join(e for _, e in many)
             variables = ", ".join(v for v, _ in many)
@@ -190,7 +204,7 @@ class Emitter:
             accessor = (method and call.cpp.const and not call.arguments and record and not record.machine and not call.long_work and
                         (call.result.reference or what in ("number", "boolean", "enum", "integer", "text")))
             if call.cpp.constructor:
-                body = f"return std::make_shared<{object_type}>({', '.join(passed)});".replace("@asked", "&asked")
+                body = f"{requires}{';' if requires else ''} return own(new {object_type}({', '.join(passed)}));".replace("@asked", "&asked")
             elif call.result.reference == "*" and what != "text":
                 body = f"return copied({braces});"
             elif what == "none":
@@ -303,7 +317,7 @@ class Emitter:
             tests = " || ".join(f"Convert<{self.storage(t)}>::could(given)" for t in record.stand_ins)
             lines.append(f"    info.has_stand_in = [](PyObject* given) {{ return {tests}; }};")
             tries = "".join(
-                f" if (Convert<{self.storage(t)}>::could(given)) return std::make_shared<{record.cpp}>(Convert<{self.storage(t)}>::from(given, place));"
+                f" if (Convert<{self.storage(t)}>::could(given)) return own(new {record.cpp}(Convert<{self.storage(t)}>::from(given, place)));"
                 for t in record.stand_ins)
             lines.append(f"    info.stand_in = []([[maybe_unused]] PyObject* given, [[maybe_unused]] const Place& place) -> std::shared_ptr<void> {{{tries} return nullptr; }};")
         if methods:
@@ -333,6 +347,9 @@ class Emitter:
         flags = "".join(f"template <> struct IsRecord<{r.cpp}> : std::true_type {{}};\n"
                         for r in model.records.values()
                         if r.is_record and model.is_column(Type(r.cpp)) and self._included(r, headers))
+        if self.module == "_core":  # what all modules are compiled with
+            files["library.h"] = "#pragma once\n" + own
+            own = '#include "library.h"\n'
         files[f"{self.module}.h"] = ("#pragma once\n" + own + '#include "bind.h"\n\nnamespace vericone::python {\n' + flags + "}\n")
         # Of about equal length; a type that others are in comes before them.
         weights = [len(r.methods) * 3 + len(r.fields) + len(r.constructors) * 3 + 2 for r in records]
@@ -387,7 +404,8 @@ class Emitter:
             calls += [f"  vericone::python::add_{what}_{k}();" for k in range(len(chunks))]
         extra = "void describe_values();\n" if self.module == "_core" else ""
         after = "  vericone::python::describe_values();\n" if self.module == "_core" else ""
-        main.append(extra + "}\n\nPYBIND11_MODULE(" + self.module + ", module) {\n  vericone::python::begin_module(module);\n" + "\n".join(calls) + "\n" + after + "}\n")
+        main.append(extra + f'}}\n\nPyMODINIT_FUNC PyInit_{self.module}() {{\n'
+                    f'  return vericone::python::make_module("{self.module}", [] {{\n' + "\n".join(calls) + "\n" + after + "  });\n}\n")
         last = f"{self.module}_{parts - 1}.cpp"
         files[last] = files.get(last, f'#include "{self.module}.h"\n') + "".join(main)
         return files

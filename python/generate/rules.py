@@ -122,13 +122,14 @@ MACHINES = {"PlaneCones"}
 # What C++ requires of its callers, where a release does not look: C++ name: condition in C++, of the object `self` and of
 # the parameters; which input breaks it, what was given, what would be right.
 _TRIMMED = "(!{0}.empty() && {0}.back() != 0)"
+# Of overloads that have as many parameters: "name/2".
 REQUIRES: dict[str, tuple[str, str, str, str]] = {
     **{f"guidance::SetMembershipFilter::{name}": ("self.started()", "filter", "no measurement", "one that has met a measurement")
        for name in ("position", "velocity", "position_radius", "velocity_radius")},
     "guidance::SetMembershipFilter::axis": ("self.started() && i >= 0 && i < 3", "i", "no such axis, or no measurement",
                                             "0, 1 or 2, of a filter that has met a measurement"),
     "lidar::BeamPattern::direction": ("beam < self.size()", "beam", "no such beam", "below size()"),
-    "vision::Image::Image": ("w > 0 && h > 0 && (c == 1 || c == 3) && double(w) * h < 1e9", "size", "no size of a picture",
+    "vision::Image::Image/3": ("w > 0 && h > 0 && (c == 1 || c == 3) && double(w) * h < 1e9", "size", "no size of a picture",
                              "w x h pixels of 1 or 3 channels"),
     "simulation::Vehicle::advance": ("from_ >= 0 && to >= from_ && to - from_ <= 1e5", "to", "no time after from", "from the time reached, to a "
                                      "later one, less than 1e5 s on"),
@@ -136,6 +137,14 @@ REQUIRES: dict[str, tuple[str, str, str, str]] = {
     "guidance::planar_rates": ("state.r > 0", "state.r", "no positive number", "positive (m)"),
     "guidance::plane_states": ("a.position != b.position && ((a.planar() && b.planar()) || !(b.position - a.position).cross(across).isZero(0))",
                                "across", "bodies in one place, or a direction along their line", "across the line between bodies apart"),
+    "exact::Dyadic::power_of_two": ("std::abs(double(exponent)) <= 100'000", "exponent", "an exponent beyond", "between -100000 and 100000"),
+    "exact::RealRoot::refine": ("bits <= 100'000", "bits", "more", "at most 100000"),
+    "exact::RealRoot::RealRoot/3": (
+        "[](const auto& q, const auto& from, const auto& to) { using namespace vericone::exact; return q && !q->empty() && q->back() != 0 && "
+        "compare(from, to) < 0 && (from.numerator >= 0 || to.numerator <= 0) && sign_at(*q, from) * sign_at(*q, to) < 0 && "
+        "sign_changes_at(sturm_chain(*q), from) - sign_changes_at(sturm_chain(*q), to) == 1; }(p, lo, hi)",
+        "p, lo, hi", "no root, or several", "a polynomial with one simple root between lo and hi, which have one sign"),
+    "exact::between/2": ("compare(lo, hi) < 0 && (lo.numerator >= 0 || hi.numerator <= 0)", "lo, hi", "others", "lo < hi, of one sign"),
     "exact::Dyadic::of": ("std::isfinite(finite)", "finite", "no finite number", "finite"),
     "exact::grid_exponent": ("std::isfinite(x)", "x", "no finite number", "finite"),
     "exact::on_grid": ("std::isfinite(x) && std::abs(e) <= 10000", "x, e", "no finite number, or a grid beyond doubles",
@@ -180,4 +189,8 @@ REQUIRES: dict[str, tuple[str, str, str, str]] = {
                              "at most the trials, with a confidence between 0 and 1"),
     "exact::divide_exactly": (f"{_TRIMMED.format('p')} && {_TRIMMED.format('q')} && p.size() >= q.size()", "q", "no divisor of p",
                               "a divisor of p, with a last coefficient that is not 0"),
+}
+# The same of every argument of a type: condition of the argument {0}; which part of it, what was given, what would be right.
+REQUIRES_OF_TYPES: dict[str, tuple[str, str, str, str]] = {
+    "vericone::exact::Dyadic": ("{0}.exponent <= 100'000", "exponent", "more", "at most 100000"),
 }

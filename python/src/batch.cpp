@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "batch.h"
 
+#include "pybind.h"
+
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/stop.h>
 #include <atomic>
@@ -49,9 +51,9 @@ void Many::read_numbers(PyObject* given, const Place& place) {
       wrong_type(place, ("an array " + wanted).c_str(), given);
     array_ = strict_array(given, place);
   } else {
-    array_ = py::reinterpret_borrow<py::object>(given);
+    array_ = Reference::to(given);
   }
-  auto array = py::reinterpret_borrow<py::array>(array_);
+  auto array = as_pybind<py::array>(array_);
   const char kind = array.dtype().kind();
   if ((kind != 'f' && kind != 'i' && kind != 'u') || (kind == 'f' && array.itemsize() > 8))
     throw InputError(place.text(), "an array of " + std::string(py::str(array.dtype())),
@@ -70,9 +72,9 @@ void Many::read_numbers(PyObject* given, const Place& place) {
   const py::dtype type = array.dtype();
   if (type.byteorder() == '>' || (kind == 'f' && array.itemsize() == 2) ||
       !(array.flags() & py::detail::npy_api::NPY_ARRAY_ALIGNED_)) {
-    array_ = py::module_::import("numpy").attr("ascontiguousarray")(
+    array = py::module_::import("numpy").attr("ascontiguousarray")(
         array, kind == 'f' ? py::dtype("f8") : py::dtype(kind == 'i' ? "i8" : "u8"));
-    array = py::reinterpret_borrow<py::array>(array_);
+    array_ = Reference::to(array.ptr());
   }
   kind_ = kind == 'f'   ? (array.itemsize() == 8 ? 'd' : 'f')
           : kind == 'i' ? "bh?i???q"[array.itemsize() - 1]
@@ -121,7 +123,7 @@ Many::Many(Given& given, int i, const TypeInfo& info) : name_(given.place(i).nam
     wrong_type(place, (std::string("a vericone.") + info.name + " or a list of them").c_str(), value);
   }
   single_ = false;
-  array_ = list;
+  array_ = Reference::to(list.ptr());
   for (Py_ssize_t k = 0; k < PyTuple_GET_SIZE(list.ptr()); ++k) {
     std::shared_ptr<void> made;
     objects_.push_back(object_from(PyTuple_GET_ITEM(list.ptr(), k), info, made, {&place, nullptr, k}));
@@ -162,8 +164,8 @@ py::object make_output(const Column* column, std::span<const Py_ssize_t> shape, 
   for (std::size_t d = 0; d < shape.size(); ++d) sizes[d] = shape[d];
   py::object array;
   if (column->record) {
-    array = empty(sizes, record_dtype(*column->record(), false)).attr("view")(records);
-    output.size = record_size(*column->record(), false);
+    array = empty(sizes, as_pybind(record_dtype(*column->record()))).attr("view")(records);
+    output.size = record_size(*column->record());
   } else {
     array = empty(sizes, column->format());
     output.size = column->size;

@@ -47,7 +47,7 @@ class Many {
   double numbers_[16] = {};
   const void* one_ = nullptr;
   std::vector<Py_ssize_t> shape_, strides_;  // of the questions; bytes
-  py::object array_;
+  Reference array_;
   const char* data_ = nullptr;
   Py_ssize_t inner_ = 8;  // bytes between the numbers of one
   char kind_ = 'd';       // struct code

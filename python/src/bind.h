@@ -12,11 +12,9 @@ namespace vericone::python {
 template <class T>
 void describe(TypeInfo& info) {
   if constexpr (std::is_default_constructible_v<T> && std::is_copy_constructible_v<T>)
-    info.make = [] { return std::shared_ptr<void>(std::make_shared<T>()); };
+    info.make = [] { return own(new T()); };
   if constexpr (std::is_copy_constructible_v<T>)
-    info.copy = [](const void* value) {
-      return std::shared_ptr<void>(std::make_shared<T>(*static_cast<const T*>(value)));
-    };
+    info.copy = [](const void* value) { return own(new T(*static_cast<const T*>(value))); };
 }
 
 template <class T, class Base>

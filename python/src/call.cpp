@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "call.h"
 
+#include "pybind.h"
+
 #include <unistd.h>
 #include <vericone/geometry/error.h>
 #include <algorithm>
+#include <atomic>
 #include <condition_variable>
 #include <cstring>
 #include <mutex>
@@ -52,13 +55,15 @@ struct Aside {
   std::exception_ptr thrown;
   std::mutex mutex;
   std::condition_variable condition;
-  bool ended = false;
+  bool ended = false, left = false;
 
   Aside() = default;
   ~Aside() { Py_XDECREF(answer); }  // where nobody takes it; the global lock is held
   Aside(const Aside&) = delete;
   Aside& operator=(const Aside&) = delete;
 };
+
+std::atomic<int> left_behind = 0;
 
 /// Waits for it when Python ends: until then its steps and what it holds are there.
 void leave(std::thread worker) {
@@ -94,6 +99,7 @@ PyObject* call_aside(const Overload& overload, Given& given) {
     {
       const std::lock_guard lock(aside->mutex);
       aside->ended = true;
+      if (aside->left) --left_behind;
     }
     aside->condition.notify_all();
     aside.reset();  // here: the global lock is held
@@ -113,6 +119,12 @@ PyObject* call_aside(const Overload& overload, Given& given) {
       aside->stop.request();
       late = std::chrono::steady_clock::now() + kPatience;
     }
+  }
+  {
+    const std::lock_guard lock(aside->mutex);
+    ended = aside->ended;
+    aside->left = !ended;
+    left_behind += !ended;
   }
   if (ended) {
     const py::gil_scoped_release quiet;
@@ -170,6 +182,8 @@ PyObject* dispatch(const char* name, std::span<const Overload> overloads, PyObje
 
 }  // namespace
 
+int calls_left_behind() { return left_behind; }
+
 // Arguments ------------------------------------------------------------------------------------------------
 
 bool Given::bind(std::span<const Parameter> parameters, PyObject* const* positional, Py_ssize_t n,
@@ -222,9 +236,9 @@ void* Given::object(int i, const TypeInfo& info) {
 }
 
 void Given::keep() {
-  if (self) kept_.push_back(py::reinterpret_borrow<py::object>(self));
+  if (self) kept_.push_back(Reference::to(self));
   for (PyObject* value : values_)
-    if (value) kept_.push_back(py::reinterpret_borrow<py::object>(value));
+    if (value) kept_.push_back(Reference::to(value));
 }
 
 int Given::threads(int i) const {
@@ -317,7 +331,7 @@ PyObject* raise_current(const std::string& at) noexcept {
           known ? type(error.code().value(), any_text(text)) : type(any_text(error.what()));
       PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(made.ptr())), made.ptr());
     } catch (const std::exception& error) {
-      PyErr_SetString(PyExc_RuntimeError, error.what());
+      PyErr_SetObject(PyExc_RuntimeError, any_text(error.what()).ptr());
     } catch (const Interrupted&) {
       if (PyErr_CheckSignals() == 0) PyErr_SetString(PyExc_KeyboardInterrupt, "stopped by a callback");
     }

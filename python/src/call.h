@@ -83,7 +83,7 @@ class Given {
   std::span<const Parameter> parameters_;
   PyObject* values_[kMost] = {};
   std::vector<std::shared_ptr<void>> made_;
-  std::vector<py::object> kept_;
+  std::vector<Reference> kept_;
 };
 
 /// `name`, for messages. The vectorcall convention of methods.
@@ -98,6 +98,8 @@ PyObject* construct_record(const TypeInfo& info, PyTypeObject* type, PyObject* a
 /// A method about many objects: the first argument is the object, or a list of them.
 PyObject* call_many(const char* name, std::span<const Overload> overloads, PyObject* const* arguments,
                     Py_ssize_t n, PyObject* names) noexcept;
+/// How many calls were interrupted and left to themselves, and have not ended yet.
+[[nodiscard]] int calls_left_behind();
 /// What is being thrown, as an exception of Python; returns null.
 PyObject* raise_current(const std::string& at = {}) noexcept;
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "convert.h"
 
+#include "pybind.h"
+
 #include <vericone/geometry/error.h>
 #include <algorithm>
+#include <bit>
 
 namespace vericone::python {
 namespace {
@@ -63,6 +66,12 @@ void check_numbers(PyObject* given, const Place& place, int depth = 0) {
   (void)number_from(given, place);
 }
 
+template <class T>
+Numbers<T> numbers_of(const py::array& array) {
+  return {Reference::to(array.ptr()), static_cast<const T*>(array.data()), array.shape(0),
+          array.ndim() > 1 ? array.shape(1) : 1};
+}
+
 py::array array_from(PyObject* given, std::span<const Py_ssize_t> shape, const Place& place, bool whole) {
   py::object array;
   if (is_array(given)) {
@@ -109,10 +118,10 @@ py::array array_from(PyObject* given, std::span<const Py_ssize_t> shape, const P
 
 }  // namespace
 
-py::object strict_array(PyObject* given, const Place& place) {
+Reference strict_array(PyObject* given, const Place& place) {
   check_numbers(given, place);
   try {
-    return numpy_function("asarray")(py::handle(given));
+    return reference_to(numpy_function("asarray")(py::handle(given)));
   } catch (py::error_already_set& error) {
     if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) throw;
     wrong_type(place, "an array of real numbers, its rows equally long", given);
@@ -131,11 +140,28 @@ bool is_sequence(PyObject* given) {
          !PyByteArray_Check(given) && !PyDict_Check(given);
 }
 
-py::object fast_sequence(PyObject* given, const Place& place) {
+Reference fast_sequence(PyObject* given, const Place& place) {
   if (!is_sequence(given)) wrong_type(place, "a list", given);
   PyObject* list = PySequence_Tuple(given);  // stays as it is, whatever its items do when they are converted
   if (!list) throw py::error_already_set();
-  return py::reinterpret_steal<py::object>(list);
+  return Reference(list);
+}
+
+void items_from(const Reference& parts, const Place& place, void* first, std::size_t size,
+                void (*from)(void*, PyObject*, const Place&)) {
+  for (Py_ssize_t i = 0; i < PyTuple_GET_SIZE(parts.get()); ++i)
+    from(static_cast<char*>(first) + static_cast<std::size_t>(i) * size, PyTuple_GET_ITEM(parts.get(), i),
+         {&place, nullptr, i});
+}
+
+PyObject* list_to(const void* first, std::size_t count, std::size_t size, PyObject* (*to)(const void*)) {
+  py::list result(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    PyObject* item = to(static_cast<const char*>(first) + i * size);
+    if (!item) throw_raised();
+    PyList_SET_ITEM(result.ptr(), static_cast<Py_ssize_t>(i), item);
+  }
+  return result.release().ptr();
 }
 
 double number_from(PyObject* given, const Place& place) {
@@ -232,11 +258,20 @@ bool Convert<std::filesystem::path>::could(PyObject* given) {
   return PyUnicode_Check(given) || PyBytes_Check(given) || PyObject_HasAttrString(given, "__fspath__");
 }
 
-py::array doubles_from(PyObject* given, std::span<const Py_ssize_t> shape, const Place& place) {
-  return array_from(given, shape, place, false);
+Numbers<double> doubles_from(PyObject* given, std::span<const Py_ssize_t> shape, const Place& place) {
+  return numbers_of<double>(array_from(given, shape, place, false));
 }
-py::array integers_from(PyObject* given, std::span<const Py_ssize_t> shape, const Place& place) {
-  return array_from(given, shape, place, true);
+Numbers<std::int64_t> integers_from(PyObject* given, std::span<const Py_ssize_t> shape, const Place& place) {
+  return numbers_of<std::int64_t>(array_from(given, shape, place, true));
+}
+void require_range(long long x, long long least, unsigned long long most, const Place& place) {
+  if (x < least || (x > 0 && static_cast<unsigned long long>(x) > most))
+    (void)integer_from(py::int_(x).ptr(), least, most, place);
+}
+PyObject* numbers_to(const void* data, const std::string& type, std::span<const Py_ssize_t> shape) {
+  py::array array(py::dtype(type), std::vector<Py_ssize_t>(shape.begin(), shape.end()));
+  if (array.size() > 0) std::memcpy(array.mutable_data(), data, static_cast<std::size_t>(array.nbytes()));
+  return array.release().ptr();
 }
 PyObject* doubles_to(const double* data, std::span<const Py_ssize_t> shape) {
   py::array_t<double> array(std::vector<Py_ssize_t>(shape.begin(), shape.end()));
@@ -266,8 +301,8 @@ void fixed_from(PyObject* given, int rows, int columns, double* out, const Place
     return;
   }
   const Py_ssize_t shape[2] = {rows, columns};
-  const py::array array = doubles_from(given, {shape, columns == 1 ? 1u : 2u}, place);
-  std::memcpy(out, array.data(), static_cast<std::size_t>(count) * 8);
+  const auto array = doubles_from(given, {shape, columns == 1 ? 1u : 2u}, place);
+  std::memcpy(out, array.data, static_cast<std::size_t>(count) * 8);
 }
 
 Eigen::Isometry3d Convert<Eigen::Isometry3d>::from(PyObject* given, const Place& place) {
@@ -286,13 +321,13 @@ Callable::Callable(PyObject* function)
         Py_DECREF(held);
       }) {}
 
-py::object Callable::operator()(std::initializer_list<PyObject*> arguments) const {
+Reference Callable::operator()(std::initializer_list<PyObject*> arguments) const {
   py::tuple all(arguments.size());
   Py_ssize_t i = 0;
   for (PyObject* argument : arguments) PyTuple_SET_ITEM(all.ptr(), i++, argument);
   PyObject* answer = PyObject_CallObject(function_.get(), all.ptr());
   if (!answer) throw py::error_already_set();
-  return py::reinterpret_steal<py::object>(answer);
+  return Reference(answer);
 }
 
 void* object_from(PyObject* given, const TypeInfo& info, std::shared_ptr<void>& made, const Place& place) {
@@ -328,8 +363,11 @@ WholeNumber whole_from(PyObject* given, const Place& place) {
 }
 
 PyObject* whole_to(const WholeNumber& x) {
-  const std::string digits = WholeNumber(boost::multiprecision::abs(x)).str(0, std::ios_base::hex);
-  auto whole = py::reinterpret_steal<py::object>(PyLong_FromString(digits.c_str(), nullptr, 16));
+  const auto& own = x.backend();
+  static_assert(std::endian::native == std::endian::little);
+  const py::bytes bytes(reinterpret_cast<const char*>(own.limbs()), own.size() * sizeof(own.limbs()[0]));
+  auto whole = py::reinterpret_steal<py::object>(PyObject_CallMethod(
+      reinterpret_cast<PyObject*>(&PyLong_Type), "from_bytes", "Os", bytes.ptr(), "little"));
   if (!whole) throw py::error_already_set();
   return x < 0 ? negated(whole).release().ptr() : whole.release().ptr();
 }

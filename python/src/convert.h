@@ -4,7 +4,6 @@
 // callbacks, rationals, and the types of the library.
 #pragma once
 
-#include <pybind11/numpy.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/interval.h>
 #include <Eigen/Core>
@@ -46,22 +45,43 @@ inline constexpr bool kIsColumn = !std::is_same_v<decltype(Convert<T>::kColumn),
                                      const Place& place);
 [[nodiscard]] std::string text_from(PyObject* given, const Place& place);
 /// An array of what is none, each number of which is a double.
-[[nodiscard]] py::object strict_array(PyObject* given, const Place& place);
-/// Doubles in C order from anything that is an array of these sizes (-1: any), without rounding.
-[[nodiscard]] py::array doubles_from(PyObject* given, std::span<const Py_ssize_t> shape, const Place& place);
-/// The same of integers, as int64.
-[[nodiscard]] py::array integers_from(PyObject* given, std::span<const Py_ssize_t> shape, const Place& place);
+[[nodiscard]] Reference strict_array(PyObject* given, const Place& place);
+/// Numbers in C order, rows x columns of them, which an array holds.
+template <class T>
+struct Numbers {
+  Reference array;
+  const T* data = nullptr;
+  Py_ssize_t rows = 0, columns = 1;
+  [[nodiscard]] Py_ssize_t size() const { return rows * columns; }
+};
+/// Doubles from anything that is an array of these sizes (-1: any), without rounding.
+[[nodiscard]] Numbers<double> doubles_from(PyObject* given, std::span<const Py_ssize_t> shape,
+                                           const Place& place);
+/// The same of integers.
+[[nodiscard]] Numbers<std::int64_t> integers_from(PyObject* given, std::span<const Py_ssize_t> shape,
+                                                  const Place& place);
+void require_range(long long x, long long least, unsigned long long most, const Place& place);
 [[nodiscard]] PyObject* doubles_to(const double* data, std::span<const Py_ssize_t> shape);
 [[nodiscard]] bool is_number(PyObject* given);    // float, int, Fraction, scalars of numpy
 [[nodiscard]] bool is_sequence(PyObject* given);  // list, tuple, or numpy array; no text
-[[nodiscard]] py::object fast_sequence(PyObject* given, const Place& place);
+/// The items of a sequence as a tuple.
+[[nodiscard]] Reference fast_sequence(PyObject* given, const Place& place);
+/// Each part of such a tuple to the item of an array that has its index.
+void items_from(const Reference& parts, const Place& place, void* first, std::size_t size,
+                void (*from)(void* item, PyObject* part, const Place& place));
+/// The items of an array as a list.
+[[nodiscard]] PyObject* list_to(const void* first, std::size_t count, std::size_t size,
+                                PyObject* (*to)(const void* item));
+/// Numbers as an array of this type ("f8") and these sizes.
+[[nodiscard]] PyObject* numbers_to(const void* data, const std::string& type,
+                                   std::span<const Py_ssize_t> shape);
 /// Calls a Python callable with the global lock held; what it raises goes through C++ to the caller.
 class Callable {
  public:
   explicit Callable(PyObject* function);
   [[nodiscard]] PyObject* function() const { return function_.get(); }
   /// Arguments as new references, which it takes.
-  [[nodiscard]] py::object operator()(std::initializer_list<PyObject*> arguments) const;
+  [[nodiscard]] Reference operator()(std::initializer_list<PyObject*> arguments) const;
 
  private:
   std::shared_ptr<PyObject> function_;
@@ -197,12 +217,10 @@ requires(R < 0 || C < 0) struct Convert<Eigen::Matrix<double, R, C, O, MR, MC>> 
   using M = Eigen::Matrix<double, R, C, O, MR, MC>;
   static M from(PyObject* given, const Place& place) {
     const Py_ssize_t shape[2] = {R, C};
-    const py::array a = doubles_from(given, {shape, C == 1 ? 1u : 2u}, place);
-    const auto rows = a.shape(0), columns = C == 1 ? 1 : a.shape(1);
-    const auto* x = static_cast<const double*>(a.data());
-    M m(rows, columns);
-    for (Py_ssize_t i = 0; i < rows; ++i)
-      for (Py_ssize_t j = 0; j < columns; ++j) m(i, j) = x[i * columns + j];
+    const auto a = doubles_from(given, {shape, C == 1 ? 1u : 2u}, place);
+    M m(a.rows, a.columns);
+    for (Py_ssize_t i = 0; i < a.rows; ++i)
+      for (Py_ssize_t j = 0; j < a.columns; ++j) m(i, j) = a.data[i * a.columns + j];
     return m;
   }
   static PyObject* to(const M& m) {
@@ -303,7 +321,10 @@ struct Convert {
     const Hold hold(given);
     return *static_cast<T*>(object_from(given, type_of<T>(), made, place));
   }
-  static PyObject* to(T value) { return new_instance(type_of<T>(), std::make_shared<T>(std::move(value))); }
+  static PyObject* to(T&& value) { return new_instance(type_of<T>(), own(new T(std::move(value)))); }
+  static PyObject* to(const T& value) requires std::is_copy_constructible_v<T> {
+    return new_instance(type_of<T>(), own(new T(value)));
+  }
   static bool could(PyObject* given) { return could_be(given, type_of<T>()); }
   static std::string format() { return ""; }
   static void write(void* row, const void* value) { write_record(row, type_of<T>(), value); }
@@ -397,10 +418,10 @@ struct Convert<std::optional<T>> {
 template <class A, class B>
 struct Convert<std::pair<A, B>> {
   static std::pair<A, B> from(PyObject* given, const Place& place) {
-    const py::object parts = fast_sequence(given, place);
-    if (PySequence_Fast_GET_SIZE(parts.ptr()) != 2) wrong_type(place, "a pair", given);
-    return {Convert<A>::from(PySequence_Fast_GET_ITEM(parts.ptr(), 0), {&place, nullptr, 0}),
-            Convert<B>::from(PySequence_Fast_GET_ITEM(parts.ptr(), 1), {&place, nullptr, 1})};
+    const Reference parts = fast_sequence(given, place);
+    if (PyTuple_GET_SIZE(parts.get()) != 2) wrong_type(place, "a pair", given);
+    return {Convert<A>::from(PyTuple_GET_ITEM(parts.get(), 0), {&place, nullptr, 0}),
+            Convert<B>::from(PyTuple_GET_ITEM(parts.get(), 1), {&place, nullptr, 1})};
   }
   static PyObject* to(const std::pair<A, B>& pair) {
     PyObject* a = Convert<A>::to(pair.first);
@@ -443,43 +464,45 @@ struct Convert<std::vector<T>> {
     std::vector<T> list;
     if constexpr (std::is_floating_point_v<T>) {
       const Py_ssize_t shape[1] = {-1};
-      const py::array a = doubles_from(given, shape, place);
-      const auto* x = static_cast<const double*>(a.data());
-      list.assign(x, x + a.size());
+      const auto a = doubles_from(given, shape, place);
+      list.assign(a.data, a.data + a.size());
     } else if constexpr (kNumbers && !std::is_same_v<T, bool>) {
       const Py_ssize_t shape[1] = {-1};
-      const py::array a = integers_from(given, shape, place);
-      const auto* x = static_cast<const std::int64_t*>(a.data());
+      const auto a = integers_from(given, shape, place);
       list.reserve(static_cast<std::size_t>(a.size()));
       for (Py_ssize_t i = 0; i < a.size(); ++i) {
-        const Place at{&place, nullptr, i};
-        if (!std::in_range<T>(x[i]))
-          (void)integer_from(py::int_(x[i]).ptr(), static_cast<long long>(std::numeric_limits<T>::min()),
-                             std::numeric_limits<T>::max(), at);
-        list.push_back(static_cast<T>(x[i]));
+        require_range(a.data[i], static_cast<long long>(std::numeric_limits<T>::min()),
+                      std::numeric_limits<T>::max(), {&place, nullptr, i});
+        list.push_back(static_cast<T>(a.data[i]));
       }
     } else {
-      const py::object parts = fast_sequence(given, place);
-      const Py_ssize_t n = PySequence_Fast_GET_SIZE(parts.ptr());
-      list.reserve(static_cast<std::size_t>(n));
-      for (Py_ssize_t i = 0; i < n; ++i)
-        list.push_back(Convert<T>::from(PySequence_Fast_GET_ITEM(parts.ptr(), i), {&place, nullptr, i}));
+      const Reference parts = fast_sequence(given, place);
+      const Py_ssize_t n = PyTuple_GET_SIZE(parts.get());
+      if constexpr (std::is_default_constructible_v<T> && std::is_move_assignable_v<T> &&
+                    !std::is_same_v<T, bool>) {
+        list = std::vector<T>(static_cast<std::size_t>(n));
+        items_from(parts, place, list.data(), sizeof(T), [](void* item, PyObject* part, const Place& at) {
+          *static_cast<T*>(item) = Convert<T>::from(part, at);
+        });
+      } else {
+        list.reserve(static_cast<std::size_t>(n));
+        for (Py_ssize_t i = 0; i < n; ++i)
+          list.push_back(Convert<T>::from(PyTuple_GET_ITEM(parts.get(), i), {&place, nullptr, i}));
+      }
     }
     return list;
   }
   static PyObject* to(const std::vector<T>& list) {
-    if constexpr (kNumbers) {
-      py::array_t<T> a(static_cast<Py_ssize_t>(list.size()));
-      for (std::size_t i = 0; i < list.size(); ++i) a.mutable_data()[i] = list[i];
-      return a.release().ptr();
+    if constexpr (std::is_same_v<T, bool>) {
+      const std::vector<std::uint8_t> flags(list.begin(), list.end());
+      const Py_ssize_t shape[1] = {static_cast<Py_ssize_t>(list.size())};
+      return numbers_to(flags.data(), "?", shape);
+    } else if constexpr (kNumbers) {
+      const Py_ssize_t shape[1] = {static_cast<Py_ssize_t>(list.size())};
+      return numbers_to(list.data(), NumberColumn<T>::format(), shape);
     } else {
-      py::list result(list.size());
-      for (std::size_t i = 0; i < list.size(); ++i) {
-        PyObject* item = Convert<T>::to(list[i]);
-        if (!item) throw py::error_already_set();
-        PyList_SET_ITEM(result.ptr(), static_cast<Py_ssize_t>(i), item);
-      }
-      return result.release().ptr();
+      return list_to(list.data(), list.size(), sizeof(T),
+                     [](const void* item) { return Convert<T>::to(*static_cast<const T*>(item)); });
     }
   }
   static bool could(PyObject* given) { return is_sequence(given); }
@@ -490,9 +513,9 @@ struct Convert<std::vector<Eigen::Matrix<double, D, 1>>> {  // points: (n, D)
   using V = Eigen::Matrix<double, D, 1>;
   static std::vector<V> from(PyObject* given, const Place& place) {
     const Py_ssize_t shape[2] = {-1, D};
-    const py::array a = doubles_from(given, shape, place);
-    std::vector<V> points(static_cast<std::size_t>(a.shape(0)));
-    if (!points.empty()) std::memcpy(points.data(), a.data(), points.size() * sizeof(V));
+    const auto a = doubles_from(given, shape, place);
+    std::vector<V> points(static_cast<std::size_t>(a.rows));
+    if (!points.empty()) std::memcpy(points.data(), a.data, points.size() * sizeof(V));
     return points;
   }
   static PyObject* to(const std::vector<V>& points) {
@@ -508,24 +531,21 @@ struct Convert<std::vector<std::array<T, N>>> {  // triangles: (n, 3)
   using V = std::array<T, N>;
   static std::vector<V> from(PyObject* given, const Place& place) {
     const Py_ssize_t shape[2] = {-1, N};
-    const py::array a = integers_from(given, shape, place);
-    const auto* x = static_cast<const std::int64_t*>(a.data());
-    std::vector<V> list(static_cast<std::size_t>(a.shape(0)));
+    const auto a = integers_from(given, shape, place);
+    const std::int64_t* x = a.data;
+    std::vector<V> list(static_cast<std::size_t>(a.rows));
     for (std::size_t i = 0; i < list.size(); ++i)
       for (std::size_t j = 0; j < N; ++j, ++x) {
         const Place row{&place, nullptr, static_cast<Py_ssize_t>(i)};
-        const Place at{&row, nullptr, static_cast<Py_ssize_t>(j)};
-        if (!std::in_range<T>(*x))
-          (void)integer_from(py::int_(*x).ptr(), static_cast<long long>(std::numeric_limits<T>::min()),
-                             std::numeric_limits<T>::max(), at);
+        require_range(*x, static_cast<long long>(std::numeric_limits<T>::min()),
+                      std::numeric_limits<T>::max(), {&row, nullptr, static_cast<Py_ssize_t>(j)});
         list[i][j] = static_cast<T>(*x);
       }
     return list;
   }
   static PyObject* to(const std::vector<V>& list) {
-    py::array_t<T> a({static_cast<Py_ssize_t>(list.size()), static_cast<Py_ssize_t>(N)});
-    if (!list.empty()) std::memcpy(a.mutable_data(), list.data(), list.size() * sizeof(V));
-    return a.release().ptr();
+    const Py_ssize_t shape[2] = {static_cast<Py_ssize_t>(list.size()), static_cast<Py_ssize_t>(N)};
+    return numbers_to(list.data(), NumberColumn<T>::format(), shape);
   }
   static bool could(PyObject* given) { return is_sequence(given); }
   static constexpr std::nullptr_t kColumn = nullptr;
@@ -535,28 +555,27 @@ struct Convert<std::array<T, N>> {
   static constexpr bool kDouble = std::is_same_v<T, double>;
   static std::array<T, N> from(PyObject* given, const Place& place) {
     std::array<T, N> result{};
-    const py::object parts = fast_sequence(given, place);
-    if (PySequence_Fast_GET_SIZE(parts.ptr()) != static_cast<Py_ssize_t>(N))
+    const Reference parts = fast_sequence(given, place);
+    if (PyTuple_GET_SIZE(parts.get()) != static_cast<Py_ssize_t>(N))
       wrong_type(place, ("a sequence of " + std::to_string(N)).c_str(), given);
     for (std::size_t i = 0; i < N; ++i) {
       const auto at = static_cast<Py_ssize_t>(i);
-      result[i] = Convert<T>::from(PySequence_Fast_GET_ITEM(parts.ptr(), at), {&place, nullptr, at});
+      result[i] = Convert<T>::from(PyTuple_GET_ITEM(parts.get(), at), {&place, nullptr, at});
     }
     return result;
   }
   static PyObject* to(const std::array<T, N>& list) {
     if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) {
-      py::array_t<T> a(static_cast<Py_ssize_t>(N));
-      for (std::size_t i = 0; i < N; ++i) a.mutable_data()[i] = list[i];
-      return a.release().ptr();
+      const Py_ssize_t shape[1] = {static_cast<Py_ssize_t>(N)};
+      return numbers_to(list.data(), NumberColumn<T>::format(), shape);
     } else {
-      py::tuple result(N);
+      Reference result(PyTuple_New(N));
       for (std::size_t i = 0; i < N; ++i) {
         PyObject* item = Convert<T>::to(list[i]);
-        if (!item) throw py::error_already_set();
-        PyTuple_SET_ITEM(result.ptr(), static_cast<Py_ssize_t>(i), item);
+        if (!item) throw_raised();
+        PyTuple_SET_ITEM(result.get(), static_cast<Py_ssize_t>(i), item);
       }
-      return result.release().ptr();
+      return result.release();
     }
   }
   static bool could(PyObject* given) { return is_sequence(given); }
@@ -611,13 +630,13 @@ struct Convert<std::function<R(A...)>> {
   struct Call {
     Callable function;
     R operator()(A... arguments) const {
-      const py::gil_scoped_acquire hold;
-      const py::object answer = function({Convert<std::remove_cvref_t<A>>::to(arguments)...});
+      const GlobalLock hold;
+      const Reference answer = function({Convert<std::remove_cvref_t<A>>::to(arguments)...});
       if constexpr (std::is_same_v<R, bool>) {  // "go on", unless told otherwise
-        if (answer.is_none()) return true;
-        return Convert<bool>::from(answer.ptr(), {nullptr, "the callback's answer"});
+        if (answer.get() == Py_None) return true;
+        return Convert<bool>::from(answer.get(), {nullptr, "the callback's answer"});
       } else if constexpr (!std::is_void_v<R>) {
-        return Convert<R>::from(answer.ptr(), {nullptr, "the callback's answer"});
+        return Convert<R>::from(answer.get(), {nullptr, "the callback's answer"});
       }
     }
   };

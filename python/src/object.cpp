@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "object.h"
 
-#include <pybind11/numpy.h>
 #include <structmember.h>
 #include <algorithm>
 #include <cstring>
@@ -12,6 +11,7 @@
 #include <unordered_map>
 
 #include "call.h"
+#include "pybind.h"
 
 namespace vericone::python {
 namespace {
@@ -124,7 +124,17 @@ std::string brief(PyObject* part) {
       text += (i > 0 ? ", " : "[") + brief(PyList_GET_ITEM(part, i));
     return text.empty() ? "[]" : text + "]";
   }
-  return py::str(py::repr(py::handle(part)));
+  // Python refuses to print integers of more than 4,300 digits.
+  constexpr int kMostBits = 4000;
+  const auto bits = [](const py::object& whole) { return whole.attr("bit_length")().cast<long long>(); };
+  const auto value = py::reinterpret_borrow<py::object>(part);
+  if (PyLong_CheckExact(part) && bits(value) > kMostBits)
+    return "<integer of " + std::to_string(bits(value)) + " bits>";
+  if (!PyLong_Check(part) && py::hasattr(value, "denominator") && py::hasattr(value, "numerator") &&
+      std::max(bits(value.attr("numerator")), bits(value.attr("denominator"))) > kMostBits)
+    return "<fraction of " + std::to_string(bits(value.attr("numerator"))) + " and " +
+           std::to_string(bits(value.attr("denominator"))) + " bits>";
+  return py::str(py::repr(value));
 }
 
 std::string short_name(const TypeInfo& info) {
@@ -319,6 +329,9 @@ PyMethodDef record_methods[] = {
      "replace($self, /, **fields)\n--\n\nAnother record, with these fields changed."},
     {nullptr, nullptr, 0, nullptr}};
 PyMethodDef no_methods[] = {{nullptr, nullptr, 0, nullptr}};
+PyMethodDef left_method = {"_left_behind",
+                           [](PyObject*, PyObject*) { return PyLong_FromLong(calls_left_behind()); },
+                           METH_NOARGS, "How many interrupted calls have not ended yet."};
 PyMethodDef restore_method = {"_restore", restore, METH_VARARGS, "For pickle."};
 
 PyObject* cannot_make(PyTypeObject* type, PyObject*, PyObject*) {
@@ -365,6 +378,10 @@ TypeInfo& type_of(const std::type_info& type) {
   if (!info) info = std::make_unique<TypeInfo>();
   return *info;
 }
+
+std::shared_ptr<void> own(void* object, void (*destroy)(void*)) { return {object, destroy}; }
+
+void throw_raised() { throw py::error_already_set(); }
 
 bool is_object(PyObject* object) { return PyObject_TypeCheck(object, base_type); }
 
@@ -456,13 +473,14 @@ std::string module_of(const std::string& space) {
 
 }  // namespace
 
+namespace {
+
+/// The dictionary of a namespace of this module: "" or "guidance".
 py::dict names_of(const std::string& space) {
   const auto names = py::reinterpret_borrow<py::dict>(module_names);
   if (!names.contains(space)) names[py::str(space)] = py::dict();
   return names[py::str(space)];
 }
-
-namespace {
 
 /// "guidance.GuideMemory.Past": the namespaces are those of the names, the rest are types.
 void put(const char* name, const py::object& what) {
@@ -561,6 +579,8 @@ void add_constant(const char* space, const char* name, PyObject* value) {
   names_of(space)[name] = py::reinterpret_steal<py::object>(value);
 }
 
+namespace {
+
 void begin_module(py::module_& module) {
   module_name = py::str(module.attr("__name__"));
   const py::dict names;
@@ -574,11 +594,31 @@ void begin_module(py::module_& module) {
     const py::str name("vericone._core");
     module.attr("_restore") =
         py::reinterpret_steal<py::object>(PyCFunction_NewEx(&restore_method, nullptr, name.ptr()));
+    module.attr("_left_behind") =
+        py::reinterpret_steal<py::object>(PyCFunction_NewEx(&left_method, nullptr, name.ptr()));
   } else {
     const py::module_ core = py::module_::import("vericone._core");
     registry = core.attr("_types").cast<py::capsule>().get_pointer<Registry>();
     base_type = reinterpret_cast<PyTypeObject*>(core.attr("_Object").ptr());
   }
+}
+
+}  // namespace
+
+PyObject* make_module(const char* name, void (*fill)()) noexcept {
+  try {
+    py::detail::get_internals();
+    static py::module_::module_def definition;
+    auto module = py::module_::create_extension_module(name, nullptr, &definition);
+    begin_module(module);
+    fill();
+    return module.release().ptr();
+  } catch (py::error_already_set& error) {
+    py::raise_from(error, PyExc_ImportError, "initialization failed");
+  } catch (const std::exception& error) {
+    PyErr_SetString(PyExc_ImportError, error.what());
+  }
+  return nullptr;
 }
 
 // Rows of arrays of records. What a record has no room for makes it no row.
@@ -595,12 +635,12 @@ bool each_column(const TypeInfo& info, F&& f) {
 }
 
 Py_ssize_t column_size(const Column& column) {
-  return column.record ? record_size(*column.record(), false) : column.size;
+  return column.record ? record_size(*column.record()) : column.size;
 }
 
 }  // namespace
 
-Py_ssize_t record_size(const TypeInfo& info, bool) {
+Py_ssize_t record_size(const TypeInfo& info) {
   Py_ssize_t size = 0;
   const bool all = each_column(info, [&](const char*, const Column& column) {
     const Py_ssize_t part = column_size(column);
@@ -610,13 +650,13 @@ Py_ssize_t record_size(const TypeInfo& info, bool) {
   return all && !info.fields.empty() ? size : 0;
 }
 
-py::object record_dtype(const TypeInfo& info, bool) {
+Reference record_dtype(const TypeInfo& info) {
   py::list names, formats, offsets;
   Py_ssize_t size = 0;
   each_column(info, [&](const char* name, const Column& column) {
     names.append(name);
     if (column.record)
-      formats.append(record_dtype(*column.record(), false));
+      formats.append(as_pybind(record_dtype(*column.record())));
     else
       formats.append(column.format());
     offsets.append(size);
@@ -629,7 +669,8 @@ py::object record_dtype(const TypeInfo& info, bool) {
   description["offsets"] = offsets;
   description["itemsize"] = size;
   const py::module_ numpy = py::module_::import("numpy");
-  return numpy.attr("dtype")(py::make_tuple(numpy.attr("record"), numpy.attr("dtype")(description)));
+  return reference_to(
+      numpy.attr("dtype")(py::make_tuple(numpy.attr("record"), numpy.attr("dtype")(description))));
 }
 
 void write_record(void* row, const TypeInfo& info, const void* record) {

@@ -4,17 +4,39 @@
 // change, a lock. The tables that describe the types are generated from the public headers.
 #pragma once
 
-#include <pybind11/pybind11.h>
+// No pybind11 here: what its headers emit into everything that includes them is compiled ten times then.
+#include <Python.h>
+#include <cstddef>
 #include <memory>
 #include <mutex>
 #include <span>
 #include <string>
 #include <typeinfo>
+#include <utility>
 #include <vector>
 
 namespace vericone::python {
 
-namespace py = pybind11;
+/// A reference to a Python object, or none. The global lock is held wherever one is copied or ends.
+class Reference {
+ public:
+  Reference() = default;
+  explicit Reference(PyObject* owned) : object_(owned) {}
+  [[nodiscard]] static Reference to(PyObject* borrowed) { return Reference(Py_XNewRef(borrowed)); }
+  Reference(const Reference& other) : object_(Py_XNewRef(other.object_)) {}
+  Reference(Reference&& other) noexcept : object_(other.release()) {}
+  Reference& operator=(Reference other) noexcept {
+    std::swap(object_, other.object_);
+    return *this;
+  }
+  ~Reference() { Py_XDECREF(object_); }
+
+  [[nodiscard]] PyObject* get() const { return object_; }
+  [[nodiscard]] PyObject* release() { return std::exchange(object_, nullptr); }
+
+ private:
+  PyObject* object_ = nullptr;
+};
 
 /// Where in the arguments of a call a value stands: "options.plane.choice", "bodies[3]".
 struct Place {
@@ -61,6 +83,28 @@ struct DerivedColumn {
   const char* name;
   const Column* column;
   void (*write)(void* row, const void* record);
+};
+
+/// A new object, which the result owns. Not std::make_shared: what that instantiates for each type is a tenth
+/// of the time that compiling all modules takes.
+[[nodiscard]] std::shared_ptr<void> own(void* object, void (*destroy)(void*));
+template <class T>
+[[nodiscard]] std::shared_ptr<void> own(T* object) {
+  return own(object, [](void* held) { delete static_cast<T*>(held); });
+}
+
+/// Throws what Python has raised.
+[[noreturn]] void throw_raised();
+/// Holds the global lock, in any thread.
+class GlobalLock {
+ public:
+  GlobalLock() : state_(PyGILState_Ensure()) {}
+  ~GlobalLock() { PyGILState_Release(state_); }
+  GlobalLock(const GlobalLock&) = delete;
+  GlobalLock& operator=(const GlobalLock&) = delete;
+
+ private:
+  PyGILState_STATE state_;
 };
 
 struct TypeInfo {
@@ -145,19 +189,18 @@ void add_enum(const std::type_info& type, const char* name, const char* members,
 [[nodiscard]] PyObject* enum_member(const TypeInfo& info, long long value);
 [[nodiscard]] long long enum_value(const TypeInfo& info, PyObject* given, const Place& place);
 
-/// The dictionary of a namespace of this module: "" or "guidance". Borrowed.
-[[nodiscard]] py::dict names_of(const std::string& space);
 /// A function, or a method where `info` says of which type.
 void add_function(const char* space, PyMethodDef* method);
 /// Takes the reference.
 void add_constant(const char* space, const char* name, PyObject* value);
 
-/// Sets up what all modules of the package share. The first is _core; others find what it has made.
-void begin_module(py::module_& module);
+/// Makes this module, whose names `fill` adds, and sets up what all modules of the package share: the first
+/// is _core; others find what it has made. Null where that raised.
+[[nodiscard]] PyObject* make_module(const char* name, void (*fill)()) noexcept;
 
 /// The numpy dtype of records of this type, or null where a field is no column.
-[[nodiscard]] py::object record_dtype(const TypeInfo& info, bool optional);
-[[nodiscard]] Py_ssize_t record_size(const TypeInfo& info, bool optional);
+[[nodiscard]] Reference record_dtype(const TypeInfo& info);
+[[nodiscard]] Py_ssize_t record_size(const TypeInfo& info);
 void write_record(void* row, const TypeInfo& info, const void* record);
 void write_no_record(void* row, const TypeInfo& info);
 

@@ -35,9 +35,7 @@ void describe_value(const char* names, State, Restore) {
   TypeInfo& info = type_of<T>();
   info.state_names = names;
   info.state = [](const void* value) { return State{}(*static_cast<const T*>(value)); };
-  info.restore = [](PyObject* state) -> std::shared_ptr<void> {
-    return std::make_shared<T>(Restore{}(state));
-  };
+  info.restore = [](PyObject* state) -> std::shared_ptr<void> { return own(new T(Restore{}(state))); };
 }
 
 template <int D>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/geometry/error.h>
 #include <vericone/simulation/run_tables.h>
 #include <fstream>
-#include <sstream>
-#include <stdexcept>
+#include <iterator>
 
 #include "json/json_value.h"
 #include "json/plain_text.h"
@@ -16,10 +16,18 @@ namespace fs = std::filesystem;
 
 std::string content_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in) throw std::runtime_error("could not read " + file.string());
-  return text.str();
+  std::error_code ignored;
+  if (!in || fs::is_directory(file, ignored))
+    throw InputError("origin.file", plain_text(file.string()), "a file that can be read");
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+Json provenance_of(const RunOrigin& origin) {
+  if (origin.provenance.empty()) return nullptr;
+  Json json = Json::parse(origin.provenance, nullptr, false);
+  if (json.is_discarded())
+    throw InputError("origin.provenance", plain_text(origin.provenance), "JSON, or empty");
+  return json;
 }
 
 }  // namespace
@@ -59,22 +67,26 @@ Json run_json(const simulation::Scenario& scenario, const simulation::Run& run, 
             {"events", run.events.size()},
             {"seconds", origin.seconds},
             {"real_time_factor", run.end / origin.seconds},
-            {"provenance", origin.provenance.empty() ? Json(nullptr) : Json::parse(origin.provenance)}};
+            {"provenance", provenance_of(origin)}};
   if (!run.vehicles.empty()) json["limits_broken"] = beyond;
   return json;
 }
 
 void write_run(const simulation::Scenario& scenario, const simulation::Run& run, const RunOrigin& origin,
                const fs::path& folder) {
+  // What can be refused, before anything is written.
+  simulation::require_run_of(scenario, run);
+  const bool has_scenario = !origin.text.empty() || !origin.file.empty();
+  const std::string text = has_scenario && origin.text.empty() ? content_of(origin.file) : origin.text;
+  const std::string own = run_json(scenario, run, origin).dump(1) + "\n";
   for (const simulation::Table& table : simulation::run_tables(scenario, run))
     write_whole(folder / (table.name + ".csv"), csv(table));
   if (!scenario.orifices.empty())
     write_whole(folder / "orifices.json", orifices_json(scenario).dump(1) + "\n");
   write_whole(folder / "proof.json", proof_text(scenario, run));
   write_whole(folder / "shapes.json", shapes_json(scenario).dump(1) + "\n");
-  write_whole(folder / "run.json", run_json(scenario, run, origin).dump(1) + "\n");
-  if (!origin.text.empty() || !origin.file.empty())
-    write_whole(folder / "scenario.yaml", origin.text.empty() ? content_of(origin.file) : origin.text);
+  write_whole(folder / "run.json", own);
+  if (has_scenario) write_whole(folder / "scenario.yaml", text);
 }
 
 }  // namespace vericone::scenario

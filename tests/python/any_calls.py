@@ -317,6 +317,7 @@ class Calls:
         self.answered: dict[str, int] = {}
         self.calls = 0
         self.log = log
+        self.late: list[str] = []  # calls that were interrupted
         # Of each name, calls that were answered and calls that were refused, quickly: (what, arguments, named ones).
         self.examples: dict[tuple[str, bool], list[tuple[Any, list[Any], dict[str, Any]]]] = {}
 
@@ -426,8 +427,9 @@ class Calls:
         except vericone.InputError as error:
             if not error.field or not error.requirement or "\n" in str(error):
                 wrong = error
-        except DOCUMENTED:
-            pass
+        except DOCUMENTED as error:
+            if isinstance(error, TooLong):
+                self.late.append(text[:1000])
         except RuntimeError as error:
             if not str(error) or "has no text" in str(error):
                 wrong = error
@@ -446,6 +448,16 @@ class Calls:
         fault = f"{name}: {type(wrong).__name__}: {str(wrong)[:160]}"
         self.faults.setdefault(f"{name}: {type(wrong).__name__}", f"{fault}\n  {text[:1000]}")
         return f"{fault}\n  {text[:1000]}"
+
+
+    def wait_for_left(self) -> None:
+        """What was interrupted and left behind ends at last."""
+        left = getattr(getattr(vericone, "_core", None), "_left_behind", lambda: 0)
+        began = time.perf_counter()
+        while left() and time.perf_counter() - began < DEAF_SECONDS:
+            time.sleep(0.05)
+        if left():
+            self.faults["deaf"] = "one of these never ends:\n  " + "\n  ".join(self.late)
 
 
 def prepare() -> None:
@@ -512,12 +524,15 @@ def main() -> int:
                 calls.make(draw)
         if options.hypothesis and not calls.faults:
             search(calls, options.hypothesis)
+        calls.wait_for_left()
         os.chdir("/")
     never = [c.name for c in calls.callables if c.name not in calls.answered]
     for fault in calls.faults.values():
         print(fault)
     print(json.dumps({"calls": calls.calls, "callables": len(calls.callables), "answered": sum(calls.answered.values()), "never": never,
-                      "faults": len(calls.faults)}))
+                      "faults": len(calls.faults)}), flush=True)
+    if "deaf" in calls.faults:
+        os._exit(1)  # Python would wait for it
     return 1 if calls.faults else 0
 
 

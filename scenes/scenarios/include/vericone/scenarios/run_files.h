@@ -28,8 +28,9 @@ struct RunOrigin {
 
 /// The run's tables and JSON files and a copy of the scenario into `folder`, which must exist; planes.csv
 /// where planes are logged, sights.csv where an agent has a sensor, vehicles.csv where there is a vehicle,
-/// orifices.csv and orifices.json where there are any. Throws std::system_error naming the path that cannot
-/// be written or read.
+/// orifices.csv and orifices.json where there are any. Throws InputError naming "origin.file" or
+/// "origin.provenance", before anything is written, and std::system_error naming the path that cannot be
+/// written.
 void write_run(const simulation::Scenario& scenario, const simulation::Run& run, const RunOrigin& origin,
                const std::filesystem::path& folder);
 
