@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-PROGRAM = Path(__file__).parent / "batches.py"
+PROGRAM = Path(__file__).parent / "search" / "batches.py"
 
 
 def compared(*arguments: str, timeout: int = 280) -> dict[str, Any]:

@@ -3,9 +3,13 @@
 Environment: VERICONE_SOURCE (the project), VERICONE_BUILD (the build), VERICONE (the command)."""
 
 import os
+import sys
 from pathlib import Path
 
 import pytest
+
+# Programs that look for wrong calls, in processes of their own; tests use parts of them.
+sys.path.insert(0, str(Path(__file__).parent / "search"))
 
 
 def pytest_configure(config: pytest.Config) -> None:

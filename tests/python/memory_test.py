@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-PROGRAM = Path(__file__).parent / "leaks.py"
+PROGRAM = Path(__file__).parent / "search" / "leaks.py"
 
 pytestmark = pytest.mark.skipif("VERICONE_PRELOAD" in os.environ, reason="sanitizers count for themselves what is allocated")
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-PROGRAM = Path(__file__).parent / "any_calls.py"
+PROGRAM = Path(__file__).parent / "search" / "any_calls.py"
 
 
 def called(tmp_path: Path, calls: int, seed: int, timeout: int, *more: str) -> dict[str, Any]:

@@ -17,7 +17,7 @@ import pytest
 
 import vericone
 
-PROGRAM = Path(__file__).parent / "same_answers.py"
+PROGRAM = Path(__file__).parent / "search" / "same_answers.py"
 THREADS = 8
 SANITIZED = "VERICONE_PRELOAD" in os.environ
 
