@@ -38,7 +38,7 @@ class Emitter:
         return kind.plain().text()
 
     def element(self, kind: Type) -> str:
-        return f"ObjectOf<{kind.plain().text()}>" if self.model.kind(kind) == "class" else kind.plain().text()
+        return f"ObjectOf<{kind.plain().text()}>" if self.model.kind(kind) in ("class", "array") else kind.plain().text()
 
     # Calls --------------------------------------------------------------------------------------------------
 
@@ -115,6 +115,9 @@ class Emitter:
                 if what == "class":
                     could = f"&could_be_many<{text}>"
                     make = f"Many(g, {i}, type_of<{text}>())"
+                elif what == "array":
+                    could = f"&Convert<{text}>::could"
+                    make = f"Many(g, {i}, static_cast<const {text}*>(nullptr))"
                 else:
                     make = f"Many(g, {i}, {0 if what == 'number' else a.type.arguments[1].name})"
                 if a.default is None:

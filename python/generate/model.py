@@ -408,6 +408,8 @@ class Model:
             return False
         if kind == "number" or (kind == "fixed" and a.type.arguments[2].name == "1" and int(a.type.arguments[1].name) <= 4):
             return True
+        if kind == "array":  # an exact vector
+            return self.kind(a.type.arguments[0]) == "rational"
         if kind == "class":
             record = self.record(a.type)
             assert record

@@ -173,7 +173,8 @@ class Stubs:
                 if style == "one":
                     text = "Sequence[_Number]" if kind == "fixed" else text
                 else:
-                    text = "npt.ArrayLike" if kind in ("fixed", "number") else f"Union[{text}, Sequence[{text}], npt.NDArray[Any]]"
+                    text = "npt.ArrayLike" if kind in ("fixed", "number") else \
+                        "Union[Sequence[Any], npt.NDArray[Any]]" if kind == "array" else f"Union[{text}, Sequence[{text}], npt.NDArray[Any]]"
             if a.role == "asked":
                 if not star:
                     parts.append("*")

@@ -135,6 +135,46 @@ Many::Many(Given& given, int i, const TypeInfo& info) : name_(given.place(i).nam
   data_ = reinterpret_cast<const char*>(objects_.data());
 }
 
+void Many::read_exact(PyObject* given, const Place& place, MakeExact make) {
+  constexpr std::size_t kMostAxes = 32;  // as numpy
+  if (py::detail::npy_api::get().PyArray_Check_(given)) {
+    const auto array = py::reinterpret_borrow<py::array>(given);
+    for (Py_ssize_t d = 0; d + 1 < array.ndim(); ++d) shape_.push_back(array.shape(d));
+  } else {
+    // As deep as the first of the first are sequences.
+    Reference at = Reference::to(given);
+    while (shape_.size() < kMostAxes) {
+      const Reference parts = fast_sequence(at.get(), place);
+      const Py_ssize_t n = PyTuple_GET_SIZE(parts.get());
+      if (n > 0 && !is_sequence(PyTuple_GET_ITEM(parts.get(), 0))) break;
+      shape_.push_back(n);
+      if (n == 0) break;
+      at = Reference::to(PyTuple_GET_ITEM(parts.get(), 0));
+    }
+  }
+  strides_.resize(shape_.size());
+  Py_ssize_t step = sizeof(void*);
+  for (std::size_t d = shape_.size(); d-- > 0; step *= shape_[d]) strides_[d] = step;
+  add_exact(given, 0, place, make);
+  single_ = shape_.empty();
+  if (single_) one_ = made_.back().get();
+  data_ = reinterpret_cast<const char*>(objects_.data());
+}
+
+void Many::add_exact(PyObject* given, std::size_t axis, const Place& place, MakeExact make) {
+  if (axis == shape_.size()) {
+    made_.push_back(make(given, place));
+    objects_.push_back(made_.back().get());
+    return;
+  }
+  const Reference parts = fast_sequence(given, place);
+  if (PyTuple_GET_SIZE(parts.get()) != shape_[axis])
+    throw InputError(place.text(), std::to_string(PyTuple_GET_SIZE(parts.get())) + " of them",
+                     std::to_string(shape_[axis]) + " of them, as in the first: rows equally long");
+  for (Py_ssize_t i = 0; i < shape_[axis]; ++i)
+    add_exact(PyTuple_GET_ITEM(parts.get(), i), axis + 1, {&place, nullptr, i}, make);
+}
+
 std::vector<Py_ssize_t> broadcast(std::span<const Many* const> many) {
   std::vector<Py_ssize_t> shape;
   for (const Many* m : many) {

@@ -14,6 +14,14 @@ class Many {
   Many(Given& given, int i, int components);
   /// Objects of a type.
   Many(Given& given, int i, const TypeInfo& info);
+  /// Exact vectors: sequences of N numbers, within as many sequences as there are axes.
+  template <std::size_t N>
+  Many(Given& given, int i, const std::array<Rational, N>*) : name_(given.place(i).name) {
+    using V = std::array<Rational, N>;
+    read_exact(given.value(i), given.place(i), [](PyObject* vector, const Place& place) {
+      return own(new V(Convert<V>::from(vector, place)));
+    });
+  }
   /// One, where nothing is given: a number, or a vector that outlives this.
   Many(const char* name, double number) : name_(name), components_(1), scalar_(true) {
     numbers_[0] = number;
@@ -38,7 +46,10 @@ class Many {
 
  private:
   friend class Walk;
+  using MakeExact = std::shared_ptr<void> (*)(PyObject* vector, const Place& place);
   void read_numbers(PyObject* given, const Place& place);
+  void read_exact(PyObject* given, const Place& place, MakeExact make);
+  void add_exact(PyObject* given, std::size_t axis, const Place& place, MakeExact make);
 
   bool single_ = true;
   const char* name_;

@@ -387,6 +387,11 @@ Rational rational_from(PyObject* given, const Place& place) {
     if (divisor == 0) throw InputError(place.text(), shown(given), "a rational number");
     return Rational(whole_from(top.ptr(), place), divisor);
   }
+  if (!PyBool_Check(given) && is_number(given)) {  // of numpy: what a double holds
+    const double x = number_from(given, place);
+    if (std::isfinite(x)) return Rational(x);
+    throw InputError(place.text(), to_text(x), "a rational number");
+  }
   wrong_type(place, "a Fraction, an int or a float", given);
 }
 

@@ -356,6 +356,20 @@ struct Convert<std::shared_ptr<T>> {
   static bool could(PyObject* given) { return given == Py_None || is_instance(given, type_of<V>()); }
   static constexpr std::nullptr_t kColumn = nullptr;
 };
+template <class E>
+struct Convert<std::shared_ptr<const std::vector<E>>> {  // a list
+  using V = std::vector<E>;
+  static std::shared_ptr<const V> from(PyObject* given, const Place& place) {
+    if (given == Py_None) return nullptr;
+    return std::make_shared<const V>(Convert<V>::from(given, place));
+  }
+  static PyObject* to(const std::shared_ptr<const V>& value) {
+    if (!value) Py_RETURN_NONE;
+    return Convert<V>::to(*value);
+  }
+  static bool could(PyObject* given) { return given == Py_None || Convert<V>::could(given); }
+  static constexpr std::nullptr_t kColumn = nullptr;
+};
 template <class T>
 struct Convert<std::unique_ptr<T>> {
   static PyObject* to(std::unique_ptr<T> value) {

@@ -118,11 +118,11 @@ std::string brief(PyObject* part) {
   }
   if (PyList_Check(part) && PyList_GET_SIZE(part) > 4)
     return "<list of " + std::to_string(PyList_GET_SIZE(part)) + ">";
-  if (PyList_Check(part)) {
-    std::string text;
-    for (Py_ssize_t i = 0; i < PyList_GET_SIZE(part); ++i)
-      text += (i > 0 ? ", " : "[") + brief(PyList_GET_ITEM(part, i));
-    return text.empty() ? "[]" : text + "]";
+  if (PyList_Check(part) || PyTuple_CheckExact(part)) {
+    std::string text(1, PyList_Check(part) ? '[' : '(');
+    const Py_ssize_t n = PySequence_Fast_GET_SIZE(part);
+    for (Py_ssize_t i = 0; i < n; ++i) text += (i > 0 ? ", " : "") + brief(PySequence_Fast_GET_ITEM(part, i));
+    return text + (PyList_Check(part) ? "]" : n == 1 ? ",)" : ")");
   }
   // Python refuses to print integers of more than 4,300 digits.
   constexpr int kMostBits = 4000;

@@ -174,6 +174,26 @@ def test_exact_numbers_arrive_as_they_are() -> None:
         assert vericone.exact.membership(unit(0), unit(5), [1, root + fractions.Fraction(1, scale), 0]) == vericone.Membership.out
 
 
+def test_many_exact_vectors_are_asked_at_once() -> None:
+    bodies = [vericone.exact.RationalBody3([x, 0, 0], np.eye(3).tolist()) for x in (0, 5, 7)]
+    vectors = [[1, fractions.Fraction(k, 10), 0] for k in range(-6, 7)]
+    each = [int(vericone.exact.membership(bodies[0], bodies[1], w)) for w in vectors]
+    assert vericone.exact.membership(bodies[0], bodies[1], vectors).tolist() == each and len(set(each)) > 1
+    assert vericone.exact.membership(bodies[0], bodies[1], [vectors, vectors], threads=2).tolist() == [each, each]
+    table = vericone.exact.membership(bodies[0], bodies[1:], [[w] for w in vectors])
+    assert table.shape == (13, 2) and table[:, 0].tolist() == each
+    array = np.random.default_rng(2).normal(size=(40, 3))
+    own = vericone.ConeOracle(AGENT, vericone.Ellipsoid.from_axes([5, 0, 0], [1, 1, 1]))
+    for given in (array, array.astype("f4"), np.ones((2, 0, 3))):
+        assert np.array_equal(vericone.exact.membership(bodies[0], bodies[1], given), own.membership(given))
+    with pytest.raises(vericone.InputError, match=r"w\[1\]"):
+        vericone.exact.membership(bodies[0], bodies[1], [vectors, vectors[1:]])
+    with pytest.raises(vericone.InputError, match=r"w\[2\]\[1\]"):
+        vericone.exact.membership(bodies[0], bodies[1], [[1, 0, 0], [1, 1, 0], [1, float("nan"), 0]])
+    with pytest.raises(TypeError):
+        vericone.exact.membership(bodies[0], bodies[1], [[1, 0], [1, 1]])
+
+
 def test_classes_can_be_derived_from() -> None:
     class Named(vericone.Ellipsoid):
         """With a name of its own."""

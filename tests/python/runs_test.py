@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import os
+from fractions import Fraction
 import subprocess
 from pathlib import Path
 from typing import Any, Callable
@@ -331,3 +332,28 @@ def test_the_page_of_files_and_runs_says_what_works(tmp_path: Path, monkeypatch:
     assert (tmp_path / "copy.yaml").exists() and (tmp_path / "out/fit/body.yaml").exists()
     assert names["unit"] == "m/s" and same_bits(names["speed"], names["bodies"]["speed"])
     assert names["found"].violations == 0 and names["result"].certified
+
+
+@pytest.mark.parametrize(("origin", "field"), [({"provenance": "{"}, "origin.provenance"), ({"file": "no/such.yaml"}, "origin.file"),
+                                               ({"file": "/"}, "origin.file")])
+def test_a_run_refuses_its_origin_before_it_writes(tmp_path: Path, origin: dict[str, str], field: str) -> None:
+    scenario = vericone.read_scenario(next(SCENARIOS.glob("*.yaml"))).replace(duration=0.01)
+    run = vericone.simulation.simulate(scenario)
+    with pytest.raises(vericone.InputError) as raised:
+        vericone.scenario.write_run(scenario, run, vericone.scenario.RunOrigin(**origin), tmp_path)
+    assert raised.value.field == field and not os.listdir(tmp_path)
+
+
+def test_what_is_too_long_to_print_prints_short() -> None:
+    exact = vericone.exact
+    assert repr(exact.Dyadic(2**100_000, 3)) == "Dyadic(numerator=<integer of 100001 bits>, exponent=3)"
+    body = exact.RationalBody2([Fraction(1, 3**9000), 0], [[1, 0], [0, 1]])
+    assert "bits>" in repr(body) and len(repr(body)) < 300
+    with pytest.raises(vericone.InputError, match="exponent"):
+        exact.compare(exact.Dyadic(1, 2**31), exact.Dyadic(1))
+    with pytest.raises(vericone.InputError, match="one simple root"):
+        exact.RealRoot([1, 0, 1], exact.Dyadic(1), exact.Dyadic(2))
+    root = exact.RealRoot([-2, 0, 1], exact.Dyadic(1), exact.Dyadic(2))
+    root.refine(200)
+    low = root.lo()
+    assert 0 < 2 - Fraction(low.numerator, 2**low.exponent)**2 < Fraction(1, 2**190)

@@ -515,6 +515,7 @@ def main() -> int:
             for thing in made.objects():
                 calls.keep(thing, draw)
         while calls.calls < options.calls:
+            faulthandler.dump_traceback_later(2 * DEAF_SECONDS, exit=True)  # what is printed and compared can wait for ever too
             kind = draw.random()
             if kind < 0.05:
                 calls.also(draw)
@@ -522,6 +523,7 @@ def main() -> int:
                 calls.spoil(draw)
             else:
                 calls.make(draw)
+        faulthandler.cancel_dump_traceback_later()
         if options.hypothesis and not calls.faults:
             search(calls, options.hypothesis)
         calls.wait_for_left()
