@@ -198,8 +198,10 @@ namespace {
 
 /// A new array of a column, and where it is.
 py::object make_output(const Column* column, std::span<const Py_ssize_t> shape, Output& output) {
-  static const py::object& empty = *new py::object(py::module_::import("numpy").attr("empty"));
-  static const py::object& records = *new py::object(py::module_::import("numpy").attr("recarray"));
+  static constinit Imported the_empty("numpy", "empty");
+  const py::object empty = the_empty.get();
+  static constinit Imported the_records("numpy", "recarray");
+  const py::object records = the_records.get();
   py::tuple sizes(shape.size());
   for (std::size_t d = 0; d < shape.size(); ++d) sizes[d] = shape[d];
   py::object array;

@@ -19,7 +19,8 @@ namespace vericone::python {
 namespace {
 
 PyObject* input_error_type() {
-  static const py::object& type = *new py::object(py::module_::import("vericone._errors").attr("InputError"));
+  static constinit Imported the_type("vericone._errors", "InputError");
+  const py::object type = the_type.get();
   return type.ptr();
 }
 
@@ -40,8 +41,8 @@ std::string signature_text(std::span<const Parameter> parameters) {
 // Long work ------------------------------------------------------------------------------------------------
 
 bool in_main_thread() {
-  static const py::object& threading = *new py::object(py::module_::import("threading"));
-  return threading.attr("get_ident")().equal(threading.attr("main_thread")().attr("ident"));
+  static constinit Imported get_ident("threading", "get_ident"), main_thread("threading", "main_thread");
+  return get_ident.get()().equal(main_thread.get()().attr("ident"));
 }
 
 /// How long a call that was asked to end is waited for.

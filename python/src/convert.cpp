@@ -31,12 +31,8 @@ std::string shown(PyObject* given) {
 
 bool is_array(PyObject* given) { return py::detail::npy_api::get().PyArray_Check_(given); }
 
-const py::object& numpy_function(const char* name) {
-  static auto& functions = *new std::unordered_map<std::string, py::object>;
-  auto& function = functions[name];
-  if (!function) function = py::module_::import("numpy").attr(name);
-  return function;
-}
+constinit Imported asarray("numpy", "asarray"), contiguous("numpy", "ascontiguousarray"),
+    absolute("numpy", "abs");
 
 std::string shape_text(std::span<const Py_ssize_t> shape) {
   std::string text = "(";
@@ -81,7 +77,7 @@ py::array array_from(PyObject* given, std::span<const Py_ssize_t> shape, const P
       wrong_type(place, ("an array of shape " + shape_text(shape)).c_str(), given);
     if (!whole) check_numbers(given, place);
     try {
-      array = numpy_function("asarray")(py::handle(given));
+      array = asarray.get()(py::handle(given));
     } catch (py::error_already_set& error) {
       if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) throw;
       wrong_type(place, ("an array of shape " + shape_text(shape)).c_str(), given);
@@ -109,11 +105,11 @@ py::array array_from(PyObject* given, std::span<const Py_ssize_t> shape, const P
   }
   if (whole ? kind == 'u' && numbers.itemsize() == 8 : kind != 'f' && numbers.itemsize() == 8) {
     const auto most = whole ? std::uint64_t{1} << 63 : std::uint64_t{1} << 53;
-    const py::object wide = numpy_function("abs")(numbers);
+    const py::object wide = absolute.get()(numbers);
     if (numbers.size() > 0 && !py::bool_(wide.attr("max")() <= py::int_(most)))
       throw InputError(place.text(), "an integer beyond " + std::string(whole ? "2^63" : "2^53"), kNumber);
   }
-  return numpy_function("ascontiguousarray")(numbers, py::dtype(whole ? "i8" : "f8"));
+  return contiguous.get()(numbers, py::dtype(whole ? "i8" : "f8"));
 }
 
 }  // namespace
@@ -121,7 +117,7 @@ py::array array_from(PyObject* given, std::span<const Py_ssize_t> shape, const P
 Reference strict_array(PyObject* given, const Place& place) {
   check_numbers(given, place);
   try {
-    return reference_to(numpy_function("asarray")(py::handle(given)));
+    return reference_to(asarray.get()(py::handle(given)));
   } catch (py::error_already_set& error) {
     if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) throw;
     wrong_type(place, "an array of real numbers, its rows equally long", given);
@@ -220,7 +216,8 @@ long long integer_from(PyObject* given, long long least, unsigned long long most
 bool Convert<bool>::from(PyObject* given, const Place& place) {
   if (given == Py_True) return true;
   if (given == Py_False) return false;
-  static const py::object& numpy_bool = *new py::object(py::module_::import("numpy").attr("bool_"));
+  static constinit Imported the_numpy_bool("numpy", "bool_");
+  const py::object numpy_bool = the_numpy_bool.get();
   if (!py::isinstance(given, numpy_bool)) wrong_type(place, "True or False", given);
   return PyObject_IsTrue(given) == 1;
 }
@@ -251,7 +248,8 @@ std::filesystem::path Convert<std::filesystem::path>::from(PyObject* given, cons
   return text_from(text, place);
 }
 PyObject* Convert<std::filesystem::path>::to(const std::filesystem::path& path) {
-  static const py::object& make = *new py::object(py::module_::import("pathlib").attr("Path"));
+  static constinit Imported the_make("pathlib", "Path");
+  const py::object make = the_make.get();
   return make(py::reinterpret_steal<py::object>(Convert<std::string>::to(path.string()))).release().ptr();
 }
 bool Convert<std::filesystem::path>::could(PyObject* given) {
@@ -396,7 +394,8 @@ Rational rational_from(PyObject* given, const Place& place) {
 }
 
 PyObject* rational_to(const Rational& x) {
-  static const py::object& make = *new py::object(py::module_::import("fractions").attr("Fraction"));
+  static constinit Imported the_make("fractions", "Fraction");
+  const py::object make = the_make.get();
   const auto top =
       py::reinterpret_steal<py::object>(whole_to(WholeNumber(boost::multiprecision::numerator(x))));
   const auto bottom =

@@ -533,7 +533,8 @@ void add_type(TypeInfo& info, const char* doc, PyMethodDef* methods, newfunc con
 }
 
 void add_enum(const std::type_info& type, const char* name, const char* members, const char* doc) {
-  static const py::object& make = *new py::object(py::module_::import("vericone._enums").attr("NamedInt"));
+  static constinit Imported the_make("vericone._enums", "NamedInt");
+  const py::object make = the_make.get();
   TypeInfo& info = type_of(type);
   info.name = name;
   py::list pairs;
@@ -608,6 +609,7 @@ void begin_module(py::module_& module) {
 PyObject* make_module(const char* name, void (*fill)()) noexcept {
   try {
     py::detail::get_internals();
+    py::detail::npy_api::get();
     static py::module_::module_def definition;
     auto module = py::module_::create_extension_module(name, nullptr, &definition);
     begin_module(module);

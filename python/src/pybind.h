@@ -18,4 +18,23 @@ template <class T = py::object>
 }
 [[nodiscard]] inline Reference reference_to(py::object object) { return Reference(object.release().ptr()); }
 
+/// Something of a module of Python, imported when it is first asked for. A static variable that is made by an
+/// import would not do: an import lets other threads have the global lock, and one of them would hold it
+/// while it waits for that variable.
+class Imported {
+ public:
+  constexpr Imported(const char* module, const char* name) : module_(module), name_(name) {}
+  [[nodiscard]] py::object get() {
+    if (!held_) {
+      py::object found = py::module_::import(module_).attr(name_);
+      if (!held_) held_ = found.release().ptr();  // for ever
+    }
+    return py::reinterpret_borrow<py::object>(held_);
+  }
+
+ private:
+  const char *module_, *name_;
+  PyObject* held_ = nullptr;
+};
+
 }  // namespace vericone::python
