@@ -91,7 +91,8 @@ py::array array_from(PyObject* given, std::span<const Py_ssize_t> shape, const P
             : (kind != 'f' && kind != 'i' && kind != 'u') || (kind == 'f' && numbers.itemsize() > 8))
     throw InputError(place.text(), "an array of " + std::string(py::str(numbers.dtype())),
                      whole ? "an array of integers" : "an array of real numbers that doubles hold exactly");
-  if (empty && shape.size() > 1) {
+  const bool any_length = std::any_of(shape.begin(), shape.end(), [](Py_ssize_t n) { return n < 0; });
+  if (empty && any_length && shape.size() > 1) {
     std::vector<Py_ssize_t> none(shape.begin(), shape.end());
     for (Py_ssize_t& n : none) n = std::max<Py_ssize_t>(n, 0);
     return py::array(py::dtype(whole ? "i8" : "f8"), none);

@@ -143,6 +143,14 @@ def test_a_list_that_changes_while_it_is_read(at: int, rows: int, length: int) -
             pass
 
 
+@pytest.mark.parametrize("nothing", [(), [], [[]], np.zeros((0, 3)), np.zeros((3, 0))])
+def test_nothing_is_no_matrix(nothing: Any) -> None:
+    for make in (vericone.BodyRate, vericone.Conic, lambda m: vericone.Ellipsoid.from_shape([0, 0, 0], m), vericone.Pose):
+        with pytest.raises((vericone.InputError, TypeError)):
+            make(nothing)
+    assert vericone.exact.real_roots([0, 1]) and np.asarray(vericone.Pose([1, 2, 3]).position).tolist() == [1, 2, 3]
+
+
 VALUES: list[Any] = [
     AGENT, vericone.Ellipse.from_axes([1, 2], [3, 1]), vericone.CombinedEllipsoid(AGENT, [vericone.hyperboloid(2, [0.9, 0.8, 0.8])]),
     vericone.Pose([1, 2, 3]), vericone.Interval.between(1, 2), vericone.ConeOptions(tolerance=1e-3), vericone.Body(OBSTACLE),
