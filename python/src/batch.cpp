@@ -198,18 +198,16 @@ namespace {
 
 /// A new array of a column, and where it is.
 py::object make_output(const Column* column, std::span<const Py_ssize_t> shape, Output& output) {
-  static constinit Imported the_empty("numpy", "empty");
-  const py::object empty = the_empty.get();
-  static constinit Imported the_records("numpy", "recarray");
-  const py::object records = the_records.get();
+  static constinit Imported empty("numpy", "empty"), zeros("numpy", "zeros"), records("numpy", "recarray");
   py::tuple sizes(shape.size());
   for (std::size_t d = 0; d < shape.size(); ++d) sizes[d] = shape[d];
   py::object array;
   if (column->record) {
-    array = empty(sizes, as_pybind(record_dtype(*column->record()))).attr("view")(records);
+    // Zeros, since between its fields a row has bytes that nobody writes.
+    array = zeros.get()(sizes, as_pybind(record_dtype(*column->record()))).attr("view")(records.get());
     output.size = record_size(*column->record());
   } else {
-    array = empty(sizes, column->format());
+    array = empty.get()(sizes, column->format());
     output.size = column->size;
   }
   output.data = static_cast<char*>(py::reinterpret_borrow<py::array>(array).mutable_data());

@@ -92,6 +92,16 @@ def test_arguments_broadcast() -> None:
         PAIR.verdict(VELOCITIES[:5], VELOCITIES[:4])
 
 
+def test_rows_of_records_have_no_byte_that_is_left_over() -> None:
+    """The same questions have the same bytes, whatever the memory held before."""
+    discs = [vericone.Ellipse.from_axes([5, k], [1, 2]) for k in range(-8, 9)]
+    first = vericone.sector_by_degenerate_conics(vericone.Ellipse(), discs).tobytes()
+    for k in range(50):
+        dirt = [np.full(len(first) // 8, k + 0.5) for _ in range(8)]
+        del dirt
+        assert vericone.sector_by_degenerate_conics(vericone.Ellipse(), discs).tobytes() == first
+
+
 def test_many_pairs_in_one_call() -> None:
     pairs = [vericone.Pair(AGENT, vericone.Ellipsoid.from_axes([9, k, 0], [1, 2, 1])) for k in range(6)]
     velocities = VELOCITIES[:6]
