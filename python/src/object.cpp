@@ -126,14 +126,16 @@ std::string brief(PyObject* part) {
   }
   // Python refuses to print integers of more than 4,300 digits.
   constexpr int kMostBits = 4000;
+  static constinit Imported the_fraction("fractions", "Fraction");
   const auto bits = [](const py::object& whole) { return whole.attr("bit_length")().cast<long long>(); };
   const auto value = py::reinterpret_borrow<py::object>(part);
   if (PyLong_CheckExact(part) && bits(value) > kMostBits)
     return "<integer of " + std::to_string(bits(value)) + " bits>";
-  if (!PyLong_Check(part) && py::hasattr(value, "denominator") && py::hasattr(value, "numerator") &&
-      std::max(bits(value.attr("numerator")), bits(value.attr("denominator"))) > kMostBits)
-    return "<fraction of " + std::to_string(bits(value.attr("numerator"))) + " and " +
-           std::to_string(bits(value.attr("denominator"))) + " bits>";
+  if (py::isinstance(value, the_fraction.get())) {
+    const long long top = bits(value.attr("numerator")), bottom = bits(value.attr("denominator"));
+    if (std::max(top, bottom) > kMostBits)
+      return "<fraction of " + std::to_string(top) + " and " + std::to_string(bottom) + " bits>";
+  }
   return py::str(py::repr(value));
 }
 

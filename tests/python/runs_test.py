@@ -349,6 +349,7 @@ def test_what_is_too_long_to_print_prints_short() -> None:
     assert repr(exact.Dyadic(2**100_000, 3)) == "Dyadic(numerator=<integer of 100001 bits>, exponent=3)"
     body = exact.RationalBody2([Fraction(1, 3**9000), 0], [[1, 0], [0, 1]])
     assert "bits>" in repr(body) and len(repr(body)) < 300
+    assert "<class 'int'>" in repr(vericone.ConeMapOptions(progress=int))
     with pytest.raises(vericone.InputError, match="exponent"):
         exact.compare(exact.Dyadic(1, 2**31), exact.Dyadic(1))
     with pytest.raises(vericone.InputError, match="one simple root"):
