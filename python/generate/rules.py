@@ -120,9 +120,8 @@ WHOLE = {("ConeOracle::membership", 1): "memberships"}
 MACHINES = {"PlaneCones"}
 
 # What C++ requires of its callers, where a release does not look: C++ name: condition in C++, of the object `self` and of
-# the parameters; which input breaks it, what was given, what would be right.
+# the parameters; which input breaks it, what was given, what would be right. "name/3": of its overload with three parameters.
 _TRIMMED = "(!{0}.empty() && {0}.back() != 0)"
-# Of overloads that have as many parameters: "name/2".
 REQUIRES: dict[str, tuple[str, str, str, str]] = {
     **{f"guidance::SetMembershipFilter::{name}": ("self.started()", "filter", "no measurement", "one that has met a measurement")
        for name in ("position", "velocity", "position_radius", "velocity_radius")},
@@ -144,7 +143,7 @@ REQUIRES: dict[str, tuple[str, str, str, str]] = {
         "compare(from, to) < 0 && (from.numerator >= 0 || to.numerator <= 0) && sign_at(*q, from) * sign_at(*q, to) < 0 && "
         "sign_changes_at(sturm_chain(*q), from) - sign_changes_at(sturm_chain(*q), to) == 1; }(p, lo, hi)",
         "p, lo, hi", "no root, or several", "a polynomial with one simple root between lo and hi, which have one sign"),
-    "exact::between/2": ("compare(lo, hi) < 0 && (lo.numerator >= 0 || hi.numerator <= 0)", "lo, hi", "others", "lo < hi, of one sign"),
+    "exact::between": ("compare(lo, hi) < 0 && (lo.numerator >= 0 || hi.numerator <= 0)", "lo, hi", "others", "lo < hi, of one sign"),
     "exact::Dyadic::of": ("std::isfinite(finite)", "finite", "no finite number", "finite"),
     "exact::grid_exponent": ("std::isfinite(x)", "x", "no finite number", "finite"),
     "exact::on_grid": ("std::isfinite(x) && std::abs(e) <= 10000", "x, e", "no finite number, or a grid beyond doubles",

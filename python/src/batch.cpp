@@ -557,10 +557,10 @@ void answer_all(Given& given, std::span<const Many* const> many, std::span<const
         if (now - started < std::chrono::microseconds(500) && size < 8192) size *= 2;
         if (now - started > std::chrono::milliseconds(20) && size > 1) size /= 2;
       }
-      if (watches && now - looked > kBetweenSignals) {
+      if (watches && !outer && now - looked > kBetweenSignals) {
         looked = now;
         const py::gil_scoped_acquire hold;
-        if (!outer && PyErr_CheckSignals() != 0) {
+        if (PyErr_CheckSignals() != 0) {
           raised.emplace();
           own.request();
         }

@@ -19,9 +19,8 @@ namespace vericone::python {
 namespace {
 
 PyObject* input_error_type() {
-  static constinit Imported the_type("vericone._errors", "InputError");
-  const py::object type = the_type.get();
-  return type.ptr();
+  static constinit Imported type("vericone._errors", "InputError");
+  return type.get().ptr();  // kept for ever
 }
 
 std::string signature_text(std::span<const Parameter> parameters) {

@@ -217,9 +217,8 @@ long long integer_from(PyObject* given, long long least, unsigned long long most
 bool Convert<bool>::from(PyObject* given, const Place& place) {
   if (given == Py_True) return true;
   if (given == Py_False) return false;
-  static constinit Imported the_numpy_bool("numpy", "bool_");
-  const py::object numpy_bool = the_numpy_bool.get();
-  if (!py::isinstance(given, numpy_bool)) wrong_type(place, "True or False", given);
+  static constinit Imported numpy_bool("numpy", "bool_");
+  if (!py::isinstance(given, numpy_bool.get())) wrong_type(place, "True or False", given);
   return PyObject_IsTrue(given) == 1;
 }
 
@@ -249,9 +248,10 @@ std::filesystem::path Convert<std::filesystem::path>::from(PyObject* given, cons
   return text_from(text, place);
 }
 PyObject* Convert<std::filesystem::path>::to(const std::filesystem::path& path) {
-  static constinit Imported the_make("pathlib", "Path");
-  const py::object make = the_make.get();
-  return make(py::reinterpret_steal<py::object>(Convert<std::string>::to(path.string()))).release().ptr();
+  static constinit Imported make("pathlib", "Path");
+  return make.get()(py::reinterpret_steal<py::object>(Convert<std::string>::to(path.string())))
+      .release()
+      .ptr();
 }
 bool Convert<std::filesystem::path>::could(PyObject* given) {
   return PyUnicode_Check(given) || PyBytes_Check(given) || PyObject_HasAttrString(given, "__fspath__");
@@ -395,13 +395,12 @@ Rational rational_from(PyObject* given, const Place& place) {
 }
 
 PyObject* rational_to(const Rational& x) {
-  static constinit Imported the_make("fractions", "Fraction");
-  const py::object make = the_make.get();
+  static constinit Imported make("fractions", "Fraction");
   const auto top =
       py::reinterpret_steal<py::object>(whole_to(WholeNumber(boost::multiprecision::numerator(x))));
   const auto bottom =
       py::reinterpret_steal<py::object>(whole_to(WholeNumber(boost::multiprecision::denominator(x))));
-  return make(top, bottom).release().ptr();
+  return make.get()(top, bottom).release().ptr();
 }
 
 }  // namespace vericone::python

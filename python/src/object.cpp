@@ -126,12 +126,12 @@ std::string brief(PyObject* part) {
   }
   // Python refuses to print integers of more than 4,300 digits.
   constexpr int kMostBits = 4000;
-  static constinit Imported the_fraction("fractions", "Fraction");
+  static constinit Imported fraction("fractions", "Fraction");
   const auto bits = [](const py::object& whole) { return whole.attr("bit_length")().cast<long long>(); };
   const auto value = py::reinterpret_borrow<py::object>(part);
   if (PyLong_CheckExact(part) && bits(value) > kMostBits)
     return "<integer of " + std::to_string(bits(value)) + " bits>";
-  if (py::isinstance(value, the_fraction.get())) {
+  if (py::isinstance(value, fraction.get())) {
     const long long top = bits(value.attr("numerator")), bottom = bits(value.attr("denominator"));
     if (std::max(top, bottom) > kMostBits)
       return "<fraction of " + std::to_string(top) + " and " + std::to_string(bottom) + " bits>";
@@ -472,10 +472,6 @@ std::string module_of(const std::string& space) {
   if (space == "verify") return "vericone_verify";
   return "vericone" + (space.empty() ? "" : "." + space);
 }
-
-}  // namespace
-
-namespace {
 
 /// The dictionary of a namespace of this module: "" or "guidance".
 py::dict names_of(const std::string& space) {

@@ -85,8 +85,8 @@ struct DerivedColumn {
   void (*write)(void* row, const void* record);
 };
 
-/// A new object, which the result owns. Not std::make_shared: what that instantiates for each type is a tenth
-/// of the time that compiling all modules takes.
+/// A new object, which the result owns. Not std::make_shared: 897 of the 5,285 functions that one generated
+/// source had were its, for each type again.
 [[nodiscard]] std::shared_ptr<void> own(void* object, void (*destroy)(void*));
 template <class T>
 [[nodiscard]] std::shared_ptr<void> own(T* object) {
