@@ -206,6 +206,31 @@ class Model:
     def enum(self, kind: Type) -> PyEnum | None:
         return self.enums.get(self.key(kind))
 
+    def needed(self) -> dict[str, set[str]]:
+        """Module: the other modules whose types are in its own, or in what its functions take and return."""
+        met: dict[str, set[str]] = {module: set() for _, module in rules.MODULES}
+
+        def meet(module: str, kind: Type) -> None:
+            for found in (self.record(kind), self.enum(kind)):
+                if found and found.module != module:
+                    met[module].add(found.module)
+            for inner in kind.arguments:
+                meet(module, inner)
+
+        calls = [(g, module) for (_, _, module), g in self.functions.items()]
+        for record in self.records.values():
+            for _, kind, *_ in record.fields:
+                meet(record.module, kind)
+            calls += [(g, record.module) for g in (*record.methods, Group("", record.constructors))]
+        for group, module in calls:
+            for call in group.overloads:
+                for kind in (call.result, *(a.type for a in call.arguments)):
+                    meet(module, kind)
+        for _ in met:  # and those that these need
+            for others in met.values():
+                others.update(*(met[other] for other in set(others)))
+        return {module: others - {module, "_core"} for module, others in met.items()}
+
     # Declarations -----------------------------------------------------------------------------------------
 
     def _declare(self) -> None:

@@ -320,6 +320,7 @@ def package(model: Model) -> dict[str, str]:
         spaces.setdefault(path[:-1], set()).add(module)
     for space, _, module in model.functions:
         spaces.setdefault(space, set()).add(module)
+    needed = model.needed()
     files: dict[str, str] = {}
     for module in {m for modules in spaces.values() for m in modules}:
         folder = "package_verify" if module == "_verify" else "package"
@@ -340,8 +341,9 @@ def package(model: Model) -> dict[str, str]:
             continue
         files[f"package/{name}.pyi"] = Stubs(model, space).text()
         title = f"vericone::{'::'.join(space)}" if space else "vericone"
+        others = {other for module in modules for other in needed[module]} - modules
         files[f"package/{name}.py"] = (
             f'# SPDX-License-Identifier: BSD-3-Clause\n"""The names of the C++ namespace {title}."""\n'
             "from vericone._load import fill as _fill\n\n"
-            f'_fill(globals(), "{".".join(space)}", {sorted(modules)!r})\n')
+            f'_fill(globals(), "{".".join(space)}", {sorted(others) + sorted(modules)!r})\n')
     return files

@@ -8,20 +8,14 @@
 #include <functional>
 #include <sstream>
 #include <string_view>
-#include <unordered_map>
 
 #include "call.h"
-#include "pybind.h"
+#include "module.h"
 
 namespace vericone::python {
 namespace {
 
-using Registry = std::unordered_map<std::string, std::unique_ptr<TypeInfo>>;
-
-Registry* registry = nullptr;
 PyTypeObject* base_type = nullptr;  // of all objects
-PyObject* module_names = nullptr;
-std::string module_name;
 
 // Tables of C keep what they point to for ever.
 std::deque<std::vector<PyGetSetDef>> getters;
@@ -139,11 +133,6 @@ std::string brief(PyObject* part) {
   return py::str(py::repr(value));
 }
 
-std::string short_name(const TypeInfo& info) {
-  const char* dot = std::strrchr(info.name, '.');
-  return dot ? dot + 1 : info.name;
-}
-
 PyObject* represent(PyObject* self) {
   const TypeInfo& info = info_of(self);
   try {
@@ -175,8 +164,10 @@ PyObject* reduce(PyObject* self, PyObject*) {
     if (!state || (!info_of(self).restore && !info_of(self).make))
       throw WrongType{"a " + short_name(info_of(self)) + " cannot be pickled: keep what it was made of"};
     const py::object restore = py::module_::import("vericone._core").attr("_restore");
-    return py::make_tuple(restore,
-                          py::make_tuple(py::handle(reinterpret_cast<PyObject*>(Py_TYPE(self))), state))
+    const auto given = py::make_tuple(py::handle(reinterpret_cast<PyObject*>(Py_TYPE(self))), state);
+    // Of a class that a program has derived: what it has set, too.
+    const py::object set = py::getattr(py::handle(self), "__dict__", py::none());
+    return (set.is_none() ? py::make_tuple(restore, given) : py::make_tuple(restore, given, set))
         .release()
         .ptr();
   } catch (...) {
@@ -184,15 +175,19 @@ PyObject* reduce(PyObject* self, PyObject*) {
   }
 }
 
+}  // namespace
+
 PyObject* restore(PyObject*, PyObject* arguments) {
   try {
     PyObject *type = nullptr, *state = nullptr;
     if (!PyArg_ParseTuple(arguments, "OO!:_restore", &type, &PyTuple_Type, &state)) return nullptr;
     const TypeInfo* info = nullptr;
-    for (const auto& entry : *registry)
-      if (reinterpret_cast<PyObject*>(entry.second->type) == type) info = entry.second.get();
+    for (auto* own = reinterpret_cast<PyTypeObject*>(type); PyType_Check(type) && own && !info;
+         own = own->tp_base)
+      info = info_of_type(own);
     if (!info || (!info->restore && !info->make)) throw WrongType{"there is nothing to restore of this type"};
-    if (info->restore) return new_instance(*info, info->restore(state));
+    auto* made = reinterpret_cast<PyTypeObject*>(type);
+    if (info->restore) return as_type(new_instance(*info, info->restore(state)), made);
     if (PyTuple_GET_SIZE(state) != static_cast<Py_ssize_t>(info->fields.size()))
       throw WrongType{"a " + short_name(*info) +
                       " has another number of fields: it was pickled by another version"};
@@ -203,11 +198,13 @@ PyObject* restore(PyObject*, PyObject* arguments) {
       if (!(part == Py_None && !field.converter->column))
         field.converter->from(static_cast<char*>(value.get()) + field.offset, part, {nullptr, field.name});
     }
-    return new_instance(*info, std::move(value));
+    return as_type(new_instance(*info, std::move(value)), made);
   } catch (...) {
     return raise_current();
   }
 }
+
+namespace {
 
 PyObject* copy(PyObject* self, PyObject*) {
   const TypeInfo& info = info_of(self);
@@ -331,10 +328,6 @@ PyMethodDef record_methods[] = {
      "replace($self, /, **fields)\n--\n\nAnother record, with these fields changed."},
     {nullptr, nullptr, 0, nullptr}};
 PyMethodDef no_methods[] = {{nullptr, nullptr, 0, nullptr}};
-PyMethodDef left_method = {"_left_behind",
-                           [](PyObject*, PyObject*) { return PyLong_FromLong(calls_left_behind()); },
-                           METH_NOARGS, "How many interrupted calls have not ended yet."};
-PyMethodDef restore_method = {"_restore", restore, METH_VARARGS, "For pickle."};
 
 PyObject* cannot_make(PyTypeObject* type, PyObject*, PyObject*) {
   const std::string makers = makers_text(type);
@@ -347,7 +340,9 @@ PyMemberDef base_members[] = {
     {"__weaklistoffset__", T_PYSSIZET, offsetof(Instance, weak_references), READONLY, nullptr},
     {nullptr, 0, 0, 0, nullptr}};
 
-void make_base_type() {
+}  // namespace
+
+PyTypeObject* make_base_type() {
   PyType_Slot slots[] = {{Py_tp_dealloc, reinterpret_cast<void*>(&destroy)},
                          {Py_tp_repr, reinterpret_cast<void*>(&represent)},
                          {Py_tp_richcompare, reinterpret_cast<void*>(&compare)},
@@ -359,11 +354,12 @@ void make_base_type() {
                          {0, nullptr}};
   PyType_Spec spec{"vericone._core._Object", sizeof(Instance), 0, Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE,
                    slots};
-  base_type = reinterpret_cast<PyTypeObject*>(PyType_FromSpec(&spec));
-  if (!base_type) throw py::error_already_set();
+  auto* type = reinterpret_cast<PyTypeObject*>(PyType_FromSpec(&spec));
+  if (!type) throw py::error_already_set();
+  return type;
 }
 
-}  // namespace
+void use_base_type(PyTypeObject* type) { base_type = type; }
 
 std::string Place::text() const {
   std::string text = outer ? outer->text() : "";
@@ -373,12 +369,6 @@ std::string Place::text() const {
 
 void wrong_type(const Place& place, const char* wanted, PyObject* given) {
   throw WrongType{place.text() + ": got " + std::string(Py_TYPE(given)->tp_name) + ", must be " + wanted};
-}
-
-TypeInfo& type_of(const std::type_info& type) {
-  auto& info = (*registry)[type.name()];
-  if (!info) info = std::make_unique<TypeInfo>();
-  return *info;
 }
 
 std::shared_ptr<void> own(void* object, void (*destroy)(void*)) { return {object, destroy}; }
@@ -465,45 +455,6 @@ PyObject* as_type(PyObject* made, PyTypeObject* type) {
   return self;
 }
 
-namespace {
-
-/// Where users find the names of a namespace.
-std::string module_of(const std::string& space) {
-  if (space == "verify") return "vericone_verify";
-  return "vericone" + (space.empty() ? "" : "." + space);
-}
-
-/// The dictionary of a namespace of this module: "" or "guidance".
-py::dict names_of(const std::string& space) {
-  const auto names = py::reinterpret_borrow<py::dict>(module_names);
-  if (!names.contains(space)) names[py::str(space)] = py::dict();
-  return names[py::str(space)];
-}
-
-/// "guidance.GuideMemory.Past": the namespaces are those of the names, the rest are types.
-void put(const char* name, const py::object& what) {
-  std::string space, rest = name;
-  py::object at;
-  for (std::size_t dot; (dot = rest.find('.')) != std::string::npos; rest.erase(0, dot + 1)) {
-    const std::string part = rest.substr(0, dot);
-    if (at)
-      at = at.attr(part.c_str());
-    else if (names_of(space).contains(part))
-      at = names_of(space)[part.c_str()];
-    else
-      space += (space.empty() ? "" : ".") + part;
-  }
-  what.attr("__module__") = module_of(space);
-  const std::string whole = name;
-  what.attr("__qualname__") = space.empty() ? whole : whole.substr(space.size() + 1);
-  if (at)
-    PyObject_SetAttrString(at.ptr(), rest.c_str(), what.ptr());
-  else
-    names_of(space)[rest.c_str()] = what;
-}
-
-}  // namespace
-
 void add_type(TypeInfo& info, const char* doc, PyMethodDef* methods, newfunc construct) {
   std::vector<PyGetSetDef>& fields = getters.emplace_back();
   for (Field& field : info.fields) fields.push_back({field.name, get_field, nullptr, field.doc, &field});
@@ -528,171 +479,6 @@ void add_type(TypeInfo& info, const char* doc, PyMethodDef* methods, newfunc con
       type.attr(method->ml_name) = bound;
     }
   put(info.name, py::reinterpret_borrow<py::object>(type));
-}
-
-void add_enum(const std::type_info& type, const char* name, const char* members, const char* doc) {
-  static constinit Imported the_make("vericone._enums", "NamedInt");
-  const py::object make = the_make.get();
-  TypeInfo& info = type_of(type);
-  info.name = name;
-  py::list pairs;
-  std::istringstream text(members);
-  std::string member;
-  for (long long value = 0; text >> member >> value;) pairs.append(py::make_tuple(member, value));
-  const py::object made = make(short_name(info), pairs);
-  made.attr("__doc__") = doc;
-  put(name, made);
-  for (const py::handle pair : pairs) {
-    const py::object value = pair[py::int_(1)];
-    info.members.emplace_back(value.cast<long long>(), made(value).release().ptr());
-  }
-  info.type = reinterpret_cast<PyTypeObject*>(made.inc_ref().ptr());
-}
-
-PyObject* enum_member(const TypeInfo& info, long long value) {
-  for (const auto& [number, member] : info.members)
-    if (number == value) return Py_NewRef(member);
-  return PyLong_FromLongLong(value);
-}
-
-long long enum_value(const TypeInfo& info, PyObject* given, const Place& place) {
-  const bool own = PyObject_TypeCheck(given, info.type);
-  if (!own && (!PyLong_CheckExact(given))) wrong_type(place, (std::string("a ") + info.name).c_str(), given);
-  const long long value = PyLong_AsLongLong(given);
-  if (value == -1 && PyErr_Occurred()) PyErr_Clear();
-  for (const auto& [number, member] : info.members)
-    if (number == value) return value;
-  std::string names;
-  for (const auto& [number, member] : info.members)
-    names += (names.empty() ? "" : ", ") + std::string(py::str(py::handle(member).attr("name")));
-  throw InputError(place.text(), py::str(py::handle(given)), "one of " + names);
-}
-
-void add_function(const char* space, PyMethodDef* method) {
-  const py::str name(module_of(space));
-  const auto function = py::reinterpret_steal<py::object>(PyCFunction_NewEx(method, nullptr, name.ptr()));
-  names_of(space)[method->ml_name] = function;
-}
-
-void add_constant(const char* space, const char* name, PyObject* value) {
-  names_of(space)[name] = py::reinterpret_steal<py::object>(value);
-}
-
-namespace {
-
-void begin_module(py::module_& module) {
-  module_name = py::str(module.attr("__name__"));
-  const py::dict names;
-  module.attr("_names") = names;
-  module_names = names.ptr();
-  if (module_name == "vericone._core") {
-    registry = new Registry;
-    make_base_type();
-    module.attr("_types") = py::capsule(registry);
-    module.attr("_Object") = py::handle(reinterpret_cast<PyObject*>(base_type));
-    const py::str name("vericone._core");
-    module.attr("_restore") =
-        py::reinterpret_steal<py::object>(PyCFunction_NewEx(&restore_method, nullptr, name.ptr()));
-    module.attr("_left_behind") =
-        py::reinterpret_steal<py::object>(PyCFunction_NewEx(&left_method, nullptr, name.ptr()));
-  } else {
-    const py::module_ core = py::module_::import("vericone._core");
-    registry = core.attr("_types").cast<py::capsule>().get_pointer<Registry>();
-    base_type = reinterpret_cast<PyTypeObject*>(core.attr("_Object").ptr());
-  }
-}
-
-}  // namespace
-
-PyObject* make_module(const char* name, void (*fill)()) noexcept {
-  try {
-    py::detail::get_internals();
-    py::detail::npy_api::get();
-    static py::module_::module_def definition;
-    auto module = py::module_::create_extension_module(name, nullptr, &definition);
-    begin_module(module);
-    fill();
-    return module.release().ptr();
-  } catch (py::error_already_set& error) {
-    py::raise_from(error, PyExc_ImportError, "initialization failed");
-  } catch (const std::exception& error) {
-    PyErr_SetString(PyExc_ImportError, error.what());
-  }
-  return nullptr;
-}
-
-// Rows of arrays of records. What a record has no room for makes it no row.
-
-namespace {
-
-template <class F>
-bool each_column(const TypeInfo& info, F&& f) {
-  for (const Field& field : info.fields)
-    if (!field.converter->column || !f(field.name, *field.converter->column)) return false;
-  for (const DerivedColumn& derived : info.derived)
-    if (!derived.column || !f(derived.name, *derived.column)) return false;
-  return true;
-}
-
-Py_ssize_t column_size(const Column& column) {
-  return column.record ? record_size(*column.record()) : column.size;
-}
-
-}  // namespace
-
-Py_ssize_t record_size(const TypeInfo& info) {
-  Py_ssize_t size = 0;
-  const bool all = each_column(info, [&](const char*, const Column& column) {
-    const Py_ssize_t part = column_size(column);
-    size += (part + 7) / 8 * 8;
-    return part > 0;
-  });
-  return all && !info.fields.empty() ? size : 0;
-}
-
-Reference record_dtype(const TypeInfo& info) {
-  py::list names, formats, offsets;
-  Py_ssize_t size = 0;
-  each_column(info, [&](const char* name, const Column& column) {
-    names.append(name);
-    if (column.record)
-      formats.append(as_pybind(record_dtype(*column.record())));
-    else
-      formats.append(column.format());
-    offsets.append(size);
-    size += (column_size(column) + 7) / 8 * 8;
-    return true;
-  });
-  py::dict description;
-  description["names"] = names;
-  description["formats"] = formats;
-  description["offsets"] = offsets;
-  description["itemsize"] = size;
-  const py::module_ numpy = py::module_::import("numpy");
-  return reference_to(
-      numpy.attr("dtype")(py::make_tuple(numpy.attr("record"), numpy.attr("dtype")(description))));
-}
-
-void write_record(void* row, const TypeInfo& info, const void* record) {
-  auto* at = static_cast<char*>(row);
-  for (const Field& field : info.fields) {
-    const Column& column = *field.converter->column;
-    column.write(at, static_cast<const char*>(record) + field.offset);
-    at += (column_size(column) + 7) / 8 * 8;
-  }
-  for (const DerivedColumn& derived : info.derived) {
-    derived.write(at, record);
-    at += (column_size(*derived.column) + 7) / 8 * 8;
-  }
-}
-
-void write_no_record(void* row, const TypeInfo& info) {
-  auto* at = static_cast<char*>(row);
-  each_column(info, [&](const char*, const Column& column) {
-    column.write_nothing(at);
-    at += (column_size(column) + 7) / 8 * 8;
-    return true;
-  });
 }
 
 }  // namespace vericone::python

@@ -211,15 +211,17 @@ def test_many_exact_vectors_are_asked_at_once() -> None:
         vericone.exact.membership(bodies[0], bodies[1], [[1, 0], [1, 1]])
 
 
+class Named(vericone.Ellipsoid):
+    """With a name of its own."""
+
+    label = "boat"
+
+
+class Careful(vericone.ConeOptions):
+    """A record."""
+
+
 def test_classes_can_be_derived_from() -> None:
-    class Named(vericone.Ellipsoid):
-        """With a name of its own."""
-
-        label = "boat"
-
-    class Careful(vericone.ConeOptions):
-        """A record."""
-
     class Watched(vericone.guidance.ConstantVelocityFilter):
         """One with a memory."""
 
@@ -231,3 +233,6 @@ def test_classes_can_be_derived_from() -> None:
     assert type(careful) is Careful and careful.tolerance == 1e-2 and PAIR.cone(careful) == PAIR.cone(vericone.ConeOptions(tolerance=1e-2))
     assert type(careful.replace(threads=2)) is vericone.ConeOptions
     assert type(Watched()) is Watched and not Watched().started()
+    for made in (boat, careful):
+        again = pickle.loads(pickle.dumps(made))
+        assert type(again) is type(made) and again == made and vars(again) == vars(made)

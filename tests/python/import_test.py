@@ -3,6 +3,10 @@
 
 import subprocess
 import sys
+from pathlib import Path
+
+import pytest
+import vericone
 
 HEAVY_LIBRARIES = ("Open3D", "libopencv", "libceres", "embree", "liboctomap", "libav", "libgdal", "libvtk")
 HEAVY_MODULES = ("matplotlib", "pandas", "scipy", "IPython", "cv2", "open3d", "pytest")
@@ -33,3 +37,25 @@ def test_beside_numpy_little_is_loaded() -> None:
     with_it, without = loaded("import vericone"), loaded("import numpy, enum, fractions")
     assert len(set(with_it[0]) - set(without[0])) <= 12
     assert len(set(with_it[1]) - set(without[1])) <= 40
+
+
+SPACES = sorted({path.stem for path in Path(vericone.__file__).parent.glob("*.pyi")} - {"__init__", "_root"})
+LOOKED_AT = """
+import enum
+for name, kind in vars(space).items():
+    if isinstance(kind, type) and not issubclass(kind, (enum.Enum, BaseException)) and not name.startswith("_"):
+        try:
+            value = kind()
+        except TypeError:  # it has no default
+            continue
+        repr(value)
+        for part in dir(value):
+            getattr(value, part)
+"""
+
+
+@pytest.mark.parametrize("name", [name for name in SPACES if not name.startswith("_")])
+def test_a_module_brings_the_types_of_its_records(name: str) -> None:
+    """Imported alone: what its records hold can be looked at, also where another module has its type."""
+    pytest.importorskip(f"vericone.{name}", reason=f"vericone.{name} is not built")
+    subprocess.run([sys.executable, "-c", f"import vericone.{name} as space\n{LOOKED_AT}"], check=True)
