@@ -237,7 +237,7 @@ Hierarchy::Hierarchy(std::vector<Node> nodes, std::vector<std::uint32_t> order)
         ++slots;
       }
     } else {
-      require(node.first > i && node.first + 1 < nodes_.size() && level[node.first] < 0 &&
+      require(node.first > i && std::size_t{node.first} + 1 < nodes_.size() && level[node.first] < 0 &&
                   level[node.first + 1] < 0,
               "children of node " + std::to_string(i), "children after their one parent");
       level[node.first] = level[node.first + 1] = level[i] + 1;

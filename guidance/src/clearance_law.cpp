@@ -11,6 +11,8 @@
 
 #include <vericone/guidance/plane_view.h>
 
+#include "check_numbers.h"
+
 namespace vericone::guidance {
 namespace {
 
@@ -165,6 +167,13 @@ double radius_rate(const Side& side, const Vector3d& n, const Vector3d& omega, c
 }
 
 }  // namespace
+
+void check(const ClearanceOptions& options) {
+  require_positive(options.gain, "gain", " (1/s)");
+  require_not_negative(options.required, "required", " (m)");
+  require_not_negative(options.beyond, "beyond", " (m)");
+  if (!(options.most > 0)) throw InputError("most", to_text(options.most), "positive (m/s^2)");
+}
 
 ClearanceCommand clearance_law(const BodyState& a, const BodyState& b, const ClearanceOptions& options,
                                const Vector3d& acceleration_b) {

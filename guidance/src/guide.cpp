@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "check_numbers.h"
+
 namespace vericone::guidance {
 namespace {
 
@@ -207,6 +209,20 @@ std::optional<GuideStep> on_plane(const BodyState& a, const BodyState& b, const 
 }
 
 }  // namespace
+
+void check(const GuideOptions& options) {
+  check(options.inversion);
+  if (!std::isfinite(options.mu)) throw InputError("mu", to_text(options.mu), "a finite number");
+  require_positive(options.gain_speed, "gain_speed", " (1/s)");
+  try {
+    check(options.clearance);
+  } catch (const InputError& e) {
+    throw e.within("clearance");
+  }
+  if (options.plane.planes < 1 || options.plane.planes > 10000)
+    throw InputError("plane.planes", std::to_string(options.plane.planes), "from 1 to 10000");
+  require_finite(options.plane.wind, "plane.wind", " (m/s)");
+}
 
 const char* to_string(Law law) {
   switch (law) {

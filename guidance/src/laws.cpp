@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/guidance/laws.h>
 
+#include <vericone/geometry/error.h>
 #include <algorithm>
 #include <cmath>
+
+#include "check_numbers.h"
 
 namespace vericone::guidance {
 namespace {
@@ -141,6 +144,15 @@ Shares shares_on_bisector(const RelativeMotion& v, LawStatus status, const LawOp
 }
 
 }  // namespace
+
+void check(const LawOptions& options) {
+  require_positive(options.gain, "gain", " (1/s)");
+  if (!(options.most > 0)) throw InputError("most", to_text(options.most), "positive (m/s^2)");
+  if (!std::isfinite(options.reference))
+    throw InputError("reference", to_text(options.reference), "a finite number");
+  if (std::isnan(options.cease)) throw InputError("cease", "nan", "a number");
+  if (options.side != 1 && options.side != -1) throw InputError("side", to_text(options.side), "1 or -1");
+}
 
 const char* to_string(LawStatus status) {
   switch (status) {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "check_numbers.h"
 #include "foresight.h"
 
 namespace vericone::guidance {
@@ -200,9 +201,45 @@ bool Navigator::search(const Moment& now, const Vector3d& wanted, double less_th
   return any && best > -kFar;
 }
 
+namespace {
+
+void require_course(const BodyState& body) {
+  require_finite(body.position, "position", " (m)");
+  require_finite(body.velocity, "velocity", " (m/s)");
+}
+
+}  // namespace
+
+Navigator::Navigator(const NavigatorOptions& options) : options_(options) {
+  if (options.required) require_not_negative(*options.required, "required", " (m)");
+  if (options.beyond) require_not_negative(*options.beyond, "beyond", " (m)");
+  if (!(options.most > 0)) throw InputError("most", to_text(options.most), "positive (m/s^2)");
+}
+
 NavigatorStep Navigator::step(const BodyState& agent, std::span<const BodyState> others,
                               const std::optional<Destination>& destination, double time, double step) {
   if (!(step > 0 && step < kFar)) throw InputError("step", to_text(step), "positive and finite (s)");
+  if (!std::isfinite(time)) throw InputError("time", to_text(time), "a finite number (s)");
+  if (destination) {
+    require_finite(destination->point, "destination.point", " (m)");
+    require_not_negative(destination->most, "destination.most", " (m/s^2)");
+  }
+  try {
+    require_course(agent);
+  } catch (const InputError& e) {
+    throw e.within("agent");
+  }
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    try {
+      require_course(others[i]);
+    } catch (const InputError& e) {
+      throw e.within("others[" + std::to_string(i) + "]");
+    }
+    if (others[i].planar() != agent.planar())
+      throw InputError("others[" + std::to_string(i) + "]",
+                       agent.planar() ? "a body in space" : "a planar body",
+                       agent.planar() ? "planar, as the agent is" : "a body in space, as the agent is");
+  }
   NavigatorStep result;
   Moment now;
   now.position = agent.position;

@@ -5,6 +5,7 @@
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/planar/sector.h>
 #include <vericone/cones/plane_cones.h>
+#include <vericone/geometry/stop.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -233,8 +234,10 @@ std::vector<PlaneCandidate> all_planes(const BodyState& a, const BodyState& b, S
   if (a.position == b.position) return all;
   const AxisFrame frame(b.position - a.position);
   const Planes seen(a, b, method, frame.axis, frame.e1);
-  for (int j = 0; j < planes; ++j)
+  for (int j = 0; j < planes; ++j) {
+    if (j % 256 == 255) checkpoint();
     if (const auto candidate = seen.at(std::numbers::pi * j / planes)) all.push_back(*candidate);
+  }
   return all;
 }
 

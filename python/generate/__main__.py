@@ -46,6 +46,7 @@ def main() -> None:
         write(os.path.join(out, name), text)
     own = [vars(n) for n in model.names if not n.cpp.startswith("verify::")]
     write(os.path.join(out, "names.json"), json.dumps(own, indent=1))
+    write(os.path.join(out, "overloads.json"), json.dumps(model.overloads(), indent=1))
     apart = [vars(n) for n in model.names if n.cpp.startswith("verify::")]
     write(os.path.join(out, "names_verify.json"), json.dumps(apart, indent=1))
 

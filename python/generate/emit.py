@@ -80,6 +80,13 @@ class Emitter:
                 condition = re.sub(rf"\b{a.name}\b", passed[i], condition)
             found.append(f'require({condition}, "{field}", "{got}", "{need}")')
         for i, a in enumerate(call.arguments):
+            if self.model.kind(a.type) == "function" and a.default is None:
+                found.append(f'require({passed[i]} != nullptr, "{a.name}", "None", "a callable")')
+            of = a.type.arguments[0] if self.model.kind(a.type) in ("span", "vector") else a.type
+            if of.plain().text() in rules.CHECKED:
+                check = f"[](const auto& one) {{ {rules.CHECKED[of.plain().text()]}(one); }}"
+                found.append(f'require_sound({passed[i]}, "{a.name}", {check})' if of is a.type else
+                             f'require_all_sound({passed[i]}, "{a.name}", {check})')
             if a.type.plain().text() in rules.REQUIRES_OF_TYPES:
                 condition, field, got, need = rules.REQUIRES_OF_TYPES[a.type.plain().text()]
                 found.insert(0, f'require({condition.format(passed[i])}, "{a.name}.{field}", "{got}", "{need}")')
@@ -145,7 +152,9 @@ class Emitter:
                 if a.role == "memory":
                     changed.append(variable)
             elif a.role == "changed":
-                lines.append(f"{self.storage(a.type)} {variable} = g.get<{self.storage(a.type)}>({i});")
+                storage = self.storage(a.type)
+                otherwise = f"g.has({i}) ? g.get<{storage}>({i}) : {storage}{{}}" if optional else f"g.get<{storage}>({i})"
+                lines.append(f"{storage} {variable} = {otherwise};")
                 changed.append(variable)
                 passed.append(variable)
             elif what == "class" and a.type.reference in ("", "&"):
@@ -204,7 +213,7 @@ class Emitter:
                 lines.append(f"{kind} asked{{}};")
                 braces = braces.replace("@asked", "&asked")
             what = self.model.kind(call.result)
-            accessor = (method and call.cpp.const and not call.arguments and record and not record.machine and not call.long_work and
+            accessor = (method and call.cpp.const and not call.arguments and record and not record.machine and call.work == "quick" and
                         (call.result.reference or what in ("number", "boolean", "enum", "integer", "text")))
             if call.cpp.constructor:
                 body = f"{requires}{';' if requires else ''} return own(new {object_type}({', '.join(passed)}));".replace("@asked", "&asked")
@@ -235,13 +244,16 @@ class Emitter:
                         lines.append(f"if (!{changed[0]}) return to_python(std::move(result));")
                     parts = ", ".join(["to_python(std::move(result))", *(f"to_python({c})" for c in changed)])
                     lines.append(f"return tuple_of({{{parts}}});")
+                elif self.full(call, record) in rules.KEEPS_SELF:
+                    lines.append("return keeping(to_python(std::move(result)), g.self);")
                 else:
                     lines.append("return to_python(std::move(result));")
         body = "\n  ".join(lines)
         function = f"PyObject* call_{number}([[maybe_unused]] Given& g) {{\n  {body}\n}}\n"
         parameters_table = (f"constexpr Parameter parameters_{number}[] = {{{', '.join(table)}}};\n" if table else
                             f"constexpr std::span<const Parameter> parameters_{number}{{}};\n")
-        return function + parameters_table, f"{{parameters_{number}, call_{number}{', true' if call.long_work else ''}}}", ""
+        work = "" if call.work == "quick" else f", Work::{call.work}"
+        return function + parameters_table, f"{{parameters_{number}, call_{number}{work}}}", ""
 
     def group(self, group: Group, record: Record | None, many_names: list[str]) -> tuple[str, str]:
         """C++ of a group of overloads, and its entry in a table of methods."""

@@ -53,7 +53,7 @@ class Callable_:
     doc: str
     many: bool = False      # takes one or many
     whole: str = ""         # a C++ call of its own for many vectors
-    long_work: bool = False
+    work: str = "quick"     # Work of call.h
     module: str = ""
 
 
@@ -135,6 +135,7 @@ class Model:
         self.enums: dict[str, PyEnum] = {}
         self.functions: dict[tuple[tuple[str, ...], str, str], Group] = {}
         self.constants: list[tuple[tuple[str, ...], Type, str, str]] = []  # path, type, comment, module
+        self.defined: list[Record] = []
         self.names: list[Name] = []
         self.problems: list[str] = []
         self._declare()
@@ -233,6 +234,16 @@ class Model:
 
     # Declarations -----------------------------------------------------------------------------------------
 
+    def overloads(self) -> dict[str, list[str]]:
+        """Name in Python: the parameters of each of its overloads, as C++ has them."""
+        groups = {".".join((*space, group.name)): group for (space, _, _), group in self.functions.items()}
+        for record in self.records.values():
+            groups |= {f"{record.name}.{group.name}": group for group in record.methods}
+            if record.constructors and not record.source.abstract:
+                groups[record.name] = Group("", record.constructors)
+        return {name: [", ".join(f"{a.type.text()} {a.name}" for a in call.arguments) for call in group.overloads]
+                for name, group in groups.items()}
+
     def _declare(self) -> None:
         for source in self.interface.enums:
             path = source.path
@@ -323,6 +334,12 @@ class Model:
             needs = field.default is None and self.kind(kind) in ("number", "integer", "boolean", "fixed", "enum")
             record.fields.append((field.name, kind, needs, field.doc, field.default))
             self.names.append(Name(name, "field", source.header, f"{record.name}.{python_name(field.name)}", "", field.doc))
+        base = self.records.get(record.base or "")
+        if base and base.is_record and not source.private_data:
+            if base.path not in {n.path for n in self.defined}:
+                self.problems.append(f"{full}: its base is defined after it")
+            record.fields = [*base.fields, *record.fields]
+        self.defined.append(record)
         groups: dict[str, Group] = {}
         for method in source.methods:
             name = f"{full}::{method.name}" if not method.constructor else f"{full}::{full.split('::')[-1]}"
@@ -405,7 +422,10 @@ class Model:
             instance = f"<{', '.join(values[p] for p in f.template)}>" if f.template else ""
             call = f"vericone::{full}{instance}"
         made = Callable_(python_name(f.name), f, call, arguments, result, f.doc, module=module_of(f.header))
-        made.long_work = full in rules.LONG or f.header.startswith("verify/")
+        if full in rules.LONG or f.header.startswith("verify/"):
+            made.work = "lasts"
+        elif any(self.kind(a.type) in ("vector", "span", "matrix", "text") for a in arguments):
+            made.work = "grows"
         made.whole = rules.WHOLE.get((full, len([a for a in arguments if a.role != "asked"])), "")
         question = record is None or f.const
         made.many = (question and not f.constructor and not f.static and full not in rules.SINGLE
@@ -422,6 +442,8 @@ class Model:
         if kind.reference == "*" and not kind.const:
             return "asked" if kind.name in rules.ASKED else "memory"
         if kind.reference == "&" and not kind.const:
+            return "changed"
+        if kind.name == "Eigen::Ref" and not kind.arguments[0].const and not kind.const:
             return "changed"
         if kind.name == "std::span" and not kind.arguments[0].const and not full.startswith("vericone::never"):
             return "changed"

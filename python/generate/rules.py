@@ -89,7 +89,7 @@ SKIPPED_OVERLOADS: dict[tuple[str, str], str] = {
     ("ConeOracle::memberships", parameters): "membership() takes arrays of any strides"
     for parameters in ("const double *, std::ptrdiff_t, std::span<Membership>, vericone::VectorWidth",
                        "std::span<const Eigen::Vector3d>, std::span<Membership>, vericone::VectorWidth")
-}
+} | {("min_volume_ellipsoid", "const std::vector<Eigen::Matrix<double, D, 1>> &, const vericone::MinVolumeOptions &"): "points are rows of one array in Python"}
 
 # Enumerations and records that are filled in through a pointer where the caller asks: rung=True.
 ASKED = ("vericone::Rung", "vericone::Effort")
@@ -97,25 +97,36 @@ ASKED = ("vericone::Rung", "vericone::Effort")
 NOT_QUESTIONS = ("Options", "Memory", "Gains", "Parameters", "Limits")
 # Functions that take one only, although their parameters look like questions.
 SINGLE: set[str] = set()
-# Functions that may take more than a few tenths of a second: they can be interrupted.
+# Functions that may take more than a few tenths of a second: they can be interrupted. Beside them, all that
+# take lists, where these are long.
 LONG: set[str] = {
-    "Assembly::boxes", "Assembly::cloud", "Assembly::mesh", "Assembly::polyhedra", "Body::containing_ellipsoid", "Hierarchy::Hierarchy",
-    "Pair::cone", "combined_cone", "combined_slice_cone", "cone_bounds", "cone_map", "mesh_section", "min_volume_ellipsoid",
-    "plane_intervals", "probability_of_passing_through", "regions", "region_around", "slice_cone",
-    "surface", "visible_cone", "volume",
+    "Assembly::boxes", "Assembly::cloud", "Assembly::mesh", "Assembly::polyhedra", "AssemblyOracle::extremes", "Body::containing_ellipsoid",
+    "Hierarchy::Hierarchy", "MeshWindow::cone", "Pair::cone", "Pair::directions", "combined_cone", "combined_slice_cone", "cone_bounds",
+    "cone_map", "convex_reach", "enclosed_volume", "mesh_section", "min_volume_ellipsoid", "part",
+    "plane_intervals", "probability_of_passing_through", "regions", "region_around", "rims", "slice_cone",
+    "surface", "to_obj", "to_ply", "true_cone", "visible_cone", "volume",
+    *(f"exact::{name}" for name in ("between_positive_roots", "distinct_positive_roots", "gcd", "positive_roots", "real_roots", "real_roots_in",
+                                    "squarefree_part", "sturm_chain", "RealRoot::RealRoot", "RealRoot::refine")),
+    "guidance::all_planes",
     "files::read_points", "files::triangle_mesh", "files::write_points", "octomap::boxes_by_kind", "octomap::obstacle_boxes", "octomap::read_octree",
     "fits::read_scan", "fits::write_fit", "fitting::check", "fitting::enclose", "fitting::fit", "fitting::containing_fit", "fitting::fit_surface",
     "fitting::convex_hull", "fitting::hull_to_scan", "fitting::scan_to_hull", "fitting::volume",
-    "lidar::MeshScene::MeshScene", "lidar::fuse", "lidar::scan", "lidar::visible_part",
-    "scanning::look", "scanning::plane_section_picture", "scanning::read_scan_scene", "scanning::study",
+    "fitting::enclosed_volume", "fits::body_text", "fits::describe",
+    "lidar::MeshScene::MeshScene", "lidar::fuse", "lidar::raster", "lidar::scan", "lidar::spinning", "lidar::visible_part",
+    "scanning::look", "scanning::plane_section_picture", "scanning::read_scan_scene", "scanning::scan_and_study", "scanning::scan_text",
+    "scanning::study", "scanning::write_scan",
     "scenario::read_scenario", "scenario::scenario_of_text", "scenario::write_run",
     "scenes::read_body", "scenes::read_scene", "scenes::scene_of_text", "scenes::write_body", "scenes::write_scene",
     "simulation::Vehicle::advance", "simulation::fly_trial", "simulation::largest_current", "simulation::prove", "simulation::prove_passage", "simulation::reach", "simulation::run_tables", "simulation::simulate",
     "montecarlo::fly", "montecarlo::fly_straight",
-    "vision::pursue",
+    "vision::Image::Image", "vision::Perception::start", "vision::Perception::step", "vision::Reader::next", "vision::Scene::Scene",
+    "vision::Scene::render", "vision::Tracker::start", "vision::Tracker::step", "vision::VideoWriter::add", "vision::VideoWriter::close",
+    "vision::draw_sighting", "vision::grey_of", "vision::open_footage", "vision::pursue", "vision::read_picture", "vision::write_picture",
 }
 # Calls of C++ for many vectors at once, by the function for one and its number of parameters.
 WHOLE = {("ConeOracle::membership", 1): "memberships"}
+# Methods whose results refer to the object.
+KEEPS_SELF = {"simulation::VehicleModel::launch"}
 # Classes whose const calls change what nobody sees: one call at a time too.
 MACHINES = {"PlaneCones"}
 
@@ -133,6 +144,8 @@ REQUIRES: dict[str, tuple[str, str, str, str]] = {
     "simulation::Vehicle::advance": ("from_ >= 0 && to >= from_ && to - from_ <= 1e5", "to", "no time after from", "from the time reached, to a "
                                      "later one, less than 1e5 s on"),
     "Interval::between": ("!(lo > hi)", "lo", "above hi", "at most hi"),
+    "guidance::all_planes": ("planes >= 1", "planes", "less", "at least 1"),
+    "guidance::choose_plane": ("options.planes >= 1 && options.planes <= 10'000", "options.planes", "others", "from 1 to 10000"),
     "guidance::planar_rates": ("state.r > 0", "state.r", "no positive number", "positive (m)"),
     "guidance::plane_states": ("a.position != b.position && ((a.planar() && b.planar()) || !(b.position - a.position).cross(across).isZero(0))",
                                "across", "bodies in one place, or a direction along their line", "across the line between bodies apart"),
@@ -146,8 +159,15 @@ REQUIRES: dict[str, tuple[str, str, str, str]] = {
     "exact::between": ("compare(lo, hi) < 0 && (lo.numerator >= 0 || hi.numerator <= 0)", "lo, hi", "others", "lo < hi, of one sign"),
     "exact::Dyadic::of": ("std::isfinite(finite)", "finite", "no finite number", "finite"),
     "exact::grid_exponent": ("std::isfinite(x)", "x", "no finite number", "finite"),
-    "exact::on_grid": ("std::isfinite(x) && std::abs(e) <= 10000", "x, e", "no finite number, or a grid beyond doubles",
-                       "a finite multiple of 2^e, e between -10000 and 10000"),
+    "exact::on_grid": ("std::isfinite(x) && std::abs(e) <= 10000 && (x == 0 || e <= vericone::exact::grid_exponent(x, e))", "x, e",
+                       "no such number, or a grid beyond doubles", "a finite multiple of 2^e, e between -10000 and 10000"),
+    "AssemblyOracle::extreme": ("std::abs(axis.squaredNorm() - 1) < 1e-9 && std::abs(side.squaredNorm() - 1) < 1e-9 && std::abs(axis.dot(side)) < 1e-9",
+                                "axis, side", "others", "orthonormal"),
+    "simulation::paired": ("first.size == second.size", "second", "another number of them", "as many as first has"),
+    "octomap::kind_of": ("!std::isnan(cell.log_odds)", "cell.log_odds", "nan", "a number"),
+    "guidance::singer_noise": ("std::isfinite(alpha) && alpha > 0 && variance >= 0 && std::isfinite(variance) && dt >= 0 && std::isfinite(dt)",
+                               "alpha, variance, dt", "others", "finite: alpha positive (1/s), variance and dt (s) from 0 up"),
+    **{f"vision::Tracker::{name}": ("!ground || ground->allFinite()", "ground", "a number that is not finite", "finite, or None") for name in ("step",)},
     "exact::direction_on_grid": ("[](const auto& x) { if constexpr (requires { x.allFinite(); }) return x.allFinite(); else return true; }(v)", "v",
                                  "a number that is not finite", "finite"),
     "exact::difference_on_grid": ("x.allFinite() && y.allFinite()", "x, y", "a number that is not finite", "finite"),
@@ -193,3 +213,6 @@ REQUIRES: dict[str, tuple[str, str, str, str]] = {
 REQUIRES_OF_TYPES: dict[str, tuple[str, str, str, str]] = {
     "vericone::exact::Dyadic": ("{0}.exponent <= 100'000", "exponent", "more", "at most 100000"),
 }
+# Types that the library checks itself, if it is asked to, and by what: every argument of theirs, and lists of them, are.
+CHECKED: dict[str, str] = {f"vericone::guidance::{name}": "vericone::guidance::check" for name in ("BodyState", "ClearanceOptions", "GuideOptions",
+                                                                                              "LawOptions")}

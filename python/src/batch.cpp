@@ -46,13 +46,11 @@ void Many::read_numbers(PyObject* given, const Place& place) {
   const std::string wanted = scalar_ ? "a number or an array of real numbers"
                                      : "of shape (" + std::to_string(components_) + ",) or (..., " +
                                            std::to_string(components_) + ")";
-  if (!py::detail::npy_api::get().PyArray_Check_(given)) {
-    if (!is_sequence(given) && !PyObject_HasAttrString(given, "__array__"))
-      wrong_type(place, ("an array " + wanted).c_str(), given);
-    array_ = strict_array(given, place);
-  } else {
-    array_ = Reference::to(given);
-  }
+  if (!is_sequence(given) && !py::detail::npy_api::get().PyArray_Check_(given))
+    wrong_type(place, ("an array " + wanted).c_str(), given);
+  array_ = strict_array(given, place);
+  if (!scalar_ && PyList_Check(given) && PyList_GET_SIZE(given) == 0)  // none, of any number of components
+    array_ = Reference(py::array_t<double>(std::vector<Py_ssize_t>{0, components_}).release().ptr());
   auto array = as_pybind<py::array>(array_);
   const char kind = array.dtype().kind();
   if ((kind != 'f' && kind != 'i' && kind != 'u') || (kind == 'f' && array.itemsize() > 8))
@@ -66,7 +64,12 @@ void Many::read_numbers(PyObject* given, const Place& place) {
              (d + 1 < dimensions || d == 0 ? ", " : "");
     if (dimensions > 1 || own.ends_with(", "))
       own = own.ends_with(", ") ? own.substr(0, own.size() - 1) : own;
-    throw InputError(place.text(), "an array of shape " + own + ")", wanted);
+    throw Unfit(place.text(), "an array of shape " + own + ")", wanted);
+  }
+  if (!scalar_ && dimensions == 1) {  // one, of what is no array
+    fixed_from(array.ptr(), components_, 1, numbers_, place);
+    one_ = numbers_;
+    return;
   }
   // Halves, and numbers of another byte order, become doubles first: rare, and exact.
   const py::dtype type = array.dtype();
@@ -571,7 +574,7 @@ void answer_all(Given& given, std::span<const Many* const> many, std::span<const
 
   std::optional<py::error_already_set> raised;
   {
-    const py::gil_scoped_release quiet;
+    const Released quiet;
     const std::lock_guard hold(given.machines);
     // Machines: one call at a time.
     const auto useful = given.machines.none() ? std::clamp<Py_ssize_t>(walk.count(), 1, threads) : 1;

@@ -37,6 +37,22 @@ inline void require(bool holds, const char* field, const char* given, const char
   if (!holds) throw InputError(field, given, requirement);
 }
 
+/// The library's own check() of an argument, which names the part.
+template <class T, class Check>
+void require_sound(const T& argument, const char* name, Check&& check) {
+  try {
+    check(argument);
+  } catch (const InputError& e) {
+    throw e.within(name);
+  }
+}
+
+template <class List, class Check>
+void require_all_sound(const List& list, const char* name, Check&& check) {
+  std::size_t i = 0;
+  for (const auto& one : list) require_sound(one, (name + ("[" + std::to_string(i++) + "]")).c_str(), check);
+}
+
 /// A function of the vectorcall convention, as a table of methods holds it.
 inline PyCFunction method(PyObject* (*function)(PyObject*, PyObject* const*, Py_ssize_t, PyObject*)) {
   return reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(function));

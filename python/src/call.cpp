@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "call.h"
 
-#include "pybind.h"
+#include "module.h"
 
 #include <unistd.h>
 #include <vericone/geometry/error.h>
@@ -63,14 +63,12 @@ struct Aside {
   Aside& operator=(const Aside&) = delete;
 };
 
-std::atomic<int> left_behind = 0;
-
 /// Waits for it when Python ends: until then its steps and what it holds are there.
 void leave(std::thread worker) {
   static auto& left = *new std::vector<std::thread>;
   static const pid_t process = [] {
     py::module_::import("atexit").attr("register")(py::cpp_function([] {
-      const py::gil_scoped_release quiet;
+      const Released quiet;
       if (getpid() != process) return;  // a fork has none of these threads
       for (std::thread& one : left) one.join();
       left.clear();
@@ -99,7 +97,7 @@ PyObject* call_aside(const Overload& overload, Given& given) {
     {
       const std::lock_guard lock(aside->mutex);
       aside->ended = true;
-      if (aside->left) --left_behind;
+      if (aside->left) --shared().left_behind;
     }
     aside->condition.notify_all();
     aside.reset();  // here: the global lock is held
@@ -109,7 +107,7 @@ PyObject* call_aside(const Overload& overload, Given& given) {
   bool ended = false;
   while (true) {
     {
-      const py::gil_scoped_release quiet;
+      const Released quiet;
       std::unique_lock lock(aside->mutex);
       ended = aside->condition.wait_for(lock, kBetweenSignals, [&] { return aside->ended; });
     }
@@ -124,10 +122,10 @@ PyObject* call_aside(const Overload& overload, Given& given) {
     const std::lock_guard lock(aside->mutex);
     ended = aside->ended;
     aside->left = !ended;
-    left_behind += !ended;
+    shared().left_behind += !ended;
   }
   if (ended) {
-    const py::gil_scoped_release quiet;
+    const Released quiet;
     worker.join();
   } else {
     leave(std::move(worker));
@@ -142,25 +140,41 @@ PyObject* dispatch(const char* name, std::span<const Overload> overloads, PyObje
                    PyObject* const* positional, Py_ssize_t n, PyObject* names, PyObject* const* named,
                    PyTypeObject* type = nullptr) noexcept {
   try {
-    std::string why, last;
+    std::string why, last;  // of the overload that most arguments fit
+    std::size_t most = 0;
+    const auto refuse = [&](std::size_t fitting, const std::string& message) {
+      if (last.empty() || fitting >= most) last = message;
+      most = std::max(most, fitting);
+    };
+    std::optional<InputError> unfit;
     for (const Overload& overload : overloads) {
       Given given;
       given.self = self;
-      if (!given.bind(overload.parameters, positional, n, names, named, why)) {
-        last = why;
+      std::size_t fitting = 0;
+      if (!given.bind(overload.parameters, positional, n, names, named, why, fitting)) {
+        refuse(fitting, why);
         continue;
       }
       try {
-        PyObject* answer =
-            overload.long_work && in_main_thread() ? call_aside(overload, given) : overload.call(given);
+        const bool lasts =
+            overload.work == Work::lasts || (overload.work == Work::grows && given.long_lists());
+        PyObject* answer = lasts && in_main_thread() ? call_aside(overload, given) : overload.call(given);
         if (!answer && !PyErr_Occurred()) throw WrongType{"no answer"};
+        shared().answered = static_cast<int>(&overload - overloads.data());
         if (answer && type) reinterpret_cast<Instance*>(answer)->made = std::move(given.made());
         return answer;
       } catch (const WrongType& wrong) {
         if (overloads.size() == 1) throw;
-        last = wrong.message;
+        refuse(overload.parameters.size() + 1, wrong.message);
+      } catch (const Unfit& wrong) {
+        if (overloads.size() == 1) throw;
+        if (!unfit || unfit->field() != wrong.field())
+          unfit.emplace(wrong);
+        else if (unfit->requirement().find(wrong.requirement()) == std::string::npos)
+          unfit.emplace(wrong.field(), wrong.value(), unfit->requirement() + " or " + wrong.requirement());
       }
     }
+    if (unfit) throw InputError(*unfit);
     std::string message = std::string(name) + "(): " + last;
     if (overloads.size() > 1) {
       std::vector<std::string> known;  // some differ by types alone
@@ -170,7 +184,7 @@ PyObject* dispatch(const char* name, std::span<const Overload> overloads, PyObje
       }
       message = std::string(name) + "(): these arguments fit none of";
       for (const std::string& text : known) message += (&text == known.data() ? " " : "; ") + text;
-      message += "; the last: " + last;
+      message += "; the nearest: " + last;
     }
     const std::string makers = type ? makers_text(type) : "";
     if (!makers.empty()) message += "; or use " + makers.substr(2);
@@ -182,12 +196,10 @@ PyObject* dispatch(const char* name, std::span<const Overload> overloads, PyObje
 
 }  // namespace
 
-int calls_left_behind() { return left_behind; }
-
 // Arguments ------------------------------------------------------------------------------------------------
 
 bool Given::bind(std::span<const Parameter> parameters, PyObject* const* positional, Py_ssize_t n,
-                 PyObject* names, PyObject* const* named, std::string& why) {
+                 PyObject* names, PyObject* const* named, std::string& why, std::size_t& fitting) {
   parameters_ = parameters;
   Py_ssize_t most = 0;
   for (const Parameter& p : parameters) most += !p.keyword_only;
@@ -221,6 +233,7 @@ bool Given::bind(std::span<const Parameter> parameters, PyObject* const* positio
             ", which it does not take";
       return false;
     }
+    ++fitting;
   }
   return true;
 }
@@ -233,6 +246,17 @@ void* Given::object(int i, const TypeInfo& info) {
   else
     machines.add(this->value(i));
   return value;
+}
+
+bool Given::long_lists() const {
+  constexpr Py_ssize_t kLong = 500;  // a cubic algorithm takes a tenth of a second then
+  for (PyObject* value : values_) {
+    if (!value || !(is_sequence(value) || PyUnicode_Check(value))) continue;
+    const Py_ssize_t n = PyObject_Size(value);
+    if (n < 0) PyErr_Clear();
+    if (n > kLong) return true;
+  }
+  return false;
 }
 
 void Given::keep() {
@@ -282,10 +306,15 @@ PyObject* construct(const char* name, std::span<const Overload> overloads, PyTyp
   PyObject* made = dispatch(name, overloads, nullptr, PySequence_Fast_ITEMS(arguments),
                             PyTuple_GET_SIZE(arguments), names.ptr(), values.data(), type);
   if (!made) return nullptr;
-  // Some classes refer to what they were made of.
-  reinterpret_cast<Instance*>(made)->kept = PyTuple_Pack(2, arguments, named ? named : Py_None);
   try {
-    return as_type(made, type);
+    // Some classes refer to objects that they were made of. Arrays are copied.
+    py::list kept;
+    const auto keep = [&](PyObject* given) {
+      if (!py::isinstance<py::array>(given)) kept.append(py::handle(given));
+    };
+    for (Py_ssize_t i = 0; i < PyTuple_GET_SIZE(arguments); ++i) keep(PyTuple_GET_ITEM(arguments, i));
+    for (PyObject* value : values) keep(value);
+    return as_type(keeping(made, kept.ptr()), type);
   } catch (...) {
     return raise_current();
   }
@@ -347,7 +376,7 @@ Quiet::Quiet(Machines& machines) : machines_(machines), state_(PyEval_SaveThread
 
 Quiet::~Quiet() {
   machines_.unlock();
-  PyEval_RestoreThread(state_);
+  take_back(state_);
 }
 
 PyObject* tuple_of(std::initializer_list<PyObject*> parts) {

@@ -20,10 +20,16 @@ struct Parameter {
 };
 
 class Given;
+/// Whether a call may take more than a few tenths of a second, so that Ctrl-C has to end it.
+enum class Work : std::uint8_t {
+  quick,
+  grows,  // where its lists are long
+  lasts
+};
 struct Overload {
   std::span<const Parameter> parameters;
   PyObject* (*call)(Given&);
-  bool long_work = false;  // may take more than a few tenths of a second: Ctrl-C ends it
+  Work work = Work::quick;
 };
 
 /// The arguments of one call.
@@ -67,10 +73,13 @@ class Given {
   [[nodiscard]] bool wants(int i) const { return has(i) && Convert<bool>::from(values_[i], place(i)); }
   [[nodiscard]] int threads(int i) const;
 
-  /// Binds; false where they do not fit these parameters, and `why` says it.
+  /// Binds; false where they do not fit these parameters: `why` says it, and `fitting` of them, at the
+  /// beginning, do.
   bool bind(std::span<const Parameter> parameters, PyObject* const* positional, Py_ssize_t n, PyObject* names,
-            PyObject* const* named, std::string& why);
+            PyObject* const* named, std::string& why, std::size_t& fitting);
 
+  /// Whether a list, an array or a text among the arguments is so long that work on it may last.
+  [[nodiscard]] bool long_lists() const;
   /// Holds on to all arguments: this goes to another thread.
   void keep();
 
@@ -98,6 +107,9 @@ PyObject* construct_record(const TypeInfo& info, PyTypeObject* type, PyObject* a
 /// A method about many objects: the first argument is the object, or a list of them.
 PyObject* call_many(const char* name, std::span<const Overload> overloads, PyObject* const* arguments,
                     Py_ssize_t n, PyObject* names) noexcept;
+/// Which overload has answered the last call (with the global lock held): asked by tests, which reach them
+/// all.
+[[nodiscard]] int answered_overload();
 /// How many calls were interrupted and left to themselves, and have not ended yet.
 [[nodiscard]] int calls_left_behind();
 /// What is being thrown, as an exception of Python; returns null.

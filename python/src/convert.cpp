@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "convert.h"
-
+#include "call.h"
 #include "pybind.h"
 
 #include <vericone/geometry/error.h>
 #include <algorithm>
 #include <bit>
+#include <set>
 
 namespace vericone::python {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kNumber = "a real number that a double holds exactly";
 
 [[noreturn]] void rounded(const Place& place, const std::string& value) {
-  throw InputError(place.text(), value, kNumber);
+  throw Unfit(place.text(), value, kNumber);
 }
 
 /// In one line, and short.
@@ -31,6 +31,25 @@ std::string shown(PyObject* given) {
 
 bool is_array(PyObject* given) { return py::detail::npy_api::get().PyArray_Check_(given); }
 
+/// What is no array and says what array it is: of pandas, a memoryview, an array.array.
+bool is_array_like(PyObject* given) {
+  static PyObject* const name = PyUnicode_InternFromString("__array__");
+  static constinit Imported scalar("numpy", "generic");
+  if (is_array(given) || PyUnicode_Check(given) || PyBytes_Check(given) || PyByteArray_Check(given))
+    return false;
+  if (!_PyType_Lookup(Py_TYPE(given), name) && !PyObject_CheckBuffer(given)) return false;
+  return !py::isinstance(given, scalar.get());
+}
+
+/// No values stand below a mask.
+void require_unmasked(PyObject* array, const Place& place) {
+  static constinit Imported masked("numpy.ma", "MaskedArray"), any("numpy", "any");
+  if (Py_TYPE(array) == py::detail::npy_api::get().PyArray_Type_ || !py::isinstance(array, masked.get()))
+    return;
+  if (py::bool_(any.get()(py::handle(array).attr("mask"))))
+    throw InputError(place.text(), "an array with masked values", "without: leave them out, or fill them");
+}
+
 constinit Imported asarray("numpy", "asarray"), contiguous("numpy", "ascontiguousarray"),
     absolute("numpy", "abs");
 
@@ -41,6 +60,18 @@ std::string shape_text(std::span<const Py_ssize_t> shape) {
   return (shape.size() == 1 ? text.substr(0, text.size() - 1) : text) + ")";
 }
 
+/// Refuses integers of an array that no double may hold, and wider numbers.
+py::array exact_doubles(PyObject* given, const Place& place) {
+  const auto array = py::reinterpret_borrow<py::array>(given);
+  const char kind = array.dtype().kind();
+  if (kind == 'f' && array.itemsize() > 8)
+    throw InputError(place.text(), "an array of " + std::string(py::str(array.dtype())), kNumber);
+  if ((kind == 'i' || kind == 'u') && array.itemsize() == 8 && array.size() > 0 &&
+      !py::bool_(py::int_(absolute.get()(array).attr("max")()) <= py::int_(std::uint64_t{1} << 53)))
+    throw InputError(place.text(), "an integer beyond 2^53", kNumber);
+  return array;
+}
+
 /// Names the first number of a list that is no double.
 void check_numbers(PyObject* given, const Place& place, int depth = 0) {
   if (depth > 8) return;
@@ -49,6 +80,8 @@ void check_numbers(PyObject* given, const Place& place, int depth = 0) {
     if (type.kind() == 'O') {
       const py::object list = py::handle(given).attr("tolist")();
       if (PyList_Check(list.ptr())) check_numbers(list.ptr(), place, depth + 1);
+    } else if (type.itemsize() >= 8 && type.kind() != 'c') {
+      (void)exact_doubles(given, place);  // numpy makes doubles of them where others are
     }
     return;
   }
@@ -71,11 +104,11 @@ Numbers<T> numbers_of(const py::array& array) {
 py::array array_from(PyObject* given, std::span<const Py_ssize_t> shape, const Place& place, bool whole) {
   py::object array;
   if (is_array(given)) {
+    require_unmasked(given, place);
     array = py::reinterpret_borrow<py::object>(given);
   } else {
-    if (!is_sequence(given) && !PyObject_HasAttrString(given, "__array__"))
-      wrong_type(place, ("an array of shape " + shape_text(shape)).c_str(), given);
-    if (!whole) check_numbers(given, place);
+    if (!is_sequence(given)) wrong_type(place, ("an array of shape " + shape_text(shape)).c_str(), given);
+    if (!whole && !is_array_like(given)) check_numbers(given, place);
     try {
       array = asarray.get()(py::handle(given));
     } catch (py::error_already_set& error) {
@@ -102,12 +135,12 @@ py::array array_from(PyObject* given, std::span<const Py_ssize_t> shape, const P
     fits = shape[i] < 0 || numbers.shape(static_cast<Py_ssize_t>(i)) == shape[i];
   if (!fits) {
     std::vector<Py_ssize_t> own(numbers.shape(), numbers.shape() + numbers.ndim());
-    throw InputError(place.text(), "an array of shape " + shape_text(own), "of shape " + shape_text(shape));
+    throw Unfit(place.text(), "an array of shape " + shape_text(own), "of shape " + shape_text(shape));
   }
   if (whole ? kind == 'u' && numbers.itemsize() == 8 : kind != 'f' && numbers.itemsize() == 8) {
     const auto most = whole ? std::uint64_t{1} << 63 : std::uint64_t{1} << 53;
-    const py::object wide = absolute.get()(numbers);
-    if (numbers.size() > 0 && !py::bool_(wide.attr("max")() <= py::int_(most)))
+    // As an int: numpy compares unsigned numbers with others as doubles.
+    if (numbers.size() > 0 && !py::bool_(py::int_(absolute.get()(numbers).attr("max")()) <= py::int_(most)))
       throw InputError(place.text(), "an integer beyond " + std::string(whole ? "2^63" : "2^53"), kNumber);
   }
   return contiguous.get()(numbers, py::dtype(whole ? "i8" : "f8"));
@@ -116,7 +149,11 @@ py::array array_from(PyObject* given, std::span<const Py_ssize_t> shape, const P
 }  // namespace
 
 Reference strict_array(PyObject* given, const Place& place) {
-  check_numbers(given, place);
+  if (is_array(given)) {
+    require_unmasked(given, place);
+    return Reference::to(given);
+  }
+  if (!is_array_like(given)) check_numbers(given, place);
   try {
     return reference_to(asarray.get()(py::handle(given)));
   } catch (py::error_already_set& error) {
@@ -133,8 +170,9 @@ bool is_number(PyObject* given) {
 bool is_sequence(PyObject* given) {
   if (PyList_Check(given) || PyTuple_Check(given)) return true;
   if (is_array(given)) return py::detail::array_proxy(given)->nd > 0;
-  return PySequence_Check(given) && !PyUnicode_Check(given) && !PyBytes_Check(given) &&
-         !PyByteArray_Check(given) && !PyDict_Check(given);
+  if (PyUnicode_Check(given) || PyBytes_Check(given) || PyByteArray_Check(given) || PyDict_Check(given))
+    return false;
+  return PySequence_Check(given) || is_array_like(given);
 }
 
 Reference fast_sequence(PyObject* given, const Place& place) {
@@ -163,8 +201,14 @@ PyObject* list_to(const void* first, std::size_t count, std::size_t size, PyObje
 
 double number_from(PyObject* given, const Place& place) {
   if (PyFloat_Check(given)) return PyFloat_AS_DOUBLE(given);
-  if (PyBool_Check(given) || PyUnicode_Check(given) || PyComplex_Check(given) || is_sequence(given))
+  static constinit Imported truth("numpy", "bool_");
+  if (PyBool_Check(given) || PyUnicode_Check(given) || PyComplex_Check(given) || is_sequence(given) ||
+      py::isinstance(given, truth.get()))
     wrong_type(place, "a real number", given);
+  if (is_array(given) && py::reinterpret_borrow<py::array>(given).dtype().kind() == 'O')
+    wrong_type(place, "a real number", given);
+  if (is_array(given))  // of no axes
+    return number_from(py::object(py::handle(given).attr("item")()).ptr(), place);
   if (PyIndex_Check(given)) {
     const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(given));
     if (!whole) throw py::error_already_set();
@@ -244,7 +288,11 @@ std::filesystem::path Convert<std::filesystem::path>::from(PyObject* given, cons
     wrong_type(place, "a path", given);
   }
   const auto held = py::reinterpret_steal<py::object>(text);
-  if (PyBytes_Check(text)) return std::string(PyBytes_AS_STRING(text));
+  if (PyBytes_Check(text)) {
+    if (std::strlen(PyBytes_AS_STRING(text)) != static_cast<std::size_t>(PyBytes_GET_SIZE(text)))
+      wrong_type(place, "a path, without zeros", given);
+    return std::string(PyBytes_AS_STRING(text));
+  }
   return text_from(text, place);
 }
 PyObject* Convert<std::filesystem::path>::to(const std::filesystem::path& path) {
@@ -281,6 +329,7 @@ PyObject* doubles_to(const double* data, std::span<const Py_ssize_t> shape) {
 void fixed_from(PyObject* given, int rows, int columns, double* out, const Place& place) {
   const int count = rows * columns;
   if (is_array(given)) {
+    require_unmasked(given, place);
     const auto* array = py::detail::array_proxy(given);
     if (columns == 1 && array->nd == 1 && array->dimensions[0] == rows && array->strides[0] == 8 &&
         py::detail::array_descriptor_proxy(array->descr)->type == 'd' &&
@@ -311,6 +360,37 @@ Eigen::Isometry3d Convert<Eigen::Isometry3d>::from(PyObject* given, const Place&
   Eigen::Isometry3d t;
   t.matrix() = m;
   return t;
+}
+
+namespace {
+
+struct HeldFunction {
+  std::shared_ptr<void> function;
+  PyObject* (*call)(void*, PyObject*);
+};
+
+PyObject* call_held(PyObject* capsule, PyObject* arguments) {
+  const auto* held = static_cast<const HeldFunction*>(PyCapsule_GetPointer(capsule, nullptr));
+  try {
+    return held->call(held->function.get(), arguments);
+  } catch (...) {
+    return raise_current();
+  }
+}
+
+}  // namespace
+
+PyObject* function_to(std::shared_ptr<void> function, PyObject* (*call)(void*, PyObject*)) {
+  static PyMethodDef method = {"function", call_held, METH_VARARGS, "A function of the library."};
+  auto held = std::make_unique<HeldFunction>(HeldFunction{std::move(function), call});
+  const py::capsule capsule(held.get(), [](void* at) { delete static_cast<HeldFunction*>(at); });
+  held.release();
+  return PyCFunction_New(&method, capsule.ptr());
+}
+
+const char* kept_text(const std::string& text) {
+  static auto& kept = *new std::set<std::string>;
+  return kept.insert(text).first->c_str();
 }
 
 Callable::Callable(PyObject* function)

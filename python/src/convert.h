@@ -20,6 +20,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -44,7 +45,15 @@ inline constexpr bool kIsColumn = !std::is_same_v<decltype(Convert<T>::kColumn),
 [[nodiscard]] long long integer_from(PyObject* given, long long least, unsigned long long most,
                                      const Place& place);
 [[nodiscard]] std::string text_from(PyObject* given, const Place& place);
-/// An array of what is none, each number of which is a double.
+/// For ever, once: names that C++ has as constants.
+[[nodiscard]] const char* kept_text(const std::string& text);
+/// An array of another shape than a parameter takes, or a number that no double is: the next overload is
+/// tried, and none is this.
+class Unfit : public InputError {
+ public:
+  using InputError::InputError;
+};
+/// An array as it is; one of what is none, each number of which is a double.
 [[nodiscard]] Reference strict_array(PyObject* given, const Place& place);
 /// Numbers in C order, rows x columns of them, which an array holds.
 template <class T>
@@ -86,6 +95,10 @@ class Callable {
  private:
   std::shared_ptr<PyObject> function_;
 };
+
+/// A function of C++ as one of Python, which keeps it.
+[[nodiscard]] PyObject* function_to(std::shared_ptr<void> function,
+                                    PyObject* (*call)(void* function, PyObject* arguments));
 
 // Numbers.
 template <class T>
@@ -150,6 +163,7 @@ struct Convert<std::string> {
 };
 template <>
 struct Convert<const char*> {
+  static const char* from(PyObject* given, const Place& place) { return kept_text(text_from(given, place)); }
   static PyObject* to(const char* text) {
     if (!text) Py_RETURN_NONE;
     return PyUnicode_DecodeUTF8(text, static_cast<Py_ssize_t>(std::strlen(text)), "surrogateescape");
@@ -213,7 +227,7 @@ requires(R > 0 && C > 0) struct Convert<Eigen::Matrix<double, R, C, O, MR, MC>> 
   static constexpr const Column* kColumn = &FixedColumn<R, C>::kColumn;
 };
 template <int R, int C, int O, int MR, int MC>
-requires(R < 0 || C < 0) struct Convert<Eigen::Matrix<double, R, C, O, MR, MC>> {
+requires(R < 0) struct Convert<Eigen::Matrix<double, R, C, O, MR, MC>> {
   using M = Eigen::Matrix<double, R, C, O, MR, MC>;
   static M from(PyObject* given, const Place& place) {
     const Py_ssize_t shape[2] = {R, C};
@@ -231,13 +245,23 @@ requires(R < 0 || C < 0) struct Convert<Eigen::Matrix<double, R, C, O, MR, MC>> 
     const Py_ssize_t shape[2] = {m.rows(), m.cols()};
     return doubles_to(numbers.data(), {shape, C == 1 ? 1u : 2u});
   }
-  /// Overloads are told apart by the number of rows: points of the plane or of space.
-  static bool could(PyObject* given) {
-    if (!is_sequence(given)) return false;
-    const Py_ssize_t rows = PyObject_Size(given);
-    if (rows < 0) PyErr_Clear();
-    return R < 0 || rows < 0 || rows == R;
+  static bool could(PyObject* given) { return is_sequence(given); }
+  static constexpr std::nullptr_t kColumn = nullptr;
+};
+/// Points, one a column; in Python one a row, as all points: (n, R).
+template <int R, int O, int MR, int MC>
+requires(R > 0) struct Convert<Eigen::Matrix<double, R, Eigen::Dynamic, O, MR, MC>> {
+  using M = Eigen::Matrix<double, R, Eigen::Dynamic, O, MR, MC>;
+  static M from(PyObject* given, const Place& place) {
+    const Py_ssize_t shape[2] = {-1, R};
+    const auto a = doubles_from(given, shape, place);
+    return a.rows == 0 ? M(R, 0) : M(Eigen::Map<const M>(a.data, R, a.rows));
   }
+  static PyObject* to(const M& m) {
+    const Py_ssize_t shape[2] = {m.cols(), R};
+    return doubles_to(m.data(), shape);
+  }
+  static bool could(PyObject* given) { return is_sequence(given); }
   static constexpr std::nullptr_t kColumn = nullptr;
 };
 template <>
@@ -661,7 +685,31 @@ struct Convert<std::function<R(A...)>> {
   }
   static PyObject* to(const std::function<R(A...)>& function) {
     if (const Call* call = function.template target<Call>()) return Py_NewRef(call->function.function());
-    Py_RETURN_NONE;
+    if (!function) Py_RETURN_NONE;
+    if constexpr ((requires(PyObject * given, const Place& place) {
+                    Convert<std::remove_cvref_t<A>>::from(given, place);
+                  } &&
+                   ...))
+      return function_to(own(new std::function(function)), [](void* held, PyObject* arguments) {
+        return call(*static_cast<const std::function<R(A...)>*>(held), arguments,
+                    std::index_sequence_for<A...>{});
+      });
+    else
+      Py_RETURN_NONE;
+  }
+  template <std::size_t... I>
+  static PyObject* call(const std::function<R(A...)>& function, PyObject* arguments,
+                        std::index_sequence<I...>) {
+    if (PyTuple_GET_SIZE(arguments) != static_cast<Py_ssize_t>(sizeof...(A)))
+      throw WrongType{"takes " + std::to_string(sizeof...(A)) + " arguments"};
+    std::tuple<std::remove_cvref_t<A>...> given{
+        Convert<std::remove_cvref_t<A>>::from(PyTuple_GET_ITEM(arguments, I), {nullptr, "argument", I})...};
+    if constexpr (std::is_void_v<R>) {
+      function(std::get<I>(given)...);
+      Py_RETURN_NONE;
+    } else {
+      return Convert<std::remove_cvref_t<R>>::to(function(std::get<I>(given)...));
+    }
   }
   static bool could(PyObject* given) { return given == Py_None || PyCallable_Check(given); }
   static constexpr std::nullptr_t kColumn = nullptr;

@@ -5,16 +5,13 @@
 #include <memory>
 #include <sstream>
 #include <string>
-#include <unordered_map>
 
 #include "call.h"
 
 namespace vericone::python {
 namespace {
 
-using Registry = std::unordered_map<std::string, std::unique_ptr<TypeInfo>>;
-
-Registry* registry = nullptr;
+Shared* all = nullptr;
 PyObject* module_names = nullptr;
 
 /// Where users find the names of a namespace.
@@ -53,14 +50,16 @@ void put(const char* name, const py::object& what) {
     names_of(space)[rest.c_str()] = what;
 }
 
+Shared& shared() { return *all; }
+
 TypeInfo& type_of(const std::type_info& type) {
-  auto& info = (*registry)[type.name()];
+  auto& info = all->types[type.name()];
   if (!info) info = std::make_unique<TypeInfo>();
   return *info;
 }
 
 const TypeInfo* info_of_type(const PyTypeObject* type) {
-  for (const auto& [name, info] : *registry)
+  for (const auto& [name, info] : all->types)
     if (info->type == type) return info.get();
   return nullptr;
 }
@@ -120,8 +119,11 @@ void add_constant(const char* space, const char* name, PyObject* value) {
 namespace {
 
 PyMethodDef left_method = {"_left_behind",
-                           [](PyObject*, PyObject*) { return PyLong_FromLong(calls_left_behind()); },
+                           [](PyObject*, PyObject*) { return PyLong_FromLong(all->left_behind); },
                            METH_NOARGS, "How many interrupted calls have not ended yet."};
+PyMethodDef overload_method = {"_answered_overload",
+                               [](PyObject*, PyObject*) { return PyLong_FromLong(all->answered); },
+                               METH_NOARGS, "Which overload has answered the last call, from 0."};
 PyMethodDef restore_method = {"_restore", restore, METH_VARARGS, "For pickle."};
 
 void begin_module(py::module_& module) {
@@ -130,19 +132,19 @@ void begin_module(py::module_& module) {
   module_names = names.ptr();
   const py::str name = module.attr("__name__");
   if (std::string(name) == "vericone._core") {
-    registry = new Registry;
-    PyTypeObject* const base = make_base_type();
-    use_base_type(base);
-    module.attr("_types") = py::capsule(registry);
-    module.attr("_Object") = py::handle(reinterpret_cast<PyObject*>(base));
+    all = new Shared;
+    all->base = make_base_type();
+    module.attr("_shared") = py::capsule(all);
+    module.attr("_Object") = py::handle(reinterpret_cast<PyObject*>(all->base));
     module.attr("_restore") =
         py::reinterpret_steal<py::object>(PyCFunction_NewEx(&restore_method, nullptr, name.ptr()));
     module.attr("_left_behind") =
         py::reinterpret_steal<py::object>(PyCFunction_NewEx(&left_method, nullptr, name.ptr()));
+    module.attr("_answered_overload") =
+        py::reinterpret_steal<py::object>(PyCFunction_NewEx(&overload_method, nullptr, name.ptr()));
   } else {
     const py::module_ core = py::module_::import("vericone._core");
-    registry = core.attr("_types").cast<py::capsule>().get_pointer<Registry>();
-    use_base_type(reinterpret_cast<PyTypeObject*>(core.attr("_Object").ptr()));
+    all = core.attr("_shared").cast<py::capsule>().get_pointer<Shared>();
   }
 }
 

@@ -4,9 +4,24 @@
 // them.
 #pragma once
 
+#include <atomic>
+#include <memory>
+#include <string>
+#include <unordered_map>
+
 #include "pybind.h"
 
 namespace vericone::python {
+
+/// One for all modules.
+struct Shared {
+  std::unordered_map<std::string, std::unique_ptr<TypeInfo>> types;
+  PyTypeObject* base = nullptr;  // below all of them
+  std::atomic<int> left_behind =
+      0;             // calls that were interrupted and left to themselves, and have not ended yet
+  int answered = 0;  // which overload has answered the last call: tests reach them all
+};
+[[nodiscard]] Shared& shared();
 
 /// In the namespace that its name says: of "guidance.GuideMemory.Past" the first part, the rest are types.
 void put(const char* name, const py::object& what);
@@ -17,7 +32,6 @@ void put(const char* name, const py::object& what);
 
 /// The type below all others, made once, by _core.
 [[nodiscard]] PyTypeObject* make_base_type();
-void use_base_type(PyTypeObject* type);
 /// _core._restore(type, state): what pickle calls.
 PyObject* restore(PyObject* module, PyObject* arguments);
 

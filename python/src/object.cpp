@@ -3,19 +3,19 @@
 
 #include <structmember.h>
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 #include <deque>
 #include <functional>
 #include <sstream>
 #include <string_view>
+#include <thread>
 
 #include "call.h"
 #include "module.h"
 
 namespace vericone::python {
 namespace {
-
-PyTypeObject* base_type = nullptr;  // of all objects
 
 // Tables of C keep what they point to for ever.
 std::deque<std::vector<PyGetSetDef>> getters;
@@ -41,6 +41,12 @@ void destroy(PyObject* self) {
 PyObject* get_field(PyObject* self, void* closure) {
   const auto& field = *static_cast<const Field*>(closure);
   try {
+    // Python lets a class have two bases of ours, or an object change its class: the value is of one.
+    bool own = false;
+    for (const TypeInfo* info = &info_of(self); info && !own; info = info->base)
+      own = !info->fields.empty() && !std::less<>()(&field, info->fields.data()) &&
+            std::less<>()(&field, info->fields.data() + info->fields.size());
+    if (!own) throw WrongType{std::string("a ") + info_of(self).name + " has no field '" + field.name + "'"};
     const Hold hold(self);
     return field.converter->to(static_cast<const char*>(own_value(self)) + field.offset);
   } catch (...) {
@@ -88,7 +94,8 @@ bool equal(PyObject* a, PyObject* b) {
 }
 
 PyObject* compare(PyObject* a, PyObject* b, int operation) {
-  if ((operation != Py_EQ && operation != Py_NE) || Py_TYPE(a) != Py_TYPE(b)) Py_RETURN_NOTIMPLEMENTED;
+  if ((operation != Py_EQ && operation != Py_NE) || Py_TYPE(a) != Py_TYPE(b) || &info_of(a) != &info_of(b))
+    Py_RETURN_NOTIMPLEMENTED;
   try {
     bool same = a == b;
     if (!same) {
@@ -297,9 +304,12 @@ PyObject* replace(PyObject* self, PyObject* arguments, PyObject* named) {
   try {
     if (info.fields.empty() || !info.copy)
       throw WrongType{"a " + short_name(info) + " has no fields to replace"};
-    const Hold hold(self);
     if (PyTuple_GET_SIZE(arguments) != 0) throw WrongType{"replace() takes names: replace(field=value)"};
-    auto value = info.copy(own_value(self));
+    std::shared_ptr<void> value;
+    {
+      const Hold hold(self);  // not while Python makes numbers of what it was given
+      value = info.copy(own_value(self));
+    }
     std::vector<bool> set(info.fields.size());
     set_fields(info, value.get(), named, set);
     return new_instance(info, std::move(value));
@@ -359,8 +369,6 @@ PyTypeObject* make_base_type() {
   return type;
 }
 
-void use_base_type(PyTypeObject* type) { base_type = type; }
-
 std::string Place::text() const {
   std::string text = outer ? outer->text() : "";
   if (name) return text.empty() ? name : text + "." + name;
@@ -371,11 +379,42 @@ void wrong_type(const Place& place, const char* wanted, PyObject* given) {
   throw WrongType{place.text() + ": got " + std::string(Py_TYPE(given)->tp_name) + ", must be " + wanted};
 }
 
+namespace {
+
+[[noreturn]] void wait_for_ever() {
+  while (true) std::this_thread::sleep_for(std::chrono::hours(1));
+}
+
+}  // namespace
+
+// Where Python ends, it ends whoever asks for the lock, by unwinding the stack: these catch that.
+void take_back(PyThreadState* state) noexcept {
+  try {
+    PyEval_RestoreThread(state);
+  } catch (...) {
+    wait_for_ever();
+  }
+}
+
+PyGILState_STATE take_lock() noexcept {
+  try {
+    return PyGILState_Ensure();
+  } catch (...) {
+    wait_for_ever();
+  }
+}
+
+PyObject* keeping(PyObject* made, PyObject* other) {
+  auto* instance = reinterpret_cast<Instance*>(made);
+  Py_XSETREF(instance->kept, Py_NewRef(other));
+  return made;
+}
+
 std::shared_ptr<void> own(void* object, void (*destroy)(void*)) { return {object, destroy}; }
 
 void throw_raised() { throw py::error_already_set(); }
 
-bool is_object(PyObject* object) { return PyObject_TypeCheck(object, base_type); }
+bool is_object(PyObject* object) { return PyObject_TypeCheck(object, shared().base); }
 
 bool is_instance(PyObject* object, const TypeInfo& info) {
   if (!is_object(object)) return false;
@@ -400,7 +439,7 @@ std::recursive_mutex* lock_of(PyObject* object) {
 
 Hold::Hold(PyObject* object) : lock_(lock_of(object)) {
   if (!lock_ || lock_->try_lock()) return;
-  const py::gil_scoped_release quiet;  // who has it may be waiting for the global lock
+  const Released quiet;  // who has it may be waiting for the global lock
   lock_->lock();
 }
 
@@ -469,7 +508,7 @@ void add_type(TypeInfo& info, const char* doc, PyMethodDef* methods, newfunc con
   const char* name = keep("vericone." + std::string(info.name));
   PyType_Spec spec{name, 0, 0, static_cast<unsigned>(Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE), slots};
   const py::object bases =
-      py::make_tuple(py::handle(reinterpret_cast<PyObject*>(info.base ? info.base->type : base_type)));
+      py::make_tuple(py::handle(reinterpret_cast<PyObject*>(info.base ? info.base->type : shared().base)));
   info.type = reinterpret_cast<PyTypeObject*>(PyType_FromSpecWithBases(&spec, bases.ptr()));
   if (!info.type) throw py::error_already_set();
   const py::handle type(reinterpret_cast<PyObject*>(info.type));

@@ -95,10 +95,13 @@ template <class T>
 
 /// Throws what Python has raised.
 [[noreturn]] void throw_raised();
+/// Takes the global lock back; for ever waiting when Python ends.
+void take_back(PyThreadState* state) noexcept;
+[[nodiscard]] PyGILState_STATE take_lock() noexcept;
 /// Holds the global lock, in any thread.
 class GlobalLock {
  public:
-  GlobalLock() : state_(PyGILState_Ensure()) {}
+  GlobalLock() : state_(take_lock()) {}
   ~GlobalLock() { PyGILState_Release(state_); }
   GlobalLock(const GlobalLock&) = delete;
   GlobalLock& operator=(const GlobalLock&) = delete;
@@ -178,6 +181,9 @@ class Machines {
 /// What was just made, as one of `type`: its own, or a class that a program has derived from it. Takes the
 /// reference.
 [[nodiscard]] PyObject* as_type(PyObject* made, PyTypeObject* type);
+
+/// An object that refers to another: that lives as long. Takes and returns the reference to the first.
+[[nodiscard]] PyObject* keeping(PyObject* made, PyObject* other);
 
 /// How objects of a type are made, beside its constructor: ", Ellipse.from_axes(), Ellipse.from_shape()";
 /// empty where nothing of its own does.

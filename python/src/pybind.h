@@ -18,6 +18,19 @@ template <class T = py::object>
 }
 [[nodiscard]] inline Reference reference_to(py::object object) { return Reference(object.release().ptr()); }
 
+/// Without the global lock, as long as this lives. A thread that wants it when Python ends waits for ever:
+/// Python would end it by an exception that no destructor lets through.
+class Released {
+ public:
+  Released() : state_(PyEval_SaveThread()) {}
+  ~Released() { take_back(state_); }
+  Released(const Released&) = delete;
+  Released& operator=(const Released&) = delete;
+
+ private:
+  PyThreadState* state_;
+};
+
 /// Something of a module of Python, imported when it is first asked for. A static variable that is made by an
 /// import would not do: an import lets other threads have the global lock, and one of them would hold it
 /// while it waits for that variable.

@@ -17,10 +17,14 @@ PyObject* state_of(const T&... part) {
   return tuple_of({to_python(part)...});
 }
 
+void require_parts(PyObject* state, Py_ssize_t count) {
+  if (PyTuple_GET_SIZE(state) != count)
+    throw WrongType{"pickled by another version: " + std::to_string(count) + " parts are needed"};
+}
+
 template <class... T>
 std::tuple<T...> parts(PyObject* state) {
-  if (PyTuple_GET_SIZE(state) != static_cast<Py_ssize_t>(sizeof...(T)))
-    throw WrongType{"pickled by another version: " + std::to_string(sizeof...(T)) + " parts are needed"};
+  require_parts(state, sizeof...(T));
   Py_ssize_t i = 0;
   const auto next = [&](auto* kind) {
     using P = std::remove_pointer_t<decltype(kind)>;
@@ -89,6 +93,7 @@ PyObject* assembly_state(const Assembly& x) {
 }
 
 Assembly restored_assembly(PyObject* state) {
+  require_parts(state, 3);
   const auto kind = Convert<PieceKind>::from(PyTuple_GET_ITEM(state, 0), {nullptr, "kind"});
   PyObject* pieces = PyTuple_GET_ITEM(state, 2);
   if (kind == PieceKind::hull)
@@ -132,6 +137,7 @@ void describe_values() {
   describe_value<Body>(
       "shape", [](const auto& x) { return state_of(x.shape()); },
       [](PyObject* state) {
+        require_parts(state, 1);
         PyObject* shape = PyTuple_GET_ITEM(state, 0);
         const Place place{nullptr, "shape"};
         if (PyList_Check(shape))
@@ -150,6 +156,7 @@ void describe_values() {
                                        : copy_of(x.placed())});
       },
       [](PyObject* state) {
+        require_parts(state, 1);
         return Convert<WorldBody>::from(PyTuple_GET_ITEM(state, 0), {nullptr, "body"});
       });
   describe_value<ErrorSet>(

@@ -5,11 +5,9 @@ The names are those of the C++ library, and so are the namespaces: vericone.Pair
 vericone.fitting.fit. Vectors are arrays of shape (3,), or (..., 3) for many questions at once. What the commands do with
 files is here too: vericone.simulate, campaign, fit, scan, read_scene.
 """
-from __future__ import annotations
-
-import importlib
-import sys
-from typing import Any
+import importlib as _importlib
+import sys as _sys
+from typing import Any as _Any
 
 from vericone._errors import InputError as InputError
 from vericone._root import *  # noqa: F401,F403
@@ -17,19 +15,19 @@ from vericone._root import *  # noqa: F401,F403
 # Loaded when they are first asked for.
 _MODULES = ("engagements", "exact", "files", "fits", "fitting", "guidance", "lidar", "montecarlo", "octomap", "plot", "scanning",
             "scenario", "scenes", "simulation", "vehicles", "vision")
-_LATER = {"many": "_many", "Many": "_many", **dict.fromkeys(
+_LATER = {"__version__": "_version", "many": "_many", "Many": "_many", **dict.fromkeys(
     ("Campaign", "Scanned", "as_frame", "campaign", "fit", "read_scenario", "read_scene", "read_table", "run_tables", "scan",
      "simulate", "units", "write_scene"), "_runs")}
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> _Any:
     if name in _MODULES:
-        return importlib.import_module("vericone." + name)
+        return _importlib.import_module("vericone." + name)
     if name in _LATER:
-        value = getattr(importlib.import_module("vericone." + _LATER[name]), name)
+        value = getattr(_importlib.import_module("vericone." + _LATER[name]), name)
         globals()[name] = value
         return value
-    raise AttributeError(f"module 'vericone' has no attribute '{name}'", name=name, obj=sys.modules[__name__])
+    raise AttributeError(f"module 'vericone' has no attribute '{name}'", name=name, obj=_sys.modules[__name__])
 
 
 def __dir__() -> list[str]:

@@ -35,5 +35,6 @@ from vericone._runs import (
     units as units,
     write_scene as write_scene,
 )
+from vericone._version import __version__ as __version__
 
 def __dir__() -> list[str]: ...

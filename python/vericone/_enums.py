@@ -8,6 +8,10 @@ import enum
 class NamedInt(enum.IntEnum):
     """An int that prints as its name: "in", "disjoint"."""
 
+    def __bool__(self) -> bool:
+        kind = type(self).__name__
+        raise TypeError(f"{kind}.{self.name} is neither true nor false: ask whether it is {kind}.{self.name}, or another member")
+
     def __str__(self) -> str:
         return self.name.rstrip("_")
 

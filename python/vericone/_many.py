@@ -18,14 +18,22 @@ class Many:
     """
 
     def __init__(self, objects: Sequence[Any] | npt.NDArray[Any]) -> None:
-        array = np.empty(len(objects), object)
-        array[:] = objects
-        types = {type(thing) for thing in array.flat}
+        from vericone._errors import InputError
+
+        try:
+            listed = list(objects)
+        except TypeError:
+            raise TypeError(f"objects: got {type(objects).__name__}, must be a list of objects of one type") from None
+        if not listed:
+            raise InputError("objects", "an empty list", "at least one: its type says what can be asked")
+        types = {type(thing) for thing in listed}
         if len(types) > 1:
             names = ", ".join(sorted(t.__name__ for t in types))
             raise TypeError(f"many(): the objects are of several types: {names}")
-        self.objects = array
-        self._type = types.pop() if types else None
+        self.objects = np.empty(len(listed), object)
+        for i, thing in enumerate(listed):  # a list of lists would be taken for a matrix
+            self.objects[i] = thing
+        self._type = types.pop()
 
     def __len__(self) -> int:
         return len(self.objects)
@@ -33,13 +41,13 @@ class Many:
     def __getattr__(self, name: str) -> Callable[..., Any]:
         from vericone._load import module
 
-        if self._type is not None and not name.startswith("__"):
+        if not name.startswith("_"):
             space = self._type.__module__.removeprefix("vericone").removeprefix(".")
             question = module("_core")._names["_many"].get(f"{space + '.' if space else ''}{self._type.__qualname__}.{name}")
             if question is not None:
                 return functools.partial(question, self.objects)
-        kind = self._type.__name__ if self._type else "nothing"
-        raise AttributeError(f"many of {kind} have no question '{name}'")
+            raise AttributeError(f"many of {self._type.__name__} have no question '{name}'", name=name, obj=self)
+        raise AttributeError(f"'Many' object has no attribute '{name}'", name=name, obj=self)
 
 
 def many(objects: Sequence[Any] | npt.NDArray[Any]) -> Many:

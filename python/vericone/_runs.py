@@ -10,7 +10,11 @@ import datetime
 import fcntl
 import hashlib
 import importlib
+import itertools
 import json
+import math
+import numbers
+import operator
 import os
 import shutil
 import threading
@@ -48,6 +52,28 @@ def _refuse(field: str, value: object, requirement: str) -> InputError:
     return error
 
 
+def _wrong_kind(field: str, value: object, requirement: str) -> TypeError:
+    return TypeError(f"{field}: got {type(value).__name__}, must be {requirement}")
+
+
+def _is_path(value: object) -> bool:
+    return isinstance(value, (str, os.PathLike))
+
+
+def _path(field: str, value: Any, what: str = "the path of a file") -> str:
+    if not _is_path(value):
+        raise _wrong_kind(field, value, what)
+    path = os.fsdecode(value)
+    if "\0" in path:
+        raise _refuse(field, repr(path), what)
+    return path
+
+
+def _require_callable(field: str, value: object) -> None:
+    if value is not None and not callable(value):
+        raise _wrong_kind(field, value, "a function, or None")
+
+
 @contextlib.contextmanager
 def _locked(folder: Path) -> Iterator[None]:
     """Nobody else goes on with the unfinished table of `folder` meanwhile, as the command locks it too."""
@@ -66,28 +92,36 @@ def _locked(folder: Path) -> Iterator[None]:
 def _whole(folder: PathLike) -> Iterator[Path]:
     """A folder within `folder` whose files are moved to it together at the end, or are gone."""
     target = Path(folder)
-    fresh = not target.exists()
-    target.mkdir(parents=True, exist_ok=True)
-    stage = target / f".partial-{os.getpid()}"
-    shutil.rmtree(stage, ignore_errors=True)
-    stage.mkdir()
+    made = list(itertools.takewhile(lambda above: not above.exists(), (target, *target.parents)))
+    # Digits alone: the command removes what a killed one leaves by this name. Each thread has its own.
+    stage = target / f".partial-{os.getpid()}{threading.get_native_id()}"
     try:
+        target.mkdir(parents=True, exist_ok=True)
+        shutil.rmtree(stage, ignore_errors=True)
+        stage.mkdir()
         yield stage
         for file in sorted(stage.iterdir()):
             os.replace(file, target / file.name)
     finally:
         shutil.rmtree(stage, ignore_errors=True)
-        if fresh and not any(target.iterdir()):
-            target.rmdir()
+        with contextlib.suppress(OSError):  # one that is not empty stays
+            for above in made:
+                above.rmdir()
+
+
+def _require_folder(out: PathLike | None) -> None:
+    """What keeps a folder from being written to is told before the work. Nothing is left of the trial."""
+    if out is not None:
+        with _whole(_path("out", out, "the path of a folder")):
+            pass
 
 
 def _provenance(call: str, inputs: Iterable[Path]) -> dict[str, object]:
     """What it takes to get the same result again."""
     hashes = [{"file": str(file), "sha256": hashlib.sha256(file.read_bytes()).hexdigest() if file.is_file() else None}
               for file in inputs]
-    version = getattr(importlib.import_module("vericone"), "__version__", None)
     now = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")
-    return {"command": call, "version": version, "inputs": hashes, "finished": now}
+    return {"command": call, "version": _part("_version").__version__, "inputs": hashes, "finished": now}
 
 
 def _share_of(progress: Progress | None, whole: float) -> Callable[[float], bool] | None:
@@ -104,20 +138,21 @@ def _share_of(progress: Progress | None, whole: float) -> Callable[[float], bool
 def read_scene(file: PathLike) -> scenes.Scene:
     """The two bodies (metres), their velocities (m/s) and what they make, from a scene (YAML or JSON) and the files it
     names. Raises InputError naming the file or the field."""
-    result: scenes.Scene = _part("scenes").read_scene(os.fspath(file))
+    result: scenes.Scene = _part("scenes").read_scene(_path("file", file))
     return result
 
 
 def write_scene(scene: scenes.Scene, file: PathLike) -> None:
-    """Writes a scene that read_scene() reads as the same, to the bit; lengths in metres, velocities in m/s. Raises
-    InputError naming a body that no fields give."""
-    _part("scenes").write_scene(scene, os.fspath(file))
+    """Writes a scene that read_scene() reads as the same, to the bit; lengths in metres, velocities in m/s. A hull reads
+    back as an assembly of one. Raises InputError naming a body that no fields give: delimited by hyperboloids, a map's
+    boxes, an ellipsoid with a pose (in_world() gives one without)."""
+    _part("scenes").write_scene(scene, _path("file", file))
 
 
 def read_scenario(file: PathLike) -> simulation.Scenario:
     """What is to be flown, from a scenario (YAML): bodies (metres, m/s), pilots, goals, times (s). Raises InputError
     naming the file or the field."""
-    result: simulation.Scenario = _part("scenario").read_scenario(os.fspath(file))
+    result: simulation.Scenario = _part("scenario").read_scenario(_path("file", file))
     return result
 
 
@@ -152,45 +187,86 @@ def run_tables(scenario: simulation.Scenario, run: simulation.Run) -> dict[str, 
 
 def units(table: Array) -> dict[str, str]:
     """The unit of each column of a table, as "m/s"; the empty text where there is none."""
+    _require_table(table)
     fields: Any = table.dtype.fields or {}
     return {name: fields[name][2][len(name) + 2:-1] if len(fields[name]) > 2 else "" for name in table.dtype.names or ()}
 
 
 def as_frame(table: Array) -> Any:
     """The table as a pandas.DataFrame, with units() in its attrs["units"]. Needs pandas."""
+    _require_table(table)
     frame = importlib.import_module("pandas").DataFrame({name: table[name] for name in table.dtype.names or ()})
     frame.attrs["units"] = units(table)
     return frame
 
 
+def _require_table(table: object) -> None:
+    if not isinstance(table, np.ndarray) or table.dtype.names is None:
+        raise _wrong_kind("table", table, "a structured array, as run_tables() and read_table() return")
+
+
 def _number(field: str) -> float:
+    if "_" in field:  # float() reads past it
+        raise ValueError
     return float(field) if field else float("nan")
 
 
-def _table_of(lines: TextIO | Iterable[str], source: str) -> Array:
-    rows = list(csv.reader(line for line in lines if not line.startswith("#")))
-    if not rows:
-        raise _refuse("file", source, "a table with a line of column names")
-    columns: list[tuple[str, str, Array]] = []
-    for i, header in enumerate(rows[0]):
-        fields = [row[i] if i < len(row) else "" for row in rows[1:]]
-        name, _, unit = header.partition(" [")
+def _column(name: str, fields: Sequence[str], source: str) -> Array:
+    """Numbers, or words where none is a number."""
+    values, text = np.full(len(fields), float("nan")), -1
+    for row, field in enumerate(fields):
         try:
-            values = _words(fields) if name in _WORDS else np.array([_number(field) for field in fields], dtype=float)
+            values[row] = _number(field)
         except ValueError:
-            values = _words(fields)
-        columns.append((name, unit.removesuffix("]"), values))
+            text = row if text < 0 else text
+    if text < 0:
+        return values
+    if not np.isnan(values).all():
+        raise _refuse(source, f"{fields[text]!r} in row {text + 1}, column {name}", "a number like others of the column, or empty")
+    return _words(fields)
+
+
+def _table_of(lines: Iterable[str], source: str) -> Array:
+    """Of lines with a break at the end of each; before the names of the columns there may be comments."""
+    last = ""
+
+    def noted() -> Iterator[str]:
+        nonlocal last
+        for last in itertools.dropwhile(lambda line: line.startswith("#"), lines):
+            yield last
+
+    try:
+        rows = list(csv.reader(noted(), strict=True))
+    except csv.Error as error:
+        raise _refuse(source, str(error), "a table of comma-separated fields") from None
+    headers = [tuple(header.partition(" [")[::2]) for header in rows[0]] if rows else []
+    names = [name for name, _ in headers]
+    if not names or not all(names) or len(set(names)) < len(names):
+        raise _refuse(source, f"columns {rows[0]}" if names else "no columns", "a table whose first line names its columns, each by another name")
+    for row, fields in enumerate(rows[1:], start=1):
+        if len(fields) != len(names):
+            raise _refuse(source, f"row {row} of {len(fields)} fields", f"a table whose rows have {len(names)} fields, one for each column")
+    if not last.endswith(("\n", "\r")):
+        raise _refuse(source, f"no line break after row {len(rows) - 1}", "a whole table: this one may be cut off")
+    columns = []
+    for i, (name, unit) in enumerate(headers):
+        texts = [fields[i] for fields in rows[1:]]
+        columns.append((name, unit.removesuffix("]"), _words(texts) if name in _WORDS else _column(name, texts, source)))
     return _rows_of(columns)
 
 
 def read_table(file: PathLike) -> Array:
     """A CSV file of a command (bodies.csv, engagements.csv, ...) as a structured array; as run_tables(), with the units
-    that its header has. Numbers are the doubles that were written."""
-    path = Path(file)
+    that its header has. Numbers are the doubles that were written. Raises InputError naming the file for one that is cut
+    off, or has rows of too few or too many fields."""
+    path = Path(_path("file", file, "the path of a CSV file"))
     if not path.is_file():
         raise _refuse("file", path, "the path of a CSV file")
-    with open(path, encoding="utf-8", newline="") as lines:
-        return _table_of(lines, str(path))
+    try:
+        with open(path, encoding="utf-8", newline="") as lines:
+            return _table_of(lines, str(path))
+    except UnicodeDecodeError as error:
+        raise _refuse(str(path), f"byte {error.object[error.start]:#04x}", "text in UTF-8") from None
 
 
 # Runs ------------------------------------------------------------------------------------------------------------------
@@ -201,10 +277,15 @@ def simulate(scenario: PathLike | simulation.Scenario, *, seed: int | None = Non
     """Carries out a scenario, or the one of a file: what moved where (metres, seconds), what was commanded, what
     happened, and what is proved of it. `seed` in place of the scenario's; `trial` other noise of the same seed.
 
-    `out`: a folder for the files of `vericone simulate` (docs/reference/scenarios.md), all of them or none. `progress` is
-    called with the share of the duration that was flown; where it returns False the run ends there, `interrupted`, and
-    nothing is written. Raises InputError naming the file or the field."""
+    `out`: a folder for the files of `vericone simulate` (docs/reference/scenarios.md), all of them or none: tables,
+    run.json, proof.json, shapes.json, and scenario.yaml where `scenario` is a file; no pictures, which
+    vericone.plot.run(out) draws. `progress` is called with the share of the duration that was flown; where it returns
+    False the run ends there, `interrupted`, and nothing is written. Raises InputError naming the file or the field."""
     simulation_module, scenario_module = _part("simulation"), _part("scenario")
+    if not _is_path(scenario) and not isinstance(scenario, simulation_module.Scenario):
+        raise _wrong_kind("scenario", scenario, "a Scenario, or the path of its file")
+    _require_callable("progress", progress)
+    _require_folder(out)
     file, text = None, ""
     if isinstance(scenario, (str, os.PathLike)):
         file = Path(scenario)
@@ -300,7 +381,14 @@ def campaign(settings: montecarlo.Campaign | None = None, *, out: PathLike | Non
     naming a setting, or `out` where it holds an unfinished run of other settings."""
     module = _part("montecarlo")
     asked: montecarlo.Campaign = settings if settings is not None else module.Campaign()
+    if not isinstance(asked, module.Campaign):
+        raise _wrong_kind("settings", asked, "a montecarlo.Campaign, or None")
+    _require_callable("progress", progress)
     laws = list(module.laws_of(asked))
+    try:
+        threads = operator.index(threads)
+    except TypeError:
+        raise _wrong_kind("threads", threads, "an integer") from None
     if not 0 <= threads <= 1024:
         raise _refuse("threads", threads, "between 1 and 1024, or 0 for all")
     workers = threads or os.cpu_count() or 1
@@ -310,7 +398,7 @@ def campaign(settings: montecarlo.Campaign | None = None, *, out: PathLike | Non
         grow: TextIO | None = None
         partial = None
         if out is not None:
-            folder = Path(out)
+            folder = Path(_path("out", out, "the path of a folder"))
             folder.mkdir(parents=True, exist_ok=True)
             stack.enter_context(_locked(folder))
             partial = folder / "engagements.csv.partial"
@@ -379,6 +467,8 @@ def fit(data: PathLike | npt.ArrayLike | tuple[npt.ArrayLike, npt.ArrayLike] | f
     a folder for fit.json, body.yaml, hull.obj and hull.ply. `progress` is called with what is done and its share; False
     stops with KeyboardInterrupt. Raises InputError naming the file, "points" or the option."""
     module, fits_module = _part("fitting"), _part("fits")
+    _require_callable("progress", progress)
+    _require_folder(out)
     tell = progress
     options = module.FitOptions(mode=_named(module.Mode, "mode", mode),
                                 shape=None if shape is None or shape == "auto" else _named(module.Shape, "shape", shape),
@@ -421,10 +511,18 @@ def scan(scene: PathLike | scanning.Setup, *, seed: int = 1, planes: int = 36, l
     `out`: a folder for cloud.ply, scan.json and section.json, the picture on the plane at `azimuth` (rad), all of them or
     none. `told` hears a line now and then. Raises InputError naming the file, the field, "agent" or "lidars"."""
     module = _part("scanning")
-    read = module.read_scan_scene(os.fspath(scene)) if isinstance(scene, (str, os.PathLike)) else None
-    setup = (read.setup if read else scene).replace(seed=seed, planes=planes, levels=levels)
+    if not _is_path(scene) and not isinstance(scene, module.Setup):
+        raise _wrong_kind("scene", scene, "a scanning.Setup, or the path of a scene")
+    if not isinstance(azimuth, numbers.Real):
+        raise _wrong_kind("azimuth", azimuth, "a number (rad)")
+    if not math.isfinite(azimuth):
+        raise _refuse("azimuth", azimuth, "finite (rad)")
+    _require_callable("told", told)
     if not study and out is not None:
         raise _refuse("study", study, "True where files are written: they hold it")
+    _require_folder(out)
+    read = module.read_scan_scene(os.fspath(scene)) if isinstance(scene, (str, os.PathLike)) else None
+    setup = (read.setup if read else scene).replace(seed=seed, planes=planes, levels=levels)
     if not study:
         seen = module.look(setup, _part("lidar").MeshScene(setup.points, setup.triangles), setup.lidars)
         return Scanned(np.asarray(seen.points, dtype=float).reshape(-1, 3), seen, None, None)
@@ -433,7 +531,7 @@ def scan(scene: PathLike | scanning.Setup, *, seed: int = 1, planes: int = 36, l
         velocities = [read.scene.agent.velocity, read.scene.obstacle.velocity] if read else [np.zeros(3), np.zeros(3)]
         with _whole(out) as stage:
             module.write_scan(setup, found, *velocities, azimuth, str(stage))
-            inputs = [Path(scene), Path(scene).parent / read.scene.obstacle.file] if read else []  # type: ignore[arg-type]
+            inputs = [Path(scene), Path(scene).parent / read.scene.obstacle.file] if read else []
             call = f"vericone.scan({str(scene) if read else 'setup'!r}, seed={seed}, planes={planes}, levels={levels}, azimuth={azimuth})"
             (stage / "provenance.json").write_text(json.dumps(_provenance(call, inputs), indent=1) + "\n", encoding="utf-8")
     return Scanned(np.asarray(found.seen.points, dtype=float).reshape(-1, 3), found.seen, found.study, found.cone)

@@ -47,17 +47,19 @@ bool same(const Assembly& a, const Assembly& b) {
                [](const HullBody& p, const HullBody& q) { return p.points() == q.points(); });
 }
 
-/// Of a hull: files give it as an assembly of one.
-std::vector<Vector3d> points_of(const Body& hull) {
-  return hull.hull() ? hull.hull()->points() : hull.assembly()->piece(0).points();
+/// A hull alone, which files give as an assembly of one; null for other bodies.
+const HullBody* hull_of(const Body& body) {
+  if (body.hull()) return body.hull();
+  const Assembly* pieces = body.assembly();
+  const bool alone = pieces && pieces->kind() == PieceKind::hull && pieces->size() == 1;
+  return alone ? &pieces->by_slot().hulls.front() : nullptr;
 }
 
 bool same(const Placed& a, const Placed& b) {
-  if (a.body.kind() != b.body.kind() || a.pose.position != b.pose.position ||
-      a.pose.rotation != b.pose.rotation)
-    return false;
+  if (a.pose.position != b.pose.position || a.pose.rotation != b.pose.rotation) return false;
+  if (const HullBody* p = hull_of(a.body), *q = hull_of(b.body); p && q) return p->points() == q->points();
+  if (a.body.kind() != b.body.kind()) return false;
   if (a.body.quadric()) return same(*a.body.quadric(), *b.body.quadric());
-  if (a.body.hull() || b.body.hull()) return points_of(a.body) == points_of(b.body);
   if (a.body.assembly()) return same(*a.body.assembly(), *b.body.assembly());
   const auto &p = *a.body.quadrics(), &q = *b.body.quadrics();
   return std::equal(p.begin(), p.end(), q.begin(), q.end(),
@@ -173,8 +175,11 @@ std::optional<Json> numbers_of(const Placed& placed, const fs::path& name, std::
         fields[assembly->kind() == PieceKind::ball ? "cloud" : "mesh"] = name.string();
         if (assembly->kind() == PieceKind::ball) fields["radius"] = assembly->radius();
     }
-  } else {
+  } else if (placed.pose.position.isZero(0) && placed.pose.rotation.isIdentity(0)) {
     fields["points"] = points_json(body.hull()->points());
+  } else {
+    // Reading takes the points of an agent into the world, rounded; a union of one keeps its pose.
+    fields["pieces"] = Json::array({Json{{"points", points_json(body.hull()->points())}}});
   }
   add_pose(fields, placed.pose);
   return fields;
@@ -211,7 +216,8 @@ bool gives(const Gives& read) {
 [[noreturn]] void refuse(const SceneBody& body, const std::string& name) {
   throw InputError(
       name, body.name.empty() ? to_string(body.placed.body.kind()) : body.name,
-      "a body that a file gave, or an ellipsoid in world coordinates, a hull, a mesh or a cloud");
+      "a body that a file gave, an ellipsoid without a pose (in_world() makes one), a hull, a mesh, a cloud, "
+      "or a union of ellipsoids or of hulls");
 }
 
 void write_all(const std::vector<Beside>& files, const fs::path& file, const Json& fields) {

@@ -39,7 +39,7 @@ CALLS = {
                                "vericone.campaign(montecarlo.Campaign(engagements=10**6), out=d)"),
     "fit": ("x = ball(60000) * [3, 2, 1]", "vericone.fit(x, shape='star', mode='least-squares')"),
     "containing fit": ("x = np.concatenate([ball(50000) + [1.5, 0, 0], ball(50000) - [1.5, 0, 0]])", "vericone.fit(x)"),
-    "minimum-volume ellipsoid": ("x = ball(10**6).T", "[min_volume_ellipsoid(x) for _ in range(100)]"),
+    "minimum-volume ellipsoid": ("x = ball(10**6)", "[min_volume_ellipsoid(x) for _ in range(100)]"),
     "cone of a mesh": ("x = ball(3000) + [9, 0, 0]; p = Pair(Placed(Body(ellipsoid([0, 0, 0]))), Placed(Body(Assembly.cloud(x, 0.02))))",
                        "[p.cone(ConeOptions(resolution=1e-4)) for _ in range(100)]"),
     "cone of two clouds": ("x = ball(300); p = Pair(Placed(Body(Assembly.cloud(x, 0.1))), Placed(Body(Assembly.cloud(x + [9, 0, 0], 0.1))))",

@@ -16,7 +16,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 import vericone as vc  # noqa: E402
 from vericone import plot  # noqa: E402
-from vericone.plot.of_bodies import EXTENTS  # noqa: E402
+from vericone.plot.of_bodies import BALLS, EXTENTS, SPHERES  # noqa: E402
 
 ROOT = Path(os.environ.get("VERICONE_SOURCE", Path(__file__).resolve().parents[2]))
 BALL = vc.Ellipsoid.from_axes([0, 0, 0], [1, 1, 1])
@@ -46,7 +46,7 @@ BODIES: dict[str, tuple[Any, list[list[float]]]] = {
     "world": (vc.WorldBody(DENTED), [[4, -3, -3], [8, 3, 3]]),
     "points": (CUBE, [[0, 0, 0], [1, 1, 1]]),
 }
-REACHED = ("ellipsoid", "hull", "mesh", "boxes", "polyhedra", "placed", "turned", "points")  # the box is the least
+REACHED = ("ellipsoid", "hull", "mesh", "cloud", "boxes", "polyhedra", "placed", "turned", "points")  # the box is the least
 
 
 @pytest.fixture(autouse=True)
@@ -79,6 +79,30 @@ def test_axes_in_space_keep_one_scale_and_grow() -> None:
     sides = [np.ptp(getattr(axes, "get_%slim" % name)()) for name in "xyz"]
     scale = np.asarray(axes._box_aspect) / sides
     assert np.allclose(scale, scale[0]) and sides[0] >= 22
+
+
+def test_balls_are_as_large_as_they_are() -> None:
+    """A few as spheres, many as dots that keep their size when the axes grow."""
+    few = plot.body(vc.Assembly.cloud(CUBE, 0.2))
+    corners = few.collections[0]._vec[:3].T
+    assert np.linalg.norm(corners[:, None] - CUBE, axis=2).min(axis=1) == pytest.approx(0.2)
+    axes = plot.body(vc.Assembly.cloud(np.tile(CUBE, (SPHERES // 8 + 1, 1)), 0.2))
+    assert np.allclose(EXTENTS[axes], [[-0.2] * 3, [1.2] * 3])
+    dots = BALLS[axes][0][0]()
+
+    def diameters() -> tuple[float, float]:
+        """Of a dot, and of the picture of an edge of the cube, both in points."""
+        axes.figure.canvas.draw()
+        ends = axes.get_proj() @ np.array([[0, 0, 0, 1], [0, 0, 1, 1]]).T
+        pixels = axes.transData.transform((ends[:2] / ends[3]).T)
+        return float(np.sqrt(dots.get_sizes()[0])), float(np.linalg.norm(pixels[1] - pixels[0]) * 72 / axes.figure.dpi)
+
+    turn = np.cos(np.radians(axes.elev))  # an upright edge as it is seen
+    before = diameters()
+    assert before[0] == pytest.approx(0.4 * before[1] / turn, rel=0.02)
+    plot.body(vc.Ellipsoid.from_axes([6, 0, 0], [1, 1, 1]), axes=axes)
+    after = diameters()
+    assert after[0] == pytest.approx(0.4 * after[1] / turn, rel=0.02) and after[0] < 0.6 * before[0]
 
 
 def test_planar_bodies_are_their_outlines() -> None:
@@ -138,7 +162,8 @@ def test_lines_arrows_and_openings() -> None:
     plot.line([[0, 0, 0], [5, 0, 0]], axes=axes, label="way")
     plot.arrow([0, 0, 0], [0, 0, 9], axes=axes)
     assert np.allclose(EXTENTS[axes], [[0, -1, -1], [5, 1, 9]])
-    assert plot.arrow([0, 0], [1, 2], axes=plot.plane()).get_xlabel() == "x (m)"
+    assert plot.arrow([0, 0], [1, 2]).get_xlabel() == "x (m)"
+    assert np.allclose(EXTENTS[plot.arrow([1, 1, 1], [0, 0, 2])], [[1, 1, 1], [1, 1, 3]])
     ring = plot.opening(vc.PlacedOpening(opening=vc.Opening.circle(2.0)))
     assert np.allclose(np.hypot(*ring.lines[0].get_data_3d()[:2]), 2)
 
@@ -176,13 +201,50 @@ def test_fits() -> None:
         assert plot.fit(found, points, axes=axes) is axes
 
 
-def test_what_is_no_body_is_told() -> None:
-    with pytest.raises(TypeError, match="body: str is none"):
-        plot.body("bunny.off")
-    with pytest.raises(ValueError, match=r"\(n, 3\) are wanted, these are \(3, 2\)"):
-        plot.body(np.zeros((3, 2)))
-    with pytest.raises(TypeError, match="cone: Ellipsoid is none"):
-        plot.cone(BALL)
+def test_velocities_make_axes_of_their_own() -> None:
+    axes = plot.velocity([2, 0, 0], verdict=vc.Verdict.in_)
+    assert axes.get_legend().get_texts()[0].get_text() == "collides" and axes.lines[-1].get_xydata() == pytest.approx(np.zeros((1, 2)))
+    aside = plot.velocity([0, 2, 0], towards=[1, 0, 0])
+    assert np.hypot(*aside.lines[-1].get_xydata()[0]) == pytest.approx(90)
+
+
+PAIR = vc.Pair(BALL, AHEAD)
+NAN = float("nan")
+
+
+@pytest.mark.parametrize(("call", "kind", "message"), [
+    (lambda: plot.body("bunny.off"), TypeError, "thing: got str, must be a body, a placed one, a mesh, or points (n, 3)"),
+    (lambda: plot.body(vc.Ellipsoid), TypeError, "thing: got the type Ellipsoid, must be an object"),
+    (lambda: plot.body(np.zeros((3, 2))), vc.InputError, "thing: got an array of shape (3, 2), must be points of shape (n, 3)"),
+    (lambda: plot.body([]), vc.InputError, "thing: got no points, must be points of shape (n, 3)"),
+    (lambda: plot.body([[1.0, NAN, 3.0]]), vc.InputError, "thing[0][1]: got nan, must be finite"),
+    (lambda: plot.body(vc.fitting.Sample(points=CUBE, triangles=[[0, 1, 8]])), vc.InputError,
+     "thing.triangles: got a point 8, must be of points 0 to 7"),
+    (lambda: plot.body(BALL, axes=plot.plane()), vc.InputError, "axes: got axes of the plane, must be axes of space, as plot.space() makes"),
+    (lambda: plot.body(vc.Ellipse(), axes=plot.space()), vc.InputError, "axes: got axes of space, must be axes of the plane, as plot.plane() makes"),
+    (lambda: plot.line([1, 2, 3]), vc.InputError, "points: got an array of shape (3,), must be points of shape (n, 3) or (n, 2)"),
+    (lambda: plot.arrow([0, 0, 0], [1, 2]), vc.InputError, "vector: got an array of shape (2,), must be a vector of shape (3,)"),
+    (lambda: plot.velocity([0, 0, 0]), vc.InputError, "relative_velocity: got [0, 0, 0], must be a vector that is not zero"),
+    (lambda: plot.cone(BALL), TypeError, "thing: got Ellipsoid, must be a Cone, TrueCone, SliceCone, PolyhedralCone, ConeBounds or ConeMap"),
+    (lambda: plot.cone(PAIR), TypeError,
+     "thing: got Pair, must be a Cone, TrueCone, SliceCone, PolyhedralCone, ConeBounds or ConeMap: its cone() is one"),
+    (lambda: plot.cone(PAIR.cone(), towards=[0, 0, 0]), vc.InputError, "towards: got [0, 0, 0], must be a vector that is not zero"),
+    (lambda: plot.cone_map(PAIR.cone()), TypeError, "thing: got Cone, must be a ConeMap; cone() draws cones"),
+    (lambda: plot.engagement(BALL), TypeError, "pair: got Ellipsoid, must be a Pair"),
+    (lambda: plot.plane_engagement(vc.Ellipse(), BALL), TypeError,
+     "obstacle: got Ellipsoid, must be a planar body: an Ellipse or a CombinedEllipse"),
+    (lambda: plot.clearance_field(PAIR, NAN), vc.InputError, "speed: got nan, must be finite, 0 or more"),
+    (lambda: plot.sector(PAIR), TypeError, "thing: got Pair, must be a PlaneSector, of Pair.sector(), or a Sector of planar bodies"),
+    (lambda: plot.sign_map([0, 1, 2]), vc.InputError, "verdicts: got an array of shape (3,), int64, must be verdicts of shape (n, n)"),
+    (lambda: plot.opening(BALL), TypeError, "placed: got Ellipsoid, must be a PlacedOpening"),
+    (lambda: plot.track(BALL), TypeError, "flown: got Ellipsoid, must be a Track, as Run.tracks has them"),
+    (lambda: plot.fit(BALL, CUBE), TypeError, "result: got Ellipsoid, must be a FitResult"),
+    (lambda: plot.run(vc.simulation.Run()), TypeError, "scenario: got NoneType, must be the Scenario of the run"),
+    (lambda: plot.run(None), TypeError, "source: got NoneType, must be the folder of a run, or a Run with its Scenario")])
+def test_what_cannot_be_drawn_is_told(call: Any, kind: type[Exception], message: str) -> None:
+    with pytest.raises(kind) as raised:
+        call()
+    assert type(raised.value) is kind and str(raised.value) == message
 
 
 def test_the_package_draws_without_the_modules() -> None:
@@ -198,6 +260,15 @@ def test_importing_decides_nothing_for_matplotlib() -> None:
     code = ("import matplotlib.pyplot as plt; before = dict(plt.rcParams); "
             "import vericone.plot; assert dict(plt.rcParams) == before")
     subprocess.run([sys.executable, "-c", code], check=True, env={**os.environ, "MPLBACKEND": "agg"})
+
+
+def test_a_program_that_draws_is_typed(tmp_path: Path) -> None:
+    """By mypy without our settings, which know that Matplotlib may have no types."""
+    pytest.importorskip("mypy")
+    (tmp_path / "program.py").write_text("import vericone\nfrom vericone import plot\nplot.body(vericone.Ellipsoid())\n", encoding="utf-8")
+    done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--config-file", "", "--cache-dir", "cache", "program.py"], cwd=tmp_path,
+                          capture_output=True, text=True, check=False, env=os.environ | {"MYPYPATH": os.environ["PYTHONPATH"]})
+    assert done.returncode == 0, done.stdout + done.stderr
 
 
 def test_the_page_about_pictures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

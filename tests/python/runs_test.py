@@ -32,6 +32,13 @@ def same_bits(a: Array, b: Array) -> bool:
     return a.dtype == b.dtype and a.shape == b.shape and a.tobytes() == b.tobytes()
 
 
+def test_the_package_lists_what_it_has() -> None:
+    assert {"Any", "sys", "importlib", "annotations"}.isdisjoint(dir(vericone))
+    assert {"__version__", "Pair", "guidance", "simulate", "many", "InputError"} <= set(dir(vericone))
+    version = subprocess.run([COMMAND, "--version"], capture_output=True, text=True, check=True).stdout.split()[1]
+    assert vericone.__version__ == version
+
+
 # Runs ------------------------------------------------------------------------------------------------------------------
 
 
@@ -46,6 +53,7 @@ def test_runs_are_those_of_the_command(name: str, tmp_path: Path) -> None:
         if written != "run.json":
             assert (theirs / written).read_bytes() == (ours / written).read_bytes(), written
     told, said = json.loads((theirs / "run.json").read_text()), json.loads((ours / "run.json").read_text())
+    assert vericone.__version__ and said["provenance"]["version"] == told["provenance"]["version"] == vericone.__version__
     for apart in ("seconds", "real_time_factor", "provenance"):
         del told[apart], said[apart]
     assert told == said
@@ -68,6 +76,34 @@ def test_tables_know_their_units() -> None:
     assert vericone.units(bodies)["vx"] == "m/s" and vericone.units(bodies)["body"] == ""
     assert bodies["vx [m/s]"] is not None and same_bits(bodies["vx [m/s]"], bodies["vx"])
     assert set(bodies["body"]) == {body.name for body in scenario.bodies}
+
+
+@pytest.mark.parametrize(("text", "value", "requirement"), [
+    ("", "no columns", "a table whose first line names its columns, each by another name"),
+    ("# settings\n", "no columns", "a table whose first line names its columns, each by another name"),
+    ("x [m],x\n1,2\n", "columns ['x [m]', 'x']", "a table whose first line names its columns, each by another name"),
+    ("x [m],y\n1,2\n3\n", "row 2 of 1 fields", "a table whose rows have 2 fields, one for each column"),
+    ("x [m],y\n1,2,3\n", "row 1 of 3 fields", "a table whose rows have 2 fields, one for each column"),
+    ("x [m],y\n1,2\n\n", "row 2 of 0 fields", "a table whose rows have 2 fields, one for each column"),
+    ("x [m],y\n1,2\n3,4.2", "no line break after row 2", "a whole table: this one may be cut off"),
+    ("x [m],y\n1,2\n3,4..2\n", "'4..2' in row 2, column y", "a number like others of the column, or empty"),
+    ("x [m],y\n1,2\n3_0,4\n", "'3_0' in row 2, column x", "a number like others of the column, or empty"),
+    ("x [m],y\n1,\"2\n", "unexpected end of data", "a table of comma-separated fields"),
+    ("x [m],y\n1,\udcff\n", "byte 0xff", "text in UTF-8")])
+def test_tables_that_are_not_whole_are_refused(text: str, value: str, requirement: str, tmp_path: Path) -> None:
+    file = tmp_path / "bodies.csv"
+    file.write_bytes(text.encode("utf-8", "surrogateescape"))
+    with pytest.raises(vericone.InputError) as raised:
+        vericone.read_table(file)
+    assert (raised.value.field, raised.value.value, raised.value.requirement) == (str(file), value, requirement)
+
+
+def test_tables_have_empty_fields_and_comments(tmp_path: Path) -> None:
+    file = tmp_path / "table.csv"
+    file.write_text("# settings, of a command\nx [m],body,law\n1e-3,7,di\n,#2,\n", encoding="utf-8")
+    table = vericone.read_table(file)
+    assert table["body"].tolist() == ["7", "#2"] and table["law"].tolist() == ["di", ""] and vericone.units(table)["x"] == "m"
+    assert table["x"][0] == 1e-3 and np.isnan(table["x"][1])
 
 
 def test_a_frame_of_pandas() -> None:
@@ -120,13 +156,59 @@ def test_an_error_in_progress_is_raised() -> None:
     (lambda: vericone.read_table("none.csv"), "file"), (lambda: vericone.fit("none.ply"), "none.ply"),
     (lambda: vericone.fit(np.zeros((9, 3)), mode="quick"), "mode"), (lambda: vericone.fit(np.zeros((9, 3)), shape="cube"), "shape"),
     (lambda: vericone.fit(np.zeros((9, 3))), "points"), (lambda: vericone.scan("none.yaml"), "none.yaml"),
-    (lambda: vericone.campaign(threads=-1), "threads"),
+    (lambda: vericone.campaign(threads=-1), "threads"), (lambda: vericone.scan("none.yaml", azimuth=float("nan"), out="none"), "azimuth"),
+    (lambda: vericone.many([]), "objects"), (lambda: vericone.simulate("none.yaml", out="a\0b"), "out"),
     (lambda: vericone.campaign(montecarlo.Campaign(engagements=0)), "engagements"),
     (lambda: vericone.campaign(montecarlo.Campaign(laws=["flap"])), "laws")])
 def test_bad_input_is_named(call: Callable[[], object], field: str) -> None:
     with pytest.raises(vericone.InputError) as raised:
         call()
     assert raised.value.field == field
+
+
+UNTYPED: Any = vericone  # what a type checker would refuse
+
+
+@pytest.mark.parametrize(("call", "message"), [
+    (lambda: UNTYPED.simulate(None), "scenario: got NoneType, must be a Scenario, or the path of its file"),
+    (lambda: UNTYPED.simulate("none.yaml", progress=1), "progress: got int, must be a function, or None"),
+    (lambda: UNTYPED.simulate("none.yaml", out=1), "out: got int, must be the path of a folder"),
+    (lambda: UNTYPED.campaign(1), "settings: got int, must be a montecarlo.Campaign, or None"),
+    (lambda: UNTYPED.campaign(threads="2"), "threads: got str, must be an integer"),
+    (lambda: UNTYPED.campaign(threads=1.5), "threads: got float, must be an integer"),
+    (lambda: UNTYPED.scan(None), "scene: got NoneType, must be a scanning.Setup, or the path of a scene"),
+    (lambda: UNTYPED.scan("none.yaml", azimuth="1"), "azimuth: got str, must be a number (rad)"),
+    (lambda: UNTYPED.read_scene(None), "file: got NoneType, must be the path of a file"),
+    (lambda: UNTYPED.read_table(1), "file: got int, must be the path of a CSV file"),
+    (lambda: UNTYPED.units([1.0]), "table: got list, must be a structured array, as run_tables() and read_table() return"),
+    (lambda: UNTYPED.many(1), "objects: got int, must be a list of objects of one type")])
+def test_arguments_of_a_wrong_kind_are_named(call: Callable[[], object], message: str) -> None:
+    with pytest.raises(TypeError) as raised:
+        call()
+    assert str(raised.value) == message
+
+
+@pytest.mark.parametrize("name", ["simulate", "campaign", "fit", "scan"])
+def test_a_folder_that_cannot_be_made_is_told_before_the_work(name: str, tmp_path: Path) -> None:
+    """The work would fail by another error, or tell its progress."""
+    (tmp_path / "file").write_text("")
+
+    def never(*_: object) -> object:
+        raise AssertionError("the work has begun")
+
+    calls: dict[str, Callable[[Path], object]] = {
+        "simulate": lambda out: vericone.simulate(SCENARIOS / "avoidance.yaml", progress=never, out=out),
+        "campaign": lambda out: vericone.campaign(montecarlo.Campaign(engagements=5), threads=1, progress=never, out=out),
+        "fit": lambda out: vericone.fit(dumbbell(), progress=never, out=out),
+        "scan": lambda out: vericone.scan(tmp_path / "none.yaml", out=out)}
+    with pytest.raises(FileExistsError):
+        calls[name](tmp_path / "file")
+    with pytest.raises(NotADirectoryError):
+        calls[name](tmp_path / "file/a/b")
+    if name != "campaign":  # it leaves what it has done, to go on with
+        with pytest.raises((AssertionError, vericone.InputError)):
+            calls[name](tmp_path / "new/folder")
+        assert os.listdir(tmp_path) == ["file"]
 
 
 # Campaigns -------------------------------------------------------------------------------------------------------------
@@ -201,6 +283,7 @@ def test_fits_are_those_of_the_command(tmp_path: Path) -> None:
     for apart in ("seconds", "seconds_read"):
         del theirs[apart], ours[apart]
     assert theirs == ours
+    assert json.loads((tmp_path / "package" / "provenance.json").read_text())["version"] == vericone.__version__
     # The body in a scene encloses the points.
     body = scenes.read_body(tmp_path / "package" / "body.yaml")
     assert body.quadric() is not None
@@ -293,6 +376,48 @@ def test_scenes_of_programs_are_written(tmp_path: Path) -> None:
     assert read.obstacle.pieces().size() == 400  # type: ignore[union-attr]
 
 
+HULL = vericone.HullBody(np.array([[0.1, 0, 0], [1, 0, 0], [0, 1.3, 0], [0, 0, 1]]))
+MOVED = vericone.Pose(position=[0.1, 7.0, 0.3], rotation=[[0, -1, 0], [1, 0, 0], [0, 0, 1]])
+
+
+@pytest.mark.parametrize("other", [vericone.Ellipsoid(), vericone.Assembly.mesh(HULL.points(), [[0, 1, 2], [1, 2, 3]]), HULL])
+@pytest.mark.parametrize("pose", [vericone.Pose(), MOVED])
+def test_hulls_of_programs_are_written(other: Any, pose: vericone.Pose, tmp_path: Path) -> None:
+    """As agents, as obstacles, and alone; with a pose or without. They read back as assemblies of one, or as hulls."""
+    def points(placed: vericone.Placed) -> Any:
+        hull, pieces = placed.body.hull(), placed.body.assembly()
+        if hull is None:
+            assert pieces is not None and pieces.size() == 1
+            hull = pieces.by_slot().hulls[0]
+        return np.asarray(hull.points()).tolist()
+
+    hull = scenes.SceneBody(placed=vericone.Placed(vericone.Body(HULL), pose))
+    beside = scenes.SceneBody(placed=vericone.Placed(vericone.Body(other)))
+    for n, (agent, obstacle) in enumerate([(hull, beside), (beside, hull), (hull, hull)]):
+        file = tmp_path / f"scene-{n}.yaml"
+        vericone.write_scene(scenes.Scene(agent=agent, obstacle=obstacle), file)
+        read = vericone.read_scene(file)
+        for ours, theirs in ((read.agent, agent), (read.obstacle, obstacle)):
+            assert ours.placed.pose == theirs.placed.pose
+            if theirs is hull:
+                assert points(ours.placed) == np.asarray(HULL.points()).tolist()
+        velocities = np.random.default_rng(1).normal(size=(50, 3))
+        given = vericone.Pair(agent.placed, obstacle.placed)
+        assert (read.pair().verdict(velocities, [0, 0, 0]) == given.verdict(velocities, [0, 0, 0])).all()
+    scenes.write_body(hull, tmp_path / "body.yaml")
+    assert points(scenes.read_body(tmp_path / "body.yaml").placed) == np.asarray(HULL.points()).tolist()
+
+
+def test_an_ellipsoid_with_a_pose_is_refused(tmp_path: Path) -> None:
+    ellipsoid = vericone.Ellipsoid.from_axes([0, 0, 0], [1, 2, 3])
+    moved = scenes.SceneBody(placed=vericone.Placed(vericone.Body(ellipsoid), MOVED))
+    with pytest.raises(vericone.InputError, match=r"obstacle: got ellipsoid, must be .* without a pose \(in_world\(\) makes one\)"):
+        vericone.write_scene(scenes.Scene(obstacle=moved), tmp_path / "scene.yaml")
+    there = scenes.SceneBody(placed=vericone.Placed(vericone.Body(vericone.in_world(ellipsoid, MOVED))))
+    vericone.write_scene(scenes.Scene(obstacle=there), tmp_path / "scene.yaml")
+    assert vericone.read_scene(tmp_path / "scene.yaml").obstacle.ellipsoid() == vericone.in_world(ellipsoid, MOVED)
+
+
 @pytest.mark.parametrize("name", ["cloud.ply", "cloud.pcd", "cloud.xyz", "mesh.ply", "mesh.obj", "mesh.off"])
 def test_points_are_written_as_they_are_read(name: str, tmp_path: Path) -> None:
     points = dumbbell() * 1e-7
@@ -318,7 +443,6 @@ def test_writing_refuses_what_no_file_holds(tmp_path: Path) -> None:
     assert raised.value.field == "points[0][1]" and not os.listdir(tmp_path)
 
 
-@needs_scans
 def test_the_page_of_files_and_runs_says_what_works(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Its blocks, one after the other, in a folder that has docs/ beside."""
     (tmp_path / "docs").symlink_to(ROOT / "docs")

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# mypy: disable-error-code="import"
 """Bodies of a run (docs/reference/scenarios.md) as curves and meshes: true outlines and surfaces. Those of quadrics are
 star-shaped about their centres: a distance for every direction, the least over what delimits them."""
 import itertools
@@ -132,7 +133,11 @@ def polygons(shape: Shape, near: Any = None) -> list[Any]:
 def lit(faces: Any, color: Any) -> Array:
     """The colour of each face under a light from above; both sides of a face are the same."""
     corners = np.array([f[:3] for f in faces])
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    return shaded(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), color)
+
+
+def shaded(normal: Array, color: Any) -> Array:
+    """The colour of faces with these normals (n, 3) of any length."""
     length = np.linalg.norm(normal, axis=1)
     light = np.abs(normal @ [-0.35, -0.45, 0.82]) / np.where(length > 0, length, 1)
     return np.clip(np.array(to_rgb(color)) * (0.45 + 0.55 * light[:, None]), 0, 1)

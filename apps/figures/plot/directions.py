@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# mypy: disable-error-code="import"
 """Directions as pictures: distance to the first contact by colour, safe directions white."""
 from typing import Any
 

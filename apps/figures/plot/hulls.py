@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# mypy: disable-error-code="import"
 """A scan and its quadric hull. The scan is drawn solid, the hull translucent over it with its outlines and rims; rings
 where points touch the hull."""
 from typing import Any

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# mypy: disable-error-code="import"
 """Engagements in the plane: both bodies, the inner common tangents, the sector of colliding velocities drawn at the
 agent, and where the scene's relative velocity leads, seen from the obstacle."""
 from typing import Any

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# mypy: disable-error-code="import"
 """Engagements in space: bodies, the cone of colliding velocities at the agent, and where a relative velocity leads."""
 from typing import Any
 

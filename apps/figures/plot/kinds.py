@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the drawing code calls its arguments."""
+"""What the drawing code calls its arguments. Files that import Matplotlib tell mypy that it may be without types:
+Debian's is."""
 import os
 from collections.abc import Mapping
 from typing import Any

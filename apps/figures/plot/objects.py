@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """vericone's objects as the plain numbers that the drawing code takes (docs/reference/formats.md). They are known by
 what they have, not by their types: the scripts of the command draw without the library's modules."""
+import numbers
+import sys
 from typing import Any
 
 import numpy as np
@@ -12,6 +14,70 @@ Numbers = Any  # what numpy makes an array of
 
 def has(thing: Any, *names: str) -> bool:
     return all(hasattr(thing, name) for name in names)
+
+
+def refused(argument: str, given: str, requirement: str) -> ValueError:
+    """An argument whose value cannot be used: vericone's InputError, where the library is there."""
+    library: Any = sys.modules.get("vericone")
+    if library is not None:
+        error: ValueError = library.InputError(argument, given, requirement)
+        return error
+    return ValueError("%s: got %s, must be %s" % (argument, given, requirement))
+
+
+def wrong_kind(argument: str, given: Any, requirement: str) -> TypeError:
+    """An argument of another kind."""
+    return TypeError("%s: got %s, must be %s" % (argument, type(given).__name__, requirement))
+
+
+def array_of(given: Numbers, argument: str, requirement: str) -> Any:
+    """An array of finite numbers."""
+    if isinstance(given, (str, bytes)) or given is None:
+        raise wrong_kind(argument, given, requirement)
+    try:
+        array = np.asarray(given, float)
+    except (TypeError, ValueError):
+        raise wrong_kind(argument, given, requirement) from None
+    wrong = np.argwhere(~np.isfinite(array))
+    if len(wrong):
+        raise refused(argument + "".join("[%d]" % i for i in wrong[0]), str(array[tuple(wrong[0])]), "finite")
+    return array
+
+
+def points_of(given: Numbers, argument: str, sides: tuple[int, ...] = (3,)) -> Any:
+    """Points (n, 3), or (n, 2) where `sides` has 2, metres."""
+    wanted = "points of shape %s" % " or ".join("(n, %d)" % side for side in sides)
+    points = array_of(given, argument, wanted)
+    if points.ndim != 2 or points.shape[1] not in sides or not len(points):
+        raise refused(argument, "no points" if not points.size else "an array of shape %s" % (points.shape,), wanted)
+    return points
+
+
+def vector_of(given: Numbers, argument: str, sides: tuple[int, ...] = (3,)) -> Any:
+    """A vector of 3 numbers, or of 2 where `sides` has 2."""
+    wanted = "a vector of shape %s" % " or ".join("(%d,)" % side for side in sides)
+    vector = array_of(given, argument, wanted)
+    if vector.shape not in [(side,) for side in sides]:
+        raise refused(argument, "an array of shape %s" % (vector.shape,), wanted)
+    return vector
+
+
+def direction_of(given: Numbers, argument: str) -> Any:
+    """The unit vector along a vector that is not zero."""
+    vector = vector_of(given, argument)
+    largest = np.abs(vector).max()
+    if largest == 0:
+        raise refused(argument, "[0, 0, 0]", "a vector that is not zero")
+    vector = vector / largest
+    return vector / np.linalg.norm(vector)
+
+
+def number_of(given: Any, argument: str, least: float) -> float:
+    if not isinstance(given, numbers.Real):
+        raise wrong_kind(argument, given, "a number")
+    if not least <= float(given) < np.inf:
+        raise refused(argument, str(given), "finite, %g or more" % least)
+    return float(given)
 
 
 def value(thing: Any) -> Any:
@@ -67,20 +133,19 @@ def box_triangles(low: Any, high: Any) -> Any:
     return at[:, sides].reshape(-1, 3, 3)
 
 
-def shape_and_row(thing: Any) -> tuple[dict[str, Any], dict[str, float]]:
-    """What a body is and where it stands. Takes ellipses, ellipsoids, combined bodies, hulls, assemblies, bodies,
+def shape_and_row(thing: Any, argument: str = "thing") -> tuple[dict[str, Any], dict[str, float]]:
+    """What a body is and where it stands; `argument` is named in errors. Takes ellipses, ellipsoids, combined bodies, hulls, assemblies, bodies,
     placed ones, bodies of scenes and of the world, meshes ({points, triangles}), and arrays of points (n, 3)."""
     if isinstance(thing, dict):
         return thing, row_of([0, 0, 0], np.eye(3))
     if isinstance(thing, (np.ndarray, list, tuple)):
-        points = np.asarray(thing, float)
-        if points.ndim != 2 or points.shape[1] != 3:
-            raise ValueError("body: points of shape (n, 3) are wanted, these are %s" % (points.shape,))
-        return {"kind": "cloud", "points": points, "radius": 0.0}, row_of([0, 0, 0], np.eye(3))
+        return {"kind": "cloud", "points": points_of(thing, argument), "radius": 0.0}, row_of([0, 0, 0], np.eye(3))
+    if isinstance(thing, type):
+        raise TypeError("%s: got the type %s, must be an object" % (argument, thing.__name__))
     if has(thing, "placed") and value(thing.placed) is not None:
-        return shape_and_row(value(thing.placed))
+        return shape_and_row(value(thing.placed), argument)
     if has(thing, "body", "pose"):
-        shape, _ = shape_and_row(thing.body)
+        shape, _ = shape_and_row(thing.body, argument)
         return shape, row_of(thing.pose.position, thing.pose.rotation)
     at_origin = row_of([0, 0, 0], np.eye(3))
     if has(thing, "factor", "center") or has(thing, "delimiters", "ellipsoid"):
@@ -88,20 +153,23 @@ def shape_and_row(thing: Any) -> tuple[dict[str, Any], dict[str, float]]:
     if has(thing, "by_slot"):
         return assembly_shape(thing), at_origin
     if has(thing, "flat", "quadric", "hull"):  # a body of the world that is not placed
-        return shape_and_row(next(part for part in (thing.flat(), thing.quadric(), thing.hull()) if part is not None))
+        parts = (thing.flat(), thing.quadric(), thing.hull())
+        return shape_and_row(next(part for part in parts if part is not None), argument)
     if has(thing, "kind", "shape"):
         made_of = thing.shape()
         if not isinstance(made_of, list):
-            return shape_and_row(made_of)
+            return shape_and_row(made_of, argument)
         return {"kind": "pieces", "pieces": [quadric_shape(piece) for piece in made_of]}, at_origin
     if has(thing, "points", "triangles"):
-        points, triangles = np.asarray(value(thing.points), float), np.asarray(value(thing.triangles))
+        points, triangles = points_of(value(thing.points), argument + ".points"), np.asarray(value(thing.triangles))
         if len(triangles):
+            if triangles.min() < 0 or triangles.max() >= len(points):
+                raise refused(argument + ".triangles", "a point %d" % triangles.max(), "of points 0 to %d" % (len(points) - 1))
             return {"kind": "mesh", "triangles": points[triangles]}, at_origin
         return {"kind": "cloud", "points": points, "radius": 0.0}, at_origin
     if has(thing, "points"):
-        return {"kind": "hull", "points": np.asarray(value(thing.points), float)}, at_origin
-    raise TypeError("body: %s is none; a body, a placed one, a mesh, or points (n, 3) are" % type(thing).__name__)
+        return {"kind": "hull", "points": points_of(value(thing.points), argument + ".points")}, at_origin
+    raise wrong_kind(argument, thing, "a body, a placed one, a mesh, or points (n, 3)")
 
 
 def course_of(pair: Any, agent_velocity: Numbers, obstacle_velocity: Numbers) -> dict[str, Any]:
@@ -118,8 +186,11 @@ def course_of(pair: Any, agent_velocity: Numbers, obstacle_velocity: Numbers) ->
     return course
 
 
-def loops_of(cone: Any) -> tuple[list[Any], list[Any], Any]:
+def loops_of(cone: Any, argument: str = "thing") -> tuple[list[Any], list[Any], Any]:
     """Inner and outer polygons of directions of a cone of any kind, and its axis (nothing where it does not say)."""
+    wanted = "a Cone, TrueCone, SliceCone, PolyhedralCone, ConeBounds or ConeMap"
+    if has(cone, "verdict", "cone"):
+        raise wrong_kind(argument, cone, wanted + ": its cone() is one")
     axis = np.asarray(cone.axis) if has(cone, "axis") else None
     if has(cone, "inner", "outer"):
         inner, outer = cone.inner, cone.outer
@@ -128,12 +199,12 @@ def loops_of(cone: Any) -> tuple[list[Any], list[Any], Any]:
         return [np.asarray(x) for x in inner], [np.asarray(x) for x in outer], axis
     if has(cone, "boundary"):
         loop = np.array([np.asarray(sample.direction) for sample in cone.boundary])
-    elif has(cone, "directions"):
+    elif has(cone, "directions") and not callable(cone.directions):
         loop = np.asarray(cone.directions)
     elif has(cone, "polyhedral"):
         loop = np.asarray(cone.polyhedral().directions)
     else:
-        raise TypeError("cone: %s is none; a Cone, TrueCone, SliceCone or PolyhedralCone is" % type(cone).__name__)
+        raise wrong_kind(argument, cone, wanted)
     return [loop], [loop], axis
 
 
@@ -148,6 +219,8 @@ def solid_angle_of(cone: Any) -> tuple[float, float]:
 
 def map_data(cone_map: Any) -> dict[str, Any]:
     """A map as cone_map.json has it, without its region."""
+    if not has(cone_map, "cells", "corners", "undecided"):
+        raise wrong_kind("thing", cone_map, "a ConeMap" + ("; cone() draws cones" if has(cone_map, "solid_angle") else ""))
     cells = cone_map.cells
     letters = "".join("iou"[int(cell.label)] for cell in cells)
     return {"title": "", "corners": np.asarray(cone_map.corners),

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# mypy: disable-error-code="import"
 """Cones of colliding velocities: in space at the agent, as the agent sees them, as maps of all directions; sectors of
 planes; verdicts and clearances of many velocities."""
 import weakref
@@ -11,27 +12,42 @@ from matplotlib.patches import Arc, Patch, Wedge
 
 from . import course as courses
 from . import in_space, sphere
-from .objects import Numbers, course_of, has, loops_of, map_data, shape_and_row, solid_angle_of, word
-from .of_bodies import body, draw_in_space, fit_space, space
+from .objects import (Numbers, course_of, direction_of, has, loops_of, map_data, number_of, refused, shape_and_row,
+                      solid_angle_of, vector_of, word, wrong_kind)
+from .of_bodies import axes_for, body, draw_in_space, fit_space, space
 from .signs import ANSWERS
 from .style import AGENT, EXACT, GREY, OBSTACLE, SLICE, style
 
 TOWARDS: "weakref.WeakKeyDictionary[Any, Any]" = weakref.WeakKeyDictionary()  # of axes that show directions: the one in their middle
 
 
-def seen_from_agent(axes: Any, towards: Numbers) -> Any:
+def seen_from_agent(axes: Any, towards: Numbers, argument: str = "towards") -> Any:
     """Axes of directions: angles from the direction in their middle keep their size, degrees (azimuthal
     equidistant)."""
+    axes_in_plane(axes)
+    direction = direction_of(towards, argument)
     if axes is None:
         axes = plt.figure(figsize=(3.9, 3.5), constrained_layout=True).add_subplot()
     if axes not in TOWARDS:
-        TOWARDS[axes] = sphere.unit(np.asarray(towards, float))
+        TOWARDS[axes] = direction
         axes.set_aspect("equal", adjustable="datalim")
         axes.set_axisbelow(True)
         axes.set_xlabel("to the right of the line of sight (deg)")
         axes.set_ylabel("above it (deg)")
         axes.plot(0, 0, "+", color=GREY, markersize=5)
     return axes
+
+
+def axes_in_plane(axes: Any) -> None:
+    """New ones are made where there are none."""
+    if axes is not None:
+        axes_for(axes, True)
+
+
+def pair_of(thing: Any) -> Any:
+    if not has(thing, "agent", "obstacle", "verdict", "miss"):
+        raise wrong_kind("pair", thing, "a Pair")
+    return thing
 
 
 def above(axes: Any) -> None:
@@ -54,12 +70,13 @@ def cone(thing: Any, *, axes: Any = None, towards: Numbers | None = None, color:
         return cone_map(thing, axes=axes, towards=towards)
     inner, outer, axis = loops_of(thing)
     if not outer:
-        raise ValueError("cone: it has no border; the bodies are not apart, or nothing was drawn of it")
+        raise refused("thing", "a cone without a border", "one of bodies that are apart")
     if color is None:
         color = SLICE if has(thing, "slices") else EXACT
-    middle = axis if axis is not None and towards is None else towards
+    if towards is None:
+        towards = axis if axis is not None and np.any(axis) else np.mean(outer[0], axis=0)
     with style():
-        axes = seen_from_agent(axes, middle if middle is not None else np.mean(outer[0], axis=0))
+        axes = seen_from_agent(axes, towards)
         for loop in inner:
             axes.fill(*on_view(axes, loop).T, color=color, alpha=0.2, linewidth=0)
         low, high = solid_angle_of(thing)
@@ -71,10 +88,18 @@ def cone(thing: Any, *, axes: Any = None, towards: Numbers | None = None, color:
     return axes
 
 
-def velocity(relative_velocity: Numbers, *, axes: Any, verdict: Any = None, label: str | None = None) -> Any:
+def velocity(relative_velocity: Numbers, *, axes: Any = None, towards: Numbers | None = None, verdict: Any = None,
+             label: str | None = None) -> Any:
     """Marks the direction of a relative velocity (m/s) on axes of directions, in the colour of its verdict; returns
-    them."""
+    them. `towards`: the direction in the middle of new ones, the velocity itself if left out."""
+    direction_of(relative_velocity, "relative_velocity")
+    fresh = axes is None
     with style():
+        axes = seen_from_agent(axes, relative_velocity if towards is None else towards)
+        if fresh:  # a point alone has no scale
+            reach = max(60.0, 1.1 * float(np.abs(on_view(axes, relative_velocity)).max()))
+            axes.set_xlim(-reach, reach)
+            axes.set_ylim(-reach, reach)
         color = courses.COLORS.get(word(verdict), GREY) if verdict is not None else "k"
         text = label or (courses.WORDS.get(word(verdict)) if verdict is not None else None)
         axes.plot(*on_view(axes, relative_velocity), "o", color=color, markersize=5, markeredgecolor="w",
@@ -90,12 +115,13 @@ def cone_map(thing: Any, *, axes: Any = None, towards: Numbers | None = None, re
     from it; without one the whole sphere by azimuth and elevation, degrees. Solid angles in the legend are
     steradian."""
     data = map_data(thing)
+    axes_in_plane(axes)
+    direction = None if towards is None else direction_of(towards, "towards")
     labels = sphere.Map(data)
     with style():
         if axes is None:
-            axes = plt.figure(figsize=(4.6, 3.6 if towards is not None else 2.9), constrained_layout=True).add_subplot()
-        if towards is not None:
-            direction = sphere.unit(np.asarray(towards, float))
+            axes = plt.figure(figsize=(4.6, 2.9 if direction is None else 3.6), constrained_layout=True).add_subplot()
+        if direction is not None:
             TOWARDS[axes] = direction
             sphere.view(axes, labels, data, direction, pixels, reach)
         else:
@@ -110,6 +136,10 @@ def sector(thing: Any, *, axes: Any = None, radius: float = 1.0, center: Numbers
     """Draws the colliding directions of a plane and returns the axes. A PlaneSector: in its plane, the line of sight to
     the right, `across` up. A Sector of two planar bodies: at `center`, metres, in world axes, with its tangents.
     `radius` in the units of the axes."""
+    axes_in_plane(axes)
+    if not has(thing, "left", "right") or not (has(thing, "line_of_sight") or has(thing, "theta_b", "psi")):
+        raise wrong_kind("thing", thing, "a PlaneSector, of Pair.sector(), or a Sector of planar bodies")
+    center = vector_of(center, "center", (2,))
     low, high = ((-thing.right.angle, thing.left.angle) if has(thing, "line_of_sight") else
                  (thing.theta_b - 0.5 * thing.psi, thing.theta_b + 0.5 * thing.psi))
     with style():
@@ -151,12 +181,15 @@ def engagement(pair: Any, agent_velocity: Numbers | None = None, obstacle_veloci
     """Draws a Pair in space, metres, and returns the axes: the agent (green), the obstacle (violet), the cone of
     relative velocities that collide as far as the obstacle, and where the velocities (m/s) lead, seen from the
     obstacle. `cone`: one that is there already, or whether to ask the pair for it (of meshes seconds: pair.cone())."""
-    agent, obstacle = pair.agent(), pair.obstacle()
+    agent, obstacle = pair_of(pair).agent(), pair.obstacle()
+    if agent_velocity is not None:
+        agent_velocity = vector_of(agent_velocity, "agent_velocity")
+    obstacle_velocity = vector_of(obstacle_velocity, "obstacle_velocity")
     start, end = np.asarray(agent.middle()), np.asarray(obstacle.middle())
     distance = float(np.linalg.norm(end - start))
     shown = pair.cone() if cone is True else cone or None
     with style():
-        axes = axes if axes is not None else space((4.6, 4.0))
+        axes = space((4.6, 4.0)) if axes is None else axes_for(axes, False)
         body(agent, axes=axes, color=AGENT)
         body(obstacle, axes=axes, color=OBSTACLE)
         if shown is not None:
@@ -186,6 +219,9 @@ def engagement(pair: Any, agent_velocity: Numbers | None = None, obstacle_veloci
 
 def plane_engagement(agent: Any, obstacle: Any, sector_of_pair: Any = None, *, axes: Any = None) -> Any:
     """Draws two planar bodies, metres, with their Sector of colliding directions at the agent; returns the axes."""
+    for argument, thing in (("agent", agent), ("obstacle", obstacle)):
+        if shape_and_row(thing, argument)[0]["kind"] != "ellipse":
+            raise wrong_kind(argument, thing, "a planar body: an Ellipse or a CombinedEllipse")
     axes = body(agent, axes=axes, color=AGENT, label="agent")
     body(obstacle, axes=axes, color=OBSTACLE, label="obstacle")
     if sector_of_pair is not None:
@@ -199,7 +235,7 @@ def directions_around(towards: Numbers, reach: float = 60.0, n: int = 121) -> An
     """Unit directions (n, n, 3) for a picture as the agent sees it: up to `reach` degrees right, left, up and down of
     the one in the middle."""
     x, y = np.meshgrid(np.linspace(-reach, reach, n), np.linspace(-reach, reach, n))
-    return sphere.on_sky(x, y, sphere.unit(np.asarray(towards, float)))
+    return sphere.on_sky(x, y, direction_of(towards, "towards"))
 
 
 def clearance_field(pair: Any, speed: float, obstacle_velocity: Numbers = (0.0, 0.0, 0.0), *, reach: float = 60.0,
@@ -207,9 +243,10 @@ def clearance_field(pair: Any, speed: float, obstacle_velocity: Numbers = (0.0, 
     """Draws by how much a pair misses for every heading of the agent at `speed` (m/s): metres, negative where they meet
     (then how far the agent would have to be shifted); the line is where they graze. Headings in degrees from the line
     of sight. Returns the axes. Cost: n² questions, asked in one call."""
-    towards = np.asarray(pair.obstacle().middle()) - np.asarray(pair.agent().middle())
-    headings = directions_around(towards, reach, n)
-    miss = np.asarray(pair.miss(speed * headings, np.asarray(obstacle_velocity, float)).distance)
+    towards = np.asarray(pair_of(pair).obstacle().middle()) - np.asarray(pair.agent().middle())
+    axes_in_plane(axes)
+    headings = directions_around(towards, number_of(reach, "reach", 0), int(number_of(n, "n", 2)))
+    miss = np.asarray(pair.miss(number_of(speed, "speed", 0) * headings, vector_of(obstacle_velocity, "obstacle_velocity")).distance)
     with style():
         axes = seen_from_agent(axes, towards)
         low, high = float(np.nanmin(miss)), float(np.nanmax(miss))
@@ -233,6 +270,9 @@ def sign_map(verdicts: Any, *, axes: Any = None, title: str | None = None, unit:
     """Draws verdicts (n, n) of velocities beside each other, the middle one in the middle, as colours of in, on and
     out; returns the axes. `unit`: what a step is called."""
     grid = np.asarray(verdicts)
+    axes_in_plane(axes)
+    if grid.ndim != 2 or grid.dtype.kind not in "iuf" or not grid.size:
+        raise refused("verdicts", "an array of shape %s, %s" % (grid.shape, grid.dtype), "verdicts of shape (n, n)")
     half = [size // 2 + 0.5 for size in grid.shape]
     with style():
         if axes is None:

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# mypy: disable-error-code="import"
 """Runs and fits."""
+import os
 import sys
 import tempfile
 from typing import Any
@@ -8,7 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from . import hulls, runs
-from .objects import has, quadric_shape, value, word
+from .objects import has, points_of, quadric_shape, value, word, wrong_kind
 from .solids import View
 from .style import TWO_COLUMNS, style
 
@@ -16,7 +18,12 @@ from .style import TWO_COLUMNS, style
 def flown_of(source: Any, scenario: Any) -> runs.Flown:
     """From a run's folder, or from a Run and its Scenario by the files that it would leave."""
     if scenario is None:
-        return runs.flown(source)
+        if isinstance(source, (str, os.PathLike)):
+            return runs.flown(source)
+        if has(source, "tracks"):
+            raise wrong_kind("scenario", scenario, "the Scenario of the run")
+    if not has(source, "tracks"):
+        raise wrong_kind("source", source, "the folder of a run, or a Run with its Scenario")
     library = sys.modules["vericone"]
     with tempfile.TemporaryDirectory() as folder:
         origin = library.scenario.RunOrigin(file="", seconds=0.0, text="", provenance="{}")
@@ -72,7 +79,9 @@ def piece_data(piece: Any) -> dict[str, Any]:
 
 def fit_data(result: Any, sample: Any) -> dict[str, Any]:
     """As fit_picture.json: what a fit found, of a Sample, a mesh or points (n, 3)."""
-    points = np.asarray(value(sample.points) if has(sample, "points") else sample, float)
+    if not has(result, "pieces", "certificate"):
+        raise wrong_kind("result", result, "a FitResult")
+    points = points_of(value(sample.points) if has(sample, "points") else sample, "sample")
     triangles = np.asarray(value(sample.triangles)) if has(sample, "triangles") else np.zeros((0, 3), int)
     scan = {"triangles": points[triangles]} if len(triangles) else {"points": points}
     touching = points[np.asarray(result.certificate.touching, int)]

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# mypy: disable-error-code="import"
 """A run: the bodies on their ways at several times; y, clearance and accelerations over time."""
 import collections.abc
 import json

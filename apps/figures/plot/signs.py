@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# mypy: disable-error-code="import"
 """Answers around an exactly grazing velocity, one cell a double."""
 from typing import Any
 

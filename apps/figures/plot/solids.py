@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# mypy: disable-error-code="import"
 """Combined quadrics in parallel projection with true outlines: the rims, and the contours where surfaces turn away
 from the eye, as lines; what is behind something is found by intersecting the line of sight with the quadrics, not
 with the mesh."""

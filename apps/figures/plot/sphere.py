@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# mypy: disable-error-code="import"
 """Maps of all directions: around one of them, as the agent sees it, and the whole sphere; what collides, what is safe,
 what is undecided, and the rim of the region around that direction."""
 import collections.abc

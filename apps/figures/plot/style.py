@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# mypy: disable-error-code="import"
 """Common look of the figures: IEEE widths, fonts that are embedded as TrueType; colours mean the same in all of
 them."""
 from collections.abc import Iterator

@@ -5,6 +5,7 @@
 
 #include "assembly/gap.h"
 #include "assembly/state.h"
+#include "map/frontier.h"
 
 namespace vericone::assembly {
 
@@ -89,6 +90,7 @@ Certified AssemblyOracle::classify(const DirectionCell& cell, const Frontier& pa
     own = parent;
     return Certified::undecided;
   }
+  require_indices(parent, scene.nodes().size());
   // First: where one piece meets all, there are often thousands that meet some.
   if (some_piece_meets_all(scene, turned, directions, parent)) return Certified::in;
   const CircularResidual residual(directions);

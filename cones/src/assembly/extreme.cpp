@@ -3,6 +3,7 @@
 // The extreme direction of a body on a half-plane.
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
 #include <algorithm>
 #include <numbers>
 #include <optional>
@@ -310,6 +311,7 @@ std::vector<ExtremeDirection> AssemblyOracle::extremes(const Eigen::Vector3d& ax
   std::vector<ExtremeDirection> result;
   result.reserve(std::size_t(half_planes));
   for (int i = 0; i < half_planes; ++i) {
+    checkpoint();
     const double azimuth = 2 * std::numbers::pi * i / half_planes;
     const Eigen::Vector3d side = basis.across(azimuth);
     result.push_back(find_extreme(*state_, {state_->to_body(basis.axis), state_->to_body(side)}, tolerance,

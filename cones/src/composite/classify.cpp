@@ -9,6 +9,7 @@
 
 #include "composite/delimited.h"
 #include "composite/pieces.h"
+#include "map/frontier.h"
 
 namespace vericone {
 using namespace assembly;
@@ -167,6 +168,17 @@ DirectionCell in_obstacle_frame(const State& state, const DirectionCell& cell) {
 /// Where the pairs of a frontier begin.
 Frontier::const_iterator pairs_of(const Frontier& frontier) { return frontier.begin() + 1 + frontier[0]; }
 
+void require_pairs(const State& state, const Frontier& parent) {
+  require_frontier(!parent.empty() && parent[0] < parent.size() && (parent.size() - 1 - parent[0]) % 2 == 0,
+                   parent);
+  const std::size_t nodes = state.obstacle.hierarchy().nodes().size();
+  const auto is_part = [&](std::uint32_t a) {
+    return state.agent ? a < state.agent->hierarchy().nodes().size() : unpacked(a).level <= kPackedLevels;
+  };
+  for (auto i = pairs_of(parent); i != parent.end(); i += 2)
+    require_frontier(is_part(i[0]) && i[1] < nodes, parent);
+}
+
 /// Whether no pair of the parent's may meet in the cell; otherwise `own` has those that may, and `inner`.
 bool no_pair_is_left(const State& state, const Directions& directions, const Frontier& parent,
                      const Frontier& inner, Frontier& own) {
@@ -194,6 +206,7 @@ Certified CompositePair::classify(const DirectionCell& cell, const Frontier& par
   const Directions directions(state.zero, {turned[0], turned[1], turned[2]});
   if (directions.spread_too_far()) return Certified::undecided;
 
+  require_pairs(state, parent);
   const Frontier inner_parent(parent.begin() + 1, pairs_of(parent));
   Frontier inner;
   if (state.within && !inner_parent.empty()) {
@@ -211,6 +224,7 @@ bool CompositePair::misses(const DirectionCell& cell, const Frontier& parent, Fr
   const DirectionCell turned = in_obstacle_frame(state, cell);
   const Directions directions(state.zero, {turned[0], turned[1], turned[2]});
   if (directions.spread_too_far()) return false;
+  require_pairs(state, parent);
   return no_pair_is_left(state, directions, parent, Frontier(parent.begin() + 1, pairs_of(parent)), own);
 }
 

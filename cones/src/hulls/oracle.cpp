@@ -341,6 +341,7 @@ Membership HullOracle::membership(const Eigen::Vector3d& v_a, const Eigen::Vecto
 Passage HullOracle::passage(const Eigen::Vector3d& w) const { return passage_by_membership(*this, w); }
 
 Verdict HullOracle::verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, Rung* rung) const {
+  if (rung && relation_ != Relation::disjoint) *rung = relation_rung_;
   return verdict_of(relation_, [&] { return membership(v_a, v_b, rung); });
 }
 

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <utility>
 
+#include "map/frontier.h"
+
 namespace vericone {
 namespace {
 
@@ -146,6 +148,7 @@ Certified CombinedClassifier::classify(const DirectionCell& cell, const Frontier
                                        Frontier& own) const {
   if (!relation_) return Certified::undecided;
   if (*relation_ != Relation::disjoint) return Certified::in;
+  require_indices(parent, parts_.size());
   const DirectionCell inwards = normalized(inward_normals(cell));
   bool may_meet = false, inside = false, crosses = false;
   for (const std::uint32_t i : parent) {
@@ -184,6 +187,8 @@ template <typename Ask>
 Certified AnyOfClassifier::each(const Frontier& parent, Frontier& own, const Ask& ask) const {
   Frontier before, after;
   for (std::size_t at = 0; at < parent.size();) {
+    const std::size_t left = parent.size() - at;
+    require_frontier(left >= 2 && parent[at] < all_.size() && parent[at + 1] <= left - 2, parent);
     const std::uint32_t index = parent[at], count = parent[at + 1];
     before.assign(parent.begin() + at + 2, parent.begin() + at + 2 + count);
     at += 2 + count;

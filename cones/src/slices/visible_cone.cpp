@@ -51,10 +51,10 @@ void order_by_bearing(std::vector<Vector2d>& points) {
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = keyed[i].second;
 }
 
-PlanePoints points_near_plane(std::span<const Vector3d> cloud, double half_thickness) {
+PlanePoints points_near_plane(std::vector<Vector3d> cloud, double half_thickness) {
   if (!(half_thickness >= 0))
     throw InputError("half_thickness", to_text(half_thickness), "a number from 0 up (metres)");
-  return [cloud, half_thickness](const PlaneFrame& plane) {
+  return [cloud = std::move(cloud), half_thickness](const PlaneFrame& plane) {
     const Vector3d normal = plane.normal();
     std::vector<Vector2d> near;
     for (const Vector3d& p : cloud)
@@ -70,9 +70,9 @@ double slab_half_thickness(std::span<const Vector3d> cloud, const Vector3d& sens
   return 0.5 * spacing * farthest;
 }
 
-PlanePoints mesh_section_points(std::span<const Vector3d> points,
-                                std::span<const std::array<std::uint32_t, 3>> triangles) {
-  return [points, triangles](const PlaneFrame& plane) {
+PlanePoints mesh_section_points(std::vector<Vector3d> points,
+                                std::vector<std::array<std::uint32_t, 3>> triangles) {
+  return [points = std::move(points), triangles = std::move(triangles)](const PlaneFrame& plane) {
     std::vector<Vector2d> all;
     for (const SectionLine& line : mesh_section(points, triangles, plane))
       all.insert(all.end(), line.points.begin(), line.points.end());

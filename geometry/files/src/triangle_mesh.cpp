@@ -95,6 +95,11 @@ TriangleMesh triangle_mesh(PointFile file, const MeshOptions& options) {
   if (file.faces.empty())
     throw InputError("faces", "a cloud of " + std::to_string(file.points.size()) + " points",
                      "a mesh, with at least one face");
+  for (std::size_t i = 0; i < file.faces.size(); ++i)
+    for (const std::uint32_t corner : file.faces[i])
+      if (corner >= file.points.size())
+        throw InputError("faces[" + std::to_string(i) + "]", std::to_string(corner),
+                         "indices of points, below " + std::to_string(file.points.size()));
   if (options.merge_equal_points) merge_points(file);
   TriangleMesh mesh;
   MeshReport& report = mesh.report;

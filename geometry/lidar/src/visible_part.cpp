@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/lidar/visible_part.h>
 
+#include <vericone/geometry/error.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 namespace vericone::lidar {
 namespace {
@@ -100,8 +102,18 @@ SurfacePart visible_part(const MeshScene& scene, const std::vector<Vector3d>& po
                          const std::vector<Triangle>& triangles, const std::vector<Lidar>& lidars,
                          const Eigen::Isometry3d& agent, double resolution) {
   std::vector<View> views;
+  for (std::size_t i = 0; i < lidars.size(); ++i) try {
+      check(lidars[i]);
+    } catch (const InputError& e) {
+      throw e.within("lidars[" + std::to_string(i) + "]");
+    }
   for (const Lidar& l : lidars) views.emplace_back(l, agent);
   Collector collector(scene, std::move(views), resolution);
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    for (const std::uint32_t corner : triangles[i])
+      if (corner >= points.size())
+        throw InputError("triangles[" + std::to_string(i) + "]", std::to_string(corner),
+                         "indices of points, below " + std::to_string(points.size()));
   for (const Triangle& t : triangles) collector.add(points[t[0]], points[t[1]], points[t[2]]);
   return collector.take();
 }

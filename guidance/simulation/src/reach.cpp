@@ -352,6 +352,9 @@ std::vector<AgentReach> reach(const Scenario& scenario) {
     for (const std::string& name : body.pilot->through->orifices) {
       const auto it = std::find_if(scenario.orifices.begin(), scenario.orifices.end(),
                                    [&](const MovingOrifice& orifice) { return orifice.name == name; });
+      if (it == scenario.orifices.end())
+        throw InputError("bodies[" + std::to_string(i) + "].pilot.through", name,
+                         "names of orifices of the scenario");
       agent.orifices.push_back(static_cast<std::size_t>(it - scenario.orifices.begin()));
       orifices.push_back(&*it);
     }
@@ -377,6 +380,8 @@ std::optional<double> largest_drift(const Scenario& scenario, const Run& run) {
   double most = std::numeric_limits<double>::infinity();
   for (const PassageOutcome& passage : run.passages) {
     if (!passage.ordered) continue;
+    if (passage.agent >= run.tracks.size() || passage.orifice >= scenario.orifices.size())
+      throw InputError("run.passages", "a passage of others", "a run of this scenario");
     const Track& track = run.tracks[passage.agent];
     const auto passes = [&](double drift) {
       ProofOptions options = scenario.proof;

@@ -24,26 +24,6 @@ void require_not_negative(double value, const char* field, const char* unit) {
     throw InputError(field, to_text(value), std::string("a finite number, 0 or more") + unit);
 }
 
-void check_laws(const guidance::GuideOptions& guide) {
-  require_positive(guide.inversion.gain, "gain", " (1/s)");
-  require_positive(guide.clearance.gain, "gain", " (1/s)");
-  if (!(guide.inversion.most > 0))
-    throw InputError("most", to_text(guide.inversion.most), "positive (m/s^2)");
-  if (!std::isfinite(guide.inversion.reference))
-    throw InputError("reference", to_text(guide.inversion.reference), "a finite number");
-  if (std::isnan(guide.inversion.cease)) throw InputError("cease", "nan", "a number");
-  if (guide.inversion.side != 1 && guide.inversion.side != -1)
-    throw InputError("side", to_text(guide.inversion.side), "1 or -1");
-  if (!std::isfinite(guide.mu)) throw InputError("mu", to_text(guide.mu), "a finite number");
-  require_positive(guide.gain_speed, "gain_speed", " (1/s)");
-  require_not_negative(guide.clearance.required, "clearance.required", " (m)");
-  require_not_negative(guide.clearance.beyond, "clearance.beyond", " (m)");
-  if (guide.plane.planes < 1 || guide.plane.planes > 10000)
-    throw InputError("plane.planes", std::to_string(guide.plane.planes), "from 1 to 10000");
-  if (!guide.plane.wind.allFinite())
-    throw InputError("plane.wind", "a number that is not finite", "finite (m/s)");
-}
-
 bool cooperates(guidance::Law law) {
   return law == guidance::Law::cooperative_avoidance || law == guidance::Law::cooperative_rendezvous;
 }
@@ -121,7 +101,7 @@ void check_sensing(const Pilot& pilot, double step) {
 
 void check_pilot(const Pilot& pilot, const Body& self, const Scenario& scenario) {
   if (pilot.through) check_through(*pilot.through, self, scenario);
-  check_laws(pilot.guide);
+  guidance::check(pilot.guide);
   const auto find = [&](const std::string& name) {
     return std::find_if(scenario.bodies.begin(), scenario.bodies.end(),
                         [&](const Body& body) { return body.name == name; });

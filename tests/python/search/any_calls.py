@@ -315,6 +315,7 @@ class Calls:
         self.pool: dict[str, list[Any]] = {}
         self.faults: dict[str, str] = {}
         self.answered: dict[str, int] = {}
+        self.overloads: dict[str, set[int]] = {}  # that answered
         self.calls = 0
         self.log = log
         self.late: list[str] = []  # calls that were interrupted
@@ -422,6 +423,8 @@ class Calls:
             finally:
                 signal.setitimer(signal.ITIMER_REAL, 0)
             answered = True
+            if name in self.functions and hasattr(vericone, "_core"):
+                self.overloads.setdefault(name, set()).add(vericone._core._answered_overload())
             self.answered[name] = self.answered.get(name, 0) + 1
             self.keep(result, draw)
         except vericone.InputError as error:
@@ -532,7 +535,7 @@ def main() -> int:
     for fault in calls.faults.values():
         print(fault)
     print(json.dumps({"calls": calls.calls, "callables": len(calls.callables), "answered": sum(calls.answered.values()), "never": never,
-                      "faults": len(calls.faults)}), flush=True)
+                      "overloads": {name: sorted(own) for name, own in calls.overloads.items()}, "faults": len(calls.faults)}), flush=True)
     if "deaf" in calls.faults:
         os._exit(1)  # Python would wait for it
     return 1 if calls.faults else 0

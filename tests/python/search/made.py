@@ -36,7 +36,7 @@ def objects() -> list[Any]:
             v.Box([0, 0, 0], [1, 2, 3])]
     g = v.guidance
     made += [g.BodyState(shape=v.WorldBody(x), position=at, velocity=w) for x, at, w in
-             ((ball, [0, 0, 0], [2, 0.2, 0]), (v.Ellipsoid.from_axes([0, 0, 0], [2, 1, 1]), [9, 1, 2], [-1, 0, 0.3]), (dent, [12, 0, 3], [-1, 0, 0]))]
+             ((ball, [0, 0, 0], [2, 0.2, 0]), (v.Ellipsoid.from_axes([9, 1, 2], [2, 1, 1]), [9, 1, 2], [-1, 0, 0.3]), (dent, [7, 0, 1], [-1, 0, 0]))]
     made += [g.OrificeState(opening=opening), g.OrificeState(opening=v.PlacedOpening(v.Opening.ellipse([3, 3]), [8, 0, 0]), velocity=[0, 0.1, 0])]
     made += [g.PlanarState(r=r, theta=0.1, v_theta=0.2, v_r=v_r, alpha=0.2, beta=0.3, speed_a=2, speed_b=1) for r, v_r in ((10, -1), (7, -2), (20, 1))]
     made += [g.SpatialState(r=r, theta=0.1, phi=0.2, v_theta=0.3, v_phi=0.1, v_r=-2, speed_a=2, speed_b=1) for r in (8, 15)]

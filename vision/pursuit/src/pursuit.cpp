@@ -408,6 +408,8 @@ PursuitRun pursue(const Pursuit& pursuit, const PursuitOptions& options) {
     throw InputError("picture_step", std::to_string(pursuit.picture_step), "a whole number of steps (s)");
   if (std::none_of(pursuit.cars.begin(), pursuit.cars.end(), [](const Car& car) { return car.followed; }))
     throw InputError("cars", "none that is followed", "at least one");
+  for (std::size_t i = 0; i < pursuit.cars.size(); ++i)
+    if (!pursuit.cars[i].road) throw InputError("cars[" + std::to_string(i) + "].road", "none", "a road");
   if (!pursuit.source_steps) return Flight(pursuit, options).fly();
   Pursuit stepped = pursuit;
   for (Car& car : stepped.cars)

@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/geometry/error.h>
 #include <vericone/vision/pursuit/pursuit.h>
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace vericone::vision {
 
 PursuitSummary summarise(const Pursuit& pursuit, const PursuitRun& run) {
+  const auto followed = static_cast<std::size_t>(std::ranges::count_if(pursuit.cars, &Car::followed));
+  for (std::size_t i = 0; i < run.samples.size(); ++i)
+    if (run.samples[i].cars.size() < followed)
+      throw InputError("run.samples[" + std::to_string(i) + "].cars",
+                       std::to_string(run.samples[i].cars.size()),
+                       "those that are followed, " + std::to_string(followed));
   PursuitSummary summary;
   const View& view = pursuit.eyes == Eyes::source ? pursuit.source_view : pursuit.perspective_view;
   summary.layer_share = run.layer_share;

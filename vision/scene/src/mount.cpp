@@ -71,6 +71,8 @@ double most_acceleration_in_sight(const Camera& camera, const Vector3d& position
                                   double most, double margin, double climb, double gravity) {
   if (!direction.allFinite() || !direction.any())
     throw InputError("direction", "0", "a level direction that is not 0");
+  if (!position.allFinite() || !std::isfinite(heading + margin + climb + gravity))
+    throw InputError("position, heading, margin, climb, gravity", "a number that is not finite", "finite");
   if (!(most > 0) || !std::isfinite(most)) throw InputError("most", to_text(most), "positive (m/s^2)");
   const Eigen::Vector2d along = direction.normalized();
   const auto in_sight = [&](double a) {

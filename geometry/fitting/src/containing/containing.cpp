@@ -203,6 +203,11 @@ ContainingFit ellipsoid(const CanonicalSample& sample, double margin) {
 }  // namespace
 
 ContainingFit containing_fit(const CanonicalSample& sample, Shape shape, const ContainingOptions& options) {
+  for (std::size_t i = 0; i < sample.triangles.size(); ++i)
+    for (const auto corner : sample.triangles[i])
+      if (!(static_cast<std::size_t>(corner) < sample.points.size()))
+        throw InputError("triangles[" + std::to_string(i) + "]", std::to_string(corner),
+                         "indices of points, below " + std::to_string(sample.points.size()));
   if (shape == Shape::ellipse) return footprint(sample, options.margin);
   const ContainingFit least = ellipsoid(sample, options.margin);
   if (shape == Shape::ellipsoid) return least;

@@ -194,6 +194,9 @@ SurfaceFit fit_surface(const CanonicalSample& sample, Shape shape, const Surface
     throw InputError(
         "points", std::to_string(sample.points.size()) + " different points",
         "at least " + std::to_string(needed) + ", the parameters of a surface of shape " + to_string(shape));
+  if (sample.weights.size() != sample.points.size())
+    throw InputError("weights", std::to_string(sample.weights.size()) + " numbers",
+                     "one a point, " + std::to_string(sample.points.size()));
   Cloud cloud{sample.points, sample.weights};
   PlanarFrame plane;
   if (planar) plane = to_plane(sample, cloud);

@@ -57,8 +57,8 @@ template <int N>
 template <int N>
 [[nodiscard]] Eigen::Matrix<double, N, N> nearest_orthogonal(const Eigen::Matrix<double, N, N>& a);
 
-/// x of a x = b for a square matrix of up to 16 rows, by elimination with partial pivots; not finite where
-/// `a` is singular. `a` is overwritten, b becomes x. No allocation.
+/// x (unit of b / a) of a x = b for a square matrix of up to 16 rows, by elimination with partial pivots; not
+/// finite where `a` is singular. `a` is overwritten, b becomes x. No allocation.
 void solve_square(Eigen::Ref<Eigen::MatrixXd> a, Eigen::Ref<Eigen::VectorXd> b);
 
 /// x (unit of b / a) of least |a x - b|, any size; of several the shortest, however the rank falls short.

@@ -52,7 +52,8 @@ struct MinVolumeResult {
   std::vector<double> weights;
 };
 
-/// Minimum-volume enclosing ellipse (D = 2) or ellipsoid (D = 3) of the columns of `points`, in their unit.
+/// Minimum-volume enclosing ellipse (D = 2) or ellipsoid (D = 3) of `points`, one a column (in Python one a
+/// row), in their unit.
 ///
 /// Khachiyan's ascent on the dual (source, Algorithm 1, with the corrections of the errata: D in place of n,
 /// the sign of the step) with the away steps of Todd and Yildirim (Discrete Applied Mathematics 155, 2007),

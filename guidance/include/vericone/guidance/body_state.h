@@ -27,4 +27,9 @@ struct BodyState {
   [[nodiscard]] bool planar() const { return shape.planar(); }
 };
 
+/// Throws InputError naming "position", "velocity" or "omega" where a number is not finite, and "shape" where
+/// an ellipse, an ellipsoid, a combined or a placed body is not at `position`, to 1e-6 of the distance from
+/// the origin. Laws do not look: one that is asked of a body in two places answers for both.
+void check(const BodyState& body);
+
 }  // namespace vericone::guidance

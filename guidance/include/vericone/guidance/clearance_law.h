@@ -24,6 +24,10 @@ struct ClearanceOptions {
   ErrorSet position_error = {}, velocity_error = {};
 };
 
+/// Throws InputError naming "gain" or "most" unless positive (`most` may be infinite), and "required" or
+/// "beyond" unless finite and not negative. The law does not look.
+void check(const ClearanceOptions& options);
+
 struct ClearanceCommand {
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  // of A, m/s^2, saturated
   double demanded = 0;                                     // m/s^2, before saturation

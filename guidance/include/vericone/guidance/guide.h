@@ -48,6 +48,10 @@ struct GuideOptions {
   double errors = 0;
 };
 
+/// Throws InputError naming the field: those of check() for the laws' options, "mu", "gain_speed",
+/// "plane.planes" unless from 1 to 10000, "plane.wind". guide() does not look.
+void check(const GuideOptions& options);
+
 /// What one step hands to the next; a fresh one starts an engagement.
 struct GuideMemory {
   std::optional<Eigen::Vector3d> across;  // unit

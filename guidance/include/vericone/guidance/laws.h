@@ -61,6 +61,10 @@ struct LawOptions {
   double effect = 1e-9;
 };
 
+/// Throws InputError naming "gain" or "most" unless positive (`most` may be infinite), and "reference",
+/// "cease" or "side". The laws do not look.
+void check(const LawOptions& options);
+
 struct LawCommand {
   double a = 0;         // lateral acceleration of A, m/s^2, saturated
   double demanded = 0;  // m/s^2, before saturation

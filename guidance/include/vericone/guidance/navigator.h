@@ -64,10 +64,14 @@ struct NavigatorStep {
 /// milliseconds for a placed one; up to 400 courses otherwise.
 class Navigator {
  public:
-  explicit Navigator(const NavigatorOptions& options) : options_(options) {}
+  /// Throws InputError naming "required" or "beyond" unless finite and not negative, and "most" unless
+  /// positive (it may be infinite).
+  explicit Navigator(const NavigatorOptions& options);
 
-  /// At `time`; the command is held for `step` seconds. All bodies planar or all spatial. Throws InputError
-  /// naming "step" unless it is positive.
+  /// At `time`; the command is held for `step` seconds. Throws InputError naming "step" unless it is positive
+  /// and finite, "time", "destination.point" or "destination.most" unless finite, "agent.position" and the
+  /// like where it holds a number that is not finite, and "others[i]" where one is planar and the agent is
+  /// not, or the other way round.
   NavigatorStep step(const BodyState& agent, std::span<const BodyState> others,
                      const std::optional<Destination>& destination, double time, double step);
 

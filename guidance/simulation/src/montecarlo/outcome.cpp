@@ -14,7 +14,11 @@ using namespace simulation;
 using guidance::GuideOptions;
 using guidance::LawStatus;
 
-const Ellipsoid& ellipsoid_of(const guidance::BodyState& state) { return state.shape.quadric()->ellipsoid(); }
+const Ellipsoid& ellipsoid_of(const guidance::BodyState& state) {
+  if (!state.shape.quadric() || state.shape.delimited())
+    throw InputError("shape", "another body", "an ellipsoid in space, of the agent and of the obstacle");
+  return state.shape.quadric()->ellipsoid();
+}
 
 /// Fate and least distance of a run that is proved until `end` and then goes straight on for ever.
 void settle(const PairProof& proof, const Track& a, const Track& b, double end, Outcome& outcome) {

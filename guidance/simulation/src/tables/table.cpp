@@ -21,6 +21,13 @@ std::string csv_field(const std::string& text) {
 }
 
 std::string csv(const Table& table) {
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const Column& column = table.columns[i];
+    const std::size_t rows = column.text ? column.words.size() : column.numbers.size();
+    if (rows != table.rows())
+      throw InputError("columns[" + std::to_string(i) + "]", std::to_string(rows) + " rows",
+                       std::to_string(table.rows()) + ", as many as the first");
+  }
   std::string text;
   const auto end_of_field = [&](std::size_t i) { text += i + 1 < table.columns.size() ? ',' : '\n'; };
   for (std::size_t i = 0; i < table.columns.size(); ++i) {

@@ -22,8 +22,8 @@ using PlanePoints = std::function<std::vector<Eigen::Vector2d>(const PlaneFrame&
 
 /// The points of a cloud within `half_thickness` of the plane, projected onto it. A point off the plane
 /// stands for one in it, so what comes out is off by up to half_thickness times the slope of the surface, to
-/// either side. Keeps a view of the cloud.
-[[nodiscard]] PlanePoints points_near_plane(std::span<const Eigen::Vector3d> cloud, double half_thickness);
+/// either side. Keeps the cloud.
+[[nodiscard]] PlanePoints points_near_plane(std::vector<Eigen::Vector3d> cloud, double half_thickness);
 
 /// Half of the distance between neighbouring beams at the farthest point: the thinnest slab that every plane
 /// through a cloud of beams `spacing` radians apart meets about once a beam. Metres.
@@ -31,9 +31,9 @@ using PlanePoints = std::function<std::vector<Eigen::Vector2d>(const PlaneFrame&
                                          const Eigen::Vector3d& sensor, double spacing);
 
 /// The corners of the section of a mesh (mesh_section.h), or of the part of one that is given by some of its
-/// triangles. Keeps views.
-[[nodiscard]] PlanePoints mesh_section_points(std::span<const Eigen::Vector3d> points,
-                                              std::span<const std::array<std::uint32_t, 3>> triangles);
+/// triangles. Keeps both.
+[[nodiscard]] PlanePoints mesh_section_points(std::vector<Eigen::Vector3d> points,
+                                              std::vector<std::array<std::uint32_t, 3>> triangles);
 
 /// Points (m) of a plane in the order of their bearing from its origin, the nearer first: from one extreme
 /// end to the other for points on the side of its x axis.

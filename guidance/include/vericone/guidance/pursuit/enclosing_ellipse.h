@@ -27,11 +27,11 @@ struct EnclosingEllipse {
   [[nodiscard]] double reach(const Eigen::Vector2d& n) const;
 };
 
-/// The ellipse of least area around points, and its rates: m and m/s. `near`: an angle, from which the major
-/// axis is at most a quarter turn away. Where a point begins or ceases to hold the ellipse its rates jump:
-/// they are those of the points that hold it now. Near a circle the foci move fast without bound, as the root
-/// of a^2 - b^2. Throws InputError naming "points" or "velocities". Error: 1e-10 of the size, rates 1e-7 of
-/// the speeds away from circles. Cost: 10 us for 12 points.
+/// The ellipse of least area around points, one a column (in Python one a row), and its rates: m and m/s.
+/// `near`: an angle, from which the major axis is at most a quarter turn away. Where a point begins or ceases
+/// to hold the ellipse its rates jump: they are those of the points that hold it now. Near a circle the foci
+/// move fast without bound, as the root of a^2 - b^2. Throws InputError naming "points" or "velocities".
+/// Error: 1e-10 of the size, rates 1e-7 of the speeds away from circles. Cost: 10 us for 12 points.
 [[nodiscard]] EnclosingEllipse enclosing_ellipse(const Eigen::Ref<const Eigen::Matrix2Xd>& points,
                                                  const Eigen::Ref<const Eigen::Matrix2Xd>& velocities,
                                                  double near);

@@ -1,0 +1,916 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Calls that are answered, each with something of the right kind, size and sense: of what random arguments hardly reach,
+and of most of the rest. every_overload.py makes them, and asks that nothing stays without a call.
+
+A group asks one namespace: where a part of the package was not built, its group ends there."""
+
+import fractions
+import math
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import vericone
+
+v: Any = vericone
+EXAMPLES = Path(os.environ["VERICONE_SOURCE"]) / "docs/examples"
+Ask = Callable[..., Any]
+
+BALL, LONG = v.Ellipsoid(), v.Ellipsoid.from_axes([8, 1, 2], [3, 1, 1])
+DISC, FLAT = v.Ellipse(), v.Ellipse.from_axes([6, 1], [2, 1])
+DENT = v.CombinedEllipsoid(v.Ellipsoid.from_axes([7, 0, 1], [2, 2, 1]), [v.Delimiter3(np.diag([1.0, -1.0, -1.0]), 0.5)])
+STAR = v.CombinedEllipse(FLAT, [v.hyperbola([0.8, 1.0])])
+CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])
+SIDES = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+RING = np.array([[5, -2, -2], [5, 2, -2], [5, 2, 2], [5, -2, 2], [5, -4, -4], [5, 4, -4], [5, 4, 4], [5, -4, 4.0]])
+RING_SIDES = np.array([[0, 4, 5], [0, 5, 1], [1, 5, 6], [1, 6, 2], [2, 6, 7], [2, 7, 3], [3, 7, 4], [3, 4, 0]])
+QUARTER = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
+TURN = [[0.6, -0.8], [0.8, 0.6]]
+TURN_3 = [[0.6, -0.8, 0.0], [0.8, 0.6, 0.0], [0.0, 0.0, 1.0]]
+CELL = [[1.0, 0, 0], [0, 1, 0], [0, 0, 1]]
+SQUARE: Any = [[0, 0], [1, 0], [1, 1], [0, 1.0]]
+THIRD: Any = fractions.Fraction(1, 3)
+EXACT_2: Any = [[2, THIRD], [THIRD, 1]]
+EXACT_3: Any = [[2, THIRD, 0], [THIRD, 1, 0], [0, 0, 1]]
+
+
+def cloud(count: int = 60) -> Any:
+    """Points on an ellipsoid with semi-axes of 3, 2 and 1 m."""
+    k = np.arange(count) + 0.5
+    z, angle = 1 - 2 * k / count, 2.399963 * k
+    ring = np.sqrt(1 - z * z)
+    return np.stack([3 * ring * np.cos(angle), 2 * ring * np.sin(angle), z], axis=1)
+
+
+def write(path: Path, text: str) -> Path:
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def kind(own: object) -> str:
+    """Of what class it is, as ask() names it."""
+    return f"{type(own).__module__}.{type(own).__qualname__}".removeprefix("vericone.")
+
+
+def each(ask: Ask, own: object, names: str, *given: Any) -> None:
+    """Asks methods of an object that are given the same arguments."""
+    for name in names.split():
+        ask(f"{kind(own)}.{name}", own, *given)
+
+
+def geometry(ask: Ask) -> None:
+    for r in (TURN, TURN_3):
+        n = len(r)
+        for name in ("symmetric_eigen", "symmetric_eigenvalues", "cholesky"):
+            ask(name, np.diag([1.0, 2, 3][:n]))
+        for name in ("left_singular", "singular_values", "nearest_orthogonal", "orthonormal"):
+            ask(name, r)
+        ask("turned", r, np.diag([1.0, 2, 3][:n]))
+        ask("scaled_inverse", np.diag([1.0, 2, 3][:n]))
+        ask("min_volume_ellipsoid", cloud()[:, :n])
+    ask("rotation_3d", [0.6, 0, 0, 0.8])
+    ask("rotation_of", TURN_3)
+    ask("dented_conic", [6, 1], 2, 1, 0.5, 0.3)
+    ask("hyperboloid", 1, [0.8, 1, 1])
+    ask("boundary_loops", RING, RING_SIDES)
+    ask("part", v.surface(DENT, 0.1), v.SurfacePart.ellipsoid)
+    for body in (DISC, BALL, STAR, DENT):
+        ask("side", body, body.center())
+    ask("side", DISC.quadric(), [1, 0])
+    ask("side", BALL.quadric(), [1, 0, 0])
+    ask("side", quadrics=[DISC.quadric()], point=[1, 0])
+    ask("side", quadrics=[BALL.quadric()], point=[1, 0, 0])
+    for name in ("triage_side", "interval_side", "exact_side"):
+        for body, point in ((DISC, [1, 0]), (BALL, [1, 0, 0.5])):
+            ask(name, body, point)
+            ask(name, body.quadric(), point)
+    ask("Ellipse.from_axes", [6, 1], [2, 1], TURN)
+    ask("Ellipse.from_shape", [6, 1], np.diag([4.0, 1]))
+    ask("Ellipse.trusted", [6, 1], np.diag([4.0, 1]), np.diag([2.0, 1]), True)
+    ask("Ellipsoid.from_axes", [6, 1, 0], [2, 1, 1], TURN_3)
+    ask("Ellipsoid.from_shape", [6, 1, 0], np.diag([4.0, 1, 1]))
+    ask("Ellipsoid.trusted", [6, 1, 0], np.diag([4.0, 1, 1]), np.diag([2.0, 1, 1]), True)
+    ask("Quadric", np.diag([1.0, 1, 1, -1]))
+    ask("AxisFrame", [1, 2, 3])
+    ask("Body", LONG)
+    ask("HullBody.box", [0, 0, 0], [1, 2, 3])
+    ask("Assembly.mesh", CORNERS + [5, 1, 0], SIDES)
+    tree = v.Hierarchy([v.Box([0, 0, 0], [1, 1, 1]), v.Box([2, 0, 0], [3, 1, 1])])
+    ask("Hierarchy", tree.nodes(), tree.order())
+    ask("Hierarchy.Node.is_leaf", tree.nodes()[0])
+    ask("Hierarchy.Node.box", tree.nodes()[0])
+
+
+def cones(ask: Ask) -> None:
+    oracle, sectors = v.ConeOracle(BALL, LONG), v.SectorOracle(DISC, FLAT)
+    hulls = v.HullOracle(v.HullBody(CORNERS), LONG)
+    pair, dents = v.Pair(BALL, LONG), v.CombinedOracle(v.CombinedEllipsoid(BALL), DENT)
+    mesh, cloud_of_balls = v.Assembly.mesh(CORNERS + [5, 0, 0], SIDES), v.Assembly.cloud(CORNERS + [6, 0, 1], 0.2)
+    meshes, clouds = v.AssemblyOracle(BALL, mesh), v.CompositePair(DENT, v.Assembly.cloud(CORNERS + [1, 0, 1], 0.2))
+    w, still, up = [1, 0.1, 0.2], [0, 0, 0], [0, 0, 1]
+    for one in (oracle, hulls, meshes, clouds):
+        name = type(one).__name__
+        if one is not clouds:
+            ask(f"{name}.membership", one, w)
+        if one is not meshes:
+            ask(f"{name}.membership", one, w, still)
+    for name in ("membership", "exact_membership", "verdict", "interval_membership"):
+        ask(f"ConeOracle.{name}", oracle, w, still)
+        ask(f"SectorOracle.{name}", sectors, [1, 0.1], [0, 0])
+    ask("SectorOracle.membership", sectors, [1, 0.1])
+    ask("SectorOracle.interval_membership", sectors, [v.Interval(1), v.Interval(0.1)])
+    ask("ConeOracle.interval_membership", oracle, [v.Interval(1), v.Interval(0.1), v.Interval(0.2)])
+    ask("CombinedOracle.verdict", dents, w, still)
+    ask("AssemblyOracle.miss_distance", meshes, w, 1e-6)
+    ask("AssemblyOracle.extremes", meshes, [1, 0, 0], 8, 1e-6)
+    ask("convex_reach", v.AssemblyOracle(BALL, v.Assembly.cloud([[5, 0, 0]], 0.5)), [1, 0, 0], 16, 1e-6)
+    ask("assembly_sector", meshes, [0, 0, 0], [5, 0.2, 0.2], [0, 1, 0])
+    ask("separates", DISC, FLAT, [1, 0])
+    ask("separates", BALL, LONG, [1, 0, 0])
+    ask("triage_separates", DISC, FLAT, [1, 0])
+    ask("triage_separates", BALL, LONG, [1, 0, 0])
+    sector = ask("Pair.sector", pair, up)
+    ask("sector_rates", sector, 1, 2, [0.1, 0.2, 0], 0.1)
+    ask("central_section", DENT, [1, 0, 0], [0, 1, 0], [0, 0])
+    ask("nearest_points", v.CombinedEllipse(DISC), STAR, [1, 0], 0, 2)
+    ask("nearest_points", v.CombinedEllipsoid(BALL), DENT, [1, 0, 0], 0, 2)
+    ask("combined_sector_on", dents, [0, 1, 0], 1e-6)
+    ask("cone_function", 0.3, 0.1, [2, 0.2], [-1, 0])
+    moving = v.PlanarMotion(v_a=[1, 0], v_b=[-1, 0.1])
+    rates = [v.DelimiterRate2(np.zeros((2, 2)), 0)]
+    ask("combined_sector_rates", v.combined_sector(v.CombinedEllipse(DISC), STAR), v.CombinedEllipse(DISC), STAR, moving, [], rates)
+    ask("sector_by_source", DISC, STAR, v.TangentChoice(0))
+    ask("time_to_contact", oracle, w, still)
+    ask("time_to_contact", BALL, LONG, w)
+    frame_2 = v.ContactFrame2(np.eye(2), np.diag([2.0, 1]), [6, 1])
+    frame_3 = v.ContactFrame3(np.eye(3), np.diag([2.0, 1, 1]), [6, 1, 0])
+    ask("ContactFrame2", np.eye(2), np.diag([2.0, 1]), [6, 1])
+    ask("ContactFrame3", np.eye(3), np.diag([2.0, 1, 1]), [6, 1, 0])
+    for frame in (frame_2, frame_3):
+        ask("maximise_contact", frame.center, frame.sigma)
+        ask("contact_value", 0.5, frame.center, frame.sigma)
+    ask("enclose_plane_sector", BALL, LONG, up)
+    ask("slice_sector", BALL, LONG, up)
+    ask("cone_bounds", v.true_cone(BALL, LONG, 64), BALL, LONG)
+    ask("combined_slice_cone", v.CombinedEllipsoid(BALL), DENT, 8, v.SliceSector(0))
+    ask("interval_time_to_contact", BALL, LONG, [v.Interval(1), v.Interval(0.1), v.Interval(0.2)], 1e-3)
+    ask("may_meet", v.WorldBody(BALL), v.WorldBody(LONG), w, still)
+    opening = v.PlacedOpening(v.Opening.ellipse([2, 1.5]), [6, 0.5, 0])
+    ask("Opening.ellipse", [2, 1.5])
+    ask("Opening.polygon", SQUARE)
+    for name in ("facing_orifice_transit", "interval_facing_orifice_transit", "triage_facing_orifice_transit", "exact_facing_orifice_transit"):
+        ask(name, [5, 0.1, 0], 0.5, 2, [1, 0, 0])
+    ask("opening_clearance", BALL, opening, w)
+    ask("opening_clearance", v.WorldBody(v.HullBody(CORNERS)), opening, [1, 0, 0])
+    ask("rim_distance", BALL, opening, v.RimQuestion())
+    window = ask("MeshWindow", RING, RING_SIDES, 0)
+    ask("MeshWindow.crossings", window, [0, 0, 0], [9, 0.1, 0.2])
+    chain = [[5, 1], [4, 0.2], [5, -1.0]]
+    ask("visible_sector", DISC, chain)
+    ask("visible_sector", SQUARE, [[5, 1], [4, 0.5], [5, -1.0]])
+    ask("sector_of_points", DISC, chain)
+    ask("sector_of_points", SQUARE, [[5, 1], [4, 0.5], [5, -1.0]])
+    ask("slab_half_thickness", cloud() + [9, 0, 0], [0, 0, 0], 0.3)
+    seen = lambda frame: [[5, 1], [4, 0.2], [5, -1.0]]  # noqa: E731
+    ask("visible_cone", BALL, seen, [5, 0, 0], 4)
+    ask("visible_cone", [0, 0, 0], lambda frame: [[-1, -1], [1, -1], [1, 1], [-1, 1.0]], seen, [5, 0, 0], 4)
+    ask("probability_of_passing_through", BALL, LONG, w, np.eye(3) * 0.1)
+    ask("collision_probability_bound", BALL, LONG, w, v.GaussianErrors(np.eye(3) * 0.1, np.eye(3) * 0.01), 5)
+    ask("robust_verdict", BALL, LONG, w, still, v.RelativeErrors())
+    ask("robust_verdict", pair, w, still, v.RelativeErrors())
+    ask("ErrorSet.sum", 0.1, [np.eye(3)], [[1, 0, 0]])
+    ask("Pair.directions", pair)
+    for directions in (pair.directions(), meshes, clouds, v.EllipsoidClassifier(BALL, LONG), v.CombinedClassifier(v.combined_cone(BALL, DENT)),
+                       v.OrificeClassifier(BALL, opening), v.AnyOfClassifier([pair.directions()]), v.MirroredClassifier(pair.directions())):
+        name = type(directions).__name__
+        for method in ("classify", "misses"):
+            if method in vars(type(directions)):
+                ask(f"{name}.{method}", directions, CELL, directions.start(), [])
+    planes = ask("PlaneCones", v.WorldBody(BALL), v.WorldBody(LONG), [0, 0, 0], [8, 1, 2], v.SectorMethod.slice)
+    along, across = np.array([8, 1, 2]) / 69**0.5, np.array([1, -8, 0]) / 65**0.5
+    each(ask, planes, "tolerance smooth")
+    each(ask, planes, "opening_slope", across)
+    each(ask, planes, "on", along, across, [])
+    edges = v.CombinedEdges(v.CombinedEllipsoid(BALL), DENT)
+    ask("CombinedEdges.reached", edges, [1, 0, 0], [0, 1, 0], v.GrazingEdge())
+
+
+def exact(ask: Ask) -> None:
+    for matrix, vector in ((EXACT_2, [1, THIRD]), (EXACT_3, [1, THIRD, 0])):
+        ask("exact.determinant", matrix)
+        ask("exact.positive_definite", matrix)
+        ask("exact.direction_on_grid", vector)
+        ask("exact.direction_on_grid", [float(x) for x in vector])
+        ask("exact.difference_on_grid", [float(x) for x in vector], [1.0] * len(vector))
+        ask("exact.to_rational", np.eye(len(vector)))
+        ask("exact.to_rational", [0.5] * len(vector))
+        name = f"RationalBody{len(vector)}"
+        ask(f"exact.{name}", vector, matrix)
+        near, far = (getattr(v.exact, name)([x] + [0] * (len(vector) - 1), matrix) for x in (0, 9))
+        ask("exact.membership", near, far, vector)
+        ask("exact.side", near, vector)
+        n = len(vector) + 1
+        ask("exact.side", [[(i == j) * (-1 if i == n - 1 else 1) for j in range(n)] for i in range(n)], vector)
+    p, q = [-2, 0, 1], [-1, 1]  # x^2 - 2, x - 1
+    dyadic = v.exact.Dyadic.of
+    ask("exact.trim", [1, 2, 0, 0])
+    for name in ("derivative", "squarefree_part", "sturm_chain", "real_roots", "positive_roots", "primitive_part"):
+        ask(f"exact.{name}", p)
+    ask("exact.surely_coprime", p, q)
+    ask("exact.gcd", p, q)
+    ask("exact.divide_exactly", [1, -2, 1], q)
+    ask("exact.scaled_value", p, dyadic(0.5))
+    ask("exact.sign_at", p, dyadic(0.5))
+    root = ask("exact.RealRoot", p, dyadic(1.0), dyadic(2.0))
+    ask("exact.sign_at", q, root)
+    ask("exact.multiplicity", root, p)
+    chain = v.exact.sturm_chain(p)
+    ask("exact.sign_changes_at", chain, dyadic(0.5))
+    ask("exact.sign_changes_at_zero", chain)
+    ask("exact.real_roots_in", p, dyadic(-2.0), dyadic(2.0))
+
+
+def guidance(ask: Ask) -> None:
+    g = v.guidance
+    flat, solid = g.Belief2(), g.Belief6()
+    ask("guidance.predict", flat, TURN, np.eye(2) * 0.1)
+    ask("guidance.predict", solid, np.eye(6), np.eye(6) * 0.1)
+    ask("guidance.correct", flat, [0.1], [[1, 0]], [0.2], 100)
+    ask("guidance.correct", solid, [0.1], np.eye(6)[:1], [0.2], 100)
+    ask("guidance.correct", solid, [0.1, 0.2], np.eye(6)[:2], np.eye(2) * 0.2, 100)
+    ask("guidance.correct", solid, np.zeros(6), np.eye(6), np.eye(6) * 0.2, 100)
+    ask("guidance.error_squared", g.Belief2(np.zeros(2), np.eye(2)), [0.1, 0.2])
+    ask("guidance.error_squared", g.Belief6(np.zeros(6), np.eye(6)), np.ones(6))
+    ask("guidance.singer_noise", 0.5, 1, 0.1)
+    a = g.BodyState(shape=v.WorldBody(BALL), velocity=[2, 0.2, 0])
+    b = g.BodyState(shape=v.WorldBody(v.Ellipsoid.from_axes([9, 1, 2], [2, 1, 1])), position=[9, 1, 2], velocity=[-1, 0, 0.3])
+    method, rates = v.SectorMethod.slice, g.RateMethod(0)
+    view = ask("guidance.plane_view", a, b, [0, 0, 1], method, rates)
+    ask("guidance.fill_cone", view, a, b, method, rates)
+    ask("guidance.all_planes", a, b, method, 8)
+    centres, speeds = [[8, 1], [10, 1], [9, 2.0]], [[1, 0], [1, 0.1], [1, -0.1]]
+    ellipse = ask("guidance.enclosing_ellipse", centres, speeds, 0)
+    ask("guidance.EllipseFollower.step", g.EllipseFollower(2), centres, speeds)
+    state = g.PlanarState(r=10, theta=0.1, v_theta=0.2, v_r=-1, alpha=0.2, beta=0.3, speed_a=2, speed_b=1)
+    ask("guidance.outer_loop", g.OuterLoopOptions(), 0.1, 0.2, 1, 1, 0.1, state, g.PlaneCone(psi=0.3, theta_b=0.1), g.Measured())
+    ask("guidance.rendezvous_law", state, [0, 0.1], g.RendezvousGains())
+    ask("guidance.miss_distance", [0, 0], [1, 0.1], ellipse)
+    ask("guidance.pursuit_law", [0, 0], [2, 0.1], ellipse, [0, 0], g.PursuitGains())
+    ask("guidance.cone_confidence", [0, 0], [2, 0.1], ellipse, np.eye(4) * 0.01, 2)
+    ask("guidance.ConstantVelocityFilter.step", g.ConstantVelocityFilter(), np.zeros(6), np.eye(6), 0.1)
+    members = g.SetMembershipFilter()
+    ask("guidance.SetMembershipFilter.step", members, [9, 1, 0], [1, 0, 0], [0.1, 0.1, 0.1], [0.1, 0.1, 0.1], 0.1)
+    ask("guidance.SetMembershipFilter.axis", members, 0)
+    for name in ("position", "velocity", "position_radius", "velocity_radius"):
+        ask(f"guidance.SetMembershipFilter.{name}", members)
+    singer = g.SingerFilter()
+    ask("guidance.SingerFilter.start", singer, np.zeros(6), np.eye(6), 0)
+    ask("guidance.SingerFilter.step", singer, [0.1, 0.1], np.eye(2), 0.1)
+    ask("guidance.SingerFilter.step_as_source", singer, np.eye(2), 0.2)
+
+
+def words(ask: Ask) -> None:
+    """Of every enumeration that has some."""
+    g, s = v.guidance, v.simulation
+    for space, kinds in (
+            ("", (v.Relation, v.Membership, v.Passage, v.Verdict, v.Certified, v.Sign, v.Rung, v.PieceKind, v.Position, v.WallSide, v.Transit, v.BodyKind,
+                  v.NoSector, v.RobustVerdict)),
+            ("guidance.", (g.LawStatus, g.PlaneChoice, g.RobustStatus, g.Law, g.NavigatorStatus, g.OrificeStatus, g.PursuitStatus, g.VerticalMode)),
+            ("simulation.", (s.ProofVerdict, s.Noise, s.Estimator, s.Through.Law, s.PassageVerdict, s.EventKind, s.ReachLimit, s.TrialLaw))):
+        for one in kinds:
+            ask(f"{space}to_string", next(iter(one)))
+    ask("may_collide", v.Verdict(0))
+    ask("guidance.commands_nothing", g.LawStatus(0))
+    ask("to_text", 0.1)
+
+
+def bodies(ask: Ask) -> None:
+    hull, pose = v.HullBody(CORNERS), v.Pose([6, 1, 0.5])
+    for name in ("Ellipse", "Ellipsoid", "CombinedEllipse", "CombinedEllipsoid", "HullBody", "Body", "WorldBody", "ErrorSet", "Hierarchy", "Interval",
+                 "DoubleDouble", "nadir", "widest_vectors"):
+        ask(name)
+    flat, solid = v.WorldBody(FLAT), v.WorldBody(LONG)
+    for own, x in ((FLAT, [1, 0.2]), (LONG, [1, 0.2, 0.3]), (STAR, [1, 0.2]), (DENT, [1, 0.2, 0.3])):
+        name = kind(own)
+        each(ask, own, "translated", x)
+        each(ask, own, "scaled", 2)
+        each(ask, own, "gauge" if own in (STAR, DENT) else "radius support support_point", x)
+        ask("WorldBody", own)
+        if own in (STAR, DENT):
+            ask(name, own.ellipsoid())
+            ask(name, own.ellipsoid(), own.delimiters())
+            ask(f"{name}.trusted", own.ellipsoid(), own.delimiters())
+            each(ask, own.delimiters()[0], "value", x)
+        else:
+            ask(f"{name}.from_quadric", own.quadric())
+            ask(type(own.quadric()).__name__, own.quadric().matrix())
+            each(ask, own.quadric(), "value polar", x)
+    each(ask, hull, "support", [1, 0.2, 0.3])
+    each(ask, hull, "translated", [1, 0.2, 0.3])
+    each(ask, hull, "scaled", 2)
+    mesh, cloud_of_balls = v.Assembly.mesh(CORNERS + [5, 0, 0], SIDES), ask("Assembly.cloud", CORNERS + [6, 0, 1], 0.2)
+    boxes = [v.Box([0, 0, 0], [1, 1, 1]), v.Box([2, 0, 0], [3, 1, 1])]
+    ask("Assembly.boxes", boxes)
+    ask("Assembly.polyhedra", [hull, hull.translated([4, 0, 0])])
+    each(ask, mesh, "piece", 0)
+    ask("HullBody", CORNERS)
+    for own in (LONG, DENT, hull, mesh):
+        ask("Body", own)
+        ask("WorldBody", v.Placed(v.Body(own)) if own is mesh else own)
+    each(ask, ask("Body.pieces", [LONG, DENT]), "support", [1, 0, 0])
+    each(ask, ask("Placed", v.Body(hull), pose), "support", [1, 0, 0])
+    each(ask, solid, "gauge support_point", [1, 0.2, 0.3])
+    each(ask, solid, "inflated", 0.1)
+    each(ask, solid, "posed", [1, 2, 3], TURN_3)
+    each(ask, solid, "moved", [0, 0, 0], [1, 0, 0], [0, 0, 0.1], v.BodyRate(), 0.1)
+    each(ask, flat, "support_point", [1, 0.2, 0])
+    ask("Hierarchy", boxes)
+    each(ask, boxes[0], "contains", [0.5, 0.5, 0.5])
+    each(ask, boxes[0], "include", boxes[1])
+    for own in (LONG, DENT, hull):
+        ask("in_world", own, pose)
+    ask("composed", pose, pose)
+    each(ask, pose, "to_body to_world", [1, 2, 3])
+    for name in ("inverse", "is_upright"):
+        ask(name, pose)
+    ask("raised", DISC, 2)
+    for name in ("area", "corners", "outline"):
+        ask(name, STAR)
+    ask("volume", DENT)
+    shown = ask("surface", DENT, 0.2)
+    for name in ("rims", "enclosed_volume", "to_obj", "to_ply"):
+        ask(name, shown)
+    for name in ("around_turned", "within_turned"):
+        ask(name, LONG, 0.2)
+    ask("ErrorSet.ball", 0.2)
+    ask("ErrorSet.box", [0.1, 0.2, 0.3])
+    each(ask, ask("ErrorSet.ellipsoid", [0.1, 0.2, 0.3]), "support support_point", [1, 0, 0])
+    ask("ErrorSet.zonotope", np.eye(3))
+    frame = v.PlaneFrame([0, 0, 0.5], [1, 0, 0], [0, 1, 0])
+    each(ask, frame, "direction_to_plane", [1, 2, 3])
+    each(ask, frame, "direction_to_space to_space", [1, 2])
+    each(ask, v.AxisFrame([1, 2, 3]), "across", 0.3)
+    ask("section", BALL.quadric(), frame)
+    ask("signed_area", ask("mesh_section", CORNERS, SIDES, frame)[0])
+    ask("hyperbola", [0.8, 1.0], 0.2)
+    camera = ask("Camera.of_field_of_view", 320, 240, 1.0)
+    each(ask, camera, "project projection_rates", [0.1, 0.2, 5])
+    each(ask, camera, "ray sees", [100, 90])
+    above = v.Pose([0, 0, 50], v.nadir())
+    ask("ground_point", camera, above, [100, 90])
+    ask("plane_homography", camera, above)
+
+
+def numbers(ask: Ask) -> None:
+    ask("Interval", 1)
+    ask("Interval", 1, 0.1)
+    ask("Interval.between", 1, 2)
+    each(ask, v.Interval(1, 0.1), "contains", 1)
+    ask("hull", v.Interval(1), v.Interval(2))
+    ask("DoubleDouble", 1)
+    ask("DoubleDouble", 1, 1e-20)
+    for name in ("two_product", "two_sum"):
+        ask(f"DoubleDouble.{name}", 0.1, 0.3)
+    for name, factor in (("Cholesky2", v.cholesky([[2, 1], [1, 3.0]])), ("Cholesky3", v.cholesky(np.eye(3) * 2))):
+        each(ask, factor, "solve half_solve", [1.0, 2, 3][:int(name[-1])])
+    for name in ("solve_square", "least_squares", "shortest_least_squares"):
+        ask(name, np.diag([1.0, 2, 3]), [1.0, 2, 3])
+    ask("rotation_2d", 0.3)
+    ask("rotation_from_heading", 0.3, 0.2)
+    rim = [[1, 0.2, 0], [1, 0, 0.2], [1, -0.2, 0], [1, 0, -0.2]]
+    for name in ("polygon_section_area", "polygon_solid_angle"):
+        ask(name, [1, 0, 0], rim)
+    ask("solid_angle", CELL)
+    ask("cone_function_y", -1, 0.2, 0.1, 0.05, 0.3)
+    ask("order_by_bearing", SQUARE)
+    ask("points_near_plane", CORNERS, 0.1)
+    ask("mesh_section_points", CORNERS - [0.2, 0.2, 0.2], SIDES)
+
+
+def predicates(ask: Ask) -> None:
+    for a, b, frame in ((DISC, FLAT, v.ContactFrame2(DISC, FLAT)), (BALL, LONG, v.ContactFrame3(BALL, LONG))):
+        for rung in ("", "triage_", "interval_", "exact_"):
+            ask(f"{rung}position", a, b)
+            ask(f"{rung}relation", a, b, *[frame] * (rung in ("triage_", "interval_")))
+        ask("relation", a, b, frame)
+        ask(kind(frame), a, b)
+    ask("relation_of", v.Position(0))
+    ask("relation_of", v.WorldBody(BALL), v.WorldBody(DENT), 1e-6)
+    ask("swapped", v.Position(0))
+    tangents = [v.TangentRef(DISC, FLAT, left) for left in (True, False)]
+    meetings = [v.Encounter(BALL, LONG, w) for w in ([1, 0.1, 0.2], [2, 0.1, 0.2])]
+    for rung in ("", "triage_", "interval_", "exact_"):
+        ask(f"{rung}turn", *tangents)
+        ask(f"{rung}earlier", *meetings)
+    ask("opposed", *tangents)
+
+
+def questions(ask: Ask) -> None:
+    """More of cones: oracles, and what is asked of two bodies."""
+    hull, w, still, pose = v.HullBody(CORNERS), [1, 0.1, 0.2], [0, 0, 0], v.Pose([1, 0, 0])
+    mesh, far = v.Assembly.mesh(CORNERS + [5, 0, 0], SIDES), v.HullBody(CORNERS + [6, 1, 0])
+    oracle, flat = ask("ConeOracle", BALL, LONG), ask("SectorOracle", DISC, FLAT)
+    each(ask, oracle, "naive_membership passage triage_membership", w)
+    each(ask, flat, "naive_membership triage_membership", w[:2])
+    for a, b in ((BALL, far), (hull, LONG), (hull, far)):
+        hulls = ask("HullOracle", a, b)
+    each(ask, hulls, "passage triage_membership", w)
+    each(ask, hulls, "exact_membership interval_membership verdict", w, still)
+    each(ask, hulls, "interval_membership", [v.Interval(x) for x in w])
+    each(ask, ask("HullSectors", BALL, far, v.HullOracle(BALL, far)), "on", [6, 1, 0], [0, 0, 1])
+    each(ask, ask("SectorPlanes", BALL, LONG), "on", [0, 0, 1])
+    for agent in (BALL, hull):
+        pieces = ask("AssemblyOracle", agent, mesh)
+    each(ask, pieces, "membership verdict", w, still)
+    each(ask, pieces, "first_contact", w)
+    each(ask, pieces, "extreme", [1, 0, 0], [0, 1, 0])
+    ask("CompositePair", DENT, mesh)
+    both = ask("CompositePair", v.Assembly.cloud(CORNERS, 0.1), pose, mesh)
+    each(ask, both, "first_contact miss_distance", w)
+    each(ask, both, "verdict", w, still)
+    dents, edge = ask("CombinedOracle", BALL, DENT), v.GrazingEdge()
+    each(ask, dents, "membership", w)
+    each(ask, dents, "membership", w, still)
+    each(ask, dents, "membership", w, edge)
+    each(ask, dents, "edge", [1, 0, 0], [0, 1, 0], 1e-6)
+    each(ask, dents, "half_space_out", [0, 0, 1], edge)
+    each(ask, dents, "all_in all_out", [1, 0, 0], [0.99, 0.01, 0])
+    each(ask, dents, "time_to_contact", [1, 0, 0.1])
+    ask("plane_intervals", dents, [1, 0, 0], [0, 1, 0])
+    each(ask, ask("CombinedEdges", BALL, DENT), "near", [1, 0, 0], [0, 1, 0], edge)
+    for name in ("combined_cone", "combined_relation"):
+        ask(name, v.CombinedEllipsoid(BALL), DENT)
+    ask("combined_sector", DISC, STAR)
+    for name in ("sector_by_support", "sector_by_degenerate_conics", "enclose_sector"):
+        ask(name, DISC, FLAT)
+    for name in ("clearance", "contact_time", "enclose_clearance"):
+        ask(name, BALL, LONG, w)
+    for name in ("separation", "enclose_separation"):
+        ask(name, BALL, LONG)
+    for name in ("clearance_ahead", "enclose_time_to_contact", "exact_time_to_contact"):
+        ask(name, oracle, w, still)
+    ask("robust_clearance", BALL, LONG, w, v.ErrorSet.ball(0.1), v.ErrorSet.ball(0.01))
+    ask("slice_cone", BALL, LONG, 8)
+    ask("true_cone", BALL, LONG, 64)
+    sector = ask("true_sector", BALL, LONG, [0, 0, 1])
+    ask("true_sector_rates", sector, BALL, LONG, v.SpatialMotion(v_a=[1, 0, 0]))
+    ask("sector_rates", sector, v.Twist(), v.Twist())
+    ask("sector_rates", v.sector_by_support(DISC, FLAT), DISC, FLAT, v.PlanarMotion(v_a=[1, 0]))
+    ask("has_sectors", v.WorldBody(BALL), v.WorldBody(DENT), v.SectorMethod.slice)
+    ask("pair_of", v.WorldBody(BALL), v.WorldBody(DENT))
+    ask("Pair", DISC, STAR)
+    pair = ask("Pair", BALL, DENT)
+    each(ask, pair, "contact miss passage rung verdict", w, still)
+    each(ask, pair, "sector", still, [7, 0, 1], [0, 1, 0])
+    each(ask, pair, "cone")
+    each(ask, ask("Pair.cone", pair, v.ConeOptions()), "contains", w)
+    coarse = v.ConeMapOptions(resolution=0.3)
+    found = ask("cone_map", [pair], coarse)
+    ask("cone_map", v.EllipsoidClassifier(BALL, LONG), coarse)
+    each(ask, found, "cell", 0)
+    for name in ("cell_at", "region_around"):
+        ask(name, found, [1, 0, 0.1])
+    ask("regions", found)
+    each(ask, v.cone_map([v.Pair(BALL, LONG)], coarse), "cell", 1)
+    opening = v.PlacedOpening(ask("Opening.circle", 2), [6, 0.5, 0])
+    each(ask, opening, "at", [0.1, 0.2])
+    each(ask, v.Opening.polygon(SQUARE), "depth", [0.5, 0.5])
+    ask("require_placed", opening)
+    for one in (opening, v.Orifice()):
+        ask("OrificeClassifier", BALL, one)
+        each(ask, ask("OrificeOracle", BALL, one), "transit triage_transit interval_transit exact_transit", w)
+    ask("rim_distance", BALL, LONG, opening)
+    ask("rim_distance", v.WorldBody(hull), opening)
+    window = v.MeshWindow(RING, RING_SIDES, 0)
+    each(ask, window, "cone", BALL, [1, 0, 0], coarse)
+    each(ask, window, "crossings_along", still, [1, 0.01, 0.02])
+    each(ask, window, "transit", v.Pair(BALL, window.mesh()), [1, 0, 0])
+    each(ask, window, "transit", BALL, [1, 0, 0])
+    directions = pair.directions()
+    for name in ("classify", "misses"):
+        ask(f"DirectionClassifier.{name}", directions, CELL, directions.start(), [])
+    for name, given in (("AnyOfClassifier", [directions]), ("MirroredClassifier", directions), ("CombinedClassifier", v.combined_cone(BALL, DENT))):
+        ask(name, given)
+    ask("EllipsoidClassifier", BALL, LONG)
+
+
+def engagements(ask: Ask) -> None:
+    chance = ask("engagements.Random", 1, 2)
+    each(ask, chance, "uniform")
+    each(ask, chance, "uniform", 2, 3)
+    ask("engagements.random_agent", LONG, 1, 2)
+    ask("engagements.random_combined_engagement", v.engagements.ObstacleKind(0), 1, 2)
+    ask("engagements.random_engagement", 1, 2)
+
+
+def laws(ask: Ask) -> None:
+    """More of guidance."""
+    g = v.guidance
+    state = g.PlanarState(r=10, theta=0.1, v_theta=0.2, v_r=-1, alpha=0.2, beta=0.3, speed_a=2, speed_b=1)
+    spatial = g.SpatialState(r=8, theta=0.1, phi=0.2, v_theta=0.3, v_phi=0.1, v_r=-2, speed_a=2, speed_b=1)
+    cone, options, errors = g.PlaneCone(psi=0.3, theta_b=0.1), g.LawOptions(), g.Measured(v_r=0.01, v_theta=0.02, theta=0.001, theta_b=0.001, psi=0.002)
+    a = g.BodyState(shape=v.WorldBody(BALL), velocity=[2, 0.2, 0])
+    b = g.BodyState(shape=v.WorldBody(v.Ellipsoid.from_axes([9, 1, 2], [2, 1, 1])), position=[9, 1, 2], velocity=[-1, 0, 0.3])
+    for name, more in (("avoidance", [options]), ("cooperative_avoidance", [options, 0.5]), ("cooperative_rendezvous", [options]), ("cone_rates", []),
+                       ("matching_rendezvous", [options, 1]), ("measured", [errors]), ("noise_gradients", [1]), ("noise_range", [errors]),
+                       ("noise_terms", [errors, 1])):
+        ask(f"guidance.{name}", state, cone, *more)
+    for name in ("common_deviation", "deviation"):
+        ask(f"guidance.{name}", errors, errors)
+    ask("guidance.deviations_on_plane", g.Sight(), state, cone)
+    for one in (state, spatial):
+        ask("guidance.cartesian", one)
+    ask("guidance.planar_state", g.Cartesian2(p_b=[5, 1], v_a=[1, 0.1]))
+    motion = g.Cartesian3(p_b=[5, 0.1, 0.1], v_a=[1, 0.1, 0])
+    ask("guidance.spatial_state", motion)
+    ask("guidance.planar_rates", state, g.PlanarInputs())
+    ask("guidance.spatial_rates", spatial, g.DirectedAcceleration(), g.DirectedAcceleration())
+    ask("guidance.rendezvous_cone", state, 0.5)
+    ask("guidance.advanced", a, 0.1)
+    ask("guidance.angular_velocity", a, [0, 0.1, 0])
+    ask("guidance.clearance_law", a, b, g.ClearanceOptions())
+    ask("guidance.law_clearance", a, b)
+    ask("guidance.choose_plane", a, b, v.SectorMethod.slice, g.PlaneOptions())
+    for name in ("has_sectors", "on_collision_course"):
+        ask(f"guidance.{name}", a, b, v.SectorMethod.slice)
+    ask("guidance.plane_states", a, b, [0, 0, 1])
+    ask("guidance.guide", a, b, g.GuideOptions(), g.GuideMemory(), 0)
+    ring = g.OrificeState(opening=v.PlacedOpening(v.Opening.ellipse([2, 1.5]), [6, 0.5, 0]))
+    each(ask, ring, "after", 0.5)
+    ask("guidance.orifice_aim", a, ring)
+    ask("guidance.passage_law", a, ring, g.PassageLawOptions())
+    ask("guidance.orifice_function", motion, 2, 0.5)
+    ask("guidance.orifice_law", motion, 2, 0.5, g.OrificeLawOptions())
+    for one in (a, options, g.ClearanceOptions(), g.GuideOptions()):
+        ask("guidance.check", one)
+    ask("guidance.check", g.RobustModel(), g.RobustOptions())
+    ask("guidance.robust_correction", 0.1, 0, 1, g.RobustModel(), g.RobustOptions())
+    ask("guidance.directed", [1, 2, 0])
+    ask("guidance.direction_of", [1, 2, 0])
+    ask("guidance.unit_vector", g.Direction())
+    ask("guidance.unwrapped", 7, 0)
+    foci = g.FocalState(position=[0, 0], velocity=[2, 0], foci=([8, 1], [10, 1]), a=2)
+    for form in g.FocalForm:
+        ask("guidance.focal_cone", foci, form)
+    ask("guidance.least_focal_sum", foci)
+    each(ask, ask("guidance.FocalLaw", g.FocalGains(), g.FocalForm.polynomial), "step", foci, 0)
+    ask("guidance.saturate", g.PursuitCommand(lateral=3, longitudinal=4), 2)
+    ask("guidance.focal_length", 320, 1)
+    ask("guidance.singer_transition", 0.5, 0.1)
+    ask("guidance.altitude_acceleration", 100, 90, 1, 0.1, 0.5)
+    ask("guidance.size_acceleration", 200, 1, 100, g.VerticalGains())
+    each(ask, ask("guidance.VerticalLaw", g.VerticalGains()), "step", 200, 1, 100, 0)
+    each(ask, g.EnclosingEllipse(centre=[9, 1], a=2, b=1, angle=0.3), "reach", [1, 0])
+    each(ask, ask("guidance.ConstantRateFilter"), "step", 1, 0.1, 0)
+    for name in ("ConstantVelocityFilter", "SetMembershipFilter"):
+        ask(f"guidance.{name}")
+    each(ask, ask("guidance.SingerFilter"), "start", np.zeros(6), np.eye(6), 0)
+    started = v.guidance.SingerFilter()
+    started.start(np.zeros(6), np.eye(6), 0)
+    each(ask, started, "predicted", 0.5)
+    ask("guidance.EllipseFollower", 2)
+    each(ask, ask("guidance.Gate", 3), "lost", False)
+    each(ask, ask("guidance.Navigator", g.NavigatorOptions()), "step", a, [b], None, 0, 0.1)
+    each(ask, ask("guidance.PlaneFilters", g.PlaneFilterOptions()), "step", state, cone, 0, errors, 0)
+    possible = ask("guidance.PossibleMotion", g.Bounds(1, 3), g.Bounds(-1, 1))
+    each(ask, possible, "advance", 0.1, 1)
+    each(ask, possible, "contains", 2, 0)
+    each(ask, possible, "meet", g.Bounds(1, 2), g.Bounds(-1, 1))
+    each(ask, possible, "position_after", 0.1)
+
+
+def numbers_of_bodies(ask: Ask) -> None:
+    """More of the exact numbers."""
+    dyadic, chain = v.exact.Dyadic.of, v.exact.sturm_chain([-2, 0, 1])
+    x, root = ask("exact.Dyadic.of", 0.375), v.exact.RealRoot([-2, 0, 1], dyadic(1.0), dyadic(2.0))
+    ask("exact.Dyadic.power_of_two", -3)
+    ask("exact.RealRoot", x)
+    each(ask, root, "refine", 20)
+    ask("exact.between", dyadic(1.0), dyadic(2.0))
+    for pair in ((x, x), (root, v.exact.RealRoot(x)), (root, x)):
+        ask("exact.compare", *pair)
+    for number in (x, root):
+        ask("exact.enclosure", number)
+    for number in (10**30, x):
+        ask("exact.log2_floor", number)
+    ask("exact.grid_exponent", 0.375, 0)
+    ask("exact.on_grid", 0.375, -3)
+    ask("exact.sign", THIRD)
+    ask("exact.sign_changes_at_infinity", chain)
+    for name, a, b in (("exact.RationalBody2", DISC, FLAT), ("exact.RationalBody3", BALL, LONG)):
+        ask("exact.defining_shape", b)
+        ask(name)
+        both = [ask(name, body) for body in (a, b)]
+        ask("exact.position", *both)
+        ask("exact.relation", *both)
+
+
+def files(ask: Ask) -> None:
+    here = Path.cwd()
+    ask("files.write_points", here / "cloud.ply", cloud())
+    ask("files.write_points", here / "mesh.off", CORNERS, SIDES)
+    ask("files.read_points", here / "cloud.ply")
+    ask("files.triangle_mesh", v.files.read_points(write(here / "tetrahedron.obj", OBJ)))
+    ask("files.fan_triangles", [[0, 1, 2, 3]])
+    ask("files.are_collinear", [0, 0, 0], [1, 1, 1], [2, 2, 2])
+    ask("files.partial_path", here / "x.csv")
+
+
+def fitting(ask: Ask) -> None:
+    f, here = v.fitting, Path.cwd()
+    sample = f.Sample(points=cloud())
+    canonical = ask("fitting.canonical", sample)
+    shape = f.Shape.ellipsoid
+    ask("fitting.to_string", shape)
+    ask("fitting.parameters", shape)
+    ask("fitting.check", [[LONG.quadric()]], f.Sample(points=cloud() * 0.3 + [8, 1, 2]), 0)
+    ask("fitting.containing_fit", canonical, shape)
+    ask("fitting.fit_surface", canonical, shape)
+    options = f.FitOptions(shape=shape)
+    found = ask("fitting.fit", sample, options)
+    pieces = found.pieces
+    ask("fitting.signed_distance", pieces, [1, 1, 1])
+    ask("fitting.signed_distance", FLAT, [1, 1])
+    ask("fitting.signed_distance", v.CombinedEllipsoid(LONG), [1, 1, 1])
+    ask("fitting.scan_to_hull", pieces, sample)
+    ask("fitting.hull_to_scan", pieces, f.Sample(points=CORNERS, triangles=SIDES), 50)
+    ask("fitting.volume", pieces)
+    ask("fitting.set_quadrics", pieces[0])
+    ask("fitting.enclose", pieces, sample, f.Assignment(points=[0] * 60))
+    ask("fitting.convex_hull", CORNERS)
+    ask("fitting.enclosed_volume", f.Sample(points=CORNERS, triangles=SIDES))
+    ask("fitting.used_points", sample)
+    ask("fitting.rounded", [0.1, 0.2, 0.3])
+    each(ask, f.Frame(), "to_frame to_world", [1, 2, 3])
+    v.files.write_points(here / "scan.ply", cloud())
+    scan = ask("fits.read_scan", str(here / "scan.ply"))
+    ask("fits.describe", scan)
+    ask("fits.body_text", found, sample, "a hull")
+    ask("fits.write_fit", scan, options, found, 0.1, here)
+
+
+def scenes(ask: Ask) -> None:
+    here, file = Path.cwd(), EXAMPLES / "first.yaml"
+    ask("scenes.scene_of_text", file.read_text(encoding="utf-8"), file)
+    scene = ask("scenes.read_scene", file)
+    ask("scenes.write_scene", scene, here / "scene.yaml")
+    ask("scenes.write_body", v.scenes.SceneBody(placed=v.Placed(v.Body(LONG))), here / "body.yaml")
+    ask("scenes.read_body", here / "body.yaml")
+    for body in (LONG, FLAT):
+        ask("scenes.body_words", body)
+    ask("scenes.motion_words", [1, 0.2, 0], False)
+    ask("scenes.brief", 0.123456)
+
+
+def vehicles(ask: Ask) -> None:
+    p, water = v.vehicles, v.simulation.Current([0.1, 0, 0])
+    fish, swims = p.FishParameters(), p.FishState(u=0.05)
+    drone, flies = p.QuadrotorOptions(), p.QuadrotorState(velocity=[1, 0, 0])
+    for one in (fish, drone):
+        ask("vehicles.check", one)
+    for name in ("most_tail_angle", "trunk_of", "ellipsoid_of", "sphere_of"):
+        ask(f"vehicles.{name}", fish)
+    ask("vehicles.depth_of", swims, 0)
+    for name in ("compression", "most_gas"):
+        ask(f"vehicles.{name}", fish, 3)
+    ask("vehicles.gas_volume", fish, 1e-4, 3)
+    ask("vehicles.fish_forces", fish, swims, p.TailAngle(0.1, 0.2, 0), 3)
+    ask("vehicles.fish_rates", fish, swims, p.TailAngle(0.1, 0.2, 0), 0, 3, water, 0)
+    ask("vehicles.over_ground", swims, water, 0)
+    ask("vehicles.swimming_energy", fish, swims)
+    ask("vehicles.quadrotor_rates", drone, flies, p.Wrench(10, [0, 0, 0]))
+    wanted = ask("vehicles.thrust_and_tilt", drone, flies, [0.5, 0, 0])
+    ask("vehicles.quadrotor_wrench", drone, flies, wanted, 0)
+    ask("vehicles.quadrotor_rotation", flies)
+    ask("vehicles.fish", p.FishOptions(depth=3))
+    start = v.simulation.Motion(velocity=[1, 0, 0])
+    model = ask("vehicles.quadrotor", drone)
+    each(ask, model, "limits", start)
+    vehicle = ask("simulation.VehicleModel.launch", model, start, 0, v.simulation.Current())
+    ask("simulation.Vehicle.advance", vehicle, v.simulation.VehicleCommand(), 0, 0.1, [])
+    ask("simulation.Vehicle.log", vehicle, [])
+    for name in ("motion", "broken"):
+        ask(f"simulation.Vehicle.{name}", vehicle)
+
+
+def motions(ask: Ask) -> None:
+    s, here = v.simulation, [1, 0, 0]
+    wave = s.Oscillation(offset=0.4, amplitude=0.3, rate=1)
+    each(ask, wave, "at rate_at", 0.5)
+    each(ask, wave, "range", 0, 1)
+    ask("simulation.ShapeInTime")
+    for shape in (s.RigidShape(v.WorldBody(BALL)), s.DentedConic(3, 1, wave), s.DentedQuadric([3, 1, 1], wave)):
+        ask("simulation.ShapeInTime", shape)
+        for name in ("check", "planar", "reach"):
+            ask(f"simulation.{name}", shape)
+        ask("simulation.shape_at", shape, 0.5, here, np.eye(3))
+        ask("simulation.shape_rate_at", shape, 0.5, np.eye(3))
+        ask("simulation.shape_over", shape, 0, 1, here, np.eye(3))
+    ask("simulation.Current")
+    water = ask("simulation.Current", [0.1, 0, 0], s.Shear(), s.Gusts())
+    each(ask, water, "carried", here)
+    each(ask, water, "velocity", -1, 2)
+    each(ask, water, "acceleration", 2)
+    each(ask, water, "most", -5, 0)
+    start = s.Motion(velocity=[2, 0.2, 0])
+    arc = ask("simulation.Arc", start, [0, 0.1, 0], s.Orientation.fixed, 0, 2)
+    curve = ask("simulation.Curve.steady", start, [0, 0, 0.1], 0, 2)
+    jets = s.Jet(here), s.Jet([2, 0, 0])
+    way = ask("simulation.quintic", *jets, 2)
+    ask("simulation.Curve", way, np.zeros((6, 3)), np.eye(3), 0, 2)
+    for leg in (arc, curve):
+        for name in ("at", "acceleration", "turn"):
+            ask(f"simulation.Leg.{name}", leg, 1)
+            ask(f"{kind(leg)}.{name}", leg, 1)
+    track = ask("simulation.Track", s.RigidShape(v.WorldBody(BALL)), start, s.Orientation.fixed, 0)
+    each(ask, track, "advance", [0, 0.1, 0], 2)
+    each(ask, track, "append", s.Curve.steady(track.motion(2), [0, 0, 0.1], 2, 6))
+    each(ask, track, "motion acceleration state", 1)
+    each(ask, track, "bounds", 0, 2)
+    other = s.Track(s.RigidShape(v.WorldBody(BALL)), s.Motion(position=[9, 6, 0], velocity=[-1, 0, 0]), s.Orientation.fixed, 0)
+    other.advance([0, 0, 0], 6)
+    ask("simulation.prove", track, other, 0, 4)
+    ring = s.MovingOrifice(name="ring", opening=v.Opening.circle(3), position=[5, 0.5, 0], rotation=[[0, 0, 1], [1, 0, 0], [0, 1, 0]])
+    each(ask, ring, "at", 1)
+    ask("simulation.prove_passage", track, ring, 0, 4)
+    window = v.MeshWindow(RING, RING_SIDES, 0)
+    ask("simulation.mesh_track", ring.replace(window=window), 6)
+    wall = s.Track(s.RigidShape(v.WorldBody(window.mesh())), s.Motion(), s.Orientation.fixed, 0)
+    wall.advance([0, 0, 0], 6)
+    ask("simulation.prove_passage", track, window, wall, 0, 4)
+    road = ask("simulation.lane_road", [0, 0], [10, 0], [s.LaneChange(at=1, seconds=2, acceleration=1)])
+    ask("simulation.squircle_road", [0, 0], 50, 0.8, 60)
+    ask("simulation.start_of", road, 0)
+    ask("simulation.curves_of", road, 0, 0, 5, 0.1)
+    ask("simulation.Road.at", road, 1)
+    ask("simulation.Road.jumps", road)
+    sensor, draw = s.Sensor(noise=s.Noise.isotropic, position=0.1, velocity=0.1), s.Draw(seed=1)
+    ask("simulation.check", sensor)
+    each(ask, sensor, "times", 2)
+    each(ask, draw, "uniform normal", 3)
+    a, b = track.state(1), other.state(1)
+    ask("simulation.sight_of", sensor, ask("simulation.measure", sensor, a, b, draw), draw)
+    ask("simulation.share_of", 7, 10)
+    ask("simulation.paired", [True, False], [False, False])
+    ask("simulation.csv_field", "a, b")
+
+
+def runs(ask: Ask) -> None:
+    s, here, file = v.simulation, Path.cwd(), EXAMPLES / "scenarios/noise.yaml"
+    ask("scenario.scenario_of_text", file.read_text(encoding="utf-8"), "noise.yaml")
+    whole = ask("scenario.read_scenario", str(file))
+    scenario = whole.replace(duration=0.4)
+    ask("simulation.check", scenario)
+    ask("simulation.time_of_step", scenario, 3)
+    ask("simulation.guarded", scenario.bodies[0].pilot)
+    run = ask("simulation.simulate", scenario, s.RunOptions())
+    for name in ("bodies", "encounters", "planes", "sights", "orifices", "vehicles", "events"):
+        table = ask(f"simulation.{name}_table", scenario, run)
+    ask("simulation.csv", table)
+    for name in ("run_tables", "require_run_of", "largest_drift"):
+        ask(f"simulation.{name}", scenario, run)
+    ask("simulation.all_passed", run)
+    ask("simulation.find_event", scenario, run, s.EventKind.enters_cone, "agent", "obstacle")
+    ask("simulation.sample_at", scenario, run, "agent", "obstacle", 0.2)
+    event = s.Event(t=0, kind=s.EventKind.enters_cone, agent=0, obstacle=1, value=0.1)
+    ask("simulation.of_orifice", event)
+    for name in ("unit_of", "obstacle_of"):
+        ask(f"simulation.{name}", scenario, event)
+    rings = v.scenario.read_scenario(str(EXAMPLES / "scenarios/orifices.yaml")).replace(duration=0.4)
+    ask("simulation.reach", rings)
+    ask("simulation.largest_current", rings, [1, 0, 0], 0.1, 2)
+    law, level = ask("simulation.trial_law", "di"), ask("simulation.trial_level", "x2")
+    ask("simulation.all_trial_laws")
+    ask("simulation.fly_trial", ask("simulation.trial_scenario", whole, law, level), 1)
+    ask("scenario.run_verdict", run)
+    ask("scenario.proof_text", scenario, run)
+    ask("scenario.write_run", scenario, run, v.scenario.RunOrigin(), here)
+
+
+def campaigns(ask: Ask) -> None:
+    m, here = v.montecarlo, Path.cwd()
+    settings, campaign = m.FlightSettings(), m.Campaign(engagements=1, laws=["exact"])
+    flown = ask("montecarlo.flown_laws", ["exact"], settings)
+    encounter = ask("montecarlo.random_encounter", 1, 2)
+    ask("montecarlo.fly", encounter, flown[0], settings)
+    ask("montecarlo.fly_straight", encounter)
+    ask("montecarlo.laws_of", campaign)
+    row = ask("montecarlo.measure", 1, 0, flown, settings)
+    lines = [ask("montecarlo.settings_line", campaign), ask("montecarlo.csv_header", flown), ask("montecarlo.csv_row", 0, row)]
+    ask("montecarlo.row_of", lines[-1], len(flown))
+    ask("montecarlo.read_table", write(here / "engagements.csv", "".join(f"{line}\n" for line in lines)), len(flown))
+    ask("montecarlo.violations", ask("montecarlo.summarise", [row], flown))
+    ask("montecarlo.to_string", ask("montecarlo.fate_of", "avoided"))
+
+
+def octomap(ask: Ask) -> None:
+    """A map of two cells."""
+    file = Path.cwd() / "two.bt"
+    file.write_bytes(b"# Octomap OcTree binary file\nid OcTree\nsize 3\nres 1e-4\ndata\n\x06\x00")
+    tree, meaning = ask("octomap.read_octree", file), v.octomap.OctreeMeaning()
+    ask("octomap.kind_of", tree.cells[0], meaning)
+    each(ask, tree, "box", tree.cells[0])
+    for name in ("boxes_by_kind", "obstacle_boxes"):
+        ask(f"octomap.{name}", tree, meaning)
+
+
+def lidar(ask: Ask) -> None:
+    k = v.lidar
+    shown = v.surface(DENT, 0.3)
+    points, triangles = shown.vertices, [side.vertices for side in shown.triangles]
+    mesh = ask("lidar.MeshScene", points, triangles)
+    each(ask, mesh, "first_hit", [0, 0, 1], [1, 0, 0])
+    each(ask, mesh, "sees", [0, 0, 1], [5, 0, 1], 1e-6)
+    beams = ask("lidar.raster", 16, 16, 0.8, 0.8)
+    each(ask, beams, "direction", 5)
+    ask("lidar.spinning", [-0.1, 0, 0.1], 90)
+    sensor = k.Lidar(beams=beams, min_range=0.1, max_range=50)
+    ask("lidar.check", sensor)
+    scan = ask("lidar.scan", mesh, sensor, np.eye(4), 1)
+    each(ask, scan, "count", k.Beam.returned)
+    ask("lidar.visible_part", mesh, points, triangles, [sensor], np.eye(4), 0.5)
+    ask("lidar.fuse", [scan.sensor_points()] * 2, [np.eye(4)] * 2)
+
+
+def scanning(ask: Ask) -> None:
+    here = Path.cwd()
+    write(here / "dent.obj", v.to_obj(v.surface(DENT, 0.5)))
+    write(here / "scan.yaml", SCAN)
+    setup = ask("scanning.read_scan_scene", here / "scan.yaml").setup.replace(planes=4, levels=1)
+    mesh = v.lidar.MeshScene(setup.points, setup.triangles)
+    ask("scanning.look", setup, mesh, setup.lidars)
+    ask("scanning.study", setup)
+    ask("scanning.plane_section_picture", setup, 0.1)
+    found = ask("scanning.scan_and_study", setup)
+    ask("scanning.scan_text", setup, found, [1, 0, 0], [0, 0, 0])
+    ask("scanning.write_scan", setup, found, [1, 0, 0], [0, 0, 0], 0.1, here)
+
+
+def vision(ask: Ask) -> None:
+    s, here = v.vision, Path.cwd()
+    for one in (s.Sight, s.Eyes, s.Whose):
+        ask("vision.to_string", next(iter(one)))
+    camera, pose = v.Camera.of_field_of_view(160, 120, 0.8), v.Pose([0, 0, 60], v.nadir())
+    ask("vision.looking_at", [0, 0, 60], [5, 5, 0])
+    ask("vision.attitude_for", [1, 0, 0], 0.2)
+    ask("vision.most_acceleration_in_sight", camera, [0, 0, 60], 0, [[2, 1, 0]], [1, 0])
+    each(ask, ask("vision.CameraMount", s.MountOptions()), "at", 0, pose)
+    scene = ask("vision.Scene", s.SceneOptions(vehicles=[s.VehicleLook()]))
+    placed = [s.PlacedVehicle(position=[2, 1])]
+    pictures = [ask("vision.Scene.render", scene, camera, pose, placed, 0, 0, s.Image())]
+    pictures.append(scene.render(camera, pose, [s.PlacedVehicle(position=[2.3, 1])], 0.04, 1, s.Image()))
+    box = ask("vision.Scene.truth", scene, camera, pose, placed, 0)[0].box
+    ask("vision.overlap", box, box)
+    each(ask, scene, "set_occluders", [s.Occluder(centre=[20, 0], size=[5, 5], bottom=4, top=5)])
+    ask("vision.Image")
+    ask("vision.Image", 8, 6, 3)
+    ask("vision.require_whole", pictures[0])
+    grey = [ask("vision.grey_of", picture) for picture in pictures]
+    ask("vision.draw_sighting", s.Image(160, 120, 3), s.Sighting(box=box), "A")
+    ask("vision.write_picture", here / "00.png", pictures[0])
+    ask("vision.read_picture", here / "00.png", 3, "picture")
+    video = ask("vision.VideoWriter", here / "video.mp4", 160, 120, 25)
+    each(ask, video, "add", s.Image(160, 120, 3))
+    each(ask, video, "close")
+    reader = ask("vision.open_footage", here, 1, "footage")
+    ask("vision.Reader.next", reader, s.Image())
+    for name in ("rate", "frames", "broken"):
+        ask(f"vision.Reader.{name}", reader)
+    for name in ("source_tracker", "tracker"):
+        tracker = ask(f"vision.{name}")
+        ask("vision.Tracker.start", tracker, grey[0], [box])
+        ask("vision.Tracker.step", tracker, grey[1], None, [])
+        ask("vision.Tracker.add", tracker, box)
+
+
+def pursuits(ask: Ask) -> None:
+    s = v.vision
+    cars = [s.Car(name=name, road=v.simulation.lane_road(at, [20, 0], [])) for name, at in (("B1", [20, 12]), ("B2", [10, -14]))]
+    view = s.View(camera=v.Camera.of_field_of_view(400, 300, 0.87), height=0.8)
+    pursuit = s.Pursuit(duration=0.2, source_view=view, perspective_view=view, step=0.01, picture_step=0.04,
+                        start=v.simulation.Motion(position=[0, 0, 140], velocity=[20, 0, 0]), cars=cars)
+    ask("vision.perception_of", pursuit)
+    run = ask("vision.pursue", pursuit)
+    ask("vision.summarise", pursuit, run)
+
+
+OBJ = "".join(f"v {x} {y} {z}\n" for x, y, z in CORNERS) + "".join(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in SIDES)
+SCAN = """
+agent: {center: [0, 0, 0], semi_axes: [0.5, 0.5, 0.3]}
+obstacle: {mesh: dent.obj}
+agent_velocity: [1, 0, 0]
+lidars:
+  - {position: [0.2, 0, 0], towards: [1, 0, 0.1], beams: {rows: 16, columns: 16, horizontal: 0.8, vertical: 0.8}}
+"""
+# Why no call is answered by an overload: (name, its index).
+UNREACHED: dict[tuple[str, int], str] = {
+    # Of the plane and of space: in C++ the template argument says which. Both take the same, so the first one answers.
+    ("rotation_of", 1): "hidden by rotation_of<2>",
+    # It has no constructor here (it takes ownership of a tracker), and nothing returns one.
+    **{(f"vision.Perception.{name}", 0): "nothing makes one" for name in ("start", "step", "vehicles", "options", "tracker_seconds", "filter_seconds")},
+}
+ALL = (geometry, bodies, numbers, predicates, cones, questions, exact, numbers_of_bodies, engagements, guidance, laws, words, files, scenes, fitting,
+       vehicles, motions, runs, campaigns, octomap, lidar, scanning, vision, pursuits)
