@@ -54,7 +54,7 @@ void Many::read_numbers(PyObject* given, const Place& place) {
   auto array = as_pybind<py::array>(array_);
   const char kind = array.dtype().kind();
   if ((kind != 'f' && kind != 'i' && kind != 'u') || (kind == 'f' && array.itemsize() > 8))
-    throw InputError(place.text(), "an array of " + std::string(py::str(array.dtype())),
+    throw InputError(place.text(), "an array of " + dtype_name(array),
                      "an array of real numbers that doubles hold exactly");
   const auto dimensions = static_cast<std::size_t>(array.ndim());
   if (!scalar_ && (dimensions == 0 || array.shape(array.ndim() - 1) != components_)) {

@@ -65,7 +65,7 @@ py::array exact_doubles(PyObject* given, const Place& place) {
   const auto array = py::reinterpret_borrow<py::array>(given);
   const char kind = array.dtype().kind();
   if (kind == 'f' && array.itemsize() > 8)
-    throw InputError(place.text(), "an array of " + std::string(py::str(array.dtype())), kNumber);
+    throw InputError(place.text(), "an array of " + dtype_name(array), kNumber);
   if ((kind == 'i' || kind == 'u') && array.itemsize() == 8 && array.size() > 0 &&
       !py::bool_(py::int_(absolute.get()(array).attr("max")()) <= py::int_(std::uint64_t{1} << 53)))
     throw InputError(place.text(), "an integer beyond 2^53", kNumber);
@@ -122,7 +122,7 @@ py::array array_from(PyObject* given, std::span<const Py_ssize_t> shape, const P
   const bool empty = numbers.size() == 0 && !is_array(given);
   if (whole ? kind != 'i' && kind != 'u' && !empty
             : (kind != 'f' && kind != 'i' && kind != 'u') || (kind == 'f' && numbers.itemsize() > 8))
-    throw InputError(place.text(), "an array of " + std::string(py::str(numbers.dtype())),
+    throw InputError(place.text(), "an array of " + dtype_name(numbers),
                      whole ? "an array of integers" : "an array of real numbers that doubles hold exactly");
   const bool any_length = std::any_of(shape.begin(), shape.end(), [](Py_ssize_t n) { return n < 0; });
   if (empty && any_length && shape.size() > 1) {

@@ -18,6 +18,11 @@ template <class T = py::object>
 }
 [[nodiscard]] inline Reference reference_to(py::object object) { return Reference(object.release().ptr()); }
 
+/// "float64". Not by str(): numpy 1.24 keeps some memory of each such text of a time.
+[[nodiscard]] inline std::string dtype_name(const py::array& array) {
+  return py::str(array.dtype().attr("name"));
+}
+
 /// Without the global lock, as long as this lives. A thread that wants it when Python ends waits for ever:
 /// Python would end it by an exception that no destructor lets through.
 class Released {

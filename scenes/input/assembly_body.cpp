@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "input/assembly_body.h"
 
+#include <sys/stat.h>
 #include <vericone/files/read_points.h>
+#include <cstdint>
 #include <list>
 #include <mutex>
 
@@ -155,6 +157,18 @@ class Cache {
   std::list<std::pair<std::string, Pieces>> kept_;
 };
 
+/// Another one when the file was written again, under the same name.
+std::string version_of(const std::filesystem::path& path) {
+  struct stat about {};
+  if (::stat(path.c_str(), &about) != 0) return "";
+  std::string text;
+  for (const auto part :
+       {std::uint64_t(about.st_ino), std::uint64_t(about.st_size), std::uint64_t(about.st_mtim.tv_sec),
+        std::uint64_t(about.st_mtim.tv_nsec), std::uint64_t(about.st_ctim.tv_nsec)})
+    text += std::to_string(part) + " ";
+  return text;
+}
+
 Pieces read_pieces(const std::string& kind, const Json& value, const std::string& path,
                    const std::filesystem::path& folder, std::string& file_name) {
   static Cache cache;
@@ -167,6 +181,7 @@ Pieces read_pieces(const std::string& kind, const Json& value, const std::string
   options.erase("center");
   options.erase("rotation");
   options[kind] = std::filesystem::absolute(file.path).lexically_normal().string();
+  options["version"] = version_of(file.path);
   const std::string field = path + "." + kind;
   return cache.get(options.dump(), [&]() -> Pieces {
     if (kind == "octree") {

@@ -289,6 +289,15 @@ def test_fits_are_those_of_the_command(tmp_path: Path) -> None:
     assert body.quadric() is not None
 
 
+def test_a_file_that_was_written_again_is_read_again(tmp_path: Path) -> None:
+    corners = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
+    (tmp_path / "scene.yaml").write_text("agent: {center: [0, 0, 0], semi_axes: [1, 1, 1]}\nobstacle: {mesh: m.off, center: [5, 0, 0]}\n")
+    for size in (1.0, 2.0):
+        files.write_points(tmp_path / "m.off", size * corners, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+        pieces = vericone.read_scene(tmp_path / "scene.yaml").obstacle.pieces()
+        assert pieces is not None and pieces.bounds().high.tolist() == [size] * 3
+
+
 def test_fits_take_points_meshes_and_files(tmp_path: Path) -> None:
     points = dumbbell()
     assert vericone.fit(points, shape="ellipsoid").pieces == vericone.fit(points.tolist(), shape="ellipsoid").pieces

@@ -14,9 +14,9 @@ namespace vericone::scenes {
 /// the points stand beside the scene, in NAME-agent.ply and NAME-obstacle.ply.
 ///
 /// What was written is read again first; nothing is written, or all. Throws InputError naming "agent" or
-/// "obstacle" for a body made by a program that no fields give to the bit (one delimited by hyperboloids, a
-/// map's boxes), and naming the path where it is no file's; std::system_error where it cannot be written.
-/// Cost: that of reading it.
+/// "obstacle" for a body made by a program that no fields give to the bit (one delimited by hyperboloids, an
+/// ellipsoid that a pose moves, a map's boxes), and naming the path where it is no file's; std::system_error
+/// where it cannot be written. Cost: that of reading it.
 void write_scene(const Scene& scene, const std::filesystem::path& file);
 
 /// The same of one body in space, for read_body(). Throws naming "body".
