@@ -3,9 +3,9 @@
 // Cells of directions: all in, all out, or to be divided.
 #include <algorithm>
 
+#include "answers/frontier.h"
 #include "assembly/gap.h"
 #include "assembly/state.h"
-#include "map/frontier.h"
 
 namespace vericone::assembly {
 

@@ -7,9 +7,9 @@
 // indices a pair: of the agent's part, and of the obstacle's node.
 #include <algorithm>
 
+#include "answers/frontier.h"
 #include "composite/delimited.h"
 #include "composite/pieces.h"
-#include "map/frontier.h"
 
 namespace vericone {
 using namespace assembly;

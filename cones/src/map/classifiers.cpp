@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "map/frontier.h"
+#include "answers/frontier.h"
 
 namespace vericone {
 namespace {
