@@ -313,6 +313,7 @@ class Calls:
         # Called most; what they take comes from the others.
         self.favoured = [c for c in self.callables if c.name.startswith(most)]
         self.pool: dict[str, list[Any]] = {}
+        self.complete = False  # nothing comes to the pool any more
         self.faults: dict[str, str] = {}
         self.answered: dict[str, int] = {}
         self.overloads: dict[str, set[int]] = {}  # that answered
@@ -323,6 +324,8 @@ class Calls:
         self.examples: dict[tuple[str, bool], list[tuple[Any, list[Any], dict[str, Any]]]] = {}
 
     def keep(self, value: Any, draw: random.Random, depth: int = 0) -> None:
+        if self.complete:
+            return
         kind = type(value)
         if kind.__module__.split(".")[0] == "vericone" and not isinstance(value, np.ndarray):
             name = kind.__qualname__
@@ -503,6 +506,8 @@ def search(calls: Calls, examples: int) -> None:
     """Calls that hypothesis chooses, and makes small where one is wrong: it raises AssertionError then."""
     import hypothesis
     from hypothesis import strategies
+
+    calls.complete = True  # what it draws must not depend on what it has drawn
 
     @hypothesis.settings(max_examples=examples, deadline=None, derandomize=True, database=None,
                          suppress_health_check=list(hypothesis.HealthCheck))
