@@ -167,7 +167,7 @@ REQUIRES: dict[str, tuple[str, str, str, str]] = {
     "octomap::kind_of": ("!std::isnan(cell.log_odds)", "cell.log_odds", "nan", "a number"),
     "guidance::singer_noise": ("std::isfinite(alpha) && alpha > 0 && variance >= 0 && std::isfinite(variance) && dt >= 0 && std::isfinite(dt)",
                                "alpha, variance, dt", "others", "finite: alpha positive (1/s), variance and dt (s) from 0 up"),
-    **{f"vision::Tracker::{name}": ("!ground || ground->allFinite()", "ground", "a number that is not finite", "finite, or None") for name in ("step",)},
+    "vision::Tracker::step": ("!ground || ground->allFinite()", "ground", "a number that is not finite", "finite, or None"),
     "exact::direction_on_grid": ("[](const auto& x) { if constexpr (requires { x.allFinite(); }) return x.allFinite(); else return true; }(v)", "v",
                                  "a number that is not finite", "finite"),
     "exact::difference_on_grid": ("x.allFinite() && y.allFinite()", "x, y", "a number that is not finite", "finite"),

@@ -29,8 +29,8 @@ class DirectionClassifier {
 
   /// `in`: every direction of the cell collides; `out`: none does; both are proved. `undecided`: the cell is
   /// mixed, or could not be proved to be either. `parent`: that of a cell that contains this one, or start();
-  /// `own`: receives this cell's where it is undecided. Throws InputError naming "parent" where it is neither.
-  /// May be called by several threads at once.
+  /// `own`: receives this cell's where it is undecided. Throws InputError naming "parent" where it is
+  /// neither. May be called by several threads at once.
   virtual Certified classify(const DirectionCell& cell, const Frontier& parent, Frontier& own) const = 0;
 
   /// Whether classify() would say `out`. Where bodies have many parts, proving `in` is half of its cost.
