@@ -143,6 +143,7 @@ REQUIRES: dict[str, tuple[str, str, str, str]] = {
                              "w x h pixels of 1 or 3 channels"),
     "simulation::Vehicle::advance": ("from_ >= 0 && to >= from_ && to - from_ <= 1e5", "to", "no time after from", "from the time reached, to a "
                                      "later one, less than 1e5 s on"),
+    "Interval::Interval/2": ("rad >= 0", "rad", "less", "0 or more"),
     "Interval::between": ("!(lo > hi)", "lo", "above hi", "at most hi"),
     "guidance::all_planes": ("planes >= 1", "planes", "less", "at least 1"),
     "guidance::choose_plane": ("options.planes >= 1 && options.planes <= 10'000", "options.planes", "others", "from 1 to 10000"),

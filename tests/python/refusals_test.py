@@ -50,6 +50,8 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
     "a navigator without a place": (lambda: g.Navigator(g.NavigatorOptions()).step(state(STILL, velocity=[3, 0, 0]).replace(position=[float("nan")] * 3), [],
                                                                                    None, 0, 0.1), r"agent\.position\[0\]"),
     "one body flat, one not": (lambda: g.Navigator(g.NavigatorOptions()).step(state(STILL, velocity=[3, 0, 0]), [g.BodyState()], None, 0, 0.1), r"others\[0\]"),
+    "a radius below 0": (lambda: vericone.Interval(1, -3), "rad"),
+    "a limit below 0": (lambda: g.VerticalLaw(g.VerticalGains(most=-1)), "most"),
     "planes without end": (lambda: g.choose_plane(state(STILL), state([9, 0, 0]), vericone.SectorMethod.slice, g.PlaneOptions(planes=2**30)), "planes"),
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/geometry/error.h>
 #include <vericone/guidance/pursuit/vertical_law.h>
 #include <algorithm>
 #include <cmath>
@@ -31,6 +32,10 @@ double size_acceleration(double size, double size_rate, double altitude, const V
 
 double altitude_acceleration(double wanted, double altitude, double climb, double p, double d) {
   return p * (wanted - altitude) - d * climb;
+}
+
+VerticalLaw::VerticalLaw(const VerticalGains& gains) : gains_(gains) {
+  if (!(gains.most >= 0)) throw InputError("most", to_text(gains.most), "0 or more (m/s^2)");
 }
 
 double VerticalLaw::step(double size, double size_rate, double altitude, double climb) {

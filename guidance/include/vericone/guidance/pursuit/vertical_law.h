@@ -37,7 +37,8 @@ enum class VerticalMode : std::uint8_t { size, lock, altitude };
 /// throw.
 class VerticalLaw {
  public:
-  explicit VerticalLaw(const VerticalGains& gains) : gains_(gains) {}
+  /// Throws InputError naming "most" where it is negative or no number.
+  explicit VerticalLaw(const VerticalGains& gains);
   /// Acceleration up, m/s^2. size: x_S, px, and its rate; altitude, m, and its rate, up. A size of 0, of what
   /// is not in the picture, drives nothing.
   double step(double size, double size_rate, double altitude, double climb);
