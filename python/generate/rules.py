@@ -145,6 +145,8 @@ REQUIRES: dict[str, tuple[str, str, str, str]] = {
                                      "later one, less than 1e5 s on"),
     "Interval::Interval/2": ("rad >= 0", "rad", "less", "0 or more"),
     "Interval::between": ("!(lo > hi)", "lo", "above hi", "at most hi"),
+    "guidance::robust_correction": ("(vericone::guidance::check(model, options), low <= high)", "low, high", "others", "low <= high"),
+    "guidance::outer_loop": ("most >= 0", "most", "less", "0 or more (m/s^2)"),
     "guidance::all_planes": ("planes >= 1", "planes", "less", "at least 1"),
     "guidance::choose_plane": ("options.planes >= 1 && options.planes <= 10'000", "options.planes", "others", "from 1 to 10000"),
     "guidance::planar_rates": ("state.r > 0", "state.r", "no positive number", "positive (m)"),

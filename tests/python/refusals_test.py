@@ -52,6 +52,7 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
     "one body flat, one not": (lambda: g.Navigator(g.NavigatorOptions()).step(state(STILL, velocity=[3, 0, 0]), [g.BodyState()], None, 0, 0.1), r"others\[0\]"),
     "a radius below 0": (lambda: vericone.Interval(1, -3), "rad"),
     "a limit below 0": (lambda: g.VerticalLaw(g.VerticalGains(most=-1)), "most"),
+    "limits the wrong way round": (lambda: g.robust_correction(0.1, 1, -1, g.RobustModel(), g.RobustOptions()), "low, high"),
     "planes without end": (lambda: g.choose_plane(state(STILL), state([9, 0, 0]), vericone.SectorMethod.slice, g.PlaneOptions(planes=2**30)), "planes"),
 }
 
