@@ -79,6 +79,8 @@ SKIPPED: dict[str, str] = {
     "verify::kAllPlanarFamilies": "list(PlanarFamily) has them",
     "verify::kGapSamples": "a number of planes that only C++ counts by",
     "kBodyKinds": "list(BodyKind) has them",
+    "BasicEllipsoid::trusted": "looks at nothing; a pickle has a body bit for bit, and is looked at",
+    "BasicCombined::trusted": "looks at nothing; a pickle has a body bit for bit, and is looked at",
     "montecarlo::kUnlimited": "what Flown.guide has of a law without saturation",
     "montecarlo::kBin": "0.25 m, the width of a bin of Counts.least_distances",
     "montecarlo::kLastBin": "15 m, where the last bin of Counts.least_distances begins",
@@ -117,7 +119,7 @@ LONG: set[str] = {
     "scanning::study", "scanning::write_scan",
     "scenario::read_scenario", "scenario::scenario_of_text", "scenario::write_run",
     "scenes::read_body", "scenes::read_scene", "scenes::scene_of_text", "scenes::write_body", "scenes::write_scene",
-    "simulation::Vehicle::advance", "simulation::fly_trial", "simulation::largest_current", "simulation::prove", "simulation::prove_passage", "simulation::reach", "simulation::run_tables", "simulation::simulate",
+    "simulation::Arc::Arc", "simulation::Track::advance", "simulation::Vehicle::advance", "simulation::curves_of", "simulation::fly_trial", "simulation::largest_current", "simulation::prove", "simulation::prove_passage", "simulation::reach", "simulation::run_tables", "simulation::simulate",
     "montecarlo::fly", "montecarlo::fly_straight",
     "vision::Image::Image", "vision::Perception::start", "vision::Perception::step", "vision::Reader::next", "vision::Scene::Scene",
     "vision::Scene::render", "vision::Tracker::start", "vision::Tracker::step", "vision::VideoWriter::add", "vision::VideoWriter::close",
@@ -184,8 +186,10 @@ REQUIRES: dict[str, tuple[str, str, str, str]] = {
     "mesh_section": ("std::ranges::all_of(points, [](const auto& x) { return x.allFinite(); }) && std::ranges::all_of(triangles, "
                      "[&](const auto& t) { return std::ranges::all_of(t, [&](auto k) { return k < points.size(); }); })",
                      "triangles", "corners that are no points, or not finite", "indices of finite points"),
-    "convex_reach": ("oracle.relation() == Relation::disjoint && oracle.obstacle().size() == 1", "oracle", "another pair",
-                     "of disjoint bodies, the obstacle of one piece"),
+    "convex_reach": ("oracle.relation() == Relation::disjoint && oracle.obstacle().size() == 1 && half_planes <= 1'000'000", "oracle, half_planes",
+                     "others", "a pair of disjoint bodies, the obstacle of one piece, and at most 1000000 half-planes"),
+    "AssemblyOracle::extremes": ("half_planes <= 1'000'000", "half_planes", "more", "at most 1000000"),
+    "Opening::depth": ("point.allFinite()", "point", "a number that is not finite", "finite (m)"),
     **{f"{oracle}::exact_membership": ("v_a.allFinite() && v_b.allFinite()", "velocity", "a number that is not finite", "finite (m/s)")
        for oracle in ("ConeOracle", "HullOracle", "SectorOracle")},
     "exact_side": ("point.allFinite()", "point", "a number that is not finite", "finite"),
@@ -215,6 +219,8 @@ REQUIRES: dict[str, tuple[str, str, str, str]] = {
 # The same of every argument of a type: condition of the argument {0}; which part of it, what was given, what would be right.
 REQUIRES_OF_TYPES: dict[str, tuple[str, str, str, str]] = {
     "vericone::exact::Dyadic": ("{0}.exponent <= 100'000", "exponent", "more", "at most 100000"),
+    "vericone::PlaneFrame": ("{0}.origin.allFinite() && {0}.x_axis.allFinite() && {0}.y_axis.allFinite()", "frame",
+                             "a number that is not finite", "finite"),
 }
 # Types that the library checks itself, if it is asked to, and by what: every argument of theirs, and lists of them, are.
 CHECKED: dict[str, str] = {f"vericone::guidance::{name}": "vericone::guidance::check" for name in ("BodyState", "ClearanceOptions", "GuideOptions",

@@ -5,7 +5,10 @@
 #include <vericone/cones/pair.h>
 #include <vericone/cones/uncertain/error_set.h>
 #include <vericone/geometry/body.h>
+#include <vericone/geometry/exact/body.h>
 #include <vericone/geometry/world_body.h>
+#include <cmath>
+#include <utility>
 
 #include "call.h"
 
@@ -42,6 +45,31 @@ void describe_value(const char* names, State, Restore) {
   info.restore = [](PyObject* state) -> std::shared_ptr<void> { return own(new T(Restore{}(state))); };
 }
 
+/// An ellipsoid of the numbers that it had, bit for bit: those of a body, as the library stores them.
+template <int D>
+BasicEllipsoid<D> stored(const Eigen::Matrix<double, D, 1>& center, const Eigen::Matrix<double, D, D>& shape,
+                         const Eigen::Matrix<double, D, D>& factor, bool by_factor) {
+  bool sound = center.allFinite() && shape.allFinite() && factor.allFinite();
+  // shape = factor * its transpose, to the rounding of another machine, entry by entry.
+  for (int i = 0; i < D && sound; ++i)
+    for (int j = 0; j < D && sound; ++j)
+      sound = shape(i, i) > 0 && shape(i, j) == shape(j, i) &&
+              std::abs(factor.row(i).dot(factor.row(j)) - shape(i, j)) <=
+                  1e-12 * factor.row(i).norm() * factor.row(j).norm();
+  const auto body = BasicEllipsoid<D>::trusted(center, shape, factor, by_factor);
+  if (!sound || !exact::positive_definite<D>(exact::defining_shape<D>(body)))
+    throw InputError("state", "numbers that are no ellipsoid's", "as an ellipsoid was pickled");
+  return body;
+}
+
+template <int D>
+BasicCombined<D> stored(const BasicEllipsoid<D>& ellipsoid, std::vector<Delimiter<D>> delimiters) {
+  for (const Delimiter<D>& d : delimiters)
+    if (!d.matrix.allFinite() || !std::isfinite(d.level))
+      throw InputError("state", "numbers that are no delimiter's", "as a body was pickled");
+  return BasicCombined<D>::trusted(ellipsoid, std::move(delimiters));
+}
+
 template <int D>
 void describe_dimension() {
   using V = Eigen::Matrix<double, D, 1>;
@@ -50,14 +78,17 @@ void describe_dimension() {
   describe_value<BasicEllipsoid<D>>(
       "center shape factor defined_by_factor",
       [](const auto& x) { return state_of(x.center(), x.shape(), x.factor(), x.defined_by_factor()); },
-      [](PyObject* state) { return std::apply(&BasicEllipsoid<D>::trusted, parts<V, M, M, bool>(state)); });
+      [](PyObject* state) {
+        return std::apply([](const auto&... part) { return stored<D>(part...); },
+                          parts<V, M, M, bool>(state));
+      });
   describe_value<BasicQuadric<D>>(
       "matrix", [](const auto& x) { return state_of(x.matrix()); },
       [](PyObject* state) { return BasicQuadric<D>(std::get<0>(parts<Q>(state))); });
   describe_value<BasicCombined<D>>(
       "ellipsoid delimiters", [](const auto& x) { return state_of(x.ellipsoid(), x.delimiters()); },
       [](PyObject* state) {
-        return std::apply(&BasicCombined<D>::trusted,
+        return std::apply([](const auto&... part) { return stored<D>(part...); },
                           parts<BasicEllipsoid<D>, std::vector<Delimiter<D>>>(state));
       });
 }

@@ -53,6 +53,11 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
     "a radius below 0": (lambda: vericone.Interval(1, -3), "rad"),
     "a limit below 0": (lambda: g.VerticalLaw(g.VerticalGains(most=-1)), "most"),
     "limits the wrong way round": (lambda: g.robust_correction(0.1, 1, -1, g.RobustModel(), g.RobustOptions()), "low, high"),
+    "a plane that is none": (lambda: vericone.mesh_section(np.eye(4)[:, :3], [[0, 1, 2]], vericone.PlaneFrame(
+        origin=STILL, x_axis=[float("inf"), 0, 0], y_axis=[0, 1, 0])), "frame"),
+    "the depth of nowhere": (lambda: vericone.Opening.ellipse([2, 1]).depth([float("nan"), 0]), "point"),
+    "half-planes without end": (lambda: vericone.convex_reach(vericone.AssemblyOracle(BALL, vericone.Assembly.cloud([[5, 0, 0]], 1)), [1, 0, 0],
+                                                              2**31 - 1, 1e-6), "half_planes"),
     "planes without end": (lambda: g.choose_plane(state(STILL), state([9, 0, 0]), vericone.SectorMethod.slice, g.PlaneOptions(planes=2**30)), "planes"),
 }
 
@@ -155,6 +160,10 @@ def test_damaged_pickles_are_refused() -> None:
     for kind in (vericone.Assembly, vericone.Body, vericone.WorldBody, vericone.Ellipsoid, vericone.Pose):
         with pytest.raises(TypeError):
             vericone._core._restore(kind, ())  # type: ignore[attr-defined]
+    axes = np.diag([2.0, 1, 1])
+    for shape, factor in ((axes, axes), (axes**2, axes * np.nan), (np.diag([4.0, 1, 0]), np.diag([2.0, 1, 0]))):
+        with pytest.raises(vericone.InputError, match="as an ellipsoid was pickled"):
+            vericone._core._restore(vericone.Ellipsoid, (np.zeros(3), shape, factor, True))  # type: ignore[attr-defined]
 
 
 WORK = {

@@ -217,10 +217,12 @@ std::vector<Target::Match> Target::look_alikes(const cv::Mat& grey, const View& 
   const double c = std::cos(about.turn) * sample, s = std::sin(about.turn) * sample;
   // From a pixel of the search picture to the picture, of which only what is needed is smoothed.
   const double ox = 0.5 * (w - 1), oy = 0.5 * (h - 1), half = std::hypot(ox, oy) * sample + 2;
-  const cv::Rect needed =
-      cv::Rect(int(std::floor(about.centre.x() - half)), int(std::floor(about.centre.y() - half)),
-               int(2 * half) + 2, int(2 * half) + 2) &
-      cv::Rect(0, 0, grey.cols, grey.rows);
+  // A view may be far outside, where its pixels are beyond every int.
+  const auto within = [](double at, int size) { return at > 0 ? (at < size ? int(at) : size) : 0; };
+  const double left = std::floor(about.centre.x() - half), top = std::floor(about.centre.y() - half);
+  const double side = std::floor(2 * half) + 2;
+  const cv::Rect needed(cv::Point(within(left, grey.cols), within(top, grey.rows)),
+                        cv::Point(within(left + side, grey.cols), within(top + side, grey.rows)));
   if (needed.width < small.cols || needed.height < small.rows) return {};
   const cv::Matx23d map(c, -s, about.centre.x() - c * ox + s * oy - needed.x, s, c,
                         about.centre.y() - s * ox - c * oy - needed.y);

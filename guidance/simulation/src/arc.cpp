@@ -2,6 +2,7 @@
 #include <vericone/geometry/ellipsoid.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/pose.h>
+#include <vericone/geometry/stop.h>
 #include <vericone/simulation/track.h>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -72,7 +73,8 @@ void Arc::integrate() {
   std::vector<Step> steps;
   State x{};
   double t = 0, dt = carried_;
-  while (t < carried_) {
+  for (int i = 1; t < carried_; ++i) {
+    if (i % 256 == 0) checkpoint();
     dt = std::min(dt, carried_ - t);
     if (stepper.try_step(motion, x, t, dt) != success || !(t < carried_)) continue;
     // Times that differ by rounding only are the end.

@@ -2,6 +2,7 @@
 #include <vericone/simulation/road.h>
 
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -145,6 +146,7 @@ struct Along {
     const double middle = 0.5 * (from + to);
     constexpr double kShortest = 1e-6;  // s: rounding is all that is left
     if (good || !(to - from > kShortest)) {
+      if (curves.size() % 64 == 63) checkpoint();
       curves.push_back(std::move(whole));
       return;
     }

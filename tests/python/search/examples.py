@@ -89,10 +89,8 @@ def geometry(ask: Ask) -> None:
             ask(name, body.quadric(), point)
     ask("Ellipse.from_axes", [6, 1], [2, 1], TURN)
     ask("Ellipse.from_shape", [6, 1], np.diag([4.0, 1]))
-    ask("Ellipse.trusted", [6, 1], np.diag([4.0, 1]), np.diag([2.0, 1]), True)
     ask("Ellipsoid.from_axes", [6, 1, 0], [2, 1, 1], TURN_3)
     ask("Ellipsoid.from_shape", [6, 1, 0], np.diag([4.0, 1, 1]))
-    ask("Ellipsoid.trusted", [6, 1, 0], np.diag([4.0, 1, 1]), np.diag([2.0, 1, 1]), True)
     ask("Quadric", np.diag([1.0, 1, 1, -1]))
     ask("AxisFrame", [1, 2, 3])
     ask("Body", LONG)
@@ -302,7 +300,6 @@ def bodies(ask: Ask) -> None:
         if own in (STAR, DENT):
             ask(name, own.ellipsoid())
             ask(name, own.ellipsoid(), own.delimiters())
-            ask(f"{name}.trusted", own.ellipsoid(), own.delimiters())
             each(ask, own.delimiters()[0], "value", x)
         else:
             ask(f"{name}.from_quadric", own.quadric())
