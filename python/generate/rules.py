@@ -189,6 +189,7 @@ REQUIRES: dict[str, tuple[str, str, str, str]] = {
     "convex_reach": ("oracle.relation() == Relation::disjoint && oracle.obstacle().size() == 1 && half_planes <= 1'000'000", "oracle, half_planes",
                      "others", "a pair of disjoint bodies, the obstacle of one piece, and at most 1000000 half-planes"),
     "AssemblyOracle::extremes": ("half_planes <= 1'000'000", "half_planes", "more", "at most 1000000"),
+    "files::are_collinear": ("a.allFinite() && b.allFinite() && c.allFinite()", "a, b, c", "a number that is not finite", "finite"),
     "Opening::depth": ("point.allFinite()", "point", "a number that is not finite", "finite (m)"),
     **{f"{oracle}::exact_membership": ("v_a.allFinite() && v_b.allFinite()", "velocity", "a number that is not finite", "finite (m/s)")
        for oracle in ("ConeOracle", "HullOracle", "SectorOracle")},

@@ -58,6 +58,8 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
     "the depth of nowhere": (lambda: vericone.Opening.ellipse([2, 1]).depth([float("nan"), 0]), "point"),
     "half-planes without end": (lambda: vericone.convex_reach(vericone.AssemblyOracle(BALL, vericone.Assembly.cloud([[5, 0, 0]], 1)), [1, 0, 0],
                                                               2**31 - 1, 1e-6), "half_planes"),
+    "a mesh of points that are none": (lambda: vericone.files.triangle_mesh(vericone.files.PointFile(points=np.eye(3) * np.inf, faces=[[0, 1, 2]])),
+                                       r"points\[0\]"),
     "planes without end": (lambda: g.choose_plane(state(STILL), state([9, 0, 0]), vericone.SectorMethod.slice, g.PlaneOptions(planes=2**30)), "planes"),
 }
 

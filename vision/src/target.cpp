@@ -212,7 +212,7 @@ std::vector<Target::Match> Target::look_alikes(const cv::Mat& grey, const View& 
   cv::Mat small = pattern;
   if (coarse > 1) cv::resize(pattern, small, {}, 1 / coarse, 1 / coarse, cv::INTER_AREA);
   const double sample = step * coarse;
-  const int radius = std::min(int(kMostReach), int(std::ceil(reach / sample))) + 1;
+  const int radius = int(std::min(kMostReach, std::ceil(reach / sample))) + 1;
   const int w = small.cols + 2 * radius, h = small.rows + 2 * radius;
   const double c = std::cos(about.turn) * sample, s = std::sin(about.turn) * sample;
   // From a pixel of the search picture to the picture, of which only what is needed is smoothed.
@@ -280,7 +280,9 @@ std::optional<Target::Candidate> Target::search(const cv::Mat& now, const Eigen:
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(gate);
   const double reach = std::sqrt(kGate * eigen.eigenvalues()(1));
   // A large gate is searched in parts, one a picture; so are turns besides the expected one.
-  const int parts = std::max(1, int(std::ceil(reach / (kMostReach * recent_.step() * view_.scale))));
+  constexpr double kMostParts = 1000;  // to each side; more pictures than a search lasts
+  const int parts =
+      std::max(1, int(std::min(kMostParts, std::ceil(reach / (kMostReach * recent_.step() * view_.scale)))));
   const int part = hidden_ % (parts * parts);
   const double cell = 2 * reach / parts;
   View about = view_;

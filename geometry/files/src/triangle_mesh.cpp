@@ -95,6 +95,9 @@ TriangleMesh triangle_mesh(PointFile file, const MeshOptions& options) {
   if (file.faces.empty())
     throw InputError("faces", "a cloud of " + std::to_string(file.points.size()) + " points",
                      "a mesh, with at least one face");
+  for (std::size_t i = 0; i < file.points.size(); ++i)
+    if (!file.points[i].allFinite())
+      throw InputError("points[" + std::to_string(i) + "]", "a number that is not finite", "finite");
   for (std::size_t i = 0; i < file.faces.size(); ++i)
     for (const std::uint32_t corner : file.faces[i])
       if (corner >= file.points.size())

@@ -406,6 +406,9 @@ PursuitRun pursue(const Pursuit& pursuit, const PursuitOptions& options) {
   if (!(pursuit.step > 0)) throw InputError("step", std::to_string(pursuit.step), "a positive number (s)");
   if (!(ratio > 0.5) || std::abs(ratio - std::round(ratio)) > 1e-6)
     throw InputError("picture_step", std::to_string(pursuit.picture_step), "a whole number of steps (s)");
+  if (!pursuit.start.position.allFinite() || !pursuit.start.velocity.allFinite() ||
+      !pursuit.start.rotation.allFinite())
+    throw InputError("start", "a number that is not finite", "finite (m, m/s)");
   if (std::none_of(pursuit.cars.begin(), pursuit.cars.end(), [](const Car& car) { return car.followed; }))
     throw InputError("cars", "none that is followed", "at least one");
   for (std::size_t i = 0; i < pursuit.cars.size(); ++i)

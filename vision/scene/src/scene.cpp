@@ -340,6 +340,9 @@ void Scene::render(const Camera& camera, const Pose& pose, std::span<const Place
                    std::uint64_t frame, Image& image, const Pose* before) {
   const SceneOptions& options = parts_->options;
   parts_->require_all(vehicles);
+  if (!(camera.width > 0 && camera.height > 0 && double(camera.width) * camera.height <= 1e8))
+    throw InputError("camera", std::to_string(camera.width) + " x " + std::to_string(camera.height) + " px",
+                     "from 1 to 1e8 pixels");
   if (image.width != camera.width || image.height != camera.height || image.channels != options.channels)
     image = Image(camera.width, camera.height, options.channels);
   if (options.exposure > 0)

@@ -58,8 +58,8 @@ struct TriangleMesh {
 };
 
 /// The mesh of a file. All points are kept, also those that no triangle uses. Throws InputError where the
-/// file has no face. Time and memory are linear in the numbers of points and corners; 10 million triangles
-/// take seconds (docs/reference/files.md).
+/// file has no face, or naming "faces[i]" or "points[i]" (finite). Time and memory are linear in the numbers
+/// of points and corners; 10 million triangles take seconds (docs/reference/files.md).
 [[nodiscard]] TriangleMesh triangle_mesh(PointFile file, const MeshOptions& options = {});
 
 /// Whether three points are on a line; exact.

@@ -78,7 +78,8 @@ class Scene {
 
   /// The picture at a time t, s; `frame` counts pictures, for the noise: equal arguments give equal pictures.
   /// With `exposure`, `before` is the camera's pose that long earlier (left out: it stood still). One vehicle
-  /// for each of SceneOptions::vehicles, else InputError naming "vehicles". Cost: docs/explanation/scene.md.
+  /// for each of SceneOptions::vehicles, else InputError naming "vehicles"; "camera" of more than 1e8 pixels.
+  /// Cost: docs/explanation/scene.md.
   void render(const Camera& camera, const Pose& pose, std::span<const PlacedVehicle> vehicles, double t,
               std::uint64_t frame, Image& image, const Pose* before = nullptr);
   [[nodiscard]] std::vector<VehicleTruth> truth(const Camera& camera, const Pose& pose,
