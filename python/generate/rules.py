@@ -152,8 +152,10 @@ REQUIRES: dict[str, tuple[str, str, str, str]] = {
     "guidance::all_planes": ("planes >= 1", "planes", "less", "at least 1"),
     "guidance::choose_plane": ("options.planes >= 1 && options.planes <= 10'000", "options.planes", "others", "from 1 to 10000"),
     "guidance::planar_rates": ("state.r > 0", "state.r", "no positive number", "positive (m)"),
-    "guidance::plane_states": ("a.position != b.position && ((a.planar() && b.planar()) || !(b.position - a.position).cross(across).isZero(0))",
-                               "across", "bodies in one place, or a direction along their line", "across the line between bodies apart"),
+    **{f"guidance::{name}": ("across.allFinite() && a.position != b.position && "
+                             "((a.planar() && b.planar()) || !(b.position - a.position).cross(across).isZero(0))",
+                             "across", "bodies in one place, or a direction along their line", "across the line between bodies apart")
+       for name in ("plane_states", "plane_view")},
     "exact::Dyadic::power_of_two": ("std::abs(double(exponent)) <= 100'000", "exponent", "an exponent beyond", "between -100000 and 100000"),
     "exact::RealRoot::refine": ("bits <= 100'000", "bits", "more", "at most 100000"),
     "exact::RealRoot::RealRoot/3": (

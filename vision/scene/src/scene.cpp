@@ -159,7 +159,10 @@ struct Scene::Parts {
     for (const VehicleLook& vehicle : options.vehicles) looks.emplace_back(vehicle.seed);
   }
 
-  void require_all(std::span<const PlacedVehicle> vehicles) const {
+  void check_view(const Camera& camera, std::span<const PlacedVehicle> vehicles) const {
+    if (!(camera.width > 0 && camera.height > 0 && double(camera.width) * camera.height <= 1e8))
+      throw InputError("camera", std::to_string(camera.width) + " x " + std::to_string(camera.height) + " px",
+                       "from 1 to 1e8 pixels");
     if (vehicles.size() != options.vehicles.size())
       throw InputError("vehicles", std::to_string(vehicles.size()),
                        std::to_string(options.vehicles.size()) + ", as many as the scene has");
@@ -339,10 +342,7 @@ Scene& Scene::operator=(Scene&&) noexcept = default;
 void Scene::render(const Camera& camera, const Pose& pose, std::span<const PlacedVehicle> vehicles, double t,
                    std::uint64_t frame, Image& image, const Pose* before) {
   const SceneOptions& options = parts_->options;
-  parts_->require_all(vehicles);
-  if (!(camera.width > 0 && camera.height > 0 && double(camera.width) * camera.height <= 1e8))
-    throw InputError("camera", std::to_string(camera.width) + " x " + std::to_string(camera.height) + " px",
-                     "from 1 to 1e8 pixels");
+  parts_->check_view(camera, vehicles);
   if (image.width != camera.width || image.height != camera.height || image.channels != options.channels)
     image = Image(camera.width, camera.height, options.channels);
   if (options.exposure > 0)
@@ -357,7 +357,7 @@ void Scene::render(const Camera& camera, const Pose& pose, std::span<const Place
 
 std::vector<VehicleTruth> Scene::truth(const Camera& camera, const Pose& pose,
                                        std::span<const PlacedVehicle> vehicles, double t) const {
-  parts_->require_all(vehicles);
+  parts_->check_view(camera, vehicles);
   const std::vector<BlockView> cars = parts_->views(parts_->blocks_of(vehicles, 0), camera, pose),
                                occluders = parts_->views(parts_->present(t), camera, pose);
   std::vector<VehicleTruth> truth;
