@@ -61,6 +61,7 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
     "a mesh of points that are none": (lambda: vericone.files.triangle_mesh(vericone.files.PointFile(points=np.eye(3) * np.inf, faces=[[0, 1, 2]])),
                                        r"points\[0\]"),
     "a plane along the line": (lambda: g.plane_view(state(STILL), state([9, 0, 0]), [1, 0, 0], vericone.SectorMethod.slice, g.RateMethod.none), "across"),
+    "a mesh beyond every ray": (lambda: vericone.lidar.MeshScene(np.eye(3) * 1e300, [[0, 1, 2]]), "points"),
     "planes without end": (lambda: g.choose_plane(state(STILL), state([9, 0, 0]), vericone.SectorMethod.slice, g.PlaneOptions(planes=2**30)), "planes"),
 }
 

@@ -170,7 +170,10 @@ MeshScene::MeshScene(std::span<const Vector3d> points, std::span<const Triangle>
   parts_->triangles.assign(triangles.begin(), triangles.end());
   parts_->center = 0.5 * low + 0.5 * high;
   parts_->radius = (high - parts_->center).norm();
-  if (!(parts_->radius > 0)) parts_->radius = 1;
+  if (parts_->radius == 0) parts_->radius = 1;
+  // Squares of it are needed, and rays are floats of its size.
+  if (!(parts_->radius > 1e-100 && parts_->radius < 1e100))
+    throw InputError("points", "a mesh of radius " + to_text(parts_->radius), "between 1e-100 and 1e100 (m)");
   parts_->build();
 }
 
