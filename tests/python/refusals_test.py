@@ -62,6 +62,7 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
                                        r"points\[0\]"),
     "a plane along the line": (lambda: g.plane_view(state(STILL), state([9, 0, 0]), [1, 0, 0], vericone.SectorMethod.slice, g.RateMethod.none), "across"),
     "a mesh beyond every ray": (lambda: vericone.lidar.MeshScene(np.eye(3) * 1e300, [[0, 1, 2]]), "points"),
+    "corners apart beyond every picture": (lambda: vericone.vision.source_tracker(vericone.vision.SourceTrackerOptions(distance=2**31 - 1)), "distance"),
     "planes without end": (lambda: g.choose_plane(state(STILL), state([9, 0, 0]), vericone.SectorMethod.slice, g.PlaneOptions(planes=2**30)), "planes"),
 }
 

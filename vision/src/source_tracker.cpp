@@ -264,8 +264,7 @@ class SourceTracker : public Tracker {
 
 std::unique_ptr<Tracker> source_tracker(const SourceTrackerOptions& options) {
   const auto positive = [](const char* name, double value) {
-    if (!(value > 0 && std::isfinite(value)))
-      throw InputError(name, to_text(value), "a positive finite number");
+    if (!(value > 0 && value <= 1e6)) throw InputError(name, to_text(value), "positive, at most 1e6");
   };
   positive("corners", options.corners);
   positive("quality", options.quality);
