@@ -61,6 +61,8 @@ CALLS = {
                 "[files.read_points(f) for _ in range(20)]"),
     "writing": ("import tempfile, os; f = os.path.join(tempfile.mkdtemp(), 'a.xyz'); x = ball(10**6)",
                 "[files.write_points(f, x) for _ in range(20)]"),
+    "arc": ("m = simulation.Motion(velocity=[2, 0.2, 0])", "simulation.Arc(m, [0, 0.1, 2**31], simulation.Orientation.fixed, 0, 2)"),
+    "road": ("r = simulation.squircle_road([0, 0], 10, 0.5, 20)", "simulation.curves_of(r, 0, 0, 5, 1e-300)"),
     "batch": ("p = Pair(Placed(Body(ellipsoid([0, 0, 0]))), Placed(Body(ellipsoid([9, 0, 0])))); w = ball(2 * 10**6)",
               "[p.miss(w, [0, 0, 0]) for _ in range(100)]"),
     "batch in threads": ("p = Pair(Placed(Body(ellipsoid([0, 0, 0]))), Placed(Body(ellipsoid([9, 0, 0])))); w = ball(2 * 10**6)",

@@ -62,6 +62,10 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
                                        r"points\[0\]"),
     "a plane along the line": (lambda: g.plane_view(state(STILL), state([9, 0, 0]), [1, 0, 0], vericone.SectorMethod.slice, g.RateMethod.none), "across"),
     "a mesh beyond every ray": (lambda: vericone.lidar.MeshScene(np.eye(3) * 1e300, [[0, 1, 2]]), "points"),
+    "a camera without pixels": (lambda: vericone.vision.Scene(vericone.vision.SceneOptions()).truth(vericone.Camera(width=0, height=2), vericone.Pose(), [], 0),
+                                "camera"),
+    "a pursuit from nowhere": (lambda: vericone.vision.pursue(vericone.vision.Pursuit(start=s.Motion(position=[float("inf"), 0, 0]))), "start"),
+    "a line through nowhere": (lambda: vericone.files.are_collinear([float("nan"), 0, 0], STILL, [1, 0, 0]), "a, b, c"),
     "corners apart beyond every picture": (lambda: vericone.vision.source_tracker(vericone.vision.SourceTrackerOptions(distance=2**31 - 1)), "distance"),
     "planes without end": (lambda: g.choose_plane(state(STILL), state([9, 0, 0]), vericone.SectorMethod.slice, g.PlaneOptions(planes=2**30)), "planes"),
 }

@@ -280,7 +280,7 @@ std::optional<Target::Candidate> Target::search(const cv::Mat& now, const Eigen:
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(gate);
   const double reach = std::sqrt(kGate * eigen.eigenvalues()(1));
   // A large gate is searched in parts, one a picture; so are turns besides the expected one.
-  constexpr double kMostParts = 1000;  // to each side; more pictures than a search lasts
+  constexpr double kMostParts = 1000;  // to each side: a million pictures, longer than any search
   const int parts =
       std::max(1, int(std::min(kMostParts, std::ceil(reach / (kMostReach * recent_.step() * view_.scale)))));
   const int part = hidden_ % (parts * parts);

@@ -304,7 +304,8 @@ ExtremeDirection AssemblyOracle::extreme(const Eigen::Vector3d& axis, const Eige
 std::vector<ExtremeDirection> AssemblyOracle::extremes(const Eigen::Vector3d& axis, int half_planes,
                                                        double tolerance, Effort* effort) const {
   require_tolerance(tolerance);
-  if (half_planes < 1) throw InputError("half_planes", std::to_string(half_planes), "1 or more");
+  if (half_planes < 1 || half_planes > 1'000'000)
+    throw InputError("half_planes", std::to_string(half_planes), "from 1 to 1000000");
   Effort unused;
   const AxisFrame basis(axis);
   std::optional<std::uint32_t> guess;

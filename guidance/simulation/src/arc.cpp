@@ -11,6 +11,7 @@
 #include <boost/numeric/odeint/stepper/generation.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -73,7 +74,7 @@ void Arc::integrate() {
   std::vector<Step> steps;
   State x{};
   double t = 0, dt = carried_;
-  for (int i = 1; t < carried_; ++i) {
+  for (std::size_t i = 1; t < carried_; ++i) {
     if (i % 256 == 0) checkpoint();
     dt = std::min(dt, carried_ - t);
     if (stepper.try_step(motion, x, t, dt) != success || !(t < carried_)) continue;

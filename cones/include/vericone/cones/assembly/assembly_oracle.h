@@ -110,6 +110,7 @@ class AssemblyOracle : public DirectionClassifier {
 
   /// The same on half-planes at the azimuths 2 pi i / half_planes about the axis, counter-clockwise from e1
   /// of AxisFrame(axis) (cone_geometry.h): faster together, as neighbours end at the same pieces.
+  /// Throws InputError naming "half_planes" (from 1 to 1000000) or "tolerance".
   [[nodiscard]] std::vector<ExtremeDirection> extremes(const Eigen::Vector3d& axis, int half_planes = 64,
                                                        double tolerance = 1e-4,
                                                        Effort* effort = nullptr) const;

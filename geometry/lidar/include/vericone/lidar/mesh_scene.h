@@ -28,8 +28,9 @@ struct Hit {
 /// was found.
 class MeshScene {
  public:
-  /// Copies the mesh. Throws InputError naming "points[i]" (not finite), "triangles" (none), "triangles[i]"
-  /// (an index out of range). Cost: about 1 us a triangle.
+  /// Copies the mesh. Throws InputError naming "points[i]" (not finite), "points" (half their extent below
+  /// 1e-100 m or above 1e100 m), "triangles" (none), "triangles[i]" (an index out of range). Cost: about 1 us
+  /// a triangle.
   MeshScene(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles);
   ~MeshScene();
   MeshScene(MeshScene&&) noexcept;
