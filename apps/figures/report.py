@@ -8,8 +8,8 @@ import os
 import sys
 
 FOLDER = sys.argv[1]
-CLASSES = {"given": "reproduced", "reproduced": "reproduced", "fitted": "weak", "not engaged": "weak", "differs": "differs",
-           "not decided by what is printed": "not", "source wrong": "source"}
+CLASSES = {"given": "weak", "consistent": "weak", "reproduced": "reproduced", "by the authors' code": "weak", "fitted": "weak",
+           "not engaged": "weak", "differs": "differs", "not decided by what is printed": "not", "source wrong": "source"}
 STYLE = """
 :root { color-scheme: light; }
 body { font: 15px/1.5 system-ui, sans-serif; color: #1d1d1f; background: #fff; margin: 2rem auto; max-width: 64rem;
@@ -33,12 +33,14 @@ code { overflow-wrap: anywhere; }
   pre { white-space: pre-wrap; } }
 @media (max-width: 40rem) { body { margin: 1rem auto; padding: 0 .6rem; } nav { font-size: 1rem; gap: .6rem 1rem; } }
 """
-LEGEND = """Every value under <i>Ours</i> was measured from the run that the figures show. <b>Reproduced</b>: ours agrees within
-the tolerance. <b>Fitted</b>: it agrees because values that the source does not print were chosen so; how many, and what else
-they explain, is in the note. <b>Not engaged</b>: nothing was commanded against that obstacle, so the law was not tried.
-<b>Not decided by what is printed</b>: ours does not agree, and rests on values that are not printed, named in the note.
-<b>Differs</b>: it does not agree, and what is printed decides. <b>Source wrong</b>: what is printed is shown wrong.
-<b>Given</b>: goes into a run, and was read back from it as printed."""
+LEGEND = """Every value under <i>Ours</i> was measured when this report was made, on what <i>measured on</i> names beside it; where
+that names nothing, it is arithmetic on what the source prints. <b>Reproduced</b>: ours agrees within the tolerance, and nothing that
+was chosen is known to matter. <b>By the authors' code</b>: it agrees, by values that are not printed but stand in their program.
+<b>Fitted</b>: it agrees because values that the source does not print were chosen so; how many, and what else rests on them, is in the
+note. <b>Consistent</b>: the source's own numbers agree with one another; nothing of ours is in it. <b>Not engaged</b>: what the
+statement is about did not take place, so the law was not tried. <b>Not decided by what is printed</b>: ours does not agree, and rests
+on values that are not printed, named in the note. <b>Differs</b>: it does not agree, and what is printed decides. <b>Source wrong</b>:
+what is printed is shown wrong. <b>Given</b>: goes into a run, or is ordered by it, and was read back as printed."""
 
 
 def escaped(text):
@@ -53,11 +55,14 @@ def scrolling(head, rows):
 def row(claim):
     tolerance = "" if claim["tolerance"] is None else "%s %.3g: " % (
         "+" if claim["tolerance_one_sided"] else "&plusmn;", claim["tolerance"])
-    note, fit = escaped(claim["note"]), claim["fit"]
-    if fit:
-        numbers = fit["free_numbers"]
-        note += "; <i>fit</i>: %s: %d free number%s, %d of %d printed statements come out" % (
-            escaped(", ".join(fit["free"])), numbers, "" if numbers == 1 else "s", fit["explains"], fit["of"])
+    note = escaped(claim["note"])
+    for fit in claim["fits"]:
+        numbers, missing = fit["free_numbers"], fit["not_measured"]
+        note += "; <i>fit</i>: %s: %d free number%s, %d of %d statements that rest on it come out%s" % (
+            escaped(", ".join(fit["free"])), numbers, "" if numbers == 1 else "s", fit["explains"], fit["of"],
+            ", %d not measured here" % missing if missing else "")
+    if claim["measured_on"]:
+        note += "; <i>measured on</i>: <code>%s</code>" % escaped(", ".join(claim["measured_on"]))
     return '<tr><td>%s</td><td>%s</td><td>%s</td><td>%s%s</td><td><span class="v %s">%s</span></td><td class="n">%s</td></tr>\n' % (
         escaped(claim["what"]), escaped(claim["printed"]), escaped(claim["ours"]), tolerance, escaped(claim["tolerance_reason"]),
         CLASSES[claim["verdict"]], claim["verdict"], note)
@@ -80,7 +85,7 @@ def shown(figure, claims):
         page += "<p>Not made: <code>vericone figures %s</code></p>" % escaped(figure["id"])
     page += "<figcaption>%s</figcaption></figure>\n" % escaped(figure["caption"])
     own = [c for c in claims if figure["id"] in c["figures"]]
-    results, given = [c for c in own if c["kind"] == "result"], [c for c in own if c["kind"] == "given"]
+    results, given = [c for c in own if c["kind"] != "given"], [c for c in own if c["kind"] == "given"]
     if results:
         page += table(results)
     if given:
@@ -99,7 +104,7 @@ page = ('<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">\n'
 if changed:
     page += ("<p><b>Changed inputs</b>, not those of the paper: <code>%s</code>. Verdicts are of these; notes speak of the "
              "paper's.</p>\n" % escaped(json.dumps(changed)))
-page += scrolling([""] + list(verdicts["results"]), [
+page += scrolling([""] + list(verdicts["result"]), [
     "<tr><td>%s</td>%s</tr>\n" % (kind, "".join("<td>%d</td>" % n for n in counts.values())) for kind, counts in verdicts.items()])
 page += "<nav>%s</nav>\n" % "".join('<a href="#%s">%s</a>' % (escaped(f["name"]), escaped(f["id"])) for f in data["figures"])
 page += "".join(shown(figure, claims) for figure in data["figures"])

@@ -53,7 +53,7 @@ WRITERS = {
     "simulate": ["simulate", "scenario.yaml", "--no-figures", "--quiet"],
     "simulate with a page": ["simulate", "scenario.yaml", "--no-figures", "--animate", "--quiet"],
     "trials": ["trials", "noise.yaml", "-N", "4", "--levels", "5:10", "--laws", "di", "--threads", "1", "--no-figures", "--quiet"],
-    "claims": ["claims", "--quiet"],
+    "claims": ["claims", "5.4.2", "--quiet"],
     "figures": ["figures", "5.6", "--quiet"],
     "fit": ["fit", "ball.xyz", "--shape", "ellipsoid", "--no-figures", "--quiet"],
     "pursue": ["pursue", "pursuit.yaml", "--camera", "exact", "--duration", "400", "--no-figures", "--quiet"],

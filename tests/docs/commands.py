@@ -38,7 +38,7 @@ EXAMPLES = {
     "simulate": "simulate docs/examples/scenarios/elephant.yaml --no-figures --quiet",
     "campaign": "campaign -N 500 --no-figures --quiet",
     "trials": "trials docs/examples/scenarios/noise.yaml -N 40 --levels x1,x2 --laws di,clearance --no-figures --quiet",
-    "claims": "claims --quiet",
+    "claims": "claims 5.4.2 --quiet",
     "paper": "paper new out/papers/mine",
     "figures": "figures --list",
     "verify": "verify --cases 1000 --pairs 1 --quiet",

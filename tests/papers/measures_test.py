@@ -160,19 +160,40 @@ class Values(Copied):
 
 
 class Verdicts(Copied):
-    def verdict(self, **fields):
-        claim = {"id": "x", "section": "1", "figures": ["1"], "what": "x", "note": "none", **fields}
-        self.write("claims.yaml", json.dumps({"fits": {"f": {"a": 2, "b": 1}}, "claims": [claim]}))
+    def verdict(self, measured=True, **fields):
+        """Of a claim whose numbers rest on a run, or on nothing."""
+        claim = {"id": "x", "section": "1", "figures": ["1"], "what": "x", "note": "none",
+                 "values": {"zero": {"run": "two-circles", "table": "bodies", "body": "A", "first": "0 * x"}}, **fields}
+        for field in ("ours", "holds"):
+            if measured and field in claim and not isinstance(claim[field], list):
+                claim[field] = "(%s) + zero" % claim[field]
+        self.write("claims.yaml", json.dumps({"fits": {"f": {"a": 2, "b": 1}, "g": {"c": 1}}, "claims": [claim]}))
         return self.claims()["x"]
 
     def test_numbers(self):
         for printed, ours, verdict in (("0.80", 0.8049, "reproduced"), ("0.80", 0.8051, "differs"), ("0.8", 0.8499, "reproduced"),
                                        ("after -4.70", -4.7049, "reproduced"), ("11", 11.6, "differs")):
-            self.assertEqual(self.verdict(printed=printed, ours=ours)["verdict"], verdict, (printed, ours))
+            claim = self.verdict(printed=printed, ours=ours)
+            self.assertEqual((claim["verdict"], claim["kind"], claim["measured_on"]), (verdict, "result", ["run two-circles"]), (printed, ours))
         self.assertEqual(self.verdict(printed="1", ours=2, otherwise="not decided")["verdict"], "not decided by what is printed")
         self.assertEqual(self.verdict(printed="1", ours="nothing")["ours"], "does not happen")
+
+    def test_what_was_chosen_counts_met_or_not(self):
         claim = self.verdict(printed="1", ours=1, fit="f")
-        self.assertEqual((claim["verdict"], claim["fit"]["free_numbers"], claim["fit"]["of"]), ("fitted", 3, 1))
+        self.assertEqual((claim["verdict"], claim["fits"][0]["free_numbers"], claim["fits"][0]["explains"], claim["fits"][0]["of"]),
+                         ("fitted", 3, 1, 1))
+        claim = self.verdict(printed="1", ours=2, fit=["f", "g"], otherwise="not decided")
+        self.assertEqual([(f["name"], f["explains"], f["of"]) for f in claim["fits"]], [("f", 0, 1), ("g", 0, 1)])
+
+    def test_what_could_not_have_failed(self):
+        """Nothing of ours is in it: the source's own arithmetic, whatever is said of it."""
+        for ours, verdict in ((46.71, "consistent"), (47, "source wrong")):
+            claim = self.verdict(measured=False, printed="46.7", ours=ours, otherwise="source wrong")
+            self.assertEqual((claim["verdict"], claim["kind"], claim["measured_on"]), (verdict, "the source's own arithmetic", []))
+
+    def test_values_of_the_authors_code(self):
+        claim = self.verdict(printed="1", ours=1, code=True)
+        self.assertEqual((claim["verdict"], claim["kind"]), ("by the authors' code",) * 2)
 
     def test_tolerances(self):
         late = {"value": "2 * half_digit", "reason": "late by {half_digit}", "one_sided": True}
@@ -192,6 +213,73 @@ class Verdicts(Copied):
         for ours, verdict in ((["1 + 1e-13", 2], "given"), (["1 + 1e-9", 2], "differs")):
             claim = self.verdict(printed=[1, 2], unit="m", ours=ours, given=True)
             self.assertEqual((claim["verdict"], claim["printed"]), (verdict, "(1, 2) m"))
+
+
+class Draws(Copied):
+    """A gain between 1 and 8 and a place of B, of claims that rest on both, on one, on none, and do not say so."""
+
+    FITS = {"gain": {"K": {"in": "scenarios/two-circles.yaml", "at": "bodies.A.pilot.gain", "from": 1, "to": 8}},
+            "place": {"x and y": {"in": ["scenarios/two-circles.yaml"], "at": ["bodies.B.position.0", "bodies.B.position.1"],
+                                  "from": [19, 0.5], "to": [30, 1.5]}},
+            "whole": {"n": {"in": "scenarios/two-circles.yaml", "at": "bodies.A.speed", "from": 3, "to": 6, "whole": True}}}
+
+    def said(self, claims, *words, fits=None):
+        values = {"gain": {"run": "two-circles", "field": "bodies.A.pilot.gain"},
+                  "far": {"run": "two-circles", "table": "looks", "agent": "A", "obstacle": "B", "first": "r"},
+                  "speed": {"run": "two-circles", "table": "bodies", "body": "A", "first": "speed"}}
+        list_ = [{"id": name, "section": "1", "figures": ["1"], "what": name, "note": "none", "printed": "so", **fields}
+                 for name, fields in claims.items()]
+        self.write("claims.yaml", json.dumps({"fits": fits or self.FITS, "values": values, "claims": list_}))
+        result = run("claims", "--paper", self.folder, "--json", "--quiet", *words)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        answer = json.loads(result.stdout)
+        return {c["id"]: c for c in answer["claims"]}, answer["draws"]
+
+    def test_what_holds_throughout_and_at_one_place(self):
+        said, draws = self.said({
+            "any": {"holds": "far > 10", "fit": "place"}, "one": {"holds": "abs(gain - 3) < 0.1", "fit": "gain"},
+            "some": {"holds": "gain > 4", "fit": "gain"}, "none": {"holds": "gain > 9", "fit": "gain"},
+            "unnamed": {"holds": "gain < 3.5"}, "still": {"holds": "far > 1"}, "sum": {"holds": "2 > 1"},
+            "number": {"printed": "3.0", "ours": "gain", "fit": "gain"}}, "--shuffle", "14")
+        self.assertEqual({name: c["says"] for name, c in said.items()},
+                         {"any": "holds for any", "one": "fitted", "some": "not met as chosen", "none": "holds for none", "unnamed": "fitted",
+                          "still": "holds for any", "number": "fitted"})  # arithmetic is not shuffled
+        self.assertEqual([n for n, c in said.items() if c["moved"] and not c["names_a_fit"]], ["unnamed"])
+        # One in each of 14 equal parts of the range.
+        gains = sorted(draws["gain.K"]["bodies.A.pilot.gain"])
+        self.assertEqual([int((x - 1) / 0.5) for x in gains], list(range(14)))
+        self.assertEqual((said["some"]["agrees"], said["number"]["least"], said["number"]["greatest"]),
+                         (sum(x > 4 for x in gains), gains[0], gains[-1]))
+        self.assertEqual(set(draws), {"gain.K", "place.x and y", "whole.n"})
+        self.assertEqual(len(draws["place.x and y"]), 2)
+
+    def test_one_fit_alone_and_whole_numbers(self):
+        said, draws = self.said({"n": {"printed": "4", "ours": "speed", "fit": "whole"}, "gain": {"holds": "gain == 3", "fit": "gain"}},
+                                "--shuffle", "4", "--only", "whole")
+        self.assertEqual(sorted(draws["whole.n"]["bodies.A.speed"]), [3, 4, 5, 6])
+        self.assertEqual((said["gain"]["says"], said["n"]["agrees"]), ("holds for any", 1))
+
+    def test_the_same_seed_draws_the_same(self):
+        claims = {"n": {"printed": "3", "ours": "gain", "fit": "gain"}}
+        first, again, other = (self.said(claims, "--shuffle", "3", "--seed", s)[1] for s in ("5", "5", "6"))
+        self.assertEqual(first, again)
+        self.assertNotEqual(first, other)
+
+    def test_refused(self):
+        claim = {"n": {"printed": "3", "ours": "gain", "fit": "f"}}
+        here = {"in": "scenarios/two-circles.yaml", "at": "bodies.A.pilot.gain", "from": 1, "to": 8}
+        for change, message in (({"to": 1}, "fits.f.K.to: got 1, must be above from"), ({"at": []}, "fits.f.K.at: got 0 paths"),
+                                ({"from": [1, 2]}, "fits.f.K.at: got 1 paths, must be as many as from and to have numbers"),
+                                ({"at": "bodies.A.pilot.gian"}, "fits.f.K.at: got bodies.A.pilot.gian, must be the path of a number in scenarios"),
+                                ({"in": "scenarios/no.yaml"}, "fits.f.K.in: got scenarios/no.yaml, must be a file in "),
+                                ({"from": -1, "logarithmic": True}, "fits.f.K.to: got 8, must be above from, both positive")):
+            with self.assertRaises(AssertionError) as refused:
+                self.said(claim, "--shuffle", "2", fits={"f": {"K": {**here, **change}}})
+            self.assertIn(message, str(refused.exception))
+        for words, message in ((("--only", "g"), "--only: got g, must be the name of one of fits"), (("--out", "o"), "--out: got o, must be left out")):
+            with self.assertRaises(AssertionError) as refused:
+                self.said(claim, "--shuffle", "2", *words, fits={"f": {"K": here}})
+            self.assertIn(message, str(refused.exception))
 
 
 class Refused(Copied):

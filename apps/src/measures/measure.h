@@ -63,6 +63,12 @@ class Scope {
   /// `values`: a mapping of names and values.
   Scope(const Json& values, const std::string& path, Scope* outer = nullptr);
 
+  /// The runs and commands that the values of these names rest on: scenarios, and words of commands.
+  struct Origins {
+    std::set<std::string> runs, commands;
+  };
+  [[nodiscard]] Origins origins(std::vector<std::string> names) const;
+
  private:
   friend class Measures;
   Scope* outer_;

@@ -166,4 +166,50 @@ Scope::Scope(const Json& values, const std::string& path, Scope* outer) : outer_
   }
 }
 
+namespace {
+
+void add_names(const Expression& formula, std::vector<std::string>& names) {
+  names.insert(names.end(), formula.names().begin(), formula.names().end());
+}
+
+/// What a series is taken from, and the names that it uses.
+void add_origins(const Series& series, Scope::Origins& origins, std::vector<std::string>& names) {
+  if (!series.run.empty()) origins.runs.insert(series.run);
+  if (!series.command.empty()) origins.commands.insert(series.command);
+  for (const auto& [name, formula] : series.with) add_names(formula, names);
+  if (series.where) add_names(*series.where, names);
+  for (const auto& [name, other] : series.beside) add_origins(other, origins, names);
+}
+
+}  // namespace
+
+Scope::Origins Scope::origins(std::vector<std::string> names) const {
+  // Where a series' formula has a name of a column, the column is meant: there an outer scope is not asked.
+  struct Open {
+    std::string name;
+    const Scope* at;
+    bool outer;
+  };
+  Origins origins;
+  std::vector<Open> open;
+  for (std::string& name : names) open.push_back({std::move(name), this, true});
+  std::set<const Value*> seen;
+  while (!open.empty()) {
+    const Open one = open.back();
+    open.pop_back();
+    for (const Scope* at = one.at; at != nullptr; at = one.outer ? at->outer_ : nullptr) {
+      const auto found = at->values_.find(one.name);
+      if (found == at->values_.end()) continue;
+      const Value& value = found->second;
+      if (!seen.insert(&value).second) break;
+      std::vector<std::string> more;
+      if (value.series) add_origins(*value.series, origins, more);
+      if (value.formula) add_names(*value.formula, more);
+      for (std::string& name : more) open.push_back({std::move(name), at, !value.series});
+      break;
+    }
+  }
+  return origins;
+}
+
 }  // namespace vericone::paper

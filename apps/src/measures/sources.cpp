@@ -13,6 +13,7 @@
 #include "measures/sources.h"
 #include "output/child.h"
 #include "output/interrupt.h"
+#include "output/temporary_folder.h"
 #include "scenarios/read_scenario.h"
 
 namespace vericone::paper {
@@ -29,23 +30,11 @@ std::vector<std::string> words_of(const std::string& text) {
 
 }  // namespace
 
-class Sources::TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "vericone-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder " + name);
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  [[nodiscard]] const fs::path& path() const { return path_; }
+struct Sources::Carried {
+  TemporaryFolder folder;
+  Json answer;
 
- private:
-  fs::path path_;
+  [[nodiscard]] fs::path files() const { return folder.path() / "out"; }
 };
 
 Sources::~Sources() = default;
@@ -82,10 +71,6 @@ const PaperRun& Sources::run(const std::string& name, const std::string& path) {
 
 namespace {
 
-std::vector<std::string> out_words(const fs::path& out) {
-  return {"--quiet", "--out", fs::absolute(out).string()};
-}
-
 /// Whether the command leaves files behind that nobody asked for; `cone` does not.
 bool always_writes(const std::string& words) {
   constexpr const char* kWriters[] = {"accuracy", "campaign", "fit",      "gallery", "pursue", "scan",
@@ -96,36 +81,44 @@ bool always_writes(const std::string& words) {
 
 }  // namespace
 
-std::string Sources::output_of(const std::string& words, const std::vector<std::string>& more,
-                               const std::string& path) {
-  if (!show_(words, 0)) throw Interrupted{};
-  return child_output(words, more, path);
-}
-
-std::string Sources::child_output(const std::string& words, const std::vector<std::string>& more,
-                                  const std::string& path) const {
+std::unique_ptr<Sources::Carried> Sources::carry_out(const std::string& words, bool files,
+                                                     const std::string& path) const {
+  auto carried = std::make_unique<Carried>();
   std::vector<std::string> arguments = words_of(words);
-  arguments.insert(arguments.end(), more.begin(), more.end());
+  arguments.emplace_back("--json");
+  if (files) arguments.insert(arguments.end(), {"--quiet", "--out", carried->files().string()});
   const ChildOutput child = run_child(fs::read_symlink("/proc/self/exe"), arguments, folder_);
   if (interrupted()) throw Interrupted{};
-  if (child.status == 0) return child.output;
+  if (child.status == 0) {
+    carried->answer = Json::parse(child.output, nullptr, false);
+    return carried;
+  }
   const std::string line = last_line(child.errors), said = line.substr(line.find(": ") + 2);
   // What failed outside of the program is no mistake of the paper.
   if (child.status != 2) throw std::runtime_error("vericone " + words + ": " + said);
   throw InputError(path, words, "a command that ends well; it says: " + said);
 }
 
+const Sources::Carried& Sources::carried(const std::string& words, bool files, const std::string& path) {
+  std::unique_ptr<Carried>& known = carried_[words];
+  files = files || always_writes(words);
+  if (!known || (files && !fs::exists(known->files()))) {
+    if (!show_(words, 0)) throw Interrupted{};
+    known = carry_out(words, files, path);
+  }
+  return *known;
+}
+
 void Sources::prepare(const std::vector<std::string>& commands, int threads, const std::string& path) {
   struct Work {
     std::string words;
-    std::unique_ptr<TemporaryFolder> folder;
-    std::future<void> done;
+    std::future<std::unique_ptr<Carried>> done;
   };
   std::vector<Work> list;
   for (const std::string& words : commands)
-    if (!folders_.contains(words) &&
+    if (!carried_.contains(words) &&
         std::none_of(list.begin(), list.end(), [&](const Work& work) { return work.words == words; }))
-      list.push_back({words, std::make_unique<TemporaryFolder>(), {}});
+      list.push_back({words, {}});
   std::counting_semaphore<> free(threads);
   for (Work& work : list)
     work.done = std::async(std::launch::async, [&free, &work, &path, this] {
@@ -134,8 +127,8 @@ void Sources::prepare(const std::vector<std::string>& commands, int threads, con
         std::counting_semaphore<>& semaphore;
         ~Release() { semaphore.release(); }
       } const release{free};
-      if (interrupted()) return;
-      child_output(work.words, out_words(work.folder->path() / "out"), path);
+      if (interrupted()) throw Interrupted{};
+      return carry_out(work.words, true, path);
     });
   std::size_t done = 0;
   bool stop = false;
@@ -145,20 +138,11 @@ void Sources::prepare(const std::vector<std::string>& commands, int threads, con
     ++done;
   }
   if (stop || interrupted()) throw Interrupted{};
-  for (Work& work : list) {
-    work.done.get();
-    folders_[work.words] = std::move(work.folder);
-  }
+  for (Work& work : list) carried_[work.words] = work.done.get();
 }
 
 fs::path Sources::files(const std::string& words, const std::string& path) {
-  std::unique_ptr<TemporaryFolder>& folder = folders_[words];
-  if (!folder) {
-    auto made = std::make_unique<TemporaryFolder>();
-    carry_out(words, made->path() / "out", path);
-    folder = std::move(made);
-  }
-  return folder->path() / "out";
+  return carried(words, true, path).files();
 }
 
 const Table& Sources::table(const std::string& words, const std::string& file, const std::string& path) {
@@ -173,17 +157,7 @@ const Table& Sources::table(const std::string& words, const std::string& file, c
 }
 
 const Json& Sources::answer(const std::string& words, const std::string& path) {
-  const auto [it, fresh] = answers_.try_emplace(words);
-  if (!fresh) return it->second;
-  const TemporaryFolder folder;
-  std::vector<std::string> more{"--json"};
-  if (always_writes(words)) more.insert(more.end(), {"--quiet", "--out", (folder.path() / "out").string()});
-  it->second = Json::parse(output_of(words, more, path), nullptr, false);
-  return it->second;
-}
-
-void Sources::carry_out(const std::string& words, const fs::path& out, const std::string& path) {
-  output_of(words, out_words(out), path);
+  return carried(words, false, path).answer;
 }
 
 }  // namespace vericone::paper

@@ -87,27 +87,23 @@ class Sources {
   const Table& table(const std::string& words, const std::string& file, const std::string& path);
   /// What `vericone WORDS --json` prints.
   const Json& answer(const std::string& words, const std::string& path);
-  /// The same with its files in `out`, for a picture.
-  void carry_out(const std::string& words, const std::filesystem::path& out, const std::string& path);
 
   const std::filesystem::path& folder() const { return folder_; }
   const Show& show() const { return show_; }
 
  private:
-  class TemporaryFolder;
+  struct Carried;
 
-  std::string child_output(const std::string& words, const std::vector<std::string>& more,
-                           const std::string& path) const;
-  std::string output_of(const std::string& words, const std::vector<std::string>& more,
-                        const std::string& path);
+  /// What a command printed and wrote. `files`: whether it has to have written some.
+  const Carried& carried(const std::string& words, bool files, const std::string& path);
+  std::unique_ptr<Carried> carry_out(const std::string& words, bool files, const std::string& path) const;
 
   std::filesystem::path folder_;
   Show show_;
   Changes changes_;
   std::map<std::string, std::unique_ptr<PaperRun>> runs_;
-  std::map<std::string, std::unique_ptr<TemporaryFolder>> folders_;  // what commands wrote, by their words
+  std::map<std::string, std::unique_ptr<Carried>> carried_;  // each command once, by its words
   std::map<std::pair<std::string, std::string>, Table> tables_;
-  std::map<std::string, Json> answers_;
 };
 
 }  // namespace vericone::paper

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "command/find_program.h"
+#include "output/threads.h"
 
 namespace vericone::paper {
 namespace {
@@ -35,7 +36,7 @@ bool read_back(const ClaimEntry& entry, const std::vector<double>& ours, Claim& 
 }
 
 /// A number: compared with ours. Without one of ours (the event did not happen) it is not reproduced.
-bool agrees(const ClaimEntry& entry, double ours, Measures& measures, Claim& claim) {
+bool within(const ClaimEntry& entry, double ours, Measures& measures, Claim& claim) {
   const bool there = !std::isnan(ours);
   if (there) claim.ours_value = ours;
   claim.ours = there ? with_unit(short_text(ours), entry.unit) : "does not happen";
@@ -44,6 +45,20 @@ bool agrees(const ClaimEntry& entry, double ours, Measures& measures, Claim& cla
   // The bound itself is within: printed values are halves of digits away from it in decimals, not in doubles.
   const double most = *claim.tolerance * (1 + 1e-9), off = there ? ours - *claim.printed_value : 0;
   return there && off <= most && off >= (claim.later ? -1e-9 : -most);
+}
+
+Verdict verdict_of_agreement(const Claim& claim) {
+  switch (claim.kind) {
+    case Kind::given:
+      return Verdict::given;
+    case Kind::arithmetic:
+      return Verdict::consistent;
+    case Kind::code:
+      return Verdict::by_code;
+    case Kind::result:
+      break;
+  }
+  return claim.fits.empty() ? Verdict::reproduced : Verdict::fitted;
 }
 
 Claim measured(const ClaimEntry& entry, Measures& measures) {
@@ -58,13 +73,10 @@ Claim measured(const ClaimEntry& entry, Measures& measures) {
   } else {
     std::vector<double> ours;
     for (const Expression& formula : entry.ours) ours.push_back(measures.value(formula, *entry.values));
-    holds = entry.printed.empty() ? agrees(entry, ours[0], measures, claim) : read_back(entry, ours, claim);
+    holds = entry.printed.empty() ? within(entry, ours[0], measures, claim) : read_back(entry, ours, claim);
   }
   claim.ours += entry.text.written(measures, *entry.values);
-  if (holds)
-    claim.verdict = claim.given ? Verdict::given : claim.fit ? Verdict::fitted : Verdict::reproduced;
-  else
-    claim.verdict = entry.otherwise;
+  claim.verdict = holds ? verdict_of_agreement(claim) : entry.otherwise;
   if (entry.engaged) {
     const double engaged = measures.value(*entry.engaged, *entry.values);
     if (std::isnan(engaged) || engaged == 0) claim.verdict = Verdict::not_engaged;
@@ -72,49 +84,91 @@ Claim measured(const ClaimEntry& entry, Measures& measures) {
   return claim;
 }
 
-Json fit_json(const Claim& claim) {
-  if (!claim.fit) return {};
-  Json free = Json::object();
-  for (const auto& [name, numbers] : claim.fit->free) free[name] = numbers;
-  return {{"name", claim.fit->name},
-          {"free", free},
-          {"free_numbers", claim.fit->count()},
-          {"explains", claim.fit->explains},
-          {"of", claim.fit->claims}};
+Json fits_json(const Claim& claim) {
+  Json list = Json::array();
+  for (const auto& fit : claim.fits) {
+    Json chosen = Json::object();
+    for (const Chosen& one : fit->chosen) chosen[one.name] = one.numbers;
+    list.push_back({{"name", fit->name},
+                    {"free", chosen},
+                    {"free_numbers", fit->count()},
+                    {"explains", fit->explains},
+                    {"of", fit->claims},
+                    {"not_measured", fit->unmeasured}});
+  }
+  return list;
+}
+
+Json origins_json(const Claim& claim) {
+  Json list = Json::array();
+  for (const std::string& run : claim.origins.runs) list.push_back("run " + run);
+  for (const std::string& words : claim.origins.commands) list.push_back("vericone " + words);
+  return list;
 }
 
 bool is_there(const std::string& command) { return command.empty() || find_program(command).has_value(); }
 
 }  // namespace
 
-std::map<std::string, int> left_out(const ClaimsFile& file) {
+std::map<std::string, int> left_out(const ClaimsFile& file, const Which& which) {
   std::map<std::string, int> counts;
   for (const ClaimEntry& entry : file.entries)
-    if (!is_there(entry.needs)) ++counts[entry.needs];
+    if (which(entry.claim) && !is_there(entry.needs)) ++counts[entry.needs];
   return counts;
 }
 
-std::vector<Claim> measure(ClaimsFile& file, Sources& sources) {
+std::vector<Claim> measure(ClaimsFile& file, Sources& sources, const Which& which) {
+  // Pursuits use one processor each.
+  std::vector<std::string> pursuits;
+  for (const ClaimEntry& entry : file.entries)
+    if (which(entry.claim) && is_there(entry.needs))
+      std::copy_if(entry.claim.origins.commands.begin(), entry.claim.origins.commands.end(),
+                   std::back_inserter(pursuits),
+                   [](const auto& words) { return words.starts_with("pursue "); });
+  sources.prepare(pursuits, threads_for(0), "command");
   Measures measures(sources);
   std::vector<Claim> claims;
-  for (const ClaimEntry& entry : file.entries)
-    if (is_there(entry.needs)) claims.push_back(measured(entry, measures));
-  for (const Claim& claim : claims)
-    if (claim.fit) claim.fit->explains = claim.fit->claims = 0;
-  for (const Claim& claim : claims) {
-    if (!claim.fit) continue;
-    ++claim.fit->claims;
-    claim.fit->explains += claim.verdict == Verdict::fitted;
+  for (const auto& fit : file.fits) fit->explains = fit->claims = fit->unmeasured = 0;
+  for (const ClaimEntry& entry : file.entries) {
+    const bool now = which(entry.claim) && is_there(entry.needs);
+    if (now) claims.push_back(measured(entry, measures));
+    for (const auto& fit : entry.claim.fits) {
+      ++(now ? fit->claims : fit->unmeasured);
+      if (now) fit->explains += agrees(claims.back().verdict);
+    }
   }
   return claims;
+}
+
+bool agrees(Verdict verdict) {
+  return verdict == Verdict::given || verdict == Verdict::consistent || verdict == Verdict::reproduced ||
+         verdict == Verdict::by_code || verdict == Verdict::fitted;
+}
+
+const char* to_string(Kind kind) {
+  switch (kind) {
+    case Kind::result:
+      return "result";
+    case Kind::code:
+      return "by the authors' code";
+    case Kind::given:
+      return "given";
+    case Kind::arithmetic:
+      return "the source's own arithmetic";
+  }
+  return "?";
 }
 
 const char* to_string(Verdict verdict) {
   switch (verdict) {
     case Verdict::given:
       return "given";
+    case Verdict::consistent:
+      return "consistent";
     case Verdict::reproduced:
       return "reproduced";
+    case Verdict::by_code:
+      return "by the authors' code";
     case Verdict::fitted:
       return "fitted";
     case Verdict::not_engaged:
@@ -131,13 +185,13 @@ const char* to_string(Verdict verdict) {
 
 int Fit::count() const {
   int count = 0;
-  for (const auto& value : free) count += value.second;
+  for (const Chosen& one : chosen) count += one.numbers;
   return count;
 }
 
 std::string Fit::text() const {
   std::string list;
-  for (const auto& value : free) list.append(list.empty() ? "" : ", ").append(value.first);
+  for (const Chosen& one : chosen) list.append(list.empty() ? "" : ", ").append(one.name);
   return list + ": " + std::to_string(count()) + (count() == 1 ? " free number" : " free numbers");
 }
 
@@ -145,7 +199,7 @@ Json to_json(const Claim& claim) {
   return {{"id", claim.id},
           {"section", claim.section},
           {"figures", claim.figures},
-          {"kind", claim.given ? "given" : "result"},
+          {"kind", to_string(claim.kind)},
           {"what", claim.what},
           {"printed", claim.printed},
           {"printed_value", number_or_null(claim.printed_value)},
@@ -155,17 +209,17 @@ Json to_json(const Claim& claim) {
           {"tolerance_one_sided", claim.later},
           {"tolerance_reason", claim.tolerance_reason},
           {"verdict", to_string(claim.verdict)},
-          {"fit", fit_json(claim)},
+          {"measured_on", origins_json(claim)},
+          {"fits", fits_json(claim)},
           {"note", claim.note}};
 }
 
 Json count_verdicts(const std::vector<Claim>& claims) {
   Json counts;
-  for (const char* kind : {"results", "given"})
+  for (const Kind kind : {Kind::result, Kind::code, Kind::arithmetic, Kind::given})
     for (const Verdict v : kVerdicts)
-      counts[kind][to_string(v)] = std::count_if(claims.begin(), claims.end(), [&](const Claim& c) {
-        return c.verdict == v && c.given == (std::string(kind) == "given");
-      });
+      counts[to_string(kind)][to_string(v)] = std::count_if(
+          claims.begin(), claims.end(), [&](const Claim& c) { return c.verdict == v && c.kind == kind; });
   return counts;
 }
 

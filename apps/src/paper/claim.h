@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -16,26 +17,49 @@
 
 namespace vericone::paper {
 
+enum class Kind : std::uint8_t {
+  result,      // comes out of a run or a command
+  code,        // the same, resting on values that are not printed but stand in the authors' program
+  given,       // goes into a run, or is ordered by it
+  arithmetic,  // of the source's own numbers and formulas: nothing of ours is in it
+};
+const char* to_string(Kind kind);
+
 enum class Verdict : std::uint8_t {
   given,         // goes into the run and was read back from it as printed
+  consistent,    // the source's own numbers agree with one another
   reproduced,    // ours agrees within the tolerance
+  by_code,       // ours agrees, by values of the authors' program
   fitted,        // it agrees because a value that is not printed was chosen so: consistent, no more
   not_engaged,   // nothing was commanded against that obstacle: what happened says nothing about the law
   not_decided,   // it does not agree, and ours rests on values that the source does not print
   differs,       // it does not agree, and what is printed decides
   source_wrong,  // what is printed contradicts itself or is shown wrong
 };
-inline constexpr Verdict kVerdicts[] = {Verdict::given,       Verdict::reproduced,  Verdict::fitted,
-                                        Verdict::not_engaged, Verdict::not_decided, Verdict::differs,
-                                        Verdict::source_wrong};
+inline constexpr Verdict kVerdicts[] = {Verdict::given,       Verdict::consistent, Verdict::reproduced,
+                                        Verdict::by_code,     Verdict::fitted,     Verdict::not_engaged,
+                                        Verdict::not_decided, Verdict::differs,    Verdict::source_wrong};
 const char* to_string(Verdict verdict);
+/// Whether ours agrees with what is printed.
+bool agrees(Verdict verdict);
 
-/// Values that the source does not print, chosen so that printed numbers come out: how many, by name.
+/// Something that the source does not print: how many numbers it is and, where that is stated, where they
+/// stand and between what they may lie.
+struct Chosen {
+  std::string name;
+  int numbers = 1;
+  std::vector<std::string> files;  // of the paper's folder, the same numbers in each; empty: not stated
+  std::vector<std::string> paths;  // of the numbers, as pointer_to takes them
+  std::vector<std::pair<double, double>> ranges;
+  bool whole = false, logarithmic = false;
+};
+
+/// Values that the source does not print, chosen so that printed numbers come out.
 struct Fit {
   std::string name;
-  std::vector<std::pair<std::string, int>> free;
-  /// Of the claims that belong to it, those that come out, and all.
-  int explains = 0, claims = 0;
+  std::vector<Chosen> chosen;
+  /// Of the claims that rest on it: those that come out, all measured ones, and those not measured this time.
+  int explains = 0, claims = 0, unmeasured = 0;
 
   int count() const;
   std::string text() const;  // "K, w: 2 free numbers"
@@ -46,7 +70,7 @@ struct Claim {
   std::string id;       // "5.4.1/y-0"
   std::string section;  // of the source
   std::vector<std::string> figures;
-  bool given = false;  // a number that goes into the run; otherwise one that comes out
+  Kind kind = Kind::result;
   std::string what;
   std::string printed, ours;  // as text, with units
   std::optional<double> printed_value, ours_value, tolerance;
@@ -54,8 +78,11 @@ struct Claim {
   std::string tolerance_reason;
   Verdict verdict = Verdict::differs;
   std::string note;
-  std::shared_ptr<Fit> fit;  // that it belongs to; shared by all of them
+  std::vector<std::shared_ptr<Fit>> fits;  // that it rests on, met or not; shared by all claims
+  Scope::Origins origins;                  // what ours is measured on
 };
+/// Which claims are meant.
+using Which = std::function<bool(const Claim&)>;
 
 /// A claim as it stands in claims.yaml. What it measures: numbers, or whether something holds.
 struct ClaimEntry {
@@ -72,18 +99,19 @@ struct ClaimEntry {
 
 struct ClaimsFile {
   std::shared_ptr<Scope> values;
+  std::vector<std::shared_ptr<Fit>> fits;
   std::vector<ClaimEntry> entries;
 };
 
 /// Checks all that can be without a run. Throws InputError naming the field.
 ClaimsFile read_claims(const Json& fields);
-/// In the order of the file, every one measured but those whose program is not there.
-std::vector<Claim> measure(ClaimsFile& file, Sources& sources);
-/// How many are not measured for want of a program, by its command.
-std::map<std::string, int> left_out(const ClaimsFile& file);
+/// In the order of the file, those of `which` but for those whose program is not there.
+std::vector<Claim> measure(ClaimsFile& file, Sources& sources, const Which& which);
+/// How many of `which` are not measured for want of a program, by its command.
+std::map<std::string, int> left_out(const ClaimsFile& file, const Which& which);
 
 Json to_json(const Claim& claim);
-/// How many results and given values got each verdict.
+/// How many claims of each kind got each verdict.
 Json count_verdicts(const std::vector<Claim>& claims);
 
 /// `fields` with what its mappings take from templates: a mapping with "like: NAME", or a list of names, has

@@ -13,27 +13,32 @@
 #include "output/staged_folder.h"
 #include "paper/claim.h"
 #include "paper/paper.h"
+#include "paper/shuffle.h"
 
 namespace vericone::paper {
 namespace {
 
+std::string outcome(const Fit& fit) {
+  return std::to_string(fit.explains) + " of " + std::to_string(fit.claims) +
+         " statements that rest on it come out" +
+         (fit.unmeasured > 0 ? ", " + std::to_string(fit.unmeasured) + " not measured here" : "");
+}
+
 void print_table(const std::vector<Claim>& claims, bool given, std::ostream& out) {
   for (const Claim& c : claims) {
-    if (c.given && !given) continue;
+    if (c.kind == Kind::given && !given) continue;
     out << c.id << ": " << c.what << '\n'
         << "  printed     " << c.printed << '\n'
         << "  ours        " << c.ours << '\n';
     if (c.tolerance)
       out << "  tolerance   " << short_text(*c.tolerance, 3) << " (" << c.tolerance_reason << ")\n";
     out << "  verdict     " << to_string(c.verdict) << '\n';
-    if (c.fit)
-      out << "  fit         " << c.fit->text() << "; " << c.fit->explains << " of " << c.fit->claims
-          << " printed statements come out\n";
+    for (const auto& fit : c.fits) out << "  fit         " << fit->text() << "; " << outcome(*fit) << '\n';
     out << "  note        " << c.note << '\n';
   }
   const Json counts = count_verdicts(claims);
   for (const auto& [kind, row] : counts.items()) {
-    out << std::left << std::setw(12) << kind;
+    out << std::left << std::setw(29) << kind;
     std::string list;
     for (const auto& [verdict, count] : row.items())
       list.append(list.empty() ? "" : ", ").append(std::to_string(count.get<int>()) + " " + verdict);
@@ -45,6 +50,7 @@ void print_table(const std::vector<Claim>& claims, bool given, std::ostream& out
 
 int run_claims(const ClaimsOptions& options, std::ostream& out) {
   Paper paper(options.paper);
+  const Which which = paper.claims_named(options.ids);
   std::optional<StagedFolder> folder;
   if (!options.out.empty()) folder.emplace(options.out, "--out");
   std::vector<Claim> claims;
@@ -53,11 +59,12 @@ int run_claims(const ClaimsOptions& options, std::ostream& out) {
     Sources sources(paper.folder, [&](const std::string& what, double share) {
       return progress.show("measuring " + what, share);
     });
-    claims = paper.measured_claims(sources);
+    if (options.shuffle > 0) return shuffle_claims(options, paper, which, progress, out);
+    claims = paper.measured_claims(sources, which);
   } catch (const Interrupted&) {
     return kExitInterrupted;
   }
-  const Json json = claims_json(claims, paper, options.command_line, {});
+  const Json json = claims_json(claims, paper, which, options.command_line, {});
   if (folder) {
     write_whole(folder->path() / "claims.json", json.dump(1) + "\n");
     folder->publish({"claims.json"});
@@ -66,7 +73,7 @@ int run_claims(const ClaimsOptions& options, std::ostream& out) {
     out << json.dump(1) << '\n';
   else {
     print_table(claims, options.given, out);
-    for (const auto& [command, count] : paper.left_out())
+    for (const auto& [command, count] : paper.left_out(which))
       out << std::left << std::setw(12) << "not measured" << ' ' << count
           << ", for want of the program vericone-" << command << '\n';
   }

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 namespace vericone::paper {
 
 struct ClaimsOptions {
-  std::string paper;  // its folder, or the name of one of ours; empty: papers/dhal2022
-  std::string out;    // empty: no files
+  std::vector<std::string> ids;   // of claims or sections; empty: all
+  std::uint64_t shuffle = 0;      // so many draws of the chosen numbers; 0: as they were chosen
+  std::vector<std::string> only;  // of these fits alone; empty: of all
+  std::uint64_t seed = 1;         // of the draws
+  std::string paper;              // its folder, or the name of one of ours; empty: papers/dhal2022
+  std::string out;                // empty: no files
   bool json = false;
   bool given = false;  // the table shows the values that go into runs, too
   bool quiet = false;

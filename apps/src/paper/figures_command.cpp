@@ -117,9 +117,14 @@ class Maker {
 
   /// Claims beside all figures that are there, also those of earlier commands.
   void report() {
-    const std::vector<Claim> claims = paper_.measured_claims(sources_);
+    const Which which = [&](const Claim& claim) {
+      return std::any_of(claim.figures.begin(), claim.figures.end(),
+                         [&](const std::string& id) { return fs::exists(out_ / ("fig-" + id + ".json")); });
+    };
+    const std::vector<Claim> claims = paper_.measured_claims(sources_, which);
     progress_.show("report", 0);
-    const Json json = claims_json(claims, paper_, options_.command_line, changes_.any() ? changed() : Json());
+    const Json json =
+        claims_json(claims, paper_, which, options_.command_line, changes_.any() ? changed() : Json());
     StagedFolder folder(out_, "--out");
     write_whole(folder.path() / "claims.json", json.dump(1) + "\n");
     Json page{{"paper", paper_.name()}, {"title", paper_.title}, {"references", paper_.references}};
@@ -179,7 +184,9 @@ class Maker {
   Json lines_of(const Line& line) {
     Json lines = Json::array();
     const auto add = [&](const Series& series, const std::string& word) {
-      const std::string body = !series.word("body").empty() ? series.word("body") : series.word("obstacle");
+      const std::string body = !word.empty()                  ? word
+                               : !series.word("body").empty() ? series.word("body")
+                                                              : series.word("obstacle");
       const std::string name = !line.name.empty() ? line.name + (word.empty() ? "" : " " + word)
                                : !word.empty()    ? word
                                : !body.empty()    ? body
@@ -232,16 +239,14 @@ class Maker {
   }
 
   void carry_out(const Figure& figure, const fs::path& stage, Json& origin) {
-    const fs::path made = stage / "made";
-    sources_.carry_out(figure.command, made, "figures.yaml: command");
+    const fs::path made = sources_.files(figure.command, "figures.yaml: command");
     for (const char* extension : {".png", ".pdf"})
       if (fs::exists(made / (figure.picture + extension)))
-        fs::rename(made / (figure.picture + extension), stage / (figure.name() + extension));
+        fs::copy(made / (figure.picture + extension), stage / (figure.name() + extension));
     if (!figure.table.empty() && !fs::exists(made / figure.table))
       throw InputError("figures.yaml: table", figure.table,
                        "a file that vericone " + figure.command + " writes");
-    if (!figure.table.empty()) fs::rename(made / figure.table, stage / (figure.name() + ".csv"));
-    fs::remove_all(made);
+    if (!figure.table.empty()) fs::copy(made / figure.table, stage / (figure.name() + ".csv"));
     origin["made_by"] = "vericone " + figure.command;
   }
 

@@ -59,7 +59,8 @@ Panel read_panel(const Json& fields, const std::string& path, const Json& of) {
   Panel panel;
   Json own = Json::object();
   for (const auto& [key, value] : fields.items()) {
-    static const std::vector<std::string> looks{"label", "x_label", "zero", "equal", "least_height"};
+    static const std::vector<std::string> looks{"label", "x_label", "zero",
+                                                "equal", "symlog",  "least_height"};
     (std::find(looks.begin(), looks.end(), key) == looks.end() ? own : panel.look)[key] = value;
   }
   for (const char* field : {"label", "x_label"})
@@ -69,8 +70,9 @@ Panel read_panel(const Json& fields, const std::string& path, const Json& of) {
   for (const char* field : {"zero", "equal"})
     if_given(panel.look, path, field,
              [&](const Json& v, const std::string& p) { scenario::read_flag(v, p); });
-  if_given(panel.look, path, "least_height",
-           [&](const Json& v, const std::string& p) { scenario::read_positive(v, p, ""); });
+  for (const char* field : {"symlog", "least_height"})
+    if_given(panel.look, path, field,
+             [&](const Json& v, const std::string& p) { scenario::read_positive(v, p, ""); });
   text_field(fields, path, "label", "what the axis shows, with its unit, as text");
   if (!own.contains("lines")) {
     panel.lines.push_back(read_line(with_defaults(own, of), path));
@@ -192,8 +194,23 @@ Paper::Paper(const std::string& given) : folder(paper_folder(given)), figure_val
   references = text.str();
 }
 
-std::vector<Claim> Paper::measured_claims(Sources& sources) {
-  return naming("claims.yaml", [&] { return measure(claims_, sources); });
+Which Paper::claims_named(const std::vector<std::string>& ids) const {
+  const auto names = [](const std::string& id, const Claim& claim) {
+    return claim.id == id || claim.section == id || claim.id.starts_with(id + "/") ||
+           claim.section.starts_with(id + ".");
+  };
+  for (const std::string& id : ids)
+    if (std::none_of(claims_.entries.begin(), claims_.entries.end(),
+                     [&](const ClaimEntry& entry) { return names(id, entry.claim); }))
+      throw InputError("claims", id, "a claim or a section of " + (folder / "claims.yaml").string());
+  return [ids, names](const Claim& claim) {
+    return ids.empty() ||
+           std::any_of(ids.begin(), ids.end(), [&](const std::string& id) { return names(id, claim); });
+  };
+}
+
+std::vector<Claim> Paper::measured_claims(Sources& sources, const Which& which) {
+  return naming("claims.yaml", [&] { return measure(claims_, sources, which); });
 }
 
 std::vector<Figure> Paper::chosen(const std::vector<std::string>& ids) const {
@@ -230,22 +247,23 @@ void describe(const Paper& paper, const std::string& file, scenario::Facts& fact
   else
     for (const ClaimEntry& entry : paper.claims()) {
       const Claim& claim = entry.claim;
-      facts.add(claim.id, std::string(claim.given   ? "goes in: "
-                                      : entry.holds ? "a statement: "
-                                                    : "a number: ") +
-                              claim.printed + (claim.fit ? "; belongs to the fit " + claim.fit->name : "") +
-                              "; if it does not agree: " + to_string(entry.otherwise));
+      std::string fits;
+      for (const auto& fit : claim.fits) fits += "; rests on the fit " + fit->name;
+      facts.add(claim.id, std::string(claim.kind == Kind::given ? "goes in: "
+                                      : entry.holds             ? "a statement: "
+                                                                : "a number: ") +
+                              claim.printed + fits + "; if it does not agree: " + to_string(entry.otherwise));
     }
 }
 
-Json claims_json(const std::vector<Claim>& claims, const Paper& paper, const std::string& command_line,
-                 const Json& changed) {
+Json claims_json(const std::vector<Claim>& claims, const Paper& paper, const Which& which,
+                 const std::string& command_line, const Json& changed) {
   Json list = Json::array();
   for (const Claim& claim : claims) list.push_back(to_json(claim));
   Json origin = provenance(command_line, 1, files_of(paper.folder));
   if (!changed.is_null()) origin["changed"] = changed;
   Json result{{"claims", list}, {"verdicts", count_verdicts(claims)}, {"provenance", origin}};
-  if (const auto missing = paper.left_out(); !missing.empty()) result["not_measured"] = missing;
+  if (const auto missing = paper.left_out(which); !missing.empty()) result["not_measured"] = missing;
   return result;
 }
 

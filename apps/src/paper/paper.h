@@ -73,8 +73,14 @@ class Paper {
   /// Throws InputError naming "figures".
   std::vector<Figure> chosen(const std::vector<std::string>& ids) const;
   const std::vector<ClaimEntry>& claims() const { return claims_.entries; }
-  std::vector<Claim> measured_claims(Sources& sources);
-  [[nodiscard]] std::map<std::string, int> left_out() const { return paper::left_out(claims_); }
+  const std::vector<std::shared_ptr<Fit>>& fits() const { return claims_.fits; }
+  /// Those that `ids` name, by their own id or by a section: 7 is all of chapter 7. All where it is empty.
+  /// Throws InputError naming "claims".
+  Which claims_named(const std::vector<std::string>& ids) const;
+  std::vector<Claim> measured_claims(Sources& sources, const Which& which);
+  [[nodiscard]] std::map<std::string, int> left_out(const Which& which) const {
+    return paper::left_out(claims_, which);
+  }
 
  private:
   ClaimsFile claims_;
@@ -87,7 +93,7 @@ void describe(const Paper& paper, const std::string& file, scenario::Facts& fact
 std::vector<Figure> read_figures(const Json& fields);
 
 /// What claims.json holds. `changed`: null, or inputs that are not the paper's.
-Json claims_json(const std::vector<Claim>& claims, const Paper& paper, const std::string& command_line,
-                 const Json& changed);
+Json claims_json(const std::vector<Claim>& claims, const Paper& paper, const Which& which,
+                 const std::string& command_line, const Json& changed);
 
 }  // namespace vericone::paper

@@ -174,19 +174,69 @@ void read_tolerance(const Json& fields, const std::string& path, ClaimEntry& ent
            [&](const Json& v, const std::string& p) { entry.claim.later = scenario::read_flag(v, p); });
 }
 
-ClaimEntry read_entry(const Json& fields, const std::string& path, const ClaimsFile& file,
-                      const std::vector<std::shared_ptr<Fit>>& fits) {
+/// The numbers of a list, or one.
+std::vector<double> read_numbers(const Json& value, const std::string& path) {
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < (value.is_array() ? value.size() : 1); ++i)
+    numbers.push_back(
+        input::read_number(value.is_array() ? value[i] : value, value.is_array() ? at(path, i) : path, ""));
+  return numbers;
+}
+
+std::vector<std::string> read_texts(const Json& value, const std::string& path, const char* what) {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < (value.is_array() ? value.size() : 1); ++i)
+    texts.push_back(scenario::read_text(value.is_array() ? value[i] : value,
+                                        value.is_array() ? at(path, i) : path, what));
+  return texts;
+}
+
+/// How many numbers, or where they stand and between what.
+Chosen read_chosen(const Json& fields, const std::string& path, const std::string& name) {
+  Chosen chosen;
+  chosen.name = name;
+  if (!fields.is_object()) {
+    chosen.numbers = scenario::read_count(fields, path, 1, 1000);
+    return chosen;
+  }
+  require_known(fields, path, {"in", "at", "from", "to", "whole", "logarithmic"});
+  chosen.files = read_texts(require_field(fields, path, "in", "files of the paper"), path + ".in",
+                            "a file of the paper's folder");
+  chosen.paths =
+      read_texts(require_field(fields, path, "at", "paths of numbers"), path + ".at", "the path of a number");
+  chosen.numbers = int(chosen.paths.size());
+  const auto from = read_numbers(require_field(fields, path, "from", "a number of each"), path + ".from"),
+             to = read_numbers(require_field(fields, path, "to", "a number of each"), path + ".to");
+  if_given(fields, path, "whole",
+           [&](const Json& v, const std::string& p) { chosen.whole = scenario::read_flag(v, p); });
+  if_given(fields, path, "logarithmic",
+           [&](const Json& v, const std::string& p) { chosen.logarithmic = scenario::read_flag(v, p); });
+  if (from.size() != chosen.paths.size() || to.size() != chosen.paths.size())
+    throw InputError(path + ".at", std::to_string(chosen.paths.size()) + " paths",
+                     "as many as from and to have numbers");
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    if (!(from[i] < to[i]) || (chosen.logarithmic && !(from[i] > 0)))
+      throw InputError(path + ".to", to_text(to[i]),
+                       chosen.logarithmic ? "above from, both positive" : "above from");
+    chosen.ranges.emplace_back(from[i], to[i]);
+  }
+  return chosen;
+}
+
+ClaimEntry read_entry(const Json& fields, const std::string& path, const ClaimsFile& file) {
   require_known(fields, path,
-                {"id", "section", "figures", "what", "printed", "unit", "given", "ours", "holds", "text",
-                 "tolerance", "fit", "otherwise", "engaged", "note", "values", "of", "needs"});
+                {"id", "section", "figures", "what", "printed", "unit", "given", "code", "ours", "holds",
+                 "text", "tolerance", "fit", "otherwise", "engaged", "note", "values", "of", "needs"});
   ClaimEntry entry;
   Claim& claim = entry.claim;
   claim.id = required_text(fields, path, "id", "a name of the claim's own");
   claim.section = required_text(fields, path, "section", "a section of the source");
   claim.what = required_text(fields, path, "what", "what is printed, in words");
   claim.figures = read_ids(require_field(fields, path, "figures", "a list of figures"), path + ".figures");
-  if_given(fields, path, "given",
-           [&](const Json& v, const std::string& p) { claim.given = scenario::read_flag(v, p); });
+  for (const auto& [field, kind] : {std::pair("given", Kind::given), std::pair("code", Kind::code)})
+    if_given(fields, path, field, [&, k = kind](const Json& v, const std::string& p) {
+      if (scenario::read_flag(v, p)) claim.kind = k;
+    });
   if_given(fields, path, "needs", [&](const Json& v, const std::string& p) {
     entry.needs = scenario::read_text(v, p, "a command");
   });
@@ -221,12 +271,22 @@ ClaimEntry read_entry(const Json& fields, const std::string& path, const ClaimsF
   if_given(fields, path, "text", [&](const Json& v, const std::string& p) { entry.text = Text(v, p); });
   if_given(fields, path, "note", [&](const Json& v, const std::string& p) { entry.note = Text(v, p); });
   if_given(fields, path, "fit", [&](const Json& v, const std::string& p) {
-    const std::string name = scenario::read_text(v, p, "the name of a fit");
-    const auto found =
-        std::find_if(fits.begin(), fits.end(), [&](const auto& fit) { return fit->name == name; });
-    if (found == fits.end()) throw InputError(p, name, "the name of one of fits");
-    claim.fit = *found;
+    for (const std::string& name : read_texts(v, p, "the name of a fit")) {
+      const auto found = std::find_if(file.fits.begin(), file.fits.end(),
+                                      [&](const auto& fit) { return fit->name == name; });
+      if (found == file.fits.end()) throw InputError(p, name, "the name of one of fits");
+      claim.fits.push_back(*found);
+    }
   });
+  // What measures nothing could not have failed by anything of ours.
+  std::vector<std::string> names = entry.text.names();
+  std::vector<Expression> formulas = entry.ours;
+  if (entry.holds) formulas.push_back(*entry.holds);
+  for (const Expression& formula : formulas)
+    names.insert(names.end(), formula.names().begin(), formula.names().end());
+  claim.origins = entry.values->origins(names);
+  if (claim.kind == Kind::result && claim.origins.runs.empty() && claim.origins.commands.empty())
+    claim.kind = Kind::arithmetic;
   return entry;
 }
 
@@ -262,16 +322,15 @@ ClaimsFile read_claims(const Json& given) {
   const Json fields = with_templates(given);
   require_known(fields, "", {"fits", "values", "claims"});
   ClaimsFile file;
-  std::vector<std::shared_ptr<Fit>> fits;
   if_given(fields, "", "fits", [&](const Json& v, const std::string& p) {
     require_object(v, p);
-    for (const auto& [name, free] : v.items()) {
+    for (const auto& [name, all] : v.items()) {
       const auto fit = std::make_shared<Fit>();
       fit->name = name;
-      require_object(free, p + "." + name);
-      for (const auto& [chosen, numbers] : free.items())
-        fit->free.emplace_back(chosen, scenario::read_count(numbers, p + "." + name + "." + chosen, 1, 1000));
-      fits.push_back(fit);
+      require_object(all, p + "." + name);
+      for (const auto& [one, what] : all.items())
+        fit->chosen.push_back(read_chosen(what, p + "." + name + "." + one, one));
+      file.fits.push_back(fit);
     }
   });
   file.values = std::make_shared<Scope>(fields.value("values", Json()), "values");
@@ -283,7 +342,7 @@ ClaimsFile read_claims(const Json& given) {
     require_object(list[i], path);
     for (const Json& one :
          list[i].contains("body") ? claims_of_body(list[i], path) : std::vector<Json>{list[i]}) {
-      file.entries.push_back(read_entry(one, path, file, fits));
+      file.entries.push_back(read_entry(one, path, file));
       if (!ids.insert(file.entries.back().claim.id).second)
         throw InputError(path + ".id", file.entries.back().claim.id,
                          "a name of the claim's own: another claim has it");

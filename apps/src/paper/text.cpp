@@ -59,6 +59,18 @@ Text::Text(const Json& given, const std::string& path) {
   }
 }
 
+std::vector<std::string> Text::names() const {
+  std::vector<std::string> names;
+  const auto add = [&](const std::optional<Expression>& formula) {
+    if (formula) names.insert(names.end(), formula->names().begin(), formula->names().end());
+  };
+  for (const Part& part : parts_) {
+    add(part.when);
+    for (const Piece& piece : part.pieces) add(piece.number);
+  }
+  return names;
+}
+
 std::string Text::written(Measures& measures, Scope& scope) const {
   std::string all;
   for (const Part& part : parts_) {

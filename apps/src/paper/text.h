@@ -18,6 +18,8 @@ class Text {
 
   /// Without the parts whose condition is not met, or one of whose numbers does not exist.
   std::string written(Measures& measures, Scope& scope) const;
+  /// Every name that its numbers and conditions use.
+  std::vector<std::string> names() const;
 
  private:
   struct Piece {

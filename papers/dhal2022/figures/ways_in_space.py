@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Ways of a UAS and the vehicles that it follows, in space."""
+from matplotlib.ticker import MaxNLocator
+
 from vericone_figures.runs import COLORS, Sheet, figure
 from vericone_figures.style import AGENT, TWO_COLUMNS, plt, save
 from plot.tables import groups, rows
@@ -18,7 +20,9 @@ for color, ((name,), car) in zip(COLORS, cars.items()):
 axes.set_xlabel("x, east [m]")
 axes.set_ylabel("y, north [m]")
 axes.set_zlabel("z, up [m]")
-axes.set_box_aspect((2, 2, 1))
-axes.legend(loc="upper left", bbox_to_anchor=(0.95, 0.9))
+for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
+    axis.set_major_locator(MaxNLocator(4))
+axes.set_box_aspect((2, 2, 1), zoom=1.1)
+axes.legend(loc="upper left", bbox_to_anchor=(-0.05, 0.95))
 sheet.write(data["name"])
 save(axes.figure, data["name"])
