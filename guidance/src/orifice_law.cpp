@@ -5,7 +5,9 @@
 #include <vericone/cones/opening/opening_clearance.h>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 namespace vericone::guidance {
 namespace {
@@ -33,20 +35,47 @@ OrificeCommand turn_towards(const Vector3d& to_point, const Vector3d& velocity, 
   return command;
 }
 
-/// `rate` = gradient.a by the least a along or across what is allowed.
-void invert(const Vector3d& gradient, double rate, double most, OrificeCommand& command) {
-  const double squared = gradient.squaredNorm();
-  if (!(squared > 0)) {
-    command.status = OrificeStatus::no_effect;
-    return;
-  }
-  command.acceleration = rate / squared * gradient;
-  command.demanded = command.acceleration.norm();
+void command_within(const Vector3d& acceleration, double most, OrificeCommand& command) {
+  command.acceleration = acceleration;
+  command.demanded = acceleration.norm();
   command.status = OrificeStatus::steering;
   if (command.demanded > most) {
     command.acceleration *= most / command.demanded;
     command.status = OrificeStatus::saturated;
   }
+}
+
+/// `rate` = gradient.a by the least a along or across what is allowed.
+void invert(const Vector3d& gradient, double rate, double most, OrificeCommand& command) {
+  const double squared = gradient.squaredNorm();
+  if (squared > 0)
+    command_within(rate / squared * gradient, most, command);
+  else
+    command.status = OrificeStatus::no_effect;
+}
+
+/// One side of the rim: its clearance is m + h gradient.a after h seconds of the acceleration a, and is to
+/// grow at `rate`.
+struct Side {
+  Vector3d gradient;
+  double rate;
+};
+
+/// The least acceleration that gives all sides their rates, or, where they want opposite things, what is
+/// missing shared out: min |a|^2 + sum (what is missing of gradient_i.a >= rate_i)^2 / mu_i, by its dual, one
+/// side after the other (Hildreth, 1957).
+Vector3d for_all(std::span<const Side> sides) {
+  constexpr double kSoft = 0.02;
+  std::array<double, 4> weights{};
+  Vector3d a = Vector3d::Zero();
+  for (int sweep = 0; sweep < 200; ++sweep)
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      const double squared = sides[i].gradient.squaredNorm(), before = weights[i];
+      const double missing = sides[i].rate - sides[i].gradient.dot(a) - kSoft * squared * before;
+      weights[i] = std::max(0.0, before + missing / ((1 + kSoft) * squared));
+      a += (weights[i] - before) * sides[i].gradient;
+    }
+  return a;
 }
 
 }  // namespace
@@ -124,6 +153,8 @@ double room_along(const BodyState& a, PlacedOpening opening, const Vector3d& w) 
   return clearance_of(a, opening, w).distance;
 }
 
+/// Of the time constant 1 / gain: how far ahead a command is looked at.
+constexpr double kAhead = 0.25;
 /// Not worth more: of all the room there is.
 constexpr double kMostRoom = 0.95;
 
@@ -142,7 +173,10 @@ OrificeAim orifice_aim(const BodyState& a, const OrificeState& orifice, const st
         const double relative = c.dot(a.velocity - orifice.velocity) / c.norm();
         if (relative > 0.1 * closing) closing = relative;
       }
-      aim.seconds = closing > 0 ? c.norm() / closing : 0;
+      const double seconds = closing > 0 ? c.norm() / closing : 0;
+      constexpr double kNever = 1e9;  // s: what moves away faster than A follows is met later each time
+      if (!(seconds < kNever)) break;
+      aim.seconds = seconds;
       const OrificeState then = orifice.after(aim.seconds);
       aim.point = point_of(then.opening);
       aim.velocity = then.velocity + then.spin.cross(Vector3d(aim.point - then.opening.center));
@@ -204,14 +238,31 @@ OrificeCommand passage_law(const BodyState& a, const OrificeState& orifice,
   const double wanted = std::min(options.margin + options.beyond, room);
   if (now.distance >= wanted) return command;
   // Fading where the margin is kept: what is still missing would ask for ever more as the time runs out.
-  const double missing = wanted - now.distance, kept = wanted - std::min(options.margin, room);
-  const double fade = now.distance > options.margin && kept > 0 ? std::min(1.0, missing / kept) : 1;
-  Vector3d gradient = -now.time * now.normal;
-  if (!options.longitudinal) {
+  const auto rate_at = [&](double m) {
+    const double missing = wanted - m, kept = wanted - std::min(options.margin, room);
+    const bool fades = m > options.margin && missing > 0 && kept > 0;
+    const double fade = fades ? std::min(1.0, missing / kept) : 1;
+    return options.gain * missing * fade;
+  };
+  const auto gradient_of = [&](const OpeningClearance& clearance) {
+    Vector3d gradient = -clearance.time * clearance.normal;
+    if (options.longitudinal) return gradient;
     const Vector3d ahead = a.velocity.normalized();
-    gradient -= ahead * ahead.dot(gradient);
+    return Vector3d(gradient - ahead * ahead.dot(gradient));
+  };
+  std::array<Side, 4> sides{Side{gradient_of(now), rate_at(now.distance)}};
+  invert(sides[0].gradient, sides[0].rate, options.most, command);
+  // What is commanded may leave one side of the rim only to come too near to another before it is done.
+  // Steering by the nearer one alone would then change sides at every command.
+  const double h = std::min(seconds, kAhead / options.gain);
+  for (std::size_t k = 1; k < sides.size(); ++k) {
+    const Vector3d change = h * command.acceleration;
+    const OpeningClearance later = clearance_of(a, then, w + change);
+    const Vector3d gradient = gradient_of(later);
+    if (!(gradient.dot(change) < 0)) break;
+    sides[k] = {gradient, rate_at(later.distance - gradient.dot(change))};
+    command_within(for_all({sides.data(), k + 1}), options.most, command);
   }
-  invert(gradient, options.gain * missing * fade, options.most, command);
   command.m = now.distance;
   return command;
 }

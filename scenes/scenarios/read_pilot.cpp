@@ -43,6 +43,8 @@ const std::vector<OfLaws>& fields_of_laws() {
     laws.push_back("clearance");
     return laws;
   };
+  auto of_all = and_of_bodies(of_planes);
+  of_all.insert(of_all.end(), of_orifices.begin(), of_orifices.end());
   const auto and_orifice = [](std::vector<std::string> laws) {
     laws.push_back("orifice");
     return laws;
@@ -62,7 +64,7 @@ const std::vector<OfLaws>& fields_of_laws() {
                                          {"filter", {"avoidance"}},
                                          {"robust", {"avoidance"}},
                                          {"partners", {"cooperative-avoidance", "cooperative-rendezvous"}},
-                                         {"minds", and_of_bodies(of_planes)},
+                                         {"minds", of_all},
                                          {"sensor", and_of_bodies(of_planes)},
                                          {"estimator", and_of_bodies(of_planes)},
                                          {"through", of_orifices},
@@ -216,8 +218,14 @@ simulation::Pilot read_pilot(const Json& value, const std::string& path, bool pl
     using enum simulation::Passing;
     pilot.passing = read_choice<simulation::Passing>(v, p, {{"bisector", bisector}, {"centres", centres}});
   });
-  if_given(value, path, "minds",
-           [&](const Json& v, const std::string& p) { pilot.minds = read_names(v, p); });
+  if_given(value, path, "minds", [&](const Json& v, const std::string& p) {
+    if (!pilot.through) {
+      pilot.minds = read_names(v, p);
+      return;
+    }
+    if (!v.is_array() || !v.empty()) throw InputError(p, quoted(v), "[]: laws of orifices see no bodies");
+    pilot.through->minds_none = true;
+  });
   if_given(value, path, "partners",
            [&](const Json& v, const std::string& p) { pilot.partners = read_names(v, p); });
   if_given(value, path, "sensor",

@@ -127,7 +127,7 @@ FishOptions read_fish(const Json& value, const std::string& path) {
 QuadrotorOptions read_quadrotor(const Json& value, const std::string& path) {
   require_known(value, path,
                 {"kind", "mass", "inertia", "gravity", "gain_attitude", "gain_rate", "most_thrust",
-                 "most_torque", "most_tilt_deg", "period", "solver_step"});
+                 "most_torque", "most_tilt_deg", "drag", "period", "solver_step"});
   QuadrotorOptions options;
   const auto positive = [&](const char* field, const char* unit, double& to, double scale = 1) {
     if_given(value, path, field,
@@ -148,6 +148,9 @@ QuadrotorOptions read_quadrotor(const Json& value, const std::string& path) {
     const double tilt = read_positive(v, p, " (degrees)");
     if (!(tilt <= kMost)) throw InputError(p, quoted(v), "at most 80 degrees");
     options.most_tilt = kDegree * tilt;
+  });
+  if_given(value, path, "drag", [&](const Json& v, const std::string& p) {
+    options.drag = input::read_vector<3>(v, p, " (N s/m)");
   });
   positive("period", " (s)", options.period);
   positive("solver_step", " (s)", options.step);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
 #include <vericone/simulation/run_tables.h>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
@@ -40,10 +41,16 @@ std::string proof_text(const simulation::Scenario& scenario, const simulation::R
 Json run_json(const simulation::Scenario& scenario, const simulation::Run& run, const RunOrigin& origin) {
   std::size_t arcs = 0, agents = 0;
   for (const simulation::Track& track : run.tracks) arcs += track.legs().size();
-  Json goals = Json::array();
-  for (const simulation::Body& body : scenario.bodies) {
+  Json goals = Json::array(), accelerations = Json::array();
+  for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
+    const simulation::Body& body = scenario.bodies[i];
     agents += body.pilot.has_value();
-    if (!body.pilot || !body.pilot->goal) continue;
+    if (!body.pilot) continue;
+    const double most = simulation::most_commanded(*body.pilot);
+    accelerations.push_back({{"agent", body.name},
+                             {"most", std::isfinite(most) ? Json(most) : Json(nullptr)},
+                             {"reached", run.tracks[i].most_acceleration()}});
+    if (!body.pilot->goal) continue;
     const simulation::Goal& goal = *body.pilot->goal;
     goals.push_back({{"agent", body.name}, {"point", vector_json(goal.point)}, {"reached", goal.reached}});
   }
@@ -60,12 +67,19 @@ Json run_json(const simulation::Scenario& scenario, const simulation::Run& run, 
             {"bodies", scenario.bodies.size()},
             {"agents", agents},
             {"goals", goals},
+            {"accelerations", accelerations},
             {"end", run.end},
             {"step", scenario.step},
             {"arcs", arcs},
             {"encounters", run.encounters.size()},
             {"events", run.events.size()},
             {"seconds", origin.seconds},
+            {"times",
+             {{"decisions", run.times.decisions},
+              {"mean", run.times.mean},
+              {"within", run.times.within},
+              {"worst", run.times.worst},
+              {"proofs", run.times.proofs}}},
             {"real_time_factor", run.end / origin.seconds},
             {"provenance", provenance_of(origin)}};
   if (!run.vehicles.empty()) json["limits_broken"] = beyond;

@@ -448,7 +448,7 @@ def scenario(body=BODY, pilot=PILOT, agent="{semi_axes: [3, 1, 1]}", top="durati
 
 
 ORIFICE = "{name: O, opening: {radius: 2}, position: [9, 0, 0], normal: [1, 0, 0]}"
-THROUGH = "{law: passage, through: [O]}"
+THROUGH = "{law: passage, through: [O], minds: []}"
 
 
 def orifice(text=ORIFICE, pilot=THROUGH, agent="{semi_axes: [1, 1, 1]}", more=""):
@@ -590,6 +590,7 @@ SCENARIOS = [
     ("an orifice that faces nowhere", orifice(ORIFICE.replace("[1, 0, 0]", "[0, 0, 0]"))),
     ("an orifice without attitude", orifice(ORIFICE.replace(", normal: [1, 0, 0]", ""))),
     ("a spin of two numbers", orifice(ORIFICE.replace("normal:", "spin: [0, 1], normal:"))),
+    ("an orifice faster than all there is", orifice(ORIFICE.replace("normal:", "velocity: [0, 0, 1.0e30], normal:"))),
     ("a wall by a number", orifice(ORIFICE.replace("normal:", "wall: 1, normal:"))),
     ("two orifices of one name", orifice(more=", " + ORIFICE)),
     ("an orifice called as a body", orifice(ORIFICE.replace("name: O", "name: A"))),
@@ -602,6 +603,7 @@ SCENARIOS = [
     ("the source's law for an agent too large", orifice(agent="{semi_axes: [3, 1, 1]}",
                                                        pilot="{law: orifice, through: [O], reference: -0.1}")),
     ("a negative margin", orifice(pilot="{law: passage, through: [O], margin: -1}")),
+    ("a body that a law of orifices does not see", orifice(pilot="{law: passage, through: [O]}")),
     ("bodies of a law of orifices", orifice(pilot="{law: passage, through: [O], minds: [B]}")),
     ("a body and a position", scenario("{name: B, center: [20, 0, 0], semi_axes: [2, 2, 2], position: [1, 0, 0]}")),
     ("a mesh that is not there", scenario(BODY.replace("semi_axes: [2, 2, 2]", "mesh: none.off"))),
@@ -628,6 +630,10 @@ SCENARIOS = [
     ("a quadrotor of an inertia that no body has", drone("inertia: [0.1, 0.1, 0.3]")),
     ("a quadrotor on its side", drone("most_tilt_deg: 90")),
     ("thrust and torques held for too long", drone("period: 0.02")),
+    ("a negative drag", drone("drag: [0, -1, 0]")),
+    ("wind for a quadrotor without drag", "current: {uniform: [3, 0, 0]}\n" + drone("mass: 4")),
+    ("gusts too short for a quadrotor", "current: {gusts: {most: 1, shortest: 0.05}}\n" + drone("drag: [1, 1, 1]")),
+    ("a current that moves nothing", scenario(top="duration: 5\ncurrent: {uniform: [3, 0, 0]}\n")),
     ("a quadrotor that tumbles", drone("gain_rate: 0.2, period: 0.001, most_tilt_deg: 80, most_thrust: 400", 90)),
     ("an unknown field of a quadrotor", drone("depth: 3")),
     ("a quadrotor that starts upright", fish("{kind: quadrotor}", "shape: {semi_axes: [1, 1, 1]}, ", velocity="[0, 0, 1]")),

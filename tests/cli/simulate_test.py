@@ -124,6 +124,26 @@ bodies:
         proof = self.simulate(two.replace("-5", "5"))["proof"]
         self.assertEqual(proof, {"verdict": "none", "pairs": [], "not_checked": [{"a": "A", "b": "B", "why": "together"}]})
 
+    def test_what_was_reached_and_how_long_it_took_is_said(self):
+        scenario = os.path.join(SOURCE, "docs/examples/scenarios/quadrotor.yaml")
+        result = run("simulate", scenario, "--out", self.out, "--no-figures")
+        self.assertEqual(result.stderr.splitlines(), ["simulating quadrotor", "proving quadrotor", "writing"])
+        with open(os.path.join(self.out, "run.json"), encoding="utf-8") as f:
+            told = json.load(f)
+        acceleration, = told["accelerations"]
+        self.assertEqual((acceleration["agent"], acceleration["most"]), ("quadrotor", 6))
+        flown = max(float(r["a [m/s^2]"]) for r in self.table("bodies.csv") if r["body"] == "quadrotor")
+        self.assertGreaterEqual(acceleration["reached"], flown)
+        self.assertLess(acceleration["reached"], 1.5 * flown)
+        self.assertIn("commands at most 6 m/s^2", result.stdout)
+        self.assertEqual("; reached up to" in result.stdout, acceleration["reached"] > 6)
+        times = told["times"]
+        self.assertEqual(times["decisions"], len({r["t [s]"] for r in self.table("encounters.csv")}))
+        self.assertTrue(0 < times["mean"] <= times["worst"] and times["within"] <= times["worst"] and times["proofs"] > 0)
+        self.assertLess(times["mean"] * times["decisions"] + times["proofs"], told["seconds"])
+        self.assertRegex(result.stdout, r"(?m)^time of decisions +mean .* ms, 99 % within .* ms, worst .* ms, of %d; proofs .* s$"
+                         % times["decisions"])
+
     def test_what_was_not_kept_is_said(self):
         # Gain 1/s is too little here: it passes nearer than 1 m.
         text = balls("clearance, manner: source, gain: 0.3", aside=3.1)
@@ -408,6 +428,18 @@ class Trials(Files):
             self.assertEqual(float(row[name + " effort [m/s]"]), cell["effort"])
             if cell["verdict"] == "avoided":
                 self.assertEqual(float(row[name + " least distance [m]"]), cell["least_distance"])
+
+    def test_any_scenario_that_simulate_takes(self):
+        for name, verdict in (("quadrotor", "avoided"), ("orifices", "avoided"), ("clearance", "avoided"), ("fish", "avoided")):
+            scenario = os.path.join(SOURCE, "docs/examples/scenarios", name + ".yaml")
+            cell, = json.loads(run("trials", scenario, "--trial", "3", "--json").stdout)
+            self.assertEqual((cell["law"], cell["level"], cell["verdict"]), ("own", "x1", verdict))
+        result = run("trials", scenario, "-N", "2", "--out", self.out, "--quiet", "--no-figures")
+        self.assertIn("all trials are the same flight", result.stdout)
+        text = balls("clearance, most: 20, sensor: {noise: isotropic, position: 0.2, velocity: 0.1}", aside=1)
+        cells = [json.loads(run("trials", self.write(text), "--trial", k, "--json").stdout)[0] for k in "09"]
+        self.assertEqual(self.simulate(text)["proof"]["pairs"][0]["least_distance"], cells[0]["least_distance"])
+        self.assertNotEqual(cells[0]["least_distance"], cells[1]["least_distance"])
 
     def test_threads_and_a_kill_change_nothing(self):
         other = os.path.join(self.folder, "other")

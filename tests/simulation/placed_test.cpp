@@ -167,6 +167,28 @@ TEST(GuardedAmongPlaced, FliesThroughTheWindow) {
   }
 }
 
+/// The origin of a map may be anywhere: a body with rooms is passed when the agent is out of its bounds.
+TEST(AmongPlaced, AMapIsPassedWhenTheAgentIsOutOfIt) {
+  for (const Vector3d& origin : {Vector3d(0, 0, 0), Vector3d(-3, 2, 1), Vector3d(40, -7, 0)}) {
+    // Two walls along x, from 2 to 9 m, 4 m apart.
+    std::vector<Box> boxes{{Vector3d(2, -3, -1) - origin, Vector3d(9, -2, 1) - origin},
+                           {Vector3d(2, 2, -1) - origin, Vector3d(9, 3, 1) - origin}};
+    Scenario scenario;
+    scenario.duration = 12;
+    scenario.step = 0.05;
+    scenario.bodies = {body_of("A", ellipsoid({0.4, 0.3, 0.2}), {0, 0, 0}, {1, 0, 0}),
+                       body_of("map", RigidShape{Placed(Assembly::boxes(boxes))}, origin, {0, 0, 0})};
+    scenario.bodies[0].pilot.emplace();
+    const simulation::Run run = simulate(scenario);
+    std::vector<Event> passes;
+    for (const Event& e : run.events)
+      if (e.kind == EventKind::passes) passes.push_back(e);
+    ASSERT_EQ(passes.size(), 1u);
+    EXPECT_NEAR(passes[0].t, 9, 1e-6);
+    EXPECT_NEAR(passes[0].value, 3.5, 1e-6);  // from the middle of the bounds
+  }
+}
+
 TEST(GuardedAmongPlaced, GoesBesideWhereTheWayIsBlocked) {
   const Scenario scenario = through_the_wall(guidance::Law::clearance, {7, 3, 0}, {-0.2, 0, 0});
   const simulation::Run run = simulate(scenario);

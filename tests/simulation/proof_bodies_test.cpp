@@ -114,6 +114,39 @@ TEST(Proof, ABallThatVisitsADentIsNotCalledTouched) {
   }
 }
 
+// x = 4 sqrt(1 - k + rho^2 / 9) in the dent, so the corners of a cube's face touch first, at rho^2 = 2 h^2.
+TEST(Proof, ACubeThatVisitsADentIsNotCalledTouched) {
+  const double k = 0.91, h = 0.2, first = 4 * std::sqrt(1 - k + 2 * h * h / 9) + h;
+  const ShapeInTime cube = RigidShape{HullBody::box(Vector3d::Constant(-h), Vector3d::Constant(h))};
+  const Matrix3d turn = Eigen::AngleAxisd(1, Vector3d(1, 2, 2).normalized()).toRotationMatrix();
+  // Of a dent that is never shallower than k the verdict is the same where the cube goes far in, or not at
+  // all.
+  for (const double amplitude : {0.0, 0.03})
+    for (const double depth : {1.9, first + 0.02, first - 0.02, 1.0}) {
+      if (amplitude > 0 && std::abs(depth - first) < 0.1) continue;
+      const DentedQuadric dented{{4, 3, 3}, {k + amplitude, amplitude, 40, 0, false}};
+      const Track b = straight(dented, {1, 1, 1}, {0, 0, 0}, 6, turn);
+      Track a(
+          cube,
+          {Vector3d(1, 1, 1) + turn * Vector3d(8, 0, 0), turn * Vector3d(-2 * (8 - depth) / 3, 0, 0), turn},
+          Orientation::fixed, 0);
+      a.advance(turn * Vector3d(2 * (8 - depth) / 9, 0, 0), 6);
+      const PairProof proof = depth == 1 ? prove(b, a, 0, 6) : prove(a, b, 0, 6);
+      const bool meets = depth < first;
+      ASSERT_EQ(proof.verdict, meets ? ProofVerdict::touched : ProofVerdict::avoided) << depth;
+      if (!meets) {
+        EXPECT_GT(proof.least_distance, 0);
+        EXPECT_LE(proof.least_distance, depth - first);
+      } else if (amplitude == 0) {
+        // x(t) = 8 - v t + a t^2 / 2, which turns round at 3 s. That they meet is certified some mm later.
+        const double rate = 2 * (8 - depth) / 9, when = 3 - std::sqrt(2 * (first - depth) / rate);
+        EXPECT_LE(proof.from, when + 1e-9) << depth;
+        EXPECT_GE(proof.to, when - 1e-9) << depth;
+        EXPECT_LT(proof.to - when, 0.03) << depth;
+      }
+    }
+}
+
 TEST(Proof, HullsAgainstExactTimes) {
   SCOPED_TRACE("seed 35");
   Random random(35);

@@ -229,7 +229,6 @@ TEST(Proof, LevelBodiesOverTheTop) {
 }
 
 TEST(Proof, RefusesWhatItCannotProve) {
-  const Track hull = straight(RigidShape{HullBody::box({-1, -1, -1}, {1, 1, 1})}, {0, 0, 0}, {0, 0, 0}, 1);
   const Track dented = straight(DentedQuadric{{3, 2, 1}, {0.4, 0, 0, 0, false}}, {9, 0, 0}, {0, 0, 0}, 1);
   const Track flat = straight(DentedConic{3, 2, {}}, {9, 0, 0}, {0, 0, 0}, 1);
   const auto field = [](const Track& a, const Track& b, double from, double to) -> std::string {
@@ -240,8 +239,6 @@ TEST(Proof, RefusesWhatItCannotProve) {
     }
     return "";
   };
-  EXPECT_EQ(field(hull, dented, 0, 1), "bodies");
-  EXPECT_EQ(field(dented, hull, 0, 1), "bodies");
   EXPECT_EQ(field(flat, dented, 0, 1), "bodies");
   EXPECT_EQ(field(dented, dented, -1, 1), "from");
   EXPECT_EQ(field(dented, dented, 0, 1.5), "to");

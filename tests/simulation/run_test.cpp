@@ -5,6 +5,7 @@
 #include <vericone/geometry/stop.h>
 #include <vericone/simulation/run.h>
 #include <vericone/testing/random_bodies.h>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -348,6 +349,75 @@ TEST(ScenarioCheck, NamesTheField) {
         s.bodies[0].pilot->goal = Goal{{0, 0, 0}, 1, "X", 1};
       },
       "bodies[0].pilot.goal.after");
+}
+
+TEST(Run, SaysHowLongDecisionsTookAndShowsHowFarProofsAre) {
+  Scenario scenario = encounter();
+  scenario.bodies[0].pilot = pilot(Law::avoidance);
+  RunOptions options;
+  std::vector<double> shares;
+  options.proving = [&](double share) {
+    shares.push_back(share);
+    return true;
+  };
+  const auto run = simulate(scenario, options);
+  const auto steps = std::uint64_t(std::lround(std::ceil(run.end / scenario.step - 1e-9)));
+  EXPECT_EQ(run.times.decisions,
+            steps * std::uint64_t(std::count_if(scenario.bodies.begin(), scenario.bodies.end(),
+                                                [](const Body& body) { return body.pilot.has_value(); })));
+  EXPECT_GT(run.times.mean, 0);
+  EXPECT_GT(run.times.within, 0);
+  EXPECT_LE(run.times.within, run.times.worst);
+  EXPECT_LE(run.times.mean, run.times.worst);
+  EXPECT_GT(run.times.proofs, 0);
+  ASSERT_EQ(shares.size(), run.proofs.size());
+  EXPECT_EQ(shares.front(), 0);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_LT(shares.back(), 1);
+  // No proof more than wanted.
+  options.proving = [](double) { return false; };
+  const auto stopped = simulate(scenario, options);
+  EXPECT_TRUE(stopped.interrupted);
+  EXPECT_TRUE(stopped.proofs.empty());
+}
+
+TEST(Run, SaysWhatAccelerationWasReached) {
+  Scenario scenario = encounter();
+  scenario.bodies[0].pilot = pilot(Law::avoidance, 3);
+  scenario.bodies[0].pilot->goal = Goal{{0, 90, 0}, 5, "", 1};  // turns harder than its law may
+  const auto run = simulate(scenario);
+  EXPECT_EQ(most_commanded(*scenario.bodies[0].pilot), 3);
+  double most = 0;
+  for (double t = 0; t < run.end; t += 0.01) most = std::max(most, run.tracks[0].acceleration(t).norm());
+  EXPECT_GE(run.tracks[0].most_acceleration(), most * (1 - 1e-12));
+  EXPECT_NEAR(run.tracks[0].most_acceleration(), 5, 1e-9);
+  scenario.bodies[0].pilot->guide.law = Law::clearance;
+  scenario.bodies[0].pilot->guide.clearance.most = 4;
+  EXPECT_EQ(most_commanded(*scenario.bodies[0].pilot), 4);
+}
+
+TEST(Run, ACurrentThatMovesNothingIsRefused) {
+  Scenario scenario = encounter();
+  scenario.water = Current({0, 0, 0.1});
+  try {
+    check(scenario);
+    ADD_FAILURE();
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.field(), "current");
+  }
+  scenario.water = {};
+  EXPECT_NO_THROW(check(scenario));
+}
+
+/// What the check serves the proof serves: of a hull that flies and an obstacle with dents, too.
+TEST(Run, OfAHullAndABodyWithDentsIsProved) {
+  Scenario scenario = encounter();
+  scenario.bodies[0].shape = RigidShape{HullBody::box({-1, -0.5, -0.5}, {1, 0.5, 0.5})};
+  scenario.bodies[1].shape = DentedQuadric{{4, 3, 3}, {0.5, 0.2, 1, 0, false}};
+  scenario.bodies[0].pilot = pilot(Law::clearance);
+  const auto run = simulate(scenario);
+  ASSERT_EQ(run.proofs.size(), 1u);
+  EXPECT_NE(run.proofs[0].proof.verdict, ProofVerdict::undecided);
 }
 
 }  // namespace

@@ -2,7 +2,8 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/uncertain/robust.h>
 #include <vericone/geometry/error.h>
-#include <vericone/simulation/run.h>
+#include <vericone/simulation/run_tables.h>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -241,6 +242,45 @@ TEST(Sensors, WhatIsCalledRobustlyOutIsNeverTouched) {
   }
   EXPECT_GT(out, 20'000);
   EXPECT_GT(collide, 5'000);
+}
+
+/// A table says of each column what it is: m of the bodies as they are, beside it what the law took it for.
+TEST(Sensors, EncountersTellTheTruthAndWhatWasMeasured) {
+  Scenario scenario = meeting(sensor_of(Noise::isotropic, 0.4, 0.3));
+  scenario.bodies[0].pilot->guide.law = guidance::Law::clearance;
+  scenario.bodies[0].pilot->guide.clearance.required = 0.5;
+  scenario.bodies[0].pilot->guide.clearance.most = 15;
+  const simulation::Run run = simulate(scenario);
+  const Table table = encounters_table(scenario, run);
+  const auto column = [](const Table& of, const std::string& name) {
+    return std::find_if(of.columns.begin(), of.columns.end(),
+                        [&](const Column& c) { return c.name == name; });
+  };
+  ASSERT_EQ(table.rows(), run.encounters.size());
+  const auto truth = column(table, "m"), measured = column(table, "measured_m");
+  ASSERT_TRUE(truth != table.columns.end() && measured != table.columns.end());
+  double apart = 0;
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    const EncounterSample& s = run.encounters[i];
+    // Of two balls: how far the line of the relative velocity passes, less both radii.
+    const Motion a = run.tracks[0].motion(s.t), b = run.tracks[1].motion(s.t);
+    const Vector3d c = b.position - a.position, w = (a.velocity - b.velocity).normalized();
+    const double miss = (c - c.dot(w) * w).norm();
+    EXPECT_NEAR(truth->numbers[i], miss - 2, 1e-6) << s.t;
+    EXPECT_EQ(measured->numbers[i], s.step.m);
+    apart = std::max(apart, std::abs(truth->numbers[i] - measured->numbers[i]));
+  }
+  EXPECT_GT(apart, 0.1);
+  // Entering says how near they would come, not how near is allowed.
+  const auto enters = std::find_if(run.events.begin(), run.events.end(),
+                                   [](const Event& e) { return e.kind == EventKind::enters_cone; });
+  ASSERT_NE(enters, run.events.end());
+  EXPECT_NEAR(enters->value, truth->numbers[0], 1e-12);
+  EXPECT_LT(enters->value, 0);
+  // Without a sensor both are one, and there is one column.
+  scenario.bodies[0].pilot->sensor.reset();
+  const Table plain = encounters_table(scenario, simulate(scenario));
+  EXPECT_EQ(column(plain, "measured_m"), plain.columns.end());
 }
 
 void expect_refused(const Scenario& scenario, const std::string& field) {

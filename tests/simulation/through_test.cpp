@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 namespace vericone::simulation::through_test {
 namespace {
@@ -157,6 +158,7 @@ TEST(Through, AnOrificeThatNeverCameIsMissed) {
   other.pilot.emplace();
   other.pilot->goal = Goal{{6, 9, 0}, 1, "", 0.5};
   scenario.bodies.push_back(other);
+  scenario.bodies[0].pilot->through->minds_none = true;
   const simulation::Run run = simulate(scenario);
   EXPECT_LT(run.end, 30);
   int late = 0;
@@ -199,6 +201,118 @@ TEST(Through, ScenariosThatMakeNoSense) {
   bad = good;
   bad.orifices[0].rotation.col(0) *= 2;
   EXPECT_EQ(field_of(bad), "orifices[0].rotation");
+  // Of numbers that overflow on the way the field is named that has them.
+  bad = good;
+  bad.orifices[0].velocity.z() = 1e30;
+  EXPECT_EQ(field_of(bad), "orifices[0].velocity[2]");
+  bad = good;
+  bad.orifices[0].position.x() = -1e200;
+  EXPECT_EQ(field_of(bad), "orifices[0].position[0]");
+  bad = good;
+  bad.orifices[0].spin.y() = 1e99;
+  EXPECT_EQ(field_of(bad), "orifices[0].spin[1]");
+}
+
+/// These laws see no bodies. One that stands in the way is met, and that is said before.
+TEST(Through, BodiesInTheWayAreRefusedUnlessTheyAreMeant) {
+  for (const Through::Law law : {Through::Law::orifice, Through::Law::passage}) {
+    Scenario scenario = flight({1, 0, 0}, law);
+    scenario.orifices = {ring("O", {5, 0, 0}, {1, 0, 0}, 1.5)};
+    Through& through = *scenario.bodies[0].pilot->through;
+    through.orifices = {"O"};
+    through.source.reference = -0.5;
+    EXPECT_NO_THROW(check(scenario));
+    Body pillar;
+    pillar.name = "pillar";
+    pillar.shape = RigidShape{CombinedEllipsoid(Ellipsoid::from_axes(Vector3d::Zero(), {0.5, 0.5, 5}))};
+    pillar.start.position = {2.5, 0, 0};
+    scenario.bodies.push_back(pillar);
+    try {
+      check(scenario);
+      ADD_FAILURE() << to_string(law);
+    } catch (const InputError& e) {
+      EXPECT_EQ(e.field(), "bodies[0].pilot.minds");
+    }
+    scenario.bodies[0].pilot->through->minds_none = true;
+    EXPECT_EQ(simulate(scenario).verdict(), ProofVerdict::touched);
+  }
+}
+
+/// Where what was commanded is taken back by more than half: reversals of a law that steers to and fro.
+int reversals(const simulation::Run& run) {
+  int count = 0;
+  const OrificeSample* before = nullptr;
+  for (const OrificeSample& sample : run.orifices) {
+    const Vector3d& now = sample.command.acceleration;
+    if (before && before->orifice == sample.orifice) {
+      const Vector3d& last = before->command.acceleration;
+      count += now.dot(last) < -0.5 * now.norm() * last.norm();
+    }
+    before = &sample;
+  }
+  return count;
+}
+
+/// The flight of docs/examples/scenarios/orifices.yaml; before the window it steers between two of its sides.
+TEST(Through, NoCommandIsUndoneByTheNext) {
+  Scenario scenario = flight({1, 0.4, 0}, Through::Law::passage);
+  scenario.step = 0.02;
+  scenario.bodies[0].shape =
+      RigidShape{CombinedEllipsoid(Ellipsoid::from_axes(Vector3d::Zero(), {0.35, 0.15, 0.15}))};
+  scenario.orifices = {ring("round", {6, 0.5, 1}, {1, 0.2, 0}, 0.8),
+                       ring("slit", {14, -2, 1.5}, {1, 0, 0.2}, 1),
+                       ring("window", {22, 2, 0}, {1, -0.3, 0}, 1)};
+  for (MovingOrifice& orifice : scenario.orifices) {  // y as upright as it can be
+    const Vector3d n = orifice.rotation.col(2), x = Vector3d::UnitZ().cross(n).normalized();
+    orifice.rotation.col(0) = x;
+    orifice.rotation.col(1) = n.cross(x);
+  }
+  scenario.orifices[0].velocity = {0, 0.1, -0.05};
+  scenario.orifices[1].opening = Opening::ellipse({1.6, 0.5});
+  scenario.orifices[1].spin = {0.15, 0, 0};
+  scenario.orifices[2].opening =
+      Opening::polygon({{-0.9, -0.6}, {0.9, -0.6}, {0.9, 0.6}, {0, 0.2}, {-0.9, 0.6}});
+  scenario.orifices[2].wall = true;
+  Through& through = *scenario.bodies[0].pilot->through;
+  through.orifices = {"round", "slit", "window"};
+  through.passage.most = 0.6;
+  const simulation::Run run = simulate(scenario);
+  for (const PassageOutcome& passage : run.passages) EXPECT_EQ(passage.proof.verdict, PassageVerdict::passed);
+  EXPECT_LE(reversals(run), 1);
+  // As near to the rim as the law that steered to and fro had been, or less.
+  EXPECT_GE(run.passages.at(2).proof.least_distance, 0.054);
+}
+
+/// The same of openings with three to six corners, hulls and ellipsoids, from anywhere.
+TEST(Through, NoCommandIsUndoneByTheNextWhateverTheCorners) {
+  std::mt19937 generator(12);
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution(low, high)(generator);
+  };
+  int passed = 0, turned = 0, commands = 0;
+  for (int i = 0; i < 40; ++i) {
+    Scenario scenario =
+        flight({between(0.8, 1.2), between(-0.2, 0.2), between(-0.2, 0.2)}, Through::Law::passage);
+    scenario.step = 0.02;
+    if (i % 2) scenario.bodies[0].shape = RigidShape{HullBody::box({-0.3, -0.2, -0.1}, {0.3, 0.2, 0.1})};
+    scenario.orifices = {ring("O", {between(5, 9), between(-1, 1), between(-1, 1)},
+                              {1, between(-0.4, 0.4), between(-0.4, 0.4)}, 1)};
+    std::vector<Eigen::Vector2d> corners;
+    const int count = 3 + i % 4;
+    for (int k = 0; k < count; ++k) {
+      const double angle = 2 * std::numbers::pi * (k + between(-0.3, 0.3)) / count, r = between(0.45, 0.9);
+      corners.emplace_back(r * std::cos(angle), r * std::sin(angle));
+    }
+    scenario.orifices[0].opening = Opening::polygon(corners);
+    scenario.bodies[0].pilot->through->orifices = {"O"};
+    scenario.bodies[0].pilot->through->passage.beyond = 0.3;  // more than there is room for
+    const simulation::Run run = simulate(scenario);
+    passed += run.passages.at(0).proof.verdict == PassageVerdict::passed;
+    turned += reversals(run);
+    commands += int(run.orifices.size());
+  }
+  EXPECT_GE(passed, 25);
+  EXPECT_LE(turned, commands / 200);
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
 #include <vericone/simulation/trials.h>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace vericone::simulation::trials_test {
 namespace {
@@ -104,6 +106,76 @@ TEST(Trials, LevelsMeanWhatTheySay) {
   EXPECT_EQ(four.bodies[0].pilot->sensor->velocity, 1);
 }
 
+/// The run of the scenario itself is the truth: its proofs, and the integrals of |a|.
+void expect_own(const Scenario& scenario, std::uint64_t trial) {
+  const Scenario flown = trial_scenario(scenario, TrialLaw::own, trial_level("x1"));
+  RunOptions options;
+  options.trial = trial;
+  const Run run = simulate(scenario, options);
+  const TrialOutcome outcome = fly_trial(flown, trial);
+  EXPECT_EQ(outcome.verdict, run.verdict());
+  double least = std::numeric_limits<double>::infinity(), effort = 0;
+  for (const PairOutcome& pair : run.proofs) least = std::min(least, pair.proof.least_distance);
+  for (const PassageOutcome& passage : run.passages) least = std::min(least, passage.proof.least_distance);
+  EXPECT_EQ(outcome.least_distance, run.verdict() == ProofVerdict::avoided ? least : 0);
+  for (std::size_t i = 0; i < run.tracks.size(); ++i) {
+    if (!scenario.bodies[i].pilot) continue;
+    const double dt = 1e-3;
+    for (double t = dt / 2; t < run.end; t += dt) effort += dt * run.tracks[i].acceleration(t).norm();
+  }
+  EXPECT_NEAR(outcome.effort, effort, 0.02 * effort + 1e-9);
+}
+
+TEST(Trials, AnyPilotsAndLaws) {
+  Scenario two = engagement();
+  two.bodies[1].pilot = two.bodies[0].pilot;
+  two.bodies[1].pilot->guide.law = guidance::Law::clearance;
+  for (Body& body : two.bodies) {
+    Sensor& sensor = body.pilot->sensor.emplace();
+    sensor.position = 0.1;
+    sensor.velocity = 0.1;
+  }
+  for (const std::uint64_t trial : {0u, 5u}) expect_own(two, trial);
+  EXPECT_NE(fly_trial(trial_scenario(two, TrialLaw::own, trial_level("x1")), 0).least_distance,
+            fly_trial(trial_scenario(two, TrialLaw::own, trial_level("x1")), 5).least_distance);
+  Scenario nobody = engagement();
+  nobody.bodies[0].pilot.reset();
+  expect_own(nobody, 0);
+  // Both avoid, by a law of the source.
+  two.bodies[1].pilot->guide.law = guidance::Law::avoidance;
+  const Scenario changed = trial_scenario(two, TrialLaw::di_filter, trial_level("7.5:15"));
+  for (const Body& body : changed.bodies) {
+    EXPECT_TRUE(body.pilot->guide.filter.y);
+    EXPECT_EQ(body.pilot->sensor->noise, Noise::per_axis);
+  }
+  static_cast<void>(fly_trial(changed, 1));
+}
+
+TEST(Trials, AnOpeningThatIsMissedIsNoSuccess) {
+  for (const bool through : {true, false}) {
+    Scenario scenario;
+    scenario.duration = 4;
+    scenario.step = 0.05;
+    Body& body = scenario.bodies.emplace_back();
+    body.name = "A";
+    body.shape = RigidShape{CombinedEllipsoid(Ellipsoid::from_axes(Vector3d::Zero(), {0.3, 0.2, 0.2}))};
+    body.start.velocity = {through ? 2.0 : -2.0, 0, 0};
+    MovingOrifice& ring = scenario.orifices.emplace_back();
+    ring.name = "ring";
+    ring.opening = Opening::circle(1);
+    ring.position = {4, 0, 0};
+    ring.rotation << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+    ring.wall = false;
+    Pilot& pilot = body.pilot.emplace();
+    pilot.through.emplace().orifices = {"ring"};
+    pilot.through->passage.most = 0.01;
+    expect_own(scenario, 0);
+    const TrialOutcome outcome = fly_trial(scenario, 0);
+    EXPECT_EQ(outcome.verdict, ProofVerdict::avoided);
+    EXPECT_EQ(outcome.missed, !through);
+  }
+}
+
 template <typename Make>
 void expect_refused(Make make, const std::string& field) {
   try {
@@ -124,7 +196,9 @@ TEST(Trials, WhatCannotBeIsRefusedByName) {
   expect_refused([&] { return trial_scenario(none, TrialLaw::di, trial_level("5:10")); }, "bodies");
   Scenario two = engagement();
   two.bodies[1].pilot = two.bodies[0].pilot;
-  expect_refused([&] { return trial_scenario(two, TrialLaw::di, trial_level("5:10")); }, "bodies");
+  two.bodies[0].pilot->sensor.emplace();
+  expect_refused([&] { return trial_scenario(two, TrialLaw::di, trial_level("x2")); }, "--levels");
+  expect_refused([] { return trial_scenario(engagement(), TrialLaw::own, trial_level("x2")); }, "--levels");
   Scenario other = engagement();
   other.bodies[0].pilot->guide.law = guidance::Law::clearance;
   expect_refused([&] { return trial_scenario(other, TrialLaw::di, trial_level("5:10")); }, "law");

@@ -9,6 +9,7 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.patches import Circle, Patch
+from mpl_toolkits.mplot3d import proj3d
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from .bodies import MANY, body_colors, is_planar, lit, outline, polygons, posed, rotation, surface
@@ -64,6 +65,12 @@ def flown(folder: Path) -> Flown:
                  groups(rows(folder, "encounters.csv"), "agent", "obstacle"), rows(folder, "events.csv"),
                  read("proof.json"), read("run.json"), {s["name"]: s for s in read("shapes.json")}, orifices(folder),
                  groups(rows(folder, "orifices.csv"), "agent", "orifice"))
+
+
+def brief(least: float) -> str:
+    """Three digits, rounded down: what is proved stays true."""
+    power = 10.0 ** (2 - np.floor(np.log10(least))) if least > 0 else 1.0
+    return "%.3g" % (np.floor(least * power * (1 + 1e-12)) / power)
 
 
 def draw_pair(axis: Axes, run: Flown, pair: tuple[str, str], values: Array) -> tuple[Any, ...]:
@@ -177,6 +184,77 @@ def frame(space: Axes, extent: Array, zoom: float = 0.95) -> None:
         space.locator_params(axis=name, nbins=5 if sides[i] > 0.5 * sides.max() else 3)
 
 
+def fill(space: Axes, box: tuple[float, float, float, float], highest: float = 55) -> None:
+    """Makes what axes of space show as large as fits into a box (left, bottom, width, height of the figure), in its
+    middle, flat scenes seen from higher up, to `highest` degrees. Numbers and names of the axes stand outside."""
+    left, bottom, width, height = box
+    limits = [getattr(space, "get_%slim" % name)() for name in "xyz"]
+    corners = np.array(np.meshgrid(*limits)).reshape(3, -1)
+    space.patch.set_visible(False)  # the axes' own frame is larger than the box, or it would cut things off
+    around, zoom = np.array([left - width / 2, bottom - height / 2]), 1.0
+    for k in range(12):  # the nearer a part is the more it grows
+        space.set_box_aspect(np.ptp(limits, axis=1), zoom=zoom)
+        space.set_position([*around, 2 * width, 2 * height])
+        space.apply_aspect()
+        x, y, _ = proj3d.proj_transform(*corners, space.get_proj())
+        at = space.figure.transFigure.inverted().transform(space.transData.transform(np.column_stack([x, y])))
+        low, high = at.min(axis=0), at.max(axis=0)
+        if k < 8 and (high - low)[1] / height < 0.9 * (high - low)[0] / width and space.elev < highest - 4:
+            space.view_init(elev=space.elev + 4, azim=space.azim)
+        zoom *= min([width, height] / (high - low))
+        around += [left + width / 2, bottom + height / 2] - (low + high) / 2
+
+
+def nearest(run: Flown) -> Any:
+    """Of the pairs with an agent the one that met first, or came nearest: its proof, when, and what is to be said."""
+    pairs = [p for p in run.proof["pairs"] if {p["a"], p["b"]} & set(run.agents) and p["verdict"] != "undecided"]
+    if not pairs:
+        return None
+    met = [p for p in pairs if p["verdict"] == "touched"]
+    p = min(met, key=lambda p: p["to"]) if met else min(pairs, key=lambda p: p["least_distance"])
+    t = p["to"] if met else p["least_time"]
+    said = "meet" if met else "%s m apart or more, proved" % brief(p["least_distance"])
+    return p, t, "%s and %s\nat %.4g s, to scale:\n%s" % (p["a"], p["b"], t, said)
+
+
+def size(run: Flown, name: str, t: float) -> Any:
+    """Points of a body that is no scan or map, at a time; nothing of those."""
+    shape, row = run.shapes[name], row_at(run.bodies[name], t)
+    if shape["kind"] in WHOLE:
+        return None
+    faces = [posed(f, row) for f in polygons(shape)]
+    return np.vstack(faces) if faces else surface(shape, row).reshape(-1, 3)
+
+
+def close_up(figure: Figure, run: Flown, space: Axes) -> bool:
+    """The nearest pair where its bodies are small among the ways, beside what it shows. Whether there is one."""
+    near = nearest(run)
+    if not near:
+        return False
+    pair, t, said = near
+    shown = [size(run, pair[name], t) for name in ("a", "b")]
+    if any(s is None for s in shown):
+        return False
+    sizes = [np.ptp(s, axis=0).max() for s in shown]
+    whole = max(np.ptp(getattr(space, "get_%slim" % name)()) for name in "xyz")
+    if max(sizes) > 0.05 * whole:
+        return False
+    axes = figure.add_axes([0.02, 0.12, 0.2, 0.2], projection="3d", computed_zorder=False)
+    for name in (pair["a"], pair["b"]):
+        draw_shape(axes, run, name, row_at(run.bodies[name], t), 0.7, 3)
+    extent = np.vstack(shown)
+    frame(axes, extent)
+    middle_point, half = (extent.min(axis=0) + extent.max(axis=0)) / 2, 0.5 * np.ptp(extent, axis=0).max()
+    for name in (pair["a"], pair["b"]):
+        way = np.stack([run.bodies[name][c] for c in "xyz"], axis=-1)
+        way[np.abs(way - middle_point).max(axis=1) > half] = np.nan
+        axes.plot(*way.T, linewidth=0.9, color=run.colors[name], zorder=2)
+    axes.set_axis_off()
+    fill(axes, (0.03, 0.13, 0.22, 0.18), 30)
+    figure.text(0.29, 0.22, said, fontsize=7, va="center", color=GREY)
+    return True
+
+
 def curves_of_ways(axis: Axes, run: Flown, column: str, edge: str, text: str) -> None:
     for i, ((agent, name), w) in enumerate(run.ways.items()):
         axis.plot(w["t"], w[column], color=run.colors[agent], linewidth=1.2, linestyle=("-", "--", "-.", ":")[i % 4],
@@ -203,8 +281,12 @@ def over_time(figure: Figure, run: Flown) -> Any:
         len(wanted), [0.11 + 0.85 / len(wanted) * i for i in range(len(wanted))][::-1])
     panels = dict(zip(wanted, [figure.add_axes([0.66, bottom, 0.32, height]) for bottom in bottoms]))
     drawn = {}
+    proofs = {frozenset((p["a"], p["b"])): p for p in run.proof["pairs"] if p["verdict"] == "avoided"}
     for pair in run.pairs:
         drawn[pair] = draw_pair(panels["m"], run, pair, run.encounters[pair]["m"])
+        if p := proofs.get(frozenset(pair)):  # m is what would come of straight ways; this is what came
+            panels["m"].plot(p["least_time"], p["least_distance"], "o", color=run.colors[pair[0] if len(run.agents) > 1 else pair[1]],
+                             markersize=4.5, markeredgecolor=run.colors[pair[1]], zorder=5, clip_on=False)
         for way in (pair, pair[::-1]) if has_y else ():
             if way in run.encounters:
                 draw_pair(panels["y"], run, way, run.encounters[way]["y"])
@@ -248,6 +330,9 @@ def legend(figure: Figure, run: Flown, drawn: Any) -> None:
         named.append((plt.Line2D([], [], color=GREY if several else run.colors[goal["agent"]], marker="*", markersize=7,
                                  linestyle=""),
                       "goals, each in its agent's colour" if several else "goal of " + goal["agent"]))
+    if run.pairs and any(p["verdict"] == "avoided" for p in run.proof["pairs"]):
+        named.append((plt.Line2D([], [], color=GREY, marker="o", markersize=4.5, linestyle=""),
+                      "least distance, proved"))
     if named:
         figure.legend(*zip(*named), loc="lower left", bbox_to_anchor=(0.01, 0.0), ncol=3, frameon=False, fontsize=6.5,
                       handlelength=1.8, columnspacing=1.2, labelspacing=0.3)
@@ -285,9 +370,14 @@ def picture(run: Flown) -> Any:
     else:
         space = figure.add_axes([0.0, 0.12, 0.53, 0.82], projection="3d", computed_zorder=False)
         ways_in_space(space, run)
+        low = 0.37 if close_up(figure, run, space) else 0.2
+        fill(space, (0.04, low, 0.47, 0.9 - low), 40 if run.rims else 55)
+        for axis, pad in ((space.xaxis, 8), (space.yaxis, 7), (space.zaxis, -3)):
+            axis.labelpad = pad
     verdict = run.run["verdict"]
-    figure.text(0.01, 0.985, "%s: %s%s" % (run.run["scenario"], verdict, "" if verdict == "undecided" else ", proved"),
-                fontsize=9, va="top")
+    kept = [p["least_distance"] for p in run.proof["pairs"] if p["verdict"] == "avoided"]
+    said = {"undecided": "", "avoided": ", proved%s" % (": %s m apart or more" % brief(min(kept)) if kept else "")}
+    figure.text(0.01, 0.985, "%s: %s%s" % (run.run["scenario"], verdict, said.get(verdict, ", proved")), fontsize=9, va="top")
     figure.text(0.01, 0.945, "bodies at t = %s s, later ones darker" % ", ".join("%.3g" % t for t in run.instants),
                 fontsize=7, va="top", color=GREY)
     panels, drawn = over_time(figure, run)

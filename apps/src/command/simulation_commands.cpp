@@ -59,16 +59,19 @@ int reach_command(CommandLine& line) {
 
 int trials_command(CommandLine& line) {
   trials::TrialsOptions trials;
-  line.option("scenario", trials.scenario, "Scenario file, YAML: one body with a pilot that avoids")
-      .required();
+  line.option("scenario", trials.scenario, "Scenario file, YAML").required();
   line.option("-N,--trials", trials.trials, "Trials of every law at every level");
   line.option(
           "--levels", trials.levels,
-          "Noise: percent of position and of velocity, 7.5:15, or the scenario's sensor times a number, x4")
-      .commas();
-  line.option("--laws", trials.laws,
-              "di, di-filter, rdi, rdi-filter, di-rates, di-analytic, di-state, di-margin, clearance, robust")
-      .commas();
+          "Noise: percent of position and of velocity, 7.5:15, or the scenario's sensors times a number, x4")
+      .commas()
+      .shown_default("5:10,7.5:15,10:20 of one pilot that avoids, otherwise x1");
+  line.option(
+          "--laws", trials.laws,
+          "di, di-filter, rdi, rdi-filter, di-rates, di-analytic, di-state, di-margin, clearance, robust, "
+          "own (as the scenario has them)")
+      .commas()
+      .shown_default("di,di-filter,rdi,rdi-filter of one pilot that avoids, otherwise own");
   line.option("--seed", trials.seed, "Seed of all noise").shown_default("that of the scenario");
   line.option("--trial", trials.trial, "This trial alone, printed");
   line.flag("--random", trials.random,

@@ -6,7 +6,8 @@
 
 namespace vericone {
 
-/// One line on standard error, rewritten on a terminal, elsewhere printed once a step.
+/// One line on standard error, rewritten on a terminal; elsewhere printed once a step, and again with the
+/// share that is done while a step takes long.
 class Progress {
  public:
   explicit Progress(bool quiet);

@@ -41,9 +41,11 @@ const PassageProof* passage_of(const Run& run, std::size_t agent, std::size_t or
   return it == run.passages.end() ? nullptr : &it->proof;
 }
 
-bool any_vehicle(const Scenario& scenario, const std::vector<AgentReach>& agents) {
-  return std::any_of(agents.begin(), agents.end(),
-                     [&](const AgentReach& a) { return scenario.bodies[a.agent].vehicle != nullptr; });
+bool any_carried(const Scenario& scenario, const std::vector<AgentReach>& agents) {
+  return std::any_of(agents.begin(), agents.end(), [&](const AgentReach& a) {
+    const auto& vehicle = scenario.bodies[a.agent].vehicle;
+    return vehicle && vehicle->carried();
+  });
 }
 
 /// Nothing where it was interrupted.
@@ -54,6 +56,7 @@ std::optional<Flown> fly(const Scenario& scenario, const std::vector<AgentReach>
   run_options.log = false;
   const std::string what = "simulating " + scenario.name;
   run_options.progress = [&](double t) { return progress.show(what, t / scenario.duration); };
+  run_options.proving = [&](double share) { return progress.show("proving " + scenario.name, share); };
   Flown flown{simulate(scenario, run_options), {}, {}};
   if (flown.run.interrupted) return std::nullopt;
   if (!options.current) return flown;
@@ -63,7 +66,7 @@ std::optional<Flown> fly(const Scenario& scenario, const std::vector<AgentReach>
   const Run run = scenario.stop_when_passed ? simulate(whole, run_options) : flown.run;
   if (run.interrupted) return std::nullopt;
   flown.drift = largest_drift(whole, run);
-  if (!any_vehicle(scenario, agents)) return flown;
+  if (!any_carried(scenario, agents)) return flown;
   for (int i = 0; i < options.directions; ++i) {
     const double azimuth = 2 * std::numbers::pi * i / options.directions;
     bool going = true;

@@ -24,12 +24,19 @@ std::string brief(double x) {
   return text;
 }
 
-void print_bodies(const Scenario& scenario, std::ostream& out) {
+/// Where that is more than its law may command: by a vehicle, on the way to a goal, or to hold a speed.
+std::string reached_text(const simulation::Body& body, const Track& track) {
+  const double reached = track.most_acceleration(), most = most_commanded(*body.pilot);
+  return reached > most * (1 + 1e-9) ? "; reached up to " + at_most_text(reached, 4) + " m/s^2" : "";
+}
+
+void print_bodies(const Scenario& scenario, const Run& run, std::ostream& out) {
   std::string others;
   bool first = true;
-  for (const simulation::Body& body : scenario.bodies) {
+  for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
+    const simulation::Body& body = scenario.bodies[i];
     if (body.pilot) {
-      print_line(out, first ? "agents" : "", agent_text(scenario, body));
+      print_line(out, first ? "agents" : "", agent_text(scenario, body) + reached_text(body, run.tracks[i]));
       first = false;
     } else {
       others.append(others.empty() ? "" : ", ").append(body.name);
@@ -39,6 +46,8 @@ void print_bodies(const Scenario& scenario, std::ostream& out) {
   if (!others.empty()) print_line(out, "other bodies", others);
 }
 
+bool placed(const simulation::Body& body) { return body.shape.rigid() && body.shape.rigid()->placed(); }
+
 std::string event_text(const Scenario& scenario, const Event& event) {
   const std::string agent = scenario.bodies[event.agent].name, other = obstacle_of(scenario, event);
   const std::string unit = unit_of(scenario, event);
@@ -46,15 +55,20 @@ std::string event_text(const Scenario& scenario, const Event& event) {
     case EventKind::appears:
       return agent + " appears";
     case EventKind::enters_cone:
-      if (unit == "m" && event.value >= 0)
-        return agent + " is on course to pass " + other + " at " + brief(event.value) + " m, nearer than " +
-               brief(scenario.bodies[event.agent].pilot->guide.clearance.required) + " m";
+      if (unit == "m" && event.value >= 0) {
+        const std::string now = brief(event.value),
+                          required = brief(scenario.bodies[event.agent].pilot->guide.clearance.required);
+        return agent + " is on course to pass " + other + " nearer than " + required + " m" +
+               (now == required ? "" : ", at " + now + " m");
+      }
       return agent + " is on course to meet " + other;
     case EventKind::leaves_cone:
       if (unit == "m") return agent + " is on course to pass " + other + " at " + brief(event.value) + " m";
       return agent + " leaves the cone of " + other;
     case EventKind::passes:
-      return agent + " passes " + other + ", centres " + brief(event.value) + " m apart";
+      return agent + " passes " + other +
+             (placed(scenario.bodies[event.obstacle]) ? ", its middle " + brief(event.value) + " m away"
+                                                      : ", centres " + brief(event.value) + " m apart");
     case EventKind::aligned:
       return agent + " points at its goal";
     case EventKind::reaches_goal:
@@ -71,6 +85,8 @@ std::string event_text(const Scenario& scenario, const Event& event) {
   }
   return "";
 }
+
+std::string milliseconds(double seconds) { return number_text(1e3 * seconds, 2) + " ms"; }
 
 std::string not_kept(const PairOutcome& pair) {
   if (pair.kept()) return "";
@@ -93,18 +109,9 @@ std::string verdict_text(const Scenario& scenario, const Run& run) {
          pair.proof.least_distance - pair.required < worst->proof.least_distance - worst->required))
       worst = &pair;
   if (worst != nullptr) text += not_kept(*worst);
-  for (const auto why : {NotChecked::Why::uncertain, NotChecked::Why::together}) {
-    const auto count = std::count_if(run.not_checked.begin(), run.not_checked.end(),
-                                     [&](const NotChecked& pair) { return pair.why == why; });
-    if (count == 0) continue;
+  if (const std::size_t count = run.not_checked.size(); count > 0)
     text += "; not checked: " + std::to_string(count) + (count == 1 ? " pair" : " pairs") +
-            (why == NotChecked::Why::together ? " that do not move against each other"
-                                              : " without a certified predicate");
-    if (why == NotChecked::Why::uncertain)
-      for (const NotChecked& pair : run.not_checked)
-        if (pair.why == why)
-          text += " (" + scenario.bodies[pair.a].name + ", " + scenario.bodies[pair.b].name + ")";
-  }
+            " that do not move against each other";
   return text;
 }
 
@@ -207,7 +214,15 @@ void print_pairs(const Scenario& scenario, const Run& run, std::ostream& out) {
                  " of them avoided, proved: proof.json");
 }
 
-std::string through_text(const std::string& agent, const Through& through) {
+/// A vehicle does not carry out at once what it is told, and may go beyond it.
+std::string most_text(const simulation::Body& body) {
+  const double most = most_commanded(*body.pilot);
+  return std::isfinite(most) ? (body.vehicle ? ", commands at most " : ", at most ") + brief(most) + " m/s^2"
+                             : "";
+}
+
+std::string through_text(const Scenario& scenario, const std::string& agent, const Through& through,
+                         const std::string& most) {
   const bool ours = through.law == Through::Law::passage;
   std::string text = agent + ": " + to_string(through.law) + " through ";
   for (std::size_t i = 0; i < through.orifices.size(); ++i)
@@ -215,9 +230,7 @@ std::string through_text(const std::string& agent, const Through& through) {
   text += ours ? ", " + brief(through.passage.margin) + " m from the rim"
                : ", w " + brief(through.source.reference) + " m^2";
   text += ", gain " + brief(ours ? through.passage.gain : through.source.gain) + "/s";
-  if (const double most = ours ? through.passage.most : through.source.most; std::isfinite(most))
-    text += ", at most " + brief(most) + " m/s^2";
-  return text;
+  return text + most + (scenario.bodies.size() > 1 ? "; sees no bodies" : "");
 }
 
 }  // namespace
@@ -225,7 +238,8 @@ std::string through_text(const std::string& agent, const Through& through) {
 std::string agent_text(const Scenario& scenario, const simulation::Body& body) {
   const Pilot& pilot = *body.pilot;
   const guidance::GuideOptions& guide = pilot.guide;
-  if (pilot.through) return through_text(body.name, *pilot.through);
+  const std::string most = most_text(body);
+  if (pilot.through) return through_text(scenario, body.name, *pilot.through, most);
   std::string text = body.name + ": " + guidance::to_string(guide.law);
   if (guide.law == guidance::Law::clearance) {
     text += " to " + brief(guide.clearance.required) + " m";
@@ -234,7 +248,7 @@ std::string agent_text(const Scenario& scenario, const simulation::Body& body) {
             " sector, " + guidance::to_string(guide.plane.choice);
   }
   text += guarded(pilot) ? ", guarded" : ", gain " + brief(guide.inversion.gain) + "/s";
-  if (std::isfinite(guide.inversion.most)) text += ", at most " + brief(guide.inversion.most) + " m/s^2";
+  text += most;
   std::string minds;
   for (const std::string& name : pilot.minds) minds.append(minds.empty() ? "; minds " : ", ").append(name);
   return text + (scenario.bodies.size() > 2 ? minds : "");
@@ -285,10 +299,16 @@ void print_run(const Scenario& scenario, const Run& run, double seconds, std::os
   print_line(out, "verdict", verdict_text(scenario, run));
   print_pairs(scenario, run, out);
   print_passages(scenario, run, out);
-  print_bodies(scenario, out);
+  print_bodies(scenario, run, out);
   print_line(out, "time",
              brief(run.end) + " s in steps of " + brief(scenario.step) + " s, computed and proved in " +
                  number_text(seconds, 2) + " s: " + number_text(run.end / seconds, 4) + " times real time");
+  if (run.times.decisions > 0)
+    print_line(out, "time of decisions",
+               "mean " + milliseconds(run.times.mean) + ", 99 % within " + milliseconds(run.times.within) +
+                   ", worst " + milliseconds(run.times.worst) + ", of " +
+                   std::to_string(run.times.decisions) + "; proofs " + number_text(run.times.proofs, 2) +
+                   " s");
   for (const VehicleBeyond& beyond : run.limits_broken)
     print_line(out, "beyond its limits",
                scenario.bodies[beyond.body].name + " at " + brief(beyond.broken.t) +

@@ -42,6 +42,7 @@ int run_simulate(const SimulateOptions& options, std::ostream& out) {
     simulation::RunOptions run_options;
     const std::string what = "simulating " + scenario.name;
     run_options.progress = [&](double t) { return progress.show(what, t / scenario.duration); };
+    run_options.proving = [&](double share) { return progress.show("proving " + scenario.name, share); };
     const auto start = Clock::now();
     run = simulation::simulate(scenario, run_options);
     seconds = seconds_since(start);

@@ -36,10 +36,26 @@ struct Cell {
   Scenario scenario;
 };
 
+/// What is flown where no options say it: the source's laws and levels where they have one pilot to change,
+/// otherwise the scenario as it is.
+TrialsOptions complete(TrialsOptions options, const Scenario& scenario) {
+  std::size_t pilots = 0, avoids = 0;
+  for (const simulation::Body& body : scenario.bodies) {
+    pilots += body.pilot.has_value();
+    avoids += body.pilot && !body.pilot->through && body.pilot->guide.law == guidance::Law::avoidance;
+  }
+  const bool source = pilots == 1 && avoids == 1;
+  if (options.laws.empty())
+    options.laws = source ? std::vector<std::string>{"di", "di-filter", "rdi", "rdi-filter"}
+                          : std::vector<std::string>{to_string(TrialLaw::own)};
+  if (options.levels.empty())
+    options.levels =
+        source ? std::vector<std::string>{"5:10", "7.5:15", "10:20"} : std::vector<std::string>{"x1"};
+  return options;
+}
+
 std::vector<Cell> cells_of(const TrialsOptions& o, Scenario scenario) {
   if (o.seed) scenario.seed = *o.seed;
-  if (o.levels.empty()) throw InputError("--levels", "nothing", "one level or more, such as 7.5:15");
-  if (o.laws.empty()) throw InputError("--laws", "nothing", "one law or more, such as di,rdi");
   const auto once = [](const std::vector<std::string>& words, const char* option) {
     for (const std::string& word : words)
       if (std::count(words.begin(), words.end(), word) > 1) throw InputError(option, word, "given once");
@@ -77,8 +93,21 @@ Scenario with_random_bodies(Scenario scenario, std::uint64_t trial) {
   return scenario;
 }
 
+bool noisy(const std::vector<Cell>& cells) {
+  return std::any_of(cells.begin(), cells.end(), [](const Cell& cell) {
+    return std::any_of(cell.scenario.bodies.begin(), cell.scenario.bodies.end(),
+                       [](const simulation::Body& body) { return body.pilot && body.pilot->sensor; });
+  });
+}
+
 TrialOutcome fly(const Cell& cell, std::uint64_t trial, bool random) {
   return fly_trial(random ? with_random_bodies(cell.scenario, trial) : cell.scenario, trial);
+}
+
+/// What became of it.
+std::string word_of(const TrialOutcome& outcome) {
+  const bool missed = outcome.verdict == ProofVerdict::avoided && outcome.missed;
+  return missed ? to_string(PassageVerdict::missed) : to_string(outcome.verdict);
 }
 
 std::string header_of(const std::vector<Cell>& cells) {
@@ -95,8 +124,7 @@ std::string row_of(const std::vector<Cell>& cells, std::uint64_t trial, bool ran
   for (const Cell& cell : cells) {
     const TrialOutcome o = fly(cell, trial, random);
     const bool avoided = o.verdict == ProofVerdict::avoided;
-    row += std::string(",") + to_string(o.verdict) + "," + (avoided ? to_text(o.least_distance) : "") + "," +
-           to_text(o.effort);
+    row += "," + word_of(o) + "," + (avoided ? to_text(o.least_distance) : "") + "," + to_text(o.effort);
   }
   return row;
 }
@@ -104,7 +132,7 @@ std::string row_of(const std::vector<Cell>& cells, std::uint64_t trial, bool ran
 /// What became of the trials of a cell.
 struct Column {
   std::unique_ptr<bool[]> avoided;
-  std::uint64_t count = 0, touched = 0, undecided = 0;
+  std::uint64_t count = 0, touched = 0, undecided = 0, missed = 0;
   double effort = 0, distance = 0;  // sums
 };
 
@@ -126,8 +154,9 @@ std::vector<Column> read_rows(const fs::path& file, std::size_t cells, std::uint
       column.count += column.avoided[i];
       column.touched += verdict == to_string(ProofVerdict::touched);
       column.undecided += verdict == to_string(ProofVerdict::undecided);
+      column.missed += verdict == to_string(PassageVerdict::missed);
       column.effort += std::stod(effort);
-      if (!distance.empty()) column.distance += std::stod(distance);
+      if (column.avoided[i]) column.distance += std::stod(distance);
     }
   }
   return columns;
@@ -149,6 +178,7 @@ Json summarise(const TrialsOptions& o, const std::vector<Cell>& cells, const std
                       {"undecided", c.undecided},
                       {"effort", c.effort / n},
                       {"least_distance", c.count ? Json(c.distance / double(c.count)) : Json(nullptr)}});
+    if (!cells[i].scenario.orifices.empty()) shares.back()["missed"] = c.missed;
     for (std::size_t j = i + 1; j < cells.size() && cells[j].level.name == cells[i].level.name; ++j) {
       const Paired p = paired({c.avoided.get(), o.trials}, {columns[j].avoided.get(), o.trials});
       pairs.push_back({{"level", cells[i].level.name},
@@ -175,6 +205,9 @@ void print_summary(const Json& summary, std::ostream& out) {
                   static_cast<unsigned long long>(s["undecided"].get<std::uint64_t>()),
                   s["effort"].get<double>());
     out << line;
+    if (s.contains("missed"))
+      out << "                           openings missed in " << s["missed"].get<std::uint64_t>()
+          << " of those left\n";
   }
 }
 
@@ -192,7 +225,7 @@ int print_one(const TrialsOptions& o, const std::vector<Cell>& cells, std::ostre
     results.push_back({{"trial", *o.trial},
                        {"level", cell.level.name},
                        {"law", to_string(cell.law)},
-                       {"verdict", to_string(outcome.verdict)},
+                       {"verdict", word_of(outcome)},
                        {"least_distance", avoided ? Json(outcome.least_distance) : Json(nullptr)},
                        {"effort", outcome.effort}});
   }
@@ -217,10 +250,11 @@ int print_one(const TrialsOptions& o, const std::vector<Cell>& cells, std::ostre
 
 }  // namespace
 
-int run_trials(const TrialsOptions& options, std::ostream& out) {
-  if (options.trials < 1 || options.trials > 10'000'000)
-    throw InputError("--trials", std::to_string(options.trials), "between 1 and 10000000");
-  const Scenario scenario = scenario::read_scenario(options.scenario);
+int run_trials(const TrialsOptions& given, std::ostream& out) {
+  if (given.trials < 1 || given.trials > 10'000'000)
+    throw InputError("--trials", std::to_string(given.trials), "between 1 and 10000000");
+  const Scenario scenario = scenario::read_scenario(given.scenario);
+  const TrialsOptions options = complete(given, scenario);
   const std::vector<Cell> cells = cells_of(options, scenario);
   if (options.trial) return print_one(options, cells, out);
   StagedFolder folder(options.out, "--out");
@@ -257,6 +291,7 @@ int run_trials(const TrialsOptions& options, std::ostream& out) {
     return 0;
   }
   print_summary(summary, out);
+  if (!noisy(cells)) out << "no pilot has a sensor: all trials are the same flight\n";
   const fs::path shown = options.out;
   out << "tables    " << (shown / table.name).string() << ", " << (shown / "trials.json").string() << '\n';
   for (const fs::path& picture : pictures_of(files)) out << "picture   " << picture.string() << '\n';

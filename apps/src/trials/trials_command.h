@@ -13,10 +13,9 @@ struct TrialsOptions {
   std::string scenario;
   std::string out = "out/trials";
   std::uint64_t trials = 1000;
-  std::vector<std::string> levels{"5:10", "7.5:15", "10:20"};
-  std::vector<std::string> laws{"di", "di-filter", "rdi", "rdi-filter"};
-  std::optional<std::uint64_t> seed;   // otherwise the scenario's
-  std::optional<std::uint64_t> trial;  // this one alone: nothing is written
+  std::vector<std::string> levels, laws;  // none: as complete() says
+  std::optional<std::uint64_t> seed;      // otherwise the scenario's
+  std::optional<std::uint64_t> trial;     // this one alone: nothing is written
   bool random = false;  // another random engagement each trial in place of the scenario's bodies
   int threads = 0;      // one per processor
   bool figures = true;
@@ -25,8 +24,8 @@ struct TrialsOptions {
   std::string command_line;
 };
 
-/// Shares of trials that are proved avoided, by law and noise. Returns the exit status, 130 interrupted.
-/// Throws InputError naming the option or the field.
+/// Shares of trials that are proved avoided (and all openings passed), by law and noise. Returns the exit
+/// status, 130 interrupted. Throws InputError naming the option or the field.
 int run_trials(const TrialsOptions& options, std::ostream& out);
 
 }  // namespace vericone::trials

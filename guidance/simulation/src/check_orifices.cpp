@@ -11,18 +11,23 @@
 namespace vericone::simulation {
 namespace {
 
-void require_finite(const Eigen::Vector3d& value, const char* field, const char* unit) {
+/// Where it will be, and how far from where, is reckoned with: nothing is to overflow on the way.
+void require_within(const Eigen::Vector3d& value, double most, const char* field, const char* unit) {
   if (!value.allFinite())
     throw InputError(field, "a number that is not finite", std::string("finite") + unit);
+  for (int i = 0; i < 3; ++i)
+    if (!(std::abs(value[i]) <= most))
+      throw InputError(std::string(field) + "[" + std::to_string(i) + "]", to_text(value[i]),
+                       "between -" + to_text(most) + " and " + to_text(most) + unit);
 }
 
 void check_orifice(const MovingOrifice& orifice, double duration) {
   if (!(orifice.appears >= 0) || !(orifice.appears < duration))
     throw InputError("appears", to_text(orifice.appears),
                      "0 or more, before the end, duration = " + to_text(duration));
-  require_finite(orifice.position, "position", " (m)");
-  require_finite(orifice.velocity, "velocity", " (m/s)");
-  require_finite(orifice.spin, "spin", " (rad/s)");
+  require_within(orifice.position, 1e12, "position", " (m)");
+  require_within(orifice.velocity, 1e9, "velocity", " (m/s)");
+  require_within(orifice.spin, 1e9, "spin", " (rad/s)");
   const Eigen::Matrix3d off = orifice.rotation.transpose() * orifice.rotation - Eigen::Matrix3d::Identity();
   if (!(off.cwiseAbs().maxCoeff() < 1e-9) || !(orifice.rotation.determinant() > 0))
     throw InputError("rotation", "a matrix", "a rotation");
@@ -98,6 +103,10 @@ void check_through(const Through& through, const Body& self, const Scenario& sce
     throw InputError("margin", to_text(through.passage.margin), "a finite number, 0 or more (m)");
   if (!(through.passage.beyond >= 0) || !std::isfinite(through.passage.beyond))
     throw InputError("beyond", to_text(through.passage.beyond), "a finite number, 0 or more (m)");
+  if (scenario.bodies.size() > 1 && !through.minds_none)
+    throw InputError("minds", "nothing",
+                     "[] beside other bodies: the law " + std::string(to_string(through.law)) +
+                         " sees none of them, and may meet them");
 }
 
 }  // namespace vericone::simulation

@@ -26,6 +26,7 @@ Current::Current(const Vector3d& uniform, const Shear& shear, const Gusts& gusts
     throw InputError("gusts.longest", to_text(gusts.longest),
                      "not below gusts.shortest, " + to_text(gusts.shortest) + " s");
   if (gusts.most == 0) return;
+  shortest_ = gusts.shortest;
   // The stream of the gusts: no pair of bodies has this number.
   const Draw draw{gusts.seed, 0, ~std::uint64_t{0}, 0};
   using std::numbers::pi;

@@ -52,19 +52,21 @@ bool Engagement::inside() const {
 }
 
 /// Where the law had nothing to say, the log still tells y and psi on the plane that it would have chosen.
-void Engagement::look(const guidance::BodyState& a, const guidance::BodyState& b, EncounterSample& sample) {
+/// False where there is no cone.
+bool Engagement::look(const guidance::BodyState& a, const guidance::BodyState& b, EncounterSample& sample) {
   const guidance::GuideOptions& guide = pilot_->guide;
   const auto across = guidance::choose_plane(a, b, guide.sector, guide.plane, looked_ ? &*looked_ : nullptr);
   looked_ = across;
-  if (!across) return;
+  if (!across) return false;
   const auto view = guidance::plane_view(a, b, *across, guide.sector, guidance::RateMethod::none);
-  if (!view) return;
+  if (!view) return false;
   const guidance::ConeRates rates = guidance::cone_rates(view->state, view->cone);
   sample.step.across = view->across;
   sample.step.y = rates.y;
   sample.step.v_r_hat = rates.v_r_hat;
   sample.step.psi = view->cone.psi;
   sample.step.theta_b = view->cone.theta_b;
+  return true;
 }
 
 EncounterSample Engagement::sample(const guidance::BodyState& a, const guidance::BodyState& b, double t,
@@ -82,7 +84,8 @@ EncounterSample Engagement::sample(const guidance::BodyState& a, const guidance:
   if (step_) sample.step = *step_;
   if (passed_) sample.step.status = LawStatus::receding;
   // Of an agent with a sensor the log tells the truth; what it measured stands beside it.
-  if (sample.cone && (!demands() || pilot_->sensor)) look(a, b, sample);
+  if (sample.cone && (!demands() || pilot_->sensor) && !look(a, b, sample) && pilot_->sensor)
+    sample.cone = false;
   if (!sample.cone)
     sample.step.y = sample.step.psi = sample.step.theta_b = std::numeric_limits<double>::quiet_NaN();
   if (sample.step.across.any()) {

@@ -36,7 +36,7 @@ class Engagement {
                            const Observed& observed);
 
  private:
-  void look(const guidance::BodyState& a, const guidance::BodyState& b, EncounterSample& sample);
+  [[nodiscard]] bool look(const guidance::BodyState& a, const guidance::BodyState& b, EncounterSample& sample);
 
   std::size_t agent_, obstacle_;
   const Pilot* pilot_;

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engagement.h"
 #include "observer.h"
@@ -19,12 +20,6 @@ namespace {
 
 using Eigen::Vector3d;
 using guidance::BodyState;
-
-std::size_t index_of(const Scenario& scenario, const std::string& name) {
-  const auto it = std::find_if(scenario.bodies.begin(), scenario.bodies.end(),
-                               [&](const Body& body) { return body.name == name; });
-  return std::size_t(it - scenario.bodies.begin());
-}
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -96,6 +91,7 @@ class Runner {
     reached_.assign(scenario.bodies.size(), false);
     states_.resize(scenario.bodies.size());
     accelerations_.assign(scenario.bodies.size(), Vector3d::Zero());
+    spent_.assign(scenario.bodies.size(), 0);
   }
 
   Run run() {
@@ -120,7 +116,9 @@ class Runner {
     }
     for (std::size_t i = 0; i < vehicles_.size(); ++i)
       if (vehicles_[i] && vehicles_[i]->broken()) run_.limits_broken.push_back({i, *vehicles_[i]->broken()});
+    summarise(decisions_, run_.times);
     if (options_.prove && !run_.interrupted) {
+      const Timed timed(run_.times.proofs);
       prove_pairs();
       prove_passages();
     }
@@ -165,12 +163,18 @@ class Runner {
       if (!present(e.agent(), t) || !present(e.obstacle(), t)) continue;
       if (!f.seen) f.gone = passing_rate(f, t) >= 0;
       f.seen = true;
-      observe(f, t);
+      {
+        const Timed timed(spent_[e.agent()]);
+        observe(f, t);
+      }
       crossed_cone(f, t);
     }
     ++command_;
-    for (std::size_t i = 0; i < scenario_.bodies.size(); ++i)
-      if (scenario_.bodies[i].pilot && present(i, t)) command(i, t, to);
+    for (std::size_t i = 0; i < scenario_.bodies.size(); ++i) {
+      if (!scenario_.bodies[i].pilot || !present(i, t)) continue;
+      command(i, t, to);
+      decisions_.push_back(std::exchange(spent_[i], 0));
+    }
     for (std::size_t i = 0; i < run_.tracks.size(); ++i)
       if (present(i, t)) move(i, t, to);
     for (Followed& f : engagements_) passing(f, t, to);
@@ -227,12 +231,22 @@ class Runner {
   }
 
   void command(std::size_t agent, double t, double to) {
+    const Followed* attended = nullptr;
+    {
+      const Timed timed(spent_[agent]);
+      attended = decide(agent, t, to);
+    }
+    if (options_.log) log(agent, t, attended);
+  }
+
+  /// The command, and the obstacle that it is about.
+  const Followed* decide(std::size_t agent, double t, double to) {
     const Pilot& pilot = *scenario_.bodies[agent].pilot;
+    const Followed* attended = nullptr;
     if (throughs_[agent] && !throughs_[agent]->done()) {
       if (throughs_[agent]->sees(t)) command_through(*throughs_[agent], t);
-      return;
+      return attended;
     }
-    const Followed* attended = nullptr;
     for (const Followed& f : engagements_) {
       if (f.engagement.agent() != agent || !present(f.engagement.obstacle(), t) || !f.engagement.demands())
         continue;
@@ -252,7 +266,11 @@ class Runner {
       if (homing.aligned && !aligned_[agent]) event({to, EventKind::aligned, agent, agent, 0});
       aligned_[agent] = homing.aligned;
     }
-    if (!options_.log) return;
+    return attended;
+  }
+
+  void log(std::size_t agent, double t, const Followed* attended) {
+    const Pilot& pilot = *scenario_.bodies[agent].pilot;
     for (Followed& f : engagements_) {
       if (f.engagement.agent() != agent || !present(f.engagement.obstacle(), t)) continue;
       const BodyState &a = states_[agent], &b = states_[f.engagement.obstacle()];
@@ -345,9 +363,9 @@ class Runner {
     if (inside != f.inside && !f.has_passed) {
       const bool metres = guide.law == guidance::Law::clearance;
       const double when = first || !closing ? t : sign_change(beyond, before_, t);
-      const double value = metres    ? guide.clearance.required
-                           : !inside ? guide.inversion.cease
-                                     : f.engagement.sample(a, b, t, false).step.y;
+      const double value = !inside  ? (metres ? guide.clearance.required : guide.inversion.cease)
+                           : metres ? guidance::law_clearance(a, b)
+                                    : f.engagement.sample(a, b, t, false).step.y;
       if (inside || closing)
         event({when, inside ? EventKind::enters_cone : EventKind::leaves_cone, i, j, value});
     }
@@ -363,7 +381,7 @@ class Runner {
     if (!f.gone) return;
     if (!before) {
       const double when = sign_change([&](double s) { return passing_rate(f, s); }, t, to);
-      event({when, EventKind::passes, i, j, (b.motion(when).position - a.motion(when).position).norm()});
+      event({when, EventKind::passes, i, j, f.passage->between(a, b, when).norm()});
     }
     f.has_passed = true;
   }
@@ -419,23 +437,27 @@ class Runner {
     });
   }
 
+  /// Whether there is to be another proof.
+  bool another() {
+    const double n = double(run_.tracks.size()),
+                 all = n * (n - 1) / 2 + n * double(scenario_.orifices.size());
+    if (!run_.interrupted && options_.proving && !options_.proving(double(asked_++) / all))
+      run_.interrupted = true;
+    return !run_.interrupted;
+  }
+
   void prove_pairs() {
     for (std::size_t i = 0; i < run_.tracks.size(); ++i)
       for (std::size_t j = i + 1; j < run_.tracks.size(); ++j) {
+        if (!another()) return;
         const double from = std::max(run_.tracks[i].appears(), run_.tracks[j].appears());
         if (!(from < run_.end)) continue;
         if (move_together(i, j)) {
-          run_.not_checked.push_back({i, j, NotChecked::Why::together});
+          run_.not_checked.push_back({i, j});
           continue;
         }
         PairOutcome outcome{i, j, {}, std::max(required(i, j), required(j, i))};
-        try {
-          outcome.proof = prove(run_.tracks[i], run_.tracks[j], from, run_.end, scenario_.proof);
-        } catch (const InputError& e) {
-          if (flown(i) || flown(j) || e.field() != "bodies") throw;
-          run_.not_checked.push_back({i, j, NotChecked::Why::uncertain});
-          continue;
-        }
+        outcome.proof = prove(run_.tracks[i], run_.tracks[j], from, run_.end, scenario_.proof);
         if (outcome.proof.verdict == ProofVerdict::touched)
           event({outcome.proof.to, EventKind::contact, i, j, outcome.proof.from});
         run_.proofs.push_back(outcome);
@@ -446,6 +468,7 @@ class Runner {
     for (std::size_t i = 0; i < run_.tracks.size(); ++i) {
       if (!flown(i) || !(run_.tracks[i].appears() < run_.end)) continue;
       for (std::size_t k = 0; k < scenario_.orifices.size(); ++k) {
+        if (!another()) return;
         const MovingOrifice& orifice = scenario_.orifices[k];
         const double from = std::max(run_.tracks[i].appears(), orifice.appears);
         const auto& pilot = scenario_.bodies[i].pilot;
@@ -487,38 +510,14 @@ class Runner {
   std::vector<std::optional<ThroughFlight>> throughs_;
   std::vector<BodyState> minded_;
   std::vector<std::size_t> indices_;
+  std::vector<double> spent_, decisions_;  // s: at this command by each agent, and all that are done
   double before_ = -1;
   std::uint64_t command_ = 0;  // number of the command, from 0
+  std::size_t asked_ = 0;      // proofs that were come to
   bool done_ = false;
 };
 
 }  // namespace
-
-const char* to_string(EventKind kind) {
-  switch (kind) {
-    case EventKind::appears:
-      return "appears";
-    case EventKind::enters_cone:
-      return "enters-cone";
-    case EventKind::leaves_cone:
-      return "leaves-cone";
-    case EventKind::passes:
-      return "passes";
-    case EventKind::aligned:
-      return "aligned";
-    case EventKind::reaches_goal:
-      return "reaches-goal";
-    case EventKind::contact:
-      return "contact";
-    case EventKind::cannot_avoid:
-      return "cannot-avoid";
-    case EventKind::goes_through:
-      return "goes-through";
-    case EventKind::goes_beside:
-      return "goes-beside";
-  }
-  return "?";
-}
 
 ProofVerdict Run::verdict() const {
   ProofVerdict worst = ProofVerdict::avoided;
@@ -536,26 +535,6 @@ ProofVerdict Run::verdict() const {
 Run simulate(const Scenario& scenario, const RunOptions& options) {
   check(scenario);
   return Runner(scenario, options).run();
-}
-
-std::optional<Event> find_event(const Scenario& scenario, const Run& run, EventKind kind,
-                                const std::string& agent, const std::string& obstacle, double after) {
-  const std::size_t i = index_of(scenario, agent), j = index_of(scenario, obstacle);
-  for (const Event& event : run.events)
-    if (event.kind == kind && event.agent == i && event.obstacle == j && event.t >= after) return event;
-  return std::nullopt;
-}
-
-std::optional<EncounterSample> sample_at(const Scenario& scenario, const Run& run, const std::string& agent,
-                                         const std::string& obstacle, double t) {
-  const std::size_t i = index_of(scenario, agent), j = index_of(scenario, obstacle);
-  std::optional<EncounterSample> nearest;
-  for (const EncounterSample& sample : run.encounters)
-    if (sample.agent == i && sample.obstacle == j &&
-        (!nearest || std::abs(sample.t - t) < std::abs(nearest->t - t)))
-      nearest = sample;
-  if (nearest && !(std::abs(nearest->t - t) <= scenario.step * (1 + 1e-9))) nearest.reset();
-  return nearest;
 }
 
 }  // namespace vericone::simulation

@@ -1,10 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run_events.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace vericone::simulation {
+
+std::size_t index_of(const Scenario& scenario, const std::string& name) {
+  const auto it = std::find_if(scenario.bodies.begin(), scenario.bodies.end(),
+                               [&](const Body& body) { return body.name == name; });
+  return std::size_t(it - scenario.bodies.begin());
+}
+
+void summarise(std::vector<double>& seconds, RunTimes& times) {
+  times.decisions = seconds.size();
+  if (seconds.empty()) return;
+  for (const double s : seconds) times.mean += s / double(seconds.size());
+  const auto within = seconds.begin() + std::ptrdiff_t((seconds.size() * 99 + 99) / 100 - 1);
+  std::nth_element(seconds.begin(), within, seconds.end());
+  times.within = *within;
+  times.worst = *std::max_element(within, seconds.end());
+}
 
 // The method of Oliveira and Takahashi (ITP, ACM TOMS 47 (2021)): never more than one step beyond what
 // halving takes, and a handful where the value is smooth. Values of -1 and 1 are halved.
@@ -38,11 +55,27 @@ double sign_change(const std::function<double(double)>& value, double from, doub
   return high;
 }
 
-Passage::Passage(const Track& a, const Track& b) : reach_(reach(a.shape()) + reach(b.shape())) {}
+Passage::Passage(const Track& a, const Track& b)
+    : reach_(reach(a.shape()) + reach(b.shape())),
+      placed_(b.shape().rigid() ? b.shape().rigid()->placed() : nullptr) {}
+
+Eigen::Vector3d Passage::between(const Track& a, const Track& b, double t) const {
+  const Motion of_b = b.motion(t);
+  const Eigen::Vector3d c = of_b.position - a.motion(t).position;
+  return placed_ ? Eigen::Vector3d(c + of_b.rotation * placed_->middle()) : c;
+}
+
+double Passage::outside(const Track& a, const Track& b, double t) const {
+  const Motion of_b = b.motion(t);
+  const Eigen::Vector3d seen = of_b.rotation.transpose() * (a.motion(t).position - of_b.position);
+  const Box box = placed_->body.bounds();
+  return ((placed_->pose.to_body(seen) - box.center()).cwiseAbs() - box.half_widths()).maxCoeff();
+}
 
 double Passage::rate(const Track& a, const Track& b, const Pilot& pilot, double t) {
   const Motion of_a = a.motion(t), of_b = b.motion(t);
   const Eigen::Vector3d c = of_b.position - of_a.position, v = of_b.velocity - of_a.velocity;
+  if (placed_) return std::min(between(a, b, t).dot(v), outside(a, b, t));
   const double closing = c.dot(v);
   const guidance::GuideOptions& guide = pilot.guide;
   if (!(closing >= 0) || pilot.passing == Passing::centres || guide.law == guidance::Law::clearance)
@@ -52,7 +85,8 @@ double Passage::rate(const Track& a, const Track& b, const Pilot& pilot, double 
   // most half as far from it, whatever the plane.
   const double r = c.norm();
   if (reach_ < r) {
-    const double half = 0.5 * std::asin(reach_ / r), along = closing / r, across = (v - along / r * c).norm();
+    const double half = 0.5 * std::asin(reach_ / r), along = c.dot(v) / r,
+                 across = (v - along / r * c).norm();
     if (along * std::cos(half) > 1.001 * across * std::sin(half)) return closing;
   }
   const guidance::BodyState at_a = a.state(t), at_b = b.state(t);
@@ -71,6 +105,52 @@ double margin(const Track& a, const Track& b, const guidance::GuideOptions& opti
     return guidance::law_clearance(at_a, at_b) - options.clearance.required;
   const auto course = guidance::on_collision_course(at_a, at_b, options.sector, options.inversion.cease);
   return course ? (*course ? -1 : 1) : std::numeric_limits<double>::quiet_NaN();
+}
+
+const char* to_string(EventKind kind) {
+  switch (kind) {
+    case EventKind::appears:
+      return "appears";
+    case EventKind::enters_cone:
+      return "enters-cone";
+    case EventKind::leaves_cone:
+      return "leaves-cone";
+    case EventKind::passes:
+      return "passes";
+    case EventKind::aligned:
+      return "aligned";
+    case EventKind::reaches_goal:
+      return "reaches-goal";
+    case EventKind::contact:
+      return "contact";
+    case EventKind::cannot_avoid:
+      return "cannot-avoid";
+    case EventKind::goes_through:
+      return "goes-through";
+    case EventKind::goes_beside:
+      return "goes-beside";
+  }
+  return "?";
+}
+
+std::optional<Event> find_event(const Scenario& scenario, const Run& run, EventKind kind,
+                                const std::string& agent, const std::string& obstacle, double after) {
+  const std::size_t i = index_of(scenario, agent), j = index_of(scenario, obstacle);
+  for (const Event& event : run.events)
+    if (event.kind == kind && event.agent == i && event.obstacle == j && event.t >= after) return event;
+  return std::nullopt;
+}
+
+std::optional<EncounterSample> sample_at(const Scenario& scenario, const Run& run, const std::string& agent,
+                                         const std::string& obstacle, double t) {
+  const std::size_t i = index_of(scenario, agent), j = index_of(scenario, obstacle);
+  std::optional<EncounterSample> nearest;
+  for (const EncounterSample& sample : run.encounters)
+    if (sample.agent == i && sample.obstacle == j &&
+        (!nearest || std::abs(sample.t - t) < std::abs(nearest->t - t)))
+      nearest = sample;
+  if (nearest && !(std::abs(nearest->t - t) <= scenario.step * (1 + 1e-9))) nearest.reset();
+  return nearest;
 }
 
 }  // namespace vericone::simulation

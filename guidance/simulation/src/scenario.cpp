@@ -183,6 +183,14 @@ bool guarded(const Pilot& pilot) {
          (law == guidance::Law::avoidance || law == guidance::Law::clearance);
 }
 
+double most_commanded(const Pilot& pilot) {
+  if (pilot.through)
+    return pilot.through->law == Through::Law::passage ? pilot.through->passage.most
+                                                       : pilot.through->source.most;
+  return pilot.guide.law == guidance::Law::clearance ? pilot.guide.clearance.most
+                                                     : pilot.guide.inversion.most;
+}
+
 double time_of_step(const Scenario& scenario, std::uint64_t k) {
   const double in_a_second = std::round(1 / scenario.step);
   const bool whole = std::abs(in_a_second * scenario.step - 1) < 1e-15;
@@ -200,6 +208,9 @@ void check(const Scenario& scenario) {
   if (scenario.planes_logged < 0 || scenario.planes_logged > 10000)
     throw InputError("planes_logged", std::to_string(scenario.planes_logged), "from 0 to 10000");
   if (scenario.bodies.empty()) throw InputError("bodies", "none", "one body or more");
+  if (scenario.water.moves() && std::none_of(scenario.bodies.begin(), scenario.bodies.end(),
+                                             [](const Body& body) { return body.vehicle != nullptr; }))
+    throw InputError("current", "one that moves", "left out: it moves vehicles, and no body is one");
   std::set<std::string> names;
   check_orifices(scenario);
   for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {

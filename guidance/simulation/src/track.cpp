@@ -76,6 +76,12 @@ guidance::BodyState Track::state(double t) const {
   return state;
 }
 
+double Track::most_acceleration() const {
+  double most = 0;
+  for (const auto& leg : legs_) most = std::max(most, leg->most_acceleration());
+  return most;
+}
+
 Track::Bounds Track::bounds(double from, double to) const {
   Bounds bounds;
   if (legs_.empty()) return bounds;

@@ -2,16 +2,19 @@
 #include <vericone/simulation/trials.h>
 
 #include <vericone/geometry/error.h>
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace vericone::simulation {
 namespace {
 
-constexpr std::array kLaws{
-    TrialLaw::di,          TrialLaw::di_filter, TrialLaw::rdi,       TrialLaw::rdi_filter, TrialLaw::di_rates,
-    TrialLaw::di_analytic, TrialLaw::di_state,  TrialLaw::di_margin, TrialLaw::clearance,  TrialLaw::robust};
+constexpr std::array kLaws{TrialLaw::di,         TrialLaw::di_filter, TrialLaw::rdi,
+                           TrialLaw::rdi_filter, TrialLaw::di_rates,  TrialLaw::di_analytic,
+                           TrialLaw::di_state,   TrialLaw::di_margin, TrialLaw::clearance,
+                           TrialLaw::robust,     TrialLaw::own};
 
 double number_of(const std::string& text, const std::string& whole) {
   double x = 0;
@@ -22,18 +25,8 @@ double number_of(const std::string& text, const std::string& whole) {
   return x;
 }
 
-std::size_t agent_of(const Scenario& scenario) {
-  std::size_t agent = scenario.bodies.size();
-  for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
-    if (!scenario.bodies[i].pilot) continue;
-    if (agent < scenario.bodies.size())
-      throw InputError("bodies", scenario.bodies[agent].name + ", " + scenario.bodies[i].name,
-                       "one body with a pilot: that of the trials");
-    agent = i;
-  }
-  if (agent == scenario.bodies.size()) throw InputError("bodies", "no pilot", "one body with a pilot");
-  return agent;
-}
+/// One that minds bodies, or could.
+bool about_bodies(const Body& body) { return body.pilot && !body.pilot->through; }
 
 /// What an outer loop does where the scenario does not say: a and |b| as the noise leaves them, and a bound
 /// of its influence that a step of 0.01 s can keep.
@@ -44,6 +37,38 @@ guidance::OuterLoopOptions usual_outer_loop(double step) {
   outer.options.mu = 10;
   outer.options.input_weight = 1e-5;
   return outer;
+}
+
+void require_sensor(bool there, const TrialLevel& level) {
+  if (!there)
+    throw InputError("--levels", level.name, "such as 7.5:15: the scenario has no sensor to be multiplied");
+}
+
+void change(Pilot& pilot, TrialLaw law, double step) {
+  using enum TrialLaw;
+  guidance::GuideOptions& guide = pilot.guide;
+  if (guide.law != guidance::Law::avoidance)
+    throw InputError("law", guidance::to_string(guide.law),
+                     "avoidance: the trials change it as their names say");
+  pilot.manner = Manner::source;
+  const bool outer = law == rdi || law == rdi_filter;
+  if (!outer)
+    guide.robust.reset();
+  else if (!guide.robust)
+    guide.robust = usual_outer_loop(step);
+  guide.filter.y = law == di_filter || law == rdi_filter;
+  guide.filter.rates = guide.filter.y || law == di_rates;
+  const bool by_state = law == di_state || law == di_margin || law == clearance || law == robust;
+  guide.rates =
+      law == di_analytic || by_state ? guidance::GuideRates::analytic : guidance::GuideRates::backward;
+  guide.margin = law == di_margin || law == clearance ? 3 : 0;
+  const bool measures_state = pilot.sensor->noise != Noise::engagement;
+  if (by_state && !measures_state)
+    throw InputError("--laws", to_string(law),
+                     "laws of the plane: the sensor measures no position and velocity");
+  pilot.estimator = by_state ? Estimator::state : Estimator::none;
+  guide.errors = law == robust ? 3 : 0;
+  if (law == clearance || law == robust) guide.law = guidance::Law::clearance;
 }
 
 }  // namespace
@@ -70,6 +95,8 @@ const char* to_string(TrialLaw law) {
       return "clearance";
     case TrialLaw::robust:
       return "robust";
+    case TrialLaw::own:
+      return "own";
   }
   return "?";
 }
@@ -101,40 +128,24 @@ TrialLevel trial_level(const std::string& text) {
 }
 
 Scenario trial_scenario(const Scenario& scenario, TrialLaw law, const TrialLevel& level) {
-  using enum TrialLaw;
   Scenario flown = scenario;
-  const std::size_t agent = agent_of(scenario);
-  Pilot& pilot = *flown.bodies[agent].pilot;
-  guidance::GuideOptions& guide = pilot.guide;
-  if (guide.law != guidance::Law::avoidance)
-    throw InputError("law", guidance::to_string(guide.law),
-                     "avoidance: the trials change it as their names say");
-  if (level.sensor) {
-    pilot.sensor = level.sensor;
-  } else {
-    if (!pilot.sensor)
-      throw InputError("--levels", level.name, "such as 7.5:15: the scenario has no sensor to be multiplied");
-    pilot.sensor = pilot.sensor->times(level.times);
+  bool any = false, senses = false;
+  for (Body& body : flown.bodies) {
+    if (!about_bodies(body)) continue;
+    Pilot& pilot = *body.pilot;
+    if (level.sensor)
+      pilot.sensor = level.sensor;
+    else if (pilot.sensor)
+      pilot.sensor = pilot.sensor->times(level.times);
+    any = true;
+    senses |= pilot.sensor.has_value();
+    if (law == TrialLaw::own) continue;
+    require_sensor(pilot.sensor.has_value(), level);
+    change(pilot, law, scenario.step);
   }
-  pilot.manner = Manner::source;
-  const bool outer = law == rdi || law == rdi_filter;
-  if (!outer)
-    guide.robust.reset();
-  else if (!guide.robust)
-    guide.robust = usual_outer_loop(scenario.step);
-  guide.filter.y = law == di_filter || law == rdi_filter;
-  guide.filter.rates = guide.filter.y || law == di_rates;
-  const bool by_state = law == di_state || law == di_margin || law == clearance || law == robust;
-  guide.rates =
-      law == di_analytic || by_state ? guidance::GuideRates::analytic : guidance::GuideRates::backward;
-  guide.margin = law == di_margin || law == clearance ? 3 : 0;
-  const bool measures_state = pilot.sensor->noise != Noise::engagement;
-  if (by_state && !measures_state)
-    throw InputError("--laws", to_string(law),
-                     "laws of the plane: the sensor measures no position and velocity");
-  pilot.estimator = by_state ? Estimator::state : Estimator::none;
-  guide.errors = law == robust ? 3 : 0;
-  if (law == clearance || law == robust) guide.law = guidance::Law::clearance;
+  if (!any && law != TrialLaw::own)
+    throw InputError("bodies", "no pilot", "one body or more with a pilot that avoids");
+  require_sensor(senses || level.times == 1, level);  // without noise each trial is the run itself
   check(flown);
   return flown;
 }
@@ -144,21 +155,32 @@ TrialOutcome fly_trial(const Scenario& scenario, std::uint64_t trial) {
   options.log = false;
   options.trial = trial;
   const Run run = simulate(scenario, options);
-  const std::size_t agent = agent_of(scenario);
+  const auto flies = [&](std::size_t i) { return scenario.bodies[i].pilot.has_value(); };
+  const bool any = std::any_of(scenario.bodies.begin(), scenario.bodies.end(),
+                               [](const Body& body) { return body.pilot.has_value(); });
   TrialOutcome outcome;
   outcome.verdict = ProofVerdict::avoided;
   outcome.least_distance = std::numeric_limits<double>::infinity();
-  for (const PairOutcome& pair : run.proofs) {
-    if (pair.a != agent && pair.b != agent) continue;
-    const ProofVerdict verdict = pair.proof.verdict;
-    if (verdict == ProofVerdict::touched) outcome.verdict = verdict;
-    if (verdict == ProofVerdict::undecided && outcome.verdict == ProofVerdict::avoided)
+  const auto add = [&](ProofVerdict verdict, double least_distance) {
+    if (verdict == ProofVerdict::touched || outcome.verdict == ProofVerdict::avoided)
       outcome.verdict = verdict;
-    outcome.least_distance = std::min(outcome.least_distance, pair.proof.least_distance);
+    outcome.least_distance = std::min(outcome.least_distance, least_distance);
+  };
+  for (const PairOutcome& pair : run.proofs)
+    if (!any || flies(pair.a) || flies(pair.b)) add(pair.proof.verdict, pair.proof.least_distance);
+  for (const PassageOutcome& passage : run.passages) {
+    const PassageVerdict verdict = passage.proof.verdict;
+    outcome.missed |= passage.ordered && verdict == PassageVerdict::missed;
+    add(verdict == PassageVerdict::touched     ? ProofVerdict::touched
+        : verdict == PassageVerdict::undecided ? ProofVerdict::undecided
+                                               : ProofVerdict::avoided,
+        passage.proof.least_distance);
   }
-  if (outcome.verdict != ProofVerdict::avoided) outcome.least_distance = 0;
-  for (const auto& leg : run.tracks[agent].legs())
-    outcome.effort += leg->most_acceleration() * (leg->to() - leg->from());
+  if (outcome.verdict != ProofVerdict::avoided || !std::isfinite(outcome.least_distance))
+    outcome.least_distance = 0;
+  for (std::size_t i = 0; i < run.tracks.size(); ++i)
+    for (const auto& leg : run.tracks[i].legs())
+      if (flies(i)) outcome.effort += leg->most_acceleration() * (leg->to() - leg->from());
   return outcome;
 }
 

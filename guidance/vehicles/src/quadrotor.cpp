@@ -53,7 +53,15 @@ Jet turned(const Matrix3d& rotation, const Vector3d& omega, const Vector3d& alph
 
 class Quadrotor : public simulation::Vehicle {
  public:
-  Quadrotor(const QuadrotorOptions& options, const Motion& start, double t) : options_(options), set_(t) {
+  Quadrotor(const QuadrotorOptions& options, const Motion& start, double t, const simulation::Current& air)
+      : options_(options), air_(air), set_(t) {
+    if (air.moves() && options.drag.isZero(0))
+      throw InputError("vehicle", "a quadrotor without drag, which no current moves",
+                       "one with drag, or the current left out");
+    constexpr double kPeriods = 10;  // of the curves, which are smooth in each
+    if (air.shortest() < kPeriods * options.period)
+      throw InputError("vehicle", "a period of " + to_text(options.period) + " s",
+                       "at most a tenth of the shortest of the gusts, " + to_text(air.shortest()) + " s");
     const Vector3d ahead = start.rotation.col(0);
     if (!(ahead.head<2>().norm() > 1e-6))
       throw InputError("rotation", "upright", "a heading: a quadrotor starts level");
@@ -103,8 +111,8 @@ class Quadrotor : public simulation::Vehicle {
     Vector3d omega, alpha;  // in our world
     Matrix3d rotation;
   };
-  At at() const {
-    const QuadrotorState rate = quadrotor_rates(options_, state_, wrench_);
+  At at(double t) const {
+    const QuadrotorState rate = rates(state_, t);
     const Matrix3d rotation = quadrotor_rotation(state_);
     const Vector3d acceleration = rotation * flipped(rate.velocity + state_.rates.cross(state_.velocity));
     // The angular velocity turns with the body without changing: its rate in the world is that in the body.
@@ -114,21 +122,26 @@ class Quadrotor : public simulation::Vehicle {
             rotation};
   }
 
+  QuadrotorState rates(const QuadrotorState& state, double t) const {
+    return quadrotor_rates(options_, state, wrench_, air_.velocity(state.position.z(), t));
+  }
+
   Curve fly(double from, double to) {
-    const At begin = at();
+    const At begin = at(from);
     const auto steps = std::max(1L, long(std::ceil((to - from) / options_.step * (1 - 1e-9))));
     boost::numeric::odeint::runge_kutta4<Twelve> stepper;
     Twelve x = twelve(state_);
+    const double step = (to - from) / double(steps);
     for (long k = 0; k < steps; ++k)
-      stepper.do_step([&](const Twelve& now, Twelve& rate,
-                          double) { rate = twelve(quadrotor_rates(options_, state_of(now), wrench_)); },
-                      x, 0, (to - from) / double(steps));
+      stepper.do_step(
+          [&](const Twelve& now, Twelve& rate, double t) { rate = twelve(rates(state_of(now), t)); }, x,
+          from + double(k) * step, step);
     state_ = state_of(x);
     constexpr double kTumbles = 1.5;  // rad
     if (!(std::abs(state_.angles.y()) < kTumbles))
       throw InputError("vehicle", "a quadrotor that tumbles at " + to_text(std::round(1e3 * to) / 1e3) + " s",
                        "one whose gains, torques and inertia keep it upright");
-    const At end = at();
+    const At end = at(to);
     const double h = to - from;
     const Jet still{Vector3d::Zero(), begin.omega, begin.alpha};
     return {simulation::quintic(begin.position, end.position, h),
@@ -138,6 +151,7 @@ class Quadrotor : public simulation::Vehicle {
   }
 
   const QuadrotorOptions& options_;
+  simulation::Current air_;
   QuadrotorState state_;
   Wrench wrench_;
   double yaw_ = 0;
@@ -149,9 +163,10 @@ class QuadrotorModel : public simulation::VehicleModel {
   explicit QuadrotorModel(const QuadrotorOptions& options) : options_(options) {}
 
   std::unique_ptr<simulation::Vehicle> launch(const Motion& start, double t,
-                                              const simulation::Current&) const override {
-    return std::make_unique<Quadrotor>(options_, start, t);
+                                              const simulation::Current& air) const override {
+    return std::make_unique<Quadrotor>(options_, start, t, air);
   }
+  bool carried() const override { return !options_.drag.isZero(0); }
   std::vector<std::string> channels() const override {
     return {"U [m/s]",       "V [m/s]",         "W [m/s]",      "P [rad/s]", "Q [rad/s]",
             "R [rad/s]",     "phi [rad]",       "theta [rad]",  "psi [rad]", "F [N]",
@@ -191,6 +206,10 @@ void check(const QuadrotorOptions& options) {
   constexpr double kMostTilt = 1.4;
   if (!(options.most_tilt > 0 && options.most_tilt <= kMostTilt))
     throw InputError("most_tilt", to_text(options.most_tilt), "above 0, at most 1.4 rad");
+  for (int i = 0; i < 3; ++i)
+    if (!(options.drag[i] >= 0) || !std::isfinite(options.drag[i]))
+      throw InputError("drag[" + std::to_string(i) + "]", to_text(options.drag[i]),
+                       "a finite number, 0 or more (N s/m)");
   positive(options.step, "step", " (s)");
   positive(options.period, "period", " (s)");
   // Jury's conditions of I x'' = -K_p x - K_d x' with the right side held.
@@ -202,19 +221,24 @@ void check(const QuadrotorOptions& options) {
 }
 
 QuadrotorState quadrotor_rates(const QuadrotorOptions& quadrotor, const QuadrotorState& state,
-                               const Wrench& wrench) {
+                               const Wrench& wrench, const Vector3d& air) {
   const double U = state.velocity.x(), V = state.velocity.y(), W = state.velocity.z();
   const double P = state.rates.x(), Q = state.rates.y(), R = state.rates.z(), g = quadrotor.gravity;
   const double sp = std::sin(state.angles.x()), cp = std::cos(state.angles.x());
   const double st = std::sin(state.angles.y()), ct = std::cos(state.angles.y());
   const double ix = quadrotor.inertia.x(), iy = quadrotor.inertia.y(), iz = quadrotor.inertia.z();
   const double turning = Q * sp + R * cp;
-  return {quadrotor_rotation(state) * flipped(state.velocity),
-          {R * V - Q * W - g * st, -R * U + P * W + g * sp * ct,
-           Q * U - P * V + g * cp * ct - wrench.thrust / quadrotor.mass},
-          {(iy - iz) / ix * Q * R + wrench.torque.x() / ix, (iz - ix) / iy * P * R + wrench.torque.y() / iy,
-           (ix - iy) / iz * P * Q + wrench.torque.z() / iz},
-          {P + st / ct * turning, Q * cp - R * sp, turning / ct}};
+  const Matrix3d rotation = quadrotor_rotation(state);
+  QuadrotorState rate{
+      rotation * flipped(state.velocity),
+      {R * V - Q * W - g * st, -R * U + P * W + g * sp * ct,
+       Q * U - P * V + g * cp * ct - wrench.thrust / quadrotor.mass},
+      {(iy - iz) / ix * Q * R + wrench.torque.x() / ix, (iz - ix) / iy * P * R + wrench.torque.y() / iy,
+       (ix - iy) / iz * P * Q + wrench.torque.z() / iz},
+      {P + st / ct * turning, Q * cp - R * sp, turning / ct}};
+  const Vector3d past = state.velocity - flipped(rotation.transpose() * air);
+  rate.velocity -= quadrotor.drag.cwiseProduct(past) / quadrotor.mass;
+  return rate;
 }
 
 ThrustAndTilt thrust_and_tilt(const QuadrotorOptions& quadrotor, const QuadrotorState& state,

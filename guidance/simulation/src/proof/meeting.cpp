@@ -27,14 +27,6 @@ Meeting meeting_of(const WorldBody& a, const WorldBody& b) {
   return relation ? of_relation(*relation) : Meeting::unknown;
 }
 
-void require_served(const WorldBody& a, const WorldBody& b) {
-  if (a.planar() != b.planar() || (a.hull() && b.delimited()) || (a.delimited() && b.hull()))
-    throw InputError(
-        "bodies", "a hull and a body delimited by hyperboloids, or bodies of the plane and of space",
-        "a pair with a certified predicate: an ellipsoid and any other, two delimited bodies, two "
-        "hulls, or two bodies of the plane");
-}
-
 bool apart_by(const WorldBody& a, const WorldBody& b, double distance) {
   const bool inflate_b = !b.delimited() || a.delimited();
   return (inflate_b ? meeting_of(a, b.inflated(distance)) : meeting_of(a.inflated(distance), b)) ==
@@ -103,11 +95,12 @@ std::pair<Vector3d, std::size_t> face(const WorldBody& body, const SweptBody& sw
 
 Meeting meeting(const MovingPair& pair, const Moment& moment) {
   const Posed bodies = posed(pair, moment);
+  if (bodies.a.planar() != bodies.b.planar())
+    throw InputError("bodies", "one of the plane and one of space", "two of the plane, or two of space");
   if (by_distances(pair)) {
     const std::optional<Relation> relation = certified_pair(bodies).relation();
     return relation ? of_relation(*relation) : Meeting::unknown;
   }
-  require_served(bodies.a, bodies.b);
   return meeting_of(bodies.a, bodies.b);
 }
 

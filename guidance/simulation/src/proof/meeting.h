@@ -17,8 +17,8 @@ enum class Meeting : std::uint8_t {
   unknown,  // nearer than the predicate resolves
 };
 
-/// The bodies as posed in doubles at that time. Throws InputError naming "bodies" for a pair without a
-/// predicate.
+/// The bodies as posed in doubles at that time. Throws InputError naming "bodies" for one of the plane and
+/// one of space.
 Meeting meeting(const MovingPair& pair, const Moment& moment);
 
 /// Whether a body is not convex, so that planes do not tell all.

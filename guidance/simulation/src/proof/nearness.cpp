@@ -12,6 +12,8 @@ namespace {
 using Eigen::Vector3d;
 
 bool is_placed(const ShapeInTime& shape) { return shape.rigid() && shape.rigid()->placed(); }
+bool is_hull(const ShapeInTime& shape) { return shape.rigid() && shape.rigid()->hull(); }
+bool is_dented(const ShapeInTime& shape) { return !shape.rigid() || shape.rigid()->delimited(); }
 
 /// What no point of a body moves more than by turning, about its position.
 double sway(double reach, const Track::Bounds& bounds, const Piece& piece) {
@@ -33,7 +35,8 @@ Posed posed_over(const MovingPair& pair, const Piece& piece) {
 }
 
 bool by_distances(const MovingPair& pair) {
-  return is_placed(pair.a().shape()) || is_placed(pair.b().shape());
+  const ShapeInTime &a = pair.a().shape(), &b = pair.b().shape();
+  return is_placed(a) || is_placed(b) || (is_hull(a) && is_dented(b)) || (is_dented(a) && is_hull(b));
 }
 
 Pair certified_pair(const Posed& bodies) {

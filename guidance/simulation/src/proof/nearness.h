@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Pairs of which planes tell too little, bodies with holes, arms and corridors: certificates by their
-// distance (docs/explanation/proof-of-runs.md).
+// Pairs of which planes tell too little (bodies with holes, arms and corridors, a hull and a body with
+// dents): certificates by their distance (docs/explanation/proof-of-runs.md).
 #pragma once
 
 #include <vericone/cones/pair.h>
@@ -19,10 +19,10 @@ Posed posed(const MovingPair& pair, const Moment& moment);
 /// All shapes of a piece of time, where the bodies stand in its middle.
 Posed posed_over(const MovingPair& pair, const Piece& piece);
 
-/// One of them is a placed body.
+/// One of them is a placed body, or one a hull and the other has dents.
 bool by_distances(const MovingPair& pair);
 
-/// Throws InputError naming "bodies" where no predicate is certified for the two kinds.
+/// Throws InputError naming "bodies" for one of the plane and one of space.
 Pair certified_pair(const Posed& bodies);
 
 /// Requires by_distances(pair). The bound is the distance in the middle less all that both bodies can move

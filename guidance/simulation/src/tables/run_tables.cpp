@@ -51,10 +51,16 @@ void body_row(Table& table, const Body& body, const Track& track, double t, guid
   row.number(q.w()).number(q.x()).number(q.y()).number(q.z()).number(k_at(body.shape, t));
 }
 
-/// m(w) of the pair at the time of a sample; nothing without relative velocity.
-double clearance_of(const Scenario& scenario, const Run& run, const EncounterSample& sample) {
+bool by_clearance(const Scenario& scenario, const EncounterSample& sample) {
   const auto& pilot = scenario.bodies[sample.agent].pilot;
-  if (pilot && pilot->guide.law == guidance::Law::clearance) return sample.step.m;
+  return pilot && pilot->guide.law == guidance::Law::clearance;
+}
+
+bool measures(const Body& body) { return body.pilot && body.pilot->sensor; }
+
+/// m(w) of the pair at the time of a sample, in truth; nothing without relative velocity.
+double clearance_of(const Scenario& scenario, const Run& run, const EncounterSample& sample) {
+  if (by_clearance(scenario, sample) && !measures(scenario.bodies[sample.agent])) return sample.step.m;
   const auto a = run.tracks[sample.agent].state(sample.t), b = run.tracks[sample.obstacle].state(sample.t);
   if (a.velocity == b.velocity) return kNothing;
   return guidance::law_clearance(a, b);
@@ -149,11 +155,14 @@ Table bodies_table(const Scenario& scenario, const Run& run) {
 
 Table encounters_table(const Scenario& scenario, const Run& run) {
   require_run_of(scenario, run);
-  Table table =
-      table_of("encounters",
-               "t [s],agent,obstacle,r [m],theta [rad],phi [rad],V_r [m/s],V_theta [m/s],V_phi [m/s],y,psi "
-               "[rad],theta_b [rad],V_r_hat [m/s],plane [rad],m [m],a [m/s^2],demanded [m/s^2],delta "
-               "[rad],gamma [rad],a_B [m/s^2],delta_B [rad],gamma_B [rad],status,attended");
+  const bool measured = std::any_of(scenario.bodies.begin(), scenario.bodies.end(), measures);
+  Table table = table_of(
+      "encounters",
+      std::string("t [s],agent,obstacle,r [m],theta [rad],phi [rad],V_r [m/s],V_theta [m/s],V_phi [m/s],y,psi "
+                  "[rad],theta_b [rad],V_r_hat [m/s],plane [rad],m [m],") +
+          (measured ? "measured_m [m]," : "") +
+          "a [m/s^2],demanded [m/s^2],delta [rad],gamma [rad],a_B [m/s^2],delta_B [rad],gamma_B "
+          "[rad],status,attended");
   for (const EncounterSample& s : run.encounters) {
     const guidance::SpatialState& state = s.state;
     Row row(table);
@@ -163,6 +172,10 @@ Table encounters_table(const Scenario& scenario, const Run& run) {
     row.number(s.step.y).number(s.step.psi).number(s.step.theta_b);
     row.number(s.cone ? s.step.v_r_hat : kNothing).number(s.cone ? s.plane_azimuth : kNothing);
     row.number(clearance_of(scenario, run, s));
+    if (measured) {
+      const bool its = measures(scenario.bodies[s.agent]) && by_clearance(scenario, s);
+      row.number(its ? s.step.m : kNothing);
+    }
     command_fields(row, s.step.a, s.step.demanded);
     command_fields(row, s.step.b, std::nullopt);
     row.text(to_string(s.step.status)).number(s.attended ? 1 : 0);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Water that moves: what a vehicle swims in.
+// Water that moves: what a vehicle swims in, or air, which it flies in.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <limits>
 
 namespace vericone::simulation {
 
@@ -41,6 +42,10 @@ class Current {
   [[nodiscard]] Eigen::Vector3d acceleration(double t) const;
   /// By height, 1/s.
   [[nodiscard]] Eigen::Vector3d gradient() const { return {shear_.rate.x(), shear_.rate.y(), 0}; }
+  /// Whether any of it ever moves.
+  [[nodiscard]] bool moves() const { return gusts_ > 0 || !uniform_.isZero(0) || !shear_.rate.isZero(0); }
+  /// The shortest period of its gusts, s; infinite without any.
+  [[nodiscard]] double shortest() const { return shortest_; }
   /// No water is faster between two heights, m/s.
   [[nodiscard]] double most(double bottom, double top) const;
 
@@ -52,7 +57,8 @@ class Current {
 
   Eigen::Vector3d uniform_ = Eigen::Vector3d::Zero();
   Shear shear_;
-  double gusts_ = 0;  // m/s
+  double gusts_ = 0;                                           // m/s
+  double shortest_ = std::numeric_limits<double>::infinity();  // s
   std::array<Wave, 8> waves_;
 };
 

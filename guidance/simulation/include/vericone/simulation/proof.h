@@ -41,13 +41,11 @@ struct PairProof {
   std::uint64_t pieces = 0;  // pieces of time that were proved separately
 };
 
-/// Over [from, to], within the life of both tracks. Pairs: two planar bodies; ellipsoids, combined bodies and
-/// hulls in any combination that has a certified predicate (an ellipsoid and any other; two combined; two
-/// hulls); a placed body and any that Pair serves; throws InputError naming "bodies" for others. A planar and
-/// a spatial body do not mix. Throws InputError naming "from", "to", "padding", "resolution" or "drift".
-/// Method: docs/explanation/proof-of-runs.md. Cost: 0.1 ms for two ellipsoids, 0.3 ms with hulls and
-/// delimited bodies, milliseconds to tens of them where those meet; a placed body a distance and at most two
-/// misses of the Pair a piece.
+/// Over [from, to], within the life of both tracks. Any two bodies that Pair serves: both planar, or both
+/// spatial, otherwise throws InputError naming "bodies". Throws InputError naming "from", "to", "padding",
+/// "resolution" or "drift". Method: docs/explanation/proof-of-runs.md. Cost: 0.1 ms for two ellipsoids, 0.3
+/// ms with hulls and delimited bodies, milliseconds to tens of them where those meet; a placed body, or a
+/// hull and one with dents, a distance and at most two misses of the Pair a piece.
 [[nodiscard]] PairProof prove(const Track& a, const Track& b, double from, double to,
                               const ProofOptions& options = {});
 

@@ -77,7 +77,7 @@ enum class EventKind : std::uint8_t {
   appears,      // body `agent`
   enters_cone,  // y < 0 and closing from now on, as the law sees it (of an agent with a sensor: in truth)
   leaves_cone,  // y >= 0 (or m >= required) from now on; the last sample before it was inside
-  passes,       // as the pilot's `passing` says
+  passes,       // as the pilot's `passing` says; of a placed body: out of its bounds, whose middle recedes
   aligned,      // the velocity points at the goal from now on
   reaches_goal,
   contact,       // proved
@@ -91,8 +91,9 @@ struct Event {
   double t = 0;  // s
   EventKind kind = EventKind::appears;
   std::size_t agent = 0, obstacle = 0;  // equal where only one body is concerned; goes_*: of an orifice
-  /// passes: distance of the centres, m; enters_cone: y (or m, metres) at that command; leaves_cone: what it
-  /// had to reach, cease or required; contact: the earliest time, s; goes_*: from the opening's centre, m.
+  /// passes: distance of the centres (of a placed body of the middle of its bounds), m; enters_cone: y (or m,
+  /// metres) at that command; leaves_cone: what it had to reach, cease or required; contact: the earliest
+  /// time, s; goes_*: from the opening's centre, m.
   double value = 0;
 };
 
@@ -113,13 +114,18 @@ struct PassageOutcome {
   PassageProof proof;
 };
 
-/// A pair without a verdict, and why.
+/// A pair without a verdict: without pilots, rigid, with one velocity, so pieces of one body, which may
+/// overlap.
 struct NotChecked {
   std::size_t a = 0, b = 0;
-  enum class Why : std::uint8_t {
-    together,   // without pilots, rigid, with one velocity: pieces of one body, which may overlap
-    uncertain,  // of passive bodies: prove() has no certified predicate of the two kinds
-  } why = Why::together;
+};
+
+/// What a run cost in seconds, by the clock: another each time. A decision is all that a pilot does at one
+/// command: sensor, estimator, laws of all that it minds, courses.
+struct RunTimes {
+  std::uint64_t decisions = 0;
+  double mean = 0, within = 0, worst = 0;  // of a decision; 99 % of them took no longer than `within`
+  double proofs = 0;                       // of all pairs and passages together
 };
 
 struct Run {
@@ -136,6 +142,7 @@ struct Run {
   std::vector<OrificeSample> orifices;   // by time, agent
   std::vector<PassageOutcome> passages;  // of every body that is flown, and every orifice
   bool interrupted = false;
+  RunTimes times;
 
   /// touched if any pair or body and orifice touched; else undecided if any is; else avoided, of none too.
   [[nodiscard]] ProofVerdict verdict() const;
@@ -147,9 +154,11 @@ struct RunOptions {
   std::uint64_t trial = 0;  // other noise of the same seed
   /// Called after every step with the time reached; false ends the run there, `interrupted`.
   std::function<bool(double t)> progress;
+  /// Called before every proof with the share of them that is done; false as above, without those to come.
+  std::function<bool(double share)> proving;
 };
 
-/// Deterministic. Throws InputError like check().
+/// Deterministic, but for `times`. Throws InputError like check().
 [[nodiscard]] Run simulate(const Scenario& scenario, const RunOptions& options = {});
 
 /// The first event of a kind, at or after a time; `obstacle` and `agent` by name.

@@ -57,6 +57,9 @@ struct Through {
     passage,  // ours, of the true outlines
   } law = Law::passage;
   std::vector<std::string> orifices;  // names, in this order
+  /// These laws see no bodies. A scenario that has others is refused unless this says that it is meant so:
+  /// whether they were met is proved, nothing is done about it.
+  bool minds_none = false;
   guidance::OrificeLawOptions source;
   guidance::PassageLawOptions passage;
   /// m/s, held by an acceleration along the velocity (of a vehicle along its level part: depth is its
@@ -118,6 +121,9 @@ struct Scenario {
 
 /// Whether this pilot's courses are guarded: of the laws that can be.
 [[nodiscard]] bool guarded(const Pilot& pilot);
+
+/// What the law of this pilot commands at most, m/s^2; infinite where it has no limit.
+[[nodiscard]] double most_commanded(const Pilot& pilot);
 
 /// The time of the k-th command, seconds. Of steps such as 0.01 s, a whole number of which is a second, the
 /// double nearest to the decimal: 1.63 and not 1.6300000000000001.

@@ -96,6 +96,9 @@ class Track {
   /// them, level ones too, whose slow roll in a climbing turn is left out.
   [[nodiscard]] guidance::BodyState state(double t) const;
 
+  /// Bound of |a| over the whole way, m/s^2.
+  [[nodiscard]] double most_acceleration() const;
+
   /// Bounds over [from, to].
   struct Bounds {
     double acceleration = 0;    // m/s^2

@@ -13,7 +13,7 @@
 
 namespace vericone::simulation {
 
-/// How the agent of a trial flies: the pilot of the scenario, changed as said. The first four are the
+/// How the agents of a trial fly: the pilots of the scenario, changed as said. The first four are the
 /// source's.
 enum class TrialLaw : std::uint8_t {
   di,           // the inversion (6.17) alone, rates from one step to the next
@@ -26,6 +26,7 @@ enum class TrialLaw : std::uint8_t {
   di_margin,    // as di_state, out of the cone by three deviations of y
   clearance,    // the clearance law on an estimated state, bodies apart by three deviations of the miss more
   robust,       // the clearance law on an estimated state, for all errors within three deviations of it
+  own,          // as the scenario has them: any pilots and laws
 };
 [[nodiscard]] const char* to_string(TrialLaw law);
 /// Throws InputError naming "--laws".
@@ -42,15 +43,17 @@ struct TrialLevel {
 /// "7.5:15" or "x4". Throws InputError naming "--levels".
 [[nodiscard]] TrialLevel trial_level(const std::string& text);
 
-/// The scenario that is flown. Its one pilot avoids, by any law; throws InputError naming "bodies" or "law"
-/// where it has none or more.
+/// The scenario that is flown. `own` takes any; the others change every pilot about bodies, and throw
+/// InputError naming "bodies" where there is none, "law" where one does not have the law avoidance. Throws
+/// InputError naming "--levels" where sensors are to be multiplied and there are none, by 1 excepted.
 [[nodiscard]] Scenario trial_scenario(const Scenario& scenario, TrialLaw law, const TrialLevel& level);
 
 struct TrialOutcome {
-  ProofVerdict verdict =
-      ProofVerdict::undecided;  // of the agent and all that it minds, to the end of the run
-  double least_distance = 0;    // m, proved; of avoided ones
-  double effort = 0;            // m/s, the integral of the agent's |a|
+  /// Of all pairs with an agent (without any, of all pairs) and of all passages, to the end of the run.
+  ProofVerdict verdict = ProofVerdict::undecided;
+  bool missed = false;        // an opening that an agent was to pass
+  double least_distance = 0;  // m, proved; of avoided ones: between bodies, or from a rim
+  double effort = 0;          // m/s, the integrals of the agents' |a|
 };
 /// Trial `trial` of a scenario made by trial_scenario(): its noise depends on the scenario's seed and on this
 /// number alone.

@@ -64,6 +64,8 @@ class VehicleModel {
   /// "position", "velocity" or "rotation" for a start that the vehicle cannot be in.
   [[nodiscard]] virtual std::unique_ptr<Vehicle> launch(const Motion& start, double t,
                                                         const Current& water) const = 0;
+  /// Whether water or air that moves takes it along.
+  [[nodiscard]] virtual bool carried() const { return true; }
   /// Columns of what it logs, with units: "bias [rad]".
   [[nodiscard]] virtual std::vector<std::string> channels() const = 0;
   /// Of one launched with this start.

@@ -19,6 +19,9 @@ struct QuadrotorOptions {
   double most_thrust = 2 * 4.3259 * 9.81;                             // N
   double most_torque = 20;                                            // N m, about each axis
   double most_tilt = 1.2;                                             // rad, of the attitude asked for
+  /// N s/m along each of the body's axes: the air's force for each m/s that it goes past the body. (4.25) has
+  /// none.
+  Eigen::Vector3d drag = Eigen::Vector3d::Zero();
   double period = 0.01;  // s, for which thrust and torques are held (the source's step)
   double step = 0.001;   // s, the longest of the solver
 };
@@ -47,9 +50,11 @@ struct ThrustAndTilt {
   double roll = 0, pitch = 0;  // rad, phi_d and theta_d
 };
 
-/// (4.25), and the kinematics that print leaves out (errata 4.3). Not defined at a pitch of 90 degrees.
+/// (4.25) with drag, and the kinematics that print leaves out (errata 4.3). `air`: its velocity in our world,
+/// m/s. Not defined at a pitch of 90 degrees.
 [[nodiscard]] QuadrotorState quadrotor_rates(const QuadrotorOptions& quadrotor, const QuadrotorState& state,
-                                             const Wrench& wrench);
+                                             const Wrench& wrench,
+                                             const Eigen::Vector3d& air = Eigen::Vector3d::Zero());
 
 /// (4.26)-(4.28) for an acceleration in our world, m/s^2, at the heading of the state; print has the heading
 /// 0. The sign traps: a_z of print is down and its y to the right. Within most_tilt and most_thrust, height
@@ -68,9 +73,10 @@ struct ThrustAndTilt {
 /// Starts level, with the heading of the body's x axis, which it keeps; the accelerations of commands steer,
 /// aims do not. Between two settings of thrust and torques, which are `period` apart from the start on, its
 /// way is one curve. After ten seconds of commands that jump, the default step is 1e-7 m and 2e-9 rad off the
-/// equations. (4.25) has no drag: no current moves it, and no speed is the highest, so every limit is
-/// infinite. Throws as check() does; advance() throws an InputError naming "vehicle" where it tumbles, at a
-/// pitch of 86 degrees. Cost: 0.5 us for each step of the solver.
+/// equations. A current moves it by its drag, and not without; in one that moves launch() throws an
+/// InputError naming "vehicle" where drag is 0 or gusts are shorter than ten periods. No speed is the
+/// highest, so every limit is infinite. Throws as check() does; advance() throws an InputError naming
+/// "vehicle" where it tumbles, at a pitch of 86 degrees. Cost: 0.5 us for each step of the solver.
 [[nodiscard]] std::shared_ptr<const simulation::VehicleModel> quadrotor(const QuadrotorOptions& options);
 
 }  // namespace vericone::vehicles
