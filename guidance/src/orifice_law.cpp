@@ -65,7 +65,7 @@ struct Side {
 /// missing shared out: min |a|^2 + sum (what is missing of gradient_i.a >= rate_i)^2 / mu_i, by its dual, one
 /// side after the other (Hildreth, 1957).
 Vector3d for_all(std::span<const Side> sides) {
-  constexpr double kSoft = 0.02;
+  constexpr double kSoft = 1e-3;
   std::array<double, 4> weights{};
   Vector3d a = Vector3d::Zero();
   for (int sweep = 0; sweep < 200; ++sweep)
@@ -259,7 +259,7 @@ OrificeCommand passage_law(const BodyState& a, const OrificeState& orifice,
     const Vector3d change = h * command.acceleration;
     const OpeningClearance later = clearance_of(a, then, w + change);
     const Vector3d gradient = gradient_of(later);
-    if (!(gradient.dot(change) < 0)) break;
+    if (!(gradient.dot(change) < 0) || later.distance >= now.distance) break;
     sides[k] = {gradient, rate_at(later.distance - gradient.dot(change))};
     command_within(for_all({sides.data(), k + 1}), options.most, command);
   }

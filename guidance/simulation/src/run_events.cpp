@@ -73,9 +73,10 @@ double Passage::outside(const Track& a, const Track& b, double t) const {
 }
 
 double Passage::rate(const Track& a, const Track& b, const Pilot& pilot, double t) {
+  if (placed_)
+    return std::min(between(a, b, t).dot(b.motion(t).velocity - a.motion(t).velocity), outside(a, b, t));
   const Motion of_a = a.motion(t), of_b = b.motion(t);
   const Eigen::Vector3d c = of_b.position - of_a.position, v = of_b.velocity - of_a.velocity;
-  if (placed_) return std::min(between(a, b, t).dot(v), outside(a, b, t));
   const double closing = c.dot(v);
   const guidance::GuideOptions& guide = pilot.guide;
   if (!(closing >= 0) || pilot.passing == Passing::centres || guide.law == guidance::Law::clearance)
@@ -85,8 +86,7 @@ double Passage::rate(const Track& a, const Track& b, const Pilot& pilot, double 
   // most half as far from it, whatever the plane.
   const double r = c.norm();
   if (reach_ < r) {
-    const double half = 0.5 * std::asin(reach_ / r), along = c.dot(v) / r,
-                 across = (v - along / r * c).norm();
+    const double half = 0.5 * std::asin(reach_ / r), along = closing / r, across = (v - along / r * c).norm();
     if (along * std::cos(half) > 1.001 * across * std::sin(half)) return closing;
   }
   const guidance::BodyState at_a = a.state(t), at_b = b.state(t);
