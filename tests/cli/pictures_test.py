@@ -11,6 +11,7 @@ import shutil
 import subprocess
 import unittest
 
+from command import SOURCE
 from hostile_test import InFolder
 
 DRAWS = not subprocess.run(["/usr/bin/python3", "-c", "import matplotlib"], capture_output=True, check=False).returncode
@@ -26,6 +27,23 @@ def ball(center, radius):
 def scene(agent, obstacle, v_a=None, v_b=None):
     given = {"agent": agent, "obstacle": obstacle, "agent_velocity": v_a, "obstacle_velocity": v_b}
     return json.dumps({k: v for k, v in given.items() if v is not None})
+
+
+# Of the picture of a run: its texts, the dots among the curves, and how much of the picture the box of space takes.
+DRAWN = """
+import json, sys
+import numpy as np
+from mpl_toolkits.mplot3d import proj3d
+from plot.runs import flown, picture
+figure = picture(flown(sys.argv[1]))
+space = figure.axes[0]
+corners = np.array(np.meshgrid(space.get_xlim(), space.get_ylim(), space.get_zlim())).reshape(3, -1)
+space.apply_aspect()
+x, y, _ = proj3d.proj_transform(*corners, space.get_proj())
+at = figure.transFigure.inverted().transform(space.transData.transform(np.column_stack([x, y])))
+dots = [line.get_xydata()[0].tolist() for axis in figure.axes[1:] for line in axis.lines if line.get_marker() == "o"]
+print(json.dumps({"texts": [t.get_text() for t in figure.texts], "dots": dots, "space": np.ptp(at, axis=0).tolist()}))
+"""
 
 
 class ConePictures(InFolder):
@@ -203,6 +221,34 @@ class RunPictures(InFolder):
                 for name, begins in (("simulation.png", b"\x89PNG"), ("simulation.pdf", b"%PDF")):
                     with open(os.path.join(self.folder, "out", name), "rb") as f:
                         self.assertEqual(f.read(4), begins)
+
+
+    @unittest.skipUnless(DRAWS, "no /usr/bin/python3 with matplotlib")
+    def test_the_distance_kept_is_shown_and_space_fills_its_frame(self):
+        far = agents(3, 3)  # small bodies: the nearest two are drawn again, larger
+        far["duration"] = 6
+        for body in far["bodies"]:
+            body["position"] = [6 * x for x in body["position"]]
+            body["velocity"] = [6 * x for x in body["velocity"]]
+            body["pilot"]["goal"]["point"] = [6 * x for x in body["pilot"]["goal"]["point"]]
+        for scenario, close in ((agents(3, 3), False), (far, True)):
+            self.simulate(scenario, "--no-figures")
+            with open(os.path.join(self.folder, "out", "proof.json"), encoding="utf-8") as f:
+                proofs = json.load(f)["pairs"]
+            self.assertEqual({p["verdict"] for p in proofs}, {"avoided"})
+            drawn = subprocess.run(["/usr/bin/python3", "-c", DRAWN, os.path.join(self.folder, "out")], capture_output=True, text=True,
+                                   check=False, env={**os.environ, "PYTHONPATH": os.path.join(SOURCE, "apps/figures")})
+            self.assertEqual(drawn.returncode, 0, drawn.stderr)
+            shown = json.loads(drawn.stdout)
+            least = min(p["least_distance"] for p in proofs)
+            said = float(re.search(r"avoided, proved: (.*) m apart or more", "\n".join(shown["texts"]))[1])
+            self.assertTrue(0.99 * least <= said <= least, shown["texts"])
+            for p in proofs:
+                self.assertLess(min(math.dist(at, (p["least_time"], p["least_distance"])) for at in shown["dots"]), 1e-9)
+            self.assertEqual(any("to scale" in text for text in shown["texts"]), close)
+            wide, high = shown["space"]  # of the box that it has, 0.47 x 0.53 or more of the picture
+            self.assertGreater(max(wide / 0.47, high / (0.53 if close else 0.7)), 0.97)
+            self.assertGreater(min(wide / 0.47, high / (0.53 if close else 0.7)), 0.7)
 
 
 @unittest.skipUnless(DRAWS, "no /usr/bin/python3 with matplotlib")
