@@ -372,7 +372,7 @@ def picture(run: Flown) -> Any:
         ways_in_space(space, run)
         low = 0.37 if close_up(figure, run, space) else 0.2
         fill(space, (0.04, low, 0.47, 0.9 - low), 40 if run.rims else 55)
-        for axis, pad in ((space.xaxis, 8), (space.yaxis, 7), (space.zaxis, -3)):
+        for axis, pad in ((space.xaxis, 16), (space.yaxis, 10), (space.zaxis, -3)):
             axis.labelpad = pad
     verdict = run.run["verdict"]
     kept = [p["least_distance"] for p in run.proof["pairs"] if p["verdict"] == "avoided"]

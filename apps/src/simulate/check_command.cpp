@@ -72,6 +72,7 @@ void check_scenario(const Json& fields, const std::string& file, scenario::Facts
                         brief(body.pilot->goal->point.y()) + ", " + brief(body.pilot->goal->point.z()) +
                         ") m");
   }
+  if (scenario.water.moves()) facts.add("current", scenario::current_text(scenario.water));
   const auto pilots =
       std::count_if(scenario.bodies.begin(), scenario.bodies.end(),
                     [](const simulation::Body& body) { return body.pilot || body.vehicle || body.road; });

@@ -235,6 +235,10 @@ std::string through_text(const Scenario& scenario, const std::string& agent, con
 
 }  // namespace
 
+std::string current_text(const Current& water) {
+  return "at z = 0 never faster than " + at_most_text(water.most(0, 0), 4) + " m/s";
+}
+
 std::string agent_text(const Scenario& scenario, const simulation::Body& body) {
   const Pilot& pilot = *body.pilot;
   const guidance::GuideOptions& guide = pilot.guide;
@@ -300,6 +304,7 @@ void print_run(const Scenario& scenario, const Run& run, double seconds, std::os
   print_pairs(scenario, run, out);
   print_passages(scenario, run, out);
   print_bodies(scenario, run, out);
+  if (scenario.water.moves()) print_line(out, "current", current_text(scenario.water));
   print_line(out, "time",
              brief(run.end) + " s in steps of " + brief(scenario.step) + " s, computed and proved in " +
                  number_text(seconds, 2) + " s: " + number_text(run.end / seconds, 4) + " times real time");

@@ -16,6 +16,9 @@ void print_run(const simulation::Scenario& scenario, const simulation::Run& run,
 /// What a body is at its start, in plain words, and that it changes where it does.
 std::string shape_words(const simulation::Body& body);
 
+/// How fast the water or air moves, in a line.
+std::string current_text(const simulation::Current& water);
+
 /// What a pilot does, in a line.
 std::string agent_text(const simulation::Scenario& scenario, const simulation::Body& body);
 

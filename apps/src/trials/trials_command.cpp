@@ -205,9 +205,9 @@ void print_summary(const Json& summary, std::ostream& out) {
                   static_cast<unsigned long long>(s["undecided"].get<std::uint64_t>()),
                   s["effort"].get<double>());
     out << line;
-    if (s.contains("missed"))
-      out << "                           openings missed in " << s["missed"].get<std::uint64_t>()
-          << " of those left\n";
+    if (s.value("missed", 0) > 0)
+      out << "                           and " << s["missed"].get<std::uint64_t>()
+          << " that missed an opening\n";
   }
 }
 
