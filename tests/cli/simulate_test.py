@@ -141,7 +141,7 @@ bodies:
         self.assertEqual(times["decisions"], len({r["t [s]"] for r in self.table("encounters.csv")}))
         self.assertTrue(0 < times["mean"] <= times["worst"] and times["within"] <= times["worst"] and times["proofs"] > 0)
         self.assertLess(times["mean"] * times["decisions"] + times["proofs"], told["seconds"])
-        self.assertRegex(result.stdout, r"(?m)^time of decisions +mean .* ms, 99 % within .* ms, worst .* ms, of %d; proofs .* s$"
+        self.assertRegex(result.stdout, r"(?m)^time of decisions +mean .* ms, 99 %% within .* ms, worst .* ms, of %d; proofs .* s$"
                          % times["decisions"])
 
     def test_what_was_not_kept_is_said(self):
@@ -152,7 +152,7 @@ bodies:
         self.assertEqual(pair["required"], 1)
         result = run("simulate", self.write(text), "--out", self.out, "--quiet", "--no-figures")
         self.assertRegex(result.stdout, r"verdict +avoided, proved; nearer than required: 0\.\d+ of 1 m\n")
-        self.assertIn("A is on course to pass B at 0.", result.stdout)
+        self.assertIn("A is on course to pass B nearer than 1 m, at 0.1 m", result.stdout)
 
     def test_defaults_avoid_a_ball_at_rest(self):
         for law in ("avoidance", "clearance"):
