@@ -331,8 +331,8 @@ def legend(figure: Figure, run: Flown, drawn: Any) -> None:
                                  linestyle=""),
                       "goals, each in its agent's colour" if several else "goal of " + goal["agent"]))
     if run.pairs and any(p["verdict"] == "avoided" for p in run.proof["pairs"]):
-        named.append((plt.Line2D([], [], color=GREY, marker="o", markersize=4.5, linestyle=""),
-                      "least distance, proved"))
+        named.append((plt.Line2D([], [], color=GREY, marker="o", markersize=4.5, linestyle=""), "least distance, proved"))
+        named.append((plt.Line2D([], [], color=GREY, linewidth=1.2), "m: were all to go straight on"))
     if named:
         figure.legend(*zip(*named), loc="lower left", bbox_to_anchor=(0.01, 0.0), ncol=3, frameon=False, fontsize=6.5,
                       handlelength=1.8, columnspacing=1.2, labelspacing=0.3)
