@@ -6,6 +6,7 @@ from vericone_figures.style import AGENT, BOUND, EXACT, GREY, OBSTACLE, SLICE, T
 
 COLORS = {"di": SLICE, "di-filter": "#e8b04a", "rdi": BOUND, "rdi-filter": EXACT, "di-rates": "#b07a2e",
           "di-analytic": "#7fb58a", "di-state": AGENT, "di-margin": "#245c31", "clearance": OBSTACLE, "robust": "#b3202a"}
+FOOT = 1.5  # of a bar, below 0
 
 data = read("trials.json")
 shares = data["shares"]
@@ -27,14 +28,15 @@ for i, law in enumerate(laws):
     x = np.arange(len(levels)) + (i - 0.5 * (len(laws) - 1)) * width
     share = np.array([100 * s["share"] for s in mine])
     low, high = (np.array([100 * s[key] for s in mine]) for key in ("low", "high"))
-    axis.bar(x, share, width=0.92 * width, color=COLORS.get(law, GREY), label=law)
+    # From below 0: a share of 0 is a bar that is seen.
+    axis.bar(x, share + FOOT, bottom=-FOOT, width=0.92 * width, color=COLORS.get(law, GREY), label=law)
     axis.errorbar(x, share, yerr=[share - low, high - share], fmt="none", ecolor="black", elinewidth=0.7, capsize=1.5)
     for at, top, value in zip(x, high, share):
         axis.text(at, top + 1.5, "%.0f" % value if value in (0, 100) else "%.1f" % value, ha="center", va="bottom", fontsize=5.5,
                   rotation=90 if len(laws) * len(levels) > 15 else 0)
 axis.set_xticks(range(len(levels)))
 axis.set_xticklabels([words(level) for level in levels])
-axis.set_ylim(0, 118)
+axis.set_ylim(-FOOT, 118)
 axis.set_yticks(range(0, 101, 20))
 axis.set_ylabel("trials proved avoided [%]")
 axis.set_xlabel("noise of the measured position and velocity" if ":" in levels[0] else "noise")

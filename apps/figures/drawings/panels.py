@@ -56,6 +56,7 @@ for axes, panel in zip(drawn, panels):
         axes.axhline(0, color="k", linewidth=0.6)
     if panel.get("symlog"):
         axes.set_yscale("symlog", linthresh=panel["symlog"])
+        axes.yaxis.get_major_locator().set_params(numticks=7)
     axes.set_ylabel(panel["label"])
     low, high = axes.get_ylim()
     least = panel.get("least_height", 0)
