@@ -74,6 +74,12 @@ class Query(unittest.TestCase):
         head_on = engagement(a, ball([20, 0, 0], 2), [10, 0, 0])
         answer = query({**head_on, "position_error": {"ball": 1}, "velocity_error": {"ball": 0.5}})[1][0]
         self.assertEqual((answer["robust"], answer["witness"]), ("in", None))
+        box = {"points": [[x, y, z] for x in (-2, 2) for y in (-2, 2) for z in (-2, 2)], "center": [20, 0, 0]}
+        answer = query({**engagement(a, box, [10, 0, 0]), "position_error": {"ball": 1}, "velocity_error": {"ball": 0.5}})[1][0]
+        self.assertEqual((answer["robust"], answer["witness"]), ("in", None))
+        # A graze, exactly: nothing is off, and the plane along the motion touches.
+        graze = {**engagement(a, ball([20, 3, 0], 2), [10, 0, 0]), "horizon": 9}
+        self.assertEqual((query(graze)[1][0]["verdict"], query(graze)[1][0]["robust"]), ("on", "in"))
 
     def test_velocities_are_subtracted_without_rounding(self):
         a, b = ball([0, 0, 0], 1), ball([5, 0, 0], 2)

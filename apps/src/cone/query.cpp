@@ -24,7 +24,8 @@ void add_robust(Json& result, const scenes::Scene& scene, const RelativeErrors& 
       robust_verdict(scene.pair(), scene.agent.velocity, scene.obstacle.velocity, errors);
   result["robust"] = to_string(found.verdict);
   result["witness"] = nullptr;
-  if (found.verdict == RobustVerdict::out) result["witness"] = {{"normal", vector_json(found.normal)}};
+  if (found.verdict == RobustVerdict::out && !found.normal.isZero(0))
+    result["witness"] = {{"normal", vector_json(found.normal)}};
   if (found.verdict == RobustVerdict::depends)
     result["witness"] = {{"collides", error_json(found.collides)}, {"passes", error_json(found.passes)}};
 }

@@ -25,6 +25,7 @@ ConvexHullOf::ConvexHullOf(const Placed& placed) {
     convex = true;
   } else if (const auto* many = std::get_if<std::vector<CombinedEllipsoid>>(&shape)) {
     for (const CombinedEllipsoid& piece : *many) parts.push_back(in_world(piece, placed.pose).ellipsoid());
+    convex = many->size() == 1 && many->front().delimiters().empty();
   } else {
     const auto& assembly = std::get<Assembly>(shape);
     const Assembly::Storage& by_slot = assembly.by_slot();
@@ -33,6 +34,7 @@ ConvexHullOf::ConvexHullOf(const Placed& placed) {
     for (const Box& box : by_slot.boxes) add(HullBody::box(box.low, box.high).points(), placed.pose);
     for (const HullBody& piece : by_slot.hulls) add(piece.points(), placed.pose);
     radius = assembly.radius();
+    convex = assembly.size() == 1;  // every piece is
   }
 }
 

@@ -1,377 +1,368 @@
 // SPDX-License-Identifier: BSD-3-Clause
+//
+// Proofs: docs/explanation/robust-law.md, "The probability of a collision".
 #include <vericone/cones/uncertain/probability.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/stop.h>
-#include <Eigen/Cholesky>
-#include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <boost/math/quadrature/gauss.hpp>
-#include <boost/math/special_functions/owens_t.hpp>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "uncertain/covariance.h"
+#include "uncertain/shadow.h"
+
 namespace vericone {
+namespace gaussian {
 namespace {
 
-using Eigen::Matrix2d, Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
-using Factor = Eigen::Matrix<double, 2, 3>;
+using Eigen::Matrix3d, Eigen::Vector3d;
+using Rule = boost::math::quadrature::gauss<double, 20>;
 
-constexpr double kRounding = 1e-11;      // of every length
-constexpr double kTermRounding = 1e-14;  // of every term of the integral
-constexpr double kLeastTurn = 1e-5;      // of an arc: its corner is then right to kRounding
+constexpr int kNodes = 20;
+constexpr double kEllipse =
+    3;  // sum of the semi-axes of Bernstein's ellipse, of an interval of half length 1
+constexpr double kLeast = 1e-290;  // below, doubles lose their digits
 
-/// Of a standard normal variable.
-double phi(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
-
-/// Symmetric, finite, and positive semidefinite to rounding.
-template <typename Matrix>
-bool is_covariance(const Matrix& m) {
-  if (!m.allFinite() || m != m.transpose()) return false;
-  // A pivot that is negative beyond rounding shows in Gauss's elimination, largest pivot first.
-  Matrix rest = m;
-  const double size = m.cwiseAbs().maxCoeff();
-  for (int step = 0; step < m.rows(); ++step) {
-    Eigen::Index k = 0;
-    const double pivot = rest.diagonal().maxCoeff(&k);
-    if (pivot <= 1e-13 * size) return rest.cwiseAbs().maxCoeff() <= 1e-13 * size;
-    const auto column = rest.col(k).eval();
-    rest -= column * column.transpose() / pivot;
-    rest.row(k).setZero();
-    rest.col(k).setZero();
+/// The normal distribution from u to u + height, to a few roundings however small it is.
+double between(double u, double height) {
+  const double half = 0.5 * height, m = u + half, v = u + height, reach = std::abs(m) * half;
+  if (half <= 0.25 && reach <= 0.75) {
+    // exp(-m s - s^2 / 2) is the sum of He_n(m) (-s)^n / n!; odd n integrate to 0.
+    double even = 1, odd = m, power = half, sum = half, last = half;
+    for (int n = 2; n <= 18; n += 2) {
+      even = m * odd - (n - 1) * even;
+      odd = m * even - n * odd;
+      power *= half * half / (n * (n + 1));
+      const double term = power * even;
+      sum += term;
+      if (std::abs(term) + std::abs(last) < 1e-18 * sum) break;
+      last = term;
+    }
+    return std::exp(-0.5 * m * m) * sum * std::sqrt(2 / std::numbers::pi);
   }
-  return true;
+  const double a = u / std::numbers::sqrt2, b = v / std::numbers::sqrt2;
+  if (u >= 0) return 0.5 * (std::erfc(a) - std::erfc(b));
+  if (v <= 0) return 0.5 * (std::erfc(-b) - std::erfc(-a));
+  return 0.5 * (std::erf(b) + std::erf(-a));
 }
 
-void require_covariance(const Matrix3d& m, const char* field) {
-  if (!is_covariance(m))
-    throw InputError(field, to_text(m(0, 0)) + ", ...", "a symmetric, positive semidefinite matrix");
-}
-
-/// Two unit vectors across w.
-std::array<Vector3d, 2> across(const Vector3d& w) {
-  const Vector3d u = w.stableNormalized();
-  const Vector3d e1 = u.unitOrthogonal();
-  return {e1, u.cross(e1)};
-}
-
-/// The sum of two ellipses, images of the unit ball by two factors, about 0.
-struct Sum {
-  Factor a, b;
-
-  /// The boundary's point with outer normal n.
-  Vector2d point(const Vector2d& n) const {
-    const Vector3d p = a.transpose() * n, q = b.transpose() * n;
-    return a * (p / p.norm()) + b * (q / q.norm());
-  }
-};
-
-/// What the error has to hit, about `center`: polygons are made of a body that is nearly round, and mapped.
-struct Shadow {
-  Vector2d center;
-  Matrix2d map;
-  Sum round;
-
-  Shadow(const Vector2d& about, const Factor& a, const Factor& b) : center(about) {
-    map = Matrix2d(a * a.transpose() + b * b.transpose()).llt().matrixL();
-    const Matrix2d inverse = map.inverse();
-    round = {inverse * a, inverse * b};
-  }
-  /// `grown`: 1 and a little, or less.
-  Vector2d point(const Vector2d& of_round, double grown) const { return center + map * (grown * of_round); }
-};
-
-/// An arc of the round body's boundary between the points with normals at two angles, and the corner of the
-/// tangents there.
-struct Arc {
-  double from, to;
-  Vector2d p, q, corner;
-  double gap;  // probability between the chord and the corner
-
-  bool operator<(const Arc& other) const { return gap < other.gap; }
-};
-
-/// The standard normal measure of a polygon, edge by edge: that of the triangle with the origin is an angle
-/// less exp(-r^2/2) integrated over it, and the angles of a closed polygon sum up to a turn or nothing.
-double edge_term(const Vector2d& p, const Vector2d& q) {
-  const Vector2d along = q - p;
-  const double length = along.norm();
-  if (!(length > 0)) return 0;
-  const Vector2d unit = along / length;
-  const double h =
-      p.x() * unit.y() - p.y() * unit.x();  // of the line from the origin, positive where that is left
-  if (h == 0) return p.dot(unit) < 0 && q.dot(unit) > 0 ? -0.5 : 0;
-  const double from = p.dot(unit), distance = std::abs(h);
-  if (length < 1 && std::hypot(distance, std::max({0.0, from, -from - length})) > 2 * length) {
-    // Far from the origin the integrand is nearly a polynomial and keeps its digits, however small it is.
-    const auto density = [&](double s) {
-      const double r2 = h * h + s * s;
-      return std::exp(-0.5 * r2) / r2;
-    };
-    return -h / (2 * std::numbers::pi) *
-           boost::math::quadrature::gauss<double, 10>::integrate(density, from, from + length);
-  }
-  const double part = boost::math::owens_t(distance, (from + length) / distance) -
-                      boost::math::owens_t(distance, from / distance);
-  return h > 0 ? -part : part;
-}
-
-Arc arc_between(const Shadow& shadow, double from, double to) {
-  Arc arc;
-  arc.from = from;
-  arc.to = to;
-  const Vector2d n(std::cos(from), std::sin(from)), m(std::cos(to), std::sin(to));
-  arc.p = shadow.round.point(n);
-  arc.q = shadow.round.point(m);
-  // From p along its tangent, until m.x = m.q.
-  const Vector2d tangent(-n.y(), n.x());
-  arc.corner = arc.p + tangent * (m.dot(arc.q - arc.p) / m.dot(tangent));
-  const Vector2d p = shadow.point(arc.p, 1), q = shadow.point(arc.q, 1), c = shadow.point(arc.corner, 1);
-  arc.gap = to - from > kLeastTurn ? std::abs(edge_term(p, c) + edge_term(c, q) - edge_term(p, q)) : 0;
-  return arc;
-}
-
-struct Measure {
-  double value = 0, rounding = 0;
-};
-
-Measure polygon_measure(const std::vector<Vector2d>& corners) {
-  Measure m;
-  bool inside = true;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Vector2d &p = corners[i], &q = corners[(i + 1) % corners.size()];
-    inside = inside && p.x() * q.y() - p.y() * q.x() >= 0;
-    const double term = edge_term(p, q);
-    m.value += term;
-    m.rounding += std::abs(term);
-  }
-  m.rounding *= kTermRounding;
-  if (inside) m.value += 1, m.rounding += 1e-15;
-  return m;
-}
-
-/// The arcs in order.
-class Outline {
+/// The measure of a shadow, by the integral of -x' density(x) (Phi(y) - Phi(y0)) around its boundary, y0 on
+/// the line through the leftmost and the rightmost point: no term is negative.
+class Integral {
  public:
-  explicit Outline(const Shadow& shadow) : shadow_(shadow) {
-    constexpr int kStart = 16;
-    const auto angle = [](int i) { return 2 * std::numbers::pi * i / kStart; };
-    for (int i = 0; i < kStart; ++i) arcs_.push_back(arc_between(shadow, angle(i), angle(i + 1)));
+  Integral(const Shadow& shadow, const ProbabilityOptions& options) : k_(shadow), options_(options) {
+    // The rightmost point has its normal along the first row of M.
+    start_ = std::atan2(k_.bx, k_.ax);
+    const double length = std::hypot(k_.ax, k_.bx);
+    const Shadow::Point right = k_.point(k_.ax / length, k_.bx / length);
+    slope_ = right.y / right.x;
+    wide_ = 2 * k_.rounding * (std::abs(k_.ax) + std::abs(k_.bx));
+    tall_ = 2 * k_.rounding * (std::abs(k_.ay) + std::abs(k_.by)) + std::abs(slope_) * wide_;
+    away_ = k_.rounding * (std::abs(k_.x) + std::abs(k_.y));
   }
 
-  int points() const { return int(arcs_.size()); }
-
-  std::vector<Vector2d> inner() const {
-    std::vector<Vector2d> corners;
-    for (const Arc& arc : arcs_) corners.push_back(shadow_.point(arc.p, 1 - kRounding));
-    return corners;
-  }
-  std::vector<Vector2d> outer() const {
-    std::vector<Vector2d> corners;
-    for (const Arc& arc : arcs_) {
-      corners.push_back(shadow_.point(arc.p, 1 + kRounding));
-      corners.push_back(shadow_.point(arc.corner, 1 + kRounding));
+  Probability measure() {
+    constexpr double kPi = std::numbers::pi;
+    panels_.reserve(std::size_t(std::max(2, options_.most_points / kNodes)) + 1);
+    add(start_ + 0.5 * kPi, 0.5 * kPi);
+    add(start_ + 1.5 * kPi, 0.5 * kPi);
+    double scale = 0;
+    Probability p;
+    while (true) {
+      refine(scale);
+      p = sum();
+      const double wanted = std::max(options_.absolute, options_.relative * p.estimate);
+      if (2 * open_ <= wanted || full()) break;
+      checkpoint();
+      scale = p.estimate;
     }
-    return corners;
-  }
-
-  /// Cuts the arcs in two that hold most of what is open; false where none can be.
-  bool refine() {
-    std::vector<double> gaps;
-    for (const Arc& arc : arcs_) gaps.push_back(arc.gap);
-    const auto middle = gaps.begin() + std::ptrdiff_t(gaps.size() / 2);
-    std::nth_element(gaps.begin(), middle, gaps.end());
-    const double least = *middle;
-    std::vector<Arc> finer;
-    bool any = false;
-    for (const Arc& arc : arcs_) {
-      if (!(arc.gap > 0) || arc.gap < least) {
-        finer.push_back(arc);
-        continue;
-      }
-      any = true;
-      const double half = 0.5 * (arc.from + arc.to);
-      finer.push_back(arc_between(shadow_, arc.from, half));
-      finer.push_back(arc_between(shadow_, half, arc.to));
-    }
-    arcs_ = std::move(finer);
-    return any;
+    return p;
   }
 
  private:
-  const Shadow& shadow_;
-  std::vector<Arc> arcs_;
-};
-
-/// Of the standard normal distribution over a shadow.
-Probability standard_measure(const Shadow& shadow, const ProbabilityOptions& options) {
-  Outline outline(shadow);
-  while (true) {
-    checkpoint();
-    const Measure least = polygon_measure(outline.inner()), most = polygon_measure(outline.outer());
-    Probability p;
-    p.least = std::clamp(least.value - least.rounding, 0.0, 1.0);
-    p.most = std::clamp(most.value + most.rounding, p.least, 1.0);
-    // Beside a smooth boundary the area that chords cut off is twice that left at corners.
-    p.estimate = std::clamp((least.value + 2 * most.value) / 3, p.least, p.most);
-    p.points = outline.points();
-    if (p.most - p.least <= std::max(options.absolute, options.relative * p.most) ||
-        2 * outline.points() > options.most_points || !outline.refine())
-      return p;
-  }
-}
-
-/// Of the line x = t u through 0, the t within a polygon.
-struct Span {
-  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
-};
-Span span_of(const std::vector<Vector2d>& corners, const Vector2d& u) {
-  const Vector2d side(-u.y(), u.x());
-  Span span;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Vector2d &p = corners[i], &q = corners[(i + 1) % corners.size()];
-    const double s = side.dot(p), t = side.dot(q);
-    if ((s <= 0) == (t <= 0)) continue;
-    const double x = u.dot(p + (q - p) * (s / (s - t)));
-    span.low = std::min(span.low, x), span.high = std::max(span.high, x);
-  }
-  return span;
-}
-
-/// The error lies on a line through 0 along u with this deviation (0: it is none).
-Probability line_measure(const Shadow& shadow, const Vector2d& u, double deviation) {
-  Outline outline(shadow);
-  for (int i = 0; i < 12; ++i) outline.refine();
-
-  const auto measure = [&](const Span& span) {
-    if (!(span.low <= span.high)) return 0.0;
-    if (!(deviation > 0)) return span.low <= 0 && span.high >= 0 ? 1.0 : 0.0;
-    // The smaller tail, so that nothing cancels.
-    const double x = span.low / deviation, y = span.high / deviation;
-    return x > 0 ? phi(-x) - phi(-y) : phi(y) - phi(x);
+  struct Panel {
+    double middle, half;
+    double error, value;  // of the integral; the value of one node as long as it is not summed
+    double rounding;
+    bool skipped, summed;
+    bool operator<(const Panel& other) const { return error < other.error; }
   };
+
+  bool full() const { return int(panels_.size() + 1) * kNodes > options_.most_points; }
+
+  /// Cuts panels in two, the worst one first, until little is open.
+  void refine(double scale) {
+    while (!full()) {
+      double open = 0, known = 0;
+      for (const Panel& panel : panels_) {
+        open += panel.error;
+        if (panel.summed || panel.error < 0.01 * panel.value) known += panel.value;
+      }
+      const double wanted =
+          0.2 * std::max(options_.absolute, options_.relative * (scale > 0 ? scale : known));
+      if (open <= wanted) return;
+      // Not std::pop_heap: there are few, and sums of the errors are needed anyway.
+      const auto worst = std::max_element(panels_.begin(), panels_.end());
+      const Panel cut = *worst;
+      if (!(cut.half > 1e-15)) return;
+      *worst = panels_.back();
+      panels_.pop_back();
+      add(cut.middle - 0.5 * cut.half, 0.5 * cut.half);
+      add(cut.middle + 0.5 * cut.half, 0.5 * cut.half);
+    }
+  }
+
+  void add(double middle, double half) {
+    const double c = std::cos(middle), s = std::sin(middle);
+    Panel panel{middle, half, 0, 0, 0, false, false};
+    const Bounds bounds = bound(c, s, half);
+    panel.skipped = bounds.real <= bounds.complex;
+    panel.error = std::min(bounds.real, bounds.complex);
+    panel.value = 2 * half * std::abs(term(c, s).value);
+    panels_.push_back(panel);
+  }
+
+  struct Term {
+    double value, rounding;
+  };
+  /// The integrand at an angle, and by how much it may be off.
+  Term term(double c, double s) const {
+    const Shadow::Point p = k_.point(c, s);
+    const double x = k_.x + p.x, start = k_.y + slope_ * p.x, end = k_.y + p.y, height = p.y - slope_ * p.x;
+    const double along = p.turn * (k_.bx * c - k_.ax * s);
+    const double low = std::min(start, end);
+    const double part = between(low, std::abs(height));
+    const double value = std::abs(along) * std::exp(-0.5 * x * x) / std::sqrt(2 * std::numbers::pi) * part;
+    // Lengths of the bodies (with the angle, right to 7 roundings) and the way to them are as good as
+    // `rounding` says. The density is nowhere above 5 (2 / height + nearest + 1) times `part`.
+    const double of_width = wide_ * (1 + p.turn), of_height = tall_ * (1 + p.turn);
+    const double tall = std::abs(height), nearest = std::max({0.0, low, -low - tall});
+    const double densest = 5 * (2 / std::max(tall, of_height) + nearest + 1);
+    const double farthest = std::max(std::abs(start), std::abs(end));
+    const double relative = 0x1p-47 + (of_width + away_) * std::abs(x) +
+                            (of_height + away_) * std::min(farthest, densest) + of_height * densest +
+                            of_width * p.turn / std::max(std::abs(along), 1e-300);
+    return {value, value * relative};
+  }
+
+  struct Bounds {
+    double real, complex;
+  };
+  /// Of the integral over a panel, by the largest value; and of what Gauss's rule leaves of it, by the
+  /// largest absolute value in the disc around Bernstein's ellipse.
+  Bounds bound(double c, double s, double half) const {
+    constexpr double kReach = 0.5 * (kEllipse + 1 / kEllipse);
+    const double radius = kReach * half;
+    const double wide = std::cosh(radius), deep = std::sinh(radius);
+    Bounds b;
+    b.complex = 64.0 / 15 * half * std::pow(kEllipse, -2.0 * kNodes) / (1 - 1 / (kEllipse * kEllipse)) *
+                largest(c, s, wide, deep, wide - 1, true);
+    b.real = 2 * half * largest(c, s, 1, half, 0.5 * half * half, false);
+    return b;
+  }
+
+  /// For angles z from the middle with |cos z| <= wide and |sin z| <= deep; the integrals of both from 0 are
+  /// at most `deep` and `risen`.
+  double largest(double c, double s, double wide, double deep, double risen, bool complex) const {
+    const double along_both = std::abs(c * c - s * s) * deep * deep + 2 * std::abs(s * c) * deep * wide;
+    const auto least = [&](double e1, double e2) {
+      const double middle = e1 * c * c + e2 * s * s, low = middle - std::abs(e1 - e2) * along_both;
+      return complex ? low : std::max(low, std::min(e1, e2));
+    };
+    const double l = least(k_.l1, k_.l2), m = least(k_.m1, k_.m2);
+    double turn = 0;
+    if (k_.l1 * k_.l2 > 0) turn += l > 0 ? k_.l1 * k_.l2 / (l * std::sqrt(l)) : kInfinity;
+    if (k_.m1 * k_.m2 > 0) turn += m > 0 ? k_.m1 * k_.m2 / (m * std::sqrt(m)) : kInfinity;
+    if (!(turn < kInfinity)) return kInfinity;
+    const Shadow::Point p = k_.point(c, s);
+    // Of u = (a, b).p, u' = turn (b c - a s) and its own derivative -turn (a c + b s), turn aside.
+    const auto slope_of = [&](double a, double b) {
+      return turn * (std::abs(b * c - a * s) * wide + std::abs(a * c + b * s) * deep);
+    };
+    const auto change_of = [&](double a, double b) {
+      return turn * (std::abs(b * c - a * s) * deep + std::abs(a * c + b * s) * risen);
+    };
+    const double of_x = change_of(k_.ax, k_.bx), of_y = change_of(k_.ay, k_.by);
+    const double of_start = std::abs(slope_) * of_x;
+    const double height =
+        std::abs(p.y - slope_ * p.x) + change_of(k_.ay - slope_ * k_.ax, k_.by - slope_ * k_.bx);
+    const double start = k_.y + slope_ * p.x, end = k_.y + p.y;
+    const double low = std::min(start - of_start, end - of_y), high = std::max(start + of_start, end + of_y);
+    const double x = std::max(0.0, std::abs(k_.x + p.x) - of_x), y = std::max({0.0, low, -high});
+    // |density(z)| is that of the real part times exp(half the square of the imaginary part).
+    double exponent = -0.5 * (x * x + y * y);
+    double part = height / (2 * std::numbers::pi);
+    if (complex) {
+      const double beside = std::max(of_y, of_start);
+      exponent += 0.5 * (of_x * of_x + beside * beside);
+    } else {
+      part = std::min(part, 1 / std::sqrt(2 * std::numbers::pi));
+    }
+    return slope_of(k_.ax, k_.bx) * part * std::exp(exponent) * (1 + 1e-9);
+  }
+
+  void evaluate(Panel& panel) const {
+    const double c = std::cos(panel.middle), s = std::sin(panel.middle);
+    panel.value = panel.rounding = 0;
+    for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
+      const double t = panel.half * Rule::abscissa()[i], weight = panel.half * Rule::weights()[i];
+      const double dc = std::cos(t), ds = std::sin(t);
+      for (const double side : {ds, -ds}) {
+        const Term of_node = term(c * dc - s * side, s * dc + c * side);
+        panel.value += weight * of_node.value;
+        panel.rounding += weight * of_node.rounding;
+      }
+    }
+    panel.summed = true;
+  }
+
+  Probability sum() {
+    Probability p;
+    double rounding = 0, skipped = 0, left = 0;
+    p.points = 0;
+    for (Panel& panel : panels_) {
+      ++p.points;  // its middle
+      if (panel.skipped) {
+        skipped += panel.error;
+        continue;
+      }
+      if (!panel.summed) evaluate(panel);
+      p.estimate += panel.value;
+      rounding += panel.rounding;
+      left += panel.error;
+      p.points += kNodes;
+    }
+    open_ = left + skipped;
+    p.least = std::clamp(p.estimate - left - rounding, 0.0, 1.0);
+    p.most = std::clamp((p.estimate + left + skipped + rounding) * (1 + 0x1p-50), p.least, 1.0);
+    p.estimate = std::clamp(p.estimate, p.least, p.most);
+    return p;
+  }
+
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const Shadow& k_;
+  const ProbabilityOptions& options_;
+  std::vector<Panel> panels_;
+  double start_, slope_, open_ = 0;
+  double wide_, tall_, away_;  // by how much widths, heights and the way to the shadow may be off
+};
+
+/// Where the axis of x leaves the shadow scaled by `grown` about its centre: between chord and tangents of
+/// the arc that crosses it, on the right (side 1) or the left (-1). False where it is surely not met.
+class Crossing {
+ public:
+  Crossing(const Shadow& shadow, double grown) : k_(shadow), grown_(grown) {
+    slack_ = 4 * k_.rounding * (std::abs(k_.y) + grown * (std::abs(k_.ay) + std::abs(k_.by)));
+    top_ = std::atan2(k_.by, k_.ay);
+  }
+
+  /// Of the highest and the lowest point: 1 above the axis surely, -1 below, 0 neither.
+  bool missed() const { return side(top_) == -1 || side(top_ + std::numbers::pi) == 1; }
+  bool met() const { return side(top_) == 1 && side(top_ + std::numbers::pi) == -1; }
+
+  struct Ends {
+    double inner, outer;
+  };
+  Ends ends(int side_of) const {
+    // From the lowest point, counter-clockwise on the right.
+    const double lowest = top_ - side_of * std::numbers::pi;
+    const auto turn = [&](auto is_below) {
+      double below = lowest, above = top_;
+      for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (below + above);
+        (is_below(side(middle)) ? below : above) = middle;
+      }
+      return std::pair(below, above);
+    };
+    const Place p = place(turn([](int at) { return at < 0; }).first);
+    const Place q = place(turn([](int at) { return at <= 0; }).second);
+    Ends e;
+    e.inner = p.x + (q.x - p.x) * (p.y / (p.y - q.y));
+    e.outer = side_of * std::numeric_limits<double>::infinity();
+    for (const Place& t : {p, q})
+      // n.(z - t) <= 0 for all of the body: at y = 0.
+      if (side_of * t.nx > 0) {
+        const double x = t.x + (t.ny / t.nx) * t.y;
+        e.outer = side_of > 0 ? std::min(e.outer, x) : std::max(e.outer, x);
+      }
+    return e;
+  }
+
+ private:
+  struct Place {
+    double x, y, nx, ny;
+  };
+  Place place(double t) const {
+    const double c = std::cos(t), s = std::sin(t);
+    const Shadow::Point p = k_.point(c, s);
+    return {k_.x + grown_ * p.x, k_.y + grown_ * p.y, k_.by * c - k_.ay * s, k_.ax * s - k_.bx * c};
+  }
+  int side(double t) const {
+    const double y = place(t).y;
+    return y > slack_ ? 1 : y < -slack_ ? -1 : 0;
+  }
+
+  const Shadow& k_;
+  double grown_, slack_, top_;
+};
+
+/// Of an error along the axis of x, and perhaps a little beside it.
+Probability line_measure(const Shadow& shadow) {
+  constexpr double kRounding = 0x1p-46;
   Probability p;
-  const double rounding = deviation > 0 ? kRounding : 0;
-  p.least = std::max(0.0, measure(span_of(outline.inner(), u)) * (1 - rounding));
-  p.most = std::clamp(measure(span_of(outline.outer(), u)) * (1 + rounding), p.least, 1.0);
+  p.least = 0;
+  const Crossing outer(shadow, (1 + shadow.smear) * (1 + kRounding));
+  if (outer.missed()) {
+    p.most = shadow.beside;
+    return p;
+  }
+  p.points = 2;
+  const double left = outer.ends(-1).outer, right = outer.ends(1).outer;
+  const double slack = kRounding * (std::abs(shadow.x) + std::abs(shadow.ax) + std::abs(shadow.bx));
+  if (left - slack >= right + slack)
+    p.most = 0;
+  else
+    p.most = shadow.still ? (left <= slack && right >= -slack ? 1 : 0)
+                          : between(left - slack, right - left + 2 * slack);
+  p.most = std::min(1.0, p.most * (1 + kRounding) + shadow.beside);
+  if (shadow.smear < 1) {
+    const Crossing inner(shadow, (1 - shadow.smear) * (1 - kRounding));
+    if (inner.met()) {
+      const double from = inner.ends(-1).inner + slack, to = inner.ends(1).inner - slack;
+      if (from < to)
+        p.least = shadow.still ? (from < 0 && to > 0 ? 1 : 0)
+                               : std::max(0.0, between(from, to - from) * (1 - kRounding) - shadow.beside);
+    }
+  }
   p.estimate = 0.5 * (p.least + p.most);
-  p.points = outline.points();
   return p;
 }
 
 }  // namespace
+}  // namespace gaussian
 
-Probability probability_of_passing_through(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& w,
-                                           const Matrix3d& position_covariance,
+Probability probability_of_passing_through(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& w,
+                                           const Eigen::Matrix3d& position_covariance,
                                            const ProbabilityOptions& options) {
+  using namespace gaussian;
   if (!w.allFinite() || w.isZero(0))
     throw InputError("relative_velocity", to_text(w.norm()), "a finite velocity that is not zero (m/s)");
-  require_covariance(position_covariance, "position_covariance");
+  const Covariance covariance(position_covariance, "position_covariance");
   if (!(options.relative >= 0))
     throw InputError("relative", to_text(options.relative), "a number, 0 or more");
   if (!(options.absolute >= 0))
     throw InputError("absolute", to_text(options.absolute), "a number, 0 or more");
   if (options.most_points < 16)
     throw InputError("most_points", std::to_string(options.most_points), "16 or more");
-  const auto [e1, e2] = across(w);
-  Eigen::Matrix<double, 2, 3> flat;
-  flat << e1.transpose(), e2.transpose();
-  // Bodies meet where the error d of c has c + d in the shadow of A + (-B) about 0.
-  const Vector2d center = flat * (a.center() - b.center());
-  const Factor of_a = flat * a.factor(), of_b = flat * b.factor();
-  const Matrix2d c = flat * position_covariance * flat.transpose();
-  // Along its own axes.
-  const double angle = 0.5 * std::atan2(c(0, 1) + c(1, 0), c(0, 0) - c(1, 1));
-  const Vector2d u(std::cos(angle), std::sin(angle)), v(-u.y(), u.x());
-  const double large = u.dot(c * u), small = std::max(0.0, v.dot(c * v));
-  if (!(small > 1e-14 * large))
-    return line_measure(Shadow(center, of_a, of_b), u, std::sqrt(std::max(0.0, large)));
-  Matrix2d whiten;
-  whiten << u.transpose() / std::sqrt(large), v.transpose() / std::sqrt(small);
-  return standard_measure(Shadow(whiten * center, whiten * of_a, whiten * of_b), options);
-}
-
-namespace {
-
-/// The bound for one normal.
-class NormalBound {
- public:
-  NormalBound(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& w, const GaussianErrors& errors,
-              double horizon)
-      : a_(a), b_(b), c_(b.center() - a.center()), w_(w), errors_(errors), horizon_(horizon) {}
-
-  double operator()(const Vector3d& n) const {
-    const double sizes = a_.radius(n) + b_.radius(n);
-    // Rounded down.
-    const double gap = n.dot(c_) - sizes - 1e-14 * (sizes + c_.norm());
-    if (!(gap > 0)) return 1;
-    const double now = tail(gap, n.dot(errors_.position * n));
-    const double closing = n.dot(w_) + 1e-14 * w_.norm(), of_w = n.dot(errors_.velocity * n);
-    double later = tail(-closing, of_w);
-    if (std::isfinite(horizon_)) {
-      const double variance =
-          n.dot(errors_.position * n) - 2 * horizon_ * n.dot(errors_.cross * n) + horizon_ * horizon_ * of_w;
-      later = std::min(later, tail(gap - horizon_ * closing, std::max(0.0, variance)));
-    }
-    return std::min(1.0, (now + later) * (1 + 1e-12));
-  }
-
- private:
-  /// That a normal error takes a margin away.
-  static double tail(double margin, double variance) {
-    if (!(variance > 0)) return margin >= 0 ? 0 : 1;
-    return phi(-margin / std::sqrt(variance * (1 + 1e-12)));
-  }
-
-  const Ellipsoid &a_, &b_;
-  Vector3d c_, w_;
-  const GaussianErrors& errors_;
-  double horizon_;
-};
-
-}  // namespace
-
-ProbabilityBound collision_probability_bound(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& w,
-                                             const GaussianErrors& errors, double horizon) {
-  if (!w.allFinite()) throw InputError("relative_velocity", to_text(w.norm()), "finite (m/s)");
-  if (!(horizon > 0)) throw InputError("horizon", to_text(horizon), "a positive number (s), or infinity");
-  require_covariance(errors.position, "position_covariance");
-  require_covariance(errors.velocity, "velocity_covariance");
-  Eigen::Matrix<double, 6, 6> all;
-  all << errors.position, errors.cross, errors.cross.transpose(), errors.velocity;
-  if (!is_covariance(all))
-    throw InputError("cross_covariance", to_text(errors.cross(0, 0)) + ", ...",
-                     "such that position and velocity together have a positive semidefinite covariance");
-  const NormalBound bound(a, b, w, errors, horizon);
-  // Directions all around, then the best one turned in steps that halve.
-  ProbabilityBound best;
-  const auto offer = [&](const Vector3d& n) {
-    const double value = bound(n);
-    if (!(value < best.most)) return false;
-    best = {value, n};
-    return true;
-  };
-  constexpr int kDirections = 200;
-  for (int i = 0; i < kDirections; ++i) {
-    const double z = 1 - (2.0 * i + 1) / kDirections, r = std::sqrt(1 - z * z),
-                 t = std::numbers::pi * (3 - std::sqrt(5.0)) * i;
-    offer({r * std::cos(t), r * std::sin(t), z});
-  }
-  offer((b.center() - a.center()).normalized());
-  if (best.normal.isZero(0)) return best;
-  double step = 0.15;
-  for (int i = 0; i < 200 && step > 1e-6; ++i) {
-    const Vector3d n = best.normal, e1 = n.unitOrthogonal(), e2 = n.cross(e1);
-    bool better = false;
-    for (int k = 0; k < 6; ++k) {
-      const double t = 0.7 * i + k * std::numbers::pi / 3;
-      better = offer((n + step * (std::cos(t) * e1 + std::sin(t) * e2)).normalized()) || better;
-    }
-    if (!better) step *= 0.6;
-  }
-  return best;
+  const Shadow shadow(a, b, w, covariance.matrix);
+  Probability p = shadow.flat ? line_measure(shadow) : Integral(shadow, options).measure();
+  if (p.most < kLeast && p.points > 0 && !shadow.still) p.least = 0, p.most = kLeast;
+  p.clipped = covariance.clipped;
+  return p;
 }
 
 }  // namespace vericone

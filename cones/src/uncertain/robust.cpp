@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/cones/ellipsoids/clearance.h>
+#include <vericone/cones/times/contact_time_enclosure.h>
 #include <vericone/cones/uncertain/robust.h>
 #include <vericone/geometry/error.h>
 #include <numbers>
@@ -56,6 +58,24 @@ void require(const RelativeErrors& errors, const Vector3d& v_a, const Vector3d& 
 /// Rounded up.
 double slightly_more(double x) { return x * (1 + 0x1p-50); }
 
+/// Errors of position and of size together, as they may move a body whole; rounded inwards.
+ErrorSet with_size(const ErrorSet& position, double size) {
+  if (size == 0) return {};
+  return ErrorSet::sum(std::nextafter(position.radius() + size, 0), position.factors(), position.segments());
+}
+
+bool none(const RelativeErrors& errors) {
+  return errors.position.none() && errors.velocity.none() && errors.size == 0 && errors.acceleration == 0 &&
+         errors.attitude_a == 0 && errors.attitude_b == 0;
+}
+
+/// Within a part of the horizon accelerations stray less: every error that collides by then collides.
+constexpr double kParts[] = {1, 0.75, 0.5, 0.25};
+
+double strayed(const RelativeErrors& errors, double horizon) {
+  return errors.acceleration > 0 ? slightly_more(0.5 * errors.acceleration * horizon) : 0;
+}
+
 /// The bodies as they may be at most, at least, and as they are thought to be; often the same.
 struct Bodies {
   const Side &outer_a, &outer_b, &a, &b, &inner_a, &inner_b;
@@ -63,19 +83,36 @@ struct Bodies {
   double position_by;  // ball that errors of attitude and size add to those of position, m
 };
 
+/// `in` or `depends`, of which one error that collides is known.
+template <typename Inner>
+void decide_in(RobustAnswer& answer, const Engagement& thought, bool convex, const RelativeErrors& errors,
+               const Inner& inner) {
+  for (const double part : kParts) {
+    const Everywhere found = everywhere(inner(part * errors.horizon), thought, convex);
+    answer.cells += found.cells;
+    if (found.passes) {
+      answer.verdict = RobustVerdict::depends;
+      answer.passes = *found.passes;
+    } else if (found.all_collide) {
+      answer.verdict = RobustVerdict::in;
+    }
+    if (answer.verdict != RobustVerdict::undecided || errors.acceleration == 0) return;
+  }
+}
+
 /// Decides whether an error collides: its mean error first, then what the search found.
 template <typename Collides>
 RobustAnswer decide(const Bodies& bodies, const Vector3d& v_a, const Vector3d& v_b,
                     const RelativeErrors& errors, const Collides& collides) {
-  const double by_acceleration =
-      errors.acceleration > 0 ? slightly_more(0.5 * errors.acceleration * errors.horizon) : 0;
-  const auto engagement = [&](const Side& a, const Side& b, bool inflated) {
-    return Engagement(a, b, v_a, v_b, {errors.position, inflated ? bodies.position_by : 0},
-                      {errors.velocity, inflated ? by_acceleration : 0}, errors.horizon);
+  const double by_acceleration = strayed(errors, errors.horizon);
+  const auto inflated = [&](const Side& a, const Side& b, double horizon) {
+    return Engagement(a, b, v_a, v_b, {errors.position, bodies.position_by},
+                      {errors.velocity, strayed(errors, horizon)}, horizon);
   };
-  const ErrorSet nothing;
-  const Engagement outer = engagement(bodies.outer_a, bodies.outer_b, true);
-  const Engagement thought = engagement(bodies.a, bodies.b, false);
+  const ErrorSet nothing, moved = with_size(errors.position, errors.size);
+  const ErrorSet& places = errors.size > 0 ? moved : errors.position;
+  const Engagement outer = inflated(bodies.outer_a, bodies.outer_b, errors.horizon);
+  const Engagement thought(bodies.a, bodies.b, v_a, v_b, {places}, {errors.velocity}, errors.horizon);
   const Engagement certain(bodies.a, bodies.b, v_a, v_b, {nothing}, {nothing}, errors.horizon);
 
   RobustAnswer answer;
@@ -114,16 +151,9 @@ RobustAnswer decide(const Bodies& bodies, const Vector3d& v_a, const Vector3d& v
     const auto error = collides(certain, without);
     if (!error) return answer;
   }
-  const Everywhere found =
-      everywhere(engagement(bodies.inner_a, bodies.inner_b, true), thought, bodies.convex);
-  answer.cells = found.cells;
-  if (found.passes) {
-    answer.verdict = RobustVerdict::depends;
-    answer.passes = *found.passes;
-  } else if (found.all_collide) {
-    answer.verdict = RobustVerdict::in;
-    answer.collides = {};
-  }
+  decide_in(answer, thought, bodies.convex, errors,
+            [&](double horizon) { return inflated(bodies.inner_a, bodies.inner_b, horizon); });
+  if (answer.verdict == RobustVerdict::in) answer.collides = {};
   return answer;
 }
 
@@ -162,6 +192,33 @@ std::optional<RelativeError> ellipsoids_collide(const Engagement& e, const Neare
   }
   if (e.overlap_at(time, x, error)) return error;
   return std::nullopt;
+}
+
+/// By the exact predicates. No normal need prove it to doubles; one rounded to be across w may.
+RobustAnswer without_errors(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& v_a, const Vector3d& v_b,
+                            double horizon) {
+  const ConeOracle oracle(a, b);
+  RobustAnswer answer;
+  if (may_collide(oracle.verdict(v_a, v_b))) {
+    const auto time = enclose_time_to_contact(oracle, v_a, v_b);
+    if (!std::isfinite(horizon) || (time && time->hi() <= horizon)) answer.verdict = RobustVerdict::in;
+    if (!time || !(time->lo() > horizon)) return answer;
+  }
+  answer.verdict = RobustVerdict::out;
+  const Side side_a(a), side_b(b);
+  const ErrorSet nothing;
+  const Engagement certain(side_a, side_b, v_a, v_b, {nothing}, {nothing}, horizon);
+  const Vector3d start = certain.c.isZero(0) ? Vector3d(Vector3d::UnitX()) : certain.c;
+  const Nearest found = nearest(certain, start);
+  answer.normal = found.normal.isZero(0) ? start.normalized() : Vector3d(found.normal.normalized());
+  if (certain.separates_all(answer.normal) || !(certain.w.norm() > 0)) return answer;
+  const Vector3d across = clearance(a, b, certain.w).normal, along = certain.w.normalized();
+  for (int roundings = 0; roundings <= 4; ++roundings) {
+    const Vector3d n = across - along * (roundings * 0x1p-53);
+    if (roundings == 0 || certain.separates_all(n)) answer.normal = n;
+    if (certain.separates_all(n)) break;
+  }
+  return answer;
 }
 
 Side side_of(const ConvexHullOf& hull) {
@@ -206,9 +263,13 @@ RobustAnswer robust_verdict(const Ellipsoid& a, const Ellipsoid& b, const Vector
   require(errors, v_a, v_b);
   const Side side_a(a), side_b(b);
   const double by_size = errors.size;
-  if (errors.attitude_a == 0 && errors.attitude_b == 0)
-    return decide({side_a, side_b, side_a, side_b, side_a, side_b, true, by_size}, v_a, v_b, errors,
-                  ellipsoids_collide);
+  if (errors.attitude_a == 0 && errors.attitude_b == 0) {
+    const RobustAnswer answer = decide({side_a, side_b, side_a, side_b, side_a, side_b, true, by_size}, v_a,
+                                       v_b, errors, ellipsoids_collide);
+    if (answer.verdict == RobustVerdict::undecided && none(errors))
+      return without_errors(a, b, v_a, v_b, errors.horizon);
+    return answer;
+  }
   const Ellipsoid outer_a = around_turned(a, errors.attitude_a),
                   outer_b = around_turned(b, errors.attitude_b);
   const Ellipsoid inner_a = within_turned(a, errors.attitude_a),
@@ -228,11 +289,14 @@ RobustAnswer robust_verdict(const Pair& pair, const Vector3d& v_a, const Vector3
   const Side side_a = side_of(a), side_b = side_of(b);
   const double by = slightly_more(errors.size + moved_by_turning(pair.agent(), errors.attitude_a) +
                                   moved_by_turning(pair.obstacle(), errors.attitude_b));
-  const double by_acceleration =
-      errors.acceleration > 0 ? slightly_more(0.5 * errors.acceleration * errors.horizon) : 0;
-  const Engagement widened(side_a, side_b, v_a, v_b, {errors.position, by},
-                           {errors.velocity, by_acceleration}, errors.horizon);
-  const Engagement thought(side_a, side_b, v_a, v_b, {errors.position}, {errors.velocity}, errors.horizon);
+  const auto inflated = [&](double horizon) {
+    return Engagement(side_a, side_b, v_a, v_b, {errors.position, by},
+                      {errors.velocity, strayed(errors, horizon)}, horizon);
+  };
+  const Engagement widened = inflated(errors.horizon);
+  const ErrorSet moved = with_size(errors.position, errors.size);
+  const ErrorSet& places = errors.size > 0 ? moved : errors.position;
+  const Engagement thought(side_a, side_b, v_a, v_b, {places}, {errors.velocity}, errors.horizon);
 
   RobustAnswer answer;
   const Vector3d between = pair.obstacle().middle() - pair.agent().middle();
@@ -244,11 +308,12 @@ RobustAnswer robust_verdict(const Pair& pair, const Vector3d& v_a, const Vector3
   }
   const auto without = pair_collides(pair, v_a, v_b, {}, errors.horizon);
   if (!without) return answer;
+  if (none(errors)) {
+    answer.verdict = *without ? RobustVerdict::in : RobustVerdict::out;
+    return answer;
+  }
   if (*without) {
-    const Everywhere found = everywhere(widened, thought, a.convex && b.convex);
-    answer.cells = found.cells;
-    if (found.all_collide) answer.verdict = RobustVerdict::in;
-    if (found.passes) answer.verdict = RobustVerdict::depends, answer.passes = *found.passes;
+    decide_in(answer, thought, a.convex && b.convex, errors, inflated);
     return answer;
   }
   // Towards the hulls' overlap; halves are in the sets as well, exactly.

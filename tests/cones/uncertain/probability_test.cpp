@@ -6,10 +6,17 @@
 #include <vericone/cones/uncertain/probability.h>
 #include <vericone/geometry/error.h>
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <array>
 #include <boost/math/distributions/non_central_chi_squared.hpp>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <numbers>
 #include <random>
+#include <string>
 
 #include "support/campaign.h"
 
@@ -103,6 +110,176 @@ TEST(Probability, DrawsFallWithinTheBounds) {
   }
 }
 
+/// Conjunctions that the tests of other tools have (offset and deviations across the motion, radius, m), of
+/// Chan, of messages of conjunctions and of Alfano; integrated to 40 digits by mpmath, in strips of the disc.
+TEST(Probability, PublishedConjunctionsTo40Digits) {
+  struct Case {
+    double x, y, sx, sy, radius, truth;
+  };
+  constexpr Case kCases[] = {
+      {0, 10, 25, 50, 5, 0.0097415115582777554},
+      {10, 0, 25, 50, 5, 0.0091810585875971393},
+      {0, 10, 25, 75, 5, 0.0065712044275310465},
+      {10, 0, 25, 75, 5, 0.006124959791114964},
+      {0, 1000, 1000, 3000, 10, 1.5765774612019522e-5},
+      {1000, 0, 1000, 3000, 10, 1.0108830287448837e-5},
+      {0, 10000, 1000, 3000, 10, 6.4432101761653422e-8},
+      {10000, 0, 1000, 3000, 10, 3.2185582327309601e-27},
+      {0, 10000, 1000, 10000, 10, 3.0326153908707506e-6},
+      {10000, 0, 1000, 10000, 10, 9.6556868968605308e-28},
+      {0, 5000, 1000, 3000, 50, 0.00010387070786084411},
+      {5000, 0, 1000, 3000, 50, 1.5643879427315422e-9},
+      {84.875546, 60.583685, 57.918666, 152.8814468, 10.3, 0.0019001993023152085},
+      {-81.618369, 115.055899, 15.988242, 5756.840725, 1.3, 2.05532950433947e-11},
+      {102.177247, 693.405893, 94.230921, 643.409272, 5.3, 7.2003132567381593e-5},
+      {-752.672701, 644.939441, 445.859950, 6095.858688, 3.5, 5.3903950791331122e-7},
+      {-692.362272, 4475.456261, 193.454603, 562.027293, 13.2, 2.2795770544066879e-20},
+      {-3.8872073, 0.1591646, 1.4101830, 114.2585190, 15, 0.10038295012567774},
+      {-1.2217895, 2.1230067, 0.0373279, 177.8109003, 10, 0.044509859522920125},
+  };
+  for (const Case& c : kCases) {
+    const Matrix3d covariance = Vector3d(c.sx * c.sx, c.sy * c.sy, 1).asDiagonal();
+    const Probability p = probability_of_passing_through(
+        ball({0, 0, 0}, 0.25 * c.radius), ball({c.x, c.y, 50}, 0.75 * c.radius), {0, 0, 1}, covariance);
+    EXPECT_LE(p.least, c.truth) << c.truth;
+    EXPECT_GE(p.most, c.truth) << c.truth;
+    EXPECT_LE(p.most - p.least, 1e-10 * p.most) << c.truth;
+    EXPECT_NEAR(p.estimate / c.truth, 1, 2e-13);
+    EXPECT_LE(p.points, 1000);
+  }
+}
+
+/// Of two ellipsoids, by another formula and rule: the angle under which the boundary is seen, weighed by
+/// 1 - exp(-r^2/2), at equal steps of the normal's angle.
+TEST(Probability, OfEllipsoidsIsTheIntegralOverTheAngle) {
+  Random random{std::mt19937_64(12), {}};
+  int apart = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Ellipsoid a = random.body(Vector3d::Zero());
+    const Ellipsoid b = random.body({30, random.between(-4, 4), random.between(-4, 4)});
+    const Vector3d w(10, random.between(-1, 1), random.between(-1, 1));
+    const Matrix3d c = random.covariance(random.between(0.5, 2));
+    Eigen::Matrix<double, 2, 3> flat;
+    flat.row(0) = w.unitOrthogonal();
+    flat.row(1) = w.normalized().cross(Vector3d(flat.row(0)));
+    const Eigen::Matrix2d root = Eigen::Matrix2d(flat * c * flat.transpose()).llt().matrixL();
+    const Eigen::Matrix<double, 2, 3> seen = root.inverse() * flat;
+    const Eigen::Matrix<double, 2, 3> of_a = seen * a.factor(), of_b = seen * b.factor();
+    const Eigen::Matrix2d g = of_a * of_a.transpose(), h = of_b * of_b.transpose();
+    const Eigen::Vector2d center = seen * (a.center() - b.center());
+    long double sum = 0, turns = 0;
+    constexpr int kSteps = 20'000;
+    for (int k = 0; k < kSteps; ++k) {
+      const double t = 2 * std::numbers::pi * k / kSteps;
+      const Eigen::Vector2d n(std::cos(t), std::sin(t)), turned(-n.y(), n.x());
+      Eigen::Vector2d p = center, rate(0, 0);
+      for (const Eigen::Matrix2d* m : {&g, &h}) {
+        const double rho = std::sqrt(n.dot(*m * n));
+        p += *m * n / rho;
+        rate += *m * turned / rho - *m * n * (turned.dot(*m * n) / (rho * rho * rho));
+      }
+      const long double r2 = p.squaredNorm(), seen_under = (p.x() * rate.y() - p.y() * rate.x()) / r2;
+      turns += seen_under;
+      sum -= std::exp(-r2 / 2) * seen_under;
+    }
+    const double inside = std::round(double(turns / kSteps));
+    const double truth = inside + double(sum / kSteps);
+    apart += inside == 0;
+    const Probability p = probability_of_passing_through(a, b, w, c);
+    EXPECT_NEAR(p.estimate, truth, 1e-13 + 1e-10 * truth) << i;
+    EXPECT_LE(p.least, truth + 1e-13) << i;
+    EXPECT_GE(p.most, truth - 1e-13) << i;
+    EXPECT_LE(p.most - p.least, 1e-10 * p.most) << i;
+  }
+  EXPECT_GT(apart, 5);
+}
+
+/// A probability below the doubles lies between the bounds still: the line of motion passes at `off`
+/// deviations.
+TEST(Probability, TailsBelowTheDoublesAreBounded) {
+  GaussianErrors errors;
+  errors.position(1, 1) = 1;
+  struct Tail {
+    double off, truth;
+  };
+  for (const Tail& t : {Tail{10, 7.619853024160527e-24}, Tail{38, 2.88542836007e-316},
+                        Tail{38.3, 3.064075e-321}, Tail{50, 0}}) {
+    const Ellipsoid a = ball({0, 0, 0}, 1), b = ball({20, 2 + t.off, 0}, 1);
+    const ProbabilityBound bound = collision_probability_bound(a, b, {1, 0, 0}, errors);
+    EXPECT_GE(bound.most, t.truth);
+    EXPECT_GT(bound.most, 0);
+    EXPECT_LE(bound.most, 1.001 * t.truth + 1e-322);
+    const Probability p = probability_of_passing_through(a, b, {1, 0, 0}, errors.position);
+    EXPECT_LE(p.least, t.truth * (1 + 1e-12));
+    EXPECT_GE(p.most, t.truth * (1 - 1e-12));
+    EXPECT_GT(p.most, 0);
+  }
+  // The same of a disc.
+  const Probability p = probability_of_passing_through(ball({0, 0, 0}, 1), ball({20, 60, 0}, 1), {1, 0, 0},
+                                                       Matrix3d::Identity());
+  EXPECT_EQ(p.least, 0);
+  EXPECT_GT(p.most, 0);
+  EXPECT_LT(p.most, 1e-280);
+}
+
+/// As numpy turns them, and as messages print them, covariances are symmetric and semidefinite to rounding.
+TEST(Probability, CovariancesAreClippedAndTheAnswerSaysSo) {
+  Random random{std::mt19937_64(4), {}};
+  const Ellipsoid a = ball({0, 0, 0}, 6), b = ball({150, 40, 10}, 3);
+  int asymmetric = 0, clipped = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Matrix3d turn = Eigen::Quaterniond(random.normal(random.engine), random.normal(random.engine),
+                                             random.normal(random.engine), random.normal(random.engine))
+                              .normalized()
+                              .toRotationMatrix();
+    Matrix3d product;
+    const Vector3d plain(900, 160000, 144), thin(4e9, 90, 0.04);
+    const Matrix3d diagonal = plain.asDiagonal();
+    const Matrix3d left = turn.transpose() * diagonal;
+    product.noalias() = left * turn;
+    asymmetric += product != product.transpose();
+    const Probability p = probability_of_passing_through(a, b, {0, 0, 9000}, product);
+    EXPECT_LE(p.clipped, 1e-15);
+    const Probability same =
+        probability_of_passing_through(a, b, {0, 0, 9000}, 0.5 * (product + product.transpose()));
+    EXPECT_NEAR(p.estimate, same.estimate, 1e-12 * same.estimate);
+
+    Matrix3d printed = turn.transpose() * thin.asDiagonal() * turn;
+    for (int j = 0; j < 3; ++j)
+      for (int k = 0; k <= j; ++k) {
+        char text[40];
+        std::snprintf(text, sizeof text, "%.9e", printed(j, k));
+        printed(j, k) = printed(k, j) = std::strtod(text, nullptr);
+      }
+    const double least = Eigen::SelfAdjointEigenSolver<Matrix3d>(printed).eigenvalues()(0);
+    const Probability q = probability_of_passing_through(a, b, {0, 0, 9000}, printed);
+    EXPECT_LE(q.clipped, 1e-9);
+    if (least > -1e-5) continue;
+    ++clipped;
+    EXPECT_GE(q.clipped * printed.cwiseAbs().maxCoeff(), -0.3 * least);
+    GaussianErrors errors;
+    errors.position = printed;
+    EXPECT_EQ(collision_probability_bound(a, b, {0, 0, 9000}, errors).clipped, q.clipped);
+  }
+  EXPECT_GT(asymmetric, 20);
+  EXPECT_GT(clipped, 20);
+  // Beyond rounding the message has the number.
+  const auto message = [&](const Matrix3d& m) -> std::string {
+    try {
+      (void)probability_of_passing_through(a, b, {1, 0, 0}, m);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  Matrix3d m = Vector3d(2, 1, -0.25).asDiagonal();
+  EXPECT_NE(message(m).find("position_covariance: got the eigenvalue -0.25 beside 2"), std::string::npos)
+      << message(m);
+  m = Vector3d(2, 1, 1).asDiagonal();
+  m(0, 1) = 0.5;
+  EXPECT_NE(message(m).find("got 0 beside 0.5 across the diagonal"), std::string::npos) << message(m);
+}
+
 /// A position that is known but for one direction, or altogether.
 TEST(Probability, OfErrorsAlongALine) {
   const Ellipsoid a = ball({0, 0, 0}, 1), b = ball({20, 3, 0}, 1);
@@ -160,6 +337,98 @@ TEST(ProbabilityBound, NoShareOfDrawsIsAbove) {
     EXPECT_LE(share, bound.most + 4.5 * std::sqrt(share * (1 - share) / draws) + 1e-12) << i;
   }
   EXPECT_GT(useful, pairs / 4);
+}
+
+/// Conjunctions of satellites, aeroplanes, ships, balls far apart, covariances of 10^6 to 1 and bodies
+/// nearby, with and without a horizon: no plane of a grid about the motion, closer the closer to it, is
+/// better by more than a tenth, nor one of 10,000 all around.
+TEST(ProbabilityBound, NoPlaneOfAGridIsMuchBetter) {
+  Random random{std::mt19937_64(5), {}};
+  const auto power = [&](double low, double high) { return std::pow(10, random.between(low, high)); };
+  const int conjunctions = testing::campaign_size(24, 1'200);
+  for (int i = 0; i < conjunctions; ++i) {
+    const int kind = i % 6;
+    const bool nearby = kind == 5, balls = kind == 3, thin = kind == 4;
+    const double size = std::array{5.0, 30.0, 100.0, 1.0, 2.0, 1.5}[std::size_t(kind)];
+    const double far = std::array{power(2, 4.7), power(3, 4.7), power(2.7, 4),
+                                  1000.0,        power(1.7, 3), power(0.7, 1.8)}[std::size_t(kind)];
+    const double speed = std::array{power(2, 4.2), power(1.7, 2.6), power(0.3, 1.2), 1.0,
+                                    10.0,          power(-1, 0.8)}[std::size_t(kind)];
+    const double off = std::array{power(0, 2.5), power(1, 2.3), power(0.7, 1.7),
+                                  1.0,           power(0, 1.3), power(-1, 0.3)}[std::size_t(kind)];
+    const double fast = std::array{
+        1e-3 * off, power(-1, 0.7), power(-1.3, -0.3), 0.0, 0.1, power(-2, -0.3)}[std::size_t(kind)];
+    const auto turn = [&] {
+      return Eigen::Quaterniond(random.normal(random.engine), random.normal(random.engine),
+                                random.normal(random.engine), random.normal(random.engine))
+          .normalized()
+          .toRotationMatrix();
+    };
+    const auto turned = [&](const Vector3d& eigenvalues) {
+      const Matrix3d q = turn(), m = q * eigenvalues.asDiagonal() * q.transpose();
+      return Matrix3d(0.5 * (m + m.transpose()));
+    };
+    GaussianErrors errors;
+    errors.position = off * off *
+                      turned(balls  ? Vector3d(1, 1, 1)
+                             : thin ? Vector3d(1e-6, 1, 1e6)
+                                    : Vector3d(1, power(0, 3), 10));
+    errors.velocity = fast * fast * turned({1, 0.5, 0.1});
+    const Vector3d along = random.vector().normalized(), aside = along.unitOrthogonal();
+    const double spread = std::sqrt(aside.dot(errors.position * aside));
+    const Vector3d c = far * along;
+    const double passing = balls ? std::array{5.0, 8.0, 10.0}[std::size_t(i / 6 % 3)] : random.between(2, 10);
+    Vector3d w = speed * (c + (2 * size + passing * spread) * aside).normalized();
+    if (nearby) w = speed * random.vector();
+    const auto body = [&](const Vector3d& at) {
+      const Vector3d axes(random.between(0.3, 1), random.between(0.3, 1), random.between(0.3, 1));
+      return balls ? ball(at, 1) : Ellipsoid::from_axes(at, size * axes, turn());
+    };
+    const Ellipsoid a = body(Vector3d::Zero()), b = body(c);
+    const double horizon =
+        kind % 4 == 1 && i / 6 % 2 ? random.between(1, 60) : std::numeric_limits<double>::infinity();
+    const auto of_plane = [&](Vector3d n) {
+      n.normalize();
+      const double gap = n.dot(c) - a.radius(n) - b.radius(n) - 1e-14 * c.norm();
+      if (!(gap > 0)) return 1.0;
+      const double closing = n.dot(w);
+      const double p = n.dot(errors.position * n), v = n.dot(errors.velocity * n);
+      double later = v > 0 ? phi(closing / std::sqrt(v)) : closing <= 0 ? 0 : 1;
+      if (std::isfinite(horizon))
+        later = std::min(later, phi((horizon * closing - gap) / std::sqrt(p + horizon * horizon * v)));
+      return phi(-gap / std::sqrt(p)) + later;
+    };
+    double best = 1;
+    for (int k = 0; k < 10'000; ++k) {
+      const double z = 1 - (2 * k + 1) / 1e4, r = std::sqrt(1 - z * z), t = 2.399963229728653 * k;
+      best = std::min(best, of_plane({r * std::cos(t), r * std::sin(t), z}));
+    }
+    const Vector3d u = w.normalized(), e = u.unitOrthogonal(), f = u.cross(e);
+    for (int k = 0; k < 250; ++k)
+      for (int j = 0; j < 40; ++j) {
+        const double t = 2 * std::numbers::pi * k / 250,
+                     tilt = j == 0 ? 2e-14 : std::pow(10, -9.0 + j * 0.22);
+        best = std::min(best, of_plane(std::cos(t) * e + std::sin(t) * f - tilt * u));
+      }
+    const ProbabilityBound bound = collision_probability_bound(a, b, w, errors, horizon);
+    EXPECT_LE(bound.most, 1.1 * best + 1e-321) << i << " kind " << kind << " horizon " << horizon;
+    if (bound.most < 1) {
+      EXPECT_GE(bound.most, of_plane(bound.normal) * (thin ? 1 - 1e-3 : 1 - 1e-9) - 1e-321) << i;
+    }
+  }
+}
+
+/// Balls of 1 m, 1,000 m apart, that pass at 5, 8, 10 deviations: as at 20 m.
+TEST(ProbabilityBound, OfBallsFarApartIsThatOfThePlaneAlongTheMotion) {
+  GaussianErrors errors;
+  errors.position(1, 1) = 1;
+  for (const double far : {20.0, 1000.0, 1e6})
+    for (const double off : {5.0, 8.0, 10.0, 20.0}) {
+      const double most =
+          collision_probability_bound(ball({0, 0, 0}, 1), ball({far, 2 + off, 0}, 1), {1, 0, 0}, errors).most;
+      EXPECT_GE(most, phi(-off));
+      EXPECT_LE(most, 1.001 * phi(-off)) << far;
+    }
 }
 
 TEST(ProbabilityBound, TwoBallsThatPassHaveTheClosedForm) {

@@ -3,10 +3,12 @@
 // Random engagements with bounded errors, and errors drawn from their sets, many of them from the rims.
 #pragma once
 
+#include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/uncertain/robust.h>
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -96,5 +98,18 @@ class RobustDice {
   std::mt19937_64 engine_;
   std::normal_distribution<double> gauss_;
 };
+
+/// What the exact predicates say of one error; nothing where the horizon is nearer to the contact than its
+/// time is rounded.
+inline std::optional<bool> collides(const RobustEngagement& e, const RelativeError& error) {
+  const Ellipsoid b = e.b.translated(error.position);
+  const ConeOracle oracle(e.a, b);
+  const Eigen::Vector3d v_a = e.v_a + error.velocity;
+  if (!may_collide(oracle.verdict(v_a, e.v_b))) return false;
+  if (!std::isfinite(e.errors.horizon)) return true;
+  const double time = time_to_contact(oracle, v_a, e.v_b).value_or(0);
+  if (std::abs(time - e.errors.horizon) < 1e-9 * e.errors.horizon) return std::nullopt;
+  return time < e.errors.horizon;
+}
 
 }  // namespace vericone::testing

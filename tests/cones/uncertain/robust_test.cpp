@@ -23,22 +23,9 @@ namespace vericone::robust_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector3d;
-using testing::RobustDice, testing::RobustEngagement;
+using testing::RobustDice, testing::RobustEngagement, testing::collides;
 
 constexpr double kForEver = std::numeric_limits<double>::infinity();
-
-/// What the exact predicates say of one error; nothing where the horizon is nearer to the contact than its
-/// time is rounded.
-std::optional<bool> collides(const RobustEngagement& e, const RelativeError& error) {
-  const Ellipsoid b = e.b.translated(error.position);
-  const ConeOracle oracle(e.a, b);
-  const Vector3d v_a = e.v_a + error.velocity;
-  if (!may_collide(oracle.verdict(v_a, e.v_b))) return false;
-  if (!std::isfinite(e.errors.horizon)) return true;
-  const double time = time_to_contact(oracle, v_a, e.v_b).value_or(0);
-  if (std::abs(time - e.errors.horizon) < 1e-9 * e.errors.horizon) return std::nullopt;
-  return time < e.errors.horizon;
-}
 
 RobustAnswer verdict(const RobustEngagement& e) { return robust_verdict(e.a, e.b, e.v_a, e.v_b, e.errors); }
 
