@@ -112,7 +112,7 @@ Shadow::Shadow(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& w, const 
   const Number slope = still ? Number(0) : quotient(c.xy, c.xx);
   const Number across = c.sheared(slope).yy;
   const double share = still ? 0 : across.hi / c.yy.hi;
-  flat = still || !(share > 0x1p-60);
+  flat = still || !(share > 0x1p-60 && across.hi > 1e-16 * c.xx.hi);
   const Number deviation = still ? Number(1) : root(c.xx);
   cy = cy - slope * cx;
   of_a = of_a.sheared(slope), of_b = of_b.sheared(slope);

@@ -298,6 +298,24 @@ TEST(Probability, OfErrorsAlongALine) {
   EXPECT_EQ(probability_of_passing_through(a, b, {5, 0, 0}, ahead).most, 0);
 }
 
+/// Deviations of 10^6 to 10^10 to 1, turned or not: the chord of the shadow along the long one, to second
+/// order.
+TEST(Probability, OfErrorsThatAreNearlyFlat) {
+  const double half = std::sqrt(1 - 0.09);  // of a unit disc at 0.3
+  for (const double off : {0.5, 6.0}) {
+    const double truth =
+        0.5 * (std::erfc((off - half) / std::sqrt(2.0)) - std::erfc((off + half) / std::sqrt(2.0)));
+    for (const double thin : {1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 0.0}) {
+      const Matrix3d covariance = Vector3d(1, thin * thin, 0).asDiagonal();
+      const Probability p = probability_of_passing_through(ball({0, 0, 0}, 0.5), ball({off, 0.3, 7}, 0.5),
+                                                           {0, 0, 3}, covariance);
+      EXPECT_LE(p.least, truth * (1 + 1e-10)) << off << " " << thin;
+      EXPECT_GE(p.most, truth * (1 - 1e-10)) << off << " " << thin;
+      EXPECT_LE(p.most - p.least, 3e-6 * truth) << off << " " << thin;
+    }
+  }
+}
+
 TEST(ProbabilityBound, NoShareOfDrawsIsAbove) {
   Random random{std::mt19937_64(3), {}};
   const int pairs = testing::campaign_size(20, 1000), draws = testing::campaign_size(2'000, 100'000);
