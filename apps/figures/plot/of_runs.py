@@ -45,11 +45,14 @@ def ways(source: Any, scenario: Any = None, *, axes: Any = None) -> Any:
     space."""
     flown = flown_of(source, scenario)
     with style():
-        if axes is None:
+        own = axes is None
+        if own:
             figure = plt.figure(figsize=(0.6 * TWO_COLUMNS, 3.6))
             axes = (figure.add_axes([0.14, 0.14, 0.82, 0.82]) if flown.planar else
                     figure.add_axes([0.02, 0.04, 0.94, 0.92], projection="3d", computed_zorder=False))
         (runs.ways_in_plane if flown.planar else runs.ways_in_space)(axes, flown)
+        if own and not flown.planar:
+            runs.fill(axes, (0.08, 0.12, 0.78, 0.82), 40 if flown.rims else 55)
         runs.mark_contacts(axes, flown)
     return axes
 

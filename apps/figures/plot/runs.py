@@ -203,6 +203,8 @@ def fill(space: Axes, box: tuple[float, float, float, float], highest: float = 5
             space.view_init(elev=space.elev + 4, azim=space.azim)
         zoom *= min([width, height] / (high - low))
         around += [left + width / 2, bottom + height / 2] - (low + high) / 2
+    for axis, pad in ((space.xaxis, 16), (space.yaxis, 10), (space.zaxis, -3)):
+        axis.labelpad = pad
 
 
 def nearest(run: Flown) -> Any:
@@ -372,8 +374,6 @@ def picture(run: Flown) -> Any:
         ways_in_space(space, run)
         low = 0.37 if close_up(figure, run, space) else 0.2
         fill(space, (0.04, low, 0.47, 0.9 - low), 40 if run.rims else 55)
-        for axis, pad in ((space.xaxis, 16), (space.yaxis, 10), (space.zaxis, -3)):
-            axis.labelpad = pad
     verdict = run.run["verdict"]
     kept = [p["least_distance"] for p in run.proof["pairs"] if p["verdict"] == "avoided"]
     said = {"undecided": "", "avoided": ", proved%s" % (": %s m apart or more" % brief(min(kept)) if kept else "")}
