@@ -38,11 +38,11 @@ void print_table(const std::vector<Claim>& claims, bool given, std::ostream& out
   }
   const Json counts = count_verdicts(claims);
   for (const auto& [kind, row] : counts.items()) {
-    out << std::left << std::setw(29) << kind;
     std::string list;
     for (const auto& [verdict, count] : row.items())
-      list.append(list.empty() ? "" : ", ").append(std::to_string(count.get<int>()) + " " + verdict);
-    out << list << '\n';
+      if (count.get<int>() > 0)
+        list.append(list.empty() ? "" : ", ").append(std::to_string(count.get<int>()) + " " + verdict);
+    if (!list.empty()) out << std::left << std::setw(29) << kind << list << '\n';
   }
 }
 
