@@ -431,6 +431,8 @@ class Figures(unittest.TestCase):
             for c in shown:
                 self.assertTrue({"5.6", "5.10", "6.9", "6.13", "6.14"} & set(c["figures"]), c["id"])
                 self.assertIn(html.escape(c["verdict"]), text)
+                for words in c["measured_on"]:  # as the report's first sentence says
+                    self.assertIn(html.escape(words), text)
             self.assertEqual(page.headings, 2 + len(run("figures", "--list").stdout.splitlines()))
 
 
