@@ -2,7 +2,7 @@
 """Accuracy of slice and exact cones, from summary.json: random engagements, then scanned objects."""
 import numpy as np
 
-from vericone_figures.style import BOUND, EXACT, GREY, SLICE, TWO_COLUMNS, plane_axis, plt, read, save
+from vericone_figures.style import BOUND, EXACT, GREY, SLICE, TWO_COLUMNS, legend_below, plane_axis, plt, read, save
 
 
 def column(rows, *keys):
@@ -12,12 +12,6 @@ def column(rows, *keys):
             row = row[key] if row is not None else None
         values.append(row)
     return np.array(values, dtype=float)
-
-
-def below(axes):
-    """The legend under the axis, where no curve is."""
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncol=2, fontsize=6, handlelength=1.6, columnspacing=1,
-                frameon=False)
 
 
 def random_engagements(data):
@@ -35,7 +29,7 @@ def random_engagements(data):
     left.set_ylabel("relative area error against n = %d" % finest)
     left.set_title("(a) slice: discretisation error")
     plane_axis(left, planes)
-    below(left)
+    legend_below(left)
 
     middle.plot(planes, 100 * column(slices, "error_against_true_cone", "worst"), "v-", color=SLICE, label="worst")
     middle.plot(planes, 100 * column(slices, "error_against_true_cone", "mean"), "o-", color=SLICE,
@@ -45,7 +39,7 @@ def random_engagements(data):
     middle.set_ylabel("area of the true cone missing (%)")
     middle.set_title("(b) slice: bias")
     plane_axis(middle, planes)
-    below(middle)
+    legend_below(middle)
     above = 100 * np.max(column(slices, "error_against_true_cone", "worst")) < 62
     inset = middle.inset_axes([0.45, 0.7 if above else 0.29, 0.5, 0.2])
     inset.hist(100 * np.array(data["slice_bias_values"]), bins=40, range=(0, 80), color=SLICE)
@@ -70,7 +64,7 @@ def random_engagements(data):
     right.set_xlabel("boundary samples m")
     right.set_ylabel("relative area error")
     right.set_title("(c) exact: error and bound")
-    below(right)
+    legend_below(right)
     figure.suptitle("%d %s" % (data["engagements"], data["drawn"]), fontsize=8)
     save(figure, "accuracy")
 

@@ -2,7 +2,8 @@
 """Slice cones of combined quadrics against planes, held against certified inner and outer cones (summary.json)."""
 import numpy as np
 
-from vericone_figures.style import BOUND, EXACT, GREY, SLICE, TWO_COLUMNS, plane_axis, plt, read, save
+from vericone_figures.style import (BOUND, EXACT, GREY, SLICE, TWO_COLUMNS, legend_below, plane_axis, plt, read,
+                                    save)
 
 data = read("summary.json")["random"]
 slices = data["slice"]
@@ -10,7 +11,7 @@ planes = np.array([row["planes"] for row in slices])
 finest = data["finest_planes"]
 
 
-figure, (left, middle, right) = plt.subplots(1, 3, figsize=(TWO_COLUMNS, 2.8), constrained_layout=True)
+figure, (left, middle, right) = plt.subplots(1, 3, figsize=(TWO_COLUMNS, 3.3), constrained_layout=True)
 
 coarse = planes < finest
 left.plot(planes, 2 / planes, "--", color=GREY, label="2/n")
@@ -20,7 +21,7 @@ for measure, style in (("worst", {}), ("median", {"markerfacecolor": "white"})):
 left.set_yscale("log")
 left.set_ylabel("relative area error against n = %d" % finest)
 left.set_title("(a) discretisation error")
-left.legend(loc="lower left")
+legend_below(left)
 plane_axis(left, planes)
 
 for measure, colour in (("worst", SLICE), ("mean", EXACT)):
@@ -32,7 +33,7 @@ middle.axhline(0, color=GREY, linewidth=0.6)
 middle.set_ylim(top=100)
 middle.set_ylabel("area of the true cone missing (%)")
 middle.set_title("(b) bias: proved between")
-middle.legend(loc="upper right")
+legend_below(middle)
 plane_axis(middle, planes)
 
 values = 100 * np.array(data["slice_bias_values"])
@@ -43,9 +44,9 @@ right.axhline(0, color=GREY, linewidth=0.6)
 right.set_xlabel("engagements, by bias (%)")
 right.set_ylabel("area missing at n = %d (%%)" % finest)
 right.set_title("(c) bias of each engagement")
-right.legend(loc="upper left")
+legend_below(right)
 right.set_xlim(0, 100)
 
-figure.suptitle("%d random engagements of an ellipsoid with a %s obstacle, %s; reference certified to %g %%"
+figure.suptitle("%d random engagements of an ellipsoid with a %s obstacle\n%s; reference certified to %g %%"
                 % (data["engagements"], data["obstacle"], data["drawn"], 100 * data["tolerance"]), fontsize=8)
 save(figure, "accuracy")

@@ -46,6 +46,56 @@ print(json.dumps({"texts": [t.get_text() for t in figure.texts], "dots": dots, "
 """
 
 
+
+# Draws as a script of apps/figures does, and looks at the figure in place of saving it.
+LOOK_AT = """
+import runpy, sys
+scripts, script, folder = sys.argv[1:]
+sys.path.insert(0, scripts)
+sys.argv = [script, folder]
+import vericone_figures.style as style
+
+def look(figure, name):
+    figure.canvas.draw()
+    everything = figure.bbox.padded(1)
+    for text in [*figure.texts, figure._suptitle, *(a.title for a in figure.axes)]:
+        if text is not None and text.get_text():
+            box = text.get_window_extent()
+            assert everything.containsx(box.x0) and everything.containsx(box.x1), (name, "cut off", text.get_text())
+    for axes in figure.axes:
+        legend = axes.get_legend()
+        for line in axes.get_lines() if legend else []:
+            inside = legend.get_window_extent().count_contains(line.get_transform().transform(line.get_xydata()))
+            assert not inside, (name, "legend on", line.get_label())
+        for axis in axes._axis_map.values():
+            label = axis.label.get_window_extent()
+            for number in axis.get_majorticklabels():
+                assert not number.get_text() or not label.overlaps(number.get_window_extent()), (name, axis.label.get_text())
+    print("looked at", name)
+
+style.save = look
+runpy.run_path(script, run_name="__main__")
+"""
+
+
+class PictureTexts(InFolder):
+    """Titles are whole, legends cover no curve, labels no numbers."""
+    @unittest.skipUnless(DRAWS, "no /usr/bin/python3 with matplotlib")
+    def test_accuracy_and_engagements(self):
+        scripts = os.path.join(SOURCE, "apps/figures")
+        runs = {"combined_accuracy.py": ["accuracy", "--obstacle", "biconcave", "-N", "6", "--tolerance", "0.2", "--quiet"],
+                "accuracy.py": ["accuracy", "-N", "60", "--quiet"], "engagement.py": ["accuracy", "-N", "60", "--quiet"]}
+        for script, words in runs.items():
+            with self.subTest(script):
+                shutil.rmtree(os.path.join(self.folder, "out"), ignore_errors=True)
+                result = self.run_limited(*words, "--planes", "3,6,12,36", "--no-figures", "--out", "out", preexec_fn=None)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                done = subprocess.run(["/usr/bin/python3", "-c", LOOK_AT, scripts, os.path.join(scripts, script), "out"],
+                                      cwd=self.folder, capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertIn("looked at " + script.removesuffix(".py").removeprefix("combined_"), done.stdout)
+
+
 class ConePictures(InFolder):
     def cone(self, content, *words):
         self.write("scene.yaml", content)

@@ -114,6 +114,17 @@ def test_planar_bodies_are_their_outlines() -> None:
     assert (axes.get_xlabel(), axes.get_aspect()) == ("x (m)", 1)
 
 
+def test_cones_on_the_same_axes_are_told_apart() -> None:
+    axes = plot.cone(PAIR.cone())
+    for _ in range(2):
+        assert plot.cone(PAIR.cone(), axes=axes) is axes
+    handles, labels = axes.get_legend_handles_labels()
+    assert [text.split(":")[0] for text in labels] == ["cone", "cone 2", "cone 3"]
+    assert len({handle.get_color() for handle in handles}) == 3
+    assert plot.cone(PAIR.cone(), axes=axes, color="k", label="mine").get_lines()[-1].get_color() == "k"
+
+
+
 @pytest.mark.parametrize("make", [lambda: vc.Pair(BALL, AHEAD).cone(), lambda: vc.true_cone(BALL, AHEAD, 48),
                                   lambda: vc.slice_cone(BALL, AHEAD, 48),
                                   lambda: vc.slice_cone(BALL, AHEAD, 48).polyhedral()])

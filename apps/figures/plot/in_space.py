@@ -60,14 +60,30 @@ def travel(axes: Axes, course: Data, agent: Array, reach: float, moved: Any = No
 
 def frame(axes: Axes, extent: Array, zoom: float = 0.88) -> None:
     """Equal scales around points (n, 3), metres; room for the labels."""
-    axes.set_box_aspect(np.ptp(extent, axis=0), zoom=zoom)
+    sides = np.ptp(extent, axis=0)
+    axes.set_box_aspect(sides.copy(), zoom=zoom)  # it scales what it is given
     for name, i in (("x", 0), ("y", 1), ("z", 2)):
         getattr(axes, "set_%slim" % name)(extent[:, i].min(), extent[:, i].max())
         scale = getattr(axes, name + "axis")
         scale.set_rotate_label(False)  # otherwise the view may turn it upside down
         scale.set_label_text("%s (m)" % name, rotation=0)
         scale.labelpad = -3
+        axes.locator_params(axis=name, nbins=5 if sides[i] > 0.5 * sides.max() else 3)
     axes.tick_params(pad=-2, labelsize=6)
+
+
+def clear_labels(axes: Axes) -> None:
+    """Moves the labels of the axes, as they are seen now, away from their numbers."""
+    figure = axes.figure
+    for _ in range(8):
+        figure.canvas.draw()
+        crowded = [axis for axis in (axes.xaxis, axes.yaxis, axes.zaxis)
+                   if any(axis.label.get_window_extent().overlaps(number.get_window_extent())
+                          for number in axis.get_majorticklabels() if number.get_text())]
+        for axis in crowded:
+            axis.labelpad += 1.5
+        if not crowded:
+            return
 
 
 def look_across(axes: Axes, axis: Array, velocity: Array, other: Any) -> None:
@@ -137,6 +153,7 @@ def engagement(data: dict[str, Any]) -> plt.Figure:
     extent += travel(space, course, agent, 0.5 * distance, lambda way: ellipsoid(data["agent"], way))
     frame(space, np.vstack(extent))
     look_across(space, axis, np.array(course["velocity"]), np.array(data["gap_velocity"]))
+    clear_labels(space)
 
     plane = figure.add_axes([0.67, 0.13, 0.31, 0.62])
     if data["exact_area"] is not None:

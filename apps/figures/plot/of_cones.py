@@ -18,6 +18,8 @@ from .of_bodies import axes_for, body, draw_in_space, fit_space, space
 from .signs import ANSWERS
 from .style import AGENT, EXACT, GREY, OBSTACLE, SLICE, style
 
+COMPARED = (EXACT, AGENT, OBSTACLE, "#b8860b", "#00808f")  # of cones on the same axes
+
 TOWARDS: "weakref.WeakKeyDictionary[Any, Any]" = weakref.WeakKeyDictionary()  # of axes that show directions: the one in their middle
 
 
@@ -55,6 +57,18 @@ def above(axes: Any) -> None:
     axes.legend(loc="lower left", bbox_to_anchor=(0, 1), frameon=False, borderaxespad=0.2, labelspacing=0.2)
 
 
+def new_color(axes: Any, first: Any) -> Any:
+    """One that no line on the axes has yet, as long as there are some; the first choice where it is free."""
+    taken = [line.get_color() for line in axes.get_lines()]
+    return next((color for color in (first, *COMPARED) if color not in taken), first)
+
+
+def new_name(axes: Any, name: str) -> str:
+    """With a number where cones are on the axes already."""
+    before = sum(text.split(":")[0].startswith(name) for text in axes.get_legend_handles_labels()[1])
+    return "%s %d" % (name, before + 1) if before else name
+
+
 def on_view(axes: Any, directions: Numbers) -> Any:
     """Where directions (..., 3) are on axes of directions, degrees."""
     return sphere.on_view(np.asarray(directions, float), TOWARDS[axes])
@@ -64,26 +78,28 @@ def cone(thing: Any, *, axes: Any = None, towards: Numbers | None = None, color:
          label: str | None = None) -> Any:
     """Draws the directions of relative velocity that collide, as the agent sees them, in degrees from the line of
     sight, and returns the axes. `thing`: a Cone (filled: surely collides; line: surely safe beyond), TrueCone,
-    SliceCone, PolyhedralCone or ConeMap; several on the same axes compare. Solid angles in the legend are steradian.
-    `towards`: the direction in the middle, the cone's axis if left out."""
+    SliceCone, PolyhedralCone or ConeMap; several on the same axes compare, each in a colour and with a
+    name of its own. Solid angles in the legend are steradian. `towards`: the direction in the middle, the cone's axis if
+    left out."""
     if has(thing, "cells", "corners"):
         return cone_map(thing, axes=axes, towards=towards)
     inner, outer, axis = loops_of(thing)
     if not outer:
         raise refused("thing", "a cone without a border", "one of bodies that are apart")
-    if color is None:
-        color = SLICE if has(thing, "slices") else EXACT
     if towards is None:
         towards = axis if axis is not None and np.any(axis) else np.mean(outer[0], axis=0)
     with style():
         axes = seen_from_agent(axes, towards)
+        if color is None:
+            color = new_color(axes, SLICE if has(thing, "slices") else EXACT)
         for loop in inner:
             axes.fill(*on_view(axes, loop).T, color=color, alpha=0.2, linewidth=0)
         low, high = solid_angle_of(thing)
         size = "%.4g sr" % low if high - low < 1e-4 * high else "%.4g to %.4g sr" % (low, high)
         for n, loop in enumerate(outer):
             axes.plot(*on_view(axes, np.vstack([loop, loop[:1]])).T, ".-" if has(thing, "slices") else "-", color=color,
-                      markersize=3, linewidth=1, label=None if n else "%s: %s" % (label or "cone", size))
+                      markersize=3, linewidth=1,
+                      label=None if n else "%s: %s" % (label or new_name(axes, "cone"), size))
         above(axes)
     return axes
 

@@ -36,6 +36,12 @@ def plane_axis(axis, planes):
     axis.set_xlabel("planes n")
 
 
+def legend_below(axes):
+    """The legend under the axis, where no curve is."""
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncol=2, fontsize=6, handlelength=1.6, columnspacing=1,
+                frameon=False)
+
+
 def save(figure, name):
     for extension in ("pdf", "png"):
         path = os.path.join(folder(), name + "." + extension)
