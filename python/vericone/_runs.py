@@ -326,7 +326,13 @@ def _lines_done(partial: Path, settings: str, header: str, count: int) -> list[s
     if lines[0] != settings:
         raise _refuse("out", partial.parent, "a folder without the unfinished run of other settings that " + partial.name +
                       " holds; delete that file to give it up")
-    return lines[2:2 + count] if len(lines) > 1 and lines[1] == header else []
+    rows = lines[2:2 + count] if len(lines) > 1 and lines[1] == header else []
+    for i, row in enumerate(rows):
+        cells = row.split(",")
+        if cells[0] != str(i) or len(cells) != header.count(",") + 1 or "nan" in cells:
+            raise _refuse("out", partial.parent, f"a folder whose {partial.name} has row {i} in line {i + 3}; delete that"
+                          " file to begin anew")
+    return rows
 
 
 class _Rows(NamedTuple):

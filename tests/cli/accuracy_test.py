@@ -74,6 +74,30 @@ class Accuracy(unittest.TestCase):
             self.assertIn("--out", result.stderr)
             self.assertEqual(self.read(folder, "engagements.csv.partial"), content)
 
+    def test_rows_that_are_not_these_are_refused(self):
+        for words in (("accuracy", "-N", "60", "--planes", "4,8", "--no-figures"), ("campaign", "-N", "60", "--no-figures")):
+            with tempfile.TemporaryDirectory() as folder:
+                words = (*words, "--quiet", "--out", folder)
+                self.assertEqual(run(*words).returncode, 0)
+                whole = self.read(folder, "engagements.csv").splitlines()
+                partial = os.path.join(folder, "engagements.csv.partial")
+                nothing = ",".join(["20"] + ["nan"] * whole[1].count(","))
+                for what, lines in {"doubled": whole[:22] + [whole[21]], "exchanged": [*whole[:22], whole[23], whole[22]],
+                                    "left out": whole[:22] + whole[23:25], "nan": [*whole[:22], nothing, whole[23]],
+                                    "short": [*whole[:22], "20,1"]}.items():
+                    with self.subTest(what, command=words[0]):
+                        content = "\n".join(lines) + "\n"
+                        with open(partial, "w", encoding="utf-8") as f:
+                            f.write(content)
+                        result = run(*words)
+                        self.assertEqual((result.returncode, result.stdout), (2, ""))
+                        self.assertRegex(result.stderr, "^vericone: --out: got .* has row 20 in line 23; delete that file")
+                        self.assertEqual(self.read(folder, "engagements.csv.partial"), content)
+                with open(partial, "w", encoding="utf-8") as f:
+                    f.write("\n".join(whole[:30]) + "\n" + whole[30][:7])  # broken off where it was written
+                self.assertEqual(run(*words).returncode, 0)
+                self.assertEqual(self.read(folder, "engagements.csv").splitlines(), whole)
+
     def test_summary_and_provenance(self):
         with tempfile.TemporaryDirectory() as folder:
             self.assertEqual(run(*self.ARGUMENTS, "-N", "400", "--out", folder).returncode, 0)

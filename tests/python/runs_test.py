@@ -233,8 +233,11 @@ def test_campaigns_go_on_where_they_were_stopped(tmp_path: Path) -> None:
     stopped = vericone.campaign(settings, out=tmp_path, threads=2, progress=lambda share: share < 0.4)
     partial = tmp_path / "engagements.csv.partial"
     assert not stopped.finished and 0 < len(stopped.rows) < 230 and partial.exists()
-    with open(partial, "a", encoding="utf-8") as file:
-        file.write("99,half a li")  # as a killed one leaves it
+    lines = partial.read_text(encoding="utf-8").splitlines(True)
+    partial.write_text("".join(lines[:5] + lines[4:]), encoding="utf-8")  # a row twice
+    with pytest.raises(vericone.InputError, match="out: got .* has row 3 in line 6"):
+        vericone.campaign(settings, out=tmp_path)
+    partial.write_text("".join(lines) + "99,half a li", encoding="utf-8")  # as a killed one leaves it
     with pytest.raises(vericone.InputError, match="other settings"):
         vericone.campaign(montecarlo.Campaign(engagements=230, laws=["slice"]), out=tmp_path)
     shares: list[float] = []

@@ -207,6 +207,7 @@ int run_accuracy(const Options& given, std::ostream& standard_output) {
   random.count = engagements.count;
   random.settings =
       "# vericone accuracy, " + engagements.settings + ", planes " + planes_text(options.planes);
+  random.id = engagements.id;
   random.row = [&](std::uint64_t i) {
     const auto [a, b] = engagements.pair(i);
     return csv_row(engagements.id(i), measure(a, b, options.planes), a, b);
@@ -233,12 +234,13 @@ int run_accuracy(const Options& given, std::ostream& standard_output) {
                         std::to_string(options.approaches) + " approaches, planes " +
                         planes_text(options.planes) + ", scans";
     for (const Scan& s : scans) approach.settings += " " + s.name + ":" + std::to_string(s.points);
+    approach.id = [&](std::uint64_t i) {
+      return scans[i / options.approaches].name + "#" + std::to_string(i % options.approaches);
+    };
     approach.row = [&](std::uint64_t i) {
       const Scan& scan = scans[i / options.approaches];
-      const std::uint64_t k = i % options.approaches;
-      const Ellipsoid agent = random_agent(scan.hull, options.seed, k);
-      return csv_row(scan.name + "#" + std::to_string(k), measure(agent, scan.hull, options.planes), agent,
-                     scan.hull);
+      const Ellipsoid agent = random_agent(scan.hull, options.seed, i % options.approaches);
+      return csv_row(approach.id(i), measure(agent, scan.hull, options.planes), agent, scan.hull);
     };
     if (run_table(approach) == TableOutcome::interrupted) return stopped();
     const auto table = read_table(folder.resumable(approach.name), options.planes);

@@ -13,6 +13,7 @@
 #include <fstream>
 #include <map>
 #include <mutex>
+#include <sstream>
 #include <thread>
 #include <vector>
 
@@ -21,6 +22,22 @@
 
 namespace vericone {
 namespace {
+
+bool has_no_number(const std::string& row) {
+  std::istringstream cells(row);
+  for (std::string cell; std::getline(cells, cell, ',');)
+    if (cell == "nan" || cell == "-nan" || cell == "inf" || cell == "-inf") return true;
+  return false;
+}
+
+/// Whether a line of an unfinished file is row `i`. One that does not look like a row is computed again.
+bool is_row(const std::string& line, std::uint64_t i, const ResumableTable& work) {
+  if (!line.starts_with(work.id(i) + ",")) return false;
+  const bool plain =
+      std::count(line.begin(), line.end(), ',') == std::count(work.header.begin(), work.header.end(), ',') &&
+      !has_no_number(line);
+  return plain || line == work.row(i);
+}
 
 /// Rows that stand complete in an unfinished file; the file is cut after the last of them.
 std::uint64_t complete_rows(const std::filesystem::path& partial, const ResumableTable& work) {
@@ -36,6 +53,10 @@ std::uint64_t complete_rows(const std::filesystem::path& partial, const Resumabl
   std::uint64_t rows = 0;
   std::uintmax_t length = work.settings.size() + work.header.size() + 2;
   while (rows < work.count && std::getline(in, line) && !in.eof()) {
+    if (!is_row(line, rows, work))
+      throw InputError("--out", partial.parent_path().string(),
+                       "a folder whose " + partial.filename().string() + " has row " + work.id(rows) +
+                           " in line " + std::to_string(rows + 3) + "; delete that file to begin anew");
     length += line.size() + 1;
     ++rows;
   }
