@@ -4,7 +4,7 @@ _vericone() {
   local word=${COMP_WORDS[COMP_CWORD]} help
   COMPREPLY=()
   if [ "$COMP_CWORD" -eq 1 ]; then
-    help=$("${COMP_WORDS[0]}" --help 2>/dev/null | sed -n '/^Subcommands:/,/^$/s/^  \([a-z-]*\) .*/\1/p')
+    help=$("${COMP_WORDS[0]}" --help 2>/dev/null | sed -n 's/^  \([a-z][a-z-]*\) .*/\1/p')
   elif [[ $word == -* ]]; then
     help=$("${COMP_WORDS[0]}" "${COMP_WORDS[1]}" --help 2>/dev/null | grep -o -e '^  *\(-[a-zA-Z],\)\?--[a-z-]*' | grep -o -e '--[a-z-]*')
   fi

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <list>
 #include <mutex>
+#include <string_view>
 
 #include "input/fields.h"
 #include "input/octree_body.h"
@@ -16,13 +17,14 @@
 namespace vericone::input {
 namespace {
 
-constexpr const char* kKinds[] = {"mesh", "cloud", "octree", "hull", "points"};
+constexpr std::string_view kKinds[] = {"mesh", "cloud", "octree", "hull", "points"};
+constexpr std::string_view kOctreeFields[] = {"unknown", "free", "occupied_above", "region"};
 
 /// The field that says what the body is; exactly one, and no shape of an ellipsoid beside it.
 std::string kind_of(const Json& value, const std::string& path) {
   std::string kind;
   int shapes = 0;
-  for (const char* k : kKinds)
+  for (const std::string_view k : kKinds)
     if (value.contains(k)) {
       kind = k;
       ++shapes;
@@ -37,7 +39,7 @@ std::string kind_of(const Json& value, const std::string& path) {
 void require_fields_of(const std::string& kind, const Json& value, const std::string& path) {
   std::vector<std::string> known{kind, "center", "rotation", "scale"};
   if (kind == "cloud") known.emplace_back("radius");
-  if (kind == "octree") known.insert(known.end(), {"unknown", "free", "occupied_above", "region"});
+  if (kind == "octree") known.insert(known.end(), std::begin(kOctreeFields), std::end(kOctreeFields));
   require_known(value, path, known);
 }
 
@@ -238,14 +240,21 @@ SceneBody body_of(const std::string& field, const std::string& file, Pieces piec
 
 std::string pieces_kinds() {
   std::string list;
-  for (const char* kind : kKinds)
-    if (kind != std::string("octree") || have_octrees()) list.append(list.empty() ? "" : ", ").append(kind);
+  for (const std::string_view kind : kKinds)
+    if (kind != "octree" || have_octrees()) list.append(list.empty() ? "" : ", ").append(kind);
   return list;
+}
+
+std::vector<std::string> pieces_fields() {
+  std::vector<std::string> fields{std::begin(kKinds), std::end(kKinds)};
+  fields.insert(fields.end(), {"radius", "scale"});
+  fields.insert(fields.end(), std::begin(kOctreeFields), std::end(kOctreeFields));
+  return fields;
 }
 
 bool is_pieces_body(const Json& value) {
   return value.is_object() && std::any_of(std::begin(kKinds), std::end(kKinds),
-                                          [&](const char* kind) { return value.contains(kind); });
+                                          [&](std::string_view kind) { return value.contains(kind); });
 }
 
 SceneBody read_pieces_body(const Json& value, const std::string& path, const std::filesystem::path& folder) {

@@ -3,6 +3,9 @@
 // Bodies of pieces: meshes, clouds and octree maps from files, convex hulls of points.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "input/body.h"
 
 namespace vericone::input {
@@ -24,5 +27,8 @@ SceneBody read_hull_agent(const Json& value, const std::string& path, const std:
 
 /// "mesh, cloud, octree, hull, points", without those that this build lacks.
 std::string pieces_kinds();
+
+/// All their fields but center and rotation.
+std::vector<std::string> pieces_fields();
 
 }  // namespace vericone::input

@@ -14,13 +14,13 @@ namespace {
 /// What the body's fields say: it is planar, spatial, or neither yet.
 enum class Dimension { unknown, planar, spatial };
 
-Dimension dimension(const Json& engagement, const char* body) {
-  if (!engagement.contains(body) || !engagement[body].is_object()) return Dimension::unknown;
-  const Json& value = engagement[body];
-  if (value.contains("quadric")) return Dimension::spatial;
-  if (!value.contains("center") || !value["center"].is_array()) return Dimension::unknown;
-  if (value["center"].size() == 2) return Dimension::planar;
-  return value["center"].size() == 3 ? Dimension::spatial : Dimension::unknown;
+Dimension dimension(const Json& body) {
+  if (!body.is_object()) return Dimension::unknown;
+  if (body.contains("quadric")) return Dimension::spatial;
+  const auto center = body.find("center");
+  if (center == body.end() || !center->is_array()) return Dimension::unknown;
+  if (center->size() == 2) return Dimension::planar;
+  return center->size() == 3 ? Dimension::spatial : Dimension::unknown;
 }
 
 std::size_t pieces_of(const Placed& body) {
@@ -131,17 +131,19 @@ SceneBody read_body(const Json& given, const std::string& path, const std::files
 Scene read_engagement(const Json& value, Velocities velocities, std::initializer_list<const char*> also,
                       const std::filesystem::path& folder) {
   if (!value.is_object()) throw InputError("engagement", quoted(value), "a mapping with agent and obstacle");
-  std::vector<std::string> known{"agent", "obstacle", "agent_velocity", "obstacle_velocity"};
+  std::vector<std::string_view> known{"agent", "obstacle", "agent_velocity", "obstacle_velocity"};
   known.insert(known.end(), also.begin(), also.end());
-  require_known(value, "", known);
-  for (const char* body : {"agent", "obstacle"})
-    if (value.contains(body) && !is_plain(value[body]))
-      return read_engagement(plain(value, folder), velocities, also, folder);
-  const auto made_of_pieces = [&](const char* body) {
-    return value.contains(body) && (is_pieces_body(value[body]) || is_union(value[body]));
+  require_known(value, "", std::span(std::as_const(known)));
+  const Json none;
+  const auto field = [&](const char* name) -> const Json& {
+    const auto found = value.find(name);
+    return found == value.end() ? none : *found;
   };
-  if (made_of_pieces("agent") || made_of_pieces("obstacle")) return pieces_scene(value, velocities, folder);
-  const Dimension agent = dimension(value, "agent"), obstacle = dimension(value, "obstacle");
+  const Json &a = field("agent"), &b = field("obstacle");
+  if (!is_plain(a) || !is_plain(b)) return read_engagement(plain(value, folder), velocities, also, folder);
+  if (is_pieces_body(a) || is_union(a) || is_pieces_body(b) || is_union(b))
+    return pieces_scene(value, velocities, folder);
+  const Dimension agent = dimension(a), obstacle = dimension(b);
   const bool planar = agent != Dimension::spatial && obstacle != Dimension::spatial &&
                       (agent == Dimension::planar || obstacle == Dimension::planar);
   return planar ? planar_scene(value, velocities) : quadric_scene(value, velocities);

@@ -7,7 +7,10 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "json/json_value.h"
@@ -19,9 +22,12 @@ std::string quoted(const Json& value);
 
 inline std::string at(const std::string& path, std::size_t i) { return path + "[" + std::to_string(i) + "]"; }
 
+inline bool is_finite_number(const Json& value) {
+  return value.is_number() && std::isfinite(value.get<double>());
+}
+
 inline double read_number(const Json& value, const std::string& path, const char* unit) {
-  if (!value.is_number() || !std::isfinite(value.get<double>()))
-    throw InputError(path, quoted(value), std::string("a finite number") + unit);
+  if (!is_finite_number(value)) throw InputError(path, quoted(value), std::string("a finite number") + unit);
   return value.get<double>();
 }
 
@@ -30,7 +36,8 @@ Eigen::Matrix<double, N, 1> read_vector(const Json& value, const std::string& pa
   if (!value.is_array() || value.size() != N)
     throw InputError(path, quoted(value), "a list of " + std::to_string(N) + " numbers" + unit);
   Eigen::Matrix<double, N, 1> v;
-  for (int i = 0; i < N; ++i) v(i) = read_number(value[i], at(path, i), unit);
+  for (int i = 0; i < N; ++i)  // a path is written for an error only
+    v(i) = is_finite_number(value[i]) ? value[i].get<double>() : read_number(value[i], at(path, i), unit);
   return v;
 }
 
@@ -48,13 +55,25 @@ inline void require_object(const Json& value, const std::string& path) {
   if (!value.is_object()) throw InputError(path, quoted(value), "a mapping of fields");
 }
 
-inline void require_known(const Json& value, const std::string& path, const std::vector<std::string>& known) {
-  for (const auto& [key, unused] : value.items()) {
+inline void require_known(const Json& value, const std::string& path,
+                          std::span<const std::string_view> known) {
+  for (const auto& item : value.items()) {
+    const std::string& key = item.key();
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
     std::string list;
     for (const auto& k : known) list.append(list.empty() ? "" : ", ").append(k);
     throw InputError(path.empty() ? key : path + "." + key, "an unknown field", "one of " + list);
   }
+}
+
+inline void require_known(const Json& value, const std::string& path,
+                          std::initializer_list<std::string_view> known) {
+  require_known(value, path, std::span(known.begin(), known.size()));
+}
+
+inline void require_known(const Json& value, const std::string& path, const std::vector<std::string>& known) {
+  const std::vector<std::string_view> names(known.begin(), known.end());
+  require_known(value, path, std::span(names));
 }
 
 inline const Json& require_field(const Json& value, const std::string& path, const char* field,

@@ -39,8 +39,8 @@ Json body_of_file(const std::string& name, const std::string& path, const Path& 
   }
   for (const char* body : {"obstacle", "body"})
     if (fields.contains(body) && fields[body].is_object()) return fields[body];
-  if (fields.contains("agent") || fields.contains("bodies"))
-    throw InputError(path, name + ", a scene or a scenario", kBodyFile);
+  if (const FileKind kind = kind_of_file(fields); kind != FileKind::unknown && kind != FileKind::body)
+    throw InputError(path, name + ", " + name_of(kind), kBodyFile);
   return fields;
 }
 

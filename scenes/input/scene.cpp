@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -161,7 +162,52 @@ class Builder : public YAML::EventHandler {
   std::size_t values_ = 0;
 };
 
+struct Words {
+  const char *name, *reader;
+};
+
+Words words(FileKind kind) {
+  switch (kind) {
+    case FileKind::scene:
+      return {"a scene", "vericone cone reads scenes"};
+    case FileKind::scenario:
+      return {"a scenario", "vericone simulate reads scenarios"};
+    case FileKind::pursuit:
+      return {"a pursuit", "vericone pursue reads pursuits"};
+    case FileKind::paper:
+      return {"figures or claims of a paper",
+              "vericone figures and claims read them, by --paper and the folder"};
+    case FileKind::body:
+      return {"a body", "a scene or a scenario names it, {file: NAME}"};
+    case FileKind::unknown:
+      break;
+  }
+  return {"", ""};
+}
+
 }  // namespace
+
+FileKind kind_of_file(const Json& fields) {
+  if (!fields.is_object()) return FileKind::unknown;
+  const auto has = [&](std::initializer_list<const char*> names) {
+    return std::any_of(names.begin(), names.end(), [&](const char* name) { return fields.contains(name); });
+  };
+  if (has({"figures", "claims"})) return FileKind::paper;
+  if (has({"bodies"})) return FileKind::scenario;
+  if (has({"uas", "cars", "cameras"})) return FileKind::pursuit;
+  if (has({"agent"})) return FileKind::scene;
+  if (has({"semi_axes", "shape", "quadric", "a_c", "mesh", "cloud", "octree", "hull", "points", "pieces"}))
+    return FileKind::body;
+  return FileKind::unknown;
+}
+
+const char* name_of(FileKind kind) { return words(kind).name; }
+
+void require_kind(const Json& fields, FileKind kind, const std::string& path) {
+  const FileKind found = kind_of_file(fields);
+  if (found == kind || found == FileKind::unknown) return;
+  throw InputError(path, words(found).name, std::string(words(kind).name) + "; " + words(found).reader);
+}
 
 std::string read_scene_text(const std::string& path) {
   return TextSource(path, "a scene file (YAML)").whole();
@@ -188,6 +234,7 @@ Json scene_fields(const std::string& text, const std::string& path) {
 Json read_scene_fields(const std::string& path) { return scene_fields(read_scene_text(path), path); }
 
 Scene scene_of(const Json& fields, const std::string& path) {
+  require_kind(fields, FileKind::scene, path);
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   Scene scene = read_engagement(fields, Velocities::optional, {"name", "lidars", "pose_error"}, folder);
   scene.agent.fields = remembered_fields(fields["agent"], "agent", folder);

@@ -7,6 +7,17 @@
 
 namespace vericone::input {
 
+/// What a file is, told by its outermost fields.
+enum class FileKind { unknown, scene, scenario, pursuit, paper, body };
+
+FileKind kind_of_file(const Json& fields);
+
+/// "a scenario"; empty where the kind is unknown.
+const char* name_of(FileKind kind);
+
+/// Throws InputError naming the path where the fields are plainly of another kind, and says who reads that.
+void require_kind(const Json& fields, FileKind kind, const std::string& path);
+
 /// The fields of a scene file as they stand, unchecked but for the limits of text_source.h and for text that
 /// is no UTF-8 or that a terminal would obey.
 Json read_scene_fields(const std::string& path);

@@ -2,6 +2,8 @@
 #include "input/spatial_body.h"
 
 #include <vericone/geometry/quadric.h>
+#include <array>
+#include <string_view>
 
 #include "input/assembly_body.h"
 #include "input/fields.h"
@@ -72,8 +74,17 @@ Eigen::Matrix3d read_rotation(const Json& body, const std::string& path) {
 
 CombinedEllipsoid read_spatial_body(const Json& value, const std::string& path) {
   require_object(value, path);
-  require_known(value, path, {"center", "semi_axes", "rotation", "hyperboloids", "shape", "quadric"});
   const int kinds = value.contains("semi_axes") + value.contains("shape") + value.contains("quadric");
+  constexpr std::array<std::string_view, 6> kOwn{"center",       "semi_axes", "rotation",
+                                                 "hyperboloids", "shape",     "quadric"};
+  if (kinds > 0) {
+    require_known(value, path, kOwn);
+  } else {  // what says the kind may be the field that is misspelt
+    std::vector<std::string> known = pieces_fields();
+    known.insert(known.begin(), kOwn.begin(), kOwn.end());
+    known.insert(known.end(), {"pieces", "file", "velocity"});
+    require_known(value, path, known);
+  }
   if (kinds != 1)
     throw InputError(path, kinds == 0 ? "no shape" : "more than one shape",
                      "given by exactly one of semi_axes (with rotation), shape, quadric, " + pieces_kinds());

@@ -2,9 +2,11 @@
 #include "input/text_source.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 #include <vericone/geometry/error.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
 #include <utility>
@@ -31,13 +33,49 @@ TextSource::~TextSource() {
   if (file_ > STDIN_FILENO) close(file_);
 }
 
+bool TextSource::next_line(std::string& line) {
+  while (!take_line(line)) {
+    if (ended_) return take_rest(line);
+    read_more();
+  }
+  return true;
+}
+
+bool TextSource::next_lines(std::string& lines, std::size_t most) {
+  std::size_t end = begin_;  // of the last whole line
+  for (;;) {
+    const std::size_t last = std::string_view(buffer_).substr(searched_).rfind('\n');
+    if (last != std::string_view::npos) end = searched_ + last + 1;
+    searched_ = buffer_.size();
+    const bool whole = end > begin_;
+    if (whole && (end - begin_ >= most || ended_ || buffer_.size() - end > kMostBytes || !more_at_hand())) {
+      lines.assign(buffer_, begin_, end - begin_);
+      begin_ = end;
+      lines_ += std::size_t(std::count(lines.begin(), lines.end(), '\n'));
+      return true;
+    }
+    if (ended_) return take_rest(lines);
+    if (buffer_.size() - end > kMostBytes) refuse_line();
+    end -= begin_;
+    read_more();
+  }
+}
+
+bool TextSource::more_at_hand() const {
+  pollfd file{file_, POLLIN, 0};
+  return poll(&file, 1, 0) > 0;
+}
+
+void TextSource::refuse_line() const {
+  throw InputError(path_ + ":" + std::to_string(lines_ + 1), "a line of more than " + megabytes(),
+                   "lines of at most " + megabytes());
+}
+
 bool TextSource::take_line(std::string& line) {
   const std::size_t end = buffer_.find('\n', searched_);
   if (end == std::string::npos) {
     searched_ = buffer_.size();
-    if (buffer_.size() - begin_ > kMostBytes)
-      throw InputError(path_ + ":" + std::to_string(lines_ + 1), "a line of more than " + megabytes(),
-                       "lines of at most " + megabytes());
+    if (buffer_.size() - begin_ > kMostBytes) refuse_line();
     return false;
   }
   line.assign(buffer_, begin_, end - begin_);

@@ -24,17 +24,12 @@ class TextSource {
   TextSource(const TextSource&) = delete;
   TextSource& operator=(const TextSource&) = delete;
 
-  /// The next line without its end. False after the last one. `before_waiting()` is called before more is
-  /// asked for, which may take until somebody writes it.
-  template <typename BeforeWaiting>
-  bool next_line(std::string& line, BeforeWaiting before_waiting) {
-    while (!take_line(line)) {
-      if (ended_) return take_rest(line);
-      before_waiting();
-      read_more();
-    }
-    return true;
-  }
+  /// The next line without its end. False after the last one.
+  bool next_line(std::string& line);
+
+  /// The whole lines that are at hand, with their ends, once they have `most` bytes; waits where there is
+  /// none. The last line may have no end. False after it.
+  bool next_lines(std::string& lines, std::size_t most);
 
   /// All of it.
   std::string whole();
@@ -43,6 +38,9 @@ class TextSource {
   bool take_line(std::string& line);
   bool take_rest(std::string& line);
   void read_more();
+  /// Whether reading would not wait.
+  [[nodiscard]] bool more_at_hand() const;
+  [[noreturn]] void refuse_line() const;
 
   std::string path_, requirement_;
   int file_ = -1;

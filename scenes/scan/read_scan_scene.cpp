@@ -12,6 +12,7 @@ namespace vericone::scanning {
 
 ScanScene read_scan_scene(const std::filesystem::path& file) {
   const Json fields = input::read_scene_fields(file.string());
+  input::require_kind(fields, input::FileKind::scene, file.string());
   SceneLidars lidars = read_lidars(fields);
   scenes::Scene bodies = input::scene_of(fields, file.string());
   if (bodies.obstacle.field != "mesh" || !(bodies.agent.ellipsoid() || bodies.agent.hull()))

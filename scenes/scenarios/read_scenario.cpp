@@ -158,8 +158,9 @@ simulation::Scenario read_scenario(const Json& fields, const std::string& name,
 }
 
 simulation::Scenario scenario_of_text(const std::string& text, const std::string& file) {
-  return read_scenario(input::scene_fields(text, file),
-                       plain_text(std::filesystem::path(file).stem().string()),
+  const Json fields = input::scene_fields(text, file);
+  input::require_kind(fields, input::FileKind::scenario, file);
+  return read_scenario(fields, plain_text(std::filesystem::path(file).stem().string()),
                        std::filesystem::path(file).parent_path());
 }
 

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bad inputs and the one line that each gets. The table in docs/reference/bad-input.md is this list, printed by
+"""Bad inputs and the one line that each gets. docs/reference/bad-input.md has one of each kind, printed by
 `/usr/bin/python3 tests/cli/bad_input_cases.py VERICONE > docs/reference/bad-input.md`; the test runs every case and compares
-the table as well, so neither can go stale."""
+the page as well, so neither can go stale."""
 import json
 import math
 import os
+import re
 import struct
 import subprocess
 import sys
@@ -654,6 +655,15 @@ SCENARIOS = [
     ("a current with an unknown field", fish("{kind: fish}", top="current: {wind: 1}\n")),
 ]
 # What is wrong, arguments after `campaign`.
+COMMANDS += [
+    ("a scenario for a scene", ["cone", "FILE"], scenario()),
+    ("a scene for a scenario", ["simulate", "FILE"], SCENE),
+    ("a scene for a pursuit", ["pursue", "FILE"], SCENE),
+    ("a pursuit for a scene", ["check", "FILE"], pursuit()),
+    ("a body for a scenario", ["trials", "FILE"], "{center: [0, 0, 0], semi_axes: [1, 2, 3]}\n"),
+]
+QUERIES.insert(1, ("a misspelt kind of body", case(obstacle={"shape": ..., "meshes": "a.obj"})))
+
 CAMPAIGNS = [
     ("no engagements", ["-N", "0"]),
     ("an unknown law", ["--laws", "slice,best"]),
@@ -757,59 +767,51 @@ def run_pursuit(vericone, arguments, text):
         return result, sorted(set(os.listdir(folder)) - {"pursuit.yaml"})
 
 
-def scenario_rows(vericone):
-    def cell(text):
-        return "`" + " ".join(text.split()).replace("|", "\\|") + "`"
+def answers(vericone):
+    """(section, [(what, message)]) of all cases."""
+    def lines(cases, command):
+        _, found, _ = run_queries(vericone, cases, command)
+        return [(what, answer.get("error", "no error")) for (what, _), answer in zip(cases, found)]
 
-    text = ["", "## Scenarios", "", "| what | scenario | message |", "|---|---|---|"]
-    for what, given in SCENARIOS:
-        result, _ = run_scenario(vericone, given)
-        text.append("| %s | %s | %s |" % (what, cell(given), cell(result.stderr)))
-    text += ["", "## Pursuits", "", "| what | words after `vericone pursue pursuit.yaml` | pursuit | message |", "|---|---|---|---|"]
-    for what, arguments, given in PURSUITS:
-        result, _ = run_pursuit(vericone, arguments, given)
-        text.append("| %s | %s | %s | %s |" % (what, cell(" ".join(arguments)) if arguments else "", cell(given), cell(result.stderr)))
-    text += ["", "## Campaigns", "", "| what | command | message |", "|---|---|---|"]
-    for what, arguments in CAMPAIGNS:
-        result, _ = run_campaign(vericone, arguments)
-        text.append("| %s | %s | %s |" % (what, cell("vericone campaign " + " ".join(arguments)), cell(result.stderr)))
-    text += ["", "## Trials", "", "| what | command | message |", "|---|---|---|"]
-    for what, arguments in TRIALS:
-        result, _ = run_trials(vericone, arguments)
-        words = " ".join(a or "''" for a in arguments)
-        text.append("| %s | %s | %s |" % (what, cell("vericone trials scenario.yaml " + words), cell(result.stderr)))
-    return text
+    def said(cases, runs):
+        return [(case[0], runs(*case[1:]).stderr) for case in cases]
+
+    yield "Lines of `vericone query`", lines(QUERIES, "query")
+    yield "Lines of `vericone law`", lines(LAWS, "law")
+    yield "Commands and scenes", said(COMMANDS, lambda arguments, scene: run_command(vericone, arguments, scene)[1])
+    yield "Fits", said(FITS, lambda arguments, files: run_fit(vericone, arguments, files)[0])
+    yield "Tracks", said(TRACKS, lambda arguments, files: run_track(vericone, arguments, files)[0])
+    yield "Scenarios", said(SCENARIOS, lambda text: run_scenario(vericone, text)[0])
+    yield "Pursuits", said(PURSUITS, lambda arguments, text: run_pursuit(vericone, arguments, text)[0])
+    yield "Campaigns", said(CAMPAIGNS, lambda arguments: run_campaign(vericone, arguments)[0])
+    yield "Trials", said(TRIALS, lambda arguments: run_trials(vericone, arguments)[0])
+
+
+def kind(message):
+    """The same of messages that ask for the same: the first words of what must be, without numbers."""
+    if "an unknown field" in message:
+        return "unknown field"
+    wanted = message.split(", must be ", 1)[-1]
+    words = re.split(r"[;:(,]", re.sub(r"[-+]?\d[\d.e+-]*", "N", wanted))[0].split()
+    return " ".join(words[:2])
 
 
 def table(vericone):
-    def cell(text):
-        return "`" + text.replace("|", "\\|") + "`"
-
-    lines, answers, _ = run_queries(vericone)
     text = ["# What bad input gets", "",
-            "One line that names the field, the value and what would be right; exit status 2; nothing half written.",
-            "In a file of cases the run goes on with the next line and ends with 2. This table is made and checked by",
-            "`tests/cli`.", "", "## Lines of `vericone query`", "", "| what | input | answer |", "|---|---|---|"]
-    for (what, _), line, answer in zip(QUERIES, lines, answers):
-        text.append("| %s | %s | %s |" % (what, cell(line), cell(answer.get("error", "no error"))))
-    lines, answers, _ = run_queries(vericone, LAWS, "law")
-    text += ["", "## Lines of `vericone law`", "", "| what | input | answer |", "|---|---|---|"]
-    for (what, _), line, answer in zip(LAWS, lines, answers):
-        text.append("| %s | %s | %s |" % (what, cell(line), cell(answer.get("error", "no error"))))
-    text += ["", "## Commands and scenes", "", "| what | command | message |", "|---|---|---|"]
-    for what, arguments, scene in COMMANDS:
-        arguments, result, _ = run_command(vericone, arguments, scene)
-        text.append("| %s | %s | %s |" % (what, cell("vericone " + " ".join(arguments)), cell(result.stderr.strip())))
-    text += ["", "## Fits", "", "| what | command | message |", "|---|---|---|"]
-    for what, arguments, files in FITS:
-        result, _ = run_fit(vericone, arguments, files)
-        text.append("| %s | %s | %s |" % (what, cell("vericone fit " + " ".join(arguments)),
-                                                   cell(result.stderr.strip())))
-    text += ["", "## Tracks", "", "The folder `frames` has four small pictures.", "", "| what | command | message |", "|---|---|---|"]
-    for what, arguments, files in TRACKS:
-        result, _ = run_track(vericone, arguments, files)
-        text.append("| %s | %s | %s |" % (what, cell("vericone track " + " ".join(arguments)), cell(result.stderr.strip())))
-    return "\n".join(text + scenario_rows(vericone)) + "\n"
+            "One line that names the field, the value and what would be right; exit status 2; nothing half written. In a file of",
+            "cases the run goes on with the next line and ends with 2. Below stands one example of each kind of message, where it",
+            "comes first; long ones are cut off. `tests/cli` tries all cases, of which there are several hundred, and makes and",
+            "checks this page."]
+    seen = set()
+    for section, cases in answers(vericone):
+        text += ["", "## " + section, "", "| what | message |", "|---|---|"]
+        for what, message in cases:
+            if kind(message) in seen:
+                continue
+            seen.add(kind(message))
+            message = " ".join(message.removeprefix("vericone: ").split()).replace("|", "\\|")
+            text.append("| %s | `%s` |" % (what, message if len(message) <= 160 else message[:157] + "..."))
+    return "\n".join(text) + "\n"
 
 
 if __name__ == "__main__":

@@ -19,8 +19,17 @@ class Completion(unittest.TestCase):
         return [line for line in done.stdout.splitlines() if line]
 
     def test_commands(self):
-        listed = run("--help").stdout.split("Subcommands:\n")[1].split("\n\n")[0]
-        self.assertEqual(self.words(""), re.findall(r"^  ([\w-]+) ", listed, re.MULTILINE))
+        text = run("--help").stdout
+        self.assertEqual(self.words(""), re.findall(r"^  ([a-z][a-z-]*) ", text, re.MULTILINE))
+        self.assertIn("pursue", self.words(""))
+        # Each stands in the group of its job.
+        groups = {title: re.findall(r"^  ([a-z-]+) ", rows, re.MULTILINE)
+                  for title, rows in re.findall(r"^([A-Z][^\n]*):\n((?:  [a-z].*\n)+)", text, re.MULTILINE)}
+        self.assertEqual(sum(groups.values(), []), self.words(""))
+        self.assertIn("query", groups["Verdicts and cones"])
+        self.assertIn("simulate", groups["Flights"])
+        self.assertIn("fit", groups["Scans, meshes and maps"])
+        self.assertIn("figures", groups["Papers and pictures"])
         self.assertEqual(self.words("sim"), ["simulate"])
         self.assertEqual(self.words("bogus"), [])
 

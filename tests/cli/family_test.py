@@ -12,7 +12,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from command import VERICONE, run  # noqa: E402
+from command import SOURCE, VERICONE, ball, engagement, run  # noqa: E402
 
 PROGRAMS = os.environ["VERICONE_PROGRAMS"].split()
 NEEDS = {"fit": "VERICONE_FITTING", "pursue": "VERICONE_VISION", "scan": "VERICONE_LIDAR", "track": "VERICONE_VISION",
@@ -74,8 +74,19 @@ class Family(unittest.TestCase):
             self.assertEqual(result.stderr, "vericone: no option --such (see vericone %s --help)\n" % name)
             self.assertEqual(run(name, "--such").stderr, result.stderr)
 
+    def test_a_full_standard_output(self):
+        case = json.dumps(engagement(ball([0, 0, 0], 1), ball([5, 0, 0], 2), [1, 0, 0])) + "\n"
+        scene = os.path.join(SOURCE, "docs/examples/first.yaml")
+        for words in (["query", "-"], ["cone", scene], ["cone", scene, "--json"], ["estimate", "-"], ["--help"], ["cone", "--help"],
+                      ["--version"]):
+            for given in (case, 3000 * case) if words[0] == "query" else ("t,x,y\n0,1,2\n",):
+                with self.subTest(words=words), open("/dev/full", "w", encoding="utf-8") as full:
+                    done = subprocess.run([VERICONE, *words], input=given, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+                    self.assertEqual((done.returncode, done.stderr),
+                                     (1, "vericone: could not write to standard output: No space left on device\n"))
+
     def test_every_help_has_examples_and_exit_statuses(self):
-        commands = [line.split()[0] for line in run("--help").stdout.split("Subcommands:\n")[1].split("\n\n")[0].splitlines()]
+        commands = re.findall(r"^  ([a-z][a-z-]*) ", run("--help").stdout, re.MULTILINE)
         self.assertIn("cone", commands)
         for name in commands:
             if name in NEEDS and name not in PROGRAMS:
@@ -96,7 +107,7 @@ class Family(unittest.TestCase):
                           "verify",
                 "--out": "cone estimate accuracy signmap gallery shapes simulate campaign trials claims figures pursue scan fit track",
                 "--no-figures": "cone accuracy signmap gallery shapes simulate campaign trials pursue scan fit track",
-                "--threads": "cone accuracy gallery campaign trials pursue verify",
+                "--threads": "cone query accuracy gallery campaign trials pursue verify",
                 "--seed": "accuracy signmap campaign trials pursue scan fit verify"}
         for option, commands in have.items():
             for name in commands.split():
@@ -112,7 +123,7 @@ class Family(unittest.TestCase):
                             (["query", "-z", "x"], "no option -z (see vericone query --help)")):
             result = run(*words)
             self.assertEqual((result.returncode, result.stdout, result.stderr), (2, "", "vericone: %s\n" % said))
-        self.assertRegex(run("bogus").stderr, r"^vericone: no subcommand bogus; there are cone, query, .*\n$")
+        self.assertRegex(run("bogus").stderr, r"^vericone: no subcommand bogus; there are check, query, cone, .*\n$")
 
     def test_usage_without_words(self):
         alone = run()

@@ -3,6 +3,7 @@
 all of them take by the name of a file. Environment as for command.py."""
 import json
 import os
+import re
 import sys
 import tempfile
 import unittest
@@ -154,7 +155,7 @@ class Notation(unittest.TestCase):
                 ("{file: loop.yaml}", "names 8 others"),
                 ("{file: moved.yaml}", "names 8 others"),
                 ("{file: moved.yaml, center: [1, 0, 0]}", "names 8 others"),
-                ("{file: scene.yaml}", "a scene or a scenario"),
+                ("{file: scene.yaml}", "obstacle.file: got scene.yaml, a scene, must be a file with a body"),
                 ("{file: q.yaml, center: [1, 0, 0]}", "obstacle.center: got [1.0,0.0,0.0], must be left out"),
                 ("{file: q.yaml, radius: 1}", "obstacle.radius: got an unknown field"),
                 ("{pieces: []}", "obstacle.pieces: got [], must be a list of bodies"),
@@ -165,6 +166,31 @@ class Notation(unittest.TestCase):
                 self.assertEqual(done.returncode, 2)
                 self.assertIn(said, done.stderr)
                 self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+
+    def test_files_of_another_kind(self):
+        """Each command says what it was given, and who reads that."""
+        kinds = {"scene": ("a scene", "vericone cone reads scenes", f"{{agent: {AGENT}, obstacle: {AGENT}}}"),
+                 "scenario": ("a scenario", "vericone simulate reads scenarios", f"bodies: [{AGENT}]"),
+                 "pursuit": ("a pursuit", "vericone pursue reads pursuits", "{uas: {}, cars: [], cameras: {}}"),
+                 "paper": ("figures or claims of a paper", "--paper", "claims: []"),
+                 "body": ("a body", "{file: NAME}", AGENT)}
+        readers = {"cone": "scene", "simulate": "scenario", "reach": "scenario", "trials": "scenario"}
+        programs = os.environ.get("VERICONE_PROGRAMS", "").split()
+        readers |= {name: kind for name, kind in (("scan", "scene"), ("pursue", "pursuit")) if name in programs}
+        for command, wanted in readers.items():
+            for kind, (name, reader, text) in kinds.items():
+                with self.subTest(command=command, given=kind):
+                    done = run(command, self.write("given.yaml", text))
+                    said = re.match(r"vericone: \S*given.yaml: got (.*), must be (.*); (.*)\n$", done.stderr)
+                    if kind == wanted:
+                        self.assertIsNone(said, done.stderr)
+                    else:
+                        self.assertEqual(done.returncode, 2)
+                        self.assertIsNotNone(said, done.stderr)
+                        self.assertEqual(said.group(1, 2), (name, kinds[wanted][0]), done.stderr)
+                        self.assertIn(reader, said.group(3))
+        self.assertIn("given.yaml: got a pursuit, must be a scene, a scenario or a body; vericone pursue reads pursuits",
+                      run("check", self.write("given.yaml", kinds["pursuit"][2])).stderr)
 
 
 if __name__ == "__main__":

@@ -2,7 +2,13 @@
 """`vericone query`: cases in, answers out."""
 import json
 import math
+import os
+import random
+import re
+import signal
 import subprocess
+import tempfile
+import threading
 import unittest
 
 from command import VERICONE, ball, engagement, query, run
@@ -122,6 +128,66 @@ class Query(unittest.TestCase):
         answers = [json.loads(line) for line in result.stdout.splitlines()]
         self.assertEqual(result.returncode, 2)
         self.assertEqual([("error" in x) for x in answers], [False, True, False])
+
+    def lines(self, count):
+        """Good lines, bad ones and blank ones, each with its own id."""
+        rng = random.Random(1)
+        for i in range(count):
+            b = ball([5 + 9 * rng.random(), 4 * rng.random(), rng.gauss(0, 1)], 1 + rng.random())
+            case = engagement(ball([0, 0, 0], 1), b, [1, rng.gauss(0, 0.3), rng.gauss(0, 0.3)], id=i)
+            kind = rng.randrange(20)
+            if kind == 0:
+                case["agent"]["semi_axes"][rng.randrange(3)] = 0
+            elif kind == 1:
+                case["id"] = "%d \u00e9" % i
+            elif kind == 2:
+                case["obstacle"] = {"points": [[5 + x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]}
+            yield {3: "nonsense", 4: "  "}.get(kind) or json.dumps(case)
+
+    def test_threads_change_nothing(self):
+        text = "\n".join(self.lines(4000))  # the last line has no end
+        one, four = (run("query", "-", "--threads", threads, input=text) for threads in ("1", "4"))
+        self.assertEqual((one.returncode, one.stderr), (2, ""))
+        self.assertEqual(four.stdout, one.stdout)
+        self.assertEqual(len(one.stdout.splitlines()), sum(line.strip() != "" for line in text.split("\n")))
+        # Each is what the line alone gets, but for the number of the line.
+        rng = random.Random(2)
+        lines = [line for line in text.split("\n") if line.strip()]
+        for i in rng.sample(range(len(lines)), 30):
+            alone = run("query", "-", input=lines[i]).stdout
+            self.assertEqual(alone.replace("line 1:", ""), re.sub(r"line \d+:", "", one.stdout.splitlines(True)[i]))
+
+    def test_memory_does_not_grow(self):
+        def most(count):
+            text = ("\n".join(self.lines(500)) + "\n").encode() * (count // 500)
+            with tempfile.TemporaryFile() as given:
+                given.write(text)
+                given.seek(0)
+                process = subprocess.Popen([VERICONE, "query", "-", "--threads", "2"], stdin=given, stdout=subprocess.DEVNULL)
+                _, status, used = os.wait4(process.pid, 0)
+                process.returncode = os.waitstatus_to_exitcode(status)
+                self.assertEqual(process.returncode, 2)
+                return used.ru_maxrss  # KiB
+        self.assertLess(most(60_000) - most(6_000), 12_000)  # the lines alone have 10 MB, their answers 5
+
+    def test_a_consumer_that_leaves(self):
+        text = ("\n".join(self.lines(500)) + "\n") * 40
+        with subprocess.Popen([VERICONE, "query", "-"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              text=True) as p:
+            feeder = threading.Thread(target=self.feed, args=(p.stdin, text))
+            feeder.start()
+            self.assertEqual(json.loads(p.stdout.readline())["id"], 0)
+            p.stdout.close()
+            feeder.join()
+            self.assertEqual((p.wait(), p.stderr.read()), (-signal.SIGPIPE, ""))
+
+    @staticmethod
+    def feed(stream, text):
+        try:
+            stream.write(text)
+            stream.close()
+        except BrokenPipeError:
+            pass
 
     def test_each_answer_comes_at_once(self):
         with subprocess.Popen([VERICONE, "query", "-"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as p:

@@ -173,6 +173,9 @@ class Schemas(unittest.TestCase):
         flat = "agent: {center: [0, 0], semi_axes: [1, 1]}\nobstacle: {center: [9, 0], semi_axes: [1, 1], zzz: 1}\n"
         fields |= self.taken("check", flat, "obstacle.zzz")
         self.assertEqual(fields, set(body["$defs"]["body"]["properties"]))
+        # Where no field says the kind, that one may be misspelt: all are named.
+        self.assertEqual(self.taken("check", pair % "{center: [9, 0, 0], zzz: 1}", "obstacle.zzz"),
+                         fields - {"a_c", "b_c", "k", "phi", "hyperbolas"})
         self.assertEqual(set(body["$defs"]["kinds"]) | {"center", "rotation", "velocity", "k"}, fields)
         # A scenario's shape takes these, changes in time, and no velocity.
         shape = set(defs["shape"]["properties"])

@@ -251,6 +251,15 @@ class WritersRefused(InPreparedFolder):
                     if name not in RESUMED:
                         self.assertFalse(os.path.exists(self.out))
 
+    def test_a_new_paper_on_a_full_disk(self):
+        def small():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (300, 300))
+        result = self.run_limited("paper", "new", "mine", preexec_fn=small)
+        self.assertEqual(result.returncode, 1)
+        self.assertRegex(result.stderr, r"^vericone: mine/\S+: File too large\n$")
+        self.assertFalse(os.path.exists(os.path.join(self.folder, "mine")))
+
     def test_pictures_of_an_earlier_run_go(self):
         for name, words in WRITERS.items():
             if there(words) and "--no-figures" in words and not name.startswith(("shapes", "gallery")):

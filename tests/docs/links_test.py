@@ -176,9 +176,8 @@ class Words(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.program = os.environ["VERICONE"]
-        names = cls.help().split("Subcommands:\n")[1].split("\n\n")[0]
         cls.options = {name: set(re.findall(r"(?<![\w-])--?[A-Za-z][\w-]*", cls.help(name)))
-                       for name in re.findall(r"^  ([\w-]+)", names, re.MULTILINE) if name not in PROGRAMS}
+                       for name in re.findall(r"^  ([a-z][a-z-]*) ", cls.help(), re.MULTILINE) if name not in PROGRAMS}
         cls.all = set().union(*cls.options.values()) | {"--version", "--help"}
 
     @classmethod

@@ -12,12 +12,13 @@
 
 namespace vericone {
 
-/// The fields of an answer to a case; InputError where the case is bad.
+/// The fields of an answer to a case; InputError where the case is bad. Called from several threads.
 using Answer = std::function<Json(const Json&)>;
 
 /// Answers in the order of the lines, each with the case's `id`, or with `error`. Returns the exit status: 0,
-/// or 2 if any line was bad. Blank lines have no answer. `path`: "-" for standard input.
-int answer_cases(const std::string& path, const Answer& answer, std::ostream& out);
+/// or 2 if any line was bad. Blank lines have no answer. `path`: "-" for standard input, where what is there
+/// is answered before more is waited for. `threads`: that answer; memory does not grow with the file.
+int answer_cases(const std::string& path, const Answer& answer, std::ostream& out, int threads = 1);
 
 /// One line of a file of cases. Throws InputError naming the line.
 Json parse_case(const std::string& line, std::size_t number);

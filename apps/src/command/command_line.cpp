@@ -239,12 +239,11 @@ std::string CommandLine::text() const {
   return text;
 }
 
-void answer_without_command(const std::string& called,
-                            const std::vector<std::pair<std::string, std::string>>& commands,
+void answer_without_command(const std::string& called, const std::vector<ListedCommand>& commands,
                             const std::vector<std::string>& words) {
   CLI::App app("Collision cones with certified bounds", called);
   app.set_version_flag("--version", version_line());
-  for (const auto& [name, what] : commands) app.add_subcommand(name, what);
+  for (const auto& [group, name, what] : commands) app.add_subcommand(name, what)->group(group);
   app.footer(
       "vericone COMMAND --help says what a command takes, with examples.\n"
       "Words, units, signs and exit statuses: docs/reference/conventions.md.");
@@ -256,7 +255,7 @@ void answer_without_command(const std::string& called,
   if (!words.front().starts_with("-")) {
     std::vector<std::string> names;
     names.reserve(commands.size());
-    for (const auto& [name, what] : commands) names.push_back(name);
+    for (const ListedCommand& command : commands) names.push_back(command.name);
     std::string instead = nearest(words.front(), names);
     for (const std::string& name : names)
       if (!instead.starts_with(", did")) instead.append(instead.empty() ? "; there are " : ", ").append(name);

@@ -76,10 +76,15 @@ class CommandLine {
   bool quiet_ = false;
 };
 
-/// Answers words that do not begin with a command: the help that lists `commands` (names, and what they do),
-/// the version, or what is wrong, with the help where there are no words. Throws UsageError or Answered.
+/// A command as the help of the family lists it.
+struct ListedCommand {
+  std::string group, name, what;
+};
+
+/// Answers words that do not begin with a command: the help that lists `commands`, the version, or what is
+/// wrong, with the help where there are no words. Throws UsageError or Answered.
 [[noreturn]] void answer_without_command(const std::string& called,
-                                         const std::vector<std::pair<std::string, std::string>>& commands,
+                                         const std::vector<ListedCommand>& commands,
                                          const std::vector<std::string>& words);
 
 }  // namespace vericone

@@ -65,12 +65,14 @@ int query_command(CommandLine& line) {
   std::string cases;
   bool with_rung = false;
   line.option("cases", cases, "File of cases, or - for standard input").required();
+  int threads = 0;
   line.flag("--rung", with_rung, "Add the rung of the ladder that decided: triage, interval or exact");
+  line.option("--threads", threads, "Threads, 0: one per processor; the answers are the same");
   bool json = true;
   line.flag("--json", json, "Print JSON; this command prints nothing else");
   line.quiet();
   line.read();
-  return run_query(cases, with_rung, std::cout);
+  return run_query(cases, with_rung, threads_for(threads), std::cout);
 }
 
 int robust_law_command(CommandLine& line) {

@@ -6,25 +6,30 @@
 #include <vericone/geometry/sound_arithmetic.h>
 
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
+#include <system_error>
 
 #include "command/catalogue.h"
 #include "command/find_program.h"
 #include "json/plain_text.h"
 #include "output/interrupt.h"
+#include "output/standard_output.h"
 
 namespace vericone {
 namespace {
 
 /// The exit status of what ended so, with its line on standard error.
 int told(const std::exception_ptr& failure) {
+  try {
+    std::cout.flush();
+  } catch (const std::system_error&) {  // the failure is told, or was this
+  }
   // What breaks because of an interruption, such as the script of a picture that gets it too, is not told.
   if (interrupted()) return kExitInterrupted;
   try {
     std::rethrow_exception(failure);
-  } catch (const Answered&) {
-    return 0;
   } catch (const UsageError& e) {
     std::cerr << "vericone: " << plain_text(e.what()) << '\n';
     return 2;
@@ -33,6 +38,10 @@ int told(const std::exception_ptr& failure) {
     return 2;
   } catch (const std::bad_alloc&) {
     std::cerr << "vericone: not enough memory\n";
+    return 1;
+  } catch (const std::filesystem::filesystem_error& e) {
+    const std::filesystem::path& path = e.path2().empty() ? e.path1() : e.path2();
+    std::cerr << "vericone: " << plain_text(path.string()) << ": " << e.code().message() << '\n';
     return 1;
   } catch (const std::exception& e) {
     std::cerr << "vericone: " << plain_text(e.what()) << '\n';
@@ -43,13 +52,16 @@ int told(const std::exception_ptr& failure) {
 /// The exit status of `work`, with the line on standard error where it fails.
 template <typename Work>
 int guarded(Work work) {
+  int status = 0;
   try {
+    require_standard_output();
     require_sound_arithmetic();
-    const int status = work();
+    try {
+      status = work();
+    } catch (const Answered&) {
+    }
     std::cout.flush();
-    if (std::cout) return status;
-    std::cerr << "vericone: could not write to standard output\n";
-    return 1;
+    return status;
   } catch (...) {
     return told(std::current_exception());
   }
@@ -75,11 +87,12 @@ int carry_out(Command command, const std::string& called, const std::string& nam
 }
 
 /// The commands with what they do, and with what is missing of those that are not there.
-std::vector<std::pair<std::string, std::string>> listed(const std::map<std::string, Command>& commands) {
-  std::vector<std::pair<std::string, std::string>> list;
+std::vector<ListedCommand> listed(const std::map<std::string, Command>& commands) {
+  std::vector<ListedCommand> list;
   for (const CatalogueEntry& entry : catalogue()) {
     const bool there = commands.contains(entry.name) || find_program(entry.name);
-    list.emplace_back(entry.name, there ? entry.what : entry.what + " (needs " + entry.needs + ")");
+    list.push_back(
+        {entry.group, entry.name, there ? entry.what : entry.what + " (needs " + entry.needs + ")"});
   }
   return list;
 }

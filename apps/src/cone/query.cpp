@@ -44,10 +44,10 @@ Json answer_case(const Json& value, bool with_rung, const std::filesystem::path&
 
 }  // namespace
 
-int run_query(const std::string& path, bool with_rung, std::ostream& out) {
+int run_query(const std::string& path, bool with_rung, int threads, std::ostream& out) {
   const std::filesystem::path folder = path == "-" ? "" : std::filesystem::path(path).parent_path();
   return answer_cases(
-      path, [&](const Json& value) { return answer_case(value, with_rung, folder); }, out);
+      path, [&](const Json& value) { return answer_case(value, with_rung, folder); }, out, threads);
 }
 
 }  // namespace vericone

@@ -45,8 +45,9 @@ Choice chosen(const std::string& option, const std::string& word, Choice otherwi
 
 Pursuit read(const PursueOptions& options, const std::string& text) {
   const fs::path file = options.scenario;
-  Pursuit pursuit = read_pursuit(input::scene_fields(text, file.string()), plain_text(file.stem().string()),
-                                 file.parent_path());
+  const Json fields = input::scene_fields(text, file.string());
+  input::require_kind(fields, input::FileKind::pursuit, file.string());
+  Pursuit pursuit = read_pursuit(fields, plain_text(file.stem().string()), file.parent_path());
   pursuit.eyes =
       chosen<Eyes>("--camera", options.camera, Eyes::perspective,
                    {{"perspective", Eyes::perspective}, {"source", Eyes::source}, {"exact", Eyes::exact}});

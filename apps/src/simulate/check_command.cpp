@@ -105,14 +105,21 @@ int run_check(const std::string& file, bool json, std::ostream& out) {
     throw InputError(file, input::quoted(fields),
                      "a scene, a scenario, a body, or figures or claims of a paper: a mapping of fields");
   scenario::Facts facts;
-  if (fields.contains("figures") || fields.contains("claims"))
-    paper::describe(paper::Paper(fs::absolute(file).parent_path().string()), file, facts);
-  else if (fields.contains("bodies"))
-    check_scenario(fields, file, facts);
-  else if (fields.contains("agent"))
-    check_scene(fields, file, facts);
-  else
-    check_body(file, facts);
+  switch (input::kind_of_file(fields)) {
+    case input::FileKind::paper:
+      paper::describe(paper::Paper(fs::absolute(file).parent_path().string()), file, facts);
+      break;
+    case input::FileKind::scenario:
+      check_scenario(fields, file, facts);
+      break;
+    case input::FileKind::scene:
+      check_scene(fields, file, facts);
+      break;
+    case input::FileKind::pursuit:
+      throw InputError(file, "a pursuit", "a scene, a scenario or a body; vericone pursue reads pursuits");
+    default:
+      check_body(file, facts);
+  }
   facts.print(json, out);
   return 0;
 }

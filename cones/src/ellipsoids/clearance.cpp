@@ -383,6 +383,12 @@ double clearance_ahead(const ConeOracle& oracle, const Vector3d& v_a, const Vect
     case Verdict::undecided:  // never of ellipsoids
       break;
   }
+  // Bodies that come nearest later than rounding explains are closing; otherwise the normal now tells.
+  if (oracle.separating_normal().dot(w) > 0) {
+    const Clearance c = clearance(oracle.a(), oracle.b(), w);
+    const double far = (oracle.b().center() - oracle.a().center()).cwiseAbs().maxCoeff();
+    if (c.time * w.cwiseAbs().maxCoeff() > 1e-3 * far) return std::max(c.distance, kLeast);
+  }
   const Separation now = separation(oracle.a(), oracle.b());
   if (w.isZero(0) || !(now.normal.dot(w) > 0)) return std::max(now.distance, kLeast);
   return std::max(clearance(oracle.a(), oracle.b(), w).distance, kLeast);
