@@ -30,7 +30,8 @@ Case read_case(const std::string& text, std::size_t line) {
   const Json value = parse_case(text, line);
   const scenes::Scene scene = input::read_engagement(value, input::Velocities::optional, {"id"}, "");
   if (scene.planar || !scene.agent.ellipsoid() || !scene.obstacle.ellipsoid())
-    throw InputError("agent and obstacle", "other bodies", "ellipsoids in space");
+    throw InputError("agent and obstacle", "other bodies",
+                     "ellipsoids in space, whose cone is known exactly; --obstacle measures random dents");
   const Ellipsoid &a = *scene.agent.ellipsoid(), &b = *scene.obstacle.ellipsoid();
   const Eigen::Vector3d across = b.center() - a.center();
   if (!(a.radius(across) + b.radius(across) < across.squaredNorm()))

@@ -78,15 +78,14 @@ void print_text(const PlanarCone& cone, const scenes::Scene& scene, std::ostream
   print_verdict(scene, out);
   out << "method              planar: common tangents of arcs and corners\n"
       << "bodies              " << to_string(s.relation) << '\n'
-      << "psi                 " << angle(s.psi) << '\n'
-      << "theta_b             " << angle(s.theta_b) << '\n'
-      << "y                   "
-      << (has_y(cone) ? number_text(cone.function.y) : "not defined: psi is more than half a turn") << '\n'
-      << "V_r_hat             " << number_text(cone.function.v_r_hat) << " m/s\n";
+      << "cone's angle        " << angle(s.psi) << '\n'
+      << "cone's middle       at azimuth " << angle(s.theta_b) << '\n';
   const auto edge = [&](const char* label, const Touch& a, const Touch& b) {
     out << label << "from " << touch_text(a) << " of the agent to " << touch_text(b) << " of the obstacle\n";
   };
-  if (s.relation == Relation::disjoint) {
+  // An ellipse is one arc.
+  if (s.relation == Relation::disjoint &&
+      !(scene.planar->agent.is_ellipsoid() && scene.planar->obstacle.is_ellipsoid())) {
     edge("left edge           ", found.left_a, found.left_b);
     edge("right edge          ", found.right_a, found.right_b);
   }

@@ -139,7 +139,7 @@ void print(const SlicedCone& cone, const scenes::Scene& scene, std::ostream& out
     const Slice& widest = *std::max_element(cone.slices.begin(), cone.slices.end(),
                                             [](const Slice& x, const Slice& y) { return x.psi() < y.psi(); });
     const ConeFunction f = plane_function(widest, cone.axis, scene.agent.velocity, scene.obstacle.velocity);
-    out << "widest plane        psi " << number_text(degrees(widest.psi())) << " degrees, y "
+    out << "widest plane        " << number_text(degrees(widest.psi())) << " degrees, the source's y "
         << (widest.psi() <= std::numbers::pi ? number_text(f.y) : "not defined") << '\n';
   }
   if (cone.sectors != SliceSector::all_candidates)
