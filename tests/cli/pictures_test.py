@@ -69,8 +69,8 @@ def look(figure, name):
             assert not inside, (name, "legend on", line.get_label())
         for axis in axes._axis_map.values():
             label = axis.label.get_window_extent()
-            for number in axis.get_majorticklabels():
-                assert not number.get_text() or not label.overlaps(number.get_window_extent()), (name, axis.label.get_text())
+            for tick in axis.get_major_ticks():
+                assert not label.overlaps(tick.label1.get_window_extent()), (name, axis.label.get_text(), tick.label1.get_text())
     print("looked at", name)
 
 style.save = look

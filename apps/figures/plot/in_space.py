@@ -77,9 +77,10 @@ def clear_labels(axes: Axes) -> None:
     figure = axes.figure
     for _ in range(8):
         figure.canvas.draw()
+        # As they were drawn: get_majorticklabels() puts them where they would be in a plane.
         crowded = [axis for axis in (axes.xaxis, axes.yaxis, axes.zaxis)
-                   if any(axis.label.get_window_extent().overlaps(number.get_window_extent())
-                          for number in axis.get_majorticklabels() if number.get_text())]
+                   if any(axis.label.get_window_extent().overlaps(tick.label1.get_window_extent())
+                          for tick in axis.get_major_ticks())]
         for axis in crowded:
             axis.labelpad += 1.5
         if not crowded:
