@@ -257,7 +257,7 @@ class WritersRefused(InPreparedFolder):
             resource.setrlimit(resource.RLIMIT_FSIZE, (300, 300))
         result = self.run_limited("paper", "new", "mine", preexec_fn=small)
         self.assertEqual(result.returncode, 1)
-        self.assertRegex(result.stderr, r"^vericone: mine/\S+: File too large\n$")
+        self.assertRegex(result.stderr, r"^vericone: could not write mine/\S+: File too large\n$")
         self.assertFalse(os.path.exists(os.path.join(self.folder, "mine")))
 
     def test_pictures_of_an_earlier_run_go(self):

@@ -3,8 +3,11 @@
 
 #include <vericone/geometry/error.h>
 #include <filesystem>
+#include <fstream>
 #include <ostream>
+#include <sstream>
 
+#include "output/output_file.h"
 #include "output/staged_folder.h"
 #include "paper/papers_folder.h"
 
@@ -17,7 +20,16 @@ int new_paper(const std::string& folder, std::ostream& out) {
   if (fs::exists(folder) && (!fs::is_directory(folder) || !fs::is_empty(folder, error)))
     throw InputError("folder", folder, "a folder that is empty or not there: a new paper overwrites nothing");
   StagedFolder stage(folder, "folder");
-  fs::copy(template_folder(), stage.path(), fs::copy_options::recursive);
+  for (const auto& entry : fs::recursive_directory_iterator(template_folder())) {
+    const fs::path to = stage.path() / entry.path().lexically_relative(template_folder());
+    if (entry.is_directory()) {
+      fs::create_directories(to);
+      continue;
+    }
+    std::ostringstream content;
+    content << std::ifstream(entry.path(), std::ios::binary).rdbuf();
+    write_whole(to, content.str());
+  }
   stage.publish({});
   const std::string place = fs::path(folder).string();
   out << "paper               " << place << ": README.md says what to change\n"
