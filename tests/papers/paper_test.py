@@ -34,8 +34,16 @@ def run(*arguments, folder=None):
 
 @functools.lru_cache
 def claims(*of):
-    """All, or of some sections: 7.18 flies 12,000 trials, so a test asks for what it needs."""
-    result = run("claims", *of, "--json", "--quiet")
+    """All, or of some sections. What is tested is how verdicts come about: 8 trials of each law do for the 1000 of 7.18."""
+    with tempfile.TemporaryDirectory() as folder:
+        paper = folder + "/dhal2022"
+        shutil.copytree(os.path.join(SOURCES, "papers", "dhal2022"), paper)
+        with open(paper + "/claims.yaml", encoding="utf-8") as f:
+            text = f.read()
+        assert text.count(" -N 1000}") == 1
+        with open(paper + "/claims.yaml", "w", encoding="utf-8") as f:
+            f.write(text.replace(" -N 1000}", " -N 8 --no-figures}"))
+        result = run("claims", *of, "--paper", paper, "--json", "--quiet")
     assert result.returncode == 0, result.stderr
     return {c["id"]: c for c in json.loads(result.stdout)["claims"]}
 
@@ -77,7 +85,7 @@ class Claims(unittest.TestCase):
 
     def test_given_values_are_those_printed(self):
         for c in claims().values():
-            if c["id"] != "6.3.1/engagements":
+            if c["id"] not in ("6.3.1/engagements", "7.18/trials"):  # fewer here
                 self.assertEqual(c["kind"] == "given", c["verdict"] == "given", c["id"])
 
     def test_what_was_chosen_to_agree_is_not_called_reproduced(self):
