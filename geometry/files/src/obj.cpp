@@ -4,7 +4,6 @@
 // doubles wrongly (two thirds of 17-digit coordinates come back changed) and reads a malformed number as
 // zero; assimp and OpenMesh keep floats.
 #include <algorithm>
-#include <array>
 
 #include "source.h"
 #include "text.h"
@@ -12,13 +11,14 @@
 namespace vericone::files {
 namespace {
 
-/// Statements of the format that carry no vertex and no face.
-constexpr std::array<std::string_view, 42> kOtherStatements = {
-    "vt",     "vn",     "vp",       "p",        "l",          "g",         "o",      "s",     "mg",
-    "usemtl", "mtllib", "usemap",   "maplib",   "bevel",      "lod",       "cstype", "deg",   "bmat",
-    "step",   "curv",   "curv2",    "surf",     "parm",       "trim",      "hole",   "scrv",  "sp",
-    "end",    "con",    "c_interp", "d_interp", "shadow_obj", "trace_obj", "ctech",  "stech", "call",
-    "csh",    "res",    "bsp",      "bzp",      "cdc",        "cdp"};
+/// What can be a statement without vertices and faces: programs add their own to those of the format. A
+/// capital V or F is no such thing.
+bool is_other_statement(std::string_view word) {
+  const auto is_letter = [](char c) { return (c | 32) >= 'a' && (c | 32) <= 'z'; };
+  return is_letter(word.front()) && word != "V" && word != "F" && std::ranges::all_of(word, [&](char c) {
+           return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.' || c == ':';
+         });
+}
 
 Eigen::Vector3d read_vertex(const Source& source, const Lines& lines, Words& words) {
   Eigen::Vector3d p;
@@ -59,8 +59,10 @@ std::vector<std::uint32_t> read_face(const Source& source, const Lines& lines, W
 }  // namespace
 
 Parsed parse_obj(const Source& source) {
+  constexpr const char* kStatement = "a statement of an OBJ file, such as v or f";
   Parsed parsed{.format = "OBJ"};
   Lines lines(source);
+  std::string strange;  // the first statement that is read over, for files that are something else
   while (lines.next(true)) {
     Words words(lines.text());
     const std::string_view statement = words.next();
@@ -68,10 +70,12 @@ Parsed parse_obj(const Source& source) {
       parsed.points.push_back(read_vertex(source, lines, words));
     else if (statement == "f" || statement == "fo")
       parsed.faces.push_back(read_face(source, lines, words, parsed.points.size()));
-    else if (std::ranges::find(kOtherStatements, statement) == kOtherStatements.end())
-      source.refuse(lines.where() + ": " + in_quotes(statement),
-                    "a statement of an OBJ file, such as v or f");
+    else if (!is_other_statement(statement))
+      source.refuse(lines.where() + ": " + in_quotes(statement), kStatement);
+    else if (strange.empty())
+      strange = lines.where() + ": " + in_quotes(statement);
   }
+  if (parsed.points.empty() && parsed.faces.empty() && !strange.empty()) source.refuse(strange, kStatement);
   return parsed;
 }
 

@@ -32,10 +32,8 @@ double value(const char* at, const PcdField& field) {
 }
 
 /// Writers that map the file into memory leave zeros up to the end of a page.
-void expect_end(const Source& source, std::string_view rest) {
-  if (rest.find_first_not_of('\0') != std::string_view::npos)
-    source.refuse(std::to_string(rest.size()) + " bytes after the data",
-                  "the end of the file, by its header");
+std::size_t trailing_bytes(std::string_view rest) {
+  return rest.find_first_not_of('\0') == std::string_view::npos ? 0 : rest.size();
 }
 
 void read_ascii(const Source& source, const PcdHeader& header, Parsed& parsed) {
@@ -88,7 +86,7 @@ void read_binary(const Source& source, const PcdHeader& header, Parsed& parsed) 
     source.refuse(
         "a header with " + std::to_string(header.points) + " points of " + std::to_string(stride) + " bytes",
         "a count that the " + std::to_string(body.size()) + " bytes after it can hold");
-  expect_end(source, body.substr(header.points * stride));
+  parsed.trailing_bytes = trailing_bytes(body.substr(header.points * stride));
   parsed.points.resize(header.points);
   const char* at = body.data();
   std::size_t read = 0;
@@ -118,7 +116,7 @@ void read_compressed(const Source& source, const PcdHeader& header, Parsed& pars
   if (size / 88 > packed)
     source.refuse(std::to_string(packed) + " bytes of compressed data",
                   "more, to hold the " + std::to_string(size) + " bytes that are claimed");
-  expect_end(source, body.substr(packed));
+  parsed.trailing_bytes = trailing_bytes(body.substr(packed));
   std::string data(size, '\0');
   if (size > 0 && lzf_decompress(body.data(), static_cast<unsigned>(packed), data.data(),
                                  static_cast<unsigned>(size)) != size)

@@ -62,7 +62,7 @@ class HeaderReader {
         if (n != 1 && n != 2 && n != 4 && n != 8) refuse("1, 2, 4 or 8 for each field");
         field.size = std::size_t(*n);
       } else {
-        if (!n || *n < 1 || *n > kMostValues) refuse("1 to 1000000 for each field");
+        if (!n || *n < 0 || *n > kMostValues) refuse("0 to 1000000 for each field");
         field.count = std::size_t(*n);
       }
     }
@@ -87,17 +87,18 @@ class HeaderReader {
     else
       refuse("DATA ascii, binary or binary_compressed");
     header_.size = source_.bytes.size() - lines_.rest().size();
-    header_.lines = std::size_t(
-        std::count(source_.bytes.begin(), source_.bytes.begin() + std::ptrdiff_t(header_.size), '\n'));
+    header_.lines = lines_.read();
 
     for (const PcdField& f : header_.fields)
       if (f.type == 'F' && f.size < 4)
         source_.refuse(
             "floating-point field " + in_quotes(f.name) + " of " + std::to_string(f.size) + " bytes",
             "4 or 8 bytes");
-    constexpr std::array<std::string_view, 3> kNames = {"x", "y", "z"};
+    // PDAL writes its names in capitals.
+    constexpr std::array<std::string_view, 6> kNames = {"x", "y", "z", "X", "Y", "Z"};
+    const bool small = std::ranges::any_of(header_.fields, [](const PcdField& f) { return f.name == "x"; });
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto is_it = [&](const PcdField& f) { return f.name == kNames[i]; };
+      const auto is_it = [&](const PcdField& f) { return f.name == kNames[small ? i : i + 3]; };
       const auto it = std::ranges::find_if(header_.fields, is_it);
       if (std::ranges::count_if(header_.fields, is_it) != 1 || it->count != 1)
         source_.refuse("fields without just one x, y and z", "a PCD file with fields x, y and z of count 1");

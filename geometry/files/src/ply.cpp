@@ -36,10 +36,12 @@ class AsciiValues {
   static std::size_t fewest_bytes(std::size_t, std::size_t count) { return 2 * count; }
   std::size_t bytes_left() const { return words_.rest().size() + 1; }
 
-  void end() {
+  /// No word may come after the data.
+  std::size_t end() {
     const std::string_view word = words_.next();
     if (!word.empty())
       source_.refuse(in_quotes(word) + " " + position(), "the end of the file, by its header");
+    return 0;
   }
 
  private:
@@ -83,11 +85,8 @@ class BinaryValues {
   static std::size_t fewest_bytes(std::size_t size, std::size_t count) { return size * count; }
   std::size_t bytes_left() const { return rest_.size(); }
 
-  void end() {
-    if (!rest_.empty())
-      source_.refuse(std::to_string(rest_.size()) + " bytes after the data",
-                     "the end of the file, by its header");
-  }
+  /// How many bytes come after the data.
+  std::size_t end() const { return rest_.size(); }
 
  private:
   template <typename T>
@@ -198,14 +197,15 @@ Parsed read_body(const Source& source, const PlyHeader& header, std::string form
   Parsed parsed{.format = std::move(format)};
   Values values(source, std::string_view(source.bytes).substr(header.size));
   for (const PlyElement& element : header.elements) read_element(source, element, values, parsed);
-  values.end();
+  parsed.trailing_bytes = values.end();
   return parsed;
 }
 
 }  // namespace
 
 bool looks_like_ply(std::string_view bytes) {
-  return bytes.starts_with("ply\n") || bytes.starts_with("ply\r\n");
+  const std::string_view line = bytes.substr(0, bytes.find_first_of("\r\n"));
+  return line.size() < bytes.size() && line.substr(0, line.find_last_not_of(" \t") + 1) == "ply";
 }
 
 Parsed parse_ply(const Source& source) {

@@ -23,9 +23,18 @@ std::optional<PlyType> to_type(std::string_view name) {
   return it == names.end() ? std::nullopt : std::optional(it->second);
 }
 
+/// What ends the lines of the header: a carriage return alone in files that begin so. After the header a
+/// line feed may be data.
+char line_end(std::string_view bytes) {
+  const std::size_t at = bytes.find_first_of("\r\n");
+  return at != std::string_view::npos && bytes[at] == '\r' && !bytes.substr(at + 1).starts_with('\n') ? '\r'
+                                                                                                      : '\n';
+}
+
 class HeaderReader {
  public:
-  explicit HeaderReader(const Source& source) : source_(source), rest_(source.bytes) {}
+  explicit HeaderReader(const Source& source)
+      : source_(source), rest_(source.bytes), end_(line_end(source.bytes)) {}
 
   PlyHeader read() {
     if (!next_line() || line_ != "ply") refuse("the word ply");
@@ -54,10 +63,10 @@ class HeaderReader {
 
  private:
   bool next_line() {
-    const std::size_t end = rest_.find('\n');
+    const std::size_t end = rest_.find(end_);
     if (end == std::string_view::npos || ++number_ > kMostHeaderLines) return false;
     line_ = rest_.substr(0, end);
-    if (line_.ends_with('\r')) line_.remove_suffix(1);
+    line_ = line_.substr(0, line_.find_last_not_of(kBlanks) + 1);
     rest_.remove_prefix(end + 1);
     return true;
   }
@@ -109,6 +118,7 @@ class HeaderReader {
 
   const Source& source_;
   std::string_view rest_, line_;
+  char end_;
   int number_ = 0;
   PlyHeader header_;
 };

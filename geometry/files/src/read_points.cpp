@@ -55,6 +55,7 @@ PointFile finish(const Source& source, Parsed parsed) {
   file.format = std::move(parsed.format);
   file.width = parsed.width;
   file.height = parsed.height;
+  file.trailing_bytes = parsed.trailing_bytes;
   const std::size_t count = parsed.points.size();
   if (count == 0) source.refuse("no points", "a file with at least one point");
   if (count >= kDropped) source.refuse(std::to_string(count) + " points", "fewer than 2^32 - 1 points");

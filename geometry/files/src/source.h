@@ -32,6 +32,7 @@ struct Parsed {
   std::vector<Eigen::Vector3d> points = {};
   std::vector<std::vector<std::uint32_t>> faces = {};
   std::size_t width = 0, height = 0;  // of an organised cloud
+  std::size_t trailing_bytes = 0;     // after the data of a binary file
 };
 
 /// `text` in quotes, shortened, without anything that could break the line of a message.

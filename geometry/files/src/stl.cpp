@@ -31,16 +31,15 @@ std::size_t facets_of_binary(std::string_view bytes) {
   return bytes.size() < kHeader ? 0 : little_endian<std::uint32_t>(bytes.data() + 80);
 }
 
-/// An ascii file cannot have the right size by chance: letters as the count make it larger than 7 GB.
-bool has_binary_size(std::string_view bytes) {
-  return bytes.size() >= kHeader && bytes.size() == kHeader + kFacet * facets_of_binary(bytes);
-}
+/// What the header claims; an ascii file does not: letters as the count make it larger than 7 GB.
+std::size_t binary_size(std::string_view bytes) { return kHeader + kFacet * facets_of_binary(bytes); }
 
 Parsed parse_binary(const Source& source) {
   Parsed parsed{.format = "STL binary"};
   PointMerger merger(parsed.points);
   const std::size_t facets = facets_of_binary(source.bytes);
   parsed.faces.reserve(facets);
+  parsed.trailing_bytes = source.bytes.size() - binary_size(source.bytes);
   for (std::size_t f = 0; f < facets; ++f) {
     if (f % 4096 == 0) checkpoint();
     // A normal, which the corners tell better, the corners, and two bytes that mean different things.
@@ -118,15 +117,16 @@ class AsciiReader {
 }  // namespace
 
 Parsed parse_stl(const Source& source) {
-  if (has_binary_size(source.bytes)) return parse_binary(source);
+  const std::size_t facets = facets_of_binary(source.bytes), size = binary_size(source.bytes);
+  if (source.bytes.size() == size) return parse_binary(source);
   if (looks_like_ascii(source.bytes)) return AsciiReader(source).read();
+  if (facets > 0 && source.bytes.size() > size) return parse_binary(source);
   if (source.bytes.size() < kHeader)
     source.refuse(std::to_string(source.bytes.size()) + " bytes, not beginning with solid",
                   "an STL file, ascii or of 84 bytes and 50 for each facet");
-  const std::size_t facets = facets_of_binary(source.bytes);
-  source.refuse(std::to_string(source.bytes.size()) + " bytes",
-                std::to_string(kHeader + kFacet * facets) + " bytes, as the " + std::to_string(facets) +
-                    " facets take that the header claims");
+  source.refuse(std::to_string(source.bytes.size()) + " bytes", std::to_string(size) + " bytes, as the " +
+                                                                    std::to_string(facets) +
+                                                                    " facets take that the header claims");
 }
 
 }  // namespace vericone::files

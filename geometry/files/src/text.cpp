@@ -9,8 +9,6 @@
 namespace vericone::files {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n\v\f";
-
 template <typename T>
 std::from_chars_result parse(std::string_view word, T& x) {
   if (word.starts_with('+') && !word.starts_with("+-"))
@@ -51,7 +49,12 @@ std::string_view Words::next() {
 
 bool Lines::take_line(std::string_view& line) {
   if (rest_.empty()) return false;
-  const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+  const char* const begin = rest_.data();
+  // Once, however many carriage returns come before it.
+  if (!feed_ || feed_ < begin) feed_ = begin + std::min(rest_.find('\n'), rest_.size());
+  std::size_t end = std::size_t(feed_ - begin);
+  if (const std::size_t cr = rest_.substr(0, end).find('\r'); cr != std::string_view::npos && cr + 1 < end)
+    end = cr;
   line = rest_.substr(0, end);
   rest_.remove_prefix(std::min(end + 1, rest_.size()));
   if (++read_ % 4096 == 0) checkpoint();

@@ -11,6 +11,8 @@
 
 namespace vericone::files {
 
+inline constexpr std::string_view kBlanks = " \t\r\n\v\f";
+
 /// The whole word as a number, correctly rounded, whatever the locale; "nan" and "inf" in any case are
 /// numbers, what exceeds the range of double is not.
 std::optional<double> to_number(std::string_view word);
@@ -30,6 +32,7 @@ class Words {
 };
 
 /// The lines of a file that hold anything besides a comment (from '#' to the end), numbered as in the file.
+/// They end with a line feed, a carriage return, or both.
 class Lines {
  public:
   /// From byte `from`, `before` lines down.
@@ -41,6 +44,7 @@ class Lines {
 
   std::string_view text() const { return text_; }
   std::string_view rest() const { return rest_; }
+  std::size_t read() const { return read_; }  // lines so far
 
   /// "line 12", for messages.
   std::string where() const { return "line " + std::to_string(number_); }
@@ -53,6 +57,7 @@ class Lines {
 
   const Source& source_;
   std::string_view rest_, text_;
+  const char* feed_ = nullptr;  // the next line feed, or the end
   std::string joined_;
   std::size_t number_ = 0, read_ = 0;
 };

@@ -59,7 +59,8 @@ void count_edges(const TriangleMesh& mesh, MeshReport& report) {
   }
 }
 
-std::size_t count_duplicates(const TriangleMesh& mesh) {
+/// Triangles with the corners of another before them.
+std::vector<char> duplicates(const TriangleMesh& mesh) {
   const auto corner = [&](std::uint32_t t, std::size_t rank) {
     Triangle sorted = mesh.triangles[t];
     std::ranges::sort(sorted);
@@ -74,9 +75,9 @@ std::size_t count_duplicates(const TriangleMesh& mesh) {
   const auto same = [&](std::uint32_t s, std::uint32_t t) {
     return corner(s, 0) == corner(t, 0) && corner(s, 1) == corner(t, 1) && corner(s, 2) == corner(t, 2);
   };
-  std::size_t duplicates = 0;
-  for (std::size_t i = 1; i < items.size(); ++i) duplicates += same(items[i - 1], items[i]);
-  return duplicates;
+  std::vector<char> repeated(mesh.triangles.size(), 0);
+  for (std::size_t i = 1; i < items.size(); ++i) repeated[items[i]] = same(items[i - 1], items[i]);
+  return repeated;
 }
 
 void merge_points(PointFile& file) {
@@ -125,7 +126,14 @@ TriangleMesh triangle_mesh(PointFile file, const MeshOptions& options) {
   for (const Triangle& t : mesh.triangles)
     for (const std::uint32_t v : t) used[v] = 1;
   report.unreferenced_points = std::size_t(std::ranges::count(used, 0));
-  report.duplicate_triangles = count_duplicates(mesh);
+  const std::vector<char> repeated = duplicates(mesh);
+  report.duplicate_triangles = std::size_t(std::ranges::count(repeated, 1));
+  if (options.drop_duplicates) {
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < repeated.size(); ++t)
+      if (!repeated[t]) mesh.triangles[kept++] = mesh.triangles[t];
+    mesh.triangles.resize(kept);
+  }
   count_edges(mesh, report);
   return mesh;
 }

@@ -85,6 +85,9 @@ INSTANTIATE_TEST_SUITE_P(
                 "at least one finite"},
 
         BadFile{"obj_no_vertices", "a.obj", "# nothing\n", "no points", "at least one"},
+        BadFile{"obj_capital_vertex", "a.obj", "v 1 2 3\nV 1 2 3\n", "line 2: \"V\"", "statement"},
+        BadFile{"obj_number_for_statement", "a.obj", "v 1 2 3\n4 5 6\n", "line 2: \"4\"", "statement"},
+        BadFile{"obj_two_vertices_in_a_line", "a.obj", "v 0 0 0 v 1 0 0\n", "\"v\"", "number"},
         BadFile{"obj_only_faces", "a.obj", "f 1 2 3\n", "no points", "at least one"},
         BadFile{"obj_two_coordinates", "a.obj", "v 1 2\n", "a vertex of 2 numbers", "x y z"},
         BadFile{"obj_word_coordinate", "a.obj", "v 1 junk 3\n", "\"junk\"", "number"},
@@ -142,8 +145,6 @@ INSTANTIATE_TEST_SUITE_P(
                 "0 bytes"},
         BadFile{"ply_trailing_ascii", "a.ply", ascii_ply("element vertex 1\n" + kXyz, "0 0 0\n1 1 1\n"),
                 "\"1\" in line 9", "end of the file"},
-        BadFile{"ply_trailing_binary", "a.ply", binary_ply("element vertex 1\n" + kXyz, floats(4)),
-                "4 bytes after", "end of the file"},
         BadFile{"ply_word_coordinate", "a.ply", ascii_ply("element vertex 1\n" + kXyz, "0 zero 0\n"),
                 "\"zero\" in line 8", "number"},
         BadFile{"ply_index_too_large", "a.ply",

@@ -87,6 +87,37 @@ TEST_F(ReadClouds, StlFacetsWithCornersThatAreNotFiniteAreDropped) {
   EXPECT_THAT(file.points, ElementsAre(a, b, c));
 }
 
+TEST_F(ReadClouds, BinaryStlWithBytesAfterItsFacets) {
+  const Points corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const auto file = read("a.stl", testing::to_stl_binary(corners) + "\n");
+  EXPECT_THAT(file.points, ElementsAreArray(corners));
+  EXPECT_EQ(file.faces.size(), 1U);
+  EXPECT_EQ(file.trailing_bytes, 1U);
+  EXPECT_EQ(read("b.stl", testing::to_stl_binary(corners)).trailing_bytes, 0U);
+}
+
+/// PDAL writes capitals, others fields of no values as padding.
+TEST_F(ReadClouds, PcdFieldsOfOtherWriters) {
+  const Points points = {{1, 2, 3}, {4, 5, 6}};
+  const auto capitals =
+      testing::pcd_header("X Y Z Intensity", "8 8 8 2", "F F F U", "1 1 1 1", 2, 1, "ascii");
+  EXPECT_THAT(read("a.pcd", capitals + "1 2 3 9\n4 5 6 9\n").points, ElementsAreArray(points));
+  // x is the point's where both are there.
+  const auto both = testing::pcd_header("X x y z", "4 4 4 4", "F F F F", "1 1 1 1", 2, 1, "ascii");
+  EXPECT_THAT(read("b.pcd", both + "9 1 2 3\n9 4 5 6\n").points, ElementsAreArray(points));
+  const auto empty = [](const std::string& data) {
+    return testing::pcd_header("x none y _ z", "4 2 4 1 4", "F U F U F", "1 0 1 3 1", 2, 1, data);
+  };
+  std::string body;
+  for (const auto& p : points)
+    body += little(float(p.x())) + little(float(p.y())) + "abc" + little(float(p.z()));
+  EXPECT_THAT(read("c.pcd", empty("binary") + body).points, ElementsAreArray(points));
+  EXPECT_THAT(read("d.pcd", empty("ascii") + "1 2 0 0 0 3\n4 5 0 0 0 6\n").points, ElementsAreArray(points));
+  const auto longer = read("e.pcd", empty("binary") + body + "more");
+  EXPECT_THAT(longer.points, ElementsAreArray(points));
+  EXPECT_EQ(longer.trailing_bytes, 4U);
+}
+
 TEST_F(ReadClouds, PcdFieldsOfAllTypesCountsAndOrders) {
   // Every type of coordinate, with other fields and padding around them.
   const auto check = [&](const std::string& size, const std::string& type, auto one) {

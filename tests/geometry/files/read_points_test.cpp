@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <vericone/files/read_points.h>
+#include <vericone/geometry/error.h>
 
 #include <bit>
 #include <cmath>
@@ -255,6 +256,82 @@ TEST_F(ReadPoints, PointsThatAreNotFiniteAreDroppedAndCounted) {
 TEST_F(ReadPoints, NumbersTooSmallForADoubleAreZero) {
   const auto file = read("a.obj", "v 1e-400 -1e-400 4e-324\n");
   EXPECT_EQ(file.points.front(), Vector3d(0, 0, std::numeric_limits<double>::denorm_min()));
+}
+
+/// What other readers take: line ends of every kind, blanks after a word, statements of vendors, bytes after
+/// the data. Each gives the points and faces of the plain file.
+class OtherWriters : public ::testing::Test {
+ protected:
+  PointFile read(const std::string& name, const std::string& bytes) {
+    return read_points(directory_.write(name, bytes));
+  }
+  static std::string with_line_ends(std::string text, const std::string& end) {
+    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += end.size())
+      text.replace(at, 1, end);
+    return text;
+  }
+  TemporaryDirectory directory_;
+};
+
+TEST_F(OtherWriters, EndLinesInThreeWays) {
+  const Mesh mesh = hard_mesh();
+  std::string cloud;
+  for (const auto& p : mesh.points) cloud += digits(p) + "\n";
+  const std::string pcd = "# .PCD v0.7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " +
+                          std::to_string(mesh.points.size()) + "\nHEIGHT 1\nDATA ascii\n" + cloud;
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    SCOPED_TRACE(end.size() + int(end[0]));
+    expect_same(read("a.obj", with_line_ends(to_obj(mesh), end)), mesh);
+    expect_same(read("a.off", with_line_ends(to_off(mesh), end)), mesh);
+    expect_same(read("a.ply", with_line_ends(to_ply_ascii(mesh), end)), mesh);
+    expect_same(read("a.xyz", with_line_ends(cloud, end)), {mesh.points, {}});
+    expect_same(read("a.pcd", with_line_ends(pcd, end)), {mesh.points, {}});
+    // A binary body may begin with the byte of a line end, and holds others.
+    const std::string binary = to_ply_binary<double>(mesh, std::endian::little);
+    const std::size_t body = binary.find("end_header\n") + 11;
+    expect_same(read("b.ply", with_line_ends(binary.substr(0, body), end) + binary.substr(body)), mesh);
+  }
+  const std::string header =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty uchar u\nproperty float x\n"
+      "property float y\nproperty float z\nend_header\n";
+  for (const std::string end : {"\n", "\r\n", "\r"})
+    EXPECT_THAT(read("c.ply", with_line_ends(header, end) + "\n" + std::string(12, '\0')).points,
+                ElementsAre(Vector3d(0, 0, 0)));
+}
+
+TEST_F(OtherWriters, MessagesCountLinesOfEveryKind) {
+  for (const std::string end : {"\n", "\r\n", "\r"}) try {
+      read("a.obj", with_line_ends("v 0 0 0\n# so\n\nv 0 zero 0\n", end));
+      ADD_FAILURE();
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.value(), ::testing::HasSubstr("line 4: \"zero\""));
+    }
+}
+
+TEST_F(OtherWriters, LeaveBlanksAfterWords) {
+  const Mesh mesh = hard_mesh();
+  std::string ply = to_ply_ascii(mesh);
+  const std::size_t body = ply.find("end_header\n") + 11;
+  ply = with_line_ends(ply.substr(0, body), " \t\n") + ply.substr(body);
+  expect_same(read("told by its first bytes", ply), mesh);
+}
+
+TEST_F(OtherWriters, AddStatements) {
+  const Mesh mesh = hard_mesh();
+  std::string obj = to_obj(mesh);
+  obj.insert(obj.find("\nf") + 1, "vw 0 0 0.5 1 0.5\nxyz_vendor:thing 1 2\nusemtl a\nkd 0.1\n");
+  expect_same(read("a.obj", obj), mesh);
+}
+
+TEST_F(OtherWriters, LeaveBytesAfterTheData) {
+  const Mesh mesh = hard_mesh();
+  for (const std::string more : {"\n", "x", "\r\n\r\nmade by nobody"}) {
+    const PointFile file = read("a.ply", to_ply_binary<double>(mesh, std::endian::big) + more);
+    expect_same(file, mesh);
+    EXPECT_EQ(file.trailing_bytes, more.size());
+  }
+  EXPECT_EQ(read("b.ply", to_ply_binary<double>(mesh, std::endian::big)).trailing_bytes, 0U);
+  EXPECT_EQ(read("c.ply", to_ply_ascii(mesh) + " \n\n").trailing_bytes, 0U);
 }
 
 }  // namespace

@@ -71,6 +71,21 @@ TEST(TriangleMesh, TellsHolesTurnedFacesAndTwins) {
   EXPECT_FALSE(report.is_closed());
 }
 
+TEST(TriangleMesh, TwinsAreLeftOutWhereAskedFor) {
+  const TriangleMesh once = triangle_mesh(of(cube_points(), kCube));
+  for (const bool turned : {false, true}) {
+    std::vector<Face> triangles;
+    for (const auto& t : once.triangles) triangles.push_back({t[0], t[1], t[2]});
+    for (const auto& t : once.triangles)
+      triangles.push_back(turned ? Face{t[2], t[1], t[0]} : Face{t[1], t[2], t[0]});
+    const TriangleMesh mesh = triangle_mesh(of(cube_points(), triangles), {.drop_duplicates = true});
+    EXPECT_EQ(mesh.report.duplicate_triangles, once.triangles.size());
+    EXPECT_EQ(mesh.triangles, once.triangles);
+    EXPECT_TRUE(mesh.report.is_closed() && mesh.report.is_oriented());
+    EXPECT_EQ(mesh.report.nonmanifold_edges, 0U);
+  }
+}
+
 TEST(TriangleMesh, TwoCubesOnAnEdgeAreClosed) {
   auto points = cube_points();
   std::vector<Face> faces = kCube;

@@ -42,6 +42,10 @@ struct PointFile {
   /// where no point was dropped; 0 otherwise.
   std::size_t width = 0, height = 0;
 
+  /// Bytes after the data that the header of a binary PLY, STL or PCD file claims, read over: more than a few
+  /// mean that its counts are too low.
+  std::size_t trailing_bytes = 0;
+
   /// Members of `points` that no member of `faces` uses; for a cloud, all.
   std::size_t unreferenced_points = 0;
 };
@@ -52,7 +56,7 @@ struct PointFile {
 /// by the first bytes where the format has a signature, by the extension otherwise.
 ///
 /// Throws InputError whose field is the path and whose message is one line: for a file that is missing,
-/// empty, truncated, longer than its header says, of no known format or malformed anywhere, that has no
+/// empty, truncated, longer than its header says (but for `trailing_bytes`), of no known format or malformed anywhere, that has no
 /// finite point or whose faces point outside the file. Memory is taken only for what is in the file, not for
 /// what its header claims. Time and memory are linear in the size of the file.
 [[nodiscard]] PointFile read_points(const std::filesystem::path& path);

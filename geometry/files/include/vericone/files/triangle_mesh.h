@@ -18,6 +18,9 @@ struct MeshOptions {
   /// Triangles without area are left out. They add nothing to the union of the triangles but points and
   /// segments of its own, so keeping them is harmless.
   bool drop_degenerate = false;
+
+  /// Of triangles with the same three corners, in any order, the first one stays.
+  bool drop_duplicates = false;
 };
 
 /// Edges are pairs of different corners, named by index; a triangle with an index twice has none.
@@ -30,7 +33,8 @@ struct MeshReport {
   /// coordinates as they are. Counted before they are left out, if they are.
   std::size_t degenerate_triangles = 0;
 
-  /// With the same three corners as another before it, in any order.
+  /// With the same three corners as another before it, in any order. Counted before they are left out, if
+  /// they are.
   std::size_t duplicate_triangles = 0;
 
   /// Points that no triangle uses.
