@@ -179,7 +179,9 @@ Study study(const Setup& setup, const std::function<void(const std::string& line
       level.planes_without_answer = static_cast<int>(sections.planes_without_answer());
       for (const VisiblePlane& plane : sections.planes) level.tried += double(plane.tried) / setup.planes;
       start = Clock::now();
-      level.cone = true_cone(oracle_of(setup, Assembly::cloud(seen.points, 0)), study.axis, setup.planes);
+      // Noise may put a point into the agent.
+      const AssemblyOracle oracle(setup.agent, Assembly::cloud(seen.points, 0));
+      if (oracle.relation() == Relation::disjoint) level.cone = true_cone(oracle, study.axis, setup.planes);
       level.seconds_cone = seconds_since(start);
     }
     if (told) {
@@ -194,7 +196,7 @@ Study study(const Setup& setup, const std::function<void(const std::string& line
   for (const lidar::Scan& scan : most.scans)
     for (const lidar::Return& r : scan.returns) nearest = std::min(nearest, r.in_sensor.norm());
   const lidar::SurfacePart part =
-      lidar::visible_part(scene, setup.points, setup.triangles, setup.lidars, setup.agent_pose,
+      lidar::visible_part(scene, setup.points, setup.triangles, finest, setup.agent_pose,
                           0.25 * study.levels.back().spacing * nearest);
   if (part.triangles.empty()) throw InputError("lidars", "nothing seen", "lidars that see the obstacle");
   study.visible_area = part.area;

@@ -3,6 +3,7 @@
 
 #include <vericone/scanning/read_scan_scene.h>
 #include <vericone/scanning/write_scan.h>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -31,9 +32,15 @@ void print(const Setup& setup, const Findings& found, std::ostream& out) {
     out << "fusion              points are at most " << at_most_text(seen.fusion_error, 2)
         << " m from where the true poses have them\n";
   if (fused && !seen.not_fused.empty()) out << "fusion              failed: " << seen.not_fused << '\n';
-  if (found.cone)
-    out << "sectors             " << number_text(found.cone->polyhedral().solid_angle) << " sr on "
-        << found.cone->planes.size() << " planes, none on " << found.cone->planes_without_answer() << '\n';
+  if (!found.cone) return;
+  const std::size_t planes = found.cone->planes.size(), none = found.cone->planes_without_answer();
+  const double solid_angle = found.cone->polyhedral().solid_angle;
+  out << "sectors             ";
+  if (std::isfinite(solid_angle))
+    out << number_text(solid_angle) << " sr on " << planes << " planes, none on " << none << '\n';
+  else
+    out << "no cone: " << planes - none << " of " << planes
+        << " planes have tangents, and two must have the line of sight between them\n";
 }
 
 }  // namespace

@@ -82,8 +82,12 @@ Scan scan(const MeshScene& scene, const Lidar& lidar, const Eigen::Isometry3d& a
       } else if (numbers.uniform() < lidar.dropout) {
         scan.beams[i] = Beam::dropped;
       } else {
-        scan.beams[i] = Beam::returned;
+        // Measured beyond its ranges, or behind it, a sensor reports nothing.
         const double range = hit->range + lidar.range_noise * numbers.normal();
+        scan.beams[i] = range > lidar.max_range                 ? Beam::missed
+                        : range < lidar.min_range || range <= 0 ? Beam::too_near
+                                                                : Beam::returned;
+        if (scan.beams[i] != Beam::returned) continue;
         returns.push_back({range * beam, scan.pose.translation() + range * direction,
                            static_cast<std::uint32_t>(i), hit->triangle});
       }

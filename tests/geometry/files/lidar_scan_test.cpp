@@ -253,5 +253,33 @@ TEST(Lidar, PatternsPointWhereTheySay) {
   EXPECT_THROW(check(lidar), InputError);
 }
 
+/// Noise takes no return out of the ranges, nor behind the sensor: what is measured there is none.
+TEST(Scan, NoisyReturnsStayWithinTheRanges) {
+  Mesh wall;
+  wall.points = {{1.5, -9, -9}, {1.5, 9, -9}, {1.5, 9, 9}, {1.5, -9, 9}};
+  wall.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const MeshScene scene(wall.points, wall.triangles);
+  Lidar lidar;
+  lidar.beams = raster(100, 100, 1e-3, 1e-3);  // all hits at 1.5 m
+  lidar.range_noise = 0.5;
+  for (const auto& [least, most] : {std::pair(0.0, 1000.0), std::pair(1.0, 1.6), std::pair(0.0, 1.6)}) {
+    lidar.min_range = least;
+    lidar.max_range = most;
+    const Scan scan = lidar::scan(scene, lidar, Isometry3d::Identity(), 4);
+    for (const Return& r : scan.returns) {
+      EXPECT_GT(r.in_sensor.x(), 0);
+      EXPECT_GE(r.in_sensor.norm(), least * (1 - 1e-12));
+      EXPECT_LE(r.in_sensor.norm(), most * (1 + 1e-12));
+    }
+    const auto below = [](double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); };
+    const double near = below((least - 1.5) / 0.5), far = below(-(most - 1.5) / 0.5);
+    const auto share = [&](Beam what) { return double(scan.count(what)) / 10'000; };
+    EXPECT_EQ(scan.returns.size(), scan.count(Beam::returned));
+    EXPECT_NEAR(share(Beam::too_near), near, 0.02);
+    EXPECT_NEAR(share(Beam::missed), far, 0.02);
+    EXPECT_NEAR(share(Beam::returned), 1 - near - far, 0.02);
+  }
+}
+
 }  // namespace
 }  // namespace vericone::lidar::lidar_scan_test

@@ -14,8 +14,8 @@ namespace vericone::lidar {
 /// What became of a beam.
 enum class Beam : std::uint8_t {
   returned,
-  missed,    // nothing there up to the maximal range
-  too_near,  // the first thing is nearer than the minimal range and hides the rest
+  missed,    // nothing there up to the maximal range, or measured beyond it (noise)
+  too_near,  // the first thing is, or is measured, nearer than the minimal range; it hides the rest
   dropped,   // hit, but lost
 };
 

@@ -49,7 +49,7 @@ struct Level {
   std::size_t beams = 0, returned = 0, missed = 0, dropped = 0, too_near = 0;
   double spacing = 0;             // radians between neighbouring beams
   HalfPlaneCone sections;         // the source's (6.3.3): tangents to the points near each plane
-  HalfPlaneCone cone;             // the true cone of the points
+  HalfPlaneCone cone;             // the true cone of the points; NaN where one lies in the agent (noise)
   int planes_without_answer = 0;  // on which the source's search found no two tangents
   double tried = 0;               // points the search tried, mean over the planes
   std::string not_fused;          // why the scans could not be fused; no cones then. Empty: fused, or no need
