@@ -106,6 +106,7 @@ Pieces from_points(const std::filesystem::path& path, double scale, Make make) {
   files::PointFile read = files::read_points(path);
   scenes::Reading reading{read.format, read.dropped_points, read.dropped_faces};
   if (!read.faces.empty()) reading.unreferenced_points = read.unreferenced_points;
+  reading.trailing_bytes = read.trailing_bytes;
   reading.seconds_read = seconds_since(start);
   if (scale != 1)
     for (Eigen::Vector3d& x : read.points) x *= scale;

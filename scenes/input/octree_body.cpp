@@ -2,6 +2,7 @@
 #include "input/octree_body.h"
 
 #include <vericone/octomap/read_octree.h>
+#include <algorithm>
 
 #include "input/fields.h"
 #include "input/stopwatch.h"
@@ -61,7 +62,10 @@ OctreePieces read_octree_pieces(const Json& value, const std::string& path, cons
   };
   const octomap::Octree tree = read();
   scenes::Reading reading{tree.format};
-  reading.map = scenes::Reading::Map{scale * tree.resolution, tree.nodes, meaning.unknown_occupied};
+  reading.map = scenes::Reading::Map{scale * tree.resolution, tree.nodes, meaning.unknown_occupied,
+                                     std::ranges::any_of(tree.cells, [&](const octomap::OctreeCell& cell) {
+                                       return octomap::kind_of(cell, meaning) == octomap::CellKind::free;
+                                     })};
   reading.seconds_read = seconds_since(start);
   const auto built = Clock::now();
   std::vector<Box> boxes = octomap::obstacle_boxes(tree, meaning);

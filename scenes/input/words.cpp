@@ -83,6 +83,23 @@ std::string brief(double x) {
 std::string body_words(const Placed& body) { return std::visit(Words{body}, body.body.shape()); }
 std::string body_words(const CombinedEllipse& body) { return quadric_words<2>(body); }
 
+std::vector<std::string> reading_words(const Reading& reading) {
+  std::vector<std::string> notes;
+  const auto note = [&](std::size_t count, const std::string& what, const std::string& text) {
+    if (count > 0) notes.push_back(counted(count, what) + text);
+  };
+  note(reading.dropped_points, "point", " with coordinates that are not finite left out");
+  note(reading.dropped_faces, "face", " left out that cannot be drawn");
+  note(reading.unreferenced_points, "point", " of no face left out");
+  note(reading.trailing_bytes, "byte", " after what the header claims read over: does it count all?");
+  if (reading.map && reading.map->unknown_occupied)
+    notes.push_back(reading.map->has_free
+                        ? "unknown space of the map counts as occupied (unknown: free)"
+                        : "the map has no free cells, and unknown space counts as occupied: "
+                          "it is one solid block; its cells alone by unknown: free");
+  return notes;
+}
+
 std::string motion_words(const Eigen::Vector3d& velocity, bool planar) {
   if (velocity.isZero(0)) return "at rest";
   const double degree = std::numbers::pi / 180;

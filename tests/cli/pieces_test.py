@@ -29,9 +29,9 @@ def obj(points, faces):
             "".join("f %s\n" % " ".join(str(i + 1) for i in f) for f in faces))
 
 
-def map_of_two_cells():
-    """An octree map, cells of 1 m: [0, 1]^3 occupied, the next one along x free, nothing else known."""
-    inner = [(0x00, 0xC0)] + 14 * [(0x03, 0x00)] + [(0x06, 0x00)]
+def map_of_two_cells(last=0x06):
+    """An octree map, cells of 1 m: [0, 1]^3 occupied, the next one along x free (0x0A: occupied), nothing else known."""
+    inner = [(0x00, 0xC0)] + 14 * [(0x03, 0x00)] + [(last, 0x00)]
     head = "# Octomap OcTree binary file\nid OcTree\nsize %d\nres 1\ndata\n" % (len(inner) + 2)
     return head.encode() + bytes(b for pair in inner for b in pair)
 
@@ -179,6 +179,21 @@ class Pieces(unittest.TestCase):
                            engagement(agent, {"octree": self.map, "scale": 0.5, "center": [0, 0.25, 0.25]}, [1, 0, 0]))
         for answer, truth in zip(answers, (2.75, 1.75, 2.75, 3.75, 2.75, 2.75)):
             self.assert_time(answer, truth)
+
+    def test_maps_say_what_unknown_space_counts_for(self):
+        block = write(self.folder, "block.bt", map_of_two_cells(0x0A))
+        agent = ball([-3, 0.5, 0.5], 0.25)
+        for octree, unknown, word in ((self.map, {}, "unknown space of the map counts as occupied"),
+                                      (block, {}, "the map has no free cells"), (block, {"unknown": "free"}, None)):
+            scene = {"agent": agent, "obstacle": {"octree": octree, **unknown}, "agent_velocity": [1, 0, 0]}
+            text = self.cone(scene, "--planes", "4", text=True)
+            notes = self.cone(scene, "--planes", "4")["obstacle"]["notes"]
+            path = write(self.folder, "scene.yaml", json.dumps(scene))
+            checked = run("check", path).stdout
+            body = run("check", write(self.folder, "body.yaml", json.dumps(scene["obstacle"]))).stdout
+            for told in (text, checked, body, "\n".join(notes)):
+                self.assertEqual("unknown space" in told, word is not None, told)
+                self.assertIn(word or "", told)
 
     def test_polyhedral_agents(self):
         cube = {"points": [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]}

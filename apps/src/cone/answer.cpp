@@ -73,6 +73,7 @@ void add_left_out(Json& result, const scenes::SceneBody& obstacle) {
   if (!obstacle.reading) return;
   if (obstacle.reading->dropped_points) result["dropped_points"] = obstacle.reading->dropped_points;
   if (obstacle.reading->dropped_faces) result["dropped_faces"] = obstacle.reading->dropped_faces;
+  if (obstacle.reading->trailing_bytes) result["trailing_bytes"] = obstacle.reading->trailing_bytes;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "cone/verdict_text.h"
 
 #include <vericone/cones/pair.h>
+#include <vericone/scenes/words.h>
 #include <cmath>
 #include <ostream>
 
@@ -36,11 +37,14 @@ void print_verdict(const scenes::Scene& scene, std::ostream& out) {
       << verdict_kind(scene) << ")\n";
   if (verdict == Verdict::in || verdict == Verdict::on)
     print_contact(*pair.contact(v_a, v_b), scene.planar.has_value(), out);
-  if (verdict != Verdict::out) return;
-  const Miss miss = pair.miss(v_a, v_b);
-  if (std::isfinite(miss.least))
-    out << (miss.time > 0 ? "passes at           " : "nearest now         ")
-        << between_text(miss.least, miss.most) << " m\n";
+  if (verdict == Verdict::out)
+    if (const Miss miss = pair.miss(v_a, v_b); std::isfinite(miss.least))
+      out << (miss.time > 0 ? "passes at           " : "nearest now         ")
+          << between_text(miss.least, miss.most) << " m\n";
+  for (const scenes::SceneBody* body : {&scene.agent, &scene.obstacle})
+    if (body->reading)
+      for (const std::string& note : scenes::reading_words(*body->reading))
+        out << "note                " << note << '\n';
 }
 
 }  // namespace vericone

@@ -2,6 +2,7 @@
 #include "pieces/assembly_cone.h"
 
 #include <vericone/geometry/error.h>
+#include <vericone/scenes/words.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -72,6 +73,8 @@ void add_reading(Json& result, const scenes::SceneBody& body) {
     result["map_nodes"] = reading.map->nodes;
     result["unknown"] = reading.map->unknown_occupied ? "occupied" : "free";
   }
+  if (reading.trailing_bytes) result["trailing_bytes"] = reading.trailing_bytes;
+  result["notes"] = scenes::reading_words(reading);
   result["seconds_read"] = reading.seconds_read;
   result["seconds_built"] = reading.seconds_built;
 }

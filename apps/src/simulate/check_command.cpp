@@ -49,6 +49,9 @@ void check_scene(const Json& fields, const std::string& file, scenario::Facts& f
                          motion_words(v_a, planar));
   facts.add("obstacle", (planar ? body_words(scene.planar->obstacle) : body_words(scene.obstacle.placed)) +
                             "; " + motion_words(v_b, planar));
+  for (const scenes::SceneBody* body : {&scene.agent, &scene.obstacle})
+    if (body->reading)
+      for (const std::string& note : scenes::reading_words(*body->reading)) facts.add("note", note);
   facts.add("now", now_words(pair));
   facts.add("answers", guarantee_words(pair));
   if (fields.contains("lidars")) facts.add("lidars", std::to_string(fields["lidars"].size()));
@@ -90,8 +93,14 @@ void check_body(const std::string& file, scenario::Facts& facts) {
   // A planar one has two numbers where others have three.
   const Json body = input::body_fields(named, "", path.parent_path());
   const bool planar = body.contains("center") && body["center"].is_array() && body["center"].size() == 2;
-  facts.add("is", planar ? body_words(input::read_planar_body(body, ""))
-                         : body_words(input::read_body(body, "", path.parent_path()).placed));
+  if (planar) {
+    facts.add("is", body_words(input::read_planar_body(body, "")));
+  } else {
+    const scenes::SceneBody read = input::read_body(body, "", path.parent_path());
+    facts.add("is", body_words(read.placed));
+    if (read.reading)
+      for (const std::string& note : scenes::reading_words(*read.reading)) facts.add("note", note);
+  }
   facts.add("use it", "obstacle: {file: " + path.filename().string() +
                           "} in a scene or a case, {name: B, file: " + path.filename().string() +
                           "} in a scenario");

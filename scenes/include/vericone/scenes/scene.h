@@ -18,10 +18,12 @@ struct Reading {
   std::string format;  // "PLY, binary little endian"
   std::size_t dropped_points = 0, dropped_faces = 0;
   std::size_t unreferenced_points = 0;  // of a mesh
+  std::size_t trailing_bytes = 0;       // after what the header claims (read_points.h)
   struct Map {
     double cell = 0;  // metres
     std::size_t nodes = 0;
     bool unknown_occupied = true;
+    bool has_free = true;  // whether it says of any space that it is free
   };
   std::optional<Map> map = {};                 // of an octree map
   double seconds_read = 0, seconds_built = 0;  // s: the file; the tree of boxes

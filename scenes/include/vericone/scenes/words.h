@@ -5,6 +5,7 @@
 
 #include <vericone/scenes/scene.h>
 #include <string>
+#include <vector>
 
 namespace vericone::scenes {
 
@@ -14,6 +15,9 @@ namespace vericone::scenes {
 
 /// "at rest", or "moves at 3.03 m/s, azimuth 7.6, elevation 0 degrees"; `planar`: without the elevation.
 [[nodiscard]] std::string motion_words(const Eigen::Vector3d& velocity, bool planar);
+
+/// What of its file a body does not show, and what it takes for granted: a line each.
+[[nodiscard]] std::vector<std::string> reading_words(const Reading& reading);
 
 /// Four digits: what is shown to be read.
 [[nodiscard]] std::string brief(double x);
