@@ -292,6 +292,7 @@ COMMANDS = [
     ("a track with half a measurement", ["estimate", "FILE.csv"], TRACK + "0.1,1,\n"),
     ("a track that goes back", ["estimate", "FILE.csv"], TRACK + "-0.1,1,2\n"),
     ("a track with a short line", ["estimate", "FILE.csv"], TRACK + "0.1,1\n"),
+    ("a track in milliseconds since 1970", ["estimate", "FILE.csv"], "t,x,y\n1731000000000,1,2\n"),
     ("a track without a time", ["estimate", "FILE.csv"], TRACK + ",1,2\n"),
     ("a track with a noise of 0", ["estimate", "FILE.csv"], "t,x,y,r\n0,1,2,0\n"),
     ("a track without a measurement", ["estimate", "FILE.csv"], "t,x,y\n0,,\n0.1,,\n"),

@@ -69,6 +69,18 @@ def track(rows):
 
 
 class Estimate(unittest.TestCase):
+    def test_times_may_be_seconds_since_1970(self):
+        rows = [(k / 4, 40 * k + k % 3, -15 * k) for k in range(40)]  # exact in doubles, also after a shift
+        told = []
+        for start in (0, 1731000000):
+            with tempfile.TemporaryDirectory() as folder:
+                file = Path(folder, "track.csv")
+                file.write_text(track([(start + t, x, y) for t, x, y in rows]))
+                result = call("estimate", file, "--json")
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            told.append(json.loads(result.stdout)["rows"])
+        self.assertEqual([[row[0] + 1731000000, *row[1:]] for row in told[0]], told[1])
+
     def test_the_example(self):
         result = call("estimate", EXAMPLES / "track.csv", "--noise", 0.3)
         self.assertEqual((result.returncode, result.stderr), (0, ""))

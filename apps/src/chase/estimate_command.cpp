@@ -80,8 +80,10 @@ class TrackReader {
                        std::to_string(fields.size()) + (fields.size() == 1 ? " field" : " fields"),
                        "as many as the header: " + std::to_string(header_.size()));
     Row row;
-    const auto t = number(fields, 0, "a finite number (s)");
-    if (!t) throw InputError(where("t"), "nothing", "a finite number (s)");
+    // Seconds since 1970 too, but not milliseconds.
+    const char* seconds = "a number up to 1e11 in magnitude (s)";
+    const auto t = number(fields, 0, seconds, 1e11);
+    if (!t) throw InputError(where("t"), "nothing", seconds);
     row.t = *t;
     if (last_ && !(row.t > *last_))
       throw InputError(where("t"), quoted(fields[*place_[0]]), "later than the line before (s)");
@@ -116,13 +118,13 @@ class TrackReader {
     return false;
   }
   std::optional<double> number(const std::vector<std::string>& fields, std::size_t column,
-                               const char* requirement) const {
+                               const char* requirement, double most = 1e9) const {
     const std::string& text = fields[*place_[column]];
     if (text.empty()) return {};
     double x = 0;
     const char* end = text.data() + text.size();
     const auto read = std::from_chars(text.data(), end, x);
-    if (read.ec != std::errc() || read.ptr != end || !(std::abs(x) <= 1e9))
+    if (read.ec != std::errc() || read.ptr != end || !(std::abs(x) <= most))
       throw InputError(where(kKnown[column]), quoted(text), requirement);
     return x;
   }
