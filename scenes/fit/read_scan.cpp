@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/files/triangle_mesh.h>
 #include <vericone/fits/read_scan.h>
+#include <vericone/fitting/measure.h>
 #include <vericone/geometry/error.h>
 #include <algorithm>
 #include <filesystem>
@@ -53,7 +54,9 @@ void read_map(Scan& scan) {
 void read_mesh(Scan& scan, files::PointFile file) {
   const std::size_t read = file.points.size();
   // Triangles without area stay: they are segments of the surface, and to be inside like the rest of it.
-  files::TriangleMesh mesh = files::triangle_mesh(std::move(file), {.merge_equal_points = true});
+  // Those that are there twice enclose what one of them does, or nothing where they are turned round.
+  files::TriangleMesh mesh =
+      files::triangle_mesh(std::move(file), {.merge_equal_points = true, .drop_duplicates = true});
   const files::MeshReport& report = mesh.report;
   if (report.degenerate_triangles == mesh.triangles.size())
     throw InputError(scan.file, count(mesh.triangles.size(), "triangle", "triangles") + ", none with area",
@@ -67,11 +70,19 @@ void read_mesh(Scan& scan, files::PointFile file) {
   if (mesh.points.size() < read)
     scan.notes.push_back(count(read - mesh.points.size(), "point was", "points were") +
                          " there twice and made one");
+  if (report.duplicate_triangles)
+    scan.notes.push_back(count(report.duplicate_triangles, "triangle was", "triangles were") +
+                         " there twice, perhaps turned round, and made one");
+  scan.sample.points = std::move(mesh.points);
+  scan.sample.triangles = std::move(mesh.triangles);
   if (!report.is_closed())
     scan.notes.push_back("the mesh is open (" + count(report.boundary_edges, "edge", "edges") +
                          " of one triangle), so it has no volume");
-  scan.sample.points = std::move(mesh.points);
-  scan.sample.triangles = std::move(mesh.triangles);
+  else if (!report.is_oriented())
+    scan.notes.push_back("the mesh has no volume: neighbours disagree at " +
+                         count(report.misoriented_edges, "edge", "edges") + " which side is outside");
+  else if (!fitting::enclosed_volume(scan.sample))
+    scan.notes.push_back("the mesh is closed and has no inside, so it has no volume");
 }
 
 }  // namespace
@@ -86,6 +97,9 @@ Scan read_scan(const std::string& file) {
   } else {
     files::PointFile read = files::read_points(file);
     scan.format = read.format;
+    if (read.trailing_bytes)
+      scan.notes.push_back(count(read.trailing_bytes, "byte", "bytes") +
+                           " after what the header claims read over: does it count all?");
     if (read.dropped_points)
       scan.notes.push_back(count(read.dropped_points, "point", "points") +
                            " with coordinates that are not finite left out");

@@ -208,6 +208,16 @@ class FitRealFiles(Files):
         self.assertLessEqual(best["volume"], plain["volume"] * (1 + 1e-9))
         self.assertEqual(best["certificate"]["triangles"], 5558)
 
+    def test_a_robust_fit_of_a_whole_figure_is_refused(self):
+        """A figure of 0.27 m, to whose points an ellipsoid 0.73 m long is nearest."""
+        path = os.path.join(DATA, "chef.pcd")
+        if not os.path.exists(path):
+            self.skipTest("no " + path)
+        for arguments in ((), ("--shape", "ellipsoid")):
+            result = run("fit", path, "--mode", "robust", *arguments, "--out", self.out, "--quiet", "--no-figures")
+            self.assertEqual((result.returncode, result.stdout), (2, ""))
+            self.assertIn("a surface that is not determined by these points: it reaches 0.36", result.stderr)
+
     def test_kleopatra(self):
         path = os.path.join(DATA, "216Kleopatra.obj")
         if not os.path.exists(path):

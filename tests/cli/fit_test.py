@@ -61,6 +61,10 @@ def peanut(n=16):
     return points, [tuple(reversed(f)) for f in faces]
 
 
+def triangles_of(faces):
+    return [(f[0], f[k - 1], f[k]) for f in faces for k in range(2, len(f))]
+
+
 def exactly(piece):
     return [[[Fraction(x) for x in row] for row in q] for q in piece["quadrics"]]
 
@@ -213,6 +217,25 @@ class Fit(Files):
         self.assertEqual(inside(result, points), 17)
         self.assertEqual(result["certificate"]["points"], 9)
         self.assertTrue(any("no area" in n for n in result["notes"]), result["notes"])
+
+    def test_a_mesh_covered_twice_counts_once_and_is_told(self):
+        plain = fit(self.write("cube.obj", obj(CUBE, SIDES)), "--shape", "ellipsoid")
+        for faces in (SIDES + SIDES, SIDES + [tuple(reversed(f)) for f in triangles_of(SIDES)]):
+            result = fit(self.write("twice.obj", obj(CUBE, triangles_of(faces))), "--shape", "ellipsoid")
+            self.assertEqual((result["scan_volume"], result["pieces"]), (plain["scan_volume"], plain["pieces"]))
+            self.assertTrue(any("12 triangles were there twice" in n for n in result["notes"]), result["notes"])
+
+    def test_a_mesh_without_an_inside_is_told(self):
+        sheet = [[0.1, 0.3, 0.7], [1.1, 0.3, 0.7], [1.1, 1.3, 0.9], [0.1, 1.3, 0.9]]
+        for faces, why in (([(0, 1, 2), (0, 2, 3), (1, 0, 3), (1, 3, 2)], "closed and has no inside"),
+                           ([(0, 1, 2), (0, 2, 3)], "open")):
+            result = fit(self.write("sheet.obj", obj(sheet, faces)), "--shape", "ellipsoid", "--margin", "0.1")
+            self.assertIsNone(result["scan_volume"])
+            self.assertTrue(any(why in n for n in result["notes"]), result["notes"])
+        turned = [SIDES[0][::-1]] + SIDES[1:]
+        result = fit(self.write("turned.obj", obj(CUBE, turned)), "--shape", "ellipsoid")
+        self.assertIsNone(result["scan_volume"])
+        self.assertTrue(any("disagree at 4 edges" in n for n in result["notes"]), result["notes"])
 
 
 class FitSame(Files):

@@ -11,8 +11,8 @@
 #include <filesystem>
 #include <numbers>
 
-#include "geometry/meshes.h"
 #include "distance/scan_distance.h"
+#include "geometry/meshes.h"
 #include "support/random.h"
 #ifdef VERICONE_HAVE_FILES
 #include <vericone/files/triangle_mesh.h>
@@ -303,6 +303,17 @@ TEST(EnclosedVolume, NothingWithoutAnInside) {
   std::swap(twisted.triangles[3][0], twisted.triangles[3][1]);
   EXPECT_FALSE(enclosed_volume(twisted));
   EXPECT_FALSE(enclosed_volume({{{0, 0, 0}, {1, 0, 0}}, {}}));
+  // All of it twice, once turned round; a sheet and its back, cut along the other diagonal.
+  Sample both = cube({0.1, 0.2, 0.3});
+  for (const auto& t : cube().triangles) both.triangles.push_back({t[2], t[1], t[0]});
+  EXPECT_FALSE(enclosed_volume(both));
+  const Sample sheet{{{0.1, 0.3, 0.7}, {1.1, 0.3, 0.7}, {1.1, 1.3, 0.7}, {0.1, 1.3, 0.7}},
+                     {{0, 1, 2}, {0, 2, 3}, {1, 0, 3}, {1, 3, 2}}};
+  EXPECT_FALSE(enclosed_volume(sheet));
+  // What is merely thin has one.
+  Sample plate = cube();
+  for (Vector3d& x : plate.points) x.z() *= 1e-9;
+  EXPECT_NEAR(*enclosed_volume(plate) / 8e-9, 1, 1e-6);
   Sample wrong = cube();
   wrong.triangles[5][2] = 8;
   EXPECT_THROW(enclosed_volume(wrong), InputError);

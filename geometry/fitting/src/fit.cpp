@@ -26,6 +26,9 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kMostPieces = 64;
+/// Where there is a choice: half of what dents or a waist must take away to be chosen. A first search misses
+/// less than the other half.
+constexpr double kPromise = 0.5 * 6 * kPricePerParameter;
 
 void require_valid(const FitOptions& options) {
   if (options.coverage && !(*options.coverage > 0 && *options.coverage <= 1))
@@ -40,12 +43,16 @@ void require_valid(const FitOptions& options) {
     throw InputError("pieces", std::to_string(options.pieces), "1 to " + std::to_string(kMostPieces));
 }
 
-void require_enough(const CanonicalSample& sample, Shape shape, int pieces, Mode mode) {
+void require_enough(const CanonicalSample& sample, Shape shape, const FitOptions& options, int pieces) {
   const bool flat = shape == Shape::ellipse;
   // Containing ellipses and ellipsoids of least volume are unique whatever the number of points.
   int needed = flat ? 3 : 4;
   std::string why = flat ? "3 or more that are not on a line" : "4 or more that are not in a plane";
-  if (mode != Mode::containing) {
+  if (options.margin > 0 && options.mode == Mode::containing) {  // balls span space
+    needed = 2;
+    why = "2 or more";
+  }
+  if (options.mode != Mode::containing) {
     needed = parameters(shape);
     why = std::to_string(needed) + " or more, as many as parameters";
   } else if (!flat && shape != Shape::ellipsoid && !sample.is_mesh()) {
@@ -76,7 +83,8 @@ Trial try_shape(const std::vector<Part>& parts, Shape shape, const FitOptions& o
   for (const Part& part : parts) {
     Candidate& c = trial.candidate;
     if (options.mode == Mode::containing) {
-      ContainingFit fit = containing_fit(part.sample, shape, {.margin = options.margin / scale});
+      ContainingFit fit = containing_fit(
+          part.sample, shape, {.margin = options.margin / scale, .promise = options.shape ? 0 : kPromise});
       c.converged = c.converged && fit.converged;
       c.volume += fit.volume;
       trial.volume_ratio_bound = parts.size() == 1 ? fit.volume_ratio_bound : 0;
@@ -186,6 +194,27 @@ Assignment nearest_points(const Sample& sample, const CanonicalSample& canon,
   return result;
 }
 
+/// Of least volume among the ellipsoids that contain every ball about a point of this one and have its centre
+/// and axes: a thin one cannot be scaled to that without growing out of all bounds.
+template <int D>
+BasicEllipsoid<D> swollen(const BasicEllipsoid<D>& body, double radius) {
+  const Eigen::Matrix<double, D, 1> a = body.semi_axes();
+  // (|a| + r)^2 <= (1 + s) a^2 + (1 + 1/s) r^2 along each direction; convex in log s.
+  const auto squares = [&](double log_s) -> Eigen::Array<double, D, 1> {
+    return (1 + std::exp(log_s)) * a.array().square() + (1 + std::exp(-log_s)) * radius * radius;
+  };
+  double low = std::log(radius / a.maxCoeff()), high = std::log(radius / a.minCoeff());
+  for (int step = 0; step < 60; ++step) {
+    const double third = (high - low) / 3;
+    if (squares(low + third).log().sum() < squares(high - third).log().sum())
+      high -= third;
+    else
+      low += third;
+  }
+  return BasicEllipsoid<D>::from_axes(body.center(), squares(0.5 * (low + high)).sqrt().matrix(),
+                                      body.axis_directions());
+}
+
 class Progress {
  public:
   Progress(const FitOptions& options, int steps) : options_(options), steps_(steps) {}
@@ -205,6 +234,11 @@ std::string three_digits(double x) {
   return text;
 }
 
+bool is_determined(const Trial& trial) {
+  return std::none_of(trial.surfaces.begin(), trial.surfaces.end(),
+                      [](const SurfaceFit& s) { return s.overreach.has_value(); });
+}
+
 /// Throws where a surface goes on far beyond its points.
 void require_determined(const Trial& trial) {
   for (const SurfaceFit& s : trial.surfaces)
@@ -222,16 +256,26 @@ std::vector<Trial> try_all(const std::vector<Part>& parts, const CanonicalSample
   std::vector<Trial> trials;
   if (options.shape) {
     progress.next("fitting " + to_string(*options.shape));
-    require_enough(sample, *options.shape, options.pieces, options.mode);
+    require_enough(sample, *options.shape, options, options.pieces);
     trials.push_back(try_shape(parts, *options.shape, options, sample.frame.scale));
     require_determined(trials.front());
     return trials;
   }
-  require_enough(sample, Shape::ellipsoid, options.pieces, options.mode);
+  require_enough(sample, Shape::ellipsoid, options, options.pieces);
+  // Of a star each delimiter takes away no more than the one before, and all of them must take away two or
+  // three prices: the first more than one. Near the points it is a body where dents or a waist alone are one.
+  const auto star_pays = [&] {
+    return std::any_of(trials.begin() + 1, trials.end(), [&](const Trial& t) {
+      return options.mode == Mode::containing
+                 ? t.candidate.volume < std::exp(-kPromise) * trials.front().candidate.volume
+                 : is_determined(t);
+    });
+  };
   for (const Shape shape : {Shape::ellipsoid, Shape::biconcave, Shape::biconvex, Shape::star}) {
     progress.next("fitting " + to_string(shape));
+    if (shape == Shape::star && !star_pays()) continue;
     try {
-      require_enough(sample, shape, options.pieces, options.mode);
+      require_enough(sample, shape, options, options.pieces);
       trials.push_back(try_shape(parts, shape, options, sample.frame.scale));
     } catch (const InputError&) {
       if (shape == Shape::ellipsoid) throw;
@@ -239,9 +283,7 @@ std::vector<Trial> try_all(const std::vector<Part>& parts, const CanonicalSample
   }
   std::vector<Trial> determined;
   for (Trial& trial : trials)
-    if (std::none_of(trial.surfaces.begin(), trial.surfaces.end(),
-                     [](const SurfaceFit& s) { return s.overreach.has_value(); }))
-      determined.push_back(std::move(trial));
+    if (is_determined(trial)) determined.push_back(std::move(trial));
   if (determined.empty()) require_determined(trials.front());
   return determined;
 }
@@ -274,7 +316,7 @@ FitResult fit(const Sample& sample, const FitOptions& options) {
   const double coverage = options.coverage.value_or(1);
   std::vector<char> kept(canon.points.size(), 1);
   if (containing && coverage < 1) {
-    require_enough(canon, options.shape.value_or(Shape::ellipsoid), 1, options.mode);
+    require_enough(canon, options.shape.value_or(Shape::ellipsoid), options, 1);
     kept = trim(canon, coverage, is_footprint);
   }
   const std::vector<Part> parts = partition(kept_part(canon, kept), options.pieces);
@@ -298,6 +340,14 @@ FitResult fit(const Sample& sample, const FitOptions& options) {
   for (SurfaceFit& surface : best.surfaces) result.surfaces.push_back(to_world(surface, canon.frame));
 
   progress.next("proving");
+  if (!containing && options.margin > 0)
+    for (Piece& piece : result.pieces) {
+      if (piece.footprint)
+        piece.footprint = swollen(*piece.footprint, options.margin);
+      else
+        piece.body = CombinedEllipsoid::trusted(swollen(piece.body.ellipsoid(), options.margin),
+                                                piece.body.delimiters());
+    }
   if (containing || options.coverage) {
     const Assignment assignment = containing ? assignment_of(sample, canon, kept, parts, result.pieces)
                                              : nearest_points(sample, canon, result.pieces, coverage);

@@ -32,7 +32,10 @@ constexpr double kDifference = 1e-5;  // step of central differences of gradient
 constexpr double kStationary = 1e-8;
 constexpr double kPressed = 1e-5;  // multipliers of constraints that hold with equality
 constexpr double kViolated = 1e-10;
-constexpr int kRoundsOfStars = 4;
+// Of balls new cuts near the old ones come without end.
+constexpr double kLastWeightOfBalls = 1e-7;
+constexpr double kFar = 0.1;  // a ball's cut that is forgotten
+constexpr int kFewRounds = 4;
 constexpr int kRounds = 12, kNewtonSteps = 20;
 
 /// The problem restricted to a working set.
@@ -170,14 +173,10 @@ struct Polished {
 /// on; those whose multipliers come out negative are let go.
 std::optional<Polished> polish(const HullProblem& problem, const std::vector<Constraint>& working,
                                const VectorXd& weights, const VectorXd& start) {
-  // Cuts of a triangle stand for it.
+  // Cuts stand for what they are of.
   std::map<Constraint, double> pressed;
   for (std::size_t i = 0; i < working.size(); ++i)
-    if (const double w = weights(Eigen::Index(i)); w > kPressed) {
-      Constraint c = working[i];
-      if (c.kind == Constraint::cut) c = {Constraint::triangle, c.surface, problem.triangle_of_cut(c.index)};
-      pressed[c] += w;
-    }
+    if (const double w = weights(Eigen::Index(i)); w > kPressed) pressed[problem.cut_of(working[i])] += w;
   std::vector<Constraint> active;
   std::vector<double> multipliers;
   for (const auto& [c, w] : pressed) {
@@ -233,8 +232,7 @@ void take_in(HullProblem& problem, const StarBody& body,
     if (std::any_of(taken.begin(), taken.end(),
                     [&](const auto& other) { return other.dot(direction) > 0.998; }))
       continue;
-    const Constraint smooth = c.kind == Constraint::triangle ? problem.add_cut(c, body) : c;
-    if (working.insert(smooth).second) taken.push_back(direction);
+    if (working.insert(problem.smooth(c, body)).second) taken.push_back(direction);
   }
 }
 
@@ -253,7 +251,8 @@ std::set<Constraint> first_working_set(HullProblem& problem, const StarBody& bod
     std::uint32_t best = 0;
     for (std::uint32_t i = 0; i < problem.points().size(); ++i)
       if (problem.points()[i].dot(u) > problem.points()[best].dot(u)) best = i;
-    for (int s = 0; s < body.surfaces(); ++s) working.insert({Constraint::point, s, best});
+    for (int s = 0; s < body.surfaces(); ++s)
+      working.insert(problem.smooth({Constraint::point, s, best}, body));
   }
   return working;
 }
@@ -280,14 +279,26 @@ Minimum minimise(HullProblem problem, StarBody start, Descent descent) {
   std::vector<Constraint> working(working_set.begin(), working_set.end());
   VectorXd x = to_variables(start), multipliers;
   const bool is_star = start.delimiters.size() > 1;
-  const double last = !thorough ? kRoughWeight : is_star ? kLastWeightOfStars : kLastWeight;
+  const double last = !thorough              ? kRoughWeight
+                      : is_star              ? kLastWeightOfStars
+                      : problem.has_margin() ? kLastWeightOfBalls
+                                             : kLastWeight;
+  const int rounds = is_star || problem.has_margin() ? kFewRounds : kRounds;
   double value = 0;
   result.log_volume = result.stationarity = std::numeric_limits<double>::infinity();
   result.body = start;
   if (!Barrier(problem, working).value(x, first, value)) return result;
   double mu = first;
   for (; mu > 0.99 * last; mu *= kReduction) {
-    for (int round = 0; round < (is_star ? kRoundsOfStars : kRounds); ++round) {
+    if (problem.has_margin() && mu < first) {
+      const StarBody body = to_body(x);
+      std::erase_if(working_set, [&](const Constraint& c) {
+        return c.kind == Constraint::cut && problem.constraint(c, body) < -kFar;
+      });
+      working.assign(working_set.begin(), working_set.end());
+      multipliers.resize(0);
+    }
+    for (int round = 0; round < rounds; ++round) {
       result.iterations += centre(Barrier(problem, working), mu, x, multipliers);
       const StarBody body = to_body(x);
       std::vector<std::vector<std::pair<double, Constraint>>> violated;

@@ -8,10 +8,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "containing/barrier.h"
 #include "containing/delimiter_starts.h"
+#include "containing/least_about_balls.h"
 
 namespace vericone::fitting {
 namespace {
@@ -23,7 +25,9 @@ using Eigen::Vector3d;
 constexpr std::size_t kRefined = 3;         // starts that are followed to the end
 constexpr std::size_t kMostDelimiters = 3;  // of a star
 constexpr std::size_t kStartsOfStars = 2;   // for each further delimiter
-constexpr double kWorthwhile = 0.02;        // of log volume, for a further delimiter of a star
+constexpr double kAny = std::numeric_limits<double>::infinity();
+const double kUnitBall = std::log(4 * std::numbers::pi / 3);  // log volume
+constexpr double kWorthwhile = 0.02;  // of log volume, for a further delimiter of a star
 
 Ellipsoid from_factor(const Vector3d& center, const Matrix3d& factor) {
   const LeftSingular<3> svd = left_singular<3>(factor);
@@ -32,7 +36,7 @@ Ellipsoid from_factor(const Vector3d& center, const Matrix3d& factor) {
   return Ellipsoid::from_axes(center, svd.values, axes);
 }
 
-/// Back from the coordinates in which the minimum-volume ellipsoid is the unit ball.
+/// Back from the coordinates in which the least ellipsoid is the unit ball.
 CombinedEllipsoid to_sample(const StarBody& body, const Ellipsoid& unit) {
   const Matrix3d lower = cholesky<3>(body.ellipsoid).lower;
   const Matrix3d root = lower.transpose().inverse();
@@ -55,9 +59,10 @@ HullProblem problem_of(const CanonicalSample& sample, const Ellipsoid& unit, std
   return HullProblem(std::move(points), sample.triangles, std::move(delimits), margin, unit.factor());
 }
 
-/// The best minimum from several starts with delimiters of the given kinds.
+/// The best minimum from several starts with delimiters of the given kinds; the best rough one where that has
+/// a greater log volume than `thorough_below`.
 Minimum best_of(const CanonicalSample& grid, const Ellipsoid& unit, double margin,
-                const std::vector<DelimiterStart>& starts, std::vector<Delimit> kinds, bool thorough,
+                const std::vector<DelimiterStart>& starts, std::vector<Delimit> kinds, double thorough_below,
                 int& followed, int& iterations, std::vector<Delimit>& kinds_found) {
   struct Rough {
     Minimum minimum;
@@ -77,7 +82,7 @@ Minimum best_of(const CanonicalSample& grid, const Ellipsoid& unit, double margi
   });
   Minimum best;
   best.log_volume = std::numeric_limits<double>::infinity();
-  if (!thorough && !rough.empty()) {
+  if (!rough.empty() && !(rough.front().minimum.log_volume <= thorough_below)) {
     kinds_found = rough.front().kinds;
     return rough.front().minimum;
   }
@@ -115,17 +120,19 @@ ContainingFit combined(const CanonicalSample& sample, const CanonicalSample& gri
   if (shape != Shape::biconcave) kinds.push_back(Delimit::waist);
   const bool star = shape == Shape::star;
   std::vector<Delimit> found;
+  const double enough = options.promise > 0 ? kUnitBall - options.promise : kAny;
   Minimum best = best_of(
       grid, unit, options.margin,
       delimiter_starts(outermost, directions, StarBody{}, kinds, std::size_t(options.starts) * kinds.size()),
-      {}, true, fit.starts, fit.iterations, found);
+      {}, enough, fit.starts, fit.iterations, found);
+  const bool promising = best.log_volume <= enough;
   // A further delimiter stays where it pays, and all of them only where they did in the end.
   const Minimum single = best;
-  while (star && found.size() < kMostDelimiters) {
+  while (star && promising && found.size() < kMostDelimiters) {
     std::vector<Delimit> more;
     const Minimum next = best_of(grid, unit, options.margin,
                                  delimiter_starts(outermost, directions, best.body, kinds, kStartsOfStars),
-                                 found, false, fit.starts, fit.iterations, more);
+                                 found, -kAny, fit.starts, fit.iterations, more);
     if (!(next.log_volume < best.log_volume - kWorthwhile)) break;
     best = next;
     found = more;
@@ -137,7 +144,7 @@ ContainingFit combined(const CanonicalSample& sample, const CanonicalSample& gri
   }
   // The points themselves have the last word. Not of stars, whose conditions hold roughly only: what rounding
   // changed enclose() makes up for.
-  if (best.body.delimiters.size() <= 1) {
+  if (promising && best.body.delimiters.size() <= 1) {
     found.resize(best.body.delimiters.size());
     const Minimum exact = minimise(problem_of(sample, unit, found, options.margin), best.body, Descent::last);
     fit.iterations += exact.iterations;
@@ -151,51 +158,47 @@ ContainingFit combined(const CanonicalSample& sample, const CanonicalSample& gri
   return fit;
 }
 
+/// The least ellipsoid (ellipse) about balls of the margin, and what is known of it.
+template <int D>
+BasicEllipsoid<D> least_body(const std::vector<Eigen::Matrix<double, D, 1>>& points, double margin,
+                             ContainingFit& fit) {
+  if (margin > 0) {
+    BallEnclosure<D> result = least_about_balls<D>(points, margin);
+    fit.converged = result.converged;
+    fit.stationarity = result.gap;
+    fit.volume_ratio_bound = result.volume_ratio_bound;
+    fit.iterations = result.rounds;
+    return result.body;
+  }
+  MinVolumeResult<D> result = min_volume_ellipsoid<D>(points);
+  fit.converged = result.converged();
+  fit.stationarity = result.optimality_gap;
+  fit.volume_ratio_bound = result.volume_ratio_bound;
+  fit.iterations = result.iterations;
+  return result.body;
+}
+
 ContainingFit footprint(const CanonicalSample& sample, double margin) {
   ContainingFit fit;
+  fit.starts = 1;
   std::vector<Vector2d> points;
-  const int corners = margin > 0 ? 32 : 1;
-  const double out = margin > 0 ? margin * sample.frame.scale / std::cos(std::numbers::pi / corners) : 0;
   fit.piece.low = std::numeric_limits<double>::infinity();
   fit.piece.high = -fit.piece.low;
   for (const Vector3d& y : sample.points) {
     const Vector3d x = sample.frame.to_world(y);
     fit.piece.low = std::min(fit.piece.low, x.z());
     fit.piece.high = std::max(fit.piece.high, x.z());
-    // A regular polygon around the disc of the margin.
-    for (int k = 0; k < corners; ++k) {
-      const double a = 2 * std::numbers::pi * k / corners;
-      points.emplace_back(x.x() + out * std::cos(a), x.y() + out * std::sin(a));
-    }
+    points.push_back(x.head<2>());
   }
-  const MinVolumeResult<2> result = min_volume_ellipsoid<2>(points);
-  fit.piece.footprint = result.body;
-  fit.converged = result.converged();
-  fit.stationarity = result.optimality_gap;
-  fit.volume_ratio_bound = margin > 0 ? 0 : result.volume_ratio_bound;
-  fit.volume = result.body.volume();
-  fit.iterations = result.iterations;
-  fit.starts = 1;
+  fit.piece.footprint = least_body<2>(points, margin * sample.frame.scale, fit);
+  fit.volume = fit.piece.footprint->volume();
   return fit;
 }
 
 ContainingFit ellipsoid(const CanonicalSample& sample, double margin) {
-  const MinVolumeResult<3> least = min_volume_ellipsoid<3>(sample.points);
   ContainingFit fit;
   fit.starts = 1;
-  if (margin > 0) {
-    const Minimum m = minimise(problem_of(sample, least.body, {}, margin), StarBody{}, Descent::thorough);
-    fit.piece.body = to_sample(m.body, least.body);
-    fit.converged = m.converged;
-    fit.stationarity = m.stationarity;
-    fit.iterations = m.iterations;
-  } else {
-    fit.piece.body = least.body;
-    fit.converged = least.converged();
-    fit.stationarity = least.optimality_gap;
-    fit.volume_ratio_bound = least.volume_ratio_bound;
-    fit.iterations = least.iterations;
-  }
+  fit.piece.body = CombinedEllipsoid(least_body<3>(sample.points, margin, fit));
   fit.volume = fit.piece.body.ellipsoid().volume();
   return fit;
 }
@@ -214,7 +217,9 @@ ContainingFit containing_fit(const CanonicalSample& sample, Shape shape, const C
   // The search for starts branches: it sees rounded coordinates. The last steps see the points.
   CanonicalSample grid = sample;
   for (Vector3d& y : grid.points) y = rounded(y);
-  ContainingFit fit = combined(sample, grid, min_volume_ellipsoid<3>(grid.points).body, shape, options);
+  ContainingFit search;
+  ContainingFit fit =
+      combined(sample, grid, least_body<3>(grid.points, options.margin, search), shape, options);
   if (fit.volume < least.volume) return fit;
   // Nothing is to be cut away.
   fit.piece = least.piece;

@@ -18,6 +18,7 @@ using Eigen::Vector3d;
 
 constexpr int kBins = 24;           // a side of a cube of directions: 6 * 24^2 of them
 constexpr double kLongEdge = 0.15;  // triangles are sampled as densely; the ellipsoid is the unit ball
+constexpr int kBallPlaces = 64;     // of the balls of a margin
 constexpr int kSpread = 64;         // directions on the half sphere
 constexpr std::size_t kPockets = 8;
 constexpr double kApart = 0.94;  // cosine of the angle at which two starts differ
@@ -88,6 +89,12 @@ std::vector<Vector3d> outermost_points(const HullProblem& problem) {
   };
   const auto& points = problem.points();
   for (const Vector3d& y : points) offer(y);
+  if (problem.has_margin())
+    for (int k = 0; k < kBallPlaces; ++k) {
+      const double z = 1 - (2 * k + 1.0) / kBallPlaces, r = std::sqrt(1 - z * z), a = 2.399963229728653 * k;
+      const Vector3d shift = problem.in_ball({r * std::cos(a), r * std::sin(a), z});
+      for (const Vector3d& y : points) offer(y + shift);
+    }
   for (const auto& t : problem.triangles()) {
     const Vector3d &a = points[t[0]], u = points[t[1]] - a, v = points[t[2]] - a;
     const int parts = int(std::max({u.norm(), v.norm(), (u - v).norm()}) / kLongEdge);

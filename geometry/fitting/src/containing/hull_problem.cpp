@@ -7,7 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "containing/ball_place.h"
 
 namespace vericone::fitting {
 namespace {
@@ -17,7 +18,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Semi-axes are at most ten times those of the minimum-volume ellipsoid: a delimiter that tends to a
+/// Semi-axes are at most ten times those of the least ellipsoid: a delimiter that tends to a
 /// cylinder or a slab stays a hyperboloid, an ellipsoid whose ends the delimiters cut off stays an ellipsoid.
 constexpr double kLeastEigenvalue = 0.01;
 
@@ -98,63 +99,48 @@ Vector3d HullProblem::place_on(std::uint32_t triangle, int surface, const StarBo
                                                    points_[t[2]] - body.center});
 }
 
-HullProblem::Constraint HullProblem::add_cut(const Constraint& triangle, const StarBody& body) {
-  cuts_.push_back({body.center + place_on(triangle.index, triangle.surface, body), triangle.index});
-  return {Constraint::cut, triangle.surface, std::uint32_t(cuts_.size() - 1)};
+HullProblem::BallForm HullProblem::ball_form(const Matrix3d& form) const {
+  const Matrix3d pulled = to_unit_.transpose() * form;
+  const auto solver = symmetric_eigen<3>(pulled * to_unit_);
+  return {solver.vectors.transpose() * pulled, to_unit_ * solver.vectors, solver.values};
 }
 
-double HullProblem::value_at(const Vector3d& y, int surface, const StarBody& body, Variables* gradient,
-                             double factor) const {
-  const Matrix3d& form = body.form(surface);
-  const Vector3d along = form * y;
-  double value = y.dot(along) - 1;
-  if (gradient) {
-    gradient->head<3>() -= 2 * factor * along;
-    add_symmetric(y * y.transpose(), surface, factor, *gradient);
-  }
-  if (margin_ > 0) {
-    // y + B d with |d| <= margin: at most q + 2 m |B^T M y| + m^2 lambda_max(B^T M B)^+, what is proved
-    // later.
-    const Vector3d pulled = to_unit_.transpose() * along;
-    const double length = std::max(pulled.norm(), std::numeric_limits<double>::min());
-    const auto solver = symmetric_eigen<3>(to_unit_.transpose() * form * to_unit_);
-    const double largest = solver.values(2);
-    value += 2 * margin_ * length + margin_ * margin_ * std::max(largest, 0.0);
-    if (gradient) {
-      const Vector3d back = to_unit_ * (pulled / length);
-      gradient->head<3>() -= 2 * factor * margin_ * (form * back);
-      add_symmetric(back * y.transpose() + y * back.transpose(), surface, factor * margin_, *gradient);
-      if (largest > 0) {
-        const Vector3d axis = to_unit_ * solver.vectors.col(2);
-        add_symmetric(axis * axis.transpose(), surface, factor * margin_ * margin_, *gradient);
-      }
-    }
-  }
-  return value;
+Vector3d HullProblem::place_in_ball(const Vector3d& y, const BallForm& ball) const {
+  return y + ball.push * greatest_in_ball<3>(ball.eigenvalues, ball.pull * y, margin_);
+}
+
+Vector3d HullProblem::place_of(const Constraint& c, const StarBody& body) const {
+  if (c.kind == Constraint::cut) return cuts_[c.index].place - body.center;
+  const Vector3d y = c.kind == Constraint::triangle ? place_on(c.index, c.surface, body)
+                                                    : Vector3d(points_[c.index] - body.center);
+  return has_margin() ? place_in_ball(y, ball_form(body.form(c.surface))) : y;
+}
+
+HullProblem::Constraint HullProblem::smooth(const Constraint& c, const StarBody& body) {
+  if (c.kind != Constraint::triangle && !(c.kind == Constraint::point && has_margin())) return c;
+  cuts_.push_back({body.center + place_of(c, body), c});
+  return {Constraint::cut, c.surface, std::uint32_t(cuts_.size() - 1)};
 }
 
 double HullProblem::constraint(const Constraint& c, const StarBody& body, Variables* gradient,
                                double factor) const {
-  switch (c.kind) {
-    case Constraint::point:
-      return value_at(points_[c.index] - body.center, c.surface, body, gradient, factor);
-    case Constraint::triangle:
-      // The derivative of a maximum is that at its place.
-      return value_at(place_on(c.index, c.surface, body), c.surface, body, gradient, factor);
-    case Constraint::cut:
-      return value_at(cuts_[c.index].place - body.center, c.surface, body, gradient, factor);
-    case Constraint::eigenvalue: {
-      const auto solver = symmetric_eigen<3>(body.form(c.surface));
-      const double sign = int(c.index) < negative_eigenvalues(c.surface) ? 1 : -1;
-      if (gradient) {
-        const Vector3d axis = solver.vectors.col(int(c.index));
-        add_symmetric(axis * axis.transpose(), c.surface, sign * factor, *gradient);
-      }
-      return sign * solver.values(int(c.index)) +
-             (sign > 0 || c.surface == 0 ? kLeastEigenvalue : kLeastPositive);
+  if (c.kind != Constraint::eigenvalue) {
+    // The derivative of a maximum is that at its place.
+    const Vector3d y = place_of(c, body), along = body.form(c.surface) * y;
+    if (gradient) {
+      gradient->head<3>() -= 2 * factor * along;
+      add_symmetric(y * y.transpose(), c.surface, factor, *gradient);
     }
+    return y.dot(along) - 1;
   }
-  return 0;
+  const auto solver = symmetric_eigen<3>(body.form(c.surface));
+  const double sign = int(c.index) < negative_eigenvalues(c.surface) ? 1 : -1;
+  if (gradient) {
+    const Vector3d axis = solver.vectors.col(int(c.index));
+    add_symmetric(axis * axis.transpose(), c.surface, sign * factor, *gradient);
+  }
+  return sign * solver.values(int(c.index)) +
+         (sign > 0 || c.surface == 0 ? kLeastEigenvalue : kLeastPositive);
 }
 
 int HullProblem::negative_eigenvalues(int surface) const {
@@ -193,11 +179,16 @@ std::vector<double> HullProblem::greatest(
     if (worst && value > above) (*worst)[std::size_t(c.surface)].emplace_back(value, c);
   };
   checkpoint();
+  std::vector<BallForm> balls;
+  if (has_margin())
+    for (int s = 0; s < int(surfaces); ++s) balls.push_back(ball_form(body.form(s)));
+  const auto value_at = [&](const Vector3d& y, int surface) {
+    const Vector3d x = has_margin() ? place_in_ball(y, balls[std::size_t(surface)]) : y;
+    return x.dot(body.form(surface) * x) - 1;
+  };
   for (std::uint32_t i = 0; i < points_.size(); ++i)
-    for (int s = 0; s < int(surfaces); ++s) {
-      const Constraint c{Constraint::point, s, i};
-      offer(constraint(c, body), c);
-    }
+    for (int s = 0; s < int(surfaces); ++s)
+      offer(value_at(points_[i] - body.center, s), {Constraint::point, s, i});
   // On convex surfaces corners suffice.
   for (std::uint32_t t = 0; t < triangles_.size(); ++t)
     for (int s = 1; s < int(surfaces); ++s) {
@@ -205,7 +196,7 @@ std::vector<double> HullProblem::greatest(
       const Vector3d a = points_[k[0]] - body.center, b = points_[k[1]] - body.center,
                      c = points_[k[2]] - body.center;
       const Vector3d y = greatest_on_triangle(body.form(s), {a, b, c});
-      if (y != a && y != b && y != c) offer(value_at(y, s, body, nullptr, 0), {Constraint::triangle, s, t});
+      if (y != a && y != b && y != c) offer(value_at(y, s), {Constraint::triangle, s, t});
     }
   if (worst)
     for (auto& list : *worst)
@@ -223,8 +214,7 @@ void HullProblem::make_feasible(StarBody& body, double slack) const {
     for (int k = 0; k < negative; ++k) values(k) = std::min(values(k), -kLeastEigenvalue * (1 + 4 * slack));
     body.delimiters[i] = solver.vectors * values.asDiagonal() * solver.vectors.transpose();
   }
-  // Repeated, since eigenvalues end at their bounds and, with a margin, values are not homogeneous in the
-  // forms.
+  // Repeated, since eigenvalues end at their bounds.
   for (int round = 0; round < 30; ++round) {
     const std::vector<double> most = greatest(body, 0, nullptr);
     if (*std::max_element(most.begin(), most.end()) <= -0.9 * slack) return;

@@ -37,11 +37,11 @@ using Variables = Eigen::VectorXd;  // center (3), then 6 numbers a surface: 00,
 Variables to_variables(const StarBody& body);
 StarBody to_body(const Variables& variables);
 
-/// In coordinates in which the semi-axes of the minimum-volume ellipsoid are 1.
+/// In coordinates in which the semi-axes of the least ellipsoid are 1.
 class HullProblem {
  public:
-  /// What a surface must contain, or how an eigenvalue is bounded. The greatest value on a triangle has kinks
-  /// where its place jumps; a cut is the fixed place that once was the greatest one.
+  /// What a surface must contain, or how an eigenvalue is bounded. The greatest value on a triangle or a ball
+  /// has kinks where its place jumps; a cut is the fixed place that once was the greatest one.
   struct Constraint {
     enum Kind : char { point, triangle, cut, eigenvalue } kind = point;
     int surface = 0;
@@ -50,8 +50,8 @@ class HullProblem {
     auto operator<=>(const Constraint&) const = default;
   };
 
-  /// Balls of radius `margin` in the unit of x = map * y are to be inside; the map matters only with a
-  /// margin.
+  /// Balls of radius `margin` in the unit of x = map * y about the points are to be inside; the map matters
+  /// only with a margin.
   HullProblem(std::vector<Eigen::Vector3d> points, std::vector<std::array<std::uint32_t, 3>> triangles,
               std::vector<Delimit> delimits, double margin, const Eigen::Matrix3d& map);
 
@@ -59,9 +59,14 @@ class HullProblem {
   const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return triangles_; }
   const std::vector<Delimit>& delimits() const { return delimits_; }
 
-  /// For the place where the form of a surface is greatest on a triangle.
-  Constraint add_cut(const Constraint& triangle, const StarBody& body);
-  std::uint32_t triangle_of_cut(std::uint32_t cut) const { return cuts_[cut].triangle; }
+  /// The same without kinks near `body`: of a triangle or a ball a cut at the place where the surface's form
+  /// is greatest on it.
+  Constraint smooth(const Constraint& c, const StarBody& body);
+  Constraint cut_of(const Constraint& c) const { return c.kind == Constraint::cut ? cuts_[c.index].of : c; }
+
+  /// A place of the ball about the origin, along a unit vector.
+  Eigen::Vector3d in_ball(const Eigen::Vector3d& direction) const { return margin_ * to_unit_ * direction; }
+  bool has_margin() const { return margin_ > 0; }
 
   /// Value, not to be positive; with `gradient` its derivative is added to it, times `factor`.
   double constraint(const Constraint& c, const StarBody& body, Variables* gradient = nullptr,
@@ -83,9 +88,17 @@ class HullProblem {
 
  private:
   int negative_eigenvalues(int surface) const;
+  /// Where the form of a surface is greatest, relative to the centre: on a triangle; on the ball about a
+  /// place.
   Eigen::Vector3d place_on(std::uint32_t triangle, int surface, const StarBody& body) const;
-  double value_at(const Eigen::Vector3d& y, int surface, const StarBody& body, Variables* gradient,
-                  double factor) const;
+  Eigen::Vector3d place_of(const Constraint& c, const StarBody& body) const;
+  /// Of the balls about any place.
+  struct BallForm {
+    Eigen::Matrix3d pull, push;  // half gradient and place in the eigenbasis of the form on the ball
+    Eigen::Vector3d eigenvalues;
+  };
+  BallForm ball_form(const Eigen::Matrix3d& form) const;
+  Eigen::Vector3d place_in_ball(const Eigen::Vector3d& y, const BallForm& ball) const;
 
   std::vector<Eigen::Vector3d> points_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
@@ -93,7 +106,7 @@ class HullProblem {
   double margin_;
   struct Cut {
     Eigen::Vector3d place;
-    std::uint32_t triangle;
+    Constraint of;
   };
   std::vector<Cut> cuts_;
   Eigen::Matrix3d to_unit_;  // inverse of the map

@@ -65,12 +65,16 @@ void require_extent(const Cloud& cloud, bool planar) {
   throw InputError("points", flat >= 2 ? "points on one line" : "points in one plane", "spread in space");
 }
 
-/// How far the body reaches from its centre along each of these axes.
-Vector3d reach_along_axes(const CombinedEllipsoid& body, const Matrix3d& axes) {
+/// How far the body reaches from its centre along each of its ellipsoid's axes: of places all over the
+/// ellipsoid, its ends too, which even directions miss where it is long.
+Vector3d reach_along_axes(const CombinedEllipsoid& body, const Matrix3d& axes, const Vector3d& semi_axes) {
   Vector3d reach = Vector3d::Zero();
-  for (const Vector3d& d : directions(400, false)) {
-    const Vector3d along = axes.transpose() * d / body.gauge(d);
-    reach = reach.cwiseMax(along.cwiseAbs());
+  std::vector<Vector3d> places = directions(400, false);
+  for (int k = 0; k < 3; ++k)
+    for (const double side : {1.0, -1.0}) places.emplace_back(side * Vector3d::Unit(k));
+  for (const Vector3d& u : places) {
+    const Vector3d along = semi_axes.cwiseProduct(u);
+    reach = reach.cwiseMax(along.cwiseAbs() / std::max(1.0, body.gauge(axes * along)));
   }
   return reach;
 }
@@ -124,7 +128,7 @@ std::optional<Overreach> overreach(const FittedSurface& fit, const Cloud& cloud,
   if (planar)
     reach.head<2>() = a.head<2>();
   else
-    reach = reach_along_axes(surfaces.body(), ellipsoid.axes);
+    reach = reach_along_axes(surfaces.body(), ellipsoid.axes, a);
   for (int k = 0; k < d; ++k) {
     const double width = high(first + k) - low(first + k);
     const bool undetermined = told.axes_error(k) > kUndetermined * a(k);

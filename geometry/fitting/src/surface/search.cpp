@@ -95,10 +95,10 @@ std::vector<SurfaceStart> best(const std::vector<SurfaceStart>& starts, const Cl
 FittedSurface refined(const SurfaceStart& start, const Cloud& cloud, const SurfaceFitOptions& options) {
   // Where points do not determine dents and waists the solver creeps to its last step. It does so with some of
   // very many points already.
-  constexpr std::size_t kMany = 5000;
+  constexpr std::size_t kMany = 1500;
   if (!start.model.delimiters.empty() && cloud.points.size() > 2 * kMany) {
     FittedSurface some = refined(start, thinned(cloud, kMany), options);
-    if (!some.solution.converged) return some;
+    if (!some.solution.converged || is_open(some)) return some;
   }
   FittedSurface fit;
   fit.model = start.model;

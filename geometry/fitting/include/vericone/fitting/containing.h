@@ -10,6 +10,9 @@ namespace vericone::fitting {
 struct ContainingOptions {
   double margin = 0;  // radius of balls about the points that are to be inside, unit of the sample
   int starts = 6;     // of the search for dents and waists
+  /// What dents or a waist must take away from log volume, by a first search to about 1e-2, for them to be
+  /// followed to a minimum. Below it what was found first is the answer, not converged.
+  double promise = 0;
 };
 
 struct ContainingFit {

@@ -39,7 +39,7 @@ struct DistanceStatistics {
 [[nodiscard]] std::optional<VolumeEstimate> volume(const std::vector<Piece>& pieces);
 
 /// Volume inside a closed mesh, m^3: by the divergence theorem, accurate to rounding wherever it lies.
-/// Nothing where it is not closed and oriented.
+/// Nothing where it is not closed and oriented, or has no inside (a sheet and its back).
 [[nodiscard]] std::optional<double> enclosed_volume(const Sample& mesh);
 
 }  // namespace vericone::fitting
