@@ -303,9 +303,7 @@ SceneBody read_hull_agent(const Json& value, const std::string& path, const std:
     throw InputError(path + "." + kind, quoted(value[kind]),
                      "left to the obstacle; an agent may be the convex hull of a file's points, hull");
   SceneBody body = read_pieces_body(value, path, folder);
-  std::vector<Eigen::Vector3d> points = body.pieces()->by_slot().hulls.front().points();
-  for (Eigen::Vector3d& x : points) x = body.placed.pose.to_world(x);
-  body.placed = within(path, [&] { return Placed(HullBody(std::move(points))); });
+  body.placed = Placed(body.pieces()->by_slot().hulls.front(), body.placed.pose);
   return body;
 }
 

@@ -22,7 +22,7 @@ SceneBody read_pieces_body(const Json& value, const std::string& path, const std
 /// the points' bounds. Throws InputError naming the file.
 SceneBody read_any_body(const std::filesystem::path& file, double radius, const std::string& unknown);
 
-/// A convex polyhedron given by hull or points, in world coordinates, rounded. Throws InputError.
+/// A convex polyhedron given by hull or points, with its pose. Throws InputError.
 SceneBody read_hull_agent(const Json& value, const std::string& path, const std::filesystem::path& folder);
 
 /// "mesh, cloud, octree, hull, points", without those that this build lacks.

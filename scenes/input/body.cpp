@@ -65,7 +65,7 @@ Scene planar_scene(const Json& value, Velocities velocities) {
   return scene;
 }
 
-/// Whether the agent is a convex hull before a body of pieces: it is then taken into the world.
+/// Whether the agent is a convex hull before a body of pieces: it is then read as one.
 bool is_hull_agent(const Json& agent, const Json& obstacle) {
   return (agent.contains("hull") || agent.contains("points")) && is_pieces_body(agent) &&
          is_pieces_body(obstacle) && !is_union(agent);
@@ -80,10 +80,32 @@ Scene quadric_scene(const Json& value, Velocities velocities) {
   return scene;
 }
 
+bool made_of_pieces(const Json& body) { return is_pieces_body(body) || is_union(body); }
+
+/// Pieces are in space, and so is then the other body.
+void require_space(const Json& scene) {
+  for (const char* body : {"agent", "obstacle"}) {
+    if (!scene.contains(body)) continue;
+    const Json& value = scene[body];
+    const bool points_in_plane = value.contains("points") && value["points"].is_array() &&
+                                 !value["points"].empty() && value["points"][0].is_array() &&
+                                 value["points"][0].size() == 2;
+    if (points_in_plane)
+      throw InputError(std::string(body) + ".points", quoted(value["points"]),
+                       "points [x, y, z]: there are no polygons in the plane");
+    if (dimension(scene, body) != Dimension::planar) continue;
+    throw InputError(std::string(body) + ".center", quoted(value["center"]),
+                     made_of_pieces(value)
+                         ? "[x, y, z]: a body of pieces is in space"
+                         : "[x, y, z]: the other body is one of pieces, which are in space");
+  }
+}
+
 /// At least one body is made of pieces, or is a union.
 Scene pieces_scene(const Json& value, Velocities velocities, const std::filesystem::path& folder) {
   const Json& agent = require_field(value, "", "agent", kSpatialBody);
   const Json& obstacle = require_field(value, "", "obstacle", kSpatialBody);
+  require_space(value);
   Scene scene;
   scene.agent = is_hull_agent(agent, obstacle) ? read_hull_agent(agent, "agent", folder)
                                                : read_body(agent, "agent", folder);

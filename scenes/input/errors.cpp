@@ -35,6 +35,10 @@ ErrorSet read_set(const Json& value, const std::string& path, const char* unit) 
 std::optional<RelativeErrors> read_errors(const Json& value) {
   if (!value.contains("position_error") && !value.contains("velocity_error") && !value.contains("horizon"))
     return std::nullopt;
+  if (!value.contains("position_error") && !value.contains("velocity_error"))
+    throw InputError("horizon", quoted(value["horizon"]),
+                     "beside position_error or velocity_error (a box may be [0, 0, 0]): only `robust` looks "
+                     "ahead that far, the verdict looks ahead for ever");
   RelativeErrors errors;
   if (value.contains("position_error"))
     errors.position = read_set(value["position_error"], "position_error", " (metres)");

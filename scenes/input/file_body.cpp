@@ -139,10 +139,12 @@ Placed read_union(const Json& value, const std::string& path, const Path& folder
     // fit.json has what it knows of a piece around the body.
     const bool around = list[i].contains("body") && list[i]["body"].is_object();
     const Json piece = body_fields(around ? list[i]["body"] : list[i], at(field, i), folder);
-    if (is_pieces_body(piece))
-      hulls.push_back(*read_hull_agent(piece, at(field, i), folder).hull());
-    else
+    if (is_pieces_body(piece)) {
+      const SceneBody body = read_hull_agent(piece, at(field, i), folder);
+      hulls.push_back(within(at(field, i), [&] { return in_world(*body.hull(), body.placed.pose); }));
+    } else {
       quadrics.push_back(read_spatial_body(piece, at(field, i)));
+    }
     if (!hulls.empty() && !quadrics.empty())
       throw InputError(at(field, i), quoted(piece), "like the pieces before it: hulls, or none");
   }

@@ -14,6 +14,10 @@ namespace {
 
 /// As written: not quite orthonormal yet.
 Eigen::Matrix3d read_turn(const Json& value, const std::string& path) {
+  if (value.is_array() && value.size() == 4 && value[0].is_array())
+    throw InputError(path, quoted(value),
+                     "a quaternion [w, x, y, z] or a 3x3 matrix (of a 4x4 pose the upper left one; its last "
+                     "column is the center)");
   if (value.is_array() && value.size() == 4) return rotation_3d(read_vector<4>(value, path, ""));
   if (value.is_array() && value.size() == 3) return read_matrix<3>(value, path, "");
   throw InputError(path, quoted(value), "a quaternion [w, x, y, z] or a 3x3 matrix");

@@ -175,11 +175,8 @@ std::optional<Json> numbers_of(const Placed& placed, const fs::path& name, std::
         fields[assembly->kind() == PieceKind::ball ? "cloud" : "mesh"] = name.string();
         if (assembly->kind() == PieceKind::ball) fields["radius"] = assembly->radius();
     }
-  } else if (placed.pose.position.isZero(0) && placed.pose.rotation.isIdentity(0)) {
-    fields["points"] = points_json(body.hull()->points());
   } else {
-    // Reading takes the points of an agent into the world, rounded; a union of one keeps its pose.
-    fields["pieces"] = Json::array({Json{{"points", points_json(body.hull()->points())}}});
+    fields["points"] = points_json(body.hull()->points());
   }
   add_pose(fields, placed.pose);
   return fields;

@@ -2,6 +2,7 @@
 #include "scenarios/read_shape.h"
 
 #include "input/assembly_body.h"
+#include "input/fields.h"
 #include "input/file_body.h"
 #include "input/planar_body.h"
 #include "input/spatial_body.h"
@@ -89,7 +90,8 @@ simulation::RigidShape read_quadric(const Json& value, const std::string& path) 
 /// The convex hull of points as they stand in the body's frame.
 simulation::RigidShape read_hull(const Json& value, const std::string& path,
                                  const std::filesystem::path& folder) {
-  return {*input::read_hull_agent(value, path, folder).hull()};
+  const scenes::SceneBody body = input::read_hull_agent(value, path, folder);
+  return {input::within(path, [&] { return in_world(*body.hull(), body.placed.pose); })};
 }
 
 /// A mesh, cloud or map as it stands in the body's frame; the hull of a file's points.

@@ -205,16 +205,13 @@ QUERIES = [
     ("a box of errors with a negative side", case(position_error={"box": [1, 1, -1]})),
     ("a ball of errors with a rotation", case(position_error={"ball": 1, "rotation": [1, 0, 0, 0]})),
     ("a horizon of zero", case(position_error={"ball": 1}, horizon=0)),
-    ("a horizon that is text", case(horizon="for ever")),
+    ("a horizon that is text", case(position_error={"ball": 1}, horizon="for ever")),
+    ("a horizon without an error", case(horizon=5)),
     ("errors in the plane", {**planar(semi_axes=[3, 2]), "position_error": {"ball": 1}}),
 ]
 
 SCENE = "agent: {center: [0, 0, 0], semi_axes: [1, 2, 3]}\nobstacle: {center: [10, 0, 0], semi_axes: [1, 1, 1]}\n"
 DENTED_SCENE = SCENE.replace("[1, 1, 1]}", "[1, 1, 1], hyperboloids: [{sheets: 2, semi_axes: [0.5, 1, 1]}]}")
-# A ball beside a waist, within the rims: the cone reaches more than 90 degrees from the line of centres.
-MOUTH_SCENE = ("agent: {center: [2.2, 0, 0], semi_axes: [0.5, 0.5, 0.5]}\n"
-               "obstacle: {center: [0, 0, 0], semi_axes: [7, 7, 9], hyperboloids: [{sheets: 1, semi_axes: [1.5, 1, 1], "
-               "rotation: [[0, 0, -1], [0, 1, 0], [1, 0, 0]]}]}\n")
 PLANAR_SCENE = "agent: {center: [0, 0], semi_axes: [1, 2]}\nobstacle: {center: [9, 0], semi_axes: [1, 1]}\n"
 PIECES_SCENE = ("agent: {center: [0, 0, 0], semi_axes: [1, 2, 3]}\n"
                 "obstacle: {points: [[9, 0, 0], [9, 1, 0], [9, 0, 1], [10, 0, 0]]}\n")
@@ -251,7 +248,7 @@ COMMANDS = [
     ("samples with a tolerance", ["cone", "FILE", "--samples", "9", "--tolerance", "0.1"], SCENE),
     ("samples of a combined quadric", ["cone", "FILE", "--samples", "9"], DENTED_SCENE),
     ("no tolerance", ["cone", "FILE", "--tolerance", "0"], DENTED_SCENE),
-    ("a picture of a cone without a section", ["cone", "FILE", "--picture", "here"], MOUTH_SCENE),
+    ("a tolerance below rounding", ["cone", "FILE", "--tolerance", "1e-12"], DENTED_SCENE),
     ("slices of a planar scene", ["cone", "FILE", "--method", "slice"], PLANAR_SCENE),
     ("a tolerance for a planar scene", ["cone", "FILE", "--tolerance", "0.1"], PLANAR_SCENE),
     ("a map of resolution zero", ["cone", "FILE", "--map", "0"], SCENE),
@@ -265,7 +262,13 @@ COMMANDS = [
     ("two half-planes", ["cone", "FILE", "--planes", "2"], PIECES_SCENE),
     ("no tolerance of half-planes", ["cone", "FILE", "--tolerance", "0"], PIECES_SCENE),
     ("slices of a hull", ["cone", "FILE", "--method", "slice"], PIECES_SCENE),
-    ("a picture of bodies that overlap", ["cone", "FILE", "--picture", "here"], PIECES_SCENE.replace("[9, 0, 0]", "[0, 0, 0]")),
+    ("a polygon in the plane", ["cone", "FILE"],
+     "agent: {center: [0, 0], semi_axes: [1, 2]}\nobstacle: {points: [[0, 0], [1, 0], [1, 1]], center: [9, 0]}\n"),
+    ("a planar agent before pieces", ["cone", "FILE"],
+     "agent: {center: [0, 0], semi_axes: [1, 2]}\nobstacle: {points: [[0, 0, 0], [1, 0, 0], [1, 1, 0]]}\n"),
+    ("a cylinder", ["cone", "FILE"], SCENE.replace("semi_axes: [1, 1, 1]", "cylinder: {radius: 1, height: 3}")),
+    ("a pose as a rotation", ["cone", "FILE"], SCENE.replace(
+        "[1, 1, 1]", "[1, 1, 1], rotation: [[1, 0, 0, 9], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]")),
     ("a scan without lidars", ["scan", "FILE"], PIECES_SCENE),
     ("a scan with lidars that are no list", ["scan", "FILE"], PIECES_SCENE + "lidars: 2\n"),
     ("a lidar without beams", ["scan", "FILE"], PIECES_SCENE + "lidars: [{position: [0, 0, 1]}]\n"),

@@ -87,7 +87,8 @@ class Combined(unittest.TestCase):
     def test_rung(self):
         case = engagement(ball([0, 0, 0], 0.25), self.body([8, 0, 0], [2, 3, 3], self.DENT), [2, 0, 0])
         answer = json.loads(run("query", "--rung", "-", input=json.dumps(case) + "\n").stdout)
-        self.assertEqual(list(answer), ["id", "verdict", "rung", "clearance", "time_to_contact", "time_enclosure"])
+        self.assertEqual(list(answer), ["id", "verdict", "rung", "clearance", "nearest_time", "time_to_contact",
+                                        "time_enclosure"])
         self.assertEqual(answer["rung"], "certified")
 
     def test_cone_from_within_the_mouth(self):

@@ -142,6 +142,25 @@ class Cone(unittest.TestCase):
         self.assertEqual((touching["relation"], touching["solid_angle"]), ("touching", 2 * math.pi))
         overlapping = self.cone(self.SPHERES.replace("5, 0, 0", "2, 0, 0"))
         self.assertEqual((overlapping["relation"], overlapping["solid_angle"]), ("overlapping", 4 * math.pi))
+        self.assertEqual(overlapping["answer"]["verdict"], "overlapping")
+
+    def test_no_picture_of_a_cone_that_cannot_be_drawn(self):
+        mesh = "agent: {center: [0.2, 0.2, 0.2], semi_axes: [1, 1, 1]}\nobstacle: {points: %s}\n" % (
+            [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+        # A ball beside a waist, within the rims: the cone reaches more than 90 degrees from the line of centres.
+        mouth = ("agent: {center: [2.2, 0, 0], semi_axes: [0.5, 0.5, 0.5]}\n"
+                 "obstacle: {center: [0, 0, 0], semi_axes: [7, 7, 9], hyperboloids: [{sheets: 1, semi_axes: [1.5, 1, 1], "
+                 "rotation: [[0, 0, -1], [0, 1, 0], [1, 0, 0]]}]}\n")
+        overlapping = self.SPHERES.replace("5, 0, 0", "2, 0, 0")
+        for scene, verdict, why in ((overlapping, "overlapping", "not apart"), (mesh, "overlapping", "not apart"),
+                                    (mouth, "out", "90 degrees")):
+            with tempfile.TemporaryDirectory() as folder:
+                result = run("cone", "-", "--out", os.path.join(folder, "out"), input=scene)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertIn("verdict             " + verdict, result.stdout)
+                self.assertIn("picture             none: ", result.stdout)
+                self.assertIn(why, result.stdout)
+                self.assertFalse(os.path.exists(os.path.join(folder, "out", "engagement.json")))
 
     def test_json_is_a_scene(self):
         c = self.cone(json.dumps({"agent": ball([0, 0, 0], 1), "obstacle": ball([5, 0, 0], 2)}))

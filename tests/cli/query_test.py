@@ -40,7 +40,7 @@ class Query(unittest.TestCase):
         self.assertIsNone(by_id["behind"]["time_to_contact"])
         self.assertAlmostEqual(by_id["across"]["clearance"], 2, 12)
         self.assertEqual(by_id["touching"]["time_to_contact"], 0)
-        self.assertEqual(list(answers[0]), ["id", "verdict", "clearance", "time_to_contact"])
+        self.assertEqual(list(answers[0]), ["id", "verdict", "clearance", "nearest_time", "time_to_contact"])
 
     def test_rung_says_what_decided(self):
         a, b = ball([0, 0, 0], 1), ball([5, 0, 0], 2)
@@ -76,7 +76,10 @@ class Query(unittest.TestCase):
         # 3 m aside in about 2 s; and not before.
         self.assertEqual(verdict(velocity_error={"ball": 2})["robust"], "depends")
         self.assertEqual(verdict(velocity_error={"ball": 2}, horizon=1)["robust"], "out")
-        self.assertEqual(verdict(horizon=1)["robust"], "out")
+        self.assertEqual(verdict(position_error={"box": [0, 0, 0]}, horizon=1)["robust"], "out")
+        refused = query({**case, "horizon": 1})
+        self.assertEqual(refused[0].returncode, 2)
+        self.assertIn("horizon: got 1", refused[1][0]["error"])
         head_on = engagement(a, ball([20, 0, 0], 2), [10, 0, 0])
         answer = query({**head_on, "position_error": {"ball": 1}, "velocity_error": {"ball": 0.5}})[1][0]
         self.assertEqual((answer["robust"], answer["witness"]), ("in", None))
@@ -86,6 +89,38 @@ class Query(unittest.TestCase):
         # A graze, exactly: nothing is off, and the plane along the motion touches.
         graze = {**engagement(a, ball([20, 3, 0], 2), [10, 0, 0]), "horizon": 9}
         self.assertEqual((query(graze)[1][0]["verdict"], query(graze)[1][0]["robust"]), ("on", "in"))
+
+    def test_when_they_are_nearest(self):
+        # Two ships in the plane; of discs far apart the time is that of their centres to the size of both.
+        a = {"center": [0, 0], "semi_axes": [70, 11]}
+        b = {"center": [5200, 900], "semi_axes": [120, 17], "rotation": 3.0}
+        apart = engagement(a, b, [7, 0], [-5.5, -0.25])
+        box = {"points": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], "center": [10, 5, 0]}
+        _, answers = query(apart, engagement(ball([0, 0, 0], 1), ball([10, 5, 0], 2), [2, 0, 0]),
+                           engagement(ball([0, 0, 0], 1), box, [2, 0, 0]),
+                           engagement(ball([0, 0, 0], 1), ball([10, 5, 0], 2), [-2, 0, 0]),
+                           engagement(ball([0, 0, 0], 1), ball([10, 0, 0], 2), [2, 0, 0]))
+        c, w = (5200, 900), (12.5, 0.25)
+        self.assertEqual(answers[0]["verdict"], "out")
+        self.assertAlmostEqual(answers[0]["nearest_time"], (c[0] * w[0] + c[1] * w[1]) / (w[0] ** 2 + w[1] ** 2),
+                               delta=190 / math.hypot(*w))
+        self.assertAlmostEqual(answers[1]["nearest_time"], 5, 9)
+        # Beside the edge from (10, 5, 0) to (11, 5, 0): as near anywhere along it.
+        self.assertAlmostEqual(answers[2]["clearance"], 4, 9)
+        self.assertTrue(5 - 1e-9 <= answers[2]["nearest_time"] <= 5.5 + 1e-9)
+        self.assertEqual(answers[3]["nearest_time"], 0)
+        self.assertEqual((answers[4]["verdict"], answers[4]["nearest_time"]), ("in", None))
+
+    def test_places_are_not_rounded(self):
+        # The agent's corner passes 2e-16 beside one of the obstacle's; 8 + 3 is exact, and 8 - 1.0000000000000002 not.
+        corner = {"points": [[0, -1.0000000000000002, -3]]}
+        corners = [[0, 3, 2], [-3, 2, 0], [1, 0, -1], [3, 2, 2]]
+        placed = {"points": corners, "center": [8, 8, 8]}
+        moved = {"points": [[x + 8 for x in p] for p in corners]}
+        v, still = [8, 12, 13], [0, 0, 0]
+        _, answers = query(engagement(corner, placed, v), engagement(placed, corner, still, v),
+                           engagement(corner, moved, v))
+        self.assertEqual([x["verdict"] for x in answers], ["out"] * 3)
 
     def test_velocities_are_subtracted_without_rounding(self):
         a, b = ball([0, 0, 0], 1), ball([5, 0, 0], 2)

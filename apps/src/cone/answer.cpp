@@ -2,6 +2,8 @@
 #include "cone/answer.h"
 
 #include <vericone/cones/ellipsoids/clearance.h>
+#include <vericone/cones/pair.h>
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -12,6 +14,18 @@ namespace {
 
 Json interval(double low, double high) { return {number_or_null(low), number_or_null(high)}; }
 
+/// Of two that miss, as a pair's miss() has it; rounded.
+double nearest_time(const Ellipsoid& agent, const Ellipsoid& obstacle, const Eigen::Vector3d& v_a,
+                    const Eigen::Vector3d& v_b) {
+  if (v_a == v_b) return 0;
+  const Eigen::Vector3d w = v_a - v_b;
+  const double speed = w.cwiseAbs().maxCoeff();
+  // Where squares of speeds leave the doubles, miss() scales them.
+  if (!(speed > 1e-100 && speed < 1e100))
+    return Pair(Placed(agent), Placed(obstacle)).miss(v_a, v_b).time;
+  return std::max(clearance(agent, obstacle, w).time, 0.0);
+}
+
 /// Two ellipsoids: exact verdicts, rounded lengths and times. What a pair's miss() and contact() say of them,
 /// without the bounds, points and normals that nobody asked for.
 Json answer_of_ellipsoids(const Ellipsoid& agent, const Ellipsoid& obstacle, const Eigen::Vector3d& v_a,
@@ -19,10 +33,13 @@ Json answer_of_ellipsoids(const Ellipsoid& agent, const Ellipsoid& obstacle, con
   const ConeOracle oracle(agent, obstacle);
   Rung rung = oracle.relation_rung();  // of bodies that are not disjoint
   Json result = Json::object();
-  result.get_ref<Json::object_t&>().reserve(7);
-  result["verdict"] = to_string(oracle.verdict(v_a, v_b, &rung));
+  result.get_ref<Json::object_t&>().reserve(8);
+  const Verdict verdict = oracle.verdict(v_a, v_b, &rung);
+  result["verdict"] = to_string(verdict);
   if (with_rung) result["rung"] = to_string(rung);
   result["clearance"] = number_or_null(clearance_ahead(oracle, v_a, v_b));
+  result["nearest_time"] =
+      verdict == Verdict::out ? number_or_null(nearest_time(agent, obstacle, v_a, v_b)) : Json(nullptr);
   result["time_to_contact"] = number_or_null(time_to_contact(oracle, v_a, v_b));
   return result;
 }
@@ -37,7 +54,7 @@ void add_enclosed_time(Json& result, const Pair& pair, Verdict verdict, const Ei
     time = contact->time;
     enclosure = {contact->earliest, contact->latest};
   }
-  result["clearance"] = nullptr;
+  result["clearance"] = result["nearest_time"] = nullptr;
   result["time_to_contact"] = time;
   result["time_enclosure"] = enclosure;
 }
@@ -45,13 +62,14 @@ void add_enclosed_time(Json& result, const Pair& pair, Verdict verdict, const Ei
 /// Bodies of pieces: enclosed lengths and times, and where they meet.
 void add_enclosures(Json& result, const Pair& pair, Verdict verdict, const Eigen::Vector3d& v_a,
                     const Eigen::Vector3d& v_b) {
-  Json clearance = nullptr, around = nullptr, time = nullptr, enclosure = nullptr, point = nullptr,
-       normal = nullptr;
+  Json clearance = nullptr, around = nullptr, nearest = nullptr, time = nullptr, enclosure = nullptr,
+       point = nullptr, normal = nullptr;
   if (verdict == Verdict::on || verdict == Verdict::touching) clearance = 0.0, around = interval(0, 0);
   if (verdict == Verdict::out) {
     const Miss miss = pair.miss(v_a, v_b);
     clearance = miss.distance;
     around = interval(miss.least, miss.most);
+    nearest = number_or_null(miss.time);
   } else if (verdict != Verdict::undecided) {
     const Contact contact = *pair.contact(v_a, v_b);
     enclosure = interval(contact.earliest, contact.latest);
@@ -62,6 +80,7 @@ void add_enclosures(Json& result, const Pair& pair, Verdict verdict, const Eigen
   }
   result["clearance"] = clearance;
   result["clearance_enclosure"] = around;
+  result["nearest_time"] = nearest;
   result["time_to_contact"] = time;
   result["time_enclosure"] = enclosure;
   result["contact_point"] = point;

@@ -16,6 +16,7 @@
 #include <sstream>
 
 #include "command/cases.h"
+#include "cone/answer.h"
 #include "cone/course.h"
 #include "cone/degrees.h"
 #include "cone/planar_cone.h"
@@ -75,7 +76,9 @@ void run_planar_cone(const ConeCommand& options, const scenes::Scene& scene, std
   if (folder && !std::isfinite(cone.found.sector.theta_b))
     throw InputError("--out", options.picture_folder, "asked for a scene whose squared lengths are doubles");
   if (options.json) {
-    out << to_json(cone).dump(1) << '\n';
+    Json result = to_json(cone);
+    result["answer"] = answer(scene, false);
+    out << result.dump(1) << '\n';
   } else {
     print_text(cone, scene, out);
   }
@@ -133,15 +136,13 @@ namespace {
 
 struct ConePicture {
   Json data;
-  const char* script;
+  const char* script = nullptr;
+  const char* none = nullptr;  // why there is none
 };
 
-/// What --out asks for, refused before anything is printed or written.
+/// What --out asks for.
 ConePicture cone_picture(const ConeCommand& options, const scenes::Scene& scene, const QuadricCone& cone) {
-  const auto refuse = [&](const char* requirement) {
-    throw InputError("--out", options.picture_folder, requirement);
-  };
-  if (relation_of(cone) != Relation::disjoint) refuse("asked for disjoint bodies only");
+  if (const char* none = why_no_picture(relation_of(cone))) return {nullptr, nullptr, none};
   if (ellipsoids(scene))
     return {engagement_picture(scene, options.planes.value_or(kDefaultPlanes),
                                options.samples.value_or(kDefaultSamples)),
@@ -149,11 +150,21 @@ ConePicture cone_picture(const ConeCommand& options, const scenes::Scene& scene,
   ConePicture picture{scene_figure(scene, options.tolerance.value_or(kDefaultTolerance),
                                    options.planes.value_or(kDefaultPlanes)),
                       "combined_engagement.py"};
-  if (picture.data.is_null()) refuse("asked for a cone within 90 degrees of the line of centres");
+  if (picture.data.is_null()) picture.none = "the cone reaches 90 degrees from the line of centres";
   return picture;
 }
 
 }  // namespace
+
+const char* why_no_picture(const std::optional<Relation>& relation) {
+  if (!relation) return "whether the bodies are apart is not decided";
+  if (*relation == Relation::disjoint) return nullptr;
+  return "the bodies are not apart, so that there is no cone to draw";
+}
+
+void print_no_picture(const char* why, std::ostream& out) {
+  out << "picture             none: " << why << '\n';
+}
 
 void publish_cone(const ConeCommand& options, StagedFolder& folder, const Json& map,
                   const std::string& script, const std::string& picture, std::ostream& out) {
@@ -197,14 +208,16 @@ void cone_of_scene(const ConeCommand& options, const scenes::Scene& scene, std::
     map = map_answer(scene, *options.map, options.tolerance.value_or(kDefaultTolerance), options.scene);
   if (options.json) {
     Json result = to_json(cone, scene);
+    result["answer"] = answer(scene, false);
     if (options.map) result["map"] = map.summary;
     out << result.dump(1) << '\n';
   } else {
     print_text(cone, scene, out);
     if (options.map) print_map(map, out);
     print_time(cone, out);
+    if (picture.none) print_no_picture(picture.none, out);
   }
-  if (!folder) return;
+  if (!folder || picture.none) return;
   write_whole(folder->path() / "engagement.json", picture.data.dump(1) + "\n");
   write_whole(folder->path() / "shapes.json", Json{{"figures", {"engagement"}}}.dump(1) + "\n");
   publish_cone(options, *folder, map.picture, picture.script, "engagement", out);

@@ -37,6 +37,10 @@ struct ConeCommand {
 /// a line was bad.
 int run_cone(const ConeCommand& options, std::ostream& out);
 
+/// Why there is no picture of a cone of bodies in that relation; null where there is one.
+const char* why_no_picture(const std::optional<Relation>& relation);
+void print_no_picture(const char* why, std::ostream& out);
+
 /// The end of a picture: the map's data, both drawn by their scripts, all of it published and told.
 /// `picture`: the name of what `script` draws.
 void publish_cone(const ConeCommand& options, StagedFolder& folder, const Json& map,

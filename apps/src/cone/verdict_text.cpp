@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cone/verdict_text.h"
 
+#include <vericone/cones/combined/nearest_points.h>
 #include <vericone/cones/pair.h>
 #include <vericone/scenes/words.h>
 #include <cmath>
+#include <limits>
 #include <ostream>
 
 #include "cone/answer.h"
@@ -27,6 +29,17 @@ void print_contact(const Contact& contact, bool planar, std::ostream& out) {
   out << '\n';
 }
 
+/// When they are nearest, seconds; nothing is proved of it.
+double nearest_time(const Pair& pair, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) {
+  const auto *agent = pair.agent().body.quadric(), *obstacle = pair.obstacle().body.quadric();
+  if (!agent || !obstacle || pair.guarantee().exact || v_a == v_b) return pair.miss(v_a, v_b).time;
+  // Pair brackets the distance of these by ellipsoids, which may be nearest at another time.
+  constexpr double kEver = std::numeric_limits<double>::infinity();
+  return nearest_points<3>(in_world(*agent, pair.agent().pose), in_world(*obstacle, pair.obstacle().pose),
+                           v_a - v_b, 0, kEver)
+      .time;
+}
+
 }  // namespace
 
 void print_verdict(const scenes::Scene& scene, std::ostream& out) {
@@ -38,9 +51,13 @@ void print_verdict(const scenes::Scene& scene, std::ostream& out) {
   if (verdict == Verdict::in || verdict == Verdict::on)
     print_contact(*pair.contact(v_a, v_b), scene.planar.has_value(), out);
   if (verdict == Verdict::out)
-    if (const Miss miss = pair.miss(v_a, v_b); std::isfinite(miss.least))
-      out << (miss.time > 0 ? "passes at           " : "nearest now         ")
-          << between_text(miss.least, miss.most) << " m\n";
+    if (const Miss miss = pair.miss(v_a, v_b); std::isfinite(miss.least)) {
+      const double time = nearest_time(pair, v_a, v_b);
+      out << (time > 0 ? "passes at           " : "nearest now         ")
+          << between_text(miss.least, miss.most) << " m";
+      if (time > 0) out << " after " << number_text(time) << " s";
+      out << '\n';
+    }
   for (const scenes::SceneBody* body : {&scene.agent, &scene.obstacle})
     if (body->reading)
       for (const std::string& note : scenes::reading_words(*body->reading))

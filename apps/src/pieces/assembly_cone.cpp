@@ -36,7 +36,8 @@ AssemblyOracle oracle_of(const scenes::Scene& scene) {
   const Assembly& pieces = *scene.obstacle.pieces();
   const Pose& pose = scene.obstacle.placed.pose;
   if (const Ellipsoid* ellipsoid = scene.agent.ellipsoid()) return {*ellipsoid, pieces, pose};
-  return {*scene.agent.hull(), pieces, pose};
+  const Pose& own = scene.agent.placed.pose;
+  return {in_world(*scene.agent.hull(), {Eigen::Vector3d::Zero(), own.rotation}), pieces, pose, own.position};
 }
 
 }  // namespace
@@ -50,7 +51,8 @@ Box bounds_of_agent(const scenes::Scene& scene) {
     const Eigen::Vector3d half = ellipsoid->factor().rowwise().norm();
     return {ellipsoid->center() - half, ellipsoid->center() + half};
   }
-  const auto& points = scene.agent.hull()->points();
+  const HullBody hull = in_world(*scene.agent.hull(), scene.agent.placed.pose);
+  const auto& points = hull.points();
   Box bounds{points.front(), points.front()};
   for (const Eigen::Vector3d& x : points) bounds.include({x, x});
   return bounds;

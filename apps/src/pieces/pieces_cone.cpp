@@ -7,6 +7,7 @@
 #include <optional>
 #include <ostream>
 
+#include "cone/answer.h"
 #include "cone/verdict_text.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
@@ -91,7 +92,9 @@ void run_pieces_cone(const ConeCommand& options, const scenes::Scene& scene, std
       throw InputError("--method", "slice", "left out where a map or a picture is asked for");
     const MeshSlices slices = mesh_slices(scene, options.planes.value_or(kDefaultPlanes));
     if (options.json) {
-      out << to_json(slices, scene).dump(1) << '\n';
+      Json result = to_json(slices, scene);
+      result["answer"] = answer(scene, false);
+      out << result.dump(1) << '\n';
     } else {
       print_text(slices, scene, out);
     }
@@ -101,12 +104,12 @@ void run_pieces_cone(const ConeCommand& options, const scenes::Scene& scene, std
   if (!options.picture_folder.empty()) folder.emplace(options.picture_folder, "--out");
   const AssemblyCone cone = assembly_cone(scene, options.planes.value_or(kDefaultHalfPlanes),
                                           options.tolerance.value_or(kDefaultAngle));
-  if (folder && cone.relation != Relation::disjoint)
-    throw InputError("--out", options.picture_folder, "asked for disjoint bodies only");
+  const char* no_picture = folder ? why_no_picture(cone.relation) : nullptr;
   MapAnswer map;
   if (options.map) map = map_answer(cone.oracle, *options.map, cone.frame.axis, scene.obstacle.name);
   if (options.json) {
     Json result = to_json(cone, scene);
+    result["answer"] = answer(scene, false);
     result["map"] = options.map ? map.summary : Json(nullptr);
     out << result.dump(1) << '\n';
   } else {
@@ -115,8 +118,9 @@ void run_pieces_cone(const ConeCommand& options, const scenes::Scene& scene, std
     if (options.map) print_map(map, out);
     out << "time                " << number_text(cone.seconds, 2) << " s, after "
         << number_text(cone.seconds_prepared, 2) << " s to prepare\n";
+    if (no_picture) print_no_picture(no_picture, out);
   }
-  if (!folder) return;
+  if (!folder || no_picture) return;
   const std::string script = write_pieces_picture(cone, scene, folder->path(), threads_for(options.threads));
   publish_cone(options, *folder, map.picture, script, "cone", out);
 }

@@ -29,7 +29,8 @@ Json agent_json(const scenes::Scene& scene) {
     return {{"center", vector_json(ellipsoid->center())}, {"factor", factor}};
   }
   Json points = Json::array();
-  for (const Eigen::Vector3d& x : scene.agent.hull()->points()) points.push_back(vector_json(x));
+  const HullBody hull = in_world(*scene.agent.hull(), scene.agent.placed.pose);
+  for (const Eigen::Vector3d& x : hull.points()) points.push_back(vector_json(x));
   return {{"center", vector_json(agent_center(scene))}, {"points", points}};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "assembly/frame.h"
 
+#include <vericone/geometry/double_double.h>
 #include <vericone/geometry/error.h>
 #include <Eigen/LU>
 #include <algorithm>
@@ -16,7 +17,7 @@ constexpr std::size_t kFew = 48;
 
 }  // namespace
 
-Frame::Frame(const Ellipsoid& agent) : origin_(agent.center()) {
+Frame::Frame(const Ellipsoid& agent, const Place& place) {
   // Through numbers of ordinary size, which leave room for squares and determinants.
   const double unit = std::exp2(-std::ilogb(agent.factor().cwiseAbs().maxCoeff()));
   const Eigen::Matrix3d factor = agent.factor() * unit, shape = (agent.shape() * unit) * unit;
@@ -48,11 +49,29 @@ Frame::Frame(const Ellipsoid& agent) : origin_(agent.center()) {
   inner_ = std::sqrt(1 - off) * (1 - 4 * kUlp);
   for (int k = 0; k < 3; ++k)
     reach_(k) = std::sqrt(agent.shape()(k, k)) * (1 + 8 * kUlp) + off * std::sqrt(agent.shape()(k, k));
+  set_origin(agent.center(), place);
 }
 
-Frame Frame::in_space(const Ellipsoid& agent) {
+void Frame::set_origin(const Eigen::Vector3d& x, const Place& place) {
+  double rest = 0, last = 0;
+  for (int k = 0; k < 3; ++k) {
+    // x + agent - obstacle as three parts, each about a rounding of the one before.
+    const DoubleDouble s = DoubleDouble::two_sum(x(k), place.agent(k)),
+                       t = DoubleDouble::two_sum(s.hi, -place.obstacle(k)),
+                       low = DoubleDouble::two_sum(t.lo, s.lo), high = DoubleDouble::two_sum(t.hi, low.hi),
+                       tail = DoubleDouble::two_sum(high.lo, low.lo);
+    origin_(k) = high.hi;
+    rest_(k) = tail.hi;
+    rest += std::abs(tail.hi) + std::abs(tail.lo);
+    last += std::abs(tail.lo);
+  }
+  beyond_range_ = norm_ * last * (1 + 8 * kUlp);
+  off_origin_ = norm_ * rest * (1 + 8 * kUlp);
+}
+
+Frame Frame::in_space(const Ellipsoid& agent, const Place& place) {
   const Frame round(agent);
-  Frame frame(HullBody({agent.center()}));
+  Frame frame(HullBody({agent.center()}), place);
   frame.points_.clear();
   frame.factor_ = agent.factor();
   frame.reach_ = round.reach_;
@@ -74,7 +93,7 @@ void Frame::check_range(double largest) {
   const double size = largest + ball_;
   const bool within =
       size > kLeast && size < kMost && norm_ > kLeast && norm_ < kMost && norm_ * size < kMost;
-  beyond_range_ = within ? 0 : std::numeric_limits<double>::infinity();
+  if (!within) beyond_range_ = std::numeric_limits<double>::infinity();
 }
 
 Eigen::Vector3d Frame::support(const Eigen::Vector3d& n) const {
@@ -130,16 +149,16 @@ Eigen::Vector3d Frame::farthest_of_many(const Eigen::Vector3d& n) const {
   return points_[best];
 }
 
-Frame::Frame(const HullBody& agent) {
+Frame::Frame(const HullBody& agent, const Place& place) {
   Eigen::Vector3d low = agent.points().front(), high = low;
   for (const Eigen::Vector3d& a : agent.points()) {
     low = low.cwiseMin(a);
     high = high.cwiseMax(a);
   }
-  origin_ = 0.5 * low + 0.5 * high;
+  const Eigen::Vector3d middle = 0.5 * low + 0.5 * high;
   points_.reserve(agent.size());
   for (const Eigen::Vector3d& a : agent.points()) {
-    points_.push_back(a - origin_);
+    points_.push_back(a - middle);
     reach_ = reach_.cwiseMax(points_.back().cwiseAbs());
     ball_ = std::max(ball_, points_.back().norm());
   }
@@ -156,6 +175,7 @@ Frame::Frame(const HullBody& agent) {
     points_ = std::move(by_slot);
   }
   norm_ = std::sqrt(3.0) * (1 + 4 * kUlp);
+  set_origin(middle, place);
 }
 
 Directions::Directions(const Frame& frame, std::initializer_list<Eigen::Vector3d> rays_in_space) {

@@ -17,6 +17,12 @@ namespace vericone::assembly {
 /// One rounding of a double.
 inline constexpr double kUlp = 0x1p-53;
 
+/// Where an agent's own origin stands beside an obstacle's: x_obstacle = (x_agent + agent) - obstacle,
+/// metres. The sum is nowhere rounded.
+struct Place {
+  Eigen::Vector3d agent = Eigen::Vector3d::Zero(), obstacle = Eigen::Vector3d::Zero();
+};
+
 /// y = G (x - p). G is any matrix as stored, so nothing depends on how well it inverts the agent's factor:
 /// what the agent becomes, E, lies between two balls whose radii are proved. A hull keeps G = 1 and becomes
 /// the points a_i - p; so does an ellipsoid where lengths in space are asked for.
@@ -24,12 +30,13 @@ inline constexpr double kUlp = 0x1p-53;
 /// Computed coordinates y of a point x differ from the exact ones by at most error(|x - p|).
 class Frame {
  public:
-  /// Throws InputError naming "agent".
-  explicit Frame(const Ellipsoid& agent);
-  explicit Frame(const HullBody& agent);
+  /// `place`: where the agent's own origin is in the coordinates of x. Throws InputError naming "agent".
+  explicit Frame(const Ellipsoid& agent, const Place& place = {});
+  explicit Frame(const HullBody& agent, const Place& place = {});
   /// With G = 1.
-  static Frame in_space(const Ellipsoid& agent);
+  static Frame in_space(const Ellipsoid& agent, const Place& place = {});
 
+  /// p; rounded, see off_origin().
   const Eigen::Vector3d& origin() const { return origin_; }
   const Eigen::Matrix3d& to_frame() const { return to_frame_; }
 
@@ -62,6 +69,9 @@ class Frame {
   /// squares of lengths leave the range of doubles: then doubles prove nothing, and exact predicates decide.
   double error(double size) const { return 16 * kUlp * norm_ * size + beyond_range_; }
   double beyond_range() const { return beyond_range_; }
+  /// At most how far G origin() is from G p, and all of beyond_range(): for those who take x - origin() where
+  /// others take relative().
+  double off_origin() const { return off_origin_ + beyond_range_; }
 
   /// To be told how large what it is used for is: |x - p|, at most.
   void check_range(double largest);
@@ -72,15 +82,19 @@ class Frame {
   /// Back from the frame, for what is only reported.
   Eigen::Vector3d to_space(const Eigen::Vector3d& y) const { return origin_ + from_frame_ * y; }
 
-  Eigen::Vector3d relative(const Eigen::Vector3d& x) const { return x - origin_; }
+  Eigen::Vector3d relative(const Eigen::Vector3d& x) const { return (x - origin_) - rest_; }
 
  private:
+  /// p = x + place, for a point x of the agent's own frame.
+  void set_origin(const Eigen::Vector3d& x, const Place& place);
   Eigen::Vector3d farthest_of_many(const Eigen::Vector3d& n) const;
 
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero(), reach_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d rest_ = Eigen::Vector3d::Zero();  // of p beside origin_
   Eigen::Matrix3d to_frame_ = Eigen::Matrix3d::Identity(), from_frame_ = Eigen::Matrix3d::Identity();
   bool round_ = false, is_space_ = true;
-  double beyond_range_ = 0;  // or infinity
+  double beyond_range_ = 0;  // what origin_ and rest_ are off by, seen in the frame; or infinity
+  double off_origin_ = 0;    // what origin_ alone is off by, seen in the frame
   double norm_ = 1;          // of G, Frobenius, rounded up
   double inner_ = 0, outer_ = 0, ball_ = 0, support_error_ = 0;
   std::vector<Eigen::Vector3d> points_;  // of a hull, by slot of the hierarchy where there is one

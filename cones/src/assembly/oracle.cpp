@@ -76,12 +76,14 @@ Membership find_membership(const Scene& scene, const Eigen::Vector3d& v_a, const
 
 }  // namespace
 
-AssemblyOracle::AssemblyOracle(const Ellipsoid& agent, const Assembly& obstacle, const Pose& pose)
-    : state_(std::make_unique<State>(agent, obstacle, pose)) {
+AssemblyOracle::AssemblyOracle(const Ellipsoid& agent, const Assembly& obstacle, const Pose& pose,
+                               const Eigen::Vector3d& agent_at)
+    : state_(std::make_unique<State>(agent, agent_at, obstacle, pose)) {
   state_->relation = find_relation(*state_);
 }
-AssemblyOracle::AssemblyOracle(const HullBody& agent, const Assembly& obstacle, const Pose& pose)
-    : state_(std::make_unique<State>(agent, obstacle, pose)) {
+AssemblyOracle::AssemblyOracle(const HullBody& agent, const Assembly& obstacle, const Pose& pose,
+                               const Eigen::Vector3d& agent_at)
+    : state_(std::make_unique<State>(agent, agent_at, obstacle, pose)) {
   state_->relation = find_relation(*state_);
 }
 AssemblyOracle::~AssemblyOracle() = default;

@@ -3,11 +3,17 @@
 
 #include <vericone/cones/hulls/hull_oracle.h>
 
+#include "ellipsoids/apart.h"
+
 namespace vericone::assembly {
 
-Ellipsoid in_obstacle_frame(const Ellipsoid& agent, const Pose& pose) {
-  if (is_upright(pose)) return pose.position.isZero(0) ? agent : agent.translated(-pose.position);
-  const Eigen::Vector3d center = pose.to_body(agent.center());
+Place place_of(const Eigen::Vector3d& at, const Pose& pose) {
+  return is_upright(pose) ? Place{at, pose.position} : Place{};
+}
+
+Ellipsoid in_obstacle_frame(const Ellipsoid& agent, const Eigen::Vector3d& at, const Pose& pose) {
+  if (is_upright(pose)) return agent;
+  const Eigen::Vector3d center = pose.to_body(agent.center() + at);
   const Eigen::Matrix3d turn = pose.rotation.transpose();
   if (!agent.defined_by_factor()) {
     const Eigen::Matrix3d shape = turn * agent.shape() * pose.rotation;
@@ -20,16 +26,10 @@ Ellipsoid in_obstacle_frame(const Ellipsoid& agent, const Pose& pose) {
 
 namespace {
 
-HullBody in_body(const HullBody& agent, const Pose& pose) {
-  const bool turned = !is_upright(pose);
+HullBody in_obstacle_frame(const HullBody& agent, const Eigen::Vector3d& at, const Pose& pose) {
+  if (is_upright(pose)) return agent;
   std::vector<Eigen::Vector3d> points = agent.points();
-  for (Eigen::Vector3d& x : points) {
-    if (turned) {
-      x = pose.to_body(x);
-    } else {
-      x -= pose.position;
-    }
-  }
+  for (Eigen::Vector3d& x : points) x = pose.to_body(x + at);
   return HullBody(std::move(points));
 }
 
@@ -37,9 +37,10 @@ HullBody in_body(const HullBody& agent, const Pose& pose) {
 template <class Ask>
 auto with_oracle(const Scene& scene, std::uint32_t slot, Ask&& ask) {
   const Assembly& body = scene.body();
+  const Place& at = scene.place();
   const auto hull = [&](HullBody piece) {
-    return scene.ellipsoid() != nullptr ? ask(HullOracle(*scene.ellipsoid(), piece))
-                                        : ask(HullOracle(*scene.hull(), piece));
+    return scene.ellipsoid() != nullptr ? ask(HullOracle(*scene.ellipsoid(), piece, at.agent, at.obstacle))
+                                        : ask(HullOracle(*scene.hull(), piece, at.agent, at.obstacle));
   };
   switch (body.kind()) {
     case PieceKind::triangle: {
@@ -58,23 +59,30 @@ auto with_oracle(const Scene& scene, std::uint32_t slot, Ask&& ask) {
   const Eigen::Vector3d& center = body.by_slot().balls[slot];
   if (body.radius() == 0) return hull(HullBody({center}));
   const Ellipsoid ball = Ellipsoid::from_axes(center, Eigen::Vector3d::Constant(body.radius()));
-  return scene.ellipsoid() != nullptr ? ask(ConeOracle(*scene.ellipsoid(), ball))
-                                      : ask(HullOracle(*scene.hull(), ball));
+  if (scene.ellipsoid() == nullptr) return ask(HullOracle(*scene.hull(), ball, at.agent, at.obstacle));
+  const auto pair = apart(*scene.ellipsoid(), at.agent, ball, at.obstacle);
+  return ask(ConeOracle(pair.a, pair.b));
 }
 
 }  // namespace
 
-Scene::Scene(const Ellipsoid& agent, const Assembly& body, const Pose& pose)
+Scene::Scene(const Ellipsoid& agent, const Eigen::Vector3d& at, const Assembly& body, const Pose& pose)
     : body_(body),
       pose_(pose),
       upright_(is_upright(pose)),
-      ellipsoid_(in_obstacle_frame(agent, pose)),
-      frame_(*ellipsoid_) {
+      place_(place_of(at, pose)),
+      ellipsoid_(in_obstacle_frame(agent, at, pose)),
+      frame_(*ellipsoid_, place_) {
   check_range();
 }
 
-Scene::Scene(const HullBody& agent, const Assembly& body, const Pose& pose)
-    : body_(body), pose_(pose), upright_(is_upright(pose)), hull_(in_body(agent, pose)), frame_(*hull_) {
+Scene::Scene(const HullBody& agent, const Eigen::Vector3d& at, const Assembly& body, const Pose& pose)
+    : body_(body),
+      pose_(pose),
+      upright_(is_upright(pose)),
+      place_(place_of(at, pose)),
+      hull_(in_obstacle_frame(agent, at, pose)),
+      frame_(*hull_, place_) {
   check_range();
 }
 

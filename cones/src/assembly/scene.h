@@ -17,18 +17,22 @@ namespace vericone::assembly {
 Core piece_core(const Frame& frame, const Assembly& body, std::uint32_t slot, double radius = 0);
 Box piece_box(const Assembly& body, std::uint32_t slot);
 
-/// A body in the frame of an obstacle that stands in `pose`. Throws InputError naming "pose".
-Ellipsoid in_obstacle_frame(const Ellipsoid& agent, const Pose& pose);
+/// A body whose own origin stands at `at` beside an obstacle in `pose`, along the obstacle's axes: as it is
+/// where the pose does not turn, otherwise in the obstacle's frame, rounded. Throws InputError naming "pose".
+Ellipsoid in_obstacle_frame(const Ellipsoid& agent, const Eigen::Vector3d& at, const Pose& pose);
+/// And where its own origin then stands.
+Place place_of(const Eigen::Vector3d& at, const Pose& pose);
 
-/// An agent in the obstacle's own frame, and the obstacle.
+/// An agent along the obstacle's axes, and the obstacle.
 class Scene {
  public:
-  Scene(const Ellipsoid& agent, const Assembly& body, const Pose& pose);
-  Scene(const HullBody& agent, const Assembly& body, const Pose& pose);
+  Scene(const Ellipsoid& agent, const Eigen::Vector3d& at, const Assembly& body, const Pose& pose);
+  Scene(const HullBody& agent, const Eigen::Vector3d& at, const Assembly& body, const Pose& pose);
 
   const Frame& frame() const { return frame_; }
   const Assembly& body() const { return body_; }
   const Pose& pose() const { return pose_; }
+  const Place& place() const { return place_; }
   /// The pose moves the body only, or not at all.
   bool upright() const { return upright_; }
   std::span<const Hierarchy::Node> nodes() const { return body_.hierarchy().nodes(); }
@@ -69,6 +73,7 @@ class Scene {
   Assembly body_;
   Pose pose_;
   bool upright_ = true;
+  Place place_;
   std::optional<Ellipsoid> ellipsoid_;
   std::optional<HullBody> hull_;
   Frame frame_;
@@ -103,7 +108,7 @@ class Plane {
   /// `least`: of what lies at most `size` from p.
   double above(double least, double size) const {
     const double reach = frame_->norm() * size + frame_->ball() + frame_->outer();
-    return least - extent_ - (relative_slack_ * reach + frame_->beyond_range());
+    return least - extent_ - (relative_slack_ * reach + frame_->off_origin());
   }
 
   const Frame* frame_;
@@ -135,7 +140,7 @@ class BoxTest {
     if (!(above > 0)) return 0;
     const double size = frame_.norm() * (middle.cwiseAbs().sum() + half.sum()) + frame_.ball();
     const double slack =
-        128 * kUlp * size + frame_.beyond_range() + directions_.slant(n / length) * (size + frame_.outer());
+        128 * kUlp * size + frame_.off_origin() + directions_.slant(n / length) * (size + frame_.outer());
     return above / length - slack;
   }
   double distance(const Hierarchy::Node& node) const {

@@ -6,12 +6,12 @@
 namespace vericone {
 
 struct AssemblyOracle::State : assembly::Scene {
-  State(const Ellipsoid& agent, const Assembly& body, const Pose& pose)
-      : Scene(agent, body, pose), space(assembly::Frame::in_space(*ellipsoid())) {
+  State(const Ellipsoid& agent, const Eigen::Vector3d& at, const Assembly& body, const Pose& pose)
+      : Scene(agent, at, body, pose), space(assembly::Frame::in_space(*ellipsoid(), place())) {
     space.check_range(largest());
   }
-  State(const HullBody& agent, const Assembly& body, const Pose& pose)
-      : Scene(agent, body, pose), space(frame()) {}
+  State(const HullBody& agent, const Eigen::Vector3d& at, const Assembly& body, const Pose& pose)
+      : Scene(agent, at, body, pose), space(frame()) {}
 
   assembly::Frame space;  // where lengths are those of space
   Relation relation = Relation::disjoint;

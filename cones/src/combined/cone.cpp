@@ -21,8 +21,9 @@ constexpr int kFirstSectors = 12, kMostSectors = 4096;
 
 CombinedCone combined_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& b, double tolerance,
                            std::uint64_t most_boxes) {
-  if (!(tolerance > 0) || !(tolerance < 1))
-    throw InputError("tolerance", to_text(tolerance), "between 0 and 1");
+  // Chords that stand off by less than the rounding of their ends prove nothing.
+  if (!(tolerance >= 1e-9) || !(tolerance < 1))
+    throw InputError("tolerance", to_text(tolerance), "at least 1e-9 and below 1");
   const CombinedOracle oracle(a, b, std::min(1e-4, 1e-2 * tolerance));
   CombinedCone cone;
   cone.relation = oracle.relation();

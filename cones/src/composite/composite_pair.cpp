@@ -13,45 +13,38 @@ using composite::CellTree;
 
 namespace {
 
-CombinedEllipsoid in_obstacle_frame(const CombinedEllipsoid& body, const Pose& pose) {
+CombinedEllipsoid in_obstacle_frame(const CombinedEllipsoid& body, const Eigen::Vector3d& at,
+                                    const Pose& pose) {
   std::vector<Delimiter<3>> delimiters = body.delimiters();
   if (!is_upright(pose))
     for (Delimiter<3>& d : delimiters) {
       const Eigen::Matrix3d turned = pose.rotation.transpose() * d.matrix * pose.rotation;
       d.matrix = 0.5 * (turned + turned.transpose());
     }
-  return CombinedEllipsoid::trusted(assembly::in_obstacle_frame(body.ellipsoid(), pose), delimiters);
+  return CombinedEllipsoid::trusted(assembly::in_obstacle_frame(body.ellipsoid(), at, pose), delimiters);
 }
 
-/// The assembly with every point moved; boxes stay boxes where nothing is turned.
+/// The assembly with every point taken from one frame to another.
 Assembly moved(const Assembly& body, const Pose& from, const Pose& to) {
-  const bool upright = is_upright(from) && is_upright(to);
   if (from.position == to.position && from.rotation == to.rotation) return body;
-  const auto place = [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
-    return upright ? Eigen::Vector3d((x + from.position) - to.position) : to.to_body(from.to_world(x));
-  };
   std::vector<Eigen::Vector3d> points;
   std::vector<Assembly::Triangle> triangles;
-  std::vector<Box> boxes;
   std::vector<HullBody> hulls;
   for (std::size_t i = 0; i < body.size(); ++i) {
     std::vector<Eigen::Vector3d> piece = body.piece(i).points();
-    for (Eigen::Vector3d& x : piece) x = place(x);
+    for (Eigen::Vector3d& x : piece) x = to.to_body(from.to_world(x));
     if (body.kind() == PieceKind::triangle) {
       const auto first = static_cast<std::uint32_t>(points.size());
       triangles.push_back({first, first + 1, first + 2});
     }
     if (body.kind() == PieceKind::triangle || body.kind() == PieceKind::ball) {
       points.insert(points.end(), piece.begin(), piece.end());
-    } else if (body.kind() == PieceKind::box && upright) {
-      boxes.push_back({piece.front(), piece.back()});
     } else {
       hulls.emplace_back(std::move(piece));
     }
   }
   if (body.kind() == PieceKind::triangle) return Assembly::mesh(std::move(points), std::move(triangles));
   if (body.kind() == PieceKind::ball) return Assembly::cloud(std::move(points), body.radius());
-  if (!boxes.empty()) return Assembly::boxes(std::move(boxes));
   return Assembly::polyhedra(std::move(hulls));
 }
 
@@ -62,20 +55,28 @@ double largest_coordinate(const Box& box) { return box.low.cwiseAbs().sum() + bo
 CompositePair::State::State(const Assembly& body, const Pose& place)
     : obstacle(body), pose(place), upright(is_upright(place)), zero(HullBody()) {}
 
+void CompositePair::State::check_range() {
+  beside_ = !place.agent.isZero(0) || !place.obstacle.isZero(0);
+  largest = largest_coordinate(obstacle.bounds()) + largest_coordinate(agent_bounds()) +
+            (place.obstacle - place.agent).cwiseAbs().sum();
+  zero.check_range(largest);
+}
+
 CompositePair::CompositePair(const CombinedEllipsoid& agent, const Assembly& obstacle, const Pose& pose,
-                             double tolerance) {
+                             double tolerance, const Eigen::Vector3d& agent_at) {
   if (!(tolerance >= 1e-6 && tolerance <= 0.5))
     throw InputError("tolerance", to_text(tolerance), "a number between 1e-6 and 0.5");
   auto state = std::make_unique<State>(obstacle, pose);
-  const CombinedEllipsoid body = in_obstacle_frame(agent, pose);
+  const CombinedEllipsoid body = in_obstacle_frame(agent, agent_at, pose);
+  state->place = assembly::place_of(agent_at, pose);
+  const Pose beside{state->place.obstacle, Eigen::Matrix3d::Identity()};
   state->cells.emplace(body, tolerance);
-  state->around.emplace(body.ellipsoid(), obstacle);
+  state->around.emplace(body.ellipsoid(), obstacle, beside, state->place.agent);
   if (const std::optional<Ellipsoid> inscribed = body.inscribed_ellipsoid()) {
     const Ellipsoid within = Ellipsoid::from_shape(body.center(), inscribed->shape() * (1 - 1e-4));
-    if (surely_contains(body, within)) state->within.emplace(within, obstacle);
+    if (surely_contains(body, within)) state->within.emplace(within, obstacle, beside, state->place.agent);
   }
-  state->largest = largest_coordinate(obstacle.bounds()) + largest_coordinate(state->agent_bounds());
-  state->zero.check_range(state->largest);
+  state->check_range();
   state->relation = composite::delimited_relation(*state);
   state_ = std::move(state);
 }
@@ -83,9 +84,13 @@ CompositePair::CompositePair(const CombinedEllipsoid& agent, const Assembly& obs
 CompositePair::CompositePair(const Assembly& agent, const Pose& agent_pose, const Assembly& obstacle,
                              const Pose& obstacle_pose) {
   auto state = std::make_unique<State>(obstacle, obstacle_pose);
-  state->agent = moved(agent, agent_pose, obstacle_pose);
-  state->largest = largest_coordinate(obstacle.bounds()) + largest_coordinate(state->agent_bounds());
-  state->zero.check_range(state->largest);
+  if (is_upright(agent_pose) && state->upright) {
+    state->agent = agent;
+    state->place = {agent_pose.position, obstacle_pose.position};
+  } else {
+    state->agent = moved(agent, agent_pose, obstacle_pose);
+  }
+  state->check_range();
   if (state->agent->kind() == PieceKind::hull) {
     state->frames.reserve(state->agent->size());
     for (const HullBody& hull : state->agent->by_slot().hulls) state->frames.push_back(state->frame(hull));

@@ -61,7 +61,7 @@ Found known_contact(const State& state, const Eigen::Vector3d& w, double scale) 
   if (const auto contact = state.within->first_contact(w); contact && std::isfinite(contact->latest)) {
     known.most = contact->latest * scale;
     known.best = contact->time * scale;
-    known.point = contact->point;
+    known.point = contact->point - state.place.obstacle;
     known.other = contact->normal;
     const auto order = state.obstacle.hierarchy().order();
     known.slot =

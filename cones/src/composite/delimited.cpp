@@ -28,7 +28,7 @@ std::optional<Membership> delimited_membership(const State& state, const Eigen::
   if (state.within && state.within->membership(v_a, v_b) == Membership::in) return Membership::in;
   if (!state.within_range()) return std::nullopt;
   const Eigen::Vector3d w = relative_velocity(v_a, v_b);
-  const Slabs slabs(state.zero, difference(state.agent_bounds(), state.obstacle.bounds()), w);
+  const Slabs slabs(state.zero, state.difference(state.agent_bounds(), state.obstacle.bounds()), w);
   const Directions ray(state.zero, {w});
   const auto apart = [&](const Box& box) { return std::isinf(slabs.enter(box.low.data(), box.high.data())); };
   switch (CellSearch(state, ray, apart).run()) {

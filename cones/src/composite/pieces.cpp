@@ -51,7 +51,7 @@ Relation pieces_relation(const State& state) {
 
 Membership pieces_membership(const State& state, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) {
   const Eigen::Vector3d w = relative_velocity(v_a, v_b);
-  const Slabs slabs(state.zero, difference(state.agent_bounds(), state.obstacle.bounds()), w);
+  const Slabs slabs(state.zero, state.difference(state.agent_bounds(), state.obstacle.bounds()), w);
   const Directions ray(state.zero, {w});
   Membership answer = Membership::out;
   const auto enter = [&](const Box& box) { return slabs.enter(box.low.data(), box.high.data()); };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "composite/state.h"
+#include "ellipsoids/apart.h"
 
 namespace vericone::composite {
 
@@ -38,10 +39,14 @@ auto with_exact_oracle(const State& state, std::uint32_t agent_slot, std::uint32
     return Ellipsoid::from_axes(body.by_slot().balls[slot], Eigen::Vector3d::Constant(body.radius()));
   };
   const Assembly &a = *state.agent, &b = state.obstacle;
-  if (a.radius() > 0 && b.radius() > 0) return ask(ConeOracle(ball(a, agent_slot), ball(b, obstacle_slot)));
-  if (a.radius() > 0) return ask(HullOracle(ball(a, agent_slot), points(b, obstacle_slot)));
-  if (b.radius() > 0) return ask(HullOracle(points(a, agent_slot), ball(b, obstacle_slot)));
-  return ask(HullOracle(points(a, agent_slot), points(b, obstacle_slot)));
+  const Eigen::Vector3d &a_at = state.place.agent, &b_at = state.place.obstacle;
+  if (a.radius() > 0 && b.radius() > 0) {
+    const auto pair = apart(ball(a, agent_slot), a_at, ball(b, obstacle_slot), b_at);
+    return ask(ConeOracle(pair.a, pair.b));
+  }
+  if (a.radius() > 0) return ask(HullOracle(ball(a, agent_slot), points(b, obstacle_slot), a_at, b_at));
+  if (b.radius() > 0) return ask(HullOracle(points(a, agent_slot), ball(b, obstacle_slot), a_at, b_at));
+  return ask(HullOracle(points(a, agent_slot), points(b, obstacle_slot), a_at, b_at));
 }
 
 /// Calls leaf(agent slot, obstacle slot) for the pairs of pieces whose difference of boxes `enter` does not
@@ -53,7 +58,7 @@ void for_each_pair(const State& state, Enter&& enter, Leaf&& leaf) {
   };
   const auto a_nodes = state.agent->hierarchy().nodes(), b_nodes = state.obstacle.hierarchy().nodes();
   const auto at = [&](const Item& item) {
-    return enter(difference(a_nodes[item.a].box(), b_nodes[item.b].box()));
+    return enter(state.difference(a_nodes[item.a].box(), b_nodes[item.b].box()));
   };
   std::vector<Item> stack;
   stack.reserve(128);
@@ -70,7 +75,7 @@ void for_each_pair(const State& state, Enter&& enter, Leaf&& leaf) {
       for (std::uint32_t i = a.first; i < a.first + a.count; ++i) {
         const Box own = assembly::piece_box(*state.agent, i);
         for (std::uint32_t j = 0; j < b.count; ++j)
-          if (std::isfinite(enter(difference(own, boxes[j]))) && !leaf(i, b.first + j)) return;
+          if (std::isfinite(enter(state.difference(own, boxes[j]))) && !leaf(i, b.first + j)) return;
       }
       continue;
     }

@@ -19,12 +19,13 @@ struct CompositePair::State {
   State(const Assembly& body, const Pose& place);
 
   Assembly obstacle;
-  Pose pose;             // of the obstacle
-  bool upright = true;   // the pose is not turned
-  assembly::Frame zero;  // of the origin: where differences of boxes are compared with directions
+  Pose pose;              // of the obstacle
+  bool upright = true;    // the pose is not turned
+  assembly::Place place;  // of the agent, beside the obstacle
+  assembly::Frame zero;   // of the origin: where differences of boxes are compared with directions
   std::optional<Relation> relation;
 
-  // One of the two, in the obstacle's frame.
+  // One of the two, along the obstacle's axes.
   std::optional<Assembly> agent;
   std::optional<composite::CellTree> cells;
 
@@ -44,24 +45,38 @@ struct CompositePair::State {
 
   /// Whether doubles can prove anything: squares of lengths are doubles.
   bool within_range() const { return zero.beyond_range() == 0; }
+  /// To be called when the place and the agent are known.
+  void check_range();
 
   Box agent_bounds() const { return agent ? agent->bounds() : cells->box(composite::Cell{}); }
   /// A frame about a convex body of the agent, ready for any piece of the obstacle.
   assembly::Frame frame(const HullBody& body) const {
-    assembly::Frame made(body);
+    assembly::Frame made(body, place);
     made.check_range(largest);
     return made;
   }
+  /// All y - x with x in a box `own` of the agent and y in a box `other` of the obstacle; rounded outwards,
+  /// or to nearest, the signs exactly, where nothing is added to them.
+  Box difference(const Box& own, const Box& other) const {
+    Box both{other.low - own.high, other.high - own.low};
+    if (!beside_) return both;
+    const Eigen::Vector3d size = own.low.cwiseAbs().cwiseMax(own.high.cwiseAbs()) +
+                                 other.low.cwiseAbs().cwiseMax(other.high.cwiseAbs()) +
+                                 place.agent.cwiseAbs() + place.obstacle.cwiseAbs();
+    const Eigen::Vector3d shift = place.obstacle - place.agent, slack = 4 * assembly::kUlp * size;
+    both.low += shift - slack;
+    both.high += shift + slack;
+    return both;
+  }
+
+ private:
+  bool beside_ = false;  // the place is not 0
 };
 
 namespace composite {
 
 using State = CompositePair::State;
 
-/// All y - x with x in `agent` and y in `obstacle`; rounded, the signs exactly.
-inline Box difference(const Box& agent, const Box& obstacle) {
-  return {obstacle.low - agent.high, obstacle.high - agent.low};
-}
 /// Boxes that are not numbers may hold it.
 inline bool holds_origin(const Box& box) {
   return !((box.low.array() > 0).any() || (box.high.array() < 0).any());

@@ -149,8 +149,7 @@ class Image {
   }
 
   void add(HullPair pair) {
-    const IntegerVector<3> b = scene_.exact_point(scene_.obstacle[pair.obstacle]),
-                           a = scene_.exact_point(scene_.agent[pair.agent]);
+    const IntegerVector<3> b = scene_.exact_obstacle(pair.obstacle), a = scene_.exact_agent(pair.agent);
     const IntegerVector<3> d{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
     Point p{pair, {}};
     for (int i = 0; i < D; ++i) p.x[i] = dot<3>(rows_[i], d);
@@ -303,7 +302,7 @@ ExactSupport exact_support(const HullScene& scene, const IntegerVector<3>& n) {
   bool first = true;
   candidates<1>(scene, scene.obstacle, scene.centred_obstacle, direction, near.obstacle_value,
                 [&](std::size_t i) {
-                  Integer v = dot<3>(n, scene.exact_point(scene.obstacle[i]));
+                  Integer v = dot<3>(n, scene.exact_obstacle(i));
                   if (!first && v >= least_b) return;
                   first = false;
                   least_b = std::move(v);
@@ -311,7 +310,7 @@ ExactSupport exact_support(const HullScene& scene, const IntegerVector<3>& n) {
                 });
   first = true;
   candidates<-1>(scene, scene.agent, scene.centred_agent, direction, -near.agent_value, [&](std::size_t i) {
-    Integer v = dot<3>(n, scene.exact_point(scene.agent[i]));
+    Integer v = dot<3>(n, scene.exact_agent(i));
     if (!first && v <= most_a) return;
     first = false;
     most_a = std::move(v);

@@ -211,17 +211,22 @@ Eigen::Vector3d to_direction(const exact::IntegerVector<3>& n) {
 
 }  // namespace
 
-HullOracle::HullOracle(const Ellipsoid& agent, const HullBody& obstacle)
-    : HullOracle(std::make_shared<HullScene>(std::vector<Eigen::Vector3d>{agent.center()}, obstacle.points(),
-                                             agent.center(), &agent)) {}
+HullOracle::HullOracle(const Ellipsoid& agent, const HullBody& obstacle, const Eigen::Vector3d& agent_at,
+                       const Eigen::Vector3d& obstacle_at)
+    : HullOracle(std::make_shared<HullScene>(std::vector<Eigen::Vector3d>{agent.center()}, agent_at,
+                                             obstacle.points(), obstacle_at, agent.center() + agent_at,
+                                             &agent)) {}
 
-HullOracle::HullOracle(const HullBody& agent, const Ellipsoid& obstacle)
-    : HullOracle(std::make_shared<HullScene>(agent.points(), std::vector<Eigen::Vector3d>{obstacle.center()},
-                                             obstacle.center(), &obstacle)) {}
+HullOracle::HullOracle(const HullBody& agent, const Ellipsoid& obstacle, const Eigen::Vector3d& agent_at,
+                       const Eigen::Vector3d& obstacle_at)
+    : HullOracle(std::make_shared<HullScene>(agent.points(), agent_at,
+                                             std::vector<Eigen::Vector3d>{obstacle.center()}, obstacle_at,
+                                             obstacle.center() + obstacle_at, &obstacle)) {}
 
-HullOracle::HullOracle(const HullBody& agent, const HullBody& obstacle)
-    : HullOracle(
-          std::make_shared<HullScene>(agent.points(), obstacle.points(), agent.points().front(), nullptr)) {}
+HullOracle::HullOracle(const HullBody& agent, const HullBody& obstacle, const Eigen::Vector3d& agent_at,
+                       const Eigen::Vector3d& obstacle_at)
+    : HullOracle(std::make_shared<HullScene>(agent.points(), agent_at, obstacle.points(), obstacle_at,
+                                             agent.points().front() + agent_at, nullptr)) {}
 
 HullOracle::HullOracle(std::shared_ptr<HullScene> scene) : scene_(scene) {
   std::optional<Relation> found;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hulls/scene.h"
 
+#include <vericone/geometry/double_double.h>
 #include <Eigen/LU>
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace vericone {
 namespace {
@@ -22,13 +24,19 @@ int fine_grid(double x) {
   return (biased == 0 ? -1074 : biased - 1075) + std::countr_zero(fraction);
 }
 
-void fill(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& reference, double scale,
-          CentredPoints& to) {
+Eigen::Vector3d centred(const Eigen::Vector3d& x, const Eigen::Vector3d& at,
+                        const Eigen::Vector3d& reference) {
+  return {sum_of_three(x.x(), at.x(), -reference.x()), sum_of_three(x.y(), at.y(), -reference.y()),
+          sum_of_three(x.z(), at.z(), -reference.z())};
+}
+
+void fill(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& at,
+          const Eigen::Vector3d& reference, double scale, CentredPoints& to) {
   to.x.reserve(points.size());
   to.y.reserve(points.size());
   to.z.reserve(points.size());
   for (const Eigen::Vector3d& p : points) {
-    const Eigen::Vector3d d = (p - reference) * scale;
+    const Eigen::Vector3d d = centred(p, at, reference) * scale;
     to.x.push_back(d.x());
     to.y.push_back(d.y());
     to.z.push_back(d.z());
@@ -72,16 +80,21 @@ std::uint32_t least(const CentredPoints& points, const Eigen::Vector3d& n, doubl
 
 }  // namespace
 
-HullScene::HullScene(std::vector<Eigen::Vector3d> agent_points, std::vector<Eigen::Vector3d> obstacle_points,
+HullScene::HullScene(std::vector<Eigen::Vector3d> agent_points, const Eigen::Vector3d& agent_at,
+                     std::vector<Eigen::Vector3d> obstacle_points, const Eigen::Vector3d& obstacle_at,
                      const Eigen::Vector3d& reference, const Ellipsoid* round)
     : agent(std::move(agent_points)), obstacle(std::move(obstacle_points)) {
-  double largest = 0;
+  double largest = reference.allFinite() ? 0 : std::numeric_limits<double>::infinity();
   int finest = kNoGrid;
-  for (const auto* points : {&agent, &obstacle})
-    for (const Eigen::Vector3d& p : *points) {
-      largest = std::max(largest, (p - reference).cwiseAbs().maxCoeff());
+  const auto look_at = [&](const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& at) {
+    for (int k = 0; k < 3; ++k) finest = std::min(finest, fine_grid(at(k)));
+    for (const Eigen::Vector3d& p : points) {
+      largest = std::max(largest, centred(p, at, reference).cwiseAbs().maxCoeff());
       for (int k = 0; k < 3; ++k) finest = std::min(finest, fine_grid(p(k)));
     }
+  };
+  look_at(agent, agent_at);
+  look_at(obstacle, obstacle_at);
   if (round) {
     ellipsoid = *round;
     largest = std::max(largest, round->factor().cwiseAbs().maxCoeff());
@@ -92,6 +105,10 @@ HullScene::HullScene(std::vector<Eigen::Vector3d> agent_points, std::vector<Eige
     }
   }
   grid = finest == kNoGrid ? 0 : finest;
+  for (int k = 0; k < 3; ++k) {
+    exact_agent_at[k] = exact::on_grid(agent_at(k), grid);
+    exact_obstacle_at[k] = exact::on_grid(obstacle_at(k), grid);
+  }
   if (round) {
     if (!round->defined_by_factor()) {
       for (int i = 0; i < 3; ++i)
@@ -109,8 +126,8 @@ HullScene::HullScene(std::vector<Eigen::Vector3d> agent_points, std::vector<Eige
   const int e = largest == 0 ? 0 : std::ilogb(largest) + 1;
   if (std::abs(e) > 510) return;
   const double scale = std::ldexp(1.0, -e);  // a power of two: scaling is exact but for underflow
-  fill(agent, reference, scale, centred_agent);
-  fill(obstacle, reference, scale, centred_obstacle);
+  fill(agent, agent_at, reference, scale, centred_agent);
+  fill(obstacle, obstacle_at, reference, scale, centred_obstacle);
   reach = centred_agent.reach + centred_obstacle.reach;
   usable = true;
   if (!round) return;

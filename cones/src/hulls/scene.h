@@ -20,7 +20,7 @@ struct HullPair {
   std::uint32_t obstacle = 0, agent = 0;
 };
 
-/// One body's points relative to the reference point, in units of the scene's scale: x = fl(v - r) 2^-e.
+/// One body's points relative to the reference point, in units of the scene's scale: x = fl(v + at - r) 2^-e.
 struct CentredPoints {
   std::vector<double> x, y, z;
   Eigen::Vector3d reach = Eigen::Vector3d::Zero();  // largest |coordinate| along each axis
@@ -31,7 +31,9 @@ struct CentredPoints {
 
 /// K = { b_j - a_i + e : e in E }, E the ellipsoid centred at 0 or 0 itself.
 struct HullScene {
-  HullScene(std::vector<Eigen::Vector3d> agent_points, std::vector<Eigen::Vector3d> obstacle_points,
+  /// `..._at`: added to each of the points, without rounding.
+  HullScene(std::vector<Eigen::Vector3d> agent_points, const Eigen::Vector3d& agent_at,
+            std::vector<Eigen::Vector3d> obstacle_points, const Eigen::Vector3d& obstacle_at,
             const Eigen::Vector3d& reference, const Ellipsoid* round);
 
   std::vector<Eigen::Vector3d> agent, obstacle;  // as given
@@ -50,6 +52,7 @@ struct HullScene {
   // Integers on a grid of 2^grid.
   int grid = 0;
   exact::IntegerMatrix<3> exact_shape;
+  exact::IntegerVector<3> exact_agent_at, exact_obstacle_at;
 
   // A normal that separates exactly, for disjoint bodies.
   exact::IntegerVector<3> exact_normal{0, 0, 0};
@@ -61,8 +64,15 @@ struct HullScene {
   Eigen::Vector3d difference(HullPair p) const {
     return centred_obstacle[p.obstacle] - centred_agent[p.agent];
   }
-  exact::IntegerVector<3> exact_point(const Eigen::Vector3d& v) const {
-    return {exact::on_grid(v.x(), grid), exact::on_grid(v.y(), grid), exact::on_grid(v.z(), grid)};
+  exact::IntegerVector<3> exact_agent(std::size_t i) const { return on_grid(agent[i], exact_agent_at); }
+  exact::IntegerVector<3> exact_obstacle(std::size_t i) const {
+    return on_grid(obstacle[i], exact_obstacle_at);
+  }
+
+ private:
+  exact::IntegerVector<3> on_grid(const Eigen::Vector3d& v, const exact::IntegerVector<3>& at) const {
+    return {at[0] + exact::on_grid(v.x(), grid), at[1] + exact::on_grid(v.y(), grid),
+            at[2] + exact::on_grid(v.z(), grid)};
   }
 };
 

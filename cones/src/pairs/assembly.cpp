@@ -17,10 +17,10 @@ using Eigen::Vector3d;
 class AssemblyFamily : public Family {
  public:
   template <typename Agent>
-  AssemblyFamily(const Agent& agent, const Assembly& obstacle, const Pose& pose)
-      : oracle_(std::make_shared<AssemblyOracle>(agent, obstacle, pose)),
-        axis_(pose.to_world(obstacle.bounds().center()) - middle(agent)),
-        size_(size_of(agent)) {}
+  AssemblyFamily(const Standing<Agent>& agent, const Assembly& obstacle, const Pose& pose)
+      : oracle_(std::make_shared<AssemblyOracle>(agent.body, obstacle, pose, agent.at)),
+        axis_(pose.to_world(obstacle.bounds().center()) - (middle(agent.body) + agent.at)),
+        size_(size_of(agent.body)) {}
 
   Guarantee guarantee() const override { return {true, 0, "assembly"}; }
   std::optional<Relation> relation() const override { return oracle_->relation(); }
@@ -112,12 +112,12 @@ class AssemblyFamily : public Family {
 template <typename Agent>
 class Hulls : public AssemblyFamily {
  public:
-  Hulls(const Agent& agent, const HullBody& obstacle)
-      : AssemblyFamily(agent, Assembly::polyhedra({obstacle}), Pose{}),
-        agent_(agent),
-        obstacle_(obstacle),
-        hulls_(agent_, obstacle_) {
-    axis_ = middle(obstacle) - middle(agent);
+  Hulls(const Standing<Agent>& agent, const Standing<HullBody>& obstacle)
+      : AssemblyFamily(agent, Assembly::polyhedra({obstacle.body}), Pose{obstacle.at}),
+        agent_(agent.in_world()),
+        obstacle_(obstacle.in_world()),
+        hulls_(agent.body, obstacle.body, agent.at, obstacle.at) {
+    axis_ = middle(obstacle_) - middle(agent_);
   }
 
   Guarantee guarantee() const override { return {true, 0, "hulls"}; }
@@ -140,6 +140,7 @@ class Hulls : public AssemblyFamily {
   Cone cone(const ConeOptions& options) const override { return cone_of_hulls(*oracle_, axis_, options); }
 
  private:
+  // As searches read them: rounded.
   Agent agent_;
   HullBody obstacle_;
   HullOracle hulls_;
@@ -147,16 +148,16 @@ class Hulls : public AssemblyFamily {
 
 }  // namespace
 
-FamilyPointer hull_family(const Ellipsoid& agent, const HullBody& obstacle) {
+FamilyPointer hull_family(const Standing<Ellipsoid>& agent, const Standing<HullBody>& obstacle) {
   return std::make_shared<Hulls<Ellipsoid>>(agent, obstacle);
 }
-FamilyPointer hull_family(const HullBody& agent, const HullBody& obstacle) {
+FamilyPointer hull_family(const Standing<HullBody>& agent, const Standing<HullBody>& obstacle) {
   return std::make_shared<Hulls<HullBody>>(agent, obstacle);
 }
-FamilyPointer assembly_family(const Ellipsoid& agent, const Assembly& obstacle, const Pose& pose) {
+FamilyPointer assembly_family(const Standing<Ellipsoid>& agent, const Assembly& obstacle, const Pose& pose) {
   return std::make_shared<AssemblyFamily>(agent, obstacle, pose);
 }
-FamilyPointer assembly_family(const HullBody& agent, const Assembly& obstacle, const Pose& pose) {
+FamilyPointer assembly_family(const Standing<HullBody>& agent, const Assembly& obstacle, const Pose& pose) {
   return std::make_shared<AssemblyFamily>(agent, obstacle, pose);
 }
 

@@ -93,10 +93,11 @@ Vector3d middle(const Assembly& body, const Pose& pose) { return pose.to_world(b
 
 }  // namespace
 
-FamilyPointer composite_family(const CombinedEllipsoid& agent, const Assembly& obstacle, const Pose& pose,
-                               double tolerance) {
-  return std::make_shared<Composite>(std::make_shared<CompositePair>(agent, obstacle, pose, tolerance),
-                                     tolerance, middle(obstacle, pose) - agent.center());
+FamilyPointer composite_family(const Standing<CombinedEllipsoid>& agent, const Assembly& obstacle,
+                               const Pose& pose, double tolerance) {
+  return std::make_shared<Composite>(
+      std::make_shared<CompositePair>(agent.body, obstacle, pose, tolerance, agent.at), tolerance,
+      middle(obstacle, pose) - (agent.body.center() + agent.at));
 }
 
 FamilyPointer composite_family(const Assembly& agent, const Pose& agent_pose, const Assembly& obstacle,

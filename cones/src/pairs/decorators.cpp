@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Pairs made of pairs: exchanged, and the union of several.
+// Pairs made of pairs: moved, exchanged, and the union of several.
 #include <vericone/cones/map/classifiers.h>
 #include <algorithm>
 #include <cmath>
@@ -52,6 +52,46 @@ class Mirrored : public Family {
 
  private:
   FamilyPointer exchanged_;
+};
+
+class Moved : public Family {
+ public:
+  Moved(FamilyPointer pair, const Vector3d& a, const Vector3d& b, const Vector3d& world_a,
+        const Vector3d& world_b)
+      : pair_(std::move(pair)), a_(a), b_(b), world_a_(world_a), world_b_(world_b) {}
+
+  Guarantee guarantee() const override { return pair_->guarantee(); }
+  std::optional<Relation> relation() const override { return pair_->relation(); }
+  Verdict verdict(const Vector3d& v_a, const Vector3d& v_b) const override {
+    return pair_->verdict(v_a, v_b);
+  }
+  std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
+    return pair_->rung(v_a, v_b);
+  }
+  Contact contact(const Vector3d& v_a, const Vector3d& v_b) const override {
+    Contact contact = pair_->contact(v_a, v_b);
+    if (contact.point) *contact.point = world_b_ + (*contact.point - b_);
+    return contact;
+  }
+  Miss miss(const Vector3d& v_a, const Vector3d& v_b) const override { return pair_->miss(v_a, v_b); }
+  std::optional<PlaneSector> sector(const SightLine& line, const Vector3d& e) const override {
+    // A centre in the world is the centre here, bit for bit.
+    return pair_->sector({a_ + (line.from - world_a_), b_ + (line.to - world_b_)}, e);
+  }
+  std::optional<Passing> passing(const Vector3d& w) const override {
+    auto own = pair_->passing(w);
+    if (!own) return own;
+    own->on_a = world_a_ + (own->on_a - a_);
+    own->on_b = world_b_ + (own->on_b - b_);
+    return own;
+  }
+  std::shared_ptr<const DirectionClassifier> directions() const override { return pair_->directions(); }
+  Cone cone(const ConeOptions& options) const override { return pair_->cone(options); }
+  Vector3d axis() const override { return pair_->axis(); }
+
+ private:
+  FamilyPointer pair_;
+  Vector3d a_, b_, world_a_, world_b_;
 };
 
 class AnyOf : public Family {
@@ -188,6 +228,11 @@ class AnyOf : public Family {
 
 }  // namespace
 
+FamilyPointer moved(FamilyPointer pair, const Vector3d& a, const Vector3d& b, const Vector3d& world_a,
+                    const Vector3d& world_b) {
+  if (a == world_a && b == world_b) return pair;
+  return std::make_shared<Moved>(std::move(pair), a, b, world_a, world_b);
+}
 FamilyPointer mirrored(FamilyPointer exchanged) { return std::make_shared<Mirrored>(std::move(exchanged)); }
 FamilyPointer any_of(std::vector<FamilyPointer> all) {
   return all.size() == 1 ? all.front() : std::make_shared<AnyOf>(std::move(all));

@@ -42,19 +42,32 @@ class Family {
 
 using FamilyPointer = std::shared_ptr<const Family>;
 
+/// A body that is turned as in the world: x_W = at + x, a sum that is not rounded on the way to a verdict.
+template <typename Body>
+struct Standing {
+  Body body;
+  Eigen::Vector3d at;
+
+  Body in_world() const { return vericone::in_world(body, {at, Eigen::Matrix3d::Identity()}); }  // rounded
+};
+
 FamilyPointer ellipsoid_family(const Ellipsoid& agent, const Ellipsoid& obstacle);
 FamilyPointer combined_family(const CombinedEllipsoid& agent, const CombinedEllipsoid& obstacle,
                               double tolerance);
-/// At least one is a hull; all in the world.
-FamilyPointer hull_family(const Ellipsoid& agent, const HullBody& obstacle);
-FamilyPointer hull_family(const HullBody& agent, const HullBody& obstacle);
-FamilyPointer assembly_family(const Ellipsoid& agent, const Assembly& obstacle, const Pose& pose);
-FamilyPointer assembly_family(const HullBody& agent, const Assembly& obstacle, const Pose& pose);
-FamilyPointer composite_family(const CombinedEllipsoid& agent, const Assembly& obstacle, const Pose& pose,
-                               double tolerance);
+/// At least one is a hull.
+FamilyPointer hull_family(const Standing<Ellipsoid>& agent, const Standing<HullBody>& obstacle);
+FamilyPointer hull_family(const Standing<HullBody>& agent, const Standing<HullBody>& obstacle);
+FamilyPointer assembly_family(const Standing<Ellipsoid>& agent, const Assembly& obstacle, const Pose& pose);
+FamilyPointer assembly_family(const Standing<HullBody>& agent, const Assembly& obstacle, const Pose& pose);
+FamilyPointer composite_family(const Standing<CombinedEllipsoid>& agent, const Assembly& obstacle,
+                               const Pose& pose, double tolerance);
 FamilyPointer composite_family(const Assembly& agent, const Pose& agent_pose, const Assembly& obstacle,
                                const Pose& pose);
 
+/// The pair of bodies about a and b, for bodies about `world_a` and `world_b` that are as far apart: what it
+/// says of places is said in the world.
+FamilyPointer moved(FamilyPointer pair, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                    const Eigen::Vector3d& world_a, const Eigen::Vector3d& world_b);
 /// Agent and obstacle exchanged.
 FamilyPointer mirrored(FamilyPointer exchanged);
 /// The union of the pairs: of a body of several parts.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ellipsoids/apart.h"
 #include "ellipsoids/plane_axis.h"
 #include "pairs/family.h"
 
@@ -42,6 +43,19 @@ double tolerance_or(const PairOptions& options, double usual) {
 
 constexpr double kCombinedTolerance = 1e-6, kCompositeTolerance = 1e-3;
 
+/// Whether the first of two assemblies is the one to be taken into the frame of the other, where a rotation
+/// makes that rounding: the same of the two, whichever is the agent. Where nothing tells them apart, nothing
+/// is rounded.
+bool is_moved(const Assembly& a, const Pose& a_pose, const Assembly& b, const Pose& b_pose) {
+  if (is_upright(a_pose) && is_upright(b_pose)) return true;
+  if (a.size() != b.size()) return a.size() < b.size();
+  const auto less = [](const auto& x, const auto& y) {
+    return std::lexicographical_compare(x.data(), x.data() + x.size(), y.data(), y.data() + y.size());
+  };
+  if (a_pose.position != b_pose.position) return less(a_pose.position, b_pose.position);
+  return !less(b_pose.rotation, a_pose.rotation);
+}
+
 /// One of each kind of shape against the other, agents that are no simpler than the obstacle first.
 struct Choose {
   const Pose &agent_pose, &obstacle_pose;
@@ -50,28 +64,34 @@ struct Choose {
   using Parts = std::vector<CombinedEllipsoid>;
 
   FamilyPointer operator()(const CombinedEllipsoid& agent, const CombinedEllipsoid& obstacle) const {
-    const CombinedEllipsoid a = in_world(agent, agent_pose), b = in_world(obstacle, obstacle_pose);
-    if (a.is_ellipsoid() && b.is_ellipsoid()) return ellipsoid_family(a.ellipsoid(), b.ellipsoid());
-    return combined_family(a, b, tolerance_or(options, kCombinedTolerance));
+    const auto a = standing(agent, agent_pose), b = standing(obstacle, obstacle_pose);
+    const auto pair = apart(a.body, a.at, b.body, b.at);
+    const bool round = pair.a.is_ellipsoid() && pair.b.is_ellipsoid();
+    return moved(round ? ellipsoid_family(pair.a.ellipsoid(), pair.b.ellipsoid())
+                       : combined_family(pair.a, pair.b, tolerance_or(options, kCombinedTolerance)),
+                 pair.a.center(), pair.b.center(), pair.world_a, pair.world_b);
   }
   FamilyPointer operator()(const CombinedEllipsoid& agent, const HullBody& obstacle) const {
     if (agent.is_ellipsoid())
-      return hull_family(in_world(agent.ellipsoid(), agent_pose), in_world(obstacle, obstacle_pose));
+      return hull_family(standing(agent.ellipsoid(), agent_pose), standing(obstacle, obstacle_pose));
     return (*this)(agent, Assembly::polyhedra({obstacle}));
   }
   FamilyPointer operator()(const CombinedEllipsoid& agent, const Assembly& obstacle) const {
-    const CombinedEllipsoid a = in_world(agent, agent_pose);
-    if (a.is_ellipsoid()) return assembly_family(a.ellipsoid(), obstacle, obstacle_pose);
-    return composite_family(a, obstacle, obstacle_pose, tolerance_or(options, kCompositeTolerance));
+    if (agent.is_ellipsoid())
+      return assembly_family(standing(agent.ellipsoid(), agent_pose), obstacle, obstacle_pose);
+    return composite_family(standing(agent, agent_pose), obstacle, obstacle_pose,
+                            tolerance_or(options, kCompositeTolerance));
   }
   FamilyPointer operator()(const HullBody& agent, const HullBody& obstacle) const {
-    return hull_family(in_world(agent, agent_pose), in_world(obstacle, obstacle_pose));
+    return hull_family(standing(agent, agent_pose), standing(obstacle, obstacle_pose));
   }
   FamilyPointer operator()(const HullBody& agent, const Assembly& obstacle) const {
-    return assembly_family(in_world(agent, agent_pose), obstacle, obstacle_pose);
+    return assembly_family(standing(agent, agent_pose), obstacle, obstacle_pose);
   }
   FamilyPointer operator()(const Assembly& agent, const Assembly& obstacle) const {
-    return composite_family(agent, agent_pose, obstacle, obstacle_pose);
+    if (is_moved(agent, agent_pose, obstacle, obstacle_pose))
+      return composite_family(agent, agent_pose, obstacle, obstacle_pose);
+    return mirrored(composite_family(obstacle, obstacle_pose, agent, agent_pose));
   }
   template <typename Obstacle>
   FamilyPointer operator()(const Parts& agent, const Obstacle& obstacle) const {
@@ -88,6 +108,14 @@ struct Choose {
   template <typename Agent, typename Obstacle>
   FamilyPointer operator()(const Agent& agent, const Obstacle& obstacle) const {
     return mirrored(Choose{obstacle_pose, agent_pose, options}(obstacle, agent));
+  }
+
+ private:
+  /// Turned, its own numbers then rounded once.
+  template <typename Body>
+  static Standing<Body> standing(const Body& body, const Pose& pose) {
+    if (is_upright(pose)) return {body, pose.position};
+    return {in_world(body, {Eigen::Vector3d::Zero(), pose.rotation}), pose.position};
   }
 };
 

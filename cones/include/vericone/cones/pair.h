@@ -73,8 +73,12 @@ struct Miss {
 /// may be used by several threads at once. Velocities are m/s in the world; w = v_agent - v_obstacle, and
 /// nothing turns.
 ///
-/// Bodies with a pose are taken into the world or into the other's frame, their numbers rounded once; answers
-/// hold for the rounded bodies (without a rotation only positions are added).
+/// Positions are not rounded on the way to a verdict, a relation or a bound: those of bodies that are not
+/// turned hold for the numbers as given. (Where an ellipsoid or a combined quadric has a centre and a
+/// position, the difference of the centres counts to 106 bits.) A rotation rounds a body's own numbers once,
+/// about its own origin, and answers hold for that body. A turned assembly stays as it is, and the other
+/// body, its position too, is rounded into its frame; of two assemblies that with fewer pieces, whichever is
+/// the agent.
 ///
 /// Laws, for every pair of kinds (tests/cones/pair_test.cpp):
 ///   (1) Pair(a, b).verdict(v, u) == Pair(b, a).verdict(u, v)

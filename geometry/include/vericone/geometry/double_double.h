@@ -6,6 +6,7 @@
 #pragma once
 
 #include <vericone/geometry/sound_arithmetic.h>
+#include <cmath>
 
 namespace vericone {
 
@@ -49,5 +50,13 @@ struct DoubleDouble {
     return two_sum(p.hi, p.lo + (x.hi * y.lo + x.lo * y.hi));
   }
 };
+
+/// x + y + z, off by at most one rounding of the result and one part in 2^50 of that, whatever cancels;
+/// not finite where a partial sum is not.
+[[nodiscard]] inline double sum_of_three(double x, double y, double z) {
+  // Where s + z is rounded it is at least half of s, so that nothing cancels it; otherwise its error is 0.
+  const DoubleDouble s = DoubleDouble::two_sum(x, y), t = DoubleDouble::two_sum(s.hi, z);
+  return std::isfinite(t.hi) ? t.hi + (t.lo + s.lo) : t.hi;
+}
 
 }  // namespace vericone

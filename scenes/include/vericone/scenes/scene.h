@@ -42,8 +42,8 @@ struct SceneBody {
   /// a program made.
   std::string fields = {};
 
-  /// What it is: of each of these one is there, unless it is a union of quadrics. A combined quadric, a hull
-  /// alone stand in the world already, without a pose.
+  /// What it is, in its own frame: of each of these one is there, unless it is a union of quadrics. A
+  /// combined quadric alone stands in the world already, without a pose.
   [[nodiscard]] const CombinedEllipsoid* quadric() const;
   [[nodiscard]] const Ellipsoid* ellipsoid() const;  // a quadric that nothing delimits
   [[nodiscard]] const HullBody* hull() const;

@@ -68,11 +68,15 @@ struct ExtremeDirection {
 /// several threads at once. Holds a share of the assembly.
 class AssemblyOracle : public DirectionClassifier {
  public:
-  /// `pose`: of the obstacle. The agent is taken into the obstacle's frame, its numbers rounded once where
-  /// the pose is not the identity; answers hold for the rounded agent. Throws InputError naming "agent" for a
-  /// body whose matrix cannot be inverted in doubles (axis ratio beyond 1e12).
-  AssemblyOracle(const Ellipsoid& agent, const Assembly& obstacle, const Pose& pose = {});
-  AssemblyOracle(const HullBody& agent, const Assembly& obstacle, const Pose& pose = {});
+  /// `pose`: of the obstacle; `agent_at`: where the agent's own origin stands, metres. Neither is rounded
+  /// where the pose does not turn (but the sum of `agent_at` and an ellipsoid's centre against a cloud, see
+  /// Pair); otherwise the agent is taken into the obstacle's frame, its numbers rounded, and answers hold for
+  /// the rounded agent. Throws InputError naming "agent" for a body whose matrix cannot be inverted in
+  /// doubles (axis ratio beyond 1e12).
+  AssemblyOracle(const Ellipsoid& agent, const Assembly& obstacle, const Pose& pose = {},
+                 const Eigen::Vector3d& agent_at = Eigen::Vector3d::Zero());
+  AssemblyOracle(const HullBody& agent, const Assembly& obstacle, const Pose& pose = {},
+                 const Eigen::Vector3d& agent_at = Eigen::Vector3d::Zero());
   ~AssemblyOracle() override;
   AssemblyOracle(AssemblyOracle&&) noexcept;
   AssemblyOracle& operator=(AssemblyOracle&&) noexcept;

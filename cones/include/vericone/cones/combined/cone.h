@@ -125,7 +125,7 @@ struct CombinedCone {
   std::uint64_t boxes = 0;  // searched: a measure of effort that is the same on every machine
 };
 
-/// Refined until the solid angles of inner and outer cone differ by at most `tolerance` (0 < tolerance < 1)
+/// Refined until the solid angles of inner and outer cone differ by at most `tolerance` (1e-9 to below 1)
 /// of the outer one, or until `most_boxes` have been searched (by default about 0.3 s); the bound returned
 /// says what was reached. What has begun then is brought to an end: some 400,000 boxes at most.
 /// Overlapping bodies: every velocity (4 pi, no directions). Throws InputError naming "tolerance". Cost: see

@@ -36,14 +36,15 @@ struct CompositeMiss : AssemblyMiss {
 class CompositePair : public DirectionClassifier {
  public:
   /// A delimited body. Answers are proved, but near the boundary of the cone none is given: the body is
-  /// resolved to `tolerance` (1e-6 to 0.5) parts of its extent. `pose`: of the obstacle; the body is taken
-  /// into its frame, the numbers rounded once where the pose is not the identity, and answers hold for the
-  /// rounded body. Throws InputError naming "tolerance", "agent" (axis ratio beyond 1e12) or "pose".
+  /// resolved to `tolerance` (1e-6 to 0.5) parts of its extent. `pose`: of the obstacle, `agent_at`: where
+  /// the agent's own origin stands, metres; where the pose turns, the body is taken into its frame, the
+  /// numbers rounded, and answers hold for the rounded body. Throws InputError naming "tolerance", "agent"
+  /// (axis ratio beyond 1e12) or "pose".
   CompositePair(const CombinedEllipsoid& agent, const Assembly& obstacle, const Pose& pose = {},
-                double tolerance = 1e-3);
+                double tolerance = 1e-3, const Eigen::Vector3d& agent_at = Eigen::Vector3d::Zero());
 
-  /// Pieces against pieces: exact. The agent's coordinates are rounded once where the two poses differ.
-  /// Throws InputError naming "pose".
+  /// Pieces against pieces: exact. Where the poses differ and one of them turns, the agent's coordinates are
+  /// rounded. Throws InputError naming "pose".
   CompositePair(const Assembly& agent, const Pose& agent_pose, const Assembly& obstacle,
                 const Pose& obstacle_pose = {});
 

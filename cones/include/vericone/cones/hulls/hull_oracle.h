@@ -41,10 +41,17 @@ struct HullScene;
 class HullOracle {
  public:
   /// Linear in the number of points: 4 us for 8, 180 us for 10,000 (two hulls: 2 us, 0.8 ms). Relation and
-  /// separating normal are exact.
-  HullOracle(const Ellipsoid& agent, const HullBody& obstacle);
-  HullOracle(const HullBody& agent, const Ellipsoid& obstacle);
-  HullOracle(const HullBody& agent, const HullBody& obstacle);
+  /// separating normal are exact. `..._at`: where the bodies' own origins stand, metres; the sums with their
+  /// points are not rounded.
+  HullOracle(const Ellipsoid& agent, const HullBody& obstacle,
+             const Eigen::Vector3d& agent_at = Eigen::Vector3d::Zero(),
+             const Eigen::Vector3d& obstacle_at = Eigen::Vector3d::Zero());
+  HullOracle(const HullBody& agent, const Ellipsoid& obstacle,
+             const Eigen::Vector3d& agent_at = Eigen::Vector3d::Zero(),
+             const Eigen::Vector3d& obstacle_at = Eigen::Vector3d::Zero());
+  HullOracle(const HullBody& agent, const HullBody& obstacle,
+             const Eigen::Vector3d& agent_at = Eigen::Vector3d::Zero(),
+             const Eigen::Vector3d& obstacle_at = Eigen::Vector3d::Zero());
 
   [[nodiscard]] Relation relation() const { return relation_; }
   /// The rung that decided it.
