@@ -35,8 +35,9 @@ double nearest_time(const Pair& pair, const Eigen::Vector3d& v_a, const Eigen::V
   if (!agent || !obstacle || pair.guarantee().exact || v_a == v_b) return pair.miss(v_a, v_b).time;
   // Pair brackets the distance of these by ellipsoids, which may be nearest at another time.
   constexpr double kEver = std::numeric_limits<double>::infinity();
-  return nearest_points<3>(in_world(*agent, pair.agent().pose), in_world(*obstacle, pair.obstacle().pose),
-                           v_a - v_b, 0, kEver)
+  const Eigen::Vector3d w = v_a - v_b;
+  return nearest_points(in_world(*agent, pair.agent().pose), in_world(*obstacle, pair.obstacle().pose), w, 0,
+                        kEver)
       .time;
 }
 

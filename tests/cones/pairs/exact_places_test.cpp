@@ -48,41 +48,52 @@ struct Known {
   double radius = 0;
 };
 
-/// Multiples of 1/8: differences of them are doubles, sums with a place of 53 bits are not.
-Vector3d coarse(RandomBodies& random, int most) {
-  return Vector3d(random.integer(-most, most), random.integer(-most, most), random.integer(-most, most)) / 8;
-}
+/// What bodies are made of. Coarse numbers are multiples of 1/8: their differences are doubles, so that a
+/// graze may be exact, and sums with a place of 53 bits below 1 are none. Fine ones have 53 bits: with places
+/// of 1,000 m the sums lose 1e-13 m.
+struct Numbers {
+  RandomBodies& random;
+  bool fine;
 
-std::vector<Vector3d> around(RandomBodies& random, const Vector3d& middle, int count) {
-  std::vector<Vector3d> points;
-  for (int i = 0; i < count; ++i) points.push_back(middle + coarse(random, 8));
-  return points;
-}
+  Vector3d vector(int most) const {
+    if (fine) return random.in_box(most / 8.0);
+    return Vector3d(random.integer(-most, most), random.integer(-most, most), random.integer(-most, most)) /
+           8;
+  }
+  double length(int most) const {
+    return fine ? random.uniform(0.1, most / 8.0) : random.integer(1, most) / 8.0;
+  }
+  std::vector<Vector3d> around(const Vector3d& middle, int count) const {
+    std::vector<Vector3d> points;
+    for (int i = 0; i < count; ++i) points.push_back(middle + vector(8));
+    return points;
+  }
+};
 
 Known of_hull(std::vector<Vector3d> points) { return {HullBody(points), {points}}; }
 
-Known any(RandomBodies& random, Kind kind) {
+Known any(const Numbers& numbers, Kind kind) {
   const Vector3d none = Vector3d::Zero();
   Known known;
   switch (kind) {
     case Kind::point:
-      return of_hull(around(random, none, 1));
+      return of_hull(numbers.around(none, 1));
     case Kind::segment:
-      return of_hull(around(random, none, 2));
+      return of_hull(numbers.around(none, 2));
     case Kind::plate:
-      return of_hull(around(random, none, 3));
+      return of_hull(numbers.around(none, 3));
     case Kind::hull:
-      return of_hull(around(random, none, 5));
+      return of_hull(numbers.around(none, 5));
     case Kind::ball:
-      known.radius = random.integer(1, 8) / 8.0;
-      known.pieces = {{coarse(random, 8)}};
+      known.radius = numbers.length(8);
+      known.pieces = {{numbers.vector(8)}};
       known.body = Ellipsoid::from_axes(known.pieces[0][0], Vector3d::Constant(known.radius));
       return known;
     case Kind::balls: {
-      known.radius = random.integer(1, 4) / 8.0;
+      known.radius = numbers.length(4);
       std::vector<CombinedEllipsoid> parts;
       for (int i = 0; i < 2; ++i) {
-        known.pieces.push_back({coarse(random, 16)});
+        known.pieces.push_back({numbers.vector(16)});
         parts.push_back(Ellipsoid::from_axes(known.pieces.back()[0], Vector3d::Constant(known.radius)));
       }
       known.body = Body::pieces(std::move(parts));
@@ -91,9 +102,9 @@ Known any(RandomBodies& random, Kind kind) {
     case Kind::points:
     case Kind::cloud: {
       std::vector<Vector3d> centers;
-      known.radius = kind == Kind::points ? 0 : random.integer(1, 4) / 8.0;
+      known.radius = kind == Kind::points ? 0 : numbers.length(4);
       for (int i = 0; i < 3; ++i) {
-        centers.push_back(coarse(random, 16));
+        centers.push_back(numbers.vector(16));
         known.pieces.push_back({centers.back()});
       }
       known.body = Assembly::cloud(centers, known.radius);
@@ -104,7 +115,7 @@ Known any(RandomBodies& random, Kind kind) {
       std::vector<Vector3d> points;
       std::vector<Assembly::Triangle> triangles;
       for (std::uint32_t i = 0; i < 2; ++i) {
-        const std::vector<Vector3d> corners = around(random, {4.0 * i, 0, 0}, 3);
+        const std::vector<Vector3d> corners = numbers.around({4.0 * i, 0, 0}, 3);
         points.insert(points.end(), corners.begin(), corners.end());
         triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
         known.pieces.push_back(corners);
@@ -116,9 +127,9 @@ Known any(RandomBodies& random, Kind kind) {
       std::vector<Box> boxes;
       for (int i = 0; i < 2; ++i) {
         // One side has no width, so that there are few corners.
-        const Vector3d middle = Vector3d(4.0 * i, 0, 0) + coarse(random, 4);
-        Vector3d half = coarse(random, 8).cwiseAbs() + Vector3d::Constant(0.125);
-        half(random.integer(0, 2)) = 0;
+        const Vector3d middle = Vector3d(4.0 * i, 0, 0) + numbers.vector(4);
+        Vector3d half = numbers.vector(8).cwiseAbs() + Vector3d::Constant(0.125);
+        half(numbers.random.integer(0, 2)) = 0;
         boxes.push_back({middle - half, middle + half});
         known.pieces.push_back(HullBody::box(middle - half, middle + half).points());
       }
@@ -128,7 +139,7 @@ Known any(RandomBodies& random, Kind kind) {
     case Kind::hulls: {
       std::vector<HullBody> hulls;
       for (int i = 0; i < 2; ++i) {
-        known.pieces.push_back(around(random, {4.0 * i, 0, 0}, 4));
+        known.pieces.push_back(numbers.around({4.0 * i, 0, 0}, 4));
         hulls.emplace_back(known.pieces.back());
       }
       known.body = Assembly::polyhedra(hulls);
@@ -170,31 +181,33 @@ Verdict truth(const Known& a, const Vector3d& a_at, const Known& b, const Vector
   return touching ? Verdict::touching : in ? Verdict::in : on ? Verdict::on : Verdict::out;
 }
 
-/// From about where a corner of one passes one of the other, and a bit beside.
+/// A velocity that grazes, rounded, and a few roundings off: to the outermost corner of the differences on a
+/// side, or to the tangent of the ball about it. The side is turned until it is across the velocity.
 Vector3d aimed(RandomBodies& random, const Known& a, const Vector3d& a_at, const Known& b,
                const Vector3d& b_at) {
-  const auto& piece_a =
-      a.pieces[static_cast<std::size_t>(random.integer(0, static_cast<int>(a.pieces.size()) - 1))];
-  const auto& piece_b =
-      b.pieces[static_cast<std::size_t>(random.integer(0, static_cast<int>(b.pieces.size()) - 1))];
-  const Vector3d side = random.direction();
-  const auto farthest = [&](const std::vector<Vector3d>& points, double sign) {
-    Vector3d best = points.front();
-    for (const Vector3d& x : points)
-      if (sign * side.dot(x - best) > 0) best = x;
-    return best;
-  };
-  Vector3d w = (farthest(piece_b, 1) - farthest(piece_a, -1)) + (b_at - a_at);
+  std::vector<Vector3d> corners;
+  const bool all = random.coin();
+  for (const auto& piece_a : a.pieces)
+    for (const auto& piece_b : b.pieces) {
+      if (!all && !corners.empty()) continue;  // of the first pair of pieces
+      for (const Vector3d& x : piece_a)
+        for (const Vector3d& y : piece_b) corners.push_back((y - x) + (b_at - a_at));
+    }
   const double radius = a.radius + b.radius;
-  const double length = w.norm();
-  if (radius > 0 && length > radius) {
-    // Along a tangent of the ball about it, to rounding.
-    const Vector3d u = w / length, across = (side - side.dot(u) * u).normalized();
-    const double sine = radius / length;
-    w = length * (std::sqrt(1 - sine * sine) * u + sine * across);
+  Vector3d side = random.direction(), w = corners.front();
+  for (int i = 0; i < 8; ++i) {
+    Vector3d farthest = corners.front();
+    for (const Vector3d& x : corners)
+      if (side.dot(x - farthest) > 0) farthest = x;
+    const double length = farthest.norm();
+    if (!(length > 1.001 * radius) || !(length > 0)) return farthest;
+    const Vector3d u = farthest / length, across = (side - side.dot(u) * u).normalized();
+    const double sine = radius / length, cosine = std::sqrt(1 - sine * sine);
+    w = radius > 0 ? Vector3d(length * (cosine * u + sine * across)) : farthest;
+    side = cosine * across - sine * u;
   }
   for (int k = 0; k < 3; ++k)
-    for (int i = random.integer(-2, 2); i != 0; i += i < 0 ? 1 : -1)
+    for (int i = random.coin() ? random.integer(-2, 2) : 0; i != 0; i += i < 0 ? 1 : -1)
       w(k) = std::nextafter(w(k), i < 0 ? -1e9 : 1e9);
   return w;
 }
@@ -207,18 +220,19 @@ TEST_P(ExactPlaces, VerdictsAreThoseOfTheNumbersAsGiven) {
   SCOPED_TRACE(random.trace());
   int decided[6] = {};
   for (int i = 0; i < campaign_size(12, 170); ++i) {
-    const Known a = any(random, first), b = any(random, second);
-    // The same digits in both places, so that their difference is a double, or digits of their own.
-    Vector3d a_at = random.in_box(1) / 3 + 1000 * random.in_box(1), b_at = a_at;
+    const Numbers numbers{random, random.coin()};
+    const Known a = any(numbers, first), b = any(numbers, second);
+    Vector3d a_at = random.in_box(numbers.fine ? 1000 : 0.5), b_at = a_at;
     if (random.coin()) {
-      b_at = a_at + 5 * random.direction();
+      b_at += 5 * random.direction();  // digits of their own
     } else {
+      // The same digits, so that the difference is a double.
       b_at.x() += 8;
-      if (random.coin()) b_at.x() = std::nextafter(b_at.x(), 0);
       a_at.x() = b_at.x() - 8;
+      if (random.coin()) b_at.y() = std::nextafter(b_at.y(), 0);
     }
-    if (random.coin()) a_at -= b_at, b_at.setZero();
-    const Vector3d v_b = coarse(random, 16), w = aimed(random, a, a_at, b, b_at);
+    if (numbers.fine && random.coin()) a_at -= b_at, b_at.setZero();
+    const Vector3d v_b = Numbers{random, false}.vector(16), w = aimed(random, a, a_at, b, b_at);
     const Vector3d v_a = random.coin() ? w : Vector3d(w + v_b);
     const Vector3d other = v_a == w ? Vector3d(Vector3d::Zero()) : v_b;
     const Verdict expected = truth(a, a_at, b, b_at, v_a, other);
@@ -256,7 +270,8 @@ TEST(ExchangedPairs, AgreeNextToAGrazeOfTurnedBodies) {
   for (const Kind first : kinds)
     for (const Kind second : kinds)
       for (int i = 0; i < campaign_size(3, 40); ++i) {
-        const Known a = any(random, first), b = any(random, second);
+        const Numbers numbers{random, true};
+        const Known a = any(numbers, first), b = any(numbers, second);
         const Placed agent(
             a.body, {random.in_box(1), random.coin() ? random.rotation() : Eigen::Matrix3d::Identity()});
         const Placed obstacle(b.body, {Vector3d(9, 0, 0) + random.in_box(1), random.rotation()});
