@@ -84,21 +84,18 @@ bool made_of_pieces(const Json& body) { return is_pieces_body(body) || is_union(
 
 /// Pieces are in space, and so is then the other body.
 void require_space(const Json& scene) {
+  const auto has = [&](const char* body) { return scene.contains(body) && scene[body].is_object(); };
   for (const char* body : {"agent", "obstacle"}) {
-    if (!scene.contains(body)) continue;
-    const Json& value = scene[body];
-    const bool points_in_plane = value.contains("points") && value["points"].is_array() &&
-                                 !value["points"].empty() && value["points"][0].is_array() &&
-                                 value["points"][0].size() == 2;
-    if (points_in_plane)
-      throw InputError(std::string(body) + ".points", quoted(value["points"]),
+    if (!has(body) || !scene[body].contains("points")) continue;
+    const Json& points = scene[body]["points"];
+    if (points.is_array() && !points.empty() && points[0].is_array() && points[0].size() == 2)
+      throw InputError(std::string(body) + ".points", quoted(points),
                        "points [x, y, z]: there are no polygons in the plane");
-    if (dimension(scene, body) != Dimension::planar) continue;
-    throw InputError(std::string(body) + ".center", quoted(value["center"]),
-                     made_of_pieces(value)
-                         ? "[x, y, z]: a body of pieces is in space"
-                         : "[x, y, z]: the other body is one of pieces, which are in space");
   }
+  for (const char* body : {"agent", "obstacle"})
+    if (dimension(scene, body) == Dimension::planar)
+      throw InputError(std::string(body) + ".center", quoted(scene[body]["center"]),
+                       "[x, y, z]: a body of pieces is in space, and so is what it may meet");
 }
 
 /// At least one body is made of pieces, or is a union.

@@ -53,6 +53,8 @@ Frame::Frame(const Ellipsoid& agent, const Place& place) {
 }
 
 void Frame::set_origin(const Eigen::Vector3d& x, const Place& place) {
+  origin_ = x;
+  if (place.agent.isZero(0) && place.obstacle.isZero(0)) return;
   double rest = 0, last = 0;
   for (int k = 0; k < 3; ++k) {
     // x + agent - obstacle as three parts, each about a rounding of the one before.

@@ -72,6 +72,8 @@ class Frame {
   /// At most how far G origin() is from G p, and all of beyond_range(): for those who take x - origin() where
   /// others take relative().
   double off_origin() const { return off_origin_ + beyond_range_; }
+  /// What it is compared with may be off by so much more (m).
+  void widen(double distance) { off_origin_ += norm_ * distance * (1 + 8 * kUlp); }
 
   /// To be told how large what it is used for is: |x - p|, at most.
   void check_range(double largest);

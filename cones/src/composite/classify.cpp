@@ -52,7 +52,7 @@ template <class Test>
 bool pieces_apart(const State& state, const NodePair& pair, const Directions& directions, const Test& test) {
   const Hierarchy::Node& node = state.obstacle.hierarchy().nodes()[pair.b];
   const auto apart = [&](const Box& box, std::uint32_t slot, auto&& core_of) {
-    const Box body = state.difference(box, piece_box(state.obstacle, slot));
+    const Box body = difference(box, piece_box(state.obstacle, slot));
     if (test.apart(body.low, body.high)) return true;
     const Core core = core_of(slot);
     return gap(core, directions, first_normal(core, directions)).answer == Gap::Answer::apart;
@@ -85,11 +85,12 @@ std::vector<NodePair> refined(const State& state, std::vector<NodePair> pairs, c
     changed = false;
     std::vector<NodePair> next;
     for (const NodePair& pair : pairs) {
-      const Box a = part_box(state, pair.a), b = nodes[pair.b].box(), both = state.difference(a, b);
+      const Box a = part_box(state, pair.a), b = nodes[pair.b].box(), both = difference(a, b);
       if (test.apart(both.low, both.high)) continue;
       const bool last_a = part_is_last(state, pair.a), last_b = nodes[pair.b].is_leaf();
       if (last_b && (last_a || !state.agent) && pieces_apart(state, pair, directions, test)) continue;
-      const bool looks_small = both.half_widths().norm() < 0.5 * sine * both.center().norm();
+      const bool looks_small =
+          both.half_widths().norm() < 0.5 * sine * (both.center() - state.zero.origin()).norm();
       if ((last_a && last_b) || looks_small) {
         next.push_back(pair);
         continue;
@@ -114,7 +115,7 @@ bool one_pair_meets(const State& state, const DirectionCell& cell, bool& middle_
   const Eigen::Vector3d middle = cell[0] + cell[1] + cell[2];
   const Directions ray(state.zero, {middle});
   const Directions rays[3] = {{state.zero, {cell[0]}}, {state.zero, {cell[1]}}, {state.zero, {cell[2]}}};
-  const Slabs slabs(state.zero, state.difference(state.agent_bounds(), state.obstacle.bounds()), middle);
+  const Slabs slabs(state.zero, difference(state.agent_bounds(), state.obstacle.bounds()), middle);
   const auto enter = [&](const Box& box) { return slabs.enter(box.low.data(), box.high.data()); };
   if (state.cells) {
     const auto apart = [&](const Box& box) { return std::isinf(enter(box)); };

@@ -56,10 +56,14 @@ CompositePair::State::State(const Assembly& body, const Pose& place)
     : obstacle(body), pose(place), upright(is_upright(place)), zero(HullBody()) {}
 
 void CompositePair::State::check_range() {
-  beside_ = !place.agent.isZero(0) || !place.obstacle.isZero(0);
-  largest = largest_coordinate(obstacle.bounds()) + largest_coordinate(agent_bounds()) +
-            (place.obstacle - place.agent).cwiseAbs().sum();
+  const double own = largest_coordinate(obstacle.bounds()) + largest_coordinate(agent_bounds());
+  largest = own + (place.obstacle - place.agent).cwiseAbs().sum();
+  zero = assembly::Frame(HullBody(), place);
   zero.check_range(largest);
+  if (place.agent.isZero(0) && place.obstacle.isZero(0)) return;
+  // Differences of boxes are rounded before the place is added.
+  zero.widen(4 * assembly::kUlp * own);
+  apex_slack_ = 8 * assembly::kUlp * largest;
 }
 
 CompositePair::CompositePair(const CombinedEllipsoid& agent, const Assembly& obstacle, const Pose& pose,

@@ -9,7 +9,7 @@ std::optional<Relation> delimited_relation(const State& state) {
   if (state.within && state.within->relation() == Relation::overlapping) return Relation::overlapping;
   if (!state.within_range()) return std::nullopt;
   const Directions apex{};
-  const auto apart = [](const Box& box) { return !holds_origin(box); };
+  const auto apart = [&](const Box& box) { return !state.holds_apex(box); };
   switch (CellSearch(state, apex, apart).run()) {
     case Certified::in:
       return Relation::overlapping;
@@ -28,7 +28,7 @@ std::optional<Membership> delimited_membership(const State& state, const Eigen::
   if (state.within && state.within->membership(v_a, v_b) == Membership::in) return Membership::in;
   if (!state.within_range()) return std::nullopt;
   const Eigen::Vector3d w = relative_velocity(v_a, v_b);
-  const Slabs slabs(state.zero, state.difference(state.agent_bounds(), state.obstacle.bounds()), w);
+  const Slabs slabs(state.zero, difference(state.agent_bounds(), state.obstacle.bounds()), w);
   const Directions ray(state.zero, {w});
   const auto apart = [&](const Box& box) { return std::isinf(slabs.enter(box.low.data(), box.high.data())); };
   switch (CellSearch(state, ray, apart).run()) {

@@ -61,7 +61,7 @@ class CellSearch {
   Outcome visit(const CellPair& pair) {
     const Hierarchy::Node& node = state_.obstacle.hierarchy().nodes()[pair.node];
     const Box cell = cells_.box(pair.cell), box = node.box();
-    if (apart_(state_.difference(cell, box))) return Outcome::done;
+    if (apart_(difference(cell, box))) return Outcome::done;
     const bool last = pair.cell.level == cells_.most_levels();
     if (!node.is_leaf() && (last || pair.full || size(box) >= size(cell))) {
       stack_.push_back({pair.cell, node.first + 1, pair.full});
@@ -88,7 +88,7 @@ class CellSearch {
     std::optional<assembly::Frame> own, inner;
     bool sought = false, any = false;
     for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot) {
-      if (apart_(state_.difference(cell, assembly::piece_box(state_.obstacle, slot)))) continue;
+      if (apart_(difference(cell, assembly::piece_box(state_.obstacle, slot)))) continue;
       if (!own) own = state_.frame(HullBody::box(cell.low, cell.high));
       const assembly::Core core = assembly::piece_core(*own, state_.obstacle, slot);
       const assembly::Gap found = assembly::gap(core, directions_, first_normal(core, directions_));

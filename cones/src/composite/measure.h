@@ -28,7 +28,7 @@ class ContactMeasure {
  public:
   ContactMeasure(const State& state, const Eigen::Vector3d& w)
       : state_(state),
-        slabs_(state.zero, state_.difference(state.agent_bounds(), state.obstacle.bounds()), w),
+        slabs_(state.zero, difference(state.agent_bounds(), state.obstacle.bounds()), w),
         d_(w / slabs_.scale()) {}
 
   double scale() const { return slabs_.scale(); }
@@ -124,12 +124,12 @@ class CellDescent {
   }
   void push_node(const Cell& cell, std::uint32_t node, double at_least, bool full) {
     const Box box = state_.obstacle.hierarchy().nodes()[node].box();
-    const double least = measure_.of_box(state_.difference(cells_.box(cell), box));
+    const double least = measure_.of_box(difference(cells_.box(cell), box));
     push({std::max(least, at_least), cell, node, kNone, full});
   }
   void push_piece(const Cell& cell, std::uint32_t slot, double at_least, bool full) {
     const Box box = cells_.box(cell);
-    const double rough = measure_.of_box(state_.difference(box, assembly::piece_box(state_.obstacle, slot)));
+    const double rough = measure_.of_box(difference(box, assembly::piece_box(state_.obstacle, slot)));
     if (!(rough < best_.most)) return;
     const assembly::Frame frame = state_.frame(HullBody::box(box.low, box.high));
     const assembly::Core core = assembly::piece_core(frame, state_.obstacle, slot);

@@ -31,8 +31,8 @@ PieceFrame::PieceFrame(const State& state, std::uint32_t slot) : state_(&state) 
 Relation pieces_relation(const State& state) {
   const Directions apex{};
   Relation relation = Relation::disjoint;
-  const auto enter = [](const Box& box) {
-    return holds_origin(box) ? 0 : std::numeric_limits<double>::infinity();
+  const auto enter = [&](const Box& box) {
+    return state.holds_apex(box) ? 0 : std::numeric_limits<double>::infinity();
   };
   for_each_pair(state, enter, [&](std::uint32_t i, std::uint32_t j) {
     const PieceFrame piece(state, i);
@@ -51,7 +51,7 @@ Relation pieces_relation(const State& state) {
 
 Membership pieces_membership(const State& state, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) {
   const Eigen::Vector3d w = relative_velocity(v_a, v_b);
-  const Slabs slabs(state.zero, state.difference(state.agent_bounds(), state.obstacle.bounds()), w);
+  const Slabs slabs(state.zero, difference(state.agent_bounds(), state.obstacle.bounds()), w);
   const Directions ray(state.zero, {w});
   Membership answer = Membership::out;
   const auto enter = [&](const Box& box) { return slabs.enter(box.low.data(), box.high.data()); };

@@ -58,7 +58,7 @@ void for_each_pair(const State& state, Enter&& enter, Leaf&& leaf) {
   };
   const auto a_nodes = state.agent->hierarchy().nodes(), b_nodes = state.obstacle.hierarchy().nodes();
   const auto at = [&](const Item& item) {
-    return enter(state.difference(a_nodes[item.a].box(), b_nodes[item.b].box()));
+    return enter(difference(a_nodes[item.a].box(), b_nodes[item.b].box()));
   };
   std::vector<Item> stack;
   stack.reserve(128);
@@ -75,7 +75,7 @@ void for_each_pair(const State& state, Enter&& enter, Leaf&& leaf) {
       for (std::uint32_t i = a.first; i < a.first + a.count; ++i) {
         const Box own = assembly::piece_box(*state.agent, i);
         for (std::uint32_t j = 0; j < b.count; ++j)
-          if (std::isfinite(enter(state.difference(own, boxes[j]))) && !leaf(i, b.first + j)) return;
+          if (std::isfinite(enter(difference(own, boxes[j]))) && !leaf(i, b.first + j)) return;
       }
       continue;
     }

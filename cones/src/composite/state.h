@@ -22,7 +22,7 @@ struct CompositePair::State {
   Pose pose;              // of the obstacle
   bool upright = true;    // the pose is not turned
   assembly::Place place;  // of the agent, beside the obstacle
-  assembly::Frame zero;   // of the origin: where differences of boxes are compared with directions
+  assembly::Frame zero;   // of the apex less the place: where differences of boxes meet directions
   std::optional<Relation> relation;
 
   // One of the two, along the obstacle's axes.
@@ -44,7 +44,7 @@ struct CompositePair::State {
   }
 
   /// Whether doubles can prove anything: squares of lengths are doubles.
-  bool within_range() const { return zero.beyond_range() == 0; }
+  bool within_range() const { return std::isfinite(zero.beyond_range()); }
   /// To be called when the place and the agent are known.
   void check_range();
 
@@ -55,31 +55,23 @@ struct CompositePair::State {
     made.check_range(largest);
     return made;
   }
-  /// All y - x with x in a box `own` of the agent and y in a box `other` of the obstacle; rounded outwards,
-  /// or to nearest, the signs exactly, where nothing is added to them.
-  Box difference(const Box& own, const Box& other) const {
-    Box both{other.low - own.high, other.high - own.low};
-    if (!beside_) return both;
-    const Eigen::Vector3d size = own.low.cwiseAbs().cwiseMax(own.high.cwiseAbs()) +
-                                 other.low.cwiseAbs().cwiseMax(other.high.cwiseAbs()) +
-                                 place.agent.cwiseAbs() + place.obstacle.cwiseAbs();
-    const Eigen::Vector3d shift = place.obstacle - place.agent, slack = 4 * assembly::kUlp * size;
-    both.low += shift - slack;
-    both.high += shift + slack;
-    return both;
+  /// Whether the difference of two boxes, less the place, may hold 0. Boxes that are not numbers may.
+  bool holds_apex(const Box& difference) const {
+    const Eigen::Vector3d &apex = zero.origin(), low = difference.low - apex, high = difference.high - apex;
+    return !((low.array() > apex_slack_).any() || (high.array() < -apex_slack_).any());
   }
 
  private:
-  bool beside_ = false;  // the place is not 0
+  double apex_slack_ = 0;  // metres; 0 without a place: signs of differences are exact
 };
 
 namespace composite {
 
 using State = CompositePair::State;
 
-/// Boxes that are not numbers may hold it.
-inline bool holds_origin(const Box& box) {
-  return !((box.low.array() > 0).any() || (box.high.array() < 0).any());
+/// All y - x with x in `agent` and y in `obstacle`, each in its own frame; rounded, the signs exactly.
+inline Box difference(const Box& agent, const Box& obstacle) {
+  return {obstacle.low - agent.high, obstacle.high - agent.low};
 }
 inline double size(const Box& box) { return (box.high - box.low).sum(); }
 

@@ -24,24 +24,24 @@ int fine_grid(double x) {
   return (biased == 0 ? -1074 : biased - 1075) + std::countr_zero(fraction);
 }
 
-Eigen::Vector3d centred(const Eigen::Vector3d& x, const Eigen::Vector3d& at,
-                        const Eigen::Vector3d& reference) {
-  return {sum_of_three(x.x(), at.x(), -reference.x()), sum_of_three(x.y(), at.y(), -reference.y()),
-          sum_of_three(x.z(), at.z(), -reference.z())};
-}
-
+/// x + at - reference, in metres.
 void fill(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& at,
-          const Eigen::Vector3d& reference, double scale, CentredPoints& to) {
+          const Eigen::Vector3d& reference, CentredPoints& to) {
   to.x.reserve(points.size());
   to.y.reserve(points.size());
   to.z.reserve(points.size());
   for (const Eigen::Vector3d& p : points) {
-    const Eigen::Vector3d d = centred(p, at, reference) * scale;
-    to.x.push_back(d.x());
-    to.y.push_back(d.y());
-    to.z.push_back(d.z());
-    to.reach = to.reach.cwiseMax(d.cwiseAbs());
+    to.x.push_back(sum_of_three(p.x(), at.x(), -reference.x()));
+    to.y.push_back(sum_of_three(p.y(), at.y(), -reference.y()));
+    to.z.push_back(sum_of_three(p.z(), at.z(), -reference.z()));
+    to.reach = to.reach.cwiseMax(to[to.size() - 1].cwiseAbs());
   }
+}
+
+void scale_by(double scale, CentredPoints& points) {
+  for (auto* list : {&points.x, &points.y, &points.z})
+    for (double& x : *list) x *= scale;
+  points.reach *= scale;
 }
 
 /// Index of the least of sign * n.x over the points.
@@ -84,17 +84,19 @@ HullScene::HullScene(std::vector<Eigen::Vector3d> agent_points, const Eigen::Vec
                      std::vector<Eigen::Vector3d> obstacle_points, const Eigen::Vector3d& obstacle_at,
                      const Eigen::Vector3d& reference, const Ellipsoid* round)
     : agent(std::move(agent_points)), obstacle(std::move(obstacle_points)) {
-  double largest = reference.allFinite() ? 0 : std::numeric_limits<double>::infinity();
+  fill(agent, agent_at, reference, centred_agent);
+  fill(obstacle, obstacle_at, reference, centred_obstacle);
+  double largest = reference.allFinite()
+                       ? std::max(centred_agent.reach.maxCoeff(), centred_obstacle.reach.maxCoeff())
+                       : std::numeric_limits<double>::infinity();
   int finest = kNoGrid;
-  const auto look_at = [&](const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& at) {
-    for (int k = 0; k < 3; ++k) finest = std::min(finest, fine_grid(at(k)));
-    for (const Eigen::Vector3d& p : points) {
-      largest = std::max(largest, centred(p, at, reference).cwiseAbs().maxCoeff());
-      for (int k = 0; k < 3; ++k) finest = std::min(finest, fine_grid(p(k)));
-    }
+  const auto look_at = [&](const Eigen::Vector3d& p) {
+    for (int k = 0; k < 3; ++k) finest = std::min(finest, fine_grid(p(k)));
   };
-  look_at(agent, agent_at);
-  look_at(obstacle, obstacle_at);
+  look_at(agent_at);
+  look_at(obstacle_at);
+  for (const auto* points : {&agent, &obstacle})
+    for (const Eigen::Vector3d& p : *points) look_at(p);
   if (round) {
     ellipsoid = *round;
     largest = std::max(largest, round->factor().cwiseAbs().maxCoeff());
@@ -126,8 +128,8 @@ HullScene::HullScene(std::vector<Eigen::Vector3d> agent_points, const Eigen::Vec
   const int e = largest == 0 ? 0 : std::ilogb(largest) + 1;
   if (std::abs(e) > 510) return;
   const double scale = std::ldexp(1.0, -e);  // a power of two: scaling is exact but for underflow
-  fill(agent, agent_at, reference, scale, centred_agent);
-  fill(obstacle, obstacle_at, reference, scale, centred_obstacle);
+  scale_by(scale, centred_agent);
+  scale_by(scale, centred_obstacle);
   reach = centred_agent.reach + centred_obstacle.reach;
   usable = true;
   if (!round) return;
