@@ -54,7 +54,8 @@ void add_enclosed_time(Json& result, const Pair& pair, Verdict verdict, const Ei
     time = contact->time;
     enclosure = {contact->earliest, contact->latest};
   }
-  result["clearance"] = result["nearest_time"] = nullptr;
+  result["clearance"] = nullptr;
+  result["nearest_time"] = nullptr;
   result["time_to_contact"] = time;
   result["time_enclosure"] = enclosure;
 }

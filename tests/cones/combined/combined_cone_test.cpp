@@ -325,6 +325,8 @@ TEST(CombinedCone, BadToleranceIsRefused) {
     EXPECT_THROW(combined_cone(a, b, bad), InputError);
     EXPECT_THROW(CombinedOracle(a, b, bad), InputError);
   }
+  // Below rounding nothing could be proved: the bounds would be those of no search at all.
+  EXPECT_THROW(combined_cone(a, b, 1e-12), InputError);
   EXPECT_THROW(CombinedOracle(a, b).membership({1, std::nan(""), 0}), InputError);
 }
 
