@@ -80,8 +80,6 @@ Scene quadric_scene(const Json& value, Velocities velocities) {
   return scene;
 }
 
-bool made_of_pieces(const Json& body) { return is_pieces_body(body) || is_union(body); }
-
 /// Pieces are in space, and so is then the other body.
 void require_space(const Json& scene) {
   const auto has = [&](const char* body) { return scene.contains(body) && scene[body].is_object(); };
@@ -93,7 +91,7 @@ void require_space(const Json& scene) {
                        "points [x, y, z]: there are no polygons in the plane");
   }
   for (const char* body : {"agent", "obstacle"})
-    if (dimension(scene, body) == Dimension::planar)
+    if (has(body) && dimension(scene[body]) == Dimension::planar)
       throw InputError(std::string(body) + ".center", quoted(scene[body]["center"]),
                        "[x, y, z]: a body of pieces is in space, and so is what it may meet");
 }

@@ -21,8 +21,7 @@ double nearest_time(const Ellipsoid& agent, const Ellipsoid& obstacle, const Eig
   const Eigen::Vector3d w = v_a - v_b;
   const double speed = w.cwiseAbs().maxCoeff();
   // Where squares of speeds leave the doubles, miss() scales them.
-  if (!(speed > 1e-100 && speed < 1e100))
-    return Pair(Placed(agent), Placed(obstacle)).miss(v_a, v_b).time;
+  if (!(speed > 1e-100 && speed < 1e100)) return Pair(Placed(agent), Placed(obstacle)).miss(v_a, v_b).time;
   return std::max(clearance(agent, obstacle, w).time, 0.0);
 }
 
