@@ -87,7 +87,7 @@ class Query(unittest.TestCase):
         answer = query({**engagement(a, box, [10, 0, 0]), "position_error": {"ball": 1}, "velocity_error": {"ball": 0.5}})[1][0]
         self.assertEqual((answer["robust"], answer["witness"]), ("in", None))
         # A graze, exactly: nothing is off, and the plane along the motion touches.
-        graze = {**engagement(a, ball([20, 3, 0], 2), [10, 0, 0]), "horizon": 9}
+        graze = {**engagement(a, ball([20, 3, 0], 2), [10, 0, 0]), "horizon": 9, "position_error": {"box": [0, 0, 0]}}
         self.assertEqual((query(graze)[1][0]["verdict"], query(graze)[1][0]["robust"]), ("on", "in"))
 
     def test_when_they_are_nearest(self):
