@@ -1,163 +1,249 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Whether a course is safe.
+// How near courses come to bodies.
 #include "foresight.h"
 
 #include <vericone/cones/ellipsoids/clearance.h>
-#include <vericone/cones/pair.h>
 #include <Eigen/Geometry>
 #include <cmath>
 
 namespace vericone::guidance {
-namespace {
-
-/// Looks at a turn; one that takes more is not safe, as far as anyone can say in time.
-constexpr int kMostLooks = 100'000;
-
-}  // namespace
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-Navigator::Flight::Flight(const Moment& at, const Course& on)
-    : now(at),
-      course(on),
-      turning(on.angle > kAligned ? on.radius * on.angle / at.speed : 0),
-      rate(turning > 0 ? on.angle / turning : 0),
-      axis(at.ahead.cross(on.aside)) {}
-
-Vector3d Navigator::Flight::moved(double t) const {
-  const double turned = rate * t, r = course.radius;
-  if (turning > 0) return r * (std::sin(turned) * now.ahead + (1 - std::cos(turned)) * course.aside);
-  return now.speed * t * now.ahead;
+Vector3d Navigator::Flight::velocity(double t) const {
+  if (course.radius > 0) {
+    const double turned = course.angle * t / course.turning;
+    return now.speed * (std::cos(turned) * now.ahead + std::sin(turned) * course.aside);
+  }
+  return now.velocity + t * course.most * course.aside;
 }
 
-Ellipsoid Navigator::Flight::body_at(double t) const {
-  if (!now.carried || turning == 0) return now.body.translated(moved(t));
-  const Matrix3d rotation = Eigen::AngleAxisd(rate * t, axis).toRotationMatrix();
-  const Vector3d center = now.position + rotation * (now.body.center() - now.position) + moved(t);
-  Matrix3d directions = rotation * now.body.axis_directions();
+Matrix3d Navigator::Flight::rotation(double t) const {
+  if (!now.carried || course.turning == 0) return Matrix3d::Identity();
+  if (course.radius > 0) return Eigen::AngleAxisd(course.angle * t / course.turning, axis).toRotationMatrix();
+  const Vector3d v = velocity(t);
+  if (!(v.norm() > 1e-9 * now.speed)) return Matrix3d::Identity();
+  return Eigen::Quaterniond::FromTwoVectors(now.ahead, v).toRotationMatrix();
+}
+
+Vector3d Navigator::Flight::center(double t) const {
+  Vector3d moved;
+  if (course.radius > 0) {
+    const double turned = course.angle * t / course.turning;
+    moved = course.radius * (std::sin(turned) * now.ahead + (1 - std::cos(turned)) * course.aside);
+  } else {
+    moved = t * (now.velocity + 0.5 * t * course.most * course.aside);
+  }
+  return now.position + rotation(t) * (now.body.center() - now.position) + moved;
+}
+
+Ellipsoid Navigator::Flight::body(double t) const {
+  if (!now.carried || course.turning == 0) return now.body.translated(center(t) - now.body.center());
+  Matrix3d directions = rotation(t) * now.body.axis_directions();
   if (directions.determinant() < 0) directions.col(2) *= -1;
-  return Ellipsoid::from_axes(center, now.body.semi_axes(), directions);
-}
-
-Placed Navigator::Body::at(double t) const {
-  Placed there = *itself;
-  there.pose.position += velocity * t;
-  return there;
-}
-
-double Navigator::Body::distance(const Ellipsoid& agent, double t) const {
-  if (!itself) return separation(agent, body.translated(velocity * t)).distance;
-  return Pair(vericone::Body(agent), at(t)).miss(Vector3d::Zero(), Vector3d::Zero()).least;
+  return Ellipsoid::from_axes(center(t), now.body.semi_axes(), directions);
 }
 
 bool Navigator::Body::holds(const Vector3d& point, double margin) const {
   if (!itself) return false;
-  Box bounds = itself->body.bounds();
+  Box bounds = itself->body.assembly() ? itself->body.assembly()->bounds() : itself->body.bounds();
   bounds.low.array() -= margin;
   bounds.high.array() += margin;
   return bounds.contains(itself->pose.to_body(point));
 }
 
-/// The straight part past a body that is judged as it is: by how much it is missed for ever; if that is too
-/// little, by distances as long as it matters.
-void Navigator::see_passing(const Flight& flight, const Ellipsoid& after_turn, const Body& other,
-                            std::size_t i, double required, Foreseen& result) {
-  const Miss pass =
-      Pair(vericone::Body(after_turn), other.at(flight.turning)).miss(flight.straight(), other.velocity);
-  const double end = std::min(flight.course.until - flight.turning, other.until);
-  if (pass.least >= required || !(end < kFar)) {
-    result.see(pass.most > 0 ? pass.least : -pass.depth, required, i);
-    return;
-  }
-  const double closing = (flight.straight() - other.velocity).norm(), least_step = 0.25 * flight.now.step;
-  for (double t = 0;;) {
-    const double d = other.distance(after_turn.translated(flight.straight() * t), flight.turning + t);
-    result.see(d, required, i);
-    if (d < required || !(t < end)) return;
-    t = std::min(end, t + std::max(least_step, (d - required) / closing));
-  }
+Near Navigator::Body::near(const Sweep& sweep, const Wanted& wanted) const {
+  // The balls first.
+  const Vector3d c = body.center() - sweep.from;
+  const double square = sweep.along.squaredNorm();
+  const double part = square > 0 ? std::clamp(c.dot(sweep.along) / square, 0.0, 1.0) : 0;
+  if (const double balls = (c - part * sweep.along).norm() - reach - sweep.factor.norm();
+      balls >= wanted.enough)
+    return {balls};
+  return itself ? guidance::near(sweep, *itself, wanted) : guidance::near(sweep, body, wanted);
 }
 
-/// Whether the course keeps `extra` more than required from every body. Ends early where it lacks more than
-/// `floor`.
-Navigator::Foreseen Navigator::foresee(const Moment& now, const Course& course, double extra,
-                                       double floor) const {
-  Foreseen result;
-  const Flight flight(now, course);
-  const double turning = flight.turning, rate = flight.rate;
-  std::optional<Ellipsoid> after_turn;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const Body& other = bodies_[i];
-    const double required = other.required + (other.near ? 0 : extra);
-    const auto apart = [&](double t) {  // metres; a lower bound where that is enough
-      const Vector3d shift = other.velocity * t,
-                     c = other.body.center() + shift - now.position - flight.moved(t);
-      const double balls = c.norm() - other.reach - now.reach;
-      if (balls > required) return balls;
-      return other.distance(flight.body_at(t), t);
-    };
-    // The turn. Between two looks nothing moves farther than this.
-    const double closing = now.speed + other.velocity.norm() + (now.carried ? rate * now.reach : 0);
-    const double least_step = 0.25 * now.step, end = std::min(turning, course.until);
-    int looks = 0;
-    for (double t = 0; end > 0;) {
-      if (++looks > kMostLooks) {
-        result.see(-kFar, required, i);
-        break;
-      }
-      const double d = apart(t);
-      result.see(d, required, i);
-      if (d < required && t > 0) break;
-      if (t >= end) break;
-      t = std::min(end, t + std::max(least_step, (d - required) / closing));
+/// A part of the manoeuvre: its chord, and how far from the chord the body may be, which turns meanwhile.
+struct Navigator::Chord {
+  Sweep sweep;
+  double beside;  // m
+  bool fine;      // no shorter one is looked at
+
+  Chord(const Flight& flight, const Body& other, double begin, double end) {
+    const Moment& now = flight.now;
+    const double middle = 0.5 * (begin + end), span = end - begin;
+    beside = flight.course.most * span * span / 8;
+    if (now.carried) {
+      const auto between = [&](double s, double t) {
+        const Vector3d u = flight.velocity(s), v = flight.velocity(t);
+        return std::atan2(u.cross(v).norm(), u.dot(v));
+      };
+      const double turned = std::max(between(begin, middle), between(middle, end));
+      const double offset = (now.body.center() - now.position).norm();
+      beside += std::min(2.0, turned) * now.uneven + 0.5 * offset * turned * turned;
     }
-    if (!(result.lacking >= floor)) break;
-    if (course.until <= turning) continue;
-    // Straight on.
-    const Vector3d w = now.speed * course.direction - other.velocity;
-    const Vector3d shift = other.velocity * turning;
-    if (!(w.norm() > 1e-9 * (now.speed + other.velocity.norm()))) {
-      result.see(apart(turning), required, i);
-      continue;
-    }
-    const Vector3d c = other.body.center() + shift - now.position - flight.moved(turning);
-    const double along = c.dot(w) / w.norm(), across = (c - along / w.norm() * w).norm();
-    const double reach = other.reach + now.reach;
-    if (across - reach > required || (along < 0 && c.norm() - reach > required)) continue;  // of the balls
-    if (!after_turn) after_turn = flight.body_at(turning);
-    if (other.itself) {
-      see_passing(flight, *after_turn, other, i, required, result);
-      if (!(result.lacking >= floor)) break;
-      continue;
-    }
-    const Ellipsoid there = other.body.translated(shift);
-    const Clearance pass = clearance(*after_turn, there, w);
-    if (pass.distance >= required) {
-      if (pass.time > 0) result.see(pass.distance, required, i);
-      continue;
-    }
-    const Separation gap = separation(*after_turn, there);
-    if (gap.distance > 0 && gap.normal.dot(w) <= 0) {  // moving apart
-      result.see(gap.distance, required, i);
-      continue;
-    }
-    if (pass.distance >= 0 && pass.time <= 0) continue;
-    const double left = course.until - turning;
-    if (along / w.norm() > left && (pass.distance < 0 || pass.time > left)) {
-      // Not met before the course ends: then nearest at its end.
-      const double d = separation(after_turn->translated(now.speed * left * course.direction),
-                                  there.translated(other.velocity * left))
-                           .distance;
-      result.see(d, required, i);
-    } else {
-      result.see(pass.distance, required, i);
-    }
-    if (!(result.lacking >= floor)) break;
+    fine = beside <= 5e-4 * now.reach || span <= 0.25 * now.step;
+    sweep.from = flight.center(begin) - begin * other.velocity;
+    sweep.along = flight.center(end) - end * other.velocity - sweep.from;
+    sweep.factor = now.body.factor();
+    if (now.carried) sweep.factor = flight.rotation(middle) * sweep.factor;
   }
-  result.safe = result.lacking >= 0;
+};
+
+/// Whether, from `begin` to `end` of the manoeuvre, it comes as near as `hopeless`. Most courses that are
+/// tried are left here.
+bool Navigator::fails(const Flight& flight, const Body& other, double begin, double end,
+                      double hopeless) const {
+  const Chord chord(flight, other, begin, end);
+  const double middle = 0.5 * (begin + end);
+  if (chord.fine || chord.beside <= 0.25 * flight.now.reach) {
+    const double enough = hopeless + chord.beside;
+    const double found =
+        other.near(chord.sweep, {enough, std::max(0.0, hopeless - chord.beside), Meeting::whether}).distance;
+    if (found >= enough) return false;
+    if (chord.fine) return found <= hopeless;
+    if (found + chord.beside <= hopeless) return true;
+  }
+  return fails(flight, other, begin, middle, hopeless) || fails(flight, other, middle, end, hopeless);
+}
+
+/// From `begin` to `end` of the manoeuvre: on the chord first, and where what is beside it may matter on its
+/// halves, in the order of time.
+void Navigator::see_turn(const Flight& flight, const Body& other, double begin, double end, Meeting meeting,
+                         Approach& seen) const {
+  const Chord chord(flight, other, begin, end);
+  const double middle = 0.5 * (begin + end), beside = chord.beside;
+  const double enough = seen.least + (chord.fine ? 0 : beside);
+  const Near found =
+      chord.fine ? other.near(chord.sweep, {enough, seen.hopeless, meeting})
+                 : other.near(chord.sweep, {enough, std::max(0.0, seen.hopeless - beside), Meeting::whether});
+  if (found.distance >= enough) return;
+  if (!chord.fine && beside > 0.01 * found.distance) {
+    if (found.distance + beside <= seen.hopeless) {
+      seen.least = found.distance + beside;
+      return;
+    }
+    see_turn(flight, other, begin, middle, meeting, seen);
+    if (!seen.done()) see_turn(flight, other, middle, end, meeting, seen);
+    return;
+  }
+  seen.least = std::min(seen.least, found.distance);
+  if (found.distance > 0) return;
+  seen.hit = begin + found.part * (end - begin);
+  seen.depth = found.depth;
+}
+
+/// From `begin`, after the manoeuvre, until `end`.
+void Navigator::see_straight(const Flight& flight, const Body& other, double begin, double end,
+                             Meeting meeting, Approach& seen) const {
+  const Moment& now = flight.now;
+  const double turning = flight.course.turning;
+  const Vector3d w = flight.course.velocity - other.velocity;
+  const double speed = w.norm();
+  const Vector3d start = flight.center(turning) + (begin - turning) * flight.course.velocity;
+  const Vector3d c = other.body.center() + begin * other.velocity - start;
+  const double reach = other.reach + now.reach;
+  const double past = speed > 0 ? std::max(0.0, c.dot(w) / speed) : 0;
+  if ((c - past / std::max(speed, 1e-300) * w).norm() - reach >= seen.least) return;
+  if (!(speed > 1e-9 * (now.speed + flight.course.velocity.norm() + other.velocity.norm()))) end = begin;
+  const auto sweep = [&](double until) {
+    Sweep way{start - begin * other.velocity, (until - begin) * w, now.body.factor()};
+    if (now.carried) way.factor = flight.rotation(turning) * way.factor;
+    return way;
+  };
+  const auto look = [&](double until) {
+    const Near found = other.near(sweep(until), {seen.least, seen.hopeless, meeting});
+    if (found.distance >= seen.least) return;
+    seen.least = found.distance;
+    if (found.distance > 0) return;
+    seen.hit = begin + found.part * (until - begin);
+    seen.depth = found.depth;
+  };
+  // Beyond this they move apart.
+  const double apart = begin + (past + reach) / std::max(speed, 1e-300);
+  if (other.itself || end < apart) {
+    look(std::min(end, apart));
+    return;
+  }
+  Ellipsoid a = flight.body(turning);
+  if (begin > turning) a = a.translated((begin - turning) * flight.course.velocity);
+  const Ellipsoid b = other.body.translated(begin * other.velocity);
+  const Clearance pass = clearance(a, b, w);
+  double least = pass.distance;
+  if (pass.distance < 0 || pass.time <= 0) {
+    const Separation gap = separation(a, b);
+    if (gap.distance > 0 && gap.normal.dot(w) <= 0) least = gap.distance;  // moving apart
+  }
+  if (least >= seen.least) return;
+  seen.least = std::max(least, 0.0);
+  if (least > 0) return;
+  if (meeting == Meeting::whether) {
+    seen.hit = begin;
+  } else {
+    const std::optional<double> first = time_to_contact(a, b, w);
+    seen.hit = begin + (first && *first < kFar ? *first : std::max(0.0, pass.time));
+  }
+  seen.depth = -least;
+}
+
+/// Of the course from `begin` on; `enough` metres are as good as more, `hopeless` metres as bad as less.
+Navigator::Approach Navigator::see(const Flight& flight, const Body& other, double begin, double enough,
+                                   double hopeless, Meeting meeting) const {
+  Approach seen;
+  seen.least = enough;
+  seen.hopeless = hopeless;
+  const double turning = flight.course.turning,
+               end = std::max(begin, std::min(flight.course.until, other.matters));
+  // The straight part first: what is no good is so there mostly.
+  if (end >= turning) see_straight(flight, other, std::max(begin, turning), end, meeting, seen);
+  if (!(begin < turning) || (seen.done() && meeting == Meeting::whether)) return seen;
+  if (hopeless > 0 && fails(flight, other, begin, std::min(turning, end), hopeless)) {
+    seen.least = hopeless;
+    return seen;
+  }
+  Approach turn;
+  turn.least = enough;
+  turn.hopeless = hopeless;
+  see_turn(flight, other, begin, std::min(turning, end), meeting, turn);
+  if (turn.hit < kFar) return turn;
+  seen.least = std::min(seen.least, turn.least);
+  return seen;
+}
+
+/// What the course keeps of required and beyond. Gives up where it cannot be better than `floor`.
+Navigator::Foreseen Navigator::foresee(const Moment& now, const Course& course, const Foreseen& floor) const {
+  const Flight flight(now, course);
+  const Meeting meeting = floor.kept > 0 ? Meeting::whether : Meeting::when;
+  Foreseen result;
+  result.kept = required_ + beyond_;
+  for (const Body& other : bodies_) {
+    // Who is nearer than it should be may stay so for a while, but not come much nearer.
+    const bool near = other.now < result.kept && other.now > 0;
+    const double enough = near ? std::min(result.kept, 0.8 * other.now) : result.kept;
+    Approach seen = see(flight, other, 0, std::max(enough, 1e-300), floor.kept, meeting);
+    if (near && seen.least >= enough)
+      seen = see(flight, other, std::min(0.5 * now.to_turn, course.until), result.kept, floor.kept, meeting);
+    if (seen.hit < result.hit) result.hit = seen.hit;
+    result.kept = result.hits() ? 0 : std::min(result.kept, seen.least);
+    if (!result.better_than(floor)) return result;
+  }
   return result;
+}
+
+/// Of the course that is flown, how near it comes to what it comes nearest to, whatever is required.
+void Navigator::tell(const Moment& now, const Course& course, NavigatorStep& step) const {
+  const Flight flight(now, course);
+  Approach nearest;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Approach seen = see(flight, bodies_[i], 0, std::max(nearest.least, 1e-300), 0, Meeting::depth);
+    if (!(seen.hit < nearest.hit) && !(seen.least < nearest.least)) continue;
+    if (nearest.hit < kFar && !(seen.hit < nearest.hit)) continue;
+    nearest = seen;
+    step.nearest = i;
+  }
+  step.least = nearest.hit < kFar ? -nearest.depth : nearest.least;
 }
 
 }  // namespace vericone::guidance

@@ -7,55 +7,71 @@
 #include <algorithm>
 #include <limits>
 
+#include "near.h"
+
 namespace vericone::guidance {
 
 inline constexpr double kFar = std::numeric_limits<double>::infinity();
 inline constexpr double kAligned = 1e-6;  // rad
+inline constexpr double kAlmost = 1e-9;   // m, what rounding may take
 
 struct Navigator::Moment {
   Eigen::Vector3d position, velocity, ahead;
   double speed, step;
   Ellipsoid body;
-  double reach;  // of the agent about its position
+  double reach;        // of the agent about its position
+  double uneven;       // m, of its longest less its shortest semi-axis: what its turning changes, at most
+  double pace;         // m/s: of velocities that are tried
+  double most;         // m/s^2
+  double to_turn = 0;  // s: within bodies that hold it no course matters for longer
   bool planar, carried;
 };
 
-/// A turn about a circle by `angle`, then straight on.
+/// A manoeuvre to another velocity, then straight on: a turn about a circle, or a constant acceleration where
+/// the speed may change.
 struct Navigator::Course {
-  Eigen::Vector3d direction,
-      aside;  // unit vectors: at the end; towards the centre of the circle, at the start
-  double angle = 0, radius = 0;
-  double until = kFar;  // s from now, when it ends
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, at the end
+  Eigen::Vector3d aside = Eigen::Vector3d::Zero();     // unit: of the acceleration now
+  double most = 0;                                     // m/s^2, of the acceleration
+  double angle = 0;                                    // rad, of a turn
+  double radius = 0;                                   // m, of its circle; 0: no turn
+  double turning = 0;                                  // s, how long the manoeuvre takes
+  double until = kFar;                                 // s from now, when the course ends
 };
 
+/// What courses are compared by: the larger the better. A course that hits keeps nothing.
 struct Navigator::Foreseen {
-  bool safe = true;
-  double least = kFar;    // metres
-  double lacking = kFar;  // least of (metres kept - metres required)
-  std::size_t nearest = 0;
-  void see(double distance, double required, std::size_t body) {
-    if (distance < least) {
-      least = distance;
-      nearest = body;
-    }
-    lacking = std::min(lacking, distance - required);
+  double kept = kFar;  // m, of the whole course, as far as it counts; 0 where it hits
+  double hit = kFar;   // s, the first contact
+  [[nodiscard]] bool hits() const { return hit < kFar; }
+  [[nodiscard]] bool keeps(double metres) const { return !hits() && kept >= metres - kAlmost; }
+  [[nodiscard]] bool better_than(const Foreseen& other) const {
+    return kept != other.kept ? kept > other.kept : hit > other.hit;
   }
+  [[nodiscard]] static Foreseen nothing() { return {-1, 0}; }  // worse than any
 };
 
 /// A course as the agent flies it.
 struct Navigator::Flight {
   const Moment& now;
   const Course& course;
-  double turning;  // s, how long it turns
-  double rate;     // rad/s, meanwhile
-  Eigen::Vector3d axis;
+  Eigen::Vector3d axis;  // of a turn
 
-  Flight(const Moment& at, const Course& on);
-  /// How far the agent has come while it turns.
-  Eigen::Vector3d moved(double t) const;
-  /// Its body while it turns.
-  Ellipsoid body_at(double t) const;
-  Eigen::Vector3d straight() const { return now.speed * course.direction; }  // m/s, after the turn
+  Flight(const Moment& at, const Course& on) : now(at), course(on), axis(at.ahead.cross(on.aside)) {}
+  // While it turns:
+  [[nodiscard]] Eigen::Vector3d velocity(double t) const;
+  [[nodiscard]] Eigen::Matrix3d rotation(double t) const;  // of its body, since now
+  [[nodiscard]] Eigen::Vector3d center(double t) const;    // of its body
+  [[nodiscard]] Ellipsoid body(double t) const;
+};
+
+/// How near a course comes to one body.
+struct Navigator::Approach {
+  double least = kFar;  // m; 0 where it hits; before that what is as good as more
+  double hopeless = 0;  // m: the course is no good that comes as near as this
+  double hit = kFar;    // s
+  double depth = 0;     // m
+  [[nodiscard]] bool done() const { return hit < kFar || least <= hopeless; }
 };
 
 }  // namespace vericone::guidance

@@ -23,6 +23,7 @@ constexpr double kLookAgain = 0.5;      // s
 constexpr double kWorthChanging = 0.1;  // rad nearer to what is wanted
 constexpr double kUnhurriedTurn = 2;    // rad/s, where no acceleration is too much
 constexpr double kHurriedTurn = 32;     // rad/s, there, where that does not help
+constexpr double kBraking = 0.9;        // of what it can, who is to stop at its destination
 
 /// In the plane z = 0 an ellipse does what a spatial body does that is symmetric about it; tall, so that no
 /// way over it is the shortest one.
@@ -41,7 +42,7 @@ Ellipsoid seen(const BodyState& body) {
 
 /// The ball about the bounds, which costs little even of a map.
 Ellipsoid ball_about(const Placed& body) {
-  const Box bounds = body.body.bounds();
+  const Box bounds = body.body.assembly() ? body.body.assembly()->bounds() : body.body.bounds();
   const double radius = bounds.half_widths().norm() * (1 + 1e-12);
   return Ellipsoid::from_axes(body.pose.to_world(bounds.center()),
                               Vector3d::Constant(std::max(radius, std::numeric_limits<double>::min())));
@@ -88,24 +89,37 @@ const char* to_string(NavigatorStatus status) {
 }
 
 Navigator::Body Navigator::body_of(const BodyState& other, bool planar) {
-  if (const Placed* placed = other.shape.placed()) {
-    Body body{ball_about(*placed), other.velocity, 0, 0, false};
-    body.reach = reach_of(body.body, body.body.center(), planar);
-    if (rigid(other)) body.itself = *placed;
-    return body;
-  }
-  Body body{seen(other), other.velocity, 0, 0, false};
+  const Placed* placed = other.shape.placed();
+  const bool as_it_is = placed && rigid(other) && !placed->body.quadric();
+  Body body{as_it_is ? ball_about(*placed) : seen(other), other.velocity};
   body.reach = reach_of(body.body, body.body.center(), planar);
+  if (as_it_is) body.itself = *placed;
   if (!rigid(other)) body.body = Ellipsoid::from_axes(body.body.center(), Vector3d::Constant(body.reach));
   return body;
 }
 
-Navigator::Course Navigator::towards(const Moment& now, const Vector3d& direction, double most) const {
+/// How far one velocity is from another, in what courses may differ by: radians, or parts of the pace.
+double Navigator::beside(const Moment& now, const Vector3d& u, const Vector3d& v) const {
+  return options_.longitudinal ? (u - v).norm() / now.pace : angle_between(u, v);
+}
+
+Navigator::Course Navigator::towards(const Moment& now, const Vector3d& velocity, double most) const {
   Course course;
-  course.direction = direction;
+  course.most = most;
+  course.velocity = velocity;
+  if (options_.longitudinal) {
+    const Vector3d change = velocity - now.velocity;
+    course.aside = change.normalized();  // zero stays zero
+    course.turning = change.norm() / most;
+    return course;
+  }
+  const Vector3d direction = velocity.normalized();
+  course.velocity = now.speed * direction;
   course.aside = side_of(now.ahead, direction, now.planar);
   course.angle = angle_between(now.ahead, direction);
+  if (!(course.angle > kAligned)) return course;
   course.radius = now.speed * now.speed / most;
+  course.turning = course.radius * course.angle / now.speed;
   return course;
 }
 
@@ -113,92 +127,160 @@ Navigator::Course Navigator::towards(const Moment& now, const Vector3d& directio
 std::optional<Navigator::Course> Navigator::to_destination(const Moment& now,
                                                            const Destination& destination) const {
   const Vector3d to_point = destination.point - now.position;
-  if (!(to_point.norm() > 0)) return std::nullopt;
-  const double most = std::min(destination.most, options_.most);
-  Course course;
-  course.aside = side_of(now.ahead, to_point, now.planar);
-  course.radius = now.speed * now.speed / most;
+  const double distance = to_point.norm(), most = std::min(destination.most, options_.most);
+  if (!(distance > 0)) return std::nullopt;
+  if (options_.longitudinal) {
+    // At the speed of the start; who started at rest, as fast as it can still stop there.
+    const double soon = now.speed + 1 * most,
+                 pace = *pace_ > 0 ? *pace_ : std::min(soon, std::sqrt(2 * kBraking * most * distance));
+    Course course = towards(now, pace / distance * to_point, most);
+    course.until = std::max(course.turning, distance / pace);
+    return course;
+  }
+  const double radius = now.speed * now.speed / most;
+  const Vector3d aside = side_of(now.ahead, to_point, now.planar);
   // From the circle's centre the point is at R(angle) (length, -radius).
-  const double x = to_point.dot(now.ahead), y = to_point.dot(course.aside) - course.radius;
-  const double square = x * x + y * y - course.radius * course.radius;
+  const double x = to_point.dot(now.ahead), y = to_point.dot(aside) - radius;
+  const double square = x * x + y * y - radius * radius;
   if (square < 0) return std::nullopt;
   const double length = std::sqrt(square);
-  double angle = std::atan2(y, x) + std::atan2(course.radius, length);
+  double angle = std::atan2(y, x) + std::atan2(radius, length);
   if (angle < -1e-9) angle += 2 * kPi;
-  course.angle = std::max(angle, 0.0);
-  course.direction = std::cos(course.angle) * now.ahead + std::sin(course.angle) * course.aside;
-  course.until = (course.radius * course.angle + length) / now.speed;
+  angle = std::max(angle, 0.0);
+  Course course;
+  course.aside = aside;
+  course.most = most;
+  course.velocity = now.speed * (std::cos(angle) * now.ahead + std::sin(angle) * aside);
+  course.until = (radius * angle + length) / now.speed;
+  if (!(angle > kAligned)) return course;
+  course.angle = angle;
+  course.radius = radius;
+  course.turning = radius * angle / now.speed;
   return course;
 }
 
-/// Moves a safe course towards the one that is wanted, as far as it stays safe: the directions tried are some
-/// degrees apart.
+/// Moves a safe course towards the one that is wanted, as far as it stays safe: the velocities tried are some
+/// way apart.
 void Navigator::closer(const Moment& now, const Vector3d& wanted, double most, Course& course,
                        Foreseen& foreseen) const {
-  const Vector3d found = course.direction, aside = side_of(wanted, found, now.planar);
-  const double beside = angle_between(wanted, found);
-  double low = 0, high = beside;
+  const Vector3d found = course.velocity;
+  const Vector3d aside = side_of(wanted.normalized(), found.normalized(), now.planar);
+  const double angle = angle_between(wanted, found);
+  const Foreseen all{required_ + beyond_ - kAlmost, 0};
+  double low = 0, high = 1;
   for (int i = 0; i < 5; ++i) {
-    const double angle = 0.5 * (low + high);
-    const Course tried = towards(now, std::cos(angle) * wanted + std::sin(angle) * aside, most);
-    const Foreseen seen = foresee(now, tried, beyond_, 0);
-    if (!seen.safe) {
-      low = angle;
+    const double part = 0.5 * (low + high);
+    const Vector3d velocity =
+        options_.longitudinal
+            ? Vector3d(wanted + part * (found - wanted))
+            : Vector3d(std::cos(part * angle) * wanted.normalized() + std::sin(part * angle) * aside);
+    const Course tried = towards(now, velocity, most);
+    const Foreseen seen = foresee(now, tried, all);
+    if (!seen.keeps(required_ + beyond_)) {
+      low = part;
       continue;
     }
-    high = angle;
+    high = part;
     course = tried;
     foreseen = seen;
   }
 }
 
-/// The safe course nearest to `wanted`, less than `less_than` beside it; else, where that is no bound, the
-/// one that lacks least. False: none.
-bool Navigator::search(const Moment& now, const Vector3d& wanted, double less_than, Course& course,
-                       Foreseen& foreseen) {
-  candidates_.clear();
-  const auto add = [&](const Vector3d& direction) {
-    const double beside = angle_between(wanted, direction);
-    if (beside < less_than)
-      candidates_.push_back({beside + 0.25 * angle_between(now.ahead, direction), direction});
-  };
-  add(now.ahead);
-  if (now.planar) {
-    constexpr int kDirections = 72;
-    for (int k = 0; k < kDirections; ++k)
-      add(Eigen::AngleAxisd(2 * kPi * k / kDirections, Vector3d::UnitZ()) * wanted);
-  } else {
-    const AxisFrame frame(wanted);
-    constexpr int kRings = 24, kAround = 16;
-    for (int ring = 1; ring < kRings; ++ring)
-      for (int k = 0; k < kAround; ++k) {
-        const double tilt = kPi * ring / kRings, around = 2 * kPi * (k + 0.5 * (ring % 2)) / kAround;
-        add(std::cos(tilt) * wanted + std::sin(tilt) * frame.across(around));
+/// Where none is safe the best of those tried may be some way from the best there is: steps to all sides,
+/// halved where none is better.
+bool Navigator::refine(const Moment& now, Course& course, Foreseen& foreseen) const {
+  const double most = course.most;
+  double width = 0.1;
+  bool found = false;
+  for (int i = 0; i < 16 && width > 4e-3; ++i) {
+    const AxisFrame frame(course.velocity.isZero(0) ? Vector3d(Vector3d::UnitX()) : course.velocity);
+    bool better = false;
+    for (int k = 0; k < 6 && !better; ++k) {
+      const double sign = k % 2 == 0 ? 1 : -1;
+      Vector3d step = k < 2 ? frame.e1 : k < 4 ? frame.e2 : frame.axis;
+      if (k >= 4 && !options_.longitudinal) break;
+      if (now.planar) {
+        if (k < 2) step = Vector3d::UnitZ().cross(frame.axis);
+        if (k == 2 || k == 3) continue;
       }
+      const Course tried = towards(now, course.velocity + sign * width * now.pace * step, most);
+      const Foreseen seen = foresee(now, tried, foreseen);
+      if (!(better = seen.better_than(foreseen))) continue;
+      course = tried;
+      foreseen = seen;
+      found = true;
+    }
+    if (found && foreseen.keeps(required_ + beyond_)) break;
+    if (!better) width *= 0.5;
+  }
+  return found;
+}
+
+/// The velocities that are tried, those nearer to the one that is wanted before others.
+void Navigator::spread(const Moment& now, const Vector3d& wanted, double less_than) {
+  candidates_.clear();
+  const auto add = [&](const Vector3d& velocity) {
+    const double from_wanted = beside(now, wanted, velocity);
+    if (from_wanted < less_than)
+      candidates_.push_back({from_wanted + 0.25 * beside(now, now.velocity, velocity), velocity});
+  };
+  const Vector3d axis = !wanted.isZero(0) ? wanted
+                        : now.speed > 0   ? now.velocity
+                                          : Vector3d(Vector3d::UnitX());
+  const auto around = [&](double pace, int in_plane, int rings, int in_ring) {
+    if (now.planar) {
+      for (int k = 0; k < in_plane; ++k)
+        add(pace * (Eigen::AngleAxisd(2 * kPi * k / in_plane, Vector3d::UnitZ()) * axis.normalized()));
+      return;
+    }
+    const AxisFrame frame(axis);
+    add(pace * frame.axis);
+    add(-pace * frame.axis);
+    for (int ring = 1; ring < rings; ++ring)
+      for (int k = 0; k < in_ring; ++k) {
+        const double tilt = kPi * ring / rings, at = 2 * kPi * (k + 0.5 * (ring % 2)) / in_ring;
+        add(pace * (std::cos(tilt) * frame.axis + std::sin(tilt) * frame.across(at)));
+      }
+  };
+  add(now.velocity);
+  add(wanted);
+  if (options_.longitudinal) {
+    add(Vector3d::Zero());
+    for (const double part : {0.25, 0.5, 1.0}) around(part * now.pace, 36, 12, 12);
+  } else {
+    around(now.speed, 72, 24, 16);
   }
   std::sort(candidates_.begin(), candidates_.end(),
             [](const Candidate& x, const Candidate& y) { return x.cost < y.cost; });
-  const bool any = less_than > kPi;
-  double best = -kFar;
-  double most = std::isfinite(options_.most) ? options_.most : kUnhurriedTurn * now.speed;
+}
+
+/// The first safe course, less than `less_than` beside the wanted one; else, where that is no bound, the best
+/// that is better than the one given. False: there is none.
+bool Navigator::search(const Moment& now, const Vector3d& wanted, double less_than, Course& course,
+                       Foreseen& foreseen) {
+  spread(now, wanted, less_than);
+  const bool any = less_than == kFar;
+  if (!any) foreseen = {required_ + beyond_ - kAlmost, 0};
+  bool found = false;
+  double most = now.most;
   while (true) {
     for (const Candidate& candidate : candidates_) {
-      const Course tried = towards(now, candidate.direction, most);
-      const Foreseen seen = foresee(now, tried, beyond_, any ? best : 0);
-      if (!(seen.lacking > best) || (!any && !seen.safe)) continue;
-      best = seen.lacking;
+      const Course tried = towards(now, candidate.velocity, most);
+      const Foreseen seen = foresee(now, tried, foreseen);
+      if (!seen.better_than(foreseen) || (!any && !seen.keeps(required_ + beyond_))) continue;
       course = tried;
       foreseen = seen;
-      turn_ = most;
-      if (seen.safe) {
+      found = true;
+      if (seen.keeps(required_ + beyond_)) {
         closer(now, wanted, most, course, foreseen);
         return true;
       }
     }
-    if (!any || std::isfinite(options_.most) || most >= kHurriedTurn * now.speed) break;
+    if (!any || std::isfinite(options_.most) || most >= kHurriedTurn * now.pace) break;
     most *= 4;
   }
-  return any && best > -kFar;
+  if (any && refine(now, course, foreseen)) found = true;
+  return found;
 }
 
 namespace {
@@ -240,92 +322,115 @@ NavigatorStep Navigator::step(const BodyState& agent, std::span<const BodyState>
                        agent.planar() ? "a body in space" : "a planar body",
                        agent.planar() ? "planar, as the agent is" : "a body in space, as the agent is");
   }
-  NavigatorStep result;
   Moment now;
   now.position = agent.position;
   now.velocity = agent.velocity;
   now.speed = agent.velocity.norm();
   now.step = step;
-  if (!(now.speed > 0)) {
-    result.status = NavigatorStatus::no_course;
-    return result;
-  }
-  now.ahead = agent.velocity / now.speed;
+  now.ahead = now.speed > 0 ? Vector3d(agent.velocity / now.speed) : Vector3d(Vector3d::Zero());
   now.planar = agent.planar();
   now.body = seen(agent);
   now.reach = reach_of(now.body, now.position, now.planar);
   const Vector3d axes = now.body.semi_axes();
-  now.carried =
-      agent.turning == Turning::with_heading && (now.planar ? axes(1) : axes(0)) > axes(2) * (1 + 1e-12);
+  now.uneven = (now.planar ? axes(1) : axes(0)) - axes(2);
+  now.carried = agent.turning == Turning::with_heading && now.speed > 0 && now.uneven > 1e-12 * axes(2);
+  if (!pace_) pace_ = now.speed;
+  now.pace = std::max(now.speed, *pace_);
+  if (options_.longitudinal) {
+    for (const BodyState& other : others) now.pace = std::max(now.pace, other.velocity.norm());
+    if (!(now.pace > 0)) now.pace = now.reach;  // nothing moves: any speed will do
+  }
+  now.most = std::isfinite(options_.most) ? options_.most : kUnhurriedTurn * now.pace;
+  now.to_turn = kLookAgain + (options_.longitudinal ? 1 : kPi) * now.speed / now.most;
   required_ = options_.required.value_or(now.reach / 20);
   beyond_ = options_.beyond.value_or(now.reach / 10);
   bodies_.clear();
   for (const BodyState& other : others) {
-    Body body = body_of(other, now.planar);
-    body.required = required_;
-    if (destination && body.holds(now.position, now.reach + required_ + beyond_))
-      body.until = (destination->point - now.position).norm() / now.speed;
-    // Who is nearer than required already may stay so, but not come much nearer.
+    Body& body = bodies_.emplace_back(body_of(other, now.planar));
+    if (body.holds(now.position, now.reach)) body.matters = now.to_turn;
     const double apart = (body.body.center() - now.position).norm() - body.reach - now.reach;
-    if (apart < required_ + beyond_) {
-      const double distance = body.distance(now.body, 0);
-      body.near = distance < required_ + beyond_;
-      body.required = std::min(required_, 0.8 * distance);
-    }
-    bodies_.push_back(body);
+    if (apart < required_ + beyond_)
+      body.now = body.near({now.body.center(), Vector3d::Zero(), now.body.factor()}, {}).distance;
   }
+  return fly(now, destination, time);
+}
 
+NavigatorStep Navigator::fly(const Moment& now, const std::optional<Destination>& destination, double time) {
+  NavigatorStep result;
   Course course;
-  Foreseen foreseen;
+  if (!(now.speed > 0) && !options_.longitudinal) {
+    tell(now, course, result);
+    const Foreseen stays = foresee(now, course, Foreseen::nothing());
+    result.status = stays.hits() ? NavigatorStatus::cannot_avoid : NavigatorStatus::no_course;
+    return result;
+  }
+  Foreseen foreseen = Foreseen::nothing();
   bool decided = false, way = false;
-  const std::optional<Course> direct = destination ? to_destination(now, *destination) : std::nullopt;
+  // The way: to the destination, or of who may change its speed back to that of the start.
+  std::optional<Course> direct;
+  if (destination) direct = to_destination(now, *destination);
+  if (!direct && options_.longitudinal)
+    direct = towards(now, *pace_ * held_.value_or(now.ahead).normalized(), now.most);
+  const double surely = required_ + beyond_;
   if (direct) {
     course = *direct;
-    foreseen = foresee(now, course, held_is_way_ ? 0 : beyond_, -kFar);
-    way = decided = foreseen.safe;
+    foreseen = foresee(now, course, Foreseen::nothing());
+    way = decided = foreseen.keeps(held_is_way_ ? required_ : surely);
   }
-  const Vector3d wanted =
-      direct ? Vector3d((destination->point - now.position).normalized()) : held_.value_or(now.ahead);
+  const Vector3d wanted = !direct                 ? held_.value_or(now.velocity)
+                          : options_.longitudinal ? direct->velocity
+                                                  : Vector3d(destination->point - now.position);
   if (!decided) {
     const bool had = held_.has_value() && !held_is_way_;
-    const double most = had                            ? turn_
-                        : std::isfinite(options_.most) ? options_.most
-                                                       : kUnhurriedTurn * now.speed;
-    const Vector3d direction = had ? *held_ : now.ahead;
-    course = towards(now, direction, most);
-    turn_ = most;
-    foreseen = foresee(now, course, had ? 0 : beyond_, -kFar);
-    decided = foreseen.safe;
-    if (!decided || (direct && time >= next_look_)) {
-      Course better;
-      Foreseen of_better;
-      const double bound = decided ? angle_between(wanted, direction) - kWorthChanging : 4;
-      const double before = turn_;
+    const Course before = towards(now, had ? *held_ : now.velocity, had ? turn_ : now.most);
+    const Foreseen of_before = foresee(now, before, Foreseen::nothing());
+    decided = of_before.keeps(had ? required_ : surely);
+    // Who keeps something gives it up for what is worth it only.
+    const auto worth = [&](Foreseen in_hand) {
+      if (in_hand.kept > 0) in_hand.kept += 0.01 * surely;
+      return in_hand;
+    };
+    way = direct && !decided &&
+          (held_is_way_ ? !of_before.better_than(worth(foreseen)) : foreseen.better_than(worth(of_before)));
+    if (!way) {
+      course = before;
+      foreseen = of_before;
+    }
+    const bool due = time >= next_look_;
+    if (decided ? direct && due : due || foreseen.hits() || foreseen.kept < 0.95 * kept_) {
+      Course better = course;
+      Foreseen of_better = decided ? foreseen : worth(foreseen);
+      const double bound = decided ? beside(now, wanted, course.velocity) - kWorthChanging : kFar;
       if (search(now, wanted, bound, better, of_better)) {
         course = better;
         foreseen = of_better;
-      } else {
-        turn_ = before;
+        way = false;
       }
       next_look_ = time + kLookAgain;
     }
   }
-  held_ = course.direction;
+  kept_ = foreseen.kept;
+  held_ = course.velocity;
   held_is_way_ = way;
-
-  const double most = way ? std::min(destination->most, options_.most) : turn_;
-  const double missing = course.angle * now.speed / step;
-  if (course.angle > kAligned) result.acceleration = std::min(most, missing) * course.aside;
-  result.aligned = way && missing <= most;
-  result.least = foreseen.least;
-  result.nearest = foreseen.nearest;
-  if (foreseen.safe || foreseen.lacking >= -beyond_) {
-    const bool straight_on = course.angle <= kAligned && !direct;
-    result.status = way           ? NavigatorStatus::homing
-                    : straight_on ? NavigatorStatus::straight
-                                  : NavigatorStatus::avoiding;
+  turn_ = course.most;
+  if (options_.longitudinal) {
+    const double missing = (course.velocity - now.velocity).norm() / now.step;
+    result.acceleration = std::min(course.most, missing) * course.aside;
+    result.aligned = way && destination && missing <= course.most;
   } else {
-    result.status = foreseen.least > 0 ? NavigatorStatus::too_near : NavigatorStatus::cannot_avoid;
+    const double missing = course.angle * now.speed / now.step;
+    if (course.angle > kAligned) result.acceleration = std::min(course.most, missing) * course.aside;
+    result.aligned = way && missing <= course.most;
+  }
+  tell(now, course, result);
+  using enum NavigatorStatus;
+  if (foreseen.hits()) {
+    result.status = cannot_avoid;
+  } else if (!foreseen.keeps(required_)) {
+    result.status = too_near;
+  } else {
+    const bool straight_on = way || (result.acceleration.isZero(0) && !direct);
+    result.status = way && destination ? homing : straight_on ? straight : avoiding;
   }
   return result;
 }

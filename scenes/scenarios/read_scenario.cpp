@@ -83,6 +83,11 @@ simulation::Body read_body(const Json& given, const std::string& path, const std
            [&](const Json& v, const std::string& p) { body.appears = read_not_negative(v, p, " (s)"); });
   if_given(value, path, "pilot",
            [&](const Json& v, const std::string& p) { body.pilot = read_pilot(v, p, planar); });
+  // Who starts at rest and could not change its speed could do nothing.
+  const auto pilot = value.find("pilot");
+  if (body.pilot && !body.start.velocity.any() &&
+      !(pilot->contains("clearance") && (*pilot)["clearance"].contains("longitudinal")))
+    body.pilot->guide.clearance.longitudinal = true;
   return body;
 }
 

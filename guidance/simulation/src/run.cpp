@@ -52,6 +52,7 @@ guidance::NavigatorOptions courses_of(const Pilot& pilot) {
     options.beyond = pilot.guide.clearance.beyond;
     options.most = pilot.guide.clearance.most;
   }
+  options.longitudinal = pilot.guide.clearance.longitudinal;
   return options;
 }
 

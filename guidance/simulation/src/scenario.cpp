@@ -171,7 +171,8 @@ void check_body(const Body& body, const Scenario& scenario) {
       throw InputError("road", "one that begins elsewhere", "one that begins at the body's position");
   }
   if (!body.pilot) return;
-  if (!body.start.velocity.any()) throw InputError("velocity", "0", "a heading: a body with a pilot moves");
+  if (!body.start.velocity.any() && !guarded(*body.pilot))
+    throw InputError("velocity", "0", "a heading: only a guarded pilot may start at rest");
   within("pilot", [&] { check_pilot(*body.pilot, body, scenario); });
 }
 

@@ -14,12 +14,18 @@
 
 namespace vericone::guidance {
 
+struct Near;
+struct Sweep;
+struct Wanted;
+enum class Meeting : std::uint8_t;
+
 struct NavigatorOptions {
   std::optional<double>
       required;  // metres to keep from every body; left out: a twentieth of the agent's half-length
   std::optional<double>
       beyond;  // metres more that a course must keep when it is taken; left out: a tenth of it
   double most = std::numeric_limits<double>::infinity();  // m/s^2, across the velocity
+  bool longitudinal = false;  // it may change its speed too: `most` is of the whole acceleration
 };
 
 /// Where the agent wants to go.
@@ -76,50 +82,61 @@ class Navigator {
                      const std::optional<Destination>& destination, double time, double step);
 
  private:
-  struct Seen;
   struct Course;
   struct Foreseen;
   struct Moment;
-
   struct Flight;
+  struct Approach;
+  struct Chord;
 
   struct Body {
     Ellipsoid body;
     Eigen::Vector3d velocity;
-    double reach, required;
-    bool near;                                               // nearer than required and beyond already
-    std::optional<Placed> itself = std::nullopt;             // judged as it is; `body` is a ball about it
-    double until = std::numeric_limits<double>::infinity();  // s on a straight course, as long as it matters
+    double reach = 0;                                          // of the ball about its centre
+    double now = std::numeric_limits<double>::infinity();      // m from the agent, where it is near
+    double matters = std::numeric_limits<double>::infinity();  // s: what it does later does not count
+    std::optional<Placed> itself = std::nullopt;               // judged as it is; `body` is a ball about it
 
-    [[nodiscard]] Placed at(double t) const;
-    /// Metres from an agent `t` seconds from now; negative or 0 where they meet.
-    [[nodiscard]] double distance(const Ellipsoid& agent, double t) const;
+    [[nodiscard]] Near near(const Sweep& sweep, const Wanted& wanted) const;
     /// Whether the point is nearer than `margin` to the bounds of a body that is judged as it is.
     [[nodiscard]] bool holds(const Eigen::Vector3d& point, double margin) const;
   };
   [[nodiscard]] static Body body_of(const BodyState& other, bool planar);
-  static void see_passing(const Flight& flight, const Ellipsoid& after_turn, const Body& other, std::size_t i,
-                          double required, Foreseen& result);
 
-  [[nodiscard]] Foreseen foresee(const Moment& now, const Course& course, double extra, double floor) const;
+  NavigatorStep fly(const Moment& now, const std::optional<Destination>& destination, double time);
+  bool fails(const Flight& flight, const Body& other, double begin, double end, double hopeless) const;
+  void see_turn(const Flight& flight, const Body& other, double begin, double end, Meeting meeting,
+                Approach& seen) const;
+  void see_straight(const Flight& flight, const Body& other, double begin, double end, Meeting meeting,
+                    Approach& seen) const;
+  [[nodiscard]] Approach see(const Flight& flight, const Body& other, double begin, double enough,
+                             double hopeless, Meeting meeting) const;
+  [[nodiscard]] Foreseen foresee(const Moment& now, const Course& course, const Foreseen& floor) const;
+  void tell(const Moment& now, const Course& course, NavigatorStep& step) const;
+
+  [[nodiscard]] double beside(const Moment& now, const Eigen::Vector3d& u, const Eigen::Vector3d& v) const;
+  [[nodiscard]] Course towards(const Moment& now, const Eigen::Vector3d& velocity, double most) const;
   [[nodiscard]] std::optional<Course> to_destination(const Moment& now, const Destination& destination) const;
-  [[nodiscard]] Course towards(const Moment& now, const Eigen::Vector3d& direction, double most) const;
   void closer(const Moment& now, const Eigen::Vector3d& wanted, double most, Course& course,
               Foreseen& foreseen) const;
+  bool refine(const Moment& now, Course& course, Foreseen& foreseen) const;
+  void spread(const Moment& now, const Eigen::Vector3d& wanted, double less_than);
   bool search(const Moment& now, const Eigen::Vector3d& wanted, double less_than, Course& course,
               Foreseen& foreseen);
 
   NavigatorOptions options_;
-  std::optional<Eigen::Vector3d> held_;  // direction of the course taken
-  bool held_is_way_ = false;             // it is the way to the destination
-  double turn_ = 0;                      // m/s^2 with which it is turned to
-  double next_look_ = 0;                 // s
-  double required_ = 0, beyond_ = 0;     // metres
+  std::optional<double> pace_;                                   // m/s, of the start
+  std::optional<Eigen::Vector3d> held_;                          // m/s, at the end of the course taken
+  bool held_is_way_ = false;                                     // it is the way to the destination
+  double turn_ = 0;                                              // m/s^2 with which it is turned to
+  double kept_ = 0;                                              // m, by it, of those required
+  double next_look_ = -std::numeric_limits<double>::infinity();  // s
+  double required_ = 0, beyond_ = 0;                             // metres
   // Of the step; members to keep their memory.
   std::vector<Body> bodies_;
   struct Candidate {
     double cost;
-    Eigen::Vector3d direction;
+    Eigen::Vector3d velocity;
   };
   std::vector<Candidate> candidates_;
 };

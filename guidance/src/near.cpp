@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Least distances by the algorithm of Gilbert, Johnson and Keerthi (1988) on the sweep, which is convex, and
+// each convex piece; a descent of the hierarchy of boxes leaves out the pieces that cannot be nearer.
+#include "near.h"
+
+#include <vericone/cones/cone_geometry.h>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace vericone::guidance {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kRelative = 1e-4;  // of a distance
+constexpr int kMostSupports = 48;
+
+/// Points, a box or an ellipsoid, rounded by a radius.
+class Piece {
+ public:
+  static Piece points(const Vector3d* points, std::size_t count, double radius = 0) {
+    Piece piece;
+    piece.points_ = points;
+    piece.count_ = count;
+    piece.radius_ = radius;
+    return piece;
+  }
+  static Piece box(const Box& box) {
+    Piece piece;
+    piece.box_ = &box;
+    return piece;
+  }
+  static Piece ellipsoid(const Ellipsoid& ellipsoid) {
+    Piece piece;
+    piece.ellipsoid_ = &ellipsoid;
+    return piece;
+  }
+
+  Vector3d middle() const {
+    if (box_) return box_->center();
+    if (ellipsoid_) return ellipsoid_->center();
+    Vector3d sum = Vector3d::Zero();
+    for (std::size_t i = 0; i < count_; ++i) sum += points_[i];
+    return sum / double(count_);
+  }
+  /// The point with the least n.x, without the rounding.
+  Vector3d lowest(const Vector3d& n) const {
+    if (box_) return (n.array() > 0).select(box_->low, box_->high);
+    if (ellipsoid_) {
+      const Vector3d u = ellipsoid_->factor().transpose() * n;
+      const double length = u.norm();
+      if (!(length > 0)) return ellipsoid_->center();
+      return ellipsoid_->center() - ellipsoid_->factor() * (u / length);
+    }
+    std::size_t best = 0;
+    double least = n.dot(points_[0]);
+    for (std::size_t i = 1; i < count_; ++i)
+      if (const double here = n.dot(points_[i]); here < least) {
+        least = here;
+        best = i;
+      }
+    return points_[best];
+  }
+  double radius() const { return radius_; }
+
+ private:
+  const Vector3d* points_ = nullptr;
+  const Box* box_ = nullptr;
+  const Ellipsoid* ellipsoid_ = nullptr;
+  std::size_t count_ = 0;
+  double radius_ = 0;
+};
+
+/// The point of the sweep with the most n.x.
+Vector3d highest(const Sweep& sweep, const Vector3d& n) {
+  const Vector3d u = sweep.factor.transpose() * n;
+  const double length = u.norm();
+  Vector3d x = sweep.from;
+  if (length > 0) x += sweep.factor * (u / length);
+  if (n.dot(sweep.along) > 0) x += sweep.along;
+  return x;
+}
+
+/// Up to four points; the point of their hull nearest to 0.
+class Simplex {
+ public:
+  void add(const Vector3d& x) { of_[size_++] = x; }
+
+  /// Keeps only the points that the nearest one is a combination of. The newest is one of them. Nothing
+  /// else where 0 is inside.
+  Vector3d nearest() {
+    const int others = size_ - 1;
+    const Vector3d newest = of_[others];
+    Vector3d best = newest;
+    double least = newest.squaredNorm();
+    int kept = 0;
+    for (int chosen = 1; chosen < 1 << others; ++chosen) {
+      Matrix3d edges = Matrix3d::Zero();
+      int n = 0;
+      for (int i = 0; i < others; ++i)
+        if (chosen >> i & 1) edges.col(n++) = of_[i] - newest;
+      Vector3d weight = Vector3d::Zero();
+      if (!weights(edges, n, newest, weight)) continue;
+      const Vector3d x = newest + edges * weight;
+      if (n < 3 && !(x.squaredNorm() < least)) continue;
+      best = n == 3 ? Vector3d(Vector3d::Zero()) : x;
+      least = best.squaredNorm();
+      kept = chosen;
+    }
+    int n = 0;
+    for (int i = 0; i < others; ++i)
+      if (kept >> i & 1) of_[n++] = of_[i];
+    of_[n++] = newest;
+    size_ = n;
+    return best;
+  }
+
+ private:
+  /// Of the point nearest to 0 in the plane of newest + edges; false unless all are positive, that of the
+  /// newest too.
+  static bool weights(const Matrix3d& edges, int n, const Vector3d& newest, Vector3d& weight) {
+    const auto e = [&](int i) { return edges.col(i); };
+    if (n == 1) {
+      const double square = e(0).squaredNorm();
+      if (!(square > 0)) return false;
+      weight(0) = -e(0).dot(newest) / square;
+    } else if (n == 2) {
+      const Vector3d normal = e(0).cross(e(1));
+      const double square = normal.squaredNorm();
+      if (!(square > 0)) return false;
+      weight(0) = -newest.cross(e(1)).dot(normal) / square;
+      weight(1) = -e(0).cross(newest).dot(normal) / square;
+    } else {
+      const double volume = e(0).cross(e(1)).dot(e(2));
+      if (volume == 0) return false;
+      weight(0) = -newest.cross(e(1)).dot(e(2)) / volume;
+      weight(1) = -e(0).cross(newest).dot(e(2)) / volume;
+      weight(2) = -e(0).cross(e(1)).dot(newest) / volume;
+    }
+    double sum = 0;
+    for (int i = 0; i < n; ++i) {
+      if (!(weight(i) > 0)) return false;
+      sum += weight(i);
+    }
+    return sum < 1;
+  }
+
+  std::array<Vector3d, 4> of_;
+  int size_ = 0;
+};
+
+struct Apart {
+  double distance, least;  // metres; the true one lies between; 0 where they meet
+  Vector3d normal;         // unit, from the sweep to the piece
+};
+
+/// Stops where the distance is proved to be `enough`.
+Apart apart(const Sweep& sweep, const Piece& piece, double enough) {
+  const double size = sweep.factor.norm() + piece.radius(), meets = 1e-7 * size;
+  Vector3d v = piece.middle() - sweep.from - 0.5 * sweep.along;
+  Apart result{kNever, 0, Vector3d::Zero()};
+  Simplex simplex;
+  if (!(v.norm() > 0)) v = Vector3d::UnitX();
+  double length = v.norm(), before = kNever;
+  for (int i = 0; i < kMostSupports; ++i) {
+    const Vector3d n = v / length;
+    const Vector3d s = piece.lowest(n) - highest(sweep, n);
+    if (const double least = n.dot(s) - piece.radius(); least > result.least) {
+      result.least = least;
+      result.normal = n;
+      if (least >= enough) {
+        result.distance = std::max(least, i > 0 ? length - piece.radius() : least);
+        return result;
+      }
+    }
+    if (i > 0 && length - piece.radius() - result.least <= kRelative * (length - piece.radius())) break;
+    simplex.add(s);
+    v = simplex.nearest();
+    length = v.norm();
+    if (length - piece.radius() <= meets) return {0, 0, n};
+    if (!(length < before)) break;
+    before = length;
+  }
+  result.distance = length - piece.radius();
+  if (!(result.normal.norm() > 0)) result.normal = v / length;
+  return result;
+}
+
+/// Of a sweep that meets the piece: the part of the way until then. Newton's method from before, which never
+/// passes the contact.
+double first_contact(const Sweep& sweep, const Piece& piece) {
+  const double size = sweep.factor.norm() + piece.radius();
+  double part = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Apart now = apart({sweep.from + part * sweep.along, Vector3d::Zero(), sweep.factor}, piece, kNever);
+    const double closing = now.normal.dot(sweep.along);
+    if (!(now.distance > 1e-5 * size) || !(closing > 0)) break;
+    part += std::max(now.least, 0.5 * now.distance) / closing;
+    if (part >= 1) return 1;
+  }
+  return part;
+}
+
+/// How far across its way the sweep must be shifted, at least, to pass the piece.
+double depth_across(const Sweep& sweep, const Piece& piece) {
+  if (!(sweep.along.norm() > 0)) return 0;
+  const AxisFrame frame(sweep.along);
+  const auto gap = [&](double azimuth) {
+    const Vector3d n = frame.across(azimuth);
+    return n.dot(piece.lowest(n)) - piece.radius() - n.dot(highest(sweep, n));
+  };
+  constexpr int kAround = 64;
+  double width = 2 * std::numbers::pi / kAround, best = 0, most = -kNever;
+  for (int i = 0; i < kAround; ++i)
+    if (const double here = gap(i * width); here > most) {
+      most = here;
+      best = i * width;
+    }
+  for (; width > 1e-4; width *= 0.5)
+    for (const double azimuth : {best - 0.5 * width, best + 0.5 * width})
+      if (const double here = gap(azimuth); here > most) {
+        most = here;
+        best = azimuth;
+      }
+  return std::max(0.0, -most);
+}
+
+/// The nearest of many pieces, looked at one after the other.
+class Nearest {
+ public:
+  Nearest(const Sweep& sweep, const Wanted& wanted) : sweep_(sweep), wanted_(wanted) {
+    near_.distance = wanted.enough;
+    bound();
+  }
+
+  /// Nothing can change the answer.
+  bool done() const { return met_ ? wanted_.meeting == Meeting::whether : near_.distance <= wanted_.stop; }
+
+  void look(const Piece& piece) {
+    const Apart found = apart(sweep_, piece, std::max(counts(), 1e-300));
+    if (found.distance > 0) {
+      near_.distance = std::min(near_.distance, found.distance);
+      return;
+    }
+    met_ = true;
+    near_.distance = 0;
+    if (wanted_.meeting == Meeting::whether) return;
+    // From now on only what is met before counts.
+    const double part = first_contact(sweep_, piece);
+    near_.part *= part;
+    if (wanted_.meeting == Meeting::depth) near_.depth = depth_across(sweep_, piece);
+    sweep_.along *= part;
+    bound();
+  }
+
+  /// At most the distance to what is in the node; infinite where that does not count.
+  double least(const Hierarchy::Node& node) const {
+    const double most = counts();
+    for (int k = 0; k < 3; ++k)
+      if (node.low[k] - high_(k) > most || low_(k) - node.high[k] > most) return kNever;
+    const Box box = node.box();
+    const auto clamped = [&](const Vector3d& x) { return Vector3d(x.cwiseMax(box.low).cwiseMin(box.high)); };
+    const Vector3d on_way = nearest_on_way(clamped(nearest_on_way(box.center())));
+    const Vector3d n = clamped(on_way) - on_way;
+    const double length = n.norm();
+    if (!(length > 0)) return 0;
+    const Vector3d corner = (n.array() > 0).select(box.low, box.high);
+    const double least = n.dot(corner - highest(sweep_, n)) / length;
+    return least > most || (least > 0 && least == most) ? kNever : std::max(least, 0.0);
+  }
+
+  /// Whether a node with this least() still counts, by what was found since.
+  bool may_count(const Hierarchy::Node& node, double least_before) const {
+    return met_ ? least(node) < kNever : least_before < counts() || least_before == 0;
+  }
+
+  double along(const Hierarchy::Node& node) const { return node.box().center().dot(sweep_.along); }
+
+  Near result() const { return near_; }
+
+ private:
+  /// Of flat walls all pieces are as near: what is a hundredth nearer than the nearest does not count.
+  double counts() const {
+    return met_ ? 0 : near_.distance < wanted_.enough ? 0.99 * near_.distance : near_.distance;
+  }
+  void bound() {
+    const Vector3d end = sweep_.from + sweep_.along, extent = sweep_.factor.rowwise().norm();
+    low_ = sweep_.from.cwiseMin(end) - extent;
+    high_ = sweep_.from.cwiseMax(end) + extent;
+  }
+  Vector3d nearest_on_way(const Vector3d& x) const {
+    const double square = sweep_.along.squaredNorm();
+    if (!(square > 0)) return sweep_.from;
+    return sweep_.from + std::clamp((x - sweep_.from).dot(sweep_.along) / square, 0.0, 1.0) * sweep_.along;
+  }
+
+  Sweep sweep_;
+  Wanted wanted_;
+  Near near_;
+  Vector3d low_, high_;  // of the sweep's box
+  bool met_ = false;
+};
+
+void descend(const Assembly& body, Nearest& nearest) {
+  const auto nodes = body.hierarchy().nodes();
+  if (nodes.empty()) return;
+  const Assembly::Storage& pieces = body.by_slot();
+  const auto piece = [&](std::uint32_t slot) {
+    switch (body.kind()) {
+      case PieceKind::triangle:
+        return Piece::points(pieces.triangles[slot].data(), 3);
+      case PieceKind::ball:
+        return Piece::points(&pieces.balls[slot], 1, body.radius());
+      case PieceKind::box:
+        return Piece::box(pieces.boxes[slot]);
+      case PieceKind::hull:
+        break;
+    }
+    return Piece::points(pieces.hulls[slot].points().data(), pieces.hulls[slot].size());
+  };
+  struct Item {
+    std::uint32_t node;
+    double least;
+  };
+  Item stack[128];
+  int size = 0;
+  stack[size++] = {0, 0};
+  while (size > 0 && !nearest.done()) {
+    const Item item = stack[--size];
+    const Hierarchy::Node& node = nodes[item.node];
+    if (!nearest.may_count(node, item.least)) continue;
+    if (node.is_leaf()) {
+      for (std::uint32_t slot = node.first; slot < node.first + node.count && !nearest.done(); ++slot)
+        nearest.look(piece(slot));
+      continue;
+    }
+    Item one{node.first, nearest.least(nodes[node.first])},
+        two{node.first + 1, nearest.least(nodes[node.first + 1])};
+    const bool first = one.least != two.least
+                           ? one.least < two.least
+                           : nearest.along(nodes[one.node]) < nearest.along(nodes[two.node]);
+    if (first) std::swap(one, two);
+    for (const Item& item : {one, two})
+      if (item.least < kNever) stack[size++] = item;
+  }
+}
+
+}  // namespace
+
+Near near(const Sweep& sweep, const Ellipsoid& body, const Wanted& wanted) {
+  Nearest nearest(sweep, wanted);
+  nearest.look(Piece::ellipsoid(body));
+  return nearest.result();
+}
+
+Near near(const Sweep& sweep, const Placed& body, const Wanted& wanted) {
+  const Matrix3d to_body = body.pose.rotation.transpose();
+  Nearest nearest({body.pose.to_body(sweep.from), to_body * sweep.along, to_body * sweep.factor}, wanted);
+  if (const Assembly* assembly = body.body.assembly()) {
+    descend(*assembly, nearest);
+  } else if (const HullBody* hull = body.body.hull()) {
+    nearest.look(Piece::points(hull->points().data(), hull->size()));
+  } else if (const CombinedEllipsoid* quadric = body.body.quadric()) {
+    nearest.look(Piece::ellipsoid(quadric->ellipsoid()));
+  } else {
+    for (const CombinedEllipsoid& each : *body.body.quadrics())
+      if (!nearest.done()) nearest.look(Piece::ellipsoid(each.ellipsoid()));
+  }
+  return nearest.result();
+}
+
+}  // namespace vericone::guidance

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// How near an ellipsoid that moves comes to a body: what courses are judged by. In doubles: decisions need no
+// more, and what a run was is proved by others.
+#pragma once
+
+#include <vericone/geometry/body.h>
+#include <limits>
+
+namespace vericone::guidance {
+
+/// An ellipsoid that goes straight on without turning, seen from a body at rest.
+struct Sweep {
+  Eigen::Vector3d from, along;  // m, where its centre starts, and how far it goes
+  Eigen::Matrix3d factor;       // Ellipsoid::factor()
+};
+
+/// What is wanted of a sweep that meets the body.
+enum class Meeting : std::uint8_t { whether, when, depth };
+
+/// When to stop looking.
+struct Wanted {
+  double enough = std::numeric_limits<double>::infinity();  // m: what is farther does not count
+  double stop = 0;                                          // m: something as near as this is all
+  Meeting meeting = Meeting::whether;
+};
+
+struct Near {
+  /// Metres on the way, to a hundredth of it from above; 0 where they meet. What is `enough` or more may be
+  /// anything from `enough` on.
+  double distance = std::numeric_limits<double>::infinity();
+  double part = 1;  // of the way at the first contact, where Meeting asks for it
+  /// Metres, where Meeting asks for it: the least shift of the ellipsoid across its way with which it would
+  /// pass the convex piece that it meets first.
+  double depth = 0;
+};
+
+[[nodiscard]] Near near(const Sweep& sweep, const Ellipsoid& body, const Wanted& wanted);
+
+/// Meshes, clouds, maps, hulls and unions as they are; of combined quadrics what their delimiters
+/// cut away counts too. No allocation.
+[[nodiscard]] Near near(const Sweep& sweep, const Placed& body, const Wanted& wanted);
+
+}  // namespace vericone::guidance
