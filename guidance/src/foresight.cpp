@@ -3,7 +3,6 @@
 // How near courses come to bodies.
 #include "foresight.h"
 
-#include <vericone/cones/ellipsoids/clearance.h>
 #include <Eigen/Geometry>
 #include <cmath>
 
@@ -41,9 +40,8 @@ Vector3d Navigator::Flight::center(double t) const {
 
 Ellipsoid Navigator::Flight::body(double t) const {
   if (!now.carried || course.turning == 0) return now.body.translated(center(t) - now.body.center());
-  Matrix3d directions = rotation(t) * now.body.axis_directions();
-  if (directions.determinant() < 0) directions.col(2) *= -1;
-  return Ellipsoid::from_axes(center(t), now.body.semi_axes(), directions);
+  const Matrix3d factor = rotation(t) * now.body.factor();
+  return Ellipsoid::trusted(center(t), factor * factor.transpose(), factor, true);
 }
 
 bool Navigator::Body::holds(const Vector3d& point, double margin) const {
@@ -56,12 +54,11 @@ bool Navigator::Body::holds(const Vector3d& point, double margin) const {
 
 Near Navigator::Body::near(const Sweep& sweep, const Wanted& wanted) const {
   // The balls first.
-  const Vector3d c = body.center() - sweep.from;
+  const Vector3d c = body.center() - sweep.agent.center();
   const double square = sweep.along.squaredNorm();
   const double part = square > 0 ? std::clamp(c.dot(sweep.along) / square, 0.0, 1.0) : 0;
-  if (const double balls = (c - part * sweep.along).norm() - reach - sweep.factor.norm();
-      balls >= wanted.enough)
-    return {balls};
+  const double balls = (c - part * sweep.along).norm() - reach - wanted.reach;
+  if (balls >= wanted.enough) return {balls};
   return itself ? guidance::near(sweep, *itself, wanted) : guidance::near(sweep, body, wanted);
 }
 
@@ -85,10 +82,9 @@ struct Navigator::Chord {
       beside += std::min(2.0, turned) * now.uneven + 0.5 * offset * turned * turned;
     }
     fine = beside <= 5e-4 * now.reach || span <= 0.25 * now.step;
-    sweep.from = flight.center(begin) - begin * other.velocity;
-    sweep.along = flight.center(end) - end * other.velocity - sweep.from;
-    sweep.factor = now.body.factor();
-    if (now.carried) sweep.factor = flight.rotation(middle) * sweep.factor;
+    const Vector3d from = flight.center(begin) - begin * other.velocity;
+    sweep = {now.carried ? flight.body(middle) : now.body, flight.center(end) - end * other.velocity - from};
+    sweep.agent = sweep.agent.translated(from - sweep.agent.center());
   }
 };
 
@@ -100,8 +96,10 @@ bool Navigator::fails(const Flight& flight, const Body& other, double begin, dou
   const double middle = 0.5 * (begin + end);
   if (chord.fine || chord.beside <= 0.25 * flight.now.reach) {
     const double enough = hopeless + chord.beside;
-    const double found =
-        other.near(chord.sweep, {enough, std::max(0.0, hopeless - chord.beside), Meeting::whether}).distance;
+    const double found = other
+                             .near(chord.sweep, {enough, std::max(0.0, hopeless - chord.beside),
+                                                 Meeting::whether, flight.now.reach})
+                             .distance;
     if (found >= enough) return false;
     if (chord.fine) return found <= hopeless;
     if (found + chord.beside <= hopeless) return true;
@@ -116,9 +114,9 @@ void Navigator::see_turn(const Flight& flight, const Body& other, double begin, 
   const Chord chord(flight, other, begin, end);
   const double middle = 0.5 * (begin + end), beside = chord.beside;
   const double enough = seen.least + (chord.fine ? 0 : beside);
-  const Near found =
-      chord.fine ? other.near(chord.sweep, {enough, seen.hopeless, meeting})
-                 : other.near(chord.sweep, {enough, std::max(0.0, seen.hopeless - beside), Meeting::whether});
+  const Near found = chord.fine ? other.near(chord.sweep, {enough, seen.hopeless, meeting, flight.now.reach})
+                                : other.near(chord.sweep, {enough, std::max(0.0, seen.hopeless - beside),
+                                                           Meeting::whether, flight.now.reach});
   if (found.distance >= enough) return;
   if (!chord.fine && beside > 0.01 * found.distance) {
     if (found.distance + beside <= seen.hopeless) {
@@ -141,51 +139,24 @@ void Navigator::see_straight(const Flight& flight, const Body& other, double beg
   const Moment& now = flight.now;
   const double turning = flight.course.turning;
   const Vector3d w = flight.course.velocity - other.velocity;
-  const double speed = w.norm();
+  const double speed = w.norm(), reach = other.reach + now.reach;
   const Vector3d start = flight.center(turning) + (begin - turning) * flight.course.velocity;
   const Vector3d c = other.body.center() + begin * other.velocity - start;
-  const double reach = other.reach + now.reach;
-  const double past = speed > 0 ? std::max(0.0, c.dot(w) / speed) : 0;
-  if ((c - past / std::max(speed, 1e-300) * w).norm() - reach >= seen.least) return;
   if (!(speed > 1e-9 * (now.speed + flight.course.velocity.norm() + other.velocity.norm()))) end = begin;
-  const auto sweep = [&](double until) {
-    Sweep way{start - begin * other.velocity, (until - begin) * w, now.body.factor()};
-    if (now.carried) way.factor = flight.rotation(turning) * way.factor;
-    return way;
-  };
-  const auto look = [&](double until) {
-    const Near found = other.near(sweep(until), {seen.least, seen.hopeless, meeting});
-    if (found.distance >= seen.least) return;
-    seen.least = found.distance;
-    if (found.distance > 0) return;
-    seen.hit = begin + found.part * (until - begin);
-    seen.depth = found.depth;
-  };
-  // Beyond this they move apart.
-  const double apart = begin + (past + reach) / std::max(speed, 1e-300);
-  if (other.itself || end < apart) {
-    look(std::min(end, apart));
-    return;
-  }
-  Ellipsoid a = flight.body(turning);
-  if (begin > turning) a = a.translated((begin - turning) * flight.course.velocity);
-  const Ellipsoid b = other.body.translated(begin * other.velocity);
-  const Clearance pass = clearance(a, b, w);
-  double least = pass.distance;
-  if (pass.distance < 0 || pass.time <= 0) {
-    const Separation gap = separation(a, b);
-    if (gap.distance > 0 && gap.normal.dot(w) <= 0) least = gap.distance;  // moving apart
-  }
-  if (least >= seen.least) return;
-  seen.least = std::max(least, 0.0);
-  if (least > 0) return;
-  if (meeting == Meeting::whether) {
-    seen.hit = begin;
-  } else {
-    const std::optional<double> first = time_to_contact(a, b, w);
-    seen.hit = begin + (first && *first < kFar ? *first : std::max(0.0, pass.time));
-  }
-  seen.depth = -least;
+  // Once past it, and the reach of both, they move apart.
+  end = std::min(end, begin + (std::max(0.0, c.dot(w)) / speed + reach) / speed);
+  if (!(end > begin)) end = begin;
+  const Vector3d along = (end - begin) * w;
+  const double part = end > begin ? std::clamp(c.dot(along) / along.squaredNorm(), 0.0, 1.0) : 0;
+  if ((c - part * along).norm() - reach >= seen.least) return;
+  const Ellipsoid agent = flight.body(turning);
+  const Near found = other.near({agent.translated(start - begin * other.velocity - agent.center()), along},
+                                {seen.least, seen.hopeless, meeting, now.reach});
+  if (found.distance >= seen.least) return;
+  seen.least = found.distance;
+  if (found.distance > 0) return;
+  seen.hit = begin + found.part * (end - begin);
+  seen.depth = found.depth;
 }
 
 /// Of the course from `begin` on; `enough` metres are as good as more, `hopeless` metres as bad as less.
@@ -212,22 +183,42 @@ Navigator::Approach Navigator::see(const Flight& flight, const Body& other, doub
   return seen;
 }
 
+/// Whether they meet before `until`.
+bool Navigator::meets(const Flight& flight, const Body& other, double until) const {
+  const double end = std::min({until, flight.course.until, other.matters}), turning = flight.course.turning;
+  Approach straight;
+  straight.least = 1e-300;
+  if (end > turning) see_straight(flight, other, turning, end, Meeting::whether, straight);
+  return straight.hit < kFar || (turning > 0 && fails(flight, other, 0, std::min(turning, end), 0));
+}
+
 /// What the course keeps of required and beyond. Gives up where it cannot be better than `floor`.
-Navigator::Foreseen Navigator::foresee(const Moment& now, const Course& course, const Foreseen& floor) const {
+Navigator::Foreseen Navigator::foresee(const Moment& now, const Course& course, const Foreseen& floor) {
   const Flight flight(now, course);
   const Meeting meeting = floor.kept > 0 ? Meeting::whether : Meeting::when;
   Foreseen result;
   result.kept = required_ + beyond_;
-  for (const Body& other : bodies_) {
+  for (std::size_t n = 0; n < bodies_.size(); ++n) {
+    // First the one that the course before failed by.
+    const std::size_t i = n == 0 ? failed_by_ : n <= failed_by_ ? n - 1 : n;
+    const Body& other = bodies_[i];
+    if (floor.hits() && meets(flight, other, floor.hit)) {
+      failed_by_ = i;
+      return {0, 0};
+    }
     // Who is nearer than it should be may stay so for a while, but not come much nearer.
     const bool near = other.now < result.kept && other.now > 0;
     const double enough = near ? std::min(result.kept, 0.8 * other.now) : result.kept;
-    Approach seen = see(flight, other, 0, std::max(enough, 1e-300), floor.kept, meeting);
+    Approach seen =
+        see(flight, other, 0, std::max(enough, 1e-300), std::min(floor.kept, enough - kAlmost), meeting);
     if (near && seen.least >= enough)
       seen = see(flight, other, std::min(0.5 * now.to_turn, course.until), result.kept, floor.kept, meeting);
     if (seen.hit < result.hit) result.hit = seen.hit;
     result.kept = result.hits() ? 0 : std::min(result.kept, seen.least);
-    if (!result.better_than(floor)) return result;
+    if (!result.better_than(floor)) {
+      failed_by_ = i;
+      return result;
+    }
   }
   return result;
 }

@@ -162,7 +162,7 @@ std::optional<Navigator::Course> Navigator::to_destination(const Moment& now,
 /// Moves a safe course towards the one that is wanted, as far as it stays safe: the velocities tried are some
 /// way apart.
 void Navigator::closer(const Moment& now, const Vector3d& wanted, double most, Course& course,
-                       Foreseen& foreseen) const {
+                       Foreseen& foreseen) {
   const Vector3d found = course.velocity;
   const Vector3d aside = side_of(wanted.normalized(), found.normalized(), now.planar);
   const double angle = angle_between(wanted, found);
@@ -188,7 +188,7 @@ void Navigator::closer(const Moment& now, const Vector3d& wanted, double most, C
 
 /// Where none is safe the best of those tried may be some way from the best there is: steps to all sides,
 /// halved where none is better.
-bool Navigator::refine(const Moment& now, Course& course, Foreseen& foreseen) const {
+bool Navigator::refine(const Moment& now, Course& course, Foreseen& foreseen) {
   const double most = course.most;
   double width = 0.1;
   bool found = false;
@@ -350,8 +350,9 @@ NavigatorStep Navigator::step(const BodyState& agent, std::span<const BodyState>
     if (body.holds(now.position, now.reach)) body.matters = now.to_turn;
     const double apart = (body.body.center() - now.position).norm() - body.reach - now.reach;
     if (apart < required_ + beyond_)
-      body.now = body.near({now.body.center(), Vector3d::Zero(), now.body.factor()}, {}).distance;
+      body.now = body.near({now.body, Vector3d::Zero()}, {.reach = now.reach}).distance;
   }
+  failed_by_ = 0;
   return fly(now, destination, time);
 }
 

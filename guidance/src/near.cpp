@@ -5,6 +5,7 @@
 #include "near.h"
 
 #include <vericone/cones/cone_geometry.h>
+#include <vericone/cones/ellipsoids/clearance.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
@@ -20,7 +21,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kRelative = 1e-4;  // of a distance
+constexpr double kRelative = 1e-3;  // of a distance
 constexpr int kMostSupports = 48;
 
 /// Points, a box or an ellipsoid, rounded by a radius.
@@ -44,12 +45,13 @@ class Piece {
     return piece;
   }
 
-  Vector3d middle() const {
-    if (box_) return box_->center();
-    if (ellipsoid_) return ellipsoid_->center();
+  /// A direction from x towards the piece, of what may be nearest.
+  Vector3d towards(const Vector3d& x) const {
+    if (box_) return x.cwiseMax(box_->low).cwiseMin(box_->high) - x;
+    if (ellipsoid_) return ellipsoid_->shape().inverse() * (ellipsoid_->center() - x);
     Vector3d sum = Vector3d::Zero();
     for (std::size_t i = 0; i < count_; ++i) sum += points_[i];
-    return sum / double(count_);
+    return sum / double(count_) - x;
   }
   /// The point with the least n.x, without the rounding.
   Vector3d lowest(const Vector3d& n) const {
@@ -79,8 +81,14 @@ class Piece {
   double radius_ = 0;
 };
 
+/// A sweep in the frame of the pieces.
+struct Way {
+  Vector3d from, along;
+  Matrix3d factor;
+};
+
 /// The point of the sweep with the most n.x.
-Vector3d highest(const Sweep& sweep, const Vector3d& n) {
+Vector3d highest(const Way& sweep, const Vector3d& n) {
   const Vector3d u = sweep.factor.transpose() * n;
   const double length = u.norm();
   Vector3d x = sweep.from;
@@ -162,10 +170,10 @@ struct Apart {
   Vector3d normal;         // unit, from the sweep to the piece
 };
 
-/// Stops where the distance is proved to be `enough`.
-Apart apart(const Sweep& sweep, const Piece& piece, double enough) {
+/// Stops where the distance is proved to be `enough`, or not to be more than `stop`.
+Apart apart(const Way& sweep, const Piece& piece, double enough, double stop) {
   const double size = sweep.factor.norm() + piece.radius(), meets = 1e-7 * size;
-  Vector3d v = piece.middle() - sweep.from - 0.5 * sweep.along;
+  Vector3d v = piece.towards(sweep.from + 0.5 * sweep.along);
   Apart result{kNever, 0, Vector3d::Zero()};
   Simplex simplex;
   if (!(v.norm() > 0)) v = Vector3d::UnitX();
@@ -181,26 +189,28 @@ Apart apart(const Sweep& sweep, const Piece& piece, double enough) {
         return result;
       }
     }
+    if (i > 0 && length - piece.radius() <= stop) break;
     if (i > 0 && length - piece.radius() - result.least <= kRelative * (length - piece.radius())) break;
     simplex.add(s);
     v = simplex.nearest();
     length = v.norm();
     if (length - piece.radius() <= meets) return {0, 0, n};
-    if (!(length < before)) break;
+    if (!(length < before)) break;  // rounding
     before = length;
   }
-  result.distance = length - piece.radius();
+  result.distance = std::min(length, before) - piece.radius();
   if (!(result.normal.norm() > 0)) result.normal = v / length;
   return result;
 }
 
 /// Of a sweep that meets the piece: the part of the way until then. Newton's method from before, which never
 /// passes the contact.
-double first_contact(const Sweep& sweep, const Piece& piece) {
+double first_contact(const Way& sweep, const Piece& piece) {
   const double size = sweep.factor.norm() + piece.radius();
   double part = 0;
   for (int i = 0; i < 40; ++i) {
-    const Apart now = apart({sweep.from + part * sweep.along, Vector3d::Zero(), sweep.factor}, piece, kNever);
+    const Apart now =
+        apart({sweep.from + part * sweep.along, Vector3d::Zero(), sweep.factor}, piece, kNever, 0);
     const double closing = now.normal.dot(sweep.along);
     if (!(now.distance > 1e-5 * size) || !(closing > 0)) break;
     part += std::max(now.least, 0.5 * now.distance) / closing;
@@ -210,7 +220,7 @@ double first_contact(const Sweep& sweep, const Piece& piece) {
 }
 
 /// How far across its way the sweep must be shifted, at least, to pass the piece.
-double depth_across(const Sweep& sweep, const Piece& piece) {
+double depth_across(const Way& sweep, const Piece& piece) {
   if (!(sweep.along.norm() > 0)) return 0;
   const AxisFrame frame(sweep.along);
   const auto gap = [&](double azimuth) {
@@ -236,7 +246,7 @@ double depth_across(const Sweep& sweep, const Piece& piece) {
 /// The nearest of many pieces, looked at one after the other.
 class Nearest {
  public:
-  Nearest(const Sweep& sweep, const Wanted& wanted) : sweep_(sweep), wanted_(wanted) {
+  Nearest(const Way& sweep, const Wanted& wanted) : sweep_(sweep), wanted_(wanted) {
     near_.distance = wanted.enough;
     bound();
   }
@@ -245,7 +255,7 @@ class Nearest {
   bool done() const { return met_ ? wanted_.meeting == Meeting::whether : near_.distance <= wanted_.stop; }
 
   void look(const Piece& piece) {
-    const Apart found = apart(sweep_, piece, std::max(counts(), 1e-300));
+    const Apart found = apart(sweep_, piece, std::max(counts(), 1e-300), wanted_.stop);
     if (found.distance > 0) {
       near_.distance = std::min(near_.distance, found.distance);
       return;
@@ -302,7 +312,7 @@ class Nearest {
     return sweep_.from + std::clamp((x - sweep_.from).dot(sweep_.along) / square, 0.0, 1.0) * sweep_.along;
   }
 
-  Sweep sweep_;
+  Way sweep_;
   Wanted wanted_;
   Near near_;
   Vector3d low_, high_;  // of the sweep's box
@@ -348,22 +358,24 @@ void descend(const Assembly& body, Nearest& nearest) {
                            ? one.least < two.least
                            : nearest.along(nodes[one.node]) < nearest.along(nodes[two.node]);
     if (first) std::swap(one, two);
-    for (const Item& item : {one, two})
-      if (item.least < kNever) stack[size++] = item;
+    for (const Item& child : {one, two})
+      if (child.least < kNever) stack[size++] = child;
   }
 }
 
 }  // namespace
 
 Near near(const Sweep& sweep, const Ellipsoid& body, const Wanted& wanted) {
-  Nearest nearest(sweep, wanted);
+  Nearest nearest({sweep.agent.center(), sweep.along, sweep.agent.factor()}, wanted);
   nearest.look(Piece::ellipsoid(body));
   return nearest.result();
 }
 
 Near near(const Sweep& sweep, const Placed& body, const Wanted& wanted) {
   const Matrix3d to_body = body.pose.rotation.transpose();
-  Nearest nearest({body.pose.to_body(sweep.from), to_body * sweep.along, to_body * sweep.factor}, wanted);
+  Nearest nearest(
+      {body.pose.to_body(sweep.agent.center()), to_body * sweep.along, to_body * sweep.agent.factor()},
+      wanted);
   if (const Assembly* assembly = body.body.assembly()) {
     descend(*assembly, nearest);
   } else if (const HullBody* hull = body.body.hull()) {

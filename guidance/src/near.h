@@ -11,8 +11,8 @@ namespace vericone::guidance {
 
 /// An ellipsoid that goes straight on without turning, seen from a body at rest.
 struct Sweep {
-  Eigen::Vector3d from, along;  // m, where its centre starts, and how far it goes
-  Eigen::Matrix3d factor;       // Ellipsoid::factor()
+  Ellipsoid agent;        // where it starts
+  Eigen::Vector3d along;  // m, how far it goes
 };
 
 /// What is wanted of a sweep that meets the body.
@@ -23,11 +23,12 @@ struct Wanted {
   double enough = std::numeric_limits<double>::infinity();  // m: what is farther does not count
   double stop = 0;                                          // m: something as near as this is all
   Meeting meeting = Meeting::whether;
+  double reach = 0;  // m, of the ball about the agent's centre
 };
 
 struct Near {
-  /// Metres on the way, to a hundredth of it from above; 0 where they meet. What is `enough` or more may be
-  /// anything from `enough` on.
+  /// Metres on the way; of many pieces at most a hundredth too much; 0 where they meet. What is `enough` or
+  /// more may be anything from `enough` on.
   double distance = std::numeric_limits<double>::infinity();
   double part = 1;  // of the way at the first contact, where Meeting asks for it
   /// Metres, where Meeting asks for it: the least shift of the ellipsoid across its way with which it would

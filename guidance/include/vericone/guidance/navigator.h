@@ -111,15 +111,16 @@ class Navigator {
                     Approach& seen) const;
   [[nodiscard]] Approach see(const Flight& flight, const Body& other, double begin, double enough,
                              double hopeless, Meeting meeting) const;
-  [[nodiscard]] Foreseen foresee(const Moment& now, const Course& course, const Foreseen& floor) const;
+  [[nodiscard]] Foreseen foresee(const Moment& now, const Course& course, const Foreseen& floor);
+  [[nodiscard]] bool meets(const Flight& flight, const Body& other, double until) const;
   void tell(const Moment& now, const Course& course, NavigatorStep& step) const;
 
   [[nodiscard]] double beside(const Moment& now, const Eigen::Vector3d& u, const Eigen::Vector3d& v) const;
   [[nodiscard]] Course towards(const Moment& now, const Eigen::Vector3d& velocity, double most) const;
   [[nodiscard]] std::optional<Course> to_destination(const Moment& now, const Destination& destination) const;
   void closer(const Moment& now, const Eigen::Vector3d& wanted, double most, Course& course,
-              Foreseen& foreseen) const;
-  bool refine(const Moment& now, Course& course, Foreseen& foreseen) const;
+              Foreseen& foreseen);
+  bool refine(const Moment& now, Course& course, Foreseen& foreseen);
   void spread(const Moment& now, const Eigen::Vector3d& wanted, double less_than);
   bool search(const Moment& now, const Eigen::Vector3d& wanted, double less_than, Course& course,
               Foreseen& foreseen);
@@ -139,6 +140,7 @@ class Navigator {
     Eigen::Vector3d velocity;
   };
   std::vector<Candidate> candidates_;
+  std::size_t failed_by_ = 0;  // the body that the course tried before failed by
 };
 
 }  // namespace vericone::guidance
