@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Prints, in Markdown, what a step of guidance costs, piece by piece, and how often each choice of the plane
-// hides a collision. Times are medians over rounds, each item taken in turn in each round.
+// hides a collision; and what decisions of pilots cost. Times are medians over rounds, each item taken in
+// turn in each round.
+//
+// Usage: vericone_guidance_ratios [decisions]
 #include <benchmarks/combined_pairs.h>
 #include <benchmarks/items.h>
 #include <vericone/guidance/guide.h>
+#include <vericone/guidance/navigator.h>
 #include <algorithm>
 #include <cstdio>
+#include <ctime>
 #include <string>
+#include <vector>
 
 namespace vericone::benchmarks {
 namespace {
@@ -200,11 +206,119 @@ void hidden_collisions() {
     std::printf("| %s | %d | %d |\n", to_string(kChoices[k]), hidden[0][k], hidden[1][k]);
 }
 
+/// A row of decision times, in processor time of this thread.
+void decision_row(const char* of, std::vector<double> milliseconds) {
+  std::sort(milliseconds.begin(), milliseconds.end());
+  const std::size_t n = milliseconds.size();
+  std::printf("| %s | %zu | %.3f ms | %.3f ms | %.3f ms |\n", of, n, milliseconds[n / 2],
+              milliseconds[n * 99 / 100], milliseconds.back());
+}
+
+template <class Decide>
+double milliseconds_of(Decide&& decide) {
+  timespec from, to;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &from);
+  decide();
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &to);
+  return 1e3 * double(to.tv_sec - from.tv_sec) + 1e-6 * double(to.tv_nsec - from.tv_nsec);
+}
+
+BodyState still_or_moving(const WorldBody& shape, const Vector3d& position, const Vector3d& velocity) {
+  BodyState state;
+  state.shape = shape;
+  state.position = position;
+  state.velocity = velocity;
+  return state;
+}
+
+/// Four ellipsoids ahead: first decisions, by what they came to.
+void crowd_decisions() {
+  Dice dice(3);
+  const Ellipsoid shape = Ellipsoid::from_axes({0, 0, 0}, {0.4, 0.3, 0.2});
+  std::vector<double> of[6];
+  for (int i = 0; i < 400; ++i) {
+    const double speed = dice.uniform(2, 10);
+    const BodyState agent = still_or_moving(CombinedEllipsoid(shape), {0, 0, 0}, {speed, 0, 0});
+    std::vector<BodyState> others;
+    while (others.size() < 4) {
+      const Vector3d axes(dice.uniform(0.3, 2), dice.uniform(0.3, 2), dice.uniform(0.3, 2));
+      const Vector3d at = dice.uniform(3, 12) * (Vector3d::UnitX() + 0.6 * dice.direction());
+      if (at.norm() < 3) continue;
+      const Vector3d velocity =
+          dice.uniform(0, 1) < 0.5 ? Vector3d(Vector3d::Zero()) : Vector3d(3 * dice.direction());
+      others.push_back(still_or_moving(CombinedEllipsoid(Ellipsoid::from_axes(at, axes)), at, velocity));
+    }
+    Navigator navigator({.required = 0.3, .beyond = 0.1, .most = 5});
+    NavigatorStep said;
+    const double time = milliseconds_of([&] { said = navigator.step(agent, others, std::nullopt, 0, 0.02); });
+    of[static_cast<int>(said.status)].push_back(time);
+  }
+  for (const NavigatorStatus status : {NavigatorStatus::straight, NavigatorStatus::avoiding,
+                                       NavigatorStatus::too_near, NavigatorStatus::cannot_avoid})
+    if (const auto& times = of[static_cast<int>(status)]; !times.empty())
+      decision_row((std::string("4 ellipsoids, first decision: ") + to_string(status)).c_str(), times);
+}
+
+/// Flights along a corridor 2.5 m wide and high and 35 m long, of 140,000 boxes, past posts that leave 0.9 m.
+void corridor_decisions() {
+  std::vector<Box> boxes;
+  const auto cell = [&](double x, double y, double z) {
+    boxes.push_back({{x, y, z}, {x + 0.05, y + 0.05, z + 0.05}});
+  };
+  for (int i = 0; i < 700; ++i)
+    for (int k = 0; k < 50; ++k) {
+      const double x = 0.05 * i - 1, a = 0.05 * k - 1.25;
+      for (const double side : {-1.3, 1.25}) {
+        cell(x, side, a);
+        cell(x, a, side);
+      }
+      if (i % 160 == 100)
+        for (double y = 0; y < 0.3; y += 0.05) cell(x, i % 320 == 100 ? y : -y, a);
+    }
+  const BodyState map = still_or_moving(Placed(Body(Assembly::boxes(boxes))), {0, 0, 0}, {0, 0, 0});
+  const Ellipsoid shape = Ellipsoid::from_axes({0, 0, 0}, {0.3, 0.3, 0.1});
+  for (const double speed : {1.0, 3.0, 5.0}) {
+    std::vector<double> times;
+    for (const double required : {0.1, 0.3}) {
+      Navigator navigator({.required = required, .beyond = 0.1, .most = 8});
+      Vector3d p(0, 0, 0), v(speed, 0, 0);
+      const double step = 0.05;
+      for (double t = 0; p.x() < 28 && t < 40 / speed; t += step) {
+        const BodyState agent = still_or_moving(CombinedEllipsoid(shape.translated(p)), p, v);
+        NavigatorStep said;
+        times.push_back(milliseconds_of([&] {
+          said = navigator.step(agent, {&map, 1}, Destination{{30, 0, 0}, 8}, t, step);
+        }));
+        const Vector3d next = (v + step * said.acceleration).normalized() * speed;
+        p += 0.5 * step * (v + next);
+        v = next;
+      }
+    }
+    char of[80];
+    std::snprintf(of, sizeof of, "in a map of %zu boxes at %g m/s", boxes.size(), speed);
+    decision_row(of, times);
+  }
+}
+
+void decisions_table() {
+  std::printf(
+      "\nDecisions of a Navigator, processor time.\n\n"
+      "| decision | number | median | 99 %% | worst |\n| --- | --- | --- | --- | --- |\n");
+  crowd_decisions();
+  corridor_decisions();
+}
+
 }  // namespace
 }  // namespace vericone::benchmarks
 
-int main() {
+int main(int argc, char** argv) {
+  // With an argument the decisions alone, which take seconds.
+  if (argc > 1 && std::string(argv[1]) == "decisions") {
+    vericone::benchmarks::decisions_table();
+    return 0;
+  }
   vericone::benchmarks::ellipsoid_table();
   vericone::benchmarks::other_bodies_table();
   vericone::benchmarks::hidden_collisions();
+  vericone::benchmarks::decisions_table();
 }

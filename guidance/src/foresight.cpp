@@ -59,7 +59,7 @@ Near Navigator::Body::near(const Sweep& sweep, const Wanted& wanted) const {
   const double part = square > 0 ? std::clamp(c.dot(sweep.along) / square, 0.0, 1.0) : 0;
   const double balls = (c - part * sweep.along).norm() - reach - wanted.reach;
   if (balls >= wanted.enough) return {balls};
-  return itself ? guidance::near(sweep, *itself, wanted) : guidance::near(sweep, body, wanted);
+  return itself ? courses::near(sweep, *itself, wanted) : courses::near(sweep, body, wanted);
 }
 
 /// A part of the manoeuvre: its chord, and how far from the chord the body may be, which turns meanwhile.

@@ -11,6 +11,8 @@
 
 namespace vericone::guidance {
 
+using courses::Meeting, courses::Near, courses::Sweep, courses::Wanted;
+
 inline constexpr double kFar = std::numeric_limits<double>::infinity();
 inline constexpr double kAligned = 1e-6;  // rad
 inline constexpr double kAlmost = 1e-9;   // m, what rounding may take

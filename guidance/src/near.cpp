@@ -14,7 +14,7 @@
 #include <numbers>
 #include <utility>
 
-namespace vericone::guidance {
+namespace vericone::guidance::courses {
 namespace {
 
 using Eigen::Matrix3d;
@@ -389,4 +389,4 @@ Near near(const Sweep& sweep, const Placed& body, const Wanted& wanted) {
   return nearest.result();
 }
 
-}  // namespace vericone::guidance
+}  // namespace vericone::guidance::courses

@@ -7,7 +7,7 @@
 #include <vericone/geometry/body.h>
 #include <limits>
 
-namespace vericone::guidance {
+namespace vericone::guidance::courses {
 
 /// An ellipsoid that goes straight on without turning, seen from a body at rest.
 struct Sweep {
@@ -42,4 +42,4 @@ struct Near {
 /// cut away counts too. No allocation.
 [[nodiscard]] Near near(const Sweep& sweep, const Placed& body, const Wanted& wanted);
 
-}  // namespace vericone::guidance
+}  // namespace vericone::guidance::courses

@@ -14,10 +14,12 @@
 
 namespace vericone::guidance {
 
+namespace courses {
 struct Near;
 struct Sweep;
 struct Wanted;
 enum class Meeting : std::uint8_t;
+}  // namespace courses
 
 struct NavigatorOptions {
   std::optional<double>
@@ -36,11 +38,11 @@ struct Destination {
 
 enum class NavigatorStatus : std::uint8_t {
   straight,      // nothing to avoid, nowhere to go
-  homing,        // turns to its destination, or points at it
+  homing,        // goes to its destination, or points at it
   avoiding,      // on a course beside the one that it wants
-  too_near,      // every course comes nearer to a body than required; this one the least
-  cannot_avoid,  // every course tried meets a body, as far as can be foreseen
-  no_course,     // at rest: there is no heading to change
+  too_near,      // every course tried comes nearer to a body than required, this one least
+  cannot_avoid,  // every course tried hits a body, this one last
+  no_course,     // at rest, and must not change its speed; nothing hits it
 };
 [[nodiscard]] const char* to_string(NavigatorStatus status);
 
@@ -48,26 +50,36 @@ struct NavigatorStep {
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  // m/s^2, across the velocity
   NavigatorStatus status = NavigatorStatus::straight;
   bool aligned = false;  // points at the destination
-  /// Of the course flown, foreseen: metres to what it comes nearest to (negative: how deep it is hit;
-  /// infinite: nothing is near), and its index in `others`.
+  /// Of the course flown, as far as it is judged: metres to what it comes nearest to, to a hundredth; where
+  /// it hits, negative: how far aside the agent would have to be at the first contact to pass (of many
+  /// pieces, the one touched first). Infinite without bodies. `nearest`: its index in `others`.
   double least = std::numeric_limits<double>::infinity();
   std::size_t nearest = 0;
 };
 
-/// Flies by courses: turn to a direction on a circle, as hard as allowed, then straight on. A course is safe
-/// if on both parts the agent keeps away from every body, each going on as it does now, for ever (the way to
-/// the destination: until there). The straight part is judged by the cone in metres, clearance(); the turn by
-/// distances, so often that nothing can be passed over. Whoever flies a safe course and is among bodies that
-/// keep their velocities has a safe course at every later step: the one it is on. So it takes the way to its
-/// destination where that is safe, else stays on its course while that is, and looks for a better one twice a
-/// second; directions are tried outwards from the one it wants.
+/// Flies by courses: turn to a direction on a circle, as hard as allowed, then straight on; where the speed
+/// may change (`longitudinal`), accelerate to a velocity, as hard as allowed, then straight on. What a course
+/// keeps is its least distance to any body, each going on as it does now, for ever (the way to the
+/// destination: until there); it is safe if it keeps what is required. Whoever flies a safe course and is
+/// among bodies that keep their velocities has a safe course at every later step: the one it is on. So it
+/// takes the way to its destination where that is safe, else stays on its course while that is, and looks for
+/// a better one twice a second; velocities are tried outwards from the one it wants.
 ///
-/// Placed bodies that do not turn are judged as they are, by Pair::miss, so that an agent can fly through
-/// them; within the bounds of one, where every straight line may end at a wall, a course is judged for as
-/// long as the way to the destination takes. Other bodies stand for themselves as ellipsoids that contain
-/// them; one that turns or changes its shape by the ball about it. The speed is never changed. Deterministic.
-/// No allocation once it has searched. Cost: 5 to 20 us a body where the wanted course is safe, up to
-/// milliseconds for a placed one; up to 400 courses otherwise.
+/// The same courses are tried whatever is required. Where none is safe it takes the one that keeps most, and
+/// where all hit the one that hits last: asking for more never makes a decision hit.
+///
+/// Who may change its speed goes at that of its first step; who was at rest then goes to its destination as
+/// fast as it can still stop there, and without one stops again. At rest without `longitudinal` it stays.
+///
+/// Placed bodies that do not turn are judged as they are (of combined quadrics in unions what their
+/// delimiters cut away counts too), so that an agent can fly through them; within the bounds of one, where
+/// every straight line may end at a wall, a course is judged for half a second more than it takes to turn
+/// right round (who may change its speed: to stop). Other bodies stand for themselves as ellipsoids that
+/// contain them; one that turns or changes its shape by the ball about it. Deterministic. No allocation once
+/// it has searched.
+///
+/// Cost: where the course is kept 2 to 10 us an ellipsoid, 20 to 200 us a map of 140,000 boxes that the agent
+/// is in; where a course is looked for up to 15 ms (docs/measured/benchmarks.md).
 class Navigator {
  public:
   /// Throws InputError naming "required" or "beyond" unless finite and not negative, and "most" unless
@@ -97,7 +109,7 @@ class Navigator {
     double matters = std::numeric_limits<double>::infinity();  // s: what it does later does not count
     std::optional<Placed> itself = std::nullopt;               // judged as it is; `body` is a ball about it
 
-    [[nodiscard]] Near near(const Sweep& sweep, const Wanted& wanted) const;
+    [[nodiscard]] courses::Near near(const courses::Sweep& sweep, const courses::Wanted& wanted) const;
     /// Whether the point is nearer than `margin` to the bounds of a body that is judged as it is.
     [[nodiscard]] bool holds(const Eigen::Vector3d& point, double margin) const;
   };
@@ -105,12 +117,12 @@ class Navigator {
 
   NavigatorStep fly(const Moment& now, const std::optional<Destination>& destination, double time);
   bool fails(const Flight& flight, const Body& other, double begin, double end, double hopeless) const;
-  void see_turn(const Flight& flight, const Body& other, double begin, double end, Meeting meeting,
+  void see_turn(const Flight& flight, const Body& other, double begin, double end, courses::Meeting meeting,
                 Approach& seen) const;
-  void see_straight(const Flight& flight, const Body& other, double begin, double end, Meeting meeting,
-                    Approach& seen) const;
+  void see_straight(const Flight& flight, const Body& other, double begin, double end,
+                    courses::Meeting meeting, Approach& seen) const;
   [[nodiscard]] Approach see(const Flight& flight, const Body& other, double begin, double enough,
-                             double hopeless, Meeting meeting) const;
+                             double hopeless, courses::Meeting meeting) const;
   [[nodiscard]] Foreseen foresee(const Moment& now, const Course& course, const Foreseen& floor);
   [[nodiscard]] bool meets(const Flight& flight, const Body& other, double until) const;
   void tell(const Moment& now, const Course& course, NavigatorStep& step) const;
