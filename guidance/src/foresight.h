@@ -35,6 +35,7 @@ struct Navigator::Course {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, at the end
   Eigen::Vector3d aside = Eigen::Vector3d::Zero();     // unit: of the acceleration now
   double most = 0;                                     // m/s^2, of the acceleration
+  double asked = 0;                                    // m/s^2, of which it may be less
   double angle = 0;                                    // rad, of a turn
   double radius = 0;                                   // m, of its circle; 0: no turn
   double turning = 0;                                  // s, how long the manoeuvre takes

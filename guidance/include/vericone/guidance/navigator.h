@@ -133,7 +133,7 @@ class Navigator {
   void closer(const Moment& now, const Eigen::Vector3d& wanted, double most, Course& course,
               Foreseen& foreseen);
   bool refine(const Moment& now, Course& course, Foreseen& foreseen);
-  void spread(const Moment& now, const Eigen::Vector3d& wanted, double less_than);
+  void spread(const Moment& now, const Eigen::Vector3d& wanted, double less_than, int finer);
   bool search(const Moment& now, const Eigen::Vector3d& wanted, double less_than, Course& course,
               Foreseen& foreseen);
 
