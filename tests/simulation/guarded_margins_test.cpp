@@ -121,6 +121,7 @@ TEST(GuardedMargins, MoreMarginNeverHitsAndHitsAreSaidBefore) {
   int flights = 0, hits = 0, worse = 0, unsaid = 0, needless = 0;
   for (std::uint64_t seed = 1; seed <= scenarios(); ++seed) {
     bool missed = false;  // with a smaller margin
+    bool any_needless = false;
     for (const double required : {0.0, 0.1, 0.3, 0.5}) {
       const Flown flown = fly(scene(seed, required));
       ++flights;
@@ -129,7 +130,7 @@ TEST(GuardedMargins, MoreMarginNeverHitsAndHitsAreSaidBefore) {
                  is_needless = !flown.touched && flown.said;
       worse += is_worse;
       unsaid += is_unsaid;
-      needless += is_needless;
+      any_needless |= is_needless;
       if (is_worse || is_unsaid || is_needless)
         std::cout << "[ margin   ] seed " << seed << ", required " << required
                   << (is_worse ? ": hits, a smaller margin misses" : "") << (is_unsaid ? ": hits unsaid" : "")
@@ -137,16 +138,17 @@ TEST(GuardedMargins, MoreMarginNeverHitsAndHitsAreSaidBefore) {
                   << flown.when << " s\n";
       missed |= !flown.touched;
     }
+    needless += any_needless;
   }
   std::cout << "[ margins  ] " << flights << " flights: " << hits << " hit, " << worse
-            << " that a smaller margin avoids, " << unsaid << " not said before, " << needless
-            << " said and avoided\n";
+            << " that a smaller margin avoids, " << unsaid << " not said before; of " << scenarios()
+            << " scenarios " << needless << " with some that were said and avoided\n";
   EXPECT_GT(hits, 0);  // or they would be too easy
   EXPECT_LT(hits, flights);
   EXPECT_EQ(worse, 0);
   EXPECT_EQ(unsaid, 0);
-  // Courses are tried some degrees apart: a gap narrower than that may be found later.
-  EXPECT_LE(needless, flights / 100);
+  // Courses are tried some degrees apart: a gap that is narrower may be found later.
+  EXPECT_LE(needless, 1 + static_cast<int>(scenarios() / 50));
 }
 
 struct Promise {
