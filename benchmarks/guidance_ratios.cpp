@@ -275,7 +275,8 @@ void corridor_decisions() {
       if (i % 160 == 100)
         for (double y = 0; y < 0.3; y += 0.05) cell(x, i % 320 == 100 ? y : -y, a);
     }
-  const BodyState map = still_or_moving(Placed(vericone::Body(Assembly::boxes(boxes))), {0, 0, 0}, {0, 0, 0});
+  const BodyState map =
+      still_or_moving(vericone::Placed(vericone::Body(Assembly::boxes(boxes))), {0, 0, 0}, {0, 0, 0});
   const Ellipsoid shape = Ellipsoid::from_axes({0, 0, 0}, {0.3, 0.3, 0.1});
   for (const double speed : {1.0, 3.0, 5.0}) {
     std::vector<double> times;

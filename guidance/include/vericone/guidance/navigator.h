@@ -79,7 +79,7 @@ struct NavigatorStep {
 /// it has searched.
 ///
 /// Cost: where the course is kept 2 to 10 us an ellipsoid, 20 to 200 us a map of 140,000 boxes that the agent
-/// is in; where a course is looked for up to 15 ms (docs/measured/benchmarks.md).
+/// is in; where a course is looked for up to 30 ms (docs/measured/benchmarks.md).
 class Navigator {
  public:
   /// Throws InputError naming "required" or "beyond" unless finite and not negative, and "most" unless
@@ -116,7 +116,7 @@ class Navigator {
   [[nodiscard]] static Body body_of(const BodyState& other, bool planar);
 
   NavigatorStep fly(const Moment& now, const std::optional<Destination>& destination, double time);
-  bool fails(const Flight& flight, const Body& other, double begin, double end, double hopeless) const;
+  [[nodiscard]] bool fails(const Flight& flight, const Body& other, double begin, double end, double hopeless) const;
   void see_turn(const Flight& flight, const Body& other, double begin, double end, courses::Meeting meeting,
                 Approach& seen) const;
   void see_straight(const Flight& flight, const Body& other, double begin, double end,
