@@ -119,9 +119,45 @@ void tables(int n) {
   table(name, second, cpu_seconds() - start, {-5, -1, 0});
 }
 
+/// A cube of 12 n^2 triangles.
+Assembly cube(int n, const Vector3d& low) {
+  std::vector<Vector3d> points;
+  std::vector<Assembly::Triangle> triangles;
+  for (int side = 0; side < 6; ++side) {
+    const auto first = std::uint32_t(points.size());
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= n; ++j) {
+        Vector3d x;
+        x(side % 3) = side / 3;
+        x((side + 1) % 3) = double(i) / n;
+        x((side + 2) % 3) = double(j) / n;
+        points.push_back(low + x);
+        if (i == n || j == n) continue;
+        const std::uint32_t a = first + std::uint32_t(i * (n + 1) + j), b = a + std::uint32_t(n) + 1;
+        triangles.push_back({a, b, b + 1});
+        triangles.push_back({a, b + 1, a + 1});
+      }
+  }
+  return Assembly::mesh(std::move(points), std::move(triangles));
+}
+
+/// One cube on another: thousands of pairs of triangles touch.
+void at_rest(int n) {
+  double start = cpu_seconds();
+  const Assembly below = cube(n, {0, 0, 0}), above = cube(n, {0.25, 0.25, 1});
+  const double assembled = cpu_seconds() - start;
+  start = cpu_seconds();
+  const CompositePair pair(above, {}, below);
+  const double relation = cpu_seconds() - start;
+  std::printf("Two cubes of %zu triangles, one on the other: %s, in %.2g ms, %.2g of their assembly.\n",
+              below.size(), pair.relation() == Relation::touching ? "touching" : "wrong", 1e3 * relation,
+              relation / assembled);
+}
+
 }  // namespace
 }  // namespace vericone::benchmarks
 
 int main() {
   for (const int n : {50, 158}) vericone::benchmarks::tables(n);
+  vericone::benchmarks::at_rest(85);
 }

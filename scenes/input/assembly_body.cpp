@@ -117,7 +117,8 @@ Pieces from_points(const std::filesystem::path& path, double scale, Make make) {
 }
 
 Assembly mesh_of(files::PointFile& file) {
-  return Assembly::mesh(std::move(file.points), files::fan_triangles(file.faces));
+  auto triangles = files::triangles_of(file.points, file.faces);
+  return Assembly::mesh(std::move(file.points), std::move(triangles));
 }
 
 Pieces read_mesh_or_points(const std::string& kind, const File& file, const std::string& field, double scale,

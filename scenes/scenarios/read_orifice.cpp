@@ -39,8 +39,9 @@ void read_window(const Json& value, const std::string& path, const std::filesyst
   }
   for (Vector3d& x : file.points) x *= scale;
   try {
-    orifice.window = std::make_shared<const MeshWindow>(std::move(file.points),
-                                                        files::fan_triangles(file.faces), std::size_t(loop));
+    auto triangles = files::triangles_of(file.points, file.faces);
+    orifice.window =
+        std::make_shared<const MeshWindow>(std::move(file.points), std::move(triangles), std::size_t(loop));
     const PlacedOpening flat = orifice.window->flat();
     orifice.opening = flat.opening;
     orifice.flat_center = flat.center;

@@ -197,6 +197,11 @@ TEST(NoAllocation, Assemblies) {
       const std::size_t count = allocations_of([&] { static_cast<void>(oracle.membership(w, &effort)); });
       if (effort.exact > 0) continue;
       EXPECT_EQ(count, 0) << to_string(kind);
+      const std::size_t for_miss =
+          allocations_of([&] { static_cast<void>(oracle.miss_distance(w, 1e-9, &effort)); });
+      if (effort.exact == 0) {
+        EXPECT_EQ(for_miss, 0) << to_string(kind);
+      }
       ++asked;
     }
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// When, where and how near: first contact and miss distance.
-#include <vericone/geometry/error.h>
+// When and where: first contact.
 #include <algorithm>
 #include <optional>
 
@@ -116,9 +115,10 @@ std::optional<AssemblyContact> first_contact(const Scene& scene, const Eigen::Ve
     if (!(slabs.enter(box.low.data(), box.high.data()) < limit) || test.apart(box.low, box.high)) return true;
     ++effort.pieces;
     if (!meets(scene, slot, ray, w, effort)) return true;
-    const std::optional<PieceContact> contact =
+    std::optional<PieceContact> contact =
         piece_contact(scene.frame(), scene.core(slot), scene.body().radius(), d, limit);
     if (!contact) return true;
+    if (contact->is_wide()) contact->refine(scene.exact_time(slot, w), slabs.scale());
     if (contact->earliest < first.earliest) {
       first = *contact;
       first_slot = slot;
@@ -129,64 +129,6 @@ std::optional<AssemblyContact> first_contact(const Scene& scene, const Eigen::Ve
   if (std::isinf(first.earliest)) return std::nullopt;
   first.latest = latest;
   return in_world(scene, first, first_slot, slabs.scale());
-}
-
-AssemblyMiss miss_distance(const Scene& scene, const Frame& space, const Eigen::Vector3d& w, double tolerance,
-                           Effort& effort) {
-  const bool moving = !w.isZero(0);
-  const Directions directions = moving ? Directions(space, {w}) : Directions();
-  const Eigen::Vector3d ray = moving ? directions.ray[0] : Eigen::Vector3d(Eigen::Vector3d::Zero());
-  const BoxTest test(space, directions, RayResidual{ray});
-  const auto nodes = scene.nodes();
-  AssemblyMiss miss;
-  miss.least = miss.most = kInfinity;
-  struct Item {
-    std::uint32_t node;
-    double distance;
-  };
-  Item stack[128];
-  int size = 0;
-  ++effort.nodes;
-  stack[size++] = {0, test.distance(nodes[0])};
-  while (size > 0) {
-    const Item item = stack[--size];
-    if (item.distance >= miss.most) continue;
-    const Hierarchy::Node& node = nodes[item.node];
-    if (!node.is_leaf()) {
-      effort.nodes += 2;
-      const double first = test.distance(nodes[node.first]), second = test.distance(nodes[node.first + 1]);
-      const Item one{node.first, first}, two{node.first + 1, second};
-      stack[size++] = first < second ? two : one;
-      stack[size++] = first < second ? one : two;
-      continue;
-    }
-    for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot) {
-      const Box box = scene.slot_box(slot);
-      if (test.distance(box.low, box.high) >= miss.most) continue;
-      ++effort.pieces;
-      const Core core = scene.core(space, slot);
-      const Eigen::Vector3d away = RayResidual{ray}(core.center());
-      const double radius = core.outer_rounding();
-      const Gap found = gap(core, directions, away.isZero(0) ? Eigen::Vector3d::UnitX() : away,
-                            GapGoal::measure, tolerance, miss.most + radius);
-      const double far = found.v.norm() + core.error() + 64 * kUlp * (core.reach() + found.along[0]);
-      const double most = std::max(0.0, far - core.inner_rounding());
-      const double least = std::max(0.0, found.least - radius);
-      // Every piece bounds the least distance from below, the nearest one from above.
-      if (most < miss.most) {
-        miss.most = most;
-        Eigen::Vector3d point = found.on_piece;
-        if (scene.body().radius() > 0) point -= scene.body().radius() * found.v.normalized();
-        miss.point = scene.point_to_world(space.to_space(point));
-        miss.normal = found.v.isZero(0) ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : scene.to_world(found.v.normalized());
-        miss.time = moving ? found.along[0] / w.norm() : 0;
-        miss.piece = scene.piece(slot);
-      }
-      miss.least = std::min(miss.least, least);
-    }
-  }
-  miss.least = std::min(miss.least, miss.most);
-  return miss;
 }
 
 }  // namespace vericone::assembly
@@ -207,31 +149,6 @@ std::optional<AssemblyContact> AssemblyOracle::first_contact(const Eigen::Vector
   }
   if (w.isZero(0)) return std::nullopt;
   return assembly::first_contact(scene, scene.to_body(w), count);
-}
-
-AssemblyMiss AssemblyOracle::miss_distance(const Eigen::Vector3d& w, double tolerance, Effort* effort) const {
-  require_finite_velocity(w, "agent_velocity");
-  if (!(tolerance >= 1e-13 && tolerance <= 1))
-    throw InputError("tolerance", to_text(tolerance), "a number between 1e-13 and 1");
-  Effort unused;
-  Effort& count = effort != nullptr ? *effort : unused;
-  const assembly::Scene& scene = *state_;
-  // Whether they meet is known exactly; then the distance is 0, where they first do.
-  if (state_->relation == Relation::disjoint)
-    if (const std::optional<AssemblyContact> contact = first_contact(w, effort)) {
-      AssemblyMiss met;
-      met.point = contact->point;
-      met.normal = contact->normal;
-      met.time = contact->time;
-      met.piece = contact->piece;
-      return met;
-    }
-  AssemblyMiss miss = assembly::miss_distance(scene, state_->space, scene.to_body(w), tolerance, count);
-  if (state_->relation != Relation::disjoint) {
-    miss.least = miss.most = 0;
-    miss.normal.setZero();
-  }
-  return miss;
 }
 
 }  // namespace vericone

@@ -9,6 +9,17 @@ namespace vericone::assembly {
 struct PieceContact {
   double earliest = 0, latest = std::numeric_limits<double>::infinity(), time = 0;
   Eigen::Vector3d point = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::UnitX();
+
+  /// Doubles do not prove an overlap soon after it: it grazes, or enters by an edge, or the two are flat.
+  bool is_wide() const { return !(latest - earliest <= 1e-12 * earliest); }
+  /// By a time that is known in seconds, rounded down and up; `scale`: of the velocity given, the largest
+  /// entry.
+  void refine(const std::optional<std::pair<double, double>>& seconds, double scale) {
+    if (!seconds) return;
+    earliest = std::max(earliest, seconds->first * scale * (1 - 2 * kUlp));
+    latest = std::max(earliest, seconds->second * scale * (1 + 2 * kUlp));
+    time = std::clamp(0.5 * (seconds->first + seconds->second) * scale, earliest, latest);
+  }
 };
 
 /// Newton's method on the distance between the moving apex and the core, which is convex in time: from the
@@ -21,9 +32,5 @@ std::optional<PieceContact> piece_contact(const Frame& frame, Core core, double 
 /// First contact along w, in the obstacle's frame and not zero, for bodies that are disjoint now; nothing
 /// where no piece is met.
 std::optional<AssemblyContact> first_contact(const Scene& scene, const Eigen::Vector3d& w, Effort& effort);
-
-/// Least distance from now on; `space`: the agent in space (Frame::in_space).
-AssemblyMiss miss_distance(const Scene& scene, const Frame& space, const Eigen::Vector3d& w, double tolerance,
-                           Effort& effort);
 
 }  // namespace vericone::assembly

@@ -57,7 +57,13 @@ class Frame {
   /// At least the support max n.e over E; `length`: |n|.
   double extent(const Eigen::Vector3d& n, double length) const {
     if (round_) return outer_ * length;
+    if (points_.empty()) return (factor_.transpose() * n).norm() * (1 + 16 * kUlp) + support_error_ * length;
     return std::min(ball_ * length, n.cwiseAbs().dot(reach_)) * (1 + 8 * kUlp);
+  }
+  /// The same, no more than rounding above it; in the time of a support call.
+  double least_extent(const Eigen::Vector3d& n, double length) const {
+    if (round_ || points_.empty()) return extent(n, length);
+    return n.dot(support(n)) + 8 * kUlp * ball_ * length;
   }
   /// Largest |e| over E, at most.
   double ball() const { return ball_; }

@@ -20,6 +20,7 @@ Relation find_relation(const Scene& scene) {
   const BoxTest test(scene.frame(), apex, ApexResidual{});
   const auto nodes = scene.nodes();
   Relation relation = Relation::disjoint;
+  std::vector<exact::Generators> covered;
   std::vector<std::uint32_t> stack{0};
   while (!stack.empty()) {
     const Hierarchy::Node& node = nodes[stack.back()];
@@ -35,12 +36,12 @@ Relation find_relation(const Scene& scene) {
       const Gap found = gap(core, apex, core.center().isZero(0) ? Eigen::Vector3d::UnitX() : core.center());
       if (found.answer == Gap::Answer::apart) continue;
       if (found.answer == Gap::Answer::met) return Relation::overlapping;
-      const Relation exact = scene.exact_relation(slot);
+      const Relation exact = scene.exact_relation(slot, &covered);
       if (exact == Relation::overlapping) return exact;
       if (exact == Relation::touching) relation = exact;
     }
   }
-  return relation;
+  return covered.size() > 1 && exact::cover_space(covered) ? Relation::overlapping : relation;
 }
 
 Membership find_membership(const Scene& scene, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
@@ -52,6 +53,7 @@ Membership find_membership(const Scene& scene, const Eigen::Vector3d& v_a, const
   const Directions ray(scene.frame(), {w});
   const BoxTest test(scene.frame(), ray, RayResidual{ray.ray[0]});
   Membership answer = Membership::out;
+  std::vector<exact::Sector> covered;
   const double limit = std::numeric_limits<double>::infinity();
   along_ray(scene, slabs, test, limit, effort, [&](std::uint32_t slot, double) {
     const Box box = scene.slot_box(slot);
@@ -67,11 +69,11 @@ Membership find_membership(const Scene& scene, const Eigen::Vector3d& v_a, const
       return false;
     }
     ++effort.exact;
-    const Membership exact = scene.exact_membership(slot, v_a, v_b);
+    const Membership exact = scene.exact_membership(slot, v_a, v_b, &covered);
     if (exact != Membership::out) answer = exact;
     return exact != Membership::in;
   });
-  return answer;
+  return answer == Membership::on && exact::cover_plane(covered) ? Membership::in : answer;
 }
 
 }  // namespace

@@ -135,15 +135,34 @@ Box piece_box(const Assembly& body, std::uint32_t slot) {
   return box;
 }
 
-Membership Scene::exact_membership(std::uint32_t slot, const Eigen::Vector3d& v_a,
-                                   const Eigen::Vector3d& v_b) const {
+Membership Scene::exact_membership(std::uint32_t slot, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                                   std::vector<exact::Sector>* covered) const {
   return with_oracle(*this, slot, [&](const auto& oracle) {
-    return oracle.relation() == Relation::disjoint ? oracle.membership(v_a, v_b) : Membership::in;
+    if (oracle.relation() != Relation::disjoint) return Membership::in;
+    const Membership answer = oracle.membership(v_a, v_b);
+    if (covered != nullptr && answer == Membership::on && is_flat_agent())
+      if (const HullScene* hulls = exact::two_hulls(oracle))
+        if (const auto sector = exact::image(exact::generators(*hulls),
+                                             exact::shadow_rows(exact::difference_on_grid<3>(v_a, v_b))))
+          covered->push_back(*sector);
+    return answer;
   });
 }
 
-Relation Scene::exact_relation(std::uint32_t slot) const {
-  return with_oracle(*this, slot, [](const auto& oracle) { return oracle.relation(); });
+Relation Scene::exact_relation(std::uint32_t slot, std::vector<exact::Generators>* covered) const {
+  return with_oracle(*this, slot, [&](const auto& oracle) {
+    if (covered != nullptr && oracle.relation() == Relation::touching && is_flat_agent())
+      if (const HullScene* hulls = exact::two_hulls(oracle)) covered->push_back(exact::generators(*hulls));
+    return oracle.relation();
+  });
+}
+
+std::optional<std::pair<double, double>> Scene::exact_time(std::uint32_t slot,
+                                                           const Eigen::Vector3d& w) const {
+  return with_oracle(*this, slot, [&](const auto& oracle) {
+    const HullScene* hulls = exact::two_hulls(oracle);
+    return hulls != nullptr ? exact::first_time(*hulls, w) : std::nullopt;
+  });
 }
 
 }  // namespace vericone::assembly

@@ -10,6 +10,7 @@
 
 #include "assembly/core.h"
 #include "assembly/frame.h"
+#include "hulls/seam.h"
 
 namespace vericone::assembly {
 
@@ -55,10 +56,14 @@ class Scene {
   Core core(const Frame& frame, std::uint32_t slot) const { return piece_core(frame, body_, slot); }
   Box slot_box(std::uint32_t slot) const { return piece_box(body_, slot); }
 
-  /// The piece's own exact predicates. `w` = v_a - v_b in the obstacle's frame.
-  Membership exact_membership(std::uint32_t slot, const Eigen::Vector3d& v_a,
-                              const Eigen::Vector3d& v_b) const;
-  Relation exact_relation(std::uint32_t slot) const;
+  /// The piece's own exact predicates. `w` = v_a - v_b in the obstacle's frame. `covered`: where a flat agent
+  /// touches the piece, what that covers is added.
+  Membership exact_membership(std::uint32_t slot, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                              std::vector<exact::Sector>* covered = nullptr) const;
+  Relation exact_relation(std::uint32_t slot, std::vector<exact::Generators>* covered = nullptr) const;
+  /// When it is first touched along w, which meets it: s, rounded down and up; nothing where that is not
+  /// known.
+  std::optional<std::pair<double, double>> exact_time(std::uint32_t slot, const Eigen::Vector3d& w) const;
 
   /// At least |x - p| for the agent's centre p and every point x of the body.
   double largest() const;
@@ -69,6 +74,7 @@ class Scene {
 
  private:
   void check_range();
+  bool is_flat_agent() const { return hull_ && exact::is_flat(hull_->points()); }
 
   Assembly body_;
   Pose pose_;
@@ -79,6 +85,16 @@ class Scene {
   Frame frame_;
 };
 
+/// How far a core stays from the apex along n, unit, and from all that is asked about, at least; not positive
+/// where the plane tells nothing. `room`: by how much the agent's part is farther away than the core knows.
+inline double beyond_plane(const Core& core, const Directions& directions, const Eigen::Vector3d& n,
+                           double room = 0) {
+  Eigen::Vector3d on_piece;
+  const double reach = core.reach(), slack = 64 * kUlp * (reach + room);
+  return n.dot(core.support(n, on_piece)) + room -
+         (core.error() + slack + directions.slant(n) * reach + core.outer_rounding());
+}
+
 /// A plane through the apex as a proof that boxes, widened by the agent, are apart from directions.
 class Plane {
  public:
@@ -86,7 +102,7 @@ class Plane {
   Plane(const Frame& frame, const Directions& directions, const Eigen::Vector3d& normal)
       : frame_(&frame),
         back_(frame.to_frame().transpose() * normal),
-        extent_(frame.extent(normal, 1)),
+        extent_(frame.least_extent(normal, 1)),
         relative_slack_(128 * kUlp + directions.slant(normal)) {}
 
   /// How far above the plane the widened box surely is; not positive where it may reach through.

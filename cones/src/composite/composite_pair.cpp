@@ -111,8 +111,8 @@ bool CompositePair::exact() const { return state_->agent.has_value(); }
 const Assembly& CompositePair::obstacle() const { return state_->obstacle; }
 std::optional<Relation> CompositePair::relation() const { return state_->relation; }
 
-std::optional<Membership> CompositePair::membership(const Eigen::Vector3d& v_a,
-                                                    const Eigen::Vector3d& v_b) const {
+std::optional<Membership> CompositePair::membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                                                    Effort* effort) const {
   require_finite_velocity(v_a, "agent_velocity");
   require_finite_velocity(v_b, "obstacle_velocity");
   const State& state = *state_;
@@ -123,7 +123,8 @@ std::optional<Membership> CompositePair::membership(const Eigen::Vector3d& v_a,
   const Eigen::Vector3d a = state.upright ? v_a : state.to_obstacle(w);
   const Eigen::Vector3d b = state.upright ? v_b : Eigen::Vector3d(Eigen::Vector3d::Zero());
   if (state.cells) return composite::delimited_membership(state, a, b);
-  return composite::pieces_membership(state, a, b);
+  Effort unused;
+  return composite::pieces_membership(state, a, b, effort != nullptr ? *effort : unused);
 }
 
 Verdict CompositePair::verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const {

@@ -13,9 +13,9 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// The least over all pairs of pieces. `meets`: whether a pair counts.
-template <class Measure, class Meets>
-Found least_of_pieces(const State& state, const Measure& measure, Meets&& meets) {
+/// The least over all pairs of pieces, of piece(frame, core, agent slot, slot, limit).
+template <class Measure, class Piece>
+Found least_of_pieces(const State& state, const Measure& measure, Piece&& piece_found) {
   Found best;
   double least = kNever;
   const auto enter = [&](const Box& box) {
@@ -25,8 +25,7 @@ Found least_of_pieces(const State& state, const Measure& measure, Meets&& meets)
   for_each_pair(state, enter, [&](std::uint32_t i, std::uint32_t j) {
     const PieceFrame piece(state, i);
     const Core core = piece.core(j);
-    if (!meets(core, i, j)) return true;
-    const Found found = measure.of_piece(piece.frame(), core, best.most);
+    const Found found = piece_found(piece.frame(), core, i, j, best.most);
     least = std::min(least, found.least);
     if (found.most < best.most || (std::isinf(best.most) && found.least < best.least)) {
       best = found;
@@ -41,17 +40,31 @@ Found least_of_pieces(const State& state, const Measure& measure, Meets&& meets)
 
 Found contact_of_pieces(const State& state, const ContactMeasure& measure, const Eigen::Vector3d& w) {
   const Directions ray(state.zero, {w});
-  return least_of_pieces(state, measure, [&](const Core& core, std::uint32_t i, std::uint32_t j) {
+  const auto meets = [&](const Core& core, std::uint32_t i, std::uint32_t j) {
     const Gap found = gap(core, ray, first_normal(core, ray));
     if (found.answer != Gap::Answer::close) return found.answer == Gap::Answer::met;
     return with_exact_oracle(state, i, j, [&](const auto& oracle) {
       return oracle.relation() != Relation::disjoint || oracle.membership(w) != Membership::out;
     });
-  });
+  };
+  return least_of_pieces(
+      state, measure,
+      [&](const Frame& frame, const Core& core, std::uint32_t i, std::uint32_t j, double limit) {
+        if (!meets(core, i, j)) return Found{};
+        return measure.of_piece(frame, core, limit, [&] {
+          return with_exact_oracle(state, i, j, [&](const auto& oracle) {
+            const HullScene* hulls = exact::two_hulls(oracle);
+            return hulls != nullptr ? exact::first_time(*hulls, w) : std::nullopt;
+          });
+        });
+      });
 }
 
 Found miss_of_pieces(const State& state, const MissMeasure& measure) {
-  return least_of_pieces(state, measure, [](const Core&, std::uint32_t, std::uint32_t) { return true; });
+  return least_of_pieces(
+      state, measure, [&](const Frame& frame, const Core& core, std::uint32_t, std::uint32_t, double limit) {
+        return measure.of_piece(frame, core, limit);
+      });
 }
 
 /// What the body inside says, in the obstacle's frame and the units of the search.
@@ -80,10 +93,12 @@ Found contact_of_cells(const State& state, const ContactMeasure& measure, const 
 
 }  // namespace
 
-Found ContactMeasure::of_piece(const Frame& frame, const Core& core, double limit) const {
+Found ContactMeasure::of_piece(const Frame& frame, const Core& core, double limit,
+                               const std::function<Seconds()>& exact_time) const {
   Found found;
-  const auto contact = piece_contact(frame, core, state_.obstacle.radius(), d_, limit);
+  auto contact = piece_contact(frame, core, state_.obstacle.radius(), d_, limit);
   if (!contact) return found;
+  if (exact_time && contact->is_wide()) contact->refine(exact_time(), slabs_.scale());
   found.least = contact->earliest;
   found.most = contact->latest;
   found.best = contact->time;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -35,7 +36,10 @@ class ContactMeasure {
   double of_box(const Box& difference) const {
     return slabs_.enter(difference.low.data(), difference.high.data());
   }
-  Found of_piece(const assembly::Frame& frame, const assembly::Core& core, double limit) const;
+  /// `exact_time`: asked where doubles do not tell when.
+  using Seconds = std::optional<std::pair<double, double>>;
+  Found of_piece(const assembly::Frame& frame, const assembly::Core& core, double limit,
+                 const std::function<Seconds()>& exact_time = {}) const;
   /// What the plane with unit normal n says at least, see beyond_plane().
   double by_plane(const assembly::Core& core, const Eigen::Vector3d& n, double room) const {
     const double above = beyond_plane(core, {}, n, room),

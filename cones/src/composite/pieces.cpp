@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "composite/pieces.h"
 
+#include <bit>
+
 namespace vericone::composite {
 using namespace assembly;
 
@@ -28,9 +30,72 @@ PieceFrame::PieceFrame(const State& state, std::uint32_t slot) : state_(&state) 
   frame_ = &*own_;
 }
 
+namespace {
+
+exact::Rational dot(const exact::IntegerVector<3>& n, const Eigen::Vector3d& x) {
+  exact::Rational sum = 0;
+  for (int k = 0; k < 3; ++k) sum += exact::Rational(n[k]) * exact::Rational(x(k));
+  return sum;
+}
+
+/// The least sign * n.x of the pieces' points, exactly; sought in doubles first, with n over its largest
+/// entry in `near`.
+exact::Rational least(const Assembly& body, const Eigen::Vector3d& near, const exact::IntegerVector<3>& n,
+                      int sign) {
+  const Assembly::Storage& storage = body.by_slot();
+  const auto each = [&](auto&& call) {
+    for (const auto& corners : storage.triangles)
+      for (const Eigen::Vector3d& x : corners) call(x);
+    for (const Eigen::Vector3d& x : storage.balls) call(x);
+    for (const Box& box : storage.boxes) {
+      Eigen::Vector3d x;  // its corner with the least
+      for (int k = 0; k < 3; ++k) x(k) = sign * n[k].sign() < 0 ? box.high(k) : box.low(k);
+      call(x);
+    }
+    for (const HullBody& hull : storage.hulls)
+      for (const Eigen::Vector3d& x : hull.points()) call(x);
+  };
+  double low = std::numeric_limits<double>::infinity(), slack = 0;
+  each([&](const Eigen::Vector3d& x) {
+    low = std::min(low, sign * near.dot(x));
+    slack = std::max(slack, kUlp * (16 * near.cwiseAbs().dot(x.cwiseAbs()) + x.cwiseAbs().sum()));
+  });
+  std::optional<exact::Rational> found;
+  Eigen::Vector3d last = Eigen::Vector3d::Constant(NAN);
+  each([&](const Eigen::Vector3d& x) {
+    if (sign * near.dot(x) > low + 2 * slack || x == last) return;
+    last = x;
+    exact::Rational value = sign * dot(n, x);
+    if (!found || value < *found) found = std::move(value);
+  });
+  return *found;
+}
+
+/// Whether a plane that two touching pieces have between them has the whole bodies on its sides: then nothing
+/// is overlapped.
+bool plane_between(const State& state, const exact::Generators& cone) {
+  for (const exact::IntegerVector<3>& n : exact::sides(cone)) {
+    Eigen::Vector3d near;
+    exact::Integer largest = 1;
+    for (const exact::Integer& e : n) largest = std::max(largest, exact::Integer(abs(e)));
+    for (int k = 0; k < 3; ++k)
+      near(k) = static_cast<double>(exact::Integer((abs(n[k]) << 60) / largest)) * (n[k].sign() * 0x1p-60);
+    if (least(state.obstacle, near, n, 1) + dot(n, state.place.obstacle) + least(*state.agent, near, n, -1) -
+            dot(n, state.place.agent) >=
+        0)
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 Relation pieces_relation(const State& state) {
   const Directions apex{};
   Relation relation = Relation::disjoint;
+  std::vector<exact::Touched<exact::Generators>> touched;
+  std::size_t count = 0;
+  bool apart = false;
   const auto enter = [&](const Box& box) {
     return state.holds_apex(box) ? 0 : std::numeric_limits<double>::infinity();
   };
@@ -39,34 +104,59 @@ Relation pieces_relation(const State& state) {
     const Core core = piece.core(j);
     const Gap found = gap(core, apex, first_normal(core, apex));
     if (found.answer == Gap::Answer::apart) return true;
+    const auto ask = [&](const auto& oracle) {
+      if (oracle.relation() != Relation::touching) return oracle.relation();
+      const HullScene* hulls = exact::two_hulls(oracle);
+      if (hulls == nullptr) return Relation::touching;
+      const exact::Generators cone = exact::generators(*hulls);
+      // Bodies that rest on each other touch in thousands of pieces.
+      if (std::has_single_bit(++count)) apart = plane_between(state, cone);
+      if (!apart && exact::has_interior(cone)) touch(state, i, j, cone, touched);
+      return Relation::touching;
+    };
     const Relation exact =
-        found.answer == Gap::Answer::met
-            ? Relation::overlapping
-            : with_exact_oracle(state, i, j, [](const auto& oracle) { return oracle.relation(); });
+        found.answer == Gap::Answer::met ? Relation::overlapping : with_exact_oracle(state, i, j, ask);
     if (exact != Relation::disjoint) relation = exact;
-    return exact != Relation::overlapping;
+    return exact != Relation::overlapping && !apart;
   });
+  if (apart) return relation;
+  if (relation == Relation::touching && covered_together(std::move(touched), exact::cover_space))
+    return Relation::overlapping;
   return relation;
 }
 
-Membership pieces_membership(const State& state, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) {
+Membership pieces_membership(const State& state, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                             Effort& effort) {
   const Eigen::Vector3d w = relative_velocity(v_a, v_b);
   const Slabs slabs(state.zero, difference(state.agent_bounds(), state.obstacle.bounds()), w);
   const Directions ray(state.zero, {w});
   Membership answer = Membership::out;
+  std::vector<exact::Touched<exact::Sector>> touched;
   const auto enter = [&](const Box& box) { return slabs.enter(box.low.data(), box.high.data()); };
   for_each_pair(state, enter, [&](std::uint32_t i, std::uint32_t j) {
     const PieceFrame piece(state, i);
     const Core core = piece.core(j);
+    ++effort.pieces;
     const Gap found = gap(core, ray, first_normal(core, ray));
     if (found.answer == Gap::Answer::apart) return true;
-    const Membership exact =
-        found.answer == Gap::Answer::met
-            ? Membership::in
-            : with_exact_oracle(state, i, j, [&](const auto& oracle) { return oracle.membership(v_a, v_b); });
+    if (found.answer == Gap::Answer::close) ++effort.exact;
+    const Membership exact = found.answer == Gap::Answer::met
+                                 ? Membership::in
+                                 : with_exact_oracle(state, i, j, [&](const auto& oracle) {
+                                     const Membership own = oracle.membership(v_a, v_b);
+                                     if (const HullScene* hulls = exact::two_hulls(oracle);
+                                         hulls != nullptr && own == Membership::on)
+                                       if (const auto sector = exact::image(
+                                               exact::generators(*hulls),
+                                               exact::shadow_rows(exact::difference_on_grid<3>(v_a, v_b))))
+                                         touch(state, i, j, *sector, touched);
+                                     return own;
+                                   });
     if (exact != Membership::out) answer = exact;
     return exact != Membership::in;
   });
+  if (answer == Membership::on && covered_together(std::move(touched), exact::cover_plane))
+    return Membership::in;
   return answer;
 }
 

@@ -49,6 +49,18 @@ auto with_exact_oracle(const State& state, std::uint32_t agent_slot, std::uint32
   return ask(HullOracle(points(a, agent_slot), points(b, obstacle_slot), a_at, b_at));
 }
 
+/// Adds what two pieces that touch cover, see covered_together(); unless both are solid.
+template <class Part>
+void touch(const State& state, std::uint32_t agent_slot, std::uint32_t obstacle_slot, Part part,
+           std::vector<exact::Touched<Part>>& touched) {
+  const auto flat = [](const Assembly& body, std::uint32_t slot) {
+    return body.kind() == PieceKind::triangle ||
+           exact::is_flat(body.piece(body.hierarchy().order()[slot]).points());
+  };
+  const bool agent = flat(*state.agent, agent_slot), obstacle = flat(state.obstacle, obstacle_slot);
+  if (agent || obstacle) touched.push_back({agent_slot, obstacle_slot, agent, obstacle, std::move(part)});
+}
+
 /// Calls leaf(agent slot, obstacle slot) for the pairs of pieces whose difference of boxes `enter` does not
 /// rule out (infinity), pairs of nodes that are entered earlier first. leaf returns false to stop.
 template <class Enter, class Leaf>

@@ -83,16 +83,6 @@ inline Eigen::Vector3d first_normal(const assembly::Core& core, const assembly::
   return core.center().isZero(0) ? Eigen::Vector3d(Eigen::Vector3d::UnitX()) : core.center();
 }
 
-/// How far a core stays from the apex along n and from all that is asked about, at least; not positive where
-/// the plane tells nothing. `room`: by how much the agent's part is farther away than the core knows.
-inline double beyond_plane(const assembly::Core& core, const assembly::Directions& directions,
-                           const Eigen::Vector3d& n, double room) {
-  Eigen::Vector3d on_piece;
-  const double reach = core.reach(), slack = 64 * assembly::kUlp * (reach + room);
-  return n.dot(core.support(n, on_piece)) + room -
-         (core.error() + slack + directions.slant(n) * reach + core.outer_rounding());
-}
-
 /// How the two lie (delimited bodies: nothing where it is not decided).
 std::optional<Relation> delimited_relation(const State& state);
 Relation pieces_relation(const State& state);
@@ -106,7 +96,8 @@ inline Eigen::Vector3d relative_velocity(const Eigen::Vector3d& v_a, const Eigen
 /// Velocities in the obstacle's frame, not equal, where the relation is disjoint or not known.
 std::optional<Membership> delimited_membership(const State& state, const Eigen::Vector3d& v_a,
                                                const Eigen::Vector3d& v_b);
-Membership pieces_membership(const State& state, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b);
+Membership pieces_membership(const State& state, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                             Effort& effort);
 
 }  // namespace composite
 }  // namespace vericone

@@ -268,6 +268,8 @@ HullOracle::HullOracle(std::shared_ptr<HullScene> scene) : scene_(scene) {
   if (normal_certified_) scene->exact_normal = exact::direction_on_grid<3>(normal_);
 }
 
+const HullScene& scene_of(const HullOracle& oracle) { return *oracle.scene_; }
+
 Relation HullOracle::exact_relation() const {
   return relation_of(exact::origin_in_image<3>(*scene_, identity_rows(), {}, nullptr));
 }

@@ -76,6 +76,9 @@ struct HullScene {
   }
 };
 
+class HullOracle;
+const HullScene& scene_of(const HullOracle& oracle);
+
 /// The pair with the least n.(b_j - a_i), and that value; rounded. Off by at most support_slack().
 struct HullSupport {
   HullPair pair;

@@ -30,6 +30,14 @@ class Composite : public Family {
     return pair_->verdict(v_a, v_b);
   }
 
+  std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
+    if (!pair_->exact()) return std::nullopt;
+    if (pair_->relation() != Relation::disjoint) return Rung::exact;
+    Effort effort;
+    static_cast<void>(pair_->membership(v_a, v_b, &effort));
+    return effort.exact > 0 ? Rung::exact : Rung::triage;
+  }
+
   Contact contact(const Vector3d& v_a, const Vector3d& v_b) const override {
     Contact contact;
     const auto relation = pair_->relation();

@@ -131,6 +131,17 @@ class AnyOf : public Family {
     return whole;
   }
 
+  /// The last of those that any part needed.
+  std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
+    Rung last = Rung::triage;
+    for (const FamilyPointer& pair : all_) {
+      const auto own = pair->rung(v_a, v_b);
+      if (!own) return std::nullopt;
+      last = std::max(last, *own);
+    }
+    return last;
+  }
+
   Contact contact(const Vector3d& v_a, const Vector3d& v_b) const override {
     Contact first;
     if (relation_ && *relation_ != Relation::disjoint) {

@@ -113,11 +113,4 @@ std::vector<std::string> known_extensions() {
   return extensions;
 }
 
-std::vector<std::array<std::uint32_t, 3>> fan_triangles(const std::vector<Face>& faces) {
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  for (const Face& f : faces)
-    for (std::size_t k = 2; k < f.size(); ++k) triangles.push_back({f[0], f[k - 1], f[k]});
-  return triangles;
-}
-
 }  // namespace vericone::files

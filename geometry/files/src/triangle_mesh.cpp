@@ -108,7 +108,7 @@ TriangleMesh triangle_mesh(PointFile file, const MeshOptions& options) {
   TriangleMesh mesh;
   MeshReport& report = mesh.report;
   for (const Face& face : file.faces) report.polygons += face.size() > 3;
-  mesh.triangles = fan_triangles(file.faces);
+  mesh.triangles = triangles_of(file.points, file.faces);
   file.faces = {};
   mesh.points = std::move(file.points);
   if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max() / 3)

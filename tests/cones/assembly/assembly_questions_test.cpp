@@ -144,6 +144,79 @@ TEST(AssemblyQuestions, MissDistanceIsTheLeastOverTheWay) {
   EXPECT_GT(misses, 100);
 }
 
+TEST(AssemblyQuestions, MissDistancesHoldTheLeastOfAllPiecesToTheirTolerance) {
+  int misses = 0;
+  in_scenes(17, 24,
+            [&](auto& random, const Assembly& body, const Agent& agent, const AssemblyOracle& oracle,
+                const Vector3d& place) {
+              std::vector<AssemblyOracle> alone;
+              for (std::size_t i = 0; i < body.size(); ++i)
+                alone.push_back(body.kind() == PieceKind::ball
+                                    ? oracle_of(agent, Assembly::cloud(body.piece(i).points(), body.radius()))
+                                    : oracle_of(agent, Assembly::polyhedra({body.piece(i)})));
+              const double size = 0.8;  // of any agent, or more
+              for (int i = 0; i < 6; ++i) {
+                const Vector3d w = i == 0 ? Vector3d(Vector3d::Zero()) : Vector3d(random.vector(5) - place);
+                double least = INFINITY, most = INFINITY;
+                for (const AssemblyOracle& one : alone) {
+                  const AssemblyMiss own = one.miss_distance(w, 1e-12);
+                  least = std::min(least, own.least);
+                  most = std::min(most, own.most);
+                }
+                misses += most > 0;
+                for (const double tolerance : {1e-12, 1e-9, 1e-6, 1e-3, 0.1, 1.0}) {
+                  const AssemblyMiss miss = oracle.miss_distance(w, tolerance);
+                  ASSERT_LE(miss.least, most) << tolerance;
+                  ASSERT_GE(miss.most, least) << tolerance;
+                  ASSERT_GE(miss.least, 0);
+                  ASSERT_LE(miss.most - miss.least, (tolerance + 1e-12) * (miss.most + size)) << tolerance;
+                }
+              }
+            });
+  EXPECT_GT(misses, 40);
+}
+
+/// A sphere with bumps, of 2 n^2 triangles.
+Assembly bumpy_sphere(std::uint32_t n) {
+  std::vector<Vector3d> points;
+  std::vector<Assembly::Triangle> triangles;
+  for (std::uint32_t i = 0; i <= n; ++i)
+    for (std::uint32_t j = 0; j < n; ++j) {
+      const double t = std::numbers::pi * i / n, p = 2 * std::numbers::pi * j / n;
+      const double r = 1 + 0.05 * std::sin(7 * t) * std::cos(9 * p);
+      points.push_back(r * Vector3d(std::sin(t) * std::cos(p), std::sin(t) * std::sin(p), std::cos(t)));
+    }
+  for (std::uint32_t i = 0; i < n; ++i)
+    for (std::uint32_t j = 0; j < n; ++j) {
+      const std::uint32_t next = (j + 1) % n, a = i * n, b = (i + 1) * n;
+      triangles.push_back({a + j, b + j, b + next});
+      triangles.push_back({a + j, b + next, a + next});
+    }
+  return Assembly::mesh(points, triangles);
+}
+
+TEST(AssemblyQuestions, MissDistancesMeasureFewPiecesOfMany) {
+  const Assembly body = bumpy_sphere(100);
+  testing::RandomAssemblies random(18);
+  double measured = 0, boxes = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Vector3d from = random.vector(1).normalized();
+    const AssemblyOracle oracle(Ellipsoid::from_axes(3 * from, {0.3, 0.2, 0.1}), body);
+    const Vector3d side = from.unitOrthogonal();
+    Effort effort;
+    ASSERT_GT(
+        oracle
+            .miss_distance(i % 4 == 0 ? Vector3d(Vector3d::Zero()) : Vector3d((0.6 + 0.01 * i) * side - from),
+                           1e-6, &effort)
+            .least,
+        0);
+    measured += double(effort.pieces);
+    boxes += double(effort.nodes);
+  }
+  EXPECT_LT(measured / 40, 20);  // of 20,000
+  EXPECT_LT(boxes / 40, 600);
+}
+
 TEST(AssemblyQuestions, OneBallAgreesWithTwoEllipsoids) {
   testing::RandomAssemblies random(13);
   int out = 0;

@@ -57,6 +57,7 @@ TEST_P(EveryPair, AgreesWithSampledSweepsAndItsMirrorImage) {
     const Vector3d w = aimed(random, a, b), v_b = random.direction(), v_a = w + v_b;
     const Verdict verdict = pair.verdict(v_a, v_b);
     ASSERT_EQ(mirrored.verdict(v_b, v_a), verdict) << "pair " << i;
+    ASSERT_EQ(pair.rung(v_a, v_b).has_value(), pair.guarantee().exact) << "pair " << i;
     ASSERT_EQ(testing::broken_velocity_law(PairPredicate{pair}, PairPredicate{mirrored}, w), "")
         << "pair " << i;
     ASSERT_EQ(mirrored.relation(), pair.relation());

@@ -163,7 +163,7 @@ TEST_F(ReadPoints, OffVariants) {
   EXPECT_THAT(file.points,
               ElementsAre(Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1, 1, 0), Vector3d(0, 1, 0)));
   EXPECT_THAT(file.faces, ElementsAre(Face{0, 1, 2, 3}, Face{0, 1, 2}));
-  EXPECT_EQ(fan_triangles(file.faces).size(), 3U);
+  EXPECT_EQ(triangles_of(file.points, file.faces).size(), 3U);
   // Without edges, without faces, with the points and segments that the format allows.
   EXPECT_EQ(read("b.off", "OFF\n1 0\n1 2 3\n").points.size(), 1U);
   const auto segments = read("c.off", "OFF 3 3 0\n0 0 0\n1 0 0\n0 1 0\n1 0\n2 0 1\n3 0 1 2\n");

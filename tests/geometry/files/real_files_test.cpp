@@ -31,7 +31,7 @@ std::optional<std::filesystem::path> data_file(const std::string& name) {
 
 double signed_volume(const PointFile& file) {
   double six = 0;
-  for (const auto& t : fan_triangles(file.faces))
+  for (const auto& t : triangles_of(file.points, file.faces))
     six += file.points[t[0]].dot(file.points[t[1]].cross(file.points[t[2]]));
   return six / 6;
 }

@@ -57,7 +57,7 @@ TEST_F(WritePoints, MeshesReadBackBitForBit) {
         EXPECT_EQ(read.points[i](k), points_[i](k)) << name;
         EXPECT_EQ(std::signbit(read.points[i](k)), std::signbit(points_[i](k))) << name;
       }
-    EXPECT_EQ(fan_triangles(read.faces), triangles_) << name;
+    EXPECT_EQ(triangles_of(read.points, read.faces), triangles_) << name;
   }
 }
 
@@ -75,7 +75,7 @@ TEST_F(WritePoints, StlKeepsFloatsAndRefusesOthers) {
   write_points(folder_ / "mesh.stl", floats, triangles_);
   const PointFile read = read_points(folder_ / "mesh.stl");
   EXPECT_EQ(read.points, floats);
-  EXPECT_EQ(fan_triangles(read.faces), triangles_);
+  EXPECT_EQ(triangles_of(read.points, read.faces), triangles_);
   EXPECT_EQ(refused_field("mesh2.stl", points_, triangles_), "points[0][0]");
   EXPECT_EQ(refused_field("mesh3.stl", floats, {}), "triangles");
 }

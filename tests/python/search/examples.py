@@ -611,7 +611,7 @@ def files(ask: Ask) -> None:
     ask("files.write_points", here / "mesh.off", CORNERS, SIDES)
     ask("files.read_points", here / "cloud.ply")
     ask("files.triangle_mesh", v.files.read_points(write(here / "tetrahedron.obj", OBJ)))
-    ask("files.fan_triangles", [[0, 1, 2, 3]])
+    ask("files.triangles_of", CORNERS, [[0, 1, 2, 3]])
     ask("files.are_collinear", [0, 0, 0], [1, 1, 1], [2, 2, 2])
     ask("files.partial_path", here / "x.csv")
 

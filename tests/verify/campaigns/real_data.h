@@ -31,7 +31,7 @@ struct RealMesh {
 
 inline RealMesh read_mesh(const std::filesystem::path& path) {
   const files::PointFile file = files::read_points(path);
-  return {file.points, files::fan_triangles(file.faces)};
+  return {file.points, files::triangles_of(file.points, file.faces)};
 }
 
 /// A file of the data folder, or a member of the archive of the package libcgal-demo ("data/...").

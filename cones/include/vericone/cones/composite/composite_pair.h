@@ -21,7 +21,7 @@
 namespace vericone {
 
 /// The first contact of the two, in the frame of the world. Nothing is touched before `earliest`; at `latest`
-/// they overlap (infinite where that is not proved).
+/// they touch or overlap (infinite where that is not proved).
 struct CompositeContact : AssemblyContact {
   std::uint32_t agent_piece = 0;  // of an assembly, in the order given; 0 for a delimited body
 };
@@ -61,9 +61,9 @@ class CompositePair : public DirectionClassifier {
 
   /// Of w = v_a - v_b, without rounding where the obstacle's pose is not turned. Of bodies that are not
   /// disjoint every w != 0 is `in`; w = 0 is `out`. Nothing: not decided; never for exact(). `on` is known of
-  /// pieces alone. Throws InputError naming "agent_velocity[i]" or "obstacle_velocity[i]".
-  [[nodiscard]] std::optional<Membership> membership(const Eigen::Vector3d& v_a,
-                                                     const Eigen::Vector3d& v_b) const;
+  /// pieces alone (where they join: docs/explanation/predicates/composite.md, Seams). Throws InputError naming "agent_velocity[i]" or "obstacle_velocity[i]".
+  [[nodiscard]] std::optional<Membership> membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                                                     Effort* effort = nullptr) const;
   /// Relation and membership in one; `undecided` where either is not known.
   [[nodiscard]] Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 

@@ -101,6 +101,7 @@ class HullOracle {
 
  private:
   explicit HullOracle(std::shared_ptr<HullScene> scene);
+  friend const HullScene& scene_of(const HullOracle& oracle);
 
   std::shared_ptr<const HullScene> scene_;
   Relation relation_ = Relation::disjoint;

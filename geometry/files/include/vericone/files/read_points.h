@@ -65,7 +65,12 @@ struct PointFile {
 /// the files of a folder; read_points() also reads .asc, .bin (KITTI), .csv, .pts, .pwn and .txt.
 [[nodiscard]] std::vector<std::string> known_extensions();
 
-/// The faces cut into triangles, each as a fan about its first corner (right for convex polygons).
-[[nodiscard]] std::vector<std::array<std::uint32_t, 3>> fan_triangles(const std::vector<Face>& faces);
+/// The faces cut into triangles, n - 2 for n corners. A polygon is looked at along the coordinate axis from
+/// which it looks largest: it becomes the fan about its first corner where all of that turns the same way (convex
+/// polygons), else its ears are cut one by one, both decided exactly. So a flat polygon is itself; of one that
+/// is not flat this choice is made. Throws InputError naming "faces[i]" for one that crosses itself.
+/// Quadratic in the number of corners of a dented polygon.
+[[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangles_of(
+    const std::vector<Eigen::Vector3d>& points, const std::vector<Face>& faces);
 
 }  // namespace vericone::files

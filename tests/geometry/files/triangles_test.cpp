@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Polygons cut into triangles: against crossing numbers and areas in whole numbers.
+#include <gtest/gtest.h>
+#include <vericone/files/read_points.h>
+#include <vericone/geometry/error.h>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "support/random.h"
+
+namespace vericone::files {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Polygon = std::vector<Vector2d>;
+
+double twice_area(const Polygon& p) {
+  double sum = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Vector2d &a = p[i], &b = p[(i + 1) % p.size()];
+    sum += a.x() * b.y() - a.y() * b.x();
+  }
+  return sum;
+}
+
+/// How often a ray from x, of no corner's height, crosses the boundary.
+bool is_inside(const Polygon& p, const Vector2d& x) {
+  bool inside = false;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Vector2d &a = p[i], &b = p[(i + 1) % p.size()];
+    if ((a.y() > x.y()) == (b.y() > x.y())) continue;
+    if (a.x() + (x.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()) > x.x()) inside = !inside;
+  }
+  return inside;
+}
+
+/// `place`: into a plane of space; areas are told in the plane.
+void expect_cut(testing::Random& random, const Polygon& p, int place) {
+  const auto in_space = [&](const Vector2d& x) -> Vector3d {
+    switch (place) {
+      case 0:
+        return {x.x(), x.y(), 3};
+      case 1:
+        return {-1, x.x(), x.y()};
+      case 2:
+        return {x.y(), 7, x.x()};
+      default:
+        return {x.x(), x.x() + 2 * x.y(), x.y()};
+    }
+  };
+  std::vector<Vector3d> points;
+  for (const Vector2d& x : p) points.push_back(in_space(x));
+  Face face(p.size());
+  std::iota(face.begin(), face.end(), 0U);
+  const auto triangles = triangles_of(points, {face});
+  ASSERT_EQ(triangles.size(), p.size() - 2);
+  double sum = 0;
+  std::vector<Polygon> cut;
+  for (const auto& t : triangles) {
+    cut.push_back({p[t[0]], p[t[1]], p[t[2]]});
+    const double own = twice_area(cut.back());
+    ASSERT_GE(own * twice_area(p), 0);  // all turn as the polygon does
+    sum += own;
+  }
+  ASSERT_EQ(sum, twice_area(p));
+  for (int i = 0; i < 100; ++i) {
+    const Vector2d x(random.uniform(-30, 30), random.uniform(-30, 30));
+    const auto holding =
+        std::count_if(cut.begin(), cut.end(), [&](const Polygon& t) { return is_inside(t, x); });
+    ASSERT_EQ(holding, is_inside(p, x));
+  }
+}
+
+TEST(Triangles, OfRandomPolygonsAreThePolygons) {
+  testing::Random random(71);
+  SCOPED_TRACE(random.trace());
+  int dented = 0;
+  for (int i = 0; i < testing::share(2000); ++i) {
+    // About the origin, at whole coordinates, with corners on straight edges.
+    Polygon p;
+    const int corners = random.integer(4, 24);
+    for (int k = 0; k < corners; ++k) {
+      const double angle = 2 * M_PI * k / corners, radius = random.uniform(4, 28);
+      const Vector2d x(std::round(radius * std::cos(angle)), std::round(radius * std::sin(angle)));
+      if (p.empty() || x != p.back()) p.push_back(x);
+    }
+    // Rounding may turn the order about the origin.
+    bool ordered = p.size() > 3;
+    for (std::size_t k = 0; k < p.size(); ++k) {
+      const Vector2d &a = p[k], &b = p[(k + 1) % p.size()];
+      ordered = ordered && a.x() * b.y() - a.y() * b.x() > 0;
+    }
+    if (!ordered) continue;
+    if (i % 3 == 0) std::reverse(p.begin(), p.end());
+    std::rotate(p.begin(), p.begin() + random.integer(0, int(p.size()) - 1), p.end());
+    ++dented;
+    expect_cut(random, p, i % 4);
+  }
+  EXPECT_GT(dented, testing::share(1000));
+}
+
+TEST(Triangles, OfSlotsCombsSpiralsAndHoles) {
+  testing::Random random(72);
+  const Polygon slot{{-3, -2}, {3, -2}, {3, 2}, {1, 2}, {1, -1}, {-1, -1}, {-1, 2}, {-3, 2}};
+  Polygon comb{{0, -1}};
+  for (int i = 0; i < 12; ++i) comb.insert(comb.end(), {{2. * i, 5}, {2. * i + 1, 0}});
+  comb.insert(comb.end(), {{24, 5}, {24, -1}});
+  const Polygon spiral{{0, 0}, {10, 0}, {10, 10}, {0, 10}, {0, 3}, {7, 3}, {7, 7}, {3, 7},
+                       {3, 5}, {5, 5},  {5, 4},   {1, 4},  {1, 9}, {9, 9}, {9, 1}, {0, 1}};
+  // A square hole, joined to the outside by an edge that is passed both ways.
+  const Polygon hole{{-9, -9}, {9, -9}, {9, 9}, {-9, 9}, {-9, -9},
+                     {-3, -3}, {-3, 3}, {3, 3}, {3, -3}, {-3, -3}};
+  const Polygon straight{{0, 0}, {2, 0}, {4, 0}, {4, 4}, {2, 1}, {0, 4}, {0, 2}};
+  for (const Polygon& shape : {slot, comb, spiral, hole, straight})
+    for (int turned = 0; turned < int(shape.size()); ++turned)
+      for (const bool back : {false, true}) {
+        Polygon p = shape;
+        std::rotate(p.begin(), p.begin() + turned, p.end());
+        if (back) std::reverse(p.begin(), p.end());
+        SCOPED_TRACE(::testing::Message()
+                     << shape.size() << " corners from " << turned << (back ? ", back" : ""));
+        expect_cut(random, p, turned % 4);
+      }
+}
+
+TEST(Triangles, StayFansWhereThatIsTheFace) {
+  const std::vector<Vector3d> points{{0, 0, 0}, {2, 0, 0.1}, {2, 1, 0}, {0, 1, 0.1}, {1, 0, 0}, {1, 0, 0}};
+  using T = std::array<std::uint32_t, 3>;
+  EXPECT_EQ(triangles_of(points, {{0, 1, 2, 3}}), (std::vector<T>{{0, 1, 2}, {0, 2, 3}}));  // not flat
+  EXPECT_EQ(triangles_of(points, {{0, 4, 5, 4}}), (std::vector<T>{{0, 4, 5}, {0, 5, 4}}));  // no area
+  EXPECT_EQ(triangles_of(points, {{3, 2, 1}}), (std::vector<T>{{3, 2, 1}}));
+  try {
+    (void)triangles_of(points, {{0, 1, 2}, {0, 1, 3, 2}});
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_STREQ(e.what(),
+                 "faces[1]: got face 1, a polygon of 4 corners that crosses itself, must be one that "
+                 "does not, as seen along the axis from which it looks largest");
+  }
+}
+
+}  // namespace
+}  // namespace vericone::files
