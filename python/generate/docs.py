@@ -37,6 +37,8 @@ def signature(model: Model, call: Callable_, method: bool) -> str:
         if not star:
             parts.append("*")
         parts.append("threads=1")
+    if any(model.options(call, a) for a in call.arguments):
+        parts.append("**fields")
     return f"({', '.join(parts)})"
 
 
@@ -50,6 +52,9 @@ def notes(model: Model, call: Callable_) -> str:
     if questions:
         lines.append(f"One or many: {', '.join(questions)} broadcast (docs/explanation/python.md); `threads` divides them.")
     for a in call.arguments:
+        options = model.options(call, a)
+        if options:
+            lines.append(f"In place of `{a.name}` its fields, by name: {', '.join(f[0] for f in options.fields)}.")
         if a.role == "asked":
             lines.append(f"`{a.name}=True`: the answer is a tuple whose second part is the {a.name}.")
         elif a.role in ("changed", "memory"):

@@ -171,7 +171,8 @@ class Emitter:
                     value = f"g.has({i}) ? {value} : {self.default(call, a, record)}"
                 lines.append(f"{storage} {variable} = {value};")
                 passed.append(f"std::move({variable})" if a.type.reference == "&&" or (what == "unique_ptr") else variable)
-            table.append(f'{{"{a.name}", {could}, {str(optional).lower()}, {str(a.role == "asked").lower()}}}')
+            options = f", &options_of<{text}>" if self.model.options(call, a) else ""
+            table.append(f'{{"{a.name}", {could}, {str(optional).lower()}, {str(a.role == "asked").lower()}{options}}}')
         threads = len(call.arguments)
         if call.many:
             table.append('{"threads", nullptr, true, true}')

@@ -204,6 +204,14 @@ class Model:
     def record(self, kind: Type) -> Record | None:
         return self.records.get(self.key(kind))
 
+    def options(self, call: Callable_, a: Argument) -> Record | None:
+        """The record of options whose fields a call takes by name in place of `a`, behind which all may be left out."""
+        record = self.record(a.type) if a.role == "value" and a.type.reference in ("", "&") else None
+        behind = call.arguments[call.arguments.index(a) + 1:]
+        if not record or not record.is_record or any(b.default is None and b.type.reference != "*" for b in behind):
+            return None
+        return record if record.path[-1].endswith("Options") else None
+
     def enum(self, kind: Type) -> PyEnum | None:
         return self.enums.get(self.key(kind))
 

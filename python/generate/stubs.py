@@ -181,12 +181,20 @@ class Stubs:
                     star = True
                 parts.append(f"{a.name}: {asked}" if asked == "Literal[True]" else f"{a.name}: {asked} = ...")
                 continue
-            optional = a.default is not None or (a.type.reference == "*" and kind != "text")
+            optional = a.default is not None or (a.type.reference == "*" and kind != "text") or self.model.options(call, a) is not None
             parts.append(f"{a.name}: {text}" + (" = ..." if optional else ""))
         if call.many:
             if not star:
                 parts.append("*")
+                star = True
             parts.append("threads: SupportsIndex = ...")
+        names = {a.name for a in call.arguments} | {"threads"} if call.many else {a.name for a in call.arguments}
+        for options in filter(None, (self.model.options(call, a) for a in call.arguments)):
+            for field, of, _, _, _ in options.fields:
+                if python_name(field) not in names:
+                    parts += [] if star else ["*"]
+                    star = True
+                    parts.append(f"{python_name(field)}: {self.taken(of)} = ...")
         return parts
 
     def _result(self, call: Callable_) -> str:

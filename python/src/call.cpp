@@ -34,6 +34,8 @@ std::string signature_text(std::span<const Parameter> parameters) {
     }
     text += std::string(p.name) + (p.optional ? "=..." : "");
   }
+  for (const Parameter& p : parameters)
+    if (p.options) text += std::string(", or fields of ") + p.options()->name;
   return text + ")";
 }
 
@@ -198,6 +200,14 @@ PyObject* dispatch(const char* name, std::span<const Overload> overloads, PyObje
 
 // Arguments ------------------------------------------------------------------------------------------------
 
+int Given::options_with(const char* name) const {
+  for (std::size_t i = 0; i < parameters_.size(); ++i)
+    if (parameters_[i].options)
+      for (const Field& field : parameters_[i].options()->fields)
+        if (std::strcmp(field.name, name) == 0) return static_cast<int>(i);
+  return -1;
+}
+
 bool Given::bind(std::span<const Parameter> parameters, PyObject* const* positional, Py_ssize_t n,
                  PyObject* names, PyObject* const* named, std::string& why, std::size_t& fitting) {
   parameters_ = parameters;
@@ -208,12 +218,20 @@ bool Given::bind(std::span<const Parameter> parameters, PyObject* const* positio
     return false;
   }
   for (Py_ssize_t i = 0; i < n; ++i) values_[i] = positional[i];
+  int options = -1;  // whose fields are given by name
+  py::object fields;
   const Py_ssize_t count = names ? PyTuple_GET_SIZE(names) : 0;
   for (Py_ssize_t k = 0; k < count; ++k) {
     const char* name = PyUnicode_AsUTF8(PyTuple_GET_ITEM(names, k));
     if (!name) throw py::error_already_set();
     std::size_t i = 0;
     while (i < parameters.size() && std::strcmp(parameters[i].name, name) != 0) ++i;
+    if (const int with = i == parameters.size() ? options_with(name) : -1; with >= 0) {
+      options = with;
+      if (!fields) fields = py::dict();
+      fields[name] = py::handle(named[k]);
+      continue;
+    }
     if (i == parameters.size() || values_[i]) {
       why = i == parameters.size()
                 ? "has no parameter '" + std::string(name) + "'; it is " + signature_text(parameters)
@@ -221,6 +239,18 @@ bool Given::bind(std::span<const Parameter> parameters, PyObject* const* positio
       return false;
     }
     values_[i] = named[k];
+  }
+  if (options >= 0) {
+    const Parameter& p = parameters[static_cast<std::size_t>(options)];
+    if (values_[options]) {
+      why = "got both '" + std::string(p.name) + "' and fields of it";
+      return false;
+    }
+    const py::tuple none;
+    PyObject* made = construct_record(*p.options(), p.options()->type, none.ptr(), fields.ptr());
+    if (!made) throw py::error_already_set();
+    kept_.emplace_back(made);
+    values_[options] = made;
   }
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const Parameter& p = parameters[i];

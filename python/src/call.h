@@ -17,7 +17,13 @@ struct Parameter {
   const char* name;
   bool (*could)(PyObject*);  // null: anything
   bool optional = false, keyword_only = false;
+  /// Of options: their type. Their fields may be given by name, in place of the record.
+  const struct TypeInfo* (*options)() = nullptr;
 };
+template <class T>
+const TypeInfo* options_of() {
+  return &type_of<T>();
+}
 
 class Given;
 /// Whether a call may take more than a few tenths of a second, so that Ctrl-C has to end it.
@@ -88,6 +94,8 @@ class Given {
 
  private:
   [[nodiscard]] void* object(int i, const TypeInfo& info);
+  /// Which options have this field; -1: none.
+  [[nodiscard]] int options_with(const char* name) const;
 
   std::span<const Parameter> parameters_;
   PyObject* values_[kMost] = {};

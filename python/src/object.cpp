@@ -110,12 +110,20 @@ PyObject* compare(PyObject* a, PyObject* b, int operation) {
   }
 }
 
-/// Short: numbers as they are, long arrays by their shape.
+/// What an object of the library shows of one inside it: its kind alone where the whole is long.
+constexpr std::size_t kLongPart = 72;
+
+/// Short: numbers as they are; what is long by its shape or kind, so that a body or a pair is one line.
 std::string brief(PyObject* part) {
   if (py::isinstance<py::array>(part)) {
     const auto array = py::reinterpret_borrow<py::array>(part);
-    if (array.size() <= 16) return py::str(py::repr(array.attr("tolist")()));
+    if (array.size() <= 16)
+      if (std::string text = py::str(py::repr(array.attr("tolist")())); text.size() <= kLongPart) return text;
     return "<array " + std::string(py::str(py::repr(array.attr("shape")))) + ">";
+  }
+  if (is_object(part)) {
+    std::string text = py::str(py::repr(py::handle(part)));
+    return text.size() <= kLongPart ? text : "<" + short_name(info_of(part)) + ">";
   }
   if (PyList_Check(part) && PyList_GET_SIZE(part) > 4)
     return "<list of " + std::to_string(PyList_GET_SIZE(part)) + ">";

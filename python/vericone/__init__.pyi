@@ -26,6 +26,7 @@ from vericone._runs import (
     as_frame as as_frame,
     campaign as campaign,
     fit as fit,
+    load as load,
     read_scenario as read_scenario,
     read_scene as read_scene,
     read_table as read_table,

@@ -28,9 +28,9 @@ import numpy as np
 import numpy.typing as npt
 
 if TYPE_CHECKING:
-    from . import InputError, VisibleCone, files, fits, fitting, montecarlo, scanning, scenes, simulation
+    from . import InputError, Placed, VisibleCone, files, fits, fitting, montecarlo, scanning, scenes, simulation
 
-__all__ = ["Campaign", "Scanned", "as_frame", "campaign", "fit", "read_scenario", "read_scene", "read_table", "run_tables",
+__all__ = ["Campaign", "Scanned", "as_frame", "campaign", "fit", "load", "read_scenario", "read_scene", "read_table", "run_tables",
            "scan", "simulate", "units", "write_scene"]
 
 PathLike = Union[str, "os.PathLike[str]"]
@@ -140,6 +140,34 @@ def read_scene(file: PathLike) -> scenes.Scene:
     names. Raises InputError naming the file or the field."""
     result: scenes.Scene = _part("scenes").read_scene(_path("file", file))
     return result
+
+
+def load(source: Any, *, radius: float = 0.0, unknown: str = "occupied") -> Placed:
+    """A body (metres) from one thing: the path of a mesh, a cloud of points (each a ball of `radius`, metres), an octree
+    map (its `unknown` space "occupied" or "free"), a body's fields (YAML, JSON); or any object that has `vertices` (n, 3)
+    and `faces` (m, 3), as meshes of other packages have. Raises InputError naming the file or the field."""
+    package = importlib.import_module("vericone")
+    if not _is_path(source):
+        if not (hasattr(source, "vertices") and hasattr(source, "faces")):
+            raise _wrong_kind("source", source, "the path of a file, or an object with vertices and faces")
+        made: Placed = package.Placed(package.Assembly.mesh(np.asarray(source.vertices), np.asarray(source.faces)))
+        return made
+    path = _path("source", source)
+    kind = Path(path).suffix.lower()
+    if kind in (".yaml", ".yml", ".json"):
+        read: Placed = _part("scenes").read_body(path).placed
+        return read
+    if kind in (".bt", ".ot"):
+        module = _part("octomap")
+        if unknown not in ("occupied", "free"):
+            raise _refuse("unknown", unknown, "occupied or free")
+        boxes = module.obstacle_boxes(module.read_octree(path), module.OctreeMeaning(unknown_occupied=unknown == "occupied"))
+        return package.Placed(package.Assembly.boxes(boxes))
+    file = _part("files").read_points(path)
+    if not file.faces:
+        return package.Placed(package.Assembly.cloud(file.points, radius))
+    mesh = _part("files").triangle_mesh(file)
+    return package.Placed(package.Assembly.mesh(mesh.points, mesh.triangles))
 
 
 def write_scene(scene: scenes.Scene, file: PathLike) -> None:

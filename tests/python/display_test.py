@@ -88,6 +88,15 @@ def test_text_is_short() -> None:
     assert "inner=[<array (" in shown and len(shown) < 1_500
 
 
+def test_bodies_pairs_and_answers_print_in_a_line() -> None:
+    corners = np.random.default_rng(1).normal(size=(200, 3))
+    hull, rotated = vc.HullBody(corners), vc.Ellipsoid.from_axes([1 / 3, 0, 0], [1, 2, 3], np.linalg.qr(corners[:3])[0] * 1.0)
+    for value in (vc.Pair(hull, rotated), vc.Placed(hull), vc.Body(rotated), rotated, vc.Pair(rotated, hull).miss([1, 0, 0], [0, 0, 0]),
+                  vc.Pair(vc.Ellipsoid(), vc.Ellipsoid.from_axes([10, 2, 0], [2, 3, 1])).cone().solid_angle):
+        assert len(repr(value)) < 400 and "\n" not in repr(value), repr(value)
+    assert repr(vc.Pose([1, 2, 3])).startswith("Pose(position=[1.0, 2.0, 3.0], ")
+
+
 def test_refusals_say_how_objects_are_made() -> None:
     for make, made_by in ((lambda: vc.Ellipsoid([0, 0, 0], np.eye(3)), "Ellipsoid.from_axes()"), (lambda: vc.Ellipse(center=[0, 0]), "Ellipse.from_axes()"),
                           (lambda: vc.Assembly([[0, 0, 0]]), "use Assembly.mesh(), Assembly.cloud()"), (lambda: vc.Opening(), "Opening.polygon()"),
@@ -96,7 +105,7 @@ def test_refusals_say_how_objects_are_made() -> None:
             make()  # type: ignore[no-untyped-call]
     with pytest.raises(TypeError) as raised:
         vc.Pair(1, 2)  # type: ignore[call-overload]
-    assert str(raised.value).count("Pair(agent, obstacle, options=...)") == 1
+    assert str(raised.value).count("Pair(agent, obstacle, options=..., or fields of PairOptions)") == 1
 
 
 def test_names_with_a_slip_are_suggested() -> None:

@@ -15,6 +15,7 @@ PRINTED = {
     "through_an_opening": "blocked",
     "exact_rationals": "on\nin\nout\n",
     "scene_files": "refused: agent.semi_axes[1]\n",
+    "own_law": "avoided: ",
     "plan_by_gradient": "m or more, proved\n",
 }
 
