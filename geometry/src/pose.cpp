@@ -25,6 +25,10 @@ Ellipsoid raised(const Ellipse& body, double height) {
 
 }  // namespace
 
+Pose Pose::from_quaternion(const Eigen::Vector3d& position, const Eigen::Vector4d& wxyz) {
+  return {position, rotation_3d(wxyz)};
+}
+
 bool is_upright(const Pose& pose) {
   for (int i = 0; i < 3; ++i)
     if (!std::isfinite(pose.position(i)))

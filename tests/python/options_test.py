@@ -38,6 +38,26 @@ def test_signatures_and_docstrings_say_so() -> None:
     assert "its fields, by name: " in (vc.min_volume_ellipsoid.__doc__ or "") + (vc.Pair.cone.__doc__ or "")
 
 
+def test_zero_is_the_safe_answer_alone() -> None:
+    assert vc.Verdict.out == vc.Membership.out == vc.Certified.out == vc.RobustVerdict.out == vc.Relation.disjoint == 0
+    for kind in (vc.Verdict, vc.Membership, vc.Certified, vc.RobustVerdict, vc.Relation):
+        assert sum(int(member) == 0 for member in kind) == 1
+    pair = vc.Pair(vc.Ellipsoid(), vc.Ellipsoid.from_axes([10, 0, 0], [1, 1, 1]))
+    verdicts = pair.verdict([[1, 0, 0], [0, 1, 0], [-1, 0, 0]], np.zeros(3))
+    assert verdicts.astype(bool).tolist() == [True, False, False] and np.count_nonzero(verdicts) == 1
+
+
+def test_a_pose_of_a_quaternion_and_a_distance() -> None:
+    angle = 0.3
+    pose = vc.Pose.from_quaternion([1, 2, 3], [np.cos(angle / 2), 0, 0, np.sin(angle / 2)])
+    assert np.allclose(pose.to_world([1, 0, 0]), [1 + np.cos(angle), 2 + np.sin(angle), 3], atol=1e-15)
+    with pytest.raises(vc.InputError, match="^rotation: .* a unit quaternion"):
+        vc.Pose.from_quaternion([0, 0, 0], [1, 1, 0, 0])
+    for obstacle in (vc.Ellipsoid.from_axes([10, 0, 0], [2, 2, 2]), vc.HullBody.box([8, -1, -1], [9, 1, 1])):
+        assert vc.Pair(vc.Ellipsoid(), obstacle).distance() == pytest.approx(7, abs=1e-9)
+    assert vc.Pair(vc.Ellipsoid(), vc.Ellipsoid.from_axes([2.5, 0, 0], [2, 2, 2])).distance() == pytest.approx(-0.5, abs=1e-9)
+
+
 def test_bodies_from_one_thing(tmp_path: Path, source: Path) -> None:
     mesh = vc.load(source / "docs/examples/window.obj")
     assert mesh.body.kind() == vc.BodyKind.mesh

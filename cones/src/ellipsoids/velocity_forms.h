@@ -200,7 +200,7 @@ using Both = double __attribute__((vector_size(16)));
 }
 
 /// The membership that certain_side() stands for; `on` is never certain, and stands for neither.
-constexpr Membership membership_of(std::int64_t side) { return static_cast<Membership>(1 - side); }
+constexpr Membership membership_of(std::int64_t side) { return static_cast<Membership>(1 + side); }
 static_assert(membership_of(1) == Membership::in && membership_of(-1) == Membership::out &&
               membership_of(0) == Membership::on);
 

@@ -180,10 +180,14 @@ Cone Pair::cone(const ConeOptions& options) const {
 }
 
 ConeMap cone_map(std::span<const Pair> pairs, const ConeMapOptions& options) {
-  if (pairs.size() == 1) return cone_map(*pairs.front().directions(), options);
+  if (pairs.size() == 1) return cone_map(pairs.front(), options);
   std::vector<std::shared_ptr<const DirectionClassifier>> all;
   for (const Pair& pair : pairs) all.push_back(pair.directions());
   return cone_map(AnyOfClassifier(std::move(all)), options);
+}
+
+ConeMap cone_map(const Pair& pair, const ConeMapOptions& options) {
+  return cone_map(*pair.directions(), options);
 }
 
 }  // namespace vericone

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The words of all answers about two bodies and a relative velocity w = v_agent - v_obstacle.
+// The words of all answers about two bodies and a relative velocity w = v_agent - v_obstacle. Zero is the one
+// that lets a body fly on, disjoint or `out`, and nothing else is: an answer taken for a truth value, as
+// arrays of numpy do, errs on the safe side.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +14,9 @@ enum class Relation : std::uint8_t { disjoint, touching, overlapping };
 
 /// Where a relative velocity lies with regard to the closed collision cone of two bodies.
 enum class Membership : std::uint8_t {
-  in,   // interior: they will overlap, or do so now
-  on,   // boundary: they will touch without overlapping
   out,  // they never meet, w = 0 included; touching bodies that part
+  on,   // boundary: they will touch without overlapping
+  in,   // interior: they will overlap, or do so now
 };
 
 /// The same with the past told from never: where the line of motion meets the other body.
@@ -27,13 +29,13 @@ enum class Passage : std::uint8_t {
 };
 
 /// Whole answer of one engagement. `undecided` of certified families alone: the truth is one of the others.
-enum class Verdict : std::uint8_t { in, on, out, overlapping, touching, undecided };
+enum class Verdict : std::uint8_t { out, on, in, touching, overlapping, undecided };
 
 /// Whether two bodies may be in contact now or later: all but `out`. What is not decided counts as yes.
 [[nodiscard]] constexpr bool may_collide(Verdict verdict) { return verdict != Verdict::out; }
 
 /// What is known about a direction at the tolerance asked for.
-enum class Certified : std::uint8_t { in, out, undecided };
+enum class Certified : std::uint8_t { out, in, undecided };
 
 [[nodiscard]] const char* to_string(Relation relation);
 [[nodiscard]] const char* to_string(Membership membership);

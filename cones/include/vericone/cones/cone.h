@@ -63,5 +63,7 @@ struct Cone {
 /// The directions in which an agent meets any of several obstacles, as a map. All pairs have the same agent;
 /// obstacles all move by the same velocity.
 [[nodiscard]] ConeMap cone_map(std::span<const Pair> pairs, const ConeMapOptions& options = {});
+/// Of one obstacle.
+[[nodiscard]] ConeMap cone_map(const Pair& pair, const ConeMapOptions& options = {});
 
 }  // namespace vericone

@@ -119,6 +119,13 @@ class Pair {
 
   [[nodiscard]] Miss miss(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 
+  /// Metres between the bodies as they stand, the best estimate: miss() without velocities, which has bounds.
+  /// 0 where they touch, negative where they overlap: how far the agent must be shifted, at least, to end
+  /// that (NaN where doubles do not tell).
+  [[nodiscard]] double distance() const {
+    return miss(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()).distance;
+  }
+
   /// The cone by the sharpest method there is for these kinds (cone.h). Throws InputError naming "tolerance",
   /// "resolution" or "threads". Cost: two ellipsoids 40 us; combined quadrics milliseconds
   /// (docs/measured/benchmarks.md); hulls 1 ms; others are drawn as a map, seconds.

@@ -11,6 +11,9 @@ struct Pose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  // orthonormal, determinant +1
 
+  /// Turned by the quaternion (w, x, y, z), |q| = 1 to 1e-6. Throws InputError naming "rotation".
+  [[nodiscard]] static Pose from_quaternion(const Eigen::Vector3d& position, const Eigen::Vector4d& wxyz);
+
   [[nodiscard]] Eigen::Vector3d to_world(const Eigen::Vector3d& x) const { return position + rotation * x; }
   [[nodiscard]] Eigen::Vector3d to_body(const Eigen::Vector3d& x) const {
     return rotation.transpose() * (x - position);
