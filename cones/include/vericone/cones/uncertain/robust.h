@@ -28,8 +28,8 @@ struct RelativeErrors {
 };
 
 enum class RobustVerdict : std::uint8_t {
-  in,         // every error collides within the horizon
-  out,        // none does
+  out,        // no error collides within the horizon
+  in,         // every one does
   depends,    // one does, and another does not
   undecided,  // none of them could be proved, see robust_verdict
 };
