@@ -11,7 +11,7 @@ from typing import Iterator
 import clang.cindex as clang
 from clang.cindex import CursorKind as Kind
 
-HIDDEN = {"detail", "pairs"}  # namespaces that no user is to use
+HIDDEN = {"detail", "pairs", "courses"}  # namespaces that no user is to use
 
 
 @dataclasses.dataclass

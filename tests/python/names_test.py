@@ -21,7 +21,7 @@ from declarations import declarations  # type: ignore[import]  # noqa: E402
 
 LIBRARIES = ("geometry", "cones", "guidance", "scenes", "vision")
 # Namespaces that no user is to use.
-HIDDEN = re.compile(r"^namespace (?:\w+::)*(detail|pairs) \{.*?^\}  // namespace (?:\w+::)*\1$", re.MULTILINE | re.DOTALL)
+HIDDEN = re.compile(r"^namespace (?:\w+::)*(detail|pairs|courses) \{.*?^\}  // namespace (?:\w+::)*\1$", re.MULTILINE | re.DOTALL)
 
 
 @pytest.fixture(scope="module")
