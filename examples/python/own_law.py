@@ -3,6 +3,7 @@
 import pathlib
 
 import numpy as np
+import numpy.typing as npt
 
 import vericone as vc
 from vericone import guidance, simulation as sim
@@ -13,16 +14,16 @@ agent, *others = [sim.Track(b.shape, b.start, b.orientation, b.appears) for b in
 step, keep, most = 0.02, 1.0, 15.0  # s, m, m/s^2
 
 
-def law(me: guidance.BodyState, seen: list[guidance.BodyState]) -> np.ndarray:
+def law(me: guidance.BodyState, seen: list[guidance.BodyState]) -> npt.NDArray[np.float64]:
     """m/s^2, across the velocity: away from whom it will pass too near, and soonest."""
     misses = [vc.pair_of(me.shape, it.shape).miss(me.velocity, it.velocity) for it in seen]
     near = [miss for miss in misses if miss.least < keep]
     if not near:
         return np.zeros(3)
-    away = min(near, key=lambda miss: miss.time).gradient_velocity()  # m per m/s: where the distance grows
+    away = min(near, key=lambda miss: float(miss.time)).gradient_velocity()  # m per m/s: where the distance grows
     away = away - away @ me.velocity / (me.velocity @ me.velocity) * me.velocity
     size = np.linalg.norm(away)
-    return most * away / size if size > 1e-9 else np.zeros(3)
+    return np.asarray(most * away / size) if size > 1e-9 else np.zeros(3)
 
 
 count = round(scenario.duration / step)

@@ -29,7 +29,7 @@ def signature(model: Model, call: Callable_, method: bool) -> str:
             parts.append(f"{a.name}=False")
         elif a.type.reference == "*" and model.kind(a.type) != "text":
             parts.append(f"{a.name}=None")
-        elif a.default is not None:
+        elif a.default is not None or model.options(call, a):
             parts.append(f"{a.name}={literal(a.default)}")
         else:
             parts.append(a.name)

@@ -147,27 +147,31 @@ def load(source: Any, *, radius: float = 0.0, unknown: str = "occupied") -> Plac
     map (its `unknown` space "occupied" or "free"), a body's fields (YAML, JSON); or any object that has `vertices` (n, 3)
     and `faces` (m, 3), as meshes of other packages have. Raises InputError naming the file or the field."""
     package = importlib.import_module("vericone")
+    made: Placed
     if not _is_path(source):
         if not (hasattr(source, "vertices") and hasattr(source, "faces")):
             raise _wrong_kind("source", source, "the path of a file, or an object with vertices and faces")
-        made: Placed = package.Placed(package.Assembly.mesh(np.asarray(source.vertices), np.asarray(source.faces)))
+        made = package.Placed(package.Assembly.mesh(np.asarray(source.vertices), np.asarray(source.faces)))
         return made
     path = _path("source", source)
     kind = Path(path).suffix.lower()
     if kind in (".yaml", ".yml", ".json"):
-        read: Placed = _part("scenes").read_body(path).placed
-        return read
+        made = _part("scenes").read_body(path).placed
+        return made
     if kind in (".bt", ".ot"):
         module = _part("octomap")
         if unknown not in ("occupied", "free"):
             raise _refuse("unknown", unknown, "occupied or free")
         boxes = module.obstacle_boxes(module.read_octree(path), module.OctreeMeaning(unknown_occupied=unknown == "occupied"))
-        return package.Placed(package.Assembly.boxes(boxes))
+        made = package.Placed(package.Assembly.boxes(boxes))
+        return made
     file = _part("files").read_points(path)
     if not file.faces:
-        return package.Placed(package.Assembly.cloud(file.points, radius))
+        made = package.Placed(package.Assembly.cloud(file.points, radius))
+        return made
     mesh = _part("files").triangle_mesh(file)
-    return package.Placed(package.Assembly.mesh(mesh.points, mesh.triangles))
+    made = package.Placed(package.Assembly.mesh(mesh.points, mesh.triangles))
+    return made
 
 
 def write_scene(scene: scenes.Scene, file: PathLike) -> None:

@@ -213,7 +213,7 @@ def nearest(run: Flown) -> Any:
     if not pairs:
         return None
     met = [p for p in pairs if p["verdict"] == "touched"]
-    p = min(met, key=lambda p: p["to"]) if met else min(pairs, key=lambda p: p["least_distance"])
+    p = min(met, key=lambda p: float(p["to"])) if met else min(pairs, key=lambda p: float(p["least_distance"]))
     t = p["to"] if met else p["least_time"]
     said = "meet" if met else "%s m apart or more, proved" % brief(p["least_distance"])
     return p, t, "%s and %s\nat %.4g s, to scale:\n%s" % (p["a"], p["b"], t, said)
