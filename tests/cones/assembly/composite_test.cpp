@@ -90,7 +90,7 @@ struct AllPairs {
   }
   Membership membership(const Vector3d& w) const {
     Membership best = Membership::out;
-    each([&](const auto& pair) { best = std::min(best, pair.membership(w)); });
+    each([&](const auto& pair) { best = std::max(best, pair.membership(w)); });
     return best;
   }
   std::vector<HullOracle> hulls;

@@ -62,7 +62,7 @@ struct Pieces {
     for (const HullBody& p : a)
       for (const HullBody& q : b) {
         oracles.emplace_back(p, q);
-        best = std::min(best, oracles.back().membership(w));
+        best = std::max(best, oracles.back().membership(w));
         for (const Vector3d& x : p.points())
           for (const Vector3d& y : q.points())
             if (const Vector3d d = y - x; std::hypot(d.dot(u), d.dot(v)) > 1e-9)
