@@ -260,7 +260,7 @@ bool is_flat(const std::vector<Eigen::Vector3d>& points) {
 }
 
 std::optional<std::pair<double, double>> first_time(const HullScene& scene, const Eigen::Vector3d& w) {
-  constexpr std::size_t kMostPoints = 20'000;
+  constexpr std::size_t kMostPoints = 200;  // milliseconds
   if (scene.obstacle.size() * scene.agent.size() > kMostPoints) return std::nullopt;
   const Vector direction = direction_on_grid<3>(w);
   const Rows<2> rows = shadow_rows(direction);

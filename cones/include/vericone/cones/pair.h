@@ -120,8 +120,7 @@ class Pair {
   [[nodiscard]] Miss miss(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 
   /// Metres between the bodies as they stand, the best estimate: miss() without velocities, which has bounds.
-  /// 0 where they touch, negative where they overlap: how far the agent must be shifted, at least, to end
-  /// that (NaN where doubles do not tell).
+  /// 0 where they touch or overlap; how deep they do is said along a velocity alone (Miss::depth).
   [[nodiscard]] double distance() const {
     return miss(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()).distance;
   }
