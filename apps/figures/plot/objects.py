@@ -222,7 +222,7 @@ def map_data(cone_map: Any) -> dict[str, Any]:
     if not has(cone_map, "cells", "corners", "undecided"):
         raise wrong_kind("thing", cone_map, "a ConeMap" + ("; cone() draws cones" if has(cone_map, "solid_angle") else ""))
     cells = cone_map.cells
-    letters = "".join("iou"[int(cell.label)] for cell in cells)
+    letters = "".join(cell.label.name[0] for cell in cells)
     return {"title": "", "corners": np.asarray(cone_map.corners),
             "cells": np.array([np.asarray(cell.corners) for cell in cells]), "labels": letters,
             "colliding": cone_map.colliding, "safe": cone_map.safe, "undecided": cone_map.undecided,
