@@ -11,9 +11,9 @@
 #include <random>
 
 #include "fitting/noisy_surfaces.h"
+#include "surface/model.h"
 #include "surface/robust_scale.h"
 #include "surface/secular_foot.h"
-#include "surface/model.h"
 
 namespace vericone::fitting::least_squares_test {
 namespace {

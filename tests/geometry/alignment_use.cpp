@@ -3,6 +3,4 @@
 // A program that knows a body: alignment.cmake compiles it with the library's options and with others.
 #include <vericone/geometry/ellipsoid.h>
 
-int main() {
-  return vericone::Ellipse::from_axes({0, 0}, {1, 2}).defined_by_factor() ? 0 : 1;
-}
+int main() { return vericone::Ellipse::from_axes({0, 0}, {1, 2}).defined_by_factor() ? 0 : 1; }

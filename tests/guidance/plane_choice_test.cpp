@@ -7,9 +7,9 @@
 #include <limits>
 #include <numbers>
 
-#include "support/allocations.h"
 #include "guidance/engagements.h"
 #include "guidance/plane_merit.h"
+#include "support/allocations.h"
 
 namespace vericone::guidance::plane_choice_test {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The source's formulas term by term: as printed, and as corrected where the print is wrong (docs/reference/errata.md).
-// Written from the print, not from the library, which uses other forms.
+// The source's formulas term by term: as printed, and as corrected where the print is wrong
+// (docs/reference/errata.md). Written from the print, not from the library, which uses other forms.
 #pragma once
 
 #include <vericone/guidance/laws.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Eigenvalues that only fits need: of matrices of any size and of pencils. They cost 10 s of compiling, so they are
-// compiled once and not in the core (geometry/decompositions.h).
+// Eigenvalues that only fits need: of matrices of any size and of pencils. They cost 10 s of compiling, so
+// they are compiled once and not in the core (geometry/decompositions.h).
 #pragma once
 
 #include <vericone/geometry/decompositions.h>

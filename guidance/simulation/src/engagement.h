@@ -36,7 +36,8 @@ class Engagement {
                            const Observed& observed);
 
  private:
-  [[nodiscard]] bool look(const guidance::BodyState& a, const guidance::BodyState& b, EncounterSample& sample);
+  [[nodiscard]] bool look(const guidance::BodyState& a, const guidance::BodyState& b,
+                          EncounterSample& sample);
 
   std::size_t agent_, obstacle_;
   const Pilot* pilot_;

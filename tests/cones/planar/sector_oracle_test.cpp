@@ -89,7 +89,8 @@ TEST(SectorOracle, RefusesVelocitiesThatAreNotNumbers) {
   EXPECT_THROW(oracle.membership(kStill, {std::nan(""), 0}), InputError);
 }
 
-/// Grazing pairs in general position, all numbers integers: as tests/cones/ellipsoids/exact_tangency.h in space.
+/// Grazing pairs in general position, all numbers integers: as tests/cones/ellipsoids/exact_tangency.h in
+/// space.
 struct PlanarTangency {
   Ellipse a, b;
   Vector2d w, inner_normal;

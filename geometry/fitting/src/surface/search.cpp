@@ -93,8 +93,8 @@ std::vector<SurfaceStart> best(const std::vector<SurfaceStart>& starts, const Cl
 }
 
 FittedSurface refined(const SurfaceStart& start, const Cloud& cloud, const SurfaceFitOptions& options) {
-  // Where points do not determine dents and waists the solver creeps to its last step. It does so with some of
-  // very many points already.
+  // Where points do not determine dents and waists the solver creeps to its last step. It does so with some
+  // of very many points already.
   constexpr std::size_t kMany = 1500;
   if (!start.model.delimiters.empty() && cloud.points.size() > 2 * kMany) {
     FittedSurface some = refined(start, thinned(cloud, kMany), options);

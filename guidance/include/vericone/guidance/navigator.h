@@ -116,7 +116,8 @@ class Navigator {
   [[nodiscard]] static Body body_of(const BodyState& other, bool planar);
 
   NavigatorStep fly(const Moment& now, const std::optional<Destination>& destination, double time);
-  [[nodiscard]] bool fails(const Flight& flight, const Body& other, double begin, double end, double hopeless) const;
+  [[nodiscard]] bool fails(const Flight& flight, const Body& other, double begin, double end,
+                           double hopeless) const;
   void see_turn(const Flight& flight, const Body& other, double begin, double end, courses::Meeting meeting,
                 Approach& seen) const;
   void see_straight(const Flight& flight, const Body& other, double begin, double end,

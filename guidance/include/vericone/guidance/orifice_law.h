@@ -72,12 +72,11 @@ struct PassageLawOptions {
 
 /// The clearance m of the shadows of A and of the opening along the relative velocity, metres, the opening as
 /// it will be turned when A gets there, driven to the margin by the least acceleration; where the opening has
-/// less room, to 0.95 of the clearance through its deepest point. Where m >= margin + beyond nothing is commanded.
-/// Where that acceleration would lead too near to another side of the rim, both sides are steered at once: no
-/// command is undone by the next.
-/// While A's centre moves away from the opening's plane, or along it, A turns towards the opening's deepest
-/// point. Bodies other than ellipsoids and hulls are seen as ellipsoids that contain them. Cost:
-/// docs/measured/benchmarks.md.
+/// less room, to 0.95 of the clearance through its deepest point. Where m >= margin + beyond nothing is
+/// commanded. Where that acceleration would lead too near to another side of the rim, both sides are steered
+/// at once: no command is undone by the next. While A's centre moves away from the opening's plane, or along
+/// it, A turns towards the opening's deepest point. Bodies other than ellipsoids and hulls are seen as
+/// ellipsoids that contain them. Cost: docs/measured/benchmarks.md.
 [[nodiscard]] OrificeCommand passage_law(const BodyState& a, const OrificeState& orifice,
                                          const PassageLawOptions& options);
 

@@ -158,8 +158,9 @@ Table encounters_table(const Scenario& scenario, const Run& run) {
   const bool measured = std::any_of(scenario.bodies.begin(), scenario.bodies.end(), measures);
   Table table = table_of(
       "encounters",
-      std::string("t [s],agent,obstacle,r [m],theta [rad],phi [rad],V_r [m/s],V_theta [m/s],V_phi [m/s],y,psi "
-                  "[rad],theta_b [rad],V_r_hat [m/s],plane [rad],m [m],") +
+      std::string(
+          "t [s],agent,obstacle,r [m],theta [rad],phi [rad],V_r [m/s],V_theta [m/s],V_phi [m/s],y,psi "
+          "[rad],theta_b [rad],V_r_hat [m/s],plane [rad],m [m],") +
           (measured ? "measured_m [m]," : "") +
           "a [m/s^2],demanded [m/s^2],delta [rad],gamma [rad],a_B [m/s^2],delta_B [rad],gamma_B "
           "[rad],status,attended");

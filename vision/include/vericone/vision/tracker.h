@@ -64,7 +64,8 @@ struct SourceTrackerOptions {
   double most_error = 15, template_score = 0.9849, descriptor_distance = 250;
   double patch = 0.25;  // side of a point's patch, of the box's longer one: 1.5 m of a vehicle of 6 m
 };
-/// Throws InputError naming the option: positive and at most 1e6; "window" odd, from 3 up; "levels" 0 or more.
+/// Throws InputError naming the option: positive and at most 1e6; "window" odd, from 3 up; "levels" 0 or
+/// more.
 [[nodiscard]] std::unique_ptr<Tracker> source_tracker(const SourceTrackerOptions& options = {});
 
 struct TrackerOptions {

@@ -32,8 +32,8 @@ struct Effort {
 
 /// The first contact of a moving agent with an assembly.
 struct AssemblyContact {
-  /// Seconds. Nothing is touched before `earliest`; at `latest` the agent touches or overlaps the body, proved
-  /// both. Infinite where an agent or a piece that is round grazes closer than rounding tells.
+  /// Seconds. Nothing is touched before `earliest`; at `latest` the agent touches or overlaps the body,
+  /// proved both. Infinite where an agent or a piece that is round grazes closer than rounding tells.
   double earliest = 0, latest = 0;
   /// The best estimate, earliest <= time <= latest; nothing is known of it, nor of the point, beyond these:
   /// they are far apart where a piece is 1e8 times as large as the agent.
@@ -89,8 +89,9 @@ class AssemblyOracle : public DirectionClassifier {
   [[nodiscard]] Relation relation() const;
 
   /// Exact. `w` = v_agent - v_obstacle. `in`: the agent will overlap a piece, or has no interior and enters
-  /// where pieces join; `on`: it will only touch some; `out`. For bodies that are not disjoint every w != 0 is `in`, see verdict(). No allocation
-  /// unless an exact predicate is asked. Throws InputError naming "agent_velocity[i]" where w is not finite.
+  /// where pieces join; `on`: it will only touch some; `out`. For bodies that are not disjoint every w != 0
+  /// is `in`, see verdict(). No allocation unless an exact predicate is asked. Throws InputError naming
+  /// "agent_velocity[i]" where w is not finite.
   [[nodiscard]] Membership membership(const Eigen::Vector3d& w, Effort* effort = nullptr) const;
   /// The same for the difference without rounding (without a rotated pose).
   [[nodiscard]] Membership membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,

@@ -61,7 +61,8 @@ class CompositePair : public DirectionClassifier {
 
   /// Of w = v_a - v_b, without rounding where the obstacle's pose is not turned. Of bodies that are not
   /// disjoint every w != 0 is `in`; w = 0 is `out`. Nothing: not decided; never for exact(). `on` is known of
-  /// pieces alone (where they join: docs/explanation/predicates/composite.md, Seams). Throws InputError naming "agent_velocity[i]" or "obstacle_velocity[i]".
+  /// pieces alone (where they join: docs/explanation/predicates/composite.md, Seams). Throws InputError
+  /// naming "agent_velocity[i]" or "obstacle_velocity[i]".
   [[nodiscard]] std::optional<Membership> membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
                                                      Effort* effort = nullptr) const;
   /// Relation and membership in one; `undecided` where either is not known.

@@ -56,9 +56,9 @@ struct PointFile {
 /// by the first bytes where the format has a signature, by the extension otherwise.
 ///
 /// Throws InputError whose field is the path and whose message is one line: for a file that is missing,
-/// empty, truncated, longer than its header says (but for `trailing_bytes`), of no known format or malformed anywhere, that has no
-/// finite point or whose faces point outside the file. Memory is taken only for what is in the file, not for
-/// what its header claims. Time and memory are linear in the size of the file.
+/// empty, truncated, longer than its header says (but for `trailing_bytes`), of no known format or malformed
+/// anywhere, that has no finite point or whose faces point outside the file. Memory is taken only for what is
+/// in the file, not for what its header claims. Time and memory are linear in the size of the file.
 [[nodiscard]] PointFile read_points(const std::filesystem::path& path);
 
 /// Extensions that promise a mesh or a cloud, with dot, lower case: ".obj", ".off", ... For choosing among
@@ -66,9 +66,9 @@ struct PointFile {
 [[nodiscard]] std::vector<std::string> known_extensions();
 
 /// The faces cut into triangles, n - 2 for n corners. A polygon is looked at along the coordinate axis from
-/// which it looks largest: it becomes the fan about its first corner where all of that turns the same way (convex
-/// polygons), else its ears are cut one by one, both decided exactly. So a flat polygon is itself; of one that
-/// is not flat this choice is made. Throws InputError naming "faces[i]" for one that crosses itself.
+/// which it looks largest: it becomes the fan about its first corner where all of that turns the same way
+/// (convex polygons), else its ears are cut one by one, both decided exactly. So a flat polygon is itself; of
+/// one that is not flat this choice is made. Throws InputError naming "faces[i]" for one that crosses itself.
 /// Quadratic in the number of corners of a dented polygon.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangles_of(
     const std::vector<Eigen::Vector3d>& points, const std::vector<Face>& faces);
