@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/camera.h>
 #include <vericone/geometry/error.h>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
 #include <numbers>

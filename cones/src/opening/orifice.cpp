@@ -60,7 +60,10 @@ template <typename N>
 struct DiscByNormal {
   std::array<N, 3> normal;
   N r2;
-  N common = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+  N common;
+
+  constexpr DiscByNormal(const std::array<N, 3>& n, const N& radius2)
+      : normal(n), r2(radius2), common(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) {}
 
   constexpr N operator()(int row, int column) const {
     const N product = normal[row] * normal[column];

@@ -80,7 +80,7 @@ struct Miss {
 /// body, its position too, is rounded into its frame; of two assemblies that with fewer pieces, whichever is
 /// the agent.
 ///
-/// Laws, for every pair of kinds (tests/cones/pair_test.cpp):
+/// Laws, for every pair of kinds (tests/cones/pairs/pair_test.cpp):
 ///   (1) Pair(a, b).verdict(v, u) == Pair(b, a).verdict(u, v)
 ///   (2) verdicts depend on v_a - v_b and its direction only
 ///   (3) contact() is there iff verdict is not `out`; miss().most == 0 iff they surely meet
