@@ -154,6 +154,14 @@ def test_clearances_are_those_of_the_pair() -> None:
     assert any("(m)" in bar.get_ylabel() for bar in axes.figure.axes)
 
 
+def test_clearances_say_how_far_they_are_and_stop() -> None:
+    pair, shares = vc.Pair(BALL, AHEAD), list[float]()
+    plot.clearance_field(pair, 2.0, n=5, progress=shares.append)
+    assert shares == pytest.approx([0.2, 0.4, 0.6, 0.8, 1.0])
+    axes = plot.clearance_field(pair, 2.0, n=5, progress=lambda share: share < 0.5)
+    assert np.isnan(np.ma.filled(axes.images[0].get_array(), np.nan)).sum(axis=1).tolist() == [0, 0, 0, 5, 5]
+
+
 def test_engagements_of_every_kind() -> None:
     for obstacle in (AHEAD, vc.Placed(vc.HullBody.box([4, -1, -1], [6, 1, 1])), DENTED):
         pair = vc.Pair(BALL, obstacle)
@@ -245,6 +253,7 @@ NAN = float("nan")
     (lambda: plot.plane_engagement(vc.Ellipse(), BALL), TypeError,
      "obstacle: got Ellipsoid, must be a planar body: an Ellipse or a CombinedEllipse"),
     (lambda: plot.clearance_field(PAIR, NAN), vc.InputError, "speed: got nan, must be finite, 0 or more"),
+    (lambda: plot.clearance_field(PAIR, 1.0, progress=True), TypeError, "progress: got bool, must be a function, or None"),
     (lambda: plot.sector(PAIR), TypeError, "thing: got Pair, must be a PlaneSector, of Pair.sector(), or a Sector of planar bodies"),
     (lambda: plot.sign_map([0, 1, 2]), vc.InputError, "verdicts: got an array of shape (3,), int64, must be verdicts of shape (n, n)"),
     (lambda: plot.opening(BALL), TypeError, "placed: got Ellipsoid, must be a PlacedOpening"),
