@@ -179,6 +179,8 @@ Words words(FileKind kind) {
               "vericone figures and claims read them, by --paper and the folder"};
     case FileKind::body:
       return {"a body", "a scene or a scenario names it, {file: NAME}"};
+    case FileKind::cases:
+      return {"a file of cases, one JSON object a line", "vericone query reads cases"};
     case FileKind::unknown:
       break;
   }

@@ -7,8 +7,8 @@
 
 namespace vericone::input {
 
-/// What a file is, told by its outermost fields.
-enum class FileKind { unknown, scene, scenario, pursuit, paper, body };
+/// What a file is, told by its outermost fields; of cases, by its lines (command/cases.h).
+enum class FileKind { unknown, scene, scenario, pursuit, paper, body, cases };
 
 FileKind kind_of_file(const Json& fields);
 

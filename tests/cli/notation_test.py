@@ -174,7 +174,9 @@ class Notation(unittest.TestCase):
                  "pursuit": ("a pursuit", "vericone pursue reads pursuits", "{uas: {}, cars: [], cameras: {}}"),
                  "paper": ("figures or claims of a paper", "--paper", "claims: []"),
                  "body": ("a body", "{file: NAME}", AGENT)}
-        readers = {"cone": "scene", "simulate": "scenario", "reach": "scenario", "trials": "scenario"}
+        names = {kind: name for kind, (name, _, _) in kinds.items()} | {"cases": "a file of cases, one JSON object a line"}
+        readers = {"cone": "scene", "simulate": "scenario", "reach": "scenario", "trials": "scenario",
+                   "query": "cases", "law": "cases"}
         programs = os.environ.get("VERICONE_PROGRAMS", "").split()
         readers |= {name: kind for name, kind in (("scan", "scene"), ("pursue", "pursuit")) if name in programs}
         for command, wanted in readers.items():
@@ -187,8 +189,15 @@ class Notation(unittest.TestCase):
                     else:
                         self.assertEqual(done.returncode, 2)
                         self.assertIsNotNone(said, done.stderr)
-                        self.assertEqual(said.group(1, 2), (name, kinds[wanted][0]), done.stderr)
+                        self.assertEqual(said.group(1, 2), (name, names[wanted]), done.stderr)
                         self.assertIn(reader, said.group(3))
+        # Written over several lines, as JSON too; a line that begins as a case is one.
+        for text, said in (("agent:\n  semi_axes: [1, 1, 1]\n", "got a scene, must be"),
+                           ('{\n  "bodies": []\n}\n', "got a scenario, must be"),
+                           ('{"agent": {},}\n', "")):
+            done = run("query", self.write("given.yaml", text))
+            self.assertIn(said, done.stderr)
+            self.assertEqual("line 1" in done.stdout, not said, done.stdout)
         self.assertIn("given.yaml: got a pursuit, must be a scene, a scenario or a body; vericone pursue reads pursuits",
                       run("check", self.write("given.yaml", kinds["pursuit"][2])).stderr)
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "command/case_parser.h"
+#include "input/scene.h"
 #include "input/text_source.h"
 #include "json/json_value.h"
 #include "output/interrupt.h"
@@ -139,6 +140,28 @@ bool answer_block(std::vector<Piece> pieces, const Answer& answer, int threads, 
   return bad;
 }
 
+/// Whether the first line that is not blank begins as an object with its fields does: {"agent" ...
+bool begins_with_case(std::string_view text) {
+  constexpr const char* kBlank = " \t\r";
+  std::string_view line;
+  while (!text.empty() && line.find_first_not_of(kBlank) == std::string_view::npos) line = take_line(text);
+  line.remove_prefix(std::min(line.find_first_not_of(kBlank), line.size()));
+  const std::size_t field = line.find_first_not_of(kBlank, 1);
+  return line.empty() || (line[0] == '{' && field != std::string_view::npos && line[field] == '"');
+}
+
+/// Throws InputError naming the path where the text is plainly a scene or the like, and says who reads that.
+void require_cases(const std::string& text, const std::string& path) {
+  if (begins_with_case(text)) return;
+  Json fields;
+  try {
+    fields = input::scene_fields(text, path);
+  } catch (const InputError&) {
+    return;  // what is wrong is said of its lines
+  }
+  input::require_kind(fields, input::FileKind::cases, path);
+}
+
 }  // namespace
 
 Json parse_case(const std::string& line, std::size_t number) {
@@ -153,6 +176,7 @@ int answer_cases(const std::string& path, const Answer& answer, std::ostream& ou
   std::string block;
   std::size_t number = 1;
   while (!interrupted() && cases.next_lines(block, kBlockBytes)) {
+    if (number == 1 && path != "-") require_cases(block, path);
     // Many lines as long as the limit would take too much memory at once.
     const bool huge = block.size() > 4 * kBlockBytes;
     block.reserve(block.size() + kCasePadding);
