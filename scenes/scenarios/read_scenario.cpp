@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "input/assembly_body.h"
 #include "input/file_body.h"
@@ -56,7 +57,8 @@ bool by_shape(const Json& body) {
          std::none_of(kKinds.begin(), kKinds.end(), [&](const char* kind) { return body.contains(kind); });
 }
 
-simulation::Body read_body(const Json& given, const std::string& path, const std::filesystem::path& folder) {
+simulation::Body read_body(const Json& given, const std::string& path, const std::filesystem::path& folder,
+                           std::optional<scenes::Reading>& reading) {
   require_object(given, path);
   const Json value = by_shape(given) ? given : with_shape(given, path);
   require_known(value, path,
@@ -73,7 +75,7 @@ simulation::Body read_body(const Json& given, const std::string& path, const std
   });
   if (!own_shape)
     body.shape = read_shape(require_field(value, path, "shape", "a mapping, such as {semi_axes: [3, 2, 1]}"),
-                            path + ".shape", folder);
+                            path + ".shape", folder, reading);
   const bool planar = simulation::planar(body.shape);
   if (value.contains("road"))
     read_road(value, path, planar, body);
@@ -121,7 +123,7 @@ void check_size(const simulation::Scenario& scenario) {
 }  // namespace
 
 simulation::Scenario read_scenario(const Json& fields, const std::string& name,
-                                   const std::filesystem::path& folder) {
+                                   const std::filesystem::path& folder, Readings* readings) {
   if (!fields.is_object()) throw InputError("scenario", quoted(fields), "a mapping with bodies");
   require_known(fields, "",
                 {"name", "duration", "step", "stop_when_passed", "planes_logged", "proof", "bodies", "seed",
@@ -148,8 +150,11 @@ simulation::Scenario read_scenario(const Json& fields, const std::string& name,
            [&](const Json& v, const std::string& p) { scenario.water = read_current(v, p, scenario.seed); });
   const Json& bodies = require_field(fields, "", "bodies", "a list of bodies");
   if (!bodies.is_array() || bodies.empty()) throw InputError("bodies", quoted(bodies), "a list of bodies");
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    scenario.bodies.push_back(read_body(bodies[i], at("bodies", i), folder));
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    std::optional<scenes::Reading> reading;
+    scenario.bodies.push_back(read_body(bodies[i], at("bodies", i), folder, reading));
+    if (readings) readings->push_back(std::move(reading));
+  }
   if_given(fields, "", "orifices", [&](const Json& v, const std::string& p) {
     if (!v.is_array() || v.empty()) throw InputError(p, quoted(v), "a list of orifices");
     for (std::size_t i = 0; i < v.size(); ++i)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scenarios/read_shape.h"
 
+#include <utility>
+
 #include "input/assembly_body.h"
 #include "input/fields.h"
 #include "input/file_body.h"
@@ -89,22 +91,28 @@ simulation::RigidShape read_quadric(const Json& value, const std::string& path) 
 
 /// The convex hull of points as they stand in the body's frame.
 simulation::RigidShape read_hull(const Json& value, const std::string& path,
-                                 const std::filesystem::path& folder) {
+                                 const std::filesystem::path& folder,
+                                 std::optional<scenes::Reading>& reading) {
   const scenes::SceneBody body = input::read_hull_agent(value, path, folder);
+  reading = body.reading;
   return {input::within(path, [&] { return in_world(*body.hull(), body.placed.pose); })};
 }
 
 /// A mesh, cloud or map as it stands in the body's frame; the hull of a file's points.
 simulation::RigidShape read_file_body(const Json& value, const std::string& path,
-                                      const std::filesystem::path& folder) {
-  if (value.contains("hull")) return read_hull(value, path, folder);
-  return {input::read_pieces_body(value, path, folder).placed};
+                                      const std::filesystem::path& folder,
+                                      std::optional<scenes::Reading>& reading) {
+  if (value.contains("hull")) return read_hull(value, path, folder, reading);
+  scenes::SceneBody body = input::read_pieces_body(value, path, folder);
+  reading = std::move(body.reading);
+  return {std::move(body.placed)};
 }
 
 }  // namespace
 
 simulation::ShapeInTime read_shape(const Json& given, const std::string& path,
-                                   const std::filesystem::path& folder) {
+                                   const std::filesystem::path& folder,
+                                   std::optional<scenes::Reading>& reading) {
   require_object(given, path);
   const Json value = input::body_fields(given, path, folder);
   const bool from_file = input::is_pieces_body(value) && !value.contains("points");
@@ -116,7 +124,7 @@ simulation::ShapeInTime read_shape(const Json& given, const std::string& path,
                     (value.contains("a_c") || value.contains("b_c")) + value.contains("dented") +
                     value.contains("points") + input::is_union(value) + from_file;
   if (kinds != 1) throw InputError(path, kinds == 0 ? "no shape" : "more than one shape", shape_kinds());
-  if (from_file) return read_file_body(value, path, folder);
+  if (from_file) return read_file_body(value, path, folder, reading);
   if (input::is_union(value)) return simulation::RigidShape{input::read_union(value, path, folder)};
   if (value.contains("k") && (value.contains("semi_axes") || value.contains("points")))
     throw InputError(path + ".k", quoted(value["k"]), "left out, or the body given by a_c or dented");
@@ -125,7 +133,7 @@ simulation::ShapeInTime read_shape(const Json& given, const std::string& path,
                      "left out, or the body given by semi_axes");
   if (value.contains("semi_axes") || value.contains("shape") || value.contains("quadric"))
     return read_quadric(value, path);
-  if (value.contains("points")) return read_hull(value, path, folder);
+  if (value.contains("points")) return read_hull(value, path, folder, reading);
   if (value.contains("dented")) {
     simulation::DentedQuadric shape;
     require_known(value, path, {"dented", "k"});

@@ -191,7 +191,10 @@ class Pieces(unittest.TestCase):
             path = write(self.folder, "scene.yaml", json.dumps(scene))
             checked = run("check", path).stdout
             body = run("check", write(self.folder, "body.yaml", json.dumps(scene["obstacle"]))).stdout
-            for told in (text, checked, body, "\n".join(notes)):
+            scenario = {"bodies": [{"name": "A", **agent, "velocity": [1, 0, 0]}, {"name": "B", **scene["obstacle"]}]}
+            flown = run("check", write(self.folder, "scenario.yaml", json.dumps(scenario)))
+            self.assertEqual(flown.returncode, 0, flown.stderr)
+            for told in (text, checked, body, flown.stdout, "\n".join(notes)):
                 self.assertEqual("unknown space" in told, word is not None, told)
                 self.assertIn(word or "", told)
 

@@ -5,6 +5,7 @@
 #include <vericone/scenes/words.h>
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <ostream>
 
 #include "input/fields.h"
@@ -39,6 +40,11 @@ std::string now_words(const Pair& pair) {
   return brief(miss.distance) + " m apart";
 }
 
+void add_notes(const std::optional<scenes::Reading>& reading, scenario::Facts& facts) {
+  if (!reading) return;
+  for (const std::string& note : scenes::reading_words(*reading)) facts.add("note", note);
+}
+
 void check_scene(const Json& fields, const std::string& file, scenario::Facts& facts) {
   const scenes::Scene scene = input::scene_of(fields, file);
   const Pair pair = scene.pair();
@@ -49,9 +55,8 @@ void check_scene(const Json& fields, const std::string& file, scenario::Facts& f
                          motion_words(v_a, planar));
   facts.add("obstacle", (planar ? body_words(scene.planar->obstacle) : body_words(scene.obstacle.placed)) +
                             "; " + motion_words(v_b, planar));
-  for (const scenes::SceneBody* body : {&scene.agent, &scene.obstacle})
-    if (body->reading)
-      for (const std::string& note : scenes::reading_words(*body->reading)) facts.add("note", note);
+  add_notes(scene.agent.reading, facts);
+  add_notes(scene.obstacle.reading, facts);
   facts.add("now", now_words(pair));
   facts.add("answers", guarantee_words(pair));
   if (fields.contains("lidars")) facts.add("lidars", std::to_string(fields["lidars"].size()));
@@ -59,11 +64,13 @@ void check_scene(const Json& fields, const std::string& file, scenario::Facts& f
 }
 
 void check_scenario(const Json& fields, const std::string& file, scenario::Facts& facts) {
-  const simulation::Scenario scenario =
-      scenario::read_scenario(fields, fs::path(file).stem().string(), fs::path(file).parent_path());
+  scenario::Readings readings;
+  const simulation::Scenario scenario = scenario::read_scenario(fields, fs::path(file).stem().string(),
+                                                                fs::path(file).parent_path(), &readings);
   facts.add("scenario", file);
   facts.add("time", brief(scenario.duration) + " s at most, commands every " + brief(scenario.step) + " s");
-  for (const simulation::Body& body : scenario.bodies) {
+  for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
+    const simulation::Body& body = scenario.bodies[i];
     std::string text = scenario::shape_words(body) + "; " +
                        motion_words(body.start.velocity, simulation::planar(body.shape));
     if (body.road) text += "; along a road";
@@ -74,6 +81,7 @@ void check_scenario(const Json& fields, const std::string& file, scenario::Facts
       facts.add("", "goal (" + brief(body.pilot->goal->point.x()) + ", " +
                         brief(body.pilot->goal->point.y()) + ", " + brief(body.pilot->goal->point.z()) +
                         ") m");
+    add_notes(readings[i], facts);
   }
   if (scenario.water.moves()) facts.add("current", scenario::current_text(scenario.water));
   const auto pilots =
@@ -98,8 +106,7 @@ void check_body(const std::string& file, scenario::Facts& facts) {
   } else {
     const scenes::SceneBody read = input::read_body(body, "", path.parent_path());
     facts.add("is", body_words(read.placed));
-    if (read.reading)
-      for (const std::string& note : scenes::reading_words(*read.reading)) facts.add("note", note);
+    add_notes(read.reading, facts);
   }
   facts.add("use it", "obstacle: {file: " + path.filename().string() +
                           "} in a scene or a case, {name: B, file: " + path.filename().string() +
