@@ -132,7 +132,7 @@ class Family(unittest.TestCase):
         self.assertEqual(run("help").stdout, run("--help").stdout)
         self.assertEqual(run("help", "cone").stdout, run("cone", "--help").stdout)
 
-    @unittest.skipUnless("verify" in PROGRAMS, "no verify")
+    @unittest.skipUnless("verify" in PROGRAMS, "this build has no vericone verify")
     def test_verify_ends_with_its_verdict(self):
         result = run("verify", "--cases", "20", "--pairs", "0", "--quiet")
         self.assertEqual((result.returncode, result.stderr), (0, ""))

@@ -198,7 +198,7 @@ class FitRealFiles(Files):
 
     def test_the_elephant_in_rationals(self):
         if not os.path.exists(ARCHIVE):
-            self.skipTest("no " + ARCHIVE)
+            self.skipTest(ARCHIVE + " is not here (libcgal-demo)")
         with tarfile.open(ARCHIVE) as archive:
             member = next(m for m in archive.getmembers() if m.name.endswith("meshes/elephant.off"))
             path = self.write("elephant.off", archive.extractfile(member).read())
@@ -212,7 +212,7 @@ class FitRealFiles(Files):
         """A figure of 0.27 m, to whose points an ellipsoid 0.73 m long is nearest."""
         path = os.path.join(DATA, "chef.pcd")
         if not os.path.exists(path):
-            self.skipTest("no " + path)
+            self.skipTest(path + " is not here; set VERICONE_DATA_DIR to the folder with it")
         for arguments in ((), ("--shape", "ellipsoid")):
             result = run("fit", path, "--mode", "robust", *arguments, "--out", self.out, "--quiet", "--no-figures")
             self.assertEqual((result.returncode, result.stdout), (2, ""))
@@ -221,7 +221,7 @@ class FitRealFiles(Files):
     def test_kleopatra(self):
         path = os.path.join(DATA, "216Kleopatra.obj")
         if not os.path.exists(path):
-            self.skipTest("no " + path)
+            self.skipTest(path + " is not here; set VERICONE_DATA_DIR to the folder with it")
         with open(path, encoding="ascii") as f:
             points = [[float(x) for x in line.split()[1:4]] for line in f if line.startswith("v ")]
         result = self.prove(path, points)

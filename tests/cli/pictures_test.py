@@ -314,7 +314,7 @@ class RunPages(InFolder):
 
     def shown(self, *shares):
         if not shutil.which("node"):
-            self.skipTest("no node")
+            self.skipTest("Node.js is not installed")
         script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "animation_page.js")
         result = subprocess.run(["node", script, os.path.join(self.folder, "out", "simulation.html"), "400", "300", *map(str, shares)],
                                 capture_output=True, text=True, check=False, timeout=60)

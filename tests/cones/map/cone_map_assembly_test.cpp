@@ -274,7 +274,7 @@ TEST(ConeMapOfAssemblies, ACloudOfPoints) {
 TEST(ConeMapOfAssemblies, AScannedObject) {
   const char* given = std::getenv("VERICONE_DATA_DIR");
   const auto file = std::filesystem::path(given ? given : VERICONE_DEFAULT_DATA_DIR) / "stanford-bunny.obj";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not here";
   std::vector<Vector3d> points;
   std::vector<Assembly::Triangle> triangles;
   std::ifstream in(file);
