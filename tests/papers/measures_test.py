@@ -152,6 +152,18 @@ class Values(Copied):
         self.assertEqual((got["touched"], got["which"]), (1, -5))
         self.assertAlmostEqual(got["met"], (20 - np.sqrt(8)) / 5, delta=1e-4)
 
+    def test_ascents(self):
+        """A step takes 25 products a point, the first look 24; counted on three boxes, and on ten times as many."""
+        some = {"ascent": {"boxes": [3, 30], "draws": 4, "tolerance": 0.01}}
+        got = self.measured({"rows": dict(some, count="points == 4 * boxes"), "ratio": dict(some, greatest="ratio"),
+                             "least": dict(some, least="ratio"),
+                             "products": dict(some, count="products == points * (25 * steps + 24)"), "steps": dict(some, greatest="steps"),
+                             "coarse": {"ascent": {"boxes": [3], "tolerance": 0.1}, "greatest": "steps"}})
+        self.assertEqual((got["rows"], got["products"]), (8, 8))
+        self.assertLessEqual(got["ratio"], 1.01)
+        self.assertGreater(got["least"], 1)
+        self.assertTrue(10 < got["coarse"] < got["steps"] / 5, got)
+
     def test_templates(self):
         got = self.measured({"one": {"like": ["of A", "early"], "last": "t"}, "own": {"like": "of A", "body": "B", "first": "x"}},
                             {"of A": {"run": "two-circles", "table": "bodies", "body": "A"}, "early": {"where": "t < 1.005"}})

@@ -25,6 +25,7 @@ PRINTED = {
         ("3.4.2/UAS-heading", "0"), ("3.4.2/B-heading", "0"), ("3.4.2/slow", "14.79"), ("3.4.2/fast", "22.63"),
         ("3.4.2/duration", "671"), ("3.4.2/UAS-mph", "70"), ("3.4.2/slow-mph", "33.08"), ("3.4.2/fast-mph", "50.62"),
         ("3.4.2/chase", "successfully")],
+    "4.2.1": [("4.2.1/finite", "finite time")],
     "4.3": [("4.3/field-of-view", "field of view"), ("4.3/sensor-width", "5")],
     "4.3.0.1": [
         ("4.3.0.1/UAS-start", "(0, 0, 425)"), ("4.3.0.1/B1-start", "(100, -150)"), ("4.3.0.1/B2-start", "(100, -120)"),
@@ -39,7 +40,8 @@ PRINTED = {
     "4.3.1": [
         ("4.3.1/total", "46.72"), ("4.3.1/rate", "21.4"), ("4.3.1/tracker", "35.7"), ("4.3.1/controller", "0.62"),
         ("4.3.1/ellipse", "2.35"), ("4.3.1/filter", "8.04"), ("4.3.1/bottleneck", "3"), ("4.3.1/picture", "1000 x 800"), ("4.3.1/others", "33.33"), ("4.3.1/samples", "15000"),
-        ("4.3.1/median-tracker", "34.58"), ("4.3.1/median-total", "45.63")],
+        ("4.3.1/median-tracker", "34.58"), ("4.3.1/median-total", "45.63"), ("4.3.1/ellipse-complexity", "O(n)"),
+        ("4.3.1/laws-complexity", "O(1)"), ("4.3.1/filters-complexity", "O(n)")],
     "5.4.1": [
         ("F1-position", "(0, 0)"), ("F1-axes", "(6, 2)"), ("F1-speed", "25"), ("F1-heading", "45"),
         ("F2-position", "(45, 0)"), ("F2-speed", "20"), ("F2-heading", "120"), ("y-0", "-0.0452"), ("saturation", "15"),

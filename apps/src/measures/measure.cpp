@@ -136,6 +136,7 @@ Table Measures::table_of(const Series& series, Scope& scope) {
       table.numbers["s"].push_back(from + i * (to - from) / (series.count - 1));
     return table;
   }
+  if (series.ascent) return ascend(*series.ascent);
   if (!series.command.empty())
     return with_words(sources_.table(series.command, series.table, series.path + ".table"), series);
   const PaperRun& run = sources_.run(series.run, series.path + ".run");

@@ -27,12 +27,22 @@ struct Trial {
   Expression command;  // of the agent, m/s^2
 };
 
+/// Ellipses of least area around the corners of boxes of 5 by 2 m that lie anyhow in a square of 100 m, by
+/// Khachiyan's ascent, so that its operations can be counted.
+struct Ascent {
+  std::vector<int> boxes;
+  int draws = 1;         // of each number of boxes
+  double tolerance = 0;  // of the area, relative
+  int seed = 1;
+};
+
 /// Rows of a table: some by their words, with more columns, where a condition holds.
 struct Series {
   std::string path;
   std::string run, command, table;                         // of a run or of a command
   std::vector<std::pair<std::string, std::string>> words;  // column and word
   std::optional<Trial> trial;
+  std::optional<Ascent> ascent;
   std::optional<std::pair<Expression, Expression>> range;  // column s from one number to the other ...
   int count = 0;                                           // ... in so many
   std::vector<std::pair<std::string, Series>> beside;
@@ -65,7 +75,9 @@ class Scope {
 
   /// The runs and commands that the values of these names rest on: scenarios, and words of commands.
   struct Origins {
-    std::set<std::string> runs, commands;
+    std::set<std::string> runs, commands, others;
+
+    [[nodiscard]] bool none() const { return runs.empty() && commands.empty() && others.empty(); }
   };
   [[nodiscard]] Origins origins(std::vector<std::string> names) const;
 
@@ -101,6 +113,10 @@ class Measures {
 
   Sources& sources_;
 };
+
+/// A row for each draw: boxes, points, steps, products (all multiplications but the few of one inverse of 3
+/// by 3 a step), and ratio: of the area to the least one, at most. Throws Interrupted.
+Table ascend(const Ascent& ascent);
 
 /// A row a set of parameters, with them as columns, and touched, avoided (1 or 0) and to (s, first contact).
 /// `named`: the value of a name that is none of the law's.

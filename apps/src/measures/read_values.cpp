@@ -49,6 +49,25 @@ Trial read_trial(const Json& given, const std::string& path) {
   return trial;
 }
 
+Ascent read_ascent(const Json& given, const std::string& path) {
+  require_object(given, path);
+  require_known(given, path, {"boxes", "draws", "tolerance", "seed"});
+  Ascent ascent;
+  const Json& boxes = require_field(given, path, "boxes", "a list of numbers of boxes");
+  if (!boxes.is_array() || boxes.empty())
+    throw InputError(path + ".boxes", quoted(boxes), "a list of numbers of boxes");
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    ascent.boxes.push_back(scenario::read_count(boxes[i], at(path + ".boxes", i), 1, 10'000));
+  ascent.tolerance = scenario::read_positive(
+      require_field(given, path, "tolerance", "a positive number, of the area"), path + ".tolerance", "");
+  if_given(given, path, "draws",
+           [&](const Json& v, const std::string& p) { ascent.draws = scenario::read_count(v, p, 1, 1000); });
+  if_given(given, path, "seed", [&](const Json& v, const std::string& p) {
+    ascent.seed = scenario::read_count(v, p, 0, 2'000'000'000);
+  });
+  return ascent;
+}
+
 }  // namespace
 
 std::string Series::word(const std::string& column) const {
@@ -58,9 +77,9 @@ std::string Series::word(const std::string& column) const {
 }
 
 const std::vector<std::string>& series_fields() {
-  static const std::vector<std::string> fields{"run",      "command", "table", "body",   "agent",
-                                               "obstacle", "orifice", "event", "status", "trial",
-                                               "range",    "beside",  "with",  "where"};
+  static const std::vector<std::string> fields{"run",      "command", "table",  "body",   "agent",
+                                               "obstacle", "orifice", "event",  "status", "trial",
+                                               "ascent",   "range",   "beside", "with",   "where"};
   return fields;
 }
 
@@ -80,6 +99,8 @@ Series read_series(const Json& given, const std::string& path) {
     });
   if_given(given, path, "trial",
            [&](const Json& v, const std::string& p) { series.trial = read_trial(v, p); });
+  if_given(given, path, "ascent",
+           [&](const Json& v, const std::string& p) { series.ascent = read_ascent(v, p); });
   if_given(given, path, "range", [&](const Json& v, const std::string& p) {
     require_object(v, p);
     require_known(v, p, {"from", "to", "count"});
@@ -101,12 +122,13 @@ Series read_series(const Json& given, const std::string& path) {
   if_given(given, path, "where", [&](const Json& v, const std::string& p) { series.where.emplace(v, p); });
   if (!series.run.empty() && !series.command.empty())
     throw InputError(join(path, "command"), series.command, "given without run");
-  const bool whole = series.range || (series.trial && !series.run.empty()) ||
+  const bool whole = series.range || series.ascent || (series.trial && !series.run.empty()) ||
                      (!series.table.empty() && !(series.run.empty() && series.command.empty()));
   if (!whole)
     throw InputError(
         path, "no table",
-        "of a run (run and table), of a command (command and table), a trial with its run, or a range");
+        "of a run (run and table), of a command (command and table), a trial with its run, an ascent, or a "
+        "range");
   return series;
 }
 
@@ -176,6 +198,7 @@ void add_names(const Expression& formula, std::vector<std::string>& names) {
 void add_origins(const Series& series, Scope::Origins& origins, std::vector<std::string>& names) {
   if (!series.run.empty()) origins.runs.insert(series.run);
   if (!series.command.empty()) origins.commands.insert(series.command);
+  if (series.ascent) origins.others.insert("an ascent");
   for (const auto& [name, formula] : series.with) add_names(formula, names);
   if (series.where) add_names(*series.where, names);
   for (const auto& [name, other] : series.beside) add_origins(other, origins, names);

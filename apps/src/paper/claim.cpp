@@ -103,6 +103,7 @@ Json origins_json(const Claim& claim) {
   Json list = Json::array();
   for (const std::string& run : claim.origins.runs) list.push_back("run " + run);
   for (const std::string& words : claim.origins.commands) list.push_back("vericone " + words);
+  for (const std::string& other : claim.origins.others) list.push_back(other);
   return list;
 }
 

@@ -285,8 +285,7 @@ ClaimEntry read_entry(const Json& fields, const std::string& path, const ClaimsF
   for (const Expression& formula : formulas)
     names.insert(names.end(), formula.names().begin(), formula.names().end());
   claim.origins = entry.values->origins(names);
-  if (claim.kind == Kind::result && claim.origins.runs.empty() && claim.origins.commands.empty())
-    claim.kind = Kind::arithmetic;
+  if (claim.kind == Kind::result && claim.origins.none()) claim.kind = Kind::arithmetic;
   return entry;
 }
 
