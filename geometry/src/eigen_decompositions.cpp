@@ -18,6 +18,7 @@ Eigen::Matrix<double, N, 1> symmetric_eigenvalues(const Eigen::Matrix<double, N,
 
 template SymmetricEigen<2> symmetric_eigen<2>(const Eigen::Matrix2d&);
 template SymmetricEigen<3> symmetric_eigen<3>(const Eigen::Matrix3d&);
+template SymmetricEigen<6> symmetric_eigen<6>(const Eigen::Matrix<double, 6, 6>&);
 template Eigen::Vector2d symmetric_eigenvalues<2>(const Eigen::Matrix2d&);
 template Eigen::Vector3d symmetric_eigenvalues<3>(const Eigen::Matrix3d&);
 

@@ -3,9 +3,9 @@
 #include <vericone/fitting/containing.h>
 #include <vericone/fitting/convex_hull.h>
 #include <vericone/geometry/combined_volume.h>
+#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <cmath>
@@ -107,7 +107,7 @@ void expect_local_minimum(const CombinedEllipsoid& truth, Shape shape) {
     Matrix3d shape_matrix = best.ellipsoid().shape();
     shape_matrix += size * noise(shape_matrix.norm());
     shape_matrix = ((shape_matrix + shape_matrix.transpose()) / 2).eval();
-    if (!(Eigen::SelfAdjointEigenSolver<Matrix3d>(shape_matrix).eigenvalues()(0) > 0)) continue;
+    if (!(symmetric_eigenvalues<3>(shape_matrix)(0) > 0)) continue;
     Delimiter<3> delimiter = best.delimiters().front();
     delimiter.matrix += size * noise(delimiter.matrix.norm());
     delimiter.matrix = ((delimiter.matrix + delimiter.matrix.transpose()) / 2).eval();

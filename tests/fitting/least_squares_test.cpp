@@ -2,14 +2,15 @@
 #include <gtest/gtest.h>
 #include <vericone/fitting/least_squares.h>
 #include <vericone/fitting/measure.h>
+#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 
+#include "dense_eigen.h"
 #include "fitting/noisy_surfaces.h"
 #include "surface/model.h"
 #include "surface/robust_scale.h"
@@ -160,10 +161,10 @@ TEST(SurfaceModel, DistancesAndDerivatives) {
     SurfaceModel model;
     Parameters p = ellipsoid_parameters(false, e.center(), e.shape().inverse());
     for (const Delimiter<3>& d : known.body.delimiters()) {
-      const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(k % 3 == 2 ? Matrix3d(-d.matrix) : d.matrix);
-      Matrix3d axes = solver.eigenvectors();
+      const SymmetricEigen<3> known_axes = symmetric_eigen<3>(k % 3 == 2 ? Matrix3d(-d.matrix) : d.matrix);
+      Matrix3d axes = known_axes.vectors;
       if (axes.determinant() < 0) axes.col(2) *= -1;
-      append_delimiter(model, p, k % 3, solver.eigenvalues().cwiseAbs().cwiseSqrt().cwiseInverse(), axes);
+      append_delimiter(model, p, k % 3, known_axes.values.cwiseAbs().cwiseSqrt().cwiseInverse(), axes);
     }
     const Surfaces surfaces(model, p);
     for (int i = 0; i < 30; ++i) {
@@ -238,8 +239,8 @@ TEST(LeastSquares, HaveLessSquaredDistanceThanTheAlgebraicFit) {
       row << x.cwiseAbs2(), x.y() * x.z(), x.x() * x.z(), x.x() * x.y(), x, 1;
       scatter += row * row.transpose();
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 10, 10>> solver(scatter);
-    Eigen::Matrix<double, 10, 1> v = solver.eigenvectors().col(0);
+    const SymmetricEigen<Eigen::Dynamic> solver = dense_eigen(scatter);
+    Eigen::Matrix<double, 10, 1> v = solver.vectors.col(0);
     if (v(0) < 0) v = -v;
     Matrix3d m;
     m << v(0), v(5) / 2, v(4) / 2, v(5) / 2, v(1), v(3) / 2, v(4) / 2, v(3) / 2, v(2);

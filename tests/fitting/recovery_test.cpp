@@ -5,9 +5,9 @@
 // changes how many, VERICONE_RECOVERY_FIRST which, and VERICONE_RECOVERY_TELL=1 prints each.
 #include <gtest/gtest.h>
 #include <vericone/fitting/least_squares.h>
+#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -68,10 +68,10 @@ Vector6 least_deviations(const KnownSurface& known, const Frame& frame, const Sa
   for (const Delimiter<3>& d : known.body.delimiters()) {
     // The axis of the delimiter is that of the eigenvalue whose sign no other has.
     const bool two = (d.matrix / d.level).determinant() > 0;  // one positive, two negative
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver((two ? -1 : 1) * d.matrix / d.level);
-    Matrix3d axes = solver.eigenvectors();
+    const SymmetricEigen<3> known_axes = symmetric_eigen<3>((two ? -1 : 1) * d.matrix / d.level);
+    Matrix3d axes = known_axes.vectors;
     if (axes.determinant() < 0) axes.col(2) *= -1;
-    append_delimiter(model, p, two ? 2 : 1, solver.eigenvalues().cwiseAbs().cwiseSqrt().cwiseInverse(), axes);
+    append_delimiter(model, p, two ? 2 : 1, known_axes.values.cwiseAbs().cwiseSqrt().cwiseInverse(), axes);
   }
   const Surfaces surfaces(model, p);
   const auto inliers = static_cast<std::size_t>(std::lround(how.points * (1 - how.outliers)));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/geometry/combined.h>
+#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/quadric_side.h>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -193,9 +193,7 @@ TEST(CombinedQuadrics, ValuesAreThoseOfTheRegions) {
 }
 
 /// Where the matrix's eigenvalues say so: N contains M's body iff N - M is positive semidefinite.
-bool semidefinite(const Matrix3d& m, double slack) {
-  return Eigen::SelfAdjointEigenSolver<Matrix3d>(m, Eigen::EigenvaluesOnly).eigenvalues()(0) >= -slack;
-}
+bool semidefinite(const Matrix3d& m, double slack) { return symmetric_eigenvalues<3>(m)(0) >= -slack; }
 
 TEST(CombinedBounds, ContainAndAreContained) {
   Random random(55);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "uncertain/covariance.h"
 
+#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
-#include <Eigen/Eigenvalues>
 #include <string>
 
 namespace vericone::gaussian {
@@ -46,14 +46,15 @@ std::string mend(Square<N>& m, double& clipped) {
   if (asymmetry > 0) m = (0.5 * (m + m.transpose())).eval();
   clipped = std::max(clipped, 0.5 * asymmetry);
   if (surely_semidefinite<N>(half)) return "";
-  const Eigen::SelfAdjointEigenSolver<Square<N>> solved(half);
-  const auto& values = solved.eigenvalues();
+  const SymmetricEigen<N> solved = symmetric_eigen<N>(half);
+  const auto& values = solved.values;
   const double largest = values.maxCoeff(), least = values.minCoeff();
   if (!(least >= -kClipped))
     return "the eigenvalue " + to_text(size * least) + " beside " + to_text(size * largest);
   if (least >= 0) return "";
   const auto raised = values.cwiseMax(kFloor * largest).eval();
-  const Square<N> vectors = solved.eigenvectors(), psd = vectors * raised.asDiagonal() * vectors.transpose();
+  const Square<N>& vectors = solved.vectors;
+  const Square<N> psd = vectors * raised.asDiagonal() * vectors.transpose();
   half = 0.5 * (psd + psd.transpose());
   clipped = std::max(clipped, (half - unit).cwiseAbs().maxCoeff());
   m = size * half;

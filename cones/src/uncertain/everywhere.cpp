@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "uncertain/everywhere.h"
 
-#include <Eigen/Cholesky>
+#include <vericone/geometry/decompositions.h>
 #include <Eigen/Geometry>
 #include <array>
 
@@ -53,8 +53,9 @@ class Search {
       return side.ellipsoid() ? side.ellipsoid()->shape()
                               : Matrix3d(Matrix3d::Identity() * (side.reach() * side.reach()));
     };
-    Matrix3d l = Matrix3d(shape(inner_.a) + shape(inner_.b)).llt().matrixL();
-    if (!l.allFinite()) l.setIdentity();
+    const Cholesky<3> root = cholesky<3>(shape(inner_.a) + shape(inner_.b));
+    Matrix3d l = Matrix3d::Identity();
+    if (root.positive && root.lower.allFinite()) l = root.lower;
     Vector3d axis = l.triangularView<Eigen::Lower>().solve(inner_.w);
     if (!(axis.norm() > 0 && axis.allFinite())) axis = Vector3d::UnitZ();
     axis.normalize();

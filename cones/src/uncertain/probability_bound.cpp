@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/uncertain/probability.h>
+#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/double_double.h>
 #include <vericone/geometry/error.h>
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
@@ -126,8 +125,8 @@ class Planes {
   }
   /// R with R^T R = m, whose small eigenvalues are not lost beside the large ones.
   static Matrix3d root(const Matrix3d& m) {
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> solved(m);
-    return solved.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * solved.eigenvectors().transpose();
+    const SymmetricEigen<3> solved = symmetric_eigen<3>(m);
+    return solved.values.cwiseMax(0).cwiseSqrt().asDiagonal() * solved.vectors.transpose();
   }
   /// That a normal error takes a margin away, from above.
   static double tail(double margin, double variance, bool known) {
@@ -233,7 +232,7 @@ class Planes {
     for (const Matrix3d* m : {&errors_.position, late ? &late_ : nullptr}) {
       if (!m || m->isZero(0)) continue;
       const Matrix3d metric = *m + 1e-12 * m->trace() * Matrix3d::Identity();
-      const Eigen::LLT<Matrix3d> solver(metric);
+      const Cholesky<3> solver = cholesky<3>(metric);
       for (const bool along : {false, true}) {
         // Without what the motion passes through anyway.
         Vector3d n = solver.solve(c_);

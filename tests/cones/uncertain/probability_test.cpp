@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/uncertain/probability.h>
+#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <array>
 #include <boost/math/distributions/non_central_chi_squared.hpp>
@@ -251,7 +251,7 @@ TEST(Probability, CovariancesAreClippedAndTheAnswerSaysSo) {
         std::snprintf(text, sizeof text, "%.9e", printed(j, k));
         printed(j, k) = printed(k, j) = std::strtod(text, nullptr);
       }
-    const double least = Eigen::SelfAdjointEigenSolver<Matrix3d>(printed).eigenvalues()(0);
+    const double least = symmetric_eigenvalues<3>(printed)(0);
     const Probability q = probability_of_passing_through(a, b, {0, 0, 9000}, printed);
     EXPECT_LE(q.clipped, 1e-9);
     if (least > -1e-5) continue;

@@ -16,7 +16,7 @@ struct SymmetricEigen {
   Eigen::Matrix<double, N, N> vectors;
 };
 
-/// Of a symmetric matrix, whose lower triangle is read.
+/// Of a symmetric matrix, whose lower triangle is read. N is 2, 3 or 6.
 template <int N>
 [[nodiscard]] SymmetricEigen<N> symmetric_eigen(const Eigen::Matrix<double, N, N>& a);
 
