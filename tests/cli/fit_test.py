@@ -44,7 +44,7 @@ def shell(n, axes=(3.0, 2.0, 1.0), seed=1, center=(5.0, -2.0, 7.0), noise=0.0):
     return points
 
 
-def peanut(n=16):
+def peanut(n=10):
     """A closed mesh with a waist about its long axis, x."""
     points, faces = [[-2.2, 0, 0], [2.2, 0, 0]], []
     for i in range(1, n):
@@ -248,7 +248,7 @@ class FitSame(Files):
         self.assertEqual(json.dumps(once), json.dumps(again))
 
     def test_the_order_of_the_points_does_not_matter(self):
-        points = shell(300, noise=0.02)
+        points = shell(120, noise=0.02)
         mixed = points[:]
         random.Random(4).shuffle(mixed)
         for mode in ("containing", "robust"):

@@ -5,32 +5,37 @@ import json
 import os
 import subprocess
 import sys
-import tempfile
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 
-def checked(source: Path, *arguments: str | Path) -> str:
-    """What mypy prints of files that use the package; "" where it finds nothing."""
-    with tempfile.TemporaryDirectory() as cache:
+@pytest.fixture(scope="session")
+def checked(source: Path, tmp_path_factory: pytest.TempPathFactory) -> Callable[..., str]:
+    """What mypy prints of files that use the package; "" where it finds nothing. One cache: most of a run is numpy."""
+    cache = tmp_path_factory.mktemp("mypy")
+
+    def check(*arguments: str | Path) -> str:
         done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--no-error-summary", "--config-file", source / "pyproject.toml",
                                "--cache-dir", cache, *arguments], capture_output=True, text=True, check=False,
                               env=os.environ | {"MYPYPATH": os.environ["PYTHONPATH"]})
-    return done.stdout + done.stderr
+        return done.stdout + done.stderr
+
+    return check
 
 
-def test_the_package_is_typed(source: Path, build: Path) -> None:
-    assert checked(source, "-p", "vericone") == ""
+def test_the_package_is_typed(checked: Callable[..., str]) -> None:
+    assert checked("-p", "vericone") == ""
 
 
-def test_examples_are_typed(source: Path) -> None:
+def test_examples_are_typed(source: Path, checked: Callable[..., str]) -> None:
     files = sorted((source / "examples/python").glob("*.py"))
     assert files
-    assert checked(source, *files) == ""
+    assert checked(*files) == ""
 
 
-def test_code_in_notebooks_is_typed(source: Path, tmp_path: Path) -> None:
+def test_code_in_notebooks_is_typed(source: Path, checked: Callable[..., str], tmp_path: Path) -> None:
     """Each notebook as one program, its cells in their order, without the lines for IPython alone."""
     files = []
     for notebook in sorted((source / "examples/notebooks").glob("*.ipynb")):
@@ -39,15 +44,15 @@ def test_code_in_notebooks_is_typed(source: Path, tmp_path: Path) -> None:
         files.append(tmp_path / (notebook.stem.replace("-", "_") + ".py"))
         files[-1].write_text("\n".join(lines) + "\n", encoding="utf-8")
     assert files
-    assert checked(source, *files) == ""
+    assert checked(*files) == ""
 
 
-def test_wrong_types_are_noticed(source: Path, tmp_path: Path) -> None:
+def test_wrong_types_are_noticed(checked: Callable[..., str], tmp_path: Path) -> None:
     """The types say something: a pair of numbers is refused, and what comes back is known."""
     file = tmp_path / "wrong.py"
     file.write_text("import vericone\nvericone.Pair(1.0, 2.0)\n"
                     "x: str = vericone.Ellipsoid.from_axes([0, 0, 0], [1, 1, 1]).volume()\n", encoding="utf-8")
-    told = checked(source, file)
+    told = checked(file)
     assert "wrong.py:2" in told and "wrong.py:3" in told
 
 
