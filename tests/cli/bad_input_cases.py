@@ -438,6 +438,9 @@ TRACKS = [
      {**FRAMES, "truth.txt": b"1,1,8,16,16,10\n1,2,8,16,16,10\n"}),
     ("a truth with a box twice", ["frames", *BOX, "--truth", "truth.txt"],
      {**FRAMES, "truth.txt": b"1,1,8,16,16,10\n1,1,8,16,16,10\n"}),
+    ("a truth that is half absent", ["frames", *BOX, "--truth", "truth.txt"],
+     {**FRAMES, "truth.txt": b"8,16,16,10\nnan,nan,16,10\n"}),
+    ("a truth that is never there", ["frames", *BOX, "--truth", "truth.txt"], {**FRAMES, "truth.txt": b"nan,nan,nan,nan\n" * 4}),
     ("a rate of nothing", ["frames", *BOX, "--rate", "0"], FRAMES),
     ("one picture alone", ["frames", *BOX, "--frames", "1"], FRAMES),
 ]
@@ -497,6 +500,10 @@ PURSUITS = [
     ("a roof below its bottom", [], pursuit(camera=CAMERA.replace("}", ", occluders: [{center: [0, 0], size: [1, 1], bottom: 5, "
                                                                        "top: 4}]}"))),
     ("a ground that is not there", [], pursuit(camera=CAMERA.replace("}", ", ground: {picture: nowhere.png}}"))),
+    ("a camera that is left out", ["--camera", "source"],
+     pursuit().replace("  source: {width: 320, height: 240, field_of_view_deg: 50}\n", "")),
+    ("no camera at all", ["--camera", "exact"], pursuit().split("cameras:")[0] + "cameras: {}\n"),
+    ("a focal law's field of a rendezvous", [], pursuit(top="laws: {source: {kind: rendezvous, stay: 2}}\n")),
     ("a camera under the ground", [], pursuit(uas="{position: [0, 0, -1]}")),
     ("a point mass that climbs", [], pursuit(uas="{position: [0, 0, 120], velocity: [20, 0, 1]}")),
     ("no cars", [], pursuit().replace("cars:\n  - " + CAR, "cars: []")),

@@ -73,6 +73,14 @@ class Pursue(unittest.TestCase):
         self.assertGreater(os.path.getsize(video), 10_000)
         self.assertTrue(os.path.exists(os.path.join(self.out, "pursuit.png")))
 
+    def test_only_the_camera_in_use_is_needed(self):
+        text = bad_input_cases.pursuit(top="duration: 0.2\n")
+        for camera, others in (("source", ["perspective"]), ("perspective", ["source"]), ("exact", ["perspective", "source"])):
+            for other in others:
+                with self.subTest(camera, without=other), open(self.file, "w", encoding="utf-8") as f:
+                    f.write("\n".join(line for line in text.split("\n") if not line.startswith("  %s:" % other)))
+                self.assertEqual(self.pursue("--camera", camera)["camera"], camera)
+
     def test_the_papers_pursuits_are_read(self):
         folder = os.path.join(SOURCE, "papers/dhal2022/pursuits")
         for name in sorted(os.listdir(folder)):

@@ -47,10 +47,10 @@ Pursuit read(const PursueOptions& options, const std::string& text) {
   const fs::path file = options.scenario;
   const Json fields = input::scene_fields(text, file.string());
   input::require_kind(fields, input::FileKind::pursuit, file.string());
-  Pursuit pursuit = read_pursuit(fields, plain_text(file.stem().string()), file.parent_path());
-  pursuit.eyes =
+  const Eyes eyes =
       chosen<Eyes>("--camera", options.camera, Eyes::perspective,
                    {{"perspective", Eyes::perspective}, {"source", Eyes::source}, {"exact", Eyes::exact}});
+  Pursuit pursuit = read_pursuit(fields, plain_text(file.stem().string()), file.parent_path(), eyes);
   const auto whose = {std::pair("ours", Whose::ours), std::pair("source", Whose::source)};
   pursuit.tracker = chosen<Whose>("--tracker", options.tracker, Whose::ours, whose);
   pursuit.law = chosen<Whose>("--law", options.law, Whose::ours, whose);

@@ -312,11 +312,13 @@ void read_filters(const Json& value, const std::string& path, Pursuit& pursuit) 
 
 }  // namespace
 
-Pursuit read_pursuit(const Json& fields, const std::string& name, const std::filesystem::path& folder) {
+Pursuit read_pursuit(const Json& fields, const std::string& name, const std::filesystem::path& folder,
+                     Eyes eyes) {
   if (!fields.is_object())
     throw InputError("pursuit", quoted(fields), "a mapping with uas, cars and cameras");
   Pursuit pursuit;
   pursuit.name = name;
+  pursuit.eyes = eyes;
   Numbers(fields, "")
       .positive("duration", pursuit.duration, " (s)")
       .positive("step", pursuit.step, " (s)")
@@ -347,10 +349,15 @@ Pursuit read_pursuit(const Json& fields, const std::string& name, const std::fil
   const Json& cameras = require_field(fields, "", "cameras", "a mapping with source and perspective");
   require_object(cameras, "cameras");
   require_known(cameras, "cameras", {"source", "perspective"});
-  pursuit.source_view =
-      read_view(require_field(cameras, "cameras", "source", "a camera"), "cameras.source", folder, true);
-  pursuit.perspective_view = read_view(require_field(cameras, "cameras", "perspective", "a camera"),
-                                       "cameras.perspective", folder, false);
+  if_given(cameras, "cameras", "source", [&](const Json& v, const std::string& p) {
+    pursuit.source_view = read_view(v, p, folder, true);
+    if (eyes == Eyes::exact) pursuit.perspective_view = pursuit.source_view;
+  });
+  if_given(cameras, "cameras", "perspective", [&](const Json& v, const std::string& p) {
+    pursuit.perspective_view = read_view(v, p, folder, false);
+  });
+  const bool source = eyes == Eyes::source || (eyes == Eyes::exact && !cameras.contains("perspective"));
+  require_field(cameras, "cameras", source ? "source" : "perspective", "a camera, that of --camera");
   if_given(fields, "", "laws", [&](const Json& v, const std::string& p) { read_gains(v, p, pursuit); });
   if_given(fields, "", "filters", [&](const Json& v, const std::string& p) { read_filters(v, p, pursuit); });
   std::size_t followed = 0;

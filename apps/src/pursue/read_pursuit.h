@@ -12,9 +12,10 @@
 namespace vericone::pursuit {
 
 /// Throws InputError with the field's path: "cars[1].road.changes[0].at", "cameras.perspective.noise", ...
-/// Pictures of the ground are found relative to `folder`.
-vision::Pursuit read_pursuit(const Json& fields, const std::string& name,
-                             const std::filesystem::path& folder);
+/// Pictures of the ground are found relative to `folder`. The camera of `eyes` must be there; exact eyes look
+/// through the perspective one, or the source's where it is alone.
+vision::Pursuit read_pursuit(const Json& fields, const std::string& name, const std::filesystem::path& folder,
+                             vision::Eyes eyes);
 
 /// What saw a pursuit, for `track --own`.
 struct SeenBy {

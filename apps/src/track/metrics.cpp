@@ -13,6 +13,10 @@ Metrics compare(const std::vector<std::vector<Said>>& said, const Truth& truth) 
   std::size_t right = 0, precise = 0, successes = 0;
   for (std::size_t i = 0; i < said.size(); ++i)
     for (std::size_t k = 1; k < said[i].size(); ++k) {
+      if (truth.absent[i].contains(said[i][k].frame)) {
+        ++m.absent_rows;
+        m.absent_claims += said[i][k].sighting.measured;
+      }
       const auto row = truth.boxes[i].find(said[i][k].frame);
       if (row == truth.boxes[i].end()) continue;
       ++m.rows;

@@ -19,11 +19,12 @@ struct Said {
 };
 
 /// Over the true boxes of all targets but the first one of each, which was given. A frame without a
-/// measurement is a miss, wherever the expected box is.
+/// measurement is a miss, wherever the expected box is. Frames from which a target is absent are no rows.
 struct Metrics {
   std::size_t rows = 0, claims = 0, false_claims = 0;
-  double success_auc = 0, precision_20px = 0;  // shares of `rows`
-  std::optional<double> claims_right;          // share of `claims`: the box meets the true one
+  double success_auc = 0, precision_20px = 0;      // shares of `rows`
+  std::optional<double> claims_right;              // share of `claims`: the box meets the true one
+  std::size_t absent_rows = 0, absent_claims = 0;  // frames from which it is absent; those with a claim
 };
 [[nodiscard]] Metrics compare(const std::vector<std::vector<Said>>& said, const Truth& truth);
 

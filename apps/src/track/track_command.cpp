@@ -212,6 +212,28 @@ std::string csv(const Run& run) {
   return text;
 }
 
+/// In the form of a truth file: what was claimed, and absence where nothing was.
+std::string claims(const Run& run) {
+  std::string text;
+  const auto box = [&](const vision::Box& b) {
+    return fixed(b.x, 3) + ',' + fixed(b.y, 3) + ',' + fixed(b.w, 3) + ',' + fixed(b.h, 3);
+  };
+  if (run.said.size() == 1 && run.said[0].size() == run.pictures) {
+    for (const Said& s : run.said[0])
+      text += (s.sighting.measured ? box(s.sighting.box) : std::string("nan,nan,nan,nan")) + '\n';
+    return text;
+  }
+  std::vector<std::pair<std::size_t, std::string>> rows;
+  for (std::size_t i = 0; i < run.said.size(); ++i)
+    for (const Said& s : run.said[i])
+      if (s.sighting.measured)
+        rows.emplace_back(s.frame, std::to_string(s.frame) + ',' + std::to_string(i + 1) + ',' +
+                                       box(s.sighting.box) + ",1\n");
+  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& row : rows) text += row.second;
+  return text;
+}
+
 void check_length(const Truth& truth, std::size_t pictures, const TrackOptions& options) {
   const std::size_t last = truth.last_frame();
   const bool part = options.frames && std::size_t(*options.frames) < last;
@@ -236,6 +258,8 @@ Json metrics_json(const TrackOptions& options, const Run& run, const Truth* trut
               {"claims", nullptr},
               {"claims_right", nullptr},
               {"false_claims", nullptr},
+              {"absent_rows", nullptr},
+              {"absent_claims", nullptr},
               {"longest_loss", longest_loss(run.said)},
               {"ms_median", quantile(ms, 0.5)},
               {"ms_p99", quantile(ms, 0.99)}};
@@ -247,6 +271,8 @@ Json metrics_json(const TrackOptions& options, const Run& run, const Truth* trut
     result["claims"] = m.claims;
     result["claims_right"] = m.claims_right ? Json(*m.claims_right) : Json(nullptr);
     result["false_claims"] = m.false_claims;
+    result["absent_rows"] = m.absent_rows;
+    result["absent_claims"] = m.absent_claims;
   }
   return result;
 }
@@ -260,6 +286,9 @@ void print(const Json& m, std::ostream& out) {
         << "precision           " << number_text(m["precision_20px"].get<double>(), 3) << " within 20 px\n"
         << "claims              " << m["claims"] << ", of which " << m["false_claims"]
         << " do not meet the true box\n";
+    if (m["absent_rows"] != 0)
+      out << "absent              " << m["absent_rows"] << " frames, claimed in " << m["absent_claims"]
+          << '\n';
   }
   out << "longest loss        " << m["longest_loss"] << " pictures\n"
       << "time a picture      median " << number_text(m["ms_median"].get<double>(), 3) << " ms, 99 % within "
@@ -314,6 +343,7 @@ int run_track(const TrackOptions& options, std::ostream& out) {
 
   const Json metrics = metrics_json(options, run, truth ? &*truth : nullptr, broken);
   write_whole(stage / "tracks.csv", csv(run));
+  write_whole(stage / "claims.txt", claims(run));
   if (!options.own.empty()) write_whole(stage / "estimates.csv", follower.estimates());
   write_whole(stage / "metrics.json", metrics.dump(1) + "\n");
   std::vector<std::filesystem::path> inputs;
@@ -329,7 +359,7 @@ int run_track(const TrackOptions& options, std::ostream& out) {
     print(metrics, out);
     const std::filesystem::path shown = options.out;
     out << "written             " << (shown / "tracks.csv").string() << ", "
-        << (shown / "metrics.json").string() << '\n';
+        << (shown / "claims.txt").string() << ", " << (shown / "metrics.json").string() << '\n';
     if (video) out << "video               " << (shown / "tracks.mp4").string() << '\n';
     for (const auto& file : pictures_of(files)) out << "picture             " << file.string() << '\n';
   }

@@ -22,7 +22,7 @@ struct TrackOptions {
   std::string command_line;
 };
 
-/// `vericone track`: targets followed through a video or a folder of pictures. Writes tracks.csv,
+/// `vericone track`: targets followed through a video or a folder of pictures. Writes tracks.csv, claims.txt,
 /// metrics.json, provenance.json (with `own` estimates.csv too: where the targets are on the ground), a video
 /// with the boxes and a picture of the tracks to `out` (docs/howto/track.md). Throws InputError naming an
 /// option; of a video that is cut off after what could be read is written. Returns the exit status.

@@ -15,7 +15,8 @@ using vision::Box;
 
 constexpr std::size_t kMostFrames = 100'000'000;
 
-/// The numbers of a line, apart by commas, spaces or tabs; nothing where there is anything else.
+/// The numbers of a line, nan among them, apart by commas, spaces or tabs; nothing where there is anything
+/// else.
 std::optional<std::vector<double>> numbers(const std::string& line) {
   std::vector<double> result;
   const char* at = line.data();
@@ -26,13 +27,17 @@ std::optional<std::vector<double>> numbers(const std::string& line) {
   for (skip(); at != end; skip()) {
     double value = 0;
     const auto [rest, error] = std::from_chars(at, end, value);
-    if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
+    if (error != std::errc() || std::isinf(value)) return std::nullopt;
     result.push_back(value);
     at = rest;
     skip();
     if (at != end && *at == ',') ++at;
   }
   return result;
+}
+
+bool all_known(const double* values, std::size_t count) {
+  return std::none_of(values, values + count, [](double value) { return std::isnan(value); });
 }
 
 bool counts(double value) { return value >= 1 && value <= double(kMostFrames) && value == std::floor(value); }
@@ -43,8 +48,8 @@ std::vector<FirstBox> read_boxes(const std::vector<std::string>& words) {
   std::vector<FirstBox> result;
   for (const std::string& word : words) {
     const auto n = numbers(word);
-    if (!n || (n->size() != 4 && n->size() != 5) || !((*n)[2] > 0) || !((*n)[3] > 0) ||
-        (n->size() == 5 && !counts((*n)[4])))
+    if (!n || (n->size() != 4 && n->size() != 5) || !all_known(n->data(), 2) || !((*n)[2] > 0) ||
+        !((*n)[3] > 0) || (n->size() == 5 && !counts((*n)[4])))
       throw InputError("--box", word,
                        "X,Y,W,H in pixels with W and H above 0, or X,Y,W,H,FRAME with a frame from 1 up");
     result.push_back({n->size() == 5 ? std::size_t((*n)[4]) : 1, {(*n)[0], (*n)[1], (*n)[2], (*n)[3]}});
@@ -55,6 +60,8 @@ std::vector<FirstBox> read_boxes(const std::vector<std::string>& words) {
 std::size_t Truth::last_frame() const {
   std::size_t last = 0;
   for (const auto& rows : boxes) last = std::max(last, rows.rbegin()->first);
+  for (const auto& frames : absent)
+    if (!frames.empty()) last = std::max(last, *frames.rbegin());
   return last;
 }
 
@@ -82,15 +89,19 @@ Truth read_truth(const std::filesystem::path& file) {
     if (columns == 0) columns = n->size() == 4 ? 4 : 6;
     if ((columns == 4) != (n->size() == 4)) throw bad("of as many numbers as the lines before");
     const double* box = n->data() + (columns == 4 ? 0 : 2);
-    if (!(box[2] > 0 && box[3] > 0)) throw bad("with w and h above 0");
+    const bool away = std::all_of(box, box + 4, [](double value) { return std::isnan(value); });
+    if (!away && !(all_known(box, 4) && box[2] > 0 && box[3] > 0))
+      throw bad("with w and h above 0, or nan,nan,nan,nan where the target is absent");
     std::size_t frame = 1, target = 0;
     if (columns == 4) {
       truth.every_frame = true;
       if (truth.names.empty()) truth.names.push_back("1");
       truth.boxes.resize(1);
-      frame = truth.boxes[0].size() + 1;
+      truth.absent.resize(1);
+      frame = truth.boxes[0].size() + truth.absent[0].size() + 1;
     } else {
-      if (!counts((*n)[0])) throw bad("with a frame from 1 up");
+      if (!counts((*n)[0]) || std::isnan((*n)[1]))
+        throw bad("with a frame from 1 up, and a number of its target");
       if (n->size() > 6 && (*n)[6] == 0) continue;
       frame = std::size_t((*n)[0]);
       const std::string name = to_text((*n)[1]);
@@ -98,12 +109,21 @@ Truth read_truth(const std::filesystem::path& file) {
       if (target == truth.names.size()) {
         truth.names.push_back(name);
         truth.boxes.emplace_back();
+        truth.absent.emplace_back();
       }
     }
-    if (!truth.boxes[target].try_emplace(frame, Box{box[0], box[1], box[2], box[3]}).second)
-      throw bad("with one box a frame of each target");
+    auto& known = truth.boxes[target];
+    auto& absent = truth.absent[target];
+    if (known.contains(frame) || absent.contains(frame)) throw bad("with one box a frame of each target");
+    if (away) {
+      absent.insert(frame);
+    } else {
+      known.emplace(frame, Box{box[0], box[1], box[2], box[3]});
+    }
   }
-  if (truth.names.empty()) throw InputError("--truth", file.string(), "a file with boxes");
+  if (truth.names.empty() ||
+      std::any_of(truth.boxes.begin(), truth.boxes.end(), [](const auto& known) { return known.empty(); }))
+    throw InputError("--truth", file.string(), "a file with a box at least of each target");
   return truth;
 }
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,17 +21,20 @@ struct FirstBox {
 /// Of words "X,Y,W,H" or "X,Y,W,H,FRAME". Throws InputError naming "--box".
 [[nodiscard]] std::vector<FirstBox> read_boxes(const std::vector<std::string>& words);
 
-/// The true boxes of each target by frame.
+/// The true boxes of each target by frame. A target may be absent from a frame: out of the picture, or all
+/// hidden.
 struct Truth {
   std::vector<std::string> names;  // as the file calls the targets, in the order in which they come
   std::vector<std::map<std::size_t, vision::Box>> boxes;
-  bool every_frame = false;  // one row a frame, of one target
+  std::vector<std::set<std::size_t>> absent;  // frames, of each target, that the file says so of
+  bool every_frame = false;                   // one row a frame, of one target
   [[nodiscard]] std::size_t last_frame() const;
-  /// The first row of each.
+  /// The first box of each.
   [[nodiscard]] std::vector<FirstBox> first() const;
 };
 /// One "x,y,w,h" a frame of one target, or rows "frame,id,x,y,w,h,..." as MOTChallenge has them, of which
-/// those with a seventh number of 0 do not count. Throws InputError naming "--truth" and the line.
+/// those with a seventh number of 0 do not count; "nan,nan,nan,nan" for x,y,w,h, as UAV123 has it, says that
+/// the target is absent. Throws InputError naming "--truth" and the line.
 [[nodiscard]] Truth read_truth(const std::filesystem::path& file);
 
 }  // namespace vericone::tracking
