@@ -108,6 +108,7 @@ Agreement Appearance::judge(const std::vector<float>& values, double gain, doubl
   mv /= in;
   mm /= in;
   double vv = 0, ww = 0, vm = 0;
+  double close = 0, cv = 0, cm = 0, cvv = 0, cmm = 0, cvm = 0;  // of those that agree closely
   const double limit = kAgree * gain * contrast_;
   for (std::size_t k = 0; k < values.size(); ++k) {
     if (values[k] == kOutside) continue;
@@ -118,11 +119,25 @@ Agreement Appearance::judge(const std::vector<float>& values, double gain, doubl
     const double far = std::abs(values[k] - gain * mean_[k] - bias);
     if (far < std::max(limit, 3.0 * std::sqrt(double(variance_[k])) * gain * 0.5 + kNoise))
       agree += weight_[k];
+    if (far > std::max(limit, kNoise)) continue;  // of a faint target everything plain is within its noise
+    close += weight_[k];
+    cv += weight_[k] * v;
+    cm += weight_[k] * m;
+    cvv += weight_[k] * v * v;
+    cmm += weight_[k] * m * m;
+    cvm += weight_[k] * v * m;
   }
   const double floor = in * kLeastContrast * kLeastContrast;
   result.correlation = vm / std::sqrt(std::max(vv, floor) * std::max(ww, floor));
+  result.alike = result.correlation;
   result.inside = in / all;
   result.visible = agree / all;
+  if (close > 0) {
+    const double least = floor * close / in;
+    const double of_close = (cvm - cv * cm / close) / std::sqrt(std::max(cvv - cv * cv / close, least) *
+                                                                std::max(cmm - cm * cm / close, least));
+    result.alike = std::max(result.alike, close / all * of_close);
+  }
   return result;
 }
 

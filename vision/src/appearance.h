@@ -27,8 +27,11 @@ struct Form {
 /// How well a picture agrees with an appearance at a View.
 struct Agreement {
   double correlation = -1;  // weighted, of all pixels, -1 to 1
-  double visible = 0;       // weighted share of the pixels that agree one by one, 0 to 1
-  double inside = 0;        // weighted share of the pixels that lie in the picture
+  // The same, or that of the pixels that agree closely times their share, where it is more: a twig or a line
+  // of the ground is a few pixels that are far off, and lets all look different.
+  double alike = -1;
+  double visible = 0;  // weighted share of the pixels that agree one by one, 0 to 1
+  double inside = 0;   // weighted share of the pixels that lie in the picture
   double gain = 1, bias = 0;
 };
 

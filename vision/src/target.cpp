@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kMostPoints = 14;
 constexpr double kReturn = 0.7;           // px, there and back
+constexpr double kStill = 1.5;            // px: less is no motion over the ground
 constexpr double kFirstSpeed = 0.2;       // own sizes a picture, standard deviation of what is not known yet
 constexpr double kChange = 1;             // own sizes a second, of the velocity in a second
 constexpr double kMeasured = 0.3;         // px, standard deviation of a measured centre,
@@ -20,8 +21,10 @@ constexpr double kMeasuredOfSize = 0.01;  // and of its own size: a walker's swi
 constexpr double kTurnRate = 0.5, kScaleRate = 0.6;  // rad/s and 1/s over the ground
 constexpr double kTurnMemory = 0.5;                  // s, over which a target's turning is told from a wobble
 constexpr double kTurnStep = 0.003, kScaleStep = 0.002;  // from picture to picture besides
-constexpr double kGate = 13.8;  // squared standard deviations: 1 in 1000 is beyond, of two dimensions
-constexpr double kKeep = 0.55, kRegain = 0.7;  // correlations
+constexpr double kGate = 13.8;         // squared standard deviations: 1 in 1000 is beyond, of two dimensions
+constexpr double kHalfHiddenGate = 4;  // of one that looks less like itself
+constexpr double kLeast = 0.3;         // correlation of all pixels, whatever agrees closely
+constexpr double kKeep = 0.5, kRegain = 0.7;  // correlations
 constexpr double kVisible = 0.45, kWhole = 0.8;
 constexpr double kShared = 0.3;       // overlap with another target that is seen
 constexpr double kClearlyBetter = 4;  // squared standard deviations
@@ -33,9 +36,19 @@ constexpr double kFormFree = 3;     // times the usual change of form, of what i
 constexpr double kFarWait = 0.5;    // s, of one at the edge of the gate
 constexpr double kAloneWait = 0.1;  // the same where nothing that looks like it was seen beside it
 constexpr double kNear = 2;         // squared standard deviations
-constexpr double kMostReach = 40;   // samples to each side that one picture's search goes
-constexpr int kKnown = 3;           // pictures after which a first velocity is known
-constexpr double kConfirm = 0.1;    // s for which a regained target must go on as expected
+constexpr int kStrict = 1, kPoints = 2, kExpected = 3;  // slack of looks
+constexpr double kMostReach = 40;                       // samples to each side that one picture's search goes
+constexpr int kKnown = 3;                               // pictures after which a first velocity is known
+constexpr double kConfirm = 0.1;  // s for which a regained target must go on as expected
+// Own sizes: bodies do not enter each other, so that what looks like the target so near to where it just was
+// is the target, wherever it was expected.
+constexpr double kItself = 0.6;
+constexpr double kOnward = 1.25;      // of its way of late: how far it may have gone another way
+constexpr double kBetter = 0.1;       // of correlations
+constexpr double kRoam = 3;           // s, for which it is looked for about where it was seen last
+constexpr double kUnrestMemory = 10;  // pictures
+
+int slack_of(double far) { return far < kNear ? kExpected : kStrict; }
 
 double size_of(const Box& box) { return std::sqrt(box.w * box.h); }
 
@@ -140,7 +153,7 @@ std::optional<Target::Flow> Target::flow(const cv::Mat& before, const cv::Mat& n
       const Eigen::Vector2d at = shifted(to[i], z.tl());
       const Eigen::Vector2d own = shifted(guessed[i], z.tl());
       const Eigen::Vector2d still = plane_step(ground, {points[i].x, points[i].y}).to;
-      if ((still - own).norm() > 1.5 && (at - still).norm() < 0.3 * (still - own).norm()) continue;
+      if ((still - own).norm() > kStill && (at - still).norm() < 0.3 * (still - own).norm()) continue;
       good0.push_back(points[i]);
       good1.emplace_back(to[i].x + float(z.x), to[i].y + float(z.y));
     }
@@ -190,20 +203,22 @@ std::optional<Target::Flow> Target::flow(const cv::Mat& before, const cv::Mat& n
   return result;
 }
 
-/// Something that stood there when the target was last seen elsewhere is not the target.
-bool Target::was_there_before(const cv::Mat& now, const View& view) const {
-  const PlaneStep back = plane_step(last_seen_.ground.inverse(), view.centre);
-  if ((back.to - last_seen_.view.centre).norm() < 0.7 * size_of(box())) return false;
-  View then = view;
+/// Something that stood there when the target was last seen elsewhere is not the target: the place looked as
+/// much like it then as it does now.
+bool Target::was_there_before(const Match& match) const {
+  const PlaneStep back = plane_step(last_seen_.ground.inverse(), match.view.centre);
+  const double size = size_of(box());
+  if ((back.to - last_seen_.view.centre).norm() < 0.7 * size) return false;
+  View then = match.view;
   then.centre = back.to;
   then.turn += back.turn();
   then.scale *= back.scale();
-  const Appearance shown(now, view, {first_.w, first_.h});
-  return shown.align(last_seen_.picture, then, nullptr).correlation > 0.6;
+  const double alike = recent_.align(last_seen_.picture, then, nullptr).alike;
+  return alike > match.agreement.alike - kBetter && (then.centre - back.to).norm() < 0.3 * size;
 }
 
 std::vector<Target::Match> Target::look_alikes(const cv::Mat& grey, const View& about, double reach,
-                                               double far) const {
+                                               int slack) const {
   const cv::Mat pattern = recent_.picture();
   const double step = recent_.step() * about.scale;  // picture px a sample
   double coarse = 1;
@@ -249,7 +264,7 @@ std::vector<Target::Match> Target::look_alikes(const cv::Mat& grey, const View& 
         -1.f;
     const Form form = form_about(match.view, kFormFree);
     match.agreement = recent_.align(grey, match.view, &form);
-    if (like_itself(match.agreement, far)) matches.push_back(match);
+    if (like_itself(match.agreement, slack)) matches.push_back(match);
   }
   return matches;
 }
@@ -259,7 +274,7 @@ void Target::remember_rivals(const cv::Mat& grey) {
   std::erase_if(rivals_,
                 [&](const Rival& r) { return (age_ - r.seen) * options_.frame_seconds > kRivalMemory; });
   const double size = size_of(box());
-  for (const Match& match : look_alikes(grey, view_, kRivals * size, kGate)) {
+  for (const Match& match : look_alikes(grey, view_, kRivals * size, kStrict)) {
     const Eigen::Vector2d d = match.view.centre - view_.centre;
     if (d.norm() < 0.5 * size) continue;
     const Eigen::Vector2d beside = Eigen::Rotation2Dd(-view_.turn) * d / view_.scale;
@@ -274,43 +289,96 @@ void Target::remember_rivals(const cv::Mat& grey) {
   }
 }
 
+bool Target::is_rival(const View& own, const Eigen::Vector2d& centre, const Eigen::Matrix2d& inverse,
+                      double far) const {
+  return std::any_of(rivals_.begin(), rivals_.end(), [&](const Rival& r) {
+    const Eigen::Vector2d there = own.centre + own.scale * (Eigen::Rotation2Dd(own.turn) * r.beside);
+    return (age_ - r.seen) * options_.frame_seconds < kRivalMemory &&
+           (centre - there).dot(inverse * (centre - there)) < far;
+  });
+}
+
+std::optional<Target::Match> Target::manoeuvre(const cv::Mat& now, const View& still, const View& guess,
+                                               const std::optional<Match>& tried,
+                                               std::span<const Box> others) {
+  const double size = size_of(box());
+  const double reach = std::max(kItself * size, kOnward * filter_.velocity().norm());
+  std::vector<Match> found = look_alikes(now, still, reach, kStrict);
+  View view = still;
+  Agreement agreement;
+  if (settle(now, still, view, agreement, 0)) found.push_back({view, agreement});
+  std::erase_if(found, [&](const Match& match) { return !like_itself(match.agreement, kStrict); });
+  if (tried) found.push_back(*tried);
+  const Eigen::Matrix2d even = Eigen::Matrix2d::Identity();
+  std::erase_if(found, [&](const Match& match) {
+    const double far = (match.view.centre - still.centre).norm();
+    const Box there = box_at(match.view);
+    return far > reach || std::abs(match.view.scale / still.scale - 1) > 0.15 ||
+           std::abs(match.view.turn - still.turn) > 0.3 ||
+           std::any_of(others.begin(), others.end(),
+                       [&](const Box& o) { return overlap(o, there) > kShared; }) ||
+           is_rival(still, match.view.centre, even, far * far) ||
+           is_rival(guess, match.view.centre, even, far * far) || was_there_before(match);
+  });
+  if (found.empty()) return std::nullopt;
+  return *std::max_element(found.begin(), found.end(), [](const Match& a, const Match& b) {
+    return a.agreement.alike < b.agreement.alike;
+  });
+}
+
 std::optional<Target::Candidate> Target::search(const cv::Mat& now, const Eigen::Matrix2d& gate,
                                                 std::span<const Box> others) const {
   const double size = size_of(box());
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(gate);
   const double reach = std::sqrt(kGate * eigen.eigenvalues()(1));
-  // A large gate is searched in parts, one a picture; so are turns besides the expected one.
-  constexpr double kMostParts = 1000;  // to each side: a million pictures, longer than any search
-  const int parts =
-      std::max(1, int(std::min(kMostParts, std::ceil(reach / (kMostReach * recent_.step() * view_.scale)))));
-  const int part = hidden_ % (parts * parts);
-  const double cell = 2 * reach / parts;
-  View about = view_;
-  about.centre += Eigen::Vector2d((part % parts + 0.5) * cell - reach, (part / parts + 0.5) * cell - reach);
-  const double turns[] = {0, 0.25, -0.25};
-  if (hidden_ * options_.frame_seconds > 0.5) about.turn += turns[hidden_ / (parts * parts) % 3];
+  // A large area is searched in parts, one a picture; so are turns besides the expected one.
+  const auto matches_about = [&](const Eigen::Vector2d& centre, double to) {
+    constexpr double kMostParts = 1000;  // to each side: a million pictures, longer than any search
+    const int parts =
+        std::max(1, int(std::min(kMostParts, std::ceil(to / (kMostReach * recent_.step() * view_.scale)))));
+    const int part = hidden_ % (parts * parts);
+    const double cell = 2 * to / parts;
+    View about = view_;
+    about.centre =
+        centre + Eigen::Vector2d((part % parts + 0.5) * cell - to, (part / parts + 0.5) * cell - to);
+    const double turns[] = {0, 0.25, -0.25};
+    if (hidden_ * options_.frame_seconds > 0.5) about.turn += turns[hidden_ / (parts * parts) % 3];
+    return look_alikes(now, about, 0.5 * cell, kExpected);
+  };
+  // It may have stopped or turned when it was seen last.
+  const Eigen::Vector2d still = plane_step(last_seen_.ground, last_seen_.view.centre).to;
+  const double roam =
+      std::min(kRivals * size, kItself * size + kOnward * hidden_ * filter_.velocity().norm());
+  const bool roams = hidden_ * options_.frame_seconds < kRoam;
   const Eigen::Matrix2d inverse = gate.inverse();
   const auto far_from = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
     return (a - b).dot(inverse * (a - b));
   };
-  const auto is_rival = [&](const Eigen::Vector2d& centre, double far) {
-    return std::any_of(rivals_.begin(), rivals_.end(), [&](const Rival& r) {
-      const Eigen::Vector2d there = view_.centre + view_.scale * (Eigen::Rotation2Dd(view_.turn) * r.beside);
-      return (age_ - r.seen) * options_.frame_seconds < kRivalMemory && far_from(centre, there) < far;
-    });
-  };
   std::vector<Candidate> found;
-  for (const Match& match : look_alikes(now, about, 0.5 * cell, 0)) {
+  std::vector<Match> matches = matches_about(view_.centre, reach);
+  Match there{view_, {}};
+  const Form form = form_about(view_, kFormFree);
+  there.agreement = recent_.align(now, there.view, &form);
+  matches.push_back(there);
+  if (roams) {
+    const std::vector<Match> more = matches_about(still, roam);
+    matches.insert(matches.end(), more.begin(), more.end());
+  }
+  for (const Match& match : matches) {
     const View& view = match.view;
-    const double far = far_from(view.centre, view_.centre);
-    const Box there = box_at(view);
-    if (far > kGate || !like_itself(match.agreement, far) || std::abs(view.scale / view_.scale - 1) > 0.2 ||
+    double far = far_from(view.centre, view_.centre);
+    const Box box_there = box_at(view);
+    if (far > kGate) {
+      if (!roams || (view.centre - still).norm() > roam) continue;
+      far = kGate;
+    }
+    if (!like_itself(match.agreement, slack_of(far)) || std::abs(view.scale / view_.scale - 1) > 0.2 ||
         std::abs(view.turn - view_.turn) > 0.6 ||
         std::any_of(others.begin(), others.end(),
-                    [&](const Box& o) { return overlap(o, there) > kShared; }) ||
-        is_rival(view.centre, far) || was_there_before(now, view))
+                    [&](const Box& o) { return overlap(o, box_there) > kShared; }) ||
+        is_rival(view_, view.centre, inverse, far_from(view.centre, view_.centre)) || was_there_before(match))
       continue;
-    found.push_back({view, far + std::pow((1 - match.agreement.correlation) / 0.1, 2), far, 1});
+    found.push_back({view, far + std::pow((1 - match.agreement.alike) / 0.1, 2), far, 1});
   }
   if (found.empty()) return std::nullopt;
   std::sort(found.begin(), found.end(),
@@ -322,16 +390,57 @@ std::optional<Target::Candidate> Target::search(const cv::Mat& now, const Eigen:
   return found[0];
 }
 
+std::optional<Target::Match> Target::follow_candidate(const cv::Mat& now, const Eigen::Matrix3d& ground,
+                                                      const Eigen::Vector2d& expected) {
+  const double size = size_of(box());
+  const PlaneStep along = plane_step(ground, candidate_->view.centre);
+  View still = candidate_->view;
+  still.centre = along.to;
+  still.turn += along.turn();
+  still.scale *= along.scale();
+  std::optional<Match> best;
+  const auto take = [&](const View& from) {
+    Match match{from, {}};
+    if (!settle(now, from, match.view, match.agreement, 0) ||
+        !like_itself(match.agreement, slack_of(candidate_->far)) ||
+        (match.view.centre - from.centre).norm() > 1.5 + 0.08 * size)
+      return false;
+    best = match;
+    return true;
+  };
+  View onward = still;
+  onward.turn += turning_;
+  onward.centre += expected;  // as it was expected to move itself
+  if (take(onward)) {
+    candidate_->moved = best->view.centre - still.centre;
+    candidate_->view = best->view;
+    return best;
+  }
+  // It goes another way, which is less likely.
+  onward.centre = still.centre + candidate_->moved;
+  if (!take(onward) && !take(still))
+    for (const Match& match : look_alikes(now, still, kItself * size, kStrict))
+      if ((match.view.centre - still.centre).norm() < kItself * size &&
+          (!best || match.agreement.alike > best->agreement.alike))
+        best = match;
+  if (!best) return std::nullopt;
+  candidate_->moved = best->view.centre - still.centre;
+  candidate_->view = best->view;
+  candidate_->cost = std::max(candidate_->cost, kGate);
+  candidate_->far = kGate;
+  return best;
+}
+
 Form Target::form_about(const View& view, double times) const {
   const double dt = options_.frame_seconds;
   return {view, times * (kTurnStep + kTurnRate * dt), times * (kScaleStep + kScaleRate * dt)};
 }
 
-bool Target::like_itself(const Agreement& agreement, double far) const {
-  // Right where it is expected it may look less like itself: the light and the ground about it change.
-  const double allowed = far < kNear ? 2 : 1;
-  return agreement.correlation > std::max(kRegain - (allowed - 1) * 0.1, usual_ - 0.12 * allowed) &&
-         agreement.visible > std::max(0.6 - (allowed - 1) * 0.1, usual_visible_ - 0.1 * allowed);
+bool Target::like_itself(const Agreement& agreement, int slack) const {
+  // Right where it is expected it may look less like itself: the light and the ground about it change, and
+  // part of it may still be hidden.
+  return agreement.alike > std::max(kRegain - 0.1 * (slack - 1), usual_ - 0.12 * slack) &&
+         agreement.visible > std::max(0.6 - 0.05 * (slack - 1), usual_visible_ - 0.1 * slack);
 }
 
 double Target::deviation() const { return kMeasured + kMeasuredOfSize * size_of(box()); }
@@ -350,7 +459,8 @@ bool Target::settle(const cv::Mat& now, const View& guess, View& view, Agreement
     view.turn += 0.5 * (first.turn - view.turn);
     view.scale += 0.5 * (first.scale - view.scale);
   }
-  return agreement.correlation > (points >= 4 ? kKeep : std::max(kKeep, usual_ - 0.25)) &&
+  return agreement.correlation > std::max(kLeast, 0.5 * usual_correlation_) &&
+         agreement.alike > (points >= 4 ? kKeep : std::max(kKeep + 0.05, usual_ - 0.35)) &&
          agreement.visible > kVisible && agreement.inside > 0.6;
 }
 
@@ -366,21 +476,29 @@ Sighting Target::hidden(const Eigen::Matrix2d& gate) {
   return s;
 }
 
-void Target::accept(const cv::Mat& now, const View& view, const Agreement& agreement) {
+void Target::accept(const cv::Mat& now, const View& view, const Agreement& agreement,
+                    const std::optional<Eigen::Vector2d>& velocity) {
   view_ = view;
-  // A picture that the camera left out makes a jump that is no new velocity.
   const Eigen::Vector2d d = view.centre - filter_.centre();
   const Eigen::Matrix2d r = round_covariance(deviation());
   const double far = d.dot((filter_.covariance() + r).inverse() * d);
-  filter_.update(view.centre, hidden_ > 0 ? r : r * std::max(1.0, far / 4));
+  if (velocity) {
+    filter_.restart(view.centre, *velocity, deviation(),
+                    0.5 * (*velocity - filter_.velocity()).norm() + deviation());
+  } else {
+    filter_.update(view.centre, r);
+  }
+  if (hidden_ == 0) unrest_ += (std::min(far, 100.0) / 2 - unrest_) / kUnrestMemory;
   hidden_ = 0;
   ++followed_;
   candidate_.reset();
   if (agreement.visible > kWhole) {
-    usual_ += 0.1 * (agreement.correlation - usual_);
-    usual_visible_ += 0.1 * (agreement.visible - usual_visible_);
+    const double rate = std::max(0.1, 1.0 / age_);
+    usual_ += rate * (agreement.alike - usual_);
+    usual_correlation_ += rate * (agreement.correlation - usual_correlation_);
+    usual_visible_ += rate * (agreement.visible - usual_visible_);
   }
-  if (agreement.correlation > std::max(0.75, usual_ - 0.1) && agreement.visible > kWhole)
+  if (agreement.correlation > std::max(0.75, usual_correlation_ - 0.1) && agreement.visible > kWhole)
     recent_.learn(now, view, 0.09);
   const double finer = view.scale * anchor_.step();
   if (agreement.correlation > 0.85 && agreement.visible > kWhole && (finer > 1.6 || finer < 0.6) &&
@@ -398,7 +516,8 @@ Sighting Target::step(const cv::Mat& before, const cv::Mat& now, const Eigen::Ma
   const double dt = options_.frame_seconds;
   ++age_;
   const View was = view_;
-  filter_.set_acceleration(kChange * size_of(first_) * view_.scale * dt * dt);
+  filter_.set_acceleration(kChange * size_of(first_) * view_.scale * dt * dt *
+                           std::sqrt(std::max(1.0, unrest_)));
   filter_.predict(ground, turning_);
   const PlaneStep step = plane_step(ground, was.centre);
   View guess = was;
@@ -442,7 +561,7 @@ Sighting Target::step(const cv::Mat& before, const cv::Mat& now, const Eigen::Ma
       View other = guess;
       Agreement with_guess;
       const bool again = settle(now, guess, other, with_guess, 0);
-      if (again && (!good || with_guess.correlation > agreement.correlation)) {
+      if (again && (!good || with_guess.alike > agreement.alike)) {
         view = other;
         agreement = with_guess;
         good = true;
@@ -452,7 +571,7 @@ Sighting Target::step(const cv::Mat& before, const cv::Mat& now, const Eigen::Ma
       // A picture left out, a first velocity unknown: it may be too far for both, but within the gate.
       const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(gate);
       double nearest = kGate;
-      for (const Match& match : look_alikes(now, guess, std::sqrt(kGate * eigen.eigenvalues()(1)), kGate)) {
+      for (const Match& match : look_alikes(now, guess, std::sqrt(kGate * eigen.eigenvalues()(1)), kStrict)) {
         const Eigen::Vector2d off = match.view.centre - guess.centre;
         const double far = off.dot(gate.inverse() * off);
         if (far >= nearest) continue;
@@ -463,41 +582,54 @@ Sighting Target::step(const cv::Mat& before, const cv::Mat& now, const Eigen::Ma
       }
     }
     const Eigen::Vector2d d = view.centre - guess.centre;
-    const bool gated =
-        d.dot(gate.inverse() * d) < kGate || (d.norm() < 0.3 * size && agreement.correlation > 0.8);
-    if (good && gated && std::abs(view.scale / guess.scale - 1) < 0.15 &&
-        std::abs(view.turn - guess.turn) < 0.3) {
-      const double rate = std::min(0.5, dt / kTurnMemory);
-      turning_ += rate * (view.turn - guess.turn);
-      accept(now, view, agreement);
-      return sighting(agreement);
+    // What crosses it hides a part of it and moves in another way: it is not to be taken for it.
+    const bool as_usual = like_itself(agreement, kStrict);
+    const double far = d.dot(gate.inverse() * d);
+    const bool gated = far < (as_usual ? kGate : kHalfHiddenGate) ||
+                       (d.norm() < 0.3 * size && agreement.correlation > 0.8 && as_usual);
+    const bool expected_there = good && gated && std::abs(view.scale / guess.scale - 1) < 0.15 &&
+                                std::abs(view.turn - guess.turn) < 0.3;
+    View still = was;
+    still.centre = step.to;
+    still.turn += step.turn();
+    still.scale *= step.scale();
+    std::optional<Eigen::Vector2d> velocity;
+    if (!expected_there || !as_usual) {
+      last_seen_ = {before, was, ground};
+      // Points that move over the ground are not those of what hides it.
+      const bool points = followed && followed->points >= 4 && (view.centre - still.centre).norm() > kStill;
+      const bool tried = good && like_itself(agreement, points ? kPoints : kStrict);
+      const std::optional<Match> other = manoeuvre(
+          now, still, guess, tried ? std::optional<Match>({view, agreement}) : std::nullopt, others);
+      if (other && (!expected_there || other->agreement.alike > agreement.alike + kBetter)) {
+        view = other->view;
+        agreement = other->agreement;
+        velocity = view.centre - still.centre;
+      } else if (!expected_there) {
+        last_seen_.picture = before.clone();
+        view_ = guess;
+        return hidden(gate);
+      }
     }
-    last_seen_ = {before.clone(), was, ground};
-    view_ = guess;
-    return hidden(gate);
+    const double rate = std::min(0.5, dt / kTurnMemory);
+    turning_ += rate * (view.turn - guess.turn);
+    accept(now, view, agreement, velocity);
+    return sighting(agreement);
   }
 
   // Hidden: what is found must go on as expected for some pictures before it is believed.
   view_ = guess;
   last_seen_.ground = ground * last_seen_.ground;
   if (candidate_) {
-    View view = candidate_->view;
-    const PlaneStep along = plane_step(ground, view.centre);
-    view.centre = along.to + guess.centre - step.to;  // as it was expected to move itself
-    view.turn += along.turn() + turning_;
-    view.scale *= along.scale();
-    const View expected_view = view;
-    Agreement agreement;
-    const bool good = settle(now, expected_view, view, agreement, 0);
-    if (good && like_itself(agreement, candidate_->far) &&
-        (view.centre - expected_view.centre).norm() < 1.5 + 0.08 * size) {
-      candidate_->view = view;
+    const std::optional<Match> match = follow_candidate(now, ground, guess.centre - step.to);
+    if (match) {
       // One that is far from where it is expected waits for longer: the right one may come out yet.
       const double wait = rivals_.empty() ? kAloneWait : kFarWait;
       const int least = rivals_.empty() ? confirmed_ : std::max(2, confirmed_);
       if (++candidate_->seen >= least + wait * candidate_->cost / kGate / dt) {
-        accept(now, view, agreement);
-        return sighting(agreement);
+        accept(now, match->view, match->agreement,
+               candidate_->far < kGate ? std::nullopt : std::optional(candidate_->moved));
+        return sighting(match->agreement);
       }
     } else {
       candidate_.reset();

@@ -19,9 +19,7 @@ PlaneStep plane_step(const Eigen::Matrix3d& ground, const Eigen::Vector2d& from)
 
 TargetFilter::TargetFilter(const Eigen::Vector2d& centre, double position, double speed, double acceleration)
     : acceleration_(acceleration) {
-  x_.head<2>() = centre;
-  const double p = position * position, v = speed * speed;
-  p_ = Eigen::Vector4d(p, p, v, v).asDiagonal();
+  restart(centre, Eigen::Vector2d::Zero(), position, speed);
 }
 
 void TargetFilter::predict(const Eigen::Matrix3d& ground, double turn) {
@@ -46,6 +44,13 @@ void TargetFilter::place(const Eigen::Vector2d& centre, const Eigen::Matrix2d& c
   p_.topLeftCorner<2, 2>() = covariance;
   p_.topRightCorner<2, 2>().setZero();
   p_.bottomLeftCorner<2, 2>().setZero();
+}
+
+void TargetFilter::restart(const Eigen::Vector2d& centre, const Eigen::Vector2d& velocity, double position,
+                           double speed) {
+  x_ << centre, velocity;
+  const double p = position * position, v = speed * speed;
+  p_ = Eigen::Vector4d(p, p, v, v).asDiagonal();
 }
 
 void TargetFilter::update(const Eigen::Vector2d& centre, const Eigen::Matrix2d& covariance) {

@@ -28,6 +28,8 @@ class TargetFilter {
   /// Somebody else knows where the target is; its velocity stays.
   void place(const Eigen::Vector2d& centre, const Eigen::Matrix2d& covariance);
   void update(const Eigen::Vector2d& centre, const Eigen::Matrix2d& covariance);
+  /// What it did before is no guide: `velocity` in px a picture; `position` and `speed`: standard deviations.
+  void restart(const Eigen::Vector2d& centre, const Eigen::Vector2d& velocity, double position, double speed);
 
   [[nodiscard]] Eigen::Vector2d centre() const { return x_.head<2>(); }
   [[nodiscard]] Eigen::Vector2d velocity() const { return x_.tail<2>(); }  // px a picture

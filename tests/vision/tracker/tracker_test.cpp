@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "appearance.h"
 #include "street.h"
 
 namespace vericone::vision::tracker_test {
@@ -199,6 +200,64 @@ TEST(Tracker, SearchesWhereItIsTold) {
   }
   EXPECT_TRUE(last.measured);
   EXPECT_LT((last.box.centre() - street::box_of(camera, car).centre()).norm(), 0.5);
+}
+
+/// Pictures in which a car is not measured, or is 2 px off, that goes along `places`, m, seen by a small
+/// camera at rest.
+int missed(const std::vector<Eigen::Vector2d>& places) {
+  Camera camera;
+  camera.width = 160;
+  camera.height = 120;
+  const auto follower = tracker({.frame_seconds = kStep});
+  int result = 0;
+  for (std::size_t frame = 0; frame < places.size(); ++frame) {
+    Car car;
+    car.position = places[frame];
+    const Image image = street::picture(camera, {car}, {}, frame);
+    const Box box = street::box_of(camera, car);
+    if (frame == 0) {
+      follower->start(image, std::span(&box, 1));
+      continue;
+    }
+    const Sighting s = follower->step(image, Eigen::Matrix3d::Identity(), {})[0];
+    result += !s.measured || (s.box.centre() - box.centre()).norm() > 2;
+  }
+  return result;
+}
+
+TEST(Tracker, KeepsWhatStopsTurnsAndTurnsBackAtOnce) {
+  // A metre and a half a picture, 5 px of a car of 20 x 8.
+  const Eigen::Vector2d along(1.5, 0), across(0, 1.5), none(0, 0);
+  for (const Eigen::Vector2d& after : {none, across, Eigen::Vector2d(-along)}) {
+    std::vector<Eigen::Vector2d> places{{-15, -5}};
+    for (int k = 0; k < 18; ++k) places.push_back(places.back() + (k < 12 ? along : after));
+    EXPECT_EQ(missed(places), 0) << after.transpose();
+  }
+}
+
+TEST(Tracker, KeepsWhatStartsAtOnceAndSpeedsUp) {
+  std::vector<Eigen::Vector2d> starts(8, {-15, -5}), speeds{{-20, 5}};
+  for (int k = 0; k < 10; ++k) starts.push_back(starts.back() + Eigen::Vector2d(2.1, 0));  // 7 px
+  Eigen::Vector2d v(0.6, 0);
+  for (int k = 0; k < 20; ++k, v.x() += 0.12) speeds.push_back(speeds.back() + v);  // 0.4 px/picture^2
+  EXPECT_EQ(missed(starts), 0);
+  EXPECT_EQ(missed(speeds), 0);
+}
+
+TEST(Appearance, ATwigIsNoDifference) {
+  // A line across a thing of little contrast: all pixels together say that it is another one.
+  cv::Mat plain(60, 60, CV_8U), line;
+  for (int v = 0; v < 60; ++v)
+    for (int u = 0; u < 60; ++u)
+      plain.at<std::uint8_t>(v, u) = std::uint8_t(120 + 20 * street::hash(u / 4, v / 4, 1));
+  plain.copyTo(line);
+  line(cv::Rect(0, 28, 60, 3)) = 250;
+  View view{{30, 30}, 1, 0};
+  const Appearance looks(plain, view, {30, 30});
+  const Agreement agreement = looks.align(line, view, nullptr);
+  EXPECT_LT(agreement.correlation, 0.5);
+  EXPECT_GT(agreement.alike, 0.75);
+  EXPECT_LE(agreement.alike, agreement.visible);
 }
 
 TEST(SourceTracker, FollowsAndLosesWhatIsHidden) {
