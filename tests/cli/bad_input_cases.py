@@ -671,6 +671,7 @@ COMMANDS += [
     ("a scene for a scenario", ["simulate", "FILE"], SCENE),
     ("a scene for a pursuit", ["pursue", "FILE"], SCENE),
     ("a pursuit for a scene", ["check", "FILE"], pursuit()),
+    ("a scan for a scene", ["check", "FILE.off"], "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
     ("a body for a scenario", ["trials", "FILE"], "{center: [0, 0, 0], semi_axes: [1, 2, 3]}\n"),
 ]
 QUERIES.insert(1, ("a misspelt kind of body", case(obstacle={"shape": ..., "meshes": "a.obj"})))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulate/check_command.h"
 
+#include <vericone/files/read_points.h>
 #include <vericone/geometry/error.h>
 #include <vericone/scenes/words.h>
 #include <algorithm>
@@ -116,6 +117,11 @@ void check_body(const std::string& file, scenario::Facts& facts) {
 }  // namespace
 
 int run_check(const std::string& file, bool json, std::ostream& out) {
+  std::vector<std::string> scans = files::known_extensions();
+  scans.insert(scans.end(), {".bt", ".ot"});
+  if (std::ranges::find(scans, fs::path(file).extension().string()) != scans.end())
+    throw InputError(file, "a scan or a map",
+                     "a scene, a scenario or a body; vericone fit reads scans and maps");
   const Json fields = input::read_scene_fields(file);
   if (!fields.is_object())
     throw InputError(file, input::quoted(fields),
