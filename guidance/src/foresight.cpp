@@ -27,15 +27,14 @@ Matrix3d Navigator::Flight::rotation(double t) const {
   return Eigen::Quaterniond::FromTwoVectors(now.ahead, v).toRotationMatrix();
 }
 
+Vector3d Navigator::Flight::moved(double t) const {
+  if (!(course.radius > 0)) return t * (now.velocity + 0.5 * t * course.most * course.aside);
+  const double turned = course.angle * t / course.turning;
+  return course.radius * (std::sin(turned) * now.ahead + (1 - std::cos(turned)) * course.aside);
+}
+
 Vector3d Navigator::Flight::center(double t) const {
-  Vector3d moved;
-  if (course.radius > 0) {
-    const double turned = course.angle * t / course.turning;
-    moved = course.radius * (std::sin(turned) * now.ahead + (1 - std::cos(turned)) * course.aside);
-  } else {
-    moved = t * (now.velocity + 0.5 * t * course.most * course.aside);
-  }
-  return now.position + rotation(t) * (now.body.center() - now.position) + moved;
+  return now.position + rotation(t) * (now.body.center() - now.position) + moved(t);
 }
 
 Ellipsoid Navigator::Flight::body(double t) const {
@@ -52,13 +51,14 @@ bool Navigator::Body::holds(const Vector3d& point, double margin) const {
   return bounds.contains(itself->pose.to_body(point));
 }
 
-Near Navigator::Body::near(const Sweep& sweep, const Wanted& wanted) const {
+Near Navigator::Body::near(const Sweep& sweep, Wanted wanted) const {
   // The balls first.
   const Vector3d c = body.center() - sweep.agent.center();
   const double square = sweep.along.squaredNorm();
   const double part = square > 0 ? std::clamp(c.dot(sweep.along) / square, 0.0, 1.0) : 0;
   const double balls = (c - part * sweep.along).norm() - reach - wanted.reach;
   if (balls >= wanted.enough) return {balls};
+  wanted.normal = &normal;
   return itself ? courses::near(sweep, *itself, wanted) : courses::near(sweep, body, wanted);
 }
 
@@ -82,9 +82,16 @@ struct Navigator::Chord {
       beside += std::min(2.0, turned) * now.uneven + 0.5 * offset * turned * turned;
     }
     fine = beside <= 5e-4 * now.reach || span <= 0.25 * now.step;
-    const Vector3d from = flight.center(begin) - begin * other.velocity;
-    sweep = {now.carried ? flight.body(middle) : now.body, flight.center(end) - end * other.velocity - from};
+    const Vector3d from = flight.center(begin) - (now.since + begin) * other.velocity;
+    sweep = {now.carried ? flight.body(middle) : now.body,
+             flight.center(end) - (now.since + end) * other.velocity - from};
     sweep.agent = sweep.agent.translated(from - sweep.agent.center());
+  }
+  /// The part of it where the centres are nearest.
+  [[nodiscard]] double nearest(const Body& other) const {
+    const double square = sweep.along.squaredNorm();
+    const Vector3d c = other.body.center() - sweep.agent.center();
+    return square > 0 ? std::clamp(c.dot(sweep.along) / square, 0.0, 1.0) : 0;
   }
 };
 
@@ -92,25 +99,40 @@ struct Navigator::Chord {
 /// tried are left here.
 bool Navigator::fails(const Flight& flight, const Body& other, double begin, double end,
                       double hopeless) const {
+  ++looks_;
   const Chord chord(flight, other, begin, end);
   const double middle = 0.5 * (begin + end);
   if (chord.fine || chord.beside <= 0.25 * flight.now.reach) {
     const double enough = hopeless + chord.beside;
     const double found = other
                              .near(chord.sweep, {enough, std::max(0.0, hopeless - chord.beside),
-                                                 Meeting::whether, flight.now.reach})
+                                                 Meeting::whether, flight.now.reach, chord.fine ? 1e-3 : 0.5})
                              .distance;
     if (found >= enough) return false;
     if (chord.fine) return found <= hopeless;
     if (found + chord.beside <= hopeless) return true;
+    // As near as this it is mostly so at the nearest instant too, and nothing else need be looked at.
+    if (found <= hopeless && fails_at(flight, other, begin + chord.nearest(other) * (end - begin), hopeless))
+      return true;
   }
   return fails(flight, other, begin, middle, hopeless) || fails(flight, other, middle, end, hopeless);
+}
+
+/// At `t` of the manoeuvre.
+bool Navigator::fails_at(const Flight& flight, const Body& other, double t, double hopeless) const {
+  const Vector3d there = flight.center(t) - (flight.now.since + t) * other.velocity;
+  const Ellipsoid body = flight.now.carried ? flight.body(t) : flight.now.body;
+  return other
+             .near({body.translated(there - body.center()), Vector3d::Zero()},
+                   {hopeless + kAlmost, hopeless, Meeting::whether, flight.now.reach})
+             .distance <= hopeless;
 }
 
 /// From `begin` to `end` of the manoeuvre: on the chord first, and where what is beside it may matter on its
 /// halves, in the order of time.
 void Navigator::see_turn(const Flight& flight, const Body& other, double begin, double end, Meeting meeting,
                          Approach& seen) const {
+  ++looks_;
   const Chord chord(flight, other, begin, end);
   const double middle = 0.5 * (begin + end), beside = chord.beside;
   const double enough = seen.least + (chord.fine ? 0 : beside);
@@ -141,7 +163,7 @@ void Navigator::see_straight(const Flight& flight, const Body& other, double beg
   const Vector3d w = flight.course.velocity - other.velocity;
   const double speed = w.norm(), reach = other.reach + now.reach;
   const Vector3d start = flight.center(turning) + (begin - turning) * flight.course.velocity;
-  const Vector3d c = other.body.center() + begin * other.velocity - start;
+  const Vector3d there = (now.since + begin) * other.velocity, c = other.body.center() + there - start;
   if (!(speed > 1e-9 * (now.speed + flight.course.velocity.norm() + other.velocity.norm()))) end = begin;
   // Once past it, and the reach of both, they move apart.
   end = std::min(end, begin + (std::max(0.0, c.dot(w)) / speed + reach) / speed);
@@ -150,7 +172,7 @@ void Navigator::see_straight(const Flight& flight, const Body& other, double beg
   const double part = end > begin ? std::clamp(c.dot(along) / along.squaredNorm(), 0.0, 1.0) : 0;
   if ((c - part * along).norm() - reach >= seen.least) return;
   const Ellipsoid agent = flight.body(turning);
-  const Near found = other.near({agent.translated(start - begin * other.velocity - agent.center()), along},
+  const Near found = other.near({agent.translated(start - there - agent.center()), along},
                                 {seen.least, seen.hopeless, meeting, now.reach});
   if (found.distance >= seen.least) return;
   seen.least = found.distance;
@@ -166,7 +188,7 @@ Navigator::Approach Navigator::see(const Flight& flight, const Body& other, doub
   seen.least = enough;
   seen.hopeless = hopeless;
   const double turning = flight.course.turning,
-               end = std::max(begin, std::min(flight.course.until, other.matters));
+               end = std::max(begin, std::min(flight.course.until, other.matters - flight.now.since));
   // The straight part first: what is no good is so there mostly.
   if (end >= turning) see_straight(flight, other, std::max(begin, turning), end, meeting, seen);
   if (!(begin < turning) || (seen.done() && meeting == Meeting::whether)) return seen;
@@ -185,7 +207,8 @@ Navigator::Approach Navigator::see(const Flight& flight, const Body& other, doub
 
 /// Whether they meet before `until`.
 bool Navigator::meets(const Flight& flight, const Body& other, double until) const {
-  const double end = std::min({until, flight.course.until, other.matters}), turning = flight.course.turning;
+  const double end = std::min({until, flight.course.until, other.matters - flight.now.since}),
+               turning = flight.course.turning;
   Approach straight;
   straight.least = 1e-300;
   if (end > turning) see_straight(flight, other, turning, end, Meeting::whether, straight);
@@ -202,7 +225,7 @@ Navigator::Foreseen Navigator::foresee(const Moment& now, const Course& course, 
     // First the one that the course before failed by.
     const std::size_t i = n == 0 ? failed_by_ : n <= failed_by_ ? n - 1 : n;
     const Body& other = bodies_[i];
-    if (floor.hits() && meets(flight, other, floor.hit)) {
+    if (floor.hits() && floor.hit > now.since && meets(flight, other, floor.hit - now.since)) {
       failed_by_ = i;
       return {0, 0};
     }
@@ -212,8 +235,9 @@ Navigator::Foreseen Navigator::foresee(const Moment& now, const Course& course, 
     Approach seen =
         see(flight, other, 0, std::max(enough, 1e-300), std::min(floor.kept, enough - kAlmost), meeting);
     if (near && seen.least >= enough)
-      seen = see(flight, other, std::min(0.5 * now.to_turn, course.until), result.kept, floor.kept, meeting);
-    if (seen.hit < result.hit) result.hit = seen.hit;
+      seen = see(flight, other, std::clamp(0.5 * now.to_turn - now.since, 0.0, course.until), result.kept,
+                 floor.kept, meeting);
+    result.hit = std::min(result.hit, now.since + seen.hit);
     result.kept = result.hits() ? 0 : std::min(result.kept, seen.least);
     if (!result.better_than(floor)) {
       failed_by_ = i;
@@ -223,18 +247,63 @@ Navigator::Foreseen Navigator::foresee(const Moment& now, const Course& course, 
   return result;
 }
 
-/// Of the course that is flown, how near it comes to what it comes nearest to, whatever is required.
-void Navigator::tell(const Moment& now, const Course& course, NavigatorStep& step) const {
+/// When it has flown the course for `t` seconds.
+Navigator::Moment Navigator::later(const Moment& now, const Course& course, double t) {
   const Flight flight(now, course);
-  Approach nearest;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const Approach seen = see(flight, bodies_[i], 0, std::max(nearest.least, 1e-300), 0, Meeting::depth);
-    if (!(seen.hit < nearest.hit) && !(seen.least < nearest.least)) continue;
-    if (nearest.hit < kFar && !(seen.hit < nearest.hit)) continue;
-    nearest = seen;
-    step.nearest = i;
+  const double turned = std::min(t, course.turning);
+  const Vector3d straight = (t - turned) * course.velocity;
+  Moment then = now;
+  then.position = now.position + flight.moved(turned) + straight;
+  then.velocity = t < course.turning ? flight.velocity(t) : course.velocity;
+  then.speed = then.velocity.norm();
+  if (then.speed > 0) then.ahead = then.velocity / then.speed;
+  then.body = flight.body(turned).translated(straight);
+  then.carried = now.carried && then.speed > 0;
+  then.since = now.since + t;
+  return then;
+}
+
+/// Of the course and those that follow it.
+Navigator::Foreseen Navigator::foresee_all(const Moment& now, Course course, const std::vector<Leg>& legs,
+                                           double time) {
+  if (legs.empty()) return foresee(now, course, Foreseen::nothing());
+  Foreseen all;
+  Moment at = now;
+  for (std::size_t i = 0;; ++i) {
+    if (i < legs.size()) course.until = legs[i].begin - time - at.since;
+    const Foreseen part = foresee(at, course, Foreseen::nothing());
+    if (part.hits()) return part;
+    all.kept = std::min(all.kept, part.kept);
+    if (i == legs.size()) return all;
+    at = later(at, course, course.until);
+    course = towards(at, legs[i].velocity, legs[i].most);
   }
-  step.least = nearest.hit < kFar ? -nearest.depth : nearest.least;
+}
+
+/// Of the course that is flown, how near it comes to what it comes nearest to, whatever is required.
+void Navigator::tell(const Moment& now, Course course, double time, NavigatorStep& step) const {
+  double least = kFar;
+  Moment at = now;
+  for (std::size_t leg = 0;; ++leg) {
+    if (leg < legs_.size()) course.until = legs_[leg].begin - time - at.since;
+    const Flight flight(at, course);
+    double hit = kFar, depth = 0;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const Approach seen = see(flight, bodies_[i], 0, std::max(least, 1e-300), 0, Meeting::depth);
+      if (seen.hit < hit) {
+        hit = seen.hit;
+        depth = seen.depth;
+      } else if (hit < kFar || !(seen.least < least)) {
+        continue;
+      }
+      least = seen.least;
+      step.nearest = i;
+    }
+    step.least = hit < kFar ? -depth : least;
+    if (hit < kFar || leg == legs_.size()) return;
+    at = later(at, course, course.until);
+    course = towards(at, legs_[leg].velocity, legs_[leg].most);
+  }
 }
 
 }  // namespace vericone::guidance

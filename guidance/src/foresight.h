@@ -26,6 +26,7 @@ struct Navigator::Moment {
   double pace;         // m/s: of velocities that are tried
   double most;         // m/s^2
   double to_turn = 0;  // s: within bodies that hold it no course matters for longer
+  double since = 0;    // s, of a moment to come: from the command
   bool planar, carried;
 };
 
@@ -39,13 +40,13 @@ struct Navigator::Course {
   double angle = 0;                                    // rad, of a turn
   double radius = 0;                                   // m, of its circle; 0: no turn
   double turning = 0;                                  // s, how long the manoeuvre takes
-  double until = kFar;                                 // s from now, when the course ends
+  double until = kFar;                                 // s from its moment, when the course ends
 };
 
 /// What courses are compared by: the larger the better. A course that hits keeps nothing.
 struct Navigator::Foreseen {
   double kept = kFar;  // m, of the whole course, as far as it counts; 0 where it hits
-  double hit = kFar;   // s, the first contact
+  double hit = kFar;   // s from the command, the first contact
   [[nodiscard]] bool hits() const { return hit < kFar; }
   [[nodiscard]] bool keeps(double metres) const { return !hits() && kept >= metres - kAlmost; }
   [[nodiscard]] bool better_than(const Foreseen& other) const {
@@ -63,6 +64,7 @@ struct Navigator::Flight {
   Flight(const Moment& at, const Course& on) : now(at), course(on), axis(at.ahead.cross(on.aside)) {}
   // While it turns:
   [[nodiscard]] Eigen::Vector3d velocity(double t) const;
+  [[nodiscard]] Eigen::Vector3d moved(double t) const;
   [[nodiscard]] Eigen::Matrix3d rotation(double t) const;  // of its body, since now
   [[nodiscard]] Eigen::Vector3d center(double t) const;    // of its body
   [[nodiscard]] Ellipsoid body(double t) const;
@@ -72,7 +74,7 @@ struct Navigator::Flight {
 struct Navigator::Approach {
   double least = kFar;  // m; 0 where it hits; before that what is as good as more
   double hopeless = 0;  // m: the course is no good that comes as near as this
-  double hit = kFar;    // s
+  double hit = kFar;    // s from its moment
   double depth = 0;     // m
   [[nodiscard]] bool done() const { return hit < kFar || least <= hopeless; }
 };

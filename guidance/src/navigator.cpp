@@ -20,6 +20,9 @@ using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kLookAgain = 0.5;      // s
+constexpr double kOfTimeLeft = 0.25;    // before a contact it looks again when this part of it has gone
+constexpr int kMostLooks = 8;           // ahead, before it says that all courses hit
+constexpr long kMostAhead = 20000;      // distances measured for them
 constexpr double kWorthChanging = 0.1;  // rad nearer to what is wanted
 constexpr double kUnhurriedTurn = 2;    // rad/s, where no acceleration is too much
 constexpr double kHurriedTurn = 32;     // rad/s, there, where that does not help
@@ -178,7 +181,7 @@ void Navigator::closer(const Moment& now, const Vector3d& wanted, double most, C
   const Vector3d found = course.velocity;
   const Vector3d aside = side_of(wanted.normalized(), found.normalized(), now.planar);
   const double angle = angle_between(wanted, found);
-  const Foreseen all{required_ + beyond_ - kAlmost, 0};
+  const Foreseen all{required_ + beyond_ - kAlmost, kFar};
   double low = 0, high = 1;
   for (int i = 0; i < 5; ++i) {
     const double part = 0.5 * (low + high);
@@ -188,7 +191,7 @@ void Navigator::closer(const Moment& now, const Vector3d& wanted, double most, C
             : Vector3d(std::cos(part * angle) * wanted.normalized() + std::sin(part * angle) * aside);
     const Course tried = towards(now, velocity, most);
     const Foreseen seen = foresee(now, tried, all);
-    if (!seen.keeps(required_ + beyond_)) {
+    if (!seen.better_than(all)) {
       low = part;
       continue;
     }
@@ -272,7 +275,7 @@ bool Navigator::search(const Moment& now, const Vector3d& wanted, double less_th
                        Foreseen& foreseen) {
   spread(now, wanted, less_than, 1);
   const bool any = less_than == kFar;
-  if (!any) foreseen = {required_ + beyond_ - kAlmost, 0};
+  if (!any) foreseen = {required_ + beyond_ - kAlmost, kFar};
   bool found = false;
   double most = now.most;
   while (true) {
@@ -292,9 +295,9 @@ bool Navigator::search(const Moment& now, const Vector3d& wanted, double less_th
     most *= 4;
   }
   if (any && refine(now, course, foreseen)) found = true;
-  // Before it says that all hit: between those tried too. In a map, which is not judged to its end, that is
-  // not worth what it costs.
-  if (!any || !foreseen.hits() ||
+  // Before it says that all hit: between those tried too. In a map, which is not judged to its end, and of
+  // what is to come, that is not worth what it costs.
+  if (!any || !foreseen.hits() || now.since > 0 ||
       std::any_of(bodies_.begin(), bodies_.end(), [](const Body& b) { return b.itself.has_value(); }))
     return found;
   spread(now, wanted, less_than, 2);
@@ -308,6 +311,41 @@ bool Navigator::search(const Moment& now, const Vector3d& wanted, double less_th
   }
   if (refine(now, course, foreseen)) found = true;
   return found;
+}
+
+/// Where all courses hit: flies on in thought by the one that hits last, looks again on the way as it will,
+/// and follows what it finds. False: nothing was found that is better.
+bool Navigator::look_farther(const Moment& now, const Wishes& wishes, double time, Course& course,
+                             Foreseen& foreseen) {
+  tried_.clear();
+  looks_ = 0;
+  Moment at = now;
+  Course of_leg = towards(now, course.velocity, course.asked);
+  Foreseen found = foreseen;
+  double contact = found.hit;
+  // What keeps next to nothing is soon lost again.
+  for (int look = 0; look < kMostLooks && looks_ < kMostAhead && found.kept < 0.02 * now.reach; ++look) {
+    at = later(at, of_leg, look_again(now, contact - at.since));
+    if (!(at.since < contact)) break;
+    of_leg = towards(at, of_leg.velocity, of_leg.asked);
+    Course better = of_leg;
+    if (!search(at, wishes(at, of_leg.velocity), kFar, better, found)) continue;
+    of_leg = better;
+    tried_.push_back({time + at.since, better.velocity, better.asked});
+    if (found.hits()) contact = found.hit;
+  }
+  if (tried_.empty()) return false;
+  course = towards(now, course.velocity, course.asked);
+  found = foresee_all(now, course, tried_, time);
+  if (!found.better_than(foreseen)) return false;
+  foreseen = found;
+  std::swap(legs_, tried_);
+  return true;
+}
+
+/// Seconds from one look to the next before a contact in `left` seconds.
+double Navigator::look_again(const Moment& now, double left) {
+  return std::max(1.0, std::floor(kOfTimeLeft * left / now.step + 1e-6)) * now.step;
 }
 
 namespace {
@@ -387,13 +425,18 @@ NavigatorStep Navigator::fly(const Moment& now, const std::optional<Destination>
   NavigatorStep result;
   Course course;
   if (!(now.speed > 0) && !options_.longitudinal) {
-    tell(now, course, result);
+    tell(now, course, time, result);
     const Foreseen stays = foresee(now, course, Foreseen::nothing());
     result.status = stays.hits() ? NavigatorStatus::cannot_avoid : NavigatorStatus::no_course;
     return result;
   }
   Foreseen foreseen = Foreseen::nothing();
   bool decided = false, way = false;
+  while (!legs_.empty() && legs_.front().begin < time + 0.5 * now.step) {
+    held_ = legs_.front().velocity;
+    turn_ = legs_.front().most;
+    legs_.erase(legs_.begin());
+  }
   // The way: to the destination, or of who may change its speed back to that of the start.
   std::optional<Course> direct;
   if (destination) direct = to_destination(now, *destination);
@@ -405,13 +448,16 @@ NavigatorStep Navigator::fly(const Moment& now, const std::optional<Destination>
     foreseen = foresee(now, course, Foreseen::nothing());
     way = decided = foreseen.keeps(held_is_way_ ? required_ : surely);
   }
-  const Vector3d wanted = !direct                 ? held_.value_or(now.velocity)
-                          : options_.longitudinal ? direct->velocity
-                                                  : Vector3d(destination->point - now.position);
+  const auto wants = [&](const Moment& at, const Vector3d& held) {
+    return !direct                 ? held
+           : options_.longitudinal ? direct->velocity
+                                   : Vector3d(destination->point - at.position);
+  };
+  const Vector3d wanted = wants(now, held_.value_or(now.velocity));
   if (!decided) {
     const bool had = held_.has_value() && !held_is_way_;
     const Course before = towards(now, had ? *held_ : now.velocity, had ? turn_ : now.most);
-    const Foreseen of_before = foresee(now, before, Foreseen::nothing());
+    const Foreseen of_before = foresee_all(now, before, legs_, time);
     decided = of_before.keeps(had ? required_ : surely);
     // Who keeps something gives it up for what is worth it only.
     const auto worth = [&](Foreseen in_hand) {
@@ -424,8 +470,10 @@ NavigatorStep Navigator::fly(const Moment& now, const std::optional<Destination>
       course = before;
       foreseen = of_before;
     }
-    const bool due = time >= next_look_;
-    if (decided ? direct && due : due || foreseen.hits() || foreseen.kept < 0.95 * kept_) {
+    const bool due = time > next_look_ - 0.5 * now.step,
+               worse = foreseen.kept < 0.95 * kept_ || time + foreseen.hit < hit_ - now.step;
+    // Who touches already hits on every course.
+    if (foreseen.hit > 0 && (decided ? direct && due : due || worse)) {
       Course better = course;
       Foreseen of_better = decided ? foreseen : worth(foreseen);
       const double bound = decided ? beside(now, wanted, course.velocity) - kWorthChanging : kFar;
@@ -433,11 +481,15 @@ NavigatorStep Navigator::fly(const Moment& now, const std::optional<Destination>
         course = better;
         foreseen = of_better;
         way = false;
+        legs_.clear();
       }
-      next_look_ = time + kLookAgain;
+      if (foreseen.hits() && worse && look_farther(now, wants, time, course, foreseen)) way = false;
+      next_look_ = time + (foreseen.hits() ? look_again(now, foreseen.hit) : kLookAgain);
     }
   }
+  if (way) legs_.clear();
   kept_ = foreseen.kept;
+  hit_ = time + foreseen.hit;
   held_ = course.velocity;
   held_is_way_ = way;
   turn_ = course.asked;
@@ -450,7 +502,7 @@ NavigatorStep Navigator::fly(const Moment& now, const std::optional<Destination>
     if (course.angle > kAligned) result.acceleration = std::min(course.most, missing) * course.aside;
     result.aligned = way && missing <= course.most * (1 + 1e-9);
   }
-  tell(now, course, result);
+  tell(now, course, time, result);
   using enum NavigatorStatus;
   if (foreseen.hits()) {
     result.status = cannot_avoid;

@@ -170,10 +170,12 @@ struct Apart {
   Vector3d normal;         // unit, from the sweep to the piece
 };
 
-/// Stops where the distance is proved to be `enough`, or not to be more than `stop`.
-Apart apart(const Way& sweep, const Piece& piece, double enough, double stop) {
+/// Stops where the distance is proved to be `enough`, or not to be more than `stop`. Begins with `first`, if
+/// that is not zero.
+Apart apart(const Way& sweep, const Piece& piece, double enough, double stop, double rough = kRelative,
+            const Vector3d& first = Vector3d::Zero()) {
   const double size = sweep.factor.norm() + piece.radius(), meets = 1e-7 * size;
-  Vector3d v = piece.towards(sweep.from + 0.5 * sweep.along);
+  Vector3d v = first.isZero(0) ? piece.towards(sweep.from + 0.5 * sweep.along) : first;
   Apart result{kNever, 0, Vector3d::Zero()};
   Simplex simplex;
   if (!(v.norm() > 0)) v = Vector3d::UnitX();
@@ -190,7 +192,8 @@ Apart apart(const Way& sweep, const Piece& piece, double enough, double stop) {
       }
     }
     if (i > 0 && length - piece.radius() <= stop) break;
-    if (i > 0 && length - piece.radius() - result.least <= kRelative * (length - piece.radius())) break;
+    const double most = length - piece.radius();
+    if (i > 0 && most - result.least <= (most < enough ? rough : kRelative) * most) break;
     simplex.add(s);
     v = simplex.nearest();
     length = v.norm();
@@ -255,7 +258,9 @@ class Nearest {
   bool done() const { return met_ ? wanted_.meeting == Meeting::whether : near_.distance <= wanted_.stop; }
 
   void look(const Piece& piece) {
-    const Apart found = apart(sweep_, piece, std::max(counts(), 1e-300), wanted_.stop);
+    const Apart found = apart(sweep_, piece, std::max(counts(), 1e-300), wanted_.stop, wanted_.rough,
+                              wanted_.normal ? *wanted_.normal : Vector3d(Vector3d::Zero()));
+    if (wanted_.normal) *wanted_.normal = found.normal;
     if (found.distance > 0) {
       near_.distance = std::min(near_.distance, found.distance);
       return;
@@ -371,7 +376,8 @@ Near near(const Sweep& sweep, const Ellipsoid& body, const Wanted& wanted) {
   return nearest.result();
 }
 
-Near near(const Sweep& sweep, const Placed& body, const Wanted& wanted) {
+Near near(const Sweep& sweep, const Placed& body, Wanted wanted) {
+  wanted.normal = nullptr;  // of many pieces each has its own
   const Matrix3d to_body = body.pose.rotation.transpose();
   Nearest nearest(
       {body.pose.to_body(sweep.agent.center()), to_body * sweep.along, to_body * sweep.agent.factor()},

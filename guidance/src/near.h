@@ -24,6 +24,10 @@ struct Wanted {
   double stop = 0;                                          // m: something as near as this is all
   Meeting meeting = Meeting::whether;
   double reach = 0;  // m, of the ball about the agent's centre
+  /// Of what is nearer than `enough` the part by which the answer may be too much.
+  double rough = 1e-3;
+  /// From the sweep to an ellipsoid: where to begin; becomes what was found. Zero: anywhere.
+  Eigen::Vector3d* normal = nullptr;
 };
 
 struct Near {
@@ -40,6 +44,6 @@ struct Near {
 
 /// Meshes, clouds, maps, hulls and unions as they are; of combined quadrics what their delimiters
 /// cut away counts too. No allocation.
-[[nodiscard]] Near near(const Sweep& sweep, const Placed& body, const Wanted& wanted);
+[[nodiscard]] Near near(const Sweep& sweep, const Placed& body, Wanted wanted);
 
 }  // namespace vericone::guidance::courses

@@ -21,7 +21,7 @@ namespace {
 
 using Eigen::Vector3d;
 using guidance::Law, guidance::NavigatorStatus;
-using testing::campaign_size, testing::from_environment, testing::RandomBodies;
+using testing::from_environment, testing::RandomBodies;
 
 constexpr double kStep = 0.02, kDuration = 4;  // s
 
@@ -87,7 +87,16 @@ Scenario scene(std::uint64_t seed, double required) {
   return scenario;
 }
 
-std::uint64_t scenarios() { return from_environment("VERICONE_CASES", campaign_size(10, 1000)); }
+/// What ./check flies: of each kind some that hit, some that nearly do, some that pilots were once wrong
+/// about; the more seldom, the rather. Campaigns fly VERICONE_CASES scenarios from VERICONE_SEED on.
+std::vector<std::uint64_t> seeds() {
+  if (!testing::long_campaign()) return {5, 15, 43, 157, 308, 340, 670, 820, 895};
+  const std::uint64_t first = from_environment("VERICONE_SEED", 1),
+                      count = from_environment("VERICONE_CASES", 1000);
+  std::vector<std::uint64_t> all;
+  for (std::uint64_t seed = first; seed < first + count; ++seed) all.push_back(seed);
+  return all;
+}
 
 struct Flown {
   bool touched = false, said = false, before = false;
@@ -119,7 +128,7 @@ Flown fly(const Scenario& scenario) {
 
 TEST(GuardedMargins, MoreMarginNeverHitsAndHitsAreSaidBefore) {
   int flights = 0, hits = 0, worse = 0, unsaid = 0, needless = 0;
-  for (std::uint64_t seed = 1; seed <= scenarios(); ++seed) {
+  for (const std::uint64_t seed : seeds()) {
     bool missed = false;  // with a smaller margin
     bool any_needless = false;
     for (const double required : {0.0, 0.1, 0.3, 0.5}) {
@@ -141,14 +150,15 @@ TEST(GuardedMargins, MoreMarginNeverHitsAndHitsAreSaidBefore) {
     needless += any_needless;
   }
   std::cout << "[ margins  ] " << flights << " flights: " << hits << " hit, " << worse
-            << " that a smaller margin avoids, " << unsaid << " not said before; of " << scenarios()
+            << " that a smaller margin avoids, " << unsaid << " not said before; of " << seeds().size()
             << " scenarios " << needless << " with some that were said and avoided\n";
   EXPECT_GT(hits, 0);  // or they would be too easy
   EXPECT_LT(hits, flights);
   EXPECT_EQ(worse, 0);
   EXPECT_EQ(unsaid, 0);
-  // Courses are tried some degrees apart: a gap that is narrower may be found later.
-  EXPECT_LE(needless, 1 + static_cast<int>(scenarios() / 50));
+  // Courses are tried some degrees apart, and looked for a few times ahead: a narrower gap may be found
+  // later.
+  EXPECT_LE(needless, 1 + static_cast<int>(seeds().size() / 100));
 }
 
 struct Promise {
@@ -156,11 +166,13 @@ struct Promise {
   NavigatorStatus status;
 };
 
-/// What the navigator says at every command of a flight without a goal; of all the bodies the least distance
-/// from a time on is what the proofs find.
+/// What the navigator says at every command of a flight without a goal, against the proofs of the flight.
+/// What it promises is of all time to come: so the flight goes on after the last command, on the course then
+/// taken, until everything is far behind.
 TEST(GuardedMargins, LeastIsWhatTheFlightShows) {
+  constexpr double kCommands = 8, kEnd = 60;  // s
   int compared = 0, hit = 0, off = 0;
-  for (std::uint64_t seed = 1; seed <= scenarios(); ++seed) {
+  for (const std::uint64_t seed : seeds()) {
     const Scenario scenario = scene(seed, 0.3);
     const Pilot& pilot = *scenario.bodies[0].pilot;
     if (pilot.goal || pilot.guide.clearance.longitudinal) continue;
@@ -168,26 +180,33 @@ TEST(GuardedMargins, LeastIsWhatTheFlightShows) {
     std::vector<Track> tracks;
     for (const Body& body : scenario.bodies) tracks.emplace_back(body.shape, body.start, body.orientation, 0);
     std::vector<Promise> promises;
-    for (int k = 0; k * kStep < kDuration; ++k) {
+    bool touches = false;
+    for (int k = 0; k * kStep < kCommands && !touches; ++k) {
       const double t = k * kStep;
       std::vector<guidance::BodyState> others;
       for (std::size_t i = 1; i < tracks.size(); ++i) others.push_back(tracks[i].state(t));
-      const guidance::NavigatorStep said = navigator.step(tracks[0].state(t), others, std::nullopt, t, kStep);
+      const guidance::BodyState agent = tracks[0].state(t);
+      for (const guidance::BodyState& other : others)
+        touches |= !(
+            separation(agent.shape.quadric()->ellipsoid(), other.shape.quadric()->ellipsoid()).distance > 0);
+      const guidance::NavigatorStep said = navigator.step(agent, others, std::nullopt, t, kStep);
       promises.push_back({t, said.least, said.status});
       for (std::size_t i = 0; i < tracks.size(); ++i)
         tracks[i].advance(i == 0 ? said.acceleration : Vector3d(Vector3d::Zero()), (k + 1) * kStep);
     }
+    for (Track& track : tracks) track.advance(Vector3d::Zero(), kEnd);
     std::vector<PairProof> proofs;
-    double contact = kDuration;
+    double contact = kEnd;
     for (std::size_t i = 1; i < tracks.size(); ++i) {
-      proofs.push_back(prove(tracks[0], tracks[i], 0, kDuration));
+      proofs.push_back(prove(tracks[0], tracks[i], 0, kEnd));
       if (proofs.back().verdict == ProofVerdict::touched) contact = std::min(contact, proofs.back().from);
     }
     for (const Promise& promise : promises) {
       // Once the margin is kept the course is; before that a better one may be found.
       const bool kept =
           promise.status == NavigatorStatus::straight || promise.status == NavigatorStatus::avoiding;
-      if (contact < kDuration) {
+      if (contact < kEnd) {
+        EXPECT_FALSE(kept) << seed << " at " << promise.t << " s: hits at " << contact << " s";
         // The last before the contact: as deep as it is there.
         if (!(promise.t < contact && promise.t + kStep >= contact)) continue;
         double depth = 0;
@@ -207,16 +226,11 @@ TEST(GuardedMargins, LeastIsWhatTheFlightShows) {
           std::cout << "[ least    ] seed " << seed << ": said " << promise.least << ", is " << depth
                     << " m deep\n";
       } else if (kept) {
-        // Once is enough: the proof is of all that is still to come, as far as the flight goes.
-        double least = std::numeric_limits<double>::infinity(), when = 0;
-        for (std::size_t i = 1; i < tracks.size(); ++i) {
-          const PairProof proof = prove(tracks[0], tracks[i], promise.t, kDuration);
-          if (proof.least_distance < least) when = proof.least_time;
-          least = std::min(least, proof.least_distance);
-        }
-        const bool ends = when > kDuration - kStep;  // it may come nearer later
-        const bool wrong =
-            least < 0.95 * promise.least - 1e-3 || (!ends && least > 1.05 * promise.least + 1e-3);
+        // Once is enough: the proof is of all that is still to come.
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 1; i < tracks.size(); ++i)
+          least = std::min(least, prove(tracks[0], tracks[i], promise.t, kEnd).least_distance);
+        const bool wrong = !(std::abs(least - promise.least) <= 0.05 * promise.least + 1e-3);
         ++compared;
         off += wrong;
         if (wrong)

@@ -7,6 +7,7 @@
 #include <vericone/guidance/body_state.h>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -66,7 +67,8 @@ struct NavigatorStep {
 /// a better one twice a second; velocities are tried outwards from the one it wants.
 ///
 /// The same courses are tried whatever is required. Where none is safe it takes the one that keeps most, and
-/// where all hit the one that hits last: asking for more never makes a decision hit.
+/// where all hit the one that hits last: asking for more never makes a decision hit. Before it says so it
+/// looks for further courses that may follow that one, and holds what it finds.
 ///
 /// Who may change its speed goes at that of its first step; who was at rest then goes to its destination as
 /// fast as it can still stop there, and without one stops again. At rest without `longitudinal` it stays.
@@ -79,7 +81,8 @@ struct NavigatorStep {
 /// it has searched.
 ///
 /// Cost: where the course is kept 2 to 10 us an ellipsoid, 20 to 200 us a map of 140,000 boxes that the agent
-/// is in; where a course is looked for up to 30 ms (docs/measured/benchmarks.md).
+/// is in; where a course is looked for up to 30 ms, where all hit up to 0.2 s
+/// (docs/measured/guidance.md).
 class Navigator {
  public:
   /// Throws InputError naming "required" or "beyond" unless finite and not negative, and "most" unless
@@ -108,8 +111,9 @@ class Navigator {
     double now = std::numeric_limits<double>::infinity();      // m from the agent, where it is near
     double matters = std::numeric_limits<double>::infinity();  // s: what it does later does not count
     std::optional<Placed> itself = std::nullopt;               // judged as it is; `body` is a ball about it
+    mutable Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // to it, when it was last asked how near it is
 
-    [[nodiscard]] courses::Near near(const courses::Sweep& sweep, const courses::Wanted& wanted) const;
+    [[nodiscard]] courses::Near near(const courses::Sweep& sweep, courses::Wanted wanted) const;
     /// Whether the point is nearer than `margin` to the bounds of a body that is judged as it is.
     [[nodiscard]] bool holds(const Eigen::Vector3d& point, double margin) const;
   };
@@ -118,6 +122,7 @@ class Navigator {
   NavigatorStep fly(const Moment& now, const std::optional<Destination>& destination, double time);
   [[nodiscard]] bool fails(const Flight& flight, const Body& other, double begin, double end,
                            double hopeless) const;
+  [[nodiscard]] bool fails_at(const Flight& flight, const Body& other, double t, double hopeless) const;
   void see_turn(const Flight& flight, const Body& other, double begin, double end, courses::Meeting meeting,
                 Approach& seen) const;
   void see_straight(const Flight& flight, const Body& other, double begin, double end,
@@ -126,7 +131,7 @@ class Navigator {
                              double hopeless, courses::Meeting meeting) const;
   [[nodiscard]] Foreseen foresee(const Moment& now, const Course& course, const Foreseen& floor);
   [[nodiscard]] bool meets(const Flight& flight, const Body& other, double until) const;
-  void tell(const Moment& now, const Course& course, NavigatorStep& step) const;
+  void tell(const Moment& now, Course course, double time, NavigatorStep& step) const;
 
   [[nodiscard]] double beside(const Moment& now, const Eigen::Vector3d& u, const Eigen::Vector3d& v) const;
   [[nodiscard]] Course towards(const Moment& now, const Eigen::Vector3d& velocity, double most) const;
@@ -138,12 +143,28 @@ class Navigator {
   bool search(const Moment& now, const Eigen::Vector3d& wanted, double less_than, Course& course,
               Foreseen& foreseen);
 
+  /// A course that is to follow the one that is flown.
+  struct Leg {
+    double begin;  // s
+    Eigen::Vector3d velocity;
+    double most;
+  };
+  [[nodiscard]] static Moment later(const Moment& now, const Course& course, double t);
+  [[nodiscard]] Foreseen foresee_all(const Moment& now, Course course, const std::vector<Leg>& legs,
+                                     double time);
+  [[nodiscard]] static double look_again(const Moment& now, double left);
+  /// The velocity that it would like best, then, who is on a course to that velocity.
+  using Wishes = std::function<Eigen::Vector3d(const Moment&, const Eigen::Vector3d&)>;
+  bool look_farther(const Moment& now, const Wishes& wishes, double time, Course& course, Foreseen& foreseen);
+
   NavigatorOptions options_;
   std::optional<double> pace_;                                   // m/s, of the start
   std::optional<Eigen::Vector3d> held_;                          // m/s, at the end of the course taken
   bool held_is_way_ = false;                                     // it is the way to the destination
   double turn_ = 0;                                              // m/s^2 with which it is turned to
+  std::vector<Leg> legs_;                                        // after it
   double kept_ = 0;                                              // m, by it, of those required
+  double hit_ = std::numeric_limits<double>::infinity();         // s, by it
   double next_look_ = -std::numeric_limits<double>::infinity();  // s
   double required_ = 0, beyond_ = 0;                             // metres
   // Of the step; members to keep their memory.
@@ -153,7 +174,9 @@ class Navigator {
     Eigen::Vector3d velocity;
   };
   std::vector<Candidate> candidates_;
+  std::vector<Leg> tried_;
   std::size_t failed_by_ = 0;  // the body that the course tried before failed by
+  mutable long looks_ = 0;     // how many distances were measured
 };
 
 }  // namespace vericone::guidance
