@@ -22,7 +22,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kLookAgain = 0.5;      // s
 constexpr double kOfTimeLeft = 0.25;    // before a contact it looks again when this part of it has gone
 constexpr int kMostLooks = 8;           // ahead, before it says that all courses hit
-constexpr long kMostAhead = 20000;      // distances measured for them
+constexpr long kMostAhead = 200000;      // distances measured for them
 constexpr double kWorthChanging = 0.1;  // rad nearer to what is wanted
 constexpr double kUnhurriedTurn = 2;    // rad/s, where no acceleration is too much
 constexpr double kHurriedTurn = 32;     // rad/s, there, where that does not help
@@ -313,9 +313,15 @@ bool Navigator::search(const Moment& now, const Vector3d& wanted, double less_th
   return found;
 }
 
+/// The velocity that it would like best who is on a course to `held`.
+Vector3d Navigator::wanted(const Way& way, const Moment& at, const Vector3d& held) const {
+  if (!way.course) return held;
+  return options_.longitudinal ? way.course->velocity : Vector3d(*way.point - at.position);
+}
+
 /// Where all courses hit: flies on in thought by the one that hits last, looks again on the way as it will,
 /// and follows what it finds. False: nothing was found that is better.
-bool Navigator::look_farther(const Moment& now, const Wishes& wishes, double time, Course& course,
+bool Navigator::look_farther(const Moment& now, const Way& way, double time, Course& course,
                              Foreseen& foreseen) {
   tried_.clear();
   looks_ = 0;
@@ -329,7 +335,7 @@ bool Navigator::look_farther(const Moment& now, const Wishes& wishes, double tim
     if (!(at.since < contact)) break;
     of_leg = towards(at, of_leg.velocity, of_leg.asked);
     Course better = of_leg;
-    if (!search(at, wishes(at, of_leg.velocity), kFar, better, found)) continue;
+    if (!search(at, wanted(way, at, of_leg.velocity), kFar, better, found)) continue;
     of_leg = better;
     tried_.push_back({time + at.since, better.velocity, better.asked});
     if (found.hits()) contact = found.hit;
@@ -448,12 +454,8 @@ NavigatorStep Navigator::fly(const Moment& now, const std::optional<Destination>
     foreseen = foresee(now, course, Foreseen::nothing());
     way = decided = foreseen.keeps(held_is_way_ ? required_ : surely);
   }
-  const auto wants = [&](const Moment& at, const Vector3d& held) {
-    return !direct                 ? held
-           : options_.longitudinal ? direct->velocity
-                                   : Vector3d(destination->point - at.position);
-  };
-  const Vector3d wanted = wants(now, held_.value_or(now.velocity));
+  const Way to{direct ? &*direct : nullptr, destination ? &destination->point : nullptr};
+  const Vector3d wanted = this->wanted(to, now, held_.value_or(now.velocity));
   if (!decided) {
     const bool had = held_.has_value() && !held_is_way_;
     const Course before = towards(now, had ? *held_ : now.velocity, had ? turn_ : now.most);
@@ -483,7 +485,7 @@ NavigatorStep Navigator::fly(const Moment& now, const std::optional<Destination>
         way = false;
         legs_.clear();
       }
-      if (foreseen.hits() && worse && look_farther(now, wants, time, course, foreseen)) way = false;
+      if (foreseen.hits() && worse && look_farther(now, to, time, course, foreseen)) way = false;
       next_look_ = time + (foreseen.hits() ? look_again(now, foreseen.hit) : kLookAgain);
     }
   }

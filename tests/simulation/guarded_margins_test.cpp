@@ -90,7 +90,7 @@ Scenario scene(std::uint64_t seed, double required) {
 /// What ./check flies: of each kind some that hit, some that nearly do, some that pilots were once wrong
 /// about; the more seldom, the rather. Campaigns fly VERICONE_CASES scenarios from VERICONE_SEED on.
 std::vector<std::uint64_t> seeds() {
-  if (!testing::long_campaign()) return {5, 15, 43, 157, 308, 340, 670, 820, 895};
+  if (!testing::long_campaign()) return {5, 15, 43, 157, 211, 308, 508, 670, 820, 895};
   const std::uint64_t first = from_environment("VERICONE_SEED", 1),
                       count = from_environment("VERICONE_CASES", 1000);
   std::vector<std::uint64_t> all;
@@ -158,7 +158,7 @@ TEST(GuardedMargins, MoreMarginNeverHitsAndHitsAreSaidBefore) {
   EXPECT_EQ(unsaid, 0);
   // Courses are tried some degrees apart, and looked for a few times ahead: a narrower gap may be found
   // later.
-  EXPECT_LE(needless, 1 + static_cast<int>(seeds().size() / 100));
+  EXPECT_LE(needless, static_cast<int>(seeds().size() / 500));
 }
 
 struct Promise {

@@ -5,6 +5,7 @@
 #include <vericone/scenes/words.h>
 #include <vericone/simulation/run_tables.h>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <ostream>
 #include <utility>
@@ -86,7 +87,10 @@ std::string event_text(const Scenario& scenario, const Event& event) {
   return "";
 }
 
-std::string milliseconds(double seconds) { return number_text(1e3 * seconds, 2) + " ms"; }
+std::string milliseconds(double seconds) {
+  const double ms = 1e3 * seconds;
+  return (ms < 99.5 ? number_text(ms, 2) : std::to_string(std::lround(ms))) + " ms";
+}
 
 std::string not_kept(const PairOutcome& pair) {
   if (pair.kept()) return "";

@@ -87,6 +87,11 @@ class Runner {
         if (j != i && (pilot.minds.empty() || contains(pilot.minds, scenario.bodies[j].name)))
           follow(i, j, pilot);
     }
+    // What laws see of a map takes 0.3 s to find, and is kept: no decision is to wait for it.
+    for (const Followed& f : engagements_)
+      for (const std::size_t i : {f.engagement.agent(), f.engagement.obstacle()})
+        if (const BodyState body = run_.tracks[i].state(run_.tracks[i].appears()); !body.planar())
+          static_cast<void>(body.shape.containing_ellipsoid());
     aligned_.assign(scenario.bodies.size(), false);
     cannot_avoid_.assign(scenario.bodies.size(), false);
     reached_.assign(scenario.bodies.size(), false);

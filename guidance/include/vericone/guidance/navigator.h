@@ -7,7 +7,6 @@
 #include <vericone/guidance/body_state.h>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -153,9 +152,13 @@ class Navigator {
   [[nodiscard]] Foreseen foresee_all(const Moment& now, Course course, const std::vector<Leg>& legs,
                                      double time);
   [[nodiscard]] static double look_again(const Moment& now, double left);
-  /// The velocity that it would like best, then, who is on a course to that velocity.
-  using Wishes = std::function<Eigen::Vector3d(const Moment&, const Eigen::Vector3d&)>;
-  bool look_farther(const Moment& now, const Wishes& wishes, double time, Course& course, Foreseen& foreseen);
+  /// The way to its destination, or back to its speed; null: none.
+  struct Way {
+    const Course* course;
+    const Eigen::Vector3d* point;  // m; null: no destination
+  };
+  [[nodiscard]] Eigen::Vector3d wanted(const Way& way, const Moment& at, const Eigen::Vector3d& held) const;
+  bool look_farther(const Moment& now, const Way& way, double time, Course& course, Foreseen& foreseen);
 
   NavigatorOptions options_;
   std::optional<double> pace_;                                   // m/s, of the start
