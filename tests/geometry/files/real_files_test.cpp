@@ -143,7 +143,8 @@ TEST(RealMeshes, AreOpenOrClosedAsIsKnown) {
   };
   const auto bunny = report("stanford-bunny.obj"), bottle = report("ycb_006_mustard_bottle.obj"),
              asteroid = report("216Kleopatra.obj");
-  if (!bunny || !bottle || !asteroid) GTEST_SKIP() << "meshes are not here; set VERICONE_DATA_DIR to their folder";
+  if (!bunny || !bottle || !asteroid)
+    GTEST_SKIP() << "meshes are not here; set VERICONE_DATA_DIR to their folder";
   EXPECT_EQ(bunny->boundary_edges, 223U);
   EXPECT_EQ(bunny->unreferenced_points, 1113U);
   for (const MeshReport& closed : {*bottle, *asteroid}) {

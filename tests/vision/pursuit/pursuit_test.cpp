@@ -256,7 +256,7 @@ TEST(PursuitRefuses, WhatItCannotFly) {
 /// All of the printed runs, to their ends.
 TEST(PursuitLong, FollowedToTheEndByBothCameras) {
   const char* campaign = std::getenv("VERICONE_CAMPAIGN");
-  if (campaign == nullptr) GTEST_SKIP() << "a campaign";
+  if (campaign == nullptr) GTEST_SKIP() << "a campaign: with VERICONE_CAMPAIGN=long";
   for (const Pursuit& pursuit : {lanes(), squircle(), three_lanes(), three_squircles()})
     for (const Eyes eyes : {Eyes::source, Eyes::perspective}) {
       SCOPED_TRACE(pursuit.name + " " + to_string(eyes));

@@ -80,7 +80,7 @@ struct NavigatorStep {
 /// it has searched.
 ///
 /// Cost: where the course is kept 2 to 10 us an ellipsoid, 20 to 200 us a map of 140,000 boxes that the agent
-/// is in; where a course is looked for up to 30 ms, where all hit up to 0.2 s
+/// is in; where a course is looked for up to 30 ms, where all hit up to 0.3 s
 /// (docs/measured/guidance.md).
 class Navigator {
  public:
