@@ -247,5 +247,38 @@ TEST(GuardedMargins, LeastIsWhatTheFlightShows) {
   EXPECT_EQ(off, 0);
 }
 
+/// Who says that it avoids is on a course that does, also where it has just found one nearer to its goal:
+/// `least` is measured anew, whatever the search took the course for.
+TEST(GuardedMargins, WhoSaysThatItAvoidsKeepsWhatIsRequired) {
+  constexpr double kRequired = 0.3;
+  int avoiding = 0;
+  for (std::uint64_t seed = 4; seed <= from_environment("VERICONE_CASES", 200); seed += 4) {
+    const Scenario scenario = scene(seed, kRequired);
+    const Pilot& pilot = *scenario.bodies[0].pilot;
+    if (!pilot.goal) continue;
+    guidance::Navigator navigator({.required = kRequired,
+                                   .beyond = 0.03,
+                                   .most = pilot.guide.clearance.most,
+                                   .longitudinal = pilot.guide.clearance.longitudinal});
+    std::vector<Track> tracks;
+    for (const Body& body : scenario.bodies) tracks.emplace_back(body.shape, body.start, body.orientation, 0);
+    for (int k = 0; k * kStep < kDuration; ++k) {
+      const double t = k * kStep;
+      std::vector<guidance::BodyState> others;
+      for (std::size_t i = 1; i < tracks.size(); ++i) others.push_back(tracks[i].state(t));
+      const guidance::NavigatorStep said = navigator.step(
+          tracks[0].state(t), others, guidance::Destination{pilot.goal->point, pilot.goal->most}, t, kStep);
+      if (said.status == NavigatorStatus::cannot_avoid) break;
+      if (said.status == NavigatorStatus::avoiding) {
+        ++avoiding;
+        ASSERT_GE(said.least, kRequired - 1e-3) << seed << " at " << t << " s";
+      }
+      for (std::size_t i = 0; i < tracks.size(); ++i)
+        tracks[i].advance(i == 0 ? said.acceleration : Vector3d(Vector3d::Zero()), t + kStep);
+    }
+  }
+  EXPECT_GT(avoiding, 100);
+}
+
 }  // namespace
 }  // namespace vericone::simulation::guarded_margins_test
