@@ -164,6 +164,27 @@ const Box& Assembly::bounds() const { return data_->bounds; }
 const Hierarchy& Assembly::hierarchy() const { return data_->hierarchy; }
 const Assembly::Storage& Assembly::by_slot() const { return data_->storage; }
 
+std::vector<Eigen::Vector3d> Assembly::corners() const {
+  std::vector<Eigen::Vector3d> all;
+  const auto add = [&](const auto& some) { all.insert(all.end(), some.begin(), some.end()); };
+  const Storage& storage = data_->storage;
+  switch (data_->kind) {
+    case PieceKind::triangle:
+      for (const auto& triangle : storage.triangles) add(triangle);
+      break;
+    case PieceKind::ball:
+      add(storage.balls);
+      break;
+    case PieceKind::box:
+      for (const Box& box : storage.boxes) add(HullBody::box(box.low, box.high).points());
+      break;
+    case PieceKind::hull:
+      for (const HullBody& hull : storage.hulls) add(hull.points());
+      break;
+  }
+  return all;
+}
+
 HullBody Assembly::piece(std::size_t i) const {
   const std::size_t slot = data_->slot.at(i);
   const Storage& storage = data_->storage;

@@ -121,20 +121,8 @@ Ellipsoid containing(const CombinedEllipsoid& body) {
 
 Ellipsoid containing(const HullBody& hull) { return containing_points(hull.points()); }
 
-void add_corners(const Box& box, std::vector<Vector3d>& points) {
-  const HullBody corners = HullBody::box(box.low, box.high);
-  points.insert(points.end(), corners.points().begin(), corners.points().end());
-}
-
 Ellipsoid containing(const Assembly& body) {
-  const Assembly::Storage& pieces = body.by_slot();
-  std::vector<Vector3d> points;
-  for (const auto& corners : pieces.triangles) points.insert(points.end(), corners.begin(), corners.end());
-  for (const Vector3d& center : pieces.balls) points.push_back(center);
-  for (const Box& box : pieces.boxes) add_corners(box, points);
-  for (const HullBody& hull : pieces.hulls)
-    points.insert(points.end(), hull.points().begin(), hull.points().end());
-  return widened(containing_points(std::move(points)), body.radius());
+  return widened(containing_points(body.corners()), body.radius());
 }
 
 /// The box around each piece's ellipsoid decides: at worst its corners are sqrt(3) too far out.

@@ -5,6 +5,7 @@
 
 #include <vericone/geometry/body.h>
 #include <vericone/geometry/ellipsoid.h>
+#include <span>
 #include <vector>
 
 namespace vericone {
@@ -20,8 +21,11 @@ struct ConvexHullOf {
   explicit ConvexHullOf(const Placed& placed);
 
  private:
-  template <typename Points>
-  void add(const Points& more, const Pose& pose);
+  void add(const CombinedEllipsoid& body, const Pose& pose);
+  void add(const std::vector<CombinedEllipsoid>& pieces, const Pose& pose);
+  void add(const HullBody& hull, const Pose& pose);
+  void add(const Assembly& body, const Pose& pose);
+  void add_points(std::span<const Eigen::Vector3d> more, const Pose& pose);
 };
 
 }  // namespace vericone

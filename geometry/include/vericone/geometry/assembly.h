@@ -57,6 +57,9 @@ class Assembly {
   /// The points whose convex hull, rounded by radius(), is piece i (0 <= i < size(), in the order given).
   [[nodiscard]] HullBody piece(std::size_t i) const;
 
+  /// Those of all pieces, by slot: their convex hull, rounded by radius(), is that of the body. Metres.
+  [[nodiscard]] std::vector<Eigen::Vector3d> corners() const;
+
   /// The pieces by *slot* of the hierarchy, so that those of a leaf lie side by side. Only that of kind() is
   /// filled.
   struct Storage {
