@@ -116,10 +116,13 @@ TEST_F(WriteScene, BodiesOfFilesReadBackBitForBit) {
     const Body &a = read.obstacle.placed.body, &b = scene.obstacle.placed.body;
     ASSERT_EQ(a.kind(), b.kind());
     if (a.quadric()) expect_same(*a.quadric(), *b.quadric());
-    if (a.quadrics())
+    if (a.quadrics()) {
       for (std::size_t i = 0; i < a.quadrics()->size(); ++i)
         expect_same((*a.quadrics())[i], (*b.quadrics())[i]);
-    if (a.hull()) EXPECT_EQ(a.hull()->points(), b.hull()->points());
+    }
+    if (a.hull()) {
+      EXPECT_EQ(a.hull()->points(), b.hull()->points());
+    }
     if (a.assembly()) {
       EXPECT_EQ(a.assembly()->by_slot().triangles, b.assembly()->by_slot().triangles);
       EXPECT_EQ(a.assembly()->by_slot().balls, b.assembly()->by_slot().balls);

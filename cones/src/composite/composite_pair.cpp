@@ -52,8 +52,8 @@ double largest_coordinate(const Box& box) { return box.low.cwiseAbs().sum() + bo
 
 }  // namespace
 
-CompositePair::State::State(const Assembly& body, const Pose& place)
-    : obstacle(body), pose(place), upright(is_upright(place)), zero(HullBody()) {}
+CompositePair::State::State(const Assembly& body, const Pose& at)
+    : obstacle(body), pose(at), upright(is_upright(at)), zero(HullBody()) {}
 
 void CompositePair::State::check_range() {
   const double own = largest_coordinate(obstacle.bounds()) + largest_coordinate(agent_bounds());

@@ -87,7 +87,8 @@ Landing best_landing(const OrificeOracle& oracle, const Vector3d& w) {
     if (!(out.squaredNorm() > 0)) return;
     const Vector3d point = farthest(out);
     const Vector2d place = land(point);
-    if (const double depth = opening.depth(place); depth < best.depth) best = {point, {}, place, depth};
+    if (const double depth = opening.depth(place); depth < best.depth)
+      best = {point, Vector2d::Zero(), place, depth};
   };
   Vector2d before = outwards(p.size() - 1);
   for (std::size_t i = 0; i < p.size(); ++i) {

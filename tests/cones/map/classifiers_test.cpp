@@ -180,29 +180,28 @@ TEST(OrificeClassifier, OpeningsOfAnyOutline) {
 }
 
 TEST(OrificeClassifier, TwoRegionsOfOneOpening) {
-  // Two chambers that a slit joins: the ball passes either, not the slit.
-  const Opening dumbbell = Opening::polygon({{-3, -1},
-                                             {-1, -1},
-                                             {-1, -0.1},
-                                             {1, -0.1},
-                                             {1, -1},
-                                             {3, -1},
-                                             {3, 1},
-                                             {1, 1},
-                                             {1, 0.1},
-                                             {-1, 0.1},
-                                             {-1, 1},
-                                             {-3, 1}});
-  const PlacedOpening hole{dumbbell, {0, 0, 4}, Eigen::Matrix<double, 3, 2>::Identity()};
-  const ConeMap map = map_of(OrificeClassifier(Ellipsoid::from_axes({0, 0, 0}, {0.5, 0.5, 0.5}), hole), 0.01);
-  const auto left = region_around(map, {-2, 0, 4}), right = region_around(map, {2, 0, 4});
-  ASSERT_TRUE(left && right);
-  EXPECT_NE(left->possible, right->possible) << "proved to be apart";
-  EXPECT_EQ(left->label, Certified::out);
-  EXPECT_NEAR(left->solid_angle, right->solid_angle, 0.2 * left->solid_angle);
-  const auto slit = region_around(map, {0, 0, 4});
-  ASSERT_TRUE(slit);
-  EXPECT_EQ(slit->label, Certified::in);
+  for (const double scale : {1.0, 0.3, 0.7}) {
+    SCOPED_TRACE(scale);
+    // Two chambers that a slit joins: the ball passes either, not the slit.
+    std::vector<Eigen::Vector2d> corners{{-3, -1}, {-1, -1}, {-1, -0.1}, {1, -0.1}, {1, -1}, {3, -1},
+                                         {3, 1},   {1, 1},   {1, 0.1},   {-1, 0.1}, {-1, 1}, {-3, 1}};
+    for (Eigen::Vector2d& x : corners) x *= scale;
+    const PlacedOpening hole{
+        Opening::polygon(corners), {0, 0, 4 * scale}, Eigen::Matrix<double, 3, 2>::Identity()};
+    const Ellipsoid ball = Ellipsoid::from_axes({0, 0, 0}, Vector3d::Constant(0.5 * scale));
+    const ConeMap map = map_of(OrificeClassifier(ball, hole), 0.01);
+    const OrificeOracle oracle(ball, hole);
+    RandomBodies random(15);
+    expect_never_contradicted(map, random, 2000, [&](const Vector3d& d) { return truth_of(oracle, d); });
+    const auto left = region_around(map, {-2, 0, 4}), right = region_around(map, {2, 0, 4});
+    ASSERT_TRUE(left && right);
+    EXPECT_NE(left->possible, right->possible) << "proved to be apart";
+    EXPECT_EQ(left->label, Certified::out);
+    EXPECT_NEAR(left->solid_angle, right->solid_angle, 0.2 * left->solid_angle);
+    const auto slit = region_around(map, {0, 0, 4});
+    ASSERT_TRUE(slit);
+    EXPECT_EQ(slit->label, Certified::in);
+  }
 }
 
 TEST(OrificeClassifier, ABallBeforeAnOpeningThatFacesIt) {

@@ -72,7 +72,6 @@ class Interval {
                     kInflate +
                 kTiny};
   }
-  friend Interval operator*(const Interval& x, int factor) { return x * Interval(factor); }
   /// Infinite radius where the divisor may be zero.
   friend Interval operator/(const Interval& x, const Interval& y) {
     const double q = x.mid_ / y.mid_, least = (std::abs(y.mid_) - y.rad_) * (1 - 0x1p-49);

@@ -8,6 +8,7 @@
 #include <vericone/geometry/sign.h>
 #include <vericone/geometry/sound_arithmetic.h>
 #include <cmath>
+#include <concepts>
 #include <limits>
 
 namespace vericone {
@@ -26,7 +27,7 @@ struct RoundingCount {
   friend constexpr RoundingCount operator*(RoundingCount x, RoundingCount y) {
     return {x.roundings + y.roundings + 1};
   }
-  friend constexpr RoundingCount operator*(RoundingCount x, int factor) {
+  friend constexpr RoundingCount operator*(RoundingCount x, std::same_as<int> auto factor) {
     return {x.roundings + ((factor & (factor - 1)) == 0 ? 0 : 1)};
   }
 
@@ -59,7 +60,7 @@ struct Tracked {
   }
   friend Tracked operator-(Tracked x, Tracked y) { return x + (-y); }
   friend Tracked operator*(Tracked x, Tracked y) { return {x.pair * y.pair}; }
-  friend Tracked operator*(Tracked x, int factor) { return {x.pair * static_cast<double>(factor)}; }
+  friend Tracked operator*(Tracked x, std::same_as<int> auto factor) { return {x.pair * static_cast<double>(factor)}; }
 
   /// 1 or -1 where the exact value certainly is positive or negative, else 0 for uncertain. `underflow`: an
   /// absolute bound of what all products that left the normal numbers may have lost together.
