@@ -7,9 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "input/fields.h"
+#include "input/field_table.h"
 #include "input/spatial_body.h"
-#include "json/json_value.h"
 #include "scenarios/read_motion.h"
 #include "scenarios/scenario_fields.h"
 
@@ -17,64 +16,75 @@ namespace vericone::scenario {
 namespace {
 
 using Eigen::Vector2d, Eigen::Vector3d;
-using input::at, input::quoted, input::read_number, input::read_vector, input::require_field,
-    input::require_known, input::require_object;
+using input::absent, input::alternative, input::at, input::Fields, input::not_negative, input::positive,
+    input::quoted, input::read_number, input::read_vector, input::require_field, input::required,
+    input::vector;
 
-/// A window of a mesh, and the flat opening that stands for it.
-void read_window(const Json& value, const std::string& path, const std::filesystem::path& folder,
-                 simulation::MovingOrifice& orifice) {
-  require_known(value, path, {"mesh", "loop", "scale"});
-  const std::string name = read_text(value["mesh"], path + ".mesh", "the name of a mesh file");
+/// What an opening may be given by.
+struct OpeningFile {
+  double radius = 0;  // m
+  Vector2d semi_axes = Vector2d::Zero();
+  std::vector<Vector2d> polygon;
+  std::string mesh;
   int loop = 0;
   double scale = 1;
-  if_given(value, path, "loop",
-           [&](const Json& v, const std::string& p) { loop = read_count(v, p, 0, 1'000'000); });
-  if_given(value, path, "scale",
-           [&](const Json& v, const std::string& p) { scale = read_positive(v, p, ""); });
-  files::PointFile file;
-  try {
-    file = files::read_points(folder / name);
-  } catch (const std::exception& e) {
-    throw InputError(path + ".mesh", name, std::string("a mesh that can be read: ") + e.what());
-  }
-  for (Vector3d& x : file.points) x *= scale;
-  try {
-    auto triangles = files::triangles_of(file.points, file.faces);
-    orifice.window =
-        std::make_shared<const MeshWindow>(std::move(file.points), std::move(triangles), std::size_t(loop));
-    const PlacedOpening flat = orifice.window->flat();
-    orifice.opening = flat.opening;
-    orifice.flat_center = flat.center;
-    orifice.flat_axes = flat.axes;
-  } catch (const InputError& e) {
-    throw e.within(path);
-  }
+};
+
+const Fields<OpeningFile>& opening_fields() {
+  using O = OpeningFile;
+  auto polygon = input::list("[x, y]", vector<2>("m"));
+  polygon.schema["items"].erase("unit");
+  polygon.schema["unit"] = "m";
+  polygon.schema["minItems"] = 3;  // as Opening refuses
+  static const Fields<O> fields =
+      Fields<O>("opening")
+          .row("radius", &O::radius, positive("m"), "A circle.", alternative())
+          .row("semi_axes", &O::semi_axes, vector<2>("m"), "An ellipse, along x and y.", alternative())
+          .row("polygon", &O::polygon, polygon,
+               "A simple polygon: no edge meets another but at their common corner.", alternative())
+          .row("mesh", &O::mesh, input::text("the name of a mesh file"),
+               "A mesh file: the opening is a window in it, the mesh is its wall. Of such an orifice "
+               "`normal` and "
+               "`wall` are left out, `rotation` is none if left out.",
+               alternative())
+          .row("loop", &O::loop, input::count(0, 1'000'000),
+               "Which boundary loop of the mesh: 0 the longest.")
+          .row("scale", &O::scale, positive(), "Of the mesh's coordinates, to metres.");
+  return fields;
 }
 
-Opening flat_opening(const Json& value) {
-  if (value.contains("radius")) return Opening::circle(read_number(value["radius"], "radius", " (metres)"));
-  if (value.contains("semi_axes"))
-    return Opening::ellipse(read_vector<2>(value["semi_axes"], "semi_axes", " (metres)"));
-  const Json& list = value["polygon"];
-  if (!list.is_array()) throw InputError("polygon", quoted(list), "a list of [x, y] in metres");
-  std::vector<Vector2d> vertices;
-  for (std::size_t i = 0; i < list.size(); ++i)
-    vertices.push_back(read_vector<2>(list[i], at("polygon", i), " (metres)"));
-  return Opening::polygon(std::move(vertices));
+/// A window of a mesh, and the flat opening that stands for it.
+void read_window(const OpeningFile& given, const std::string& path, const std::filesystem::path& folder,
+                 simulation::MovingOrifice& orifice) {
+  files::PointFile file;
+  try {
+    file = files::read_points(folder / given.mesh);
+  } catch (const std::exception& e) {
+    throw InputError(path + ".mesh", given.mesh, std::string("a mesh that can be read: ") + e.what());
+  }
+  for (Vector3d& x : file.points) x *= given.scale;
+  input::within(path, [&] {
+    auto triangles = files::triangles_of(file.points, file.faces);
+    orifice.window = std::make_shared<const MeshWindow>(std::move(file.points), std::move(triangles),
+                                                        std::size_t(given.loop));
+  });
+  const PlacedOpening flat = orifice.window->flat();
+  orifice.opening = flat.opening;
+  orifice.flat_center = flat.center;
+  orifice.flat_axes = flat.axes;
 }
 
 void read_opening(const Json& value, const std::string& path, const std::filesystem::path& folder,
                   simulation::MovingOrifice& orifice) {
-  require_object(value, path);
-  if (value.contains("mesh")) return read_window(value, path, folder, orifice);
-  require_known(value, path, {"radius", "semi_axes", "polygon", "mesh", "loop", "scale"});
-  if (value.size() != 1 || value.contains("loop") || value.contains("scale"))
+  const OpeningFile given = opening_fields().read(value, path);
+  const bool window = value.contains("mesh");
+  if (value.size() != 1u + (window && value.contains("loop")) + (window && value.contains("scale")))
     throw InputError(path, quoted(value), "exactly one of radius, semi_axes, polygon, mesh (with its loop)");
-  try {
-    orifice.opening = flat_opening(value);
-  } catch (const InputError& e) {
-    throw e.within(path);
-  }
+  if (window) return read_window(given, path, folder, orifice);
+  orifice.opening = input::within(path, [&] {
+    if (value.contains("radius")) return Opening::circle(given.radius);
+    return value.contains("polygon") ? Opening::polygon(given.polygon) : Opening::ellipse(given.semi_axes);
+  });
 }
 
 /// z along the normal; y as upright as it can be, along the world's y where the normal is vertical.
@@ -107,28 +117,58 @@ Eigen::Matrix3d read_attitude(const Json& value, const std::string& path, bool w
   return facing(normal / normal.cwiseAbs().maxCoeff());
 }
 
+/// An orifice while it is read.
+struct OrificeFile : simulation::MovingOrifice {
+  std::filesystem::path folder;
+};
+
+const Fields<OrificeFile>& orifice_fields() {
+  using O = OrificeFile;
+  const Json vector2{{"$ref", "body.schema.json#/$defs/vector2"}};
+  const auto opening = [](const Json& v, const std::string& p, O& o) { read_opening(v, p, o.folder, o); };
+  static const Fields<O> fields =
+      Fields<O>("orifice")
+          .row("name", &O::name, input::text("a name"), "No other orifice and no body has it.",
+               required("a name, as text"))
+          .special("opening", {{"$ref", "#/$defs/opening"}}, opening,
+                   "Its outline, below, in the x-y plane of its own frame; z is its normal.",
+                   required("a mapping, such as {radius: 0.5}"))
+          .row("position", &O::position, vector<3>("m"), "Of the origin of its frame, when it appears.",
+               required("[x, y, z] in metres"))
+          .special("velocity", vector<3>("m/s").schema, {}, "Constant, in the world.", absent("at rest"))
+          .special("speed", not_negative("m/s").schema, {},
+                   "In place of `velocity`, with `heading` or `heading_deg`.")
+          .special("heading", vector<2>("rad").schema, {}, "`[azimuth, elevation]`.")
+          .special("heading_deg", vector<2>("degrees").schema, {}, "The same in degrees.")
+          .special(
+              "normal", vector<3>().schema, {},
+              "Where it faces when it appears, of any length, either sense; y is then as upright as it can "
+              "be, x level (a vertical normal: y is the world's). This or `rotation` is required.")
+          .special("rotation", {{"$ref", "body.schema.json#/$defs/rotation"}}, {},
+                   "Its attitude when it appears, in place of `normal`, written as in a scene.")
+          .row("spin", &O::spin, vector<3>("rad/s"),
+               "Constant angular velocity about its position, in the world.", absent("it does not turn"))
+          .row("appears", &O::appears, not_negative("s"),
+               "Before this it is neither seen, passed nor touched.")
+          .row("wall", &O::wall, input::flag(),
+               "True: an infinite thin wall around the opening. False: its rim alone, a ring.");
+  return fields;
+}
+
 }  // namespace
 
 simulation::MovingOrifice read_orifice(const Json& value, const std::string& path,
                                        const std::filesystem::path& folder) {
-  require_object(value, path);
-  require_known(value, path,
-                {"name", "opening", "position", "velocity", "speed", "heading", "heading_deg", "normal",
-                 "rotation", "spin", "appears", "wall"});
-  simulation::MovingOrifice orifice;
-  orifice.name = read_text(require_field(value, path, "name", "a name, as text"), path + ".name", "a name");
-  read_opening(require_field(value, path, "opening", "a mapping, such as {radius: 0.5}"), path + ".opening",
-               folder, orifice);
-  orifice.position = read_vector<3>(require_field(value, path, "position", "[x, y, z] in metres"),
-                                    path + ".position", " (metres)");
+  OrificeFile orifice;
+  orifice.folder = folder;
+  orifice_fields().read(value, path, orifice);
   orifice.velocity = read_going(value, path, false).velocity;
   orifice.rotation = read_attitude(value, path, orifice.window != nullptr);
-  if_given(value, path, "spin",
-           [&](const Json& v, const std::string& p) { orifice.spin = read_vector<3>(v, p, " (rad/s)"); });
-  if_given(value, path, "appears",
-           [&](const Json& v, const std::string& p) { orifice.appears = read_not_negative(v, p, " (s)"); });
-  if_given(value, path, "wall", [&](const Json& v, const std::string& p) { orifice.wall = read_flag(v, p); });
   return orifice;
+}
+
+Json orifice_schemas() {
+  return {{"orifice", orifice_fields().schema()}, {"opening", opening_fields().schema()}};
 }
 
 simulation::Through read_through(const Json& value, const std::string& path, simulation::Through::Law law) {

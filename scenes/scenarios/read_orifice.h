@@ -18,4 +18,7 @@ simulation::MovingOrifice read_orifice(const Json& value, const std::string& pat
 /// Fields of a pilot whose law is one of orifices.
 simulation::Through read_through(const Json& value, const std::string& path, simulation::Through::Law law);
 
+/// The $defs of their mappings in JSON Schema.
+Json orifice_schemas();
+
 }  // namespace vericone::scenario

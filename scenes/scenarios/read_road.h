@@ -17,4 +17,7 @@ namespace vericone::scenario {
 /// the field; those of other motions are none beside a road.
 void read_road(const Json& value, const std::string& path, bool planar, simulation::Body& body);
 
+/// The $defs of their mappings in JSON Schema.
+Json road_schemas();
+
 }  // namespace vericone::scenario

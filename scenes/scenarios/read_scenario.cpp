@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "input/assembly_body.h"
+#include "input/field_table.h"
 #include "input/file_body.h"
 #include "input/scene.h"
-#include "json/json_value.h"
 #include "json/plain_text.h"
 #include "scenarios/read_motion.h"
 #include "scenarios/read_orifice.h"
@@ -23,9 +23,58 @@
 namespace vericone::scenario {
 namespace {
 
-using input::at, input::quoted, input::require_field, input::require_known, input::require_object;
+using input::absent, input::at, input::Fields, input::not_negative, input::positive, input::quoted,
+    input::require_field, input::require_object, input::required;
 
 constexpr std::array<const char*, 5> kKinds{"semi_axes", "quadric", "a_c", "dented", "file"};
+
+/// Of a body beside its shape; read_body reads them, since one decides how another is read.
+const Fields<simulation::Body>& body_fields() {
+  using B = simulation::Body;
+  const auto one_of = [](const char* title, const char* first, const char* second) {
+    return Json{{"title", title}, {"anyOf", {{{"$ref", first}}, {{"$ref", second}}}}};
+  };
+  const Json point{{"$ref", "body.schema.json#/$defs/point"}, {"unit", "m"}};
+  const auto heading = [](const char* unit) { return Json{{"$ref", "#/$defs/heading"}, {"unit", unit}}; };
+  Json velocity = point;
+  velocity["unit"] = "m/s";
+  static const Fields<B> fields =
+      Fields<B>("body")
+          .special("name", {{"type", "string"}}, {}, "No other body has it.", required("a name, as text"))
+          .special(
+              "shape", {{"$ref", "#/$defs/shape"}}, {},
+              "Exactly one of the kinds below, in the body's own frame: x ahead. In place of `shape` and "
+              "`position` you may write the fields of a body as in a scene; `center` then says where it "
+              "appears.",
+              absent("required, or the `body` of a fish"))
+          .special("position", point, {}, "Where it is when it appears.", required("a place"))
+          .special("velocity", velocity, {},
+                   "When it appears, in the world. Of a body with a pilot 0 only where that is "
+                   "[guarded](../explanation/guarded.md).",
+                   absent("at rest"))
+          .special("speed", not_negative("m/s").schema, {},
+                   "In place of `velocity`, with `heading` or `heading_deg`.")
+          .special("heading", heading("rad"), {}, "In the plane an angle, in space `[azimuth, elevation]`.")
+          .special("heading_deg", heading("degrees"), {}, "The same in degrees.")
+          .special(
+              "orientation", {{"$ref", "#/$defs/orientation"}, {"default", "heading"}}, {},
+              "`heading`: the body turns with its velocity, without roll. `level`: x along the velocity, y "
+              "level, as in the source's 6.5. `fixed`: it does not turn.")
+          .special("rotation", {{"$ref", "body.schema.json#/$defs/rotation"}}, {},
+                   "Attitude at the start, written as in a scene. Not with `level`.",
+                   absent("x along the velocity, y level"))
+          .row("appears", &B::appears, not_negative("s"), "When it appears.")
+          .special("pilot", {{"$ref", "#/$defs/pilot"}}, {}, "Who steers it.", absent("it goes straight on"))
+          .special("vehicle", one_of("vehicle", "#/$defs/vehicle", "#/$defs/quadrotor"), {},
+                   "What moves it by its own equations of motion, below.",
+                   absent("a point mass under its pilot's acceleration"))
+          .special(
+              "road", one_of("road", "#/$defs/lanes", "#/$defs/squircle"), {},
+              "What a body without pilot and vehicle follows, to 1e-6 m, from its position and from when it "
+              "appears, below. Of the motion's fields `position` alone is given beside it.",
+              absent("it keeps its velocity"));
+  return fields;
+}
 
 /// A body as scenes write it, its fields beside `name`: what a scenario calls shape and position.
 Json with_shape(const Json& value, const std::string& path) {
@@ -33,10 +82,8 @@ Json with_shape(const Json& value, const std::string& path) {
   if (value.contains("position"))
     throw InputError(path + ".position", quoted(value["position"]),
                      "given with shape; beside a body's own fields its place is center");
-  constexpr const char* kOwn[] = {"name",     "velocity", "speed", "heading", "heading_deg", "orientation",
-                                  "rotation", "appears",  "pilot", "vehicle", "road"};
   for (const auto& [key, field] : value.items()) {
-    const bool own = std::find(std::begin(kOwn), std::end(kOwn), key) != std::end(kOwn);
+    const bool own = key != "shape" && body_fields().has(key);
     if (key == "center")
       body["position"] = field;
     else
@@ -61,9 +108,7 @@ simulation::Body read_body(const Json& given, const std::string& path, const std
                            std::optional<scenes::Reading>& reading) {
   require_object(given, path);
   const Json value = by_shape(given) ? given : with_shape(given, path);
-  require_known(value, path,
-                {"name", "shape", "position", "velocity", "speed", "heading", "heading_deg", "orientation",
-                 "rotation", "appears", "pilot", "vehicle", "road"});
+  body_fields().require_known(value, path);
   simulation::Body body;
   body.name = read_text(require_field(value, path, "name", "a name, as text"), path + ".name", "a name");
   bool own_shape = false;
@@ -93,16 +138,19 @@ simulation::Body read_body(const Json& given, const std::string& path, const std
   return body;
 }
 
-void read_proof(const Json& value, const std::string& path, simulation::ProofOptions& proof) {
-  require_object(value, path);
-  require_known(value, path, {"padding", "resolution", "drift"});
-  if_given(value, path, "padding", [&](const Json& v, const std::string& p) {
-    proof.padding = read_not_negative(v, p, " (metres)");
-  });
-  if_given(value, path, "resolution",
-           [&](const Json& v, const std::string& p) { proof.resolution = read_positive(v, p, " (s)"); });
-  if_given(value, path, "drift",
-           [&](const Json& v, const std::string& p) { proof.drift = read_not_negative(v, p, " (m/s)"); });
+const Fields<simulation::ProofOptions>& proof_fields() {
+  using P = simulation::ProofOptions;
+  static const Fields<P> fields =
+      Fields<P>("object")
+          .row("padding", &P::padding, not_negative("m"),
+               "The proof holds for all motions that are this near to the computed one.")
+          .row("resolution", &P::resolution, positive("s"),
+               "Times shorter than this are not divided further.")
+          .row("drift", &P::drift, not_negative("m/s"),
+               "The proof holds for all constant currents of at most this speed that carry the bodies off "
+               "their "
+               "ways.");
+  return fields;
 }
 
 /// Every row of the tables is kept until the run is over.
@@ -120,51 +168,78 @@ void check_size(const simulation::Scenario& scenario) {
                        " rows (bodies, and pairs with an agent) are more than 3000000 rows");
 }
 
+/// A scenario while it is read.
+struct ScenarioFile : simulation::Scenario {
+  std::filesystem::path folder;
+  Readings* readings = nullptr;
+};
+
+void read_bodies(const Json& value, const std::string& path, ScenarioFile& scenario) {
+  if (!value.is_array() || value.empty()) throw InputError(path, quoted(value), "a list of bodies");
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    std::optional<scenes::Reading> reading;
+    scenario.bodies.push_back(read_body(value[i], at(path, i), scenario.folder, reading));
+    if (scenario.readings) scenario.readings->push_back(std::move(reading));
+  }
+}
+
+void read_orifices(const Json& value, const std::string& path, ScenarioFile& scenario) {
+  if (!value.is_array() || value.empty()) throw InputError(path, quoted(value), "a list of orifices");
+  for (std::size_t i = 0; i < value.size(); ++i)
+    scenario.orifices.push_back(read_orifice(value[i], at(path, i), scenario.folder));
+}
+
+const Fields<ScenarioFile>& scenario_fields() {
+  using S = ScenarioFile;
+  const auto list_of = [](const char* title, Json items) {
+    return Json{{"type", "array"}, {"items", std::move(items)}, {"minItems", 1}, {"title", title}};
+  };
+  const auto water = [](const Json& v, const std::string& p, S& s) { s.water = read_current(v, p, s.seed); };
+  static const Fields<S> fields =
+      Fields<S>("vericone: a scenario")
+          .row("name", &S::name, input::text("a name"), "What reports call the run.",
+               absent("the file's name"))
+          .row("duration", &S::duration, positive("s"), "The run ends after so long at most.")
+          .row("step", &S::step, positive("s"), "Between two commands. A command is held in between.")
+          .row("stop_when_passed", &S::stop_when_passed, input::flag(),
+               "True: the run ends when every agent has passed all bodies that it minds, and no body is "
+               "still to "
+               "appear.")
+          .row("planes_logged", &S::planes_logged, input::count(0, 10'000),
+               "At every command y and psi are logged on so many planes.")
+          .row("proof", &S::proof, input::mapping(proof_fields()), "How sharply the run is proved, below.")
+          .special("bodies",
+                   list_of("list of bodies",
+                           {{"anyOf", {{{"$ref", "#/$defs/by_shape"}}, {{"$ref", "#/$defs/as_in_scenes"}}}}}),
+                   read_bodies, "All in the plane, or all in space.", required("a list of bodies"))
+          .row("seed", &S::seed, input::count(0, 2'000'000'000), "Of the noise that sensors make.")
+          .special("orifices", list_of("list of orifices", {{"$ref", "#/$defs/orifice"}}), read_orifices,
+                   "Openings that agents pass through, in space, below.", absent("none"))
+          .special("current", {{"$ref", "#/$defs/current"}}, water,
+                   "Water or air that moves vehicles, below.", absent("none"));
+  return fields;
+}
+
 }  // namespace
 
 simulation::Scenario read_scenario(const Json& fields, const std::string& name,
                                    const std::filesystem::path& folder, Readings* readings) {
   if (!fields.is_object()) throw InputError("scenario", quoted(fields), "a mapping with bodies");
-  require_known(fields, "",
-                {"name", "duration", "step", "stop_when_passed", "planes_logged", "proof", "bodies", "seed",
-                 "orifices", "current"});
-  simulation::Scenario scenario;
-  scenario.name = name;
-  if_given(fields, "", "name",
-           [&](const Json& v, const std::string& p) { scenario.name = read_text(v, p, "a name"); });
-  if_given(fields, "", "duration",
-           [&](const Json& v, const std::string& p) { scenario.duration = read_positive(v, p, " (s)"); });
-  if_given(fields, "", "step",
-           [&](const Json& v, const std::string& p) { scenario.step = read_positive(v, p, " (s)"); });
-  if_given(fields, "", "stop_when_passed",
-           [&](const Json& v, const std::string& p) { scenario.stop_when_passed = read_flag(v, p); });
-  if_given(fields, "", "planes_logged", [&](const Json& v, const std::string& p) {
-    scenario.planes_logged = read_count(v, p, 0, 10'000);
-  });
-  if_given(fields, "", "proof",
-           [&](const Json& v, const std::string& p) { read_proof(v, p, scenario.proof); });
-  if_given(fields, "", "seed", [&](const Json& v, const std::string& p) {
-    scenario.seed = std::uint64_t(read_count(v, p, 0, 2'000'000'000));
-  });
-  if_given(fields, "", "current",
-           [&](const Json& v, const std::string& p) { scenario.water = read_current(v, p, scenario.seed); });
-  const Json& bodies = require_field(fields, "", "bodies", "a list of bodies");
-  if (!bodies.is_array() || bodies.empty()) throw InputError("bodies", quoted(bodies), "a list of bodies");
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    std::optional<scenes::Reading> reading;
-    scenario.bodies.push_back(read_body(bodies[i], at("bodies", i), folder, reading));
-    if (readings) readings->push_back(std::move(reading));
-  }
-  if_given(fields, "", "orifices", [&](const Json& v, const std::string& p) {
-    if (!v.is_array() || v.empty()) throw InputError(p, quoted(v), "a list of orifices");
-    for (std::size_t i = 0; i < v.size(); ++i)
-      scenario.orifices.push_back(read_orifice(v[i], at(p, i), folder));
-  });
+  ScenarioFile read{{}, folder, readings};
+  read.name = name;
+  scenario_fields().read(fields, "", read);
+  simulation::Scenario scenario = std::move(read);
   for (simulation::Body& body : scenario.bodies)  // the outer loop's step is the scenario's
     if (body.pilot && body.pilot->guide.robust) body.pilot->guide.robust->model.dt = scenario.step;
   simulation::check(scenario);
   check_size(scenario);
   return scenario;
+}
+
+Json scenario_file_schema() {
+  Json schema = scenario_fields().schema();
+  schema["$defs"]["by_shape"] = body_fields().schema();
+  return schema;
 }
 
 simulation::Scenario scenario_of_text(const std::string& text, const std::string& file) {

@@ -20,4 +20,7 @@ using Readings = std::vector<std::optional<scenes::Reading>>;
 simulation::Scenario read_scenario(const Json& fields, const std::string& name,
                                    const std::filesystem::path& folder = {}, Readings* readings = nullptr);
 
+/// Of the file itself in JSON Schema; its $defs stand elsewhere.
+Json scenario_file_schema();
+
 }  // namespace vericone::scenario

@@ -24,4 +24,7 @@ VehicleRead read_vehicle(const Json& value, const std::string& path, bool shape_
 /// `seed`: of the gusts.
 simulation::Current read_current(const Json& value, const std::string& path, std::uint64_t seed);
 
+/// The $defs of their mappings in JSON Schema.
+Json vehicle_schemas();
+
 }  // namespace vericone::scenario
