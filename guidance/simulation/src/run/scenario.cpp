@@ -2,12 +2,12 @@
 #include <vericone/simulation/scenario.h>
 
 #include <vericone/geometry/error.h>
-#include <vericone/guidance/plane_view.h>
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "check_orifices.h"
+#include "names.h"
+#include "run/check_orifices.h"
 
 namespace vericone::simulation {
 namespace {
@@ -24,117 +24,33 @@ void require_not_negative(double value, const char* field, const char* unit) {
     throw InputError(field, to_text(value), std::string("a finite number, 0 or more") + unit);
 }
 
-bool cooperates(guidance::Law law) {
-  return law == guidance::Law::cooperative_avoidance || law == guidance::Law::cooperative_rendezvous;
-}
-
-/// What a law, or a guarded pilot, can see; and whether meetings of the kinds can be proved.
-void check_kinds(const Pilot& pilot, const Body& self, const Scenario& scenario) {
-  const auto state = [](const Body& body) {
-    guidance::BodyState at;
-    at.shape = shape_at(body.shape, body.appears, body.start.position, body.start.rotation);
-    return at;
-  };
-  const bool by_sector = !guarded(pilot) && pilot.guide.law != guidance::Law::clearance;
-  const guidance::BodyState agent = state(self);
-  for (const Body& other : scenario.bodies) {
-    const bool minded = pilot.minds.empty() ||
-                        std::find(pilot.minds.begin(), pilot.minds.end(), other.name) != pilot.minds.end();
-    if (other.name == self.name || !minded || planar(other.shape) != planar(self.shape)) continue;
-    const guidance::BodyState obstacle = state(other);
-    if (guidance::has_sectors(agent, obstacle, guidance::SectorMethod::slice)) continue;
-    if (by_sector && !guidance::has_sectors(agent, obstacle, pilot.guide.sector))
-      throw InputError("law",
-                       std::string(guidance::to_string(pilot.guide.law)) + " by slices, which " + self.name +
-                           " and " + other.name + " do not have",
-                       "exact sectors, clearance, or avoidance with the manner guarded");
-    try {
-      static_cast<void>(pair_of(agent.shape, obstacle.shape));
-    } catch (const InputError& e) {
-      throw InputError("minds", other.name + " (" + e.value() + ")",
-                       "bodies of kinds that are certified against that of " + self.name);
-    }
-  }
-}
-
-void check_sensing(const Pilot& pilot, double step) {
-  const guidance::GuideOptions& guide = pilot.guide;
-  const bool inverts = guide.law == guidance::Law::avoidance && !guarded(pilot);
-  const auto of_inversion = [&](const char* field) {
-    if (!inverts)
-      throw InputError(field, guidance::to_string(guide.law),
-                       "the law avoidance with the manner source: no other has it");
-  };
-  if (guide.filter.any()) of_inversion("filter");
-  if (guide.robust) {
-    of_inversion("robust");
-    if (!std::isfinite(guide.inversion.most))
-      throw InputError("most", "without limit", "a number (m/s^2): the outer loop shares it");
-    guidance::RobustModel model = guide.robust->model;
-    model.gain = guide.inversion.gain;
-    if (model.dt != step)
-      throw InputError("robust.dt", to_text(model.dt), "the scenario's step, " + to_text(step) + " s");
-    try {
-      guidance::check(model, guide.robust->options);
-    } catch (const InputError& e) {
-      throw e.within("robust");
-    }
-  }
-  require_not_negative(pilot.estimator_intensity, "estimator.intensity", " (m^2/s^3)");
-  require_not_negative(pilot.obstacle_most, "estimator.most", " (m/s^2)");
-  if (!pilot.sensor) {
-    if (pilot.estimator != Estimator::none)
-      throw InputError("estimator", to_string(pilot.estimator), "left out without a sensor: all is known");
-    return;
-  }
-  try {
-    check(*pilot.sensor);
-  } catch (const InputError& e) {
-    throw e.within("sensor");
-  }
-  if (pilot.sensor->noise != Noise::engagement) return;
-  of_inversion("sensor");
-  if (pilot.estimator != Estimator::none)
-    throw InputError("estimator", to_string(pilot.estimator),
-                     "left out: the sensor engagement measures no position and velocity");
-}
-
-void check_pilot(const Pilot& pilot, const Body& self, const Scenario& scenario) {
-  if (pilot.through) check_through(*pilot.through, self, scenario);
-  guidance::check(pilot.guide);
-  const auto find = [&](const std::string& name) {
-    return std::find_if(scenario.bodies.begin(), scenario.bodies.end(),
-                        [&](const Body& body) { return body.name == name; });
-  };
+void check_pilot(const Pilot& pilot, const PilotModel& model, const Body& self, const Scenario& scenario) {
+  const std::vector<Body>& bodies = scenario.bodies;
   const auto require_other = [&](const std::vector<std::string>& names, const char* field) {
     for (std::size_t i = 0; i < names.size(); ++i)
-      if (names[i] == self.name || find(names[i]) == scenario.bodies.end())
+      if (names[i] == self.name || index_of(bodies, names[i]) == bodies.size())
         throw InputError(at(field, i), names[i], "the name of another body");
   };
   require_other(pilot.minds, "minds");
   require_other(pilot.partners, "partners");
-  for (std::size_t i = 0; i < pilot.partners.size(); ++i)
-    if (find(pilot.partners[i])->pilot)
+  for (std::size_t i = 0; i < pilot.partners.size(); ++i) {
+    const Body& partner = bodies[index_of(bodies, pilot.partners[i])];
+    if (partner.pilot)
       throw InputError(at("partners", i), pilot.partners[i],
                        "a body without a pilot of its own: it carries out what this law says");
-  for (std::size_t i = 0; i < pilot.partners.size(); ++i)
-    if (find(pilot.partners[i])->road)
+    if (partner.road)
       throw InputError(at("partners", i), pilot.partners[i],
                        "a body without a road, which leaves it no choice");
-  if (!pilot.partners.empty() && !cooperates(pilot.guide.law))
-    throw InputError("partners", pilot.partners.front(), "no partners with this law, or a cooperative one");
-  if (!pilot.through) check_kinds(pilot, self, scenario);
-  check_sensing(pilot, scenario.step);
+  }
+  model.check(scenario, self);
   if (!pilot.goal) return;
   if (!pilot.goal->point.allFinite())
     throw InputError("goal.point", "a number that is not finite", "finite (m)");
   require_positive(pilot.goal->most, "goal.most", " (m/s^2)");
   require_positive(pilot.goal->reached, "goal.reached", " (m)");
-  if (!pilot.goal->after.empty()) {
-    const auto after = find(pilot.goal->after);
-    if (pilot.goal->after == self.name || after == scenario.bodies.end())
-      throw InputError("goal.after", pilot.goal->after, "the name of another body");
-  }
+  const std::string& after = pilot.goal->after;
+  if (!after.empty() && (after == self.name || index_of(bodies, after) == bodies.size()))
+    throw InputError("goal.after", after, "the name of another body");
 }
 
 void check_body(const Body& body, const Scenario& scenario) {
@@ -171,26 +87,13 @@ void check_body(const Body& body, const Scenario& scenario) {
       throw InputError("road", "one that begins elsewhere", "one that begins at the body's position");
   }
   if (!body.pilot) return;
-  if (!body.start.velocity.any() && !guarded(*body.pilot))
+  const auto model = model_of(*body.pilot);
+  if (!body.start.velocity.any() && !model->may_rest())
     throw InputError("velocity", "0", "a heading: only a guarded pilot may start at rest");
-  within("pilot", [&] { check_pilot(*body.pilot, body, scenario); });
+  within("pilot", [&] { check_pilot(*body.pilot, *model, body, scenario); });
 }
 
 }  // namespace
-
-bool guarded(const Pilot& pilot) {
-  const guidance::Law law = pilot.guide.law;
-  return !pilot.through && pilot.manner == Manner::guarded &&
-         (law == guidance::Law::avoidance || law == guidance::Law::clearance);
-}
-
-double most_commanded(const Pilot& pilot) {
-  if (pilot.through)
-    return pilot.through->law == Through::Law::passage ? pilot.through->passage.most
-                                                       : pilot.through->source.most;
-  return pilot.guide.law == guidance::Law::clearance ? pilot.guide.clearance.most
-                                                     : pilot.guide.inversion.most;
-}
 
 double time_of_step(const Scenario& scenario, std::uint64_t k) {
   const double in_a_second = std::round(1 / scenario.step);

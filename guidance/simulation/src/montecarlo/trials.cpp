@@ -26,7 +26,7 @@ double number_of(const std::string& text, const std::string& whole) {
 }
 
 /// One that minds bodies, or could.
-bool about_bodies(const Body& body) { return body.pilot && !body.pilot->through; }
+bool about_bodies(const Body& body) { return body.pilot && minds_bodies(*body.pilot); }
 
 /// What an outer loop does where the scenario does not say: a and |b| as the noise leaves them, and a bound
 /// of its influence that a step of 0.01 s can keep.
