@@ -27,10 +27,8 @@ void read_window(const Json& value, const std::string& path, const std::filesyst
   const std::string name = read_text(value["mesh"], path + ".mesh", "the name of a mesh file");
   int loop = 0;
   double scale = 1;
-  if_given(value, path, "loop",
-           [&](const Json& v, const std::string& p) { loop = read_count(v, p, 0, 1'000'000); });
-  if_given(value, path, "scale",
-           [&](const Json& v, const std::string& p) { scale = read_positive(v, p, ""); });
+  take(value, path, "loop", loop, read_count, 0, 1'000'000);
+  take(value, path, "scale", scale, read_positive, "");
   files::PointFile file;
   try {
     file = files::read_points(folder / name);
@@ -123,11 +121,9 @@ simulation::MovingOrifice read_orifice(const Json& value, const std::string& pat
                                     path + ".position", " (metres)");
   orifice.velocity = read_going(value, path, false).velocity;
   orifice.rotation = read_attitude(value, path, orifice.window != nullptr);
-  if_given(value, path, "spin",
-           [&](const Json& v, const std::string& p) { orifice.spin = read_vector<3>(v, p, " (rad/s)"); });
-  if_given(value, path, "appears",
-           [&](const Json& v, const std::string& p) { orifice.appears = read_not_negative(v, p, " (s)"); });
-  if_given(value, path, "wall", [&](const Json& v, const std::string& p) { orifice.wall = read_flag(v, p); });
+  take(value, path, "spin", orifice.spin, read_vector<3>, " (rad/s)");
+  take(value, path, "appears", orifice.appears, read_not_negative, " (s)");
+  take(value, path, "wall", orifice.wall, read_flag);
   return orifice;
 }
 
@@ -139,10 +135,6 @@ simulation::Through read_through(const Json& value, const std::string& path, sim
     throw InputError(path + ".through", quoted(names), "a list of names of orifices");
   for (std::size_t i = 0; i < names.size(); ++i)
     through.orifices.push_back(read_text(names[i], at(path + ".through", i), "the name of an orifice"));
-  const auto metres = [&](const char* field, double& to) {
-    if_given(value, path, field,
-             [&](const Json& v, const std::string& p) { to = read_not_negative(v, p, " (metres)"); });
-  };
   if_given(value, path, "gain", [&](const Json& v, const std::string& p) {
     through.source.gain = through.passage.gain = read_positive(v, p, " (1/s)");
   });
@@ -157,18 +149,15 @@ simulation::Through read_through(const Json& value, const std::string& path, sim
     for (std::size_t i = 0; v.is_array() && i < v.size(); ++i)
       through.speeds.push_back(read_positive(v[i], at(p, i), " (m/s)"));
   });
-  if_given(value, path, "gain_speed",
-           [&](const Json& v, const std::string& p) { through.gain_speed = read_positive(v, p, " (1/s)"); });
-  metres("margin", through.passage.margin);
-  metres("beyond", through.passage.beyond);
-  if_given(value, path, "longitudinal",
-           [&](const Json& v, const std::string& p) { through.passage.longitudinal = read_flag(v, p); });
+  take(value, path, "gain_speed", through.gain_speed, read_positive, " (1/s)");
+  take(value, path, "margin", through.passage.margin, read_not_negative, " (metres)");
+  take(value, path, "beyond", through.passage.beyond, read_not_negative, " (metres)");
+  take(value, path, "longitudinal", through.passage.longitudinal, read_flag);
   if (value.contains("direction") && value.contains("direction_deg"))
     throw InputError(path + ".direction_deg", quoted(value["direction_deg"]), "left out beside direction");
   for (const bool degrees : {false, true})
-    if_given(value, path, degrees ? "direction_deg" : "direction", [&](const Json& v, const std::string& p) {
-      through.source.direction = read_heading(v, p, false, degrees);
-    });
+    take(value, path, degrees ? "direction_deg" : "direction", through.source.direction, read_heading, false,
+         degrees);
   return through;
 }
 

@@ -23,8 +23,7 @@ LaneChange read_change(const Json& value, const std::string& path) {
   change.at = read_not_negative(require_field(value, path, "at", "a time (s)"), join(path, "at"), " (s)");
   change.acceleration = read_number(require_field(value, path, "acceleration", "a number (m/s^2)"),
                                     join(path, "acceleration"), " (m/s^2)");
-  if_given(value, path, "seconds",
-           [&](const Json& v, const std::string& p) { change.seconds = read_positive(v, p, " (s)"); });
+  take(value, path, "seconds", change.seconds, read_positive, " (s)");
   return change;
 }
 
@@ -47,8 +46,7 @@ std::shared_ptr<const Road> read_squircle(const Json& value, const std::string& 
   const double period =
       read_positive(require_field(value, path, "period", "seconds"), join(path, "period"), " (s)");
   double squareness = 0.9;
-  if_given(value, path, "squareness",
-           [&](const Json& v, const std::string& p) { squareness = read_number(v, p, ""); });
+  take(value, path, "squareness", squareness, read_number, "");
   return simulation::squircle_road(start, radius, squareness, period);
 }
 

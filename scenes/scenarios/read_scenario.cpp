@@ -81,10 +81,8 @@ simulation::Body read_body(const Json& given, const std::string& path, const std
     read_road(value, path, planar, body);
   else
     read_motion(value, path, planar, body);
-  if_given(value, path, "appears",
-           [&](const Json& v, const std::string& p) { body.appears = read_not_negative(v, p, " (s)"); });
-  if_given(value, path, "pilot",
-           [&](const Json& v, const std::string& p) { body.pilot = read_pilot(v, p, planar); });
+  take(value, path, "appears", body.appears, read_not_negative, " (s)");
+  take(value, path, "pilot", body.pilot, read_pilot, planar);
   // Who starts at rest and could not change its speed could do nothing.
   const auto pilot = value.find("pilot");
   if (body.pilot && !body.start.velocity.any() &&
@@ -96,13 +94,9 @@ simulation::Body read_body(const Json& given, const std::string& path, const std
 void read_proof(const Json& value, const std::string& path, simulation::ProofOptions& proof) {
   require_object(value, path);
   require_known(value, path, {"padding", "resolution", "drift"});
-  if_given(value, path, "padding", [&](const Json& v, const std::string& p) {
-    proof.padding = read_not_negative(v, p, " (metres)");
-  });
-  if_given(value, path, "resolution",
-           [&](const Json& v, const std::string& p) { proof.resolution = read_positive(v, p, " (s)"); });
-  if_given(value, path, "drift",
-           [&](const Json& v, const std::string& p) { proof.drift = read_not_negative(v, p, " (m/s)"); });
+  take(value, path, "padding", proof.padding, read_not_negative, " (metres)");
+  take(value, path, "resolution", proof.resolution, read_positive, " (s)");
+  take(value, path, "drift", proof.drift, read_not_negative, " (m/s)");
 }
 
 /// Every row of the tables is kept until the run is over.
@@ -130,17 +124,11 @@ simulation::Scenario read_scenario(const Json& fields, const std::string& name,
                  "orifices", "current"});
   simulation::Scenario scenario;
   scenario.name = name;
-  if_given(fields, "", "name",
-           [&](const Json& v, const std::string& p) { scenario.name = read_text(v, p, "a name"); });
-  if_given(fields, "", "duration",
-           [&](const Json& v, const std::string& p) { scenario.duration = read_positive(v, p, " (s)"); });
-  if_given(fields, "", "step",
-           [&](const Json& v, const std::string& p) { scenario.step = read_positive(v, p, " (s)"); });
-  if_given(fields, "", "stop_when_passed",
-           [&](const Json& v, const std::string& p) { scenario.stop_when_passed = read_flag(v, p); });
-  if_given(fields, "", "planes_logged", [&](const Json& v, const std::string& p) {
-    scenario.planes_logged = read_count(v, p, 0, 10'000);
-  });
+  take(fields, "", "name", scenario.name, read_text, "a name");
+  take(fields, "", "duration", scenario.duration, read_positive, " (s)");
+  take(fields, "", "step", scenario.step, read_positive, " (s)");
+  take(fields, "", "stop_when_passed", scenario.stop_when_passed, read_flag);
+  take(fields, "", "planes_logged", scenario.planes_logged, read_count, 0, 10'000);
   if_given(fields, "", "proof",
            [&](const Json& v, const std::string& p) { read_proof(v, p, scenario.proof); });
   if_given(fields, "", "seed", [&](const Json& v, const std::string& p) {

@@ -103,8 +103,7 @@ FishOptions read_fish(const Json& value, const std::string& path) {
         "at most 90 degrees with most_amplitude_deg and most_bias_deg together: no tail folds over");
   }
   number(value, path, "depth", options.depth);
-  if_given(value, path, "gas",
-           [&](const Json& v, const std::string& p) { options.gas = read_number(v, p, " (m^3)"); });
+  take(value, path, "gas", options.gas, read_number, " (m^3)");
   if_given(value, path, "control", [&](const Json& v, const std::string& p) {
     options.control = read_choice<FishControl>(
         v, p, {{"ours", FishControl::ours}, {"source", FishControl::source}, {"none", FishControl::none}});
@@ -129,31 +128,23 @@ QuadrotorOptions read_quadrotor(const Json& value, const std::string& path) {
                 {"kind", "mass", "inertia", "gravity", "gain_attitude", "gain_rate", "most_thrust",
                  "most_torque", "most_tilt_deg", "drag", "period", "solver_step"});
   QuadrotorOptions options;
-  const auto positive = [&](const char* field, const char* unit, double& to, double scale = 1) {
-    if_given(value, path, field,
-             [&](const Json& v, const std::string& p) { to = scale * read_positive(v, p, unit); });
-  };
-  positive("mass", " (kg)", options.mass);
-  if_given(value, path, "inertia", [&](const Json& v, const std::string& p) {
-    options.inertia = input::read_vector<3>(v, p, " (kg m^2)");
-  });
-  positive("gravity", " (m/s^2)", options.gravity);
-  positive("gain_attitude", " (N m/rad)", options.gain_attitude);
-  positive("gain_rate", " (N m s/rad)", options.gain_rate);
+  take(value, path, "mass", options.mass, read_positive, " (kg)");
+  take(value, path, "inertia", options.inertia, input::read_vector<3>, " (kg m^2)");
+  take(value, path, "gravity", options.gravity, read_positive, " (m/s^2)");
+  take(value, path, "gain_attitude", options.gain_attitude, read_positive, " (N m/rad)");
+  take(value, path, "gain_rate", options.gain_rate, read_positive, " (N m s/rad)");
   options.most_thrust = 2 * options.mass * options.gravity;
-  positive("most_thrust", " (N)", options.most_thrust);
-  positive("most_torque", " (N m)", options.most_torque);
+  take(value, path, "most_thrust", options.most_thrust, read_positive, " (N)");
+  take(value, path, "most_torque", options.most_torque, read_positive, " (N m)");
   if_given(value, path, "most_tilt_deg", [&](const Json& v, const std::string& p) {
     constexpr double kMost = 80;
     const double tilt = read_positive(v, p, " (degrees)");
     if (!(tilt <= kMost)) throw InputError(p, quoted(v), "at most 80 degrees");
     options.most_tilt = kDegree * tilt;
   });
-  if_given(value, path, "drag", [&](const Json& v, const std::string& p) {
-    options.drag = input::read_vector<3>(v, p, " (N s/m)");
-  });
-  positive("period", " (s)", options.period);
-  positive("solver_step", " (s)", options.step);
+  take(value, path, "drag", options.drag, input::read_vector<3>, " (N s/m)");
+  take(value, path, "period", options.period, read_positive, " (s)");
+  take(value, path, "solver_step", options.step, read_positive, " (s)");
   return options;
 }
 
@@ -194,8 +185,7 @@ simulation::Current read_current(const Json& value, const std::string& path, std
   simulation::Shear shear;
   simulation::Gusts gusts;
   gusts.seed = seed;
-  if_given(value, path, "uniform",
-           [&](const Json& v, const std::string& p) { uniform = input::read_vector<3>(v, p, " (m/s)"); });
+  take(value, path, "uniform", uniform, input::read_vector<3>, " (m/s)");
   if_given(value, path, "shear", [&](const Json& v, const std::string& p) {
     require_object(v, p);
     require_known(v, p, {"rate", "level"});
@@ -210,8 +200,7 @@ simulation::Current read_current(const Json& value, const std::string& path, std
         read_not_negative(require_field(v, p, "most", "how fast at most (m/s)"), join(p, "most"), " (m/s)");
     number(v, p, "shortest", gusts.shortest);
     number(v, p, "longest", gusts.longest);
-    if_given(v, p, "horizontal",
-             [&](const Json& h, const std::string& q) { gusts.horizontal = read_flag(h, q); });
+    take(v, p, "horizontal", gusts.horizontal, read_flag);
   });
   return input::within(path, [&] { return simulation::Current(uniform, shear, gusts); });
 }
