@@ -111,13 +111,14 @@ class Runner {
     for (std::size_t i = 0; i < pilots_.size(); ++i) {
       if (!pilots_[i] || !now.there(i)) continue;
       now.self = i;
+      now.vehicle = vehicles_[i].get();
       ask(*pilots_[i]);
     }
   }
 
   /// Commands at t, held until `to`.
   void interval(double t, double to) {
-    Instant now{t, to, before_, command_, 0, states_, run_.tracks, nullptr};
+    Instant now{t, to, before_, command_, 0, states_, run_.tracks, nullptr, nullptr};
     for (std::size_t i = 0; i < states_.size(); ++i)
       if (now.there(i)) states_[i] = run_.tracks[i].state(t);
     std::fill(commands_.begin(), commands_.end(), VehicleCommand{});

@@ -97,7 +97,7 @@ void check_body(const Body& body, const Scenario& scenario) {
 
 double time_of_step(const Scenario& scenario, std::uint64_t k) {
   const double in_a_second = std::round(1 / scenario.step);
-  const bool whole = std::abs(in_a_second * scenario.step - 1) < 1e-15;
+  const bool whole = !scenario.multiples && std::abs(in_a_second * scenario.step - 1) < 1e-15;
   return whole ? double(k) / in_a_second : double(k) * scenario.step;
 }
 

@@ -11,6 +11,7 @@
 #include <vericone/simulation/vehicle.h>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -110,6 +111,7 @@ struct Instant {
   std::span<const guidance::BodyState> bodies;  // now; of bodies that are there()
   std::span<const Track> tracks;                // until now; after a step until its end
   const Goal* goal = nullptr;                   // where it may go now; null: nowhere
+  const Vehicle* vehicle = nullptr;             // that carries out what it commands; null: a point mass
 
   [[nodiscard]] bool there(std::size_t body) const { return tracks[body].appears() <= t; }
   [[nodiscard]] const guidance::BodyState& own() const { return bodies[self]; }
@@ -147,6 +149,8 @@ class PilotModel {
   /// For body `self` of a scenario that is checked; scenario and model outlive it.
   [[nodiscard]] virtual std::unique_ptr<FlyingPilot> launch(const Scenario& scenario, std::size_t self,
                                                             const RunOptions& options) const = 0;
+  /// Of its law, for texts.
+  [[nodiscard]] virtual std::string name() const { return "own"; }
   /// What it commands at most, m/s^2; infinite where it has no limit.
   [[nodiscard]] virtual double most() const { return std::numeric_limits<double>::infinity(); }
   /// What no motion exceeds of a point mass that it flies, commanded every `step` s.
@@ -163,6 +167,13 @@ class PilotModel {
 
 /// The object that answers for a pilot: its own one, or that of its law. It refers to the pilot.
 [[nodiscard]] std::shared_ptr<const PilotModel> model_of(const Pilot& pilot);
+
+/// The acceleration, m/s^2, that a pilot wants: at a time, s, of its body, among all others that are there.
+using Steering = std::function<Eigen::Vector3d(double, const guidance::BodyState&,
+                                               const std::vector<guidance::BodyState>&)>;
+/// One that a function flies, called once a step; what it returns is held. The run throws InputError naming
+/// "acceleration" where that is not finite.
+[[nodiscard]] std::shared_ptr<const PilotModel> pilot_by(Steering steering);
 
 /// Whether its law is one about bodies, `guide`.
 [[nodiscard]] bool minds_bodies(const Pilot& pilot);

@@ -36,6 +36,7 @@ struct Scenario {
   std::string name;
   double duration = 10;           // s, at most
   double step = 0.01;             // s, between two commands, which are held in between
+  bool multiples = false;         // commands at multiples of the step as they round, not at decimals
   bool stop_when_passed = false;  // ends when every agent has passed all that it minds, and none is to come
   int planes_logged = 0;          // y and psi are logged on this many planes (Fig 6.9)
   std::vector<Body> bodies;
@@ -46,7 +47,7 @@ struct Scenario {
 };
 
 /// The time of the k-th command, seconds. Of steps such as 0.01 s, a whole number of which is a second, the
-/// double nearest to the decimal: 1.63 and not 1.6300000000000001.
+/// double nearest to the decimal: 1.63 and not 1.6300000000000001; unless `multiples`.
 [[nodiscard]] double time_of_step(const Scenario& scenario, std::uint64_t k);
 
 /// Throws InputError with the field's path: "bodies[2].shape.k", "bodies[0].pilot.minds[1]", ...
