@@ -179,10 +179,6 @@ simulation::Through read_through(const Json& value, const std::string& path, sim
     throw InputError(path + ".through", quoted(names), "a list of names of orifices");
   for (std::size_t i = 0; i < names.size(); ++i)
     through.orifices.push_back(read_text(names[i], at(path + ".through", i), "the name of an orifice"));
-  const auto metres = [&](const char* field, double& to) {
-    if_given(value, path, field,
-             [&](const Json& v, const std::string& p) { to = read_not_negative(v, p, " (metres)"); });
-  };
   if_given(value, path, "gain", [&](const Json& v, const std::string& p) {
     through.source.gain = through.passage.gain = read_positive(v, p, " (1/s)");
   });
@@ -197,18 +193,15 @@ simulation::Through read_through(const Json& value, const std::string& path, sim
     for (std::size_t i = 0; v.is_array() && i < v.size(); ++i)
       through.speeds.push_back(read_positive(v[i], at(p, i), " (m/s)"));
   });
-  if_given(value, path, "gain_speed",
-           [&](const Json& v, const std::string& p) { through.gain_speed = read_positive(v, p, " (1/s)"); });
-  metres("margin", through.passage.margin);
-  metres("beyond", through.passage.beyond);
-  if_given(value, path, "longitudinal",
-           [&](const Json& v, const std::string& p) { through.passage.longitudinal = read_flag(v, p); });
+  take(value, path, "gain_speed", through.gain_speed, read_positive, " (1/s)");
+  take(value, path, "margin", through.passage.margin, read_not_negative, " (metres)");
+  take(value, path, "beyond", through.passage.beyond, read_not_negative, " (metres)");
+  take(value, path, "longitudinal", through.passage.longitudinal, read_flag);
   if (value.contains("direction") && value.contains("direction_deg"))
     throw InputError(path + ".direction_deg", quoted(value["direction_deg"]), "left out beside direction");
   for (const bool degrees : {false, true})
-    if_given(value, path, degrees ? "direction_deg" : "direction", [&](const Json& v, const std::string& p) {
-      through.source.direction = read_heading(v, p, false, degrees);
-    });
+    take(value, path, degrees ? "direction_deg" : "direction", through.source.direction, read_heading, false,
+         degrees);
   return through;
 }
 

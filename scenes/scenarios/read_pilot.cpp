@@ -15,18 +15,19 @@ using guidance::Law;
 using input::at, input::quoted, input::read_number, input::read_vector, input::require_field,
     input::require_known, input::require_object;
 
-/// Of bodies that are minded, or of orifices that are passed.
+/// Of bodies that are minded, or of orifices that are passed; or any other, by what reads it.
 struct ReadLaw {
   Law minding = Law::avoidance;
-  std::optional<simulation::Through::Law> through;
+  std::optional<simulation::Through::Law> through = {};
+  std::shared_ptr<const simulation::PilotModel> (*own)(const Json& value, const std::string& path) = nullptr;
 };
 
 constexpr std::initializer_list<std::pair<const char*, ReadLaw>> kLaws = {
-    {"avoidance", {Law::avoidance, {}}},
-    {"cooperative-avoidance", {Law::cooperative_avoidance, {}}},
-    {"cooperative-rendezvous", {Law::cooperative_rendezvous, {}}},
-    {"matching-rendezvous", {Law::matching_rendezvous, {}}},
-    {"clearance", {Law::clearance, {}}},
+    {"avoidance", {Law::avoidance}},
+    {"cooperative-avoidance", {Law::cooperative_avoidance}},
+    {"cooperative-rendezvous", {Law::cooperative_rendezvous}},
+    {"matching-rendezvous", {Law::matching_rendezvous}},
+    {"clearance", {Law::clearance}},
     {"orifice", {Law::avoidance, simulation::Through::Law::orifice}},
     {"passage", {Law::avoidance, simulation::Through::Law::passage}}};
 
@@ -103,12 +104,9 @@ guidance::PlaneOptions read_plane(const Json& value, const std::string& path) {
                                                        {"steepest-clearance", steepest_clearance},
                                                        {"of-motion", of_motion}});
   });
-  if_given(value, path, "planes",
-           [&](const Json& v, const std::string& p) { plane.planes = read_count(v, p, 1, 100'000); });
-  if_given(value, path, "refine",
-           [&](const Json& v, const std::string& p) { plane.refine = read_flag(v, p); });
-  if_given(value, path, "wind",
-           [&](const Json& v, const std::string& p) { plane.wind = read_vector<3>(v, p, " (m/s)"); });
+  take(value, path, "planes", plane.planes, read_count, 1, 100'000);
+  take(value, path, "refine", plane.refine, read_flag);
+  take(value, path, "wind", plane.wind, read_vector<3>, " (m/s)");
   if (plane.choice == wind_aware && !value.contains("wind"))
     throw InputError(path + ".wind", "nothing", "[x, y, z] in m/s, for the choice wind-aware");
   return plane;
@@ -117,17 +115,10 @@ guidance::PlaneOptions read_plane(const Json& value, const std::string& path) {
 void read_clearance(const Json& value, const std::string& path, guidance::ClearanceOptions& options) {
   require_object(value, path);
   require_known(value, path, {"required", "beyond", "longitudinal", "hold"});
-  if_given(value, path, "required", [&](const Json& v, const std::string& p) {
-    options.required = read_not_negative(v, p, " (metres)");
-  });
-  if_given(value, path, "beyond",
-           [&](const Json& v, const std::string& p) { options.beyond = read_number(v, p, " (m)"); });
-  if_given(value, path, "beyond", [&](const Json& v, const std::string& p) {
-    options.beyond = read_not_negative(v, p, " (metres)");
-  });
-  if_given(value, path, "longitudinal",
-           [&](const Json& v, const std::string& p) { options.longitudinal = read_flag(v, p); });
-  if_given(value, path, "hold", [&](const Json& v, const std::string& p) { options.hold = read_flag(v, p); });
+  take(value, path, "required", options.required, read_not_negative, " (metres)");
+  take(value, path, "beyond", options.beyond, read_not_negative, " (metres)");
+  take(value, path, "longitudinal", options.longitudinal, read_flag);
+  take(value, path, "hold", options.hold, read_flag);
 }
 
 std::vector<std::string> read_names(const Json& value, const std::string& path) {
@@ -151,28 +142,22 @@ simulation::Goal read_goal(const Json& value, const std::string& path, bool plan
   }
   goal.most = read_positive(require_field(value, path, "most", "an acceleration (m/s^2)"), path + ".most",
                             " (m/s^2)");
-  if_given(value, path, "after",
-           [&](const Json& v, const std::string& p) { goal.after = read_text(v, p, "the name of a body"); });
-  if_given(value, path, "reached",
-           [&](const Json& v, const std::string& p) { goal.reached = read_positive(v, p, " (metres)"); });
+  take(value, path, "after", goal.after, read_text, "the name of a body");
+  take(value, path, "reached", goal.reached, read_positive, " (metres)");
   return goal;
 }
 
 void read_inversion(const Json& value, const std::string& path, guidance::GuideOptions& guide) {
-  const auto number = [&](const char* field, const char* unit, double& to) {
-    if_given(value, path, field, [&](const Json& v, const std::string& p) { to = read_number(v, p, unit); });
-  };
   if_given(value, path, "gain", [&](const Json& v, const std::string& p) {
     guide.inversion.gain = guide.clearance.gain = read_positive(v, p, " (1/s)");
   });
   if_given(value, path, "most", [&](const Json& v, const std::string& p) {
     guide.inversion.most = guide.clearance.most = read_positive(v, p, " (m/s^2)");
   });
-  if_given(value, path, "gain_speed",
-           [&](const Json& v, const std::string& p) { guide.gain_speed = read_positive(v, p, " (1/s)"); });
-  number("reference", "", guide.inversion.reference);
-  number("cease", "", guide.inversion.cease);
-  number("mu", "", guide.mu);
+  take(value, path, "gain_speed", guide.gain_speed, read_positive, " (1/s)");
+  take(value, path, "reference", guide.inversion.reference, read_number, "");
+  take(value, path, "cease", guide.inversion.cease, read_number, "");
+  take(value, path, "mu", guide.mu, read_number, "");
   if_given(value, path, "side", [&](const Json& v, const std::string& p) {
     guide.inversion.side = read_number(v, p, "");
     if (std::abs(guide.inversion.side) != 1) throw InputError(p, quoted(v), "1 (left) or -1 (right)");
@@ -196,6 +181,7 @@ simulation::Pilot read_pilot(const Json& value, const std::string& path, bool pl
   guide.law = law.minding;
   require_of_law(value, path);
   if (law.through) pilot.through = read_through(value, path, *law.through);
+  if (law.own) pilot.own = law.own(value, path);
   if_given(value, path, "sector", [&](const Json& v, const std::string& p) {
     using enum guidance::SectorMethod;
     guide.sector = read_choice<guidance::SectorMethod>(v, p, {{"exact", true_cone}, {"slice", slice}});
@@ -205,8 +191,7 @@ simulation::Pilot read_pilot(const Json& value, const std::string& path, bool pl
     guide.rates = read_choice<guidance::GuideRates>(
         v, p, {{"analytic", analytic}, {"differenced", differenced}, {"backward", backward}});
   });
-  if_given(value, path, "plane",
-           [&](const Json& v, const std::string& p) { guide.plane = read_plane(v, p); });
+  take(value, path, "plane", guide.plane, read_plane);
   read_inversion(value, path, guide);
   if_given(value, path, "clearance",
            [&](const Json& v, const std::string& p) { read_clearance(v, p, guide.clearance); });
@@ -226,18 +211,13 @@ simulation::Pilot read_pilot(const Json& value, const std::string& path, bool pl
     if (!v.is_array() || !v.empty()) throw InputError(p, quoted(v), "[]: laws of orifices see no bodies");
     pilot.through->minds_none = true;
   });
-  if_given(value, path, "partners",
-           [&](const Json& v, const std::string& p) { pilot.partners = read_names(v, p); });
-  if_given(value, path, "sensor",
-           [&](const Json& v, const std::string& p) { pilot.sensor = read_sensor(v, p); });
+  take(value, path, "partners", pilot.partners, read_names);
+  take(value, path, "sensor", pilot.sensor, read_sensor);
   if_given(value, path, "estimator",
            [&](const Json& v, const std::string& p) { read_estimator(v, p, pilot); });
-  if_given(value, path, "filter",
-           [&](const Json& v, const std::string& p) { guide.filter = read_filter(v, p); });
-  if_given(value, path, "robust",
-           [&](const Json& v, const std::string& p) { guide.robust = read_outer_loop(v, p); });
-  if_given(value, path, "goal",
-           [&](const Json& v, const std::string& p) { pilot.goal = read_goal(v, p, planar); });
+  take(value, path, "filter", guide.filter, read_filter);
+  take(value, path, "robust", guide.robust, read_outer_loop);
+  take(value, path, "goal", pilot.goal, read_goal, planar);
   return pilot;
 }
 

@@ -126,10 +126,8 @@ simulation::Body read_body(const Json& given, const std::string& path, const std
     read_road(value, path, planar, body);
   else
     read_motion(value, path, planar, body);
-  if_given(value, path, "appears",
-           [&](const Json& v, const std::string& p) { body.appears = read_not_negative(v, p, " (s)"); });
-  if_given(value, path, "pilot",
-           [&](const Json& v, const std::string& p) { body.pilot = read_pilot(v, p, planar); });
+  take(value, path, "appears", body.appears, read_not_negative, " (s)");
+  take(value, path, "pilot", body.pilot, read_pilot, planar);
   // Who starts at rest and could not change its speed could do nothing.
   const auto pilot = value.find("pilot");
   if (body.pilot && !body.start.velocity.any() &&

@@ -53,8 +53,7 @@ simulation::Sensor read_sensor(const Json& value, const std::string& path) {
                                         join(path, "velocity"), parts ? " (a part)" : " (m/s)");
   }
   if_positive_or_zero(value, path, "deviation", "", sensor.deviation);
-  if_given(value, path, "shared",
-           [&](const Json& v, const std::string& p) { sensor.shared = read_flag(v, p); });
+  take(value, path, "shared", sensor.shared, read_flag);
   return sensor;
 }
 
@@ -85,8 +84,7 @@ guidance::PlaneFilterOptions read_filter(const Json& value, const std::string& p
   for (const Json& name : of) (name == "y" ? filter.y : filter.rates) = true;
   if_positive_or_zero(value, path, "intensity_y", " (1/s^3)", filter.intensity_y);
   if_positive_or_zero(value, path, "intensity_angle", " (rad^2/s^3)", filter.intensity_angle);
-  if_given(value, path, "gate",
-           [&](const Json& v, const std::string& p) { filter.gate = read_positive(v, p, ""); });
+  take(value, path, "gate", filter.gate, read_positive, "");
   return filter;
 }
 

@@ -35,15 +35,11 @@ simulation::Oscillation read_oscillation(const Json& value, const std::string& p
     throw InputError(path, quoted(value),
                      "a number, or offset, amplitude, rate, phase, absolute of a changing one");
   require_known(value, path, {"offset", "amplitude", "rate", "phase", "absolute"});
-  const auto number = [&](const char* field, const char* unit, double& to) {
-    if_given(value, path, field, [&](const Json& v, const std::string& p) { to = read_number(v, p, unit); });
-  };
-  number("offset", "", k.offset);
-  number("amplitude", "", k.amplitude);
-  number("rate", " (rad/s)", k.rate);
-  number("phase", " (rad)", k.phase);
-  if_given(value, path, "absolute",
-           [&](const Json& v, const std::string& p) { k.absolute = read_flag(v, p); });
+  take(value, path, "offset", k.offset, read_number, "");
+  take(value, path, "amplitude", k.amplitude, read_number, "");
+  take(value, path, "rate", k.rate, read_number, " (rad/s)");
+  take(value, path, "phase", k.phase, read_number, " (rad)");
+  take(value, path, "absolute", k.absolute, read_flag);
   return k;
 }
 

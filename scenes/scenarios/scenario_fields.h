@@ -20,6 +20,12 @@ void if_given(const Json& value, const std::string& path, const char* field, Rea
   if (const auto it = value.find(field); it != value.end()) read(*it, join(path, field));
 }
 
+/// The same where it is one value: to = read(field, its path, more...).
+template <typename T, typename Read, typename... More>
+void take(const Json& value, const std::string& path, const char* field, T& to, Read read, More... more) {
+  if_given(value, path, field, [&](const Json& v, const std::string& p) { to = read(v, p, more...); });
+}
+
 inline double read_positive(const Json& value, const std::string& path, const char* unit) {
   const double x = input::read_number(value, path, unit);
   if (!(x > 0)) throw InputError(path, input::quoted(value), std::string("a positive number") + unit);

@@ -16,6 +16,7 @@ PRINTED = {
     "exact_rationals": "on\nin\nout\n",
     "scene_files": "refused: agent.semi_axes[1]\n",
     "own_law": "avoided: ",
+    "own_pilot": "mine and law avoided: ",
     "plan_by_gradient": "m or more, proved\n",
 }
 

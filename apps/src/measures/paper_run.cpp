@@ -85,21 +85,17 @@ std::size_t PaperRun::index_of(const std::string& body, const std::string& path)
 
 const Table& PaperRun::table(const std::string& name, const std::string& path) const {
   if (const auto it = tables_.find(name); it != tables_.end()) return it->second;
+  using MakeTable = simulation::Table (*)(const simulation::Scenario&, const simulation::Run&);
+  constexpr std::pair<const char*, MakeTable> kTables[] = {
+      {"bodies", simulation::bodies_table},    {"encounters", simulation::encounters_table},
+      {"planes", simulation::planes_table},    {"sights", simulation::sights_table},
+      {"events", simulation::events_table},    {"orifices", simulation::orifices_table},
+      {"vehicles", simulation::vehicles_table}};
+  const auto of_run = std::find_if(std::begin(kTables), std::end(kTables),
+                                   [&](const auto& entry) { return name == entry.first; });
   Table made;
-  if (name == "bodies")
-    made = table_of_csv(csv(simulation::bodies_table(scenario, run)));
-  else if (name == "encounters")
-    made = table_of_csv(csv(simulation::encounters_table(scenario, run)));
-  else if (name == "planes")
-    made = table_of_csv(csv(simulation::planes_table(scenario, run)));
-  else if (name == "sights")
-    made = table_of_csv(csv(simulation::sights_table(scenario, run)));
-  else if (name == "events")
-    made = table_of_csv(csv(simulation::events_table(scenario, run)));
-  else if (name == "orifices")
-    made = table_of_csv(csv(simulation::orifices_table(scenario, run)));
-  else if (name == "vehicles")
-    made = table_of_csv(csv(simulation::vehicles_table(scenario, run)));
+  if (of_run != std::end(kTables))
+    made = table_of_csv(csv(of_run->second(scenario, run)));
   else if (name == "proofs")
     made = proofs_of(scenario, run);
   else if (name == "passages")

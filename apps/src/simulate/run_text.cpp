@@ -247,6 +247,7 @@ std::string agent_text(const Scenario& scenario, const simulation::Body& body) {
   const Pilot& pilot = *body.pilot;
   const guidance::GuideOptions& guide = pilot.guide;
   const std::string most = most_text(body);
+  if (pilot.own) return body.name + ": " + pilot.own->name() + most;
   if (pilot.through) return through_text(scenario, body.name, *pilot.through, most);
   std::string text = body.name + ": " + guidance::to_string(guide.law);
   if (guide.law == guidance::Law::clearance) {

@@ -42,7 +42,7 @@ TrialsOptions complete(TrialsOptions options, const Scenario& scenario) {
   std::size_t pilots = 0, avoids = 0;
   for (const simulation::Body& body : scenario.bodies) {
     pilots += body.pilot.has_value();
-    avoids += body.pilot && !body.pilot->through && body.pilot->guide.law == guidance::Law::avoidance;
+    avoids += body.pilot && minds_bodies(*body.pilot) && body.pilot->guide.law == guidance::Law::avoidance;
   }
   const bool source = pilots == 1 && avoids == 1;
   if (options.laws.empty())

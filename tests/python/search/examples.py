@@ -764,7 +764,12 @@ def runs(ask: Ask) -> None:
     scenario = whole.replace(duration=0.4)
     ask("simulation.check", scenario)
     ask("simulation.time_of_step", scenario, 3)
-    ask("simulation.guarded", scenario.bodies[0].pilot)
+    for name in ("guarded", "minds_bodies", "most_commanded"):
+        ask(f"simulation.{name}", scenario.bodies[0].pilot)
+    own = ask("simulation.pilot_by", lambda t, agent, others: np.zeros(3))
+    each(ask, own, "most orifices in_metres may_rest name")
+    each(ask, own, "required", "B")
+    each(ask, own, "limits", scenario.bodies[0], 0.01)
     run = ask("simulation.simulate", scenario, s.RunOptions())
     for name in ("bodies", "encounters", "planes", "sights", "orifices", "vehicles", "events"):
         table = ask(f"simulation.{name}_table", scenario, run)

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
+#include <vericone/simulation/run_tables.h>
 #include <vericone/vision/pursuit/pursuit.h>
 #include <algorithm>
 #include <cmath>
@@ -239,6 +240,44 @@ TEST(PursuitFromPixels, AnExposureBlursByTheCamerasOwnMotion) {
     return sum;
   };
   EXPECT_LT(roughness(0.03), 0.95 * roughness(0));
+}
+
+/// The flight is a run like others: with tracks, tables and proofs.
+TEST(PursuitExact, ItsFlightIsProved) {
+  Pursuit pursuit = exact(lanes(), Whose::ours);
+  pursuit.duration = 6;
+  pursuit.source_steps = false;
+  PursuitOptions options;
+  int told = 0;
+  std::vector<PursuitSample> samples;
+  options.flown = [&](const simulation::Scenario& scenario, const simulation::Run& run) {
+    ++told;
+    ASSERT_EQ(run.tracks.size(), 1 + pursuit.cars.size());
+    EXPECT_EQ(run.tracks[0].end(), 6);
+    const double below = pursuit.start.position.z() - pursuit.cars[0].look.size.z() - pursuit.radius;
+    for (const simulation::PairOutcome& pair : run.proofs) {
+      EXPECT_EQ(pair.proof.verdict, simulation::ProofVerdict::avoided);
+      EXPECT_GT(pair.proof.least_distance, pair.a == 0 ? 0.99 * below : 0);
+    }
+    const simulation::Table bodies = simulation::bodies_table(scenario, run);
+    EXPECT_EQ(bodies.rows(), (1 + std::size_t(std::lround(6 / pursuit.step))) * run.tracks.size());
+    for (const double t : {0.0, 2.0, 6.0}) {
+      samples.emplace_back().t = t;
+      samples.back().uas = run.tracks[0].motion(t);
+    }
+  };
+  const PursuitRun run = pursue(pursuit, options);
+  ASSERT_EQ(told, 1);
+  for (const PursuitSample& flown : samples) {
+    const auto same = std::find_if(run.samples.begin(), run.samples.end(), [&](const PursuitSample& sample) {
+      return std::abs(sample.t - flown.t) < 1e-9;
+    });
+    ASSERT_NE(same, run.samples.end());
+    EXPECT_LT((same->uas.position - flown.uas.position).norm(), 1e-9);
+    EXPECT_LT((same->uas.velocity - flown.uas.velocity).norm(), 1e-9);
+  }
+  pursuit.source_steps = true;
+  EXPECT_THROW(pursue(pursuit, options), InputError);
 }
 
 TEST(PursuitRefuses, WhatItCannotFly) {

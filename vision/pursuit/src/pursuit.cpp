@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
-#include <vericone/simulation/track.h>
+#include <vericone/simulation/run.h>
 #include <vericone/vision/pursuit/pursuit.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <limits>
 
 #include "bars.h"
 #include "pilot.h"
@@ -17,41 +18,56 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// What flies: a vehicle, or a point mass at a constant altitude.
-class Body {
+/// A point mass at a constant altitude that does not turn.
+class Point : public simulation::Vehicle {
  public:
-  explicit Body(const Pursuit& pursuit) : motion_(pursuit.start), source_(pursuit.source_steps) {
-    if (pursuit.vehicle) vehicle_ = pursuit.vehicle->launch(pursuit.start, 0, {});
-  }
-  [[nodiscard]] simulation::Motion motion() const { return vehicle_ ? vehicle_->motion() : motion_; }
-  void advance(const simulation::VehicleCommand& command, double from, double to) {
-    if (vehicle_) {
-      way_.clear();
-      vehicle_->advance(command, from, to, way_);
-      return;
-    }
-    Vector3d level = command.acceleration;
-    level.z() = 0;
+  Point(const simulation::Motion& start, bool source_steps) : motion_(start), source_(source_steps) {}
+
+  [[nodiscard]] simulation::Motion motion() const override { return motion_; }
+  void advance(const simulation::VehicleCommand& command, double from, double to,
+               std::vector<simulation::Curve>& way) override {
+    const double dt = to - from;
+    const Vector3d level(command.acceleration.x(), command.acceleration.y(), 0);
     if (source_) {
-      motion_.velocity += (to - from) * level;
-      motion_.position += (to - from) * motion_.velocity;
+      motion_.velocity += dt * level;
+      way.push_back(simulation::Curve::steady(motion_, Vector3d::Zero(), from, to));
+      motion_.position += dt * motion_.velocity;
       return;
     }
-    const simulation::Motion end =
-        simulation::Arc(motion_, level, simulation::Orientation::fixed, from, to).end();
-    motion_.position = end.position;
-    motion_.velocity = end.velocity;
+    const simulation::Arc arc(motion_, level, simulation::Orientation::fixed, from, to);
+    const auto jet = [&](const simulation::Motion& motion, double t) {
+      return simulation::Jet{motion.position, motion.velocity, arc.acceleration(t)};
+    };
+    simulation::Quintic turned;
+    turned.fill(Vector3d::Zero());
+    way.emplace_back(simulation::quintic(jet(motion_, from), jet(arc.end(), to), dt), turned,
+                     motion_.rotation, from, to);
+    motion_.position = arc.end().position;
+    motion_.velocity = arc.end().velocity;
   }
-  void log(std::vector<double>& values) const {
-    values.clear();
-    if (vehicle_) vehicle_->log(values);
-  }
+  void log(std::vector<double>&) const override {}
+  [[nodiscard]] std::optional<simulation::LimitBroken> broken() const override { return std::nullopt; }
 
  private:
   simulation::Motion motion_;
   bool source_;
-  std::unique_ptr<simulation::Vehicle> vehicle_;
-  std::vector<simulation::Curve> way_;
+};
+
+class PointModel : public simulation::VehicleModel {
+ public:
+  explicit PointModel(bool source_steps) : source_(source_steps) {}
+  [[nodiscard]] std::unique_ptr<simulation::Vehicle> launch(const simulation::Motion& start, double,
+                                                            const simulation::Current&) const override {
+    return std::make_unique<Point>(start, source_);
+  }
+  [[nodiscard]] std::vector<std::string> channels() const override { return {}; }
+  [[nodiscard]] simulation::VehicleLimits limits(const simulation::Motion& start) const override {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    return {kNone, kNone, 0, 0, start.position.z(), start.position.z()};
+  }
+
+ private:
+  bool source_;
 };
 
 /// A road whose velocities add up step by step, as those of the source's simulator do.
@@ -86,12 +102,13 @@ struct Picture {
   std::vector<VehicleTruth> seen;
 };
 
-class Flight {
+/// From pictures to commands, through a run.
+class FlyingCamera : public simulation::FlyingPilot {
  public:
-  Flight(const Pursuit& pursuit, const PursuitOptions& options)
+  FlyingCamera(const Pursuit& pursuit, const PursuitOptions& options, PursuitRun& run)
       : pursuit_(pursuit),
         options_(options),
-        body_(pursuit),
+        run_(run),
         pilot_(pursuit),
         true_follower_(pursuit.side),
         view_(pursuit.eyes == Eyes::source ? pursuit.source_view : pursuit.perspective_view),
@@ -111,39 +128,48 @@ class Flight {
     perception_.emplace(perception_of(pursuit), tracker_of(pursuit));
   }
 
-  PursuitRun fly() {
-    const auto steps = std::uint64_t(std::ceil(pursuit_.duration / pursuit_.step - 1e-9));
-    const auto every = std::uint64_t(std::llround(pursuit_.picture_step / pursuit_.step));
-    for (std::uint64_t k = 0; k <= steps; ++k) {
-      const double t = double(k) * pursuit_.step;
-      const simulation::Motion own = body_.motion();
-      sample_ = {};
-      const bool due = k % every == 0;
-      if (due) look(own, t, k / every);
-      const auto start = Clock::now();
-      const bool told = tell(t);
-      simulation::VehicleCommand command;
-      if (told) command = pilot_.step(own, known_, view_.camera.focal, t, sample_);
-      if (told) {
-        keep_in_picture(own, command);
-        keep_gimbal_up(command);
-        sample_.acceleration = command.acceleration;
-      }
-      sample_.controller = seconds_since(start) - sample_.ellipse_seconds;
-      if (due && told) log(own, t);
-      if (options_.progress && due && !options_.progress(t)) {
-        run_.interrupted = true;
-        break;
-      }
-      run_.end = t;
-      if (k < steps) body_.advance(command, t, double(k + 1) * pursuit_.step);
-    }
+  void command(const simulation::Instant& now, std::span<simulation::VehicleCommand> commands,
+               simulation::Run&) override {
+    commands[now.self] = step(*now.vehicle, now.command);
+  }
+
+  /// What is seen at the end is thought of too.
+  void moved(const simulation::Instant& now, simulation::Run&) override {
+    const bool last = now.command + 1 == steps_of(pursuit_);
+    if (!last && !run_.interrupted) return;
+    if (!run_.interrupted) static_cast<void>(step(*now.vehicle, now.command + 1));
     run_.layer_share = pilot_.layer_share();
     close_hidden();
-    return std::move(run_);
+  }
+
+  static std::uint64_t steps_of(const Pursuit& pursuit) {
+    return std::uint64_t(std::ceil(pursuit.duration / pursuit.step - 1e-9));
   }
 
  private:
+  simulation::VehicleCommand step(const simulation::Vehicle& uas, std::uint64_t k) {
+    const auto every = std::uint64_t(std::llround(pursuit_.picture_step / pursuit_.step));
+    const double t = double(k) * pursuit_.step;
+    const simulation::Motion own = uas.motion();
+    sample_ = {};
+    const bool due = k % every == 0;
+    if (due) look(own, t, k / every);
+    const auto start = Clock::now();
+    const bool told = tell(t);
+    simulation::VehicleCommand command;
+    if (told) command = pilot_.step(own, known_, view_.camera.focal, t, sample_);
+    if (told) {
+      keep_in_picture(own, command);
+      keep_gimbal_up(command);
+      sample_.acceleration = command.acceleration;
+    }
+    sample_.controller = seconds_since(start) - sample_.ellipse_seconds;
+    if (due && told) log(uas, t);
+    run_.interrupted = options_.progress && due && !options_.progress(t);
+    if (!run_.interrupted) run_.end = t;
+    return command;
+  }
+
   [[nodiscard]] std::vector<simulation::RoadPoint> cars_at(double t) const {
     std::vector<simulation::RoadPoint> list;
     for (const Car& car : pursuit_.cars) list.push_back(car.road->at(t));
@@ -276,7 +302,8 @@ class Flight {
     commanded_ = command.acceleration.head<2>();
   }
 
-  void log(const simulation::Motion& own, double t) {
+  void log(const simulation::Vehicle& uas, double t) {
+    const simulation::Motion own = uas.motion();
     PursuitSample& sample = sample_;
     sample.t = t;
     sample.uas = own;
@@ -315,7 +342,7 @@ class Flight {
       if (options_.picture) options_.picture(last_->image, sample, perception_->vehicles());
     }
     run_.vehicle.emplace_back();
-    body_.log(run_.vehicle.back());
+    uas.log(run_.vehicle.back());
     run_.samples.push_back(sample);
   }
 
@@ -359,7 +386,7 @@ class Flight {
 
   const Pursuit& pursuit_;
   const PursuitOptions& options_;
-  Body body_;
+  PursuitRun& run_;
   Pilot pilot_;
   guidance::EllipseFollower true_follower_;
   const View& view_;
@@ -377,9 +404,64 @@ class Flight {
   Vector2d commanded_ = Vector2d::Zero();  // the level acceleration before
   Vector2d aim_ = Vector2d::Zero(), last_aim_ = Vector2d::Zero();
   PursuitSample sample_;
-  PursuitRun run_;
   std::vector<std::optional<HiddenTime>> hidden_now_;
 };
+
+class CameraPilot : public simulation::PilotModel {
+ public:
+  CameraPilot(const Pursuit& pursuit, const PursuitOptions& options, PursuitRun& run)
+      : pursuit_(pursuit), options_(options), run_(run) {}
+  [[nodiscard]] std::unique_ptr<simulation::FlyingPilot> launch(
+      const simulation::Scenario&, std::size_t, const simulation::RunOptions&) const override {
+    return std::make_unique<FlyingCamera>(pursuit_, options_, run_);
+  }
+  [[nodiscard]] bool may_rest() const override { return true; }
+
+ private:
+  const Pursuit& pursuit_;
+  const PursuitOptions& options_;
+  PursuitRun& run_;
+};
+
+/// The UAS, a ball; and the cars, boxes, where somebody wants the whole flight.
+simulation::Scenario scenario_of(const Pursuit& pursuit, bool with_cars) {
+  simulation::Scenario scenario;
+  scenario.name = pursuit.name;
+  scenario.step = pursuit.step;
+  scenario.multiples = true;
+  scenario.duration = double(FlyingCamera::steps_of(pursuit)) * pursuit.step;
+  simulation::Body& uas = scenario.bodies.emplace_back();
+  uas.name = "uas";
+  uas.shape = simulation::RigidShape{
+      CombinedEllipsoid(Ellipsoid::from_axes(Vector3d::Zero(), Vector3d::Constant(pursuit.radius)))};
+  uas.start = pursuit.start;
+  uas.vehicle = pursuit.vehicle ? pursuit.vehicle : std::make_shared<const PointModel>(pursuit.source_steps);
+  for (const Car& car : pursuit.cars) {
+    if (!with_cars) break;
+    simulation::Body& body = scenario.bodies.emplace_back();
+    body.name = car.name;
+    std::vector<Vector3d> corners;
+    for (int i = 0; i < 8; ++i)
+      corners.push_back(0.5 *
+                        car.look.size.cwiseProduct(Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
+    body.shape = simulation::RigidShape{HullBody(corners)};
+    body.road = car.road;
+    body.start = start_of(*car.road, 0.5 * car.look.size.z());
+  }
+  return scenario;
+}
+
+PursuitRun fly(const Pursuit& pursuit, const PursuitOptions& options) {
+  PursuitRun run;
+  simulation::Scenario scenario = scenario_of(pursuit, bool(options.flown));
+  scenario.bodies.front().pilot.emplace().own = std::make_shared<CameraPilot>(pursuit, options, run);
+  simulation::RunOptions flight;
+  flight.prove = flight.log = bool(options.flown);
+  flight.progress = [&](double) { return !run.interrupted; };
+  const simulation::Run flown = simulation::simulate(scenario, flight);
+  if (options.flown) options.flown(scenario, flown);
+  return run;
+}
 
 }  // namespace
 
@@ -413,11 +495,15 @@ PursuitRun pursue(const Pursuit& pursuit, const PursuitOptions& options) {
     throw InputError("cars", "none that is followed", "at least one");
   for (std::size_t i = 0; i < pursuit.cars.size(); ++i)
     if (!pursuit.cars[i].road) throw InputError("cars[" + std::to_string(i) + "].road", "none", "a road");
-  if (!pursuit.source_steps) return Flight(pursuit, options).fly();
+  if (pursuit.source_steps && options.flown)
+    throw InputError("flown", "given with source_steps",
+                     "left out: cars leave their roads as velocities add up");
+  if (pursuit.vehicle) static_cast<void>(pursuit.vehicle->launch(pursuit.start, 0, {}));
+  if (!pursuit.source_steps) return fly(pursuit, options);
   Pursuit stepped = pursuit;
   for (Car& car : stepped.cars)
     car.road = std::make_shared<SummedRoad>(car.road, pursuit.step, pursuit.duration);
-  return Flight(stepped, options).fly();
+  return fly(stepped, options);
 }
 
 }  // namespace vericone::vision

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The search for a proof of passage: pieces of time from the first to the last, halved until each is
-// certified or the body is found to meet rim or wall. Why a certificate holds:
-// docs/explanation/proof-of-runs.md.
+// Proofs of passage. Why a certificate holds: docs/explanation/proof-of-runs.md.
 #include <vericone/simulation/passage.h>
 
 #include <vericone/cones/opening/rim_distance.h>
-#include <vericone/geometry/stop.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,6 +14,7 @@
 #include "proof/common_point.h"
 #include "proof/convex.h"
 #include "proof/padding.h"
+#include "proof/time_search.h"
 
 namespace vericone::simulation {
 namespace {
@@ -52,47 +50,31 @@ enum class Where : std::uint8_t {
   around,  // what of it is in the plane, if anything, is outside of it
 };
 
-struct TimeSpan {
-  Sight from, to;
-};
-
 /// A piece that is proved.
 struct ProvedPiece {
-  TimeSpan span;
+  TimeSpan<Sight> span;
   Where where = Where::above;
   double bound = 0;  // of the distance from the rim, metres
   bool measured = false;
 };
 
-class PassageSearch {
+/// That a body is clear of a rim, and of its wall, and on which side of it.
+class Clear {
  public:
-  PassageSearch(const Track& agent, const MovingOrifice& orifice, const ProofOptions& options)
+  using Moment = Sight;
+  using Leaf = ProvedPiece;
+  using Span = TimeSpan<Sight>;
+
+  Clear(const Track& agent, const MovingOrifice& orifice, const ProofOptions& options)
       : agent_(agent),
         orifice_(orifice),
         opening_(orifice.opening),
         placed_{orifice.opening, Vector3d::Zero(), Eigen::Matrix<double, 3, 2>::Identity()},
         padding_(options, agent.appears()),
-        resolution_(options.resolution),
         spin_(orifice.spin.norm()) {
     if (agent.shape().rigid()) rigid_ = convex_around(agent.shape(), agent.appears(), agent.appears());
   }
 
-  PassageProof run(double from, double to) {
-    const Sight first = at(from), last = at(to);
-    if (const auto place = meeting(first)) return touched(from, first, *place);
-    open_.push_back({first, last});
-    while (!open_.empty()) {
-      checkpoint();
-      const TimeSpan span = open_.back();
-      open_.pop_back();
-      if (step(span)) return proof_;
-    }
-    if (horizon_) return touched(horizon_->t, *horizon_, horizon_place_);
-    if (unresolved_) return undecided();
-    return apart(from, to);
-  }
-
- private:
   Sight at(double t) const {
     const guidance::OrificeState state = orifice_.at(t);
     Matrix3d frame;
@@ -101,22 +83,6 @@ class PassageSearch {
     const Motion motion = agent_.motion(t);
     return {t, frame.transpose() * (motion.position - state.opening.center),
             frame.transpose() * motion.rotation, motion, state.opening.center};
-  }
-  Sight middle(const TimeSpan& span) const { return at(0.5 * (span.from.t + span.to.t)); }
-
-  Convex body(double from, double to) const {
-    return rigid_ ? *rigid_ : convex_around(agent_.shape(), from, to);
-  }
-
-  Vector3d in_world(double t, const Vector3d& place) const {
-    const PlacedOpening opening = orifice_.at(t).opening;
-    return opening.center + opening.axes * place.head<2>() + opening.normal() * place.z();
-  }
-
-  /// What taking a body into the opening's frame rounds.
-  double rounding(const Sight& s, double reach) const {
-    return 1e-14 * (1 + spin_ * std::abs(s.t)) *
-           (s.motion.position.norm() + s.center.norm() + reach + opening_.reach());
   }
 
   /// A point that the body as it is then has in common with rim or wall.
@@ -137,6 +103,64 @@ class PassageSearch {
     return Vector3d(common->x(), common->y(), 0);
   }
 
+  bool meets(const Sight& s) const { return meeting(s).has_value(); }
+
+  TimeLook<ProvedPiece> look(const Span& span, const Sight& mid) {
+    const Certificate found = certify(span, mid, false);
+    if (found.proved) return {ProvedPiece{span, found.where, found.bound, false}};
+    return {std::nullopt, meets(mid)};
+  }
+
+  /// Whether it was before; what holds for the whole holds for a part.
+  bool measured(ProvedPiece& piece) {
+    if (piece.measured) return true;
+    const Sight mid = at(0.5 * (piece.span.from.t + piece.span.to.t));
+    piece.bound = std::max(piece.bound, certify(piece.span, mid, true).bound);
+    piece.measured = true;
+    return false;
+  }
+  bool near_enough(const ProvedPiece& piece) const { return piece.bound >= 0.99 * nearest_ - 1e-6; }
+  ProvedPiece half(const ProvedPiece& whole, const Span& span) {
+    ProvedPiece part{span, whole.where, whole.bound, false};
+    static_cast<void>(measured(part));
+    return part;
+  }
+
+  PassageProof prove(double from, double to, double resolution) {
+    TimeSearch search(*this, resolution, kMostPassagePieces);
+    const TimeEnd end = search.run(from, to);
+    PassageProof proof;
+    if (end == TimeEnd::touched) {
+      const Span& found = search.found();
+      proof.verdict = PassageVerdict::touched;
+      proof.from = found.from.t;
+      proof.time = proof.to = found.to.t;
+      proof.place = in_world(found.to.t, meeting(found.to).value_or(Vector3d::Zero()));
+    } else if (end == TimeEnd::undecided) {
+      undecided(search.found(), proof);
+    } else {
+      apart(search, from, to, proof);
+    }
+    proof.pieces = search.leaves().size();
+    return proof;
+  }
+
+ private:
+  Vector3d in_world(double t, const Vector3d& place) const {
+    const PlacedOpening opening = orifice_.at(t).opening;
+    return opening.center + opening.axes * place.head<2>() + opening.normal() * place.z();
+  }
+
+  Convex body(double from, double to) const {
+    return rigid_ ? *rigid_ : convex_around(agent_.shape(), from, to);
+  }
+
+  /// What taking a body into the opening's frame rounds.
+  double rounding(const Sight& s, double reach) const {
+    return 1e-14 * (1 + spin_ * std::abs(s.t)) *
+           (s.motion.position.norm() + s.center.norm() + reach + opening_.reach());
+  }
+
   struct Certificate {
     bool proved = false;
     Where where = Where::above;
@@ -148,7 +172,7 @@ class PassageSearch {
     double by_ends = kFar;    // as it is turned at the ends
     double by_middle = kFar;  // as it is turned in the middle
   };
-  Growth growth(const TimeSpan& span, const Sight& mid, double reach) const {
+  Growth growth(const Span& span, const Sight& mid, double reach) const {
     const double dt = span.to.t - span.from.t;
     if (!(dt > 0)) return {0, 0};
     const Track::Bounds b = agent_.bounds(span.from.t, span.to.t);
@@ -172,7 +196,7 @@ class PassageSearch {
   }
 
   /// `nearest`: a distance that the body comes to; infinite: not asked about.
-  Certificate certify(const TimeSpan& span, const Sight& mid, bool measure) {
+  Certificate certify(const Span& span, const Sight& mid, bool measure) {
     const Convex own = body(span.from.t, span.to.t);
     const double reach = own.reach();
     const Growth growth = this->growth(span, mid, reach);
@@ -215,97 +239,31 @@ class PassageSearch {
     const RimDistance rim = there.rim(placed_, kMeasure);
     if (!(rim.most - drift < nearest_)) return;
     nearest_ = rim.most - drift;
-    proof_.least_time = mid.t;
+    nearest_time_ = mid.t;
     nearest_place_ = in_world(mid.t, rim.rim);
   }
 
-  /// Pieces shorter than this are not halved. Once one has been left undecided, only a meeting is still
-  /// looked for, ever more coarsely.
-  double shortest(double t) const {
-    const double since = unresolved_ ? t - unresolved_->from.t : 0;
-    return std::max(resolution_, since / 16);
+  void undecided(const Span& span, PassageProof& proof) {
+    proof.verdict = PassageVerdict::undecided;
+    proof.from = proof.time = span.from.t;
+    proof.to = span.to.t;
+    measure_middle(body(proof.from, proof.to), at(0.5 * (span.from.t + span.to.t)));
+    proof.place = nearest_place_;
   }
 
-  /// One piece. True: the answer is there.
-  bool step(const TimeSpan& span) {
-    const Sight mid = middle(span);
-    const Certificate found = certify(span, mid, false);
-    if (found.proved) {
-      proved_.push_back({span, found.where, found.bound, false});
-      return false;
-    }
-    const bool halved = mid.t > span.from.t && mid.t < span.to.t &&
-                        span.to.t - span.from.t > shortest(span.from.t) &&
-                        (proved_.size() < kMostPassagePieces || unresolved_);
-    if (const auto place = meeting(mid)) return met(span, mid, *place, halved);
-    if (halved) {
-      open_.push_back({mid, span.to});
-      open_.push_back({span.from, mid});
-      return false;
-    }
-    const double apart_before = unresolved_ ? unresolved_->from.t : span.from.t;
-    if (horizon_ && span.to.t == horizon_->t) {
-      touched(apart_before, span.to, horizon_place_);
-      return true;
-    }
-    if (const auto place = meeting(span.to)) {
-      touched(apart_before, span.to, *place);
-      return true;
-    }
-    if (!unresolved_) unresolved_ = span;
-    return false;
-  }
-
-  /// They meet at `there`, within the span: what comes later does not matter any more.
-  bool met(const TimeSpan& span, const Sight& there, const Vector3d& place, bool halved) {
-    open_.clear();
-    horizon_ = there;
-    horizon_place_ = place;
-    if (!halved) {
-      touched(unresolved_ ? unresolved_->from.t : span.from.t, there, place);
-      return true;
-    }
-    open_.push_back({span.from, there});
-    return false;
-  }
-
-  PassageProof touched(double apart_before, const Sight& there, const Vector3d& place) {
-    proof_.verdict = PassageVerdict::touched;
-    proof_.from = apart_before;
-    proof_.time = proof_.to = there.t;
-    proof_.place = in_world(there.t, place);
-    proof_.pieces = proved_.size();
-    return proof_;
-  }
-
-  PassageProof undecided() {
-    proof_.verdict = PassageVerdict::undecided;
-    proof_.from = proof_.time = unresolved_->from.t;
-    proof_.to = unresolved_->to.t;
-    measure_middle(body(proof_.from, proof_.to), middle(*unresolved_));
-    proof_.place = nearest_place_;
-    proof_.least_time = 0;
-    proof_.pieces = proved_.size();
-    return proof_;
-  }
-
-  PassageProof apart(double from, double to) {
-    const auto through = passage(true);
+  void apart(TimeSearch<Clear>& search, double from, double to, PassageProof& proof) {
+    const auto through = passage(search.leaves(), true);
     // What is nearly through, or through for some motions within the padding only.
-    if (const auto perhaps = passage(false); perhaps && !through) {
-      unresolved_ = TimeSpan{at(perhaps->before), at(perhaps->after)};
-      return undecided();
-    }
-    refine();
-    proof_.verdict = through ? PassageVerdict::passed : PassageVerdict::missed;
-    proof_.from = from;
-    proof_.to = to;
-    proof_.least_distance = std::min_element(proved_.begin(), proved_.end(), lower)->bound;
-    proof_.time = proof_.least_time;
-    proof_.place = nearest_place_;
-    if (through) cross(*through);
-    proof_.pieces = proved_.size();
-    return proof_;
+    if (const auto perhaps = passage(search.leaves(), false); perhaps && !through)
+      return undecided({at(perhaps->before), at(perhaps->after)}, proof);
+    search.refine(kMostMeasured);
+    proof.verdict = through ? PassageVerdict::passed : PassageVerdict::missed;
+    proof.from = from;
+    proof.to = to;
+    proof.least_distance = search.least().bound;
+    proof.time = proof.least_time = nearest_time_;
+    proof.place = nearest_place_;
+    if (through) cross(*through, proof);
   }
 
   struct Through {
@@ -331,11 +289,11 @@ class PassageSearch {
   };
 
   /// The first. `surely`: for all motions within the padding, otherwise for one of them, perhaps.
-  std::optional<Through> passage(bool surely) const {
+  std::optional<Through> passage(const std::vector<ProvedPiece>& pieces, bool surely) const {
     Way way;
     way.surely = surely;
     looks_ = 0;
-    for (const ProvedPiece& piece : proved_) {
+    for (const ProvedPiece& piece : pieces) {
       note(way, piece.span.from);
       if (piece.where == Where::inside) look_within(way, piece.span);
       if (piece.where == Where::around) way.by = Where::around;
@@ -363,12 +321,12 @@ class PassageSearch {
 
   /// Notes when the body is wholly on a side within a piece, unless by less than kDip, as long as its ends do
   /// not tell.
-  void look_within(Way& way, const TimeSpan& span) const {
+  void look_within(Way& way, const Span& span) const {
     constexpr double kDip = 1e-6;
     constexpr int kMostLooks = 20'000;
     const Heights a = heights(span.from), b = heights(span.to);
     const double dt = span.to.t - span.from.t;
-    const Sight mid = middle(span);
+    const Sight mid = at(0.5 * (span.from.t + span.to.t));
     const double most = dt / 2 * fastest(span, mid) + (way.surely ? 0 : padding_.until(span.to.t));
     const bool dips = !(a.high < 0) && !(b.high < 0) && (a.high + b.high) / 2 - most < -kDip;
     const bool rises = !(a.low > 0) && !(b.low > 0) && (a.low + b.low) / 2 + most > kDip;
@@ -379,7 +337,7 @@ class PassageSearch {
   }
 
   /// A bound of the speed of the body's points in the frame of the opening, m/s.
-  double fastest(const TimeSpan& span, const Sight& mid) const {
+  double fastest(const Span& span, const Sight& mid) const {
     const double dt = span.to.t - span.from.t, reach = body(span.from.t, span.to.t).reach();
     const Track::Bounds b = agent_.bounds(span.from.t, span.to.t);
     const double speed =
@@ -394,44 +352,16 @@ class PassageSearch {
   }
 
   /// When and where the middle crosses.
-  void cross(const Through& through) {
+  void cross(const Through& through, PassageProof& proof) const {
     double before = through.before, after = through.after;
     for (int i = 0; i < 60; ++i) {
       const double t = 0.5 * (before + after);
       (middle_height(t) * through.direction < 0 ? before : after) = t;
     }
-    proof_.time = after;
-    proof_.direction = through.direction;
+    proof.time = after;
+    proof.direction = through.direction;
     const Motion m = agent_.motion(after);
-    proof_.place = m.position + m.rotation * body(after, after).center;
-  }
-
-  static bool lower(const ProvedPiece& x, const ProvedPiece& y) { return x.bound < y.bound; }
-
-  /// Measures and halves the piece of the least bound until that is near a distance that the body comes to.
-  void refine() {
-    for (int i = 0; i < kMostMeasured; ++i) {
-      const auto least = std::min_element(proved_.begin(), proved_.end(), lower);
-      if (!least->measured) {
-        measure(*least);
-        continue;
-      }
-      if (least->bound >= 0.99 * nearest_ - 1e-6) return;
-      ProvedPiece first = *least, second = *least;
-      const Sight mid = middle(least->span);
-      if (!(mid.t > first.span.from.t) || !(mid.t < first.span.to.t)) return;
-      first.span.to = second.span.from = mid;
-      measure(first);
-      measure(second);
-      *least = first;
-      proved_.push_back(second);
-    }
-  }
-
-  /// What holds for the whole holds for a part.
-  void measure(ProvedPiece& piece) {
-    piece.bound = std::max(piece.bound, certify(piece.span, middle(piece.span), true).bound);
-    piece.measured = true;
+    proof.place = m.position + m.rotation * body(after, after).center;
   }
 
   const Track& agent_;
@@ -439,17 +369,11 @@ class PassageSearch {
   const Opening& opening_;
   PlacedOpening placed_;  // in its own frame
   Padding padding_;
-  double resolution_, spin_;
+  double spin_;
   std::optional<Convex> rigid_;
-  std::vector<TimeSpan> open_;  // the earliest last
-  std::vector<ProvedPiece> proved_;
-  std::optional<TimeSpan> unresolved_;  // the first
-  std::optional<Sight> horizon_;        // they meet then
-  Vector3d horizon_place_ = Vector3d::Zero();
-  double nearest_ = kFar;  // a distance that the body comes to, about
+  double nearest_ = kFar, nearest_time_ = 0;  // a distance that the body comes to, about, and when, s
   Vector3d nearest_place_ = Vector3d::Zero();
   mutable int looks_ = 0;
-  PassageProof proof_;
 };
 
 }  // namespace
@@ -472,7 +396,7 @@ PassageProof prove_passage(const Track& agent, const MovingOrifice& orifice, dou
                            const ProofOptions& options) {
   require_time(std::max(agent.appears(), orifice.appears), agent.end(), from, to);
   check(options);
-  return PassageSearch(agent, orifice, options).run(from, to);
+  return Clear(agent, orifice, options).prove(from, to, options.resolution);
 }
 
 }  // namespace vericone::simulation

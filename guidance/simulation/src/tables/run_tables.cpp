@@ -51,16 +51,14 @@ void body_row(Table& table, const Body& body, const Track& track, double t, guid
   row.number(q.w()).number(q.x()).number(q.y()).number(q.z()).number(k_at(body.shape, t));
 }
 
-bool by_clearance(const Scenario& scenario, const EncounterSample& sample) {
-  const auto& pilot = scenario.bodies[sample.agent].pilot;
-  return pilot && pilot->guide.law == guidance::Law::clearance;
-}
+bool in_metres(const Body& agent) { return agent.pilot && model_of(*agent.pilot)->in_metres(); }
 
 bool measures(const Body& body) { return body.pilot && body.pilot->sensor; }
 
 /// m(w) of the pair at the time of a sample, in truth; nothing without relative velocity.
 double clearance_of(const Scenario& scenario, const Run& run, const EncounterSample& sample) {
-  if (by_clearance(scenario, sample) && !measures(scenario.bodies[sample.agent])) return sample.step.m;
+  const Body& agent = scenario.bodies[sample.agent];
+  if (in_metres(agent) && !measures(agent)) return sample.step.m;
   const auto a = run.tracks[sample.agent].state(sample.t), b = run.tracks[sample.obstacle].state(sample.t);
   if (a.velocity == b.velocity) return kNothing;
   return guidance::law_clearance(a, b);
@@ -132,7 +130,7 @@ void require_run_of(const Scenario& scenario, const Run& run) {
   }
   for (std::size_t i = 0; i < run.orifices.size(); ++i) {
     const auto& pilot = scenario.bodies[run.orifices[i].agent].pilot;
-    if (!pilot || !pilot->through) refuse("orifices", i, "a body that heads for none");
+    if (!pilot || model_of(*pilot)->orifices().empty()) refuse("orifices", i, "a body that heads for none");
   }
 }
 
@@ -174,7 +172,7 @@ Table encounters_table(const Scenario& scenario, const Run& run) {
     row.number(s.cone ? s.step.v_r_hat : kNothing).number(s.cone ? s.plane_azimuth : kNothing);
     row.number(clearance_of(scenario, run, s));
     if (measured) {
-      const bool its = measures(scenario.bodies[s.agent]) && by_clearance(scenario, s);
+      const bool its = measures(scenario.bodies[s.agent]) && in_metres(scenario.bodies[s.agent]);
       row.number(its ? s.step.m : kNothing);
     }
     command_fields(row, s.step.a, s.step.demanded);
@@ -242,12 +240,11 @@ Table orifices_table(const Scenario& scenario, const Run& run) {
                "[m^2],m [m],from_plane [m],a [m/s^2],demanded [m/s^2],delta [rad],gamma [rad],status");
   for (const OrificeSample& s : run.orifices) {
     const guidance::SpatialState& state = s.state;
-    const bool ours = scenario.bodies[s.agent].pilot->through->law == Through::Law::passage;
     Row row(table);
     row.number(s.t).text(scenario.bodies[s.agent].name).text(scenario.orifices[s.orifice].name);
     row.number(state.r).number(state.theta).number(state.phi);
     row.number(state.v_r).number(state.v_theta).number(state.v_phi);
-    row.number(s.command.y).number(ours ? s.command.m : kNothing).number(s.from_plane);
+    row.number(s.command.y).number(s.command.m).number(s.from_plane);
     command_fields(row, s.command.acceleration, s.command.demanded);
     row.text(to_string(s.command.status));
   }
@@ -322,10 +319,8 @@ std::string unit_of(const Scenario& scenario, const Event& event) {
     case EventKind::contact:
       return "s";
     case EventKind::enters_cone:
-    case EventKind::leaves_cone: {
-      const auto& pilot = scenario.bodies[event.agent].pilot;
-      return pilot && pilot->guide.law == guidance::Law::clearance ? "m" : "1";
-    }
+    case EventKind::leaves_cone:
+      return in_metres(scenario.bodies[event.agent]) ? "m" : "1";
     case EventKind::appears:
     case EventKind::aligned:
     case EventKind::reaches_goal:

@@ -8,8 +8,7 @@
 #include <vericone/guidance/pursuit/pursuit_law.h>
 #include <vericone/guidance/pursuit/rendezvous_law.h>
 #include <vericone/guidance/pursuit/vertical_law.h>
-#include <vericone/simulation/road.h>
-#include <vericone/simulation/vehicle.h>
+#include <vericone/simulation/run.h>
 #include <vericone/vision/pursuit/perception.h>
 #include <vericone/vision/scene/mount.h>
 #include <vericone/vision/scene/scene.h>
@@ -68,6 +67,7 @@ struct Pursuit {
   double step = 0.01;          // s, between two commands
   double picture_step = 0.04;  // s, between two pictures; a whole number of steps
   simulation::Motion start;    // of the UAS
+  double radius = 0.3;         // m, of the ball about it that proofs take for it
   /// A point mass that turns with its heading, at a constant altitude, where there is none.
   std::shared_ptr<const simulation::VehicleModel> vehicle;
   /// A point mass steps as the source's simulator does: the new velocity moves it for the whole step.
@@ -141,6 +141,9 @@ struct PursuitRun {
 struct PursuitOptions {
   /// Called with every picture and what was seen in it; sample.cars has the boxes.
   std::function<void(const Image&, const PursuitSample&, const std::vector<Followed>&)> picture;
+  /// Called at the end with the whole flight, logged and proved: the UAS, and all cars as boxes, each a body.
+  /// Not of `source_steps`.
+  std::function<void(const simulation::Scenario&, const simulation::Run&)> flown;
   /// Called with the seconds flown; false ends the run there, `interrupted`.
   std::function<bool(double t)> progress;
 };

@@ -7,14 +7,22 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace vericone::simulation {
 namespace {
 
-constexpr std::array kLaws{TrialLaw::di,         TrialLaw::di_filter, TrialLaw::rdi,
-                           TrialLaw::rdi_filter, TrialLaw::di_rates,  TrialLaw::di_analytic,
-                           TrialLaw::di_state,   TrialLaw::di_margin, TrialLaw::clearance,
-                           TrialLaw::robust,     TrialLaw::own};
+constexpr std::array<std::pair<TrialLaw, const char*>, 11> kLaws{{{TrialLaw::di, "di"},
+                                                                  {TrialLaw::di_filter, "di-filter"},
+                                                                  {TrialLaw::rdi, "rdi"},
+                                                                  {TrialLaw::rdi_filter, "rdi-filter"},
+                                                                  {TrialLaw::di_rates, "di-rates"},
+                                                                  {TrialLaw::di_analytic, "di-analytic"},
+                                                                  {TrialLaw::di_state, "di-state"},
+                                                                  {TrialLaw::di_margin, "di-margin"},
+                                                                  {TrialLaw::clearance, "clearance"},
+                                                                  {TrialLaw::robust, "robust"},
+                                                                  {TrialLaw::own, "own"}}};
 
 double number_of(const std::string& text, const std::string& whole) {
   double x = 0;
@@ -26,7 +34,7 @@ double number_of(const std::string& text, const std::string& whole) {
 }
 
 /// One that minds bodies, or could.
-bool about_bodies(const Body& body) { return body.pilot && !body.pilot->through; }
+bool about_bodies(const Body& body) { return body.pilot && minds_bodies(*body.pilot); }
 
 /// What an outer loop does where the scenario does not say: a and |b| as the noise leaves them, and a bound
 /// of its influence that a step of 0.01 s can keep.
@@ -74,40 +82,24 @@ void change(Pilot& pilot, TrialLaw law, double step) {
 }  // namespace
 
 const char* to_string(TrialLaw law) {
-  switch (law) {
-    case TrialLaw::di:
-      return "di";
-    case TrialLaw::di_filter:
-      return "di-filter";
-    case TrialLaw::rdi:
-      return "rdi";
-    case TrialLaw::rdi_filter:
-      return "rdi-filter";
-    case TrialLaw::di_rates:
-      return "di-rates";
-    case TrialLaw::di_analytic:
-      return "di-analytic";
-    case TrialLaw::di_state:
-      return "di-state";
-    case TrialLaw::di_margin:
-      return "di-margin";
-    case TrialLaw::clearance:
-      return "clearance";
-    case TrialLaw::robust:
-      return "robust";
-    case TrialLaw::own:
-      return "own";
-  }
-  return "?";
+  return std::find_if(kLaws.begin(), kLaws.end(), [&](const auto& entry) { return entry.first == law; })
+      ->second;
 }
 
-std::span<const TrialLaw> all_trial_laws() { return kLaws; }
+std::span<const TrialLaw> all_trial_laws() {
+  static constexpr auto kAll = [] {
+    std::array<TrialLaw, kLaws.size()> all{};
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = kLaws[i].first;
+    return all;
+  }();
+  return kAll;
+}
 
 TrialLaw trial_law(const std::string& name) {
   std::string list;
-  for (const TrialLaw law : kLaws) {
-    if (name == to_string(law)) return law;
-    list.append(list.empty() ? "" : ", ").append(to_string(law));
+  for (const auto& [law, known] : kLaws) {
+    if (name == known) return law;
+    list.append(list.empty() ? "" : ", ").append(known);
   }
   throw InputError("--laws", name, "one of " + list);
 }

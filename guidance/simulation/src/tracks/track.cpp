@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "level_frame.h"
+#include "tracks/level_frame.h"
 
 namespace vericone::simulation {
 namespace {

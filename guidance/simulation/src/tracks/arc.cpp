@@ -16,7 +16,7 @@
 #include <numbers>
 #include <utility>
 
-#include "level_frame.h"
+#include "tracks/level_frame.h"
 
 namespace vericone::simulation {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "observer.h"
+#include "pilots/observer.h"
 
 #include <algorithm>
 #include <cmath>

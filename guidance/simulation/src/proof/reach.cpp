@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "level_frame.h"
+#include "names.h"
 #include "proof/convex.h"
 #include "proof/least_point.h"
 
@@ -265,37 +265,18 @@ void check(const ReachLimits& limits) {
                      "not below the lowest, " + to_text(limits.bottom) + " m");
 }
 
+/// Of a vehicle. Its limits are those through the water, which carries it besides.
 ReachLimits limits_of(const Scenario& scenario, const Body& body) {
   ReachLimits limits;
-  if (body.vehicle) {
-    const VehicleLimits own = body.vehicle->limits(body.start);
-    // The limits are those through the water, which carries the vehicle besides.
-    const double water = scenario.water.most(own.bottom, own.top);
-    limits.speed = own.speed + water;
-    limits.climb = own.climb + water;
-    limits.climb_jerk = water == 0 ? own.climb_jerk : kUnlimited;
-    // Its turn rate is one of its heading, perhaps of a mean: what slips aside goes another way than it
-    // points.
-    limits.top = own.top;
-    limits.bottom = own.bottom;
-    return limits;
-  }
-  const Through& through = *body.pilot->through;
-  const bool turns_only = through.law == Through::Law::passage && !through.passage.longitudinal;
-  double most = through.law == Through::Law::passage ? through.passage.most : through.source.most;
-  if (body.pilot->goal) most = std::max(most, body.pilot->goal->most);
-  double slowest = body.start.velocity.norm(), fastest = slowest;
-  for (const double speed : through.speeds) {
-    slowest = std::min(slowest, speed);
-    fastest = std::max(fastest, speed);
-  }
-  // What holds a speed adds to what is commanded, and goes beyond it only if its steps do.
-  if (through.speeds.empty()) limits.acceleration = most;
-  const bool holds = through.speeds.empty() || through.gain_speed * scenario.step <= 1;
-  // A body at rest has no velocity to turn: what its law commands moves it.
-  if (!turns_only || !holds || slowest <= 2 * kRestSpeed) return limits;
-  limits.speed = fastest * (1 + 1e-12);
-  limits.turn_rate = most / slowest * (1 + 1e-12);
+  const VehicleLimits own = body.vehicle->limits(body.start);
+  const double water = scenario.water.most(own.bottom, own.top);
+  limits.speed = own.speed + water;
+  limits.climb = own.climb + water;
+  limits.climb_jerk = water == 0 ? own.climb_jerk : kUnlimited;
+  // Its turn rate is one of its heading, perhaps of a mean: what slips aside goes another way than it
+  // points.
+  limits.top = own.top;
+  limits.bottom = own.bottom;
   return limits;
 }
 
@@ -346,17 +327,18 @@ std::vector<AgentReach> reach(const Scenario& scenario) {
   std::vector<AgentReach> all;
   for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
     const Body& body = scenario.bodies[i];
-    if (!body.pilot || !body.pilot->through) continue;
-    AgentReach agent{i, limits_of(scenario, body), {}, {}};
+    const auto model = body.pilot ? model_of(*body.pilot) : nullptr;
+    if (!model || model->orifices().empty()) continue;
+    AgentReach agent{
+        i, body.vehicle ? limits_of(scenario, body) : model->limits(body, scenario.step), {}, {}};
     std::vector<const MovingOrifice*> orifices;
-    for (const std::string& name : body.pilot->through->orifices) {
-      const auto it = std::find_if(scenario.orifices.begin(), scenario.orifices.end(),
-                                   [&](const MovingOrifice& orifice) { return orifice.name == name; });
-      if (it == scenario.orifices.end())
+    for (const std::string& name : model->orifices()) {
+      const std::size_t k = index_of(scenario.orifices, name);
+      if (k == scenario.orifices.size())
         throw InputError("bodies[" + std::to_string(i) + "].pilot.through", name,
                          "names of orifices of the scenario");
-      agent.orifices.push_back(static_cast<std::size_t>(it - scenario.orifices.begin()));
-      orifices.push_back(&*it);
+      agent.orifices.push_back(k);
+      orifices.push_back(&scenario.orifices[k]);
     }
     ReachStart start{body.appears, body.start.position, body.start.velocity, 0, 0};
     if (body.vehicle && std::isfinite(agent.limits.climb_jerk))

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What flies a body: a law with its parameters as a file has them (Pilot), and the object that answers for it
+// (PilotModel, the one under way a FlyingPilot). A new law is a PilotModel (docs/howto/add-a-law.md).
+#pragma once
+
+#include <vericone/guidance/guide.h>
+#include <vericone/guidance/orifice_law.h>
+#include <vericone/simulation/sensor.h>
+#include <vericone/simulation/track.h>
+#include <vericone/simulation/vehicle.h>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace vericone::simulation {
+
+struct Body;
+struct Scenario;
+struct Run;
+struct RunOptions;
+struct ReachLimits;
+class PilotModel;
+
+/// Where an agent wants to go once nothing threatens it. Turning towards it may cost a margin what one step
+/// turns, before the law is asked again.
+struct Goal {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  // m
+  double most = 0;                                  // m/s^2, with which it turns towards the point
+  std::string after;   // obstacle that has to be passed first; empty: none, or all orifices
+  double reached = 1;  // metres; when all agents with goals have been this near the run ends
+};
+
+/// How a pilot avoids.
+enum class Manner : std::uint8_t {
+  /// On courses that no cone holds, tested against every body that it minds (guidance::Navigator), its goal
+  /// pursued on such a course only. Of the laws avoidance and clearance; the metres to keep are those of
+  /// `guide.clearance` for the clearance law, else a part of the agent's size.
+  guarded,
+  /// As the source does: the law's own command for the body met first, without regard of others; to the goal
+  /// whenever that is silent. The other laws know this manner alone.
+  source,
+};
+
+/// When a body is passed: from then on the law is not asked until they close again, and goals `after` it
+/// open.
+enum class Passing : std::uint8_t {
+  bisector,  // the centres recede, and so does the relative velocity along the cone's bisector, V_r_hat >= 0
+             // (5.1)
+  centres,   // V_r >= 0; always of the clearance law, which knows no cone
+};
+
+/// The way through orifices, one after the other. An orifice is behind the agent when its reference point has
+/// crossed the plane inside the rim and all of its body has left the plane.
+struct Through {
+  enum class Law : std::uint8_t {
+    orifice,  // the source's (2.4), of the circle about the centre that the rim holds and the ball about the
+              // agent
+    passage,  // ours, of the true outlines
+  } law = Law::passage;
+  std::vector<std::string> orifices;  // names, in this order
+  /// These laws see no bodies. A scenario that has others is refused unless this says that it is meant so:
+  /// whether they were met is proved, nothing is done about it.
+  bool minds_none = false;
+  guidance::OrificeLawOptions source;
+  guidance::PassageLawOptions passage;
+  /// m/s, held by an acceleration along the velocity (of a vehicle along its level part: depth is its
+  /// control's) of gain_speed times what is missing. One for all orifices, or one for each; empty: nothing is
+  /// done about it.
+  std::vector<double> speeds;
+  double gain_speed = 1;  // 1/s
+};
+[[nodiscard]] const char* to_string(Through::Law law);
+
+/// What flies a body. Bodies without one keep their velocity.
+struct Pilot {
+  /// In place of all the laws below, of which nothing but `partners` and `goal` is read then.
+  std::shared_ptr<const PilotModel> own;
+  /// In place of a law about bodies: `guide`, `manner`, `passing`, `minds`, `partners` and sensors are not
+  /// read.
+  std::optional<Through> through;
+  guidance::GuideOptions guide;
+  Manner manner = Manner::guarded;
+  Passing passing = Passing::bisector;
+  /// Names of what is avoided (met, for rendezvous). Empty: all other bodies, except for a partner's own
+  /// agent.
+  std::vector<std::string> minds;
+  /// Cooperative laws: the body that carries out the second acceleration. Has no pilot of its own.
+  std::vector<std::string> partners;
+  std::optional<Goal> goal;
+  /// What it measures of the bodies it minds; left out: it knows them. Its law sees nothing else, so neither
+  /// does it know when a body has been passed but by what it measures.
+  std::optional<Sensor> sensor;
+  Estimator estimator = Estimator::none;
+  double estimator_intensity = 0;  // m^2/s^3, of Estimator::state: white acceleration of the bodies minded
+  double obstacle_most = 0;        // m/s^2, of Estimator::set_membership: what they can accelerate at most
+};
+
+/// What a pilot is told at the time of a command. Indices are those of the scenario's bodies.
+struct Instant {
+  double t = 0, until = 0;                      // s: now, and until when commands are held
+  double before = -1;                           // s, when commands were given before; negative: never
+  std::uint64_t command = 0;                    // number of the command, from 0
+  std::size_t self = 0;                         // the body that is flown
+  std::span<const guidance::BodyState> bodies;  // now; of bodies that are there()
+  std::span<const Track> tracks;                // until now; after a step until its end
+  const Goal* goal = nullptr;                   // where it may go now; null: nowhere
+  const Vehicle* vehicle = nullptr;             // that carries out what it commands; null: a point mass
+
+  [[nodiscard]] bool there(std::size_t body) const { return tracks[body].appears() <= t; }
+  [[nodiscard]] const guidance::BodyState& own() const { return bodies[self]; }
+};
+
+/// One under way. At every command all pilots look(), then report(), then command() one after the other; when
+/// the bodies have moved all are asked what has happened.
+class FlyingPilot {
+ public:
+  virtual ~FlyingPilot() = default;
+  /// What it sees of the bodies: sensors, estimators, laws.
+  virtual void look(const Instant&) {}
+  /// Events that it has seen, into the run.
+  virtual void report(const Instant&, Run&) {}
+  /// `commands`: one a body, all 0. It sets its own and those of its partners.
+  virtual void command(const Instant& now, std::span<VehicleCommand> commands, Run& run) = 0;
+  /// What it saw and commanded, into the run's samples.
+  virtual void log(const Instant&, Run&) {}
+  /// The bodies have moved from `now.t` to `now.until`: what has happened on the way, into the run.
+  virtual void moved(const Instant&, Run&) {}
+
+  /// All that it minds or is to go through lies behind it.
+  [[nodiscard]] virtual bool passed_all() const { return false; }
+  /// It may go to its goal: it knows that this body, or else all that comes first, lies behind it.
+  [[nodiscard]] virtual bool goal_opens(std::optional<std::size_t>) const { return true; }
+};
+
+/// A kind of pilot with its parameters.
+class PilotModel {
+ public:
+  virtual ~PilotModel() = default;
+  /// Throws InputError naming the pilot's field where it cannot fly `self`: what it minds or goes through is
+  /// not there, or of a kind that it does not see.
+  virtual void check(const Scenario&, const Body& /*self*/) const {}
+  /// For body `self` of a scenario that is checked; scenario and model outlive it.
+  [[nodiscard]] virtual std::unique_ptr<FlyingPilot> launch(const Scenario& scenario, std::size_t self,
+                                                            const RunOptions& options) const = 0;
+  /// Of its law, for texts.
+  [[nodiscard]] virtual std::string name() const { return "own"; }
+  /// What it commands at most, m/s^2; infinite where it has no limit.
+  [[nodiscard]] virtual double most() const { return std::numeric_limits<double>::infinity(); }
+  /// What no motion exceeds of a point mass that it flies, commanded every `step` s.
+  [[nodiscard]] virtual ReachLimits limits(const Body& self, double step) const;
+  /// Metres that it is to keep from another body, by name.
+  [[nodiscard]] virtual double required(const std::string& /*other*/) const { return 0; }
+  /// Names of the orifices that it is to go through, in this order.
+  [[nodiscard]] virtual std::vector<std::string> orifices() const { return {}; }
+  /// Its function of a body is a length, m: of others y, dimensionless.
+  [[nodiscard]] virtual bool in_metres() const { return false; }
+  /// It may start at rest.
+  [[nodiscard]] virtual bool may_rest() const { return false; }
+};
+
+/// The object that answers for a pilot: its own one, or that of its law. It refers to the pilot.
+[[nodiscard]] std::shared_ptr<const PilotModel> model_of(const Pilot& pilot);
+
+/// The acceleration, m/s^2, that a pilot wants: at a time, s, of its body, among all others that are there.
+using Steering = std::function<Eigen::Vector3d(double, const guidance::BodyState&,
+                                               const std::vector<guidance::BodyState>&)>;
+/// One that a function flies, called once a step; what it returns is held. The run throws InputError naming
+/// "acceleration" where that is not finite.
+[[nodiscard]] std::shared_ptr<const PilotModel> pilot_by(Steering steering);
+
+/// Whether its law is one about bodies, `guide`.
+[[nodiscard]] bool minds_bodies(const Pilot& pilot);
+
+/// Whether this pilot's courses are guarded: of the laws that can be.
+[[nodiscard]] bool guarded(const Pilot& pilot);
+
+/// What the law of this pilot commands at most, m/s^2; infinite where it has no limit.
+[[nodiscard]] double most_commanded(const Pilot& pilot);
+
+}  // namespace vericone::simulation

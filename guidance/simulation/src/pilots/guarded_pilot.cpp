@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/guidance/navigator.h>
+
+#include "pilots/law_pilot.h"
+
+namespace vericone::simulation {
+namespace {
+
+guidance::NavigatorOptions courses_of(const Pilot& pilot) {
+  guidance::NavigatorOptions options;
+  options.most = pilot.guide.inversion.most;
+  if (pilot.guide.law == guidance::Law::clearance) {
+    options.required = pilot.guide.clearance.required;
+    options.beyond = pilot.guide.clearance.beyond;
+    options.most = pilot.guide.clearance.most;
+  }
+  options.longitudinal = pilot.guide.clearance.longitudinal;
+  return options;
+}
+
+class FlyingGuarded : public FlyingLaw {
+ public:
+  FlyingGuarded(const Pilot& pilot, const Scenario& scenario, std::size_t self, const RunOptions& options)
+      : FlyingLaw(pilot, scenario, self, options), navigator_(courses_of(pilot)) {}
+
+  /// Of all that it minds, not of the one met first alone.
+  void command(const Instant& now, std::span<VehicleCommand> commands, Run& run) override {
+    attend(now);
+    minded_.clear();
+    indices_.clear();
+    for (const Engagement& e : engagements_) {
+      if (!e.there(now)) continue;
+      minded_.push_back(e.believed(now));
+      indices_.push_back(e.obstacle());
+    }
+    std::optional<guidance::Destination> destination;
+    if (now.goal != nullptr) destination = {now.goal->point, now.goal->most};
+    using enum guidance::NavigatorStatus;
+    const guidance::NavigatorStep said =
+        navigator_.step(now.own(), minded_, destination, now.t, now.until - now.t);
+    commands[now.self].acceleration = said.acceleration;
+    if (said.status == homing || said.status == straight) attended_ = nullptr;
+    const bool hopeless = said.status == cannot_avoid;
+    if (hopeless && !hopeless_)
+      run.events.push_back({now.t, EventKind::cannot_avoid, now.self, indices_[said.nearest], said.least});
+    hopeless_ = hopeless;
+    homing_.note(now, said.aligned, run);
+  }
+
+ private:
+  guidance::Navigator navigator_;
+  std::vector<guidance::BodyState> minded_;
+  std::vector<std::size_t> indices_;
+  bool hopeless_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<FlyingPilot> GuardedPilot::launch(const Scenario& scenario, std::size_t self,
+                                                  const RunOptions& options) const {
+  return std::make_unique<FlyingGuarded>(pilot_, scenario, self, options);
+}
+
+}  // namespace vericone::simulation

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/simulation/pilot.h>
+#include <vericone/simulation/reach.h>
+
+#include "pilots/law_pilot.h"
+#include "pilots/through_pilot.h"
+
+namespace vericone::simulation {
+
+ReachLimits PilotModel::limits(const Body&, double) const { return {}; }
+
+std::shared_ptr<const PilotModel> model_of(const Pilot& pilot) {
+  if (pilot.own) return pilot.own;
+  if (pilot.through) return std::make_shared<ThroughPilot>(pilot);
+  if (guarded(pilot)) return std::make_shared<GuardedPilot>(pilot);
+  return std::make_shared<LawPilot>(pilot);
+}
+
+bool minds_bodies(const Pilot& pilot) { return !pilot.own && !pilot.through; }
+
+bool guarded(const Pilot& pilot) {
+  const guidance::Law law = pilot.guide.law;
+  return minds_bodies(pilot) && pilot.manner == Manner::guarded &&
+         (law == guidance::Law::avoidance || law == guidance::Law::clearance);
+}
+
+double most_commanded(const Pilot& pilot) { return model_of(pilot)->most(); }
+
+}  // namespace vericone::simulation

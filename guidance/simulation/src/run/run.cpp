@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/simulation/run.h>
+
+#include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "names.h"
+#include "tracks/sign_change.h"
+
+namespace vericone::simulation {
+namespace {
+
+using Eigen::Vector3d;
+using guidance::BodyState;
+
+/// Adds the seconds that it lives to a sum.
+class Timed {
+ public:
+  explicit Timed(double& sum) : sum_(sum) {}
+  ~Timed() { sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  Timed(const Timed&) = delete;
+  Timed& operator=(const Timed&) = delete;
+
+ private:
+  double& sum_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Of decisions that took so long, seconds; there may be none. Changes their order.
+void summarise(std::vector<double>& seconds, RunTimes& times) {
+  times.decisions = seconds.size();
+  if (seconds.empty()) return;
+  for (const double s : seconds) times.mean += s / double(seconds.size());
+  const auto within = seconds.begin() + std::ptrdiff_t((seconds.size() * 99 + 99) / 100 - 1);
+  std::nth_element(seconds.begin(), within, seconds.end());
+  times.within = *within;
+  times.worst = *std::max_element(within, seconds.end());
+}
+
+class Runner {
+ public:
+  Runner(const Scenario& scenario, const RunOptions& options) : scenario_(scenario), options_(options) {
+    const std::size_t n = scenario.bodies.size();
+    run_.tracks.reserve(n);
+    for (const Body& body : scenario.bodies) {
+      vehicles_.push_back(body.vehicle ? body.vehicle->launch(body.start, body.appears, scenario.water)
+                                       : nullptr);
+      if (vehicles_.back())
+        run_.tracks.emplace_back(body.shape, vehicles_.back()->motion(), Orientation::fixed, body.appears);
+      else if (body.road)
+        run_.tracks.emplace_back(body.shape, start_of(*body.road, body.start.position.z()),
+                                 Orientation::fixed, body.appears);
+      else
+        run_.tracks.emplace_back(body.shape, body.start, body.orientation, body.appears);
+      if (body.appears > 0)
+        event({body.appears, EventKind::appears, run_.tracks.size() - 1, run_.tracks.size() - 1, 0});
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto& pilot = scenario.bodies[i].pilot;
+      models_.push_back(pilot ? model_of(*pilot) : nullptr);
+      pilots_.push_back(pilot ? models_.back()->launch(scenario, i, options) : nullptr);
+    }
+    reached_.assign(n, false);
+    states_.resize(n);
+    commands_.resize(n);
+    spent_.assign(n, 0);
+  }
+
+  Run run() {
+    double t = 0;
+    for (std::uint64_t k = 1; t < scenario_.duration; ++k) {
+      // Commands at multiples of the step, and where a body appears.
+      const double next = std::min(time_of_step(scenario_, k), scenario_.duration);
+      while (t < next && !done_) {
+        checkpoint();
+        double to = next;
+        for (const Body& body : scenario_.bodies)
+          if (body.appears > t && body.appears < to) to = body.appears;
+        interval(t, to);
+        t = to;
+      }
+      run_.end = t;
+      if (options_.progress && !options_.progress(t)) {
+        run_.interrupted = true;
+        break;
+      }
+      if (done_ || (scenario_.stop_when_passed && all_passed(t))) break;
+    }
+    for (std::size_t i = 0; i < vehicles_.size(); ++i)
+      if (vehicles_[i] && vehicles_[i]->broken()) run_.limits_broken.push_back({i, *vehicles_[i]->broken()});
+    summarise(decisions_, run_.times);
+    if (options_.prove && !run_.interrupted) {
+      const Timed timed(run_.times.proofs);
+      prove_pairs();
+      prove_passages();
+    }
+    std::stable_sort(run_.events.begin(), run_.events.end(),
+                     [](const Event& x, const Event& y) { return x.t < y.t; });
+    return std::move(run_);
+  }
+
+ private:
+  void event(const Event& event) { run_.events.push_back(event); }
+
+  /// Asks every pilot whose body is there.
+  template <typename Ask>
+  void each_pilot(Instant& now, const Ask& ask) {
+    for (std::size_t i = 0; i < pilots_.size(); ++i) {
+      if (!pilots_[i] || !now.there(i)) continue;
+      now.self = i;
+      now.vehicle = vehicles_[i].get();
+      ask(*pilots_[i]);
+    }
+  }
+
+  /// Commands at t, held until `to`.
+  void interval(double t, double to) {
+    Instant now{t, to, before_, command_, 0, states_, run_.tracks, nullptr, nullptr};
+    for (std::size_t i = 0; i < states_.size(); ++i)
+      if (now.there(i)) states_[i] = run_.tracks[i].state(t);
+    std::fill(commands_.begin(), commands_.end(), VehicleCommand{});
+    each_pilot(now, [&](FlyingPilot& pilot) {
+      {
+        const Timed timed(spent_[now.self]);
+        pilot.look(now);
+      }
+      pilot.report(now, run_);
+    });
+    each_pilot(now, [&](FlyingPilot& pilot) {
+      now.goal = open_goal(now.self);
+      {
+        const Timed timed(spent_[now.self]);
+        pilot.command(now, commands_, run_);
+      }
+      if (options_.log) pilot.log(now, run_);
+      decisions_.push_back(std::exchange(spent_[now.self], 0));
+    });
+    for (std::size_t i = 0; i < run_.tracks.size(); ++i)
+      if (now.there(i)) move(i, t, to);
+    each_pilot(now, [&](FlyingPilot& pilot) { pilot.moved(now, run_); });
+    each_pilot(now, [&](FlyingPilot&) { reaching(now.self, t, to); });
+    before_ = t;
+    ++command_;
+  }
+
+  void move(std::size_t i, double t, double to) {
+    if (const Body& body = scenario_.bodies[i]; body.road) {
+      constexpr double kError = 1e-6;
+      for (const Curve& curve : curves_of(*body.road, body.start.position.z(), t, to, kError, body.appears))
+        run_.tracks[i].append(curve);
+      return;
+    }
+    VehicleCommand& wanted = commands_[i];
+    if (!vehicles_[i]) {
+      run_.tracks[i].advance(wanted.acceleration, to);
+      return;
+    }
+    if (options_.log) vehicles_[i]->log(run_.vehicles.emplace_back(VehicleSample{t, i, {}}).values);
+    if (const Goal* goal = open_goal(i); goal && !wanted.aim) {
+      const double speed = states_[i].velocity.norm();
+      wanted.aim = {goal->point, Vector3d::Zero(),
+                    speed > 0 ? (goal->point - states_[i].position).norm() / speed : 0};
+    }
+    way_.clear();
+    try {
+      vehicles_[i]->advance(wanted, t, to, way_);
+    } catch (const InputError& e) {
+      throw e.within("bodies[" + std::to_string(i) + "]");
+    }
+    for (const Curve& curve : way_) run_.tracks[i].append(curve);
+  }
+
+  /// Where a pilot may go now; null: nowhere.
+  const Goal* open_goal(std::size_t agent) const {
+    const auto& pilot = scenario_.bodies[agent].pilot;
+    if (!pilot || !pilot->goal || reached_[agent]) return nullptr;
+    std::optional<std::size_t> after;
+    if (!pilot->goal->after.empty()) after = index_of(scenario_.bodies, pilot->goal->after);
+    return pilots_[agent]->goal_opens(after) ? &*pilot->goal : nullptr;
+  }
+
+  void reaching(std::size_t agent, double t, double to) {
+    const Goal* goal = open_goal(agent);
+    if (goal == nullptr) return;
+    const auto outside = [&](double s) {
+      return goal->reached - (run_.tracks[agent].motion(s).position - goal->point).norm();
+    };
+    if (!(outside(t) < 0) || !(outside(to) >= 0)) return;
+    event({sign_change(outside, t, to), EventKind::reaches_goal, agent, agent, goal->reached});
+    reached_[agent] = true;
+    done_ = true;
+    for (std::size_t i = 0; i < scenario_.bodies.size(); ++i)
+      if (scenario_.bodies[i].pilot && scenario_.bodies[i].pilot->goal && !reached_[i]) done_ = false;
+  }
+
+  bool all_passed(double t) const {
+    for (const Body& body : scenario_.bodies)
+      if (body.appears > t || (body.pilot && body.pilot->goal)) return false;
+    return std::all_of(pilots_.begin(), pilots_.end(),
+                       [](const auto& pilot) { return !pilot || pilot->passed_all(); });
+  }
+
+  /// Whether two bodies stay as they are to each other: pieces of one, perhaps.
+  bool move_together(std::size_t i, std::size_t j) const {
+    const auto steady = [&](std::size_t k) {
+      const bool rigid = run_.tracks[k].shape().rigid() != nullptr;
+      return rigid && std::none_of(run_.tracks[k].legs().begin(), run_.tracks[k].legs().end(),
+                                   [](const auto& leg) { return leg->accelerated(); });
+    };
+    const Body &a = scenario_.bodies[i], &b = scenario_.bodies[j];
+    return !flown(i) && !flown(j) && a.start.velocity == b.start.velocity && steady(i) && steady(j);
+  }
+
+  /// Moved by a law, its own or a partner's.
+  bool flown(std::size_t i) const {
+    if (scenario_.bodies[i].pilot || vehicles_[i]) return true;
+    return std::any_of(scenario_.bodies.begin(), scenario_.bodies.end(), [&](const Body& other) {
+      return other.pilot && contains(other.pilot->partners, scenario_.bodies[i].name);
+    });
+  }
+
+  /// Whether there is to be another proof.
+  bool another() {
+    const double n = double(run_.tracks.size()),
+                 all = n * (n - 1) / 2 + n * double(scenario_.orifices.size());
+    if (!run_.interrupted && options_.proving && !options_.proving(double(asked_++) / all))
+      run_.interrupted = true;
+    return !run_.interrupted;
+  }
+
+  void prove_pairs() {
+    for (std::size_t i = 0; i < run_.tracks.size(); ++i)
+      for (std::size_t j = i + 1; j < run_.tracks.size(); ++j) {
+        if (!another()) return;
+        const double from = std::max(run_.tracks[i].appears(), run_.tracks[j].appears());
+        if (!(from < run_.end)) continue;
+        if (move_together(i, j)) {
+          run_.not_checked.push_back({i, j});
+          continue;
+        }
+        PairOutcome outcome{i, j, {}, std::max(required(i, j), required(j, i))};
+        outcome.proof = prove(run_.tracks[i], run_.tracks[j], from, run_.end, scenario_.proof);
+        if (outcome.proof.verdict == ProofVerdict::touched)
+          event({outcome.proof.to, EventKind::contact, i, j, outcome.proof.from});
+        run_.proofs.push_back(outcome);
+      }
+  }
+
+  void prove_passages() {
+    for (std::size_t i = 0; i < run_.tracks.size(); ++i) {
+      if (!flown(i) || !(run_.tracks[i].appears() < run_.end)) continue;
+      for (std::size_t k = 0; k < scenario_.orifices.size(); ++k) {
+        if (!another()) return;
+        const MovingOrifice& orifice = scenario_.orifices[k];
+        const double from = std::max(run_.tracks[i].appears(), orifice.appears);
+        const bool ordered = models_[i] && contains(models_[i]->orifices(), orifice.name);
+        if (!(from < run_.end)) {
+          // What was ordered and never came is missed.
+          if (ordered) run_.passages.push_back({i, k, ordered, {}});
+          continue;
+        }
+        run_.passages.push_back({i, k, ordered, passage(run_.tracks[i], orifice, from)});
+      }
+    }
+  }
+
+  PassageProof passage(const Track& track, const MovingOrifice& orifice, double from) const {
+    if (!orifice.window) return prove_passage(track, orifice, from, run_.end, scenario_.proof);
+    return prove_passage(track, *orifice.window, mesh_track(orifice, run_.end), from, run_.end,
+                         scenario_.proof);
+  }
+
+  /// Metres that `agent` is to keep from `other`.
+  double required(std::size_t agent, std::size_t other) const {
+    return models_[agent] ? models_[agent]->required(scenario_.bodies[other].name) : 0;
+  }
+
+  const Scenario& scenario_;
+  const RunOptions& options_;
+  Run run_;
+  std::vector<std::shared_ptr<const PilotModel>> models_;  // null: none
+  std::vector<std::unique_ptr<FlyingPilot>> pilots_;
+  std::vector<std::unique_ptr<Vehicle>> vehicles_;  // null: a point mass
+  std::vector<BodyState> states_;
+  std::vector<VehicleCommand> commands_;
+  std::vector<Curve> way_;
+  std::vector<bool> reached_;              // their goals
+  std::vector<double> spent_, decisions_;  // s: at this command by each agent, and all that are done
+  double before_ = -1;
+  std::uint64_t command_ = 0;  // number of the command, from 0
+  std::size_t asked_ = 0;      // proofs that were come to
+  bool done_ = false;
+};
+
+}  // namespace
+
+ProofVerdict Run::verdict() const {
+  ProofVerdict worst = ProofVerdict::avoided;
+  for (const PairOutcome& pair : proofs) {
+    if (pair.proof.verdict == ProofVerdict::touched) return ProofVerdict::touched;
+    if (pair.proof.verdict == ProofVerdict::undecided) worst = ProofVerdict::undecided;
+  }
+  for (const PassageOutcome& passage : passages) {
+    if (passage.proof.verdict == PassageVerdict::touched) return ProofVerdict::touched;
+    if (passage.proof.verdict == PassageVerdict::undecided) worst = ProofVerdict::undecided;
+  }
+  return worst;
+}
+
+Run simulate(const Scenario& scenario, const RunOptions& options) {
+  check(scenario);
+  return Runner(scenario, options).run();
+}
+
+}  // namespace vericone::simulation

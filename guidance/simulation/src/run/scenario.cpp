@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/simulation/scenario.h>
+
+#include <vericone/geometry/error.h>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "names.h"
+#include "run/check_orifices.h"
+
+namespace vericone::simulation {
+namespace {
+
+std::string at(const char* list, std::size_t i) { return std::string(list) + "[" + std::to_string(i) + "]"; }
+
+void require_positive(double value, const char* field, const char* unit) {
+  if (!(value > 0) || !std::isfinite(value))
+    throw InputError(field, to_text(value), std::string("a positive finite number") + unit);
+}
+
+void require_not_negative(double value, const char* field, const char* unit) {
+  if (!(value >= 0) || !std::isfinite(value))
+    throw InputError(field, to_text(value), std::string("a finite number, 0 or more") + unit);
+}
+
+void check_pilot(const Pilot& pilot, const PilotModel& model, const Body& self, const Scenario& scenario) {
+  const std::vector<Body>& bodies = scenario.bodies;
+  const auto require_other = [&](const std::vector<std::string>& names, const char* field) {
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (names[i] == self.name || index_of(bodies, names[i]) == bodies.size())
+        throw InputError(at(field, i), names[i], "the name of another body");
+  };
+  require_other(pilot.minds, "minds");
+  require_other(pilot.partners, "partners");
+  for (std::size_t i = 0; i < pilot.partners.size(); ++i) {
+    const Body& partner = bodies[index_of(bodies, pilot.partners[i])];
+    if (partner.pilot)
+      throw InputError(at("partners", i), pilot.partners[i],
+                       "a body without a pilot of its own: it carries out what this law says");
+    if (partner.road)
+      throw InputError(at("partners", i), pilot.partners[i],
+                       "a body without a road, which leaves it no choice");
+  }
+  model.check(scenario, self);
+  if (!pilot.goal) return;
+  if (!pilot.goal->point.allFinite())
+    throw InputError("goal.point", "a number that is not finite", "finite (m)");
+  require_positive(pilot.goal->most, "goal.most", " (m/s^2)");
+  require_positive(pilot.goal->reached, "goal.reached", " (m)");
+  const std::string& after = pilot.goal->after;
+  if (!after.empty() && (after == self.name || index_of(bodies, after) == bodies.size()))
+    throw InputError("goal.after", after, "the name of another body");
+}
+
+void check_body(const Body& body, const Scenario& scenario) {
+  const auto within = [](const char* field, auto make) {
+    try {
+      make();
+    } catch (const InputError& e) {
+      throw e.within(field);
+    }
+  };
+  within("shape", [&] { check(body.shape); });
+  if (!body.start.position.allFinite())
+    throw InputError("position", "a number that is not finite", "finite (m)");
+  if (!body.start.velocity.allFinite())
+    throw InputError("velocity", "a number that is not finite", "finite (m/s)");
+  if (planar(body.shape) && (body.start.position.z() != 0 || body.start.velocity.z() != 0))
+    throw InputError("position", "out of the plane", "z = 0 for planar bodies, of position and velocity");
+  if (planar(body.shape) != planar(scenario.bodies.front().shape))
+    throw InputError("shape", planar(body.shape) ? "planar" : "spatial", "all planar or all spatial");
+  require_not_negative(body.appears, "appears", " (s)");
+  if (!(body.appears < scenario.duration))
+    throw InputError("appears", to_text(body.appears),
+                     "before the end, duration = " + to_text(scenario.duration));
+  if (body.vehicle) {
+    if (planar(body.shape)) throw InputError("vehicle", "of a planar body", "a body in space");
+    static_cast<void>(body.vehicle->launch(body.start, body.appears, scenario.water));
+  }
+  if (body.road) {
+    if (body.pilot || body.vehicle)
+      throw InputError("road", "that of a body with a pilot or a vehicle", "left out: these move the body");
+    const Motion first = start_of(*body.road, body.start.position.z());
+    if (!first.position.isApprox(body.start.position, 1e-12) &&
+        (first.position - body.start.position).norm() > 1e-9)
+      throw InputError("road", "one that begins elsewhere", "one that begins at the body's position");
+  }
+  if (!body.pilot) return;
+  const auto model = model_of(*body.pilot);
+  if (!body.start.velocity.any() && !model->may_rest())
+    throw InputError("velocity", "0", "a heading: only a guarded pilot may start at rest");
+  within("pilot", [&] { check_pilot(*body.pilot, *model, body, scenario); });
+}
+
+}  // namespace
+
+double time_of_step(const Scenario& scenario, std::uint64_t k) {
+  const double in_a_second = std::round(1 / scenario.step);
+  const bool whole = !scenario.multiples && std::abs(in_a_second * scenario.step - 1) < 1e-15;
+  return whole ? double(k) / in_a_second : double(k) * scenario.step;
+}
+
+void check(const Scenario& scenario) {
+  require_positive(scenario.duration, "duration", " (s)");
+  require_positive(scenario.step, "step", " (s)");
+  if (!(scenario.duration / scenario.step <= 1e7))
+    throw InputError("step", to_text(scenario.step), "at least duration / 1e7");
+  require_not_negative(scenario.proof.padding, "proof.padding", " (m)");
+  require_positive(scenario.proof.resolution, "proof.resolution", " (s)");
+  require_not_negative(scenario.proof.drift, "proof.drift", " (m/s)");
+  if (scenario.planes_logged < 0 || scenario.planes_logged > 10000)
+    throw InputError("planes_logged", std::to_string(scenario.planes_logged), "from 0 to 10000");
+  if (scenario.bodies.empty()) throw InputError("bodies", "none", "one body or more");
+  if (scenario.water.moves() && std::none_of(scenario.bodies.begin(), scenario.bodies.end(),
+                                             [](const Body& body) { return body.vehicle != nullptr; }))
+    throw InputError("current", "one that moves", "left out: it moves vehicles, and no body is one");
+  std::set<std::string> names;
+  check_orifices(scenario);
+  for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
+    const Body& body = scenario.bodies[i];
+    if (body.name.empty() || !names.insert(body.name).second)
+      throw InputError(at("bodies", i) + ".name", body.name.empty() ? "nothing" : body.name,
+                       "a name that no other body has");
+  }
+  for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
+    try {
+      check_body(scenario.bodies[i], scenario);
+    } catch (const InputError& e) {
+      throw e.within(at("bodies", i));
+    }
+  }
+}
+
+}  // namespace vericone::simulation
