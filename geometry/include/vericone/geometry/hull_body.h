@@ -36,6 +36,7 @@ class HullBody {
   /// The eight corners of the box between two opposite corners, which may share coordinates.
   [[nodiscard]] static HullBody box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
     std::vector<Eigen::Vector3d> corners;
+    corners.reserve(8);
     for (int i = 0; i < 8; ++i)
       corners.emplace_back((i & 1 ? high : low).x(), (i & 2 ? high : low).y(), (i & 4 ? high : low).z());
     return HullBody(std::move(corners));
