@@ -12,6 +12,34 @@ from . import course as courses
 from .style import AGENT, EXACT, GREY, OBSTACLE, ONE_COLUMN
 
 
+def view(seen: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """Corners of what the picture shows: at most one and a half times as high as wide, and no flatter than a third."""
+    everything = np.vstack(seen)
+    low, high = everything.min(axis=0), everything.max(axis=0)
+    pad = 0.05 * (high - low).max()
+    low, high = low - pad, high + pad
+    size = high - low
+    grow = np.maximum(np.array([size[1] / 1.5, size[0] / 3]) - size, 0) / 2
+    return low - grow, high + grow
+
+
+def draw_gap(axes: plt.Axes, course: dict[str, Any], width: float, around: list[np.ndarray]) -> None:
+    """Where the bodies are nearest, with the distance; `around`: what it should not cover."""
+    gap = np.array([course["nearest_on_agent"], course["nearest_on_obstacle"]])
+    axes.plot(*gap.T, color="k", linewidth=1.2, marker="o", markersize=2.2, zorder=7)
+    # Beside the middle of the gap, on the side with more room.
+    across = np.array([-1, 1]) * (gap[1] - gap[0])[::-1]
+    across = across / max(float(np.linalg.norm(across)), 1e-300) if course["miss_distance"] > 0 else np.array([0.0, 1.0])
+    middle = gap.mean(axis=0)
+    taken = np.vstack(around)
+    room = [np.linalg.norm(middle + side * 0.13 * width * across - taken, axis=1).min() for side in (1, -1)]
+    across = across if room[0] > room[1] else -across
+    axes.annotate(courses.metres(course["miss_distance"]), middle, xytext=9 * across, textcoords="offset points", zorder=8,
+                  ha="left" if across[0] > 0.5 else "right" if across[0] < -0.5 else "center",
+                  va="bottom" if across[1] > 0.5 else "top" if across[1] < -0.5 else "center",
+                  bbox={"facecolor": "w", "edgecolor": "none", "alpha": 0.75, "pad": 0.8})
+
+
 def engagement(data: dict[str, Any]) -> plt.Figure:
     """A planar scene, from engagement.json."""
     course = data["course"]
@@ -38,14 +66,7 @@ def engagement(data: dict[str, Any]) -> plt.Figure:
         length = max(1.15 * np.linalg.norm(travel), 1.3 * radius)
         arrow = agent + length * w / courses.speed(course)
         seen.append(arrow[None])
-    everything = np.vstack(seen)
-    low, high = everything.min(axis=0), everything.max(axis=0)
-    pad = 0.05 * (high - low).max()
-    low, high = low - pad, high + pad
-    # At most one and a half times as high as wide, and no flatter than a third.
-    size = high - low
-    grow = np.maximum(np.array([size[1] / 1.5, size[0] / 3]) - size, 0) / 2
-    low, high = low - grow, high + grow
+    low, high = view(seen)
     size = high - low
 
     figure = plt.figure(figsize=(ONE_COLUMN, 1))
@@ -80,19 +101,8 @@ def engagement(data: dict[str, Any]) -> plt.Figure:
     if "contact_point" in course:
         axes.plot(*course["contact_point"], "o", color=says, markersize=4.2, markeredgecolor="w", markeredgewidth=0.5, zorder=7)
     if "nearest_on_agent" in course:
-        gap = np.array([course["nearest_on_agent"], course["nearest_on_obstacle"]])
-        axes.plot(*gap.T, color="k", linewidth=1.2, marker="o", markersize=2.2, zorder=7)
-        # Beside the middle of the gap, on the side with more room.
-        across = np.array([-1, 1]) * (gap[1] - gap[0])[::-1]
-        across = across / max(float(np.linalg.norm(across)), 1e-300) if course["miss_distance"] > 0 else np.array([0.0, 1.0])
-        middle = gap.mean(axis=0)
-        taken = np.vstack([*outlines.values(), outlines["agent"] + travel, *(agent + s * (sector - agent) for s in (0.4, 0.7, 1))])
-        room = [np.linalg.norm(middle + side * 0.13 * size[0] * across - taken, axis=1).min() for side in (1, -1)]
-        across = across if room[0] > room[1] else -across
-        axes.annotate(courses.metres(course["miss_distance"]), middle, xytext=9 * across, textcoords="offset points", zorder=8,
-                      ha="left" if across[0] > 0.5 else "right" if across[0] < -0.5 else "center",
-                      va="bottom" if across[1] > 0.5 else "top" if across[1] < -0.5 else "center",
-                      bbox={"facecolor": "w", "edgecolor": "none", "alpha": 0.75, "pad": 0.8})
+        draw_gap(axes, course, size[0], [*outlines.values(), outlines["agent"] + travel,
+                                         *(agent + s * (sector - agent) for s in (0.4, 0.7, 1))])
     axes.ticklabel_format(scilimits=(-3, 4))
     axes.locator_params(nbins=7)
     axes.set_xlabel("x (m)")
