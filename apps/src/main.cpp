@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The program `vericone`: the core commands, and the way to the programs of the others.
-#include "command/core_commands.h"
 #include "command/program.h"
-#include "command/simulation_commands.h"
+#include "commands.h"
 
 int main(int argc, char** argv) {
   auto commands = vericone::core_commands();

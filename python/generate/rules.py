@@ -11,7 +11,7 @@ MODULES = [
 ]
 # Where the public headers are, in folders named include.
 FOLDERS = ["geometry", "geometry/files", "geometry/octomap", "geometry/fitting", "geometry/lidar", "cones", "guidance",
-           "guidance/simulation", "guidance/vehicles", "scenes", "scenes/scenarios", "scenes/fit", "scenes/scan", "vision", "vision/scene", "vision/footage",
+           "guidance/simulation", "guidance/vehicles", "scenes", "scenes/work", "scenes/scenarios", "scenes/fit", "scenes/scan", "vision", "vision/scene", "vision/footage",
            "vision/pursuit"]
 # Headers whose functions may take one or many.
 MANY_FOLDERS = ("geometry/include", "cones/include", "guidance/include")
@@ -122,7 +122,7 @@ LONG: set[str] = {
     "lidar::MeshScene::MeshScene", "lidar::fuse", "lidar::raster", "lidar::scan", "lidar::spinning", "lidar::visible_part",
     "scanning::look", "scanning::plane_section_picture", "scanning::read_scan_scene", "scanning::scan_and_study", "scanning::scan_text",
     "scanning::study", "scanning::write_scan",
-    "scenario::read_scenario", "scenario::scenario_of_text", "scenario::write_run",
+    "scenario::fly_campaign", "scenario::read_scenario", "scenario::scenario_of_text", "scenario::write_run",
     "scenes::read_body", "scenes::read_scene", "scenes::scene_of_text", "scenes::write_body", "scenes::write_scene",
     "simulation::Arc::Arc", "simulation::Track::advance", "simulation::Vehicle::advance", "simulation::curves_of", "simulation::fly_trial",
     "simulation::largest_current", "simulation::prove", "simulation::prove_passage", "simulation::reach", "simulation::run_tables", "simulation::simulate",

@@ -5,24 +5,15 @@ to the same files where asked. They are attributes of the package: vericone.simu
 from __future__ import annotations
 
 import contextlib
-import csv
-import datetime
-import fcntl
-import hashlib
 import importlib
-import itertools
-import json
 import math
 import numbers
 import operator
 import os
-import shutil
-import threading
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, TextIO, Union
+from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -37,9 +28,6 @@ PathLike = Union[str, "os.PathLike[str]"]
 # Called with the share done, 0 to 1; False stops.
 Progress = Callable[[float], object]
 Array = npt.NDArray[Any]
-
-_BLOCK = 50  # engagements that are written together
-_WORDS = ("body", "agent", "obstacle", "orifice", "status", "outer_status", "event", "unit")
 
 
 def _part(name: str) -> Any:
@@ -75,53 +63,27 @@ def _require_callable(field: str, value: object) -> None:
 
 
 @contextlib.contextmanager
-def _locked(folder: Path) -> Iterator[None]:
-    """Nobody else goes on with the unfinished table of `folder` meanwhile, as the command locks it too."""
-    lock = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
-    try:
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            raise _refuse("out", folder, "a folder that nobody else is writing to") from None
-        yield
-    finally:
-        os.close(lock)
-
-
-@contextlib.contextmanager
-def _whole(folder: PathLike) -> Iterator[Path]:
+def _whole(folder: PathLike) -> Iterator[str]:
     """A folder within `folder` whose files are moved to it together at the end, or are gone."""
-    target = Path(folder)
-    made = list(itertools.takewhile(lambda above: not above.exists(), (target, *target.parents)))
-    # Digits alone: the command removes what a killed one leaves by this name. Each thread has its own.
-    stage = target / f".partial-{os.getpid()}{threading.get_native_id()}"
+    staged = _part("work").StagedFolder(_path("out", folder, "the path of a folder"))
     try:
-        target.mkdir(parents=True, exist_ok=True)
-        shutil.rmtree(stage, ignore_errors=True)
-        stage.mkdir()
-        yield stage
-        for file in sorted(stage.iterdir()):
-            os.replace(file, target / file.name)
+        yield str(staged.path())
+        staged.publish()
     finally:
-        shutil.rmtree(stage, ignore_errors=True)
-        with contextlib.suppress(OSError):  # one that is not empty stays
-            for above in made:
-                above.rmdir()
+        staged.abandon()
 
 
 def _require_folder(out: PathLike | None) -> None:
     """What keeps a folder from being written to is told before the work. Nothing is left of the trial."""
     if out is not None:
-        with _whole(_path("out", out, "the path of a folder")):
+        with _whole(out):
             pass
 
 
-def _provenance(call: str, inputs: Iterable[Path]) -> dict[str, object]:
-    """What it takes to get the same result again."""
-    hashes = [{"file": str(file), "sha256": hashlib.sha256(file.read_bytes()).hexdigest() if file.is_file() else None}
-              for file in inputs]
-    now = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")
-    return {"command": call, "version": _part("_version").__version__, "inputs": hashes, "finished": now}
+def _provenance(call: str, inputs: Sequence[str]) -> str:
+    """What it takes to get the same result again, as the commands write it."""
+    text: str = _part("work").provenance(call, 1, list(inputs))
+    return text
 
 
 def _share_of(progress: Progress | None, whole: float) -> Callable[[float], bool] | None:
@@ -191,30 +153,23 @@ def read_scenario(file: PathLike) -> simulation.Scenario:
 # Tables ----------------------------------------------------------------------------------------------------------------
 
 
-def _type_of(columns: Sequence[tuple[str, str, Array]]) -> np.dtype[Any]:
-    """Of rows of columns (name, unit, values). A unit is in the title, so that array["r [m]"] is array["r"]."""
-    fields: list[Any] = [((f"{name} [{unit}]", name) if unit else name, values.dtype) for name, unit, values in columns]
-    return np.dtype(fields)
-
-
-def _rows_of(columns: Sequence[tuple[str, str, Array]]) -> Array:
-    rows = np.empty(len(columns[0][2]) if columns else 0, dtype=_type_of(columns))
-    for name, _, values in columns:
-        rows[name] = values
+def _array(table: simulation.Table) -> Array:
+    """Its rows. A unit is in the title of a field, so that array["r [m]"] is array["r"]."""
+    columns = [np.array(c.words, dtype=f"U{max([1, *map(len, c.words)])}") if c.text else np.asarray(c.numbers, dtype=float)
+               for c in table.columns]
+    fields: list[Any] = [((f"{c.name} [{c.unit}]", c.name) if c.unit else c.name, own.dtype)
+                         for c, own in zip(table.columns, columns)]
+    rows = np.empty(table.rows(), dtype=fields)
+    for c, own in zip(table.columns, columns):
+        rows[c.name] = own
     return rows
-
-
-def _words(words: Sequence[str]) -> Array:
-    return np.array(words, dtype=f"U{max([1, *map(len, words)])}")
 
 
 def run_tables(scenario: simulation.Scenario, run: simulation.Run) -> dict[str, Array]:
     """What a run says, as structured arrays by name: bodies, encounters, events, and planes, sights, vehicles, orifices
     where there are any. Columns and numbers are those of the command's CSV files (docs/reference/scenarios.md); NaN is
     an empty field. units() has their units; array["V_r [m/s]"] is array["V_r"]."""
-    return {table.name: _rows_of([(c.name, c.unit, _words(c.words) if c.text else np.asarray(c.numbers, dtype=float))
-                                  for c in table.columns])
-            for table in _part("simulation").run_tables(scenario, run)}
+    return {table.name: _array(table) for table in _part("simulation").run_tables(scenario, run)}
 
 
 def units(table: Array) -> dict[str, str]:
@@ -237,56 +192,6 @@ def _require_table(table: object) -> None:
         raise _wrong_kind("table", table, "a structured array, as run_tables() and read_table() return")
 
 
-def _number(field: str) -> float:
-    if "_" in field:  # float() reads past it
-        raise ValueError
-    return float(field) if field else float("nan")
-
-
-def _column(name: str, fields: Sequence[str], source: str) -> Array:
-    """Numbers, or words where none is a number."""
-    values, text = np.full(len(fields), float("nan")), -1
-    for row, field in enumerate(fields):
-        try:
-            values[row] = _number(field)
-        except ValueError:
-            text = row if text < 0 else text
-    if text < 0:
-        return values
-    if not np.isnan(values).all():
-        raise _refuse(source, f"{fields[text]!r} in row {text + 1}, column {name}", "a number like others of the column, or empty")
-    return _words(fields)
-
-
-def _table_of(lines: Iterable[str], source: str) -> Array:
-    """Of lines with a break at the end of each; before the names of the columns there may be comments."""
-    last = ""
-
-    def noted() -> Iterator[str]:
-        nonlocal last
-        for last in itertools.dropwhile(lambda line: line.startswith("#"), lines):
-            yield last
-
-    try:
-        rows = list(csv.reader(noted(), strict=True))
-    except csv.Error as error:
-        raise _refuse(source, str(error), "a table of comma-separated fields") from None
-    headers = [tuple(header.partition(" [")[::2]) for header in rows[0]] if rows else []
-    names = [name for name, _ in headers]
-    if not names or not all(names) or len(set(names)) < len(names):
-        raise _refuse(source, f"columns {rows[0]}" if names else "no columns", "a table whose first line names its columns, each by another name")
-    for row, fields in enumerate(rows[1:], start=1):
-        if len(fields) != len(names):
-            raise _refuse(source, f"row {row} of {len(fields)} fields", f"a table whose rows have {len(names)} fields, one for each column")
-    if not last.endswith(("\n", "\r")):
-        raise _refuse(source, f"no line break after row {len(rows) - 1}", "a whole table: this one may be cut off")
-    columns = []
-    for i, (name, unit) in enumerate(headers):
-        texts = [fields[i] for fields in rows[1:]]
-        columns.append((name, unit.removesuffix("]"), _words(texts) if name in _WORDS else _column(name, texts, source)))
-    return _rows_of(columns)
-
-
 def read_table(file: PathLike) -> Array:
     """A CSV file of a command (bodies.csv, engagements.csv, ...) as a structured array; as run_tables(), with the units
     that its header has. Numbers are the doubles that were written. Raises InputError naming the file for one that is cut
@@ -296,7 +201,7 @@ def read_table(file: PathLike) -> Array:
         raise _refuse("file", path, "the path of a CSV file")
     try:
         with open(path, encoding="utf-8", newline="") as lines:
-            return _table_of(lines, str(path))
+            return _array(_part("simulation").table_of_csv(lines.read(), str(path)))
     except UnicodeDecodeError as error:
         raise _refuse(str(path), f"byte {error.object[error.start]:#04x}", "text in UTF-8") from None
 
@@ -331,9 +236,9 @@ def simulate(scenario: PathLike | simulation.Scenario, *, seed: int | None = Non
     if out is not None and not run.interrupted:
         call = f"vericone.simulate({str(file) if file else changed.name!r}, seed={seed}, trial={trial})"
         origin = scenario_module.RunOrigin(file=str(file or ""), seconds=seconds, text=text,
-                                           provenance=json.dumps(_provenance(call, [file] if file else [])))
+                                           provenance=_provenance(call, [str(file)] if file else []))
         with _whole(out) as stage:
-            scenario_module.write_run(changed, run, origin, str(stage))
+            scenario_module.write_run(changed, run, origin, stage)
     return run
 
 
@@ -345,67 +250,6 @@ class Campaign(NamedTuple):
     summary: montecarlo.Summary
     violations: int
     finished: bool
-
-
-def _lines_done(partial: Path, settings: str, header: str, count: int) -> list[str]:
-    """The whole rows of an unfinished table, which is cut after the last of them."""
-    if not partial.is_file():
-        return []
-    with open(partial, encoding="utf-8", newline="") as file:
-        lines = file.read().split("\n")[:-1]
-    if not lines:
-        return []
-    if lines[0] != settings:
-        raise _refuse("out", partial.parent, "a folder without the unfinished run of other settings that " + partial.name +
-                      " holds; delete that file to give it up")
-    rows = lines[2:2 + count] if len(lines) > 1 and lines[1] == header else []
-    for i, row in enumerate(rows):
-        cells = row.split(",")
-        if cells[0] != str(i) or len(cells) != header.count(",") + 1 or "nan" in cells:
-            raise _refuse("out", partial.parent, f"a folder whose {partial.name} has row {i} in line {i + 3}; delete that"
-                          " file to begin anew")
-    return rows
-
-
-class _Rows(NamedTuple):
-    """Computes rows of a campaign: lines of its table."""
-    campaign: montecarlo.Campaign
-    laws: list[montecarlo.Flown]
-
-    def block(self, first: int, last: int, stopped: threading.Event) -> list[str]:
-        module = _part("montecarlo")
-        return [module.csv_row(i, module.measure(self.campaign.seed, i, self.laws, self.campaign.flight))
-                for i in range(first, last) if not stopped.is_set()]
-
-
-def _fill(rows: _Rows, lines: list[str], threads: int, grown: Callable[[list[str]], bool]) -> bool:
-    """Appends the rows that are missing to `lines`, in their order; grown() is told of those that came, and stops. The
-    result does not depend on `threads`."""
-    count, first = rows.campaign.engagements, len(lines)
-    ahead: dict[int, list[str]] = {}
-    pending: set[Future[tuple[int, list[str]]]] = set()
-    stopped = threading.Event()
-    pool = ThreadPoolExecutor(max_workers=threads)
-
-    def block(at: int) -> tuple[int, list[str]]:
-        return at, rows.block(at, min(at + _BLOCK, count), stopped)
-
-    try:
-        while len(lines) < count:
-            while first < count and len(pending) < 2 * threads:
-                pending.add(pool.submit(block, first))
-                first = min(first + _BLOCK, count)
-            done, pending = wait(pending, return_when=FIRST_COMPLETED)
-            ahead.update(future.result() for future in done)
-            while len(lines) in ahead:
-                more = ahead.pop(len(lines))
-                lines += more
-                if not grown(more):
-                    return len(lines) == count
-    finally:
-        stopped.set()
-        pool.shutdown(wait=True, cancel_futures=True)
-    return True
 
 
 def campaign(settings: montecarlo.Campaign | None = None, *, out: PathLike | None = None, threads: int = 0,
@@ -422,42 +266,13 @@ def campaign(settings: montecarlo.Campaign | None = None, *, out: PathLike | Non
     if not isinstance(asked, module.Campaign):
         raise _wrong_kind("settings", asked, "a montecarlo.Campaign, or None")
     _require_callable("progress", progress)
-    laws = list(module.laws_of(asked))
     try:
         threads = operator.index(threads)
     except TypeError:
         raise _wrong_kind("threads", threads, "an integer") from None
-    if not 0 <= threads <= 1024:
-        raise _refuse("threads", threads, "between 1 and 1024, or 0 for all")
-    workers = threads or os.cpu_count() or 1
-    line_of_settings, header = module.settings_line(asked), module.csv_header(laws)
-    lines: list[str] = []
-    with contextlib.ExitStack() as stack:
-        grow: TextIO | None = None
-        partial = None
-        if out is not None:
-            folder = Path(_path("out", out, "the path of a folder"))
-            folder.mkdir(parents=True, exist_ok=True)
-            stack.enter_context(_locked(folder))
-            partial = folder / "engagements.csv.partial"
-            lines = _lines_done(partial, line_of_settings, header, asked.engagements) if resume else []
-            grow = stack.enter_context(open(partial, "w", encoding="utf-8", newline=""))
-            grow.writelines(line + "\n" for line in [line_of_settings, header, *lines])
-            grow.flush()
-
-        def grown(more: list[str]) -> bool:
-            if grow is not None:
-                grow.writelines(line + "\n" for line in more)
-                grow.flush()
-            return progress is None or progress(len(lines) / asked.engagements) is not False
-
-        finished = _fill(_Rows(asked, laws), lines, workers, grown)
-        if partial is not None and finished:
-            os.replace(partial, partial.with_suffix(""))
-    rows = [module.row_of(line, len(laws)) for line in lines]
-    summary = module.summarise(rows, laws)
-    return Campaign(_table_of([line + "\n" for line in [header, *lines]], "the campaign"), summary,
-                    int(module.violations(summary)), finished)
+    folder = None if out is None else _path("out", out, "the path of a folder")
+    found = _part("scenario").fly_campaign(asked, out=folder, threads=threads, resume=resume, progress=_share_of(progress, 1))
+    return Campaign(_array(found.table), found.summary, found.violations, found.finished)
 
 
 # Fits ------------------------------------------------------------------------------------------------------------------
@@ -518,11 +333,11 @@ def fit(data: PathLike | npt.ArrayLike | tuple[npt.ArrayLike, npt.ArrayLike] | f
     seconds = time.perf_counter() - start
     if out is not None:
         with _whole(out) as stage:
-            fits_module.write_fit(given, options, result, seconds, str(stage))
+            fits_module.write_fit(given, options, result, seconds, stage)
             call = f"vericone.fit({given.file!r}, mode={mode!r}, shape={shape!r}, coverage={coverage}, margin={margin}, " \
                    f"pieces={pieces}, seed={seed})"
-            inputs = [Path(given.file)] if given.file else []
-            (stage / "provenance.json").write_text(json.dumps(_provenance(call, inputs), indent=1) + "\n", encoding="utf-8")
+            inputs = [given.file] if given.file else []
+            Path(stage, "provenance.json").write_text(_provenance(call, inputs), encoding="utf-8")
     return result
 
 
@@ -568,8 +383,8 @@ def scan(scene: PathLike | scanning.Setup, *, seed: int = 1, planes: int = 36, l
     if out is not None:
         velocities = [read.scene.agent.velocity, read.scene.obstacle.velocity] if read else [np.zeros(3), np.zeros(3)]
         with _whole(out) as stage:
-            module.write_scan(setup, found, *velocities, azimuth, str(stage))
-            inputs = [Path(scene), Path(scene).parent / read.scene.obstacle.file] if read else []
+            module.write_scan(setup, found, *velocities, azimuth, stage)
+            inputs = [str(scene), str(Path(scene).parent / read.scene.obstacle.file)] if read else []
             call = f"vericone.scan({str(scene) if read else 'setup'!r}, seed={seed}, planes={planes}, levels={levels}, azimuth={azimuth})"
-            (stage / "provenance.json").write_text(json.dumps(_provenance(call, inputs), indent=1) + "\n", encoding="utf-8")
+            Path(stage, "provenance.json").write_text(_provenance(call, inputs), encoding="utf-8")
     return Scanned(np.asarray(found.seen.points, dtype=float).reshape(-1, 3), found.seen, found.study, found.cone)

@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <fstream>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -45,6 +47,11 @@ void write_whole(const std::filesystem::path& path, std::string_view content) {
   OutputFile file(path);
   file.write(content);
   file.close();
+}
+
+std::string content_of(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 void sync_to_disk(const std::filesystem::path& path) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace vericone {
@@ -30,6 +31,9 @@ class OutputFile {
 
 /// A file of this content. Throws std::system_error naming the path and the reason.
 void write_whole(const std::filesystem::path& path, std::string_view content);
+
+/// What a file holds; nothing where it cannot be read.
+std::string content_of(const std::filesystem::path& path);
 
 /// Returns once a file, or the names in a folder, are on the disk.
 void sync_to_disk(const std::filesystem::path& path);

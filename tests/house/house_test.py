@@ -12,7 +12,7 @@ ROOT = Path(os.environ.get("VERICONE_SOURCE", Path(__file__).resolve().parents[2
 SOURCES = ("geometry", "cones", "guidance", "scenes", "vision", "verify", "apps", "papers", "benchmarks", "python", "tests")
 
 # Libraries, and within them folders, each of which may include itself and what stands before it.
-LIBRARIES = ["geometry", "files", "octomap", "fitting", "lidar", "cones", "guidance", "simulation", "vehicles", "scenes", "scenarios", "fits", "scanning", "vision", "vision/scene", "vision/footage", "vision/pursuit", "verify"]
+LIBRARIES = ["geometry", "files", "octomap", "fitting", "lidar", "cones", "guidance", "simulation", "vehicles", "scenes", "work", "scenarios", "fits", "scanning", "vision", "vision/scene", "vision/footage", "vision/pursuit", "verify"]
 BESIDE = {("fitting", "octomap"), ("fitting", "files"), ("fitting", "lidar"), ("lidar", "octomap"), ("lidar", "fitting"),
           ("cones", "files"), ("cones", "octomap"), ("cones", "fitting"), ("cones", "lidar"),
           ("guidance", "files"), ("guidance", "octomap"), ("guidance", "fitting"), ("guidance", "lidar"),
@@ -39,8 +39,8 @@ def library_of(path):
         return "simulation"
     if parts[0] == "guidance" and parts[1] == "vehicles":
         return "vehicles"
-    if parts[0] == "scenes" and parts[1] in ("scenarios", "fit", "scan"):
-        return {"scenarios": "scenarios", "fit": "fits", "scan": "scanning"}[parts[1]]
+    if parts[0] == "scenes" and parts[1] in ("work", "scenarios", "fit", "scan"):
+        return {"fit": "fits", "scan": "scanning"}.get(parts[1], parts[1])
     if parts[0] == "vision" and parts[1] in ("scene", "footage", "pursuit"):
         return "vision/" + parts[1]
     return parts[0]
@@ -126,6 +126,21 @@ class House(unittest.TestCase):
                 if Path(name).name not in own and (ROOT / "apps/src" / name).exists():
                     wrong.append(f"{path.relative_to(ROOT)}: {name}")
         self.assertEqual(wrong, [])
+
+    def test_folders_of_apps_include_in_no_circle(self):
+        top, below = ROOT / "apps/src", {}
+        for path in sources("apps/src"):
+            own = path.relative_to(top).parts[0]
+            folders = (name.split("/")[0] for name in includes(path) if "/" in name)
+            below.setdefault(own, set()).update(other for other in folders if other != own and (top / other).is_dir())
+
+        def circle(folder, on_the_way):
+            if folder in on_the_way:
+                return [*on_the_way[on_the_way.index(folder):], folder]
+            return next(filter(None, (circle(other, [*on_the_way, folder]) for other in sorted(below.get(folder, ())))), [])
+
+        for folder in sorted(below):
+            self.assertEqual(circle(folder, []), [])
 
     def test_folders_are_small_enough_to_read(self):
         large = []

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a pair of velocities leads to, "course" of the data (apps/src/cone/course.h): colours and words, the same in all
+"""What a pair of velocities leads to, "course" of the data (apps/src/picture/course.h): colours and words, the same in all
 pictures."""
 from typing import Any
 

@@ -173,7 +173,7 @@ def shape_and_row(thing: Any, argument: str = "thing") -> tuple[dict[str, Any], 
 
 
 def course_of(pair: Any, agent_velocity: Numbers, obstacle_velocity: Numbers) -> dict[str, Any]:
-    """What a pair of velocities (m/s) leads to, seen from the obstacle, as apps/src/cone/course.h writes it."""
+    """What a pair of velocities (m/s) leads to, seen from the obstacle, as apps/src/picture/course.h writes it."""
     contact, miss = pair.contact(agent_velocity, obstacle_velocity), pair.miss(agent_velocity, obstacle_velocity)
     course: dict[str, Any] = {"velocity": np.subtract(agent_velocity, obstacle_velocity),
                               "verdict": word(pair.verdict(agent_velocity, obstacle_velocity))}

@@ -4,35 +4,32 @@
 #include <vericone/files/read_points.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
+#include <vericone/work/staged_folder.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iomanip>
 #include <memory>
 #include <ostream>
 #include <sstream>
-#include <stdexcept>
 
 #include "accuracy/cases.h"
 #include "accuracy/combined_accuracy.h"
 #include "accuracy/distribution.h"
-#include "accuracy/engagements.h"
 #include "accuracy/measure.h"
 #include "accuracy/statistics.h"
 #include "accuracy/summary.h"
-#include "cone/cone.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
-#include "output/figures.h"
-#include "output/file_hash.h"
-#include "output/interrupt.h"
 #include "output/output_file.h"
-#include "output/provenance.h"
-#include "output/resumable_table.h"
-#include "output/staged_folder.h"
-#include "output/threads.h"
+#include "output/progress.h"
+#include "output/results.h"
+#include "picture/engagements.h"
+#include "work/file_hash.h"
+#include "work/interrupt.h"
+#include "work/provenance.h"
+#include "work/threads.h"
 
 namespace vericone::accuracy {
 namespace {
@@ -67,25 +64,6 @@ Engagements engagements_of(const Options& o) {
                distribution_settings(o);
   e.drawn = "random engagements, " + distribution_text(from);
   return e;
-}
-
-std::vector<std::pair<std::string, Measurement>> read_table(const fs::path& path,
-                                                            const std::vector<int>& planes) {
-  std::ifstream in(path);
-  std::vector<std::pair<std::string, Measurement>> rows;
-  std::string line;
-  std::getline(in, line);  // settings
-  std::getline(in, line);  // header
-  for (std::size_t number = 3; std::getline(in, line); ++number) {
-    try {
-      std::string id;
-      Measurement m = parse_row(line, planes, id);
-      rows.emplace_back(std::move(id), std::move(m));
-    } catch (const std::exception& e) {
-      throw std::runtime_error(path.string() + ":" + std::to_string(number) + ": " + e.what());
-    }
-  }
-  return rows;
 }
 
 std::vector<fs::path> scan_files(const std::vector<std::string>& given) {
@@ -135,14 +113,6 @@ Scan read_scan(const fs::path& path) {
   }
 }
 
-ResumableTable base_campaign(const Options& o, StagedFolder& folder, const std::string& name) {
-  ResumableTable c{folder, name};
-  c.header = csv_header(o.planes);
-  c.threads = threads_for(o.threads);
-  c.quiet = o.quiet;
-  return c;
-}
-
 void validate(const Options& o) {
   if (o.planes.size() < 2)
     throw InputError("--planes", planes_text(o.planes),
@@ -171,137 +141,154 @@ void validate(const Options& o) {
   threads_for(o.threads);
 }
 
+/// With what is left to choose chosen.
+Options complete(Options o, ObstacleKind kind) {
+  std::sort(o.planes.begin(), o.planes.end());
+  if (o.out.empty()) o.out = kind == ObstacleKind::ellipsoid ? "out/accuracy" : "out/accuracy-" + o.obstacle;
+  if (o.cases.empty()) return o;
+  for (const auto& [used, option] :
+       {std::pair(o.engagements.has_value(), "--engagements"), std::pair(!o.semi_axes.empty(), "--semi-axes"),
+        std::pair(!o.distance.empty(), "--distance"),
+        std::pair(kind != ObstacleKind::ellipsoid, "--obstacle")})
+    if (used) throw InputError("--cases", o.cases, std::string("given without ") + option);
+  return o;
+}
+
+work::ResumableTable table_of_pairs(const Options& o, const Engagements& engagements) {
+  work::ResumableTable table{"engagements.csv"};
+  table.header = csv_header(o.planes);
+  table.threads = threads_for(o.threads);
+  table.count = engagements.count;
+  table.settings = "# vericone accuracy, " + engagements.settings + ", planes " + planes_text(o.planes);
+  table.id = engagements.id;
+  table.row = [&](std::uint64_t i) {
+    const auto [a, b] = engagements.pair(i);
+    return csv_row(engagements.id(i), measure(a, b, o.planes), a, b);
+  };
+  return table;
+}
+
+work::ResumableTable table_of_scans(const Options& o, const std::vector<Scan>& scans) {
+  work::ResumableTable table{"scans.csv"};
+  table.header = csv_header(o.planes);
+  table.threads = threads_for(o.threads);
+  table.count = scans.size() * o.approaches;
+  table.settings = "# vericone accuracy, seed " + std::to_string(o.seed) + ", " +
+                   std::to_string(o.approaches) + " approaches, planes " + planes_text(o.planes) + ", scans";
+  for (const Scan& s : scans) table.settings += " " + s.name + ":" + std::to_string(s.points);
+  table.id = [&](std::uint64_t i) {
+    return scans[i / o.approaches].name + "#" + std::to_string(i % o.approaches);
+  };
+  table.row = [&, id = table.id](std::uint64_t i) {
+    const Scan& scan = scans[i / o.approaches];
+    const Ellipsoid agent = random_agent(scan.hull, o.seed, i % o.approaches);
+    return csv_row(id(i), measure(agent, scan.hull, o.planes), agent, scan.hull);
+  };
+  return table;
+}
+
+/// What slices miss of each scanned object, as JSON and as text.
+Json tell_scans(const Options& o, const std::vector<Scan>& scans, const std::vector<Measurement>& rows,
+                std::ostream& out) {
+  out << scans.size() << " scanned objects in their minimum-volume ellipsoids, " << o.approaches
+      << " approaches each\n  object                      points   semi-axes a, b, c (unit of the file)   "
+         "slice bias mean    worst\n";
+  Json objects = Json::array();
+  auto first = rows.begin();
+  for (const Scan& scan : scans) {
+    const auto last = first + static_cast<std::ptrdiff_t>(o.approaches);
+    const Summary found = summarise({first, last}, o.planes);
+    first = last;
+    Json object = to_json(found);
+    const Eigen::Vector3d axes = scan.hull.semi_axes();
+    object["name"] = scan.name;
+    object["points"] = scan.points;
+    object["semi_axes"] = {axes.x(), axes.y(), axes.z()};
+    std::ostringstream text;
+    text << std::setprecision(4) << axes.x() << ", " << axes.y() << ", " << axes.z();
+    out << "  " << std::left << std::setw(24) << scan.name << std::right << std::setw(10) << scan.points
+        << "   " << std::left << std::setw(36) << text.str() << std::right << std::setw(10)
+        << percent(found.slice_bias.mean) << std::setw(11) << percent(found.slice_bias.worst) << '\n';
+    objects.push_back(std::move(object));
+  }
+  return objects;
+}
+
+/// One engagement to look at: the first random one whose slice cone misses a fifth.
+Json picture_of(const Engagements& engagements, const std::vector<Measurement>& rows) {
+  const auto shown = std::find_if(rows.begin(), rows.end(), [](const Measurement& m) {
+    return 1 - m.slice_areas.back() / m.exact_area > 0.2;
+  });
+  const std::size_t index = shown == rows.end() ? 0 : std::size_t(shown - rows.begin());
+  const auto [a, b] = engagements.pair(index);
+  Json picture = engagement_picture({{Body(a)}, {Body(b)}}, 36, 192);
+  picture["engagement"] = index;
+  return picture;
+}
+
+Json origin_of(const Options& o, const Engagements& engagements) {
+  const std::vector<fs::path> scans = scan_files(o.scans);
+  std::vector<fs::path> inputs = scans;
+  if (!o.cases.empty()) inputs.emplace_back(o.cases);
+  Json origin = provenance(o.command_line, threads_for(o.threads), inputs);
+  origin["seed"] = o.seed;
+  origin["engagements"] = engagements.count;
+  origin["planes"] = o.planes;
+  origin["scans"] = Json::array();
+  for (const auto& file : scans) origin["scans"].push_back(file.string());
+  return origin;
+}
+
 }  // namespace
 
 int run_accuracy(const Options& given, std::ostream& standard_output) {
   validate(given);
-  Options options = given;
-  std::ostream silent(nullptr);
-  std::ostream& out = given.json ? silent : standard_output;
-  std::sort(options.planes.begin(), options.planes.end());
-  const ObstacleKind kind = obstacle_kind(options.obstacle);
-  if (options.out.empty())
-    options.out = kind == ObstacleKind::ellipsoid ? "out/accuracy" : "out/accuracy-" + options.obstacle;
-  if (!options.cases.empty())
-    for (const auto& [used, option] : {std::pair(options.engagements.has_value(), "--engagements"),
-                                       std::pair(!options.semi_axes.empty(), "--semi-axes"),
-                                       std::pair(!options.distance.empty(), "--distance"),
-                                       std::pair(kind != ObstacleKind::ellipsoid, "--obstacle")})
-      if (used) throw InputError("--cases", options.cases, std::string("given without ") + option);
+  const ObstacleKind kind = obstacle_kind(given.obstacle);
+  const Options options = complete(given, kind);
   if (kind != ObstacleKind::ellipsoid) return run_combined_accuracy(options, kind, standard_output);
   if (options.tolerance)
     throw InputError("--tolerance", to_text(*options.tolerance),
                      "left out for ellipsoids, whose cone is exact");
+  std::ostream silent(nullptr);
+  std::ostream& out = options.json ? silent : standard_output;
   const Engagements engagements = engagements_of(options);
   std::vector<Scan> scans;
   for (const fs::path& file : scan_files(options.scans)) scans.push_back(read_scan(file));
-  StagedFolder folder(options.out, "--out");
+  work::StagedFolder folder(options.out, "--out");
   const auto start = Clock::now();
-  const auto stopped = [&] {
-    out << "interrupted; the same command goes on where it stopped (" << options.out << ")\n";
+  const auto filled = [&](const work::ResumableTable& table, const char* label) {
+    return run_with_bar(table, folder, label, options.quiet, options.out, out);
+  };
+
+  const work::ResumableTable pairs = table_of_pairs(options, engagements);
+  if (!filled(pairs, options.cases.empty() ? "random engagements" : "engagements       "))
     return kExitInterrupted;
-  };
-
-  ResumableTable random = base_campaign(options, folder, "engagements.csv");
-  random.label = options.cases.empty() ? "random engagements" : "engagements       ";
-  random.count = engagements.count;
-  random.settings =
-      "# vericone accuracy, " + engagements.settings + ", planes " + planes_text(options.planes);
-  random.id = engagements.id;
-  random.row = [&](std::uint64_t i) {
-    const auto [a, b] = engagements.pair(i);
-    return csv_row(engagements.id(i), measure(a, b, options.planes), a, b);
-  };
-  if (run_table(random) == TableOutcome::interrupted) return stopped();
-  const double random_seconds = seconds_since(start);
-
-  std::vector<Measurement> rows;
-  for (auto& [id, m] : read_table(folder.resumable(random.name), options.planes))
-    rows.push_back(std::move(m));
-  const Summary random_summary = summarise(rows, options.planes);
-  Json summary{{"random", to_json(random_summary)}};
-  summary["random"]["seconds"] = random_seconds;
-  summary["random"]["drawn"] = engagements.drawn;
+  const double seconds = seconds_since(start);
+  const auto rows = read_table(folder.resumable(pairs.name), options.planes.size());
+  const Summary random = summarise(rows, options.planes);
+  Results found{.summary = {{"random", to_json(random)}},
+                .origin = {},
+                .scripts = {"accuracy.py", "engagement.py"},
+                .files = {pairs.name},
+                .old = {"accuracy.pdf", "accuracy.png", "engagement.pdf", "engagement.png", "scans.csv",
+                        "scans.pdf", "scans.png"}};
+  found.summary["random"]["seconds"] = seconds;
+  found.summary["random"]["drawn"] = engagements.drawn;
   out << engagements.count << ' ' << engagements.drawn << ", " << options.planes.size() << " plane counts, "
-      << std::fixed << std::setprecision(1) << random_seconds << " s\n";
-  print_summary(random_summary, out);
-
+      << std::fixed << std::setprecision(1) << seconds << " s\n";
+  print_summary(random, out);
   if (!scans.empty()) {
-    ResumableTable approach = base_campaign(options, folder, "scans.csv");
-    approach.label = "scanned objects   ";
-    approach.count = scans.size() * options.approaches;
-    approach.settings = "# vericone accuracy, seed " + std::to_string(options.seed) + ", " +
-                        std::to_string(options.approaches) + " approaches, planes " +
-                        planes_text(options.planes) + ", scans";
-    for (const Scan& s : scans) approach.settings += " " + s.name + ":" + std::to_string(s.points);
-    approach.id = [&](std::uint64_t i) {
-      return scans[i / options.approaches].name + "#" + std::to_string(i % options.approaches);
-    };
-    approach.row = [&](std::uint64_t i) {
-      const Scan& scan = scans[i / options.approaches];
-      const Ellipsoid agent = random_agent(scan.hull, options.seed, i % options.approaches);
-      return csv_row(approach.id(i), measure(agent, scan.hull, options.planes), agent, scan.hull);
-    };
-    if (run_table(approach) == TableOutcome::interrupted) return stopped();
-    const auto table = read_table(folder.resumable(approach.name), options.planes);
-    out << scans.size() << " scanned objects in their minimum-volume ellipsoids, " << options.approaches
-        << " approaches each\n  object                      points   semi-axes a, b, c (unit of the file)   "
-           "slice bias mean    worst\n";
-    Json objects = Json::array();
-    for (std::size_t s = 0; s < scans.size(); ++s) {
-      std::vector<Measurement> own;
-      for (std::uint64_t k = 0; k < options.approaches; ++k)
-        own.push_back(table[s * options.approaches + k].second);
-      const Summary own_summary = summarise(own, options.planes);
-      Json object = to_json(own_summary);
-      const Eigen::Vector3d axes = scans[s].hull.semi_axes();
-      object["name"] = scans[s].name;
-      object["points"] = scans[s].points;
-      object["semi_axes"] = {axes.x(), axes.y(), axes.z()};
-      std::ostringstream text;
-      text << std::setprecision(4) << axes.x() << ", " << axes.y() << ", " << axes.z();
-      out << "  " << std::left << std::setw(24) << scans[s].name << std::right << std::setw(10)
-          << scans[s].points << "   " << std::left << std::setw(36) << text.str() << std::right
-          << std::setw(10) << percent(own_summary.slice_bias.mean) << std::setw(11)
-          << percent(own_summary.slice_bias.worst) << '\n';
-      objects.push_back(std::move(object));
-    }
-    summary["scans"] = objects;
+    const work::ResumableTable approaches = table_of_scans(options, scans);
+    if (!filled(approaches, "scanned objects   ")) return kExitInterrupted;
+    const auto own = read_table(folder.resumable(approaches.name), options.planes.size());
+    found.summary["scans"] = tell_scans(options, scans, own, out);
+    found.files.push_back(approaches.name);
   }
-
-  // One engagement to look at: the first random one whose slice cone misses a fifth.
-  std::size_t shown = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    if (1 - rows[i].slice_areas.back() / rows[i].exact_area > 0.2) {
-      shown = i;
-      break;
-    }
-  const auto [a, b] = engagements.pair(shown);
-  Json picture = engagement_picture({{Body(a)}, {Body(b)}}, 36, 192);
-  picture["engagement"] = shown;
-  write_whole(folder.path() / "engagement.json", picture.dump(1) + "\n");
-  write_whole(folder.path() / "summary.json", summary.dump(1) + "\n");
-  std::vector<fs::path> inputs = scan_files(options.scans);
-  if (!options.cases.empty()) inputs.emplace_back(options.cases);
-  Json origin = provenance(options.command_line, random.threads, inputs);
-  origin["seed"] = options.seed;
-  origin["engagements"] = engagements.count;
-  origin["planes"] = options.planes;
-  origin["scans"] = Json::array();
-  for (const auto& file : scan_files(options.scans)) origin["scans"].push_back(file.string());
-  origin["seconds"] = seconds_since(start);
-  write_whole(folder.path() / "provenance.json", origin.dump(1) + "\n");
-  if (options.figures)
-    for (const char* script : {"accuracy.py", "engagement.py"}) draw_figures(script, folder.path());
-  const auto files = folder.publish({"accuracy.pdf", "accuracy.png", "engagement.pdf", "engagement.png",
-                                     "scans.csv", "scans.pdf", "scans.png"});
-  if (given.json) standard_output << summary.dump(1) << '\n';
-  const fs::path shown_folder = options.out;
-  out << "tables    " << (shown_folder / "engagements.csv").string();
-  if (!scans.empty()) out << ", " << (shown_folder / "scans.csv").string();
-  out << ", " << (shown_folder / "summary.json").string() << ", "
-      << (shown_folder / "provenance.json").string() << '\n';
-  for (const auto& file : pictures_of(files)) out << "picture   " << file.string() << '\n';
+  write_whole(folder.path() / "engagement.json", picture_of(engagements, rows).dump(1) + "\n");
+  found.origin = origin_of(options, engagements);
+  found.origin["seconds"] = seconds_since(start);
+  found.files.insert(found.files.end(), {"summary.json", "provenance.json"});
+  publish(found, options, folder, "", standard_output);
   return 0;
 }
 

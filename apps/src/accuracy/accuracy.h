@@ -7,11 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "default_seed.h"
+#include "command/default_seed.h"
+#include "output/output_options.h"
 
 namespace vericone::accuracy {
 
-struct Options {
+/// `out` empty: out/accuracy, or out/accuracy-OBSTACLE.
+struct Options : OutputOptions {
   std::string obstacle = "ellipsoid";        // or biconcave, biconvex, star
   std::optional<std::uint64_t> engagements;  // 10,000; 1000 with other obstacles
   std::optional<double> tolerance;           // of the certified reference of other obstacles
@@ -22,12 +24,6 @@ struct Options {
   std::uint64_t seed = kDefaultSeed;
   std::vector<int> planes{3, 4, 6, 8, 12, 18, 24, 36, 60, 90, 180, 360};
   std::vector<std::string> scans;  // files, or folders of files
-  std::string out;                 // empty: out/accuracy, or out/accuracy-OBSTACLE
-  int threads = 0;                 // 0: one per processor
-  bool figures = true;
-  bool quiet = false;
-  bool json = false;
-  std::string command_line;
 };
 
 /// `vericone accuracy`: how good a 3-D cone is for a number of planes or samples, on random engagements and

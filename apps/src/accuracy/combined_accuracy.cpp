@@ -4,27 +4,23 @@
 #include <vericone/cones/combined/cone.h>
 #include <vericone/cones/slices/combined_slice_cone.h>
 #include <vericone/geometry/error.h>
+#include <vericone/work/staged_folder.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iomanip>
 #include <ostream>
-#include <sstream>
-#include <stdexcept>
 
 #include "accuracy/distribution.h"
 #include "accuracy/measure.h"
 #include "accuracy/statistics.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
-#include "output/figures.h"
-#include "output/interrupt.h"
-#include "output/output_file.h"
-#include "output/provenance.h"
-#include "output/resumable_table.h"
-#include "output/staged_folder.h"
-#include "output/threads.h"
+#include "output/progress.h"
+#include "output/results.h"
+#include "work/interrupt.h"
+#include "work/provenance.h"
+#include "work/threads.h"
 
 namespace vericone::accuracy {
 namespace {
@@ -40,8 +36,8 @@ struct Row {
   std::vector<double> slice_areas;                      // one for each plane count
 };
 
-Row measure(const Ellipsoid& a, const CombinedEllipsoid& b, const std::vector<int>& planes,
-            double tolerance) {
+Row measure_combined(const Ellipsoid& a, const CombinedEllipsoid& b, const std::vector<int>& planes,
+                     double tolerance) {
   Row row;
   const CombinedCone cone = combined_cone(a, b, tolerance);
   row.inner_area = cone.inner.cross_section_area;
@@ -67,24 +63,11 @@ std::string line(std::uint64_t index, const Row& row, const Ellipsoid& a, const 
   return text + body_cells(a, b.ellipsoid());
 }
 
-std::vector<Row> read_table(const fs::path& path, std::size_t planes) {
-  std::ifstream in(path);
+std::vector<Row> read_combined(const fs::path& path, std::size_t planes) {
   std::vector<Row> rows;
-  std::string text, cell;
-  std::getline(in, text);  // settings
-  std::getline(in, text);  // header
-  while (std::getline(in, text)) {
-    std::istringstream cells(text);
-    std::vector<double> values;
-    while (std::getline(cells, cell, ',')) values.push_back(std::stod(cell));
-    if (values.size() != 5 + planes + kBodyColumns)
-      throw std::runtime_error(path.string() + ": a row of " + std::to_string(values.size()) + " columns");
-    rows.push_back({values[1],
-                    values[2],
-                    values[3],
-                    values[4],
-                    {values.begin() + 5, values.begin() + 5 + static_cast<std::ptrdiff_t>(planes)}});
-  }
+  for (const auto& x : read_numbers(path, 4 + planes + kBodyColumns))
+    rows.push_back(
+        {x[0], x[1], x[2], x[3], {x.begin() + 4, x.begin() + 4 + static_cast<std::ptrdiff_t>(planes)}});
   return rows;
 }
 
@@ -119,41 +102,25 @@ Json missing_json(const MissingSpread& s) {
 }
 
 struct CombinedSummary {
-  struct Slices {
-    Discretisation discretisation;
-    MissingSpread missing;
-  };
   std::size_t engagements = 0;
   int finest_planes = 0;
-  std::vector<Slices> slices;
-  std::optional<double> slice_order;
+  SliceErrors slices;
+  std::vector<MissingSpread> missing;  // of each plane count
   MissingSpread slice_bias;
   std::vector<Missing> slice_bias_values;
   Spread reference_gap;  // between inner and outer reference cone, parts of the solid angle
 };
 
-CombinedSummary summarise(const std::vector<Row>& rows, const std::vector<int>& planes) {
+CombinedSummary summarise_combined(const std::vector<Row>& rows, const std::vector<int>& planes) {
   CombinedSummary summary;
   summary.engagements = rows.size();
   const std::size_t finest = planes.size() - 1;
   summary.finest_planes = planes[finest];
-  std::vector<double> fit_n, fit_error;
-  for (std::size_t i = 0; i < planes.size(); ++i) {
-    std::vector<double> errors;
-    errors.reserve(rows.size());
-    for (const Row& row : rows) errors.push_back(std::abs(row.slice_areas[i] / row.slice_areas[finest] - 1));
-    const Spread discretisation = spread(errors);
-    CombinedSummary::Slices row{{planes[i], {}, 2.0 / planes[i]}, missing_spread(rows, i)};
-    if (i != finest) row.discretisation.error = discretisation;
-    row.discretisation.above =
-        std::count_if(errors.begin(), errors.end(), [&](double x) { return x >= 2.0 / planes[i]; });
-    summary.slices.push_back(row);
-    if (planes[i] >= 6 && planes[i] * 4 <= planes[finest] && discretisation.median > 0) {
-      fit_n.push_back(planes[i]);
-      fit_error.push_back(discretisation.median);
-    }
-  }
-  if (fit_n.size() >= 2) summary.slice_order = order(fit_n, fit_error);
+  std::vector<std::vector<double>> areas;
+  areas.reserve(rows.size());
+  for (const Row& row : rows) areas.push_back(row.slice_areas);
+  summary.slices = slice_errors(areas, planes);
+  for (std::size_t i = 0; i < planes.size(); ++i) summary.missing.push_back(missing_spread(rows, i));
   summary.slice_bias = missing_spread(rows, finest);
   std::vector<double> gaps;
   gaps.reserve(rows.size());
@@ -168,12 +135,12 @@ CombinedSummary summarise(const std::vector<Row>& rows, const std::vector<int>& 
 Json to_json(const CombinedSummary& s) {
   Json summary{{"engagements", s.engagements}, {"finest_planes", s.finest_planes}};
   Json slices = Json::array(), values = Json::array();
-  for (const CombinedSummary::Slices& row : s.slices) {
-    slices.push_back(discretisation_json(row.discretisation));
-    slices.back()["error_against_true_cone"] = missing_json(row.missing);
+  for (std::size_t i = 0; i < s.missing.size(); ++i) {
+    slices.push_back(discretisation_json(s.slices.counts[i]));
+    slices.back()["error_against_true_cone"] = missing_json(s.missing[i]);
   }
   summary["slice"] = slices;
-  if (s.slice_order) summary["slice_order"] = *s.slice_order;
+  if (s.slices.order) summary["slice_order"] = *s.slices.order;
   summary["slice_bias"] = missing_json(s.slice_bias);
   for (const Missing& m : s.slice_bias_values) values.push_back(missing_json(m));
   summary["slice_bias_values"] = values;
@@ -185,12 +152,12 @@ void print_combined_summary(const CombinedSummary& s, std::ostream& out) {
   const auto range = [](const Missing& m) { return percent(m.at_least) + " to " + percent(m.at_most); };
   out << "  planes   discretisation error      2/n   above it   missing from the true cone, between\n"
       << "           median     worst                           mean                   worst\n";
-  for (const CombinedSummary::Slices& row : s.slices)
-    out << std::setw(8) << row.discretisation.planes << "   " << discretisation_text(row.discretisation)
-        << "     " << std::left << std::setw(23) << range(row.missing.mean) << range(row.missing.worst)
+  for (std::size_t i = 0; i < s.missing.size(); ++i)
+    out << std::setw(8) << s.slices.counts[i].planes << "   " << discretisation_text(s.slices.counts[i])
+        << "     " << std::left << std::setw(23) << range(s.missing[i].mean) << range(s.missing[i].worst)
         << std::right << '\n';
-  if (s.slice_order)
-    out << "  discretisation error falls as n^" << std::fixed << std::setprecision(2) << *s.slice_order
+  if (s.slices.order)
+    out << "  discretisation error falls as n^" << std::fixed << std::setprecision(2) << *s.slices.order
         << '\n';
   out << "  slice bias (n = " << s.finest_planes << "): mean " << range(s.slice_bias.mean) << ", worst "
       << range(s.slice_bias.worst) << "\n  inner and outer reference cone differ by "
@@ -210,16 +177,13 @@ int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostrea
     throw InputError("--tolerance", to_text(tolerance), "between 0 and 1, both excluded");
   const std::uint64_t count = options.engagements.value_or(kDefaultEngagements);
   const Distribution from = distribution(options);
-  StagedFolder folder(options.out, "--out");
+  work::StagedFolder folder(options.out, "--out");
   const auto start = Clock::now();
-  const auto seconds = [&] { return seconds_since(start); };
 
-  ResumableTable campaign{folder, "engagements.csv"};
+  work::ResumableTable campaign{"engagements.csv"};
   campaign.header = header(options.planes);
   campaign.threads = threads_for(options.threads);
-  campaign.quiet = options.quiet;
   campaign.block = 5;
-  campaign.label = options.obstacle + " obstacles";
   campaign.count = count;
   campaign.settings = "# vericone accuracy, obstacle " + options.obstacle + ", tolerance " +
                       to_text(tolerance) + ", seed " + std::to_string(options.seed) + ", " +
@@ -227,40 +191,34 @@ int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostrea
                       planes_text(options.planes);
   campaign.row = [&](std::uint64_t i) {
     const auto [a, b] = random_combined_engagement(kind, options.seed, i, from);
-    return line(i, measure(a, b, options.planes, tolerance), a, b);
+    return line(i, measure_combined(a, b, options.planes, tolerance), a, b);
   };
-  if (run_table(campaign) == TableOutcome::interrupted) {
-    out << "interrupted; the same command goes on where it stopped (" << options.out << ")\n";
+  if (!run_with_bar(campaign, folder, options.obstacle + " obstacles", options.quiet, options.out, out))
     return kExitInterrupted;
-  }
 
-  const CombinedSummary found =
-      summarise(read_table(folder.resumable(campaign.name), options.planes.size()), options.planes);
-  Json summary{{"random", to_json(found)}};
-  summary["random"]["obstacle"] = options.obstacle;
-  summary["random"]["tolerance"] = tolerance;
-  summary["random"]["seconds"] = seconds();
-  summary["random"]["drawn"] = distribution_text(from);
+  const double seconds = seconds_since(start);
+  const CombinedSummary summary = summarise_combined(
+      read_combined(folder.resumable(campaign.name), options.planes.size()), options.planes);
+  Results found{.summary = {{"random", to_json(summary)}},
+                .origin = provenance(options.command_line, campaign.threads, {}),
+                .scripts = {"combined_accuracy.py"},
+                .files = {campaign.name, "summary.json", "provenance.json"},
+                .old = {"accuracy.pdf", "accuracy.png"}};
+  found.summary["random"]["obstacle"] = options.obstacle;
+  found.summary["random"]["tolerance"] = tolerance;
+  found.summary["random"]["seconds"] = seconds;
+  found.summary["random"]["drawn"] = distribution_text(from);
   out << count << " random engagements with " << options.obstacle << " obstacles, " << options.planes.size()
       << " plane counts, true cones certified to " << percent(tolerance) << ", " << std::fixed
-      << std::setprecision(1) << seconds() << " s\n";
-  print_combined_summary(found, out);
-  write_whole(folder.path() / "summary.json", summary.dump(1) + "\n");
-  Json origin = provenance(options.command_line, campaign.threads, {});
-  origin["seed"] = options.seed;
-  origin["obstacle"] = options.obstacle;
-  origin["tolerance"] = tolerance;
-  origin["engagements"] = count;
-  origin["planes"] = options.planes;
-  origin["seconds"] = seconds();
-  write_whole(folder.path() / "provenance.json", origin.dump(1) + "\n");
-  if (options.figures) draw_figures("combined_accuracy.py", folder.path());
-  const auto files = folder.publish({"accuracy.pdf", "accuracy.png"});
-  if (options.json) standard_output << summary.dump(1) << '\n';
-  const fs::path shown = options.out;
-  out << "tables    " << (shown / campaign.name).string() << ", " << (shown / "summary.json").string() << ", "
-      << (shown / "provenance.json").string() << '\n';
-  for (const auto& file : pictures_of(files)) out << "picture   " << file.string() << '\n';
+      << std::setprecision(1) << seconds << " s\n";
+  print_combined_summary(summary, out);
+  found.origin["seed"] = options.seed;
+  found.origin["obstacle"] = options.obstacle;
+  found.origin["tolerance"] = tolerance;
+  found.origin["engagements"] = count;
+  found.origin["planes"] = options.planes;
+  found.origin["seconds"] = seconds_since(start);
+  publish(found, options, folder, "", standard_output);
   return 0;
 }
 

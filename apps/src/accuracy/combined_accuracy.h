@@ -4,7 +4,7 @@
 #include <iosfwd>
 
 #include "accuracy/accuracy.h"
-#include "accuracy/engagements.h"
+#include "accuracy/distribution.h"
 
 namespace vericone::accuracy {
 

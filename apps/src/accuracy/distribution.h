@@ -3,12 +3,17 @@
 // What the options say of the random engagements.
 #pragma once
 
+#include <vericone/cones/random_engagement.h>
 #include <string>
 
 #include "accuracy/accuracy.h"
-#include "accuracy/engagements.h"
 
 namespace vericone::accuracy {
+
+using namespace engagements;
+
+/// Of `vericone accuracy --obstacle`. Throws InputError naming "--obstacle".
+ObstacleKind obstacle_kind(const std::string& name);
 
 Distribution distribution(const Options& options);
 

@@ -4,6 +4,7 @@
 #include <vericone/cones/ellipsoids/true_cone.h>
 #include <vericone/cones/slices/slice_cone.h>
 #include <vericone/geometry/error.h>
+#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
@@ -66,23 +67,37 @@ std::string csv_row(const std::string& id, const Measurement& m, const Ellipsoid
   return row + body_cells(a, b);
 }
 
-Measurement parse_row(const std::string& row, const std::vector<int>& planes, std::string& id) {
-  std::istringstream in(row);
-  std::vector<double> values;
-  std::string cell;
-  std::getline(in, id, ',');
-  while (std::getline(in, cell, ',')) values.push_back(std::stod(cell));
-  if (values.size() != 2 + planes.size() + 2 * kSampleCounts.size() + kBodyColumns)
-    throw std::runtime_error("a row of " + std::to_string(values.size() + 1) + " columns");
-  Measurement m;
-  auto it = values.begin();
-  m.exact_area = *it++;
-  m.exact_solid_angle = *it++;
-  m.slice_areas.assign(it, it + static_cast<std::ptrdiff_t>(planes.size()));
-  it += static_cast<std::ptrdiff_t>(planes.size());
-  for (double& x : m.areas) x = *it++;
-  for (double& x : m.area_bounds) x = *it++;
-  return m;
+std::vector<std::vector<double>> read_numbers(const std::filesystem::path& table, std::size_t count) {
+  std::ifstream in(table);
+  std::string line, cell;
+  std::getline(in, line);  // settings
+  std::getline(in, line);  // header
+  std::vector<std::vector<double>> rows;
+  while (std::getline(in, line)) {
+    std::istringstream cells(line);
+    std::vector<double>& row = rows.emplace_back();
+    std::getline(cells, cell, ',');
+    while (std::getline(cells, cell, ',')) row.push_back(std::stod(cell));
+    if (row.size() != count)
+      throw std::runtime_error(table.string() + ": row " + std::to_string(rows.size()) + " has " +
+                               std::to_string(row.size() + 1) + " columns");
+  }
+  return rows;
+}
+
+std::vector<Measurement> read_table(const std::filesystem::path& table, std::size_t planes) {
+  std::vector<Measurement> all;
+  for (const auto& row : read_numbers(table, 2 + planes + 2 * kSampleCounts.size() + kBodyColumns)) {
+    Measurement& m = all.emplace_back();
+    m.exact_area = row[0];
+    m.exact_solid_angle = row[1];
+    auto it = row.begin() + 2;
+    m.slice_areas.assign(it, it + static_cast<std::ptrdiff_t>(planes));
+    it += static_cast<std::ptrdiff_t>(planes);
+    for (double& x : m.areas) x = *it++;
+    for (double& x : m.area_bounds) x = *it++;
+  }
+  return all;
 }
 
 }  // namespace vericone::accuracy

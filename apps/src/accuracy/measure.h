@@ -5,6 +5,7 @@
 
 #include <vericone/geometry/ellipsoid.h>
 #include <array>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,9 @@ inline constexpr std::size_t kBodyColumns = 22;
 /// Column names and one row of the table of engagements; numbers with all their digits.
 std::string csv_header(const std::vector<int>& planes);
 std::string csv_row(const std::string& id, const Measurement& m, const Ellipsoid& a, const Ellipsoid& b);
-/// Inverse of csv_row; throws std::runtime_error for a row with another number of columns.
-Measurement parse_row(const std::string& row, const std::vector<int>& planes, std::string& id);
+/// The numbers of a row after its id, and what was measured. Throws std::runtime_error for a table that has
+/// rows of other than `count` numbers.
+std::vector<std::vector<double>> read_numbers(const std::filesystem::path& table, std::size_t count);
+std::vector<Measurement> read_table(const std::filesystem::path& table, std::size_t planes);
 
 }  // namespace vericone::accuracy

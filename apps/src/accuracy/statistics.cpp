@@ -35,6 +35,27 @@ double order(const std::vector<double>& n, const std::vector<double>& error) {
   return (count * sxy - sx * sy) / (count * sxx - sx * sx);
 }
 
+SliceErrors slice_errors(const std::vector<std::vector<double>>& areas, const std::vector<int>& planes) {
+  SliceErrors found;
+  std::vector<double> fit_n, fit_error;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    std::vector<double> errors;
+    errors.reserve(areas.size());
+    for (const auto& own : areas) errors.push_back(std::abs(own[i] / own.back() - 1));
+    const Spread all = spread(errors);
+    Discretisation row{planes[i], {}, 2.0 / planes[i]};
+    if (i + 1 != planes.size()) row.error = all;
+    row.above = std::count_if(errors.begin(), errors.end(), [&](double x) { return x >= 2.0 / planes[i]; });
+    found.counts.push_back(row);
+    if (planes[i] >= 6 && planes[i] * 4 <= planes.back() && all.median > 0) {
+      fit_n.push_back(planes[i]);
+      fit_error.push_back(all.median);
+    }
+  }
+  if (fit_n.size() >= 2) found.order = order(fit_n, fit_error);
+  return found;
+}
+
 std::string percent(double x) {
   std::ostringstream s;
   s << std::fixed << std::setprecision(2) << 100 * x << " %";

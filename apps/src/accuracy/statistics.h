@@ -30,6 +30,14 @@ struct Discretisation {
   std::ptrdiff_t above = 0;  // engagements whose error is above 2/n
 };
 
+/// Of slice cones by the number of their planes.
+struct SliceErrors {
+  std::vector<Discretisation> counts;
+  std::optional<double> order;  // of the median error, in n
+};
+/// `areas`: of every engagement one for each plane count; the last is the reference.
+SliceErrors slice_errors(const std::vector<std::vector<double>>& areas, const std::vector<int>& planes);
+
 /// "planes", "discretisation_error", "two_over_n" and "above_two_over_n", the errors null for the finest.
 Json discretisation_json(const Discretisation& row);
 /// The same in columns, without the planes; "-" for the finest.

@@ -13,8 +13,7 @@ namespace vericone::accuracy {
 Summary summarise(const std::vector<Measurement>& rows, const std::vector<int>& planes) {
   Summary summary;
   summary.engagements = rows.size();
-  const std::size_t finest =
-      static_cast<std::size_t>(std::max_element(planes.begin(), planes.end()) - planes.begin());
+  const std::size_t finest = planes.size() - 1;
   summary.finest_planes = planes[finest];
   const auto collect = [&](auto&& value) {
     std::vector<double> values;
@@ -22,25 +21,13 @@ Summary summarise(const std::vector<Measurement>& rows, const std::vector<int>& 
     for (const Measurement& m : rows) values.push_back(value(m));
     return values;
   };
-  std::vector<double> fit_n, fit_error;
-  for (std::size_t i = 0; i < planes.size(); ++i) {
-    const std::vector<double> errors =
-        collect([&](const Measurement& m) { return std::abs(m.slice_areas[i] / m.slice_areas[finest] - 1); });
-    const Spread discretisation = spread(errors);
-    Summary::Slices row;
-    row.discretisation = {planes[i], {}, 2.0 / planes[i]};
-    // The finest count is the reference of the others, and has none itself.
-    if (i != finest) row.discretisation.error = discretisation;
-    row.discretisation.above =
-        std::count_if(errors.begin(), errors.end(), [&](double x) { return x >= 2.0 / planes[i]; });
-    row.missing = spread(collect([&](const Measurement& m) { return 1 - m.slice_areas[i] / m.exact_area; }));
-    summary.slices.push_back(row);
-    if (planes[i] >= 6 && planes[i] * 4 <= planes[finest] && discretisation.median > 0) {
-      fit_n.push_back(planes[i]);
-      fit_error.push_back(discretisation.median);
-    }
-  }
-  if (fit_n.size() >= 2) summary.slice_order = order(fit_n, fit_error);
+  std::vector<std::vector<double>> areas;
+  areas.reserve(rows.size());
+  for (const Measurement& m : rows) areas.push_back(m.slice_areas);
+  summary.slices = slice_errors(areas, planes);
+  for (std::size_t i = 0; i < planes.size(); ++i)
+    summary.missing.push_back(
+        spread(collect([&](const Measurement& m) { return 1 - m.slice_areas[i] / m.exact_area; })));
   summary.slice_bias_values =
       collect([&](const Measurement& m) { return 1 - m.slice_areas[finest] / m.exact_area; });
   summary.slice_bias = spread(summary.slice_bias_values);
@@ -67,12 +54,12 @@ Summary summarise(const std::vector<Measurement>& rows, const std::vector<int>& 
 Json to_json(const Summary& s) {
   Json summary{{"engagements", s.engagements}, {"finest_planes", s.finest_planes}};
   Json slices = Json::array(), exact = Json::array();
-  for (const Summary::Slices& row : s.slices) {
-    slices.push_back(discretisation_json(row.discretisation));
-    slices.back()["error_against_true_cone"] = spread_json(row.missing);
+  for (std::size_t i = 0; i < s.missing.size(); ++i) {
+    slices.push_back(discretisation_json(s.slices.counts[i]));
+    slices.back()["error_against_true_cone"] = spread_json(s.missing[i]);
   }
   summary["slice"] = slices;
-  if (s.slice_order) summary["slice_order"] = *s.slice_order;
+  if (s.slices.order) summary["slice_order"] = *s.slices.order;
   summary["slice_bias"] = spread_json(s.slice_bias);
   summary["slice_bias_values"] = s.slice_bias_values;
   for (const Summary::Samples& row : s.exact)
@@ -88,12 +75,12 @@ Json to_json(const Summary& s) {
 void print_summary(const Summary& s, std::ostream& out) {
   out << "  planes   discretisation error      2/n   above it   missing from the true cone\n"
       << "           median     worst                            mean       worst\n";
-  for (const Summary::Slices& row : s.slices)
-    out << std::setw(8) << row.discretisation.planes << "   " << discretisation_text(row.discretisation)
-        << std::setw(12) << percent(row.missing.mean) << "  " << std::setw(9) << percent(row.missing.worst)
+  for (std::size_t i = 0; i < s.missing.size(); ++i)
+    out << std::setw(8) << s.slices.counts[i].planes << "   " << discretisation_text(s.slices.counts[i])
+        << std::setw(12) << percent(s.missing[i].mean) << "  " << std::setw(9) << percent(s.missing[i].worst)
         << '\n';
-  if (s.slice_order)
-    out << "  discretisation error falls as n^" << std::fixed << std::setprecision(2) << *s.slice_order
+  if (s.slices.order)
+    out << "  discretisation error falls as n^" << std::fixed << std::setprecision(2) << *s.slices.order
         << "; slice bias (n = " << s.finest_planes << "): mean " << percent(s.slice_bias.mean) << ", worst "
         << percent(s.slice_bias.worst) << '\n';
   out << "  samples  error of the exact cone   certified bound         bound\n"

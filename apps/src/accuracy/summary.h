@@ -4,7 +4,6 @@
 #pragma once
 
 #include <iosfwd>
-#include <optional>
 #include <vector>
 
 #include "accuracy/measure.h"
@@ -14,10 +13,6 @@
 namespace vericone::accuracy {
 
 struct Summary {
-  struct Slices {
-    Discretisation discretisation;
-    Spread missing;  // part of the true area that slices miss
-  };
   struct Samples {
     int samples = 0;
     Spread error, bound;  // of the exact cone's area, parts of it
@@ -25,14 +20,15 @@ struct Summary {
   };
   std::size_t engagements = 0;
   int finest_planes = 0;
-  std::vector<Slices> slices;
-  std::optional<double> slice_order;  // of the discretisation error, in n
-  Spread slice_bias;                  // what the finest count misses
+  SliceErrors slices;
+  std::vector<Spread> missing;  // part of the true area that the slices of each count miss
+  Spread slice_bias;            // what the finest count misses
   std::vector<double> slice_bias_values;
   std::vector<Samples> exact;
   double bound_order = 0;
 };
 
+/// `planes`: in rising order.
 Summary summarise(const std::vector<Measurement>& rows, const std::vector<int>& planes);
 Json to_json(const Summary& summary);
 void print_summary(const Summary& summary, std::ostream& out);

@@ -18,7 +18,7 @@
 #include "input/scene.h"
 #include "input/text_source.h"
 #include "json/json_value.h"
-#include "output/interrupt.h"
+#include "work/interrupt.h"
 
 namespace vericone {
 namespace {

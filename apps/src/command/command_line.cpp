@@ -11,7 +11,7 @@
 #include <optional>
 #include <type_traits>
 
-#include "command/build_info.h"
+#include "work/build_info.h"
 
 namespace vericone {
 namespace {

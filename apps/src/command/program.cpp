@@ -14,8 +14,8 @@
 #include "command/catalogue.h"
 #include "command/find_program.h"
 #include "json/plain_text.h"
-#include "output/interrupt.h"
 #include "output/standard_output.h"
+#include "work/interrupt.h"
 
 namespace vericone {
 namespace {

@@ -2,12 +2,12 @@
 #include "cone/cone.h"
 
 #include <vericone/cones/combined/cone.h>
-#include <vericone/cones/ellipsoids/plane_sector.h>
 #include <vericone/cones/ellipsoids/true_cone.h>
 #include <vericone/cones/slices/combined_slice_cone.h>
 #include <vericone/cones/slices/slice_cone.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/lengths.h>
+#include <vericone/work/staged_folder.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -17,22 +17,21 @@
 
 #include "command/cases.h"
 #include "cone/answer.h"
-#include "cone/course.h"
-#include "cone/degrees.h"
+#include "cone/assembly_cone.h"
+#include "cone/pair_cone.h"
+#include "cone/pieces_cone.h"
 #include "cone/planar_cone.h"
 #include "cone/quadric_cone.h"
-#include "cone/shape_engagements.h"
+#include "cone/verdict_text.h"
 #include "input/body.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/figures.h"
+#include "output/number_text.h"
 #include "output/output_file.h"
-#include "output/provenance.h"
 #include "output/slice_json.h"
-#include "output/staged_folder.h"
-#include "pieces/assembly_cone.h"
-#include "pieces/pair_cone.h"
-#include "pieces/pieces_cone.h"
+#include "picture/engagements.h"
+#include "work/provenance.h"
 
 namespace vericone {
 namespace {
@@ -70,7 +69,7 @@ void run_planar_cone(const ConeCommand& options, const scenes::Scene& scene, std
   if (options.tolerance)
     throw InputError("--tolerance", to_text(*options.tolerance), "left out for a planar scene");
   if (options.map) throw InputError("--map", to_text(options.map->resolution), "asked for in space only");
-  std::optional<StagedFolder> folder;
+  std::optional<work::StagedFolder> folder;
   if (!options.picture_folder.empty()) folder.emplace(options.picture_folder, "--out");
   const PlanarCone cone = planar_cone(scene);
   if (folder && !std::isfinite(cone.found.sector.theta_b))
@@ -87,53 +86,6 @@ void run_planar_cone(const ConeCommand& options, const scenes::Scene& scene, std
   publish_cone(options, *folder, nullptr, "planar_engagement.py", "engagement", out);
 }
 
-}  // namespace
-
-Json engagement_picture(const scenes::Scene& scene, int planes, int samples) {
-  const Ellipsoid &a = *scene.agent.ellipsoid(), &b = *scene.obstacle.ellipsoid();
-  const auto body = [](const Ellipsoid& x) {
-    return Json{{"center", vector_json(x.center())}, {"factor", matrix_json(x.factor())}};
-  };
-  const SliceCone slices = slice_cone(a, b, planes);
-  const TrueCone exact = true_cone(a, b, samples);
-  const PolyhedralCone polygon = slices.polyhedral();
-  Json result{{"agent", body(a)},
-              {"obstacle", body(b)},
-              {"planes", planes},
-              {"samples", samples},
-              {"slice_directions", polyhedral_json(polygon)["directions"]},
-              {"slice_area", number_or_null(polygon.cross_section_area)},
-              {"exact_area", number_or_null(exact.cross_section_area)}};
-  Json directions = Json::array();
-  for (const auto& s : exact.boundary) directions.push_back(vector_json(s.direction));
-  result["exact_directions"] = directions;
-
-  // The velocity in the gap: half-way between both edges on the plane where they are farthest apart.
-  const AxisFrame frame(slices.axis);
-  double widest = -1;
-  Eigen::Vector3d w = slices.axis;
-  for (const Slice& s : slices.slices) {
-    const Eigen::Vector3d across = frame.across(s.azimuth);
-    const PlaneSector sector = true_sector(a, b, across);
-    for (const double side : {1.0, -1.0}) {
-      const double inner = side > 0 ? s.left : s.right,
-                   outer = side > 0 ? sector.left.angle : sector.right.angle;
-      if (outer - inner <= widest) continue;
-      widest = outer - inner;
-      const double middle = 0.5 * (inner + outer);
-      w = std::cos(middle) * sector.line_of_sight + side * std::sin(middle) * sector.across;
-      result["gap_degrees"] = degrees(widest);
-      result["gap_angles_degrees"] = {degrees(inner), degrees(middle), degrees(outer)};
-    }
-  }
-  const Json gap = course_json({{Body(a), "", w}, {Body(b)}});
-  for (const auto& [name, value] : gap.items()) result["gap_" + name] = value;
-  if (scene.agent.velocity != scene.obstacle.velocity) result["course"] = course_json(scene);
-  return result;
-}
-
-namespace {
-
 struct ConePicture {
   Json data;
   const char* script = nullptr;
@@ -142,7 +94,7 @@ struct ConePicture {
 
 /// What --out asks for.
 ConePicture cone_picture(const ConeCommand& options, const scenes::Scene& scene, const QuadricCone& cone) {
-  if (const char* none = why_no_picture(relation_of(cone))) return {nullptr, nullptr, none};
+  if (const char* none = why_no_picture(cone.relation)) return {nullptr, nullptr, none};
   if (ellipsoids(scene))
     return {engagement_picture(scene, options.planes.value_or(kDefaultPlanes),
                                options.samples.value_or(kDefaultSamples)),
@@ -166,11 +118,11 @@ void print_no_picture(const char* why, std::ostream& out) {
   out << "picture             none: " << why << '\n';
 }
 
-void publish_cone(const ConeCommand& options, StagedFolder& folder, const Json& map,
+void publish_cone(const ConeCommand& options, work::StagedFolder& folder, const Json& map,
                   const std::string& script, const std::string& picture, std::ostream& out) {
   if (options.map) write_whole(folder.path() / "cone_map.json", map.dump() + "\n");
   if (options.figures) {
-    draw_figures(script, folder.path());
+    if (!script.empty()) draw_figures(script, folder.path());
     if (options.map) draw_figures("cone_map.py", folder.path());
   }
   const auto files =
@@ -190,16 +142,12 @@ void require_measurable(const scenes::Scene& scene) {
                    "at most 1e154 m from it: a cone's numbers need squared lengths (query has the verdict)");
 }
 
-}  // namespace
-
-namespace {
-
 void cone_of_scene(const ConeCommand& options, const scenes::Scene& scene, std::ostream& out) {
   if (has_assembly_cone(scene)) return run_pieces_cone(options, scene, out);
   if (!scene.agent.quadric() || !scene.obstacle.quadric()) return run_pair_cone(options, scene, out);
   require_measurable(scene);
   if (scene.planar) return run_planar_cone(options, scene, out);
-  std::optional<StagedFolder> folder;
+  std::optional<work::StagedFolder> folder;
   if (!options.picture_folder.empty()) folder.emplace(options.picture_folder, "--out");
   const QuadricCone cone = cone_of(options, scene);
   const ConePicture picture = folder ? cone_picture(options, scene, cone) : ConePicture{};
@@ -207,14 +155,15 @@ void cone_of_scene(const ConeCommand& options, const scenes::Scene& scene, std::
   if (options.map)
     map = map_answer(scene, *options.map, options.tolerance.value_or(kDefaultTolerance), options.scene);
   if (options.json) {
-    Json result = to_json(cone, scene);
+    Json result = cone.json;
     result["answer"] = answer(scene, false);
-    if (options.map) result["map"] = map.summary;
+    if (options.map) result["map"] = to_json(map);
     out << result.dump(1) << '\n';
   } else {
-    print_text(cone, scene, out);
+    print_verdict(scene, out);
+    out << cone.text;
     if (options.map) print_map(map, out);
-    print_time(cone, out);
+    out << "time                " << number_text(cone.seconds, 2) << " s\n";
     if (picture.none) print_no_picture(picture.none, out);
   }
   if (!folder || picture.none) return;

@@ -11,7 +11,9 @@
 
 namespace vericone {
 
+namespace work {
 class StagedFolder;
+}
 
 inline constexpr int kDefaultSamples = 96;
 inline constexpr double kDefaultTolerance = 0.01;
@@ -42,13 +44,8 @@ const char* why_no_picture(const std::optional<Relation>& relation);
 void print_no_picture(const char* why, std::ostream& out);
 
 /// The end of a picture: the map's data, both drawn by their scripts, all of it published and told.
-/// `picture`: the name of what `script` draws.
-void publish_cone(const ConeCommand& options, StagedFolder& folder, const Json& map,
+/// `picture`: the name of what `script` draws; without a script the map is all.
+void publish_cone(const ConeCommand& options, work::StagedFolder& folder, const Json& map,
                   const std::string& script, const std::string& picture, std::ostream& out);
-
-/// What the picture of one engagement shows: both bodies, the slice cone inside the exact one, and a velocity
-/// between the two with the contact it leads to; the scene's own velocities too, where they differ
-/// (course.h). Requires disjoint ellipsoids.
-Json engagement_picture(const scenes::Scene& scene, int planes, int samples);
 
 }  // namespace vericone

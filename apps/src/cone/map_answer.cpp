@@ -49,28 +49,11 @@ MapAnswer map_answer(const DirectionClassifier& classifier, const MapRequest& re
   ConeMapOptions options;
   options.resolution = request.resolution;
   options.threads = request.threads;
-  MapAnswer answer{request, cone_map(classifier, options), {}, {}, 0, {}, {}};
+  MapAnswer answer{request, cone_map(classifier, options), {}, {}, 0, {}};
   answer.seconds = seconds_since(start);
-  const ConeMap& map = answer.map;
-  answer.regions = regions(map);
-  if (request.around) answer.around = region_around(map, *request.around);
-  Json list = Json::array();
-  for (std::size_t i = 0; i < std::min(answer.regions.size(), kShownRegions); ++i)
-    list.push_back(region_json(answer.regions[i], answer.regions));
-  answer.summary = {{"resolution", request.resolution},
-                    {"colliding", map.colliding},
-                    {"safe", map.safe},
-                    {"undecided", map.undecided},
-                    {"cells", map.cells.size()},
-                    {"asked", map.asked},
-                    {"complete", map.complete},
-                    {"regions_in_all", answer.regions.size()},
-                    {"regions", list},
-                    {"around", answer.around ? region_json(*answer.around, answer.regions) : Json(nullptr)},
-                    {"seconds", answer.seconds}};
-  if (request.around)
-    answer.summary["asked_around"] = {request.around->x(), request.around->y(), request.around->z()};
-  answer.picture = cone_map_json(map, request.around.value_or(middle), request.resolution, title);
+  answer.regions = regions(answer.map);
+  if (request.around) answer.around = region_around(answer.map, *request.around);
+  answer.picture = cone_map_json(answer.map, request.around.value_or(middle), request.resolution, title);
   return answer;
 }
 
@@ -82,6 +65,26 @@ MapAnswer map_answer(const scenes::Scene& scene, const MapRequest& request, doub
   if (a.is_ellipsoid() && b.is_ellipsoid())
     return map_answer(EllipsoidClassifier(a.ellipsoid(), b.ellipsoid()), request, middle, title);
   return map_answer(CombinedClassifier(combined_cone(a, b, tolerance)), request, middle, title);
+}
+
+Json to_json(const MapAnswer& answer) {
+  const ConeMap& map = answer.map;
+  Json list = Json::array();
+  for (std::size_t i = 0; i < std::min(answer.regions.size(), kShownRegions); ++i)
+    list.push_back(region_json(answer.regions[i], answer.regions));
+  Json summary{{"resolution", answer.request.resolution},
+               {"colliding", map.colliding},
+               {"safe", map.safe},
+               {"undecided", map.undecided},
+               {"cells", map.cells.size()},
+               {"asked", map.asked},
+               {"complete", map.complete},
+               {"regions_in_all", answer.regions.size()},
+               {"regions", list},
+               {"around", answer.around ? region_json(*answer.around, answer.regions) : Json(nullptr)},
+               {"seconds", answer.seconds}};
+  if (const auto& w = answer.request.around) summary["asked_around"] = {w->x(), w->y(), w->z()};
+  return summary;
 }
 
 void print_map(const MapAnswer& answer, std::ostream& out) {

@@ -29,7 +29,6 @@ struct MapAnswer {
   std::vector<ConeMapRegion> regions;   // the largest first
   std::optional<ConeMapRegion> around;  // the region asked for; nothing where its direction is undecided
   double seconds = 0;
-  Json summary;  // docs/reference/formats.md
   Json picture;  // for apps/figures/cone_map.py
 };
 
@@ -42,6 +41,8 @@ MapAnswer map_answer(const DirectionClassifier& classifier, const MapRequest& re
 MapAnswer map_answer(const scenes::Scene& scene, const MapRequest& request, double tolerance,
                      const std::string& title);
 
+/// As docs/reference/formats.md says.
+Json to_json(const MapAnswer& answer);
 void print_map(const MapAnswer& answer, std::ostream& out);
 
 }  // namespace vericone

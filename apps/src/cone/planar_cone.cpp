@@ -4,12 +4,11 @@
 #include <numbers>
 #include <ostream>
 
-#include "cone/course.h"
-#include "cone/degrees.h"
 #include "cone/verdict_text.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/number_text.h"
+#include "picture/course.h"
 #include "picture/shape_json.h"
 
 namespace vericone {

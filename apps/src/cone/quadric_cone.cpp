@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cone/quadric_cone.h"
 
+#include <vericone/cones/combined/cone.h>
+#include <vericone/cones/ellipsoids/true_cone.h>
+#include <vericone/cones/slices/slice_cone.h>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <ostream>
+#include <sstream>
+#include <utility>
+#include <vector>
 
-#include "cone/degrees.h"
-#include "cone/verdict_text.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/number_text.h"
@@ -20,17 +23,16 @@ const char* name_of(const std::optional<Relation>& relation) {
   return relation ? to_string(*relation) : "undecided";
 }
 
-Json json_of(const ExactCone& found, const scenes::Scene& /*scene*/) {
-  const TrueCone& cone = found.cone;
+Json exact_json(const TrueCone& cone, const std::optional<ConeBounds>& found, int samples) {
   Json result{{"method", "exact"},
-              {"samples", found.samples},
+              {"samples", samples},
               {"relation", to_string(cone.relation)},
               {"axis", vector_json(cone.axis)}};
   Json directions = Json::array();
   for (const auto& s : cone.boundary) directions.push_back(vector_json(s.direction));
   result["directions"] = directions;
-  if (found.bounds) {
-    const ConeBounds& bounds = *found.bounds;
+  if (found) {
+    const ConeBounds& bounds = *found;
     result["solid_angle"] = bounds.solid_angle;
     result["cross_section_area"] = number_or_null(bounds.cross_section_area);
     result["inner"] = polyhedral_json(bounds.inner);
@@ -47,15 +49,13 @@ Json json_of(const ExactCone& found, const scenes::Scene& /*scene*/) {
     result["error_bound"] = 0.0;
     result["cross_section_area_error_bound"] = nullptr;
   }
-  result["seconds"] = found.seconds;
   return result;
 }
 
-Json json_of(const CertifiedCone& found, const scenes::Scene& /*scene*/) {
-  const CombinedCone& cone = found.cone;
+Json certified_json(const CombinedCone& cone, double tolerance) {
   const bool known = cone.relation.has_value();
   Json result{{"method", "certified"},
-              {"tolerance", found.tolerance},
+              {"tolerance", tolerance},
               {"relation", name_of(cone.relation)},
               {"axis", vector_json(cone.axis)},
               {"directions", nullptr}};  // the boundary is somewhere between inner and outer
@@ -66,11 +66,21 @@ Json json_of(const CertifiedCone& found, const scenes::Scene& /*scene*/) {
   result["error_bound"] = known ? number_or_null(cone.solid_angle_error) : Json(nullptr);
   result["cross_section_area_error_bound"] =
       known ? number_or_null(cone.cross_section_area_error) : Json(nullptr);
-  result["seconds"] = found.seconds;
   return result;
 }
 
-Json json_of(const SlicedCone& cone, const scenes::Scene& scene) {
+/// By slices, of either kind.
+struct Slices {
+  int planes = 0;
+  SliceSector sectors = SliceSector::all_candidates;
+  std::optional<Relation> relation;
+  Eigen::Vector3d axis;
+  std::vector<Slice> slices;
+  PolyhedralCone polyhedral;
+  std::optional<CombinedSliceCone> combined;  // what it says besides, where it was asked
+};
+
+Json sliced_json(const Slices& cone, const scenes::Scene& scene) {
   Json result{{"method", "slice"},
               {"planes", cone.planes},
               {"relation", name_of(cone.relation)},
@@ -90,7 +100,6 @@ Json json_of(const SlicedCone& cone, const scenes::Scene& scene) {
   result["inner"] = nullptr;
   result["outer"] = nullptr;
   result["error_bound"] = nullptr;
-  result["seconds"] = cone.seconds;
   return result;
 }
 
@@ -116,20 +125,7 @@ void print_bounded(const Bounded& found, std::ostream& out) {
   print_area(found.cross_section_area, found.cross_section_area_error, out);
 }
 
-void print(const ExactCone& found, const scenes::Scene& /*scene*/, std::ostream& out) {
-  print_method("exact", std::to_string(found.samples) + " samples", found.cone.relation, out);
-  if (found.bounds)
-    print_bounded(*found.bounds, out);
-  else
-    out << "solid angle         " << number_text(found.cone.solid_angle) << " sr\n";
-}
-
-void print(const CertifiedCone& found, const scenes::Scene& /*scene*/, std::ostream& out) {
-  print_method("certified", "tolerance " + number_text(found.tolerance), found.cone.relation, out);
-  if (found.cone.relation) print_bounded(found.cone, out);
-}
-
-void print(const SlicedCone& cone, const scenes::Scene& scene, std::ostream& out) {
+void print_sliced(const Slices& cone, const scenes::Scene& scene, std::ostream& out) {
   print_method("slice", std::to_string(cone.planes) + " planes", cone.relation, out);
   if (cone.relation) {
     out << "solid angle         " << number_text(cone.polyhedral.solid_angle) << " sr\n";
@@ -150,65 +146,60 @@ void print(const SlicedCone& cone, const scenes::Scene& scene, std::ostream& out
                             : "they are in the true cone, what lies between them need not be\n");
 }
 
+QuadricCone told(const std::optional<Relation>& relation, Json json, const std::ostringstream& text,
+                 double seconds) {
+  json["seconds"] = seconds;
+  return {relation, std::move(json), text.str(), seconds};
+}
+
 }  // namespace
 
 bool ellipsoids(const scenes::Scene& scene) { return scene.agent.ellipsoid() && scene.obstacle.ellipsoid(); }
 
-ExactCone exact_cone(const Ellipsoid& a, const Ellipsoid& b, int samples) {
+QuadricCone exact_cone(const Ellipsoid& a, const Ellipsoid& b, int samples) {
   const auto start = Clock::now();
-  ExactCone result{samples, true_cone(a, b, samples), {}};
-  if (result.cone.relation == Relation::disjoint) result.bounds = cone_bounds(result.cone, a, b);
-  result.seconds = seconds_since(start);
-  return result;
+  const TrueCone cone = true_cone(a, b, samples);
+  std::optional<ConeBounds> bounds;
+  if (cone.relation == Relation::disjoint) bounds = cone_bounds(cone, a, b);
+  const double seconds = seconds_since(start);
+  std::ostringstream text;
+  print_method("exact", std::to_string(samples) + " samples", cone.relation, text);
+  if (bounds)
+    print_bounded(*bounds, text);
+  else
+    text << "solid angle         " << number_text(cone.solid_angle) << " sr\n";
+  return told(cone.relation, exact_json(cone, bounds, samples), text, seconds);
 }
 
-CertifiedCone certified_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& b, double tolerance) {
+QuadricCone certified_cone(const CombinedEllipsoid& a, const CombinedEllipsoid& b, double tolerance) {
   const auto start = Clock::now();
-  CertifiedCone result{tolerance, combined_cone(a, b, tolerance)};
-  result.seconds = seconds_since(start);
-  return result;
+  const CombinedCone cone = combined_cone(a, b, tolerance);
+  const double seconds = seconds_since(start);
+  std::ostringstream text;
+  print_method("certified", "tolerance " + number_text(tolerance), cone.relation, text);
+  if (cone.relation) print_bounded(cone, text);
+  return told(cone.relation, certified_json(cone, tolerance), text, seconds);
 }
 
-SlicedCone sliced_cone(const scenes::Scene& scene, int planes, SliceSector sectors) {
+QuadricCone sliced_cone(const scenes::Scene& scene, int planes, SliceSector sectors) {
   const auto start = Clock::now();
-  SlicedCone result{planes, sectors, {}, {}, {}, {}, {}};
+  Slices found{planes, sectors, {}, {}, {}, {}, {}};
   const auto take = [&](const auto& cone) {
-    result.relation = cone.relation;
-    result.axis = cone.axis;
-    result.slices = cone.slices;
-    result.polyhedral = cone.polyhedral();
+    found.relation = cone.relation;
+    found.axis = cone.axis;
+    found.slices = cone.slices;
+    found.polyhedral = cone.polyhedral();
   };
   if (ellipsoids(scene) && sectors == SliceSector::all_candidates) {
     take(slice_cone(*scene.agent.ellipsoid(), *scene.obstacle.ellipsoid(), planes));
   } else {
-    result.combined = combined_slice_cone(*scene.agent.quadric(), *scene.obstacle.quadric(), planes, sectors);
-    take(*result.combined);
+    found.combined = combined_slice_cone(*scene.agent.quadric(), *scene.obstacle.quadric(), planes, sectors);
+    take(*found.combined);
   }
-  result.seconds = seconds_since(start);
-  return result;
-}
-
-std::optional<Relation> relation_of(const QuadricCone& cone) {
-  struct {
-    std::optional<Relation> operator()(const ExactCone& found) const { return found.cone.relation; }
-    std::optional<Relation> operator()(const CertifiedCone& found) const { return found.cone.relation; }
-    std::optional<Relation> operator()(const SlicedCone& found) const { return found.relation; }
-  } relation;
-  return cone.ask(relation);
-}
-
-Json to_json(const QuadricCone& cone, const scenes::Scene& scene) {
-  return cone.ask([&](const auto& found) { return json_of(found, scene); });
-}
-
-void print_text(const QuadricCone& cone, const scenes::Scene& scene, std::ostream& out) {
-  print_verdict(scene, out);
-  cone.ask([&](const auto& found) { print(found, scene, out); });
-}
-
-void print_time(const QuadricCone& cone, std::ostream& out) {
-  const double seconds = cone.ask([](const auto& found) { return found.seconds; });
-  out << "time                " << number_text(seconds, 2) << " s\n";
+  const double seconds = seconds_since(start);
+  std::ostringstream text;
+  print_sliced(found, scene, text);
+  return told(found.relation, sliced_json(found, scene), text, seconds);
 }
 
 }  // namespace vericone

@@ -3,6 +3,7 @@
 
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/stop.h>
+#include <vericone/work/staged_folder.h>
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -16,11 +17,10 @@
 #include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/figures.h"
-#include "output/interrupt.h"
 #include "output/output_file.h"
 #include "output/progress.h"
-#include "output/provenance.h"
-#include "output/staged_folder.h"
+#include "work/interrupt.h"
+#include "work/provenance.h"
 
 namespace vericone {
 namespace {
@@ -125,7 +125,8 @@ Answer answer_of(const FitCommandOptions& given, Progress& progress) {
   return a;
 }
 
-void write_files(const Answer& a, const FitCommandOptions& given, StagedFolder& folder, Progress& progress) {
+void write_files(const Answer& a, const FitCommandOptions& given, work::StagedFolder& folder,
+                 Progress& progress) {
   const fs::path& stage = folder.path();
   const std::string title = fit::title_of(a.scan, a.result);
   const std::vector<CombinedSurface> surfaces = fit::hull_surfaces(a.result.pieces);
@@ -161,7 +162,7 @@ void print(const Answer& a, const FitCommandOptions& given, const std::vector<fs
 
 int run_fit(const FitCommandOptions& given, std::ostream& out) {
   if (!given.check.empty()) return check_fit(given.file, given.check, given.json, out);
-  StagedFolder folder(given.out, "--out");
+  work::StagedFolder folder(given.out, "--out");
   try {
     std::vector<fs::path> files;
     Answer a;

@@ -6,11 +6,13 @@
 #include <optional>
 #include <string>
 
-#include "default_seed.h"
+#include "command/default_seed.h"
+#include "output/output_options.h"
 
 namespace vericone {
 
-struct FitCommandOptions {
+struct FitCommandOptions : OutputOptions {
+  FitCommandOptions() { out = "out/fit"; }
   std::string file;
   std::string mode = "containing";  // or "least-squares", "robust"
   std::string shape = "auto";       // or the name of one
@@ -20,11 +22,6 @@ struct FitCommandOptions {
   std::uint64_t seed = kDefaultSeed;
   std::string cone;   // the agent of a comparison of cones; empty: none
   std::string check;  // the written result to check instead of fitting; empty: none
-  bool json = false;
-  std::string out = "out/fit";
-  bool figures = true;
-  bool quiet = false;
-  std::string command_line;
 };
 
 /// `vericone fit`: a quadric hull of a scan, with what is proved of it (docs/reference/formats.md). Writes

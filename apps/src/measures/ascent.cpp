@@ -9,7 +9,7 @@
 #include <random>
 
 #include "measures/measure.h"
-#include "output/interrupt.h"
+#include "work/interrupt.h"
 
 namespace vericone::paper {
 namespace {

@@ -95,7 +95,7 @@ const Table& PaperRun::table(const std::string& name, const std::string& path) c
                                    [&](const auto& entry) { return name == entry.first; });
   Table made;
   if (of_run != std::end(kTables))
-    made = table_of_csv(csv(of_run->second(scenario, run)));
+    made = table_of(of_run->second(scenario, run));
   else if (name == "proofs")
     made = proofs_of(scenario, run);
   else if (name == "passages")

@@ -2,7 +2,6 @@
 #include <vericone/geometry/stop.h>
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <future>
 #include <semaphore>
 #include <sstream>
@@ -12,9 +11,10 @@
 #include "input/stopwatch.h"
 #include "measures/sources.h"
 #include "output/child.h"
-#include "output/interrupt.h"
+#include "output/output_file.h"
 #include "output/temporary_folder.h"
 #include "scenarios/read_scenario.h"
+#include "work/interrupt.h"
 
 namespace vericone::paper {
 namespace {
@@ -150,10 +150,7 @@ const Table& Sources::table(const std::string& words, const std::string& file, c
   const fs::path source = files(words, path) / file;
   if (source.extension() != ".csv" || !fs::exists(source))
     throw InputError(path, file, "a table that vericone " + words + " writes, such as engagements.csv");
-  std::ifstream in(source, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return tables_[{words, file}] = table_of_csv(text.str());
+  return tables_[{words, file}] = table_of(simulation::table_of_csv(content_of(source), file));
 }
 
 const Json& Sources::answer(const std::string& words, const std::string& path) {

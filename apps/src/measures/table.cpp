@@ -2,46 +2,15 @@
 #include "measures/table.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
-#include <sstream>
 #include <tuple>
 
 namespace vericone::paper {
 namespace {
 
 constexpr double kSameTime = 1e-9;  // s
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (c == '"') {
-      if (quoted && i + 1 < line.size() && line[i + 1] == '"')
-        cells.back() += line[++i];
-      else
-        quoted = !quoted;
-    } else if (c == ',' && !quoted) {
-      cells.emplace_back();
-    } else if (c != '\r') {
-      cells.back() += c;
-    }
-  }
-  return cells;
-}
-
-/// Nothing where the text is no number; NaN of empty text.
-std::optional<double> number_of(const std::string& text) {
-  if (text.empty()) return kNothing;
-  double x = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return x;
-}
 
 }  // namespace
 
@@ -75,30 +44,15 @@ Table Table::with(const std::string& column, const std::string& word) const {
   return part;
 }
 
-Table table_of_csv(const std::string& text) {
-  std::istringstream lines(text);
-  std::string line;
-  while (std::getline(lines, line) && line.starts_with('#')) {
-  }
-  const std::vector<std::string> names = cells_of(line);
-  std::vector<std::vector<std::string>> columns(names.size());
-  Table table;
-  for (; std::getline(lines, line); ++table.rows) {
-    std::vector<std::string> cells = cells_of(line);
-    cells.resize(names.size());
-    for (std::size_t i = 0; i < names.size(); ++i) columns[i].push_back(std::move(cells[i]));
-  }
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::string name = names[i].substr(0, names[i].find(" ["));
-    std::vector<double> numbers;
-    for (const std::string& cell : columns[i])
-      if (const auto x = number_of(cell)) numbers.push_back(*x);
-    if (numbers.size() == table.rows)
-      table.numbers[name] = std::move(numbers);
+Table table_of(simulation::Table table) {
+  Table made;
+  made.rows = table.rows();
+  for (simulation::Column& column : table.columns)
+    if (column.text)
+      made.words[column.name] = std::move(column.words);
     else
-      table.words[name] = std::move(columns[i]);
-  }
-  return table;
+      made.numbers[column.name] = std::move(column.numbers);
+  return made;
 }
 
 void put_beside(Table& left, const std::string& name, const Table& right, const std::vector<bool>& counts) {

@@ -3,6 +3,7 @@
 // Tables as the commands write them: columns of numbers and of words.
 #pragma once
 
+#include <vericone/simulation/table.h>
 #include <cstddef>
 #include <limits>
 #include <map>
@@ -27,8 +28,7 @@ struct Table {
   Table with(const std::string& column, const std::string& word) const;
 };
 
-/// Of CSV with a header, after comment lines (#). A column is of numbers where every cell is one or empty.
-Table table_of_csv(const std::string& text);
+Table table_of(simulation::Table table);
 
 /// Every number of the rows of `right` that count beside the rows of `left` with the same time t (within 1e-9
 /// s) and, where both have them, the same words, as "NAME.column"; NaN where there is no such row.

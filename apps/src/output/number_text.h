@@ -3,11 +3,15 @@
 // Numbers as people read them: the digits that are certain. All digits stand in JSON.
 #pragma once
 
+#include <numbers>
 #include <string>
 
 namespace vericone {
 
 inline constexpr int kShownDigits = 6;  // significant ones, at most
+
+/// Of an angle in radians.
+inline double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 /// `digits` significant digits, without zeros at the end.
 std::string number_text(double x, int digits = kShownDigits);

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <chrono>
+#include <iosfwd>
 #include <string>
+
+#include "work/resumable_table.h"
 
 namespace vericone {
 
@@ -15,7 +18,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// `share` of the step `what` is done. False when the work is to stop: interrupt.h.
+  /// `share` of the step `what` is done. False when the work is to stop: work/interrupt.h.
   bool show(const std::string& what, double share);
 
  private:
@@ -25,5 +28,10 @@ class Progress {
   std::string step_;
   std::chrono::steady_clock::time_point last_;
 };
+
+/// Fills a table with a bar on standard error, called `label`. False where an interruption came first; a line
+/// on `out` then says how to go on in the folder, which was given as `given`.
+bool run_with_bar(work::ResumableTable table, work::StagedFolder& folder, const std::string& label,
+                  bool quiet, const std::string& given, std::ostream& out);
 
 }  // namespace vericone

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "command/find_program.h"
-#include "output/threads.h"
+#include "work/threads.h"
 
 namespace vericone::paper {
 namespace {

@@ -2,18 +2,18 @@
 #include "paper/claims_command.h"
 
 #include <vericone/geometry/stop.h>
+#include <vericone/work/staged_folder.h>
 #include <iomanip>
 #include <optional>
 #include <ostream>
 
-#include "output/interrupt.h"
 #include "output/output_file.h"
 #include "output/progress.h"
-#include "output/provenance.h"
-#include "output/staged_folder.h"
 #include "paper/claim.h"
 #include "paper/paper.h"
 #include "paper/shuffle.h"
+#include "work/interrupt.h"
+#include "work/provenance.h"
 
 namespace vericone::paper {
 namespace {
@@ -51,7 +51,7 @@ void print_table(const std::vector<Claim>& claims, bool given, std::ostream& out
 int run_claims(const ClaimsOptions& options, std::ostream& out) {
   Paper paper(options.paper);
   const Which which = paper.claims_named(options.ids);
-  std::optional<StagedFolder> folder;
+  std::optional<work::StagedFolder> folder;
   if (!options.out.empty()) folder.emplace(options.out, "--out");
   std::vector<Claim> claims;
   try {

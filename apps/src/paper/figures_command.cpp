@@ -4,36 +4,27 @@
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/stop.h>
 #include <vericone/scenarios/run_files.h>
+#include <vericone/work/staged_folder.h>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <ostream>
 #include <set>
-#include <sstream>
 
 #include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/figures.h"
-#include "output/interrupt.h"
 #include "output/output_file.h"
 #include "output/progress.h"
-#include "output/provenance.h"
-#include "output/staged_folder.h"
-#include "output/threads.h"
 #include "paper/paper.h"
 #include "paper/papers_folder.h"
+#include "work/interrupt.h"
+#include "work/provenance.h"
+#include "work/threads.h"
 
 namespace vericone::paper {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string content_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return in ? text.str() : std::string();
-}
 
 /// The scenarios that a figure shows, each once.
 std::vector<std::string> scenarios_of(const Figure& figure) {
@@ -99,7 +90,7 @@ class Maker {
     const std::vector<std::string> scenarios = scenarios_of(figure);
     for (const std::string& scenario : scenarios) write_run(scenario);
     if (!progress_.show("figure " + figure.id, share)) throw Interrupted{};
-    StagedFolder folder(out_, "--out");
+    work::StagedFolder folder(out_, "--out");
     Json origin{{"figure", figure.id}, {"caption", figure.caption}};
     if (!figure.command.empty())
       carry_out(figure, folder.path(), origin);
@@ -125,7 +116,7 @@ class Maker {
     progress_.show("report", 0);
     const Json json =
         claims_json(claims, paper_, which, options_.command_line, changes_.any() ? changed() : Json());
-    StagedFolder folder(out_, "--out");
+    work::StagedFolder folder(out_, "--out");
     write_whole(folder.path() / "claims.json", json.dump(1) + "\n");
     Json page{{"paper", paper_.name()}, {"title", paper_.title}, {"references", paper_.references}};
     page.update(json);
@@ -156,7 +147,7 @@ class Maker {
   void write_run(const std::string& name) {
     if (!written_.insert(name).second) return;
     const PaperRun& run = sources_.run(name, "figures.yaml: runs");
-    StagedFolder folder(out_ / "runs" / name, "--out");
+    work::StagedFolder folder(out_ / "runs" / name, "--out");
     scenario::write_run(
         run.scenario, run.run,
         {run.file, provenance(options_.command_line, 1, {run.file}).dump(), run.seconds, run.text},
@@ -284,7 +275,7 @@ int run_figures(const FiguresOptions& options, std::ostream& out) {
     return 0;
   }
   const fs::path folder = options.out.empty() ? fs::path("out") / paper.name() : fs::path(options.out);
-  const OutputFolder whole(folder, "--out");
+  const work::StagedFolder whole(folder, "--out");
   const auto start = Clock::now();
   try {
     Progress progress(options.quiet);

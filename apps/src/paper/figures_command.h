@@ -5,18 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "output/output_options.h"
+
 namespace vericone::paper {
 
-struct FiguresOptions {
+/// `out` empty: out/ and the paper's name.
+struct FiguresOptions : OutputOptions {
   std::vector<std::string> ids;  // empty: all
   std::string paper;             // its folder, or the name of one of ours; empty: papers/dhal2022
-  std::string out;               // empty: out/ and the paper's name
   std::string scenario;  // file in place of the one scenario that the figures show; empty: the paper's
   std::vector<std::string> set;  // PATH=VALUE, in the scenarios that the figures show
   bool list = false;
-  bool quiet = false;
-  bool json = false;
-  std::string command_line;
 };
 
 /// `vericone figures`: makes the figures of a paper, each as PDF, PNG, CSV and JSON of its provenance, the

@@ -2,13 +2,11 @@
 #include "paper/new_paper.h"
 
 #include <vericone/geometry/error.h>
+#include <vericone/work/staged_folder.h>
 #include <filesystem>
-#include <fstream>
 #include <ostream>
-#include <sstream>
 
 #include "output/output_file.h"
-#include "output/staged_folder.h"
 #include "paper/papers_folder.h"
 
 namespace vericone::paper {
@@ -19,16 +17,14 @@ int new_paper(const std::string& folder, std::ostream& out) {
   std::error_code error;
   if (fs::exists(folder) && (!fs::is_directory(folder) || !fs::is_empty(folder, error)))
     throw InputError("folder", folder, "a folder that is empty or not there: a new paper overwrites nothing");
-  StagedFolder stage(folder, "folder");
+  work::StagedFolder stage(folder, "folder");
   for (const auto& entry : fs::recursive_directory_iterator(template_folder())) {
     const fs::path to = stage.path() / entry.path().lexically_relative(template_folder());
     if (entry.is_directory()) {
       fs::create_directories(to);
       continue;
     }
-    std::ostringstream content;
-    content << std::ifstream(entry.path(), std::ios::binary).rdbuf();
-    write_whole(to, content.str());
+    write_whole(to, content_of(entry.path()));
   }
   stage.publish({});
   const std::string place = fs::path(folder).string();

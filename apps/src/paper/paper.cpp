@@ -3,16 +3,15 @@
 
 #include <vericone/geometry/error.h>
 #include <algorithm>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include "input/fields.h"
 #include "input/scene.h"
-#include "output/provenance.h"
+#include "output/output_file.h"
 #include "paper/papers_folder.h"
 #include "scenarios/scenario_fields.h"
 #include "simulate/run_text.h"
+#include "work/provenance.h"
 
 namespace vericone::paper {
 namespace {
@@ -188,10 +187,7 @@ Paper::Paper(const std::string& given) : folder(paper_folder(given)), figure_val
       if (std::none_of(figures.begin(), figures.end(), [&](const Figure& f) { return f.id == id; }))
         throw InputError("claims.yaml: " + entry.claim.id + ".figures", id,
                          "the id of a figure of figures.yaml");
-  std::ifstream in(folder / "references.bib");
-  std::ostringstream text;
-  text << in.rdbuf();
-  references = text.str();
+  references = content_of(folder / "references.bib");
 }
 
 Which Paper::claims_named(const std::vector<std::string>& ids) const {

@@ -10,8 +10,8 @@
 
 #include "input/scene.h"
 #include "output/output_file.h"
-#include "output/provenance.h"
 #include "output/temporary_folder.h"
+#include "work/provenance.h"
 
 namespace vericone::paper {
 namespace {

@@ -4,6 +4,7 @@
 #include <vericone/geometry/error.h>
 #include <vericone/vision/footage/annotate.h>
 #include <vericone/vision/footage/footage.h>
+#include <vericone/work/staged_folder.h>
 #include <algorithm>
 #include <filesystem>
 #include <iomanip>
@@ -15,15 +16,14 @@
 #include "json/json_value.h"
 #include "json/plain_text.h"
 #include "output/figures.h"
-#include "output/interrupt.h"
 #include "output/number_text.h"
 #include "output/output_file.h"
 #include "output/progress.h"
-#include "output/provenance.h"
-#include "output/staged_folder.h"
 #include "pursue/pursuit_campaign.h"
 #include "pursue/pursuit_tables.h"
 #include "pursue/read_pursuit.h"
+#include "work/interrupt.h"
+#include "work/provenance.h"
 
 namespace vericone::pursuit {
 namespace {
@@ -145,7 +145,7 @@ Image in_colour(const Image& image) {
 class Recorder {
  public:
   /// `out`: the folder of all else, where the video may be too.
-  Recorder(const PursueOptions& options, const Pursuit& pursuit, const StagedFolder& out)
+  Recorder(const PursueOptions& options, const Pursuit& pursuit, const work::StagedFolder& out)
       : pursuit_(pursuit) {
     for (const Car& car : pursuit.cars)
       if (car.followed) names_.push_back(car.name);
@@ -214,7 +214,7 @@ class Recorder {
   const Pursuit& pursuit_;
   Image shown_;
   std::vector<std::string> names_;
-  std::optional<StagedFolder> frames_, video_;
+  std::optional<work::StagedFolder> frames_, video_;
   std::optional<VideoWriter> writer_;
   std::string estimates_;
   std::size_t count_ = 0;
@@ -222,7 +222,7 @@ class Recorder {
 
 int run_one(const Pursuit& pursuit, const PursueOptions& options, const std::string& text,
             std::ostream& out) {
-  StagedFolder folder(options.out, "--out");
+  work::StagedFolder folder(options.out, "--out");
   Recorder recorder(options, pursuit, folder);
   PursuitRun run;
   PursuitSummary summary;

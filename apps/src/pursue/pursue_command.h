@@ -6,9 +6,12 @@
 #include <optional>
 #include <string>
 
+#include "output/output_options.h"
+
 namespace vericone::pursuit {
 
-struct PursueOptions {
+struct PursueOptions : OutputOptions {
+  PursueOptions() { out = "out/pursuit"; }
   std::string scenario;
   std::string camera, tracker, law;  // empty: perspective, ours, ours
   std::optional<double> duration;    // s
@@ -16,10 +19,6 @@ struct PursueOptions {
   std::string video, frames;  // file, folder; empty: none
   std::uint64_t starts = 0, random = 0;
   double within = 0.001;  // m
-  std::string out = "out/pursuit";
-  int threads = 0;
-  bool figures = true, quiet = false, json = false;
-  std::string command_line;
 };
 
 /// `vericone pursue`. Returns the exit status. Throws InputError.

@@ -2,9 +2,9 @@
 #include "pursue/pursuit_campaign.h"
 
 #include <vericone/geometry/error.h>
+#include <vericone/simulation/table.h>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 #include <ostream>
 #include <random>
@@ -12,16 +12,15 @@
 
 #include "input/stopwatch.h"
 #include "json/json_value.h"
-#include "measures/table.h"
 #include "output/figures.h"
-#include "output/file_hash.h"
-#include "output/interrupt.h"
 #include "output/number_text.h"
 #include "output/output_file.h"
-#include "output/provenance.h"
-#include "output/resumable_table.h"
-#include "output/threads.h"
+#include "output/progress.h"
 #include "simulate/csv_row.h"
+#include "work/file_hash.h"
+#include "work/interrupt.h"
+#include "work/provenance.h"
+#include "work/threads.h"
 
 namespace vericone::pursuit {
 namespace {
@@ -50,11 +49,8 @@ std::string settings_of(const Pursuit& pursuit, const PursueOptions& options, co
          std::to_string(pursuit.seed);
 }
 
-paper::Table read_table(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return paper::table_of_csv(text.str());
+simulation::Table read_table(const fs::path& file) {
+  return simulation::table_of_csv(content_of(file), file.filename().string());
 }
 
 double quantile(std::vector<double> values, double share) {
@@ -65,7 +61,7 @@ double quantile(std::vector<double> values, double share) {
   return i + 1 < values.size() ? values[i] + (at - double(i)) * (values[i + 1] - values[i]) : values[i];
 }
 
-int finish(StagedFolder& folder, const PursueOptions& options, Json summary, const std::string& script,
+int finish(work::StagedFolder& folder, const PursueOptions& options, Json summary, const std::string& script,
            int threads, double seconds, const std::string& text, std::ostream& out) {
   summary["seconds"] = seconds;
   write_whole(folder.path() / "summary.json", summary.dump(1) + "\n");
@@ -186,17 +182,15 @@ std::string occlusion_row(const Pursuit& given, std::uint64_t run) {
 
 int run_starts(const Pursuit& pursuit, const PursueOptions& options, std::ostream& out) {
   if (!(options.within >= 0)) throw InputError("--within", to_text(options.within), "0 or more (m)");
-  StagedFolder folder(options.out, "--out");
+  work::StagedFolder folder(options.out, "--out");
   const auto start = Clock::now();
-  ResumableTable work{folder, "starts.csv"};
-  work.settings = settings_of(pursuit, options, ("starts within " + to_text(options.within) + " m").c_str());
-  work.header = "start,dx [m],dy [m],mean_r [m],most_r [m],speed_error [m/s],layer [1]";
-  work.count = options.starts;
-  work.block = 2;
-  work.threads = threads_for(options.threads);
-  work.quiet = options.quiet;
-  work.label = "starts";
-  work.row = [&](std::uint64_t i) {
+  work::ResumableTable table{"starts.csv"};
+  table.settings = settings_of(pursuit, options, ("starts within " + to_text(options.within) + " m").c_str());
+  table.header = "start,dx [m],dy [m],mean_r [m],most_r [m],speed_error [m/s],layer [1]";
+  table.count = options.starts;
+  table.block = 2;
+  table.threads = threads_for(options.threads);
+  table.row = [&](std::uint64_t i) {
     Random random(pursuit.seed, i);
     Pursuit one = pursuit;
     const double angle = random.uniform(-std::numbers::pi, std::numbers::pi),
@@ -216,13 +210,10 @@ int run_starts(const Pursuit& pursuit, const PursueOptions& options, std::ostrea
     row.pop_back();
     return row;
   };
-  if (run_table(work) == TableOutcome::interrupted) {
-    out << "interrupted; the same command goes on where it stopped (" << options.out << ")\n";
-    return kExitInterrupted;
-  }
-  const paper::Table table = read_table(folder.resumable(work.name));
-  const std::vector<double>& means = table.numbers.at("mean_r");
-  Json summary{{"settings", work.settings},
+  if (!run_with_bar(table, folder, "starts", options.quiet, options.out, out)) return kExitInterrupted;
+  const simulation::Table rows = read_table(folder.resumable(table.name));
+  const std::vector<double>& means = rows.find("mean_r")->numbers;
+  Json summary{{"settings", table.settings},
                {"starts", means.size()},
                {"mean_r",
                 {{"least", quantile(means, 0)},
@@ -230,60 +221,55 @@ int run_starts(const Pursuit& pursuit, const PursueOptions& options, std::ostrea
                  {"median", quantile(means, 0.5)},
                  {"third_quartile", quantile(means, 0.75)},
                  {"greatest", quantile(means, 1)}}},
-               {"layer", quantile(table.numbers.at("layer"), 0.5)}};
+               {"layer", quantile(rows.find("layer")->numbers, 0.5)}};
   std::ostringstream text;
   text << "starts              " << means.size() << ", within " << number_text(options.within) << " m\n"
        << "mean distance       least " << number_text(quantile(means, 0), 4) << ", quartiles "
        << number_text(quantile(means, 0.25), 4) << " " << number_text(quantile(means, 0.5), 4) << " "
        << number_text(quantile(means, 0.75), 4) << ", greatest " << number_text(quantile(means, 1), 4)
        << " m\n";
-  return finish(folder, options, summary, "pursuit_starts.py", work.threads, seconds_since(start), text.str(),
-                out);
+  return finish(folder, options, summary, "pursuit_starts.py", table.threads, seconds_since(start),
+                text.str(), out);
 }
 
 int run_random(const Pursuit& pursuit, const PursueOptions& options, std::ostream& out) {
   if (pursuit.eyes == Eyes::exact)
     throw InputError("--camera", "exact", "source or perspective, with --random");
-  StagedFolder folder(options.out, "--out");
+  work::StagedFolder folder(options.out, "--out");
   const auto start = Clock::now();
-  ResumableTable work{folder, "occlusions.csv"};
-  work.settings = settings_of(pursuit, options, "random occlusions");
-  work.header = "run,body,hidden [s],said [s],regained [s],followed,cars,swaps,false_claims";
-  work.count = options.random;
-  work.block = 2;
-  work.threads = threads_for(options.threads);
-  work.quiet = options.quiet;
-  work.label = "runs";
-  work.row = [&](std::uint64_t i) { return occlusion_row(pursuit, i); };
-  if (run_table(work) == TableOutcome::interrupted) {
-    out << "interrupted; the same command goes on where it stopped (" << options.out << ")\n";
-    return kExitInterrupted;
-  }
+  work::ResumableTable table{"occlusions.csv"};
+  table.settings = settings_of(pursuit, options, "random occlusions");
+  table.header = "run,body,hidden [s],said [s],regained [s],followed,cars,swaps,false_claims";
+  table.count = options.random;
+  table.block = 2;
+  table.threads = threads_for(options.threads);
+  table.row = [&](std::uint64_t i) { return occlusion_row(pursuit, i); };
+  if (!run_with_bar(table, folder, "runs", options.quiet, options.out, out)) return kExitInterrupted;
   constexpr double kSoon = 0.5, kFrames = 3;  // s; pictures
-  paper::Table table = read_table(folder.resumable(work.name));
-  const auto &regained = table.numbers.at("regained"), &said = table.numbers.at("said"),
-             &swaps = table.numbers.at("swaps"), &lies = table.numbers.at("false_claims");
+  const simulation::Table rows = read_table(folder.resumable(table.name));
+  const auto &regained = rows.find("regained")->numbers, &said = rows.find("said")->numbers,
+             &swaps = rows.find("swaps")->numbers, &lies = rows.find("false_claims")->numbers;
   std::size_t soon = 0, quick = 0;
   double all_swaps = 0, all_lies = 0;
-  for (std::size_t i = 0; i < table.rows; ++i) {
+  for (std::size_t i = 0; i < rows.rows(); ++i) {
     soon += regained[i] <= kSoon + 1e-9;
     quick += said[i] <= kFrames * pursuit.picture_step + 1e-9;
     all_swaps += swaps[i];
     all_lies += lies[i];
   }
-  const double runs = double(table.rows);
+  const double runs = double(rows.rows());
   Json summary{
-      {"settings", work.settings},         {"runs", table.rows}, {"regained_soon", double(soon) / runs},
-      {"said_soon", double(quick) / runs}, {"swaps", all_swaps}, {"false_claims", all_lies}};
+      {"settings", table.settings},        {"runs", rows.rows()}, {"regained_soon", double(soon) / runs},
+      {"said_soon", double(quick) / runs}, {"swaps", all_swaps},  {"false_claims", all_lies}};
   std::ostringstream text;
-  text << "runs                " << table.rows << ", each with one vehicle hidden for "
+  text << "runs                " << rows.rows() << ", each with one vehicle hidden for "
        << number_text(kHidden) << " s\n"
        << "regained            within " << number_text(kSoon) << " s in "
        << number_text(100 * double(soon) / runs, 4) << " %\n"
        << "total said          within 3 pictures in " << number_text(100 * double(quick) / runs, 4) << " %\n"
        << "claims              " << number_text(all_lies) << " pictures with a box beside its vehicle, "
        << number_text(all_swaps) << " on another one\n";
-  return finish(folder, options, summary, "pursuit_occlusions.py", work.threads, seconds_since(start),
+  return finish(folder, options, summary, "pursuit_occlusions.py", table.threads, seconds_since(start),
                 text.str(), out);
 }
 

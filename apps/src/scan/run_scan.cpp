@@ -3,6 +3,7 @@
 
 #include <vericone/scanning/read_scan_scene.h>
 #include <vericone/scanning/write_scan.h>
+#include <vericone/work/staged_folder.h>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -12,9 +13,8 @@
 #include "output/figures.h"
 #include "output/number_text.h"
 #include "output/output_file.h"
-#include "output/provenance.h"
-#include "output/staged_folder.h"
-#include "output/threads.h"
+#include "work/provenance.h"
+#include "work/threads.h"
 
 namespace vericone {
 namespace {
@@ -47,7 +47,7 @@ void print(const Setup& setup, const Findings& found, std::ostream& out) {
 
 void run_scan(const ScanOptions& options, std::ostream& out) {
   const ScanScene read = read_scan_scene(options.scene);
-  StagedFolder folder(options.out, "--out");
+  work::StagedFolder folder(options.out, "--out");
   Setup setup = read.setup;
   setup.seed = options.seed;
   setup.planes = options.planes;

@@ -5,21 +5,18 @@
 #include <iosfwd>
 #include <string>
 
-#include "default_seed.h"
+#include "command/default_seed.h"
+#include "output/output_options.h"
 
 namespace vericone {
 
-struct ScanOptions {
+struct ScanOptions : OutputOptions {
+  ScanOptions() { out = "out/scan"; }
   std::string scene;
-  std::string out = "out/scan";
   int planes = 36;
   int levels = 5;
   double azimuth = 0;  // of the plane of the picture, radians
   std::uint64_t seed = kDefaultSeed;
-  bool figures = true;
-  bool quiet = false;
-  bool json = false;
-  std::string command_line;
 };
 
 /// `vericone scan`: the lidars of a scene see its mesh, their scans are fused by ICP, and the source's

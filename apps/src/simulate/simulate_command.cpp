@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulate/simulate_command.h"
 
+#include <vericone/work/staged_folder.h>
 #include <filesystem>
 #include <ostream>
 
@@ -8,13 +9,12 @@
 #include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/figures.h"
-#include "output/interrupt.h"
 #include "output/progress.h"
-#include "output/provenance.h"
-#include "output/staged_folder.h"
 #include "scenarios/read_scenario.h"
 #include "scenarios/run_json.h"
 #include "simulate/run_text.h"
+#include "work/interrupt.h"
+#include "work/provenance.h"
 
 namespace vericone {
 namespace {
@@ -31,7 +31,7 @@ const std::vector<std::string>& names_of_files() {
 }  // namespace
 
 int run_simulate(const SimulateOptions& options, std::ostream& out) {
-  StagedFolder folder(options.out, "--out");
+  work::StagedFolder folder(options.out, "--out");
   const std::string text = input::read_scene_text(options.scenario);
   const simulation::Scenario scenario = scenario::scenario_of_text(text, options.scenario);
   std::optional<simulation::Run> run;

@@ -4,16 +4,14 @@
 #include <iosfwd>
 #include <string>
 
+#include "output/output_options.h"
+
 namespace vericone {
 
-struct SimulateOptions {
+struct SimulateOptions : OutputOptions {
+  SimulateOptions() { out = "out/simulate"; }
   std::string scenario;
-  std::string out = "out/simulate";
-  bool figures = true;
   bool animate = false;  // also a page that shows the run over time
-  bool quiet = false;
-  bool json = false;
-  std::string command_line;
 };
 
 /// Carries out a scenario and writes what happened and what is proved of it. Returns the exit status: 0

@@ -2,14 +2,14 @@
 #include "track/own.h"
 
 #include <vericone/geometry/error.h>
+#include <vericone/simulation/table.h>
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <sstream>
 
 #include "input/scene.h"
 #include "json/json_value.h"
-#include "measures/table.h"
+#include "output/output_file.h"
 #include "pursue/read_pursuit.h"
 
 namespace vericone::tracking {
@@ -19,22 +19,19 @@ Own read_own(const std::string& own, const std::string& camera) {
   const pursuit::SeenBy seen = pursuit::read_perception(input::read_scene_fields(camera));
   result.perception = seen.perception;
   result.seconds = seen.picture_step;
-  std::ifstream in(own, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in) throw InputError("--own", own, "a file that can be read");
-  paper::Table table = paper::table_of_csv(text.str());
+  if (!std::ifstream(own)) throw InputError("--own", own, "a file that can be read");
+  const simulation::Table table = simulation::table_of_csv(content_of(own), own);
   constexpr std::array<const char*, 13> kColumns{"t",    "x",    "y",    "z",    "r_11", "r_12", "r_13",
                                                  "r_21", "r_22", "r_23", "r_31", "r_32", "r_33"};
-  std::array<const std::vector<double>*, 13> columns{};
+  std::array<const simulation::Column*, 13> columns{};
   for (std::size_t i = 0; i < kColumns.size(); ++i) {
     columns[i] = table.find(kColumns[i]);
-    if (columns[i] == nullptr)
+    if (columns[i] == nullptr || columns[i]->text)
       throw InputError("--own", own, std::string("a table with a column ") + kColumns[i]);
   }
-  for (std::size_t row = 0; row < table.rows; ++row) {
+  for (std::size_t row = 0; row < table.rows(); ++row) {
     const auto value = [&](std::size_t i) {
-      const double x = (*columns[i])[row];
+      const double x = columns[i]->numbers[row];
       if (!std::isfinite(x))
         throw InputError("--own", own + ", row " + std::to_string(row + 1),
                          std::string("a number in the column ") + kColumns[i]);

@@ -5,6 +5,7 @@
 #include <vericone/vision/footage/annotate.h>
 #include <vericone/vision/footage/footage.h>
 #include <vericone/vision/tracker.h>
+#include <vericone/work/staged_folder.h>
 #include <Eigen/Core>
 #include <algorithm>
 #include <chrono>
@@ -16,16 +17,15 @@
 #include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/figures.h"
-#include "output/interrupt.h"
 #include "output/number_text.h"
 #include "output/output_file.h"
 #include "output/progress.h"
-#include "output/provenance.h"
-#include "output/staged_folder.h"
 #include "pursue/pursuit_tables.h"
 #include "track/metrics.h"
 #include "track/own.h"
 #include "track/truth.h"
+#include "work/interrupt.h"
+#include "work/provenance.h"
 
 namespace vericone {
 namespace {
@@ -316,7 +316,7 @@ int run_track(const TrackOptions& options, std::ostream& out) {
   const auto reader = vision::open_footage(options.video, 3, "video");
   run.rate = rate_of(*reader, options);
 
-  StagedFolder folder(options.out, "--out");
+  work::StagedFolder folder(options.out, "--out");
   const std::filesystem::path& stage = folder.path();
   Progress progress(options.quiet);
   Follower follower(options, boxes, run);

@@ -6,9 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "output/output_options.h"
+
 namespace vericone {
 
-struct TrackOptions {
+struct TrackOptions : OutputOptions {
+  TrackOptions() { out = "out/track"; }
   std::string video;
   std::vector<std::string> boxes;
   std::string truth;
@@ -16,10 +19,7 @@ struct TrackOptions {
   std::string own, camera;     // own.csv and camera.yaml of a pursuit; empty: nothing is known of the camera
   std::optional<int> frames;   // how many, at most
   std::optional<double> rate;  // pictures a second, where the file does not say it or is wrong
-  std::string out = "out/track";
-  bool figures = true, video_out = true;
-  bool json = false, quiet = false;
-  std::string command_line;
+  bool video_out = true;
 };
 
 /// `vericone track`: targets followed through a video or a folder of pictures. Writes tracks.csv, claims.txt,

@@ -3,25 +3,25 @@
 
 #include <vericone/geometry/error.h>
 #include <vericone/simulation/montecarlo/encounter.h>
+#include <vericone/simulation/table.h>
 #include <vericone/simulation/trials.h>
+#include <vericone/work/staged_folder.h>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <memory>
 #include <ostream>
 #include <sstream>
 
 #include "input/stopwatch.h"
 #include "json/json_value.h"
-#include "output/figures.h"
-#include "output/file_hash.h"
-#include "output/interrupt.h"
 #include "output/output_file.h"
-#include "output/provenance.h"
-#include "output/resumable_table.h"
-#include "output/staged_folder.h"
-#include "output/threads.h"
+#include "output/progress.h"
+#include "output/results.h"
 #include "scenarios/read_scenario.h"
+#include "work/file_hash.h"
+#include "work/interrupt.h"
+#include "work/provenance.h"
+#include "work/threads.h"
 
 namespace vericone::trials {
 namespace {
@@ -130,84 +130,84 @@ std::string row_of(const std::vector<Cell>& cells, std::uint64_t trial, bool ran
 }
 
 /// What became of the trials of a cell.
-struct Column {
-  std::unique_ptr<bool[]> avoided;
-  std::uint64_t count = 0, touched = 0, undecided = 0, missed = 0;
-  double effort = 0, distance = 0;  // sums
+struct Found {
+  const Cell* cell;
+  std::unique_ptr<bool[]> proved;  // avoided, trial by trial
+  Share share;
+  std::uint64_t avoided = 0, touched = 0, undecided = 0, missed = 0;
+  double effort = 0;                     // m/s, the mean
+  std::optional<double> least_distance;  // m, the mean over those avoided
 };
 
-std::vector<Column> read_rows(const fs::path& file, std::size_t cells, std::uint64_t trials) {
-  std::vector<Column> columns(cells);
-  for (Column& column : columns) column.avoided = std::make_unique<bool[]>(trials);
-  std::ifstream in(file);
-  std::string line, verdict, distance, effort;
-  std::getline(in, line);  // settings
-  std::getline(in, line);  // header
-  for (std::uint64_t i = 0; i < trials && std::getline(in, line); ++i) {
-    std::istringstream fields(line);
-    std::getline(fields, verdict, ',');  // the trial
-    for (Column& column : columns) {
-      std::getline(fields, verdict, ',');
-      std::getline(fields, distance, ',');
-      std::getline(fields, effort, ',');
-      column.avoided[i] = verdict == to_string(ProofVerdict::avoided);
-      column.count += column.avoided[i];
-      column.touched += verdict == to_string(ProofVerdict::touched);
-      column.undecided += verdict == to_string(ProofVerdict::undecided);
-      column.missed += verdict == to_string(PassageVerdict::missed);
-      column.effort += std::stod(effort);
-      if (column.avoided[i]) column.distance += std::stod(distance);
+std::vector<Found> read_rows(const fs::path& file, const std::vector<Cell>& cells) {
+  const simulation::Table rows = simulation::table_of_csv(content_of(file), file.filename().string());
+  const std::size_t trials = rows.rows();
+  std::vector<Found> all;
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    const std::vector<std::string>& words = rows.columns[3 * k + 1].words;
+    const std::vector<double>&distances = rows.columns[3 * k + 2].numbers,
+          &efforts = rows.columns[3 * k + 3].numbers;
+    Found& found =
+        all.emplace_back(Found{&cells[k], std::make_unique<bool[]>(trials), {}, 0, 0, 0, 0, 0, {}});
+    double distance = 0;
+    for (std::size_t i = 0; i < trials; ++i) {
+      found.proved[i] = words[i] == to_string(ProofVerdict::avoided);
+      found.avoided += found.proved[i];
+      found.touched += words[i] == to_string(ProofVerdict::touched);
+      found.undecided += words[i] == to_string(ProofVerdict::undecided);
+      found.missed += words[i] == to_string(PassageVerdict::missed);
+      found.effort += efforts[i];
+      if (found.proved[i]) distance += distances[i];
     }
+    found.share = share_of(found.avoided, trials);
+    found.effort /= double(trials);
+    if (found.avoided) found.least_distance = distance / double(found.avoided);
   }
-  return columns;
+  return all;
 }
 
-Json summarise(const TrialsOptions& o, const std::vector<Cell>& cells, const std::vector<Column>& columns) {
+Json to_json(const std::vector<Found>& all, std::uint64_t trials) {
   Json shares = Json::array(), pairs = Json::array();
-  const double n = double(o.trials);
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Column& c = columns[i];
-    const Share share = share_of(c.count, o.trials);
-    shares.push_back({{"level", cells[i].level.name},
-                      {"law", to_string(cells[i].law)},
-                      {"share", share.share},
-                      {"low", share.low},
-                      {"high", share.high},
-                      {"avoided", c.count},
-                      {"touched", c.touched},
-                      {"undecided", c.undecided},
-                      {"effort", c.effort / n},
-                      {"least_distance", c.count ? Json(c.distance / double(c.count)) : Json(nullptr)}});
-    if (!cells[i].scenario.orifices.empty()) shares.back()["missed"] = c.missed;
-    for (std::size_t j = i + 1; j < cells.size() && cells[j].level.name == cells[i].level.name; ++j) {
-      const Paired p = paired({c.avoided.get(), o.trials}, {columns[j].avoided.get(), o.trials});
-      pairs.push_back({{"level", cells[i].level.name},
-                       {"first", to_string(cells[i].law)},
-                       {"second", to_string(cells[j].law)},
+  for (auto found = all.begin(); found != all.end(); ++found) {
+    const Cell& cell = *found->cell;
+    shares.push_back({{"level", cell.level.name},
+                      {"law", to_string(cell.law)},
+                      {"share", found->share.share},
+                      {"low", found->share.low},
+                      {"high", found->share.high},
+                      {"avoided", found->avoided},
+                      {"touched", found->touched},
+                      {"undecided", found->undecided},
+                      {"effort", found->effort},
+                      {"least_distance", number_or_null(found->least_distance)}});
+    if (!cell.scenario.orifices.empty()) shares.back()["missed"] = found->missed;
+    for (auto other = found + 1; other != all.end() && other->cell->level.name == cell.level.name; ++other) {
+      const Paired p = paired({found->proved.get(), trials}, {other->proved.get(), trials});
+      pairs.push_back({{"level", cell.level.name},
+                       {"first", to_string(cell.law)},
+                       {"second", to_string(other->cell->law)},
                        {"first_alone", p.first_alone},
                        {"second_alone", p.second_alone},
                        {"chance", p.chance}});
     }
   }
-  return {{"trials", o.trials}, {"confidence", 0.95}, {"shares", shares}, {"paired", pairs}};
+  return {{"trials", trials}, {"confidence", 0.95}, {"shares", shares}, {"paired", pairs}};
 }
 
-void print_summary(const Json& summary, std::ostream& out) {
+void print(const std::vector<Found>& all, std::uint64_t trials, std::ostream& out) {
   char line[160];
-  out << summary["trials"].get<std::uint64_t>() << " trials a level and law, proved\n"
+  out << trials << " trials a level and law, proved\n"
       << "  level       law           avoided   interval (95 %)      touched  undecided   effort\n"
       << "                                                                              m/s\n";
-  for (const Json& s : summary["shares"]) {
+  for (const Found& found : all) {
     std::snprintf(line, sizeof line, "  %-11s %-12s %7.1f %%  %5.1f to %5.1f %% %10llu %10llu  %7.3g\n",
-                  s["level"].get<std::string>().c_str(), s["law"].get<std::string>().c_str(),
-                  100 * s["share"].get<double>(), 100 * s["low"].get<double>(), 100 * s["high"].get<double>(),
-                  static_cast<unsigned long long>(s["touched"].get<std::uint64_t>()),
-                  static_cast<unsigned long long>(s["undecided"].get<std::uint64_t>()),
-                  s["effort"].get<double>());
+                  found.cell->level.name.c_str(), to_string(found.cell->law), 100 * found.share.share,
+                  100 * found.share.low, 100 * found.share.high,
+                  static_cast<unsigned long long>(found.touched),
+                  static_cast<unsigned long long>(found.undecided), found.effort);
     out << line;
-    if (s.value("missed", 0) > 0)
-      out << "                           and " << s["missed"].get<std::uint64_t>()
-          << " that missed an opening\n";
+    if (found.missed > 0)
+      out << "                           and " << found.missed << " that missed an opening\n";
   }
 }
 
@@ -228,23 +228,18 @@ int print_one(const TrialsOptions& o, const std::vector<Cell>& cells, std::ostre
                        {"verdict", word_of(outcome)},
                        {"least_distance", avoided ? Json(outcome.least_distance) : Json(nullptr)},
                        {"effort", outcome.effort}});
-  }
-  if (o.json) {
-    out << results.dump(1) << '\n';
-    return 0;
-  }
-  for (const Json& r : results) {
+    if (o.json) continue;
     char line[120];
-    std::snprintf(line, sizeof line, "%-11s %-12s %-10s effort %.4g m/s",
-                  r["level"].get<std::string>().c_str(), r["law"].get<std::string>().c_str(),
-                  r["verdict"].get<std::string>().c_str(), r["effort"].get<double>());
+    std::snprintf(line, sizeof line, "%-11s %-12s %-10s effort %.4g m/s", cell.level.name.c_str(),
+                  to_string(cell.law), word_of(outcome).c_str(), outcome.effort);
     out << line;
-    if (r["least_distance"].is_number()) {
-      std::snprintf(line, sizeof line, ", apart by %.4g m or more", r["least_distance"].get<double>());
+    if (avoided) {
+      std::snprintf(line, sizeof line, ", apart by %.4g m or more", outcome.least_distance);
       out << line;
     }
     out << '\n';
   }
+  if (o.json) out << results.dump(1) << '\n';
   return 0;
 }
 
@@ -257,9 +252,9 @@ int run_trials(const TrialsOptions& given, std::ostream& out) {
   const TrialsOptions options = complete(given, scenario);
   const std::vector<Cell> cells = cells_of(options, scenario);
   if (options.trial) return print_one(options, cells, out);
-  StagedFolder folder(options.out, "--out");
+  work::StagedFolder folder(options.out, "--out");
   const auto start = Clock::now();
-  ResumableTable table{folder, "trials.csv"};
+  work::ResumableTable table{"trials.csv"};
   table.settings = "# vericone trials, " + fs::path(options.scenario).filename().string() + " " +
                    sha256_of_file(options.scenario) + ", seed " + std::to_string(cells[0].scenario.seed) +
                    ", " + std::to_string(options.trials) + " trials, levels " + joined(options.levels) +
@@ -267,34 +262,24 @@ int run_trials(const TrialsOptions& given, std::ostream& out) {
   table.header = header_of(cells);
   table.count = options.trials;
   table.threads = threads_for(options.threads);
-  table.quiet = options.quiet;
-  table.label = "trials";
   table.block = 10;
   table.row = [&](std::uint64_t i) { return row_of(cells, i, options.random); };
-  if (run_table(table) == TableOutcome::interrupted) {
-    out << "interrupted; the same command goes on where it stopped (" << options.out << ")\n";
-    return kExitInterrupted;
-  }
+  if (!run_with_bar(table, folder, "trials", options.quiet, options.out, out)) return kExitInterrupted;
   const double seconds = seconds_since(start);
-  Json summary =
-      summarise(options, cells, read_rows(folder.resumable(table.name), cells.size(), options.trials));
-  summary["scenario"] = scenario.name;
-  summary["settings"] = table.settings;
-  summary["seconds"] = seconds;
-  write_whole(folder.path() / "trials.json", summary.dump(1) + "\n");
-  write_whole(folder.path() / "provenance.json",
-              provenance(options.command_line, table.threads, {options.scenario}).dump(1) + "\n");
-  if (options.figures) draw_figures("trials.py", folder.path());
-  const std::vector<fs::path> files = folder.publish({"trials.pdf", "trials.png"});
-  if (options.json) {
-    out << summary.dump(1) << '\n';
-    return 0;
-  }
-  print_summary(summary, out);
-  if (!noisy(cells)) out << "no pilot has a sensor: all trials are the same flight\n";
-  const fs::path shown = options.out;
-  out << "tables    " << (shown / table.name).string() << ", " << (shown / "trials.json").string() << '\n';
-  for (const fs::path& picture : pictures_of(files)) out << "picture   " << picture.string() << '\n';
+  const std::vector<Found> found = read_rows(folder.resumable(table.name), cells);
+  Results results{.summary = to_json(found, options.trials),
+                  .origin = provenance(options.command_line, table.threads, {options.scenario}),
+                  .scripts = {"trials.py"},
+                  .summary_file = "trials.json",
+                  .files = {table.name, "trials.json"},
+                  .old = {"trials.pdf", "trials.png"}};
+  results.summary["scenario"] = scenario.name;
+  results.summary["settings"] = table.settings;
+  results.summary["seconds"] = seconds;
+  std::ostringstream text;
+  print(found, options.trials, text);
+  if (!noisy(cells)) text << "no pilot has a sensor: all trials are the same flight\n";
+  publish(results, options, folder, text.str(), out);
   return 0;
 }
 

@@ -7,21 +7,18 @@
 #include <string>
 #include <vector>
 
+#include "output/output_options.h"
+
 namespace vericone::trials {
 
-struct TrialsOptions {
+struct TrialsOptions : OutputOptions {
+  TrialsOptions() { out = "out/trials"; }
   std::string scenario;
-  std::string out = "out/trials";
   std::uint64_t trials = 1000;
   std::vector<std::string> levels, laws;  // none: as complete() says
   std::optional<std::uint64_t> seed;      // otherwise the scenario's
   std::optional<std::uint64_t> trial;     // this one alone: nothing is written
   bool random = false;  // another random engagement each trial in place of the scenario's bodies
-  int threads = 0;      // one per processor
-  bool figures = true;
-  bool quiet = false;
-  bool json = false;
-  std::string command_line;
 };
 
 /// Shares of trials that are proved avoided (and all openings passed), by law and noise. Returns the exit

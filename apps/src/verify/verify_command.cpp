@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "json/json_value.h"
-#include "output/interrupt.h"
+#include "work/interrupt.h"
 
 namespace vericone {
 namespace {

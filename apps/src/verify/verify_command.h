@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <iosfwd>
 
-#include "default_seed.h"
+#include "command/default_seed.h"
 
 namespace vericone {
 

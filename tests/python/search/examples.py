@@ -773,7 +773,9 @@ def runs(ask: Ask) -> None:
     run = ask("simulation.simulate", scenario, s.RunOptions())
     for name in ("bodies", "encounters", "planes", "sights", "orifices", "vehicles", "events"):
         table = ask(f"simulation.{name}_table", scenario, run)
-    ask("simulation.csv", table)
+    text = ask("simulation.csv", table)
+    ask("simulation.Table.find", ask("simulation.table_of_csv", text, "text"), "t")
+    ask("simulation.Table.rows", table)
     for name in ("run_tables", "require_run_of", "largest_drift"):
         ask(f"simulation.{name}", scenario, run)
     ask("simulation.all_passed", run)
@@ -802,6 +804,7 @@ def campaigns(ask: Ask) -> None:
     ask("montecarlo.fly", encounter, flown[0], settings)
     ask("montecarlo.fly_straight", encounter)
     ask("montecarlo.laws_of", campaign)
+    ask("scenario.fly_campaign", campaign)
     row = ask("montecarlo.measure", 1, 0, flown, settings)
     lines = [ask("montecarlo.settings_line", campaign), ask("montecarlo.csv_header", flown), ask("montecarlo.csv_row", 0, row)]
     ask("montecarlo.row_of", lines[-1], len(flown))
@@ -890,6 +893,18 @@ def vision(ask: Ask) -> None:
         ask("vision.Tracker.add", tracker, box)
 
 
+def work(ask: Ask) -> None:
+    here = Path.cwd()
+    ask("work.provenance", "a call", 1, [])
+    staged = ask("work.StagedFolder", here / "staged")
+    for name in ("path", "field"):
+        ask(f"work.StagedFolder.{name}", staged)
+    ask("work.StagedFolder.published", staged, staged.path())
+    ask("work.StagedFolder.resumable", staged, "table.csv")
+    ask("work.StagedFolder.publish", staged, [])
+    ask("work.StagedFolder.abandon", staged)
+
+
 def pursuits(ask: Ask) -> None:
     s = v.vision
     cars = [s.Car(name=name, road=v.simulation.lane_road(at, [20, 0], [])) for name, at in (("B1", [20, 12]), ("B2", [10, -14]))]
@@ -917,4 +932,4 @@ UNREACHED: dict[tuple[str, int], str] = {
     **{(f"vision.Perception.{name}", 0): "nothing makes one" for name in ("start", "step", "vehicles", "options", "tracker_seconds", "filter_seconds")},
 }
 ALL = (geometry, bodies, numbers, predicates, cones, questions, exact, numbers_of_bodies, engagements, guidance, laws, words, files, scenes, fitting,
-       vehicles, motions, runs, campaigns, octomap, lidar, scanning, vision, pursuits)
+       vehicles, motions, runs, campaigns, octomap, lidar, scanning, vision, work, pursuits)

@@ -19,16 +19,20 @@ inline Column column(std::string_view header, bool text = false) {
           std::string(header.substr(bracket + 2, header.size() - bracket - 3)), text};
 }
 
-/// An empty table of the columns of a header, of which those of these names hold words.
-inline Table table_of(const char* name, std::string_view header) {
+/// Whether all commands give words in a column of this name.
+inline bool is_of_words(std::string_view name) {
   constexpr std::string_view kWords[] = {"body",   "agent",        "obstacle", "orifice",
                                          "status", "outer_status", "event",    "unit"};
+  return std::find(std::begin(kWords), std::end(kWords), name) != std::end(kWords);
+}
+
+/// An empty table of the columns of a header, of which those of these names hold words.
+inline Table table_of(const char* name, std::string_view header) {
   Table table{name, {}};
   while (!header.empty()) {
     const std::size_t comma = std::min(header.find(','), header.size());
     const std::string_view field = header.substr(0, comma);
-    table.columns.push_back(
-        column(field, std::find(std::begin(kWords), std::end(kWords), field) != std::end(kWords)));
+    table.columns.push_back(column(field, is_of_words(field)));
     header.remove_prefix(std::min(comma + 1, header.size()));
   }
   return table;

@@ -24,6 +24,8 @@ struct Table {
   std::vector<Column> columns;
 
   [[nodiscard]] std::size_t rows() const;
+  /// The column of this name; null where there is none.
+  [[nodiscard]] const Column* find(const std::string& column) const;
 };
 
 /// Text as a field of a CSV file: in quotes where a comma, a quote or a new line is in it.
@@ -32,5 +34,10 @@ struct Table {
 /// A header "NAME [UNIT]" and a line each row. Numbers are the shortest text that reads back as the same
 /// double; nothing is an empty field.
 [[nodiscard]] std::string csv(const Table& table);
+
+/// The table of such text, after lines of comment (#). Where no field of a column is a number, or its name is
+/// one that all commands give words, it has words. Throws InputError naming `source` for text that is cut off
+/// or no table.
+[[nodiscard]] Table table_of_csv(const std::string& text, const std::string& source);
 
 }  // namespace vericone::simulation

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "check/check_command.h"
+
+#include <vericone/files/read_points.h>
+#include <vericone/geometry/error.h>
+#include <vericone/scenes/words.h>
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <ostream>
+
+#include "input/fields.h"
+#include "input/file_body.h"
+#include "input/planar_body.h"
+#include "input/scene.h"
+#include "json/json_value.h"
+#include "paper/paper.h"
+#include "scenarios/read_scenario.h"
+#include "simulate/run_text.h"
+
+namespace vericone {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+using scenes::body_words, scenes::motion_words, scenes::brief;
+
+std::string guarantee_words(const Pair& pair) {
+  const Guarantee guarantee = pair.guarantee();
+  if (guarantee.exact) return "exact: every verdict is right";
+  return "certified: a verdict is right or undecided, to " + brief(guarantee.tolerance) + " of a size";
+}
+
+std::string now_words(const Pair& pair) {
+  const auto relation = pair.relation();
+  if (!relation) return "touching, or too near to tell";
+  if (*relation != Relation::disjoint) return to_string(*relation);
+  const Miss miss = pair.miss(Vector3d::Zero(), Vector3d::Zero());
+  if (miss.most - miss.least > 1e-4 * miss.most)
+    return "between " + brief(miss.least) + " and " + brief(miss.most) + " m apart";
+  return brief(miss.distance) + " m apart";
+}
+
+void add_notes(const std::optional<scenes::Reading>& reading, scenario::Facts& facts) {
+  if (!reading) return;
+  for (const std::string& note : scenes::reading_words(*reading)) facts.add("note", note);
+}
+
+void check_scene(const Json& fields, const std::string& file, scenario::Facts& facts) {
+  const scenes::Scene scene = input::scene_of(fields, file);
+  const Pair pair = scene.pair();
+  const Vector3d &v_a = scene.agent.velocity, &v_b = scene.obstacle.velocity;
+  const bool planar = scene.planar.has_value();
+  facts.add("scene", file);
+  facts.add("agent", (planar ? body_words(scene.planar->agent) : body_words(scene.agent.placed)) + "; " +
+                         motion_words(v_a, planar));
+  facts.add("obstacle", (planar ? body_words(scene.planar->obstacle) : body_words(scene.obstacle.placed)) +
+                            "; " + motion_words(v_b, planar));
+  add_notes(scene.agent.reading, facts);
+  add_notes(scene.obstacle.reading, facts);
+  facts.add("now", now_words(pair));
+  facts.add("answers", guarantee_words(pair));
+  if (fields.contains("lidars")) facts.add("lidars", std::to_string(fields["lidars"].size()));
+  if (v_a == v_b) facts.add("note", "the velocities are equal: they never meet");
+}
+
+void check_scenario(const Json& fields, const std::string& file, scenario::Facts& facts) {
+  scenario::Readings readings;
+  const simulation::Scenario scenario = scenario::read_scenario(fields, fs::path(file).stem().string(),
+                                                                fs::path(file).parent_path(), &readings);
+  facts.add("scenario", file);
+  facts.add("time", brief(scenario.duration) + " s at most, commands every " + brief(scenario.step) + " s");
+  for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
+    const simulation::Body& body = scenario.bodies[i];
+    std::string text = scenario::shape_words(body) + "; " +
+                       motion_words(body.start.velocity, simulation::planar(body.shape));
+    if (body.road) text += "; along a road";
+    if (body.appears > 0) text += "; appears at " + brief(body.appears) + " s";
+    facts.add(body.name, text);
+    if (body.pilot) facts.add("", scenario::agent_text(scenario, body));
+    if (body.pilot && body.pilot->goal)
+      facts.add("", "goal (" + brief(body.pilot->goal->point.x()) + ", " +
+                        brief(body.pilot->goal->point.y()) + ", " + brief(body.pilot->goal->point.z()) +
+                        ") m");
+    add_notes(readings[i], facts);
+  }
+  if (scenario.water.moves()) facts.add("current", scenario::current_text(scenario.water));
+  const auto pilots =
+      std::count_if(scenario.bodies.begin(), scenario.bodies.end(),
+                    [](const simulation::Body& body) { return body.pilot || body.vehicle || body.road; });
+  const std::size_t count = scenario.bodies.size();
+  for (const simulation::MovingOrifice& orifice : scenario.orifices)
+    facts.add(orifice.name, scenario::orifice_words(orifice));
+  facts.add("pairs", std::to_string(count * (count - 1) / 2) + ", each proved apart or met");
+  if (pilots == 0) facts.add("note", "no body has a pilot: all go straight on");
+}
+
+void check_body(const std::string& file, scenario::Facts& facts) {
+  const fs::path path(file);
+  const Json named{{"file", path.filename().string()}};
+  facts.add("body", file);
+  // A planar one has two numbers where others have three.
+  const Json body = input::body_fields(named, "", path.parent_path());
+  const bool planar = body.contains("center") && body["center"].is_array() && body["center"].size() == 2;
+  if (planar) {
+    facts.add("is", body_words(input::read_planar_body(body, "")));
+  } else {
+    const scenes::SceneBody read = input::read_body(body, "", path.parent_path());
+    facts.add("is", body_words(read.placed));
+    add_notes(read.reading, facts);
+  }
+  facts.add("use it", "obstacle: {file: " + path.filename().string() +
+                          "} in a scene or a case, {name: B, file: " + path.filename().string() +
+                          "} in a scenario");
+}
+
+}  // namespace
+
+int run_check(const std::string& file, bool json, std::ostream& out) {
+  std::vector<std::string> scans = files::known_extensions();
+  scans.insert(scans.end(), {".bt", ".ot"});
+  if (std::ranges::find(scans, fs::path(file).extension().string()) != scans.end())
+    throw InputError(file, "a scan or a map",
+                     "a scene, a scenario or a body; vericone fit reads scans and maps");
+  const Json fields = input::read_scene_fields(file);
+  if (!fields.is_object())
+    throw InputError(file, input::quoted(fields),
+                     "a scene, a scenario, a body, or figures or claims of a paper: a mapping of fields");
+  scenario::Facts facts;
+  switch (input::kind_of_file(fields)) {
+    case input::FileKind::paper:
+      paper::describe(paper::Paper(fs::absolute(file).parent_path().string()), file, facts);
+      break;
+    case input::FileKind::scenario:
+      check_scenario(fields, file, facts);
+      break;
+    case input::FileKind::scene:
+      check_scene(fields, file, facts);
+      break;
+    case input::FileKind::pursuit:
+      throw InputError(file, "a pursuit", "a scene, a scenario or a body; vericone pursue reads pursuits");
+    default:
+      check_body(file, facts);
+  }
+  facts.print(json, out);
+  return 0;
+}
+
+}  // namespace vericone

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace vericone {
+
+/// What every command that writes files is told.
+struct OutputOptions {
+  std::string out;  // folder
+  int threads = 0;  // 0: one per processor
+  bool figures = true, quiet = false, json = false;
+  std::string command_line;  // for provenance
+};
+
+}  // namespace vericone

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "query/query.h"
+
+#include <filesystem>
+
+#include <vericone/geometry/error.h>
+
+#include "command/cases.h"
+#include "cone/answer.h"
+#include "input/body.h"
+#include "input/errors.h"
+#include "json/json_value.h"
+
+namespace vericone {
+namespace {
+
+Json error_json(const RelativeError& error) {
+  return {{"position", vector_json(error.position)}, {"velocity", vector_json(error.velocity)}};
+}
+
+/// What all errors, one or none lead to.
+void add_robust(Json& result, const scenes::Scene& scene, const RelativeErrors& errors) {
+  const RobustAnswer found =
+      robust_verdict(scene.pair(), scene.agent.velocity, scene.obstacle.velocity, errors);
+  result["robust"] = to_string(found.verdict);
+  result["witness"] = nullptr;
+  if (found.verdict == RobustVerdict::out && !found.normal.isZero(0))
+    result["witness"] = {{"normal", vector_json(found.normal)}};
+  if (found.verdict == RobustVerdict::depends)
+    result["witness"] = {{"collides", error_json(found.collides)}, {"passes", error_json(found.passes)}};
+}
+
+Json answer_case(const Json& value, bool with_rung, const std::filesystem::path& folder) {
+  const auto errors = input::read_errors(value);
+  const scenes::Scene scene = input::read_engagement(
+      value, input::Velocities::required, {"id", "position_error", "velocity_error", "horizon"}, folder);
+  if (errors && scene.planar)
+    throw InputError("position_error, velocity_error, horizon", "given for bodies in the plane",
+                     "left out, or the bodies in space");
+  Json result = answer(scene, with_rung);
+  if (errors) add_robust(result, scene, *errors);
+  return result;
+}
+
+}  // namespace
+
+int run_query(const std::string& path, bool with_rung, int threads, std::ostream& out) {
+  const std::filesystem::path folder = path == "-" ? "" : std::filesystem::path(path).parent_path();
+  return answer_cases(
+      path, [&](const Json& value) { return answer_case(value, with_rung, folder); }, out, threads);
+}
+
+}  // namespace vericone

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "work/resumable_table.h"
+
+#include <vericone/geometry/error.h>
+#include <vericone/geometry/stop.h>
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <fstream>
+#include <map>
+#include <mutex>
+#include <sstream>
+#include <thread>
+#include <vector>
+
+#include "output/output_file.h"
+#include "work/interrupt.h"
+
+namespace vericone::work {
+namespace {
+
+bool has_no_number(const std::string& row) {
+  std::istringstream cells(row);
+  for (std::string cell; std::getline(cells, cell, ',');)
+    if (cell == "nan" || cell == "-nan" || cell == "inf" || cell == "-inf") return true;
+  return false;
+}
+
+/// Whether a line of an unfinished file is row `i`. One that does not look like a row is computed again.
+bool is_row(const std::string& line, std::uint64_t i, const ResumableTable& table) {
+  if (!line.starts_with(table.id(i) + ",")) return false;
+  const bool plain = std::count(line.begin(), line.end(), ',') ==
+                         std::count(table.header.begin(), table.header.end(), ',') &&
+                     !has_no_number(line);
+  return plain || line == table.row(i);
+}
+
+/// Rows that stand complete in an unfinished file; the file is cut after the last of them.
+std::uint64_t complete_rows(const std::filesystem::path& partial, const ResumableTable& table,
+                            const std::string& field) {
+  if (!std::filesystem::exists(partial)) return 0;
+  std::ifstream in(partial, std::ios::binary);
+  std::string line;
+  if (!std::getline(in, line) || in.eof()) return 0;  // not even the first line: start anew
+  if (line != table.settings)
+    throw InputError(field, partial.parent_path().string(),
+                     "a folder without the unfinished run of other settings that " +
+                         partial.filename().string() + " holds; delete that file to give it up");
+  if (!std::getline(in, line) || in.eof() || line != table.header) return 0;
+  std::uint64_t rows = 0;
+  std::uintmax_t length = table.settings.size() + table.header.size() + 2;
+  while (rows < table.count && std::getline(in, line) && !in.eof()) {
+    if (!is_row(line, rows, table))
+      throw InputError(field, partial.parent_path().string(),
+                       "a folder whose " + partial.filename().string() + " has row " + table.id(rows) +
+                           " in line " + std::to_string(rows + 3) + "; delete that file to begin anew");
+    length += line.size() + 1;
+    ++rows;
+  }
+  in.close();
+  std::filesystem::resize_file(partial, length);
+  return rows;
+}
+
+}  // namespace
+
+bool compute_rows(const ResumableTable& table, std::uint64_t first,
+                  const std::function<void(std::string_view)>& write) {
+  std::mutex mutex;
+  std::condition_variable ready;
+  std::map<std::uint64_t, std::string> blocks;
+  std::exception_ptr failure;
+  std::atomic<bool> stopped{false};
+  std::atomic<std::uint64_t> next{first};
+  const auto compute = [&](const Stop* stop) {
+    const StopScope scope(stop);
+    try {
+      while (!interrupted() && !stopped) {
+        const std::uint64_t begin = next.fetch_add(table.block);
+        if (begin >= table.count) return;
+        std::string text;
+        for (std::uint64_t i = begin; i < std::min(begin + table.block, table.count); ++i) {
+          if (interrupted() || stopped) return;
+          text += table.row(i) + "\n";
+        }
+        const std::lock_guard lock(mutex);
+        blocks[begin] = std::move(text);
+        ready.notify_one();
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      failure = std::current_exception();
+      ready.notify_one();
+    }
+  };
+  std::vector<std::jthread> threads;
+  threads.reserve(static_cast<std::size_t>(table.threads));
+  for (int i = 0; i < table.threads; ++i) threads.emplace_back(compute, stop_of_this_thread());
+  std::uint64_t written = first;
+  try {
+    while (written < table.count && !interrupted()) {
+      std::map<std::uint64_t, std::string> come;
+      {
+        std::unique_lock lock(mutex);
+        if (!blocks.contains(written) && !failure) ready.wait_for(lock, std::chrono::milliseconds(100));
+        if (failure) std::rethrow_exception(failure);
+        while (!blocks.empty() && blocks.begin()->first == written + come.size() * table.block)
+          come.insert(blocks.extract(blocks.begin()));
+      }
+      checkpoint();
+      for (const auto& [begin, text] : come) {
+        write(text);
+        written = std::min(begin + table.block, table.count);
+        if (table.progress && !table.progress(written)) stopped = true;
+        if (stopped) break;
+      }
+      if (come.empty() && table.progress && !table.progress(written)) stopped = true;
+      if (stopped) break;
+    }
+  } catch (...) {
+    stopped = true;
+    throw;  // once the threads have ended
+  }
+  stopped = true;
+  return written == table.count;
+}
+
+bool run_table(const ResumableTable& table, StagedFolder& folder) {
+  const std::filesystem::path partial = folder.resumable(table.name);
+  const std::uint64_t done = complete_rows(partial, table, folder.field());
+  OutputFile out(partial, done ? OutputFile::Start::at_end : OutputFile::Start::anew);
+  if (done == 0) out.write(table.settings + "\n" + table.header + "\n");
+  if (table.progress && !table.progress(done)) return false;
+  const bool finished = compute_rows(table, done, [&](std::string_view rows) { out.write(rows); });
+  out.close();
+  return finished;
+}
+
+}  // namespace vericone::work
