@@ -1,25 +1,26 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes docs/reference/commands.md and the manual page from the helps of all commands, and docs/measured/commands.md by
-running them:
+"""Writes docs/reference/commands.md from the helps of all commands, and docs/measured/commands.md by running them:
 
 /usr/bin/python3 tests/docs/commands.py reference build/release/apps/vericone > docs/reference/commands.md
-/usr/bin/python3 tests/docs/commands.py manual build/release/apps/vericone > apps/completion/vericone.1
 /usr/bin/python3 tests/docs/commands.py times build/release/apps/vericone > docs/measured/commands.md
 
-from the project's folder. commands_test.py holds the first two against the helps."""
+from the project's folder. commands_test.py holds the first against the helps."""
 
 import json
 import math
 import os
 import random
-import re
 import resource
 import subprocess
 import sys
 import tempfile
 import textwrap
 import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "apps/completion"))
+from manual import commands, help_of  # noqa: E402
 
 # One command line for each command, which examples_test.py runs; then what is measured besides.
 EXAMPLES = {
@@ -63,18 +64,6 @@ MEASURED = [
 ]
 
 
-def commands(program):
-    """(name, summary) in the order of the help."""
-    text = subprocess.run([program, "--help"], capture_output=True, text=True, check=True).stdout
-    return re.findall(r"^  ([a-z][a-z-]*) +(\S.*)$", text, re.MULTILINE)
-
-
-def help_of(program, name):
-    """Without the summary, which is the section's, and called as users call it."""
-    text = subprocess.run([program, name, "--help"], capture_output=True, text=True, check=True).stdout
-    return "\n".join(line.rstrip() for line in text.replace(program, "vericone").strip().splitlines()[1:])
-
-
 def reference(program):
     yield "# Commands and their options\n"
     yield filled("Every option of every command, from the helps themselves (`vericone COMMAND --help`), with an example that"
@@ -86,23 +75,6 @@ def reference(program):
         if name in EXAMPLES:
             status = f"\n$ echo $?\n{STATUS[name]}" if name in STATUS else ""
             yield f"```console\n$ ./run {EXAMPLES[name]}{status}\n```\n"
-
-
-def roff(text):
-    """As it stands: no line is a request, no character a command."""
-    lines = text.replace("\\", "\\e").replace("-", "\\-").splitlines()
-    return "\n".join("\\&" + line if line[:1] in (".", "'") else line for line in lines)
-
-
-def manual(program):
-    yield '.TH VERICONE 1 "" "vericone" "User Commands"\n.SH NAME\nvericone \\- collision, rendezvous and orifice cones'
-    yield ".SH SYNOPSIS\n.B vericone\n.I COMMAND\n[options]"
-    yield ".SH DESCRIPTION\n" + roff("Computes the set of relative velocities that bring two moving bodies into contact, or"
-                                    " through an opening. Below are all commands as their helps have them; words, units and"
-                                    " file formats are in the pages of docs/reference.")
-    yield ".SH COMMANDS"
-    for name, summary in commands(program):
-        yield f".SS {roff(name)}\n{roff(summary)}.\n.PP\n.nf\n{roff(help_of(program, name))}\n.fi"
 
 
 def filled(text):
@@ -187,5 +159,5 @@ def many_lines(program, count=100_000):
 
 if __name__ == "__main__":
     what, program_path = sys.argv[1:]
-    for part in {"reference": reference, "manual": manual, "times": measured, "lines": many_lines}[what](program_path):
-        print(part if what == "manual" else "\n".join(wrapped(line) for line in part.split("\n")))
+    for part in {"reference": reference, "times": measured, "lines": many_lines}[what](program_path):
+        print("\n".join(wrapped(line) for line in part.split("\n")))

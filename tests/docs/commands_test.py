@@ -9,6 +9,7 @@ import sys
 import unittest
 
 import commands
+import manual
 from pages import ROOT, text_of
 
 
@@ -23,15 +24,13 @@ class Commands(unittest.TestCase):
         self.assertEqual(written, text_of(ROOT / "docs/reference/commands.md"),
                          "write it again: tests/docs/commands.py says how")
 
-    def test_the_manual_page_is_written_from_the_helps(self):
-        if not {"fit", "pursue", "scan", "track", "verify"} <= set(os.environ["VERICONE_PROGRAMS"].split()):
-            self.skipTest("needs the programs fit, pursue, scan, track and verify")
-        page = ROOT / "apps/completion/vericone.1"
-        self.assertEqual("".join(part + "\n" for part in commands.manual(os.environ["VERICONE"])), text_of(page),
-                         "write it again: tests/docs/commands.py says how")
+    def test_the_manual_page_has_the_helps(self):
+        page = "".join(part + "\n" for part in manual.manual(os.environ["VERICONE"]))
+        for name, _ in commands.commands(os.environ["VERICONE"]):
+            self.assertIn("\n.SS " + name.replace("-", "\\-") + "\n", page)
         if not shutil.which("groff"):
             self.skipTest("its look: needs groff")
-        shown = subprocess.run(["groff", "-man", "-Tascii", "-ww", str(page)], capture_output=True, text=True, check=True)
+        shown = subprocess.run(["groff", "-man", "-Tascii", "-ww"], input=page, capture_output=True, text=True, check=True)
         self.assertEqual(shown.stderr, "")
         self.assertIn("--resolution", shown.stdout)
 
