@@ -1,19 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The commands that the program `vericone` carries out itself.
+// The commands that the program `vericone` carries out itself: each declares its options, reads them and does
+// its work, and returns the exit status. Each stands in a folder of its name.
 #pragma once
-
-#include <map>
-#include <string>
 
 #include "command/program.h"
 
 namespace vericone {
 
-/// What needs the cones and laws alone.
-std::map<std::string, Command> core_commands();
+int cone_command(CommandLine& line);
+int query_command(CommandLine& line);
+int accuracy_command(CommandLine& line);
+int signmap_command(CommandLine& line);
+int gallery_command(CommandLine& line);
+int shapes_command(CommandLine& line);
+int robust_law_command(CommandLine& line);
+int law_command(CommandLine& line);
+int estimate_command(CommandLine& line);
 
-/// What flies scenarios; none in a build without VERICONE_SIMULATION.
-std::map<std::string, Command> simulation_commands();
+// What flies scenarios: not in a build without VERICONE_SIMULATION.
+int check_command(CommandLine& line);
+int reach_command(CommandLine& line);
+int simulate_command(CommandLine& line);
+int campaign_command(CommandLine& line);
+int trials_command(CommandLine& line);
+int claims_command(CommandLine& line);
+int figures_command(CommandLine& line);
+int paper_command(CommandLine& line);
 
 }  // namespace vericone

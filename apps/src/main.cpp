@@ -1,11 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The program `vericone`: the core commands, and the way to the programs of the others.
+// The program `vericone`: its own commands, and the way to the programs of the others.
 #include "command/program.h"
 #include "commands.h"
 
 int main(int argc, char** argv) {
-  auto commands = vericone::core_commands();
-  commands.merge(vericone::simulation_commands());
-  return vericone::run_family(argc, argv, commands);
+  using namespace vericone;
+  std::map<std::string, Command> commands{{"cone", cone_command},
+                                          {"query", query_command},
+                                          {"accuracy", accuracy_command},
+                                          {"signmap", signmap_command},
+                                          {"gallery", gallery_command},
+                                          {"shapes", shapes_command},
+                                          {"robust-law", robust_law_command},
+                                          {"law", law_command},
+                                          {"estimate", estimate_command}};
+#ifdef VERICONE_WITH_SIMULATION
+  commands.merge(std::map<std::string, Command>{{"check", check_command},
+                                                {"reach", reach_command},
+                                                {"simulate", simulate_command},
+                                                {"campaign", campaign_command},
+                                                {"trials", trials_command},
+                                                {"claims", claims_command},
+                                                {"figures", figures_command},
+                                                {"paper", paper_command}});
+#endif
+  return run_family(argc, argv, commands);
 }

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <functional>
 #include <iomanip>
+#include <iostream>
 #include <memory>
 #include <ostream>
 #include <sstream>
@@ -20,6 +21,7 @@
 #include "accuracy/measure.h"
 #include "accuracy/statistics.h"
 #include "accuracy/summary.h"
+#include "commands.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/output_file.h"
@@ -293,3 +295,44 @@ int run_accuracy(const Options& given, std::ostream& standard_output) {
 }
 
 }  // namespace vericone::accuracy
+
+namespace vericone {
+
+int accuracy_command(CommandLine& line) {
+  accuracy::Options options;
+  line.option("--obstacle", options.obstacle,
+              "Obstacles of the random engagements: ellipsoid, biconcave, biconvex or star");
+  line.option("-N,--engagements", options.engagements,
+              "Random engagements; by default 10000, or 1000 with other obstacles than ellipsoids")
+      .shown_default("10000");
+  line.option("--tolerance", options.tolerance,
+              "Of the certified cone that slices are held against, with other obstacles than ellipsoids")
+      .shown_default(to_text(accuracy::kReferenceTolerance));
+  line.option("--semi-axes", options.semi_axes, "Of the random bodies, metres")
+      .words(2, 2)
+      .shown_type("LOW HIGH")
+      .shown_default("1 10");
+  line.option("--distance", options.distance,
+              "Of their centres, metres; if not given, 1.5 to 3 times what just separates the bodies")
+      .words(2, 2)
+      .shown_type("LOW HIGH");
+  line.option("--cases", options.cases,
+              "Pairs of ellipsoids instead of random ones: a file of cases as of query, velocities left out "
+              "or ignored");
+  line.option("--scan", options.scans, "Mesh or cloud files, or folders of them").words(1, -1);
+  line.option("--approaches", options.approaches, "Engagements per scanned object");
+  line.option("--planes", options.planes, "Plane counts; the largest is the reference of the others")
+      .words(1, -1)
+      .commas();
+  line.option("--seed", options.seed, "Seed of all random numbers");
+  line.option("--out", options.out, "Folder for tables and pictures").shown_default("out/accuracy");
+  line.option("--threads", options.threads, "Threads, 0: one per processor");
+  line.negative_flag("--no-figures", options.figures, "Tables only");
+  line.flag("--quiet", options.quiet, "No progress");
+  line.flag("--json", options.json, "Print JSON: summary.json");
+  line.read();
+  options.command_line = line.text();
+  return accuracy::run_accuracy(options, std::cout);
+}
+
+}  // namespace vericone

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "campaign/campaign_command.h"
-
 #include <vericone/geometry/error.h>
 #include <vericone/simulation/montecarlo/campaign.h>
 #include <vericone/work/staged_folder.h>
+#include <cstdint>
+#include <iostream>
 #include <ostream>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "campaign/summary_text.h"
+#include "command/default_seed.h"
+#include "commands.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/output_file.h"
+#include "output/output_options.h"
 #include "output/progress.h"
 #include "output/results.h"
 #include "scenarios/campaign_table.h"
@@ -20,6 +25,18 @@
 
 namespace vericone::montecarlo {
 namespace {
+
+struct CampaignOptions : OutputOptions {
+  CampaignOptions() { out = "out/campaign"; }
+  std::uint64_t engagements = 10'000;
+  std::uint64_t seed = kDefaultSeed;
+  std::vector<std::string> laws{"slice", "exact", "motion", "clearance"};
+  double most = 15;         // m/s^2
+  double gain = 4;          // 1/s
+  double reference = 0.05;  // w
+  double required = 1;      // m
+  double step = 0.05;       // s
+};
 
 Campaign campaign_of(const CampaignOptions& o) {
   return {o.engagements, o.seed, o.laws, {o.step, o.most, o.gain, o.reference, o.required}};
@@ -34,8 +51,8 @@ std::vector<Flown> laws_of_options(const Campaign& campaign) {
   }
 }
 
-}  // namespace
-
+/// Random engagements under every law, with a proof of what became of each. Returns the exit status: 1 where
+/// a run met that a proved statement called safe, 130 interrupted. Throws InputError naming the option.
 int run_campaign(const CampaignOptions& options, std::ostream& out) {
   threads_for(options.threads);
   const Campaign campaign = campaign_of(options);
@@ -63,4 +80,32 @@ int run_campaign(const CampaignOptions& options, std::ostream& out) {
   return violations(found) ? 1 : 0;
 }
 
+}  // namespace
+
 }  // namespace vericone::montecarlo
+
+namespace vericone {
+
+int campaign_command(CommandLine& line) {
+  montecarlo::CampaignOptions campaign;
+  line.option("--out", campaign.out, "Folder for tables and picture");
+  line.option("-N,--engagements", campaign.engagements, "Random engagements");
+  line.option("--seed", campaign.seed, "Seed of all random numbers");
+  line.option("--threads", campaign.threads, "Threads, 0: one per processor");
+  line.option("--laws", campaign.laws,
+              "slice, exact (largest opening), motion (true sector on the plane of motion), clearance")
+      .commas();
+  line.option("--most", campaign.most, "Saturation, m/s^2; every law also flies without");
+  line.option("--gain", campaign.gain, "K of all laws, 1/s");
+  line.option("--reference", campaign.reference, "w, to which y is driven");
+  line.option("--required", campaign.required, "Of the clearance law, metres");
+  line.option("--step", campaign.step, "Between two commands, s");
+  line.negative_flag("--no-figures", campaign.figures, "Tables only");
+  line.flag("--quiet", campaign.quiet, "No progress");
+  line.flag("--json", campaign.json, "Print JSON");
+  line.read();
+  campaign.command_line = line.text();
+  return montecarlo::run_campaign(campaign, std::cout);
+}
+
+}  // namespace vericone

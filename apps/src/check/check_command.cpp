@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "check/check_command.h"
-
 #include <vericone/files/read_points.h>
 #include <vericone/geometry/error.h>
 #include <vericone/scenes/words.h>
 #include <algorithm>
 #include <filesystem>
+#include <iostream>
 #include <optional>
 #include <ostream>
+#include <string>
 
+#include "commands.h"
 #include "input/fields.h"
 #include "input/file_body.h"
 #include "input/planar_body.h"
@@ -114,8 +115,9 @@ void check_body(const std::string& file, scenario::Facts& facts) {
                           "} in a scenario");
 }
 
-}  // namespace
-
+/// `vericone check`: what a scene, a scenario, a file with a body, or figures or claims of a paper mean, in
+/// plain words, or the first thing that is wrong with it. Nothing is computed but what the bodies are and how
+/// far apart they stand. As text, or as JSON: a list of label and text.
 int run_check(const std::string& file, bool json, std::ostream& out) {
   std::vector<std::string> scans = files::known_extensions();
   scans.insert(scans.end(), {".bt", ".ot"});
@@ -144,6 +146,21 @@ int run_check(const std::string& file, bool json, std::ostream& out) {
   }
   facts.print(json, out);
   return 0;
+}
+
+}  // namespace
+
+int check_command(CommandLine& line) {
+  std::string file;
+  line.option("file", file,
+              "Scene, scenario, body, figures or claims, YAML (docs/reference/formats.md, "
+              "docs/reference/scenarios.md, docs/reference/papers.md)")
+      .required();
+  bool json = false;
+  line.flag("--json", json, "Print JSON: labels with their texts");
+  line.quiet();
+  line.read();
+  return run_check(file, json, std::cout);
 }
 
 }  // namespace vericone

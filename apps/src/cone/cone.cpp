@@ -11,11 +11,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iostream>
 #include <numbers>
 #include <ostream>
 #include <sstream>
 
 #include "command/cases.h"
+#include "commands.h"
 #include "cone/answer.h"
 #include "cone/assembly_cone.h"
 #include "cone/pair_cone.h"
@@ -32,6 +34,7 @@
 #include "output/slice_json.h"
 #include "picture/engagements.h"
 #include "work/provenance.h"
+#include "work/threads.h"
 
 namespace vericone {
 namespace {
@@ -193,6 +196,48 @@ int run_cone(const ConeCommand& options, std::ostream& out) {
     return Json::parse(text.str());
   };
   return answer_cases(options.scene, answer, out);
+}
+
+int cone_command(CommandLine& line) {
+  ConeCommand cone;
+  line.option("scene", cone.scene, "Scene file, YAML (docs/reference/formats.md); - for standard input")
+      .required();
+  line.flag("--cases", cone.cases, "The file has a scene on every line, as JSON; prints an answer a line");
+  line.option("--method", cone.method,
+              "exact: the true cone with its error bound; slice: the source's, too small");
+  line.option("--planes", cone.planes,
+              "Planes of the slice cone (36); half-planes of the cone of a body of pieces (64)");
+  line.option("--tangents", cone.tangents,
+              "Slices of combined quadrics: all candidates compared, or the source's choice, by-sides "
+              "(6.3.2) or printed (5.2.2)");
+  line.option("--samples", cone.samples, "Boundary samples of the exact cone of ellipsoids")
+      .shown_default(std::to_string(kDefaultSamples));
+  line.option("--tolerance", cone.tolerance,
+              "Certified cone: solid angle between inner and outer, relative (0.01), combined quadrics "
+              "always; bodies of pieces: width of each extreme angle, radians (0.0001)");
+  std::vector<double> resolution, around;
+  const auto map = line.option("--map", resolution,
+                               "Map of all directions: colliding, safe, undecided cells, down to this size")
+                       .shown_type("[RADIANS]")
+                       .words(0, 1)
+                       .shown_default(to_text(kDefaultResolution));
+  line.option("--around", around, "x,y,z: the map's region that holds this direction")
+      .commas()
+      .words(3, 3)
+      .needs(map);
+  line.flag("--json", cone.json, "Print JSON");
+  line.option("--out,--picture", cone.picture_folder, "Folder for a picture of bodies and cones");
+  line.negative_flag("--no-figures", cone.figures, "Of the picture, its data only");
+  line.option("--threads", cone.threads, "Threads of map and picture, 0: one per processor");
+  line.quiet();
+  line.read();
+  if (map.given()) {
+    cone.map.emplace();
+    cone.map->threads = threads_for(cone.threads);
+    if (!resolution.empty()) cone.map->resolution = resolution.front();
+    if (!around.empty()) cone.map->around = Eigen::Vector3d(around[0], around[1], around[2]);
+  }
+  return run_cone(cone, std::cout);
 }
 
 }  // namespace vericone

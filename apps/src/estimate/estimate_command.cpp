@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimate/estimate_command.h"
-
 #include <vericone/geometry/error.h>
 #include <vericone/guidance/estimation/singer.h>
 #include <vericone/work/staged_folder.h>
@@ -8,9 +6,14 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <iostream>
+#include <optional>
 #include <ostream>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
+#include "commands.h"
 #include "input/fields.h"
 #include "input/text_source.h"
 #include "json/json_value.h"
@@ -23,6 +26,17 @@ namespace vericone {
 namespace {
 
 using guidance::Innovation, guidance::SingerFilter, guidance::SingerOptions;
+
+struct EstimateOptions {
+  std::string track;                           // CSV: t, x, y, and r where given; - for standard input
+  double alpha = 0.1;                          // 1/s
+  std::vector<double> variance = {0.1, 0.05};  // m^2/s^4, along x and y
+  double noise = 1;                            // m, where the track has no r
+  std::string hidden = "skip";                 // or "source"
+  std::optional<std::string> out;
+  bool json = false;
+  std::string command_line;
+};
 
 constexpr std::array kColumns{"t",  "x",  "y",   "vx",  "vy",  "ax",  "ay",
                               "sx", "sy", "svx", "svy", "sax", "say", "nis"};
@@ -204,8 +218,9 @@ Estimates estimate(const EstimateOptions& options) {
   return all;
 }
 
-}  // namespace
-
+/// `vericone estimate`: Singer's filter over a measured track (docs/explanation/pursuit.md). Prints the table
+/// of estimates, or writes estimate.csv, estimate.json and provenance.json to `out`. Throws InputError naming
+/// the line and column, or the option.
 void run_estimate(const EstimateOptions& options, std::ostream& out) {
   const Estimates all = estimate(options);
   const double nis = all.nis_count > 0 ? all.nis_sum / double(all.nis_count) : std::nan("");
@@ -238,6 +253,37 @@ void run_estimate(const EstimateOptions& options, std::ostream& out) {
   } else {
     out << all.table;
   }
+}
+
+}  // namespace
+
+int estimate_command(CommandLine& line) {
+  EstimateOptions estimate;
+  std::string out;
+  line.option("track", estimate.track,
+              "CSV with the columns t, x, y (s, m; x and y empty where hidden) and, where it has one, r (m); "
+              "- for "
+              "standard input")
+      .required();
+  line.option("--alpha", estimate.alpha, "Of Singer's model, 1/s");
+  line.option("--variance", estimate.variance, "Of the acceleration along x and y, m^2/s^4")
+      .words(2, 2)
+      .shown_type("X Y")
+      .shown_default("0.1 0.05");
+  line.option("--noise", estimate.noise,
+              "Standard deviation of a measured coordinate, m, where r does not say");
+  line.option(
+      "--hidden", estimate.hidden,
+      "skip: a hidden target gives no measurement; source: its last estimate, with 10 times the variance");
+  const auto folder =
+      line.option("--out", out, "Folder for the table of estimates; if not given, it is printed");
+  line.flag("--json", estimate.json, "Print JSON");
+  line.quiet();
+  line.read();
+  if (folder.given()) estimate.out = out;
+  estimate.command_line = line.text();
+  run_estimate(estimate, std::cout);
+  return 0;
 }
 
 }  // namespace vericone

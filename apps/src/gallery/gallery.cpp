@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "gallery/gallery.h"
-
 #include <vericone/files/read_points.h>
 #include <vericone/geometry/error.h>
 #include <vericone/work/staged_folder.h>
@@ -10,7 +8,10 @@
 #include <iostream>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "commands.h"
 #include "cone/assembly_cone.h"
 #include "cone/map_answer.h"
 #include "cone/pieces_picture.h"
@@ -18,6 +19,7 @@
 #include "json/json_value.h"
 #include "output/figures.h"
 #include "output/output_file.h"
+#include "output/output_options.h"
 #include "work/interrupt.h"
 #include "work/provenance.h"
 #include "work/threads.h"
@@ -26,6 +28,15 @@ namespace vericone {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct GalleryOptions : OutputOptions {
+  GalleryOptions() { out = "out/gallery"; }
+  std::vector<std::string> files;  // or folders: all meshes, clouds and maps in them
+  int half_planes = 64;
+  double tolerance = 1e-4;   // radians
+  double resolution = 0.05;  // of the cone map, radians; 0: none
+  double radius = 0.005;     // of a cloud's points, in parts of its largest side
+};
 
 bool is_map(const fs::path& file) { return file.extension() == ".bt" || file.extension() == ".ot"; }
 
@@ -216,8 +227,11 @@ class Gallery {
   bool failed_ = false;
 };
 
-}  // namespace
-
+/// `vericone gallery`: the cone of each file's body before a ball of a tenth of its largest side, which
+/// stands off its middle by one and a half of that side; of octree maps also around a ball of four cells
+/// within known free space. Writes a folder a cone, gallery.json, gallery.md (a table) and provenance.json. A
+/// file that cannot be read is named and passed over. Returns the exit status: 0; 2 if there was one; 130
+/// interrupted.
 int run_gallery(const GalleryOptions& options, std::ostream& out) {
   if (!(options.radius >= 0 && options.radius <= 1))
     throw InputError("--radius", to_text(options.radius),
@@ -239,6 +253,25 @@ int run_gallery(const GalleryOptions& options, std::ostream& out) {
   }
   gallery.print();
   return gallery.failed() ? 2 : 0;
+}
+
+}  // namespace
+
+int gallery_command(CommandLine& line) {
+  GalleryOptions gallery;
+  line.option("files", gallery.files, "Files, or folders of them").required().words(1, -1);
+  line.option("--out", gallery.out, "Folder for tables and pictures");
+  line.option("--planes", gallery.half_planes, "Half-planes of each cone");
+  line.option("--tolerance", gallery.tolerance, "Of their angles, radians");
+  line.option("--map", gallery.resolution, "Resolution of the cone maps, radians; 0: none");
+  line.option("--radius", gallery.radius, "Of the points of clouds, in parts of the cloud's largest side");
+  line.option("--threads", gallery.threads, "Threads of maps and pictures, 0: one per processor");
+  line.negative_flag("--no-figures", gallery.figures, "Tables only");
+  line.flag("--quiet", gallery.quiet, "No progress");
+  line.flag("--json", gallery.json, "Print JSON: gallery.json");
+  line.read();
+  gallery.command_line = line.text();
+  return run_gallery(gallery, std::cout);
 }
 
 }  // namespace vericone

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "law/law_command.h"
-
 #include <vericone/geometry/decompositions.h>
 #include <vericone/guidance/pursuit/focal_law.h>
 #include <vericone/guidance/pursuit/pursuit_law.h>
 #include <vericone/guidance/pursuit/rendezvous_law.h>
 #include <vericone/guidance/pursuit/vertical_law.h>
+#include <iostream>
 #include <optional>
+#include <ostream>
+#include <string>
 
 #include "command/cases.h"
+#include "commands.h"
 #include "json/json_value.h"
 #include "scenarios/scenario_fields.h"
 
@@ -351,8 +353,21 @@ Json law_of(const Json& value) {
   return answer;
 }
 
+/// `vericone law`: one state a line in, what a pursuit law says of it a line out
+/// (docs/explanation/pursuit.md). Returns the exit status: 0, or 2 if any line was bad.
+int run_law(const std::string& path, std::ostream& out) { return answer_cases(path, law_of, out); }
+
 }  // namespace
 
-int run_law(const std::string& path, std::ostream& out) { return answer_cases(path, law_of, out); }
+int law_command(CommandLine& line) {
+  std::string cases;
+  line.option("states", cases, "File of states (docs/explanation/pursuit.md), or - for standard input")
+      .required();
+  bool json = true;
+  line.flag("--json", json, "Print JSON; this command prints nothing else");
+  line.quiet();
+  line.read();
+  return run_law(cases, std::cout);
+}
 
 }  // namespace vericone

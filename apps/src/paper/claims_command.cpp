@@ -4,9 +4,11 @@
 #include <vericone/geometry/stop.h>
 #include <vericone/work/staged_folder.h>
 #include <iomanip>
+#include <iostream>
 #include <optional>
 #include <ostream>
 
+#include "commands.h"
 #include "output/output_file.h"
 #include "output/progress.h"
 #include "paper/claim.h"
@@ -81,3 +83,26 @@ int run_claims(const ClaimsOptions& options, std::ostream& out) {
 }
 
 }  // namespace vericone::paper
+
+namespace vericone {
+
+int claims_command(CommandLine& line) {
+  paper::ClaimsOptions claims;
+  line.option("claims", claims.ids, "Of these claims or sections, such as 5.4.1 or 7; all if not given");
+  line.option("--paper", claims.paper,
+              "Its folder, or the name of one of ours; papers/dhal2022 if not given");
+  line.option("--out", claims.out, "Also write claims.json to this folder");
+  line.flag("--json", claims.json, "Print JSON");
+  line.flag("--given", claims.given, "Also list the printed values that go into the runs");
+  line.option("--shuffle", claims.shuffle,
+              "Draw the chosen numbers so often from their ranges: what holds throughout, what at one place")
+      .within(0, 100000);
+  line.option("--only", claims.only, "Shuffle the numbers of this fit alone").one_each();
+  line.option("--seed", claims.seed, "Of the draws");
+  line.flag("--quiet", claims.quiet, "No progress");
+  line.read();
+  claims.command_line = line.text();
+  return paper::run_claims(claims, std::cout);
+}
+
+}  // namespace vericone

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "paper/figures_command.h"
-
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/stop.h>
 #include <vericone/scenarios/run_files.h>
 #include <vericone/work/staged_folder.h>
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <ostream>
 #include <set>
+#include <string>
+#include <vector>
 
+#include "commands.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/figures.h"
 #include "output/output_file.h"
+#include "output/output_options.h"
 #include "output/progress.h"
 #include "paper/paper.h"
 #include "paper/papers_folder.h"
@@ -25,6 +28,15 @@ namespace vericone::paper {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// `out` empty: out/ and the paper's name.
+struct FiguresOptions : OutputOptions {
+  std::vector<std::string> ids;  // empty: all
+  std::string paper;             // its folder, or the name of one of ours; empty: papers/dhal2022
+  std::string scenario;  // file in place of the one scenario that the figures show; empty: the paper's
+  std::vector<std::string> set;  // PATH=VALUE, in the scenarios that the figures show
+  bool list = false;
+};
 
 /// The scenarios that a figure shows, each once.
 std::vector<std::string> scenarios_of(const Figure& figure) {
@@ -265,8 +277,8 @@ void print_list(const std::vector<Figure>& figures, bool json, std::ostream& out
   for (const Figure& figure : figures) out << figure.id << "\t" << figure.caption << '\n';
 }
 
-}  // namespace
-
+/// `vericone figures`: makes the figures of a paper, each as PDF, PNG, CSV and JSON of its provenance, the
+/// runs they show, claims.json and report.html. Returns the exit status, 130 interrupted. Throws InputError.
 int run_figures(const FiguresOptions& options, std::ostream& out) {
   Paper paper(options.paper);
   const std::vector<Figure> figures = paper.chosen(options.ids);
@@ -307,4 +319,28 @@ int run_figures(const FiguresOptions& options, std::ostream& out) {
   return 0;
 }
 
+}  // namespace
+
 }  // namespace vericone::paper
+
+namespace vericone {
+
+int figures_command(CommandLine& line) {
+  paper::FiguresOptions figures;
+  line.option("figures", figures.ids, "Their numbers (docs/reference/papers.md); all if not given");
+  line.option("--paper", figures.paper,
+              "Its folder, or the name of one of ours; papers/dhal2022 if not given");
+  line.option("--out", figures.out,
+              "Folder for pictures, tables and report; out/ and the paper's name if not given");
+  line.option("--scenario", figures.scenario, "Scenario file in place of the one that these figures show");
+  line.option("--set", figures.set, "PATH=VALUE changes a field of their scenarios: bodies.F1.pilot.gain=8")
+      .one_each();
+  line.flag("--list", figures.list, "Print numbers and captions, make nothing");
+  line.flag("--quiet", figures.quiet, "No progress");
+  line.flag("--json", figures.json, "Print JSON: figures and the files of the report");
+  line.read();
+  figures.command_line = line.text();
+  return paper::run_figures(figures, std::cout);
+}
+
+}  // namespace vericone

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "query/query.h"
-
-#include <filesystem>
-
 #include <vericone/geometry/error.h>
+#include <filesystem>
+#include <iostream>
+#include <ostream>
+#include <string>
 
 #include "command/cases.h"
+#include "commands.h"
 #include "cone/answer.h"
 #include "input/body.h"
 #include "input/errors.h"
 #include "json/json_value.h"
+#include "work/threads.h"
 
 namespace vericone {
 namespace {
@@ -42,12 +44,28 @@ Json answer_case(const Json& value, bool with_rung, const std::filesystem::path&
   return result;
 }
 
-}  // namespace
-
+/// `vericone query`: one engagement a line in, one answer a line out, in the same order
+/// (docs/reference/formats.md). Returns the exit status: 0, or 2 if any line was bad.
 int run_query(const std::string& path, bool with_rung, int threads, std::ostream& out) {
   const std::filesystem::path folder = path == "-" ? "" : std::filesystem::path(path).parent_path();
   return answer_cases(
       path, [&](const Json& value) { return answer_case(value, with_rung, folder); }, out, threads);
+}
+
+}  // namespace
+
+int query_command(CommandLine& line) {
+  std::string cases;
+  bool with_rung = false;
+  line.option("cases", cases, "File of cases, or - for standard input").required();
+  int threads = 0;
+  line.flag("--rung", with_rung, "Add the rung of the ladder that decided: triage, interval or exact");
+  line.option("--threads", threads, "Threads, 0: one per processor; the answers are the same");
+  bool json = true;
+  line.flag("--json", json, "Print JSON; this command prints nothing else");
+  line.quiet();
+  line.read();
+  return run_query(cases, with_rung, threads_for(threads), std::cout);
 }
 
 }  // namespace vericone

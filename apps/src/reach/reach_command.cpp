@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "reach/reach_command.h"
-
 #include <vericone/scenarios/read_scenario.h>
 #include <vericone/simulation/reach.h>
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <numbers>
 #include <optional>
 #include <ostream>
+#include <string>
 #include <vector>
 
+#include "commands.h"
 #include "input/scene.h"
 #include "json/json_value.h"
 #include "output/number_text.h"
@@ -22,6 +23,15 @@ namespace {
 
 using namespace simulation;
 using scenario::print_line;
+
+struct ReachOptions {
+  std::string scenario;
+  bool current = false;  // also what current the passages endure
+  int directions = 4;    // of currents in which it is flown again
+  int runs = 6;          // each
+  bool quiet = false;
+  bool json = false;
+};
 
 /// What the scenario's own run proves.
 struct Flown {
@@ -213,8 +223,9 @@ void print_reach(const Scenario& scenario, const std::vector<AgentReach>& agents
   if (flown.again.empty()) print_line(out, "flown again", "no agent is a vehicle that the water carries");
 }
 
-}  // namespace
-
+/// When the openings of a scenario can be reached at the earliest, by what its agents' limits prove, and by
+/// when its own run passes them, proved. Returns the exit status: 0 whatever the answers are, 130
+/// interrupted. Throws InputError.
 int run_reach(const ReachOptions& options, std::ostream& out) {
   const Scenario scenario =
       scenario::scenario_of_text(input::read_scene_text(options.scenario), options.scenario);
@@ -227,6 +238,24 @@ int run_reach(const ReachOptions& options, std::ostream& out) {
   else
     print_reach(scenario, agents, *flown, options, out);
   return 0;
+}
+
+}  // namespace
+
+int reach_command(CommandLine& line) {
+  ReachOptions reach;
+  line.option("scenario", reach.scenario, "Scenario file, YAML: an agent or more with `through`").required();
+  line.flag(
+      "--current", reach.current,
+      "Also the largest current with which every passage is still proved: of the run as recorded, and of "
+      "vehicles flown again in currents (sampled)");
+  line.option("--directions", reach.directions, "Horizontal directions of currents to fly again in")
+      .within(1, 360);
+  line.option("--runs", reach.runs, "Runs in each").within(1, 100);
+  line.flag("--quiet", reach.quiet, "No progress");
+  line.flag("--json", reach.json, "Print JSON");
+  line.read();
+  return run_reach(reach, std::cout);
 }
 
 }  // namespace vericone

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "robust_law/robust_law_command.h"
-
 #include <vericone/guidance/robust_law.h>
+#include <iostream>
+#include <ostream>
+#include <string>
 
 #include "command/cases.h"
+#include "commands.h"
 #include "json/json_value.h"
 #include "scenarios/robust_fields.h"
 
@@ -43,10 +45,23 @@ Json correction_of(const Json& value) {
           {"norm", told(found.norm)}};
 }
 
-}  // namespace
-
+/// `vericone robust-law`: one instance of (7.20)-(7.24) a line in, its correction a line out
+/// (docs/explanation/robust-law.md). Returns the exit status: 0, or 2 if any line was bad.
 int run_robust_law(const std::string& path, std::ostream& out) {
   return answer_cases(path, correction_of, out);
+}
+
+}  // namespace
+
+int robust_law_command(CommandLine& line) {
+  std::string cases;
+  line.option("cases", cases, "File of cases (docs/explanation/robust-law.md), or - for standard input")
+      .required();
+  bool json = true;
+  line.flag("--json", json, "Print JSON; this command prints nothing else");
+  line.quiet();
+  line.read();
+  return run_robust_law(cases, std::cout);
 }
 
 }  // namespace vericone

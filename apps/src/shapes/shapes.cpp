@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shapes/shapes.h"
-
 #include <vericone/geometry/combined_volume.h>
 #include <vericone/geometry/error.h>
 #include <vericone/work/staged_folder.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iostream>
 #include <numbers>
 #include <ostream>
 #include <set>
+#include <string>
+#include <vector>
 
+#include "commands.h"
 #include "json/json_value.h"
 #include "output/figures.h"
 #include "output/output_file.h"
+#include "output/output_options.h"
 #include "picture/engagements.h"
 #include "picture/shape_json.h"
 #include "work/provenance.h"
@@ -22,6 +25,13 @@ namespace vericone {
 namespace {
 
 using Eigen::Vector2d, Eigen::Vector3d;
+
+struct ShapesOptions : OutputOptions {
+  ShapesOptions() { out = "out/shapes"; }
+  std::vector<std::string> which;  // names of figures, docs/explanation/combined.md; empty: all
+  double resolution = 0.09;        // of the surfaces, in parts of the semi-axes
+  std::string mesh;                // also the bodies' surfaces as files: "obj" or "ply"
+};
 
 // The bodies of the pictures; the source prints no sizes. Lengths in metres.
 CombinedEllipsoid biconcave() {
@@ -178,8 +188,9 @@ const std::vector<ShapeFigure>& shape_figures() {
   return all;
 }
 
-}  // namespace
-
+/// `vericone shapes`: pictures of combined quadrics and of their cones, with the data they are drawn from
+/// (docs/explanation/combined.md). Writes NAME.json for each figure, shapes.json, provenance.json, the
+/// pictures and meshes to `out`. Throws InputError naming "--figure", "--mesh" or "--resolution".
 void run_shapes(const ShapesOptions& options, std::ostream& out) {
   if (!options.mesh.empty() && options.mesh != "obj" && options.mesh != "ply")
     throw InputError("--mesh", options.mesh, "obj or ply");
@@ -220,6 +231,24 @@ void run_shapes(const ShapesOptions& options, std::ostream& out) {
   Json list = Json::array();
   for (const auto& file : files) list.push_back(file.string());
   if (options.json) out << Json{{"figures", written}, {"files", list}}.dump(1) << '\n';
+}
+
+}  // namespace
+
+int shapes_command(CommandLine& line) {
+  ShapesOptions shapes;
+  line.option("--out", shapes.out, "Folder for data, pictures and meshes");
+  line.option("--figure", shapes.which, "Names of figures (docs/explanation/combined.md); all if not given")
+      .commas();
+  line.option("--mesh", shapes.mesh, "obj or ply: also write the surfaces as files");
+  line.option("--resolution", shapes.resolution, "Edges of the surfaces, in parts of the semi-axes");
+  line.negative_flag("--no-figures", shapes.figures, "Data only");
+  line.flag("--json", shapes.json, "Print JSON: the files written");
+  line.quiet();
+  line.read();
+  shapes.command_line = line.text();
+  run_shapes(shapes, std::cout);
+  return 0;
 }
 
 }  // namespace vericone

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "signmap/signmap.h"
-
 #include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/geometry/error.h>
 #include <vericone/work/staged_folder.h>
@@ -8,6 +6,8 @@
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <iostream>
 #include <limits>
 #include <ostream>
 #include <random>
@@ -15,8 +15,11 @@
 #include <string>
 #include <vector>
 
+#include "command/default_seed.h"
+#include "commands.h"
 #include "json/json_value.h"
 #include "output/output_file.h"
+#include "output/output_options.h"
 #include "output/results.h"
 #include "work/provenance.h"
 
@@ -24,6 +27,12 @@ namespace vericone {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector3d;
+
+struct SignMapOptions : OutputOptions {
+  SignMapOptions() { out = "out/signmap"; }
+  int cells = 193;                    // along each axis, 3 to 2001; an even number means one more
+  std::uint64_t seed = kDefaultSeed;  // of the engagement
+};
 
 /// Two axes of the map are stretched by this: flat bodies, on which plain doubles are visibly wrong.
 constexpr double kFlatness = 0x1p4;
@@ -85,8 +94,9 @@ Json ellipsoid_json(const Ellipsoid& body) {
   return {{"center", vector_json(body.center())}, {"shape", matrix_json(body.shape())}};
 }
 
-}  // namespace
-
+/// `vericone signmap`: the answers in, on, out for all doubles around a velocity that grazes exactly, by
+/// plain double arithmetic and by the library, and the rung that decided. Writes signmap.csv, signmap.json,
+/// provenance.json and the figure to `out`. Throws InputError naming "--cells".
 void run_signmap(const SignMapOptions& options, std::ostream& out) {
   if (options.cells < 3 || options.cells > 2001)
     throw InputError("--cells", std::to_string(options.cells), "between 3 and 2001");
@@ -138,6 +148,22 @@ void run_signmap(const SignMapOptions& options, std::ostream& out) {
        << "; decided by triage " << rungs.at(0) << ", interval " << rungs.at(1) << ", exact " << rungs.at(2)
        << '\n';
   publish(results, options, folder, text.str(), out);
+}
+
+}  // namespace
+
+int signmap_command(CommandLine& line) {
+  SignMapOptions signmap;
+  line.option("--out", signmap.out, "Folder for table and picture");
+  line.option("--cells", signmap.cells, "Doubles along each axis");
+  line.option("--seed", signmap.seed, "Seed of the engagement");
+  line.negative_flag("--no-figures", signmap.figures, "Tables only");
+  line.flag("--json", signmap.json, "Print JSON: signmap.json");
+  line.quiet();
+  line.read();
+  signmap.command_line = line.text();
+  run_signmap(signmap, std::cout);
+  return 0;
 }
 
 }  // namespace vericone

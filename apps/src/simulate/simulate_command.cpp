@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulate/simulate_command.h"
-
 #include <vericone/work/staged_folder.h>
 #include <filesystem>
+#include <iostream>
 #include <ostream>
+#include <string>
 
+#include "commands.h"
 #include "input/scene.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/figures.h"
+#include "output/output_options.h"
 #include "output/progress.h"
 #include "scenarios/read_scenario.h"
 #include "scenarios/run_json.h"
@@ -21,6 +23,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+struct SimulateOptions : OutputOptions {
+  SimulateOptions() { out = "out/simulate"; }
+  std::string scenario;
+  bool animate = false;  // also a page that shows the run over time
+};
+
 const std::vector<std::string>& names_of_files() {
   static const std::vector<std::string> names{
       "bodies.csv", "encounters.csv", "planes.csv",     "events.csv",     "proof.json",     "shapes.json",
@@ -28,8 +36,8 @@ const std::vector<std::string>& names_of_files() {
   return names;
 }
 
-}  // namespace
-
+/// Carries out a scenario and writes what happened and what is proved of it. Returns the exit status: 0
+/// whatever the verdict is, 130 interrupted. Throws InputError.
 int run_simulate(const SimulateOptions& options, std::ostream& out) {
   work::StagedFolder folder(options.out, "--out");
   const std::string text = input::read_scene_text(options.scenario);
@@ -66,6 +74,21 @@ int run_simulate(const SimulateOptions& options, std::ostream& out) {
   for (const fs::path& file : files) list.append(list.empty() ? "" : ", ").append(file.filename().string());
   out << "written             " << options.out << ": " << list << '\n';
   return 0;
+}
+
+}  // namespace
+
+int simulate_command(CommandLine& line) {
+  SimulateOptions simulate;
+  line.option("scenario", simulate.scenario, "Scenario file, YAML (docs/reference/scenarios.md)").required();
+  line.option("--out", simulate.out, "Folder for tables, proof and picture");
+  line.negative_flag("--no-figures", simulate.figures, "Tables and proof only");
+  line.flag("--animate", simulate.animate, "Also the run over time, simulation.html: a page for any browser");
+  line.flag("--quiet", simulate.quiet, "No progress");
+  line.flag("--json", simulate.json, "Print JSON");
+  line.read();
+  simulate.command_line = line.text();
+  return run_simulate(simulate, std::cout);
 }
 
 }  // namespace vericone

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trials/trials_command.h"
-
 #include <vericone/geometry/error.h>
 #include <vericone/simulation/montecarlo/encounter.h>
 #include <vericone/simulation/table.h>
@@ -8,13 +6,20 @@
 #include <vericone/work/staged_folder.h>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <iostream>
 #include <memory>
+#include <optional>
 #include <ostream>
 #include <sstream>
+#include <string>
+#include <vector>
 
+#include "commands.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/output_file.h"
+#include "output/output_options.h"
 #include "output/progress.h"
 #include "output/results.h"
 #include "scenarios/read_scenario.h"
@@ -28,6 +33,16 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace simulation;
+
+struct TrialsOptions : OutputOptions {
+  TrialsOptions() { out = "out/trials"; }
+  std::string scenario;
+  std::uint64_t trials = 1000;
+  std::vector<std::string> levels, laws;  // none: as complete() says
+  std::optional<std::uint64_t> seed;      // otherwise the scenario's
+  std::optional<std::uint64_t> trial;     // this one alone: nothing is written
+  bool random = false;  // another random engagement each trial in place of the scenario's bodies
+};
 
 /// A law at a level: one group of columns.
 struct Cell {
@@ -243,8 +258,8 @@ int print_one(const TrialsOptions& o, const std::vector<Cell>& cells, std::ostre
   return 0;
 }
 
-}  // namespace
-
+/// Shares of trials that are proved avoided (and all openings passed), by law and noise. Returns the exit
+/// status, 130 interrupted. Throws InputError naming the option or the field.
 int run_trials(const TrialsOptions& given, std::ostream& out) {
   if (given.trials < 1 || given.trials > 10'000'000)
     throw InputError("--trials", std::to_string(given.trials), "between 1 and 10000000");
@@ -283,4 +298,39 @@ int run_trials(const TrialsOptions& given, std::ostream& out) {
   return 0;
 }
 
+}  // namespace
+
 }  // namespace vericone::trials
+
+namespace vericone {
+
+int trials_command(CommandLine& line) {
+  trials::TrialsOptions trials;
+  line.option("scenario", trials.scenario, "Scenario file, YAML").required();
+  line.option("-N,--trials", trials.trials, "Trials of every law at every level");
+  line.option(
+          "--levels", trials.levels,
+          "Noise: percent of position and of velocity, 7.5:15, or the scenario's sensors times a number, x4")
+      .commas()
+      .shown_default("5:10,7.5:15,10:20 of one pilot that avoids, otherwise x1");
+  line.option(
+          "--laws", trials.laws,
+          "di, di-filter, rdi, rdi-filter, di-rates, di-analytic, di-state, di-margin, clearance, robust, "
+          "own (as the scenario has them)")
+      .commas()
+      .shown_default("di,di-filter,rdi,rdi-filter of one pilot that avoids, otherwise own");
+  line.option("--seed", trials.seed, "Seed of all noise").shown_default("that of the scenario");
+  line.option("--trial", trials.trial, "This trial alone, printed");
+  line.flag("--random", trials.random,
+            "Another random engagement each trial, in place of the scenario's bodies");
+  line.option("--out", trials.out, "Folder for tables and picture");
+  line.option("--threads", trials.threads, "Threads, 0: one per processor");
+  line.negative_flag("--no-figures", trials.figures, "Tables only");
+  line.flag("--quiet", trials.quiet, "No progress");
+  line.flag("--json", trials.json, "Print JSON");
+  line.read();
+  trials.command_line = line.text();
+  return vericone::trials::run_trials(trials, std::cout);
+}
+
+}  // namespace vericone
