@@ -69,21 +69,11 @@ void read_trial(const Json& value, const std::string& path, FishOptions& options
 }
 
 FishOptions read_fish(const Json& value, const std::string& path) {
-  std::vector<std::string> known{"kind",
-                                 "body",
-                                 "depth",
-                                 "gas",
-                                 "control",
-                                 "gain_y",
-                                 "gain_alpha",
-                                 "gain_heading",
-                                 "gain_speed",
-                                 "depth_pole",
-                                 "most_amplitude_deg",
-                                 "most_bias_deg",
-                                 "limits",
-                                 "trial",
-                                 "solver_step"};
+  std::vector<std::string> known;
+  for (const char* field :
+       {"kind", "body", "depth", "gas", "control", "gain_y", "gain_alpha", "gain_heading", "gain_speed",
+        "depth_pole", "most_amplitude_deg", "most_bias_deg", "limits", "trial", "solver_step"})
+    known.emplace_back(field);
   for (const auto& [field, member] : kParameters) known.emplace_back(field);
   require_known(value, path, known);
   FishOptions options;
