@@ -91,15 +91,8 @@ std::vector<Flown> flown_laws(const std::vector<std::string>& names, const Fligh
 }
 
 const char* to_string(Fate fate) {
-  switch (fate) {
-    case Fate::avoided:
-      return "avoided";
-    case Fate::met:
-      return "met";
-    case Fate::undecided:
-      break;
-  }
-  return "undecided";
+  constexpr const char* kWords[] = {"avoided", "met", "undecided"};
+  return kWords[std::size_t(fate)];
 }
 
 std::optional<Fate> fate_of(const std::string& text) {

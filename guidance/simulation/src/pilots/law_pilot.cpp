@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "names.h"
+#include "pilots/kinds.h"
 
 namespace vericone::simulation {
 namespace {
@@ -31,6 +32,8 @@ void require_from_zero(double value, const char* field, const char* unit) {
 }
 
 }  // namespace
+
+std::shared_ptr<const PilotModel> law_pilot(const Pilot& pilot) { return std::make_shared<LawPilot>(pilot); }
 
 std::unique_ptr<FlyingPilot> LawPilot::launch(const Scenario& scenario, std::size_t self,
                                               const RunOptions& options) const {

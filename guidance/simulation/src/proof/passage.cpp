@@ -379,17 +379,8 @@ class Clear {
 }  // namespace
 
 const char* to_string(PassageVerdict verdict) {
-  switch (verdict) {
-    case PassageVerdict::passed:
-      return "passed";
-    case PassageVerdict::touched:
-      return "touched";
-    case PassageVerdict::missed:
-      return "missed";
-    case PassageVerdict::undecided:
-      return "undecided";
-  }
-  return "";
+  constexpr const char* kWords[] = {"passed", "touched", "missed", "undecided"};
+  return kWords[std::size_t(verdict)];
 }
 
 PassageProof prove_passage(const Track& agent, const MovingOrifice& orifice, double from, double to,
