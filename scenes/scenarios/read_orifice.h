@@ -16,7 +16,6 @@ simulation::MovingOrifice read_orifice(const Json& value, const std::string& pat
                                        const std::filesystem::path& folder);
 
 /// Fields of a pilot whose law is one of orifices.
-simulation::Through read_through(const Json& value, const std::string& path, simulation::Through::Law law);
 
 /// The $defs of their mappings in JSON Schema.
 Json orifice_schemas();

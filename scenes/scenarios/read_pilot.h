@@ -10,4 +10,7 @@ namespace vericone::scenario {
 /// Throws InputError with `path` before the field, also for fields that the law does not read.
 simulation::Pilot read_pilot(const Json& value, const std::string& path, bool planar);
 
+/// The $defs of their mappings in JSON Schema.
+Json pilot_schemas();
+
 }  // namespace vericone::scenario

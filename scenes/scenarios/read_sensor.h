@@ -16,4 +16,7 @@ void read_estimator(const Json& value, const std::string& path, simulation::Pilo
 guidance::PlaneFilterOptions read_filter(const Json& value, const std::string& path);
 guidance::OuterLoopOptions read_outer_loop(const Json& value, const std::string& path);
 
+/// The $defs of their mappings in JSON Schema.
+Json sensor_schemas();
+
 }  // namespace vericone::scenario
