@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenarios/read_motion.h"
+#include "scenarios/parts.h"
 
 #include <Eigen/Geometry>
 #include <numbers>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenarios/read_orifice.h"
+#include "scenarios/parts.h"
 
 #include <vericone/files/read_points.h>
 #include <vericone/geometry/lengths.h>
@@ -9,7 +9,6 @@
 
 #include "input/field_table.h"
 #include "input/spatial_body.h"
-#include "scenarios/read_motion.h"
 #include "scenarios/scenario_fields.h"
 
 namespace vericone::scenario {

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenarios/read_pilot.h"
+#include "scenarios/parts.h"
 
 #include <algorithm>
 
 #include "input/field_table.h"
-#include "scenarios/read_motion.h"
-#include "scenarios/read_orifice.h"
-#include "scenarios/read_sensor.h"
 #include "scenarios/scenario_fields.h"
 
 namespace vericone::scenario {

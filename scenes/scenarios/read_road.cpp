@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenarios/read_road.h"
+#include "scenarios/parts.h"
 
 #include <vericone/simulation/road.h>
 #include <memory>

@@ -2,12 +2,8 @@
 #include "scenarios/schema.h"
 
 #include "json/json_value.h"
-#include "scenarios/read_orifice.h"
-#include "scenarios/read_pilot.h"
-#include "scenarios/read_road.h"
+#include "scenarios/parts.h"
 #include "scenarios/read_scenario.h"
-#include "scenarios/read_sensor.h"
-#include "scenarios/read_vehicle.h"
 
 namespace vericone::scenario {
 

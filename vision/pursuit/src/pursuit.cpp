@@ -426,11 +426,8 @@ simulation::Scenario scenario_of(const Pursuit& pursuit, bool with_cars) {
     if (!with_cars) break;
     simulation::Body& body = scenario.bodies.emplace_back();
     body.name = car.name;
-    std::vector<Vector3d> corners;
-    for (int i = 0; i < 8; ++i)
-      corners.push_back(0.5 *
-                        car.look.size.cwiseProduct(Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
-    body.shape = simulation::RigidShape{HullBody(corners)};
+    const Vector3d half = 0.5 * car.look.size;
+    body.shape = simulation::RigidShape{HullBody::box(-half, half)};
     body.road = car.road;
     body.start = start_of(*car.road, 0.5 * car.look.size.z());
   }
