@@ -2,11 +2,11 @@
 //
 // What the Python package is measured against: the same questions about the same arrays, in loops of C++.
 // ratios.py loads this library beside the package, so that both are timed in one run.
-#include <vericone/cones/assembly/assembly_oracle.h>
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/ellipsoids/predicates.h>
-#include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/cones/pair.h>
+#include <vericone/internal/cones/assembly/assembly_oracle.h>
+#include <vericone/internal/cones/hulls/hull_oracle.h>
 #include <cstddef>
 #include <cstdint>
 #include <limits>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/assembly.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
 #include <cmath>
 #include <string>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/lengths.h>
-#include <vericone/geometry/requires.h>
 #include <vericone/guidance/kinematics.h>
+#include <vericone/internal/geometry/lengths.h>
+#include <vericone/internal/geometry/requires.h>
 
 #include <Eigen/Geometry>
 #include <cmath>

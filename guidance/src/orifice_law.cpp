@@ -2,7 +2,7 @@
 #include <vericone/guidance/orifice_law.h>
 
 #include <vericone/cones/cone_geometry.h>
-#include <vericone/cones/opening/opening_clearance.h>
+#include <vericone/cones/opening/opening.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>

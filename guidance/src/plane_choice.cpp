@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/guidance/plane_choice.h>
+#include <vericone/guidance/plane_view.h>
 
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/planar/sector.h>
 #include <vericone/cones/plane_cones.h>
-#include <vericone/geometry/stop.h>
+#include <vericone/geometry/error.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

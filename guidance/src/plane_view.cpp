@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/geometry/requires.h>
 #include <vericone/guidance/plane_view.h>
+#include <vericone/internal/geometry/requires.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -31,6 +31,10 @@ class Unbound(Exception):
     """A type that Python has no form of."""
 
 
+class Internal(Unbound):
+    """A type of the library's own mechanism."""
+
+
 def python_name(name: str) -> str:
     return name + "_" if keyword.iskeyword(name) else name
 
@@ -120,9 +124,18 @@ def module_of(header: str) -> str:
     raise SystemExit(f"no module for {header}")
 
 
+def is_public(header: str) -> bool:
+    return "/vericone/internal/" not in header
+
+
 class Model:
     def __init__(self, interface: Interface) -> None:
         self.interface = interface
+        self.mechanism = {entry.path for entry in (*interface.classes, *interface.enums) if not is_public(entry.header)}
+        interface.classes = [c for c in interface.classes if is_public(c.header)]
+        interface.enums = [e for e in interface.enums if is_public(e.header)]
+        interface.functions = [f for f in interface.functions if is_public(f.header)]
+        interface.constants = [c for c in interface.constants if is_public(c[3])]
         self.namespaces: set[tuple[str, ...]] = {()}
         self.class_sources = {c.path: c for c in interface.classes}
         self.enum_sources = {e.path: e for e in interface.enums}
@@ -181,6 +194,8 @@ class Model:
             path = (*outer, *parts)
             if path in (("exact", "Rational"), ("exact", "Integer")):
                 return Type("vericone::" + "::".join(path), (), kind.const, kind.reference)
+            if path in self.mechanism:
+                raise Internal("::".join(path))
             if path in self.class_sources or path in self.enum_sources:
                 if path in self.class_sources and self.class_sources[path].template and not arguments and values:
                     # The name of a template within itself.
@@ -302,6 +317,8 @@ class Model:
             except (Unbound, ValueError) as error:
                 self.problems.append(f"{full}: {error}")
         for path, (_, header) in self.interface.aliases.items():
+            if not is_public(header):
+                continue
             full = "::".join(path)
             self.names.append(Name(full, "alias", header, full.replace("::", ".") if any(
                 r.path == path for r in self.records.values()) else "", rules.SKIPPED.get(full, "the type it stands for is bound")))
@@ -419,6 +436,9 @@ class Model:
             result = self.resolve("void" if f.constructor else f.result, scope, values)
             if not f.constructor:
                 self.check(result, result=True)
+        except Internal as error:
+            self.names.append(Name(full, "overload", f.header, "", f"speaks of {error}, a type of the library's own", f.doc))
+            return None
         except (Unbound, ValueError) as error:
             self.problems.append(f"{full}({', '.join(p.type for p in f.parameters)}) -> {f.result}: {error}")
             return None

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/scanning/write_scan.h>
+#include <vericone/scanning/study.h>
 
 #include <vericone/geometry/error.h>
 #include <sstream>

@@ -2,7 +2,6 @@
 #include "scenarios/read_vehicle.h"
 
 #include <vericone/vehicles/fish.h>
-#include <vericone/vehicles/fish_body.h>
 #include <vericone/vehicles/quadrotor.h>
 #include <array>
 #include <numbers>

@@ -6,7 +6,7 @@
 #include <vericone/cones/ellipsoids/exact_predicates.h>
 #include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/exact/body.h>
+#include <vericone/geometry/exact/rational.h>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/ellipsoids/plane_sector.h>
-#include <vericone/cones/slices/combined_slice_cone.h>
 #include <vericone/cones/slices/slice_cone.h>
 #include <vericone/guidance/plane_view.h>
+#include <vericone/internal/cones/ellipsoids/plane_sector.h>
 
 #include <cmath>
 

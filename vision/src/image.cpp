@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
-#include <vericone/vision/image.h>
+#include <vericone/vision/tracker.h>
 #include <algorithm>
 #include <string>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulate/run_text.h"
 
-#include <vericone/scenarios/run_files.h>
-#include <vericone/scenes/words.h>
+#include <vericone/internal/scenes/words.h>
+#include <vericone/scenarios/scenario_files.h>
 #include <vericone/simulation/run_tables.h>
 #include <algorithm>
 #include <cmath>

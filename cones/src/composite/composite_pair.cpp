@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/composite/composite_pair.h>
+#include <vericone/internal/cones/composite/composite_pair.h>
 
 #include <vericone/geometry/error.h>
 #include <string>

@@ -2,7 +2,6 @@
 #include <vericone/cones/map/cone_map.h>
 
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <atomic>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/map/regions.h>
+#include <vericone/cones/map/cone_map.h>
 
 #include <vericone/geometry/error.h>
 #include <Eigen/Geometry>

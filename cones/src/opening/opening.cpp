@@ -2,7 +2,7 @@
 #include <vericone/cones/opening/opening.h>
 
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/exact/integer.h>
+#include <vericone/internal/geometry/exact/integer.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

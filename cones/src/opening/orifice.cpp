@@ -2,7 +2,7 @@
 #include <vericone/cones/opening/orifice.h>
 
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/requires.h>
+#include <vericone/internal/geometry/requires.h>
 #include <algorithm>
 #include <cmath>
 #include <string>

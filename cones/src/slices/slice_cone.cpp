@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-#include <vericone/geometry/lengths.h>
+#include <vericone/internal/geometry/lengths.h>
 #include "ellipsoids/plane_axis.h"
 #include "ellipsoids/require_disjoint.h"
 #include "planar/degenerate_conics.h"

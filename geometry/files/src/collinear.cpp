@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/files/triangle_mesh.h>
-#include <vericone/geometry/exact/integer.h>
-#include <vericone/geometry/tracked.h>
+#include <vericone/files/files.h>
+#include <vericone/internal/geometry/exact/integer.h>
+#include <vericone/internal/geometry/tracked.h>
 
 #include <cmath>
 #include <optional>

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/fitting/containing.h>
-#include <vericone/fitting/convex_hull.h>
 #include <vericone/fitting/fit.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
-#include <vericone/geometry/stop.h>
+#include <vericone/internal/fitting/containing.h>
+#include <vericone/internal/fitting/convex_hull.h>
 
 #include <Eigen/Geometry>
 

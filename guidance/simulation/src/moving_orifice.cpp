@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/simulation/moving_orifice.h>
+#include <vericone/simulation/proof.h>
 
 #include <vericone/simulation/curve.h>
 #include <Eigen/Geometry>

@@ -3,7 +3,6 @@
 
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
 #include <vericone/guidance/navigator.h>
 #include <Eigen/Geometry>
 #include <algorithm>

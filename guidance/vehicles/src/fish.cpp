@@ -2,7 +2,6 @@
 #include <vericone/vehicles/fish.h>
 
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

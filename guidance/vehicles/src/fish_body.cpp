@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/vehicles/fish_body.h>
+#include <vericone/vehicles/fish.h>
 
 #include <algorithm>
 #include <cmath>

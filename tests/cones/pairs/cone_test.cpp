@@ -5,7 +5,7 @@
 #include <vericone/cones/ellipsoids/true_cone.h>
 #include <vericone/cones/pair.h>
 #include <vericone/geometry/error.h>
-#include <vericone/testing/any_body.h>
+#include <vericone/testing/random_bodies.h>
 #include <cmath>
 #include <numbers>
 #include <thread>

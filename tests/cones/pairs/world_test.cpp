@@ -5,7 +5,7 @@
 #include <vericone/cones/pair.h>
 #include <vericone/cones/plane_cones.h>
 #include <vericone/geometry/error.h>
-#include <vericone/testing/any_body.h>
+#include <vericone/testing/random_bodies.h>
 #include <cmath>
 
 #include "support/campaign.h"

@@ -4,7 +4,6 @@
 // against mistakes planted into the condition.
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/clearance.h>
-#include <vericone/cones/uncertain/error_set.h>
 #include <vericone/cones/uncertain/robust.h>
 #include <vericone/geometry/error.h>
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
 #include <vericone/vehicles/quadrotor.h>
-#include <vericone/vision/scene/mount.h>
+#include <vericone/vision/scene/scene.h>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
-#include <vericone/vision/footage/annotate.h>
+#include <vericone/vision/footage/footage.h>
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>

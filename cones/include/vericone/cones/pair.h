@@ -6,11 +6,11 @@
 #pragma once
 
 #include <vericone/cones/answers.h>
-#include <vericone/cones/direction_cell.h>
 #include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/cones/plane_sector.h>
 #include <vericone/geometry/body.h>
 #include <vericone/geometry/world_body.h>
+#include <vericone/internal/cones/direction_cell.h>
 #include <limits>
 #include <memory>
 #include <optional>

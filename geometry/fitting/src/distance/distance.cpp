@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/fitting/measure.h>
+#include <vericone/fitting/fit.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -3,7 +3,7 @@
 // The best surface of a shape from all starts.
 #pragma once
 
-#include <vericone/fitting/least_squares.h>
+#include <vericone/fitting/fit.h>
 
 #include "surface/report.h"
 #include "surface/start.h"

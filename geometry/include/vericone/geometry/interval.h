@@ -6,9 +6,9 @@
 // BIT 39 (1999). Correct only in the arithmetic of sound_arithmetic.h.
 #pragma once
 
-#include <vericone/geometry/requires.h>
 #include <vericone/geometry/sign.h>
-#include <vericone/geometry/sound_arithmetic.h>
+#include <vericone/internal/geometry/requires.h>
+#include <vericone/internal/geometry/sound_arithmetic.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -3,11 +3,9 @@
 // One step of guidance: from two bodies at an instant to accelerations in space.
 #pragma once
 
-#include <vericone/guidance/clearance_law.h>
 #include <vericone/guidance/laws.h>
-#include <vericone/guidance/plane_choice.h>
 #include <vericone/guidance/plane_view.h>
-#include <vericone/guidance/sight.h>
+#include <vericone/guidance/robust_law.h>
 #include <cstdint>
 #include <optional>
 
@@ -18,7 +16,7 @@ enum class Law : std::uint8_t {
   cooperative_avoidance,   // (6.19), ratio mu
   cooperative_rendezvous,  // (5.14)
   matching_rendezvous,     // (5.16)-(5.17)
-  clearance,               // clearance_law.h
+  clearance,               // clearance_law of laws.h
 };
 [[nodiscard]] const char* to_string(Law law);
 

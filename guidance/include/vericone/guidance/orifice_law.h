@@ -1,18 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Laws that take an agent through an opening: the source's (2.2)-(2.4) as corrected, and ours, which steers
-// the clearance of the true shapes in metres. Pure functions of an instant. No throw of finite states; no
-// allocation of ellipsoids and round openings.
+// An opening at an instant, as guidance sees it.
 #pragma once
 
-#include <vericone/guidance/body_state.h>
+#include <vericone/cones/opening/opening.h>
 #include <vericone/guidance/kinematics.h>
-#include <vericone/guidance/orifice.h>
+#include <Eigen/Core>
 #include <cstdint>
 #include <limits>
 #include <optional>
 
 namespace vericone::guidance {
+
+/// It moves with a constant velocity and turns about its centre at a constant rate.
+struct OrificeState {
+  PlacedOpening opening;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero();      // rad/s, in world axes
+
+  /// `seconds` later.
+  [[nodiscard]] OrificeState after(double seconds) const;
+};
+
+// Laws that take an agent through an opening: the source's (2.2)-(2.4) as corrected, and ours, which steers
+// the clearance of the true shapes in metres. Pure functions of an instant. No throw of finite states; no
+// allocation of ellipsoids and round openings.
 
 enum class OrificeStatus : std::uint8_t {
   steering,

@@ -3,10 +3,10 @@
 // The search for a proof of passage: pieces of time from the first to the last, halved until each is
 // certified or the body is found to meet rim or wall. Why a certificate holds:
 // docs/explanation/proof-of-runs.md.
-#include <vericone/simulation/passage.h>
+#include <vericone/simulation/proof.h>
 
-#include <vericone/cones/opening/rim_distance.h>
-#include <vericone/geometry/stop.h>
+#include <vericone/cones/opening/opening.h>
+#include <vericone/geometry/error.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

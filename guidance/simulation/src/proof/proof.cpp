@@ -5,7 +5,6 @@
 #include <vericone/simulation/proof.h>
 
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

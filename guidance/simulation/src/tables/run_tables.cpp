@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
-#include <vericone/guidance/clearance_law.h>
+#include <vericone/guidance/laws.h>
 #include <vericone/simulation/run_tables.h>
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -4,7 +4,7 @@
 // obstacles.
 #pragma once
 
-#include <vericone/geometry/box.h>
+#include <vericone/geometry/pose.h>
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -4,7 +4,7 @@
 // docs/explanation/proof-of-runs.md.
 #pragma once
 
-#include <vericone/simulation/moving_orifice.h>
+#include <vericone/simulation/proof.h>
 #include <vericone/simulation/run.h>
 #include <vericone/simulation/scenario.h>
 #include <Eigen/Core>

@@ -1,14 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A run as tables: columns, units and meaning are those of docs/reference/scenarios.md.
+// A table of named columns: what runs and campaigns say, for files and for arrays.
 #pragma once
 
 #include <vericone/simulation/run.h>
-#include <vericone/simulation/table.h>
+#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace vericone::simulation {
+
+/// Numbers, or words: the other list stays empty.
+struct Column {
+  std::string name;  // "V_r"
+  std::string unit;  // "m/s"; empty: none
+  bool text = false;
+  std::vector<double> numbers = {};  // in that unit; NaN: nothing
+  std::vector<std::string> words = {};
+};
+
+/// Columns of one length.
+struct Table {
+  std::string name;  // "bodies"
+  std::vector<Column> columns;
+
+  [[nodiscard]] std::size_t rows() const;
+};
+
+/// Text as a field of a CSV file: in quotes where a comma, a quote or a new line is in it.
+[[nodiscard]] std::string csv_field(const std::string& text);
+
+/// A header "NAME [UNIT]" and a line each row. Numbers are the shortest text that reads back as the same
+/// double; nothing is an empty field.
+[[nodiscard]] std::string csv(const Table& table);
+
+// A run as tables: columns, units and meaning are those of docs/reference/scenarios.md.
 
 /// Throws InputError naming "run" where it tells of bodies, orifices or steps that the scenario has not: it
 /// is a run of another. All that takes both asks this.

@@ -5,10 +5,8 @@
 
 #include <vericone/guidance/guide.h>
 #include <vericone/guidance/orifice_law.h>
-#include <vericone/simulation/current.h>
-#include <vericone/simulation/moving_orifice.h>
+#include <vericone/simulation/curve.h>
 #include <vericone/simulation/proof.h>
-#include <vericone/simulation/road.h>
 #include <vericone/simulation/sensor.h>
 #include <vericone/simulation/track.h>
 #include <vericone/simulation/vehicle.h>

@@ -4,9 +4,8 @@
 // curves that a vehicle swam or flew.
 #pragma once
 
-#include <vericone/guidance/body_state.h>
+#include <vericone/guidance/kinematics.h>
 #include <vericone/simulation/curve.h>
-#include <vericone/simulation/leg.h>
 #include <vericone/simulation/shape_in_time.h>
 #include <Eigen/Core>
 #include <cstdint>
