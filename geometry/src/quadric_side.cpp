@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/combined.h>
 #include <vericone/geometry/exact/rational.h>
+#include <vericone/internal/geometry/quadric_side.h>
 
 #include <vericone/geometry/combined.h>
 #include <vericone/geometry/error.h>

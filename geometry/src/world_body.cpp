@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/world_body.h>
+#include <vericone/internal/geometry/rotation.h>
 
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/pose.h>

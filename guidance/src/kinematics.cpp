@@ -3,6 +3,7 @@
 #include <vericone/guidance/kinematics.h>
 #include <vericone/internal/geometry/lengths.h>
 #include <vericone/internal/geometry/requires.h>
+#include <vericone/internal/guidance/directions.h>
 
 #include <Eigen/Geometry>
 #include <cmath>

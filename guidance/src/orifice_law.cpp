@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/guidance/orifice_law.h>
+#include <vericone/internal/guidance/directions.h>
+#include <vericone/internal/guidance/orifice_function.h>
 
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/cones/opening/opening.h>

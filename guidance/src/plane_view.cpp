@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/guidance/plane_view.h>
 #include <vericone/internal/geometry/requires.h>
+#include <vericone/internal/guidance/plane_view.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -3,6 +3,7 @@
 
 #include <vericone/geometry/combined.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/fitting/canonical.h>
 #include <vericone/internal/geometry/decompositions.h>
 #include <algorithm>
 #include <cmath>

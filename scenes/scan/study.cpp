@@ -2,6 +2,8 @@
 #include <vericone/cones/slices/visible_cone.h>
 #include <vericone/geometry/error.h>
 #include <vericone/internal/cones/assembly/assembly_oracle.h>
+#include <vericone/internal/cones/cone_size.h>
+#include <vericone/internal/cones/slices/visible_sector.h>
 #include <vericone/lidar/lidar.h>
 #include <algorithm>
 #include <cmath>

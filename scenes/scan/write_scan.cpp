@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/internal/scanning/picture.h>
 #include <vericone/scanning/study.h>
 
 #include <vericone/geometry/error.h>

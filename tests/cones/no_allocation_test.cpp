@@ -16,7 +16,9 @@
 #include <vericone/internal/cones/combined/sector.h>
 #include <vericone/internal/cones/ellipsoids/contact_frame.h>
 #include <vericone/internal/cones/ellipsoids/plane_sector.h>
+#include <vericone/internal/cones/ellipsoids/rungs.h>
 #include <vericone/internal/cones/hulls/hull_oracle.h>
+#include <vericone/internal/cones/may_meet.h>
 #include <vericone/internal/cones/times/contact_time_enclosure.h>
 #include <vericone/testing/random_bodies.h>
 #include <Eigen/Core>

@@ -16,10 +16,14 @@
 #include <vericone/internal/cones/assembly/assembly_oracle.h>
 #include <vericone/internal/cones/combined/cone.h>
 #include <vericone/internal/cones/combined/sector.h>
+#include <vericone/internal/cones/cone_size.h>
 #include <vericone/internal/cones/ellipsoids/plane_sector.h>
 #include <vericone/internal/cones/hulls/hull_oracle.h>
+#include <vericone/internal/cones/map/cell.h>
 #include <vericone/internal/cones/map/classifiers.h>
 #include <vericone/internal/cones/planar/enclose_sector.h>
+#include <vericone/internal/cones/slices/slice_sector.h>
+#include <vericone/internal/cones/slices/visible_sector.h>
 #include <vericone/internal/cones/times/contact_time_enclosure.h>
 #include <vericone/internal/cones/times/order.h>
 #include <vericone/testing/random_bodies.h>

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <vericone/geometry/mesh/surface.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
+#include <vericone/internal/fitting/canonical.h>
 #include <vericone/internal/fitting/containing.h>
 #include <vericone/internal/fitting/convex_hull.h>
 #include <vericone/internal/geometry/decompositions.h>

@@ -3,6 +3,7 @@
 #include <vericone/fitting/fit.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/mesh/surface.h>
+#include <vericone/internal/fitting/signed_distance.h>
 
 #include <Eigen/Geometry>
 

@@ -4,6 +4,7 @@
 #include <vericone/fitting/hull.h>
 #include <vericone/geometry/combined.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/geometry/quadric_side.h>
 #include <vericone/testing/random_bodies.h>
 
 #include <algorithm>

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <vericone/fitting/fit.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/fitting/canonical.h>
+#include <vericone/internal/fitting/fit_surface.h>
 #include <vericone/internal/geometry/decompositions.h>
 
 #include <Eigen/LU>

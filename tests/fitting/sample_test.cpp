@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <vericone/fitting/hull.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/fitting/canonical.h>
 
 #include <Eigen/Geometry>
 

@@ -7,6 +7,7 @@
 #include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/exact/rational.h>
+#include <vericone/internal/cones/ellipsoids/rungs.h>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <vericone/geometry/combined.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/geometry/quadric_side.h>
 #include <vericone/testing/random_bodies.h>
 
 #include <iostream>

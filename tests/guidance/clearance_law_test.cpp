@@ -6,6 +6,7 @@
 #include <vericone/cones/pair.h>
 #include <vericone/cones/uncertain/robust.h>
 #include <vericone/guidance/laws.h>
+#include <vericone/internal/guidance/laws.h>
 #include <vericone/testing/random_bodies.h>
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -5,6 +5,7 @@
 #include <vericone/guidance/robust_law.h>
 #include <vericone/internal/geometry/decompositions.h>
 #include <vericone/internal/guidance/estimation/constant_rate.h>
+#include <vericone/internal/guidance/estimation/kalman.h>
 #include <Eigen/Dense>
 #include <cmath>
 #include <random>

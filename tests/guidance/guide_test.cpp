@@ -6,6 +6,8 @@
 #include <vericone/cones/planar/sector.h>
 #include <vericone/guidance/guide.h>
 #include <vericone/internal/cones/ellipsoids/plane_sector.h>
+#include <vericone/internal/cones/planar/cone_function.h>
+#include <vericone/internal/guidance/collision_course.h>
 #include <vericone/testing/random_bodies.h>
 #include <Eigen/Geometry>
 #include <cmath>

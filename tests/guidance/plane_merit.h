@@ -6,6 +6,7 @@
 #include <vericone/cones/slices/slice_cone.h>
 #include <vericone/guidance/plane_view.h>
 #include <vericone/internal/cones/ellipsoids/plane_sector.h>
+#include <vericone/internal/cones/slices/slice_sector.h>
 #include <cmath>
 #include <numbers>
 

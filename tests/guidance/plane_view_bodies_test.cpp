@@ -6,6 +6,7 @@
 #include <vericone/guidance/plane_view.h>
 #include <vericone/internal/cones/combined/cone.h>
 #include <vericone/internal/cones/combined/sector.h>
+#include <vericone/internal/guidance/plane_view.h>
 
 #include <cmath>
 #include <numbers>

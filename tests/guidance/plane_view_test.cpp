@@ -3,6 +3,8 @@
 #include <vericone/cones/slices/slice_cone.h>
 #include <vericone/guidance/plane_view.h>
 #include <vericone/internal/cones/ellipsoids/plane_sector.h>
+#include <vericone/internal/cones/slices/slice_sector.h>
+#include <vericone/internal/guidance/plane_view.h>
 
 #include <cmath>
 

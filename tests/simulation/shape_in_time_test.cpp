@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/simulation/shape_in_time.h>
 #include <vericone/simulation/shape_in_time.h>
 #include <Eigen/Geometry>
 #include <cmath>

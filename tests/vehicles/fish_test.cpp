@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/vehicles/fish_water.h>
 #include <vericone/simulation/track.h>
 #include <vericone/vehicles/fish.h>
 #include <algorithm>

@@ -3,6 +3,7 @@
 
 #include <vericone/files/files.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/files/extensions.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

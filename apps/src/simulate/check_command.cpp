@@ -3,6 +3,7 @@
 
 #include <vericone/files/files.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/files/extensions.h>
 #include <vericone/internal/scenes/words.h>
 #include <algorithm>
 #include <filesystem>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <vericone/geometry/error.h>
+#include <vericone/internal/simulation/run_tables.h>
 #include <vericone/simulation/run_tables.h>
 #include <Eigen/Core>
 #include <cmath>

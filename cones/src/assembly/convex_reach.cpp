@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/internal/cones/assembly/convex_reach.h>
+#include <vericone/internal/cones/cone_size.h>
 #include <vericone/internal/geometry/requires.h>
 #include <Eigen/Geometry>
 #include <array>

@@ -2,6 +2,7 @@
 #include "assembly/scene.h"
 
 #include <vericone/internal/cones/hulls/hull_oracle.h>
+#include <vericone/internal/geometry/rotation.h>
 
 #include "ellipsoids/apart.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
 #include <vericone/internal/cones/combined/cone.h>
+#include <vericone/internal/cones/cone_size.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

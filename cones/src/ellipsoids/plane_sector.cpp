@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/internal/cones/ellipsoids/plane_sector.h>
+#include <vericone/internal/cones/ellipsoids/rungs.h>
 
 #include <vericone/geometry/error.h>
 #include <vericone/internal/cones/ellipsoids/contact_frame.h>

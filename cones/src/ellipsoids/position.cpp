@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/geometry/exact/rational.h>
+#include <vericone/internal/cones/ellipsoids/rungs.h>
 
 #include <vericone/cones/ellipsoids/exact_predicates.h>
 #include <vericone/internal/cones/ellipsoids/contact_frame.h>

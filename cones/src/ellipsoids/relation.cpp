@@ -4,7 +4,9 @@
 #include <vericone/geometry/combined.h>
 #include <vericone/geometry/exact/rational.h>
 #include <vericone/internal/cones/ellipsoids/contact_frame.h>
+#include <vericone/internal/cones/ellipsoids/rungs.h>
 #include <vericone/internal/geometry/exact/integer.h>
+#include <vericone/internal/geometry/quadric_side.h>
 #include <cmath>
 #include <limits>
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/ellipsoids/true_cone.h>
+#include <vericone/internal/cones/cone_size.h>
+#include <vericone/internal/cones/ellipsoids/rungs.h>
 
 #include <vericone/geometry/error.h>
 #include <vericone/internal/cones/ellipsoids/contact_frame.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/opening/opening.h>
+#include <vericone/internal/cones/opening/placed.h>
 
 #include <vericone/geometry/error.h>
 #include <vericone/internal/geometry/exact/integer.h>

@@ -5,6 +5,7 @@
 #include <vericone/internal/cones/combined/cone.h>
 #include <vericone/internal/cones/combined/sector.h>
 #include <vericone/internal/cones/hulls/hull_oracle.h>
+#include <vericone/internal/cones/may_meet.h>
 
 namespace vericone {
 namespace {

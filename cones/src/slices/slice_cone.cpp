@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/slices/slice_cone.h>
+#include <vericone/internal/cones/cone_size.h>
+#include <vericone/internal/cones/slices/slice_sector.h>
 
 #include <vericone/cones/planar/sector.h>
 #include <vericone/geometry/error.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/slices/visible_cone.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/slices/visible_sector.h>
 #include <vericone/internal/geometry/lengths.h>
 #include <algorithm>
 #include <array>

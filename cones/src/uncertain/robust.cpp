@@ -3,6 +3,7 @@
 #include <vericone/cones/uncertain/robust.h>
 #include <vericone/geometry/error.h>
 #include <vericone/internal/cones/times/contact_time_enclosure.h>
+#include <vericone/internal/cones/uncertain/turned.h>
 #include <numbers>
 #include <string>
 #include <vector>

@@ -2,6 +2,7 @@
 #include <unistd.h>
 #include <vericone/files/files.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/files/extensions.h>
 
 #include <algorithm>
 #include <atomic>

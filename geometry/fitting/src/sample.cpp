@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/fitting/hull.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/fitting/canonical.h>
 #include <vericone/internal/geometry/decompositions.h>
 
 #include <Eigen/Geometry>

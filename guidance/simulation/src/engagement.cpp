@@ -2,6 +2,7 @@
 #include "engagement.h"
 
 #include <vericone/cones/cone_geometry.h>
+#include <vericone/internal/guidance/laws.h>
 #include <cmath>
 #include <limits>
 

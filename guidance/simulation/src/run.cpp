@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/internal/guidance/laws.h>
+#include <vericone/internal/simulation/mesh_track.h>
 #include <vericone/simulation/run.h>
 
 #include <vericone/cones/cone_geometry.h>

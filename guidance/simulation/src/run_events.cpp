@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run_events.h"
+#include <vericone/internal/guidance/collision_course.h>
+#include <vericone/internal/guidance/laws.h>
 
 #include <algorithm>
 #include <cmath>

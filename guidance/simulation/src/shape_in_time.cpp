@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/internal/geometry/rotation.h>
+#include <vericone/internal/simulation/shape_in_time.h>
 #include <vericone/simulation/shape_in_time.h>
 
 #include <vericone/geometry/error.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "through.h"
+#include <vericone/internal/guidance/orifice_function.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/internal/vehicles/fish_water.h>
 #include <vericone/vehicles/fish.h>
 
 #include <algorithm>

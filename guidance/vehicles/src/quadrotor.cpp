@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/internal/vehicles/quadrotor_dynamics.h>
 #include <vericone/vehicles/quadrotor.h>
 
 #include <vericone/geometry/error.h>

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/map/cone_map.h>
 #include <vericone/internal/cones/composite/composite_pair.h>
+#include <vericone/internal/cones/map/cell.h>
 
 #include "cones/assembly/composite_sweep.h"
 

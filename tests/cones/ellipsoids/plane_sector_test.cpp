@@ -4,6 +4,7 @@
 #include <vericone/cones/slices/slice_cone.h>
 #include <vericone/geometry/error.h>
 #include <vericone/internal/cones/ellipsoids/plane_sector.h>
+#include <vericone/internal/cones/slices/slice_sector.h>
 #include <vericone/testing/random_bodies.h>
 
 #include <numbers>

@@ -4,6 +4,7 @@
 #include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/exact/rational.h>
+#include <vericone/internal/cones/ellipsoids/rungs.h>
 #include <vericone/testing/random_bodies.h>
 #include <Eigen/LU>
 

@@ -3,6 +3,7 @@
 #include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/geometry/exact/rational.h>
 #include <vericone/internal/cones/ellipsoids/contact_frame.h>
+#include <vericone/internal/cones/ellipsoids/rungs.h>
 
 #include <array>
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/true_cone.h>
 #include <vericone/cones/map/cone_map.h>
+#include <vericone/internal/cones/map/cell.h>
 #include <vericone/internal/cones/map/classifiers.h>
 
 #include "cones/map/cone_map_checks.h"

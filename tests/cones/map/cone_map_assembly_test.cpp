@@ -5,6 +5,7 @@
 #include <vericone/cones/map/cone_map.h>
 #include <vericone/internal/cones/assembly/assembly_oracle.h>
 #include <vericone/internal/cones/hulls/hull_oracle.h>
+#include <vericone/internal/cones/map/cell.h>
 #include <vericone/internal/cones/map/classifiers.h>
 
 #include <chrono>

@@ -3,6 +3,8 @@
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/cones/map/cone_map.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/cone_size.h>
+#include <vericone/internal/cones/map/cell.h>
 
 #include <map>
 #include <set>

@@ -3,6 +3,7 @@
 #include <vericone/cones/ellipsoids/true_cone.h>
 #include <vericone/cones/map/cone_map.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/map/cell.h>
 #include <vericone/internal/cones/map/classifiers.h>
 
 #include <atomic>

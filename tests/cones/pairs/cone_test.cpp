@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/cone.h>
+#include <vericone/internal/cones/map/cell.h>
 
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/true_cone.h>

@@ -6,6 +6,7 @@
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/quadric.h>
 #include <vericone/internal/cones/ellipsoids/plane_sector.h>
+#include <vericone/internal/cones/slices/slice_sector.h>
 #include <vericone/testing/random_bodies.h>
 
 #include <numbers>

@@ -6,6 +6,7 @@
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/uncertain/robust.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/uncertain/turned.h>
 #include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <vericone/files/files.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/files/extensions.h>
 
 #include <bit>
 #include <cmath>

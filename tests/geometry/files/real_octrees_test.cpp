@@ -6,6 +6,7 @@
 #include <octomap/OcTree.h>
 #include <octomap/ScanGraph.h>
 #include <vericone/files/files.h>
+#include <vericone/internal/octomap/kinds.h>
 #include <vericone/octomap/read_octree.h>
 
 #include <chrono>

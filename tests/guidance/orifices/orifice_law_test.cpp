@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/opening/opening.h>
 #include <vericone/guidance/orifice_law.h>
+#include <vericone/internal/guidance/directions.h>
+#include <vericone/internal/guidance/orifice_function.h>
 #include <vericone/testing/random_bodies.h>
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -5,6 +5,7 @@
 // flown on the same states.
 #include <gtest/gtest.h>
 #include <vericone/guidance/pursuit/source_laws.h>
+#include <vericone/internal/guidance/pursuit/source_laws.h>
 
 #include "guidance/law_promises.h"
 #include "guidance/pursuit/printed_pursuit.h"

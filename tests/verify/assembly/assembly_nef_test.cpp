@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/map/cone_map.h>
 #include <vericone/internal/cones/assembly/assembly_oracle.h>
+#include <vericone/internal/cones/map/cell.h>
 #include <vericone/internal/verify/seeded_random.h>
 
 #include <array>

@@ -8,7 +8,9 @@
 #include <vericone/geometry/combined.h>
 #include <vericone/geometry/exact/rational.h>
 #include <vericone/internal/cones/ellipsoids/contact_frame.h>
+#include <vericone/internal/cones/ellipsoids/rungs.h>
 #include <vericone/internal/cones/hulls/hull_oracle.h>
+#include <vericone/internal/geometry/quadric_side.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>

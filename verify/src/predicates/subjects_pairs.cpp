@@ -2,6 +2,7 @@
 #include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/cones/planar/sector.h>
 #include <vericone/internal/cones/ellipsoids/contact_frame.h>
+#include <vericone/internal/cones/ellipsoids/rungs.h>
 #include <vericone/internal/verify/predicates/truth.h>
 
 #include <cmath>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/internal/vision/scene/attitude.h>
 #include <vericone/vision/scene/scene.h>
 
 #include <vericone/geometry/error.h>

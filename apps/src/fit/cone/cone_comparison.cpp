@@ -3,6 +3,7 @@
 
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
+#include <vericone/internal/fitting/canonical.h>
 #include <vericone/internal/fitting/convex_hull.h>
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/mesh/surface.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
+#include <vericone/internal/fitting/canonical.h>
 #include <vericone/internal/fitting/containing.h>
 #include <vericone/internal/geometry/decompositions.h>
 

@@ -2,6 +2,8 @@
 #include <vericone/fitting/fit.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/mesh/surface.h>
+#include <vericone/internal/fitting/canonical.h>
+#include <vericone/internal/fitting/signed_distance.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/fitting/fit.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/fitting/fit_surface.h>
 #include <vericone/internal/geometry/decompositions.h>
 
 #include <algorithm>

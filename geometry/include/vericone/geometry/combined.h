@@ -165,24 +165,6 @@ template <int D>
 Sign side(std::span<const BasicQuadric<D>> quadrics, const Eigen::Matrix<double, D, 1>& point,
           Rung* rung = nullptr);
 
-template <int D>
-[[nodiscard]] FilteredSign triage_side(const BasicQuadric<D>& quadric,
-                                       const Eigen::Matrix<double, D, 1>& point) noexcept;
-template <int D>
-[[nodiscard]] FilteredSign interval_side(const BasicQuadric<D>& quadric,
-                                         const Eigen::Matrix<double, D, 1>& point) noexcept;
-template <int D>
-[[nodiscard]] Sign exact_side(const BasicQuadric<D>& quadric, const Eigen::Matrix<double, D, 1>& point);
-
-template <int D>
-[[nodiscard]] FilteredSign triage_side(const BasicEllipsoid<D>& body,
-                                       const Eigen::Matrix<double, D, 1>& point) noexcept;
-template <int D>
-[[nodiscard]] FilteredSign interval_side(const BasicEllipsoid<D>& body,
-                                         const Eigen::Matrix<double, D, 1>& point) noexcept;
-template <int D>
-[[nodiscard]] Sign exact_side(const BasicEllipsoid<D>& body, const Eigen::Matrix<double, D, 1>& point);
-
 /// Tags of the ladders for rung_counts().
 struct PointQuadric;
 struct PointBody;

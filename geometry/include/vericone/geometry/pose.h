@@ -20,10 +20,6 @@ struct Pose {
   }
 };
 
-/// Whether the pose does not turn, bit for bit. Throws InputError naming "pose.position[i]" or
-/// "pose.rotation" where the pose is none: not finite, or not orthonormal to 1e-12 with determinant +1.
-[[nodiscard]] bool is_upright(const Pose& pose);
-
 /// The nearest rotation of a matrix that is one up to accumulated rounding: one step of Newton's iteration
 /// for the polar factor, whose error is the square of what it is given.
 template <int D>
@@ -31,18 +27,6 @@ template <int D>
   using Matrix = Eigen::Matrix<double, D, D>;
   const Matrix defect = Matrix::Identity() - r.transpose() * r;
   return r + 0.5 * (r * defect);
-}
-
-/// What a body of D dimensions sees of a rotation: a planar one how its x axis turns about z.
-template <int D>
-[[nodiscard]] Eigen::Matrix<double, D, D> rotation_of(const Eigen::Matrix3d& rotation) {
-  if constexpr (D == 3) {
-    return rotation;
-  } else {
-    const double c = rotation(0, 0), s = rotation(1, 0), length = std::hypot(c, s);
-    if (!(length > 0)) return Eigen::Matrix2d::Identity();
-    return (Eigen::Matrix2d() << c, -s, s, c).finished() / length;
-  }
 }
 
 /// R M R^T, in the unit of M, symmetric bit for bit.

@@ -84,13 +84,6 @@ struct GuideStep {
   std::optional<GuideReading> reading;  // of avoidance that measures, filters or corrects, where it looked
 };
 
-/// Whether they are on a collision course: the relative velocity lies in the cone (of the slices, or the true
-/// one), or its y on the plane that holds it and the line of sight is below `cease`. The true cone is asked
-/// by exact predicates where cease <= 0; what they leave undecided counts as colliding. Nothing where the
-/// bodies are not apart.
-[[nodiscard]] std::optional<bool> on_collision_course(const BodyState& a, const BodyState& b,
-                                                      SectorMethod method, double cease = 0);
-
 /// Avoidance in space first asks on_collision_course(): that decides whether anything is commanded, the plane
 /// chosen only how. Where the plane chosen says that all is well although it is not (the projection of the
 /// relative velocity on it has left its sector, the relative velocity has not left the cone) the plane of the

@@ -19,18 +19,10 @@ struct Cartesian {
   Vector p_b = Vector::Zero(), v_b = Vector::Zero();
 };
 
-/// The angle (rad) that differs from `angle` by whole turns and from `near` by at most half a turn: for
-/// histories without jumps.
-[[nodiscard]] double unwrapped(double angle, double near);
-
 /// Azimuth in (-pi, pi], elevation in [-pi/2, pi/2], rad.
 struct Direction {
   double azimuth = 0, elevation = 0;
 };
-
-/// Of a vector; where it is vertical or zero, an angle that has no value is that of `otherwise`.
-[[nodiscard]] Direction direction_of(const Eigen::Vector3d& v, const Direction& otherwise = {});
-[[nodiscard]] Eigen::Vector3d unit_vector(const Direction& direction);  // unit, as it says
 
 /// An engagement in one plane. In space it is the projection on a plane through the line of sight; then
 /// `v_normal` and `plane_spin` say how it moves out of that plane.
@@ -77,7 +69,6 @@ struct DirectedAcceleration {
   double magnitude = 0;  // m/s^2
   Direction direction;
 };
-[[nodiscard]] DirectedAcceleration directed(const Eigen::Vector3d& acceleration);
 
 struct SpatialRates {
   double r = 0, theta = 0, phi = 0, v_theta = 0, v_phi = 0, v_r = 0;  // m/s, rad/s, m/s^2

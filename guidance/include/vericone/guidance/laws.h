@@ -47,8 +47,6 @@ enum class LawStatus : std::uint8_t {
   no_sector,  // they will meet, but bodies of these kinds have no sector to command by: nothing commanded
 };
 [[nodiscard]] const char* to_string(LawStatus status);
-/// clear, receding or no_relative_velocity: avoidance has nothing to say.
-[[nodiscard]] bool commands_nothing(LawStatus status);
 
 struct LawOptions {
   double gain = 1;                                        // K, 1/s
@@ -154,8 +152,5 @@ struct ClearanceCommand {
 [[nodiscard]] ClearanceCommand clearance_law(const BodyState& a, const BodyState& b,
                                              const ClearanceOptions& options,
                                              const Eigen::Vector3d& acceleration_b = Eigen::Vector3d::Zero());
-
-/// m(w) of the bodies as the law sees them, without errors; of planar ones in the plane.
-[[nodiscard]] double law_clearance(const BodyState& a, const BodyState& b);
 
 }  // namespace vericone::guidance

@@ -147,11 +147,6 @@ struct Sight {
   double velocity_deviation = 0;  // m/s
 };
 
-/// Standard deviations of what is measured on the plane at a (measured) state: those of (7.2), and, to first
-/// order, those of position and velocity; of psi as for a ball.
-[[nodiscard]] Measured deviations_on_plane(const Sight& sight, const PlanarState& state,
-                                           const PlaneCone& cone);
-
 /// What is filtered, by constant_rate.h. The source filters y for its outer loop and the rates psi', theta_b'
 /// (7.4); its models and intensities are not printed.
 struct PlaneFilterOptions {
@@ -187,11 +182,5 @@ struct OuterLoopOptions {
   /// a and |b| from the noise of the moment (noise_range) in place of those of `model`.
   bool from_noise = false;
 };
-
-/// u to be added to the inner loop's lateral acceleration `inner`, both within `most`. `by_lateral_a`: dy'/da
-/// of the measured state, whose sign is that of b.
-[[nodiscard]] RobustCorrection outer_loop(const OuterLoopOptions& outer, double z, double inner, double most,
-                                          double gain, double by_lateral_a, const PlanarState& state,
-                                          const PlaneCone& cone, const Measured& deviations);
 
 }  // namespace vericone::guidance

@@ -2,6 +2,7 @@
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/geometry/error.h>
 #include <vericone/guidance/plane_view.h>
+#include <vericone/internal/simulation/montecarlo/flight.h>
 #include <vericone/simulation/montecarlo/campaign.h>
 #include <vericone/simulation/run.h>
 #include <algorithm>

@@ -4,6 +4,7 @@
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/pose.h>
 #include <vericone/internal/geometry/decompositions.h>
+#include <vericone/internal/simulation/shape_in_time.h>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>

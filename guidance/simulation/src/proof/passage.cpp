@@ -3,6 +3,7 @@
 // The search for a proof of passage: pieces of time from the first to the last, halved until each is
 // certified or the body is found to meet rim or wall. Why a certificate holds:
 // docs/explanation/proof-of-runs.md.
+#include <vericone/internal/simulation/shape_in_time.h>
 #include <vericone/simulation/proof.h>
 
 #include <vericone/cones/opening/opening.h>

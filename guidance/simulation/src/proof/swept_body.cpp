@@ -3,6 +3,7 @@
 
 #include <vericone/internal/geometry/decompositions.h>
 #include <vericone/internal/geometry/requires.h>
+#include <vericone/internal/simulation/shape_in_time.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -4,6 +4,7 @@
 // agent's middle, as the mesh sees it, is counted where it crosses the fan that spans the window's rim.
 #include <vericone/cones/pair.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/simulation/shape_in_time.h>
 #include <vericone/simulation/proof.h>
 #include <cmath>
 #include <cstdint>

@@ -23,10 +23,6 @@ struct Image {
   [[nodiscard]] bool empty() const { return data.empty(); }
 };
 
-/// Throws InputError naming "image" unless it has 1 or 3 channels, and as many bytes as its pixels times
-/// them.
-void require_whole(const Image& image);
-
 /// Upright, in pixels: left and top edge, width and height.
 struct Box {
   double x = 0, y = 0, w = 0, h = 0;

@@ -41,19 +41,10 @@ namespace vericone {
 template <int D>
 [[nodiscard]] Relation relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b, Rung* rung = nullptr);
 
-/// Last rung.
-template <int D>
-[[nodiscard]] Relation exact_relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b);
-
 /// Whether n.x separates the bodies strictly: n.c > rho_A(n) + rho_B(n), for the n given, exactly.
 template <int D>
 [[nodiscard]] bool separates(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
                              const Eigen::Matrix<double, D, 1>& n);
-
-/// First rung of separates(): true is certain, false says nothing. No allocation, about 20 ns.
-template <int D>
-[[nodiscard]] bool triage_separates(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
-                                    const Eigen::Matrix<double, D, 1>& n);
 
 namespace detail {
 /// What the first rung reads first: the coefficients of four quadratic forms of w, a separating normal, and
@@ -195,9 +186,6 @@ enum class Position : std::uint8_t {
 
 [[nodiscard]] const char* to_string(Position position);
 
-/// With A and B exchanged.
-[[nodiscard]] Position swapped(Position position);
-
 /// What relation() says of it: crossing, equal and every kind of nesting are `overlapping`.
 [[nodiscard]] Relation relation_of(Position position);
 
@@ -206,23 +194,6 @@ enum class Position : std::uint8_t {
 /// Cost: see docs/explanation/predicates/position.md.
 template <int D>
 [[nodiscard]] Position position(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b, Rung* rung = nullptr);
-
-/// First rung: a certificate searched for in plain doubles, its polynomials evaluated with a bound fixed by
-/// their formulas. Nothing when rounding could matter. Never answers `touching`, `equal` or `..._touching`.
-/// No allocation, no throw.
-template <int D>
-[[nodiscard]] std::optional<Position> triage_position(const BasicEllipsoid<D>& a,
-                                                      const BasicEllipsoid<D>& b) noexcept;
-
-/// Second rung: the same certificate in intervals. Never answers a degenerate position either. No allocation,
-/// no throw.
-template <int D>
-[[nodiscard]] std::optional<Position> interval_position(const BasicEllipsoid<D>& a,
-                                                        const BasicEllipsoid<D>& b) noexcept;
-
-/// Last rung, in integers: always an answer. For rational input see exact_predicates.h.
-template <int D>
-[[nodiscard]] Position exact_position(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b);
 
 /// Tag of position<D> for rung_counts().
 template <int D>

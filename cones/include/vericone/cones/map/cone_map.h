@@ -53,10 +53,6 @@ struct ConeMap {
 /// one level. Throws InputError naming "resolution", "most_cells" or "threads", and what the classifier does.
 [[nodiscard]] ConeMap cone_map(const DirectionClassifier& classifier, const ConeMapOptions& options = {});
 
-/// The index of the cell that contains a direction (of any one on an edge). Linear in the cells. Throws
-/// InputError naming "map.cells" where there are none, or "direction" where it is zero or not finite.
-[[nodiscard]] std::size_t cell_at(const ConeMap& map, const Eigen::Vector3d& direction);
-
 /// Steradian; of any lengths. Accurate to rounding for the smallest cells too.
 [[nodiscard]] double solid_angle(const DirectionCell& cell);
 

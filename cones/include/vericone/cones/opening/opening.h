@@ -66,9 +66,6 @@ struct PlacedOpening {
   [[nodiscard]] Eigen::Vector3d at(const Eigen::Vector2d& own) const { return center + axes * own; }
 };
 
-/// Throws InputError naming "center[i]", "axes[i][j]" (not finite) or "axes" (linearly dependent: exact).
-void require_placed(const PlacedOpening& placed);
-
 // How well an agent that moves along w gets through an opening: a length with its gradient, for laws.
 
 /// m(w): how far the agent's shadow along w is inside the opening's, metres. With h the supports of the two

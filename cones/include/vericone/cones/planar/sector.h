@@ -93,9 +93,6 @@ struct ConeFunction {
 [[nodiscard]] ConeFunction cone_function(double psi, double theta_b, const Eigen::Vector2d& v_a,
                                          const Eigen::Vector2d& v_b);
 
-/// (5.10) itself, dimensionless, from V_r, V_theta and the angle theta of the line of sight.
-[[nodiscard]] double cone_function_y(double v_r, double v_theta, double theta, double theta_b, double psi);
-
 // Exact membership of a velocity in the planar sector of two ellipses.
 
 /// Two ellipses prepared for many velocities: ConeOracle in the plane. Its laws hold here as well.

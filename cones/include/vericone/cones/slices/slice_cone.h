@@ -44,10 +44,6 @@ struct SliceCone {
 /// Cost: about 3 us a plane. Throws InputError naming "planes".
 [[nodiscard]] SliceCone slice_cone(const Ellipsoid& a, const Ellipsoid& b, int planes);
 
-/// The sector of the sections on the plane spanned by the line of centres and `across` (any vector not
-/// parallel to it). Throws InputError naming "across", or "bodies" where they are not disjoint.
-[[nodiscard]] Slice slice_sector(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& across);
-
 // The source's 3-D cone of combined quadrics: planar sectors of the sections by planes through the line of
 // centres (source, 6.3.2, Fig 6.6).
 

@@ -128,12 +128,6 @@ struct RobustAnswer {
 [[nodiscard]] RobustAnswer robust_verdict(const Pair& pair, const Eigen::Vector3d& v_a,
                                           const Eigen::Vector3d& v_b, const RelativeErrors& errors);
 
-/// An ellipsoid around the body however it is turned about its centre by at most `angle` (rad), and one
-/// within: S +- sin(angle) (a^2 - c^2) I with the largest and least semi-axis, rounded outwards and inwards.
-/// Throw InputError naming "angle".
-[[nodiscard]] Ellipsoid around_turned(const Ellipsoid& body, double angle);
-[[nodiscard]] Ellipsoid within_turned(const Ellipsoid& body, double angle);
-
 /// The clearance of all errors, metres: the largest, over unit n with n.w + h_W(n) = 0, of
 /// n.c - h_A(n) - h_B(-n) - h_P(n). Where it is positive and `time` is too, no error comes nearer, and one
 /// comes as near. Where it is negative some error collides or did. Without errors it is m(w) of clearance.h.

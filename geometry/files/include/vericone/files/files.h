@@ -62,10 +62,6 @@ struct PointFile {
 /// in the file, not for what its header claims. Time and memory are linear in the size of the file.
 [[nodiscard]] PointFile read_points(const std::filesystem::path& path);
 
-/// Extensions that promise a mesh or a cloud, with dot, lower case: ".obj", ".off", ... For choosing among
-/// the files of a folder; read_points() also reads .asc, .bin (KITTI), .csv, .pts, .pwn and .txt.
-[[nodiscard]] std::vector<std::string> known_extensions();
-
 /// The faces cut into triangles, n - 2 for n corners. A polygon is looked at along the coordinate axis from
 /// which it looks largest: it becomes the fan about its first corner where all of that turns the same way
 /// (convex polygons), else its ears are cut one by one, both decided exactly. So a flat polygon is itself; of
@@ -91,9 +87,6 @@ void write_points(const std::filesystem::path& path, std::span<const Eigen::Vect
 
 /// The same of a cloud.
 void write_points(const std::filesystem::path& path, std::span<const Eigen::Vector3d> points);
-
-/// A name beside `path` for what is being written, which no other writer has, in this process or in another.
-[[nodiscard]] std::filesystem::path partial_path(const std::filesystem::path& path);
 
 // A mesh of triangles from what was read, and what is to be known of it.
 

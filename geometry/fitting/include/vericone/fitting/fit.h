@@ -13,18 +13,6 @@
 
 namespace vericone::fitting {
 
-/// Distance from a point to the boundary of a body, metres: negative inside. Relative error 1e-10 or so.
-/// Inside it is the least of the distances to the surfaces; outside the distance to the nearest point of the
-/// body, on a surface or on a rim.
-[[nodiscard]] double signed_distance(const CombinedEllipsoid& body, const Eigen::Vector3d& point);
-
-/// The same to an ellipse, in the plane, unit of the body.
-[[nodiscard]] double signed_distance(const Ellipse& body, const Eigen::Vector2d& point);
-
-/// To a union, unit of the body: the least over the pieces; inside a lower bound of the depth where pieces
-/// overlap. For footprints the horizontal distance.
-[[nodiscard]] double signed_distance(const std::vector<Piece>& pieces, const Eigen::Vector3d& point);
-
 struct DistanceStatistics {
   double mean = 0, rms = 0, max = 0;  // metres
 };
@@ -47,12 +35,6 @@ struct DistanceStatistics {
 
 // Quadric surfaces near points: least squares of geometric distances, and the same with robust losses.
 // Neither contains the points: that is another question (containing.h).
-
-struct SurfaceFitOptions {
-  bool robust = false;       // else least squares
-  std::uint64_t seed = 1;    // of the trial samples of the robust start
-  int max_iterations = 200;  // of each refinement
-};
 
 /// A direction or length that the sample leaves open, in the world.
 struct Unknown {
@@ -88,17 +70,6 @@ struct SurfaceFit {
   std::optional<Overreach> overreach;
   int iterations = 0;
 };
-
-/// Points and weights of the sample. The residual of a point is its signed distance to the ellipsoid, for
-/// combined shapes the largest of the signed distances to the surfaces (the distance to the body, except
-/// outside near rims). Started from an algebraic fit, or the best of trial samples (robust), and from
-/// principal axes; for dents and waists from where the convex hull is farthest from the points. Robust:
-/// redescending loss with the scale re-estimated from the residuals.
-/// Throws InputError naming "points" where there are fewer than parameters or where no such surface is near
-/// the points (a plane, a paraboloid: what was found is said). Time linear in the points, some tens of
-/// passes.
-[[nodiscard]] SurfaceFit fit_surface(const CanonicalSample& sample, Shape shape,
-                                     const SurfaceFitOptions& options = {});
 
 // Quadric hulls of scanned objects: one call for all modes and shapes.
 

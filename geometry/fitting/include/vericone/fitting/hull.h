@@ -24,11 +24,6 @@ struct Sample {
   [[nodiscard]] bool is_mesh() const { return !triangles.empty(); }
 };
 
-/// Indices, increasing, of the points that count: all of a cloud; of a mesh those that triangles use. Throws
-/// InputError naming "points[i]" where one of them is not finite and "triangles[i]" for an index that is no
-/// point.
-[[nodiscard]] std::vector<std::uint32_t> used_points(const Sample& sample);
-
 /// Coordinates that belong to the sample: origin at its mean, axes along its principal directions (signs by
 /// the third moments), and a length. x = origin + scale * axes * y.
 struct Frame {
@@ -44,41 +39,10 @@ struct Frame {
   }
 };
 
-/// A sample in its own frame: the same for a sample that is turned, moved, scaled or written in another order
-/// (to rounding), so that every choice made in the frame is the same.
-struct CanonicalSample {
-  Frame frame;
-
-  /// Each point once, in the frame, in increasing order of rounded coordinates (below); of a mesh those that
-  /// triangles use.
-  /// They lie within the unit ball.
-  std::vector<Eigen::Vector3d> points;
-
-  /// Share of each in the sample, 1 in all: of a cloud how often it is there, of a mesh a third of the area
-  /// of the triangles at it.
-  std::vector<double> weights;
-
-  /// Those with area, in increasing order of their least corner, as indices into `points`.
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-
-  /// One index into Sample::points for each point.
-  std::vector<std::uint32_t> original;
-
-  /// For each of Sample::points its index in `points`; kUnused for those that no triangle of a mesh uses.
-  std::vector<std::uint32_t> index;
-  static constexpr std::uint32_t kUnused = 0xffffffff;
-
-  [[nodiscard]] bool is_mesh() const { return !triangles.empty(); }
-};
-
 /// Coordinates rounded to 2^-26, a hundred-millionth of the unit ball. Those of the same sample in another
 /// frame differ by some 1e-15 and are then (but for one in ten million) the same numbers: searches that
 /// branch are done with them, so that they take the same way.
 [[nodiscard]] Eigen::Vector3d rounded(const Eigen::Vector3d& y);
-
-/// Throws InputError naming "points" where there is none, where coordinates are not finite or above 1e100,
-/// and where all are equal; "triangles[i]" for an index that is no point.
-[[nodiscard]] CanonicalSample canonical(const Sample& sample);
 
 // Quadric hulls: unions of combined quadrics, and what is proved of them.
 
@@ -152,9 +116,5 @@ struct Assignment {
 /// naming "assignment.points" or "assignment.triangles".
 double enclose(std::vector<Piece>& pieces, const Sample& sample, const Assignment& assignment,
                double margin = 0);
-
-/// Sets `quadrics` of a piece without any proof: `body` or `footprint` rounded, each surface scaled to -1 at
-/// the centre. Far from the origin the roundings are chosen together, so that the surface stays where it is.
-void set_quadrics(Piece& piece);
 
 }  // namespace vericone::fitting

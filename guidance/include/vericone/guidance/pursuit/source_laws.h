@@ -35,9 +35,6 @@ struct PursuitCommand {
   PursuitStatus status = PursuitStatus::steering;
 };
 
-/// Brings each component to at most `most`, m/s^2, and says so. Throws InputError naming "most" below 0.
-void saturate(PursuitCommand& command, double most);
-
 /// (3.1), (3.2), and what A's accelerations change of them: y' = by_lateral a_lat + by_longitudinal a_long,
 /// with (3.4) and (3.6) corrected (errata 3.3). B's accelerations change them by the opposite of A's.
 struct RendezvousRates {
@@ -131,15 +128,6 @@ struct VerticalGains {
   /// With the term 2 phi x_W x_S'^2 / x_S^3 that (4.23) leaves out of the inversion of (4.22).
   bool exact = true;
 };
-
-/// phi of (4.17), px: of a picture `width` px wide with this field of view, rad.
-[[nodiscard]] double focal_length(double width, double field_of_view);
-/// u_S of (4.23), m/s^2 up, with phi x_W / x_S = z of (4.19), so that no focal length is needed. size > 0,
-/// px.
-[[nodiscard]] double size_acceleration(double size, double size_rate, double altitude,
-                                       const VerticalGains& gains);
-/// (4.24), its second sign corrected, m/s^2 up.
-[[nodiscard]] double altitude_acceleration(double wanted, double altitude, double climb, double p, double d);
 
 enum class VerticalMode : std::uint8_t { size, lock, altitude };
 [[nodiscard]] const char* to_string(VerticalMode mode);

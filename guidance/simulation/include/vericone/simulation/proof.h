@@ -79,9 +79,6 @@ struct MovingOrifice {
   [[nodiscard]] guidance::OrificeState at(double t) const;
 };
 
-/// The mesh of a window as it moves from when it appears until `to`. Requires a window.
-[[nodiscard]] Track mesh_track(const MovingOrifice& orifice, double to);
-
 // Whether a moving body went through a moving opening, proved: apart from its rim, and from its wall if it
 // has one, at all times and not only at the steps; on one side of it before and on the other after.
 

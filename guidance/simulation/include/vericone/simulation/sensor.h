@@ -68,11 +68,6 @@ struct Measurement {
 [[nodiscard]] Measurement measure(const Sensor& sensor, const guidance::BodyState& a,
                                   const guidance::BodyState& b, const Draw& draw);
 
-/// What the agent knows of the errors of the moment, as the law is told: of the deviations, those of the
-/// measured state, since the true one is not known.
-[[nodiscard]] guidance::Sight sight_of(const Sensor& sensor, const Measurement& measurement,
-                                       const Draw& draw);
-
 /// Throws InputError naming "noise", "position", "velocity", "deviation", "r", "theta", ...
 void check(const Sensor& sensor);
 

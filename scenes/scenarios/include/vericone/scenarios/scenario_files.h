@@ -28,14 +28,6 @@ struct RunOrigin {
   std::string text = {};        // of the file; empty: it is read
 };
 
-/// touched or undecided where anything is; else missed, where an ordered passage is, or passed, where all
-/// are; of runs without orders avoided, or none where no pair could be checked.
-[[nodiscard]] std::string run_verdict(const simulation::Run& run);
-
-/// The verdict, what is proved of every pair and of every passage, as JSON (docs/reference/scenarios.md):
-/// proof.json.
-[[nodiscard]] std::string proof_text(const simulation::Scenario& scenario, const simulation::Run& run);
-
 /// The run's tables and JSON files and a copy of the scenario into `folder`, which must exist; planes.csv
 /// where planes are logged, sights.csv where an agent has a sensor, vehicles.csv where there is a vehicle,
 /// orifices.csv and orifices.json where there are any. Throws InputError naming "origin.file" or

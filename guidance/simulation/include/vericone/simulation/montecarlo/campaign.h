@@ -15,24 +15,6 @@
 
 namespace vericone::montecarlo {
 
-/// Two ellipsoids as they start, the first one the agent; both turn with their headings.
-struct Encounter {
-  simulation::Body agent, obstacle;
-
-  /// v_agent - v_obstacle at the start, m/s.
-  [[nodiscard]] Eigen::Vector3d relative_velocity() const {
-    return agent.start.velocity - obstacle.start.velocity;
-  }
-  /// Time in which the centres cover their distance at the relative speed, s.
-  [[nodiscard]] double scale() const;
-};
-
-/// Encounter `index` of a campaign: bodies and places of `vericone accuracy` with the same seed (semi-axes
-/// uniform in 1..10 m, uniform orientations, centres 1.5 to 3 times as far apart as where they touch along
-/// the line of centres), speeds uniform in 5..15 m/s, and the relative velocity aimed at a point beside the
-/// obstacle's centre, so that about two thirds are on a collision course. Depends on seed and index alone.
-[[nodiscard]] Encounter random_encounter(std::uint64_t seed, std::uint64_t index);
-
 // What became of an encounter under one law, with what is proved of it.
 
 /// A law as the campaign flies it.
@@ -50,21 +32,12 @@ struct FlightSettings {
   double required = 1;      // m, of the clearance law
 };
 
-/// Without saturation: accelerations up to this.
-inline constexpr double kUnlimited = 1000;  // m/s^2
-
-/// The laws by name, each with saturation and without. Throws InputError naming "laws".
-[[nodiscard]] std::vector<Flown> flown_laws(const std::vector<std::string>& names,
-                                            const FlightSettings& settings);
-
 enum class Fate : std::uint8_t {
   avoided,    // proved, also for the straight flight after the run
   met,        // proved to touch
   undecided,  // not proved either way
 };
 [[nodiscard]] const char* to_string(Fate fate);
-/// Nothing for another text.
-[[nodiscard]] std::optional<Fate> fate_of(const std::string& text);
 
 /// What became of one flight.
 struct Outcome {
@@ -77,9 +50,6 @@ struct Outcome {
   double left_cone = std::numeric_limits<double>::quiet_NaN();  // s, first time; NaN: was not in it or never
 };
 
-/// Under one law, until the centres have passed and what follows is decided.
-[[nodiscard]] Outcome fly(const Encounter& encounter, const Flown& law, const FlightSettings& settings);
-
 /// Straight flight: what becomes of it, and what the cones said of it at the start, on the plane of the line
 /// of sight and the relative velocity.
 struct StraightOutcome {
@@ -87,7 +57,6 @@ struct StraightOutcome {
   double y_slice = 0, y_exact = 0;
   bool slice_called_safe = false, exact_called_safe = false;
 };
-[[nodiscard]] StraightOutcome fly_straight(const Encounter& encounter);
 
 // A campaign: random engagements under every law, with a proof of what became of each
 // (docs/measured/campaign.md).

@@ -58,9 +58,6 @@ void write_picture(const std::filesystem::path& file, const Image& image);
 
 // What is drawn into pictures for people to look at.
 
-/// A copy in grey, as trackers want it. Throws InputError naming "image".
-[[nodiscard]] Image grey_of(const Image& image);
-
 /// A box into a picture of 3 channels, coloured by what the tracker says of it: green seen, yellow partly
 /// hidden, red hidden, violet lost; where it is only expected, dashed. Its name and confidence stand above
 /// it. Throws InputError naming "image".

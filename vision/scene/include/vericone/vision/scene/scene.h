@@ -50,14 +50,6 @@ class CameraMount {
   std::deque<Known> known_;
 };
 
-/// Looking at a point that is not straight above, the picture's top as far to the north (world y) as can be.
-[[nodiscard]] Eigen::Matrix3d looking_at(const Eigen::Vector3d& from, const Eigen::Vector3d& point);
-
-/// The attitude (body x forward, y left, z up, as a Motion's) in which a thrust along z gives an
-/// acceleration, m/s^2, at a heading, rad: (4.28). Not defined where the acceleration is that of free fall.
-[[nodiscard]] Eigen::Matrix3d attitude_for(const Eigen::Vector3d& acceleration, double heading,
-                                           double gravity = 9.81);
-
 /// The largest acceleration, m/s^2, along a level direction with which all points stay in the picture of a
 /// strapdown camera of a body at `position`, `margin` px from its edges: by attitude_for in steps of 0.005
 /// rad, then halved to 1e-9. 0 where a point is out already; `most` where none gets out. Vertical
