@@ -62,7 +62,7 @@ double unwrapped(double angle, double near) {
 }
 
 PlanarRates planar_rates(const PlanarState& s, const PlanarInputs& in) {
-  VERICONE_REQUIRES(s.r > 0);
+  VERICONE_REQUIRES(s.r > 0, "state.r", "no positive number", "positive (m)");
   const double sine_a = std::sin(s.alpha - s.theta), cosine_a = std::cos(s.alpha - s.theta);
   const double sine_b = std::sin(s.beta - s.theta), cosine_b = std::cos(s.beta - s.theta);
   PlanarRates rates;

@@ -128,6 +128,11 @@ def is_public(header: str) -> bool:
     return "/vericone/internal/" not in header
 
 
+def skipped(full: str) -> str:
+    """Why Python has no such name; empty where it has one."""
+    return rules.SKIPPED.get(full) or next((reason for kind, reason in rules.SKIPPED_KINDS if kind.search(full)), "")
+
+
 class Model:
     def __init__(self, interface: Interface) -> None:
         self.interface = interface
@@ -324,9 +329,9 @@ class Model:
                 r.path == path for r in self.records.values()) else "", rules.SKIPPED.get(full, "the type it stands for is bound")))
         known = {n.cpp for n in self.names}
         parsed = any(n.cpp.startswith("verify::") for n in self.names)
-        for full in rules.SKIPPED:
+        for full in (*rules.SKIPPED, *rules.LONG, *rules.INSTANCES, *rules.REQUIRES):
             if full not in known and (parsed or not full.startswith("verify::")):
-                self.problems.append(f"{full}: in SKIPPED of rules.py, and not in the headers")
+                self.problems.append(f"{full}: in rules.py, and not in the headers")
 
     def _values(self, record: Record) -> dict[str, str]:
         if not record.source.template:
@@ -368,8 +373,8 @@ class Model:
         groups: dict[str, Group] = {}
         for method in source.methods:
             name = f"{full}::{method.name}" if not method.constructor else f"{full}::{full.split('::')[-1]}"
-            if name in rules.SKIPPED or method.name.startswith("operator") or method.name.startswith("~"):
-                reason = rules.SKIPPED.get(name, "an operator")
+            reason = skipped(name) or ("an operator" if method.name.startswith(("operator", "~")) else "")
+            if reason:
                 self.names.append(Name(name, "method", source.header, "", reason, method.doc))
                 continue
             made = self._callable(method, path, values, record)
@@ -396,16 +401,17 @@ class Model:
 
     def _define_function(self, function: Function) -> None:
         full = "::".join((*function.scope, function.name))
-        if full in rules.SKIPPED or function.name.startswith("operator"):
+        reason = skipped(full) or ("an operator" if function.name.startswith("operator") else "")
+        if reason:
             if not any(n.cpp == full for n in self.names):
-                self.names.append(Name(full, "function", function.header, "", rules.SKIPPED.get(full, "an operator"), function.doc))
+                self.names.append(Name(full, "function", function.header, "", reason, function.doc))
             return
         versions: list[dict[str, str]] = [{}]
         if function.template:
             if not all(p in rules.DIMENSIONS for p in function.template):
                 self.problems.append(f"{full}: a template of {', '.join(function.template)}")
                 return
-            versions = [dict(zip(function.template, v)) for v in rules.FUNCTION_INSTANCES.get(full, [("2",), ("3",)])]
+            versions = [dict(zip(function.template, v)) for v in (("2",), ("3",))]
         module = module_of(function.header)
         space = self._space(function.scope)
         python = ".".join((*space, python_name(function.name)))
@@ -456,8 +462,7 @@ class Model:
             made.work = "grows"
         made.whole = rules.WHOLE.get((full, len([a for a in arguments if a.role != "asked"])), "")
         question = record is None or f.const
-        made.many = (question and not f.constructor and not f.static and full not in rules.SINGLE
-                     and f.header.startswith(rules.MANY_FOLDERS) and self.answers(result)
+        made.many = (question and not f.constructor and not f.static and f.header.startswith(rules.MANY_FOLDERS) and self.answers(result)
                      and not any(a.role in ("changed", "memory") for a in arguments)
                      and any(self.is_question(a) for a in arguments))
         if made.many:

@@ -3,7 +3,9 @@
 // Cones of any shape, holes included, as a map on the sphere of directions (docs/explanation/cone-map.md).
 #pragma once
 
+#include <vericone/internal/geometry/requires.h>
 #include <vericone/internal/cones/direction_cell.h>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -42,6 +44,9 @@ struct ConeMap {
   bool complete = true;                           // false: stopped before the resolution was reached
 
   [[nodiscard]] DirectionCell cell(std::size_t i) const {
+    VERICONE_REQUIRES(
+        i < cells.size() && std::ranges::all_of(cells[i].corners, [&](auto k) { return k < corners.size(); }), "i",
+        "no such cell, or corners that the map does not have", "a cell of a map as cone_map() returns it");
     const auto& c = cells[i].corners;
     return {corners[c[0]], corners[c[1]], corners[c[2]]};
   }

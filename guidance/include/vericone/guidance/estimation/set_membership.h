@@ -4,6 +4,7 @@
 // true pair, proved. Nothing is assumed of the errors but their bounds.
 #pragma once
 
+#include <vericone/internal/geometry/requires.h>
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
@@ -63,7 +64,11 @@ class SetMembershipFilter {
             const Eigen::Vector3d& position_error, const Eigen::Vector3d& velocity_error, double time);
 
   [[nodiscard]] bool started() const { return axes_.has_value(); }
-  [[nodiscard]] const PossibleMotion& axis(int i) const { return (*axes_)[std::size_t(i)]; }
+  [[nodiscard]] const PossibleMotion& axis(int i) const {
+    VERICONE_REQUIRES(started() && i >= 0 && i < 3, "i", "no such axis, or no measurement",
+                      "0, 1 or 2, of a filter that has met a measurement");
+    return (*axes_)[std::size_t(i)];
+  }
   /// The middle of the bounds, and half their width rounded up.
   [[nodiscard]] Eigen::Vector3d position() const;
   [[nodiscard]] Eigen::Vector3d velocity() const;
