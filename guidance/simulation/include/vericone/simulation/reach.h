@@ -81,9 +81,6 @@ struct AgentReach {
 /// that its law and its goal command. Throws InputError naming "bodies" where no agent has any `through`.
 [[nodiscard]] std::vector<AgentReach> reach(const Scenario& scenario);
 
-/// Whether every passage that was ordered is proved.
-[[nodiscard]] bool all_passed(const Run& run);
-
 /// The largest drift (ProofOptions) with which every ordered passage of a run is still proved, m/s, found by
 /// halving to 1 % of it: what the recorded commands endure of any constant current. At least `proof.drift` of
 /// the scenario where that is proved; nothing where not all are proved without drift.
