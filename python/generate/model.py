@@ -153,7 +153,6 @@ class Model:
         self.enums: dict[str, PyEnum] = {}
         self.functions: dict[tuple[tuple[str, ...], str, str], Group] = {}
         self.constants: list[tuple[tuple[str, ...], Type, str, str]] = []  # path, type, comment, module
-        self.defined: list[Record] = []
         self.names: list[Name] = []
         self.problems: list[str] = []
         self._declare()
@@ -364,12 +363,6 @@ class Model:
             needs = field.default is None and self.kind(kind) in ("number", "integer", "boolean", "fixed", "enum")
             record.fields.append((field.name, kind, needs, field.doc, field.default))
             self.names.append(Name(name, "field", source.header, f"{record.name}.{python_name(field.name)}", "", field.doc))
-        base = self.records.get(record.base or "")
-        if base and base.is_record and not source.private_data:
-            if base.path not in {n.path for n in self.defined}:
-                self.problems.append(f"{full}: its base is defined after it")
-            record.fields = [*base.fields, *record.fields]
-        self.defined.append(record)
         groups: dict[str, Group] = {}
         for method in source.methods:
             name = f"{full}::{method.name}" if not method.constructor else f"{full}::{full.split('::')[-1]}"

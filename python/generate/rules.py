@@ -45,7 +45,7 @@ SKIPPED: dict[str, str] = {
     "checkpoint": "Ctrl-C and progress= end long work in Python",
     "Interrupted": "KeyboardInterrupt stands for it",
     "InputError": "InputError of the package: a ValueError with field, value and requirement",
-    "vision::Perception::Perception": "takes a tracker for its own; pursue() makes one",
+    "vision::Perception": "takes a tracker for its own; pursue() makes one",
     "kBodyKinds": "list(BodyKind) has them",
     "BasicEllipsoid::trusted": "looks at nothing; a pickle has a body bit for bit, and is looked at",
     "BasicCombined::trusted": "looks at nothing; a pickle has a body bit for bit, and is looked at",
@@ -91,7 +91,7 @@ LONG: set[str] = {f"{space}::{name}".removeprefix("::") for space, names in {
     "lidar": "MeshScene::MeshScene fuse raster scan spinning visible_part", "scanning": "look read_scan_scene scan_and_study study write_scan",
     "scenario": "read_scenario scenario_of_text write_run", "scenes": "read_body read_scene scene_of_text write_body write_scene",
     "simulation": "Arc::Arc Track::advance Vehicle::advance curves_of fly_trial largest_current prove prove_passage reach run_tables simulate",
-    "vision": "Image::Image Perception::start Perception::step Reader::next Scene::Scene Scene::render Tracker::start Tracker::step "
+    "vision": "Image::Image Reader::next Scene::Scene Scene::render Tracker::start Tracker::step "
               "VideoWriter::add VideoWriter::close draw_sighting open_footage pursue read_picture write_picture",
 }.items() for name in names.split()}
 # Calls of C++ for many vectors at once, by the function for one and its number of parameters.

@@ -63,4 +63,7 @@ void write_picture(const std::filesystem::path& file, const Image& image);
 /// it. Throws InputError naming "image".
 void draw_sighting(Image& image, const Sighting& sighting, const std::string& name);
 
+/// A copy in grey, as trackers want it. Throws InputError naming "image".
+[[nodiscard]] Image grey_of(const Image& image);
+
 }  // namespace vericone::vision
