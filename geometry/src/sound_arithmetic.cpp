@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
-#include <vericone/internal/geometry/sound_arithmetic.h>
+#include <vericone/geometry/sound_arithmetic.h>
 
 namespace vericone {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <vericone/scenes/scene.h>
-#include <vericone/simulation/shape_in_time.h>
+#include <vericone/simulation/track.h>
 #include <filesystem>
 #include <optional>
 #include <string>

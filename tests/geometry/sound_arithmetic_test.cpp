@@ -3,7 +3,7 @@
 // What other parts of a program do to a thread is noticed. What compilers do: sound_arithmetic.cmake.
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
-#include <vericone/internal/geometry/sound_arithmetic.h>
+#include <vericone/geometry/sound_arithmetic.h>
 
 #include <cfenv>
 #include <string>

@@ -3,7 +3,7 @@
 // A program that asks whether its arithmetic is sound: sound_arithmetic.cmake compiles and links it with
 // options that make it so and with others.
 #include <vericone/geometry/error.h>
-#include <vericone/internal/geometry/sound_arithmetic.h>
+#include <vericone/geometry/sound_arithmetic.h>
 
 #include <cstdio>
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
 #include <vericone/internal/simulation/shape_in_time.h>
-#include <vericone/simulation/shape_in_time.h>
+#include <vericone/simulation/track.h>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>

@@ -3,7 +3,7 @@
 
 #include <unistd.h>
 #include <vericone/geometry/error.h>
-#include <vericone/internal/geometry/sound_arithmetic.h>
+#include <vericone/geometry/sound_arithmetic.h>
 
 #include <exception>
 #include <filesystem>

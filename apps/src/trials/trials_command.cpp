@@ -2,6 +2,7 @@
 #include "trials/trials_command.h"
 
 #include <vericone/geometry/error.h>
+#include <vericone/internal/simulation/montecarlo/flight.h>
 #include <vericone/internal/simulation/trials.h>
 #include <vericone/simulation/montecarlo/campaign.h>
 #include <vericone/simulation/trials.h>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <vericone/internal/geometry/alignment.h>
-#include <vericone/internal/geometry/sound_arithmetic.h>
+#include <vericone/geometry/sound_arithmetic.h>
 #include <Eigen/Core>
 
 namespace vericone {

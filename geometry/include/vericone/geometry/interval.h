@@ -8,7 +8,7 @@
 
 #include <vericone/geometry/sign.h>
 #include <vericone/internal/geometry/requires.h>
-#include <vericone/internal/geometry/sound_arithmetic.h>
+#include <vericone/geometry/sound_arithmetic.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

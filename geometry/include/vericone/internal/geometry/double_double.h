@@ -5,7 +5,7 @@
 // Dekker 1971, Knuth 1969; see Ogita, Rump, Oishi 2005.
 #pragma once
 
-#include <vericone/internal/geometry/sound_arithmetic.h>
+#include <vericone/geometry/sound_arithmetic.h>
 #include <cmath>
 
 namespace vericone {

@@ -6,7 +6,7 @@
 #pragma once
 
 #include <vericone/geometry/sign.h>
-#include <vericone/internal/geometry/sound_arithmetic.h>
+#include <vericone/geometry/sound_arithmetic.h>
 #include <cmath>
 #include <limits>
 

@@ -3,7 +3,7 @@
 // Shapes at an instant and over an interval, for tracks and their proofs.
 #pragma once
 
-#include <vericone/simulation/shape_in_time.h>
+#include <vericone/simulation/track.h>
 
 namespace vericone::simulation {
 
