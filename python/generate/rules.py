@@ -46,8 +46,6 @@ SKIPPED: dict[str, str] = {
     "Interrupted": "KeyboardInterrupt stands for it",
     "InputError": "InputError of the package: a ValueError with field, value and requirement",
     "vision::Perception": "takes a tracker for its own; pursue() makes one",
-    "library_and_program_need_the_same_EIGEN_MAX_STATIC_ALIGN_BYTES_16": "a check of the C++ linker",
-    "kCompiledAlike": "a check of the C++ linker",
     "require_sound_arithmetic": "asked when the package is imported",
     "kBodyKinds": "list(BodyKind) has them",
     "BasicEllipsoid::trusted": "looks at nothing; a pickle has a body bit for bit, and is looked at",
