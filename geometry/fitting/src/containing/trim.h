@@ -4,6 +4,7 @@
 #pragma once
 
 #include <vericone/fitting/hull.h>
+#include <vericone/internal/fitting/canonical.h>
 #include <vector>
 
 namespace vericone::fitting {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <vericone/fitting/fit.h>
+#include <vericone/internal/fitting/fit_surface.h>
 
 #include "surface/report.h"
 #include "surface/start.h"
