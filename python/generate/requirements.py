@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What C++ requires of its callers, read from the definitions: VERICONE_REQUIRES(condition, "input", "what it got", "what
-it must be") stands in the function that requires it, where assertions look at it."""
+"""What C++ requires of its callers, read from the definitions: VERICONE_REQUIRES(condition, "input", "what it got",
+"what it must be") stands in the function that requires it, where assertions look at it."""
 from __future__ import annotations
 
 import ast
@@ -25,7 +25,8 @@ def _blanked(text: str) -> str:
     def blank(match: re.Match[str]) -> str:
         return re.sub(r"[^\n]", " ", match.group(0))
 
-    return re.sub(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|^#[^\n]*(?:\\\n[^\n]*)*', blank, text, flags=re.DOTALL | re.MULTILINE)
+    return re.sub(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|^#[^\n]*(?:\\\n[^\n]*)*', blank, text,
+                  flags=re.DOTALL | re.MULTILINE)
 
 
 def _arguments(text: str, code: str, at: int) -> list[str]:
@@ -74,7 +75,8 @@ def _functions(code: str) -> list[tuple[int, int, str, list[str]]]:
                 scopes.append(("scope", named.group(2), at, []))
             else:
                 name = re.search(r"([\w:~]+)\s*\(", declaration)
-                scopes.append(("body", name.group(1) if name else "", at, _parameters(declaration, name.end()) if name else []))
+                scopes.append(("body", name.group(1), at, _parameters(declaration, name.end())) if name else
+                              ("body", "", at, []))
         elif sign == "}" and scopes:
             kind, name, begin, parameters = scopes.pop()
             if kind == "body":
@@ -103,5 +105,6 @@ def read(root: str, folders: list[str]) -> dict[tuple[str, int], Requirement]:
                             continue
                         _, _, full, parameters = next(f for f in functions if f[0] < mark.start() < f[1])
                         field, got, need = (ast.literal_eval("(" + word + ")") for word in words)
-                        requirements[full, len(parameters)] = Requirement(re.sub(r"\s+", " ", condition), field, got, need, parameters)
+                        requirements[full, len(parameters)] = Requirement(
+                            re.sub(r"\s+", " ", condition), field, got, need, parameters)
     return requirements

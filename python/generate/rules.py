@@ -9,12 +9,13 @@ import re
 MODULES = [
     ("geometry/files", "_files"), ("geometry/octomap", "_octomap"), ("geometry/fitting", "_fitting"),
     ("geometry/lidar", "_lidar"), ("geometry", "_core"), ("cones", "_core"), ("guidance", "_core"),
-    ("scenes/fit", "_fitting"), ("scenes/scan", "_lidar"), ("scenes", "_files"), ("vision", "_vision"), ("verify", "_verify"),
+    ("scenes/fit", "_fitting"), ("scenes/scan", "_lidar"), ("scenes", "_files"), ("vision", "_vision"),
+    ("verify", "_verify"),
 ]
 # Where the public headers are, in folders named include.
 FOLDERS = ["geometry", "geometry/files", "geometry/octomap", "geometry/fitting", "geometry/lidar", "cones", "guidance",
-           "guidance/simulation", "guidance/vehicles", "scenes", "scenes/scenarios", "scenes/fit", "scenes/scan", "vision",
-           "vision/scene", "vision/footage", "vision/pursuit"]
+           "guidance/simulation", "guidance/vehicles", "scenes", "scenes/scenarios", "scenes/fit", "scenes/scan",
+           "vision", "vision/scene", "vision/footage", "vision/pursuit"]
 # Headers whose functions may take one or many.
 MANY_FOLDERS = ("geometry/include", "cones/include", "guidance/include")
 
@@ -31,39 +32,30 @@ INSTANCES = {
 }
 
 # C++ name: why Python has none.
-SKIPPED: dict[str, str] = {
-    "climb": "a template of C++ for those who write predicates",
-    "decided_by": "a template of C++ for those who write predicates",
-    "rung_counts": "counts by tags, which are types of C++; a Python program counts the rungs that it is given",
-    "SpatialMotion::rate_a": "a pointer; bodies are rigid here, PlaneCones takes those that change",
-    "SpatialMotion::rate_b": "a pointer; bodies are rigid here, PlaneCones takes those that change",
-    "simulation::earliest_passages": "takes pointers; reach() asks it for a scenario",
-    "Stop": "Ctrl-C and progress= end long work in Python",
-    "StopScope": "Ctrl-C and progress= end long work in Python",
-    "stop_of_this_thread": "Ctrl-C and progress= end long work in Python",
-    "stop_requested": "Ctrl-C and progress= end long work in Python",
-    "checkpoint": "Ctrl-C and progress= end long work in Python",
-    "Interrupted": "KeyboardInterrupt stands for it",
-    "InputError": "InputError of the package: a ValueError with field, value and requirement",
-    "vision::Perception": "takes a tracker for its own; pursue() makes one",
-    "require_sound_arithmetic": "asked when the package is imported",
-    "kBodyKinds": "list(BodyKind) has them",
-    "BasicEllipsoid::trusted": "looks at nothing; a pickle has a body bit for bit, and is looked at",
-    "BasicCombined::trusted": "looks at nothing; a pickle has a body bit for bit, and is looked at",
-    "montecarlo::kBin": "0.25 m, the width of a bin of Counts.least_distances",
-    "montecarlo::kLastBin": "15 m, where the last bin of Counts.least_distances begins",
-    "verify::SpatialFamilyReport::gap_medians": "medians by number of planes, as C++ has them; print() says them",
-    "verify::CorpusCase::body": "a template by its result; the package vericone reads bodies from scenes",
-    "verify::CorpusCase::rational_body": "a template by its result; exact.RationalBody3 takes any Ellipsoid",
-    "verify::CorpusCase::vector": "a template by its result; numbers() has the text of each",
-    "verify::read_corpus": "takes a stream of C++; files are read by name",
-    "verify::kAllSpatialFamilies": "list(SpatialFamily) has them",
-    "verify::kAllPlanarFamilies": "list(PlanarFamily) has them",
-    "verify::kGapSamples": "a number of planes that only C++ counts by",
-}
+SKIPPED: dict[str, str] = {name: why for why, names in {
+    "a template of C++ for those who write predicates": "climb decided_by",
+    "counts by tags, which are types of C++; a Python program counts the rungs that it is given": "rung_counts",
+    "a pointer; bodies are rigid here": "SpatialMotion::rate_a SpatialMotion::rate_b",
+    "takes pointers; reach() asks it for a scenario": "simulation::earliest_passages",
+    "Ctrl-C and progress= end long work in Python": "Stop StopScope stop_of_this_thread stop_requested checkpoint",
+    "KeyboardInterrupt stands for it": "Interrupted",
+    "InputError of the package: a ValueError with field, value and requirement": "InputError",
+    "takes a tracker for its own; pursue() makes one": "vision::Perception",
+    "asked when the package is imported": "require_sound_arithmetic",
+    "list() of the enumeration has them": "kBodyKinds verify::kAllSpatialFamilies verify::kAllPlanarFamilies",
+    "looks at nothing; a pickle is looked at": "BasicEllipsoid::trusted BasicCombined::trusted",
+    "0.25 m and 15 m, the bins of Counts.least_distances": "montecarlo::kBin montecarlo::kLastBin",
+    "medians by number of planes, as C++ has them; print() says them": "verify::SpatialFamilyReport::gap_medians",
+    "a template by its result; the package vericone reads bodies from scenes": "verify::CorpusCase::body",
+    "a template by its result; exact.RationalBody3 takes any Ellipsoid": "verify::CorpusCase::rational_body",
+    "a template by its result; numbers() has the text of each": "verify::CorpusCase::vector",
+    "takes a stream of C++; files are read by name": "verify::read_corpus",
+    "a number of planes that only C++ counts by": "verify::kGapSamples",
+}.items() for name in names.split()}
 # The same of all names that end so.
 SKIPPED_KINDS: list[tuple[re.Pattern[str], str]] = [
-    (re.compile(r"(^|::)(triage|interval|naive|exact)_(?!relation$)\w+$"), "one rung of a ladder: the name without it climbs them all"),
+    (re.compile(r"(^|::)(triage|interval|naive|exact)_(?!relation$)\w+$"),
+     "one rung of a ladder: the name without it climbs them all"),
     (re.compile(r"(^|::)to_string$"), "an enumeration prints its name"),
     (re.compile(r"^simulation::Leg::(most|first|last)_\w+$"), "bounds that proofs ask for"),
     (re.compile(r"^guidance::PlaneFilters::\w+$"), "guide() makes and asks them, in its memory"),
@@ -83,17 +75,21 @@ NOT_QUESTIONS = ("Options", "Memory", "Gains", "Parameters", "Limits")
 # Functions that may take more than a few tenths of a second: they can be interrupted. Beside them, all that
 # take lists, where these are long.
 LONG: set[str] = {f"{space}::{name}".removeprefix("::") for space, names in {
-    "": "Assembly::boxes Assembly::cloud Assembly::mesh Assembly::polyhedra Body::containing_ellipsoid MeshWindow::cone Pair::cone "
-        "combined_slice_cone cone_bounds cone_map enclosed_volume min_volume_ellipsoid part probability_of_passing_through regions "
-        "region_around rims slice_cone surface to_obj to_ply true_cone visible_cone volume",
-    "guidance": "all_planes", "files": "read_points triangle_mesh write_points", "octomap": "obstacle_boxes read_octree",
-    "fits": "read_scan write_fit describe",
+    "": "Assembly::boxes Assembly::cloud Assembly::mesh Assembly::polyhedra Body::containing_ellipsoid "
+        "MeshWindow::cone Pair::cone combined_slice_cone cone_bounds cone_map enclosed_volume min_volume_ellipsoid part "
+        "probability_of_passing_through regions region_around rims slice_cone surface to_obj to_ply true_cone "
+        "visible_cone volume",
+    "guidance": "all_planes", "files": "read_points triangle_mesh write_points", "fits": "read_scan write_fit describe",
+    "octomap": "obstacle_boxes read_octree",
     "fitting": "check enclose fit hull_to_scan scan_to_hull volume enclosed_volume",
-    "lidar": "MeshScene::MeshScene fuse raster scan spinning visible_part", "scanning": "look read_scan_scene scan_and_study study write_scan",
-    "scenario": "read_scenario scenario_of_text write_run", "scenes": "read_body read_scene scene_of_text write_body write_scene",
-    "simulation": "Arc::Arc Track::advance Vehicle::advance curves_of fly_trial largest_current prove prove_passage reach run_tables simulate",
-    "vision": "Image::Image Reader::next Scene::Scene Scene::render Tracker::start Tracker::step "
-              "VideoWriter::add VideoWriter::close draw_sighting open_footage pursue read_picture write_picture",
+    "lidar": "MeshScene::MeshScene fuse raster scan spinning visible_part",
+    "scanning": "look read_scan_scene scan_and_study study write_scan",
+    "scenario": "read_scenario scenario_of_text write_run",
+    "scenes": "read_body read_scene scene_of_text write_body write_scene",
+    "simulation": "Arc::Arc Track::advance Vehicle::advance curves_of fly_trial largest_current prove prove_passage "
+                  "reach run_tables simulate",
+    "vision": "Image::Image Reader::next Scene::Scene Scene::render Tracker::start Tracker::step VideoWriter::add "
+              "VideoWriter::close draw_sighting grey_of open_footage pursue read_picture write_picture",
 }.items() for name in names.split()}
 # Calls of C++ for many vectors at once, by the function for one and its number of parameters.
 WHOLE = {("ConeOracle::membership", 1): "memberships"}
@@ -102,13 +98,14 @@ KEEPS_SELF = {"simulation::VehicleModel::launch"}
 # Classes whose const calls change what nobody sees: one call at a time too.
 MACHINES = {"PlaneCones"}
 
-# What virtual functions require, of which C++ has many definitions: the condition, of `self` and the parameters; which input
-# breaks it, what was given, what would be right. All others say it themselves (requirements.py).
+# What virtual functions require, of which C++ has many definitions: the condition, of `self` and the parameters; which
+# input breaks it, what was given, what would be right. All others say it themselves (requirements.py).
 REQUIRES: dict[str, tuple[str, str, str, str]] = {
     "simulation::Vehicle::advance": ("from >= 0 && to >= from && to - from <= 1e5", "to", "no time after from",
                                      "from the time reached, to a later one, less than 1e5 s on"),
-    "vision::Tracker::step": ("!ground || ground->allFinite()", "ground", "a number that is not finite", "finite, or None"),
+    "vision::Tracker::step": ("!ground || ground->allFinite()", "ground", "a number that is not finite",
+                              "finite, or None"),
 }
-# Types that the library checks itself, if it is asked to, and by what: every argument of theirs, and lists of them, are.
+# Types that the library checks itself, if asked, and by what: every argument of theirs, and lists of them, are.
 CHECKED: dict[str, str] = {f"vericone::guidance::{name}": "vericone::guidance::check"
                            for name in ("BodyState", "ClearanceOptions", "GuideOptions", "LawOptions")}

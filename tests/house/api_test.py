@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The stable interface, api.txt: what the public headers declare. Whoever takes a name away or changes one does so
-here too, and says so in the CHANGELOG: `tests/house/api_test.py --write`. Mechanism (include/vericone/internal) is none of it."""
+"""The stable interface, api.txt: what the public headers declare. Whoever takes a name away or changes one does so here
+too (`tests/house/api_test.py --write`), and says so in the CHANGELOG. Mechanism (include/vericone/internal) is none of
+it."""
 
 import re
 import sys
@@ -26,7 +27,8 @@ def name_of(declaration):
     while re.search(r"<[^<>]*>", plain):
         plain = re.sub(r"<[^<>]*>", "", plain)
     named = (re.match(r"(?:class|struct|enum class|enum|using|concept) (\w+)", plain) or
-             re.search(r"(operator *[^\s(]+|operator\(\)|\w+)\s*(?=\(|=|\{|$)", plain) or re.search(r"(\w+)\W*$", plain))
+             re.search(r"(operator *[^\s(]+|operator\(\)|\w+)\s*(?=\(|=|\{|$)", plain) or
+             re.search(r"(\w+)\W*$", plain))
     return named.group(1)
 
 
@@ -56,7 +58,8 @@ def listed():
     for header, path in public().items():
         lines.append(header)
         for name, (said, members) in interface(path.read_text(encoding="utf-8")).items():
-            lines.append(f"  {name} {zlib.crc32(chr(10).join(said).encode()):08x}{':' if members else ''} {' '.join(members)}".rstrip())
+            changes = f"{zlib.crc32(' '.join(said).encode()):08x}"
+            lines.append(" ".join(["", "", name, changes + ":" * bool(members), *members]))
     return "".join(f"{line}\n" for line in lines)
 
 
