@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scenarios/parts.h"
 
-#include <vericone/files/read_points.h>
-#include <vericone/geometry/lengths.h>
+#include <vericone/files/files.h>
+#include <vericone/internal/geometry/lengths.h>
 #include <Eigen/Geometry>
 #include <utility>
 #include <vector>

@@ -2,7 +2,6 @@
 #include "scenarios/parts.h"
 
 #include <vericone/vehicles/fish.h>
-#include <vericone/vehicles/fish_body.h>
 #include <vericone/vehicles/quadrotor.h>
 #include <numbers>
 

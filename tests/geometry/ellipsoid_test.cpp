@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 #include <vericone/geometry/ellipsoid.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/exact/body.h>
 #include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/quadric.h>
+#include <vericone/internal/geometry/exact/defining_shape.h>
 
 #include <cmath>
 #include <functional>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "accuracy/accuracy.h"
 
-#include <vericone/files/read_points.h>
+#include <vericone/files/files.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
+#include <vericone/internal/files/extensions.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

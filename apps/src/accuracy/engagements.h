@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vericone/cones/random_engagement.h>
+#include <vericone/internal/cones/random_engagement.h>
 #include <string>
 
 namespace vericone::accuracy {

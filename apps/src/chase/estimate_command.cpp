@@ -2,7 +2,7 @@
 #include "chase/estimate_command.h"
 
 #include <vericone/geometry/error.h>
-#include <vericone/guidance/estimation/singer.h>
+#include <vericone/guidance/estimation/filters.h>
 #include <array>
 #include <charconv>
 #include <cmath>

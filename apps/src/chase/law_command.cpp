@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chase/law_command.h"
 
-#include <vericone/geometry/decompositions.h>
-#include <vericone/guidance/pursuit/focal_law.h>
 #include <vericone/guidance/pursuit/pursuit_law.h>
-#include <vericone/guidance/pursuit/rendezvous_law.h>
-#include <vericone/guidance/pursuit/vertical_law.h>
+#include <vericone/guidance/pursuit/source_laws.h>
+#include <vericone/internal/geometry/decompositions.h>
 #include <optional>
 
 #include "command/cases.h"

@@ -3,10 +3,9 @@
 // The cone of two quadrics in space, by each method of `vericone cone`.
 #pragma once
 
-#include <vericone/cones/combined/cone.h>
 #include <vericone/cones/ellipsoids/true_cone.h>
-#include <vericone/cones/slices/combined_slice_cone.h>
 #include <vericone/cones/slices/slice_cone.h>
+#include <vericone/internal/cones/combined/cone.h>
 #include <vericone/scenes/scene.h>
 #include <iosfwd>
 #include <optional>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cone/shapes.h"
 
-#include <vericone/geometry/combined_volume.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/mesh/surface.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

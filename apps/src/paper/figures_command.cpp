@@ -2,8 +2,7 @@
 #include "paper/figures_command.h"
 
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
-#include <vericone/scenarios/run_files.h>
+#include <vericone/scenarios/scenario_files.h>
 #include <algorithm>
 #include <cmath>
 #include <fstream>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulate/check_command.h"
 
-#include <vericone/files/read_points.h>
+#include <vericone/files/files.h>
 #include <vericone/geometry/error.h>
-#include <vericone/scenes/words.h>
+#include <vericone/internal/files/extensions.h>
+#include <vericone/internal/scenes/words.h>
 #include <algorithm>
 #include <filesystem>
 #include <optional>

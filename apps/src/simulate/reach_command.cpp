@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulate/reach_command.h"
 
-#include <vericone/scenarios/read_scenario.h>
+#include <vericone/scenarios/scenario_files.h>
 #include <vericone/simulation/reach.h>
 #include <algorithm>
 #include <cmath>

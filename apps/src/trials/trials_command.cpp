@@ -2,7 +2,9 @@
 #include "trials/trials_command.h"
 
 #include <vericone/geometry/error.h>
-#include <vericone/simulation/montecarlo/encounter.h>
+#include <vericone/internal/simulation/montecarlo/flight.h>
+#include <vericone/internal/simulation/trials.h>
+#include <vericone/simulation/montecarlo/campaign.h>
 #include <vericone/simulation/trials.h>
 #include <algorithm>
 #include <cmath>

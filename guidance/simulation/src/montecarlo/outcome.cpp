@@ -2,7 +2,8 @@
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/geometry/error.h>
 #include <vericone/guidance/plane_view.h>
-#include <vericone/simulation/montecarlo/outcome.h>
+#include <vericone/internal/simulation/montecarlo/flight.h>
+#include <vericone/simulation/montecarlo/campaign.h>
 #include <vericone/simulation/run.h>
 #include <algorithm>
 #include <cmath>

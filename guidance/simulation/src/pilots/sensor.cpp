@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/internal/simulation/sight.h>
 #include <vericone/simulation/sensor.h>
 
 #include <vericone/geometry/error.h>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/internal/guidance/plane_view.h>
+#include <vericone/internal/simulation/shape_in_time.h>
 #include <vericone/simulation/scenario.h>
 
 #include <vericone/geometry/error.h>

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
-#include <vericone/guidance/clearance_law.h>
+#include <vericone/guidance/laws.h>
+#include <vericone/internal/guidance/directions.h>
+#include <vericone/internal/guidance/laws.h>
+#include <vericone/internal/simulation/run_tables.h>
 #include <vericone/simulation/run_tables.h>
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Scenarios from YAML; the fields are described in docs/reference/scenarios.md.
+#pragma once
+
+#include <vericone/simulation/run.h>
+#include <vericone/simulation/scenario.h>
+#include <filesystem>
+#include <string>
+
+namespace vericone::scenario {
+
+/// Reads and checks a scenario, and the files it names, relative to its folder. Throws InputError naming the
+/// file or the field, for example "bodies[1].shape.k". A scenario without name is called like the file.
+[[nodiscard]] simulation::Scenario read_scenario(const std::string& file);
+
+/// The same from `text`; `file` is named in errors.
+[[nodiscard]] simulation::Scenario scenario_of_text(const std::string& text, const std::string& file);
+
+// A run as files: tables with units in their column names and JSON, described in docs/reference/scenarios.md.
+// What does not apply is an empty field.
+
+/// Where a run came from and what it took.
+struct RunOrigin {
+  std::filesystem::path file;   // of the scenario; empty: a program made it, and no file is copied
+  std::string provenance = {};  // JSON: what it takes to get the same result again; empty: not known
+  double seconds = 0;           // s, of the computation
+  std::string text = {};        // of the file; empty: it is read
+};
+
+/// The run's tables and JSON files and a copy of the scenario into `folder`, which must exist; planes.csv
+/// where planes are logged, sights.csv where an agent has a sensor, vehicles.csv where there is a vehicle,
+/// orifices.csv and orifices.json where there are any. Throws InputError naming "origin.file" or
+/// "origin.provenance", before anything is written, and std::system_error naming the path that cannot be
+/// written.
+void write_run(const simulation::Scenario& scenario, const simulation::Run& run, const RunOrigin& origin,
+               const std::filesystem::path& folder);
+
+}  // namespace vericone::scenario
