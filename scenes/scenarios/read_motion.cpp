@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/internal/guidance/directions.h>
 #include "scenarios/parts.h"
 
 #include <Eigen/Geometry>

@@ -2,6 +2,8 @@
 #include "pilots/engagement.h"
 
 #include <vericone/cones/cone_geometry.h>
+#include <vericone/internal/guidance/collision_course.h>
+#include <vericone/internal/guidance/laws.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

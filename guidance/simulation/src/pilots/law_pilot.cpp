@@ -3,6 +3,8 @@
 
 #include <vericone/geometry/error.h>
 #include <vericone/guidance/plane_view.h>
+#include <vericone/internal/guidance/plane_view.h>
+#include <vericone/internal/simulation/shape_in_time.h>
 #include <algorithm>
 #include <cmath>
 

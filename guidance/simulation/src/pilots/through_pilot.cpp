@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
+#include <vericone/internal/guidance/orifice_function.h>
 #include <vericone/simulation/reach.h>
 #include <vericone/simulation/scenario.h>
 #include <algorithm>

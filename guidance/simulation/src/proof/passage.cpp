@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Proofs of passage. Why a certificate holds: docs/explanation/proof-of-runs.md.
-#include <vericone/simulation/passage.h>
+#include <vericone/internal/simulation/shape_in_time.h>
+#include <vericone/simulation/proof.h>
 
-#include <vericone/cones/opening/rim_distance.h>
+#include <vericone/cones/opening/opening.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

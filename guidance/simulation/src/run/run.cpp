@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/internal/simulation/mesh_track.h>
+#include <vericone/internal/simulation/passed.h>
 #include <vericone/simulation/run.h>
 
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
 #include <algorithm>
 #include <chrono>
 #include <cmath>

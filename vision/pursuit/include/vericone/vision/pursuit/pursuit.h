@@ -4,8 +4,7 @@
 #pragma once
 
 #include <vericone/guidance/pursuit/pursuit_law.h>
-#include <vericone/guidance/pursuit/rendezvous_law.h>
-#include <vericone/guidance/pursuit/vertical_law.h>
+#include <vericone/guidance/pursuit/source_laws.h>
 #include <vericone/simulation/run.h>
 #include <vericone/vision/pursuit/perception.h>
 #include <vericone/vision/scene/scene.h>
