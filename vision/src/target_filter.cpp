@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "target_filter.h"
-#include <vericone/internal/guidance/estimation/kalman.h>
 
 #include <Eigen/Dense>
 #include <cmath>

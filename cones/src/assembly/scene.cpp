@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "assembly/scene.h"
 
-#include <vericone/internal/cones/ellipsoids/rungs.h>
 #include <vericone/internal/cones/hulls/hull_oracle.h>
 #include <vericone/internal/geometry/rotation.h>
 

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <vericone/internal/cones/assembly/assembly_oracle.h>
-#include <vericone/internal/cones/ellipsoids/rungs.h>
 #include <array>
 #include <cmath>
 #include <limits>

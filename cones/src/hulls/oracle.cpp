@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/internal/cones/ellipsoids/rungs.h>
 #include <vericone/internal/cones/hulls/hull_oracle.h>
 
 #include <vericone/geometry/error.h>

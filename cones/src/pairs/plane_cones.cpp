@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/plane_cones.h>
-#include <vericone/internal/guidance/plane_view.h>
 
 #include <vericone/internal/cones/assembly/assembly_sectors.h>
 #include <Eigen/Geometry>

@@ -6,7 +6,6 @@
 #include <vericone/cones/plane_cones.h>
 #include <vericone/geometry/error.h>
 #include <vericone/internal/cones/may_meet.h>
-#include <vericone/internal/guidance/plane_view.h>
 #include <vericone/testing/random_bodies.h>
 #include <cmath>
 

@@ -27,7 +27,6 @@
 #include <CGAL/Algebraic_kernel_d_1.h>
 #include <CGAL/CORE_BigInt.h>
 #include <CGAL/CORE_BigRat.h>
-#include <vericone/internal/cones/ellipsoids/rungs.h>
 #include <vericone/internal/verify/predicates/exact_tangents.h>
 
 #include <stdexcept>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <vericone/internal/simulation/run_tables.h>
 #include <vericone/internal/verify/predicates/truth.h>
 
 #include <stdexcept>

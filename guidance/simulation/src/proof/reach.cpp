@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/internal/simulation/mesh_track.h>
-#include <vericone/internal/simulation/montecarlo/flight.h>
 #include <vericone/internal/simulation/passed.h>
 #include <vericone/simulation/reach.h>
 

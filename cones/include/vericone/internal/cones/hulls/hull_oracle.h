@@ -8,7 +8,6 @@
 #include <vericone/geometry/ellipsoid.h>
 #include <vericone/geometry/hull_body.h>
 #include <vericone/geometry/interval.h>
-#include <vericone/internal/cones/ellipsoids/rungs.h>
 #include <array>
 #include <cstddef>
 #include <memory>
