@@ -5,7 +5,6 @@
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/quadric.h>
-#include <vericone/internal/geometry/exact/defining_shape.h>
 
 #include <cmath>
 #include <functional>

@@ -4,7 +4,6 @@
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
-#include <vericone/internal/geometry/exact/defining_shape.h>
 
 #include <chrono>
 #include <cmath>

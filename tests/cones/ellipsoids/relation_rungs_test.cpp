@@ -7,7 +7,6 @@
 #include <vericone/geometry/exact/rational.h>
 #include <vericone/internal/cones/ellipsoids/contact_frame.h>
 #include <vericone/internal/cones/ellipsoids/rungs.h>
-#include <vericone/internal/geometry/exact/defining_shape.h>
 #include <vericone/testing/random_bodies.h>
 
 #include <iostream>

@@ -7,7 +7,6 @@
 #include <vericone/geometry/exact/rational.h>
 #include <vericone/internal/cones/times/contact_time_enclosure.h>
 #include <vericone/internal/cones/times/order.h>
-#include <vericone/internal/geometry/exact/defining_shape.h>
 #include <vericone/testing/random_bodies.h>
 #include <Eigen/LU>
 

@@ -5,7 +5,6 @@
 #include <CGAL/MP_Float.h>
 #include <CGAL/Simple_cartesian.h>
 #include <vericone/geometry/exact/rational.h>
-#include <vericone/internal/geometry/exact/defining_shape.h>
 #include <vericone/internal/verify/spatial/min_ellipsoid_check.h>
 
 #include <Eigen/LU>

@@ -2,7 +2,6 @@
 #include "proof/rational_quadric.h"
 
 #include <vericone/geometry/exact/rational.h>
-#include <vericone/internal/geometry/exact/defining_shape.h>
 #include <vericone/internal/geometry/exact/integer.h>
 #include <cmath>
 #include <cstdint>
