@@ -3,8 +3,8 @@
 // Prints, in Markdown, what questions about a dented body and a mesh, and about two meshes, cost:
 // vericone_composite_ratios.
 #include <benchmarks/pairs.h>
-#include <vericone/cones/composite/composite_pair.h>
 #include <vericone/cones/map/cone_map.h>
+#include <vericone/internal/cones/composite/composite_pair.h>
 #include <algorithm>
 #include <cstdio>
 #include <ctime>

@@ -3,9 +3,9 @@
 #include <benchmarks/accuracy.h>
 #include <benchmarks/suites.h>
 #include <vericone/cones/ellipsoids/clearance.h>
-#include <vericone/cones/ellipsoids/plane_sector.h>
 #include <vericone/cones/planar/sector.h>
 #include <vericone/cones/slices/slice_cone.h>
+#include <vericone/internal/cones/ellipsoids/plane_sector.h>
 
 namespace vericone::benchmarks {
 namespace {

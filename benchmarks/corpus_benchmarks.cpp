@@ -5,7 +5,7 @@
 #include <benchmark/benchmark.h>
 #include <benchmarks/suites.h>
 #include <vericone/cones/ellipsoids/predicates.h>
-#include <vericone/verify/corpus/file.h>
+#include <vericone/verify/corpus.h>
 #include <string>
 #include <vector>
 

@@ -7,7 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <vericone/files/triangle_mesh.h>
+#include <vericone/files/files.h>
 #ifdef VERICONE_HAS_OCTOMAP
 #include <vericone/octomap/read_octree.h>
 #endif

@@ -9,6 +9,7 @@
 #include <benchmarks/items.h>
 #include <vericone/guidance/guide.h>
 #include <vericone/guidance/navigator.h>
+#include <vericone/internal/guidance/plane_view.h>
 #include <algorithm>
 #include <cstdio>
 #include <ctime>

@@ -2,9 +2,8 @@
 #include <benchmark/benchmark.h>
 #include <benchmarks/agreement.h>
 #include <benchmarks/suites.h>
-#include <vericone/cones/opening/opening_clearance.h>
+#include <vericone/cones/opening/opening.h>
 #include <vericone/cones/opening/orifice.h>
-#include <vericone/cones/opening/rim_distance.h>
 #include <vericone/testing/random_bodies.h>
 #include <algorithm>
 #include <chrono>

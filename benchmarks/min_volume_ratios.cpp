@@ -2,9 +2,9 @@
 //
 // Prints, in Markdown, what the minimum-volume ellipsoid costs beside CGAL's at equal epsilon, all in one
 // run: vericone_min_volume_ratios [ROUNDS [FILE...]]. Clouds of 100,000 points, then the points of the files.
-#include <vericone/files/read_points.h>
-#include <vericone/verify/seeded_random.h>
-#include <vericone/verify/spatial/min_ellipsoid_check.h>
+#include <vericone/files/files.h>
+#include <vericone/internal/verify/seeded_random.h>
+#include <vericone/internal/verify/spatial/min_ellipsoid_check.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

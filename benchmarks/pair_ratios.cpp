@@ -4,10 +4,10 @@
 // in one run; and sectors on planes.
 //
 // Usage: vericone_pair_ratios [ROUNDS [MAP.bt]]   (an octree map; boxes in rows without it)
-#include <vericone/cones/assembly/assembly_oracle.h>
-#include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/cones/pair.h>
-#include <vericone/testing/any_body.h>
+#include <vericone/internal/cones/assembly/assembly_oracle.h>
+#include <vericone/internal/cones/hulls/hull_oracle.h>
+#include <vericone/testing/random_bodies.h>
 #ifdef VERICONE_HAS_OCTOMAP
 #include <vericone/octomap/read_octree.h>
 #endif

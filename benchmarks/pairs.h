@@ -3,9 +3,9 @@
 // The engagements every benchmark is run on: the same for the library and for its peers.
 #pragma once
 
-#include <vericone/cones/ellipsoids/plane_sector.h>
 #include <vericone/cones/ellipsoids/true_cone.h>
 #include <vericone/cones/planar/sector.h>
+#include <vericone/internal/cones/ellipsoids/plane_sector.h>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>

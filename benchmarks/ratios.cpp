@@ -6,9 +6,8 @@
 #include <benchmarks/agreement.h>
 #include <benchmarks/combined_pairs.h>
 #include <benchmarks/items.h>
-#include <vericone/cones/combined/cone.h>
-#include <vericone/cones/slices/combined_slice_cone.h>
 #include <vericone/cones/slices/slice_cone.h>
+#include <vericone/internal/cones/combined/cone.h>
 #include <algorithm>
 #include <cstdio>
 #include <fstream>

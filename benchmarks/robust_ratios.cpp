@@ -7,7 +7,7 @@
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/uncertain/probability.h>
 #include <vericone/cones/uncertain/robust.h>
-#include <vericone/guidance/clearance_law.h>
+#include <vericone/guidance/laws.h>
 #include <vericone/guidance/robust_law.h>
 #include <cstdio>
 #include <cstdlib>

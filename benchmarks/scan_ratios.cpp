@@ -4,9 +4,9 @@
 // one run: vericone_scan_ratios [MAP.bt [MESH]].
 #include <benchmarks/fcl_map_peer.h>
 #include <benchmarks/fcl_peers.h>
-#include <vericone/cones/assembly/assembly_oracle.h>
-#include <vericone/cones/hulls/hull_oracle.h>
-#include <vericone/files/read_points.h>
+#include <vericone/files/files.h>
+#include <vericone/internal/cones/assembly/assembly_oracle.h>
+#include <vericone/internal/cones/hulls/hull_oracle.h>
 #include <vericone/octomap/read_octree.h>
 #include <algorithm>
 #include <cstdio>

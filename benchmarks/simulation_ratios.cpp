@@ -5,7 +5,7 @@
 // given.
 //
 // Usage: vericone_simulation_ratios STEP SCENARIO.yaml...   (STEP in seconds; 0: the scenario's)
-#include <vericone/scenarios/read_scenario.h>
+#include <vericone/scenarios/scenario_files.h>
 #include <vericone/simulation/run.h>
 #include <algorithm>
 #include <chrono>

@@ -1,5 +1,5 @@
 // A mesh of one's own as an obstacle: own_mesh FILE (OFF, OBJ, PLY, STL). Links vericone::files as well.
-#include <vericone/files/triangle_mesh.h>
+#include <vericone/files/files.h>
 #include <vericone/vericone.h>
 #include <iostream>
 using namespace vericone;

@@ -2,10 +2,8 @@
 //
 // What the Python package is measured against: the same questions about the same arrays, in loops of C++.
 // ratios.py loads this library beside the package, so that both are timed in one run.
-#include <vericone/cones/assembly/assembly_oracle.h>
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/ellipsoids/predicates.h>
-#include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/cones/pair.h>
 #include <cstddef>
 #include <cstdint>
@@ -23,6 +21,8 @@ static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double) && sizeof(Membership
 const Ellipsoid kAgent = Ellipsoid::from_axes({0, 0, 0}, {1, 1, 0.5});
 const Ellipsoid kObstacle = Ellipsoid::from_axes({10, 2, 0}, {2, 3, 1});
 
+const Eigen::Vector3d kStill = Eigen::Vector3d::Zero();
+
 std::span<const Eigen::Vector3d> vectors(const double* numbers, std::size_t n) {
   return {reinterpret_cast<const Eigen::Vector3d*>(numbers), n};
 }
@@ -38,8 +38,7 @@ void memberships(const double* w, std::size_t n, std::int8_t* out) {
 
 void verdicts(const double* w, std::size_t n, std::int8_t* out) {
   static const Pair pair(Placed{kAgent}, Placed{kObstacle});
-  const Eigen::Vector3d still = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& v : vectors(w, n)) *out++ = static_cast<std::int8_t>(pair.verdict(v, still));
+  for (const Eigen::Vector3d& v : vectors(w, n)) *out++ = static_cast<std::int8_t>(pair.verdict(v, kStill));
 }
 
 // The distances are returned, so that nothing is left out; all of each answer is kept, as Python does.
@@ -58,8 +57,8 @@ void times_to_contact(const double* w, std::size_t n, double* out) {
 void hull_memberships(const double* points, std::size_t count, const double* w, std::size_t n,
                       std::int8_t* out) {
   const auto corners = vectors(points, count);
-  const HullOracle oracle(kAgent, HullBody({corners.begin(), corners.end()}));
-  for (const Eigen::Vector3d& v : vectors(w, n)) *out++ = static_cast<std::int8_t>(oracle.membership(v));
+  const Pair pair{Placed(kAgent), Placed(HullBody({corners.begin(), corners.end()}))};
+  for (const Eigen::Vector3d& v : vectors(w, n)) *out++ = static_cast<std::int8_t>(pair.verdict(v, kStill));
 }
 
 void mesh_memberships(const double* points, std::size_t count, const std::uint32_t* corners,
@@ -68,8 +67,8 @@ void mesh_memberships(const double* points, std::size_t count, const std::uint32
   std::vector<Assembly::Triangle> faces(triangles);
   for (std::size_t i = 0; i < triangles; ++i)
     faces[i] = {corners[3 * i], corners[3 * i + 1], corners[3 * i + 2]};
-  const AssemblyOracle oracle(kAgent, Assembly::mesh({vertices.begin(), vertices.end()}, faces));
-  for (const Eigen::Vector3d& v : vectors(w, n)) *out++ = static_cast<std::int8_t>(oracle.membership(v));
+  const Pair pair{Placed(kAgent), Placed(Assembly::mesh({vertices.begin(), vertices.end()}, faces))};
+  for (const Eigen::Vector3d& v : vectors(w, n)) *out++ = static_cast<std::int8_t>(pair.verdict(v, kStill));
 }
 
 }  // extern "C"

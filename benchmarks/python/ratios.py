@@ -140,17 +140,17 @@ def main() -> int:
     table.row("time_to_contact", few, lambda: vericone.time_to_contact(agent, obstacle, part), times, 1.2)
 
     points: Floats = rng.normal(size=(100, 3)) + [10, 2, 0]
-    hull = vericone.HullOracle(agent, vericone.HullBody(points))
+    hull = vericone.Pair(agent, vericone.HullBody(points))
 
     def hulls() -> None:
         peer.hull_memberships(at(points), ctypes.c_size_t(len(points)), at(part), ctypes.c_size_t(few), at(bytes_out))
 
     hulls()
-    assert np.array_equal(hull.membership(part), bytes_out[:few])
-    table.row("HullOracle.membership, 100 points", few, lambda: hull.membership(part), hulls, 1.2)
+    assert np.array_equal(hull.verdict(part, still), bytes_out[:few])
+    table.row("Pair.verdict, hull of 100 points", few, lambda: hull.verdict(part, still), hulls, 1.2)
 
     vertices, faces = sphere(60, 100)
-    mesh = vericone.AssemblyOracle(agent, vericone.Assembly.mesh(vertices, faces))
+    mesh = vericone.Pair(agent, vericone.Assembly.mesh(vertices, faces))
     some = n // 50
     least = np.ascontiguousarray(w[:some])
 
@@ -159,10 +159,10 @@ def main() -> int:
                               ctypes.c_size_t(count), at(bytes_out))
 
     meshes()
-    assert np.array_equal(mesh.membership(least), bytes_out[:some])
+    assert np.array_equal(mesh.verdict(least, still), bytes_out[:some])
     # What it takes to prepare the mesh is on both sides.
-    table.row(f"AssemblyOracle.membership, {len(faces)} triangles", some,
-              lambda: (vericone.AssemblyOracle(agent, vericone.Assembly.mesh(vertices, faces)).membership(least)), meshes, 1.2)
+    table.row(f"Pair.verdict, mesh of {len(faces)} triangles", some,
+              lambda: vericone.Pair(agent, vericone.Assembly.mesh(vertices, faces)).verdict(least, still), meshes, 1.2)
 
     one, repeated = w[0].copy(), 100_000
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/random_engagement.h>
+#include <vericone/internal/cones/random_engagement.h>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/internal/geometry/requires.h>
 #include <vericone/geometry/assembly.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
 #include <cmath>
 #include <string>
 
@@ -186,6 +186,7 @@ std::vector<Eigen::Vector3d> Assembly::corners() const {
 }
 
 HullBody Assembly::piece(std::size_t i) const {
+  VERICONE_REQUIRES(i < size(), "i", "no such piece", "below size()");
   const std::size_t slot = data_->slot.at(i);
   const Storage& storage = data_->storage;
   switch (data_->kind) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/geometry/mesh/boundary_loops.h>
+#include <vericone/geometry/mesh/surface.h>
 
 #include <vericone/geometry/error.h>
 #include <algorithm>

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/combined.h>
 
-#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/geometry/decompositions.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <string>
 
-#include <vericone/geometry/lengths.h>
+#include <vericone/internal/geometry/lengths.h>
 
 namespace vericone {
 namespace {

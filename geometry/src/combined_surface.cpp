@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/geometry/mesh/combined_surface.h>
+#include <vericone/geometry/mesh/surface.h>
 
 #include <vericone/geometry/error.h>
 #include <Eigen/Geometry>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/geometry/combined_volume.h>
+#include <vericone/geometry/mesh/surface.h>
 
-#include <vericone/geometry/decompositions.h>
+#include <vericone/internal/geometry/decompositions.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>

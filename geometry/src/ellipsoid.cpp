@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/ellipsoid.h>
 
-#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/quadric.h>
+#include <vericone/internal/geometry/decompositions.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <boost/multiprecision/cpp_bin_float.hpp>

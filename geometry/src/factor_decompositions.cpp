@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/geometry/decompositions.h>
+#include <vericone/internal/geometry/decompositions.h>
 
 #include <Eigen/QR>
 #include <Eigen/SVD>

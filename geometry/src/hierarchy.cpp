@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/hierarchy.h>
-#include <vericone/geometry/stop.h>
+#include <vericone/internal/geometry/hierarchy.h>
 #include <algorithm>
 #include <array>
 #include <cmath>

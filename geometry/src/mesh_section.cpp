@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/geometry/exact/integer.h>
-#include <vericone/geometry/mesh/mesh_section.h>
-#include <vericone/geometry/requires.h>
+#include <vericone/internal/geometry/exact/integer.h>
+#include <vericone/internal/geometry/mesh/mesh_section.h>
+#include <vericone/internal/geometry/requires.h>
 
 #include <algorithm>
 #include <cmath>

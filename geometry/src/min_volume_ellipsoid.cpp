@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/min_volume_ellipsoid.h>
 
-#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/exact/rational.h>
-#include <vericone/geometry/stop.h>
+#include <vericone/internal/geometry/decompositions.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>

@@ -4,6 +4,7 @@
 #include <vericone/geometry/body.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/pose.h>
+#include <vericone/internal/geometry/rotation.h>
 
 namespace vericone {
 namespace {

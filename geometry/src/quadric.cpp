@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/internal/geometry/requires.h>
 #include <vericone/geometry/quadric.h>
 
 #include <vericone/geometry/error.h>
@@ -86,6 +87,8 @@ template class BasicQuadric<2>;
 template class BasicQuadric<3>;
 
 Conic section(const Quadric& quadric, const PlaneFrame& plane) {
+  VERICONE_REQUIRES(plane.origin.allFinite() && plane.x_axis.allFinite() && plane.y_axis.allFinite(), "plane",
+                    "a number that is not finite", "finite");
   Eigen::Matrix<double, 4, 3> p;
   p << plane.x_axis, plane.y_axis, plane.origin, 0, 0, 1;
   const Eigen::Matrix3d m = p.transpose() * quadric.matrix() * p;

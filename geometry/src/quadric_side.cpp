@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/geometry/exact/body.h>
-#include <vericone/geometry/exact/quadric_side.h>
-#include <vericone/geometry/quadric_side.h>
+#include <vericone/geometry/combined.h>
+#include <vericone/geometry/exact/rational.h>
+#include <vericone/internal/geometry/quadric_side.h>
 
 #include <vericone/geometry/combined.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/exact/integer.h>
 #include <vericone/geometry/interval.h>
-#include <vericone/geometry/tracked.h>
+#include <vericone/internal/geometry/exact/integer.h>
+#include <vericone/internal/geometry/tracked.h>
 #include <array>
 #include <cmath>
 #include <string>

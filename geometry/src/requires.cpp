@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/geometry/requires.h>
+#include <vericone/internal/geometry/requires.h>
 #include <cstdio>
 #include <cstdlib>
 

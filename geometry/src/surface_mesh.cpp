@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface_mesh.h"
 
-#include <vericone/geometry/decompositions.h>
-#include <vericone/geometry/stop.h>
+#include <vericone/geometry/error.h>
+#include <vericone/internal/geometry/decompositions.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

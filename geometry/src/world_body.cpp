@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/world_body.h>
+#include <vericone/internal/geometry/rotation.h>
 
-#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/pose.h>
+#include <vericone/internal/geometry/decompositions.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/guidance/plane_view.h>
+#include <vericone/internal/guidance/plane_view.h>
 
 #include <Eigen/Geometry>
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/guidance/clearance_law.h>
+#include <vericone/guidance/laws.h>
+#include <vericone/internal/guidance/laws.h>
+#include <vericone/internal/guidance/plane_view.h>
 
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/cones/ellipsoids/clearance.h>

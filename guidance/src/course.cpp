@@ -3,6 +3,9 @@
 // Whether two bodies will meet if neither does anything: what laws ask before they say anything.
 #include <vericone/cones/pair.h>
 #include <vericone/guidance/guide.h>
+#include <vericone/internal/cones/may_meet.h>
+#include <vericone/internal/guidance/collision_course.h>
+#include <vericone/internal/guidance/plane_view.h>
 
 namespace vericone::guidance {
 namespace {

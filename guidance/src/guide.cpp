@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/guidance/guide.h>
+#include <vericone/internal/guidance/collision_course.h>
+#include <vericone/internal/guidance/laws.h>
+#include <vericone/internal/guidance/outer_loop.h>
+#include <vericone/internal/guidance/plane_view.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

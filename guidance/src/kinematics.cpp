@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/lengths.h>
-#include <vericone/geometry/requires.h>
 #include <vericone/guidance/kinematics.h>
+#include <vericone/internal/geometry/lengths.h>
+#include <vericone/internal/geometry/requires.h>
+#include <vericone/internal/guidance/directions.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -61,7 +62,7 @@ double unwrapped(double angle, double near) {
 }
 
 PlanarRates planar_rates(const PlanarState& s, const PlanarInputs& in) {
-  VERICONE_REQUIRES(s.r > 0);
+  VERICONE_REQUIRES(s.r > 0, "state.r", "no positive number", "positive (m)");
   const double sine_a = std::sin(s.alpha - s.theta), cosine_a = std::cos(s.alpha - s.theta);
   const double sine_b = std::sin(s.beta - s.theta), cosine_b = std::cos(s.beta - s.theta);
   PlanarRates rates;

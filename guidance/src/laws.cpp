@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/guidance/laws.h>
+#include <vericone/internal/guidance/laws.h>
 
 #include <vericone/geometry/error.h>
 #include <algorithm>

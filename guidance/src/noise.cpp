@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/guidance/noise.h>
+#include <vericone/guidance/robust_law.h>
 #include <algorithm>
 #include <cmath>
 

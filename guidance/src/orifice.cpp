@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/guidance/orifice.h>
+#include <vericone/guidance/orifice_law.h>
 
 #include <Eigen/Geometry>
 

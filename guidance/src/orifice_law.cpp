@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/guidance/orifice_law.h>
+#include <vericone/internal/guidance/directions.h>
+#include <vericone/internal/guidance/orifice_function.h>
 
 #include <vericone/cones/cone_geometry.h>
-#include <vericone/cones/opening/opening_clearance.h>
+#include <vericone/cones/opening/opening.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>

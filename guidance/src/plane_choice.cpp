@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/guidance/plane_choice.h>
+#include <vericone/internal/geometry/requires.h>
+#include <vericone/guidance/plane_view.h>
 
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/planar/sector.h>
 #include <vericone/cones/plane_cones.h>
-#include <vericone/geometry/stop.h>
+#include <vericone/geometry/error.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -230,6 +231,7 @@ const char* to_string(PlaneChoice choice) {
 
 std::vector<PlaneCandidate> all_planes(const BodyState& a, const BodyState& b, SectorMethod method,
                                        int planes) {
+  VERICONE_REQUIRES(planes >= 1, "planes", "less", "at least 1");
   std::vector<PlaneCandidate> all;
   if (a.position == b.position) return all;
   const AxisFrame frame(b.position - a.position);
@@ -244,6 +246,7 @@ std::vector<PlaneCandidate> all_planes(const BodyState& a, const BodyState& b, S
 std::optional<Vector3d> choose_plane(const BodyState& a, const BodyState& b, SectorMethod method,
                                      const PlaneOptions& options, const Vector3d* previous,
                                      EdgeMemory* memory) {
+  VERICONE_REQUIRES(options.planes >= 1 && options.planes <= 10'000, "options.planes", "others", "from 1 to 10000");
   if (a.position == b.position) return std::nullopt;
   const AxisFrame frame(b.position - a.position);
   const Vector3d& u = frame.axis;

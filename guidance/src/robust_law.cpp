@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/internal/geometry/requires.h>
 #include <vericone/geometry/error.h>
 #include <vericone/guidance/robust_law.h>
 #include <algorithm>
@@ -173,6 +174,7 @@ const char* to_string(RobustStatus status) {
 
 RobustCorrection robust_correction(double z, double low, double high, const RobustModel& model,
                                    const RobustOptions& options) {
+  VERICONE_REQUIRES((check(model, options), low <= high), "low, high", "others", "low <= high");
   const Corners corners = corners_of(model, options.polytope);
   const double mu = options.attenuation == Attenuation::printed ? options.mu : options.mu * options.mu;
   const auto none = [&](RobustStatus status) {

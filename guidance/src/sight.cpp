@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/guidance/sight.h>
+#include <vericone/guidance/robust_law.h>
+#include <vericone/internal/guidance/directions.h>
+#include <vericone/internal/guidance/outer_loop.h>
 #include <algorithm>
 #include <cmath>
 

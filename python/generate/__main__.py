@@ -12,6 +12,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import emit  # noqa: E402
 import headers  # noqa: E402
 import model as models  # noqa: E402
+import requirements  # noqa: E402
 import rules  # noqa: E402
 import stubs  # noqa: E402
 
@@ -38,9 +39,10 @@ def main() -> None:
     if model.problems:
         sys.exit("the Python binding does not know what to do with\n  " + "\n  ".join(model.problems) +
                  "\nsay so in python/generate/rules.py")
+    required = requirements.read(root, rules.FOLDERS)
     for module in dict.fromkeys(m for _, m in rules.MODULES):
         count = int(parts) if module == "_core" else 1
-        for name, text in emit.Emitter(model, module).sources(count).items():
+        for name, text in emit.Emitter(model, module, required).sources(count).items():
             write(os.path.join(out, "src", name), text)
     for name, text in stubs.package(model).items():
         write(os.path.join(out, name), text)

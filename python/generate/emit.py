@@ -8,6 +8,7 @@ import rules
 from cxxtypes import Type
 from docs import docstring
 from model import Argument, Callable_, Group, Model, PyEnum, Record, python_name
+from requirements import Requirement
 
 
 def quoted(text: str) -> str:
@@ -17,8 +18,9 @@ def quoted(text: str) -> str:
 
 
 class Emitter:
-    def __init__(self, model: Model, module: str) -> None:
+    def __init__(self, model: Model, module: str, requirements: dict[tuple[str, int], Requirement]) -> None:
         self.model = model
+        self.requirements = requirements
         self.module = module
         self.counter = 0
         self.defaults: list[str] = []
@@ -73,12 +75,19 @@ class Emitter:
         """What C++ asks of its callers, as expressions that throw."""
         found = []
         full = self.full(call, record)
-        own = rules.REQUIRES.get(f"{full}/{len(call.arguments)}", rules.REQUIRES.get(full))
+        own = self.requirements.get((full, len(call.cpp.parameters)))
+        if full in rules.REQUIRES:
+            own = Requirement(*rules.REQUIRES[full], [p.name for p in call.cpp.parameters])
         if own:
-            condition, field, got, need = own
-            for i, a in enumerate(call.arguments):
-                condition = re.sub(rf"\b{a.name}\b", passed[i], condition)
-            found.append(f'require({condition}, "{field}", "{got}", "{need}")')
+            condition = own.condition
+            members = {m.name for m in record.source.methods} | {f.name for f in record.source.fields} if record else ()
+            for name in re.findall(r"(?<![\w.>:])[A-Za-z_]\w*", condition):
+                if name in members and name not in own.parameters:
+                    condition = re.sub(rf"(?<![\w.>:]){name}\b", f"self.{name}", condition)
+                    members -= {name}
+            for name, value in zip(own.parameters, passed):
+                condition = re.sub(rf"(?<![\w.>:]){name}\b", value, condition)
+            found.append(f'require({condition}, "{own.field}", "{own.got}", "{own.need}")')
         for i, a in enumerate(call.arguments):
             if self.model.kind(a.type) == "function" and a.default is None:
                 found.append(f'require({passed[i]} != nullptr, "{a.name}", "None", "a callable")')
@@ -87,9 +96,6 @@ class Emitter:
                 check = f"[](const auto& one) {{ {rules.CHECKED[of.plain().text()]}(one); }}"
                 found.append(f'require_sound({passed[i]}, "{a.name}", {check})' if of is a.type else
                              f'require_all_sound({passed[i]}, "{a.name}", {check})')
-            if a.type.plain().text() in rules.REQUIRES_OF_TYPES:
-                condition, field, got, need = rules.REQUIRES_OF_TYPES[a.type.plain().text()]
-                found.insert(0, f'require({condition.format(passed[i])}, "{a.name}.{field}", "{got}", "{need}")')
         return ", ".join(found)
 
     def overload(self, call: Callable_, record: Record | None) -> tuple[str, str, str]:

@@ -302,7 +302,8 @@ class Reader:
 
 def public_headers(root: str, folders: list[str]) -> Iterator[str]:
     for folder in folders:
-        for path, _, files in sorted(os.walk(os.path.join(root, folder))):
+        for path, below, files in os.walk(os.path.join(root, folder)):
+            below[:] = sorted(name for name in below if name != "internal")
             for name in sorted(files):
                 if name.endswith(".h"):
                     yield os.path.join(path, name)

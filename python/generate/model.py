@@ -31,6 +31,10 @@ class Unbound(Exception):
     """A type that Python has no form of."""
 
 
+class Internal(Unbound):
+    """A type of the library's own mechanism."""
+
+
 def python_name(name: str) -> str:
     return name + "_" if keyword.iskeyword(name) else name
 
@@ -120,9 +124,23 @@ def module_of(header: str) -> str:
     raise SystemExit(f"no module for {header}")
 
 
+def is_public(header: str) -> bool:
+    return "/vericone/internal/" not in header
+
+
+def skipped(full: str) -> str:
+    """Why Python has no such name; empty where it has one."""
+    return rules.SKIPPED.get(full) or next((reason for kind, reason in rules.SKIPPED_KINDS if kind.search(full)), "")
+
+
 class Model:
     def __init__(self, interface: Interface) -> None:
         self.interface = interface
+        self.mechanism = {entry.path for entry in (*interface.classes, *interface.enums) if not is_public(entry.header)}
+        interface.classes = [c for c in interface.classes if is_public(c.header)]
+        interface.enums = [e for e in interface.enums if is_public(e.header)]
+        interface.functions = [f for f in interface.functions if is_public(f.header)]
+        interface.constants = [c for c in interface.constants if is_public(c[3])]
         self.namespaces: set[tuple[str, ...]] = {()}
         self.class_sources = {c.path: c for c in interface.classes}
         self.enum_sources = {e.path: e for e in interface.enums}
@@ -135,7 +153,6 @@ class Model:
         self.enums: dict[str, PyEnum] = {}
         self.functions: dict[tuple[tuple[str, ...], str, str], Group] = {}
         self.constants: list[tuple[tuple[str, ...], Type, str, str]] = []  # path, type, comment, module
-        self.defined: list[Record] = []
         self.names: list[Name] = []
         self.problems: list[str] = []
         self._declare()
@@ -181,6 +198,8 @@ class Model:
             path = (*outer, *parts)
             if path in (("exact", "Rational"), ("exact", "Integer")):
                 return Type("vericone::" + "::".join(path), (), kind.const, kind.reference)
+            if path in self.mechanism:
+                raise Internal("::".join(path))
             if path in self.class_sources or path in self.enum_sources:
                 if path in self.class_sources and self.class_sources[path].template and not arguments and values:
                     # The name of a template within itself.
@@ -302,14 +321,16 @@ class Model:
             except (Unbound, ValueError) as error:
                 self.problems.append(f"{full}: {error}")
         for path, (_, header) in self.interface.aliases.items():
+            if not is_public(header):
+                continue
             full = "::".join(path)
             self.names.append(Name(full, "alias", header, full.replace("::", ".") if any(
                 r.path == path for r in self.records.values()) else "", rules.SKIPPED.get(full, "the type it stands for is bound")))
         known = {n.cpp for n in self.names}
         parsed = any(n.cpp.startswith("verify::") for n in self.names)
-        for full in rules.SKIPPED:
+        for full in (*rules.SKIPPED, *rules.LONG, *rules.INSTANCES, *rules.REQUIRES):
             if full not in known and (parsed or not full.startswith("verify::")):
-                self.problems.append(f"{full}: in SKIPPED of rules.py, and not in the headers")
+                self.problems.append(f"{full}: in rules.py, and not in the headers")
 
     def _values(self, record: Record) -> dict[str, str]:
         if not record.source.template:
@@ -342,17 +363,11 @@ class Model:
             needs = field.default is None and self.kind(kind) in ("number", "integer", "boolean", "fixed", "enum")
             record.fields.append((field.name, kind, needs, field.doc, field.default))
             self.names.append(Name(name, "field", source.header, f"{record.name}.{python_name(field.name)}", "", field.doc))
-        base = self.records.get(record.base or "")
-        if base and base.is_record and not source.private_data:
-            if base.path not in {n.path for n in self.defined}:
-                self.problems.append(f"{full}: its base is defined after it")
-            record.fields = [*base.fields, *record.fields]
-        self.defined.append(record)
         groups: dict[str, Group] = {}
         for method in source.methods:
             name = f"{full}::{method.name}" if not method.constructor else f"{full}::{full.split('::')[-1]}"
-            if name in rules.SKIPPED or method.name.startswith("operator") or method.name.startswith("~"):
-                reason = rules.SKIPPED.get(name, "an operator")
+            reason = skipped(name) or ("an operator" if method.name.startswith(("operator", "~")) else "")
+            if reason:
                 self.names.append(Name(name, "method", source.header, "", reason, method.doc))
                 continue
             made = self._callable(method, path, values, record)
@@ -379,16 +394,17 @@ class Model:
 
     def _define_function(self, function: Function) -> None:
         full = "::".join((*function.scope, function.name))
-        if full in rules.SKIPPED or function.name.startswith("operator"):
+        reason = skipped(full) or ("an operator" if function.name.startswith("operator") else "")
+        if reason:
             if not any(n.cpp == full for n in self.names):
-                self.names.append(Name(full, "function", function.header, "", rules.SKIPPED.get(full, "an operator"), function.doc))
+                self.names.append(Name(full, "function", function.header, "", reason, function.doc))
             return
         versions: list[dict[str, str]] = [{}]
         if function.template:
             if not all(p in rules.DIMENSIONS for p in function.template):
                 self.problems.append(f"{full}: a template of {', '.join(function.template)}")
                 return
-            versions = [dict(zip(function.template, v)) for v in rules.FUNCTION_INSTANCES.get(full, [("2",), ("3",)])]
+            versions = [dict(zip(function.template, v)) for v in (("2",), ("3",))]
         module = module_of(function.header)
         space = self._space(function.scope)
         python = ".".join((*space, python_name(function.name)))
@@ -419,6 +435,9 @@ class Model:
             result = self.resolve("void" if f.constructor else f.result, scope, values)
             if not f.constructor:
                 self.check(result, result=True)
+        except Internal as error:
+            self.names.append(Name(full, "overload", f.header, "", f"speaks of {error}, a type of the library's own", f.doc))
+            return None
         except (Unbound, ValueError) as error:
             self.problems.append(f"{full}({', '.join(p.type for p in f.parameters)}) -> {f.result}: {error}")
             return None
@@ -436,8 +455,7 @@ class Model:
             made.work = "grows"
         made.whole = rules.WHOLE.get((full, len([a for a in arguments if a.role != "asked"])), "")
         question = record is None or f.const
-        made.many = (question and not f.constructor and not f.static and full not in rules.SINGLE
-                     and f.header.startswith(rules.MANY_FOLDERS) and self.answers(result)
+        made.many = (question and not f.constructor and not f.static and f.header.startswith(rules.MANY_FOLDERS) and self.answers(result)
                      and not any(a.role in ("changed", "memory") for a in arguments)
                      and any(self.is_question(a) for a in arguments))
         if made.many:

@@ -4,7 +4,6 @@
 #include "pybind.h"
 
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
 #include <atomic>
 #include <chrono>
 #include <limits>

@@ -4,7 +4,7 @@
 // the global lock, and what C++ throws made an exception of Python.
 #pragma once
 
-#include <vericone/geometry/stop.h>
+#include <vericone/geometry/error.h>
 #include <chrono>
 #include <initializer_list>
 #include <tuple>

@@ -648,8 +648,9 @@ struct Convert<std::span<T>> {
 /// Truth values side by side, which a vector of bool does not have.
 struct Flags {
   std::unique_ptr<bool[]> data;
-  std::size_t size = 0;
-  operator std::span<const bool>() const { return {data.get(), size}; }  // NOLINT: that is what it is for
+  std::size_t count = 0;
+  [[nodiscard]] std::size_t size() const { return count; }
+  operator std::span<const bool>() const { return {data.get(), count}; }  // NOLINT: that is what it is for
 };
 template <>
 struct Convert<Flags> {

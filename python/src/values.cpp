@@ -3,9 +3,9 @@
 // What defines the values that are no records: by it they compare, print and pickle, bit for bit.
 #include <vericone/cones/opening/opening.h>
 #include <vericone/cones/pair.h>
-#include <vericone/cones/uncertain/error_set.h>
+#include <vericone/cones/uncertain/robust.h>
 #include <vericone/geometry/body.h>
-#include <vericone/geometry/exact/body.h>
+#include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/world_body.h>
 #include <cmath>
 #include <utility>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/fit_body.h"
 
-#include <vericone/geometry/decompositions.h>
+#include <vericone/geometry/combined.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/quadric_side.h>
+#include <vericone/internal/fitting/canonical.h>
+#include <vericone/internal/geometry/decompositions.h>
 #include <algorithm>
 #include <cmath>
 #include <span>

@@ -3,7 +3,7 @@
 // A fitted hull as JSON (docs/reference/formats.md), and what is proved of it in words.
 #pragma once
 
-#include <vericone/fits/read_scan.h>
+#include <vericone/fits/fit_files.h>
 #include <vericone/fitting/fit.h>
 
 #include "json/json_forward.h"

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <vericone/fitting/hull.h>
-#include <vericone/geometry/mesh/combined_surface.h>
+#include <vericone/geometry/mesh/surface.h>
 #include <string>
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/files/triangle_mesh.h>
-#include <vericone/fits/read_scan.h>
-#include <vericone/fitting/measure.h>
+#include <vericone/files/files.h>
+#include <vericone/fits/fit_files.h>
+#include <vericone/fitting/fit.h>
 #include <vericone/geometry/error.h>
 #include <algorithm>
 #include <filesystem>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/write_fit.h"
+#include <vericone/internal/fits/body_text.h>
 
 #include "fit/fit_body.h"
 #include "fit/fit_json.h"

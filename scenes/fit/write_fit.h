@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vericone/fits/write_fit.h>
+#include <vericone/fits/fit_files.h>
 #include <vector>
 
 #include "fit/hull_files.h"

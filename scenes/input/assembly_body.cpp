@@ -2,7 +2,7 @@
 #include "input/assembly_body.h"
 
 #include <sys/stat.h>
-#include <vericone/files/read_points.h>
+#include <vericone/files/files.h>
 #include <cstdint>
 #include <list>
 #include <mutex>

@@ -78,7 +78,15 @@ class Fields {
  public:
   using Read = std::function<void(const Json& value, const std::string& path, S& to)>;
 
-  explicit Fields(const char* title) : title_(title) {}
+  /// `kind`: the field, if any, that decides which of the others are read (only_of).
+  explicit Fields(const char* title, const char* kind = nullptr) : title_(title), kind_(kind) {}
+
+  /// The row before this is read only where the field `kind` is one of these; `words` say that in schemas.
+  Fields& only_of(std::vector<std::string> kinds, const char* words) {
+    rows_.back().kinds = std::move(kinds);
+    if (words) rows_.back().schema["read_by"] = words;
+    return *this;
+  }
 
   /// `member` is a pointer to a member of S, or a function that finds one.
   template <typename Member, typename T>
@@ -126,6 +134,7 @@ class Fields {
     require_object(value, path);
     require_known(value, path);
     for (const Row& row : rows_) {
+      require_read(row, value, path);
       const auto given = value.find(row.name);
       if (given != value.end()) {
         if (row.read) row.read(*given, path.empty() ? row.name : path + "." + row.name, to);
@@ -159,8 +168,22 @@ class Fields {
     const char* required;
     Json schema;
     Read read;
+    std::vector<std::string> kinds = {};  // none: all
   };
+
+  void require_read(const Row& row, const Json& value, const std::string& path) const {
+    if (row.kinds.empty() || !value.contains(row.name)) return;
+    std::string list;
+    for (const std::string& kind : row.kinds) {
+      if (value[kind_] == kind) return;
+      list.append(list.empty() ? "" : ", ").append(kind);
+    }
+    throw InputError(path.empty() ? row.name : path + "." + row.name, quoted(value[row.name]),
+                     "left out: only " + list + " reads it");
+  }
+
   const char* title_;
+  const char* kind_;
   std::vector<Row> rows_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "input/octree_body.h"
 
+#include <vericone/internal/octomap/kinds.h>
 #include <vericone/octomap/read_octree.h>
 #include <algorithm>
 

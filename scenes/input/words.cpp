@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/geometry/lengths.h>
-#include <vericone/scenes/words.h>
+#include <vericone/internal/geometry/lengths.h>
+#include <vericone/internal/scenes/words.h>
 #include <cmath>
 #include <cstdio>
 #include <numbers>

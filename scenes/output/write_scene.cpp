@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/files/write_points.h>
+#include <vericone/files/files.h>
 #include <vericone/geometry/error.h>
-#include <vericone/scenes/write_scene.h>
+#include <vericone/internal/files/extensions.h>
+#include <vericone/scenes/scene.h>
 #include <cmath>
 #include <limits>
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/lidar/fuse.h>
+#include <vericone/lidar/lidar.h>
 #include <algorithm>
 #include <cmath>
 #include <random>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
-#include <vericone/scanning/read_scan_scene.h>
+#include <vericone/scanning/study.h>
 
 #include "input/scene.h"
 #include "input/spatial_body.h"

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/slices/visible_cone.h>
 #include <vericone/geometry/combined.h>
-#include <vericone/geometry/mesh/mesh_section.h>
+#include <vericone/internal/cones/slices/visible_sector.h>
+#include <vericone/internal/geometry/mesh/mesh_section.h>
+#include <vericone/internal/scanning/picture.h>
 #include <cmath>
 #include <limits>
 #include <numbers>

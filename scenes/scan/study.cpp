@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/assembly/assembly_oracle.h>
 #include <vericone/cones/slices/visible_cone.h>
 #include <vericone/geometry/error.h>
-#include <vericone/lidar/scan.h>
-#include <vericone/lidar/visible_part.h>
+#include <vericone/internal/cones/assembly/assembly_oracle.h>
+#include <vericone/internal/cones/cone_size.h>
+#include <vericone/internal/cones/slices/visible_sector.h>
+#include <vericone/lidar/lidar.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vericone/scanning/study.h>
+#include <vericone/internal/scanning/picture.h>
 #include <iosfwd>
 
 namespace vericone::scanning {

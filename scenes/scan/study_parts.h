@@ -3,8 +3,8 @@
 // What the study and the picture of one plane share.
 #pragma once
 
-#include <vericone/cones/assembly/assembly_oracle.h>
-#include <vericone/lidar/scan.h>
+#include <vericone/internal/cones/assembly/assembly_oracle.h>
+#include <vericone/lidar/lidar.h>
 #include <vericone/scanning/study.h>
 #include <string>
 #include <vector>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/scanning/write_scan.h>
+#include <vericone/internal/scanning/picture.h>
+#include <vericone/scanning/study.h>
 
 #include <vericone/geometry/error.h>
 #include <sstream>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
-#include <vericone/scenarios/fly_campaign.h>
+#include <vericone/scenarios/scenario_files.h>
 #include <optional>
 #include <sstream>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenarios/read_motion.h"
+#include <vericone/internal/guidance/directions.h>
+#include "scenarios/parts.h"
 
 #include <Eigen/Geometry>
 #include <numbers>

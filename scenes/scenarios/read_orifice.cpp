@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenarios/read_orifice.h"
+#include "scenarios/parts.h"
 
-#include <vericone/files/read_points.h>
-#include <vericone/geometry/lengths.h>
+#include <vericone/files/files.h>
+#include <vericone/internal/geometry/lengths.h>
 #include <Eigen/Geometry>
 #include <utility>
 #include <vector>
 
 #include "input/field_table.h"
 #include "input/spatial_body.h"
-#include "scenarios/read_motion.h"
 #include "scenarios/scenario_fields.h"
 
 namespace vericone::scenario {
@@ -169,40 +168,6 @@ simulation::MovingOrifice read_orifice(const Json& value, const std::string& pat
 
 Json orifice_schemas() {
   return {{"orifice", orifice_fields().schema()}, {"opening", opening_fields().schema()}};
-}
-
-simulation::Through read_through(const Json& value, const std::string& path, simulation::Through::Law law) {
-  simulation::Through through;
-  through.law = law;
-  const Json& names = require_field(value, path, "through", "a list of names of orifices");
-  if (!names.is_array() || names.empty())
-    throw InputError(path + ".through", quoted(names), "a list of names of orifices");
-  for (std::size_t i = 0; i < names.size(); ++i)
-    through.orifices.push_back(read_text(names[i], at(path + ".through", i), "the name of an orifice"));
-  if_given(value, path, "gain", [&](const Json& v, const std::string& p) {
-    through.source.gain = through.passage.gain = read_positive(v, p, " (1/s)");
-  });
-  if_given(value, path, "most", [&](const Json& v, const std::string& p) {
-    through.source.most = through.passage.most = read_positive(v, p, " (m/s^2)");
-  });
-  if (law == simulation::Through::Law::orifice)
-    through.source.reference = read_number(require_field(value, path, "reference", "w in m^2, below 0"),
-                                           path + ".reference", " (m^2)");
-  if_given(value, path, "speed", [&](const Json& v, const std::string& p) {
-    if (!v.is_array()) through.speeds = {read_positive(v, p, " (m/s)")};
-    for (std::size_t i = 0; v.is_array() && i < v.size(); ++i)
-      through.speeds.push_back(read_positive(v[i], at(p, i), " (m/s)"));
-  });
-  take(value, path, "gain_speed", through.gain_speed, read_positive, " (1/s)");
-  take(value, path, "margin", through.passage.margin, read_not_negative, " (metres)");
-  take(value, path, "beyond", through.passage.beyond, read_not_negative, " (metres)");
-  take(value, path, "longitudinal", through.passage.longitudinal, read_flag);
-  if (value.contains("direction") && value.contains("direction_deg"))
-    throw InputError(path + ".direction_deg", quoted(value["direction_deg"]), "left out beside direction");
-  for (const bool degrees : {false, true})
-    take(value, path, degrees ? "direction_deg" : "direction", through.source.direction, read_heading, false,
-         degrees);
-  return through;
 }
 
 }  // namespace vericone::scenario

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenarios/read_road.h"
+#include "scenarios/parts.h"
 
-#include <vericone/simulation/road.h>
+#include <vericone/simulation/curve.h>
 #include <memory>
 #include <vector>
 

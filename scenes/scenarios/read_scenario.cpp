@@ -12,12 +12,7 @@
 #include "input/file_body.h"
 #include "input/scene.h"
 #include "json/plain_text.h"
-#include "scenarios/read_motion.h"
-#include "scenarios/read_orifice.h"
-#include "scenarios/read_pilot.h"
-#include "scenarios/read_road.h"
-#include "scenarios/read_shape.h"
-#include "scenarios/read_vehicle.h"
+#include "scenarios/parts.h"
 #include "scenarios/scenario_fields.h"
 
 namespace vericone::scenario {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vericone/scenarios/read_scenario.h>
+#include <vericone/scenarios/scenario_files.h>
 #include <vericone/scenes/scene.h>
 #include <filesystem>
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenarios/read_shape.h"
+#include "scenarios/parts.h"
 
 #include <utility>
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenarios/read_vehicle.h"
+#include "scenarios/parts.h"
 
 #include <vericone/vehicles/fish.h>
-#include <vericone/vehicles/fish_body.h>
 #include <vericone/vehicles/quadrotor.h>
 #include <numbers>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scenarios/run_json.h"
+#include <vericone/internal/scenarios/words.h>
 
 #include "json/json_value.h"
 #include "pieces/decimate.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What the files of a run hold that are JSON (run_files.h).
+// What the files of a run hold that are JSON (scenario_files.h).
 #pragma once
 
-#include <vericone/scenarios/run_files.h>
+#include <vericone/scenarios/scenario_files.h>
 
 #include "json/json_forward.h"
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
+#include <vericone/internal/scenarios/words.h>
+#include <vericone/internal/simulation/run_tables.h>
 #include <vericone/simulation/run_tables.h>
 #include <cmath>
 #include <fstream>

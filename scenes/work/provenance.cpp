@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "work/provenance.h"
 
-#include <vericone/work/provenance.h>
+#include <vericone/work/staged_folder.h>
 #include <Eigen/Core>
 #include <chrono>
 #include <ctime>

@@ -2,7 +2,6 @@
 #include "work/resumable_table.h"
 
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
 #include <algorithm>
 #include <atomic>
 #include <chrono>

@@ -3,10 +3,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <vericone/cones/assembly/assembly_oracle.h>
-#include <vericone/cones/combined/cone.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
+#include <vericone/internal/cones/assembly/assembly_oracle.h>
+#include <vericone/internal/cones/combined/cone.h>
 #include <vericone/testing/random_bodies.h>
 
 #include <cmath>

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/scanning/picture.h>
 #include <vericone/testing/random_bodies.h>
 
 #include <cmath>

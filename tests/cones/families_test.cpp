@@ -2,14 +2,14 @@
 //
 // Each family satisfies the one concept and obeys the one suite of laws.
 #include <gtest/gtest.h>
-#include <vericone/cones/assembly/assembly_oracle.h>
-#include <vericone/cones/combined/cone.h>
-#include <vericone/cones/composite/composite_pair.h>
 #include <vericone/cones/ellipsoids/predicates.h>
-#include <vericone/cones/hulls/hull_oracle.h>
-#include <vericone/cones/planar/sector_oracle.h>
-#include <vericone/testing/any_body.h>
+#include <vericone/cones/planar/sector.h>
+#include <vericone/internal/cones/assembly/assembly_oracle.h>
+#include <vericone/internal/cones/combined/cone.h>
+#include <vericone/internal/cones/composite/composite_pair.h>
+#include <vericone/internal/cones/hulls/hull_oracle.h>
 #include <vericone/testing/laws.h>
+#include <vericone/testing/random_bodies.h>
 #include <variant>
 
 #include "support/campaign.h"

@@ -3,24 +3,24 @@
 // What the headers of geometry and cones promise with "No allocation". Memberships, Pair and the laws have
 // such cases beside their other tests.
 #include <gtest/gtest.h>
-#include <vericone/cones/assembly/assembly_oracle.h>
-#include <vericone/cones/combined/edge.h>
-#include <vericone/cones/combined/sector.h>
 #include <vericone/cones/cone_geometry.h>
-#include <vericone/cones/ellipsoids/contact_frame.h>
-#include <vericone/cones/ellipsoids/plane_sector.h>
-#include <vericone/cones/ellipsoids/position.h>
 #include <vericone/cones/ellipsoids/predicates.h>
-#include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/cones/opening/orifice.h>
 #include <vericone/cones/pair.h>
 #include <vericone/cones/planar/sector.h>
-#include <vericone/cones/planar/sector_oracle.h>
 #include <vericone/cones/plane_cones.h>
 #include <vericone/cones/plane_sector.h>
-#include <vericone/cones/times/contact_time_enclosure.h>
 #include <vericone/geometry/body.h>
-#include <vericone/testing/any_body.h>
+#include <vericone/internal/cones/assembly/assembly_oracle.h>
+#include <vericone/internal/cones/combined/edge.h>
+#include <vericone/internal/cones/combined/sector.h>
+#include <vericone/internal/cones/ellipsoids/contact_frame.h>
+#include <vericone/internal/cones/ellipsoids/plane_sector.h>
+#include <vericone/internal/cones/ellipsoids/rungs.h>
+#include <vericone/internal/cones/hulls/hull_oracle.h>
+#include <vericone/internal/cones/may_meet.h>
+#include <vericone/internal/cones/times/contact_time_enclosure.h>
+#include <vericone/testing/random_bodies.h>
 #include <Eigen/Core>
 
 #include <array>

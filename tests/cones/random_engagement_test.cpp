@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/random_engagement.h>
+#include <vericone/internal/cones/random_engagement.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,28 +3,29 @@
 // Every function of the cones has an answer, or an InputError that names a field, for bodies that are not
 // disjoint and for arguments that belong to other bodies or to none.
 #include <gtest/gtest.h>
-#include <vericone/cones/assembly/assembly_oracle.h>
-#include <vericone/cones/combined/cone.h>
-#include <vericone/cones/combined/sector.h>
 #include <vericone/cones/ellipsoids/clearance.h>
-#include <vericone/cones/ellipsoids/enclosures.h>
 #include <vericone/cones/ellipsoids/exact_predicates.h>
-#include <vericone/cones/ellipsoids/plane_sector.h>
-#include <vericone/cones/ellipsoids/position.h>
+#include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/cones/ellipsoids/true_cone.h>
-#include <vericone/cones/hulls/hull_oracle.h>
-#include <vericone/cones/map/classifiers.h>
-#include <vericone/cones/map/regions.h>
-#include <vericone/cones/planar/enclose_sector.h>
+#include <vericone/cones/map/cone_map.h>
 #include <vericone/cones/planar/sector.h>
-#include <vericone/cones/planar/sector_oracle.h>
-#include <vericone/cones/slices/combined_slice_cone.h>
 #include <vericone/cones/slices/slice_cone.h>
 #include <vericone/cones/slices/visible_cone.h>
-#include <vericone/cones/times/contact_time_enclosure.h>
-#include <vericone/cones/times/order.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/exact/body.h>
+#include <vericone/geometry/exact/rational.h>
+#include <vericone/internal/cones/assembly/assembly_oracle.h>
+#include <vericone/internal/cones/combined/cone.h>
+#include <vericone/internal/cones/combined/sector.h>
+#include <vericone/internal/cones/cone_size.h>
+#include <vericone/internal/cones/ellipsoids/plane_sector.h>
+#include <vericone/internal/cones/hulls/hull_oracle.h>
+#include <vericone/internal/cones/map/cell.h>
+#include <vericone/internal/cones/map/classifiers.h>
+#include <vericone/internal/cones/planar/enclose_sector.h>
+#include <vericone/internal/cones/slices/slice_sector.h>
+#include <vericone/internal/cones/slices/visible_sector.h>
+#include <vericone/internal/cones/times/contact_time_enclosure.h>
+#include <vericone/internal/cones/times/order.h>
 #include <vericone/testing/random_bodies.h>
 
 #include <cmath>

@@ -96,7 +96,7 @@ class Links(unittest.TestCase):
     def test_files_named_in_pages(self):
         """A path from the root, from a folder of headers or within a library; a name alone of a header or source."""
         roots = [ROOT, ROOT / "apps/src", *ROOT.glob("*/include"), *ROOT.glob("*/include/vericone"),
-                 *ROOT.glob("*/include/vericone/*"), *ROOT.glob("*/*/include"), *ROOT.glob("*/*/include/vericone"), *ROOT.glob("*/src"), *ROOT.glob("*/*/src"),
+                 *ROOT.glob("*/include/vericone/*"), *ROOT.glob("*/include/vericone/internal/*"), *ROOT.glob("*/*/include"), *ROOT.glob("*/*/include/vericone"), *ROOT.glob("*/src"), *ROOT.glob("*/*/src"),
                  ROOT / "cones", ROOT / "geometry", ROOT / "guidance", ROOT / "docs", ROOT / "verify"]
         names = {path.name for path in sources()} | {p.name for top in ("tests", "docs") for p in (ROOT / top).rglob("*")}
         wrong, seen = [], 0

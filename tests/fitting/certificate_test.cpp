@@ -2,10 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <vericone/fitting/hull.h>
+#include <vericone/geometry/combined.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/exact/quadric_side.h>
 #include <vericone/geometry/exact/rational.h>
-#include <vericone/geometry/quadric_side.h>
+#include <vericone/internal/fitting/canonical.h>
+#include <vericone/internal/geometry/quadric_side.h>
 #include <vericone/testing/random_bodies.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>

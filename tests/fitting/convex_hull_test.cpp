@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/fitting/convex_hull.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/fitting/convex_hull.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/fitting/measure.h>
+#include <vericone/fitting/fit.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/mesh/combined_surface.h>
+#include <vericone/geometry/mesh/surface.h>
+#include <vericone/internal/fitting/signed_distance.h>
 
 #include <Eigen/Geometry>
 

@@ -2,8 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <vericone/fitting/hull.h>
+#include <vericone/geometry/combined.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/quadric_side.h>
+#include <vericone/internal/geometry/quadric_side.h>
 #include <vericone/testing/random_bodies.h>
 
 #include <algorithm>

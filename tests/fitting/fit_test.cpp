@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 #include <vericone/fitting/fit.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
 
 #include <Eigen/Geometry>
 

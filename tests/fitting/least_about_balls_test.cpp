@@ -2,9 +2,9 @@
 #include "containing/least_about_balls.h"
 
 #include <gtest/gtest.h>
-#include <vericone/fitting/containing.h>
 #include <vericone/fitting/fit.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
+#include <vericone/internal/fitting/containing.h>
 
 #include <algorithm>
 #include <cmath>

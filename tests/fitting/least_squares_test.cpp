@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/fitting/least_squares.h>
-#include <vericone/fitting/measure.h>
-#include <vericone/geometry/decompositions.h>
+#include <vericone/fitting/fit.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/fitting/canonical.h>
+#include <vericone/internal/fitting/fit_surface.h>
+#include <vericone/internal/fitting/signed_distance.h>
+#include <vericone/internal/geometry/decompositions.h>
 
 #include <algorithm>
 #include <cmath>

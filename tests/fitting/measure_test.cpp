@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/fitting/measure.h>
+#include <vericone/fitting/fit.h>
 #include <vericone/geometry/error.h>
 
 #include <Eigen/Geometry>
@@ -15,7 +15,7 @@
 #include "geometry/meshes.h"
 #include "support/random.h"
 #ifdef VERICONE_HAVE_FILES
-#include <vericone/files/triangle_mesh.h>
+#include <vericone/files/files.h>
 #endif
 
 namespace vericone::fitting::measure_test {

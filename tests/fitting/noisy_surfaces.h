@@ -3,7 +3,7 @@
 // Random bodies and noisy samples of their surfaces.
 #pragma once
 
-#include <vericone/fitting/sample.h>
+#include <vericone/fitting/hull.h>
 #include <vericone/geometry/combined.h>
 
 #include <Eigen/Geometry>

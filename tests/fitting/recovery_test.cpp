@@ -4,9 +4,11 @@
 // docs/explanation/fitting-surfaces.md prints what this prints for 200 seeds each; VERICONE_RECOVERY_SEEDS
 // changes how many, VERICONE_RECOVERY_FIRST which, and VERICONE_RECOVERY_TELL=1 prints each.
 #include <gtest/gtest.h>
-#include <vericone/fitting/least_squares.h>
-#include <vericone/geometry/decompositions.h>
+#include <vericone/fitting/fit.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/fitting/canonical.h>
+#include <vericone/internal/fitting/fit_surface.h>
+#include <vericone/internal/geometry/decompositions.h>
 
 #include <Eigen/LU>
 #include <algorithm>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/fitting/sample.h>
+#include <vericone/fitting/hull.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/fitting/canonical.h>
 
 #include <Eigen/Geometry>
 

@@ -2,7 +2,7 @@
 #include "containing/star_volume.h"
 
 #include <gtest/gtest.h>
-#include <vericone/geometry/combined_volume.h>
+#include <vericone/geometry/mesh/surface.h>
 
 #include <Eigen/Geometry>
 

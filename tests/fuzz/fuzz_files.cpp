@@ -2,7 +2,7 @@
 //
 // libFuzzer entry: the first byte chooses the extension, the rest is the file. Whatever it is, the readers of
 // meshes, clouds and octrees give a sound result or an InputError.
-#include <vericone/files/triangle_mesh.h>
+#include <vericone/files/files.h>
 #include <vericone/geometry/error.h>
 
 #include <array>

@@ -6,7 +6,8 @@
 #include <vericone/cones/ellipsoids/exact_predicates.h>
 #include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/exact/body.h>
+#include <vericone/geometry/exact/rational.h>
+#include <vericone/internal/cones/ellipsoids/rungs.h>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

@@ -4,8 +4,8 @@
 //   replay CORPUS_FILE            every case of the corpus and eight mutations of each
 //   replay CORPUS_FILE FOLDER     writes the cases as seeds for libFuzzer
 //   replay CORPUS_FILE -- FILE... runs inputs that libFuzzer found
-#include <vericone/verify/corpus/file.h>
-#include <vericone/verify/seeded_random.h>
+#include <vericone/internal/verify/seeded_random.h>
+#include <vericone/verify/corpus.h>
 
 #include <cmath>
 #include <cstring>

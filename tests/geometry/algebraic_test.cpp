@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/geometry/exact/algebraic.h>
+#include <vericone/internal/geometry/exact/algebraic.h>
 #include <vericone/testing/random_bodies.h>
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
-#include <vericone/testing/any_body.h>
+#include <vericone/testing/random_bodies.h>
 #include <algorithm>
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/mesh/boundary_loops.h>
+#include <vericone/geometry/mesh/surface.h>
 
 #include <algorithm>
 #include <set>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/geometry/combined_volume.h>
+#include <vericone/geometry/combined.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/mesh/combined_surface.h>
-#include <vericone/geometry/quadric_side.h>
+#include <vericone/geometry/mesh/surface.h>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/geometry/combined.h>
-#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/quadric_side.h>
+#include <vericone/internal/geometry/decompositions.h>
 #include <Eigen/LU>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>

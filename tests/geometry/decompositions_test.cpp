@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/geometry/decompositions.h>
-#include <vericone/geometry/lengths.h>
+#include <vericone/internal/geometry/decompositions.h>
+#include <vericone/internal/geometry/lengths.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <vericone/geometry/ellipsoid.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/exact/body.h>
 #include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/quadric.h>
 

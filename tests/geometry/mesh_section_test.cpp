@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <vericone/geometry/mesh/mesh_section.h>
+#include <vericone/internal/geometry/mesh/mesh_section.h>
 
 #include <cmath>
 #include <numbers>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <vericone/geometry/combined.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/quadric_side.h>
+#include <vericone/internal/geometry/quadric_side.h>
 #include <vericone/testing/random_bodies.h>
 
 #include <iostream>

@@ -2,10 +2,10 @@
 //
 // What functions require of their callers is checked where assertions are, and there alone.
 #include <gtest/gtest.h>
-#include <vericone/geometry/exact/integer.h>
 #include <vericone/geometry/interval.h>
-#include <vericone/geometry/mesh/mesh_section.h>
-#include <vericone/geometry/requires.h>
+#include <vericone/internal/geometry/exact/integer.h>
+#include <vericone/internal/geometry/mesh/mesh_section.h>
+#include <vericone/internal/geometry/requires.h>
 
 #include <array>
 #include <limits>

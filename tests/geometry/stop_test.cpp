@@ -2,9 +2,9 @@
 //
 // Long work looks whether it was asked to end: asked before it starts, it ends at its first checkpoint.
 #include <gtest/gtest.h>
-#include <vericone/geometry/hierarchy.h>
+#include <vericone/geometry/error.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
-#include <vericone/geometry/stop.h>
+#include <vericone/internal/geometry/hierarchy.h>
 
 #include <thread>
 #include <vector>

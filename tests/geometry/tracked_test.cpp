@@ -3,9 +3,9 @@
 // The first rung's arithmetic against rationals: a value is never farther from the exact one than its
 // rounding count says, and the constant that turns counts into bounds is right for every count in use.
 #include <gtest/gtest.h>
-#include <vericone/geometry/exact/integer.h>
 #include <vericone/geometry/exact/rational.h>
-#include <vericone/geometry/tracked.h>
+#include <vericone/internal/geometry/exact/integer.h>
+#include <vericone/internal/geometry/tracked.h>
 #include <vericone/testing/random_bodies.h>
 
 namespace vericone::tracked_test {

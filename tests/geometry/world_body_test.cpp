@@ -3,7 +3,7 @@
 #include <vericone/geometry/world_body.h>
 
 #include <gtest/gtest.h>
-#include <vericone/testing/any_body.h>
+#include <vericone/testing/random_bodies.h>
 #include <Eigen/Geometry>
 #include <cmath>
 

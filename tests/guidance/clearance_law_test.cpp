@@ -5,7 +5,8 @@
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/pair.h>
 #include <vericone/cones/uncertain/robust.h>
-#include <vericone/guidance/clearance_law.h>
+#include <vericone/guidance/laws.h>
+#include <vericone/internal/guidance/laws.h>
 #include <vericone/testing/random_bodies.h>
 #include <Eigen/Geometry>
 #include <algorithm>

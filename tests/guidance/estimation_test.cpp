@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/geometry/decompositions.h>
-#include <vericone/guidance/estimation/constant_rate.h>
-#include <vericone/guidance/estimation/constant_velocity.h>
-#include <vericone/guidance/estimation/kalman.h>
+#include <vericone/guidance/estimation/filters.h>
 #include <vericone/guidance/estimation/set_membership.h>
-#include <vericone/guidance/sight.h>
+#include <vericone/guidance/robust_law.h>
+#include <vericone/internal/geometry/decompositions.h>
+#include <vericone/internal/guidance/estimation/constant_rate.h>
+#include <vericone/internal/guidance/estimation/kalman.h>
 #include <Eigen/Dense>
 #include <cmath>
 #include <random>

@@ -2,10 +2,12 @@
 //
 // One step of guidance as a whole: what it commands makes y follow its order along real motion.
 #include <gtest/gtest.h>
-#include <vericone/cones/ellipsoids/plane_sector.h>
 #include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/cones/planar/sector.h>
 #include <vericone/guidance/guide.h>
+#include <vericone/internal/cones/ellipsoids/plane_sector.h>
+#include <vericone/internal/cones/planar/cone_function.h>
+#include <vericone/internal/guidance/collision_course.h>
 #include <vericone/testing/random_bodies.h>
 #include <Eigen/Geometry>
 #include <cmath>

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
 #include <vericone/guidance/kinematics.h>
+#include <vericone/internal/guidance/directions.h>
 
 #include <numbers>
 

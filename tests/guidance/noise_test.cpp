@@ -4,7 +4,7 @@
 // differences, its deviations against draws, and what they miss at the noise that 7.2 prints.
 #include <gtest/gtest.h>
 #include <vericone/cones/planar/sector.h>
-#include <vericone/guidance/noise.h>
+#include <vericone/guidance/robust_law.h>
 #include <array>
 #include <cmath>
 #include <numbers>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/cones/cone_geometry.h>
-#include <vericone/guidance/plane_choice.h>
+#include <vericone/guidance/plane_view.h>
 
 #include <cmath>
 #include <limits>

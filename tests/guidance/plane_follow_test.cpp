@@ -2,7 +2,7 @@
 //
 // The chosen plane from step to step.
 #include <gtest/gtest.h>
-#include <vericone/guidance/plane_choice.h>
+#include <vericone/guidance/plane_view.h>
 
 #include <cmath>
 

@@ -3,9 +3,10 @@
 // What the choices of a plane make least, from the sectors themselves.
 #pragma once
 
-#include <vericone/cones/ellipsoids/plane_sector.h>
 #include <vericone/cones/slices/slice_cone.h>
-#include <vericone/guidance/plane_choice.h>
+#include <vericone/guidance/plane_view.h>
+#include <vericone/internal/cones/ellipsoids/plane_sector.h>
+#include <vericone/internal/cones/slices/slice_sector.h>
 #include <cmath>
 #include <numbers>
 

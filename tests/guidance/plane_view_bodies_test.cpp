@@ -2,10 +2,11 @@
 //
 // Views of planar bodies and of dented ones in space.
 #include <gtest/gtest.h>
-#include <vericone/cones/combined/cone.h>
-#include <vericone/cones/combined/sector.h>
-#include <vericone/cones/slices/combined_slice_cone.h>
+#include <vericone/cones/slices/slice_cone.h>
 #include <vericone/guidance/plane_view.h>
+#include <vericone/internal/cones/combined/cone.h>
+#include <vericone/internal/cones/combined/sector.h>
+#include <vericone/internal/guidance/plane_view.h>
 
 #include <cmath>
 #include <numbers>

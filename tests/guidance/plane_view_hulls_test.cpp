@@ -2,8 +2,8 @@
 //
 // Views of convex hulls of points.
 #include <gtest/gtest.h>
-#include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/guidance/plane_view.h>
+#include <vericone/internal/cones/hulls/hull_oracle.h>
 
 #include <cmath>
 

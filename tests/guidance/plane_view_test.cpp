@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/ellipsoids/plane_sector.h>
-#include <vericone/cones/slices/combined_slice_cone.h>
 #include <vericone/cones/slices/slice_cone.h>
 #include <vericone/guidance/plane_view.h>
+#include <vericone/internal/cones/ellipsoids/plane_sector.h>
+#include <vericone/internal/cones/slices/slice_sector.h>
+#include <vericone/internal/guidance/plane_view.h>
 
 #include <cmath>
 

@@ -4,8 +4,8 @@
 // from scratch at any time, and what the laws read of it at t = 0.
 #pragma once
 
-#include <vericone/cones/ellipsoids/plane_sector.h>
 #include <vericone/guidance/laws.h>
+#include <vericone/internal/cones/ellipsoids/plane_sector.h>
 
 #include "guidance/motion.h"
 

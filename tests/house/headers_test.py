@@ -16,7 +16,7 @@ from house_test import ROOT, includes, public_headers
 
 # Which header of the standard library brings a name of it.
 BROUGHT_BY = {name: header for header, names in {
-    "algorithm": "max min", "atomic": "atomic memory_order_relaxed", "array": "array", "cmath": "abs copysign cos exp frexp hypot ilogb isfinite isinf ldexp log nextafter sin sqrt",
+    "algorithm": "max min ranges", "atomic": "atomic memory_order_relaxed", "array": "array", "cmath": "abs copysign cos exp frexp hypot ilogb isfinite isinf ldexp log nextafter sin sqrt",
     "concepts": "convertible_to same_as", "cstddef": "ptrdiff_t size_t", "cstdint": "int8_t int64_t uint8_t uint16_t uint32_t uint64_t",
     "cstdlib": "getenv strtoull", "deque": "deque", "filesystem": "filesystem", "functional": "function", "iosfwd": "istream ostream",
     "limits": "numeric_limits", "memory": "shared_ptr unique_ptr", "numbers": "numbers", "optional": "nullopt optional",

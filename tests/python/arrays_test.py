@@ -163,7 +163,7 @@ def test_nothing_is_no_matrix(nothing: Any) -> None:
 VALUES: list[Any] = [
     AGENT, vericone.Ellipse.from_axes([1, 2], [3, 1]), vericone.CombinedEllipsoid(AGENT, [vericone.hyperboloid(2, [0.9, 0.8, 0.8])]),
     vericone.Pose([1, 2, 3]), vericone.Interval.between(1, 2), vericone.ConeOptions(tolerance=1e-3), vericone.Body(OBSTACLE),
-    vericone.guidance.PlaneCone(psi=0.3, theta_b=0.1), vericone.exact.Dyadic.of(0.375), vericone.exact.RationalBody3(AGENT),
+    vericone.guidance.PlaneCone(psi=0.3, theta_b=0.1), vericone.exact.RationalBody3(AGENT),
     PAIR.contact([5, 0.5, 0], STILL), vericone.Verdict.in_, vericone.HullBody(np.random.default_rng(1).normal(size=(9, 3)))]
 
 

@@ -47,12 +47,11 @@ CALLS = {
     # Steps of Open3D and Qhull hear nothing, and take seconds here: they are left behind.
     "fusion": ("x = ball(150000) * [3, 2, 1]; s = [x, ball(150000) * [3, 2, 1] + 0.02]",
                "[lidar.fuse(s, [np.eye(4), np.eye(4)]) for _ in range(100)]"),
-    "convex hull": ("x = ball(200000)", "[fitting.convex_hull(x) for _ in range(100)]"),
     "distances": ("x = ball(60000); r = vericone.fit(x[:100], shape='biconvex'); s = fitting.Sample(points=x)",
                   "[fitting.scan_to_hull(r.pieces, s) for _ in range(1000)]"),
     "certificate": ("x = ball(60000); r = vericone.fit(x[:100], shape='biconvex'); s = fitting.Sample(points=x)",
                     "[fitting.check([p.quadrics for p in r.pieces], s) for _ in range(1000)]"),
-    "combined cone": ("a, b = star([0, 0, 0]), star([6, 1, 0])", "combined_cone(a, b, 1e-7)"),
+    "combined cone": ("a, b = star([0, 0, 0]), star([6, 1, 0])", "[Pair(a, b).cone(ConeOptions(tolerance=1e-9)) for _ in range(100)]"),
     "slice cone": ("a, b = ellipsoid([0, 0, 0], (3, 2, 1)), ellipsoid([9, 0, 0])", "[slice_cone(a, b, 1000000) for _ in range(9)]"),
     "combined slice cone": ("a, b = star([0, 0, 0]), star([6, 1, 0])", "[combined_slice_cone(a, b, 1000000) for _ in range(9)]"),
     "trees": ("x = ball(2 * 10**6)", "[Assembly.cloud(x, 0.1) for _ in range(20)]"),

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Every public C++ name is in the list of names, and has its Python one or a reason why not. The list is the binding's own,
 names.json; that nothing is missing in it is read from the text of the headers, by another reader than the binding's. Concepts
-say what C++ types must have; they, macros and the library for tests in C++ (cones/testing) are none of Python's business."""
+say what C++ types must have; they, macros, mechanism (vericone/internal) and the library for tests in C++ (cones/testing)
+are none of Python's business."""
 
 import importlib
 import json
@@ -54,7 +55,7 @@ def declared(text: str) -> Iterator[str]:
 
 def headers() -> list[Path]:
     return [path for library in LIBRARIES for path in sorted((ROOT / library).rglob("include/vericone/**/*.h"))
-            if "testing" not in path.parts]
+            if not {"testing", "internal"} & set(path.parts)]
 
 
 @pytest.mark.parametrize("header", headers(), ids=lambda path: str(path).split("/include/vericone/")[1])

@@ -480,16 +480,6 @@ def test_a_run_refuses_its_origin_before_it_writes(tmp_path: Path, origin: dict[
 
 
 def test_what_is_too_long_to_print_prints_short() -> None:
-    exact = vericone.exact
-    assert repr(exact.Dyadic(2**100_000, 3)) == "Dyadic(numerator=<integer of 100001 bits>, exponent=3)"
-    body = exact.RationalBody2([Fraction(1, 3**9000), 0], [[1, 0], [0, 1]])
+    body = vericone.exact.RationalBody2([Fraction(1, 3**9000), 0], [[1, 0], [0, 1]])
     assert "bits>" in repr(body) and len(repr(body)) < 300
     assert "<class 'int'>" in repr(vericone.ConeMapOptions(progress=int))
-    with pytest.raises(vericone.InputError, match="exponent"):
-        exact.compare(exact.Dyadic(1, 2**31), exact.Dyadic(1))
-    with pytest.raises(vericone.InputError, match="one simple root"):
-        exact.RealRoot([1, 0, 1], exact.Dyadic(1), exact.Dyadic(2))
-    root = exact.RealRoot([-2, 0, 1], exact.Dyadic(1), exact.Dyadic(2))
-    root.refine(200)
-    low = root.lo()
-    assert 0 < 2 - Fraction(low.numerator, 2**low.exponent)**2 < Fraction(1, 2**190)

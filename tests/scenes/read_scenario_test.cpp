@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
-#include <vericone/scenarios/read_scenario.h>
+#include <vericone/scenarios/scenario_files.h>
 #include <vericone/simulation/run.h>
 
 namespace vericone::read_scenario_test {

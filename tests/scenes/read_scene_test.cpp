@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/scenes/words.h>
 #include <vericone/scenes/scene.h>
-#include <vericone/scenes/words.h>
 #include <thread>
 
 namespace vericone::read_scene_test {

@@ -4,8 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
-#include <vericone/work/provenance.h>
 #include <vericone/work/staged_folder.h>
 
 #include <atomic>

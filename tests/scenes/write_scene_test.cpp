@@ -2,10 +2,10 @@
 //
 // Scenes that are written read as the same.
 #include <gtest/gtest.h>
-#include <vericone/cones/random_engagement.h>
-#include <vericone/files/write_points.h>
+#include <vericone/files/files.h>
 #include <vericone/geometry/error.h>
-#include <vericone/scenes/write_scene.h>
+#include <vericone/internal/cones/random_engagement.h>
+#include <vericone/scenes/scene.h>
 
 #include <filesystem>
 #include <string>

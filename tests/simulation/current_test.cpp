@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
-#include <vericone/simulation/current.h>
+#include <vericone/simulation/vehicle.h>
 #include <algorithm>
 
 #include "random.h"

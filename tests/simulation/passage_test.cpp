@@ -3,7 +3,7 @@
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/opening/orifice.h>
 #include <vericone/geometry/error.h>
-#include <vericone/simulation/passage.h>
+#include <vericone/simulation/proof.h>
 
 #include <chrono>
 #include <iostream>

@@ -4,7 +4,7 @@
 // body at many times, with the body's own equations and none of what the proofs stand on.
 #pragma once
 
-#include <vericone/simulation/passage.h>
+#include <vericone/simulation/proof.h>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>

@@ -2,9 +2,9 @@
 //
 // Proofs of bodies other than ellipsoids: delimited ones, whose shape may change, and hulls.
 #include <gtest/gtest.h>
-#include <vericone/cones/combined/cone.h>
-#include <vericone/cones/combined/sector.h>
-#include <vericone/cones/hulls/hull_oracle.h>
+#include <vericone/internal/cones/combined/cone.h>
+#include <vericone/internal/cones/combined/sector.h>
+#include <vericone/internal/cones/hulls/hull_oracle.h>
 #include <vericone/simulation/proof.h>
 #include <array>
 #include <cmath>

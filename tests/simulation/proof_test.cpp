@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/clearance.h>
-#include <vericone/cones/times/contact_time_enclosure.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/times/contact_time_enclosure.h>
 #include <vericone/simulation/proof.h>
 #include <algorithm>
 #include <array>

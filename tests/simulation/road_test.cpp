@@ -3,7 +3,7 @@
 // Ways of vehicles on the ground: the figures that the source prints, differences, and curves of them.
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
-#include <vericone/simulation/road.h>
+#include <vericone/simulation/curve.h>
 #include <vericone/simulation/track.h>
 #include <algorithm>
 #include <cmath>

@@ -3,6 +3,7 @@
 // What a run says as tables, and tables as text.
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/simulation/run_tables.h>
 #include <vericone/simulation/run_tables.h>
 
 #include <limits>

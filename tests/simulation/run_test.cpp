@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
 #include <vericone/simulation/run.h>
 #include <vericone/testing/random_bodies.h>
 #include <algorithm>

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/uncertain/robust.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/simulation/run_tables.h>
 #include <vericone/simulation/run_tables.h>
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
-#include <vericone/simulation/shape_in_time.h>
+#include <vericone/internal/simulation/shape_in_time.h>
+#include <vericone/simulation/track.h>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/simulation/trials.h>
 #include <vericone/simulation/trials.h>
 #include <algorithm>
 #include <array>

@@ -5,7 +5,6 @@
 #include <vericone/geometry/error.h>
 #include <vericone/simulation/run.h>
 #include <vericone/vehicles/fish.h>
-#include <vericone/vehicles/fish_body.h>
 #include <algorithm>
 #include <cmath>
 

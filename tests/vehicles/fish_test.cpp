@@ -3,11 +3,11 @@
 // The fish's equations: the figures that the source prints, in open loop, against equations written anew, and
 // where the work of the tail goes.
 #include <gtest/gtest.h>
-#include <vericone/cones/ellipsoids/position.h>
+#include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/vehicles/fish_water.h>
 #include <vericone/simulation/track.h>
 #include <vericone/vehicles/fish.h>
-#include <vericone/vehicles/fish_body.h>
 #include <algorithm>
 #include <cmath>
 #include <random>

@@ -4,6 +4,7 @@
 // the inversion of (4.26)-(4.28), and what its limits keep.
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/vehicles/quadrotor_dynamics.h>
 #include <vericone/simulation/run.h>
 #include <vericone/vehicles/quadrotor.h>
 #include <Eigen/Geometry>

@@ -4,7 +4,7 @@
 // constant mass; fixed steps of Runge and Kutta. Nothing of the library but its parameters.
 #pragma once
 
-#include <vericone/vehicles/fish_dynamics.h>
+#include <vericone/vehicles/fish.h>
 #include <array>
 #include <cmath>
 #include <numbers>

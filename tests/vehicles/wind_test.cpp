@@ -4,8 +4,8 @@
 // axes.
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
-#include <vericone/simulation/current.h>
 #include <vericone/simulation/run.h>
+#include <vericone/simulation/vehicle.h>
 #include <vericone/vehicles/quadrotor.h>
 #include <Eigen/Geometry>
 #include <cmath>

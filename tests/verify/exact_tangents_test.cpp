@@ -2,7 +2,7 @@
 //
 // Held against closed forms (circles, affine images of circles) in 100-digit arithmetic.
 #include <gtest/gtest.h>
-#include <vericone/verify/predicates/exact_tangents.h>
+#include <vericone/internal/verify/predicates/exact_tangents.h>
 
 #include <boost/math/constants/constants.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>

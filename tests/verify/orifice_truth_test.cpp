@@ -2,7 +2,7 @@
 //
 // The oracle of openings against answers known in closed form.
 #include <gtest/gtest.h>
-#include <vericone/verify/predicates/orifice_truth.h>
+#include <vericone/internal/verify/predicates/orifice_truth.h>
 
 #include <cmath>
 

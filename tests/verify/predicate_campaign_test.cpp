@@ -3,7 +3,7 @@
 // Every predicate over its cases, and the campaign itself: what a broken library would say must be noticed.
 // VERICONE_CASES and VERICONE_SEED replace the number of cases and the seed.
 #include <gtest/gtest.h>
-#include <vericone/verify/predicates/campaign.h>
+#include <vericone/internal/verify/predicates/campaign.h>
 
 #include <atomic>
 #include <cctype>

@@ -2,7 +2,7 @@
 //
 // The oracles against answers known in closed form, so that they can fail on their own.
 #include <gtest/gtest.h>
-#include <vericone/verify/predicates/truth.h>
+#include <vericone/internal/verify/predicates/truth.h>
 
 #include <chrono>
 #include <cmath>

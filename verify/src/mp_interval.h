@@ -5,7 +5,7 @@
 
 #include <mpfr.h>
 
-#include <vericone/verify/spatial/enclosed_real.h>
+#include <vericone/internal/verify/spatial/enclosed_real.h>
 #include <array>
 #include <cmath>
 #include <utility>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <vericone/verify/planar/methods.h>
-#include <vericone/verify/report.h>
+#include <vericone/internal/verify/planar/methods.h>
+#include <vericone/internal/verify/report.h>
 #include <vericone/verify/spatial/campaign.h>
 
 namespace vericone::verify {

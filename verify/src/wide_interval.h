@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <vericone/verify/spatial/enclosed_real.h>
+#include <vericone/internal/verify/spatial/enclosed_real.h>
 #include <algorithm>
 
 #include "mp_interval.h"

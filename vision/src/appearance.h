@@ -3,7 +3,7 @@
 // What a target looks like, and where a picture shows the same.
 #pragma once
 
-#include <vericone/vision/image.h>
+#include <vericone/vision/tracker.h>
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 #include <vector>

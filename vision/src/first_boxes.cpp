@@ -2,6 +2,7 @@
 #include "first_boxes.h"
 
 #include <vericone/geometry/error.h>
+#include <vericone/internal/vision/whole.h>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 

@@ -3,7 +3,7 @@
 // How the ground moves through the pictures of a moving camera.
 #pragma once
 
-#include <vericone/vision/image.h>
+#include <vericone/vision/tracker.h>
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 #include <span>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
-#include <vericone/vision/image.h>
+#include <vericone/internal/vision/whole.h>
+#include <vericone/vision/tracker.h>
 #include <algorithm>
 #include <string>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "accuracy/accuracy.h"
 
-#include <vericone/files/read_points.h>
+#include <vericone/files/files.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
 #include <vericone/work/staged_folder.h>

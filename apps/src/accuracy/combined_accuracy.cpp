@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "accuracy/combined_accuracy.h"
 
-#include <vericone/cones/combined/cone.h>
-#include <vericone/cones/slices/combined_slice_cone.h>
+#include <vericone/cones/slices/slice_cone.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/combined/cone.h>
 #include <vericone/work/staged_folder.h>
 #include <algorithm>
 #include <cmath>

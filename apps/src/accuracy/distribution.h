@@ -3,7 +3,7 @@
 // What the options say of the random engagements.
 #pragma once
 
-#include <vericone/cones/random_engagement.h>
+#include <vericone/internal/cones/random_engagement.h>
 #include <string>
 
 #include "accuracy/accuracy.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vericone/simulation/montecarlo/summary.h>
+#include <vericone/simulation/montecarlo/campaign.h>
 #include <iosfwd>
 #include <string>
 

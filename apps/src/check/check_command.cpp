@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/files/read_points.h>
+#include <vericone/files/files.h>
 #include <vericone/geometry/error.h>
-#include <vericone/scenes/words.h>
+#include <vericone/internal/scenes/words.h>
 #include <algorithm>
 #include <filesystem>
 #include <iostream>

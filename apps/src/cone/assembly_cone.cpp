@@ -2,7 +2,7 @@
 #include "cone/assembly_cone.h"
 
 #include <vericone/geometry/error.h>
-#include <vericone/scenes/words.h>
+#include <vericone/internal/scenes/words.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

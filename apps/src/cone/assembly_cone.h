@@ -3,8 +3,8 @@
 // The cone of an agent and a body of pieces: how far it reaches around the line between them.
 #pragma once
 
-#include <vericone/cones/assembly/assembly_oracle.h>
 #include <vericone/cones/cone_geometry.h>
+#include <vericone/internal/cones/assembly/assembly_oracle.h>
 #include <vericone/scenes/scene.h>
 #include <iosfwd>
 #include <string>

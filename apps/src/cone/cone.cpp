@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cone/cone.h"
 
-#include <vericone/cones/combined/cone.h>
 #include <vericone/cones/ellipsoids/true_cone.h>
-#include <vericone/cones/slices/combined_slice_cone.h>
 #include <vericone/cones/slices/slice_cone.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/lengths.h>
+#include <vericone/internal/cones/combined/cone.h>
+#include <vericone/internal/geometry/lengths.h>
 #include <vericone/work/staged_folder.h>
 #include <algorithm>
 #include <cmath>

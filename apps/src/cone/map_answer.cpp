@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cone/map_answer.h"
 
-#include <vericone/cones/map/classifiers.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/map/classifiers.h>
 #include <algorithm>
 #include <ostream>
 

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <vericone/cones/map/cone_map.h>
-#include <vericone/cones/map/regions.h>
 #include <vericone/scenes/scene.h>
 #include <iosfwd>
 #include <optional>

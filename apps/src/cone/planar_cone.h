@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vericone/cones/combined/sector.h>
+#include <vericone/internal/cones/combined/sector.h>
 #include <vericone/scenes/scene.h>
 #include <iosfwd>
 

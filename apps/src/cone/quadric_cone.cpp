@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cone/quadric_cone.h"
 
-#include <vericone/cones/combined/cone.h>
 #include <vericone/cones/ellipsoids/true_cone.h>
 #include <vericone/cones/slices/slice_cone.h>
+#include <vericone/internal/cones/combined/cone.h>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

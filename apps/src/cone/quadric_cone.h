@@ -3,7 +3,7 @@
 // The cone of two quadrics in space, by each method of `vericone cone`.
 #pragma once
 
-#include <vericone/cones/slices/combined_slice_cone.h>
+#include <vericone/cones/slices/slice_cone.h>
 #include <vericone/scenes/scene.h>
 #include <optional>
 #include <string>

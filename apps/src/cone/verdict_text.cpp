@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cone/verdict_text.h"
 
-#include <vericone/cones/combined/nearest_points.h>
 #include <vericone/cones/pair.h>
-#include <vericone/scenes/words.h>
+#include <vericone/internal/cones/combined/nearest_points.h>
+#include <vericone/internal/scenes/words.h>
 #include <cmath>
 #include <limits>
 #include <ostream>

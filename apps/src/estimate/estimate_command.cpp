@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
-#include <vericone/guidance/estimation/singer.h>
+#include <vericone/guidance/estimation/filters.h>
+#include <vericone/internal/guidance/estimation/kalman.h>
 #include <vericone/work/staged_folder.h>
 #include <array>
 #include <charconv>

@@ -6,7 +6,7 @@
 #include <ostream>
 #include <sstream>
 
-#include <vericone/fits/read_scan.h>
+#include <vericone/fits/fit_files.h>
 #include "input/fields.h"
 #include "json/json_value.h"
 

@@ -2,7 +2,6 @@
 #include "fit/fit_command.h"
 
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
 #include <vericone/work/staged_folder.h>
 #include <algorithm>
 #include <filesystem>

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <vericone/fitting/fit.h>
-#include <vericone/geometry/mesh/combined_surface.h>
+#include <vericone/geometry/mesh/surface.h>
 
-#include <vericone/fits/read_scan.h>
+#include <vericone/fits/fit_files.h>
 #include "json/json_forward.h"
 
 namespace vericone::fit {

@@ -4,7 +4,7 @@
 #include <vericone/fitting/fit.h>
 #include <iosfwd>
 
-#include <vericone/fits/read_scan.h>
+#include <vericone/fits/fit_files.h>
 
 namespace vericone::fit {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/files/read_points.h>
+#include <vericone/files/files.h>
 #include <vericone/geometry/error.h>
 #include <vericone/work/staged_folder.h>
 #include <algorithm>

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/geometry/decompositions.h>
-#include <vericone/guidance/pursuit/focal_law.h>
 #include <vericone/guidance/pursuit/pursuit_law.h>
-#include <vericone/guidance/pursuit/rendezvous_law.h>
-#include <vericone/guidance/pursuit/vertical_law.h>
+#include <vericone/guidance/pursuit/source_laws.h>
+#include <vericone/internal/geometry/decompositions.h>
 #include <iostream>
 #include <optional>
 #include <ostream>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/geometry/error.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
-#include <vericone/geometry/stop.h>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>

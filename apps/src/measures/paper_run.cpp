@@ -3,6 +3,8 @@
 
 #include <vericone/guidance/guide.h>
 #include <vericone/guidance/plane_view.h>
+#include <vericone/internal/guidance/collision_course.h>
+#include <vericone/internal/simulation/run_tables.h>
 #include <vericone/simulation/run_tables.h>
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 // Tables as the commands write them: columns of numbers and of words.
 #pragma once
 
-#include <vericone/simulation/table.h>
+#include <vericone/simulation/run_tables.h>
 #include <cstddef>
 #include <limits>
 #include <map>

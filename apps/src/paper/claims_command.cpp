@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "paper/claims_command.h"
 
-#include <vericone/geometry/stop.h>
+#include <vericone/geometry/error.h>
 #include <vericone/work/staged_folder.h>
 #include <iomanip>
 #include <iostream>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
-#include <vericone/scenarios/run_files.h>
+#include <vericone/scenarios/scenario_files.h>
 #include <vericone/work/staged_folder.h>
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "paper/shuffle.h"
 
-#include <vericone/cones/random_engagement.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/random_engagement.h>
 #include <algorithm>
 #include <cmath>
 #include <numeric>

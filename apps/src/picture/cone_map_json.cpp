@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "picture/cone_map_json.h"
 
-#include <vericone/cones/map/regions.h>
+#include <vericone/cones/map/cone_map.h>
 
 #include "json/json_value.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "picture/course.h"
 
-#include <vericone/cones/combined/nearest_points.h>
 #include <vericone/cones/pair.h>
+#include <vericone/internal/cones/combined/nearest_points.h>
 #include <cmath>
 #include <limits>
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "picture/engagements.h"
 
-#include <vericone/cones/combined/cone.h>
-#include <vericone/cones/combined/sector.h>
-#include <vericone/cones/ellipsoids/plane_sector.h>
 #include <vericone/cones/ellipsoids/true_cone.h>
-#include <vericone/cones/slices/combined_slice_cone.h>
 #include <vericone/cones/slices/slice_cone.h>
-#include <vericone/geometry/mesh/combined_surface.h>
+#include <vericone/geometry/mesh/surface.h>
+#include <vericone/internal/cones/combined/cone.h>
+#include <vericone/internal/cones/combined/sector.h>
+#include <vericone/internal/cones/ellipsoids/plane_sector.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

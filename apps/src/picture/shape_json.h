@@ -3,7 +3,7 @@
 // Combined quadrics and what belongs to them as JSON for apps/figures.
 #pragma once
 
-#include <vericone/geometry/mesh/combined_surface.h>
+#include <vericone/geometry/mesh/surface.h>
 #include <string>
 
 #include "json/json_forward.h"

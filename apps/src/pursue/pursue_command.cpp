@@ -2,7 +2,6 @@
 #include "pursue/pursue_command.h"
 
 #include <vericone/geometry/error.h>
-#include <vericone/vision/footage/annotate.h>
 #include <vericone/vision/footage/footage.h>
 #include <vericone/work/staged_folder.h>
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "pursue/pursuit_campaign.h"
 
 #include <vericone/geometry/error.h>
-#include <vericone/simulation/table.h>
+#include <vericone/simulation/run_tables.h>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -8,8 +8,7 @@
 #include <set>
 
 #include "json/json_value.h"
-#include "scenarios/read_road.h"
-#include "scenarios/read_vehicle.h"
+#include "scenarios/parts.h"
 #include "scenarios/scenario_fields.h"
 
 namespace vericone::pursuit {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/scenarios/read_scenario.h>
+#include <vericone/scenarios/scenario_files.h>
 #include <vericone/simulation/reach.h>
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scan/run_scan.h"
 
-#include <vericone/scanning/read_scan_scene.h>
-#include <vericone/scanning/write_scan.h>
+#include <vericone/scanning/study.h>
 #include <vericone/work/staged_folder.h>
 #include <cmath>
 #include <filesystem>

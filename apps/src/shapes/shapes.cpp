@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/geometry/combined_volume.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/mesh/surface.h>
 #include <vericone/work/staged_folder.h>
 #include <algorithm>
 #include <cmath>

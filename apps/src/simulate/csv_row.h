@@ -2,7 +2,8 @@
 #pragma once
 
 #include <vericone/geometry/error.h>
-#include <vericone/simulation/table.h>
+#include <vericone/internal/simulation/run_tables.h>
+#include <vericone/simulation/run_tables.h>
 #include <Eigen/Core>
 #include <cmath>
 #include <string>

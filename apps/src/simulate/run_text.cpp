@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulate/run_text.h"
 
-#include <vericone/scenarios/run_files.h>
-#include <vericone/scenes/words.h>
+#include <vericone/internal/scenarios/words.h>
+#include <vericone/internal/scenes/words.h>
+#include <vericone/internal/simulation/run_tables.h>
+#include <vericone/internal/simulation/shape_in_time.h>
+#include <vericone/scenarios/scenario_files.h>
 #include <vericone/simulation/run_tables.h>
 #include <algorithm>
 #include <cmath>

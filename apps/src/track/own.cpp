@@ -2,7 +2,7 @@
 #include "track/own.h"
 
 #include <vericone/geometry/error.h>
-#include <vericone/simulation/table.h>
+#include <vericone/simulation/run_tables.h>
 #include <array>
 #include <cmath>
 #include <fstream>

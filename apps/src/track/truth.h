@@ -3,7 +3,7 @@
 // Boxes as they are given: the first ones, and the true ones.
 #pragma once
 
-#include <vericone/vision/image.h>
+#include <vericone/vision/tracker.h>
 #include <cstddef>
 #include <filesystem>
 #include <map>

@@ -2,10 +2,10 @@
 #include "verify/verify_command.h"
 
 #include <unistd.h>
-#include <vericone/verify/assembly/campaign.h>
+#include <vericone/internal/verify/assembly/campaign.h>
+#include <vericone/internal/verify/planar/methods.h>
+#include <vericone/internal/verify/predicates/campaign.h>
 #include <vericone/verify/planar/campaign.h>
-#include <vericone/verify/planar/methods.h>
-#include <vericone/verify/predicates/campaign.h>
 #include <vericone/verify/spatial/campaign.h>
 
 #include <algorithm>

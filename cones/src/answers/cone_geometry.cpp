@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/cone_geometry.h>
+#include <vericone/internal/cones/cone_size.h>
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <vericone/geometry/interval.h>
-#include <vericone/geometry/tracked.h>
+#include <vericone/internal/geometry/tracked.h>
 #include <Eigen/Core>
 #include <cmath>
 

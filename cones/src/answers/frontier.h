@@ -3,8 +3,8 @@
 // Frontiers come back from callers: what is in them is looked at before it is used as an index.
 #pragma once
 
-#include <vericone/cones/direction_cell.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/direction_cell.h>
 #include <algorithm>
 #include <string>
 

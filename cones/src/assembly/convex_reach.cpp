@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/assembly/convex_reach.h>
-#include <vericone/geometry/requires.h>
+#include <vericone/internal/cones/assembly/convex_reach.h>
+#include <vericone/internal/cones/cone_size.h>
+#include <vericone/internal/geometry/requires.h>
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>

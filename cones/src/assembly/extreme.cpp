@@ -3,7 +3,6 @@
 // The extreme direction of a body on a half-plane.
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
 #include <algorithm>
 #include <numbers>
 #include <optional>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "assembly/frame.h"
 
-#include <vericone/geometry/double_double.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/geometry/double_double.h>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>

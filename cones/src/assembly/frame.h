@@ -4,8 +4,8 @@
 #pragma once
 
 #include <vericone/geometry/ellipsoid.h>
-#include <vericone/geometry/hierarchy.h>
 #include <vericone/geometry/hull_body.h>
+#include <vericone/internal/geometry/hierarchy.h>
 #include <Eigen/Core>
 #include <algorithm>
 #include <initializer_list>

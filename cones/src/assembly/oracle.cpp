@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/assembly/assembly_oracle.h>
+#include <vericone/internal/cones/assembly/assembly_oracle.h>
 
 #include "answers/velocity_ladder.h"
 #include "assembly/gap.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vericone/cones/assembly/assembly_oracle.h>
+#include <vericone/internal/cones/assembly/assembly_oracle.h>
 #include <optional>
 
 #include "answers/half_planes.h"

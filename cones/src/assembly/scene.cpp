@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "assembly/scene.h"
 
-#include <vericone/cones/hulls/hull_oracle.h>
+#include <vericone/internal/cones/hulls/hull_oracle.h>
+#include <vericone/internal/geometry/rotation.h>
 
 #include "ellipsoids/apart.h"
 

@@ -3,7 +3,7 @@
 // What an oracle of assemblies reads, and how it descends the hierarchy.
 #pragma once
 
-#include <vericone/cones/assembly/assembly_oracle.h>
+#include <vericone/internal/cones/assembly/assembly_oracle.h>
 #include <array>
 #include <cmath>
 #include <limits>

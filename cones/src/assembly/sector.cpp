@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/assembly/assembly_sectors.h>
+#include <vericone/internal/cones/assembly/assembly_sectors.h>
 
 #include "assembly/passing.h"
 

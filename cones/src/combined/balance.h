@@ -3,7 +3,7 @@
 // Multipliers of inequalities that are nearly met with equality.
 #pragma once
 
-#include <vericone/geometry/decompositions.h>
+#include <vericone/internal/geometry/decompositions.h>
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/combined/cone.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
+#include <vericone/internal/cones/combined/cone.h>
+#include <vericone/internal/cones/cone_size.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

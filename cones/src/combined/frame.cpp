@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <vericone/geometry/decompositions.h>
+#include <vericone/internal/geometry/decompositions.h>
 
 namespace vericone {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/combined/cone.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/combined/cone.h>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "combined/pair_search.h"
 
-#include <vericone/geometry/stop.h>
+#include <vericone/geometry/error.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "combined/planar_boundary.h"
 
-#include <vericone/geometry/double_double.h>
-#include <vericone/geometry/lengths.h>
+#include <vericone/internal/geometry/double_double.h>
+#include <vericone/internal/geometry/lengths.h>
 #include <cmath>
 
 namespace vericone {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/combined/plane_sector.h>
+#include <vericone/internal/cones/combined/plane_sector.h>
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 // What one point says of a list of quadratic inequalities: near a tangency most lists are decided from there.
 #pragma once
 
-#include <vericone/geometry/decompositions.h>
+#include <vericone/internal/geometry/decompositions.h>
 #include <cmath>
 #include <vector>
 

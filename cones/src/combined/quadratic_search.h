@@ -4,7 +4,7 @@
 // the certified cones of combined quadrics rest on (docs/explanation/theory.md, 7).
 #pragma once
 
-#include <vericone/geometry/stop.h>
+#include <vericone/geometry/error.h>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "combined/relation.h"
 
-#include <vericone/geometry/quadric_side.h>
+#include <vericone/geometry/combined.h>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/combined/sector.h>
+#include <vericone/internal/cones/combined/sector.h>
 
 #include <algorithm>
 #include <array>

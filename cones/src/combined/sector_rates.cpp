@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/combined/sector.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/lengths.h>
+#include <vericone/internal/cones/combined/sector.h>
+#include <vericone/internal/geometry/lengths.h>
 #include <Eigen/LU>
 #include <string>
 

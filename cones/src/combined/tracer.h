@@ -3,8 +3,8 @@
 // The boundary of a certified cone, half-plane by half-plane.
 #pragma once
 
-#include <vericone/cones/combined/cone.h>
 #include <vericone/cones/cone_geometry.h>
+#include <vericone/internal/cones/combined/cone.h>
 #include <numbers>
 #include <optional>
 #include <utility>

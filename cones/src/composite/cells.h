@@ -4,8 +4,8 @@
 // and again, without the boxes that are proved to be empty.
 #pragma once
 
-#include <vericone/geometry/box.h>
 #include <vericone/geometry/combined.h>
+#include <vericone/geometry/pose.h>
 #include <cstdint>
 #include <optional>
 

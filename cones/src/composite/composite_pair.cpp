@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/composite/composite_pair.h>
+#include <vericone/internal/cones/composite/composite_pair.h>
+#include <vericone/internal/geometry/rotation.h>
 
 #include <vericone/geometry/error.h>
 #include <string>

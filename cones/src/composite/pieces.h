@@ -3,7 +3,7 @@
 // Pieces of an agent against pieces of an obstacle.
 #pragma once
 
-#include <vericone/cones/hulls/hull_oracle.h>
+#include <vericone/internal/cones/hulls/hull_oracle.h>
 #include <optional>
 #include <vector>
 

@@ -3,7 +3,7 @@
 // What a pair of composite bodies keeps, and the boxes that all its searches compare.
 #pragma once
 
-#include <vericone/cones/composite/composite_pair.h>
+#include <vericone/internal/cones/composite/composite_pair.h>
 #include <optional>
 #include <vector>
 

@@ -2,9 +2,9 @@
 #include <vericone/cones/ellipsoids/clearance.h>
 
 #include <vericone/cones/cone_geometry.h>
-#include <vericone/cones/ellipsoids/contact_frame.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/lengths.h>
+#include <vericone/internal/cones/ellipsoids/contact_frame.h>
+#include <vericone/internal/geometry/lengths.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/ellipsoids/predicates.h>
-#include <vericone/geometry/exact/body.h>
-#include <vericone/geometry/exact/quadric_side.h>
+#include <vericone/geometry/exact/rational.h>
 
-#include <vericone/cones/ellipsoids/contact_frame.h>
 #include <vericone/cones/ellipsoids/exact_predicates.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/interval.h>
-#include <vericone/geometry/tracked.h>
+#include <vericone/internal/cones/ellipsoids/contact_frame.h>
+#include <vericone/internal/geometry/tracked.h>
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/ellipsoids/contact_frame.h>
+#include <vericone/internal/cones/ellipsoids/contact_frame.h>
 
 #include <cmath>
 #include <limits>
 
-#include <vericone/geometry/lengths.h>
+#include <vericone/internal/geometry/lengths.h>
 
 namespace vericone {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ellipsoids/contact_polynomial.h"
 
-#include <vericone/geometry/requires.h>
+#include <vericone/internal/geometry/requires.h>
 #include <cmath>
 #include "ellipsoids/pair_on_grid.h"
 

@@ -11,8 +11,8 @@
 // double, or two simple positive roots: overlapping, touching, disjoint.
 #pragma once
 
-#include <vericone/geometry/exact/algebraic.h>
-#include <vericone/geometry/exact/integer.h>
+#include <vericone/internal/geometry/exact/algebraic.h>
+#include <vericone/internal/geometry/exact/integer.h>
 #include <array>
 #include <optional>
 #include "ellipsoids/pair_on_grid.h"

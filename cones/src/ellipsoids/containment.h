@@ -7,9 +7,9 @@
 #pragma once
 
 #include <vericone/geometry/ellipsoid.h>
-#include <vericone/geometry/exact/algebraic.h>
 #include <vericone/geometry/interval.h>
-#include <vericone/geometry/tracked.h>
+#include <vericone/internal/geometry/exact/algebraic.h>
+#include <vericone/internal/geometry/tracked.h>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/ellipsoids/enclosures.h>
+#include <vericone/cones/ellipsoids/clearance.h>
 
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/geometry/error.h>

@@ -4,8 +4,8 @@
 #pragma once
 
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/exact/body.h>
-#include <vericone/geometry/exact/integer.h>
+#include <vericone/geometry/exact/rational.h>
+#include <vericone/internal/geometry/exact/integer.h>
 
 namespace vericone::exact {
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/ellipsoids/plane_sector.h>
+#include <vericone/internal/cones/ellipsoids/plane_sector.h>
+#include <vericone/internal/cones/ellipsoids/rungs.h>
 
-#include <vericone/cones/ellipsoids/contact_frame.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/ellipsoids/contact_frame.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/ellipsoids/position.h>
-#include <vericone/geometry/exact/body.h>
+#include <vericone/cones/ellipsoids/predicates.h>
+#include <vericone/geometry/exact/rational.h>
+#include <vericone/internal/cones/ellipsoids/rungs.h>
 
-#include <vericone/cones/ellipsoids/contact_frame.h>
-#include <vericone/cones/ellipsoids/exact_position.h>
+#include <vericone/cones/ellipsoids/exact_predicates.h>
+#include <vericone/internal/cones/ellipsoids/contact_frame.h>
 #include <cmath>
 
 #include "answers/elementary.h"

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/ellipsoids/contact_frame.h>
 #include <vericone/cones/ellipsoids/exact_predicates.h>
 #include <vericone/cones/ellipsoids/predicates.h>
-#include <vericone/geometry/exact/body.h>
-#include <vericone/geometry/exact/integer.h>
-#include <vericone/geometry/quadric_side.h>
+#include <vericone/geometry/combined.h>
+#include <vericone/geometry/exact/rational.h>
+#include <vericone/internal/cones/ellipsoids/contact_frame.h>
+#include <vericone/internal/cones/ellipsoids/rungs.h>
+#include <vericone/internal/geometry/exact/integer.h>
+#include <vericone/internal/geometry/quadric_side.h>
 #include <cmath>
 #include <limits>
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/ellipsoids/true_cone.h>
+#include <vericone/internal/cones/cone_size.h>
+#include <vericone/internal/cones/ellipsoids/rungs.h>
 
-#include <vericone/cones/ellipsoids/contact_frame.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
+#include <vericone/internal/cones/ellipsoids/contact_frame.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>

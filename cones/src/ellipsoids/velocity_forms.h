@@ -6,7 +6,7 @@
 #pragma once
 
 #include <vericone/cones/ellipsoids/predicates.h>
-#include <vericone/geometry/tracked.h>
+#include <vericone/internal/geometry/tracked.h>
 #include <algorithm>
 #include <bit>
 #include <cmath>

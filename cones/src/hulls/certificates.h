@@ -4,7 +4,7 @@
 // bodies, stay apart; a convex combination of points proves that they meet.
 #pragma once
 
-#include <vericone/geometry/tracked.h>
+#include <vericone/internal/geometry/tracked.h>
 #include <array>
 
 #include "ellipsoids/contact_polynomial.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/hulls/hull_oracle.h>
+#include <vericone/internal/cones/hulls/hull_oracle.h>
 
 #include <vericone/geometry/error.h>
 #include <algorithm>

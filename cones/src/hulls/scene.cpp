@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hulls/scene.h"
 
-#include <vericone/geometry/double_double.h>
+#include <vericone/internal/geometry/double_double.h>
 #include <Eigen/LU>
 #include <algorithm>
 #include <bit>

@@ -5,9 +5,9 @@
 #pragma once
 
 #include <vericone/geometry/ellipsoid.h>
-#include <vericone/geometry/exact/integer.h>
 #include <vericone/geometry/hull_body.h>
 #include <vericone/geometry/interval.h>
+#include <vericone/internal/geometry/exact/integer.h>
 #include <cstdint>
 #include <optional>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/hulls/hull_sectors.h>
+#include <vericone/internal/cones/hulls/hull_sectors.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

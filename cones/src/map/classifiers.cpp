@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/map/classifiers.h>
+#include <vericone/internal/cones/map/classifiers.h>
 
 #include <vericone/geometry/interval.h>
 #include <Eigen/Geometry>

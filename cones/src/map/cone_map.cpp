@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/map/cone_map.h>
+#include <vericone/internal/cones/map/cell.h>
 
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <atomic>

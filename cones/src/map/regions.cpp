@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/map/regions.h>
+#include <vericone/cones/map/cone_map.h>
+#include <vericone/internal/cones/map/cell.h>
 
 #include <vericone/geometry/error.h>
 #include <Eigen/Geometry>

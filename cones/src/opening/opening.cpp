@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/internal/geometry/requires.h>
 #include <vericone/cones/opening/opening.h>
+#include <vericone/internal/cones/opening/placed.h>
 
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/exact/integer.h>
+#include <vericone/internal/geometry/exact/integer.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -197,6 +199,7 @@ Opening Opening::polygon(std::vector<Vector2d> vertices) {
 }
 
 double Opening::depth(const Vector2d& point) const {
+  VERICONE_REQUIRES(point.allFinite(), "point", "a number that is not finite", "finite (m)");
   if (polygonal()) return depth_in_polygon(vertices_, point);
   const double outside = point.cwiseQuotient(semi_axes_).norm() - 1;
   if (semi_axes_.x() == semi_axes_.y()) return semi_axes_.x() - point.norm();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/opening/opening_clearance.h>
+#include <vericone/cones/opening/opening.h>
 
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/geometry/error.h>

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/opening/orifice.h>
+#include <vericone/internal/cones/opening/facing_orifice.h>
+#include <vericone/internal/cones/opening/placed.h>
 
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/requires.h>
+#include <vericone/internal/geometry/requires.h>
 #include <algorithm>
 #include <cmath>
 #include <string>

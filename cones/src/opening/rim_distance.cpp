@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/opening/rim_distance.h>
+#include <vericone/cones/opening/opening.h>
 
-#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
+#include <vericone/internal/geometry/decompositions.h>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // A convex agent against hulls and assemblies: exact.
-#include <vericone/cones/assembly/assembly_sectors.h>
-#include <vericone/cones/hulls/hull_sectors.h>
+#include <vericone/internal/cones/assembly/assembly_sectors.h>
+#include <vericone/internal/cones/hulls/hull_sectors.h>
 #include <cmath>
 #include <type_traits>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Two combined quadrics, at least one of them delimited: certified.
-#include <vericone/cones/combined/plane_sector.h>
 #include <vericone/cones/ellipsoids/clearance.h>
-#include <vericone/cones/map/classifiers.h>
+#include <vericone/internal/cones/combined/plane_sector.h>
+#include <vericone/internal/cones/map/classifiers.h>
 #include <algorithm>
 #include <cmath>
 #include <mutex>

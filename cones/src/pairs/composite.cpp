@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Bodies of many parts against each other: pieces exactly, delimited bodies certified.
-#include <vericone/cones/composite/composite_pair.h>
+#include <vericone/internal/cones/composite/composite_pair.h>
 #include <cmath>
 #include <cstdint>
 #include <functional>

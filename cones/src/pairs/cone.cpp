@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/cone.h>
+#include <vericone/internal/cones/map/cell.h>
 
-#include <vericone/cones/assembly/convex_reach.h>
-#include <vericone/cones/combined/cone.h>
 #include <vericone/cones/ellipsoids/true_cone.h>
-#include <vericone/cones/map/classifiers.h>
-#include <vericone/cones/map/regions.h>
+#include <vericone/cones/map/cone_map.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/assembly/convex_reach.h>
+#include <vericone/internal/cones/combined/cone.h>
+#include <vericone/internal/cones/map/classifiers.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

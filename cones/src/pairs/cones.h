@@ -3,8 +3,8 @@
 // Cones by the methods that there are.
 #pragma once
 
-#include <vericone/cones/assembly/assembly_oracle.h>
 #include <vericone/cones/cone.h>
+#include <vericone/internal/cones/assembly/assembly_oracle.h>
 
 #include "pairs/family.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Pairs made of pairs: moved, exchanged, and the union of several.
-#include <vericone/cones/map/classifiers.h>
+#include <vericone/internal/cones/map/classifiers.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

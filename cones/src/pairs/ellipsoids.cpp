@@ -2,10 +2,9 @@
 //
 // Two ellipsoids: exact.
 #include <vericone/cones/ellipsoids/clearance.h>
-#include <vericone/cones/ellipsoids/enclosures.h>
-#include <vericone/cones/ellipsoids/plane_sector.h>
-#include <vericone/cones/map/classifiers.h>
-#include <vericone/cones/times/contact_time_enclosure.h>
+#include <vericone/internal/cones/ellipsoids/plane_sector.h>
+#include <vericone/internal/cones/map/classifiers.h>
+#include <vericone/internal/cones/times/contact_time_enclosure.h>
 #include <algorithm>
 #include <cmath>
 

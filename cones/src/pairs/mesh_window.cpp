@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/mesh_window.h>
+#include <vericone/internal/geometry/rotation.h>
 
-#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/lengths.h>
-#include <vericone/geometry/mesh/boundary_loops.h>
+#include <vericone/geometry/mesh/surface.h>
+#include <vericone/internal/geometry/decompositions.h>
+#include <vericone/internal/geometry/lengths.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>

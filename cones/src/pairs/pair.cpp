@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/pair.h>
+#include <vericone/internal/geometry/rotation.h>
 
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/geometry/error.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/plane_cones.h>
 
-#include <vericone/cones/assembly/assembly_sectors.h>
+#include <vericone/internal/cones/assembly/assembly_sectors.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

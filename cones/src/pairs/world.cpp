@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Pairs of bodies as they stand in the world, and questions that are asked of two bodies once.
-#include <vericone/cones/combined/cone.h>
-#include <vericone/cones/combined/sector.h>
-#include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/cones/pair.h>
+#include <vericone/internal/cones/combined/cone.h>
+#include <vericone/internal/cones/combined/sector.h>
+#include <vericone/internal/cones/hulls/hull_oracle.h>
+#include <vericone/internal/cones/may_meet.h>
 
 namespace vericone {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/planar/enclose_sector.h>
-#include <vericone/cones/planar/sector_oracle.h>
+#include <vericone/cones/planar/sector.h>
+#include <vericone/internal/cones/planar/enclose_sector.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

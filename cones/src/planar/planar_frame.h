@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vericone/cones/ellipsoids/contact_frame.h>
+#include <vericone/internal/cones/ellipsoids/contact_frame.h>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>

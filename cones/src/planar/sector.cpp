@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/planar/sector.h>
+#include <vericone/internal/cones/planar/cone_function.h>
 
 #include <vericone/geometry/error.h>
 #include <cmath>

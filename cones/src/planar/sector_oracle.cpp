@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/ellipsoids/exact_predicates.h>
-#include <vericone/cones/planar/sector_oracle.h>
-#include <vericone/geometry/exact/body.h>
-#include <vericone/geometry/exact/quadric_side.h>
+#include <vericone/cones/planar/sector.h>
+#include <vericone/geometry/exact/rational.h>
 
-#include <vericone/cones/ellipsoids/contact_frame.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/exact/integer.h>
-#include <vericone/geometry/tracked.h>
+#include <vericone/internal/cones/ellipsoids/contact_frame.h>
+#include <vericone/internal/geometry/exact/integer.h>
+#include <vericone/internal/geometry/tracked.h>
 #include <cmath>
 
 #include "answers/elementary.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/planar/sector.h>
-#include <vericone/geometry/double_double.h>
+#include <vericone/internal/geometry/double_double.h>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/slices/combined_slice_cone.h>
+#include <vericone/cones/slices/slice_cone.h>
 
-#include <vericone/cones/combined/cone.h>
-#include <vericone/cones/combined/sector.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/combined/cone.h>
+#include <vericone/internal/cones/combined/sector.h>
 #include <cmath>
 #include <limits>
 

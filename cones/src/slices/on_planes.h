@@ -6,7 +6,6 @@
 #include <vericone/cones/planar/sector.h>
 #include <vericone/cones/slices/slice_cone.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
 #include <numbers>
 #include <string>
 

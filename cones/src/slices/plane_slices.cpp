@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slices/plane_slices.h"
 
-#include <vericone/cones/slices/visible_sector.h>
+#include <vericone/cones/slices/visible_cone.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/lengths.h>
-#include <vericone/geometry/requires.h>
+#include <vericone/internal/cones/slices/visible_sector.h>
+#include <vericone/internal/geometry/lengths.h>
+#include <vericone/internal/geometry/requires.h>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <vector>

@@ -4,10 +4,10 @@
 // (6.3.1-6.3.3), with the rates it leaves to numerical differences.
 #pragma once
 
-#include <vericone/cones/combined/sector.h>
-#include <vericone/cones/ellipsoids/plane_sector.h>
 #include <vericone/geometry/combined.h>
 #include <vericone/geometry/hull_body.h>
+#include <vericone/internal/cones/combined/sector.h>
+#include <vericone/internal/cones/ellipsoids/plane_sector.h>
 #include <optional>
 
 namespace vericone {

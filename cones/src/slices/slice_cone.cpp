@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/slices/slice_cone.h>
+#include <vericone/internal/cones/cone_size.h>
+#include <vericone/internal/cones/slices/slice_sector.h>
 
 #include <vericone/cones/planar/sector.h>
 #include <vericone/geometry/error.h>
@@ -9,7 +11,7 @@
 #include <limits>
 #include <numbers>
 
-#include <vericone/geometry/lengths.h>
+#include <vericone/internal/geometry/lengths.h>
 #include "ellipsoids/plane_axis.h"
 #include "ellipsoids/require_disjoint.h"
 #include "planar/degenerate_conics.h"

@@ -2,7 +2,8 @@
 #include <vericone/cones/slices/visible_cone.h>
 #include <vericone/geometry/combined.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/mesh/mesh_section.h>
+#include <vericone/internal/cones/slices/visible_sector.h>
+#include <vericone/internal/geometry/mesh/mesh_section.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

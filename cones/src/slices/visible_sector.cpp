@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/slices/visible_sector.h>
+#include <vericone/cones/slices/visible_cone.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/lengths.h>
+#include <vericone/internal/cones/slices/visible_sector.h>
+#include <vericone/internal/geometry/lengths.h>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/times/contact_time_enclosure.h>
-#include <vericone/geometry/requires.h>
+#include <vericone/internal/cones/times/contact_time_enclosure.h>
+#include <vericone/internal/geometry/requires.h>
 
 #include "times/contact_time_exact.h"
 #include "times/contact_time_search.h"

@@ -2,7 +2,7 @@
 #include "times/contact_time_exact.h"
 
 #include <vericone/cones/ellipsoids/clearance.h>
-#include <vericone/cones/ellipsoids/contact_frame.h>
+#include <vericone/internal/cones/ellipsoids/contact_frame.h>
 #include <cstdlib>
 
 #include "ellipsoids/contact_polynomial.h"

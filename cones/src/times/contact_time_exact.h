@@ -2,7 +2,7 @@
 #pragma once
 
 #include <vericone/cones/ellipsoids/predicates.h>
-#include <vericone/geometry/exact/algebraic.h>
+#include <vericone/internal/geometry/exact/algebraic.h>
 #include <optional>
 #include <utility>
 

@@ -3,8 +3,8 @@
 
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/cones/ellipsoids/clearance.h>
-#include <vericone/cones/ellipsoids/contact_frame.h>
 #include <vericone/cones/ellipsoids/predicates.h>
+#include <vericone/internal/cones/ellipsoids/contact_frame.h>
 #include <cmath>
 #include <limits>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vericone/geometry/exact/algebraic.h>
-#include <vericone/geometry/exact/integer.h>
+#include <vericone/internal/geometry/exact/algebraic.h>
+#include <vericone/internal/geometry/exact/integer.h>
 #include <array>
 #include "ellipsoids/pair_on_grid.h"
 

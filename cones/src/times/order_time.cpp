@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/times/order.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/times/order.h>
 
 #include "times/contact_time_exact.h"
 #include "times/contact_time_search.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/ellipsoids/contact_frame.h>
-#include <vericone/cones/times/order.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/exact/algebraic.h>
+#include <vericone/internal/cones/ellipsoids/contact_frame.h>
+#include <vericone/internal/cones/times/order.h>
+#include <vericone/internal/geometry/exact/algebraic.h>
 
 #include "ellipsoids/enclosed_pair.h"
 #include "ellipsoids/pair_on_grid.h"

@@ -2,7 +2,7 @@
 //
 // Times that fall back on the exact one: of ellipsoids/clearance.h.
 #include <vericone/cones/ellipsoids/clearance.h>
-#include <vericone/cones/times/contact_time_enclosure.h>
+#include <vericone/internal/cones/times/contact_time_enclosure.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

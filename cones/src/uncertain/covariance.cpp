@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "uncertain/covariance.h"
 
-#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/geometry/decompositions.h>
 #include <string>
 
 namespace vericone::gaussian {

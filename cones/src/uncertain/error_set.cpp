@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/cones/uncertain/error_set.h>
+#include <vericone/cones/uncertain/robust.h>
 #include <vericone/geometry/ellipsoid.h>
 #include <vericone/geometry/error.h>
 #include <cmath>

@@ -3,7 +3,6 @@
 // Proofs: docs/explanation/robust-law.md, "The probability of a collision".
 #include <vericone/cones/uncertain/probability.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/uncertain/probability.h>
-#include <vericone/geometry/decompositions.h>
-#include <vericone/geometry/double_double.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/geometry/decompositions.h>
+#include <vericone/internal/geometry/double_double.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/ellipsoids/clearance.h>
-#include <vericone/cones/times/contact_time_enclosure.h>
 #include <vericone/cones/uncertain/robust.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/times/contact_time_enclosure.h>
+#include <vericone/internal/cones/uncertain/turned.h>
 #include <numbers>
 #include <string>
 #include <vector>

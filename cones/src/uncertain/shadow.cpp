@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "uncertain/shadow.h"
 
-#include <vericone/geometry/double_double.h>
+#include <vericone/internal/geometry/double_double.h>
 #include <algorithm>
 #include <array>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/testing/any_body.h>
+#include <vericone/testing/random_bodies.h>
 
 #include <vericone/geometry/error.h>
 

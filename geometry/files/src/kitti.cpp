@@ -4,7 +4,7 @@
 // with nuScenes the ring.
 #include "binary.h"
 
-#include <vericone/geometry/stop.h>
+#include <vericone/geometry/error.h>
 #include "source.h"
 
 namespace vericone::files {

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
 
 #include "binary.h"
 #include "source.h"

@@ -3,7 +3,7 @@
 // PCD, ascii, binary and binary_compressed. An own reader, with liblzf for the compression: PCL, whose format
 // it is, needs 225 MB of packages.
 #include <lzf.h>
-#include <vericone/geometry/stop.h>
+#include <vericone/geometry/error.h>
 
 #include <limits>
 

@@ -5,7 +5,6 @@
 #include "ply_header.h"
 
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
 #include <algorithm>
 #include <array>
 #include <bit>

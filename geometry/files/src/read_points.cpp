@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/files/read_points.h>
+#include <vericone/files/files.h>
+#include <vericone/internal/files/extensions.h>
 
 #include <vericone/geometry/error.h>
 #include <algorithm>

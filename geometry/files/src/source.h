@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vericone/files/read_points.h>
+#include <vericone/files/files.h>
 
 #include <Eigen/Core>
 #include <cstdint>

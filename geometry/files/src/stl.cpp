@@ -2,7 +2,7 @@
 //
 // STL, ascii and binary. An own reader, as for the other meshes: assimp 5.2 and OpenMesh 9.0 read ascii
 // coordinates into floats, and assimp takes a file for ascii by its first word, which binary files have too.
-#include <vericone/geometry/stop.h>
+#include <vericone/geometry/error.h>
 #include <algorithm>
 #include <cctype>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "text.h"
 
-#include <vericone/geometry/stop.h>
+#include <vericone/geometry/error.h>
 #include <charconv>
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/files/triangle_mesh.h>
+#include <vericone/files/files.h>
 
 #include <vericone/geometry/error.h>
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Polygons cut into triangles.
-#include <vericone/files/read_points.h>
+#include <vericone/files/files.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/exact/rational.h>
 #include <Eigen/Geometry>

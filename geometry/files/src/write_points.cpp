@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <unistd.h>
-#include <vericone/files/write_points.h>
+#include <vericone/files/files.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
+#include <vericone/internal/files/extensions.h>
 
 #include <algorithm>
 #include <atomic>

@@ -4,7 +4,7 @@
 // they are compiled once and not in the core (geometry/decompositions.h).
 #pragma once
 
-#include <vericone/geometry/decompositions.h>
+#include <vericone/internal/geometry/decompositions.h>
 
 namespace vericone::fitting {
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <vericone/fitting/fit.h>
+#include <vericone/internal/fitting/canonical.h>
 #include <string>
 #include <vector>
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/fitting/containing.h>
-#include <vericone/fitting/convex_hull.h>
 #include <vericone/fitting/fit.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
-#include <vericone/geometry/stop.h>
+#include <vericone/internal/fitting/canonical.h>
+#include <vericone/internal/fitting/containing.h>
+#include <vericone/internal/fitting/convex_hull.h>
+#include <vericone/internal/fitting/fit_surface.h>
+#include <vericone/internal/fitting/signed_distance.h>
 
 #include <Eigen/Geometry>
 

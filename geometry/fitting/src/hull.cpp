@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/fitting/hull.h>
 #include <vericone/geometry/exact/rational.h>
+#include <vericone/internal/fitting/canonical.h>
 
 #include "proof/rounded_quadric.h"
 

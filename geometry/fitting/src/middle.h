@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vericone/fitting/sample.h>
+#include <vericone/fitting/hull.h>
 
 namespace vericone::fitting {
 

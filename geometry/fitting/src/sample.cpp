@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/fitting/sample.h>
-#include <vericone/geometry/decompositions.h>
+#include <vericone/fitting/hull.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/fitting/canonical.h>
+#include <vericone/internal/geometry/decompositions.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

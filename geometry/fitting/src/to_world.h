@@ -3,7 +3,7 @@
 // From the frame of a sample to the world.
 #pragma once
 
-#include <vericone/fitting/least_squares.h>
+#include <vericone/fitting/fit.h>
 
 namespace vericone::fitting {
 

@@ -5,8 +5,7 @@
 #include <open3d/pipelines/registration/Registration.h>
 #include <open3d/utility/Logging.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
-#include <vericone/lidar/fuse.h>
+#include <vericone/lidar/lidar.h>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/internal/geometry/requires.h>
 #include <vericone/geometry/error.h>
 #include <vericone/lidar/lidar.h>
 
@@ -32,6 +33,7 @@ void check_elevations(const std::vector<double>& elevations, const char* field) 
 }  // namespace
 
 Eigen::Vector3d BeamPattern::direction(std::size_t beam) const {
+  VERICONE_REQUIRES(beam < size(), "beam", "no such beam", "below size()");
   const double elevation = elevations[beam / azimuths.size()], azimuth = azimuths[beam % azimuths.size()];
   return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
           std::sin(elevation)};

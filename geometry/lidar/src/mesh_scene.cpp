@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <embree3/rtcore.h>
 #include <vericone/geometry/error.h>
-#include <vericone/lidar/mesh_scene.h>
+#include <vericone/lidar/lidar.h>
 
 #include <algorithm>
 #include <cmath>

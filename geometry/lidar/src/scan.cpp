@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
-#include <vericone/lidar/scan.h>
+#include <vericone/lidar/lidar.h>
 
 #include <algorithm>
 #include <cmath>

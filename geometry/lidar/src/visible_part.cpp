@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/lidar/visible_part.h>
+#include <vericone/lidar/lidar.h>
 
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
-#include <vericone/lidar/scan.h>
+#include <vericone/lidar/lidar.h>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
+#include <vericone/internal/octomap/kinds.h>
 #include <vericone/octomap/read_octree.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/geometry/stop.h>
+#include <vericone/geometry/error.h>
 #include <vericone/octomap/read_octree.h>
 
 #include <octomap/ColorOcTree.h>

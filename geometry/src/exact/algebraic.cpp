@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/exact/algebraic.h>
+#include <vericone/internal/geometry/exact/algebraic.h>
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <vericone/cones/cone.h>
-#include <vericone/cones/map/regions.h>
+#include <vericone/cones/map/cone_map.h>
 #include <vericone/cones/pair.h>
 #include <vericone/geometry/body.h>
 #include <vericone/geometry/error.h>

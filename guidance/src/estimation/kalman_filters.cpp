@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/guidance/estimation/constant_rate.h>
-#include <vericone/guidance/estimation/constant_velocity.h>
+#include <vericone/guidance/estimation/filters.h>
+#include <vericone/internal/guidance/estimation/constant_rate.h>
+#include <vericone/internal/guidance/estimation/kalman.h>
 #include <algorithm>
 
 namespace vericone::guidance {

@@ -3,6 +3,7 @@
 // Rounding: the true set lies within `corners_` moved by `slack_`. Every step computes new corners with an
 // error of a few units in the last place of the numbers involved, and adds that to the slack. Nothing has to
 // be rounded corner by corner.
+#include <vericone/internal/geometry/requires.h>
 #include <vericone/guidance/estimation/set_membership.h>
 #include <algorithm>
 #include <cmath>
@@ -227,15 +228,19 @@ double radius(const Bounds& b) { return up(std::max(up(b.high - b.middle()), up(
 }  // namespace
 
 Eigen::Vector3d SetMembershipFilter::position() const {
+  VERICONE_REQUIRES(started(), "filter", "no measurement", "one that has met a measurement");
   return each_axis([&](int i) { return axis(i).position().middle(); });
 }
 Eigen::Vector3d SetMembershipFilter::velocity() const {
+  VERICONE_REQUIRES(started(), "filter", "no measurement", "one that has met a measurement");
   return each_axis([&](int i) { return axis(i).velocity().middle(); });
 }
 Eigen::Vector3d SetMembershipFilter::position_radius() const {
+  VERICONE_REQUIRES(started(), "filter", "no measurement", "one that has met a measurement");
   return each_axis([&](int i) { return radius(axis(i).position()); });
 }
 Eigen::Vector3d SetMembershipFilter::velocity_radius() const {
+  VERICONE_REQUIRES(started(), "filter", "no measurement", "one that has met a measurement");
   return each_axis([&](int i) { return radius(axis(i).velocity()); });
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/guidance/estimation/singer.h>
+#include <vericone/guidance/estimation/filters.h>
+#include <vericone/internal/guidance/estimation/kalman.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

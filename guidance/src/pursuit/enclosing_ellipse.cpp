@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/guidance/pursuit/enclosing_ellipse.h>
+#include <vericone/guidance/pursuit/pursuit_law.h>
 
-#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
+#include <vericone/internal/geometry/decompositions.h>
 #include <cmath>
 #include <numbers>
 #include <string>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/guidance/pursuit/focal_law.h>
+#include <vericone/guidance/pursuit/source_laws.h>
+#include <vericone/internal/guidance/pursuit/source_laws.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

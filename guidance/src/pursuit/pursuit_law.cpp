@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/geometry/lengths.h>
 #include <vericone/guidance/pursuit/pursuit_law.h>
+#include <vericone/internal/geometry/lengths.h>
 #include <algorithm>
 #include <cmath>
 

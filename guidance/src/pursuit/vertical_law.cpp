@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
-#include <vericone/guidance/pursuit/vertical_law.h>
+#include <vericone/guidance/pursuit/source_laws.h>
+#include <vericone/internal/guidance/pursuit/source_laws.h>
 #include <algorithm>
 #include <cmath>
 

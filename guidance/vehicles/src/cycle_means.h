@@ -3,7 +3,7 @@
 // What a cycle of the tail does on average, by integrating it.
 #pragma once
 
-#include <vericone/vehicles/fish_dynamics.h>
+#include <vericone/vehicles/fish.h>
 #include <vector>
 
 #include "tail_drive.h"

@@ -3,7 +3,7 @@
 // How much gas to make or to let out.
 #pragma once
 
-#include <vericone/vehicles/fish_dynamics.h>
+#include <vericone/vehicles/fish.h>
 #include <array>
 
 namespace vericone::vehicles {

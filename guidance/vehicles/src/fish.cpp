@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/internal/vehicles/fish_water.h>
 #include <vericone/vehicles/fish.h>
 
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

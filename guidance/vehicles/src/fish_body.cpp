@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/vehicles/fish_body.h>
+#include <vericone/internal/vehicles/fish_water.h>
+#include <vericone/vehicles/fish.h>
 
 #include <algorithm>
 #include <cmath>

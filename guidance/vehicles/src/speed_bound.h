@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vericone/vehicles/fish_dynamics.h>
+#include <vericone/vehicles/fish.h>
 
 namespace vericone::vehicles {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "swim.h"
+#include <vericone/internal/vehicles/fish_water.h>
 
 #include <algorithm>
 #include <array>

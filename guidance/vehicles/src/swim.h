@@ -4,7 +4,7 @@
 #pragma once
 
 #include <vericone/simulation/curve.h>
-#include <vericone/vehicles/fish_dynamics.h>
+#include <vericone/vehicles/fish.h>
 #include <functional>
 
 #include "tail_drive.h"

@@ -3,7 +3,7 @@
 // The tail's servo: alpha_1 = bias + amplitude sin(2 pi f t), and how both get to new values.
 #pragma once
 
-#include <vericone/vehicles/fish_dynamics.h>
+#include <vericone/vehicles/fish.h>
 
 namespace vericone::vehicles {
 

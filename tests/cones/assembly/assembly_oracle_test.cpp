@@ -2,9 +2,9 @@
 //
 // Relation and membership against the exact predicates of each piece alone; degenerate cases by construction.
 #include <gtest/gtest.h>
-#include <vericone/cones/assembly/assembly_oracle.h>
-#include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/assembly/assembly_oracle.h>
+#include <vericone/internal/cones/hulls/hull_oracle.h>
 #include <limits>
 #include "support/random_assemblies.h"
 

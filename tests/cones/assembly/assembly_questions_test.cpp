@@ -3,10 +3,10 @@
 // First contact, miss distance, extreme directions and cells: against moved agents, closed forms and
 // membership.
 #include <gtest/gtest.h>
-#include <vericone/cones/assembly/assembly_oracle.h>
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/ellipsoids/true_cone.h>
+#include <vericone/internal/cones/assembly/assembly_oracle.h>
 #include <numbers>
 #include "support/random_assemblies.h"
 

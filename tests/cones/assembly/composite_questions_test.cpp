@@ -3,8 +3,9 @@
 // First contact, miss distance and cells of directions of composite pairs: against sampled sweeps, against
 // AssemblyOracle piece by piece, and against membership.
 #include <gtest/gtest.h>
-#include <vericone/cones/composite/composite_pair.h>
 #include <vericone/cones/map/cone_map.h>
+#include <vericone/internal/cones/composite/composite_pair.h>
+#include <vericone/internal/cones/map/cell.h>
 
 #include "cones/assembly/composite_sweep.h"
 

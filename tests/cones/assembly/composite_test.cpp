@@ -3,9 +3,9 @@
 // Delimited bodies against pieces, by sampled sweeps (composite_sweep.h); pieces against pieces, by all pairs
 // of pieces alone; the laws of both.
 #include <gtest/gtest.h>
-#include <vericone/cones/composite/composite_pair.h>
-#include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/composite/composite_pair.h>
+#include <vericone/internal/cones/hulls/hull_oracle.h>
 
 #include "cones/assembly/composite_sweep.h"
 #include "support/random_assemblies.h"

@@ -3,9 +3,9 @@
 // Where pieces join and none of them alone is entered. The truth is told without looking at what the pieces
 // cover: every small change of the velocity, or of the place, is asked of every pair of pieces.
 #include <gtest/gtest.h>
-#include <vericone/cones/composite/composite_pair.h>
-#include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/cones/pair.h>
+#include <vericone/internal/cones/composite/composite_pair.h>
+#include <vericone/internal/cones/hulls/hull_oracle.h>
 #include <Eigen/LU>
 #include <cmath>
 

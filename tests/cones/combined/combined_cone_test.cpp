@@ -3,11 +3,11 @@
 // The certified cones of combined quadrics against closed forms, exact predicates and laws. Against exact
 // polyhedra and sampling: tests/verify.
 #include <gtest/gtest.h>
-#include <vericone/cones/combined/cone.h>
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/ellipsoids/true_cone.h>
-#include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/combined/cone.h>
+#include <vericone/internal/cones/hulls/hull_oracle.h>
 #include <vericone/testing/random_bodies.h>
 #include <Eigen/LU>
 

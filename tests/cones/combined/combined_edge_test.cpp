@@ -2,9 +2,9 @@
 //
 // Edges found by Newton's method against the certified oracle and against what a contact is.
 #include <gtest/gtest.h>
-#include <vericone/cones/combined/cone.h>
-#include <vericone/cones/combined/edge.h>
 #include <vericone/cones/cone_geometry.h>
+#include <vericone/internal/cones/combined/cone.h>
+#include <vericone/internal/cones/combined/edge.h>
 #include <vericone/testing/random_bodies.h>
 
 #include <cmath>

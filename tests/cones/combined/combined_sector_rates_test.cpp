@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/combined/sector.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/combined/sector.h>
 
 #include <cmath>
 #include <numbers>

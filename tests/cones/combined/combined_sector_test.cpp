@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/combined/sector.h>
+#include <vericone/internal/cones/combined/sector.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/combined/cone.h>
-#include <vericone/cones/slices/combined_slice_cone.h>
+#include <vericone/cones/slices/slice_cone.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/combined/cone.h>
 #include <vericone/testing/random_bodies.h>
 
 #include <numbers>

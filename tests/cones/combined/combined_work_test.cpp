@@ -4,7 +4,7 @@
 // short ways to them: edges followed, half-spaces of directions.
 #include <benchmarks/combined_pairs.h>
 #include <gtest/gtest.h>
-#include <vericone/cones/combined/cone.h>
+#include <vericone/internal/cones/combined/cone.h>
 
 #include <numbers>
 

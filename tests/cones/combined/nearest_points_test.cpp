@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/combined/nearest_points.h>
 #include <vericone/cones/pair.h>
-#include <vericone/cones/random_engagement.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/combined/nearest_points.h>
+#include <vericone/internal/cones/random_engagement.h>
 
 #include <cmath>
 #include <limits>

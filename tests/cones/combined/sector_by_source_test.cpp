@@ -2,8 +2,8 @@
 //
 // The source's procedure for an ellipse and its "confocal quadric" (5.2.2.2), and what is wrong in print.
 #include <gtest/gtest.h>
-#include <vericone/cones/combined/sector.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/combined/sector.h>
 #include <Eigen/LU>
 
 #include <array>

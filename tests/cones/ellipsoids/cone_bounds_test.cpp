@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/true_cone.h>
+#include <vericone/internal/cones/cone_size.h>
 #include <vericone/testing/random_bodies.h>
 
 #include <numbers>

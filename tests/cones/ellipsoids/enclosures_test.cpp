@@ -4,10 +4,9 @@
 // them and asking, without rounding, whether there still is a collision.
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/clearance.h>
-#include <vericone/cones/ellipsoids/enclosures.h>
-#include <vericone/cones/planar/enclose_sector.h>
-#include <vericone/cones/planar/sector_oracle.h>
+#include <vericone/cones/planar/sector.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/planar/enclose_sector.h>
 #include <vericone/testing/random_bodies.h>
 
 #include <iostream>

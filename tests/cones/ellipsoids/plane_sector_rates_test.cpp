@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/ellipsoids/plane_sector.h>
+#include <vericone/internal/cones/ellipsoids/plane_sector.h>
 #include <vericone/testing/random_bodies.h>
 
 #include <cmath>

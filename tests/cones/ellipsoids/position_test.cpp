@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/ellipsoids/exact_position.h>
 #include <vericone/cones/ellipsoids/exact_predicates.h>
-#include <vericone/cones/ellipsoids/position.h>
+#include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/exact/body.h>
+#include <vericone/geometry/exact/rational.h>
+#include <vericone/internal/cones/ellipsoids/rungs.h>
 #include <vericone/testing/random_bodies.h>
 #include <Eigen/LU>
 

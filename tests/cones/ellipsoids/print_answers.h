@@ -3,7 +3,6 @@
 // Answers of predicates by name in failures of tests; beside their types, where GoogleTest looks for it.
 #pragma once
 
-#include <vericone/cones/ellipsoids/position.h>
 #include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/cones/opening/orifice.h>
 #include <ostream>

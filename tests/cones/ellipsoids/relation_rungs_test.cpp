@@ -2,11 +2,11 @@
 //
 // The rungs of relation() and separates() against each other where they are hardest.
 #include <gtest/gtest.h>
-#include <vericone/cones/ellipsoids/contact_frame.h>
 #include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/exact/body.h>
 #include <vericone/geometry/exact/rational.h>
+#include <vericone/internal/cones/ellipsoids/contact_frame.h>
+#include <vericone/internal/cones/ellipsoids/rungs.h>
 #include <vericone/testing/random_bodies.h>
 
 #include <iostream>

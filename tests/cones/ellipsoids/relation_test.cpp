@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/ellipsoids/contact_frame.h>
 #include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/geometry/exact/rational.h>
+#include <vericone/internal/cones/ellipsoids/contact_frame.h>
+#include <vericone/internal/cones/ellipsoids/rungs.h>
 
 #include <array>
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <vericone/cones/hulls/hull_oracle.h>
+#include <vericone/internal/cones/hulls/hull_oracle.h>
 #include <vericone/testing/random_bodies.h>
 #include <vector>
 

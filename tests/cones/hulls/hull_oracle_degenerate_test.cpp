@@ -2,7 +2,7 @@
 //
 // HullOracle where bodies graze, touch or are flat, and beside it; laws; hulls against ConeOracle.
 #include <gtest/gtest.h>
-#include <vericone/cones/hulls/hull_oracle.h>
+#include <vericone/internal/cones/hulls/hull_oracle.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

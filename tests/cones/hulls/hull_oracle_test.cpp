@@ -3,7 +3,7 @@
 // HullOracle against answers found by trying all combinations of points in rationals, and against closed
 // forms for boxes.
 #include <gtest/gtest.h>
-#include <vericone/cones/hulls/hull_oracle.h>
+#include <vericone/internal/cones/hulls/hull_oracle.h>
 #include <algorithm>
 #include <cmath>
 

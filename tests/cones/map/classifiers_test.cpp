@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/true_cone.h>
-#include <vericone/cones/map/classifiers.h>
-#include <vericone/cones/map/regions.h>
+#include <vericone/cones/map/cone_map.h>
+#include <vericone/internal/cones/map/cell.h>
+#include <vericone/internal/cones/map/classifiers.h>
 
 #include "cones/map/cone_map_checks.h"
 #include "cones/opening/random_openings.h"

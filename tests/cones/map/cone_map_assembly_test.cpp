@@ -2,10 +2,11 @@
 //
 // Cone maps of meshes, boxes and clouds: orifice cones of windows, doors and rings.
 #include <gtest/gtest.h>
-#include <vericone/cones/assembly/assembly_oracle.h>
-#include <vericone/cones/hulls/hull_oracle.h>
-#include <vericone/cones/map/classifiers.h>
-#include <vericone/cones/map/regions.h>
+#include <vericone/cones/map/cone_map.h>
+#include <vericone/internal/cones/assembly/assembly_oracle.h>
+#include <vericone/internal/cones/hulls/hull_oracle.h>
+#include <vericone/internal/cones/map/cell.h>
+#include <vericone/internal/cones/map/classifiers.h>
 
 #include <chrono>
 #include <filesystem>

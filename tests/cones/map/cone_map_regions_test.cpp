@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/cones/cone_geometry.h>
-#include <vericone/cones/map/regions.h>
+#include <vericone/cones/map/cone_map.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/cone_size.h>
+#include <vericone/internal/cones/map/cell.h>
 
 #include <map>
 #include <set>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/true_cone.h>
-#include <vericone/cones/map/classifiers.h>
 #include <vericone/cones/map/cone_map.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/map/cell.h>
+#include <vericone/internal/cones/map/classifiers.h>
 
 #include <atomic>
 #include <stdexcept>

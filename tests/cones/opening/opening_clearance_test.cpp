@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/clearance.h>
-#include <vericone/cones/opening/opening_clearance.h>
+#include <vericone/cones/opening/opening.h>
 #include <vericone/cones/opening/orifice.h>
 #include <vericone/geometry/error.h>
 #include <vericone/testing/random_bodies.h>

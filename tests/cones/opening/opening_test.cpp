@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/opening/opening.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/opening/placed.h>
 #include <vericone/testing/random_bodies.h>
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/opening/orifice.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/opening/facing_orifice.h>
 #include <vericone/testing/random_bodies.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/cone.h>
+#include <vericone/internal/cones/map/cell.h>
 
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/true_cone.h>
 #include <vericone/cones/pair.h>
 #include <vericone/geometry/error.h>
-#include <vericone/testing/any_body.h>
+#include <vericone/testing/random_bodies.h>
 #include <cmath>
 #include <numbers>
 #include <thread>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/map/classifiers.h>
 #include <vericone/cones/mesh_window.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/mesh/boundary_loops.h>
+#include <vericone/geometry/mesh/surface.h>
+#include <vericone/internal/cones/map/classifiers.h>
 #include <vericone/testing/random_bodies.h>
 #include <Eigen/Geometry>
 

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/geometry/error.h>
-#include <vericone/testing/any_body.h>
 #include <vericone/testing/laws.h>
+#include <vericone/testing/random_bodies.h>
 #include <cmath>
 #include <string>
 #include <thread>

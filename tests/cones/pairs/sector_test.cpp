@@ -2,10 +2,10 @@
 //
 // Sectors of any two bodies on planes, against verdicts of velocities in the plane and against moved bodies.
 #include <gtest/gtest.h>
-#include <vericone/cones/ellipsoids/plane_sector.h>
 #include <vericone/cones/pair.h>
 #include <vericone/geometry/error.h>
-#include <vericone/testing/any_body.h>
+#include <vericone/internal/cones/ellipsoids/plane_sector.h>
+#include <vericone/testing/random_bodies.h>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>

@@ -5,7 +5,8 @@
 #include <vericone/cones/pair.h>
 #include <vericone/cones/plane_cones.h>
 #include <vericone/geometry/error.h>
-#include <vericone/testing/any_body.h>
+#include <vericone/internal/cones/may_meet.h>
+#include <vericone/testing/random_bodies.h>
 #include <cmath>
 
 #include "support/campaign.h"

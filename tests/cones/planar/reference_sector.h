@@ -3,8 +3,8 @@
 // The planar sector with 50 digits, by bisection of the tangency condition. Slow to compile and to run.
 #pragma once
 
-#include <vericone/cones/ellipsoids/contact_frame.h>
 #include <vericone/geometry/ellipsoid.h>
+#include <vericone/internal/cones/ellipsoids/contact_frame.h>
 #include <array>
 #include <boost/math/constants/constants.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>

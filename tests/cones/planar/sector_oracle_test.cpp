@@ -2,9 +2,8 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/exact_predicates.h>
 #include <vericone/cones/planar/sector.h>
-#include <vericone/cones/planar/sector_oracle.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/exact/body.h>
+#include <vericone/geometry/exact/rational.h>
 #include <vericone/testing/random_bodies.h>
 
 #include <iostream>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/cones/planar/sector.h>
+#include <vericone/internal/cones/planar/cone_function.h>
 #include <vericone/testing/random_bodies.h>
 
 #include <cmath>

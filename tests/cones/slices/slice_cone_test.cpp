@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/cones/ellipsoids/plane_sector.h>
 #include <vericone/cones/ellipsoids/true_cone.h>
 #include <vericone/cones/planar/sector.h>
 #include <vericone/cones/slices/slice_cone.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/quadric.h>
+#include <vericone/internal/cones/ellipsoids/plane_sector.h>
+#include <vericone/internal/cones/slices/slice_sector.h>
 #include <vericone/testing/random_bodies.h>
 
 #include <numbers>

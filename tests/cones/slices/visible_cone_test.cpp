@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/slices/visible_cone.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/slices/visible_sector.h>
 #include <vericone/testing/random_bodies.h>
 
 #include <cmath>

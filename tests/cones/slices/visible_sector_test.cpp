@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <vericone/cones/slices/visible_sector.h>
+#include <vericone/cones/slices/visible_cone.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/slices/visible_sector.h>
 #include <vericone/testing/random_bodies.h>
 
 #include <algorithm>

@@ -3,11 +3,10 @@
 // Which of two contacts is earlier, and enclosures of their times.
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/clearance.h>
-#include <vericone/cones/times/contact_time_enclosure.h>
-#include <vericone/cones/times/order.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/exact/body.h>
 #include <vericone/geometry/exact/rational.h>
+#include <vericone/internal/cones/times/contact_time_enclosure.h>
+#include <vericone/internal/cones/times/order.h>
 #include <vericone/testing/random_bodies.h>
 #include <Eigen/LU>
 

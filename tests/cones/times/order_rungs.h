@@ -4,7 +4,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <vericone/cones/times/order.h>
+#include <vericone/internal/cones/times/order.h>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <iostream>
 #include <string>

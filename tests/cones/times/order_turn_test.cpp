@@ -3,10 +3,9 @@
 // Order of two tangent directions.
 #include <gtest/gtest.h>
 #include <vericone/cones/planar/sector.h>
-#include <vericone/cones/times/order.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/exact/body.h>
 #include <vericone/geometry/exact/rational.h>
+#include <vericone/internal/cones/times/order.h>
 #include <vericone/testing/random_bodies.h>
 #include <Eigen/LU>
 

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/uncertain/probability.h>
-#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/geometry/decompositions.h>
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <array>

@@ -4,9 +4,9 @@
 // against mistakes planted into the condition.
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/clearance.h>
-#include <vericone/cones/uncertain/error_set.h>
 #include <vericone/cones/uncertain/robust.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/uncertain/turned.h>
 #include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>

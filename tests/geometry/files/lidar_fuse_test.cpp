@@ -2,8 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
-#include <vericone/lidar/fuse.h>
-#include <vericone/lidar/scan.h>
+#include <vericone/lidar/lidar.h>
 
 #include <cmath>
 #include <cstdlib>

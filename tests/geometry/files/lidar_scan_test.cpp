@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <vericone/geometry/ellipsoid.h>
 #include <vericone/geometry/error.h>
-#include <vericone/lidar/scan.h>
+#include <vericone/lidar/lidar.h>
 #if defined(__SSE__)
 #include <xmmintrin.h>
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <vericone/lidar/scan.h>
-#include <vericone/lidar/visible_part.h>
+#include <vericone/lidar/lidar.h>
 
 #include <cmath>
 #include <numbers>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <vericone/files/read_points.h>
+#include <vericone/files/files.h>
 #include <vericone/geometry/error.h>
 
 #include "geometry/files/refused_files.h"

@@ -4,6 +4,7 @@
 #include <octomap/ColorOcTree.h>
 #include <octomap/OcTree.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/octomap/kinds.h>
 #include <vericone/octomap/read_octree.h>
 
 #include <limits>

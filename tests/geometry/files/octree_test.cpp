@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/internal/octomap/kinds.h>
 #include <vericone/octomap/read_octree.h>
 
 #include <gmock/gmock.h>

@@ -4,8 +4,7 @@
 // tests look for them and skip where they are not.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <vericone/files/read_points.h>
-#include <vericone/files/triangle_mesh.h>
+#include <vericone/files/files.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
 

@@ -5,7 +5,8 @@
 #include <gtest/gtest.h>
 #include <octomap/OcTree.h>
 #include <octomap/ScanGraph.h>
-#include <vericone/files/read_points.h>
+#include <vericone/files/files.h>
+#include <vericone/internal/octomap/kinds.h>
 #include <vericone/octomap/read_octree.h>
 
 #include <chrono>

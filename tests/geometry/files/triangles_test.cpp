@@ -2,7 +2,7 @@
 //
 // Polygons cut into triangles: against crossing numbers and areas in whole numbers.
 #include <gtest/gtest.h>
-#include <vericone/files/read_points.h>
+#include <vericone/files/files.h>
 #include <vericone/geometry/error.h>
 #include <algorithm>
 #include <cmath>

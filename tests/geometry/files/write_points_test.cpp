@@ -2,10 +2,8 @@
 //
 // What is written reads back as the same numbers.
 #include <gtest/gtest.h>
-#include <vericone/files/read_points.h>
-#include <vericone/files/write_points.h>
+#include <vericone/files/files.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
 
 #include <cmath>
 #include <filesystem>

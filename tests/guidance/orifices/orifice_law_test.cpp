@@ -3,8 +3,10 @@
 // (2.2)-(2.4): y and its rate along Cartesian motion, the law against the printed form and its correction,
 // and where it stands still. The passage law against finite differences of the clearance.
 #include <gtest/gtest.h>
-#include <vericone/cones/opening/opening_clearance.h>
+#include <vericone/cones/opening/opening.h>
 #include <vericone/guidance/orifice_law.h>
+#include <vericone/internal/guidance/directions.h>
+#include <vericone/internal/guidance/orifice_function.h>
 #include <vericone/testing/random_bodies.h>
 #include <Eigen/Geometry>
 #include <algorithm>

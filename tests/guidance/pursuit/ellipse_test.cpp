@@ -3,7 +3,7 @@
 // The enclosing ellipse and its rates, the sign of the focal cone against the exact predicate, misses against
 // the search over time.
 #include <gtest/gtest.h>
-#include <vericone/cones/planar/sector_oracle.h>
+#include <vericone/cones/planar/sector.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
 #include <vericone/guidance/pursuit/pursuit_law.h>

@@ -4,7 +4,7 @@
 // (docs/reference/errata.md). Written from the print, not from the library, which uses other forms.
 #pragma once
 
-#include <vericone/guidance/pursuit/focal_law.h>
+#include <vericone/guidance/pursuit/source_laws.h>
 #include <cmath>
 
 #include "guidance/motion.h"

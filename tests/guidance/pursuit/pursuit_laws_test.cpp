@@ -4,9 +4,8 @@
 // commands are flown on Cartesian paths, y is computed from those alone. What the source prints wrongly is
 // flown on the same states.
 #include <gtest/gtest.h>
-#include <vericone/guidance/pursuit/focal_law.h>
-#include <vericone/guidance/pursuit/rendezvous_law.h>
-#include <vericone/guidance/pursuit/vertical_law.h>
+#include <vericone/guidance/pursuit/source_laws.h>
+#include <vericone/internal/guidance/pursuit/source_laws.h>
 
 #include "guidance/law_promises.h"
 #include "guidance/pursuit/printed_pursuit.h"

@@ -3,10 +3,9 @@
 // The laws in closed loop with exact states: the source's runs 3.4.1, 3.4.2, 4.3.0.1 and 4.3.0.2, 40 starts
 // within 1 mm.
 #include <gtest/gtest.h>
-#include <vericone/guidance/estimation/singer.h>
-#include <vericone/guidance/pursuit/focal_law.h>
+#include <vericone/guidance/estimation/filters.h>
 #include <vericone/guidance/pursuit/pursuit_law.h>
-#include <vericone/guidance/pursuit/rendezvous_law.h>
+#include <vericone/guidance/pursuit/source_laws.h>
 #include <vericone/testing/random_bodies.h>
 #include <algorithm>
 #include <cmath>

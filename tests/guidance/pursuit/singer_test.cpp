@@ -2,7 +2,8 @@
 //
 // Singer's model against Van Loan's method in 50 digits, and its filter against truths that the model drives.
 #include <gtest/gtest.h>
-#include <vericone/guidance/estimation/singer.h>
+#include <vericone/guidance/estimation/filters.h>
+#include <vericone/internal/guidance/estimation/kalman.h>
 #include <vericone/testing/random_bodies.h>
 #include <array>
 #include <boost/multiprecision/cpp_bin_float.hpp>

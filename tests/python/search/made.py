@@ -28,10 +28,7 @@ def objects() -> list[Any]:
                           np.array([[0, 4, 5], [0, 5, 1], [1, 5, 6], [1, 6, 2], [2, 6, 7], [2, 7, 3], [3, 7, 4], [3, 4, 0]]), 0)
     bodies = [v.Body(x) for x in (ball, dent, hull)]
     made = [ball, long, small, disc, flat, dent, star, hull, far, mesh, cloud, pose, opening, window, *bodies,
-            v.CombinedEllipse(disc), v.CombinedEllipsoid(ball), v.ConeOracle(ball, long), v.SectorOracle(disc, flat), v.CombinedOracle(ball, dent),
-            v.HullOracle(ball, far), v.HullOracle(hull, long), v.AssemblyOracle(ball, mesh), v.AssemblyOracle(hull, cloud),
-            v.CompositePair(dent, cloud), v.OrificeOracle(ball, opening), v.SectorPlanes(ball, long), v.HullSectors(ball, far, v.HullOracle(ball, far)),
-            v.CombinedEdges(v.CombinedEllipsoid(ball), dent), v.Pair(ball, long), v.Pair(dent, hull), v.Pair(v.Body(mesh), v.Placed(v.Body(ball), pose)),
+            v.CombinedEllipse(disc), v.CombinedEllipsoid(ball), v.ConeOracle(ball, long), v.SectorOracle(disc, flat), v.OrificeOracle(ball, opening), v.Pair(ball, long), v.Pair(dent, hull), v.Pair(v.Body(mesh), v.Placed(v.Body(ball), pose)),
             v.WorldBody(ball), v.WorldBody(dent), v.true_cone(ball, long, 64), v.AxisFrame([1, 2, 3.0]), v.PlaneFrame([0, 0, 0], [1, 0, 0], [0, 1, 0]),
             v.Box([0, 0, 0], [1, 2, 3])]
     g = v.guidance
@@ -42,12 +39,10 @@ def objects() -> list[Any]:
     made += [g.SpatialState(r=r, theta=0.1, phi=0.2, v_theta=0.3, v_phi=0.1, v_r=-2, speed_a=2, speed_b=1) for r in (8, 15)]
     made += [g.PlaneCone(psi=psi, theta_b=0.1) for psi in (0.3, 0.4)]
     made += [g.Measured(v_r=0.01 * k, v_theta=0.02, theta=0.001, theta_b=0.001, psi=0.002) for k in (1, 2)]
-    made += [v.exact.RationalBody3(x) for x in (ball, long)] + [v.exact.RationalBody2(x) for x in (disc, flat)] + [v.exact.Dyadic.of(x) for x in (0.375, -3.0)]
-    made += [v.TangentRef(disc, x, left) for x in (flat, v.Ellipse.from_axes([5, -1], [1, 2])) for left in (True, False)]
-    made += [v.combined_sector(v.CombinedEllipse(disc), star), v.PlanarMotion(v_a=[1, 0], v_b=[-1, 0.1], omega_b=0.2), v.SpatialMotion(v_a=[1, 0, 0], v_b=[0, 0.1, 0])]
+    made += [v.exact.RationalBody3(x) for x in (ball, long)] + [v.exact.RationalBody2(x) for x in (disc, flat)]
+    made += [v.PlanarMotion(v_a=[1, 0], v_b=[-1, 0.1], omega_b=0.2), v.SpatialMotion(v_a=[1, 0, 0], v_b=[0, 0.1, 0])]
     made += [g.Cartesian2(p_b=p, v_a=[1, 0.1], v_b=[0, 0.2]) for p in ([5, 1], [7, 3])] + [g.Cartesian3(p_b=p, v_a=[1, 0.1, 0], v_b=[0, 0.2, 0.1]) for p in ([5, 1, 1], [7, 3, 2])]
-    made += [g.Bounds(1, 3), g.PossibleMotion(g.Bounds(1, 3), g.Bounds(-1, 1)), v.cone_map([v.Pair(ball, long)], v.ConeMapOptions(resolution=0.3)),
-             v.Cholesky2([[2.0, 0], [0.5, 1]], True), v.Cholesky3([[2.0, 0, 0], [0.5, 1, 0], [0.1, 0.2, 3]], True)]
+    made.append(v.cone_map([v.Pair(ball, long)], v.ConeMapOptions(resolution=0.3)))
     made += [g.EnclosingEllipse(centre=[9, 1], a=2, b=1, angle=0.3, foci=([8, 1], [10, 1])), g.FocalState(velocity=[1, 0], foci=([8, 1], [10, 1]), a=2)]
     # Options, mostly: as they are without a word.
     for own in signatures.callables(v):

@@ -6,8 +6,8 @@
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <gtest/gtest.h>
-#include <vericone/cones/assembly/assembly_oracle.h>
-#include <vericone/verify/seeded_random.h>
+#include <vericone/internal/cones/assembly/assembly_oracle.h>
+#include <vericone/internal/verify/seeded_random.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 // AssemblyOracle over small assemblies, hard on purpose. VERICONE_CASES and VERICONE_SEED replace the number
 // of cases of a family and the seed.
 #include <gtest/gtest.h>
-#include <vericone/cones/assembly/assembly_oracle.h>
-#include <vericone/verify/assembly/campaign.h>
+#include <vericone/internal/cones/assembly/assembly_oracle.h>
+#include <vericone/internal/verify/assembly/campaign.h>
 
 #include <cstdio>
 #include <string>

@@ -2,13 +2,13 @@
 //
 // Assemblies that are convex bodies in disguise against the exact predicates of those bodies.
 #include <gtest/gtest.h>
-#include <vericone/cones/assembly/assembly_oracle.h>
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/ellipsoids/true_cone.h>
-#include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/cones/map/cone_map.h>
-#include <vericone/verify/seeded_random.h>
-#include <vericone/verify/spatial/minkowski_bounds.h>
+#include <vericone/internal/cones/assembly/assembly_oracle.h>
+#include <vericone/internal/cones/hulls/hull_oracle.h>
+#include <vericone/internal/verify/seeded_random.h>
+#include <vericone/internal/verify/spatial/minkowski_bounds.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

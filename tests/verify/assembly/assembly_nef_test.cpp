@@ -9,9 +9,10 @@
 #include <CGAL/convex_hull_3.h>
 #include <CGAL/minkowski_sum_3.h>
 #include <gtest/gtest.h>
-#include <vericone/cones/assembly/assembly_oracle.h>
 #include <vericone/cones/map/cone_map.h>
-#include <vericone/verify/seeded_random.h>
+#include <vericone/internal/cones/assembly/assembly_oracle.h>
+#include <vericone/internal/cones/map/cell.h>
+#include <vericone/internal/verify/seeded_random.h>
 
 #include <array>
 #include <cmath>

@@ -3,10 +3,10 @@
 // AssemblyOracle over real meshes, clouds and maps against all of their pieces, one after the other.
 // VERICONE_CASES and VERICONE_SEED replace the number of velocities of each body and agent, and the seed.
 #include <gtest/gtest.h>
-#include <vericone/cones/assembly/assembly_oracle.h>
 #include <vericone/cones/cone_geometry.h>
-#include <vericone/verify/assembly/truth.h>
-#include <vericone/verify/seeded_random.h>
+#include <vericone/internal/cones/assembly/assembly_oracle.h>
+#include <vericone/internal/verify/assembly/truth.h>
+#include <vericone/internal/verify/seeded_random.h>
 
 #ifdef VERICONE_HAVE_OCTOMAP
 #include <vericone/octomap/read_octree.h>

@@ -3,9 +3,9 @@
 // The oracle of assemblies against figures with known answers: integers, Pythagorean triples, and the other
 // exact constructions of this folder.
 #include <gtest/gtest.h>
-#include <vericone/verify/assembly/truth.h>
-#include <vericone/verify/predicates/hull_truth.h>
-#include <vericone/verify/seeded_random.h>
+#include <vericone/internal/verify/assembly/truth.h>
+#include <vericone/internal/verify/predicates/hull_truth.h>
+#include <vericone/internal/verify/seeded_random.h>
 
 #include <cmath>
 

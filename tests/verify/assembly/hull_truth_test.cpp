@@ -2,7 +2,7 @@
 //
 // The oracle of hulls against answers known in closed form.
 #include <gtest/gtest.h>
-#include <vericone/verify/predicates/hull_truth.h>
+#include <vericone/internal/verify/predicates/hull_truth.h>
 
 #include <cmath>
 

@@ -5,8 +5,8 @@
 #include <CGAL/Polygon_mesh_slicer.h>
 #include <CGAL/Surface_mesh.h>
 #include <gtest/gtest.h>
-#include <vericone/geometry/mesh/mesh_section.h>
-#include <vericone/verify/seeded_random.h>
+#include <vericone/internal/geometry/mesh/mesh_section.h>
+#include <vericone/internal/verify/seeded_random.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

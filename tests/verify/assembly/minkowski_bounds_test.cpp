@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
-#include <vericone/verify/seeded_random.h>
-#include <vericone/verify/spatial/families.h>
-#include <vericone/verify/spatial/minkowski_bounds.h>
+#include <vericone/internal/verify/seeded_random.h>
+#include <vericone/internal/verify/spatial/minkowski_bounds.h>
+#include <vericone/verify/spatial/campaign.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

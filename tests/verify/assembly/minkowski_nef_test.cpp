@@ -8,8 +8,8 @@
 #include <CGAL/convex_hull_3.h>
 #include <CGAL/minkowski_sum_3.h>
 #include <gtest/gtest.h>
-#include <vericone/verify/seeded_random.h>
-#include <vericone/verify/spatial/minkowski_bounds.h>
+#include <vericone/internal/verify/seeded_random.h>
+#include <vericone/internal/verify/spatial/minkowski_bounds.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
-#include <vericone/verify/spatial/enclosed_real.h>
+#include <vericone/internal/verify/spatial/enclosed_real.h>
 
 #include <cmath>
 #include <limits>

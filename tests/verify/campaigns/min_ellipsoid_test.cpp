@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
-#include <vericone/verify/seeded_random.h>
-#include <vericone/verify/spatial/min_ellipsoid_check.h>
+#include <vericone/internal/verify/seeded_random.h>
+#include <vericone/internal/verify/spatial/min_ellipsoid_check.h>
 
 #include <Eigen/LU>
 
 #include <cmath>
 
 #ifdef VERICONE_HAVE_FILES
-#include <vericone/files/read_points.h>
+#include <vericone/files/files.h>
 #include <vericone/geometry/error.h>
 
 #include <algorithm>

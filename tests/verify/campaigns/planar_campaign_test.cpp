@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <vericone/internal/verify/predicates/exact_tangents.h>
 #include <vericone/verify/planar/campaign.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
-#include <vericone/verify/planar/families.h>
-#include <vericone/verify/predicates/exact_tangents.h>
+#include <vericone/internal/verify/predicates/exact_tangents.h>
+#include <vericone/verify/planar/campaign.h>
 
 #include <cmath>
 #include <numbers>

@@ -4,8 +4,9 @@
 // docs/measured/planar-accuracy.md, which is to be renewed when one of them changes.
 #include <gtest/gtest.h>
 #include <vericone/cones/planar/sector.h>
-#include <vericone/verify/planar/methods.h>
-#include <vericone/verify/seeded_random.h>
+#include <vericone/internal/verify/planar/methods.h>
+#include <vericone/internal/verify/predicates/exact_tangents.h>
+#include <vericone/internal/verify/seeded_random.h>
 
 #include <cmath>
 #include <numbers>

@@ -3,7 +3,7 @@
 // Meshes, clouds and maps as people publish them: found beside the sources, or nothing.
 #pragma once
 
-#include <vericone/files/read_points.h>
+#include <vericone/files/files.h>
 
 #include <array>
 #include <cstdlib>

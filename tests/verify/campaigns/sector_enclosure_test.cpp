@@ -3,10 +3,10 @@
 // Enclosures of planar sectors against the exact inner tangents of CGAL, whose angles are known to the last
 // bit.
 #include <gtest/gtest.h>
-#include <vericone/cones/ellipsoids/enclosures.h>
-#include <vericone/cones/planar/enclose_sector.h>
-#include <vericone/verify/planar/families.h>
-#include <vericone/verify/predicates/exact_tangents.h>
+#include <vericone/cones/ellipsoids/clearance.h>
+#include <vericone/internal/cones/planar/enclose_sector.h>
+#include <vericone/internal/verify/predicates/exact_tangents.h>
+#include <vericone/verify/planar/campaign.h>
 
 #include <iostream>
 #include <numbers>

@@ -3,8 +3,8 @@
 // The library's cones in space against polyhedra and marches. The bounds are those of
 // docs/measured/spatial-checks.md.
 #include <gtest/gtest.h>
+#include <vericone/internal/verify/spatial/contact_march.h>
 #include <vericone/verify/spatial/campaign.h>
-#include <vericone/verify/spatial/contact_march.h>
 
 namespace vericone::verify::spatial_campaign_test {
 namespace {

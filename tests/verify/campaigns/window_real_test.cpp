@@ -3,7 +3,7 @@
 // Windows cut into meshes as people publish them.
 #include <gtest/gtest.h>
 #include <vericone/cones/mesh_window.h>
-#include <vericone/geometry/mesh/boundary_loops.h>
+#include <vericone/geometry/mesh/surface.h>
 #include <Eigen/Geometry>
 
 #include <algorithm>

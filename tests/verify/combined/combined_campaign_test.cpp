@@ -3,7 +3,7 @@
 // Certified cones of combined quadrics over random engagements. VERICONE_CASES and VERICONE_SEED replace the
 // number of pairs of a family and the seed.
 #include <gtest/gtest.h>
-#include <vericone/verify/combined/campaign.h>
+#include <vericone/internal/verify/combined/campaign.h>
 
 #include <cstdio>
 #include <string>

@@ -8,9 +8,9 @@
 #include <CGAL/Polyhedron_incremental_builder_3.h>
 #include <CGAL/minkowski_sum_3.h>
 #include <gtest/gtest.h>
-#include <vericone/verify/combined/families.h>
-#include <vericone/verify/combined/truth.h>
-#include <vericone/verify/seeded_random.h>
+#include <vericone/internal/verify/combined/families.h>
+#include <vericone/internal/verify/combined/truth.h>
+#include <vericone/internal/verify/seeded_random.h>
 
 #include <cmath>
 #include <numbers>

@@ -3,7 +3,7 @@
 // Planar combined quadrics against the exact truth, 10^4 pairs and in the campaign 10^5: none wrong.
 // VERICONE_CASES and VERICONE_SEED replace the number of pairs of each family and the seed.
 #include <gtest/gtest.h>
-#include <vericone/verify/combined/planar_campaign.h>
+#include <vericone/internal/verify/combined/planar_campaign.h>
 
 #include <cstdio>
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
-#include <vericone/cones/combined/sector.h>
-#include <vericone/verify/combined/planar_families.h>
-#include <vericone/verify/combined/planar_truth.h>
-#include <vericone/verify/planar/families.h>
-#include <vericone/verify/seeded_random.h>
+#include <vericone/internal/cones/combined/sector.h>
+#include <vericone/internal/verify/combined/planar_families.h>
+#include <vericone/internal/verify/combined/planar_truth.h>
+#include <vericone/internal/verify/predicates/exact_tangents.h>
+#include <vericone/internal/verify/seeded_random.h>
+#include <vericone/verify/planar/campaign.h>
 #include <Eigen/Geometry>
 
 #include <cmath>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
-#include <vericone/verify/combined/families.h>
-#include <vericone/verify/combined/sweep.h>
-#include <vericone/verify/combined/truth.h>
-#include <vericone/verify/seeded_random.h>
-#include <vericone/verify/spatial/contact_march.h>
+#include <vericone/internal/verify/combined/families.h>
+#include <vericone/internal/verify/combined/sweep.h>
+#include <vericone/internal/verify/combined/truth.h>
+#include <vericone/internal/verify/seeded_random.h>
+#include <vericone/internal/verify/spatial/contact_march.h>
 
 #include <cmath>
 

@@ -3,11 +3,11 @@
 // The polyhedra between which the cones of combined quadrics are held: against CGAL's exact programs, against
 // the exact cones of ellipsoids, and against the bodies themselves.
 #include <gtest/gtest.h>
-#include <vericone/verify/combined/families.h>
-#include <vericone/verify/combined/sweep.h>
-#include <vericone/verify/combined/truth.h>
-#include <vericone/verify/predicates/hull_truth.h>
-#include <vericone/verify/seeded_random.h>
+#include <vericone/internal/verify/combined/families.h>
+#include <vericone/internal/verify/combined/sweep.h>
+#include <vericone/internal/verify/combined/truth.h>
+#include <vericone/internal/verify/predicates/hull_truth.h>
+#include <vericone/internal/verify/seeded_random.h>
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
-#include <vericone/verify/seeded_random.h>
-#include <vericone/verify/spatial/contact_march.h>
+#include <vericone/internal/verify/seeded_random.h>
+#include <vericone/internal/verify/spatial/contact_march.h>
 
 #include <cmath>
 #include <numbers>

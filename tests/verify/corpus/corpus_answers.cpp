@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "verify/corpus/corpus_answers.h"
 
-#include <vericone/cones/ellipsoids/contact_frame.h>
-#include <vericone/cones/ellipsoids/exact_position.h>
 #include <vericone/cones/ellipsoids/exact_predicates.h>
-#include <vericone/cones/ellipsoids/position.h>
 #include <vericone/cones/ellipsoids/predicates.h>
-#include <vericone/cones/hulls/hull_oracle.h>
 #include <vericone/cones/opening/orifice.h>
-#include <vericone/cones/planar/sector_oracle.h>
-#include <vericone/geometry/exact/quadric_side.h>
+#include <vericone/cones/planar/sector.h>
+#include <vericone/geometry/combined.h>
 #include <vericone/geometry/exact/rational.h>
-#include <vericone/geometry/quadric_side.h>
+#include <vericone/internal/cones/ellipsoids/contact_frame.h>
+#include <vericone/internal/cones/ellipsoids/rungs.h>
+#include <vericone/internal/cones/hulls/hull_oracle.h>
+#include <vericone/internal/geometry/quadric_side.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>

@@ -4,7 +4,7 @@
 // file, and that every rung of every predicate holds on it.
 #include <gtest/gtest.h>
 #include <vericone/geometry/exact/rational.h>
-#include <vericone/verify/corpus/file.h>
+#include <vericone/verify/corpus.h>
 
 #include <algorithm>
 #include <fstream>

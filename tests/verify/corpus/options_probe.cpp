@@ -5,8 +5,8 @@
 #include <vericone/cones/ellipsoids/true_cone.h>
 #include <vericone/cones/planar/sector.h>
 #include <vericone/geometry/interval.h>
-#include <vericone/geometry/tracked.h>
-#include <vericone/verify/corpus/file.h>
+#include <vericone/internal/geometry/tracked.h>
+#include <vericone/verify/corpus.h>
 
 #include <cstdio>
 #include <exception>

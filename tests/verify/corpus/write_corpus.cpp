@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // write_corpus FOLDER: writes tests/corpus again, after a change of its generators.
-#include <vericone/verify/corpus/file.h>
+#include <vericone/verify/corpus.h>
 
 #include <exception>
 #include <filesystem>

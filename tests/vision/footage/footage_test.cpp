@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gmock/gmock.h>
 #include <vericone/geometry/error.h>
-#include <vericone/vision/footage/annotate.h>
 #include <vericone/vision/footage/footage.h>
 #include <cmath>
 #include <filesystem>

@@ -2,7 +2,6 @@
 //
 // Real videos, which are not part of the project: the tests skip where they are not there.
 #include <gtest/gtest.h>
-#include <vericone/vision/footage/annotate.h>
 #include <vericone/vision/footage/footage.h>
 #include <vericone/vision/tracker.h>
 #include <Eigen/Dense>

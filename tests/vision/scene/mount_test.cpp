@@ -3,8 +3,10 @@
 // Cameras on bodies: what they see of the ground when the body tilts.
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/vehicles/quadrotor_dynamics.h>
+#include <vericone/internal/vision/scene/attitude.h>
 #include <vericone/vehicles/quadrotor.h>
-#include <vericone/vision/scene/mount.h>
+#include <vericone/vision/scene/scene.h>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>

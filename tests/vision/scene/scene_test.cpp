@@ -3,7 +3,7 @@
 // Pictures of scenes: where vehicles are drawn, what hides them, and what is said to be true.
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
-#include <vericone/vision/scene/mount.h>
+#include <vericone/internal/vision/scene/attitude.h>
 #include <vericone/vision/scene/scene.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <vericone/verify/assembly/campaign.h>
+#include <vericone/internal/verify/assembly/campaign.h>
 
 #include <cstdio>
 

@@ -3,7 +3,7 @@
 
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/cones/map/cone_map.h>
-#include <vericone/verify/spatial/contact_march.h>
+#include <vericone/internal/verify/spatial/contact_march.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,9 @@
 // One assembly and all that is asked about it.
 #pragma once
 
-#include <vericone/cones/assembly/assembly_oracle.h>
-#include <vericone/verify/assembly/campaign.h>
-#include <vericone/verify/seeded_random.h>
+#include <vericone/internal/cones/assembly/assembly_oracle.h>
+#include <vericone/internal/verify/assembly/campaign.h>
+#include <vericone/internal/verify/seeded_random.h>
 
 namespace vericone::verify {
 

@@ -3,7 +3,7 @@
 // What doubles say of a piece without doubt, so that exact arithmetic is left the rest.
 #pragma once
 
-#include <vericone/verify/assembly/truth.h>
+#include <vericone/internal/verify/assembly/truth.h>
 
 #include <optional>
 #include <vector>

@@ -3,7 +3,7 @@
 // The distance of two polyhedra in the metric of an ellipsoid as a quadratic program.
 #pragma once
 
-#include <vericone/verify/assembly/truth.h>
+#include <vericone/internal/verify/assembly/truth.h>
 
 #include <span>
 #include <vector>

@@ -3,7 +3,7 @@
 // The Minkowski sum of two hulls of points, known exactly.
 #pragma once
 
-#include <vericone/verify/assembly/truth.h>
+#include <vericone/internal/verify/assembly/truth.h>
 
 #include <memory>
 #include <span>

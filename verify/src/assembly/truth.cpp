@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <vericone/verify/assembly/truth.h>
-#include <vericone/verify/predicates/hull_truth.h>
-#include <vericone/verify/predicates/truth.h>
+#include <vericone/internal/verify/assembly/truth.h>
+#include <vericone/internal/verify/predicates/hull_truth.h>
+#include <vericone/internal/verify/predicates/truth.h>
 
 #include <algorithm>
 #include <cmath>

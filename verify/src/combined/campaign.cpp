@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <vericone/verify/combined/campaign.h>
+#include <vericone/internal/verify/combined/campaign.h>
 
 #include <cstdio>
 

@@ -3,10 +3,10 @@
 // One pair of combined quadrics and all that is asked about it.
 #pragma once
 
-#include <vericone/cones/combined/cone.h>
-#include <vericone/verify/combined/campaign.h>
-#include <vericone/verify/combined/sweep.h>
-#include <vericone/verify/seeded_random.h>
+#include <vericone/internal/cones/combined/cone.h>
+#include <vericone/internal/verify/combined/campaign.h>
+#include <vericone/internal/verify/combined/sweep.h>
+#include <vericone/internal/verify/seeded_random.h>
 
 namespace vericone::verify {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <vericone/verify/combined/families.h>
-#include <vericone/verify/combined/sweep.h>
-#include <vericone/verify/seeded_random.h>
+#include <vericone/internal/verify/combined/families.h>
+#include <vericone/internal/verify/combined/sweep.h>
+#include <vericone/internal/verify/seeded_random.h>
 
 #include <algorithm>
 #include <cmath>

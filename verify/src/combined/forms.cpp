@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "combined/forms.h"
 
-#include <vericone/verify/combined/truth.h>
+#include <vericone/internal/verify/combined/truth.h>
 
 #include <cmath>
 #include <stdexcept>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <vericone/verify/combined/planar_campaign.h>
+#include <vericone/internal/verify/combined/planar_campaign.h>
 
-#include <vericone/cones/combined/sector.h>
-#include <vericone/verify/combined/planar_truth.h>
-#include <vericone/verify/seeded_random.h>
+#include <vericone/internal/cones/combined/sector.h>
+#include <vericone/internal/verify/combined/planar_truth.h>
+#include <vericone/internal/verify/seeded_random.h>
 
 #include <cmath>
 #include <numbers>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <vericone/verify/combined/planar_families.h>
+#include <vericone/internal/verify/combined/planar_families.h>
 
-#include <vericone/cones/combined/sector.h>
 #include <vericone/geometry/error.h>
-#include <vericone/verify/seeded_random.h>
+#include <vericone/internal/cones/combined/sector.h>
+#include <vericone/internal/verify/seeded_random.h>
 #include <Eigen/LU>
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <vericone/geometry/decompositions.h>
-#include <vericone/verify/combined/planar_truth.h>
+#include <vericone/internal/geometry/decompositions.h>
+#include <vericone/internal/verify/combined/planar_truth.h>
 #include <Eigen/LU>
 
 #include <cmath>

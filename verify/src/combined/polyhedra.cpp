@@ -4,8 +4,8 @@
 // v_i^T q v_j: its values are means of them. All of them at most the level: the facet is in the region, and
 // so is the tetrahedron over it, q being homogeneous and the level not negative. All above the level: the
 // facet, and all beyond it as seen from the centre, is outside. Halving the facet sharpens the means.
-#include <vericone/verify/combined/truth.h>
-#include <vericone/verify/spatial/minkowski_bounds.h>
+#include <vericone/internal/verify/combined/truth.h>
+#include <vericone/internal/verify/spatial/minkowski_bounds.h>
 
 #include <cmath>
 #include <stdexcept>

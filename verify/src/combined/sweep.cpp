@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <vericone/verify/combined/sweep.h>
+#include <vericone/internal/verify/combined/sweep.h>
 
 #include <Eigen/LU>
 #include <algorithm>

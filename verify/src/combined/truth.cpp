@@ -4,7 +4,7 @@
 // that overlap have a vertex of one inside the other or two edges that cross; there the lines along w through
 // both are compared. All of it is signs of 3 x 3 determinants of whole numbers: with coordinates below 2^37,
 // extents of one polyhedron below 2^26 and |w_i| <= 2^20 they fit into 128 bits.
-#include <vericone/verify/combined/truth.h>
+#include <vericone/internal/verify/combined/truth.h>
 
 #include <algorithm>
 #include <cmath>

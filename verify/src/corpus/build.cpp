@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "corpus/build.h"
 
-#include <vericone/geometry/exact/integer.h>
+#include <vericone/internal/geometry/exact/integer.h>
 #include <array>
 #include <cmath>
 #include <limits>

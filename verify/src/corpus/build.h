@@ -4,8 +4,8 @@
 #pragma once
 
 #include <vericone/geometry/exact/rational.h>
+#include <vericone/internal/verify/seeded_random.h>
 #include <vericone/verify/corpus.h>
-#include <vericone/verify/seeded_random.h>
 #include <string>
 #include <utility>
 #include <vector>

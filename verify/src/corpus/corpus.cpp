@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <vericone/geometry/exact/body.h>
+#include <vericone/geometry/exact/rational.h>
 #include <vericone/verify/corpus.h>
 
-#include <vericone/geometry/exact/integer.h>
+#include <vericone/internal/geometry/exact/integer.h>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>

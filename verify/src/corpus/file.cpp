@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <vericone/verify/corpus/file.h>
+#include <vericone/verify/corpus.h>
 
-#include <vericone/geometry/exact/integer.h>
+#include <vericone/internal/geometry/exact/integer.h>
 #include <algorithm>
 #include <charconv>
 #include <fstream>

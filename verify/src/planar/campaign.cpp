@@ -2,6 +2,7 @@
 #include <vericone/verify/planar/campaign.h>
 
 #include <vericone/geometry/error.h>
+#include <vericone/internal/verify/predicates/exact_tangents.h>
 
 #include <algorithm>
 #include <cmath>

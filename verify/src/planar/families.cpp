@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <vericone/verify/planar/families.h>
-#include <vericone/verify/seeded_random.h>
+#include <vericone/internal/verify/seeded_random.h>
+#include <vericone/verify/planar/campaign.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <vericone/cones/planar/sector.h>
-#include <vericone/verify/planar/methods.h>
+#include <vericone/internal/verify/planar/methods.h>
 
 namespace vericone::verify {
 namespace {

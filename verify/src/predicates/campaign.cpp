@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <vericone/verify/predicates/campaign.h>
+#include <vericone/internal/verify/predicates/campaign.h>
 
 #include <algorithm>
 #include <atomic>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <vericone/geometry/ellipsoid.h>
-#include <vericone/verify/seeded_random.h>
+#include <vericone/internal/verify/seeded_random.h>
 
 #include <cstdint>
 #include <utility>

@@ -27,7 +27,7 @@
 #include <CGAL/Algebraic_kernel_d_1.h>
 #include <CGAL/CORE_BigInt.h>
 #include <CGAL/CORE_BigRat.h>
-#include <vericone/verify/predicates/exact_tangents.h>
+#include <vericone/internal/verify/predicates/exact_tangents.h>
 
 #include <stdexcept>
 #include <utility>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CGAL/QP_functions.h>
 #include <CGAL/QP_models.h>
-#include <vericone/verify/predicates/hull_truth.h>
+#include <vericone/internal/verify/predicates/hull_truth.h>
 
 #include <stdexcept>
 #include <vector>

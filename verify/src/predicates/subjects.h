@@ -3,7 +3,7 @@
 // One predicate under the campaign: how a block of cases is made and asked.
 #pragma once
 
-#include <vericone/verify/predicates/campaign.h>
+#include <vericone/internal/verify/predicates/campaign.h>
 
 #include <array>
 #include <chrono>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <vericone/cones/hulls/hull_oracle.h>
-#include <vericone/verify/predicates/hull_truth.h>
+#include <vericone/internal/cones/hulls/hull_oracle.h>
+#include <vericone/internal/verify/predicates/hull_truth.h>
 
 #include <Eigen/LU>
 #include <cmath>

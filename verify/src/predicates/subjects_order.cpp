@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <vericone/cones/times/order.h>
-#include <vericone/verify/predicates/truth.h>
+#include <vericone/internal/cones/times/order.h>
+#include <vericone/internal/verify/predicates/truth.h>
 
 #include <cmath>
 #include <utility>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <vericone/cones/opening/orifice.h>
-#include <vericone/verify/predicates/orifice_truth.h>
+#include <vericone/internal/verify/predicates/orifice_truth.h>
 
 #include <Eigen/Dense>
 #include <array>

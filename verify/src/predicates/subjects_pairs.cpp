@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <vericone/cones/ellipsoids/contact_frame.h>
-#include <vericone/cones/ellipsoids/position.h>
 #include <vericone/cones/ellipsoids/predicates.h>
-#include <vericone/cones/planar/sector_oracle.h>
-#include <vericone/verify/predicates/truth.h>
+#include <vericone/cones/planar/sector.h>
+#include <vericone/internal/cones/ellipsoids/contact_frame.h>
+#include <vericone/internal/cones/ellipsoids/rungs.h>
+#include <vericone/internal/verify/predicates/truth.h>
 
 #include <cmath>
 #include <utility>

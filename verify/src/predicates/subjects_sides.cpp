@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <vericone/geometry/quadric_side.h>
-#include <vericone/verify/predicates/truth.h>
+#include <vericone/geometry/combined.h>
+#include <vericone/internal/geometry/quadric_side.h>
+#include <vericone/internal/verify/predicates/truth.h>
 
 #include <Eigen/LU>
 #include <cmath>

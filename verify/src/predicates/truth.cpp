@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <vericone/verify/predicates/truth.h>
+#include <vericone/internal/verify/predicates/truth.h>
 
 #include <stdexcept>
 

@@ -2,10 +2,10 @@
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/ellipsoids/true_cone.h>
 #include <vericone/cones/slices/slice_cone.h>
-#include <vericone/verify/seeded_random.h>
+#include <vericone/internal/verify/seeded_random.h>
+#include <vericone/internal/verify/spatial/contact_march.h>
+#include <vericone/internal/verify/spatial/minkowski_bounds.h>
 #include <vericone/verify/spatial/campaign.h>
-#include <vericone/verify/spatial/contact_march.h>
-#include <vericone/verify/spatial/minkowski_bounds.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

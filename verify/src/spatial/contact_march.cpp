@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <vericone/verify/spatial/contact_march.h>
+#include <vericone/internal/verify/spatial/contact_march.h>
 
-#include <vericone/geometry/decompositions.h>
+#include <vericone/internal/geometry/decompositions.h>
 #include <Eigen/LU>
 #include <cmath>
 #include <stdexcept>

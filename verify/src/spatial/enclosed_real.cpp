@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <vericone/verify/spatial/enclosed_real.h>
+#include <vericone/internal/verify/spatial/enclosed_real.h>
 
 #include <cmath>
 #include <limits>

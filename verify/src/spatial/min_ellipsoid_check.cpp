@@ -4,9 +4,8 @@
 #include <CGAL/Approximate_min_ellipsoid_d_traits_3.h>
 #include <CGAL/MP_Float.h>
 #include <CGAL/Simple_cartesian.h>
-#include <vericone/geometry/exact/body.h>
 #include <vericone/geometry/exact/rational.h>
-#include <vericone/verify/spatial/min_ellipsoid_check.h>
+#include <vericone/internal/verify/spatial/min_ellipsoid_check.h>
 
 #include <Eigen/LU>
 #include <array>

@@ -3,7 +3,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/convex_hull_3.h>
-#include <vericone/verify/spatial/minkowski_bounds.h>
+#include <vericone/internal/verify/spatial/minkowski_bounds.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

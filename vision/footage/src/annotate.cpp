@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
-#include <vericone/vision/footage/annotate.h>
+#include <vericone/internal/vision/whole.h>
+#include <vericone/vision/footage/footage.h>
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>

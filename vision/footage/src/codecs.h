@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vericone/vision/image.h>
+#include <vericone/vision/tracker.h>
 #include <filesystem>
 #include <opencv2/core.hpp>
 

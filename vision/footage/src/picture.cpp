@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
+#include <vericone/internal/vision/whole.h>
 #include <vericone/vision/footage/footage.h>
 #include <algorithm>
 #include <cerrno>

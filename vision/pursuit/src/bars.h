@@ -4,7 +4,7 @@
 // picture (errata 4.3).
 #pragma once
 
-#include <vericone/simulation/leg.h>
+#include <vericone/simulation/curve.h>
 #include <vericone/vision/pursuit/pursuit.h>
 #include <random>
 #include <vector>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pilot.h"
+#include <vericone/internal/guidance/pursuit/source_laws.h>
 
 #include <algorithm>
 #include <cmath>

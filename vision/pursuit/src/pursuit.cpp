@@ -18,56 +18,36 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// A point mass at a constant altitude that does not turn.
-class Point : public simulation::Vehicle {
+/// A point mass at a constant altitude as the source's simulator steps it: the new velocity moves it for the
+/// whole step.
+class SummedPoint : public simulation::Vehicle {
  public:
-  Point(const simulation::Motion& start, bool source_steps) : motion_(start), source_(source_steps) {}
-
+  explicit SummedPoint(const simulation::Motion& start) : motion_(start) {}
   [[nodiscard]] simulation::Motion motion() const override { return motion_; }
   void advance(const simulation::VehicleCommand& command, double from, double to,
                std::vector<simulation::Curve>& way) override {
-    const double dt = to - from;
-    const Vector3d level(command.acceleration.x(), command.acceleration.y(), 0);
-    if (source_) {
-      motion_.velocity += dt * level;
-      way.push_back(simulation::Curve::steady(motion_, Vector3d::Zero(), from, to));
-      motion_.position += dt * motion_.velocity;
-      return;
-    }
-    const simulation::Arc arc(motion_, level, simulation::Orientation::fixed, from, to);
-    const auto jet = [&](const simulation::Motion& motion, double t) {
-      return simulation::Jet{motion.position, motion.velocity, arc.acceleration(t)};
-    };
-    simulation::Quintic turned;
-    turned.fill(Vector3d::Zero());
-    way.emplace_back(simulation::quintic(jet(motion_, from), jet(arc.end(), to), dt), turned,
-                     motion_.rotation, from, to);
-    motion_.position = arc.end().position;
-    motion_.velocity = arc.end().velocity;
+    motion_.velocity += (to - from) * command.acceleration;
+    way.push_back(simulation::Curve::steady(motion_, Vector3d::Zero(), from, to));
+    motion_.position += (to - from) * motion_.velocity;
   }
   void log(std::vector<double>&) const override {}
   [[nodiscard]] std::optional<simulation::LimitBroken> broken() const override { return std::nullopt; }
 
  private:
   simulation::Motion motion_;
-  bool source_;
 };
 
-class PointModel : public simulation::VehicleModel {
+class SummedPointModel : public simulation::VehicleModel {
  public:
-  explicit PointModel(bool source_steps) : source_(source_steps) {}
   [[nodiscard]] std::unique_ptr<simulation::Vehicle> launch(const simulation::Motion& start, double,
                                                             const simulation::Current&) const override {
-    return std::make_unique<Point>(start, source_);
+    return std::make_unique<SummedPoint>(start);
   }
   [[nodiscard]] std::vector<std::string> channels() const override { return {}; }
-  [[nodiscard]] simulation::VehicleLimits limits(const simulation::Motion& start) const override {
+  [[nodiscard]] simulation::VehicleLimits limits(const simulation::Motion&) const override {
     constexpr double kNone = std::numeric_limits<double>::infinity();
-    return {kNone, kNone, 0, 0, start.position.z(), start.position.z()};
+    return {kNone, kNone, kNone, kNone, kNone, -kNone};
   }
-
- private:
-  bool source_;
 };
 
 /// A road whose velocities add up step by step, as those of the source's simulator do.
@@ -130,14 +110,15 @@ class FlyingCamera : public simulation::FlyingPilot {
 
   void command(const simulation::Instant& now, std::span<simulation::VehicleCommand> commands,
                simulation::Run&) override {
-    commands[now.self] = step(*now.vehicle, now.command);
+    commands[now.self] = step(motion_at(now, now.t), now.vehicle, now.command);
+    if (!pursuit_.vehicle) commands[now.self].acceleration.z() = 0;
   }
 
   /// What is seen at the end is thought of too.
   void moved(const simulation::Instant& now, simulation::Run&) override {
     const bool last = now.command + 1 == steps_of(pursuit_);
     if (!last && !run_.interrupted) return;
-    if (!run_.interrupted) static_cast<void>(step(*now.vehicle, now.command + 1));
+    if (!run_.interrupted) static_cast<void>(step(motion_at(now, now.until), now.vehicle, now.command + 1));
     run_.layer_share = pilot_.layer_share();
     close_hidden();
   }
@@ -147,10 +128,14 @@ class FlyingCamera : public simulation::FlyingPilot {
   }
 
  private:
-  simulation::VehicleCommand step(const simulation::Vehicle& uas, std::uint64_t k) {
+  static simulation::Motion motion_at(const simulation::Instant& now, double t) {
+    return now.vehicle ? now.vehicle->motion() : now.tracks[now.self].motion(t);
+  }
+
+  simulation::VehicleCommand step(const simulation::Motion& own, const simulation::Vehicle* vehicle,
+                                  std::uint64_t k) {
     const auto every = std::uint64_t(std::llround(pursuit_.picture_step / pursuit_.step));
     const double t = double(k) * pursuit_.step;
-    const simulation::Motion own = uas.motion();
     sample_ = {};
     const bool due = k % every == 0;
     if (due) look(own, t, k / every);
@@ -164,7 +149,7 @@ class FlyingCamera : public simulation::FlyingPilot {
       sample_.acceleration = command.acceleration;
     }
     sample_.controller = seconds_since(start) - sample_.ellipse_seconds;
-    if (due && told) log(uas, t);
+    if (due && told) log(own, vehicle, t);
     run_.interrupted = options_.progress && due && !options_.progress(t);
     if (!run_.interrupted) run_.end = t;
     return command;
@@ -302,8 +287,7 @@ class FlyingCamera : public simulation::FlyingPilot {
     commanded_ = command.acceleration.head<2>();
   }
 
-  void log(const simulation::Vehicle& uas, double t) {
-    const simulation::Motion own = uas.motion();
+  void log(const simulation::Motion& own, const simulation::Vehicle* vehicle, double t) {
     PursuitSample& sample = sample_;
     sample.t = t;
     sample.uas = own;
@@ -342,7 +326,7 @@ class FlyingCamera : public simulation::FlyingPilot {
       if (options_.picture) options_.picture(last_->image, sample, perception_->vehicles());
     }
     run_.vehicle.emplace_back();
-    uas.log(run_.vehicle.back());
+    if (vehicle) vehicle->log(run_.vehicle.back());
     run_.samples.push_back(sample);
   }
 
@@ -435,16 +419,15 @@ simulation::Scenario scenario_of(const Pursuit& pursuit, bool with_cars) {
   uas.shape = simulation::RigidShape{
       CombinedEllipsoid(Ellipsoid::from_axes(Vector3d::Zero(), Vector3d::Constant(pursuit.radius)))};
   uas.start = pursuit.start;
-  uas.vehicle = pursuit.vehicle ? pursuit.vehicle : std::make_shared<const PointModel>(pursuit.source_steps);
+  uas.orientation = simulation::Orientation::fixed;
+  uas.vehicle = pursuit.vehicle;
+  if (!uas.vehicle && pursuit.source_steps) uas.vehicle = std::make_shared<const SummedPointModel>();
   for (const Car& car : pursuit.cars) {
     if (!with_cars) break;
     simulation::Body& body = scenario.bodies.emplace_back();
     body.name = car.name;
-    std::vector<Vector3d> corners;
-    for (int i = 0; i < 8; ++i)
-      corners.push_back(0.5 *
-                        car.look.size.cwiseProduct(Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
-    body.shape = simulation::RigidShape{HullBody(corners)};
+    const Vector3d half = 0.5 * car.look.size;
+    body.shape = simulation::RigidShape{HullBody::box(-half, half)};
     body.road = car.road;
     body.start = start_of(*car.road, 0.5 * car.look.size.z());
   }

@@ -5,8 +5,8 @@
 
 #include <vericone/geometry/camera.h>
 #include <vericone/geometry/pose.h>
-#include <vericone/vision/image.h>
 #include <vericone/vision/scene/scene.h>
+#include <vericone/vision/tracker.h>
 #include <memory>
 
 namespace vericone::vision {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/vision/scene/mount.h>
+#include <vericone/internal/vision/scene/attitude.h>
+#include <vericone/vision/scene/scene.h>
 
 #include <vericone/geometry/error.h>
 #include <Eigen/Geometry>

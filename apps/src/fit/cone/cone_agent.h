@@ -3,7 +3,7 @@
 // The argument of `vericone fit FILE --cone AGENT`: who is to keep clear of the scanned object.
 #pragma once
 
-#include <vericone/fitting/sample.h>
+#include <vericone/fitting/hull.h>
 #include <vericone/geometry/ellipsoid.h>
 #include <optional>
 #include <string>

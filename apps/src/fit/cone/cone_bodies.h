@@ -4,8 +4,8 @@
 // method there is for the body.
 #pragma once
 
-#include <vericone/cones/assembly/assembly_oracle.h>
 #include <vericone/fitting/hull.h>
+#include <vericone/internal/cones/assembly/assembly_oracle.h>
 #include <functional>
 #include <string>
 #include <vector>

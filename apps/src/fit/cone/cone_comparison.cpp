@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit/cone/cone_comparison.h"
 
-#include <vericone/fitting/convex_hull.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
+#include <vericone/internal/fitting/canonical.h>
+#include <vericone/internal/fitting/convex_hull.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

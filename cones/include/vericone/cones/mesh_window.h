@@ -3,7 +3,7 @@
 // A window of a mesh, named by its rim: who passes it, its cone, and a flat opening that stands for it.
 #pragma once
 
-#include <vericone/cones/map/regions.h>
+#include <vericone/cones/map/cone_map.h>
 #include <vericone/cones/opening/opening.h>
 #include <vericone/cones/opening/orifice.h>
 #include <vericone/cones/pair.h>

@@ -6,11 +6,11 @@
 #pragma once
 
 #include <vericone/cones/answers.h>
-#include <vericone/cones/direction_cell.h>
 #include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/cones/plane_sector.h>
 #include <vericone/geometry/body.h>
 #include <vericone/geometry/world_body.h>
+#include <vericone/internal/cones/direction_cell.h>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -165,11 +165,5 @@ class Pair {
 /// at less cost. Two planar bodies that are delimited: proved apart, or rounded, or nothing where the two
 /// disagree. Throws like pair_of().
 [[nodiscard]] std::optional<Relation> relation_of(const WorldBody& a, const WorldBody& b, double tolerance);
-
-/// Whether two bodies of space will meet, or may for all that is certified, each at its velocity (m/s) for
-/// ever; nothing where they are not apart, or not known to be. As of pair_of(a, b), without preparing more:
-/// no allocation for two ellipsoids whose relation doubles decide. Throws like pair_of() and Pair::verdict().
-[[nodiscard]] std::optional<bool> may_meet(const WorldBody& a, const WorldBody& b, const Eigen::Vector3d& v_a,
-                                           const Eigen::Vector3d& v_b);
 
 }  // namespace vericone

@@ -4,11 +4,11 @@
 // in closed form: what laws that work on a plane read.
 #pragma once
 
-#include <vericone/cones/combined/cone.h>
-#include <vericone/cones/combined/plane_sector.h>
-#include <vericone/cones/ellipsoids/plane_sector.h>
-#include <vericone/cones/hulls/hull_sectors.h>
 #include <vericone/cones/pair.h>
+#include <vericone/internal/cones/combined/cone.h>
+#include <vericone/internal/cones/combined/plane_sector.h>
+#include <vericone/internal/cones/ellipsoids/plane_sector.h>
+#include <vericone/internal/cones/hulls/hull_sectors.h>
 #include <cstdint>
 #include <optional>
 #include <span>

@@ -10,6 +10,8 @@
 
 namespace vericone {
 
+struct BodyRate;
+
 /// Surfaces of a combined quadric that are touched at a point y from its centre, the ellipsoid's being 0: the
 /// unit outward normal there is the sum of weight M y over them.
 struct TouchedSurfaces {
@@ -52,9 +54,24 @@ struct PlaneSector {
   [[nodiscard]] bool has_contacts() const { return !left.normal.isZero(0) && !right.normal.isZero(0); }
 };
 
+/// Edges as they were found last: the next ones, of a plane nearby or of a moment later, are looked for near
+/// them. That makes a step several times cheaper and changes nothing beyond the width to which edges are
+/// proved.
+struct EdgeMemory {
+  std::optional<GrazingEdge> left, right;
+};
+
 /// How a rigid body moves: its reference point at `velocity` (m/s), turning about it (rad/s).
 struct Twist {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero(), omega = Eigen::Vector3d::Zero();
+};
+
+/// How two bodies move, turn and change, and the plane with them.
+struct SpatialMotion {
+  Eigen::Vector3d v_a = Eigen::Vector3d::Zero(), v_b = Eigen::Vector3d::Zero();          // m/s
+  Eigen::Vector3d omega_a = Eigen::Vector3d::Zero(), omega_b = Eigen::Vector3d::Zero();  // rad/s
+  const BodyRate *rate_a = nullptr, *rate_b = nullptr;                                   // none: rigid
+  double plane_spin = 0;  // rad/s, of the plane about the line of sight, beyond the turning of the latter
 };
 
 /// Closed-form rates, rad/s. The plane turns with the line of sight (u' is its rate, e turns with it without

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/fitting/containing.h>
-#include <vericone/geometry/combined_volume.h>
-#include <vericone/geometry/decompositions.h>
+#include <vericone/geometry/mesh/surface.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
+#include <vericone/internal/fitting/canonical.h>
+#include <vericone/internal/fitting/containing.h>
+#include <vericone/internal/geometry/decompositions.h>
 
 #include <Eigen/LU>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "containing/delimiter_starts.h"
 
-#include <vericone/fitting/convex_hull.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/fitting/convex_hull.h>
 
 #include <Eigen/Geometry>
 

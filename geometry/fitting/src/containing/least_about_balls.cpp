@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "containing/least_about_balls.h"
 
+#include <vericone/geometry/error.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
-#include <vericone/geometry/stop.h>
 
 #include <array>
 #include <limits>

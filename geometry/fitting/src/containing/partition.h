@@ -3,7 +3,8 @@
 // Parts of a sample, each to get a body of its own.
 #pragma once
 
-#include <vericone/fitting/sample.h>
+#include <vericone/fitting/hull.h>
+#include <vericone/internal/fitting/canonical.h>
 #include <vector>
 
 namespace vericone::fitting {

@@ -3,7 +3,8 @@
 // Which points to leave out when a share of them is to be contained.
 #pragma once
 
-#include <vericone/fitting/sample.h>
+#include <vericone/fitting/hull.h>
+#include <vericone/internal/fitting/canonical.h>
 #include <vector>
 
 namespace vericone::fitting {

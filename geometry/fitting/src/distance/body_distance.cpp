@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "distance/body_distance.h"
 
-#include <vericone/geometry/decompositions.h>
-#include <vericone/geometry/lengths.h>
+#include <vericone/internal/geometry/decompositions.h>
+#include <vericone/internal/geometry/lengths.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

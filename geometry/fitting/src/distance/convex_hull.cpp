@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/fitting/convex_hull.h>
+#include <vericone/internal/fitting/convex_hull.h>
 
 #include <libqhull_r/qhull_ra.h>
 #include <vericone/geometry/error.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/fitting/measure.h>
+#include <vericone/fitting/fit.h>
+#include <vericone/internal/fitting/signed_distance.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/fitting/measure.h>
+#include <vericone/fitting/fit.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/mesh/combined_surface.h>
-#include <vericone/geometry/stop.h>
+#include <vericone/geometry/mesh/surface.h>
+#include <vericone/internal/fitting/canonical.h>
+#include <vericone/internal/fitting/signed_distance.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>

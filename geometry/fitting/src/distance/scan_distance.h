@@ -3,8 +3,8 @@
 // Distances from many points to a sample.
 #pragma once
 
-#include <vericone/fitting/sample.h>
-#include <vericone/geometry/hierarchy.h>
+#include <vericone/fitting/hull.h>
+#include <vericone/internal/geometry/hierarchy.h>
 #include <array>
 #include <vector>
 

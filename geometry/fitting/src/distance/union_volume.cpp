@@ -3,9 +3,9 @@
 // The volume of a union is that of its pieces less what is counted more than once. Along parallel columns
 // both are known from roots of quadratics; over the columns a lattice sums up what is counted too often, so
 // that its error is one of the overlaps alone.
-#include <vericone/fitting/measure.h>
+#include <vericone/fitting/fit.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/lengths.h>
+#include <vericone/internal/geometry/lengths.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>

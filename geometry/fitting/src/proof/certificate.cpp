@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/fitting/hull.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
+#include <vericone/internal/fitting/canonical.h>
 
 #include <algorithm>
 #include <cmath>

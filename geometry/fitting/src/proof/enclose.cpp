@@ -2,6 +2,7 @@
 #include <vericone/fitting/hull.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/exact/rational.h>
+#include <vericone/internal/fitting/canonical.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,6 @@
 
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/exact/rational.h>
-#include <vericone/geometry/stop.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -3,7 +3,7 @@
 // The greatest value of a quadratic function on what a piece is to contain.
 #pragma once
 
-#include <vericone/fitting/sample.h>
+#include <vericone/fitting/hull.h>
 #include <cstdint>
 #include <vector>
 

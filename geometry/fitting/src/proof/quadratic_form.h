@@ -5,10 +5,10 @@
 // whose matrix holds the polar forms of the corners.
 #pragma once
 
-#include <vericone/geometry/exact/integer.h>
 #include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/interval.h>
 #include <vericone/geometry/quadric.h>
+#include <vericone/internal/geometry/exact/integer.h>
 #include <array>
 
 #include "proof/squares_form.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "proof/rational_quadric.h"
 
-#include <vericone/geometry/exact/body.h>
-#include <vericone/geometry/exact/integer.h>
+#include <vericone/geometry/exact/rational.h>
+#include <vericone/internal/geometry/exact/integer.h>
 #include <cmath>
 #include <cstdint>
 #include <limits>

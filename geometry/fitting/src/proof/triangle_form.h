@@ -18,9 +18,9 @@
 // that are not negative.
 #pragma once
 
-#include <vericone/geometry/exact/integer.h>
 #include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/interval.h>
+#include <vericone/internal/geometry/exact/integer.h>
 #include <array>
 
 namespace vericone::fitting {

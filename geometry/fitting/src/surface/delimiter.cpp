@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/fitting/convex_hull.h>
-#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/fitting/convex_hull.h>
+#include <vericone/internal/geometry/decompositions.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/fitting/least_squares.h>
-#include <vericone/geometry/decompositions.h>
+#include <vericone/fitting/fit.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/fitting/fit_surface.h>
+#include <vericone/internal/geometry/decompositions.h>
 
 #include <algorithm>
 #include <cmath>

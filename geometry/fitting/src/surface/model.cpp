@@ -2,7 +2,7 @@
 #include "surface/model.h"
 
 #include <ceres/jet.h>
-#include <vericone/geometry/decompositions.h>
+#include <vericone/internal/geometry/decompositions.h>
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <Eigen/LU>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/report.h"
 
-#include <vericone/geometry/stop.h>
+#include <vericone/geometry/error.h>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 // How well the points determine a fitted surface.
 #pragma once
 
-#include <vericone/fitting/least_squares.h>
+#include <vericone/fitting/fit.h>
 
 #include "surface/solver.h"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/search.h"
+#include <vericone/internal/fitting/fit_surface.h>
 
 #include <algorithm>
 #include <cmath>

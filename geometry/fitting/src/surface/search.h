@@ -3,7 +3,8 @@
 // The best surface of a shape from all starts.
 #pragma once
 
-#include <vericone/fitting/least_squares.h>
+#include <vericone/fitting/fit.h>
+#include <vericone/internal/fitting/fit_surface.h>
 
 #include "surface/report.h"
 #include "surface/start.h"

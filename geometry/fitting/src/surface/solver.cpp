@@ -2,7 +2,7 @@
 #include "surface/solver.h"
 
 #include <ceres/ceres.h>
-#include <vericone/geometry/stop.h>
+#include <vericone/geometry/error.h>
 #include <algorithm>
 #include <cmath>
 #include <deque>

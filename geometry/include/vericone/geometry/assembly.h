@@ -3,9 +3,9 @@
 // Bodies made of very many convex pieces: meshes, point clouds, maps of cells, convex polyhedra.
 #pragma once
 
-#include <vericone/geometry/box.h>
-#include <vericone/geometry/hierarchy.h>
 #include <vericone/geometry/hull_body.h>
+#include <vericone/geometry/pose.h>
+#include <vericone/internal/geometry/hierarchy.h>
 #include <array>
 #include <cstddef>
 #include <cstdint>

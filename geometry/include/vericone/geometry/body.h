@@ -4,7 +4,6 @@
 #pragma once
 
 #include <vericone/geometry/assembly.h>
-#include <vericone/geometry/box.h>
 #include <vericone/geometry/combined.h>
 #include <vericone/geometry/hull_body.h>
 #include <vericone/geometry/pose.h>

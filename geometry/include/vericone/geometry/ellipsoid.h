@@ -3,7 +3,7 @@
 // Ellipses and ellipsoids, the convex quadric bodies.
 #pragma once
 
-#include <vericone/geometry/alignment.h>
+#include <vericone/internal/geometry/alignment.h>
 #include <vericone/geometry/sound_arithmetic.h>
 #include <Eigen/Core>
 

@@ -6,8 +6,8 @@
 // BIT 39 (1999). Correct only in the arithmetic of sound_arithmetic.h.
 #pragma once
 
-#include <vericone/geometry/requires.h>
 #include <vericone/geometry/sign.h>
+#include <vericone/internal/geometry/requires.h>
 #include <vericone/geometry/sound_arithmetic.h>
 #include <algorithm>
 #include <cmath>
@@ -31,11 +31,13 @@ class Interval {
 
   constexpr Interval() = default;
   constexpr Interval(double exact) : mid_(exact) {}  // NOLINT(google-explicit-constructor): one is exactly it
-  constexpr Interval(double mid, double rad) : mid_(mid), rad_(rad) {}
+  constexpr Interval(double mid, double rad) : mid_(mid), rad_(rad) {
+    VERICONE_REQUIRES(!(rad < 0), "rad", "less", "0 or more");
+  }
 
   /// The hull of two numbers. Requires lo <= hi, or one that is none.
   [[nodiscard]] static Interval between(double lo, double hi) {
-    VERICONE_REQUIRES(!(lo > hi));
+    VERICONE_REQUIRES(!(lo > hi), "lo", "above hi", "at most hi");
     const double mid = 0.5 * lo + 0.5 * hi;
     return {mid, std::max(hi - mid, mid - lo) * kInflate + kTiny};
   }

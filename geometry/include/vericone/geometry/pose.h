@@ -20,10 +20,6 @@ struct Pose {
   }
 };
 
-/// Whether the pose does not turn, bit for bit. Throws InputError naming "pose.position[i]" or
-/// "pose.rotation" where the pose is none: not finite, or not orthonormal to 1e-12 with determinant +1.
-[[nodiscard]] bool is_upright(const Pose& pose);
-
 /// The nearest rotation of a matrix that is one up to accumulated rounding: one step of Newton's iteration
 /// for the polar factor, whose error is the square of what it is given.
 template <int D>
@@ -33,18 +29,6 @@ template <int D>
   return r + 0.5 * (r * defect);
 }
 
-/// What a body of D dimensions sees of a rotation: a planar one how its x axis turns about z.
-template <int D>
-[[nodiscard]] Eigen::Matrix<double, D, D> rotation_of(const Eigen::Matrix3d& rotation) {
-  if constexpr (D == 3) {
-    return rotation;
-  } else {
-    const double c = rotation(0, 0), s = rotation(1, 0), length = std::hypot(c, s);
-    if (!(length > 0)) return Eigen::Matrix2d::Identity();
-    return (Eigen::Matrix2d() << c, -s, s, c).finished() / length;
-  }
-}
-
 /// R M R^T, in the unit of M, symmetric bit for bit.
 template <int D>
 [[nodiscard]] Eigen::Matrix<double, D, D> turned(const Eigen::Matrix<double, D, D>& r,
@@ -52,5 +36,21 @@ template <int D>
   const Eigen::Matrix<double, D, D> image = r * m * r.transpose();
   return 0.5 * (image + image.transpose());
 }
+
+/// An axis-aligned solid box between two opposite corners, low <= high in each coordinate; metres. Flat ones
+/// and points are boxes too.
+struct Box {
+  Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Zero();
+
+  [[nodiscard]] Eigen::Vector3d center() const { return 0.5 * (low + high); }
+  [[nodiscard]] Eigen::Vector3d half_widths() const { return 0.5 * (high - low); }
+  [[nodiscard]] bool contains(const Eigen::Vector3d& x) const {
+    return (low.array() <= x.array()).all() && (x.array() <= high.array()).all();
+  }
+  void include(const Box& other) {
+    low = low.cwiseMin(other.low);
+    high = high.cwiseMax(other.high);
+  }
+};
 
 }  // namespace vericone

@@ -3,11 +3,9 @@
 // One step of guidance: from two bodies at an instant to accelerations in space.
 #pragma once
 
-#include <vericone/guidance/clearance_law.h>
 #include <vericone/guidance/laws.h>
-#include <vericone/guidance/plane_choice.h>
 #include <vericone/guidance/plane_view.h>
-#include <vericone/guidance/sight.h>
+#include <vericone/guidance/robust_law.h>
 #include <cstdint>
 #include <optional>
 
@@ -18,7 +16,7 @@ enum class Law : std::uint8_t {
   cooperative_avoidance,   // (6.19), ratio mu
   cooperative_rendezvous,  // (5.14)
   matching_rendezvous,     // (5.16)-(5.17)
-  clearance,               // clearance_law.h
+  clearance,               // clearance_law of laws.h
 };
 [[nodiscard]] const char* to_string(Law law);
 
@@ -85,13 +83,6 @@ struct GuideStep {
   Eigen::Vector3d across = Eigen::Vector3d::Zero();  // unit
   std::optional<GuideReading> reading;  // of avoidance that measures, filters or corrects, where it looked
 };
-
-/// Whether they are on a collision course: the relative velocity lies in the cone (of the slices, or the true
-/// one), or its y on the plane that holds it and the line of sight is below `cease`. The true cone is asked
-/// by exact predicates where cease <= 0; what they leave undecided counts as colliding. Nothing where the
-/// bodies are not apart.
-[[nodiscard]] std::optional<bool> on_collision_course(const BodyState& a, const BodyState& b,
-                                                      SectorMethod method, double cease = 0);
 
 /// Avoidance in space first asks on_collision_course(): that decides whether anything is commanded, the plane
 /// chosen only how. Where the plane chosen says that all is well although it is not (the projection of the

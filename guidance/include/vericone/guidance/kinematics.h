@@ -5,7 +5,9 @@
 // 0.
 #pragma once
 
+#include <vericone/geometry/world_body.h>
 #include <Eigen/Core>
+#include <cstdint>
 
 namespace vericone::guidance {
 
@@ -17,18 +19,10 @@ struct Cartesian {
   Vector p_b = Vector::Zero(), v_b = Vector::Zero();
 };
 
-/// The angle (rad) that differs from `angle` by whole turns and from `near` by at most half a turn: for
-/// histories without jumps.
-[[nodiscard]] double unwrapped(double angle, double near);
-
 /// Azimuth in (-pi, pi], elevation in [-pi/2, pi/2], rad.
 struct Direction {
   double azimuth = 0, elevation = 0;
 };
-
-/// Of a vector; where it is vertical or zero, an angle that has no value is that of `otherwise`.
-[[nodiscard]] Direction direction_of(const Eigen::Vector3d& v, const Direction& otherwise = {});
-[[nodiscard]] Eigen::Vector3d unit_vector(const Direction& direction);  // unit, as it says
 
 /// An engagement in one plane. In space it is the projection on a plane through the line of sight; then
 /// `v_normal` and `plane_spin` say how it moves out of that plane.
@@ -75,7 +69,6 @@ struct DirectedAcceleration {
   double magnitude = 0;  // m/s^2
   Direction direction;
 };
-[[nodiscard]] DirectedAcceleration directed(const Eigen::Vector3d& acceleration);
 
 struct SpatialRates {
   double r = 0, theta = 0, phi = 0, v_theta = 0, v_phi = 0, v_r = 0;  // m/s, rad/s, m/s^2
@@ -94,5 +87,30 @@ struct SpatialRates {
 [[nodiscard]] SpatialState spatial_state(const Cartesian<3>& motion, const SpatialState* previous = nullptr);
 [[nodiscard]] Cartesian<3> cartesian(const SpatialState& state,
                                      const Eigen::Vector3d& p_a = Eigen::Vector3d::Zero());
+
+// A body at an instant, as guidance sees it.
+
+/// Whether a body's orientation follows its velocity.
+enum class Turning : std::uint8_t {
+  none,          // as omega says, whatever it commands
+  with_heading,  // omega = v x a / |v|^2 for its own acceleration a (a body without roll)
+};
+
+struct BodyState {
+  WorldBody shape;  // its centre is `position`; of hulls, the reference point
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // m
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s
+  Eigen::Vector3d omega =
+      Eigen::Vector3d::Zero();  // rad/s; of a body that turns with its heading, beyond that
+  Turning turning = Turning::none;
+  BodyRate rate;
+
+  [[nodiscard]] bool planar() const { return shape.planar(); }
+};
+
+/// Throws InputError naming "position", "velocity" or "omega" where a number is not finite, and "shape" where
+/// an ellipse, an ellipsoid, a combined or a placed body is not at `position`, to 1e-6 of the distance from
+/// the origin. Laws do not look: one that is asked of a body in two places answers for both.
+void check(const BodyState& body);
 
 }  // namespace vericone::guidance

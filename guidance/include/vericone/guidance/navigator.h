@@ -4,7 +4,7 @@
 #pragma once
 
 #include <vericone/geometry/ellipsoid.h>
-#include <vericone/guidance/body_state.h>
+#include <vericone/guidance/kinematics.h>
 #include <cstddef>
 #include <cstdint>
 #include <limits>

@@ -1,18 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Laws that take an agent through an opening: the source's (2.2)-(2.4) as corrected, and ours, which steers
-// the clearance of the true shapes in metres. Pure functions of an instant. No throw of finite states; no
-// allocation of ellipsoids and round openings.
+// An opening at an instant, as guidance sees it.
 #pragma once
 
-#include <vericone/guidance/body_state.h>
+#include <vericone/cones/opening/opening.h>
 #include <vericone/guidance/kinematics.h>
-#include <vericone/guidance/orifice.h>
+#include <Eigen/Core>
 #include <cstdint>
 #include <limits>
 #include <optional>
 
 namespace vericone::guidance {
+
+/// It moves with a constant velocity and turns about its centre at a constant rate.
+struct OrificeState {
+  PlacedOpening opening;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero();      // rad/s, in world axes
+
+  /// `seconds` later.
+  [[nodiscard]] OrificeState after(double seconds) const;
+};
+
+// Laws that take an agent through an opening: the source's (2.2)-(2.4) as corrected, and ours, which steers
+// the clearance of the true shapes in metres. Pure functions of an instant. No throw of finite states; no
+// allocation of ellipsoids and round openings.
 
 enum class OrificeStatus : std::uint8_t {
   steering,
@@ -32,17 +44,6 @@ struct OrificeCommand {
   double m = 0;  // metres, of the passage law: clearance of the shadows
   OrificeStatus status = OrificeStatus::clear;
 };
-
-/// (2.2): y = r^2 (V_theta^2 + V_phi^2) / V^2 - (R_B - R_A)^2, m^2, and what changes it: y' =
-/// by_acceleration.a for an acceleration a of A in the world; without acceleration y stays as it is (for
-/// constant velocities it is the squared miss of two points). V = 0: y as for V_r alone, no gradient.
-struct OrificeFunction {
-  double y = 0;
-  Eigen::Vector3d by_acceleration = Eigen::Vector3d::Zero();  // m s
-  double v_r = 0;                                             // m/s, negative: closing
-};
-[[nodiscard]] OrificeFunction orifice_function(const Cartesian<3>& motion, double opening_radius,
-                                               double agent_radius);
 
 struct OrificeLawOptions {
   double gain = 1;                                        // K, 1/s: y' = -K (y - reference)

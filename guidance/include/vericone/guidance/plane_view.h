@@ -4,11 +4,11 @@
 #pragma once
 
 #include <vericone/cones/plane_cones.h>
-#include <vericone/guidance/body_state.h>
 #include <vericone/guidance/kinematics.h>
 #include <vericone/guidance/laws.h>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace vericone::guidance {
 
@@ -36,41 +36,57 @@ struct PlaneView {
   [[nodiscard]] Eigen::Vector3d lateral_b() const;
 };
 
-/// The states alone. `across`: any vector not parallel to the line of sight; planar bodies take the plane
-/// z = 0 with e = (-u_y, u_x, 0), whatever it is. Requires different centres and a vector not parallel.
-[[nodiscard]] PlaneView plane_states(const BodyState& a, const BodyState& b, const Eigen::Vector3d& across,
-                                     double plane_spin = 0);
-
-/// Of bodies of these kinds (plane_cones.h).
-[[nodiscard]] inline bool has_sectors(const BodyState& a, const BodyState& b, SectorMethod method) {
-  return vericone::has_sectors(a.shape, b.shape, method);
-}
-
-/// The cone at `view`, filled in; false where the bodies are not apart (on the plane, for slices) or an
-/// oracle does not decide, and nothing is written.
-///
-/// Closed-form rates: planar bodies; slices of combined bodies; true sectors, from the contacts at their
-/// edges. Differenced are slices of hulls and edges of which no contact is known. B's own acceleration is not
-/// known here: where B turns with its heading, only its omega counts. Edges of combined bodies' true sectors
-/// are proved to 1e-7 rad; what cannot be decided counts as in. Cost with rates: true sectors of ellipsoids
-/// 0.9 us, slices 2.6 us, of hulls of 12 points 7 us; true sectors of hulls of 12 points 7 us, of combined
-/// bodies 10 us where the edges of the step before are remembered, else some 40 to 100 us, of two stars 1 ms,
-/// of meshes, clouds and maps by Pair::sector (docs/reference/pairs.md).
-bool fill_cone(PlaneView& view, const BodyState& a, const BodyState& b, SectorMethod method, RateMethod rates,
-               EdgeMemory* memory = nullptr);
-
 /// Both in one.
 [[nodiscard]] std::optional<PlaneView> plane_view(const BodyState& a, const BodyState& b,
                                                   const Eigen::Vector3d& across, SectorMethod method,
                                                   RateMethod rates, double plane_spin = 0,
                                                   EdgeMemory* memory = nullptr);
 
-/// The body a moment `dt` later along its momentary motion: moved, turned by omega (and its heading by
-/// `acceleration` where it turns with it), its shape changed at its rate.
-[[nodiscard]] BodyState advanced(const BodyState& body, double dt,
-                                 const Eigen::Vector3d& acceleration = Eigen::Vector3d::Zero());
+// On which plane to avoid (source, 6.4.1). All planes hold the line of sight.
 
-/// Angular velocity, rad/s: omega, and v x a / |v|^2 where it turns with its heading.
-[[nodiscard]] Eigen::Vector3d angular_velocity(const BodyState& body, const Eigen::Vector3d& acceleration);
+enum class PlaneChoice : std::uint8_t {
+  largest_opening,     // maximum psi, the source's choice in 6.5
+  least_turn,          // an edge is the least angle, in space, from the relative velocity w = v_A - v_B: the
+                       // plane through the direction of the cone's boundary that is nearest to w
+  least_y,             // minimum y: the deepest inside
+  wind_aware,          // least turn among the planes on which A's acceleration towards the edge (+-lateral_a)
+                       // has a part along the wind of at least -0.5; where there is none, the largest part
+  steepest_clearance,  // spanned by the line of sight and the gradient of m(w): ellipsoids, or the ellipsoids
+                       // around combined bodies and hulls
+  of_motion,           // spanned by the line of sight and the relative velocity: y < 0 there iff it collides
+};
+[[nodiscard]] const char* to_string(PlaneChoice choice);
+
+struct PlaneOptions {
+  PlaneChoice choice = PlaneChoice::largest_opening;
+  int planes = 24;  // candidates at equal angles over half a turn
+  /// Go on to the optimum, to 1e-4 rad (1e-3 where edges come from oracles), from every candidate that is
+  /// better than its neighbours. Otherwise the best candidate is taken, as the source does, and nothing is
+  /// followed.
+  bool refine = true;
+  Eigen::Vector3d wind = Eigen::Vector3d::Zero();  // m/s, for wind_aware
+};
+
+/// One candidate: for the choice, and for pictures of y and psi on all planes (Fig 6.9).
+struct PlaneCandidate {
+  double azimuth = 0;  // of `across` about the line of sight, rad from AxisFrame(line of sight).e1
+  double psi = 0, theta_b = 0, y = 0, v_r_hat = 0;  // rad, rad, dimensionless, m/s
+};
+
+/// All `planes` candidates. Those on which there is no sector are left out.
+[[nodiscard]] std::vector<PlaneCandidate> all_planes(const BodyState& a, const BodyState& b,
+                                                     SectorMethod method, int planes);
+
+/// The second axis of the plane chosen, unit. `previous`: that of the last call, whose sign is kept; where it
+/// is given the optimum is followed from it by 2 to 12 evaluations, and all candidates are compared only
+/// where it is none any more. A local optimum is followed as long as it is one. Nothing where no plane has a
+/// sector. Planar bodies: the plane itself. Deterministic: of planes equally good to rounding the first
+/// is taken, counted from the plane of motion. steepest_clearance and of_motion look at no sector; where w is
+/// zero or along the line of sight there is no such plane, and the largest opening is taken. No allocation
+/// with ellipsoids. Cost: see docs/explanation/guidance-planes.md.
+[[nodiscard]] std::optional<Eigen::Vector3d> choose_plane(const BodyState& a, const BodyState& b,
+                                                          SectorMethod method, const PlaneOptions& options,
+                                                          const Eigen::Vector3d* previous = nullptr,
+                                                          EdgeMemory* memory = nullptr);
 
 }  // namespace vericone::guidance

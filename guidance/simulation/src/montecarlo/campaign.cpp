@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
+#include <vericone/internal/simulation/montecarlo/flight.h>
 #include <vericone/simulation/montecarlo/campaign.h>
 #include <algorithm>
 #include <cmath>

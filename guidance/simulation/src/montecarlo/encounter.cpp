@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/cone_geometry.h>
-#include <vericone/cones/random_engagement.h>
-#include <vericone/simulation/montecarlo/encounter.h>
+#include <vericone/internal/cones/random_engagement.h>
+#include <vericone/internal/simulation/montecarlo/flight.h>
+#include <vericone/simulation/montecarlo/campaign.h>
 #include <cmath>
 #include <numbers>
 

@@ -2,7 +2,8 @@
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/geometry/error.h>
 #include <vericone/guidance/plane_view.h>
-#include <vericone/simulation/montecarlo/outcome.h>
+#include <vericone/internal/simulation/montecarlo/flight.h>
+#include <vericone/simulation/montecarlo/campaign.h>
 #include <vericone/simulation/run.h>
 #include <algorithm>
 #include <cmath>
@@ -91,15 +92,8 @@ std::vector<Flown> flown_laws(const std::vector<std::string>& names, const Fligh
 }
 
 const char* to_string(Fate fate) {
-  switch (fate) {
-    case Fate::avoided:
-      return "avoided";
-    case Fate::met:
-      return "met";
-    case Fate::undecided:
-      break;
-  }
-  return "undecided";
+  constexpr const char* kWords[] = {"avoided", "met", "undecided"};
+  return kWords[std::size_t(fate)];
 }
 
 std::optional<Fate> fate_of(const std::string& text) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
-#include <vericone/simulation/montecarlo/row.h>
+#include <vericone/internal/simulation/montecarlo/flight.h>
+#include <vericone/simulation/montecarlo/campaign.h>
 #include <charconv>
 #include <cmath>
 #include <fstream>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/internal/geometry/requires.h>
 #include <vericone/simulation/trials.h>
 #include <algorithm>
 #include <boost/math/distributions/beta.hpp>
@@ -7,6 +8,9 @@
 namespace vericone::simulation {
 
 Share share_of(std::uint64_t successes, std::uint64_t trials, double confidence) {
+  VERICONE_REQUIRES(successes <= trials && confidence > 0 && confidence < 1, "successes",
+                    "more than there are trials, or no confidence",
+                    "at most the trials, with a confidence between 0 and 1");
   if (trials == 0) return {};
   const double k = double(successes), n = double(trials), tail = 0.5 * (1 - confidence);
   using Beta = boost::math::beta_distribution<>;
@@ -17,6 +21,7 @@ Share share_of(std::uint64_t successes, std::uint64_t trials, double confidence)
 }
 
 Paired paired(std::span<const bool> first, std::span<const bool> second) {
+  VERICONE_REQUIRES(first.size() == second.size(), "second", "another number of them", "as many as first has");
   Paired result;
   for (std::size_t i = 0; i < std::min(first.size(), second.size()); ++i) {
     result.first_alone += first[i] && !second[i];

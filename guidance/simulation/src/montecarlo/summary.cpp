@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
-#include <vericone/simulation/montecarlo/summary.h>
+#include <vericone/simulation/montecarlo/campaign.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/internal/simulation/trials.h>
 #include <vericone/simulation/trials.h>
 
 #include <vericone/geometry/error.h>

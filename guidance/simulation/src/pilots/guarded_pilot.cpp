@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/guidance/navigator.h>
 
+#include "pilots/kinds.h"
 #include "pilots/law_pilot.h"
 
 namespace vericone::simulation {
@@ -54,11 +55,24 @@ class FlyingGuarded : public FlyingLaw {
   bool hopeless_ = false;
 };
 
+/// On courses that no cone holds, of all bodies together.
+class GuardedPilot : public LawPilot {
+ public:
+  using LawPilot::LawPilot;
+  std::unique_ptr<FlyingPilot> launch(const Scenario& scenario, std::size_t self,
+                                      const RunOptions& options) const override {
+    return std::make_unique<FlyingGuarded>(pilot_, scenario, self, options);
+  }
+  bool may_rest() const override { return true; }
+
+ protected:
+  bool by_sector() const override { return false; }
+};
+
 }  // namespace
 
-std::unique_ptr<FlyingPilot> GuardedPilot::launch(const Scenario& scenario, std::size_t self,
-                                                  const RunOptions& options) const {
-  return std::make_unique<FlyingGuarded>(pilot_, scenario, self, options);
+std::shared_ptr<const PilotModel> guarded_pilot(const Pilot& pilot) {
+  return std::make_shared<GuardedPilot>(pilot);
 }
 
 }  // namespace vericone::simulation

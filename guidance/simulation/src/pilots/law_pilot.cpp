@@ -3,10 +3,13 @@
 
 #include <vericone/geometry/error.h>
 #include <vericone/guidance/plane_view.h>
+#include <vericone/internal/guidance/plane_view.h>
+#include <vericone/internal/simulation/shape_in_time.h>
 #include <algorithm>
 #include <cmath>
 
 #include "names.h"
+#include "pilots/kinds.h"
 
 namespace vericone::simulation {
 namespace {
@@ -31,6 +34,8 @@ void require_from_zero(double value, const char* field, const char* unit) {
 }
 
 }  // namespace
+
+std::shared_ptr<const PilotModel> law_pilot(const Pilot& pilot) { return std::make_shared<LawPilot>(pilot); }
 
 std::unique_ptr<FlyingPilot> LawPilot::launch(const Scenario& scenario, std::size_t self,
                                               const RunOptions& options) const {

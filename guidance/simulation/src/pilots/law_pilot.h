@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Pilots that mind bodies: by the laws of guide() as they are, or on guarded courses.
+// Pilots that mind bodies, one engagement each.
 #pragma once
 
 #include <vericone/simulation/scenario.h>
@@ -56,18 +56,6 @@ class FlyingLaw : public FlyingPilot {
   const Pilot& pilot_;
   const Scenario& scenario_;
   bool log_;
-};
-
-/// On courses that no cone holds, of all bodies together (guidance::Navigator).
-class GuardedPilot : public LawPilot {
- public:
-  using LawPilot::LawPilot;
-  [[nodiscard]] std::unique_ptr<FlyingPilot> launch(const Scenario& scenario, std::size_t self,
-                                                    const RunOptions& options) const override;
-  [[nodiscard]] bool may_rest() const override { return true; }
-
- protected:
-  [[nodiscard]] bool by_sector() const override { return false; }
 };
 
 }  // namespace vericone::simulation

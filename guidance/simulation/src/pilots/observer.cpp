@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pilots/observer.h"
+#include <vericone/internal/simulation/shape_in_time.h>
+#include <vericone/internal/simulation/sight.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 // One agent's view of one body through a run: what its sensor measures, what its estimator makes of that.
 #pragma once
 
-#include <vericone/guidance/estimation/constant_velocity.h>
+#include <vericone/guidance/estimation/filters.h>
 #include <vericone/guidance/estimation/set_membership.h>
 #include <vericone/simulation/scenario.h>
 #include <vericone/simulation/track.h>

@@ -2,8 +2,7 @@
 #include <vericone/simulation/pilot.h>
 #include <vericone/simulation/reach.h>
 
-#include "pilots/law_pilot.h"
-#include "pilots/through_pilot.h"
+#include "pilots/kinds.h"
 
 namespace vericone::simulation {
 
@@ -11,9 +10,8 @@ ReachLimits PilotModel::limits(const Body&, double) const { return {}; }
 
 std::shared_ptr<const PilotModel> model_of(const Pilot& pilot) {
   if (pilot.own) return pilot.own;
-  if (pilot.through) return std::make_shared<ThroughPilot>(pilot);
-  if (guarded(pilot)) return std::make_shared<GuardedPilot>(pilot);
-  return std::make_shared<LawPilot>(pilot);
+  if (pilot.through) return through_pilot(pilot);
+  return guarded(pilot) ? guarded_pilot(pilot) : law_pilot(pilot);
 }
 
 bool minds_bodies(const Pilot& pilot) { return !pilot.own && !pilot.through; }

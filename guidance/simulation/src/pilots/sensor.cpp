@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/internal/simulation/sight.h>
 #include <vericone/simulation/sensor.h>
 
 #include <vericone/geometry/error.h>
@@ -42,29 +43,13 @@ double ball_deviation(bool planar) { return planar ? 0.5 : std::sqrt(0.2); }
 }  // namespace
 
 const char* to_string(Noise noise) {
-  switch (noise) {
-    case Noise::engagement:
-      return "engagement";
-    case Noise::per_axis:
-      return "per-axis";
-    case Noise::isotropic:
-      return "isotropic";
-    case Noise::bounded:
-      return "bounded";
-  }
-  return "?";
+  constexpr const char* kWords[] = {"engagement", "per-axis", "isotropic", "bounded"};
+  return kWords[std::size_t(noise)];
 }
 
 const char* to_string(Estimator estimator) {
-  switch (estimator) {
-    case Estimator::none:
-      return "none";
-    case Estimator::state:
-      return "state";
-    case Estimator::set_membership:
-      return "set-membership";
-  }
-  return "?";
+  constexpr const char* kWords[] = {"none", "state", "set-membership"};
+  return kWords[std::size_t(estimator)];
 }
 
 Sensor Sensor::times(double factor) const {

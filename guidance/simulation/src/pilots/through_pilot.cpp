@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pilots/through_pilot.h"
-
 #include <vericone/geometry/error.h>
+#include <vericone/internal/guidance/orifice_function.h>
 #include <vericone/simulation/reach.h>
+#include <vericone/simulation/scenario.h>
 #include <algorithm>
 #include <cmath>
 
 #include "names.h"
 #include "pilots/homing.h"
+#include "pilots/kinds.h"
 #include "tracks/level_frame.h"
 #include "tracks/sign_change.h"
 
@@ -174,64 +175,78 @@ class FlyingThrough : public FlyingPilot {
   Homing homing_;
 };
 
+/// Through orifices, one after the other; then to its goal. It sees no bodies.
+class ThroughPilot : public PilotModel {
+ public:
+  explicit ThroughPilot(const Pilot& pilot) : pilot_(pilot), through_(*pilot.through) {}
+
+  void check(const Scenario& scenario, const Body& self) const override {
+    if (through_.orifices.empty()) throw InputError("through", "nothing", "names of orifices");
+    for (std::size_t i = 0; i < through_.orifices.size(); ++i) {
+      const std::size_t orifice = index_of(scenario.orifices, through_.orifices[i]);
+      if (orifice == scenario.orifices.size())
+        throw InputError("through[" + std::to_string(i) + "]", through_.orifices[i],
+                         "the name of an orifice");
+      if (through_.law == Through::Law::orifice) check_reference(through_, self, scenario.orifices[orifice]);
+    }
+    require_above_zero(through_.source.gain, "gain", " (1/s)");
+    require_above_zero(through_.passage.gain, "gain", " (1/s)");
+    require_above_zero(std::min(through_.source.most, through_.passage.most), "most", " (m/s^2)");
+    require_above_zero(through_.gain_speed, "gain_speed", " (1/s)");
+    for (const double speed : through_.speeds) require_above_zero(speed, "speed", " (m/s)");
+    if (through_.speeds.size() > 1 && through_.speeds.size() != through_.orifices.size())
+      throw InputError("speed", std::to_string(through_.speeds.size()) + " numbers",
+                       "one, or one for each of " + std::to_string(through_.orifices.size()) + " orifices");
+    if (!(through_.passage.margin >= 0) || !std::isfinite(through_.passage.margin))
+      throw InputError("margin", to_text(through_.passage.margin), "a finite number, 0 or more (m)");
+    if (!(through_.passage.beyond >= 0) || !std::isfinite(through_.passage.beyond))
+      throw InputError("beyond", to_text(through_.passage.beyond), "a finite number, 0 or more (m)");
+    if (scenario.bodies.size() > 1 && !through_.minds_none)
+      throw InputError("minds", "nothing",
+                       "[] beside other bodies: the law " + std::string(to_string(through_.law)) +
+                           " sees none of them, and may meet them");
+  }
+
+  std::unique_ptr<FlyingPilot> launch(const Scenario& scenario, std::size_t self,
+                                      const RunOptions&) const override {
+    return std::make_unique<FlyingThrough>(through_, scenario, self);
+  }
+  double most() const override {
+    return through_.law == Through::Law::passage ? through_.passage.most : through_.source.most;
+  }
+  std::vector<std::string> orifices() const override { return through_.orifices; }
+
+  ReachLimits limits(const Body& self, double step) const override {
+    ReachLimits limits;
+    const bool turns_only = through_.law == Through::Law::passage && !through_.passage.longitudinal;
+    double most = this->most();
+    if (pilot_.goal) most = std::max(most, pilot_.goal->most);
+    double slowest = self.start.velocity.norm(), fastest = slowest;
+    for (const double speed : through_.speeds) {
+      slowest = std::min(slowest, speed);
+      fastest = std::max(fastest, speed);
+    }
+    // What holds a speed adds to what is commanded, and goes beyond it only if its steps do.
+    if (through_.speeds.empty()) limits.acceleration = most;
+    const bool holds = through_.speeds.empty() || through_.gain_speed * step <= 1;
+    // A body at rest has no velocity to turn: what its law commands moves it.
+    if (!turns_only || !holds || slowest <= 2 * kRestSpeed) return limits;
+    limits.speed = fastest * (1 + 1e-12);
+    limits.turn_rate = most / slowest * (1 + 1e-12);
+    return limits;
+  }
+
+ private:
+  const Pilot& pilot_;
+  const Through& through_;
+};
+
 }  // namespace
 
 const char* to_string(Through::Law law) { return law == Through::Law::orifice ? "orifice" : "passage"; }
 
-std::unique_ptr<FlyingPilot> ThroughPilot::launch(const Scenario& scenario, std::size_t self,
-                                                  const RunOptions&) const {
-  return std::make_unique<FlyingThrough>(through_, scenario, self);
-}
-
-double ThroughPilot::most() const {
-  return through_.law == Through::Law::passage ? through_.passage.most : through_.source.most;
-}
-
-ReachLimits ThroughPilot::limits(const Body& self, double step) const {
-  ReachLimits limits;
-  const bool turns_only = through_.law == Through::Law::passage && !through_.passage.longitudinal;
-  double most = this->most();
-  if (pilot_.goal) most = std::max(most, pilot_.goal->most);
-  double slowest = self.start.velocity.norm(), fastest = slowest;
-  for (const double speed : through_.speeds) {
-    slowest = std::min(slowest, speed);
-    fastest = std::max(fastest, speed);
-  }
-  // What holds a speed adds to what is commanded, and goes beyond it only if its steps do.
-  if (through_.speeds.empty()) limits.acceleration = most;
-  const bool holds = through_.speeds.empty() || through_.gain_speed * step <= 1;
-  // A body at rest has no velocity to turn: what its law commands moves it.
-  if (!turns_only || !holds || slowest <= 2 * kRestSpeed) return limits;
-  limits.speed = fastest * (1 + 1e-12);
-  limits.turn_rate = most / slowest * (1 + 1e-12);
-  return limits;
-}
-
-void ThroughPilot::check(const Scenario& scenario, const Body& self) const {
-  const Through& through = through_;
-  if (through.orifices.empty()) throw InputError("through", "nothing", "names of orifices");
-  for (std::size_t i = 0; i < through.orifices.size(); ++i) {
-    const std::size_t orifice = index_of(scenario.orifices, through.orifices[i]);
-    if (orifice == scenario.orifices.size())
-      throw InputError("through[" + std::to_string(i) + "]", through.orifices[i], "the name of an orifice");
-    if (through.law == Through::Law::orifice) check_reference(through, self, scenario.orifices[orifice]);
-  }
-  require_above_zero(through.source.gain, "gain", " (1/s)");
-  require_above_zero(through.passage.gain, "gain", " (1/s)");
-  require_above_zero(std::min(through.source.most, through.passage.most), "most", " (m/s^2)");
-  require_above_zero(through.gain_speed, "gain_speed", " (1/s)");
-  for (const double speed : through.speeds) require_above_zero(speed, "speed", " (m/s)");
-  if (through.speeds.size() > 1 && through.speeds.size() != through.orifices.size())
-    throw InputError("speed", std::to_string(through.speeds.size()) + " numbers",
-                     "one, or one for each of " + std::to_string(through.orifices.size()) + " orifices");
-  if (!(through.passage.margin >= 0) || !std::isfinite(through.passage.margin))
-    throw InputError("margin", to_text(through.passage.margin), "a finite number, 0 or more (m)");
-  if (!(through.passage.beyond >= 0) || !std::isfinite(through.passage.beyond))
-    throw InputError("beyond", to_text(through.passage.beyond), "a finite number, 0 or more (m)");
-  if (scenario.bodies.size() > 1 && !through.minds_none)
-    throw InputError("minds", "nothing",
-                     "[] beside other bodies: the law " + std::string(to_string(through.law)) +
-                         " sees none of them, and may meet them");
+std::shared_ptr<const PilotModel> through_pilot(const Pilot& pilot) {
+  return std::make_shared<ThroughPilot>(pilot);
 }
 
 }  // namespace vericone::simulation

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "proof/convex.h"
 
-#include <vericone/geometry/decompositions.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/pose.h>
+#include <vericone/internal/geometry/decompositions.h>
+#include <vericone/internal/simulation/shape_in_time.h>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 // The convex body that stands for an agent in proofs of passage, in its own frame or as it stands somewhere.
 #pragma once
 
-#include <vericone/cones/opening/rim_distance.h>
+#include <vericone/cones/opening/opening.h>
 #include <vericone/simulation/track.h>
 #include <Eigen/Core>
 #include <vector>

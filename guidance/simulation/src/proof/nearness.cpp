@@ -2,6 +2,7 @@
 #include "proof/nearness.h"
 
 #include <vericone/geometry/error.h>
+#include <vericone/internal/simulation/shape_in_time.h>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

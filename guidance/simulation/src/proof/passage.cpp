@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Proofs of passage. Why a certificate holds: docs/explanation/proof-of-runs.md.
-#include <vericone/simulation/passage.h>
+#include <vericone/internal/simulation/shape_in_time.h>
+#include <vericone/simulation/proof.h>
 
-#include <vericone/cones/opening/rim_distance.h>
+#include <vericone/cones/opening/opening.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -379,17 +380,8 @@ class Clear {
 }  // namespace
 
 const char* to_string(PassageVerdict verdict) {
-  switch (verdict) {
-    case PassageVerdict::passed:
-      return "passed";
-    case PassageVerdict::touched:
-      return "touched";
-    case PassageVerdict::missed:
-      return "missed";
-    case PassageVerdict::undecided:
-      return "undecided";
-  }
-  return "";
+  constexpr const char* kWords[] = {"passed", "touched", "missed", "undecided"};
+  return kWords[std::size_t(verdict)];
 }
 
 PassageProof prove_passage(const Track& agent, const MovingOrifice& orifice, double from, double to,

@@ -147,15 +147,8 @@ PairProof prove(const MovingPair& pair, double from, double to, const ProofOptio
 }  // namespace
 
 const char* to_string(ProofVerdict verdict) {
-  switch (verdict) {
-    case ProofVerdict::avoided:
-      return "avoided";
-    case ProofVerdict::touched:
-      return "touched";
-    case ProofVerdict::undecided:
-      return "undecided";
-  }
-  return "";
+  constexpr const char* kWords[] = {"avoided", "touched", "undecided"};
+  return kWords[std::size_t(verdict)];
 }
 
 void check(const ProofOptions& options) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/internal/simulation/mesh_track.h>
+#include <vericone/internal/simulation/passed.h>
 #include <vericone/simulation/reach.h>
 
 #include <vericone/geometry/error.h>
@@ -291,21 +293,8 @@ Vector3d first_acceleration(const Scenario& scenario, const Body& body) {
 }  // namespace
 
 const char* to_string(ReachLimit limit) {
-  switch (limit) {
-    case ReachLimit::none:
-      return "none";
-    case ReachLimit::speed:
-      return "speed";
-    case ReachLimit::turning:
-      return "turning";
-    case ReachLimit::climb:
-      return "climb";
-    case ReachLimit::height:
-      return "height";
-    case ReachLimit::appearance:
-      return "appearance";
-  }
-  return "";
+  constexpr const char* kWords[] = {"none", "speed", "turning", "climb", "height", "appearance"};
+  return kWords[std::size_t(limit)];
 }
 
 std::vector<Reach> earliest_passages(const ReachStart& start, const ReachLimits& limits,

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "proof/swept_body.h"
 
-#include <vericone/geometry/decompositions.h>
-#include <vericone/geometry/requires.h>
+#include <vericone/internal/geometry/decompositions.h>
+#include <vericone/internal/geometry/requires.h>
+#include <vericone/internal/simulation/shape_in_time.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vericone/geometry/stop.h>
+#include <vericone/geometry/error.h>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>

@@ -4,7 +4,8 @@
 // agent's middle, as the mesh sees it, is counted where it crosses the fan that spans the window's rim.
 #include <vericone/cones/pair.h>
 #include <vericone/geometry/error.h>
-#include <vericone/simulation/passage.h>
+#include <vericone/internal/simulation/shape_in_time.h>
+#include <vericone/simulation/proof.h>
 #include <cmath>
 #include <cstdint>
 #include <optional>

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/internal/simulation/mesh_track.h>
+#include <vericone/internal/simulation/passed.h>
 #include <vericone/simulation/run.h>
 
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "names.h"
@@ -313,6 +315,33 @@ ProofVerdict Run::verdict() const {
 Run simulate(const Scenario& scenario, const RunOptions& options) {
   check(scenario);
   return Runner(scenario, options).run();
+}
+
+const char* to_string(EventKind kind) {
+  constexpr const char* kWords[] = {"appears",      "enters-cone",  "leaves-cone", "passes",
+                                    "aligned",      "reaches-goal", "contact",     "cannot-avoid",
+                                    "goes-through", "goes-beside"};
+  return kWords[std::size_t(kind)];
+}
+
+std::optional<Event> find_event(const Scenario& scenario, const Run& run, EventKind kind,
+                                const std::string& agent, const std::string& obstacle, double after) {
+  const std::size_t i = index_of(scenario.bodies, agent), j = index_of(scenario.bodies, obstacle);
+  for (const Event& event : run.events)
+    if (event.kind == kind && event.agent == i && event.obstacle == j && event.t >= after) return event;
+  return std::nullopt;
+}
+
+std::optional<EncounterSample> sample_at(const Scenario& scenario, const Run& run, const std::string& agent,
+                                         const std::string& obstacle, double t) {
+  const std::size_t i = index_of(scenario.bodies, agent), j = index_of(scenario.bodies, obstacle);
+  std::optional<EncounterSample> nearest;
+  for (const EncounterSample& sample : run.encounters)
+    if (sample.agent == i && sample.obstacle == j &&
+        (!nearest || std::abs(sample.t - t) < std::abs(nearest->t - t)))
+      nearest = sample;
+  if (nearest && !(std::abs(nearest->t - t) <= scenario.step * (1 + 1e-9))) nearest.reset();
+  return nearest;
 }
 
 }  // namespace vericone::simulation

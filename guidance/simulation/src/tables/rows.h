@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vericone/geometry/requires.h>
-#include <vericone/simulation/table.h>
+#include <vericone/internal/geometry/requires.h>
+#include <vericone/simulation/run_tables.h>
 #include <Eigen/Core>
 #include <algorithm>
 #include <iterator>

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
-#include <vericone/guidance/clearance_law.h>
+#include <vericone/guidance/laws.h>
+#include <vericone/internal/guidance/directions.h>
+#include <vericone/internal/guidance/laws.h>
+#include <vericone/internal/simulation/run_tables.h>
 #include <vericone/simulation/run_tables.h>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -310,23 +313,12 @@ std::string obstacle_of(const Scenario& scenario, const Event& event) {
 
 std::string unit_of(const Scenario& scenario, const Event& event) {
   require_event_of(scenario, event);
-  switch (event.kind) {
-    case EventKind::passes:
-    case EventKind::cannot_avoid:
-    case EventKind::goes_through:
-    case EventKind::goes_beside:
-      return "m";
-    case EventKind::contact:
-      return "s";
-    case EventKind::enters_cone:
-    case EventKind::leaves_cone:
-      return in_metres(scenario.bodies[event.agent]) ? "m" : "1";
-    case EventKind::appears:
-    case EventKind::aligned:
-    case EventKind::reaches_goal:
-      break;
-  }
-  return "";
+  using enum EventKind;
+  const EventKind kind = event.kind;
+  if (kind == appears || kind == aligned || kind == reaches_goal) return "";
+  if (kind == contact) return "s";
+  const bool of_cone = kind == enters_cone || kind == leaves_cone;
+  return of_cone && !in_metres(scenario.bodies[event.agent]) ? "1" : "m";
 }
 
 }  // namespace vericone::simulation

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
-#include <vericone/simulation/table.h>
+#include <vericone/internal/simulation/run_tables.h>
+#include <vericone/simulation/run_tables.h>
 #include <algorithm>
 #include <charconv>
 #include <cmath>

@@ -2,7 +2,6 @@
 #include <vericone/geometry/ellipsoid.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/pose.h>
-#include <vericone/geometry/stop.h>
 #include <vericone/simulation/track.h>
 #include <Eigen/Geometry>
 #include <algorithm>

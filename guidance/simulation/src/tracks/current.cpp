@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/simulation/current.h>
+#include <vericone/simulation/vehicle.h>
 
 #include <vericone/geometry/error.h>
 #include <vericone/simulation/sensor.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/simulation/moving_orifice.h>
+#include <vericone/internal/simulation/mesh_track.h>
+#include <vericone/simulation/proof.h>
 
 #include <vericone/simulation/curve.h>
 #include <Eigen/Geometry>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // k(t): values, rates and bounds.
-#include <vericone/simulation/shape_in_time.h>
+#include <vericone/simulation/track.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

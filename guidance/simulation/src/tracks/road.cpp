@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/simulation/road.h>
+#include <vericone/simulation/curve.h>
 
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/stop.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

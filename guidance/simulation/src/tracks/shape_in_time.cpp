@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/simulation/shape_in_time.h>
+#include <vericone/internal/geometry/rotation.h>
+#include <vericone/internal/simulation/shape_in_time.h>
+#include <vericone/simulation/track.h>
 
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/pose.h>

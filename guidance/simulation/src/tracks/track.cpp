@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
+#include <vericone/internal/simulation/shape_in_time.h>
 #include <vericone/simulation/track.h>
 #include <algorithm>
 #include <utility>

@@ -6,10 +6,11 @@
 #pragma once
 
 #include <vericone/geometry/ellipsoid.h>
-#include <vericone/geometry/exact/body.h>
 #include <vericone/geometry/exact/rational.h>
 #include <array>
 #include <cstdint>
+#include <filesystem>
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -76,5 +77,22 @@ inline constexpr std::array<std::string_view, 7> kCorpusPredicates = {
 
 /// The double that is exactly x, if there is one.
 [[nodiscard]] std::optional<double> as_double(const exact::Rational& x);
+
+// The corpus as text: one case a line, numbers exact. The format is described in tests/corpus/README.md.
+
+/// "7", "-3/8", "5*2^-120": the shortest of these that is exact.
+[[nodiscard]] std::string number_text(const exact::Rational& x);
+
+/// The inverse; also reads unreduced fractions. Throws std::runtime_error with what is wrong.
+[[nodiscard]] exact::Rational parse_number(std::string_view text);
+
+[[nodiscard]] std::string case_line(const CorpusCase& c);
+
+/// A whole file: header and cases.
+[[nodiscard]] std::string corpus_text(std::string_view predicate, std::uint64_t seed);
+
+/// Throws std::runtime_error "NAME:LINE: field FIELD: what is wrong".
+std::vector<CorpusCase> read_corpus(std::istream& in, const std::string& name);
+[[nodiscard]] std::vector<CorpusCase> read_corpus(const std::filesystem::path& file);
 
 }  // namespace vericone::verify

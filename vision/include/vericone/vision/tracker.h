@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Several targets followed through the pictures of a moving camera.
+// A picture in memory, 8 bits a channel, and a box in it. Pixels: u to the right, v down, (0, 0) the middle
+// of the first one.
 #pragma once
 
-#include <vericone/vision/image.h>
+#include <vericone/internal/geometry/requires.h>
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -12,6 +14,28 @@
 #include <vector>
 
 namespace vericone::vision {
+
+struct Image {
+  int width = 0, height = 0, channels = 1;  // 1: grey; 3: blue, green, red
+  std::vector<std::uint8_t> data;           // row by row, no gaps
+
+  Image() = default;
+  Image(int w, int h, int c) : width(w), height(h), channels(c), data(std::size_t(w) * h * c) {
+    VERICONE_REQUIRES(w > 0 && h > 0 && (c == 1 || c == 3) && double(w) * h < 1e9, "size", "no size of a picture",
+                      "w x h pixels of 1 or 3 channels");
+  }
+  [[nodiscard]] bool empty() const { return data.empty(); }
+};
+
+/// Upright, in pixels: left and top edge, width and height.
+struct Box {
+  double x = 0, y = 0, w = 0, h = 0;
+  [[nodiscard]] Eigen::Vector2d centre() const { return {x + 0.5 * w, y + 0.5 * h}; }
+};
+/// Intersection over union, 0 to 1.
+[[nodiscard]] double overlap(const Box& a, const Box& b);
+
+// Several targets followed through the pictures of a moving camera.
 
 /// How much of a target is hidden, as the tracker says (source 3.3.4).
 enum class Sight : std::uint8_t {

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <vericone/cones/ellipsoids/predicates.h>
-#include <vericone/geometry/exact/body.h>
 #include <vericone/geometry/exact/rational.h>
 
 namespace vericone::exact {
@@ -20,5 +19,12 @@ template <int D>
 /// In the plane (SectorOracle).
 [[nodiscard]] Membership membership(const RationalBody<2>& a, const RationalBody<2>& b,
                                     const RationalVector<2>& w);
+
+// The last rung of position() for input in rational numbers.
+
+/// Position of two bodies given by centre and shape matrix (symmetric, positive definite; not checked).
+/// D = 2 or 3.
+template <int D>
+[[nodiscard]] Position position(const RationalBody<D>& a, const RationalBody<D>& b);
 
 }  // namespace vericone::exact

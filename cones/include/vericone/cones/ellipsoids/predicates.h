@@ -36,42 +36,15 @@
 
 namespace vericone {
 
-template <int D>
-struct ContactFrame;
-
 /// Exact relation of two bodies. `rung`: where to write the rung that decided. Cost: about 0.7 us where no
 /// integers are needed.
 template <int D>
 [[nodiscard]] Relation relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b, Rung* rung = nullptr);
 
-/// The same where the contact frame of the pair is at hand; the answer does not depend on its accuracy.
-template <int D>
-[[nodiscard]] Relation relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
-                                const ContactFrame<D>& frame, Rung* rung = nullptr);
-
-/// First two rungs: a plane that separates the bodies, or a point inside of both, found in floating point and
-/// certified. Nothing when rounding could matter. Never answer `touching`.
-template <int D>
-[[nodiscard]] std::optional<Relation> triage_relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
-                                                      const ContactFrame<D>& frame);
-template <int D>
-[[nodiscard]] std::optional<Relation> interval_relation(const BasicEllipsoid<D>& a,
-                                                        const BasicEllipsoid<D>& b,
-                                                        const ContactFrame<D>& frame);
-
-/// Last rung.
-template <int D>
-[[nodiscard]] Relation exact_relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b);
-
 /// Whether n.x separates the bodies strictly: n.c > rho_A(n) + rho_B(n), for the n given, exactly.
 template <int D>
 [[nodiscard]] bool separates(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
                              const Eigen::Matrix<double, D, 1>& n);
-
-/// First rung of separates(): true is certain, false says nothing. No allocation, about 20 ns.
-template <int D>
-[[nodiscard]] bool triage_separates(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
-                                    const Eigen::Matrix<double, D, 1>& n);
 
 namespace detail {
 /// What the first rung reads first: the coefficients of four quadratic forms of w, a separating normal, and
@@ -187,5 +160,43 @@ class ConeOracle {
 /// Tags of relation() and of ConeOracle::membership for rung_counts().
 struct EllipsoidRelation;
 struct ConeMembership;
+
+// How two ellipses or two ellipsoids lie, nesting included: exact, by the ladder of predicates.h. The
+// mathematics is in docs/explanation/predicates/position.md.
+//
+// Laws, for all bodies A, B (tests/cones/ellipsoids/position_test.cpp):
+//   (1) position(B, A) == swapped(position(A, B))
+//   (2) relation_of(position(A, B)) == relation(A, B)
+//   (3) a rung that answers agrees with every later rung
+//   (4) the answer is unchanged by scaling both bodies by a power of two, by moving them together as long as
+//       the numbers remain exact, and by the reflection through the origin
+//   (5) A in B and B in C give A in C
+
+/// How two solid bodies lie. Exactly one of these is true.
+enum class Position : std::uint8_t {
+  disjoint,             // no common point
+  touching,             // common boundary points only: from outside
+  crossing,             // common interior, and each has points outside the other
+  a_inside_b,           // A lies in the interior of B
+  a_inside_b_touching,  // A is a proper part of B with a common boundary point: touching from inside
+  b_inside_a,
+  b_inside_a_touching,
+  equal,  // the same body
+};
+
+[[nodiscard]] const char* to_string(Position position);
+
+/// What relation() says of it: crossing, equal and every kind of nesting are `overlapping`.
+[[nodiscard]] Relation relation_of(Position position);
+
+/// Exact position of two bodies. `rung`: where to write the rung that decided. D = 2 or 3.
+///
+/// Cost: see docs/explanation/predicates/position.md.
+template <int D>
+[[nodiscard]] Position position(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b, Rung* rung = nullptr);
+
+/// Tag of position<D> for rung_counts().
+template <int D>
+struct PositionOf;
 
 }  // namespace vericone

@@ -3,11 +3,14 @@
 // Cones of any shape, holes included, as a map on the sphere of directions (docs/explanation/cone-map.md).
 #pragma once
 
-#include <vericone/cones/direction_cell.h>
+#include <vericone/internal/geometry/requires.h>
+#include <vericone/internal/cones/direction_cell.h>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace vericone {
@@ -41,6 +44,9 @@ struct ConeMap {
   bool complete = true;                           // false: stopped before the resolution was reached
 
   [[nodiscard]] DirectionCell cell(std::size_t i) const {
+    VERICONE_REQUIRES(
+        i < cells.size() && std::ranges::all_of(cells[i].corners, [&](auto k) { return k < corners.size(); }), "i",
+        "no such cell, or corners that the map does not have", "a cell of a map as cone_map() returns it");
     const auto& c = cells[i].corners;
     return {corners[c[0]], corners[c[1]], corners[c[2]]};
   }
@@ -52,11 +58,37 @@ struct ConeMap {
 /// one level. Throws InputError naming "resolution", "most_cells" or "threads", and what the classifier does.
 [[nodiscard]] ConeMap cone_map(const DirectionClassifier& classifier, const ConeMapOptions& options = {});
 
-/// The index of the cell that contains a direction (of any one on an edge). Linear in the cells. Throws
-/// InputError naming "map.cells" where there are none, or "direction" where it is zero or not finite.
-[[nodiscard]] std::size_t cell_at(const ConeMap& map, const Eigen::Vector3d& direction);
-
 /// Steradian; of any lengths. Accurate to rounding for the smallest cells too.
 [[nodiscard]] double solid_angle(const DirectionCell& cell);
+
+// Connected regions of a cone map: the orifice cones of windows are its connected safe regions.
+
+/// Cells of one label connected by edges, parts of edges or corners.
+///
+/// Proved: all of the region has its label and is one piece, so it lies in one connected component of the set
+/// of all safe (or colliding) directions. That component lies within the possible region: all that edges
+/// connect with it when undecided cells are taken to have the same label.
+struct ConeMapRegion {
+  Certified label = Certified::out;  // in or out
+  std::vector<std::uint32_t> cells;  // indices, increasing
+  double solid_angle = 0;            // steradian: the component has at least this
+  double most_solid_angle = 0;       // and at most this: the possible region's
+  /// Number of the possible region. Regions of one label with different numbers are proved to be apart: no
+  /// way leads from one to the other. With the same number a way through undecided cells may.
+  std::uint32_t possible = 0;
+  /// No other region of the label has that number.
+  bool surely_separate = false;
+  /// Closed polygons of directions (as in ConeMap::corners), the region to their left: counter-clockwise
+  /// around it, clockwise around its holes. The longest, in radians, comes first. Empty for the whole sphere.
+  std::vector<std::vector<Eigen::Vector3d>> boundary;
+};
+
+/// All regions, safe and colliding, the largest first. Time n log n in the number of cells.
+[[nodiscard]] std::vector<ConeMapRegion> regions(const ConeMap& map);
+
+/// The region that contains a direction != 0: with an agent before a window and the direction through it, the
+/// window's orifice cone. Nothing where the direction is in an undecided cell. Same cost.
+[[nodiscard]] std::optional<ConeMapRegion> region_around(const ConeMap& map,
+                                                         const Eigen::Vector3d& direction);
 
 }  // namespace vericone

@@ -132,17 +132,6 @@ struct OrificeTransit;
                                              double opening_radius, const Eigen::Vector3d& w,
                                              Rung* rung = nullptr);
 
-/// Its rungs, for checked input.
-[[nodiscard]] std::optional<Transit> triage_facing_orifice_transit(const Eigen::Vector3d& center_line,
-                                                                   double agent_radius, double opening_radius,
-                                                                   const Eigen::Vector3d& w) noexcept;
-[[nodiscard]] std::optional<Transit> interval_facing_orifice_transit(const Eigen::Vector3d& center_line,
-                                                                     double agent_radius,
-                                                                     double opening_radius,
-                                                                     const Eigen::Vector3d& w) noexcept;
-[[nodiscard]] Transit exact_facing_orifice_transit(const Eigen::Vector3d& center_line, double agent_radius,
-                                                   double opening_radius, const Eigen::Vector3d& w);
-
 /// Tag of facing_orifice_transit for rung_counts().
 struct FacingOrificeTransit;
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The source's 3-D cone against an obstacle of which a cloud of points or a mesh is known (source, 6.3.3 and
-// 6.3.4): planar sectors on planes through the line of sight.
+// Collision cones in the plane against an obstacle of which points are known: what sensors see of it (source,
+// 6.3.3), for an elliptic agent and for one of any shape (6.3.4).
 #pragma once
 
+#include <vericone/cones/planar/sector.h>
 #include <vericone/cones/slices/slice_cone.h>
-#include <vericone/cones/slices/visible_sector.h>
 #include <vericone/geometry/quadric.h>
 #include <array>
 #include <cstddef>
@@ -17,6 +17,32 @@
 
 namespace vericone {
 
+/// Why there is no sector.
+enum class NoSector : std::uint8_t {
+  none,          // there is one
+  no_points,     // nothing is seen of the obstacle
+  inside_agent,  // a point is inside the elliptic agent, or on it
+  no_tangents,   // the agent reaches among the points: no line separates it from them
+};
+[[nodiscard]] const char* to_string(NoSector reason);
+
+/// The sector between the inner common tangents of the agent's section and the points.
+struct VisibleSector {
+  std::optional<Sector> sector;  // its relation is `disjoint`
+  NoSector reason = NoSector::none;
+  std::size_t left_point = 0, right_point = 0;  // indices of the obstacle's points that the edges touch
+  int tried = 0;                                // points from which tangents were drawn
+};
+
+struct SearchOptions {
+  /// Every `keep_every`-th point of the obstacle is kept, and the last one: the source's down-sampling. The
+  /// sector is that of the points kept, within the sector of all.
+  int keep_every = 1;
+};
+
+// The source's 3-D cone against an obstacle of which a cloud of points or a mesh is known (source, 6.3.3 and
+// 6.3.4): planar sectors on planes through the line of sight.
+
 /// Points of a body's section by a plane, in the plane's coordinates.
 using PlanePoints = std::function<std::vector<Eigen::Vector2d>(const PlaneFrame&)>;
 
@@ -24,20 +50,6 @@ using PlanePoints = std::function<std::vector<Eigen::Vector2d>(const PlaneFrame&
 /// stands for one in it, so what comes out is off by up to half_thickness times the slope of the surface, to
 /// either side. Keeps the cloud.
 [[nodiscard]] PlanePoints points_near_plane(std::vector<Eigen::Vector3d> cloud, double half_thickness);
-
-/// Half of the distance between neighbouring beams at the farthest point: the thinnest slab that every plane
-/// through a cloud of beams `spacing` radians apart meets about once a beam. Metres.
-[[nodiscard]] double slab_half_thickness(std::span<const Eigen::Vector3d> cloud,
-                                         const Eigen::Vector3d& sensor, double spacing);
-
-/// The corners of the section of a mesh (mesh_section.h), or of the part of one that is given by some of its
-/// triangles. Keeps both.
-[[nodiscard]] PlanePoints mesh_section_points(std::vector<Eigen::Vector3d> points,
-                                              std::vector<std::array<std::uint32_t, 3>> triangles);
-
-/// Points (m) of a plane in the order of their bearing from its origin, the nearer first: from one extreme
-/// end to the other for points on the side of its x axis.
-void order_by_bearing(std::vector<Eigen::Vector2d>& points);
 
 struct VisiblePlane {
   double azimuth = 0;          // rad, as in Slice

@@ -1,18 +1,73 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Collision cones under bounded errors: whether all errors collide, none does, or it depends on the error.
-// Proofs: docs/explanation/robust-cone.md.
+// Bounded errors of a vector: a convex set about zero, of which all that is asked is how far it reaches.
 #pragma once
 
 #include <vericone/cones/pair.h>
-#include <vericone/cones/uncertain/error_set.h>
 #include <vericone/geometry/ellipsoid.h>
 #include <Eigen/Core>
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace vericone {
+
+/// All errors that may be: a sum of a ball, ellipsoids and segments about 0, so with e it holds -e. Metres
+/// for positions, m/s for velocities. Copies of balls do not allocate.
+class ErrorSet {
+ public:
+  /// No error: 0 alone.
+  ErrorSet() = default;
+
+  /// |e| <= radius. Throws InputError naming "ball" where it is negative or not finite.
+  [[nodiscard]] static ErrorSet ball(double radius);
+
+  /// Semi-axes (positive) along the columns of `rotation`. Throws InputError naming "semi_axes[i]" or
+  /// "rotation".
+  [[nodiscard]] static ErrorSet ellipsoid(const Eigen::Vector3d& semi_axes,
+                                          const Eigen::Matrix3d& rotation = Eigen::Matrix3d::Identity());
+
+  /// |e_i| <= half(i), along the world's axes; may be flat. Throws InputError naming "box[i]".
+  [[nodiscard]] static ErrorSet box(const Eigen::Vector3d& half);
+
+  /// The sums of s_i g_i with |s_i| <= 1. Throws InputError naming "zonotope[i]" where a generator is not
+  /// finite.
+  [[nodiscard]] static ErrorSet zonotope(std::span<const Eigen::Vector3d> generators);
+
+  /// The sums of the errors of a ball, of ellipsoids { F u : |u| <= 1 } and of segments { s g : |s| <= 1 }: a
+  /// set of what radius(), factors() and segments() say. Throws InputError naming "ball", "factors[i]" or
+  /// "zonotope[i]" where a number is not finite, or the radius negative.
+  [[nodiscard]] static ErrorSet sum(double radius, std::vector<Eigen::Matrix3d> factors,
+                                    std::vector<Eigen::Vector3d> segments);
+
+  /// Every sum of an error of one and one of the other.
+  friend ErrorSet operator+(ErrorSet x, const ErrorSet& y);
+
+  /// Whether 0 is the only error.
+  [[nodiscard]] bool none() const { return !(radius_ > 0) && factors_.empty() && segments_.empty(); }
+
+  /// Support function max n.e, and an e at which it is reached; rounded. No allocation.
+  [[nodiscard]] double support(const Eigen::Vector3d& n) const;
+  [[nodiscard]] Eigen::Vector3d support_point(const Eigen::Vector3d& n) const;
+
+  /// No error is longer, rounding aside.
+  [[nodiscard]] double reach() const;
+
+  // What it is the sum of: { F u : |u| <= 1 } and { s g : |s| <= 1 }.
+  [[nodiscard]] double radius() const { return radius_; }
+  [[nodiscard]] const std::vector<Eigen::Matrix3d>& factors() const { return factors_; }
+  [[nodiscard]] const std::vector<Eigen::Vector3d>& segments() const { return segments_; }
+
+ private:
+  double radius_ = 0;
+  std::vector<Eigen::Matrix3d> factors_;
+  std::vector<Eigen::Vector3d> segments_;
+};
+
+// Collision cones under bounded errors: whether all errors collide, none does, or it depends on the error.
+// Proofs: docs/explanation/robust-cone.md.
 
 /// What is known: the true p_B - p_A is that given and an error of `position`, the true v_A - v_B that given
 /// and an error of `velocity`, whatever the other is. InputError naming "horizon" (not positive), or
@@ -72,12 +127,6 @@ struct RobustAnswer {
 /// of more than 1e6 points are refused, InputError naming "body". Allocates; linear in the points.
 [[nodiscard]] RobustAnswer robust_verdict(const Pair& pair, const Eigen::Vector3d& v_a,
                                           const Eigen::Vector3d& v_b, const RelativeErrors& errors);
-
-/// An ellipsoid around the body however it is turned about its centre by at most `angle` (rad), and one
-/// within: S +- sin(angle) (a^2 - c^2) I with the largest and least semi-axis, rounded outwards and inwards.
-/// Throw InputError naming "angle".
-[[nodiscard]] Ellipsoid around_turned(const Ellipsoid& body, double angle);
-[[nodiscard]] Ellipsoid within_turned(const Ellipsoid& body, double angle);
 
 /// The clearance of all errors, metres: the largest, over unit n with n.w + h_W(n) = 0, of
 /// n.c - h_A(n) - h_B(-n) - h_P(n). Where it is positive and `time` is too, no error comes nearer, and one

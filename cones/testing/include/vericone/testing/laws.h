@@ -7,7 +7,7 @@
 #pragma once
 
 #include <vericone/cones/ellipsoids/predicates.h>
-#include <vericone/cones/velocity_predicate.h>
+#include <vericone/internal/cones/velocity_predicate.h>
 #include <cmath>
 #include <optional>
 #include <string>

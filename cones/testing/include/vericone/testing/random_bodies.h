@@ -3,8 +3,9 @@
 // Random bodies that are the same on every platform for a seed: no std distributions.
 #pragma once
 
-#include <vericone/cones/ellipsoids/contact_frame.h>
+#include <vericone/geometry/body.h>
 #include <vericone/geometry/ellipsoid.h>
+#include <vericone/internal/cones/ellipsoids/contact_frame.h>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
@@ -113,5 +114,14 @@ class RandomBodies {
   std::uint64_t seed_;
   std::mt19937_64 engine_;
 };
+
+// Random bodies of every kind, the same on every platform for a seed.
+
+/// About the origin, between 1 and 4 m large: ellipsoids; one to three hyperboloids that cut one; hulls of 6
+/// to 12 points; 7 triangles, 9 balls, 6 boxes; unions of two quadrics, or of four hulls.
+Body any_body(RandomBodies& random, BodyKind kind);
+
+/// Any rotation; `distance` metres from the origin in any direction.
+Pose any_pose(RandomBodies& random, double distance);
 
 }  // namespace vericone::testing

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Quadric hulls of scanned objects: one call for all modes and shapes.
+// How far hull and sample are from each other, and volumes.
 #pragma once
 
-#include <vericone/fitting/least_squares.h>
-#include <vericone/fitting/measure.h>
+#include <vericone/fitting/hull.h>
+#include <vericone/geometry/mesh/surface.h>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -12,6 +12,66 @@
 #include <vector>
 
 namespace vericone::fitting {
+
+struct DistanceStatistics {
+  double mean = 0, rms = 0, max = 0;  // metres
+};
+
+/// Of the sample's points from the hull's boundary, unsigned; every point counts once (a mesh's that
+/// triangles use).
+[[nodiscard]] DistanceStatistics scan_to_hull(const std::vector<Piece>& pieces, const Sample& sample);
+
+/// Of points on the hull's boundary (even over its area, some thousand) from the sample: from the triangles
+/// of a mesh, from the points of a cloud. Nothing for footprints. `samples`: how many about.
+[[nodiscard]] std::optional<DistanceStatistics> hull_to_scan(const std::vector<Piece>& pieces,
+                                                             const Sample& sample, int samples = 4000);
+
+/// Volume of the union; nothing for planar footprints (low = high).
+[[nodiscard]] std::optional<VolumeEstimate> volume(const std::vector<Piece>& pieces);
+
+/// Volume inside a closed mesh, m^3: by the divergence theorem, accurate to rounding wherever it lies.
+/// Nothing where it is not closed and oriented, or has no inside (a sheet and its back).
+[[nodiscard]] std::optional<double> enclosed_volume(const Sample& mesh);
+
+// Quadric surfaces near points: least squares of geometric distances, and the same with robust losses.
+// Neither contains the points: that is another question (containing.h).
+
+/// A direction or length that the sample leaves open, in the world.
+struct Unknown {
+  std::string what;             // "center along (0.1, 0.2, 0.97)", "semi-axis 2", ...
+  double value = 0, error = 0;  // metres, the centre's from the sample's mean; error: one standard deviation
+};
+
+/// A body that goes on far beyond the points: how far from its centre along one of its axes, and how wide the
+/// points are along that, metres.
+struct Overreach {
+  double reach = 0, width = 0;
+};
+
+struct SurfaceFit {
+  /// Quadrics not set. In the frame of the sample; the shape `ellipse`: footprint, low, high and all lengths
+  /// here in the world, since the frame is turned and the vertical is the world's.
+  Piece piece;
+  bool converged = false;  // false: the solver's last iterate, no fit
+  double noise = 0;    // estimated standard deviation of the distances of inliers, same unit as the points
+  double inliers = 1;  // share of the weights within 3 * noise (robust) or 1
+  /// One standard deviation of centre (3) and of the ellipsoid's semi-axes (3, decreasing), from the
+  /// curvature of the cost at the solution, for independent noise.
+  Eigen::Vector3d center_error = Eigen::Vector3d::Zero(), axes_error = Eigen::Vector3d::Zero();
+  /// Of the centre, unit of the sample squared, so that its error along any direction can be told.
+  Eigen::Matrix3d center_covariance = Eigen::Matrix3d::Zero();
+  /// Share of the ellipsoid's area that has points near it (within 3 * noise, and within a cell of a grid of
+  /// up to 400 directions, as seen from the centre where the ellipsoid is the unit ball).
+  double seen = 1;
+  /// What the points do not determine: standard deviation above a twentieth of the value.
+  std::vector<Unknown> unknown;
+  /// There where a reach is above 1.5 times the width, or 1.25 times where the semi-axis is unknown: most of
+  /// the body is the model's, not the points'. The half of an ellipsoid shows each of its semi-axes in full.
+  std::optional<Overreach> overreach;
+  int iterations = 0;
+};
+
+// Quadric hulls of scanned objects: one call for all modes and shapes.
 
 enum class Mode {
   least_squares,  // near all points

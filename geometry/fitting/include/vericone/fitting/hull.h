@@ -1,17 +1,50 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Quadric hulls: unions of combined quadrics, and what is proved of them.
+// What is fitted: points, or a mesh; and the frame in which fits are computed.
 #pragma once
 
-#include <vericone/fitting/sample.h>
 #include <vericone/geometry/combined.h>
 #include <vericone/geometry/quadric.h>
+#include <Eigen/Core>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace vericone::fitting {
+
+/// Points in metres. A mesh has triangles besides, as indices into the points; what a fit has to do with are
+/// then the points that triangles use, and the triangles between them.
+struct Sample {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+
+  [[nodiscard]] bool is_mesh() const { return !triangles.empty(); }
+};
+
+/// Coordinates that belong to the sample: origin at its mean, axes along its principal directions (signs by
+/// the third moments), and a length. x = origin + scale * axes * y.
+struct Frame {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  // a rotation
+  double scale = 1;
+
+  [[nodiscard]] Eigen::Vector3d to_frame(const Eigen::Vector3d& x) const {
+    return axes.transpose() * (x - origin) / scale;
+  }
+  [[nodiscard]] Eigen::Vector3d to_world(const Eigen::Vector3d& y) const {
+    return origin + scale * (axes * y);
+  }
+};
+
+/// Coordinates rounded to 2^-26, a hundred-millionth of the unit ball. Those of the same sample in another
+/// frame differ by some 1e-15 and are then (but for one in ten million) the same numbers: searches that
+/// branch are done with them, so that they take the same way.
+[[nodiscard]] Eigen::Vector3d rounded(const Eigen::Vector3d& y);
+
+// Quadric hulls: unions of combined quadrics, and what is proved of them.
 
 enum class Shape {
   ellipse,  // footprint on the xy plane; as a body the upright elliptic cylinder over it
@@ -76,16 +109,12 @@ struct Assignment {
 
 /// Inflates each surface of each piece about its centre by the least factor for which exact arithmetic says
 /// that it contains what is assigned to its piece, with balls of radius `margin` about the points: `body` (by
-/// quadric_side.h) as well as `quadrics`, which are set here. The factors are 1 + a few roundings where the
+/// combined.h) as well as `quadrics`, which are set here. The factors are 1 + a few roundings where the
 /// fit was tight; `quadrics` far from the origin and of very thin bodies need more
 /// (docs/explanation/fitting-proof.md). Surfaces are only ever moved outwards, so that a delimiter may come
 /// to miss its ellipsoid. Returns the largest factor applied to a body. Throws InputError as check, and
 /// naming "assignment.points" or "assignment.triangles".
 double enclose(std::vector<Piece>& pieces, const Sample& sample, const Assignment& assignment,
                double margin = 0);
-
-/// Sets `quadrics` of a piece without any proof: `body` or `footprint` rounded, each surface scaled to -1 at
-/// the centre. Far from the origin the roundings are chosen together, so that the surface stays where it is.
-void set_quadrics(Piece& piece);
 
 }  // namespace vericone::fitting

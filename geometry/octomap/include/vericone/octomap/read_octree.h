@@ -4,7 +4,7 @@
 // obstacles.
 #pragma once
 
-#include <vericone/geometry/box.h>
+#include <vericone/geometry/pose.h>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -80,8 +80,6 @@ struct OctreeMeaning {
 
 enum class CellKind { occupied, free, unknown };
 
-[[nodiscard]] CellKind kind_of(const OctreeCell& cell, const OctreeMeaning& meaning);
-
 /// A box for each cell, by its kind. Unknown ones are clipped to the region and left out where nothing is
 /// left of them; with a region that reaches out of the cube of the tree, up to six more are added. The boxes
 /// do not overlap; those of the three kinds fill a region that contains the map. Throws InputError for a
@@ -89,7 +87,6 @@ enum class CellKind { occupied, free, unknown };
 struct OctreeBoxes {
   std::vector<Box> occupied, free, unknown;
 };
-[[nodiscard]] OctreeBoxes boxes_by_kind(const Octree& octree, const OctreeMeaning& meaning);
 
 /// The part of space that is an obstacle, as boxes that do not overlap: those of boxes_by_kind() that count,
 /// but one box where the eight children of a node count entirely. Throws and costs what boxes_by_kind() does.

@@ -4,7 +4,7 @@
 // docs/explanation/proof-of-runs.md.
 #pragma once
 
-#include <vericone/simulation/moving_orifice.h>
+#include <vericone/simulation/proof.h>
 #include <vericone/simulation/run.h>
 #include <vericone/simulation/scenario.h>
 #include <Eigen/Core>
@@ -80,9 +80,6 @@ struct AgentReach {
 /// the water, and what the water does; of a point mass its speed, where its law turns it only, and the most
 /// that its law and its goal command. Throws InputError naming "bodies" where no agent has any `through`.
 [[nodiscard]] std::vector<AgentReach> reach(const Scenario& scenario);
-
-/// Whether every passage that was ordered is proved.
-[[nodiscard]] bool all_passed(const Run& run);
 
 /// The largest drift (ProofOptions) with which every ordered passage of a run is still proved, m/s, found by
 /// halving to 1 % of it: what the recorded commands endure of any constant current. At least `proof.drift` of

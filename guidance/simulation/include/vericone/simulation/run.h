@@ -3,7 +3,7 @@
 // A scenario carried out: what moved where, what was commanded, what happened, and what is proved of it.
 #pragma once
 
-#include <vericone/simulation/passage.h>
+#include <vericone/simulation/proof.h>
 #include <vericone/simulation/scenario.h>
 #include <cstddef>
 #include <cstdint>

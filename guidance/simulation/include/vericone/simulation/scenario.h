@@ -3,11 +3,9 @@
 // What a run is made of. Read from YAML by the command (docs/reference/scenarios.md).
 #pragma once
 
-#include <vericone/simulation/current.h>
-#include <vericone/simulation/moving_orifice.h>
+#include <vericone/simulation/curve.h>
 #include <vericone/simulation/pilot.h>
 #include <vericone/simulation/proof.h>
-#include <vericone/simulation/road.h>
 #include <vericone/simulation/track.h>
 #include <vericone/simulation/vehicle.h>
 #include <cstdint>

@@ -4,8 +4,8 @@
 // proved, as they truly are.
 #pragma once
 
-#include <vericone/guidance/body_state.h>
-#include <vericone/guidance/sight.h>
+#include <vericone/guidance/kinematics.h>
+#include <vericone/guidance/robust_law.h>
 #include <cstdint>
 
 namespace vericone::simulation {
@@ -40,7 +40,7 @@ struct Sensor {
 /// What the law is given of a measured body.
 enum class Estimator : std::uint8_t {
   none,
-  state,  // constant_velocity.h, told how large the errors usually are
+  state,  // ConstantVelocityFilter, told how large the errors usually are
   /// set_membership.h, told their bounds: for Noise::bounded. The middle of what is possible.
   set_membership,
 };
@@ -67,11 +67,6 @@ struct Measurement {
 /// Of B by A, which knows itself. Planar bodies stay in their plane.
 [[nodiscard]] Measurement measure(const Sensor& sensor, const guidance::BodyState& a,
                                   const guidance::BodyState& b, const Draw& draw);
-
-/// What the agent knows of the errors of the moment, as the law is told: of the deviations, those of the
-/// measured state, since the true one is not known.
-[[nodiscard]] guidance::Sight sight_of(const Sensor& sensor, const Measurement& measurement,
-                                       const Draw& draw);
 
 /// Throws InputError naming "noise", "position", "velocity", "deviation", "r", "theta", ...
 void check(const Sensor& sensor);

@@ -29,9 +29,6 @@ enum class TrialLaw : std::uint8_t {
   own,          // as the scenario has them: any pilots and laws
 };
 [[nodiscard]] const char* to_string(TrialLaw law);
-/// Throws InputError naming "--laws".
-[[nodiscard]] TrialLaw trial_law(const std::string& name);
-[[nodiscard]] std::span<const TrialLaw> all_trial_laws();
 
 /// How noisy: parts of position and velocity along each axis (7.27), or the scenario's own sensor times a
 /// number.
@@ -40,8 +37,6 @@ struct TrialLevel {
   std::optional<Sensor> sensor;
   double times = 1;
 };
-/// "7.5:15" or "x4". Throws InputError naming "--levels".
-[[nodiscard]] TrialLevel trial_level(const std::string& text);
 
 /// The scenario that is flown. `own` takes any; the others change every pilot about bodies, and throw
 /// InputError naming "bodies" where there is none, "law" where one does not have the law avoidance. Throws

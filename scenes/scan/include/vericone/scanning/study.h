@@ -4,14 +4,17 @@
 // (docs/explanation/lidar.md).
 #pragma once
 
+#include <vericone/cones/slices/visible_cone.h>
 #include <vericone/geometry/ellipsoid.h>
 #include <vericone/lidar/lidar.h>
-#include <vericone/lidar/scan.h>
+#include <vericone/scenes/scene.h>
 #include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +31,7 @@ struct Setup {
   std::vector<lidar::Lidar> lidars;
   /// How well the poses of the second and further lidars are known: standard deviations of their position
   /// along each axis (m) and of their rotation about each (rad). Where not both are 0, the scans are fused by
-  /// ICP (fuse.h) from poses that are off by that much.
+  /// ICP (fuse) from poses that are off by that much.
   double position_error = 0, rotation_error = 0;
   std::uint64_t seed = 1;
   int planes = 36;
@@ -84,24 +87,34 @@ struct Seen {
 /// (docs/explanation/lidar.md).
 [[nodiscard]] Study study(const Setup& setup, const std::function<void(const std::string& line)>& told = {});
 
-/// Fig 6.7 of the source for these bodies: the section by the plane through `Study::axis` at an azimuth.
-struct PlaneSectionPicture {
-  struct Line {
-    Eigen::Vector2d on_agent, on_obstacle;
-  };
-  std::vector<Eigen::Vector2d> agent;                  // outline of its section
-  std::vector<std::vector<Eigen::Vector2d>> obstacle;  // section of the whole mesh, polylines
-  std::vector<Eigen::Vector2d> sensors;                // the lidars, projected onto the plane
-  std::vector<Eigen::Vector2d> returns;                // points near the plane, projected onto it
-  std::vector<Line> tangents;                          // left, right; empty where the search finds none
-  std::string reason;                                  // why there are none
-  double psi = 0, theta_b = 0;                         // of the tangents; radians from the axis
-  double whole_left = 0, whole_right = 0;  // true cone of the whole obstacle: radians from the axis
-  double half_thickness = 0;               // m, of the slab of points
-  int tried = 0;
+// Scenes with LiDARs from files (docs/reference/formats.md).
+
+/// A scene, and what its agent's LiDARs are to study of it.
+struct ScanScene {
+  scenes::Scene scene;
+  Setup setup;
 };
 
-/// `azimuth`: radians. Throws as study().
-[[nodiscard]] PlaneSectionPicture plane_section_picture(const Setup& setup, double azimuth);
+/// Reads a scene whose agent is an ellipsoid, whose obstacle is a mesh, and which has `lidars`. Throws
+/// InputError naming the file or the field.
+[[nodiscard]] ScanScene read_scan_scene(const std::filesystem::path& file);
+
+// What LiDARs saw and what it came to, as files (docs/reference/formats.md).
+
+/// One look of the LiDARs, the study of finer ones, and the source's sectors of the first (source, 6.3.3) on
+/// the setup's planes: nothing where its scans could not be fused.
+struct Findings {
+  Seen seen;
+  Study study;
+  std::optional<VisibleCone> cone;
+};
+/// Throws and costs as study(). `told` hears a line now and then.
+[[nodiscard]] Findings scan_and_study(const Setup& setup,
+                                      const std::function<void(const std::string& line)>& told = {});
+
+/// cloud.ply, scan.json and section.json, the picture on the plane at `azimuth` (radians), into `folder`,
+/// which must exist. Throws std::system_error naming the path that cannot be written, and as study().
+void write_scan(const Setup& setup, const Findings& found, const Eigen::Vector3d& v_agent,
+                const Eigen::Vector3d& v_obstacle, double azimuth, const std::filesystem::path& folder);
 
 }  // namespace vericone::scanning

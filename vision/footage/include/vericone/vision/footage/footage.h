@@ -3,7 +3,7 @@
 // Videos and folders of pictures, read and written.
 #pragma once
 
-#include <vericone/vision/image.h>
+#include <vericone/vision/tracker.h>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -55,5 +55,15 @@ class VideoWriter {
 void write_picture(const std::filesystem::path& file, const Image& image);
 /// Throws InputError naming `field`.
 [[nodiscard]] Image read_picture(const std::filesystem::path& file, int channels, const std::string& field);
+
+// What is drawn into pictures for people to look at.
+
+/// A box into a picture of 3 channels, coloured by what the tracker says of it: green seen, yellow partly
+/// hidden, red hidden, violet lost; where it is only expected, dashed. Its name and confidence stand above
+/// it. Throws InputError naming "image".
+void draw_sighting(Image& image, const Sighting& sighting, const std::string& name);
+
+/// A copy in grey, as trackers want it. Throws InputError naming "image".
+[[nodiscard]] Image grey_of(const Image& image);
 
 }  // namespace vericone::vision

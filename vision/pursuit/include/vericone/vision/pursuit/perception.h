@@ -5,7 +5,7 @@
 #pragma once
 
 #include <vericone/geometry/camera.h>
-#include <vericone/guidance/estimation/singer.h>
+#include <vericone/guidance/estimation/filters.h>
 #include <vericone/vision/tracker.h>
 #include <Eigen/Core>
 #include <cstddef>

@@ -3,14 +3,10 @@
 // A UAS that follows vehicles by what its camera sees, from pixels to thrust (source, chapters 3 and 4).
 #pragma once
 
-#include <vericone/guidance/pursuit/enclosing_ellipse.h>
-#include <vericone/guidance/pursuit/focal_law.h>
 #include <vericone/guidance/pursuit/pursuit_law.h>
-#include <vericone/guidance/pursuit/rendezvous_law.h>
-#include <vericone/guidance/pursuit/vertical_law.h>
+#include <vericone/guidance/pursuit/source_laws.h>
 #include <vericone/simulation/run.h>
 #include <vericone/vision/pursuit/perception.h>
-#include <vericone/vision/scene/mount.h>
 #include <vericone/vision/scene/scene.h>
 #include <cstddef>
 #include <cstdint>
