@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What flies a body: a law with its parameters as a file has them (Pilot), and the object that answers for it
-// (PilotModel, the one under way a FlyingPilot). A new law is a PilotModel (docs/howto/add-a-law.md).
+// (PilotModel; the one under way: internal/simulation/flying_pilot.h). A new law is one
+// (docs/howto/add-a-law.md).
 #pragma once
 
 #include <vericone/guidance/guide.h>
@@ -15,7 +16,6 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -26,6 +26,7 @@ struct Scenario;
 struct Run;
 struct RunOptions;
 struct ReachLimits;
+class FlyingPilot;
 class PilotModel;
 
 /// Where an agent wants to go once nothing threatens it. Turning towards it may cost a margin what one step
@@ -100,43 +101,6 @@ struct Pilot {
   Estimator estimator = Estimator::none;
   double estimator_intensity = 0;  // m^2/s^3, of Estimator::state: white acceleration of the bodies minded
   double obstacle_most = 0;        // m/s^2, of Estimator::set_membership: what they can accelerate at most
-};
-
-/// What a pilot is told at the time of a command. Indices are those of the scenario's bodies.
-struct Instant {
-  double t = 0, until = 0;                      // s: now, and until when commands are held
-  double before = -1;                           // s, when commands were given before; negative: never
-  std::uint64_t command = 0;                    // number of the command, from 0
-  std::size_t self = 0;                         // the body that is flown
-  std::span<const guidance::BodyState> bodies;  // now; of bodies that are there()
-  std::span<const Track> tracks;                // until now; after a step until its end
-  const Goal* goal = nullptr;                   // where it may go now; null: nowhere
-  const Vehicle* vehicle = nullptr;             // that carries out what it commands; null: a point mass
-
-  [[nodiscard]] bool there(std::size_t body) const { return tracks[body].appears() <= t; }
-  [[nodiscard]] const guidance::BodyState& own() const { return bodies[self]; }
-};
-
-/// One under way. At every command all pilots look(), then report(), then command() one after the other; when
-/// the bodies have moved all are asked what has happened.
-class FlyingPilot {
- public:
-  virtual ~FlyingPilot() = default;
-  /// What it sees of the bodies: sensors, estimators, laws.
-  virtual void look(const Instant&) {}
-  /// Events that it has seen, into the run.
-  virtual void report(const Instant&, Run&) {}
-  /// `commands`: one a body, all 0. It sets its own and those of its partners.
-  virtual void command(const Instant& now, std::span<VehicleCommand> commands, Run& run) = 0;
-  /// What it saw and commanded, into the run's samples.
-  virtual void log(const Instant&, Run&) {}
-  /// The bodies have moved from `now.t` to `now.until`: what has happened on the way, into the run.
-  virtual void moved(const Instant&, Run&) {}
-
-  /// All that it minds or is to go through lies behind it.
-  [[nodiscard]] virtual bool passed_all() const { return false; }
-  /// It may go to its goal: it knows that this body, or else all that comes first, lies behind it.
-  [[nodiscard]] virtual bool goal_opens(std::optional<std::size_t>) const { return true; }
 };
 
 /// A kind of pilot with its parameters.
