@@ -23,7 +23,6 @@ namespace vericone::simulation {
 
 struct Body;
 struct Scenario;
-struct Run;
 struct RunOptions;
 struct ReachLimits;
 class FlyingPilot;

@@ -11,6 +11,8 @@
 
 namespace vericone::simulation {
 
+struct Run;
+
 /// What a pilot is told at the time of a command. Indices are those of the scenario's bodies.
 struct Instant {
   double t = 0, until = 0;                      // s: now, and until when commands are held
