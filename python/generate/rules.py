@@ -35,7 +35,7 @@ INSTANCES = {
 SKIPPED: dict[str, str] = {name: why for why, names in {
     "a template of C++ for those who write predicates": "climb decided_by",
     "what pilots of C++ are told and are; pilot_by() flies a function of Python":
-        "simulation::Instant simulation::FlyingPilot simulation::PilotModel::launch simulation::PilotModel::check",
+        "simulation::PilotModel::launch simulation::PilotModel::check",
     "refers to the pilot; most_commanded() and guarded() say what it is": "simulation::model_of",
     "counts by tags, which are types of C++; a Python program counts the rungs that it is given": "rung_counts",
     "a pointer; bodies are rigid here": "SpatialMotion::rate_a SpatialMotion::rate_b",

@@ -3,6 +3,7 @@
 // Pilots of one's own: when they are asked, what they are told, and that what they fly is proved.
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/simulation/flying_pilot.h>
 #include <vericone/simulation/run.h>
 #include <cmath>
 #include <limits>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
+#include <vericone/internal/simulation/flying_pilot.h>
 #include <vericone/simulation/run.h>
 #include <vericone/vision/pursuit/pursuit.h>
 #include <Eigen/Geometry>

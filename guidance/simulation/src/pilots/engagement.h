@@ -3,6 +3,7 @@
 // One agent and one of the bodies it minds, through a run.
 #pragma once
 
+#include <vericone/internal/simulation/flying_pilot.h>
 #include <vericone/simulation/run.h>
 
 #include "pilots/observer.h"

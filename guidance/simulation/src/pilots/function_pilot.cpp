@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
-#include <vericone/simulation/pilot.h>
+#include <vericone/internal/simulation/flying_pilot.h>
 #include <utility>
 
 namespace vericone::simulation {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vericone/internal/simulation/flying_pilot.h>
 #include <vericone/simulation/run.h>
 
 namespace vericone::simulation {

@@ -3,6 +3,7 @@
 // Pilots that mind bodies, one engagement each.
 #pragma once
 
+#include <vericone/internal/simulation/flying_pilot.h>
 #include <vericone/simulation/scenario.h>
 
 #include "pilots/engagement.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/internal/simulation/sight.h>
-#include <vericone/simulation/sensor.h>
+#include <vericone/simulation/pilot.h>
 
 #include <vericone/geometry/error.h>
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/internal/simulation/flying_pilot.h>
 #include <vericone/internal/simulation/mesh_track.h>
 #include <vericone/internal/simulation/passed.h>
 #include <vericone/simulation/run.h>

@@ -2,7 +2,7 @@
 #include <vericone/simulation/vehicle.h>
 
 #include <vericone/geometry/error.h>
-#include <vericone/simulation/sensor.h>
+#include <vericone/simulation/pilot.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What flies a body: a law with its parameters as a file has them (Pilot), and the object that answers for it
-// (PilotModel, the one under way a FlyingPilot). A new law is a PilotModel (docs/howto/add-a-law.md).
+// What flies a body and what it measures of others, which move, and are proved, as they truly are: a law with
+// its parameters as a file has them (Pilot), and the object that answers for it (PilotModel; the one under
+// way: internal/simulation/flying_pilot.h). A new law is one (docs/howto/add-a-law.md).
 #pragma once
 
 #include <vericone/guidance/guide.h>
+#include <vericone/guidance/kinematics.h>
 #include <vericone/guidance/orifice_law.h>
-#include <vericone/simulation/sensor.h>
+#include <vericone/guidance/robust_law.h>
 #include <vericone/simulation/track.h>
 #include <vericone/simulation/vehicle.h>
 #include <cstddef>
@@ -15,7 +17,6 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -23,10 +24,71 @@ namespace vericone::simulation {
 
 struct Body;
 struct Scenario;
-struct Run;
 struct RunOptions;
 struct ReachLimits;
+class FlyingPilot;
 class PilotModel;
+
+/// What errors are made of position and velocity, at every command. Shape and attitude are known.
+enum class Noise : std::uint8_t {
+  /// (7.2): of r, V_r and V_theta parts of the true value, of theta, theta_b and psi angles, each times m. Of
+  /// the avoidance law; it acts on the plane that the law looks at.
+  engagement,
+  /// (7.27): along each axis of the world a part of the true relative position and velocity there, times m.
+  /// So
+  /// it depends on the axes, and vanishes where a component is 0.
+  per_axis,
+  isotropic,  // along each axis metres and metres a second, times m
+  bounded,    // uniform in balls of these radii, m and m/s: nothing is ever beyond them
+};
+[[nodiscard]] const char* to_string(Noise noise);
+
+struct Sensor {
+  Noise noise = Noise::isotropic;
+  guidance::EngagementParts engagement;  // of Noise::engagement
+  double position = 0, velocity = 0;     // parts, or m and m/s: of the others
+  double deviation = 1;                  // standard deviation of m; the source has 1/3
+  /// One m for all channels of a measurement, the literal reading of m(t); otherwise each has its own, as the
+  /// source's variances assume.
+  bool shared = false;
+
+  /// All errors times a number.
+  [[nodiscard]] Sensor times(double factor) const;
+};
+
+/// What the law is given of a measured body.
+enum class Estimator : std::uint8_t {
+  none,
+  state,  // ConstantVelocityFilter, told how large the errors usually are
+  /// set_membership.h, told their bounds: for Noise::bounded. The middle of what is possible.
+  set_membership,
+};
+[[nodiscard]] const char* to_string(Estimator estimator);
+
+/// Numbers that depend on what they are for alone: the same for every law, number of threads and order.
+struct Draw {
+  std::uint64_t seed = 0, trial = 0;
+  std::uint64_t pair = 0;  // which agent sees which body
+  std::uint64_t step = 0;  // number of the command
+
+  /// Uniform in (0, 1), and standard normal, dimensionless, of a channel.
+  [[nodiscard]] double uniform(std::uint64_t channel) const;
+  [[nodiscard]] double normal(std::uint64_t channel) const;
+};
+
+/// Position and velocity of a body as measured, and their standard deviations along each axis (m, m/s). Of
+/// Noise::engagement they are the true ones.
+struct Measurement {
+  Eigen::Vector3d position, velocity;
+  Eigen::Vector3d position_deviation = Eigen::Vector3d::Zero(), velocity_deviation = Eigen::Vector3d::Zero();
+};
+
+/// Of B by A, which knows itself. Planar bodies stay in their plane.
+[[nodiscard]] Measurement measure(const Sensor& sensor, const guidance::BodyState& a,
+                                  const guidance::BodyState& b, const Draw& draw);
+
+/// Throws InputError naming "noise", "position", "velocity", "deviation", "r", "theta", ...
+void check(const Sensor& sensor);
 
 /// Where an agent wants to go once nothing threatens it. Turning towards it may cost a margin what one step
 /// turns, before the law is asked again.
@@ -100,43 +162,6 @@ struct Pilot {
   Estimator estimator = Estimator::none;
   double estimator_intensity = 0;  // m^2/s^3, of Estimator::state: white acceleration of the bodies minded
   double obstacle_most = 0;        // m/s^2, of Estimator::set_membership: what they can accelerate at most
-};
-
-/// What a pilot is told at the time of a command. Indices are those of the scenario's bodies.
-struct Instant {
-  double t = 0, until = 0;                      // s: now, and until when commands are held
-  double before = -1;                           // s, when commands were given before; negative: never
-  std::uint64_t command = 0;                    // number of the command, from 0
-  std::size_t self = 0;                         // the body that is flown
-  std::span<const guidance::BodyState> bodies;  // now; of bodies that are there()
-  std::span<const Track> tracks;                // until now; after a step until its end
-  const Goal* goal = nullptr;                   // where it may go now; null: nowhere
-  const Vehicle* vehicle = nullptr;             // that carries out what it commands; null: a point mass
-
-  [[nodiscard]] bool there(std::size_t body) const { return tracks[body].appears() <= t; }
-  [[nodiscard]] const guidance::BodyState& own() const { return bodies[self]; }
-};
-
-/// One under way. At every command all pilots look(), then report(), then command() one after the other; when
-/// the bodies have moved all are asked what has happened.
-class FlyingPilot {
- public:
-  virtual ~FlyingPilot() = default;
-  /// What it sees of the bodies: sensors, estimators, laws.
-  virtual void look(const Instant&) {}
-  /// Events that it has seen, into the run.
-  virtual void report(const Instant&, Run&) {}
-  /// `commands`: one a body, all 0. It sets its own and those of its partners.
-  virtual void command(const Instant& now, std::span<VehicleCommand> commands, Run& run) = 0;
-  /// What it saw and commanded, into the run's samples.
-  virtual void log(const Instant&, Run&) {}
-  /// The bodies have moved from `now.t` to `now.until`: what has happened on the way, into the run.
-  virtual void moved(const Instant&, Run&) {}
-
-  /// All that it minds or is to go through lies behind it.
-  [[nodiscard]] virtual bool passed_all() const { return false; }
-  /// It may go to its goal: it knows that this body, or else all that comes first, lies behind it.
-  [[nodiscard]] virtual bool goal_opens(std::optional<std::size_t>) const { return true; }
 };
 
 /// A kind of pilot with its parameters.

@@ -3,7 +3,7 @@
 // What a law is told of a measurement.
 #pragma once
 
-#include <vericone/simulation/sensor.h>
+#include <vericone/simulation/pilot.h>
 
 namespace vericone::simulation {
 
