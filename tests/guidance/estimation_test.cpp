@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/guidance/estimation/filters.h>
-#include <vericone/guidance/estimation/set_membership.h>
 #include <vericone/guidance/robust_law.h>
 #include <vericone/internal/geometry/decompositions.h>
 #include <vericone/internal/guidance/estimation/constant_rate.h>

@@ -3,8 +3,8 @@
 // Rounding: the true set lies within `corners_` moved by `slack_`. Every step computes new corners with an
 // error of a few units in the last place of the numbers involved, and adds that to the slack. Nothing has to
 // be rounded corner by corner.
+#include <vericone/guidance/estimation/filters.h>
 #include <vericone/internal/geometry/requires.h>
-#include <vericone/guidance/estimation/set_membership.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -127,8 +127,6 @@ def cones(ask: Ask) -> None:
     ask("ErrorSet.sum", 0.1, [np.eye(3)], [[1, 0, 0]])
     planes = ask("PlaneCones", v.WorldBody(BALL), v.WorldBody(LONG), [0, 0, 0], [8, 1, 2], v.SectorMethod.slice)
     along, across = np.array([8, 1, 2]) / 69**0.5, np.array([1, -8, 0]) / 65**0.5
-    each(ask, planes, "tolerance smooth")
-    each(ask, planes, "opening_slope", across)
     each(ask, planes, "on", along, across, [])
 
 
@@ -180,8 +178,7 @@ def words(ask: Ask) -> None:
 
 def bodies(ask: Ask) -> None:
     hull, pose = v.HullBody(CORNERS), v.Pose([6, 1, 0.5])
-    for name in ("Ellipse", "Ellipsoid", "CombinedEllipse", "CombinedEllipsoid", "HullBody", "Body", "WorldBody", "ErrorSet", "Interval", "nadir",
-                 "widest_vectors"):
+    for name in ("Ellipse", "Ellipsoid", "CombinedEllipse", "CombinedEllipsoid", "HullBody", "Body", "WorldBody", "ErrorSet", "Interval", "nadir"):
         ask(name)
     flat, solid = v.WorldBody(FLAT), v.WorldBody(LONG)
     for own, x in ((FLAT, [1, 0.2]), (LONG, [1, 0.2, 0.3]), (STAR, [1, 0.2]), (DENT, [1, 0.2, 0.3])):

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <vericone/guidance/estimation/filters.h>
-#include <vericone/guidance/estimation/set_membership.h>
 #include <vericone/simulation/scenario.h>
 #include <vericone/simulation/track.h>
 #include <optional>

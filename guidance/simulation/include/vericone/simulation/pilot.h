@@ -60,7 +60,7 @@ struct Sensor {
 enum class Estimator : std::uint8_t {
   none,
   state,  // ConstantVelocityFilter, told how large the errors usually are
-  /// set_membership.h, told their bounds: for Noise::bounded. The middle of what is possible.
+  /// SetMembershipFilter, told their bounds: for Noise::bounded. The middle of what is possible.
   set_membership,
 };
 [[nodiscard]] const char* to_string(Estimator estimator);
