@@ -4,6 +4,7 @@
 #include <vericone/files/files.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
+#include <vericone/internal/files/extensions.h>
 #include <vericone/work/staged_folder.h>
 #include <algorithm>
 #include <cmath>

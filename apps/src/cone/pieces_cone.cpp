@@ -3,6 +3,7 @@
 
 #include <vericone/cones/slices/visible_cone.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/slices/visible_sector.h>
 #include <vericone/work/staged_folder.h>
 #include <cmath>
 #include <optional>

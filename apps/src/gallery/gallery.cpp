@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/files/files.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/files/extensions.h>
 #include <vericone/work/staged_folder.h>
 #include <algorithm>
 #include <cmath>

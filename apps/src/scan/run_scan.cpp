@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scan/run_scan.h"
 
+#include <vericone/internal/scanning/picture.h>
 #include <vericone/scanning/study.h>
 #include <vericone/work/staged_folder.h>
 #include <cmath>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
 #include <vericone/internal/simulation/montecarlo/flight.h>
+#include <vericone/internal/simulation/trials.h>
+#include <vericone/simulation/montecarlo/campaign.h>
 #include <vericone/simulation/run_tables.h>
 #include <vericone/simulation/trials.h>
 #include <vericone/work/staged_folder.h>
