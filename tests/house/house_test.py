@@ -6,30 +6,40 @@ import os
 import re
 import sys
 import unittest
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 ROOT = Path(os.environ.get("VERICONE_SOURCE", Path(__file__).resolve().parents[2]))
 SOURCES = ("geometry", "cones", "guidance", "scenes", "vision", "verify", "apps", "papers", "benchmarks", "python", "tests")
 
-# Libraries, and within them folders, each of which may include itself and what stands before it.
-LIBRARIES = ["geometry", "files", "octomap", "fitting", "lidar", "cones", "guidance", "simulation", "vehicles", "scenes", "work", "scenarios", "fits", "scanning", "vision", "vision/scene", "vision/footage", "vision/pursuit", "verify"]
-BESIDE = {("fitting", "octomap"), ("fitting", "files"), ("fitting", "lidar"), ("lidar", "octomap"), ("lidar", "fitting"),
-          ("cones", "files"), ("cones", "octomap"), ("cones", "fitting"), ("cones", "lidar"),
-          ("guidance", "files"), ("guidance", "octomap"), ("guidance", "fitting"), ("guidance", "lidar"),
-          ("simulation", "files"), ("simulation", "octomap"), ("simulation", "fitting"), ("simulation", "lidar"),
-          ("vehicles", "files"), ("vehicles", "octomap"), ("vehicles", "fitting"), ("vehicles", "lidar"), ("verify", "vehicles"),
-          ("scenes", "vehicles"),
-          ("verify", "octomap"), ("verify", "fitting"), ("verify", "lidar"), ("verify", "guidance"),
-          ("verify", "simulation"), ("verify", "scenes"), ("verify", "scenarios"), ("scenes", "guidance"),
-          ("fits", "simulation"), ("fits", "scenarios"), ("fits", "lidar"), ("verify", "fits"), ("verify", "scanning"), ("scanning", "fits"), ("scanning", "scenarios"), ("scanning", "simulation"), ("scanning", "fitting"), ("scenes", "simulation"), ("scenes", "fitting"), ("scenes", "lidar"), ("scenarios", "fitting"), ("scenarios", "lidar"), ("octomap", "fitting"), ("octomap", "lidar")}
-# The tracker knows geometry alone; pictures and files nothing of guidance.
-BESIDE |= {(own, other) for own in ("vision", "vision/scene", "vision/footage")
-           for other in LIBRARIES[1:LIBRARIES.index("vision")]}
-BESIDE |= {("vision/footage", "vision/scene")} | {("verify", other) for other in LIBRARIES if other.startswith("vision")}
-BESIDE |= {("vision/pursuit", other) for other in ("files", "octomap", "fitting", "lidar", "scenes", "scenarios", "fits", "scanning")}
+# What each library may include, beside itself.
+MAY_INCLUDE = {
+    "geometry": (),
+    "files": ("geometry",),
+    "octomap": ("geometry",),
+    "fitting": ("geometry",),
+    "lidar": ("geometry",),
+    "cones": ("geometry",),
+    "guidance": ("geometry", "cones"),
+    "simulation": ("geometry", "cones", "guidance"),
+    "vehicles": ("geometry", "simulation"),
+    "scenes": ("geometry", "files", "octomap", "cones"),
+    "work": ("geometry", "scenes"),
+    "scenarios": ("geometry", "files", "cones", "guidance", "simulation", "vehicles", "scenes"),
+    "fits": ("geometry", "files", "fitting"),
+    "scanning": ("geometry", "lidar", "cones", "scenes"),
+    "vision": ("geometry",),
+    "vision/scene": ("geometry", "vision"),
+    "vision/footage": ("geometry", "vision"),
+    "vision/pursuit": ("geometry", "cones", "guidance", "simulation", "vehicles", "vision", "vision/scene"),
+    "verify": ("geometry", "cones"),
+}
+# Of cones: each folder may include itself and what stands before it.
 FAMILIES = ["", "answers", "ellipsoids", "planar", "combined", "hulls", "opening", "times", "assembly", "composite",
             "slices", "map", "pairs", "uncertain"]
+LIBRARY_FOLDERS = ("geometry", "cones", "guidance", "scenes", "vision", "verify")
 MOST_FILES = 25
+
 
 def library_of(path):
     parts = path.relative_to(ROOT).parts
@@ -44,6 +54,12 @@ def library_of(path):
     if parts[0] == "vision" and parts[1] in ("scene", "footage", "pursuit"):
         return "vision/" + parts[1]
     return parts[0]
+
+
+def folder_of(path):
+    """The folder of a library's sources, "" of what stands beside them."""
+    parts = path.relative_to(ROOT).parts[:-1]
+    return "/".join(parts) if "src" in parts and parts[-1] != "src" else ""
 
 
 def sources(*folders):
@@ -63,27 +79,39 @@ def public_headers():
             for path in (ROOT / folder).rglob("include/**/*.h")}
 
 
-def library_named(include):
+def words_of(include):
     """Of a header of ours, the names of its library and of the folders below: mechanism (internal/) stands beside the rest."""
     return [part for part in include.split("/") if part != "internal"]
 
 
 class House(unittest.TestCase):
-    def test_libraries_include_only_those_below(self):
+    def test_libraries_include_only_what_the_table_says(self):
         wrong = []
-        for path in sources("geometry", "cones", "guidance", "scenes", "vision", "verify"):
+        for path in sources(*LIBRARY_FOLDERS):
             own = library_of(path)
             for name in includes(path):
-                parts = library_named(name)
-                if parts[:2] == ["vericone", "vision"] and parts[2] in ("scene", "footage", "pursuit"):
-                    parts[1] = "vision/" + parts[2]
-                if parts[0] in ("apps", "papers", "benchmarks", "python"):
-                    wrong.append(f"{path}: {name}")
-                if parts[0] != "vericone" or parts[1] not in LIBRARIES:
-                    continue
-                if LIBRARIES.index(parts[1]) > LIBRARIES.index(own) or (own, parts[1]) in BESIDE:
+                parts = words_of(name)
+                other = "/".join(parts[1:3]) if "/".join(parts[1:3]) in MAY_INCLUDE else parts[1] if len(parts) > 1 else ""
+                if parts[0] in ("apps", "papers", "benchmarks", "python") or (
+                        parts[0] == "vericone" and other in MAY_INCLUDE and other not in (own, *MAY_INCLUDE[own])):
                     wrong.append(f"{path.relative_to(ROOT)}: {name}")
         self.assertEqual(wrong, [])
+
+    def test_folders_of_sources_have_no_circles(self):
+        """Files that stand beside the folders of a library, its face or its ground, are left out."""
+        for top in ("geometry", "cones", "guidance", "scenes", "vision", "verify", "apps"):
+            below = {}
+            for path in sources(top):
+                own = folder_of(path)
+                for name in re.findall(r'^#include "([^"]+)"', path.read_text(encoding="utf-8"), re.MULTILINE):
+                    other = next((folder_of(base / name) for base in path.parents if (base / name).is_file()), None)
+                    if own and other and own != other:
+                        below.setdefault(own, set()).add(other)
+            with self.subTest(top):
+                try:
+                    TopologicalSorter(below).prepare()
+                except CycleError as circle:
+                    self.fail(" -> ".join(circle.args[1]))
 
     def test_families_of_cones_include_only_those_below(self):
         wrong = []
@@ -132,21 +160,6 @@ class House(unittest.TestCase):
                     wrong.append(f"{path.relative_to(ROOT)}: {name}")
         self.assertEqual(wrong, [])
 
-    def test_folders_of_apps_include_in_no_circle(self):
-        top, below = ROOT / "apps/src", {}
-        for path in sources("apps/src"):
-            own = path.relative_to(top).parts[0]
-            folders = (name.split("/")[0] for name in includes(path) if "/" in name)
-            below.setdefault(own, set()).update(other for other in folders if other != own and (top / other).is_dir())
-
-        def circle(folder, on_the_way):
-            if folder in on_the_way:
-                return [*on_the_way[on_the_way.index(folder):], folder]
-            return next(filter(None, (circle(other, [*on_the_way, folder]) for other in sorted(below.get(folder, ())))), [])
-
-        for folder in sorted(below):
-            self.assertEqual(circle(folder, []), [])
-
     def test_folders_are_small_enough_to_read(self):
         large = []
         for top in SOURCES:
@@ -156,14 +169,21 @@ class House(unittest.TestCase):
                     large.append(f"{Path(folder).relative_to(ROOT)}: {count}")
         self.assertEqual(large, [])
 
-    def test_kinds_of_bodies_are_asked_for_in_three_folders(self):
-        """geometry/src (what a body is), cones/src/pairs (who serves a pair), scenes/input (who reads).
-
-        No other variant is asked for its kind in these folders either, so that no pattern has to guess what a body is."""
-        allowed = ("geometry/src/", "cones/src/pairs/", "scenes/input/")
-        asks = re.compile(r"\bstd::(visit|get_if|holds_alternative)\b|\bstd::get<[A-Z]|[=!]= BodyKind::")
-        wrong = [str(path.relative_to(ROOT)) for path in sources("geometry", "cones", "guidance", "scenes", "apps", "papers")
-                 if not str(path.relative_to(ROOT)).startswith(allowed) and asks.search(path.read_text(encoding="utf-8"))]
+    def test_kinds_of_two_bodies_are_asked_for_where_pairs_are_chosen(self):
+        """Who serves a pair is known in cones/src/pairs alone: elsewhere no condition asks two bodies for their kinds, but
+        where every answer is right and one is sharper; and no switch is on the kind of a body, but in geometry (what a body
+        is) and where bodies are read and written."""
+        sharper = ("guidance/simulation/src/proof/", "guidance/src/clearance_law.cpp", "apps/src/cone/cone.cpp")
+        kind = r"(\w+(?:\.\w+)*)\s*(?:\.|->)\s*(?:quadric|quadrics|hull|placed|flat|assembly|delimited)\(\)"
+        two = re.compile(r"!?" + kind + r"\s*(?:&&|\|\|)\s*\(?!?" + kind)
+        one = re.compile(r"[=!]= BodyKind::|case BodyKind::")
+        wrong = []
+        for path in sources("geometry", "cones", "guidance", "scenes", "vision", "apps"):
+            name, text = str(path.relative_to(ROOT)), path.read_text(encoding="utf-8")
+            if not name.startswith(("cones/src/pairs/", *sharper)):
+                wrong += [f"{name}: {found[0]}" for found in two.finditer(text) if found[1] != found[2]]
+            if one.search(text) and not name.startswith(("cones/src/pairs/", "cones/testing/", "geometry/", "scenes/")):
+                wrong.append(f"{name}: BodyKind::")
         self.assertEqual(wrong, [])
 
     def test_papers_hold_no_programs_to_compile(self):
