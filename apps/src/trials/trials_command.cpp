@@ -2,6 +2,7 @@
 #include <vericone/geometry/error.h>
 #include <vericone/internal/simulation/montecarlo/flight.h>
 #include <vericone/internal/simulation/trials.h>
+#include <vericone/simulation/montecarlo/campaign.h>
 #include <vericone/simulation/run_tables.h>
 #include <vericone/simulation/trials.h>
 #include <vericone/work/staged_folder.h>
