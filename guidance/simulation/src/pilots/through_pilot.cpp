@@ -216,12 +216,12 @@ class ThroughPilot : public PilotModel {
   }
   std::vector<std::string> orifices() const override { return through_.orifices; }
 
-  ReachLimits limits(const Body& self, double step) const override {
+  ReachLimits limits(const Body& body, double step) const override {
     ReachLimits limits;
     const bool turns_only = through_.law == Through::Law::passage && !through_.passage.longitudinal;
     double most = this->most();
     if (pilot_.goal) most = std::max(most, pilot_.goal->most);
-    double slowest = self.start.velocity.norm(), fastest = slowest;
+    double slowest = body.start.velocity.norm(), fastest = slowest;
     for (const double speed : through_.speeds) {
       slowest = std::min(slowest, speed);
       fastest = std::max(fastest, speed);

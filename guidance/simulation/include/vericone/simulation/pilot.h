@@ -179,7 +179,7 @@ class PilotModel {
   /// What it commands at most, m/s^2; infinite where it has no limit.
   [[nodiscard]] virtual double most() const { return std::numeric_limits<double>::infinity(); }
   /// What no motion exceeds of a point mass that it flies, commanded every `step` s.
-  [[nodiscard]] virtual ReachLimits limits(const Body& self, double step) const;
+  [[nodiscard]] virtual ReachLimits limits(const Body& body, double step) const;
   /// Metres that it is to keep from another body, by name.
   [[nodiscard]] virtual double required(const std::string& /*other*/) const { return 0; }
   /// Names of the orifices that it is to go through, in this order.
