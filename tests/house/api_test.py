@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """The stable interface, api.txt: what the public headers declare. Whoever takes a name away or changes one does so here
-too (`tests/house/api_test.py --write`), and says so in the CHANGELOG. Mechanism (include/vericone/internal) is none of
+too (`tests/house/api_test.py write`), and says so in the CHANGELOG. Mechanism (include/vericone/internal) is none of
 it."""
 
 import re
@@ -74,7 +74,7 @@ class Interface(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    if "--write" in sys.argv:
+    if "write" in sys.argv:
         LIST.write_text(listed(), encoding="utf-8")
     else:
         sys.exit(unittest.main())

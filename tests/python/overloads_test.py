@@ -21,6 +21,6 @@ def test_every_overload_answers() -> None:
     report: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
     print("\n".join(report["examples_failed"] + report["missing"]))
     # Those of what has no other part than the core alone.
-    assert report["overloads"] > 800
+    assert report["overloads"] > 600
     assert report["examples_failed"] == []
     assert report["missing"] == []

@@ -272,7 +272,7 @@ def questions(ask: Ask) -> None:
     hull, w, still = v.HullBody(CORNERS), [1, 0.1, 0.2], [0, 0, 0]
     oracle = ask("ConeOracle", BALL, LONG)
     ask("SectorOracle", DISC, FLAT)
-    each(ask, oracle, "passage", w)
+    each(ask, oracle, "naive_membership passage", w)
     for name in ("sector_by_support", "sector_by_degenerate_conics"):
         ask(name, DISC, FLAT)
     for name in ("clearance", "contact_time", "enclose_clearance"):
