@@ -7,12 +7,13 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.patches import Arc, Patch, Wedge
+from numpy.typing import NDArray
 
 from . import course as courses
 from .style import AGENT, EXACT, GREY, OBSTACLE, ONE_COLUMN
 
 
-def view(seen: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+def view(seen: list[NDArray[Any]]) -> tuple[NDArray[Any], NDArray[Any]]:
     """Corners of what the picture shows: at most one and a half times as high as wide, and no flatter than a third."""
     everything = np.vstack(seen)
     low, high = everything.min(axis=0), everything.max(axis=0)
@@ -23,7 +24,7 @@ def view(seen: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
     return low - grow, high + grow
 
 
-def draw_gap(axes: plt.Axes, course: dict[str, Any], width: float, around: list[np.ndarray]) -> None:
+def draw_gap(axes: plt.Axes, course: dict[str, Any], width: float, around: list[NDArray[Any]]) -> None:
     """Where the bodies are nearest, with the distance; `around`: what it should not cover."""
     gap = np.array([course["nearest_on_agent"], course["nearest_on_obstacle"]])
     axes.plot(*gap.T, color="k", linewidth=1.2, marker="o", markersize=2.2, zorder=7)

@@ -81,6 +81,10 @@ std::vector<Triangle> triangles_of(const std::vector<Eigen::Vector3d>& points,
   std::vector<Triangle> triangles;
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const Face& f = faces[i];
+    for (std::size_t k = 0; k < f.size(); ++k)
+      if (f[k] >= points.size() || !points[f[k]].allFinite())
+        throw InputError("faces[" + std::to_string(i) + "][" + std::to_string(k) + "]", std::to_string(f[k]),
+                         "the number of a finite point, below " + std::to_string(points.size()));
     const std::size_t before = triangles.size();
     for (std::size_t k = 2; k < f.size(); ++k) triangles.push_back({f[0], f[k - 1], f[k]});
     if (f.size() <= 3) continue;

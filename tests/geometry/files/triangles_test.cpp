@@ -6,6 +6,7 @@
 #include <vericone/geometry/error.h>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "support/random.h"
@@ -124,6 +125,17 @@ TEST(Triangles, OfSlotsCombsSpiralsAndHoles) {
                      << shape.size() << " corners from " << turned << (back ? ", back" : ""));
         expect_cut(random, p, turned % 4);
       }
+}
+
+TEST(Triangles, CornersThatAreNoPointsAreRefused) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<Eigen::Vector3d> points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, nan, 0}};
+  for (const Face& face : {Face{0, 1, 2, 4}, Face{0, 1, 4}, Face{0, 1, 2, 3}}) try {
+      (void)triangles_of(points, {{0, 1, 2}, face});
+      ADD_FAILURE() << "no error";
+    } catch (const InputError& e) {
+      EXPECT_EQ(e.field(), face.size() == 3 ? "faces[1][2]" : "faces[1][3]");
+    }
 }
 
 TEST(Triangles, StayFansWhereThatIsTheFace) {
