@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/internal/cones/random_engagement.h>
+#include <vericone/internal/geometry/mixed.h>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
@@ -14,11 +15,9 @@ Random::Random(std::uint64_t seed, std::uint64_t index)
 }
 
 std::uint64_t Random::next() {
-  // splitmix64 (Steele, Lea, Flood 2014)
-  std::uint64_t z = (state_ += 0x9e3779b97f4a7c15);
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-  return z ^ (z >> 31);
+  const std::uint64_t z = detail::mixed(state_);
+  state_ += 0x9e3779b97f4a7c15;
+  return z;
 }
 
 double Random::uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
+#include <vericone/internal/geometry/mixed.h>
 #include <vericone/lidar/lidar.h>
 
 #include <algorithm>
@@ -13,15 +14,8 @@
 namespace vericone::lidar {
 namespace {
 
+using detail::mixed;
 using Eigen::Vector3d;
-
-/// SplitMix64's finaliser (Steele, Lea, Flood, OOPSLA 2014): a good hash of a counter.
-std::uint64_t mixed(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-  return x ^ (x >> 31);
-}
 
 /// Random numbers of one beam: a function of seed, beam and how many were drawn.
 class BeamNumbers {

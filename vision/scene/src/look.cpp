@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "look.h"
 
+#include <vericone/internal/geometry/mixed.h>
 #include <array>
 
 namespace vericone::vision {
 
 std::uint64_t mixed(std::uint64_t seed, std::uint64_t k) {
-  // Steele's splitmix64.
-  std::uint64_t z = seed * 0x9e3779b97f4a7c15u + (k + 1) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
+  return detail::mixed(seed * 0x9e3779b97f4a7c15u + (k + 1) * 0xbf58476d1ce4e5b9u - 0x9e3779b97f4a7c15u);
 }
 
 Look::Look(std::uint32_t seed) : texels_(kAlong * kAcross) {

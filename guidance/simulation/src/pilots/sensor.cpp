@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/internal/geometry/mixed.h>
 #include <vericone/internal/simulation/sight.h>
 #include <vericone/simulation/pilot.h>
 
@@ -11,15 +12,8 @@
 namespace vericone::simulation {
 namespace {
 
+using detail::mixed;
 using Eigen::Vector3d;
-
-/// The finaliser of SplitMix64 (Steele, Lea, Flood 2014): every bit of the result depends on every bit of x.
-std::uint64_t mixed(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-  return x ^ (x >> 31);
-}
 
 // Channels of a measurement. A shared m is that of the first of all.
 constexpr std::uint64_t kShared = 0, kPosition = 1, kVelocity = 4, kEngagement = 7, kBall = 16;
