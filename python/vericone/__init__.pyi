@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 from vericone import (
-    engagements as engagements,
     exact as exact,
     files as files,
     fits as fits,
@@ -16,6 +15,7 @@ from vericone import (
     simulation as simulation,
     vehicles as vehicles,
     vision as vision,
+    work as work,
 )
 from vericone._errors import InputError as InputError
 from vericone._many import Many as Many, many as many

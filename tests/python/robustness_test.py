@@ -30,7 +30,7 @@ def called(tmp_path: Path, calls: int, seed: int, timeout: int, *more: str) -> d
     return report
 
 
-SPACES = ["", "engagements.", "exact.", "files.", "fits.", "fitting.", "guidance.", "lidar.", "montecarlo.", "octomap.", "scanning.", "scenario.",
+SPACES = ["", "exact.", "files.", "fits.", "fitting.", "guidance.", "lidar.", "montecarlo.", "octomap.", "scanning.", "scenario.",
           "scenes.", "simulation.", "vehicles.", "vision."]
 
 
