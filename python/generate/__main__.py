@@ -44,8 +44,14 @@ def main() -> None:
         count = int(parts) if module == "_core" else 1
         for name, text in emit.Emitter(model, module, required).sources(count).items():
             write(os.path.join(out, "src", name), text)
-    for name, text in stubs.package(model).items():
+    package = stubs.package(model)
+    for name, text in package.items():
         write(os.path.join(out, name), text)
+    for old in os.listdir(os.path.join(out, "package")):  # of namespaces that are gone, as written and as copied
+        if f"package/{old}" not in package:
+            for folder in ("package", "vericone"):
+                if os.path.exists(os.path.join(out, folder, old)):
+                    os.remove(os.path.join(out, folder, old))
     own = [vars(n) for n in model.names if not n.cpp.startswith("verify::")]
     write(os.path.join(out, "names.json"), json.dumps(own, indent=1))
     write(os.path.join(out, "overloads.json"), json.dumps(model.overloads(), indent=1))
