@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/internal/geometry/requires.h>
 #include <vericone/geometry/assembly.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/geometry/requires.h>
 #include <cmath>
 #include <string>
 

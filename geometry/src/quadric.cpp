@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/internal/geometry/requires.h>
 #include <vericone/geometry/quadric.h>
+#include <vericone/internal/geometry/requires.h>
 
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/exact/rational.h>

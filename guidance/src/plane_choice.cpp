@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/internal/geometry/requires.h>
 #include <vericone/guidance/plane_view.h>
+#include <vericone/internal/geometry/requires.h>
 
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/cones/ellipsoids/clearance.h>
@@ -246,7 +246,8 @@ std::vector<PlaneCandidate> all_planes(const BodyState& a, const BodyState& b, S
 std::optional<Vector3d> choose_plane(const BodyState& a, const BodyState& b, SectorMethod method,
                                      const PlaneOptions& options, const Vector3d* previous,
                                      EdgeMemory* memory) {
-  VERICONE_REQUIRES(options.planes >= 1 && options.planes <= 10'000, "options.planes", "others", "from 1 to 10000");
+  VERICONE_REQUIRES(options.planes >= 1 && options.planes <= 10'000, "options.planes", "others",
+                    "from 1 to 10000");
   if (a.position == b.position) return std::nullopt;
   const AxisFrame frame(b.position - a.position);
   const Vector3d& u = frame.axis;

@@ -176,10 +176,10 @@ bool fill_cone(PlaneView& view, const BodyState& a, const BodyState& b, SectorMe
 std::optional<PlaneView> plane_view(const BodyState& a, const BodyState& b, const Vector3d& across,
                                     SectorMethod method, RateMethod rates, double plane_spin,
                                     EdgeMemory* memory) {
-  VERICONE_REQUIRES(
-      across.allFinite() && (a.position == b.position || (a.planar() && b.planar()) ||
-                             !(b.position - a.position).cross(across).isZero(0)),
-      "across", "bodies in one place, or a direction along their line", "across the line between bodies apart");
+  VERICONE_REQUIRES(across.allFinite() && (a.position == b.position || (a.planar() && b.planar()) ||
+                                           !(b.position - a.position).cross(across).isZero(0)),
+                    "across", "bodies in one place, or a direction along their line",
+                    "across the line between bodies apart");
   if (a.position == b.position) return std::nullopt;
   PlaneView view = plane_states(a, b, across, plane_spin);
   if (!fill_cone(view, a, b, method, rates, memory)) return std::nullopt;

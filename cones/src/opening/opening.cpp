@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/internal/geometry/requires.h>
 #include <vericone/cones/opening/opening.h>
 #include <vericone/internal/cones/opening/placed.h>
+#include <vericone/internal/geometry/requires.h>
 
 #include <vericone/geometry/error.h>
 #include <vericone/internal/geometry/exact/integer.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/internal/geometry/requires.h>
 #include <vericone/files/files.h>
 #include <vericone/internal/geometry/exact/integer.h>
+#include <vericone/internal/geometry/requires.h>
 #include <vericone/internal/geometry/tracked.h>
 
 #include <cmath>
@@ -85,7 +85,8 @@ bool exact_collinear(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const E
 }  // namespace
 
 bool are_collinear(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-  VERICONE_REQUIRES(a.allFinite() && b.allFinite() && c.allFinite(), "a, b, c", "a number that is not finite", "finite");
+  VERICONE_REQUIRES(a.allFinite() && b.allFinite() && c.allFinite(), "a, b, c", "a number that is not finite",
+                    "finite");
   if (a == b || b == c || c == a) return true;
   if (const auto answer = triage_collinear(a, b, c)) return *answer;
   if (const auto answer = pair_collinear(a, b, c)) return *answer;

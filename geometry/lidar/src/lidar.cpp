@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <vericone/internal/geometry/requires.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/geometry/requires.h>
 #include <vericone/lidar/lidar.h>
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 // Ellipses and ellipsoids, the convex quadric bodies.
 #pragma once
 
-#include <vericone/internal/geometry/alignment.h>
 #include <vericone/geometry/sound_arithmetic.h>
+#include <vericone/internal/geometry/alignment.h>
 #include <Eigen/Core>
 
 namespace vericone {

@@ -7,8 +7,8 @@
 #pragma once
 
 #include <vericone/geometry/sign.h>
-#include <vericone/internal/geometry/requires.h>
 #include <vericone/geometry/sound_arithmetic.h>
+#include <vericone/internal/geometry/requires.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -21,7 +21,8 @@ Share share_of(std::uint64_t successes, std::uint64_t trials, double confidence)
 }
 
 Paired paired(std::span<const bool> first, std::span<const bool> second) {
-  VERICONE_REQUIRES(first.size() == second.size(), "second", "another number of them", "as many as first has");
+  VERICONE_REQUIRES(first.size() == second.size(), "second", "another number of them",
+                    "as many as first has");
   Paired result;
   for (std::size_t i = 0; i < std::min(first.size(), second.size()); ++i) {
     result.first_alone += first[i] && !second[i];

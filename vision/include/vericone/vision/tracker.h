@@ -21,8 +21,8 @@ struct Image {
 
   Image() = default;
   Image(int w, int h, int c) : width(w), height(h), channels(c), data(std::size_t(w) * h * c) {
-    VERICONE_REQUIRES(w > 0 && h > 0 && (c == 1 || c == 3) && double(w) * h < 1e9, "size", "no size of a picture",
-                      "w x h pixels of 1 or 3 channels");
+    VERICONE_REQUIRES(w > 0 && h > 0 && (c == 1 || c == 3) && double(w) * h < 1e9, "size",
+                      "no size of a picture", "w x h pixels of 1 or 3 channels");
   }
   [[nodiscard]] bool empty() const { return data.empty(); }
 };

@@ -71,8 +71,8 @@ struct Separation {
 
 /// m(w) of clearance.h, metres: below by the value at one normal that is exactly perpendicular to w; above,
 /// where the shadows are apart, by the distance of two of their points, and where they overlap by a branch
-/// and bound over all normals. Median width for bodies of 1 to 10 m: 1e-13 m where m > 0, 3e-11 m where m < 0;
-/// up to 1e-3 m where all normals are equally good (spheres hit head on). Cost: 1.5 us where m > 0, 75 us
+/// and bound over all normals. Median width for bodies of 1 to 10 m: 1e-13 m where m > 0, 3e-11 m where m <
+/// 0; up to 1e-3 m where all normals are equally good (spheres hit head on). Cost: 1.5 us where m > 0, 75 us
 /// where m < 0. Throws InputError naming "relative_velocity" where w is zero or not finite. The interval is
 /// infinite where lengths leave the range 1e-140 to 1e140.
 [[nodiscard]] Interval enclose_clearance(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& w);

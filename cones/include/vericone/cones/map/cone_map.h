@@ -3,8 +3,8 @@
 // Cones of any shape, holes included, as a map on the sphere of directions (docs/explanation/cone-map.md).
 #pragma once
 
-#include <vericone/internal/geometry/requires.h>
 #include <vericone/internal/cones/direction_cell.h>
+#include <vericone/internal/geometry/requires.h>
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -45,8 +45,9 @@ struct ConeMap {
 
   [[nodiscard]] DirectionCell cell(std::size_t i) const {
     VERICONE_REQUIRES(
-        i < cells.size() && std::ranges::all_of(cells[i].corners, [&](auto k) { return k < corners.size(); }), "i",
-        "no such cell, or corners that the map does not have", "a cell of a map as cone_map() returns it");
+        i < cells.size() && std::ranges::all_of(cells[i].corners, [&](auto k) { return k < corners.size(); }),
+        "i", "no such cell, or corners that the map does not have",
+        "a cell of a map as cone_map() returns it");
     const auto& c = cells[i].corners;
     return {corners[c[0]], corners[c[1]], corners[c[2]]};
   }

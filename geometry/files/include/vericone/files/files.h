@@ -66,7 +66,8 @@ struct PointFile {
 /// which it looks largest: it becomes the fan about its first corner where all of that turns the same way
 /// (convex polygons), else its ears are cut one by one, both decided exactly. So a flat polygon is itself; of
 /// one that is not flat this choice is made. Throws InputError naming "faces[i]" for one that crosses itself,
-/// "faces[i][k]" for a corner that is no finite point. Quadratic in the number of corners of a dented polygon.
+/// "faces[i][k]" for a corner that is no finite point. Quadratic in the number of corners of a dented
+/// polygon.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangles_of(
     const std::vector<Eigen::Vector3d>& points, const std::vector<Face>& faces);
 

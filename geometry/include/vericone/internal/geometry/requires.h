@@ -2,9 +2,9 @@
 //
 // What a function asks of its caller with "Requires ..." in its comment, checked where assertions are: in the
 // presets dev and asan-ubsan, and wherever else NDEBUG is not defined. In release it costs nothing. What
-// comes from users is never left to this: it throws InputError (error.h). Of what Python can call, a requirement
-// says what breaks it too: VERICONE_REQUIRES(i < size(), "i", "no such piece", "below size()"); the binding reads
-// that (python/generate/requirements.py) and refuses by the same words.
+// comes from users is never left to this: it throws InputError (error.h). Of what Python can call, a
+// requirement says what breaks it too: VERICONE_REQUIRES(i < size(), "i", "no such piece", "below size()");
+// the binding reads that (python/generate/requirements.py) and refuses by the same words.
 #pragma once
 
 namespace vericone::detail {

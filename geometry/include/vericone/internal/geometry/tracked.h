@@ -60,7 +60,9 @@ struct Tracked {
   }
   friend Tracked operator-(Tracked x, Tracked y) { return x + (-y); }
   friend Tracked operator*(Tracked x, Tracked y) { return {x.pair * y.pair}; }
-  friend Tracked operator*(Tracked x, std::same_as<int> auto factor) { return {x.pair * static_cast<double>(factor)}; }
+  friend Tracked operator*(Tracked x, std::same_as<int> auto factor) {
+    return {x.pair * static_cast<double>(factor)};
+  }
 
   /// 1 or -1 where the exact value certainly is positive or negative, else 0 for uncertain. `underflow`: an
   /// absolute bound of what all products that left the normal numbers may have lost together.
