@@ -123,7 +123,6 @@ struct OrificeFile : simulation::MovingOrifice {
 
 const Fields<OrificeFile>& orifice_fields() {
   using O = OrificeFile;
-  const Json vector2{{"$ref", "body.schema.json#/$defs/vector2"}};
   const auto opening = [](const Json& v, const std::string& p, O& o) { read_opening(v, p, o.folder, o); };
   static const Fields<O> fields =
       Fields<O>("orifice")
