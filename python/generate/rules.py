@@ -39,6 +39,8 @@ SKIPPED: dict[str, str] = {name: why for why, names in {
     "refers to the pilot; most_commanded() and guarded() say what it is": "simulation::model_of",
     "counts by tags, which are types of C++; a Python program counts the rungs that it is given": "rung_counts",
     "a pointer; bodies are rigid here": "SpatialMotion::rate_a SpatialMotion::rate_b",
+    "messages of Python programs are read by who has them":
+        "guidance::vector_of guidance::pose_of guidance::state_of guidance::write_vector",
     "takes pointers; reach() asks it for a scenario": "simulation::earliest_passages",
     "Ctrl-C and progress= end long work in Python": "Stop StopScope stop_of_this_thread stop_requested checkpoint",
     "KeyboardInterrupt stands for it": "Interrupted",

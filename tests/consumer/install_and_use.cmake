@@ -21,9 +21,9 @@ foreach(page README.md docs/reference/formats.md docs/reference/conventions.md d
   endif()
 endforeach()
 
-file(GLOB examples RELATIVE ${ROOT}/examples ${ROOT}/examples/*.cpp)
+file(GLOB examples RELATIVE ${ROOT}/examples ${ROOT}/examples/*.cpp ${ROOT}/examples/*.c)
 foreach(example IN LISTS examples)
-  string(REPLACE .cpp "" example ${example})
+  string(REGEX REPLACE "\\.c(pp)?$" "" example ${example})
   set(arguments "")
   if(example STREQUAL own_mesh)
     set(arguments ${ROOT}/docs/examples/window.obj)

@@ -10,7 +10,7 @@ from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 ROOT = Path(os.environ.get("VERICONE_SOURCE", Path(__file__).resolve().parents[2]))
-SOURCES = ("geometry", "cones", "guidance", "scenes", "vision", "verify", "apps", "papers", "benchmarks", "python", "tests")
+SOURCES = ("geometry", "cones", "guidance", "c", "scenes", "vision", "verify", "apps", "papers", "benchmarks", "python", "tests")
 
 # What each library may include, beside itself.
 MAY_INCLUDE = {
@@ -21,6 +21,7 @@ MAY_INCLUDE = {
     "lidar": ("geometry",),
     "cones": ("geometry",),
     "guidance": ("geometry", "cones"),
+    "c": ("geometry", "cones", "guidance"),
     "simulation": ("geometry", "cones", "guidance"),
     "vehicles": ("geometry", "simulation"),
     "scenes": ("geometry", "files", "octomap", "cones"),
@@ -37,7 +38,7 @@ MAY_INCLUDE = {
 # Of cones: each folder may include itself and what stands before it.
 FAMILIES = ["", "answers", "ellipsoids", "planar", "combined", "hulls", "opening", "times", "assembly", "composite",
             "slices", "map", "pairs", "uncertain"]
-LIBRARY_FOLDERS = ("geometry", "cones", "guidance", "scenes", "vision", "verify")
+LIBRARY_FOLDERS = ("geometry", "cones", "guidance", "c", "scenes", "vision", "verify")
 MOST_FILES = 25
 
 

@@ -1,0 +1,249 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * The core of vericone for C, and for all languages that can call it: bodies, pairs, cones, a navigator.
+ *
+ * Lengths in metres, times in seconds, angles in radians, right-handed axes. A vector is three doubles; a
+ * rotation is nine, row by row, and takes the body's axes to the world's; NULL: not turned.
+ *
+ * What makes an object returns it, or NULL; all else returns its answer, 0 or more, or an error below 0.
+ * After an error vericone_error() says which, in one line. Nothing throws, nothing ends the program. Objects
+ * but navigators never change: several threads may use one at a time. Each is released by the function named
+ * *_free, which takes NULL too; a pair keeps what it needs of its bodies. Outputs may be NULL where they are
+ * not wanted.
+ *
+ * Structs and numbers stay as they are for as long as the library is libvericone_c.so.1. */
+#ifndef VERICONE_C_H
+#define VERICONE_C_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__GNUC__)
+#define VERICONE_API __attribute__((visibility("default")))
+#else
+#define VERICONE_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Errors ---- */
+
+enum vericone_status {
+  VERICONE_OK = 0,
+  VERICONE_BAD_INPUT = -1, /* vericone_error(): "FIELD: got VALUE, must be REQUIREMENT" */
+  VERICONE_NO_MEMORY = -2,
+  VERICONE_FAILED = -3 /* a defect of the library */
+};
+
+/* The last error of this thread, one line; "" before the first one. Valid until its next one. */
+VERICONE_API const char* vericone_error(void);
+/* "0.1.0" */
+VERICONE_API const char* vericone_version(void);
+/* VERICONE_OK where the arithmetic of this thread is that on which every answer rests: doubles of IEEE 754,
+ * rounded to nearest, subnormal ones kept. Ask at the start of a program, and of a thread whose modes others
+ * may have set: what is linked with -ffast-math takes them away. 40 ns. */
+VERICONE_API int32_t vericone_sound_arithmetic(void);
+
+/* ---- Bodies ---- */
+
+typedef struct vericone_body vericone_body;
+
+enum vericone_kind {
+  VERICONE_ELLIPSOID,
+  VERICONE_COMBINED, /* an ellipsoid cut by hyperboloids: dents, waists, stars */
+  VERICONE_HULL,
+  VERICONE_MESH, /* triangles, without what they enclose */
+  VERICONE_CLOUD,
+  VERICONE_BOXES,
+  VERICONE_PIECES
+};
+
+/* About the body's own origin, its semi-axes those of `rotation`'s columns. */
+VERICONE_API vericone_body* vericone_body_ellipsoid(const double center[3], const double semi_axes[3],
+                                                    const double rotation[9]);
+
+/* Cuts an ellipsoid about the same centre: what lies inside two sheets is taken away (two dents), or what
+ * lies outside of one (a waist). `semi_axes`: the first along its axis. `rotation`: against the body's axes;
+ * all zero: not turned. */
+typedef struct vericone_hyperboloid {
+  double semi_axes[3];
+  double rotation[9];
+  int32_t sheets; /* 1 or 2 */
+} vericone_hyperboloid;
+VERICONE_API vericone_body* vericone_body_combined(const double center[3], const double semi_axes[3],
+                                                   const double rotation[9],
+                                                   const vericone_hyperboloid* hyperboloids, size_t count);
+
+/* The solid convex hull of points, xyz by xyz. */
+VERICONE_API vericone_body* vericone_body_hull(const double* points, size_t count);
+/* The solid box between two opposite corners. */
+VERICONE_API vericone_body* vericone_body_box(const double low[3], const double high[3]);
+/* Triangles of three indices into the points each. */
+VERICONE_API vericone_body* vericone_body_mesh(const double* points, size_t count, const uint32_t* triangles,
+                                               size_t triangle_count);
+/* Balls of one radius, 0 or more, about points. */
+VERICONE_API vericone_body* vericone_body_cloud(const double* points, size_t count, double radius);
+/* Solid boxes, low xyz and high xyz of each: the occupied cells of a map. */
+VERICONE_API vericone_body* vericone_body_boxes(const double* boxes, size_t count);
+/* The union of ellipsoids and combined bodies, or of hulls and boxes. */
+VERICONE_API vericone_body* vericone_body_union(const vericone_body* const* bodies, size_t count);
+VERICONE_API void vericone_body_free(vericone_body* body);
+
+/* enum vericone_kind */
+VERICONE_API int32_t vericone_body_kind(const vericone_body* body);
+/* Around the body, in its own axes. */
+VERICONE_API int32_t vericone_body_bounds(const vericone_body* body, double low[3], double high[3]);
+/* max n.x over the body, rounded; NaN after an error. */
+VERICONE_API double vericone_body_support(const vericone_body* body, const double n[3]);
+/* An ellipsoid that contains the body: its centre, and the matrix S, row by row, of (x - c)^T S^-1 (x - c)
+ * <= 1. */
+VERICONE_API int32_t vericone_body_containing_ellipsoid(const vericone_body* body, double center[3],
+                                                        double shape[9]);
+
+/* ---- Pairs ---- */
+
+typedef struct vericone_pair vericone_pair;
+
+/* The answers of vericone_pair_verdict: 0, and nothing else, lets a body fly on, an error neither. */
+enum vericone_verdict {
+  VERICONE_OUT,      /* they never meet */
+  VERICONE_ON,       /* they will touch without overlapping */
+  VERICONE_IN,       /* they will overlap */
+  VERICONE_TOUCHING, /* they touch now */
+  VERICONE_OVERLAPPING /* they overlap now */,
+  VERICONE_UNDECIDED /* one of the others; never of pairs that are exact */
+};
+enum vericone_relation { VERICONE_DISJOINT, VERICONE_TOUCHES, VERICONE_OVERLAPS, VERICONE_RELATION_UNKNOWN };
+
+/* Two bodies of any kinds where they stand, prepared for many velocities (two ellipsoids: 0.5 us).
+ * `tolerance`: of pairs that are certified and not exact, the part of a body's size below which features may
+ * stay undecided; 0: what suits the pair (1e-6 or 1e-3). Velocities below are those of agent and obstacle in
+ * the world; nothing turns. */
+VERICONE_API vericone_pair* vericone_pair_new(const vericone_body* agent, const double agent_position[3],
+                                              const double agent_rotation[9], const vericone_body* obstacle,
+                                              const double obstacle_position[3],
+                                              const double obstacle_rotation[9], double tolerance);
+VERICONE_API void vericone_pair_free(vericone_pair* pair);
+
+/* 1: every verdict is right and none undecided. 0: verdicts are right or undecided. */
+VERICONE_API int32_t vericone_pair_exact(const vericone_pair* pair);
+/* Now; enum vericone_relation. */
+VERICONE_API int32_t vericone_pair_relation(const vericone_pair* pair);
+/* enum vericone_verdict. No allocation; two ellipsoids 20 to 40 ns. */
+VERICONE_API int32_t vericone_pair_verdict(const vericone_pair* pair, const double agent_velocity[3],
+                                           const double obstacle_velocity[3]);
+/* Of many velocities of the agent, xyz by xyz, a byte each. Returns how many of them may collide: are not
+ * out. */
+VERICONE_API int64_t vericone_pair_verdicts(const vericone_pair* pair, const double* agent_velocities,
+                                            size_t count, const double obstacle_velocity[3],
+                                            uint8_t* verdicts);
+
+typedef struct vericone_contact {
+  double earliest,
+      latest;       /* s from now; proved: nothing is touched before, and they touch or overlap at `latest` */
+  double time;      /* s, the best estimate; NaN where there is none */
+  double point[3];  /* of the obstacle, rounded, in the world at that time; NaN where it is not known */
+  double normal[3]; /* unit, from the agent towards the obstacle; NaN where it is not known */
+} vericone_contact;
+/* 1: `contact` is the first one; 0: they never meet. */
+VERICONE_API int32_t vericone_pair_contact(const vericone_pair* pair, const double agent_velocity[3],
+                                           const double obstacle_velocity[3], vericone_contact* contact);
+
+typedef struct vericone_miss {
+  double least, most; /* the least distance from now on lies between, proved; both 0 where they meet */
+  double depth; /* where they meet: how far along -normal the agent must be shifted, at least, to avoid it */
+  double normal[3]; /* unit, from the agent towards the obstacle where they are nearest; zero where there is
+                       none */
+  double time;      /* s, when they are nearest */
+  double distance;  /* the best estimate, -depth where they meet */
+} vericone_miss;
+VERICONE_API int32_t vericone_pair_miss(const vericone_pair* pair, const double agent_velocity[3],
+                                        const double obstacle_velocity[3], vericone_miss* miss);
+
+/* The least sector that holds the colliding directions on the plane through the line of sight and `across`.
+ */
+typedef struct vericone_sector {
+  double line_of_sight[3], across[3]; /* unit, orthogonal; angles are from the first towards the second */
+  double distance;                    /* between the middles of the bodies */
+  double left, right;                 /* the sector is from -right to left */
+  double left_error,
+      right_error; /* beyond left + left_error nothing collides, proved; 0: right to rounding */
+} vericone_sector;
+/* 1: `sector` is it; 0: the bodies are not apart, or no direction of the plane collides. */
+VERICONE_API int32_t vericone_pair_sector(const vericone_pair* pair, const double across[3],
+                                          vericone_sector* sector);
+
+/* ---- Cones ---- */
+
+typedef struct vericone_cone vericone_cone;
+
+/* All colliding directions of v_agent - v_obstacle, between an inner cone and an outer one, both proved.
+ * `tolerance`: by what part of the outer solid angle they may differ, 1e-9 to 1, 0: 0.01; `resolution`: of
+ * cones that are drawn as a map of the sphere (meshes, clouds, unions), 0: 0.01. Two ellipsoids 40 us, a map
+ * seconds. */
+VERICONE_API vericone_cone* vericone_cone_new(const vericone_pair* pair, double tolerance, double resolution,
+                                              int32_t threads);
+VERICONE_API void vericone_cone_free(vericone_cone* cone);
+/* 0: outside of the outer cone; 1: in the inner one; 2: between them. */
+VERICONE_API int32_t vericone_cone_contains(const vericone_cone* cone, const double w[3]);
+/* Steradian: the true one lies between. */
+VERICONE_API int32_t vericone_cone_solid_angle(const vericone_cone* cone, double* least, double* most);
+/* Loops of directions around the inner cone (which = 0) or the outer one (1), the cone to their left: how
+ * many there are. */
+VERICONE_API int64_t vericone_cone_loops(const vericone_cone* cone, int32_t which);
+/* How many directions loop `index` has; the first `capacity` of them are written, unit vectors xyz by xyz. */
+VERICONE_API int64_t vericone_cone_loop(const vericone_cone* cone, int32_t which, size_t index,
+                                        double* directions, size_t capacity);
+
+/* ---- Navigator ---- */
+
+typedef struct vericone_navigator vericone_navigator;
+
+/* A body that stands somewhere and moves. All zero: `rotation` not turned, `omega` does not turn. */
+typedef struct vericone_moving {
+  const vericone_body* body;
+  double position[3], rotation[9];
+  double velocity[3]; /* m/s */
+  double omega[3];    /* rad/s */
+} vericone_moving;
+
+enum vericone_navigator_status {
+  VERICONE_STRAIGHT,     /* nothing to avoid, nowhere to go */
+  VERICONE_HOMING,       /* goes to its destination, or points at it */
+  VERICONE_AVOIDING,     /* on a course beside the one that it wants */
+  VERICONE_TOO_NEAR,     /* every course tried comes nearer to a body than required, this one least */
+  VERICONE_CANNOT_AVOID, /* every course tried hits a body, this one last */
+  VERICONE_NO_COURSE     /* at rest, and must not change its speed; nothing hits it */
+};
+
+typedef struct vericone_command {
+  double acceleration[3]; /* m/s^2, to be held for the step */
+  double least; /* of the course flown: metres to what it comes nearest to; negative where it hits; infinite
+                   alone */
+  int64_t nearest; /* the index of that body */
+  int32_t status;  /* enum vericone_navigator_status */
+  int32_t aligned; /* 1: points at the destination */
+} vericone_command;
+
+/* `required`: metres to keep from every body; NaN: a twentieth of the agent's half-length. `acceleration`:
+ * m/s^2 that it has, across its velocity, where it may change its speed (`longitudinal` not 0) in all
+ * directions; may be infinite. */
+VERICONE_API vericone_navigator* vericone_navigator_new(double required, double acceleration,
+                                                        int32_t longitudinal);
+VERICONE_API void vericone_navigator_free(vericone_navigator* navigator);
+/* The command at `time`, held for `step` seconds; returns its status. `destination`: NULL for none;
+ * `destination_acceleration`: m/s^2 with which it turns towards it. The body of one that turns is judged by
+ * the ball about it. No allocation once it has searched among as many bodies. One thread at a time. 2 to 10
+ * us an ellipsoid where the course is kept, some milliseconds where one is looked for. */
+VERICONE_API int32_t vericone_navigator_step(vericone_navigator* navigator, const vericone_moving* agent,
+                                             const vericone_moving* others, size_t count,
+                                             const double destination[3], double destination_acceleration,
+                                             double time, double step, vericone_command* command);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

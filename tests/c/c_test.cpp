@@ -1,0 +1,430 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Each answer of the C interface is that of the C++ behind it, to the bit; errors are lines and numbers.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <vericone/cones/cone.h>
+#include <vericone/cones/pair.h>
+#include <vericone/guidance/navigator.h>
+#include <vericone/testing/random_bodies.h>
+#include <vericone_c.h>
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <thread>
+
+extern "C" {
+std::size_t sizes_in_c(std::size_t* list);
+std::size_t counted(void);
+}
+
+namespace vericone::c_test {
+namespace {
+
+using Eigen::Matrix3d, Eigen::Vector3d;
+using ::testing::HasSubstr, ::testing::StartsWith;
+using testing::RandomBodies;
+
+template <typename T, void (*free)(T*)>
+struct Free {
+  void operator()(T* p) const { free(p); }
+};
+using BodyHandle = std::unique_ptr<vericone_body, Free<vericone_body, vericone_body_free>>;
+using PairHandle = std::unique_ptr<vericone_pair, Free<vericone_pair, vericone_pair_free>>;
+using ConeHandle = std::unique_ptr<vericone_cone, Free<vericone_cone, vericone_cone_free>>;
+using NavigatorHandle =
+    std::unique_ptr<vericone_navigator, Free<vericone_navigator, vericone_navigator_free>>;
+
+using Rows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+
+struct Both {
+  BodyHandle c;
+  vericone::Body cpp;
+};
+
+std::vector<double> flat(const std::vector<Vector3d>& points) {
+  std::vector<double> list;
+  for (const Vector3d& x : points) list.insert(list.end(), x.begin(), x.end());
+  return list;
+}
+
+std::vector<Vector3d> points(RandomBodies& random, int count) {
+  std::vector<Vector3d> list(std::size_t(count), Vector3d::Zero());
+  for (Vector3d& x : list) x = random.in_box(1);
+  return list;
+}
+
+Both ellipsoid(RandomBodies& random) {
+  const Vector3d center = random.in_box(0.3),
+                 axes(random.uniform(0.2, 2), random.uniform(0.2, 2), random.uniform(0.2, 2));
+  const Matrix3d turn = random.rotation();
+  const Rows rows = turn;
+  return {BodyHandle(vericone_body_ellipsoid(center.data(), axes.data(), rows.data())),
+          Ellipsoid::from_axes(center, axes, turn)};
+}
+
+Both combined(RandomBodies& random) {
+  const Vector3d axes(1.5, 1, 0.8);
+  const Matrix3d turn = random.rotation();
+  const Rows rows = turn;
+  const int sheets = random.integer(1, 2);
+  vericone_hyperboloid cut{{0.6, 0.5, 0.5}, {}, sheets};
+  return {
+      BodyHandle(vericone_body_combined(Vector3d::Zero().eval().data(), axes.data(), rows.data(), &cut, 1)),
+      CombinedEllipsoid(Ellipsoid::from_axes(Vector3d::Zero(), axes, turn),
+                        {hyperboloid(sheets, {0.6, 0.5, 0.5}, turn)})};
+}
+
+Both hull(RandomBodies& random) {
+  const auto list = points(random, 9);
+  return {BodyHandle(vericone_body_hull(flat(list).data(), list.size())), HullBody(list)};
+}
+
+Both mesh(RandomBodies& random) {
+  const auto list = points(random, 8);
+  std::vector<Assembly::Triangle> triangles;
+  std::vector<std::uint32_t> corners;
+  for (std::uint32_t i = 0; i < 6; ++i) {
+    triangles.push_back({i, i + 1, i + 2});
+    corners.insert(corners.end(), {i, i + 1, i + 2});
+  }
+  return {BodyHandle(vericone_body_mesh(flat(list).data(), list.size(), corners.data(), triangles.size())),
+          Assembly::mesh(list, triangles)};
+}
+
+Both cloud(RandomBodies& random) {
+  const auto list = points(random, 7);
+  return {BodyHandle(vericone_body_cloud(flat(list).data(), list.size(), 0.25)), Assembly::cloud(list, 0.25)};
+}
+
+Both boxes(RandomBodies& random) {
+  std::vector<Box> list;
+  std::vector<Vector3d> ends;
+  for (int i = 0; i < 5; ++i) {
+    const Vector3d low = random.in_box(1), high = low + Vector3d(0.3, 0.2, 0.4);
+    list.push_back({low, high});
+    ends.insert(ends.end(), {low, high});
+  }
+  return {BodyHandle(vericone_body_boxes(flat(ends).data(), list.size())), Assembly::boxes(list)};
+}
+
+Both pieces(RandomBodies& random) {
+  const Both one = ellipsoid(random), other = combined(random);
+  const vericone_body* list[] = {one.c.get(), other.c.get()};
+  return {BodyHandle(vericone_body_union(list, 2)),
+          vericone::Body::pieces({*one.cpp.quadric(), *other.cpp.quadric()})};
+}
+
+Both hulls(RandomBodies& random) {
+  const Both one = hull(random);
+  const Vector3d low(-0.5, -1.5, 0.2), high(0.5, -0.6, 0.7);
+  const BodyHandle box(vericone_body_box(low.data(), high.data()));
+  const vericone_body* list[] = {one.c.get(), box.get()};
+  return {BodyHandle(vericone_body_union(list, 2)),
+          Assembly::polyhedra({*one.cpp.hull(), HullBody::box(low, high)})};
+}
+
+constexpr auto kKinds = {ellipsoid, combined, hull, mesh, cloud, boxes, pieces, hulls};
+
+void expect_same(const std::optional<Vector3d>& expected, const double* found) {
+  for (int k = 0; k < 3; ++k) {
+    if (expected)
+      EXPECT_EQ((*expected)(k), found[k]);
+    else
+      EXPECT_TRUE(std::isnan(found[k]));
+  }
+}
+void expect_same(double expected, double found) {
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(expected), std::bit_cast<std::uint64_t>(found));
+}
+
+constexpr int kVelocities = 2;
+
+void expect_same_answers(RandomBodies& random, const Pair& cpp, const vericone_pair* c) {
+  EXPECT_EQ(vericone_pair_exact(c), cpp.guarantee().exact);
+  const auto relation = cpp.relation();
+  EXPECT_EQ(vericone_pair_relation(c), relation ? int(*relation) : int(VERICONE_RELATION_UNKNOWN));
+  std::vector<double> all;
+  for (int i = 0; i < kVelocities; ++i) {
+    const Vector3d v = random.in_box(1) + (i % 2) * (cpp.obstacle().middle() - cpp.agent().middle()),
+                   u = random.in_box(0.1);
+    all.insert(all.end(), v.begin(), v.end());
+    EXPECT_EQ(vericone_pair_verdict(c, v.data(), u.data()), int(cpp.verdict(v, u)));
+    const auto contact = cpp.contact(v, u);
+    vericone_contact touched{};
+    ASSERT_EQ(vericone_pair_contact(c, v.data(), u.data(), &touched), contact.has_value());
+    if (contact) {
+      expect_same(contact->earliest, touched.earliest);
+      expect_same(contact->latest, touched.latest);
+      if (!std::isnan(contact->time)) expect_same(contact->time, touched.time);
+      expect_same(contact->point, touched.point);
+      expect_same(contact->normal, touched.normal);
+    }
+    const Miss miss = cpp.miss(v, u);
+    vericone_miss missed{};
+    ASSERT_EQ(vericone_pair_miss(c, v.data(), u.data(), &missed), VERICONE_OK);
+    expect_same(miss.least, missed.least);
+    expect_same(miss.most, missed.most);
+    expect_same(miss.time, missed.time);
+    expect_same(miss.normal, missed.normal);
+  }
+  std::uint8_t verdicts[kVelocities];
+  const Vector3d still = Vector3d::Zero();
+  int colliding = 0;
+  for (int i = 0; i < kVelocities; ++i)
+    colliding += may_collide(cpp.verdict(Vector3d(&all[3 * std::size_t(i)]), still));
+  EXPECT_EQ(vericone_pair_verdicts(c, all.data(), kVelocities, still.data(), verdicts), colliding);
+  for (int i = 0; i < kVelocities; ++i)
+    EXPECT_EQ(verdicts[i], int(cpp.verdict(Vector3d(&all[3 * std::size_t(i)]), still)));
+  const Vector3d across(0.1, 1, 0.3);
+  const auto sector = cpp.sector(across);
+  vericone_sector found{};
+  ASSERT_EQ(vericone_pair_sector(c, across.data(), &found), sector.has_value());
+  if (!sector) return;
+  expect_same(sector->left.angle, found.left);
+  expect_same(sector->right.angle, found.right);
+  expect_same(sector->left.error, found.left_error);
+  expect_same(sector->line_of_sight, found.line_of_sight);
+}
+
+TEST(CInterface, AnswersAreThoseOfPairsOfAllKinds) {
+  RandomBodies random(3701);
+  SCOPED_TRACE(random.trace());
+  for (const auto first : kKinds)
+    for (const auto second : kKinds) {
+      const Both a = first(random), b = second(random);
+      ASSERT_TRUE(a.c && b.c) << vericone_error();
+      EXPECT_EQ(vericone_body_kind(a.c.get()), int(a.cpp.kind()));
+      const Pose here{random.in_box(1), random.rotation()},
+          there{Vector3d(6, 1, 0) + random.in_box(2), random.rotation()};
+      const Rows turn = here.rotation, turn_there = there.rotation;
+      const PairHandle c(vericone_pair_new(a.c.get(), here.position.data(), turn.data(), b.c.get(),
+                                           there.position.data(), turn_there.data(), 0));
+      ASSERT_TRUE(c) << vericone_error();
+      expect_same_answers(random, Pair(Placed(a.cpp, here), Placed(b.cpp, there)), c.get());
+    }
+}
+
+TEST(CInterface, BodiesSayWhatTheyAre) {
+  RandomBodies random(3702);
+  for (const auto kind : kKinds) {
+    const Both body = kind(random);
+    Vector3d low, high, center;
+    Rows shape;
+    ASSERT_EQ(vericone_body_bounds(body.c.get(), low.data(), high.data()), VERICONE_OK);
+    EXPECT_EQ(low, body.cpp.bounds().low);
+    EXPECT_EQ(high, body.cpp.bounds().high);
+    const Vector3d n = random.direction();
+    EXPECT_EQ(vericone_body_support(body.c.get(), n.data()), body.cpp.support(n));
+    ASSERT_EQ(vericone_body_containing_ellipsoid(body.c.get(), center.data(), shape.data()), VERICONE_OK);
+    EXPECT_EQ(center, body.cpp.containing_ellipsoid().center());
+    EXPECT_EQ(Matrix3d(shape), body.cpp.containing_ellipsoid().shape());
+  }
+}
+
+TEST(CInterface, ConesAreThoseOfPairs) {
+  RandomBodies random(3703);
+  const Both a = ellipsoid(random), b = hull(random);
+  const Vector3d here = Vector3d::Zero(), there(5, 0.5, 0);
+  const PairHandle pair(
+      vericone_pair_new(a.c.get(), here.data(), nullptr, b.c.get(), there.data(), nullptr, 0));
+  const ConeHandle c(vericone_cone_new(pair.get(), 0.001, 0, 1));
+  ASSERT_TRUE(c) << vericone_error();
+  const Cone cpp = Pair(Placed(a.cpp), Placed(b.cpp, {there})).cone({.tolerance = 0.001});
+  double least = 0, most = 0;
+  ASSERT_EQ(vericone_cone_solid_angle(c.get(), &least, &most), VERICONE_OK);
+  EXPECT_EQ(least, cpp.solid_angle.lo());
+  EXPECT_EQ(most, cpp.solid_angle.hi());
+  for (int i = 0; i < 200; ++i) {
+    const Vector3d w = Vector3d(3, 0, 0) + random.in_box(2);
+    EXPECT_EQ(vericone_cone_contains(c.get(), w.data()), int(cpp.contains(w)));
+  }
+  ASSERT_EQ(vericone_cone_loops(c.get(), 1), std::int64_t(cpp.outer.size()));
+  const std::size_t size = cpp.outer[0].size();
+  std::vector<double> directions(3 * size);
+  EXPECT_EQ(vericone_cone_loop(c.get(), 1, 0, directions.data(), size), std::int64_t(size));
+  EXPECT_EQ(directions, flat(cpp.outer[0]));
+  EXPECT_EQ(vericone_cone_loop(c.get(), 1, 0, nullptr, 0), std::int64_t(size));
+  EXPECT_EQ(vericone_cone_loop(c.get(), 1, 9, nullptr, 0), VERICONE_BAD_INPUT);
+  EXPECT_THAT(vericone_error(), StartsWith("index: got 9, must be below the number of loops"));
+  EXPECT_EQ(vericone_cone_loops(c.get(), 2), VERICONE_BAD_INPUT);
+}
+
+guidance::BodyState state(const vericone::Body& body, const vericone_moving& moving) {
+  guidance::BodyState state;
+  state.position = Vector3d(moving.position);
+  state.shape = Placed(body, {state.position, Matrix3d(Rows(moving.rotation))});
+  state.velocity = Vector3d(moving.velocity);
+  return state;
+}
+
+TEST(CInterface, ANavigatorsStepsAreThoseOfTheLibraryAndAllocateNothing) {
+  RandomBodies random(3704);
+  std::vector<Both> bodies;
+  std::vector<vericone_moving> others;
+  for (const auto kind : {ellipsoid, hull, cloud, boxes}) {
+    bodies.push_back(kind(random));
+    vericone_moving moving{};
+    moving.body = bodies.back().c.get();
+    const Vector3d at(8 + 4.0 * double(others.size()), random.uniform(-1, 1), random.uniform(-1, 1));
+    std::copy_n(at.data(), 3, moving.position);
+    const Rows turn = random.rotation();
+    std::copy_n(turn.data(), 9, moving.rotation);
+    moving.velocity[1] = 0.1;
+    others.push_back(moving);
+  }
+  const Both own = ellipsoid(random);
+  vericone_moving agent{};
+  agent.body = own.c.get();
+  agent.rotation[0] = agent.rotation[4] = agent.rotation[8] = 1;
+  agent.velocity[0] = 5;
+  guidance::NavigatorOptions options;
+  options.required = 0.2;
+  options.most = 6;
+  guidance::Navigator cpp(options);
+  const NavigatorHandle c(vericone_navigator_new(0.2, 6, 0));
+  const double goal[3] = {40, 0, 0}, step = 0.02;
+  std::size_t flown = 0, after = 0;
+  for (int i = 0; i < 300; ++i) {
+    std::vector<guidance::BodyState> list;
+    for (std::size_t k = 0; k < others.size(); ++k) list.push_back(state(bodies[k].cpp, others[k]));
+    const auto expected =
+        cpp.step(state(own.cpp, agent), list, guidance::Destination{Vector3d(goal), 6}, i * step, step);
+    vericone_command command{};
+#ifdef COUNTED
+    const std::size_t before = counted();
+#endif
+    ASSERT_EQ(vericone_navigator_step(c.get(), &agent, others.data(), others.size(), goal, 6, i * step, step,
+                                      &command),
+              int(expected.status))
+        << vericone_error();
+#ifdef COUNTED
+    if (i >= 100) after += counted() - before;  // it has searched by then
+#endif
+    expect_same(expected.acceleration, command.acceleration);
+    expect_same(expected.least, command.least);
+    EXPECT_EQ(command.nearest, std::int64_t(expected.nearest));
+    for (int k = 0; k < 3; ++k) {
+      agent.position[k] += step * (agent.velocity[k] + 0.5 * step * command.acceleration[k]);
+      agent.velocity[k] += step * command.acceleration[k];
+    }
+    for (vericone_moving& other : others) other.position[1] += step * other.velocity[1];
+    flown += command.status == VERICONE_AVOIDING;
+  }
+  EXPECT_GT(flown, 0u);
+  EXPECT_EQ(after, 0u);
+}
+
+TEST(CInterface, VerdictsAllocateNothing) {
+#ifndef COUNTED
+  GTEST_SKIP() << "a sanitizer has a malloc of its own";
+#else
+  RandomBodies random(3705);
+  for (const auto second : kKinds) {
+    const Both a = ellipsoid(random), b = second(random);
+    const Vector3d here = Vector3d::Zero(), there(5, 0.5, 0), v(1, 0.1, 0);
+    const PairHandle pair(
+        vericone_pair_new(a.c.get(), here.data(), nullptr, b.c.get(), there.data(), nullptr, 0));
+    vericone_pair_verdict(pair.get(), v.data(), here.data());
+    const std::size_t before = counted();
+    for (int i = 0; i < 50; ++i) {
+      const Vector3d w = v + 0.01 * random.direction();
+      ASSERT_GE(vericone_pair_verdict(pair.get(), w.data(), here.data()), 0);
+    }
+    EXPECT_EQ(counted() - before, 0u) << vericone_body_kind(b.c.get());
+  }
+#endif
+}
+
+TEST(CInterface, BadInputIsALineAndANumber) {
+  const double zero[3] = {0, 0, 0}, axes[3] = {1, -2, 1}, nan[3] = {1, std::nan(""), 0}, ones[3] = {1, 1, 1};
+  EXPECT_EQ(vericone_body_ellipsoid(zero, axes, nullptr), nullptr);
+  EXPECT_STREQ(vericone_error(), "semi_axes[1]: got -2, must be a positive finite number (metres)");
+  EXPECT_EQ(vericone_body_ellipsoid(nullptr, ones, nullptr), nullptr);
+  EXPECT_STREQ(vericone_error(), "center: got NULL, must be given");
+  const std::uint32_t corner[3] = {0, 1, 7};
+  EXPECT_EQ(vericone_body_mesh(ones, 1, corner, 1), nullptr);
+  EXPECT_THAT(vericone_error(), StartsWith("triangles[0][1]: got 1"));
+  EXPECT_EQ(vericone_body_hull(nullptr, 0), nullptr);
+  EXPECT_EQ(vericone_body_hull(nullptr, 3), nullptr);
+  EXPECT_EQ(vericone_body_union(nullptr, 0), nullptr);
+  const vericone_hyperboloid far{{3, 0.5, 0.5}, {}, 2};
+  EXPECT_EQ(vericone_body_combined(zero, ones, nullptr, &far, 1), nullptr);
+  EXPECT_THAT(vericone_error(), StartsWith("hyperboloids[0]"));
+
+  const BodyHandle ball(vericone_body_ellipsoid(zero, ones, nullptr)), point(vericone_body_hull(zero, 1));
+  const vericone_body* mixed[] = {ball.get(), point.get()};
+  EXPECT_EQ(vericone_body_union(mixed, 2), nullptr);
+  EXPECT_THAT(vericone_error(), StartsWith("bodies[1]: got hull, must be of the kind of those before it"));
+  const double there[3] = {5, 0, 0}, askew[9] = {1, 0, 0, 0, 2, 0, 0, 0, 1};
+  EXPECT_EQ(vericone_pair_new(ball.get(), zero, nullptr, ball.get(), there, askew, 0), nullptr);
+  EXPECT_THAT(vericone_error(), HasSubstr("pose"));
+  EXPECT_EQ(vericone_pair_new(ball.get(), zero, nullptr, nullptr, there, nullptr, 0), nullptr);
+  EXPECT_STREQ(vericone_error(), "obstacle: got NULL, must be given");
+
+  const PairHandle pair(vericone_pair_new(ball.get(), zero, nullptr, ball.get(), there, nullptr, 0));
+  EXPECT_EQ(vericone_pair_verdict(pair.get(), nan, zero), VERICONE_BAD_INPUT);
+  EXPECT_THAT(vericone_error(), StartsWith("agent_velocity[1]: got nan"));
+  EXPECT_EQ(vericone_pair_verdict(nullptr, zero, zero), VERICONE_BAD_INPUT);
+  EXPECT_EQ(vericone_pair_verdicts(pair.get(), nan, 1, zero, nullptr), VERICONE_BAD_INPUT);
+  EXPECT_EQ(vericone_pair_miss(pair.get(), zero, zero, nullptr), VERICONE_BAD_INPUT);
+  EXPECT_TRUE(std::isnan(vericone_body_support(nullptr, zero)));
+  EXPECT_EQ(vericone_cone_new(pair.get(), 2, 0, 1), nullptr);
+  EXPECT_THAT(vericone_error(), StartsWith("tolerance: got 2"));
+  EXPECT_EQ(vericone_navigator_new(-1, 1, 0), nullptr);
+  EXPECT_THAT(vericone_error(), StartsWith("required: got -1"));
+  const NavigatorHandle navigator(vericone_navigator_new(0.1, 1, 0));
+  vericone_moving agent{};
+  EXPECT_EQ(vericone_navigator_step(navigator.get(), &agent, nullptr, 0, nullptr, 0, 0, 0.1, nullptr),
+            VERICONE_BAD_INPUT);
+  EXPECT_STREQ(vericone_error(), "body: got NULL, must be given");
+  // What was wrong leaves nothing behind.
+  agent.body = ball.get();
+  agent.velocity[0] = 1;
+  EXPECT_EQ(vericone_navigator_step(navigator.get(), &agent, nullptr, 0, nullptr, 0, 0, 0.1, nullptr),
+            VERICONE_STRAIGHT);
+  vericone_body_free(nullptr);
+  vericone_pair_free(nullptr);
+  vericone_cone_free(nullptr);
+  vericone_navigator_free(nullptr);
+}
+
+TEST(CInterface, ErrorsAreThoseOfTheirThread) {
+  const double zero[3] = {0, 0, 0}, axes[3] = {1, -2, 1};
+  EXPECT_EQ(vericone_body_ellipsoid(zero, axes, nullptr), nullptr);
+  std::thread([] { EXPECT_STREQ(vericone_error(), ""); }).join();
+  EXPECT_STRNE(vericone_error(), "");
+}
+
+TEST(CInterface, NumbersAndSizesAreThoseOfBothLanguages) {
+  static_assert(VERICONE_OUT == int(Verdict::out) && VERICONE_ON == int(Verdict::on) &&
+                VERICONE_IN == int(Verdict::in) && VERICONE_TOUCHING == int(Verdict::touching) &&
+                VERICONE_OVERLAPPING == int(Verdict::overlapping) &&
+                VERICONE_UNDECIDED == int(Verdict::undecided));
+  static_assert(VERICONE_DISJOINT == int(Relation::disjoint) && VERICONE_TOUCHES == int(Relation::touching) &&
+                VERICONE_OVERLAPS == int(Relation::overlapping));
+  static_assert(VERICONE_ELLIPSOID == int(BodyKind::ellipsoid) &&
+                VERICONE_COMBINED == int(BodyKind::combined) && VERICONE_HULL == int(BodyKind::hull) &&
+                VERICONE_MESH == int(BodyKind::mesh) && VERICONE_CLOUD == int(BodyKind::cloud) &&
+                VERICONE_BOXES == int(BodyKind::boxes) && VERICONE_PIECES == int(BodyKind::pieces));
+  using guidance::NavigatorStatus;
+  static_assert(VERICONE_STRAIGHT == int(NavigatorStatus::straight) &&
+                VERICONE_HOMING == int(NavigatorStatus::homing) &&
+                VERICONE_AVOIDING == int(NavigatorStatus::avoiding) &&
+                VERICONE_TOO_NEAR == int(NavigatorStatus::too_near) &&
+                VERICONE_CANNOT_AVOID == int(NavigatorStatus::cannot_avoid) &&
+                VERICONE_NO_COURSE == int(NavigatorStatus::no_course));
+  std::size_t sizes[6];
+  ASSERT_EQ(sizes_in_c(sizes), 6u);
+  EXPECT_THAT(sizes, ::testing::ElementsAre(sizeof(vericone_hyperboloid), sizeof(vericone_contact),
+                                            sizeof(vericone_miss), sizeof(vericone_sector),
+                                            sizeof(vericone_moving), sizeof(vericone_command)));
+  EXPECT_EQ(vericone_sound_arithmetic(), VERICONE_OK);
+}
+
+}  // namespace
+}  // namespace vericone::c_test

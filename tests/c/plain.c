@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * The header as C99 has it, and what C says of its structs. */
+#include <vericone_c.h>
+
+size_t sizes_in_c(size_t* list);
+size_t sizes_in_c(size_t* list) {
+  size_t n = 0;
+  list[n++] = sizeof(vericone_hyperboloid);
+  list[n++] = sizeof(vericone_contact);
+  list[n++] = sizeof(vericone_miss);
+  list[n++] = sizeof(vericone_sector);
+  list[n++] = sizeof(vericone_moving);
+  list[n++] = sizeof(vericone_command);
+  return n;
+}
