@@ -3,7 +3,7 @@
 # units (one would take more than 30 s). What the
 # predicates need besides comes from the libraries, whose matrices the option of the alignment makes the same: with
 # -march=native Eigen would align them otherwise.
-add_executable(options_probe corpus/options_probe.cpp corpus/corpus_answers.cpp)
+add_executable(options_probe corpus/options_probe.cpp corpus/corpus_answers.cpp corpus/random_answers.cpp)
 target_link_libraries(options_probe PRIVATE vericone::verify vericone::cones)
 vericone_precompile(options_probe exact)
 vericone_unity(options_probe 2)
@@ -12,7 +12,7 @@ set(options_probes options_probe)
 set(probe_geometry exact/algebraic quadric_side)
 set(probe_cones ellipsoids/contact_frame ellipsoids/contact_polynomial ellipsoids/relation ellipsoids/cone_oracle planar/sector_oracle
   ellipsoids/containment ellipsoids/position opening/orifice hulls/oracle hulls/certificates hulls/exact hulls/scene)
-set(probe_sources corpus/options_probe.cpp corpus/corpus_answers.cpp)
+set(probe_sources corpus/options_probe.cpp corpus/corpus_answers.cpp corpus/random_answers.cpp)
 foreach(library geometry cones)
   foreach(source IN LISTS probe_${library})
     list(APPEND probe_sources ${PROJECT_SOURCE_DIR}/${library}/src/${source}.cpp)

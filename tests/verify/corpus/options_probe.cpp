@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Prints what must not depend on compiler options: the answer of every rung on every case of the corpus, and
-// constructions in hexadecimal. Built several times with different options; options_test.cpp compares.
+// Prints what must not depend on compiler options or on the machine: the answer of every rung on every case of the
+// corpus, 100,000 verdicts, and constructions in hexadecimal. Built several times with different options
+// (options_test.cpp compares) and for other machines (scripts/machines does).
 #include <vericone/cones/ellipsoids/true_cone.h>
 #include <vericone/cones/planar/sector.h>
 #include <vericone/geometry/interval.h>
@@ -74,6 +75,7 @@ int main(int argc, char** argv) try {
       if (c.index % 4 == 0) print_arithmetic(c);
       if (c.family == "tangent") print_constructions(c);
     }
+  print_random_answers();
   return 0;
 } catch (const std::exception& e) {
   std::fprintf(stderr, "%s\n", e.what());
