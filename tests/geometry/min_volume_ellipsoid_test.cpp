@@ -5,7 +5,6 @@
 #include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
 
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -302,17 +301,11 @@ TEST(MinVolumeEllipsoid, SaysWhenItDidNotConverge) {
   EXPECT_LT(r.volume_ratio_bound, 1 + 1e-13);
 }
 
-TEST(MinVolumeEllipsoid, TakesAHundredThousandPointsInUnderAThirdOfASecond) {
+TEST(MinVolumeEllipsoid, TakesAHundredThousandPoints) {
   const Matrix3Xd p = Vector3d(3, 2, 1).asDiagonal() * fibonacci_sphere(100'000);
-  const auto start = std::chrono::steady_clock::now();
   const auto r = min_volume_ellipsoid<3>(p);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  RecordProperty("milliseconds", int(1000 * seconds));
   EXPECT_TRUE(r.converged());
   EXPECT_NEAR(r.body.volume() / (8 * std::numbers::pi), 1, 3e-7);
-#if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__)
-  EXPECT_LT(seconds, 0.3);
-#endif
 }
 
 struct BadPoints {
