@@ -20,6 +20,7 @@ int estimate_command(CommandLine& line);
 
 // What flies scenarios: not in a build without VERICONE_SIMULATION.
 int check_command(CommandLine& line);
+int schema_command(CommandLine& line);
 int reach_command(CommandLine& line);
 int simulate_command(CommandLine& line);
 int campaign_command(CommandLine& line);

@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
                                           {"estimate", estimate_command}};
 #ifdef VERICONE_WITH_SIMULATION
   commands.merge(std::map<std::string, Command>{{"check", check_command},
+                                                {"schema", schema_command},
                                                 {"reach", reach_command},
                                                 {"simulate", simulate_command},
                                                 {"campaign", campaign_command},

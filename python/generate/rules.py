@@ -9,12 +9,12 @@ import re
 MODULES = [
     ("geometry/files", "_files"), ("geometry/octomap", "_octomap"), ("geometry/fitting", "_fitting"),
     ("geometry/lidar", "_lidar"), ("geometry", "_core"), ("cones", "_core"), ("guidance", "_core"),
-    ("scenes/fit", "_fitting"), ("scenes/scan", "_lidar"), ("scenes", "_files"), ("vision", "_vision"),
+    ("scenes/fit", "_fitting"), ("scenes/scan", "_lidar"), ("scenes/pursuits", "_vision"), ("scenes", "_files"), ("vision", "_vision"),
     ("verify", "_verify"),
 ]
 # Where the public headers are, in folders named include.
 FOLDERS = ["geometry", "geometry/files", "geometry/octomap", "geometry/fitting", "geometry/lidar", "cones", "guidance",
-           "guidance/simulation", "guidance/vehicles", "scenes", "scenes/work", "scenes/scenarios", "scenes/fit", "scenes/scan",
+           "guidance/simulation", "guidance/vehicles", "scenes", "scenes/work", "scenes/scenarios", "scenes/fit", "scenes/scan", "scenes/pursuits",
            "vision", "vision/scene", "vision/footage", "vision/pursuit"]
 # Headers whose functions may take one or many.
 MANY_FOLDERS = ("geometry/include", "cones/include", "guidance/include")
@@ -96,7 +96,7 @@ LONG: set[str] = {f"{space}::{name}".removeprefix("::") for space, names in {
     "simulation": "Arc::Arc Track::advance Vehicle::advance curves_of fly_trial largest_current prove prove_passage "
                   "reach run_tables simulate",
     "vision": "Image::Image Reader::next Scene::Scene Scene::render Tracker::start Tracker::step VideoWriter::add "
-              "VideoWriter::close draw_sighting grey_of open_footage pursue read_picture write_picture",
+              "VideoWriter::close draw_sighting grey_of open_footage pursue read_picture read_pursuit write_picture",
 }.items() for name in names.split()}
 # Calls of C++ for many vectors at once, by the function for one and its number of parameters.
 WHOLE = {("ConeOracle::membership", 1): "memberships"}

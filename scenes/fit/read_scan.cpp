@@ -7,7 +7,6 @@
 #include <filesystem>
 
 #include "input/assembly_body.h"
-#include "input/octree_body.h"
 #include "input/stopwatch.h"
 
 namespace vericone::fits {

@@ -3,95 +3,40 @@
 
 #include <sys/stat.h>
 #include <vericone/files/files.h>
+#include <algorithm>
 #include <cstdint>
 #include <list>
 #include <mutex>
 #include <string_view>
 
-#include "input/fields.h"
-#include "input/octree_body.h"
-#include "input/spatial_body.h"
+#include "input/body_kind.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
 
 namespace vericone::input {
 namespace {
 
-constexpr std::string_view kKinds[] = {"mesh", "cloud", "octree", "hull", "points"};
-constexpr std::string_view kOctreeFields[] = {"unknown", "free", "occupied_above", "region"};
+struct PiecesFields : PlaceFields {
+  std::string file;
+  std::vector<Eigen::Vector3d> points;
+  double scale = 1, radius = 0;
+  OctreeFields map;
+};
 
 /// The field that says what the body is; exactly one, and no shape of an ellipsoid beside it.
-std::string kind_of(const Json& value, const std::string& path) {
-  std::string kind;
+const BodyKind& kind_of(const Json& value, const std::string& path) {
+  const BodyKind* found = nullptr;
   int shapes = 0;
-  for (const std::string_view k : kKinds)
-    if (value.contains(k)) {
-      kind = k;
+  for (const BodyKind& kind : body_kinds())
+    if (value.contains(kind.name)) {
+      found = &kind;
       ++shapes;
     }
   for (const char* k : {"semi_axes", "shape", "quadric"}) shapes += value.contains(k);
   if (shapes != 1)
     throw InputError(path, "more than one shape",
                      "given by exactly one of semi_axes (with rotation), shape, quadric, " + pieces_kinds());
-  return kind;
-}
-
-void require_fields_of(const std::string& kind, const Json& value, const std::string& path) {
-  std::vector<std::string> known{kind, "center", "rotation", "scale"};
-  if (kind == "cloud") known.emplace_back("radius");
-  if (kind == "octree") known.insert(known.end(), std::begin(kOctreeFields), std::end(kOctreeFields));
-  require_known(value, path, known);
-}
-
-Pose read_pose(const Json& value, const std::string& path) {
-  Pose pose;
-  if (value.contains("center"))
-    pose.position = read_vector<3>(value["center"], path + ".center", " (metres)");
-  pose.rotation = read_rotation(value, path);
-  return pose;
-}
-
-double read_scale(const Json& value, const std::string& path) {
-  if (!value.contains("scale")) return 1;
-  const double scale = read_number(value["scale"], path + ".scale", "");
-  if (!(scale > 0)) throw InputError(path + ".scale", to_text(scale), "positive");
-  return scale;
-}
-
-double read_radius(const Json& value, const std::string& path) {
-  const char* requirement = "the radius of the points' balls, metres, 0 or more";
-  const double radius =
-      read_number(require_field(value, path, "radius", requirement), path + ".radius", " (metres)");
-  if (radius < 0) throw InputError(path + ".radius", to_text(radius), requirement);
-  return radius;
-}
-
-struct File {
-  std::string as_given;
-  std::filesystem::path path;
-};
-
-File read_file_name(const Json& value, const std::string& path, const std::filesystem::path& folder) {
-  if (!value.is_string() || value.get<std::string>().empty())
-    throw InputError(path, quoted(value), "the name of a file, relative to the file that names it");
-  const auto name = value.get<std::string>();
-  return {name, folder / name};
-}
-
-/// `read()` with the field in front of an error about the file.
-template <typename Read>
-auto from_file(const std::string& field, const std::string& file, Read read) -> decltype(read()) {
-  try {
-    return read();
-  } catch (const InputError& e) {
-    throw InputError(field, file + ": " + e.value(), e.requirement());
-  }
-}
-
-std::vector<Eigen::Vector3d> scaled(std::vector<Eigen::Vector3d> points, double scale) {
-  if (scale != 1)
-    for (Eigen::Vector3d& x : points) x *= scale;
-  return points;
+  return *found;
 }
 
 struct Pieces {
@@ -121,13 +66,13 @@ Assembly mesh_of(files::PointFile& file) {
   return Assembly::mesh(std::move(file.points), std::move(triangles));
 }
 
-Pieces read_mesh_or_points(const std::string& kind, const File& file, const std::string& field, double scale,
-                           double radius) {
-  return from_points(file.path, scale, [&](files::PointFile& read) {
-    if (kind == "cloud") return Assembly::cloud(std::move(read.points), radius);
+Pieces read_mesh_or_points(const std::string& kind, const PiecesFields& fields,
+                           const std::filesystem::path& file) {
+  return from_points(file, fields.scale, [&](files::PointFile& read) {
+    if (kind == "cloud") return Assembly::cloud(std::move(read.points), fields.radius);
     if (kind == "hull") return Assembly::polyhedra({HullBody(std::move(read.points))});
     if (read.faces.empty())
-      throw InputError(field, std::to_string(read.points.size()) + " points and no face",
+      throw InputError(kind, std::to_string(read.points.size()) + " points and no face",
                        "a mesh; points are given by cloud, with a radius");
     return mesh_of(read);
   });
@@ -173,37 +118,33 @@ std::string version_of(const std::filesystem::path& path) {
   return text;
 }
 
-Pieces read_pieces(const std::string& kind, const Json& value, const std::string& path,
-                   const std::filesystem::path& folder, std::string& file_name) {
-  static Cache cache;
-  const File file = read_file_name(value[kind], path + "." + kind, folder);
-  file_name = file.as_given;
-  const double scale = read_scale(value, path);
-  const double radius = kind == "cloud" ? read_radius(value, path) : 0;
-  // Everything that decides what is read, the place apart.
-  Json options = value;
-  options.erase("center");
-  options.erase("rotation");
-  options[kind] = std::filesystem::absolute(file.path).lexically_normal().string();
-  options["version"] = version_of(file.path);
-  const std::string field = path + "." + kind;
-  return cache.get(options.dump(), [&]() -> Pieces {
-    if (kind == "octree") {
-      OctreePieces octree = read_octree_pieces(value, path, file.path, scale);
-      return {std::move(octree.boxes), std::move(octree.reading)};
-    }
-    return from_file(field, file.as_given,
-                     [&] { return read_mesh_or_points(kind, file, field, scale, radius); });
-  });
+/// Everything that decides what is read, the place apart.
+std::string key_of(const std::string& kind, const PiecesFields& fields, const std::filesystem::path& file) {
+  const OctreeFields& map = fields.map;
+  std::vector<double> numbers{fields.scale, fields.radius, double(map.unknown_occupied),
+                              double(map.free_occupied), map.occupied_above};
+  if (map.region)
+    for (const Eigen::Vector3d& corner : {map.region->low, map.region->high})
+      numbers.insert(numbers.end(), corner.begin(), corner.end());
+  std::string key = kind + " " + version_of(file);
+  for (const double x : numbers) key += to_text(x) + " ";
+  return key + std::filesystem::absolute(file).lexically_normal().string();
 }
 
-std::vector<Eigen::Vector3d> read_point_list(const Json& value, const std::string& path) {
-  if (!value.is_array() || value.empty())
-    throw InputError(path, quoted(value), "a list of points [x, y, z] (metres)");
-  std::vector<Eigen::Vector3d> points;
-  for (std::size_t i = 0; i < value.size(); ++i)
-    points.push_back(read_vector<3>(value[i], at(path, i), " (metres)"));
-  return points;
+Pieces read_pieces(const std::string& kind, const PiecesFields& fields, const std::filesystem::path& folder) {
+  static Cache cache;
+  const std::filesystem::path file = folder / fields.file;
+  return cache.get(key_of(kind, fields, file), [&]() -> Pieces {
+    if (kind == "octree") {
+      OctreePieces octree = read_octree_pieces(fields.map, fields.file, file, fields.scale);
+      return {std::move(octree.boxes), std::move(octree.reading)};
+    }
+    try {
+      return read_mesh_or_points(kind, fields, file);
+    } catch (const InputError& e) {
+      throw InputError(kind, fields.file + ": " + e.value(), e.requirement());
+    }
+  });
 }
 
 const char* plural(PieceKind kind) {
@@ -238,42 +179,143 @@ SceneBody body_of(const std::string& field, const std::string& file, Pieces piec
   return body;
 }
 
+/// The kind NAME, whose pieces stand in a file.
+BodyKind of_file(const char* name, const Fields<PiecesFields>& fields) {
+  return body_kind(fields, [name](const PiecesFields& read, const std::filesystem::path& folder) {
+    return body_of(name, read.file, read_pieces(name, read, folder), read.pose);
+  });
+}
+
+Value<double> scale() {
+  return shown_as(checked<double>(number(), "positive", [](const double& x) { return x > 0; }),
+                  positive().schema);
+}
+
+Fields<PiecesFields> file_rows(const char* name, const char* sentence) {
+  Fields<PiecesFields> rows("body");
+  return with_place(rows.row(name, &PiecesFields::file, file_name(), sentence, alternative()))
+      .row("scale", &PiecesFields::scale, scale(),
+           "Multiplies the file's coordinates (0.001 for millimetres), rounded once.");
+}
+
+BodyKind cloud() {
+  const char* what = "the radius of the points' balls, metres, 0 or more";
+  return of_file("cloud",
+                 file_rows("cloud", "File of points (a mesh counts by its points): a ball about each.")
+                     .row("radius", &PiecesFields::radius,
+                          shown_as(checked<double>(number("m"), what, [](const double& x) { return x >= 0; }),
+                                   not_negative().schema),
+                          "Of a cloud's balls; 0 means the points alone. Required with `cloud`, and only "
+                          "there. `scale` does not change it.",
+                          required(what)));
+}
+
+Value<bool> occupied() {
+  return {[](const Json& value, const std::string& path) {
+            if (value != "occupied" && value != "free")
+              throw InputError(path, quoted(value), "\"occupied\" or \"free\"");
+            return value == "occupied";
+          },
+          Json{{"enum", {"occupied", "free"}}},
+          [](const bool& occupied) { return Json(occupied ? "occupied" : "free"); }};
+}
+
+Box read_region(const Json& value, const std::string& path) {
+  if (!value.is_array() || value.size() != 2)
+    throw InputError(path, quoted(value),
+                     "two opposite corners [[x, y, z], [x, y, z]] (metres, of the file)");
+  const Box region{read_vector<3>(value[0], at(path, 0), " (metres)"),
+                   read_vector<3>(value[1], at(path, 1), " (metres)")};
+  if (!(region.low.array() < region.high.array()).all())
+    throw InputError(path, quoted(value), "the lower corner, then the upper one, each coordinate larger");
+  return region;
+}
+
+BodyKind octree() {
+  const auto of = [](auto OctreeFields::*member) { return within_part(&PiecesFields::map, member); };
+  const auto above = checked<double>(number(), "a probability between 0 and 1, both excluded",
+                                     [](const double& p) { return p > 0 && p < 1; });
+  return of_file("octree",
+                 file_rows("octree", "OctoMap's .bt or .ot: solid cells.")
+                     .row("unknown", of(&OctreeFields::unknown_occupied), occupied(),
+                          "What space is that was never seen.")
+                     .row("free", of(&OctreeFields::free_occupied), occupied(),
+                          "What space is that was seen to be free.")
+                     .row("occupied_above", of(&OctreeFields::occupied_above),
+                          shown_as(above, {{"type", "number"}, {"minimum", 0}, {"maximum", 1}}),
+                          "A cell is occupied from this probability on. A .bt file has no probabilities: its "
+                          "writer decided.")
+                     .row("region", of(&OctreeFields::region),
+                          Value<Box>{read_region,
+                                     Json{{"type", "array"},
+                                          {"items", {{"$ref", "body.schema.json#/$defs/vector3"}}},
+                                          {"minItems", 2},
+                                          {"maxItems", 2},
+                                          {"title", "two [x, y, z]"},
+                                          {"unit", "m"}},
+                                     {}},
+                          "Lower and upper corner, in the file's coordinates: the box in which unknown space "
+                          "counts. **Beyond it nothing is an obstacle.**",
+                          absent("the box around all known cells")));
+}
+
+BodyKind hull_of_points() {
+  Fields<PiecesFields> rows("body");
+  rows.row("points", &PiecesFields::points, list("points [x, y, z] (metres)", vector<3>("m"), 1),
+           "The solid convex hull of these points.", alternative());
+  with_place(rows).row("scale", &PiecesFields::scale, scale(), "Multiplies the coordinates.");
+  return body_kind(rows, [](const PiecesFields& read, const std::filesystem::path&) {
+    std::vector<Eigen::Vector3d> points = read.points;
+    for (Eigen::Vector3d& x : points) x *= read.scale;
+    SceneBody body =
+        body_of("points", "", {Assembly::polyhedra({HullBody(std::move(points))}), {}}, read.pose);
+    body.reading.reset();
+    return body;
+  });
+}
+
 }  // namespace
+
+const std::vector<BodyKind>& body_kinds() {
+  static const std::vector<BodyKind> kinds{
+      of_file(
+          "mesh",
+          file_rows(
+              "mesh",
+              "File with faces. The body is its **surface**, closed or open: an agent within a closed mesh "
+              "is "
+              "`disjoint` from it, as in a room. Polygons are cut into triangles, dented ones by their ears "
+              "([files](files.md)). Points that belong to no face are left out.")),
+      cloud(), octree(), of_file("hull", file_rows("hull", "File of points: their solid convex hull.")),
+      hull_of_points()};
+  return kinds;
+}
 
 std::string pieces_kinds() {
   std::string list;
-  for (const std::string_view kind : kKinds)
-    if (kind != "octree" || have_octrees()) list.append(list.empty() ? "" : ", ").append(kind);
+  for (const BodyKind& kind : body_kinds())
+    if (kind.name != "octree" || have_octrees()) list.append(list.empty() ? "" : ", ").append(kind.name);
   return list;
 }
 
-std::vector<std::string> pieces_fields() {
-  std::vector<std::string> fields{std::begin(kKinds), std::end(kKinds)};
-  fields.insert(fields.end(), {"radius", "scale"});
-  fields.insert(fields.end(), std::begin(kOctreeFields), std::end(kOctreeFields));
+std::vector<std::string_view> pieces_fields() {
+  std::vector<std::string_view> fields;
+  for (const BodyKind& kind : body_kinds()) fields.emplace_back(kind.name);
+  for (const BodyKind& kind : body_kinds())
+    for (const std::string_view field : kind.fields)
+      if (field != "center" && field != "rotation" &&
+          std::find(fields.begin(), fields.end(), field) == fields.end())
+        fields.push_back(field);
   return fields;
 }
 
 bool is_pieces_body(const Json& value) {
-  return value.is_object() && std::any_of(std::begin(kKinds), std::end(kKinds),
-                                          [&](std::string_view kind) { return value.contains(kind); });
+  return value.is_object() && std::any_of(body_kinds().begin(), body_kinds().end(),
+                                          [&](const BodyKind& kind) { return value.contains(kind.name); });
 }
 
 SceneBody read_pieces_body(const Json& value, const std::string& path, const std::filesystem::path& folder) {
-  const std::string kind = kind_of(value, path);
-  require_fields_of(kind, value, path);
-  const Pose pose = read_pose(value, path);
-  if (kind == "points") {
-    auto points = scaled(read_point_list(value[kind], path + "." + kind), read_scale(value, path));
-    return within(path, [&] {
-      SceneBody body = body_of(kind, "", {Assembly::polyhedra({HullBody(std::move(points))}), {}}, pose);
-      body.reading.reset();
-      return body;
-    });
-  }
-  std::string file;
-  Pieces pieces = read_pieces(kind, value, path, folder, file);
-  return body_of(kind, file, std::move(pieces), pose);
+  return kind_of(value, path).read(value, path, folder);
 }
 
 SceneBody read_any_body(const std::filesystem::path& file, double radius, const std::string& unknown) {
@@ -281,7 +323,7 @@ SceneBody read_any_body(const std::filesystem::path& file, double radius, const 
   if (extension == ".bt" || extension == ".ot") {
     OctreePieces octree = [&] {
       try {
-        return read_octree_pieces({{"octree", name}, {"unknown", unknown}}, "", file, 1);
+        return read_octree_pieces({unknown == "occupied", false, 0.5, {}}, name, file, 1);
       } catch (const InputError& e) {
         throw InputError(file.string(), e.value(), e.requirement());
       }
@@ -299,7 +341,7 @@ SceneBody read_any_body(const std::filesystem::path& file, double radius, const 
 }
 
 SceneBody read_hull_agent(const Json& value, const std::string& path, const std::filesystem::path& folder) {
-  const std::string kind = kind_of(value, path);
+  const std::string& kind = kind_of(value, path).name;
   if (kind != "hull" && kind != "points")
     throw InputError(path + "." + kind, quoted(value[kind]),
                      "left to the obstacle; an agent may be the convex hull of a file's points, hull");

@@ -3,7 +3,9 @@
 // Bodies of pieces: meshes, clouds and octree maps from files, convex hulls of points.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "input/body.h"
@@ -29,6 +31,25 @@ SceneBody read_hull_agent(const Json& value, const std::string& path, const std:
 std::string pieces_kinds();
 
 /// All their fields but center and rotation.
-std::vector<std::string> pieces_fields();
+std::vector<std::string_view> pieces_fields();
+
+struct OctreePieces {
+  Assembly boxes;
+  scenes::Reading reading;
+};
+
+/// Which cells of a map are obstacles.
+struct OctreeFields {
+  bool unknown_occupied = true, free_occupied = false;
+  double occupied_above = 0.5;
+  std::optional<Box> region;
+};
+
+/// Whether this build reads octree maps.
+bool have_octrees();
+
+/// Those of the map `name`, which is `file`. Throws InputError naming the field within the body.
+OctreePieces read_octree_pieces(const OctreeFields& fields, const std::string& name,
+                                const std::filesystem::path& file, double scale);
 
 }  // namespace vericone::input

@@ -2,10 +2,9 @@
 #include "input/body.h"
 
 #include "input/assembly_body.h"
-#include "input/fields.h"
+#include "input/body_kind.h"
 #include "input/file_body.h"
 #include "input/planar_body.h"
-#include "input/spatial_body.h"
 #include "json/json_value.h"
 
 namespace vericone::input {
@@ -145,12 +144,25 @@ SceneBody read_body(const Json& given, const std::string& path, const std::files
   return {std::move(body), "union of " + std::to_string(count) + (count == 1 ? " piece" : " pieces")};
 }
 
-Scene read_engagement(const Json& value, Velocities velocities, std::initializer_list<const char*> also,
+const Fields<Scene>& engagement_fields() {
+  const Json body{{"$ref", "body.schema.json#/$defs/body"}};
+  static const Fields<Scene> fields =
+      Fields<Scene>("engagement")
+          .special("agent", body, {}, "What moves.", required("a body"))
+          .special("obstacle", body, {}, "What it may meet.", required("a body"))
+          .special("agent_velocity", point<3>("m/s").schema, {}, "`[x, y, z]`, in the plane `[x, y]`.",
+                   absent("zero"))
+          .special("obstacle_velocity", point<3>("m/s").schema, {}, "The same of the obstacle.",
+                   absent("zero"));
+  return fields;
+}
+
+Scene read_engagement(const Json& value, Velocities velocities, const std::vector<std::string_view>& also,
                       const std::filesystem::path& folder) {
   if (!value.is_object()) throw InputError("engagement", quoted(value), "a mapping with agent and obstacle");
-  std::vector<std::string_view> known{"agent", "obstacle", "agent_velocity", "obstacle_velocity"};
+  std::vector<std::string_view> known = engagement_fields().names();
   known.insert(known.end(), also.begin(), also.end());
-  require_known(value, "", std::span(std::as_const(known)));
+  require_known(value, "", std::span<const std::string_view>(known));
   const Json none;
   const auto field = [&](const char* name) -> const Json& {
     const auto found = value.find(name);

@@ -32,10 +32,30 @@ Value<int> count(int low, int high);
 Value<bool> flag();
 /// Not empty; refused as "WHAT, as text".
 Value<std::string> text(const char* what);
+/// The name of a file, relative to the file that names it.
+Value<std::string> file_name();
 template <int N>
 Value<Eigen::Matrix<double, N, 1>> vector(const char* unit = "");
 extern template Value<Eigen::Vector2d> vector<2>(const char* unit);
 extern template Value<Eigen::Vector3d> vector<3>(const char* unit);
+
+/// The same where it `holds`, refused as REQUIREMENT.
+template <typename T>
+Value<T> checked(const Value<T>& value, const char* requirement, bool (*holds)(const T&)) {
+  return {[=, read = value.read](const Json& given, const std::string& path) {
+            const T x = read(given, path);
+            if (!holds(x)) throw InputError(path, plain_value(given), requirement);
+            return x;
+          },
+          value.schema, value.write};
+}
+/// The same, which the schema has otherwise; its unit and default stay.
+template <typename T>
+Value<T> shown_as(Value<T> value, Json schema) {
+  if (value.schema.contains("unit")) schema["unit"] = value.schema["unit"];
+  value.schema = std::move(schema);
+  return value;
+}
 
 /// `unit` as refusals have it: "m²" is " (m^2)", "m" is " (metres)".
 std::string unit_words(const std::string& unit);
@@ -106,6 +126,12 @@ class Fields {
         sentence, otherwise);
   }
 
+  /// The row before this is read by its former name too.
+  Fields& formerly(const char* name) {
+    rows_.back().former = name;
+    return *this;
+  }
+
   /// A field that says which of several mappings this is; its reader has looked.
   Fields& kind(const char* name, const char* word, const char* sentence) {
     return special(name, Json{{"enum", Json::array({word})}}, {}, sentence, required(word));
@@ -115,31 +141,44 @@ class Fields {
   Fields& special(const char* name, Json schema, Read read, const char* sentence,
                   const Otherwise& otherwise = {}) {
     if (otherwise.absent) schema["absent"] = otherwise.absent;
-    schema["description"] = sentence;
+    if (sentence) schema["description"] = sentence;
     rows_.push_back({name, otherwise.required, std::move(schema), std::move(read)});
     return *this;
   }
 
   bool has(const std::string& name) const {
-    return std::any_of(rows_.begin(), rows_.end(), [&](const Row& row) { return name == row.name; });
+    return std::any_of(rows_.begin(), rows_.end(), [&](const Row& row) {
+      return name == row.name || (row.former && name == row.former);
+    });
+  }
+  std::vector<std::string_view> names() const {
+    std::vector<std::string_view> names;
+    for (const Row& row : rows_) names.emplace_back(row.name);
+    return names;
   }
   void require_known(const Json& value, const std::string& path) const {
-    std::vector<std::string_view> known;
-    for (const Row& row : rows_) known.emplace_back(row.name);
-    input::require_known(value, path, std::span<const std::string_view>(known));
+    for (const auto& [field, given] : value.get_ref<const Json::object_t&>())
+      if (!has(field)) refuse_unknown(path, field, names());
   }
 
   /// Reads what is given over what `to` has, in the order of the rows.
   void read(const Json& value, const std::string& path, S& to) const {
     require_object(value, path);
     require_known(value, path);
+    read_known(value, path, to);
+  }
+  /// The same of fields that are known to be known.
+  void read_known(const Json& value, const std::string& path, S& to) const {
     for (const Row& row : rows_) {
       require_read(row, value, path);
-      const auto given = value.find(row.name);
-      if (given != value.end()) {
-        if (row.read) row.read(*given, path.empty() ? row.name : path + "." + row.name, to);
-      } else if (row.required) {
-        require_field(value, path, row.name, row.required);
+      const char* name = row.former && value.contains(row.former) ? row.former : row.name;
+      if (name != row.name && value.contains(row.name))
+        throw InputError(join(path, name), quoted(value[name]), "left out beside " + std::string(row.name));
+      const auto given = value.find(name);
+      if (given == value.end()) {
+        if (row.required) require_field(value, path, name, row.required);
+      } else if (row.read) {
+        row.read(*given, join(path, name), to);
       }
     }
   }
@@ -169,6 +208,7 @@ class Fields {
     Json schema;
     Read read;
     std::vector<std::string> kinds = {};  // none: all
+    const char* former = nullptr;
   };
 
   void require_read(const Row& row, const Json& value, const std::string& path) const {
@@ -178,8 +218,7 @@ class Fields {
       if (value[kind_] == kind) return;
       list.append(list.empty() ? "" : ", ").append(kind);
     }
-    throw InputError(path.empty() ? row.name : path + "." + row.name, quoted(value[row.name]),
-                     "left out: only " + list + " reads it");
+    throw InputError(join(path, row.name), quoted(value[row.name]), "left out: only " + list + " reads it");
   }
 
   const char* title_;

@@ -47,6 +47,10 @@ std::string quoted(const Json& value) {
   return text;
 }
 
+std::string plain_value(const Json& value) {
+  return value.is_number() ? to_text(value.get<double>()) : quoted(value);
+}
+
 std::string unit_words(const std::string& unit) {
   if (unit.empty()) return "";
   if (unit == "m") return " (metres)";
@@ -106,6 +110,16 @@ Value<std::string> text(const char* what) {
             return value.get<std::string>();
           },
           Json{{"type", "string"}}, [](const std::string& x) { return Json(x); }};
+}
+
+Value<std::string> file_name() {
+  return {[](const Json& value, const std::string& path) {
+            if (!value.is_string() || value.get<std::string>().empty())
+              throw InputError(path, quoted(value), "the name of a file, relative to the file that names it");
+            return value.get<std::string>();
+          },
+          Json{{"type", "string"}, {"title", "file"}},
+          {}};
 }
 
 template <int N>

@@ -20,6 +20,12 @@ namespace vericone::input {
 /// A value as it stands in a message: one line, at most 60 characters.
 std::string quoted(const Json& value);
 
+/// The same of a number without what YAML adds: -1 and not -1.0.
+std::string plain_value(const Json& value);
+
+inline std::string join(const std::string& path, const char* field) {
+  return path.empty() ? field : path + "." + field;
+}
 inline std::string at(const std::string& path, std::size_t i) { return path + "[" + std::to_string(i) + "]"; }
 
 inline bool is_finite_number(const Json& value) {
@@ -55,15 +61,18 @@ inline void require_object(const Json& value, const std::string& path) {
   if (!value.is_object()) throw InputError(path, quoted(value), "a mapping of fields");
 }
 
+[[noreturn]] inline void refuse_unknown(const std::string& path, const std::string& field,
+                                        std::span<const std::string_view> known) {
+  std::string list;
+  for (const auto& k : known) list.append(list.empty() ? "" : ", ").append(k);
+  throw InputError(join(path, field.c_str()), "an unknown field", "one of " + list);
+}
+
 inline void require_known(const Json& value, const std::string& path,
                           std::span<const std::string_view> known) {
-  for (const auto& item : value.items()) {
-    const std::string& key = item.key();
-    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    std::string list;
-    for (const auto& k : known) list.append(list.empty() ? "" : ", ").append(k);
-    throw InputError(path.empty() ? key : path + "." + key, "an unknown field", "one of " + list);
-  }
+  for (const auto& item : value.items())
+    if (std::find(known.begin(), known.end(), item.key()) == known.end())
+      refuse_unknown(path, item.key(), known);
 }
 
 inline void require_known(const Json& value, const std::string& path,
@@ -73,14 +82,20 @@ inline void require_known(const Json& value, const std::string& path,
 
 inline void require_known(const Json& value, const std::string& path, const std::vector<std::string>& known) {
   const std::vector<std::string_view> names(known.begin(), known.end());
-  require_known(value, path, std::span(names));
+  require_known(value, path, std::span<const std::string_view>(names));
 }
 
 inline const Json& require_field(const Json& value, const std::string& path, const char* field,
                                  const char* requirement) {
   const auto it = value.find(field);
-  if (it == value.end()) throw InputError(path.empty() ? field : path + "." + field, "nothing", requirement);
+  if (it == value.end()) throw InputError(join(path, field), "nothing", requirement);
   return *it;
+}
+
+/// Hands the field and its path to `read` where it is given.
+template <typename Read>
+void if_given(const Json& value, const std::string& path, const char* field, Read read) {
+  if (const auto it = value.find(field); it != value.end()) read(*it, join(path, field));
 }
 
 /// `make()` with the path before the field of an error.
@@ -89,6 +104,7 @@ auto within(const std::string& path, Make make) -> decltype(make()) {
   try {
     return make();
   } catch (const InputError& e) {
+    if (path.empty()) throw;
     throw e.within(path);
   }
 }

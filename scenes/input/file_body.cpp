@@ -2,9 +2,8 @@
 #include "input/file_body.h"
 
 #include "input/assembly_body.h"
-#include "input/fields.h"
+#include "input/body_kind.h"
 #include "input/scene.h"
-#include "input/spatial_body.h"
 #include "json/json_value.h"
 
 namespace vericone::input {
@@ -16,10 +15,36 @@ constexpr int kMostFiles = 8;  // each naming the next
 constexpr const char* kBodyFile =
     "a file with a body, or with the pieces or the obstacle that vericone fit writes";
 
-std::string file_name(const Json& value, const std::string& path) {
-  if (!value.is_string() || value.get<std::string>().empty())
-    throw InputError(path, quoted(value), "the name of a file, relative to the file that names it");
-  return value.get<std::string>();
+/// A body that a file has; what stands beside the name is read where the file's body is known.
+const Fields<std::string>& file_fields() {
+  const auto itself = [](std::string& name) -> std::string& { return name; };
+  static const Fields<std::string> fields =
+      Fields<std::string>("body")
+          .row("file", itself, file_name(),
+               "A file with a body, for example `body.yaml` or `fit.json` of `vericone fit`. Names are "
+               "relative to the file that they stand in. `center` and `rotation` beside it place the file's "
+               "own origin.",
+               alternative())
+          .special("center", {}, {}, kCenterSentence)
+          .special("rotation", {}, {}, kRotationSentence);
+  return fields;
+}
+
+const Fields<PlaceFields>& union_fields() {
+  static const Fields<PlaceFields> fields = [] {
+    Fields<PlaceFields> rows("body");
+    rows.special(
+        "pieces",
+        {{"anyOf",
+          {{{"type", "string"}},
+           {{"type", "array"}, {"items", {{"$ref", "#/$defs/body"}}}, {"minItems", 1}}}},
+         {"title", "list of bodies, or file"}},
+        {},
+        "A union of bodies: ellipsoids, with hyperboloids too, or convex hulls; or the name of a file "
+        "that has the list, as `vericone fit --pieces` writes it.");
+    return with_place(rows);
+  }();
+  return fields;
 }
 
 /// What a file has of a body.
@@ -92,8 +117,7 @@ Json moved(Json body, const Json& by, const std::string& path) {
 /// `files`: how many have been followed to come here.
 Json without_files(Json body, const std::string& path, const Path& folder, int files) {
   if (!body.is_object() || !body.contains("file")) return body;
-  require_known(body, path, {"file", "center", "rotation"});
-  const std::string field = path + ".file", name = file_name(body["file"], field);
+  const std::string name = file_fields().read(body, path), field = path.empty() ? "file" : path + ".file";
   if (files == kMostFiles)
     throw InputError(field, name, "a file that names " + std::to_string(kMostFiles) + " others at most");
   Json found = body_of_file(name, field, folder);
@@ -121,7 +145,7 @@ std::string remembered_fields(const Json& value, const std::string& path, const 
 bool is_union(const Json& value) { return value.is_object() && value.contains("pieces"); }
 
 Placed read_union(const Json& value, const std::string& path, const Path& folder) {
-  require_known(value, path, {"pieces", "center", "rotation"});
+  union_fields().require_known(value, path);
   const std::string field = path + ".pieces";
   Json list = value["pieces"];
   if (list.is_string()) {
@@ -148,12 +172,12 @@ Placed read_union(const Json& value, const std::string& path, const Path& folder
     if (!hulls.empty() && !quadrics.empty())
       throw InputError(at(field, i), quoted(piece), "like the pieces before it: hulls, or none");
   }
-  Pose pose;
-  if (value.contains("center"))
-    pose.position = read_vector<3>(value["center"], path + ".center", " (metres)");
-  pose.rotation = read_rotation(value, path);
+  const Pose pose = union_fields().read(value, path).pose;
   return {hulls.empty() ? Body::pieces(std::move(quadrics)) : Body(Assembly::polyhedra(std::move(hulls))),
           pose};
 }
+
+Json file_body_schema() { return file_fields().schema(); }
+Json union_schema() { return union_fields().schema(); }
 
 }  // namespace vericone::input

@@ -24,4 +24,8 @@ bool is_union(const Json& value);
 /// a file that has one, in a frame of their own that `center` and `rotation` place. Throws InputError.
 Placed read_union(const Json& value, const std::string& path, const std::filesystem::path& folder);
 
+/// What the JSON schema of bodies says of the two.
+Json file_body_schema();
+Json union_schema();
+
 }  // namespace vericone::input

@@ -14,7 +14,8 @@
 #include <sstream>
 #include <vector>
 
-#include "input/fields.h"
+#include "input/assembly_body.h"
+#include "input/field_table.h"
 #include "input/file_body.h"
 #include "input/text_source.h"
 #include "json/json_value.h"
@@ -198,7 +199,7 @@ FileKind kind_of_file(const Json& fields) {
   if (has({"bodies"})) return FileKind::scenario;
   if (has({"uas", "cars", "cameras"})) return FileKind::pursuit;
   if (has({"agent"})) return FileKind::scene;
-  if (has({"semi_axes", "shape", "quadric", "a_c", "mesh", "cloud", "octree", "hull", "points", "pieces"}))
+  if (has({"semi_axes", "shape", "quadric", "a_c", "pieces"}) || is_pieces_body(fields))
     return FileKind::body;
   return FileKind::unknown;
 }
@@ -235,10 +236,24 @@ Json scene_fields(const std::string& text, const std::string& path) {
 
 Json read_scene_fields(const std::string& path) { return scene_fields(read_scene_text(path), path); }
 
+const Fields<scenes::Scene>& scene_file_fields() {
+  const auto of_scans = [](const char* name) {
+    return Json{{"$ref", std::string("scan.schema.json#/properties/") + name}};
+  };
+  static const Fields<scenes::Scene> fields =
+      Fields<scenes::Scene>("scene")
+          .special("name", {{"type", "string"}}, {}, "What reports call it.", absent("the file's name"))
+          .special("lidars", of_scans("lidars"), {}, "Sensors on the agent, for `vericone scan`.")
+          .special("pose_error", of_scans("pose_error"), {},
+                   "How well the poses of all LiDARs but the first are known. The scans are then fused by "
+                   "ICP.");
+  return fields;
+}
+
 Scene scene_of(const Json& fields, const std::string& path) {
   require_kind(fields, FileKind::scene, path);
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  Scene scene = read_engagement(fields, Velocities::optional, {"name", "lidars", "pose_error"}, folder);
+  Scene scene = read_engagement(fields, Velocities::optional, scene_file_fields().names(), folder);
   scene.agent.fields = remembered_fields(fields["agent"], "agent", folder);
   scene.obstacle.fields = remembered_fields(fields["obstacle"], "obstacle", folder);
   return scene;

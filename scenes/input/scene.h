@@ -4,6 +4,7 @@
 #include <string>
 
 #include "input/body.h"
+#include "input/field_table.h"
 
 namespace vericone::input {
 
@@ -26,5 +27,8 @@ Json read_scene_fields(const std::string& path);
 std::string read_scene_text(const std::string& path);
 Json scene_fields(const std::string& text, const std::string& path);
 Scene scene_of(const Json& fields, const std::string& path);
+
+/// What a scene's file has beside the fields of an engagement.
+const Fields<Scene>& scene_file_fields();
 
 }  // namespace vericone::input

@@ -2,31 +2,39 @@
 #include "input/spatial_body.h"
 
 #include <vericone/geometry/quadric.h>
-#include <array>
-#include <string_view>
 
 #include "input/assembly_body.h"
-#include "input/fields.h"
+#include "input/body_kind.h"
 #include "json/json_value.h"
 
 namespace vericone::input {
 namespace {
 
-/// As written: not quite orthonormal yet.
 Eigen::Matrix3d read_turn(const Json& value, const std::string& path) {
   if (value.is_array() && value.size() == 4 && value[0].is_array())
     throw InputError(path, quoted(value),
                      "a quaternion [w, x, y, z] or a 3x3 matrix (of a 4x4 pose the upper left one; its last "
                      "column is the center)");
-  if (value.is_array() && value.size() == 4) return rotation_3d(read_vector<4>(value, path, ""));
   if (value.is_array() && value.size() == 3) return read_matrix<3>(value, path, "");
-  throw InputError(path, quoted(value), "a quaternion [w, x, y, z] or a 3x3 matrix");
+  if (!value.is_array() || value.size() != 4)
+    throw InputError(path, quoted(value), "a quaternion [w, x, y, z] or a 3x3 matrix");
+  const Eigen::Vector4d wxyz = read_vector<4>(value, path, "");
+  try {
+    return rotation_3d(wxyz);
+  } catch (const InputError& e) {
+    throw InputError(path, e.value(), e.requirement());
+  }
 }
+
+/// As written: not quite orthonormal yet.
+Value<Eigen::Matrix3d> turn() { return {read_turn, Json{{"$ref", "body.schema.json#/$defs/rotation"}}, {}}; }
 
 /// The nearest rotation; throws InputError naming "rotation" where that is not near.
 Eigen::Matrix3d orthonormal(const Eigen::Matrix3d& rotation) {
   return Ellipsoid::from_axes(Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones(), rotation).factor();
 }
+
+using Hyperboloid = DelimiterFields<3, Eigen::Matrix3d>;
 
 int read_sheets(const Json& value, const std::string& path) {
   // From YAML a number comes as a double.
@@ -35,59 +43,55 @@ int read_sheets(const Json& value, const std::string& path) {
   throw InputError(path, quoted(value), "1 (a waist) or 2 (two dents)");
 }
 
-Delimiter<3> read_hyperboloid(const Json& value, const std::string& path, const Eigen::Matrix3d& body) {
-  require_object(value, path);
-  require_known(value, path, {"sheets", "semi_axes", "rotation"});
-  const int sheets =
-      read_sheets(require_field(value, path, "sheets", "1 (a waist) or 2 (two dents)"), path + ".sheets");
-  const Eigen::Vector3d axes =
-      read_vector<3>(require_field(value, path, "semi_axes", "[a, b, c] in metres, a along its axis"),
-                     path + ".semi_axes", " (metres)");
-  return within(path, [&] {
-    Eigen::Matrix3d own = Eigen::Matrix3d::Identity();
-    if (value.contains("rotation")) own = orthonormal(read_turn(value["rotation"], "rotation"));
-    return hyperboloid(sheets, axes, body * own);
-  });
+const Fields<Hyperboloid>& hyperboloid_fields() {
+  static const Fields<Hyperboloid> fields =
+      Fields<Hyperboloid>("hyperboloids")
+          .row("sheets", &Hyperboloid::sheets, Value<int>{read_sheets, Json{{"enum", {1, 2}}}, {}},
+               "2: x²/a² - y²/b² - z²/c² = 1 cuts two dents. 1: -x²/a² + y²/b² + z²/c² = 1 cuts a waist.",
+               required("1 (a waist) or 2 (two dents)"))
+          .row("semi_axes", &Hyperboloid::semi_axes, axes<3>(),
+               "`[a, b, c]`, positive. Its axis is its local x.",
+               required("[a, b, c] in metres, a along its axis"))
+          .row("rotation", &Hyperboloid::rotation, turn(),
+               "Written as the body's, relative to the body's frame: R = R_body R_hyperboloid.",
+               absent("not turned"));
+  return fields;
 }
 
-CombinedEllipsoid read_axes(const Json& value, const std::string& path, const Eigen::Vector3d& center) {
-  const Eigen::Vector3d axes = read_vector<3>(value["semi_axes"], path + ".semi_axes", " (metres)");
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  const Ellipsoid ellipsoid = within(path, [&] {
-    if (value.contains("rotation")) rotation = read_turn(value["rotation"], "rotation");
-    return Ellipsoid::from_axes(center, axes, rotation);
-  });
-  if (!value.contains("hyperboloids")) return ellipsoid;
-  const Json& list = value["hyperboloids"];
-  const std::string field = path + ".hyperboloids";
-  if (!list.is_array())
-    throw InputError(field, quoted(list), "a list of hyperboloids, each with sheets and semi_axes");
-  const Eigen::Matrix3d turn = orthonormal(rotation);
-  std::vector<Delimiter<3>> delimiters;
-  for (std::size_t i = 0; i < list.size(); ++i)
-    delimiters.push_back(read_hyperboloid(list[i], at(field, i), turn));
-  return within(path, [&] { return CombinedEllipsoid(ellipsoid, std::move(delimiters)); });
+struct SpatialFields : QuadricFields<3, Eigen::Matrix3d> {
+  std::optional<Eigen::Matrix4d> quadric;
+};
+
+const Fields<SpatialFields>& spatial_fields() {
+  using S = SpatialFields;
+  static const Fields<S> fields = [] {
+    Fields<S> rows("body");
+    return with_quadric<3>(rows, turn(), "hyperboloids",
+                           list("hyperboloids, each with sheets and semi_axes",
+                                mapping("hyperboloid", hyperboloid_fields())),
+                           "With `semi_axes` in space: what delimits the ellipsoid.")
+        .row("quadric", &S::quadric,
+             matrix<4>("", {{"type", "array"},
+                            {"items", {{"$ref", "#/$defs/vector4"}}},
+                            {"minItems", 4},
+                            {"maxItems", 4},
+                            {"title", "4x4 matrix"}}),
+             "In place of all others: symmetric 4x4 matrix Q of the surface x̃ᵀQx̃ = 0, an ellipsoid, "
+             "either sign.");
+  }();
+  return fields;
 }
 
-}  // namespace
-
-Eigen::Matrix3d read_rotation(const Json& body, const std::string& path) {
-  if (!body.contains("rotation")) return Eigen::Matrix3d::Identity();
-  return within(path, [&] { return orthonormal(read_turn(body["rotation"], "rotation")); });
-}
-
-CombinedEllipsoid read_spatial_body(const Json& value, const std::string& path) {
-  require_object(value, path);
+/// What holds of several fields together.
+void check_spatial(const Json& value, const std::string& path) {
   const int kinds = value.contains("semi_axes") + value.contains("shape") + value.contains("quadric");
-  constexpr std::array<std::string_view, 6> kOwn{"center",       "semi_axes", "rotation",
-                                                 "hyperboloids", "shape",     "quadric"};
   if (kinds > 0) {
-    require_known(value, path, kOwn);
+    spatial_fields().require_known(value, path);
   } else {  // what says the kind may be the field that is misspelt
-    std::vector<std::string> known = pieces_fields();
-    known.insert(known.begin(), kOwn.begin(), kOwn.end());
+    std::vector<std::string_view> known = spatial_fields().names();
+    for (const std::string_view field : pieces_fields()) known.push_back(field);
     known.insert(known.end(), {"pieces", "file", "velocity"});
-    require_known(value, path, known);
+    require_known(value, path, std::span<const std::string_view>(known));
   }
   if (kinds != 1)
     throw InputError(path, kinds == 0 ? "no shape" : "more than one shape",
@@ -101,18 +105,54 @@ CombinedEllipsoid read_spatial_body(const Json& value, const std::string& path) 
     throw InputError(
         path + ".hyperboloids", quoted(value["hyperboloids"]),
         "left out, or the body given by semi_axes and rotation, whose axes they are turned against");
-
-  if (value.contains("quadric")) {
-    const Eigen::Matrix4d q = read_matrix<4>(value["quadric"], path + ".quadric", "");
-    return within(path, [&] { return Ellipsoid::from_quadric(Quadric(q)); });
-  }
-  const Eigen::Vector3d center = read_vector<3>(require_field(value, path, "center", "[x, y, z] in metres"),
-                                                path + ".center", " (metres)");
-  if (value.contains("shape")) {
-    const Eigen::Matrix3d shape = read_matrix<3>(value["shape"], path + ".shape", " (square metres)");
-    return within(path, [&] { return Ellipsoid::from_shape(center, shape); });
-  }
-  return read_axes(value, path, center);
+  if (!value.contains("quadric")) require_field(value, path, "center", "[x, y, z] in metres");
 }
+
+CombinedEllipsoid ellipsoid_of(const SpatialFields& read) {
+  if (read.quadric) return Ellipsoid::from_quadric(Quadric(*read.quadric));
+  if (read.shape) return Ellipsoid::from_shape(*read.center, *read.shape);
+  const Eigen::Matrix3d rotation = read.rotation.value_or(Eigen::Matrix3d::Identity());
+  const Ellipsoid ellipsoid = Ellipsoid::from_axes(*read.center, *read.semi_axes, rotation);
+  if (read.delimiters.empty()) return ellipsoid;
+  const Eigen::Matrix3d turned = orthonormal(rotation);
+  std::vector<Delimiter<3>> delimiters;
+  for (const Hyperboloid& one : read.delimiters)
+    delimiters.push_back(within(at("hyperboloids", delimiters.size()), [&] {
+      const Eigen::Matrix3d own = one.rotation ? orthonormal(*one.rotation) : Eigen::Matrix3d::Identity();
+      return hyperboloid(one.sheets, one.semi_axes, turned * own);
+    }));
+  return CombinedEllipsoid(ellipsoid, std::move(delimiters));
+}
+
+}  // namespace
+
+Value<Eigen::Matrix3d> rotation() {
+  return {[](const Json& value, const std::string& path) -> Eigen::Matrix3d {
+            const Eigen::Matrix3d turn = read_turn(value, path);
+            try {
+              return orthonormal(turn);
+            } catch (const InputError& e) {
+              throw InputError(path, e.value(), e.requirement());
+            }
+          },
+          turn().schema,
+          {}};
+}
+
+Eigen::Matrix3d read_rotation(const Json& body, const std::string& path) {
+  if (!body.contains("rotation")) return Eigen::Matrix3d::Identity();
+  return rotation().read(body["rotation"], path.empty() ? "rotation" : path + ".rotation");
+}
+
+CombinedEllipsoid read_spatial_body(const Json& value, const std::string& path) {
+  require_object(value, path);
+  check_spatial(value, path);
+  SpatialFields read;
+  spatial_fields().read_known(value, path, read);
+  return within(path, [&] { return ellipsoid_of(read); });
+}
+
+Json spatial_schema() { return spatial_fields().schema(); }
+Json hyperboloid_schema() { return hyperboloid_fields().schema(); }
 
 }  // namespace vericone::input

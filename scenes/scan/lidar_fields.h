@@ -16,5 +16,6 @@ struct SceneLidars {
 /// The fields `lidars` and `pose_error` of a scene (docs/reference/formats.md). Throws InputError naming the
 /// field.
 SceneLidars read_lidars(const Json& scene);
+Json scan_schema();
 
 }  // namespace vericone::scanning

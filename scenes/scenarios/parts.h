@@ -63,6 +63,7 @@ guidance::PlaneFilterOptions read_filter(const Json& value, const std::string& p
 guidance::OuterLoopOptions read_outer_loop(const Json& value, const std::string& path);
 
 /// What the $defs of the scenarios' JSON schema say of these parts, from the tables that read them.
+Json shape_schemas();
 Json road_schemas();
 Json vehicle_schemas();
 Json orifice_schemas();

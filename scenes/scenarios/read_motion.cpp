@@ -5,15 +5,15 @@
 #include <Eigen/Geometry>
 #include <numbers>
 
+#include "input/field_table.h"
 #include "input/spatial_body.h"
 #include "json/json_value.h"
-#include "scenarios/scenario_fields.h"
 
 namespace vericone::scenario {
 namespace {
 
 using guidance::Direction;
-using input::at, input::quoted, input::read_number, input::read_vector, input::require_field;
+using input::at, input::if_given, input::quoted, input::read_number, input::read_vector, input::require_field;
 using simulation::Orientation;
 
 Eigen::Vector3d read_point(const Json& value, const std::string& path, bool planar, const char* unit) {
@@ -56,7 +56,7 @@ Going read_going(const Json& value, const std::string& path, bool planar) {
     going.ahead = guidance::direction_of(going.velocity);
     return going;
   }
-  const double speed = read_not_negative(value["speed"], path + ".speed", " (m/s)");
+  const double speed = input::not_negative("m/s").read(value["speed"], path + ".speed");
   if (!radians && !degrees)
     throw InputError(
         path + ".heading", "nothing",
@@ -94,9 +94,10 @@ void read_motion(const Json& value, const std::string& path, bool planar, simula
   const Going going = read_going(value, path, planar);
   body.start.velocity = going.velocity;
   if_given(value, path, "orientation", [&](const Json& v, const std::string& p) {
-    body.orientation = read_choice<Orientation>(
-        v, p,
-        {{"heading", Orientation::heading}, {"level", Orientation::level}, {"fixed", Orientation::fixed}});
+    body.orientation =
+        input::choice<Orientation>(
+            {{"heading", Orientation::heading}, {"level", Orientation::level}, {"fixed", Orientation::fixed}})
+            .read(v, p);
   });
   if (!value.contains("rotation")) {
     body.start.rotation = along(going.ahead);

@@ -9,7 +9,6 @@
 
 #include "input/field_table.h"
 #include "input/spatial_body.h"
-#include "scenarios/scenario_fields.h"
 
 namespace vericone::scenario {
 namespace {

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "input/field_table.h"
-#include "scenarios/scenario_fields.h"
 
 namespace vericone::scenario {
 namespace {
@@ -12,7 +11,7 @@ namespace {
 using guidance::Law;
 using input::absent, input::alternative, input::choice, input::Fields, input::flag, input::mapping,
     input::not_negative, input::number, input::positive, input::quoted, input::read_vector,
-    input::require_field, input::required, input::text, input::vector;
+    input::require_field, input::required, input::text, input::Value, input::vector;
 
 using OwnLaw = std::shared_ptr<const simulation::PilotModel> (*)(const Json& value, const std::string& path);
 
@@ -21,16 +20,18 @@ struct ReadLaw {
   Law minding = Law::avoidance;
   std::optional<simulation::Through::Law> through = {};
   OwnLaw own = nullptr;
+  bool operator==(const ReadLaw&) const = default;
 };
 
-constexpr std::initializer_list<std::pair<const char*, ReadLaw>> kLaws = {
-    {"avoidance", {Law::avoidance}},
-    {"cooperative-avoidance", {Law::cooperative_avoidance}},
-    {"cooperative-rendezvous", {Law::cooperative_rendezvous}},
-    {"matching-rendezvous", {Law::matching_rendezvous}},
-    {"clearance", {Law::clearance}},
-    {"orifice", {Law::avoidance, simulation::Through::Law::orifice}},
-    {"passage", {Law::avoidance, simulation::Through::Law::passage}}};
+Value<ReadLaw> laws() {
+  return choice<ReadLaw>({{"avoidance", {Law::avoidance}},
+                          {"cooperative-avoidance", {Law::cooperative_avoidance}},
+                          {"cooperative-rendezvous", {Law::cooperative_rendezvous}},
+                          {"matching-rendezvous", {Law::matching_rendezvous}},
+                          {"clearance", {Law::clearance}},
+                          {"orifice", {Law::avoidance, simulation::Through::Law::orifice}},
+                          {"passage", {Law::avoidance, simulation::Through::Law::passage}}});
+}
 
 const Fields<guidance::PlaneOptions>& plane_fields() {
   using P = guidance::PlaneOptions;
@@ -114,7 +115,7 @@ struct PilotFile : simulation::Pilot {
 };
 
 void read_law(const Json& value, const std::string& path, PilotFile& pilot) {
-  const ReadLaw law = read_choice<ReadLaw>(value, path, kLaws);
+  const ReadLaw law = laws().read(value, path);
   pilot.guide.law = law.minding;
   pilot.own_law = law.own;
   if (law.through) {
@@ -162,17 +163,11 @@ Laws with(Laws laws, const char* more) {
   return laws;
 }
 
-Json law_schema() {
-  Json names = Json::array();
-  for (const auto& [name, law] : kLaws) names.push_back(name);
-  return {{"enum", std::move(names)}};
-}
-
 /// What all laws read.
 void add_fields_of_all(Fields<PilotFile>& fields) {
   using F = PilotFile;
   fields
-      .special("law", law_schema(), read_law,
+      .special("law", laws().schema, read_law,
                "`avoidance` (5.12), (6.17); `cooperative-avoidance` (6.19); `cooperative-rendezvous` (5.14); "
                "`matching-rendezvous` (5.16)-(5.17); `clearance`: to a miss distance in metres; `orifice` "
                "(2.4) and "
@@ -383,7 +378,8 @@ Json pilot_schemas() {
   return {{"pilot", pilot_fields().schema()},
           {"plane", plane_fields().schema()},
           {"clearance", clearance_fields().schema()},
-          {"goal", goal_fields().schema()}};
+          {"goal", goal_fields().schema()},
+          {"names", {{"title", "list of names"}, {"type", "array"}, {"items", text("").schema}}}};
 }
 
 }  // namespace vericone::scenario

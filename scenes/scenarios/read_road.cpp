@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "input/field_table.h"
-#include "scenarios/scenario_fields.h"
 
 namespace vericone::scenario {
 namespace {
 
 using Eigen::Vector2d;
-using input::absent, input::Fields, input::list, input::mapping, input::not_negative, input::number;
+using input::absent, input::Fields, input::join, input::list, input::mapping, input::not_negative,
+    input::number;
 using input::positive, input::quoted, input::read_vector, input::require_field, input::require_object;
 using input::required, input::vector;
 using simulation::LaneChange, simulation::Road;

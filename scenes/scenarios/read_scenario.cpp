@@ -13,13 +13,13 @@
 #include "input/scene.h"
 #include "json/plain_text.h"
 #include "scenarios/parts.h"
-#include "scenarios/scenario_fields.h"
 
 namespace vericone::scenario {
 namespace {
 
-using input::absent, input::at, input::Fields, input::not_negative, input::positive, input::quoted,
-    input::require_field, input::require_object, input::required;
+using input::absent, input::at, input::Fields, input::if_given, input::not_negative, input::number,
+    input::positive, input::quoted, input::require_field, input::require_object, input::required,
+    input::vector;
 
 constexpr std::array<const char*, 5> kKinds{"semi_axes", "quadric", "a_c", "dented", "file"};
 
@@ -52,7 +52,7 @@ const Fields<simulation::Body>& body_fields() {
           .special("heading", heading("rad"), {}, "In the plane an angle, in space `[azimuth, elevation]`.")
           .special("heading_deg", heading("degrees"), {}, "The same in degrees.")
           .special(
-              "orientation", {{"$ref", "#/$defs/orientation"}, {"default", "heading"}}, {},
+              "orientation", {{"enum", {"heading", "level", "fixed"}}, {"default", "heading"}}, {},
               "`heading`: the body turns with its velocity, without roll. `level`: x along the velocity, y "
               "level, as in the source's 6.5. `fixed`: it does not turn.")
           .special("rotation", {{"$ref", "body.schema.json#/$defs/rotation"}}, {},
@@ -105,7 +105,8 @@ simulation::Body read_body(const Json& given, const std::string& path, const std
   const Json value = by_shape(given) ? given : with_shape(given, path);
   body_fields().require_known(value, path);
   simulation::Body body;
-  body.name = read_text(require_field(value, path, "name", "a name, as text"), path + ".name", "a name");
+  body.name =
+      input::text("a name").read(require_field(value, path, "name", "a name, as text"), path + ".name");
   bool own_shape = false;
   if_given(value, path, "vehicle", [&](const Json& v, const std::string& p) {
     const VehicleRead read = read_vehicle(v, p, value.contains("shape"));
@@ -121,8 +122,10 @@ simulation::Body read_body(const Json& given, const std::string& path, const std
     read_road(value, path, planar, body);
   else
     read_motion(value, path, planar, body);
-  take(value, path, "appears", body.appears, read_not_negative, " (s)");
-  take(value, path, "pilot", body.pilot, read_pilot, planar);
+  if_given(value, path, "appears",
+           [&](const Json& v, const std::string& p) { body.appears = not_negative("s").read(v, p); });
+  if_given(value, path, "pilot",
+           [&](const Json& v, const std::string& p) { body.pilot = read_pilot(v, p, planar); });
   // Who starts at rest and could not change its speed could do nothing.
   const auto pilot = value.find("pilot");
   if (body.pilot && !body.start.velocity.any() &&
@@ -230,8 +233,22 @@ simulation::Scenario read_scenario(const Json& fields, const std::string& name,
 }
 
 Json scenario_file_schema() {
-  Json schema = scenario_fields().schema();
-  schema["$defs"]["by_shape"] = body_fields().schema();
+  Json schema = scenario_fields().schema(), by_shape = body_fields().schema();
+  // What with_shape() takes apart.
+  Json in_scenes = by_shape;
+  Json& fields = in_scenes["properties"];
+  fields.erase("shape");
+  fields.erase("position");
+  const Json shape = shape_schemas()["shape"];
+  for (const auto& [name, field] : shape["properties"].items())
+    if (!fields.contains(name)) fields[name] = field;
+  in_scenes["required"] = {"name"};
+  schema["$defs"] = {{"by_shape", std::move(by_shape)},
+                     {"as_in_scenes", std::move(in_scenes)},
+                     {"heading",
+                      {{"title", "angle, or [azimuth, elevation]"},
+                       {"anyOf", {number().schema, vector<2>().schema}},
+                       {"description", "An angle in the plane, [azimuth, elevation] in space."}}}};
   return schema;
 }
 

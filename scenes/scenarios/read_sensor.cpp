@@ -6,13 +6,12 @@
 
 #include "input/field_table.h"
 #include "scenarios/robust_fields.h"
-#include "scenarios/scenario_fields.h"
 
 namespace vericone::scenario {
 namespace {
 
-using input::absent, input::choice, input::Fields, input::not_negative, input::number, input::positive,
-    input::quoted, input::required, input::vector;
+using input::absent, input::choice, input::Fields, input::join, input::not_negative, input::number,
+    input::positive, input::quoted, input::required, input::vector;
 
 constexpr double kDegree = std::numbers::pi / 180;
 

@@ -4,18 +4,24 @@
 #include <utility>
 
 #include "input/assembly_body.h"
+#include "input/field_table.h"
 #include "input/fields.h"
 #include "input/file_body.h"
 #include "input/planar_body.h"
 #include "input/spatial_body.h"
 #include "json/json_value.h"
-#include "scenarios/scenario_fields.h"
+#include "output/schemas.h"
 
 namespace vericone::scenario {
 namespace {
 
-using input::at, input::quoted, input::read_number, input::read_vector, input::require_field,
-    input::require_known, input::require_object;
+using input::at, input::Fields, input::number, input::quoted, input::read_vector, input::require_field,
+    input::require_known, input::require_object, input::vector;
+
+/// A field that bodies of scenes have too.
+Json of_body(const std::string& name) {
+  return {{"$ref", "body.schema.json#/$defs/body/properties/" + name}};
+}
 
 std::string shape_kinds() {
   return "given by exactly one of semi_axes (2 or 3 numbers), shape, quadric, a_c (with b_c, k), dented "
@@ -24,23 +30,41 @@ std::string shape_kinds() {
          input::pieces_kinds();
 }
 
+const Fields<simulation::Oscillation>& oscillation_fields() {
+  using K = simulation::Oscillation;
+  static const Fields<K> fields =
+      Fields<K>("oscillation")
+          .row("offset", &K::offset, number(), "In the middle.")
+          .row("amplitude", &K::amplitude, number(), "offset + amplitude sin(rate t + phase).")
+          .row("rate", &K::rate, number("rad/s"), "Of the sine.")
+          .row("phase", &K::phase, number("rad"), "At the start.")
+          .row("absolute", &K::absolute, input::flag(), "Of its absolute value.");
+  return fields;
+}
+
 /// k: a number, or how it changes in time.
 simulation::Oscillation read_oscillation(const Json& value, const std::string& path) {
-  simulation::Oscillation k;
-  if (value.is_number()) {
-    k.offset = read_number(value, path, "");
-    return k;
-  }
+  if (value.is_number()) return {.offset = number().read(value, path)};
   if (!value.is_object())
     throw InputError(path, quoted(value),
                      "a number, or offset, amplitude, rate, phase, absolute of a changing one");
-  require_known(value, path, {"offset", "amplitude", "rate", "phase", "absolute"});
-  take(value, path, "offset", k.offset, read_number, "");
-  take(value, path, "amplitude", k.amplitude, read_number, "");
-  take(value, path, "rate", k.rate, read_number, " (rad/s)");
-  take(value, path, "phase", k.phase, read_number, " (rad)");
-  take(value, path, "absolute", k.absolute, read_flag);
-  return k;
+  return oscillation_fields().read(value, path);
+}
+
+/// The fields of a shape that no file and no union gives; what each means, the body's schema or the reader of
+/// the kind says.
+const Fields<simulation::RigidShape>& shape_fields() {
+  static const Fields<simulation::RigidShape> fields = [] {
+    Fields<simulation::RigidShape> rows("shape");
+    for (const char* name : {"center", "rotation", "semi_axes", "hyperboloids", "hyperbolas", "shape",
+                             "quadric", "a_c", "b_c", "phi"})
+      rows.special(name, of_body(name), {}, nullptr);
+    rows.special("dented", vector<3>("m").schema, {}, "Half-lengths of an ellipsoid with dents, with `k`.")
+        .special("k", {{"$ref", "#/$defs/oscillation"}}, {}, "Of a_c or dented.");
+    for (const char* name : {"points", "scale"}) rows.special(name, of_body(name), {}, nullptr);
+    return rows;
+  }();
+  return fields;
 }
 
 simulation::Oscillation require_oscillation(const Json& value, const std::string& path) {
@@ -112,10 +136,7 @@ simulation::ShapeInTime read_shape(const Json& given, const std::string& path,
   require_object(given, path);
   const Json value = input::body_fields(given, path, folder);
   const bool from_file = input::is_pieces_body(value) && !value.contains("points");
-  if (!from_file && !input::is_union(value))
-    require_known(value, path,
-                  {"center", "rotation", "semi_axes", "hyperboloids", "hyperbolas", "shape", "quadric", "a_c",
-                   "b_c", "phi", "dented", "k", "points", "scale"});
+  if (!from_file && !input::is_union(value)) shape_fields().require_known(value, path);
   const int kinds = value.contains("semi_axes") + value.contains("shape") + value.contains("quadric") +
                     (value.contains("a_c") || value.contains("b_c")) + value.contains("dented") +
                     value.contains("points") + input::is_union(value) + from_file;
@@ -134,17 +155,30 @@ simulation::ShapeInTime read_shape(const Json& given, const std::string& path,
     simulation::DentedQuadric shape;
     require_known(value, path, {"dented", "k"});
     shape.semi_axes = read_vector<3>(value["dented"], path + ".dented", " (metres)");
-    for (int i = 0; i < 3; ++i) read_positive(value["dented"][i], at(path + ".dented", i), " (metres)");
+    for (int i = 0; i < 3; ++i) input::positive("m").read(value["dented"][i], at(path + ".dented", i));
     shape.k = require_oscillation(value, path);
     return shape;
   }
   if (value.contains("phi") || value.contains("center")) return read_flat(value, path);
   simulation::DentedConic shape;
   const char* length = "a length in metres";
-  shape.a_c = read_positive(require_field(value, path, "a_c", length), path + ".a_c", " (metres)");
-  shape.b_c = read_positive(require_field(value, path, "b_c", length), path + ".b_c", " (metres)");
+  shape.a_c = input::positive("m").read(require_field(value, path, "a_c", length), path + ".a_c");
+  shape.b_c = input::positive("m").read(require_field(value, path, "b_c", length), path + ".b_c");
   shape.k = require_oscillation(value, path);
   return shape;
+}
+
+Json shape_schemas() {
+  Json shape = shape_fields().schema();
+  const Json body = input::body_schema()["$defs"]["body"]["properties"];
+  for (const auto& [name, field] : body.items())
+    if (name != "velocity" && !shape["properties"].contains(name)) shape["properties"][name] = of_body(name);
+  const Json number{{"type", "number"}};
+  return {{"shape", std::move(shape)},
+          {"oscillation",
+           {{"title", "number, or object"},
+            {"anyOf", {number, oscillation_fields().schema()}},
+            {"description", "A number, or offset + amplitude sin(rate t + phase)."}}}};
 }
 
 }  // namespace vericone::scenario

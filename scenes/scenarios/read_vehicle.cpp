@@ -6,13 +6,13 @@
 #include <numbers>
 
 #include "input/field_table.h"
-#include "scenarios/scenario_fields.h"
 
 namespace vericone::scenario {
 namespace {
 
-using input::absent, input::choice, input::Fields, input::not_negative, input::number, input::positive,
-    input::quoted, input::require_field, input::require_object, input::required, input::vector;
+using input::absent, input::choice, input::Fields, input::join, input::not_negative, input::number,
+    input::positive, input::quoted, input::require_field, input::require_object, input::required,
+    input::vector;
 using vehicles::FishControl, vehicles::FishOptions, vehicles::FishParameters, vehicles::FishTrial,
     vehicles::QuadrotorOptions;
 

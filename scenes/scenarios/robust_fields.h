@@ -9,19 +9,15 @@
 
 namespace vericone::input {
 
-inline std::string field_path(const std::string& path, const char* field) {
-  return path.empty() ? field : path + "." + field;
-}
-
 /// A number that has to be there; `requirement` is said where it is not.
 inline double required_number(const Json& value, const std::string& path, const char* field,
                               const char* requirement) {
-  return read_number(require_field(value, path, field, requirement), field_path(path, field), "");
+  return read_number(require_field(value, path, field, requirement), join(path, field), "");
 }
 
 /// `nu` as printed, or the two ends of a.
 inline void read_a(const Json& value, const std::string& path, guidance::RobustModel& model) {
-  const std::string a = field_path(path, "a");
+  const std::string a = join(path, "a");
   if (value.contains("nu") == value.contains("a"))
     throw InputError(a, value.contains("a") ? "beside nu" : "nothing",
                      "given as nu (a between -nu and nu), or as a: [low, high]");
@@ -32,7 +28,7 @@ inline void read_a(const Json& value, const std::string& path, guidance::RobustM
     return;
   }
   const double nu = required_number(value, path, "nu", "");
-  if (!(nu > 0)) throw InputError(field_path(path, "nu"), quoted(value["nu"]), "a positive number");
+  if (!(nu > 0)) throw InputError(join(path, "nu"), quoted(value["nu"]), "a positive number");
   model.a_low = -nu;
   model.a_high = nu;
 }
@@ -49,7 +45,7 @@ Choice read_either(const Json& value, const std::string& path, const char* field
   if (!value.contains(field)) return otherwise;
   if (value[field] == first) return one;
   if (value[field] == second) return two;
-  throw InputError(field_path(path, field), quoted(value[field]),
+  throw InputError(join(path, field), quoted(value[field]),
                    std::string("\"") + first + "\" or \"" + second + "\"");
 }
 

@@ -7,7 +7,7 @@
 
 namespace vericone::scenario {
 
-/// docs/schemas/scenario.schema.json, of what tables read: bodies' shapes and pilots are not among it yet.
+/// docs/schemas/scenario.schema.json.
 Json scenario_schema();
 
 }  // namespace vericone::scenario

@@ -512,7 +512,8 @@ PURSUITS = [
     ("a road that is not known", [], pursuit(car=CAR.replace("lanes", "spiral"))),
     ("a car that the camera does not see", [], pursuit(car=CAR.replace("[5, 5]", "[5, 500]"))),
     ("pictures between steps", [], pursuit(top="duration: 2\nstep: 0.02\npicture_step: 0.05\n")),
-    ("a gain of zero, of a pursuit", [], pursuit(top="duration: 2\nlaws: {source: {kind: rendezvous, K_1: 0}}\n")),
+    ("a gain of zero, of a pursuit", [], pursuit(top="duration: 2\nlaws: {source: {kind: rendezvous, cone: 0}}\n")),
+    ("a gain by its former name too", [], pursuit(top="duration: 2\nlaws: {source: {kind: focal, cone: 1, K_1: 1}}\n")),
     ("a law of one car for two", [], pursuit(car=CAR + "\n  - " + CAR.replace("B,", "C,"),
                                              top="duration: 2\nlaws: {source: {kind: rendezvous}}\n")),
     ("a variance of one number", [], pursuit(top="duration: 2\nfilters: {ours: {variance: [1]}}\n")),
@@ -670,7 +671,7 @@ COMMANDS += [
     ("a scenario for a scene", ["cone", "FILE"], scenario()),
     ("a scene for a scenario", ["simulate", "FILE"], SCENE),
     ("a scene for a pursuit", ["pursue", "FILE"], SCENE),
-    ("a pursuit for a scene", ["check", "FILE"], pursuit()),
+    ("a pursuit for a scene", ["cone", "FILE"], pursuit()),
     ("a scan for a scene", ["check", "FILE.off"], "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
     ("a body for a scenario", ["trials", "FILE"], "{center: [0, 0, 0], semi_axes: [1, 2, 3]}\n"),
 ]

@@ -42,6 +42,10 @@ class Completion(unittest.TestCase):
                 self.assertRegex(run(command, "--help").stdout, re.escape(option) + r"\b")
             self.assertIn("--help", offered)
 
+    def test_kinds_of_schemas(self):
+        self.assertEqual(sorted(self.words("schema", "")), ["body", "claims", "figures", "pursuit", "scan", "scenario", "scene"])
+        self.assertEqual(self.words("schema", "sc"), ["scene", "scenario", "scan"])
+
     def test_files_are_left_to_bash(self):
         self.assertEqual(self.words("cone", "sce"), [])
 

@@ -89,6 +89,25 @@ class Pursue(unittest.TestCase):
                 self.assertEqual(answer["end"], 1)
 
 
+    def test_check_says_what_a_pursuit_means(self):
+        told = run("check", os.path.join(SOURCE, "docs/examples/pursuits/two.yaml"))
+        self.assertEqual((told.returncode, told.stderr), (0, ""))
+        self.assertIn("followed, at (20, 12, 0) m; moves at 20 m/s", told.stdout)
+        as_json = json.loads(run("check", self.file, "--json").stdout)
+        self.assertEqual(as_json[0], {"label": "pursuit", "text": self.file})
+
+    def test_gains_are_read_by_their_former_names(self):
+        with open(self.file, encoding="utf-8") as f:
+            text = f.read().replace("duration: 2\n", "duration: 2\nlaws: {source: {kind: focal, K_1: 1, K_sp: 0.3}}\n")
+        runs = []
+        for given in (text, text.replace("K_1", "cone").replace("K_sp", "speed_error")):
+            with open(self.file, "w", encoding="utf-8") as f:
+                f.write(given)
+            self.pursue("--camera", "exact", "--law", "source")
+            runs.append(self.rows("uas.csv"))
+        self.assertEqual(*runs)
+
+
 class PursueBadInput(unittest.TestCase):
     def test_every_bad_pursuit_says_why(self):
         self.assertGreaterEqual(len(bad_input_cases.PURSUITS), 20)

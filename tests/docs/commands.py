@@ -38,6 +38,7 @@ EXAMPLES = {
     "pursue": "pursue docs/examples/pursuits/two.yaml --duration 4 --no-figures --quiet",
     "shapes": "shapes --figure notch --no-figures",
     "check": "check docs/examples/scenarios/clearance.yaml",
+    "schema": "schema scan",
     "reach": "reach docs/examples/scenarios/orifices.yaml --current --quiet",
     "simulate": "simulate docs/examples/scenarios/elephant.yaml --no-figures --quiet",
     "campaign": "campaign -N 500 --no-figures --quiet",

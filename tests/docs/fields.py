@@ -2,19 +2,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Writes the tables of fields in docs/reference from the JSON schemas, from the project's folder:
 
-/usr/bin/python3 tests/docs/fields.py
+/usr/bin/python3 tests/docs/fields.py [PROGRAM]
 
-A table stands after a line `<!-- fields: SCHEMA [DEFINITION] [: FIELD...] -->`, up to the next empty line. Without a
+With the program it writes the schemas first, in docs/schemas, as `vericone schema` prints them. A table stands after a line `<!-- fields: SCHEMA [DEFINITION] [: FIELD...] -->`, up to the next empty line. Without a
 definition it has the fields of the schema itself, without fields all. What it says of a field: its type (`title`, `type`,
 `enum` and bounds), `unit`, `default` or `absent` (in words what is taken if it is left out), `read_by`, `description`.
 fields_test.py holds the pages against the schemas."""
 
 import json
 import re
+import subprocess
+import sys
 
 from pages import ROOT, text_of
 
 PAGES = ("docs/reference/formats.md", "docs/reference/pursuits.md", "docs/reference/scenarios.md")
+KINDS = ("body", "claims", "figures", "pursuit", "scan", "scenario", "scene")
 MARK = re.compile(r"^<!-- fields: (\w+)(?: (\w+))?(?:: ([\w ]+))? -->$")
 TYPES = {"string": "text", "boolean": "true or false", "integer": "whole number", "number": "number", "object": "object",
          "array": "list"}
@@ -114,5 +117,8 @@ def marks(text):
 
 
 if __name__ == "__main__":
+    for KIND in KINDS if len(sys.argv) > 1 else ():
+        TEXT = subprocess.run([sys.argv[1], "schema", KIND], capture_output=True, text=True, check=True).stdout
+        (ROOT / f"docs/schemas/{KIND}.schema.json").write_text(TEXT, encoding="utf-8")
     for page in PAGES:
         (ROOT / page).write_text(written(text_of(ROOT / page)), encoding="utf-8")

@@ -26,7 +26,7 @@ class Fields(unittest.TestCase):
             shown.setdefault((name, definition), set()).update(fields.chosen(nodes, only))
             for field in fields.chosen(nodes, only):
                 self.assertTrue(fields.said(name, nodes[field], "description"), f"{name} {definition} {field}")
-        for name, definitions in (("body", ("body", "hyperboloid", "hyperbola")), ("scene", (None, "lidar", "pose_error")),
+        for name, definitions in (("body", ("body", "hyperboloid", "hyperbola")), ("scene", (None,)), ("scan", ("lidar", "pose_error")),
                                   ("scenario", (None, "proof", "by_shape", "pilot", "goal", "plane", "clearance", "orifice", "opening", "vehicle",
                                                 "vehicle_limits", "fish_trial", "quadrotor", "lanes", "lane_change", "squircle", "current", "shear", "gusts"))):
             for definition in definitions:

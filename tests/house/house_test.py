@@ -28,6 +28,8 @@ MAY_INCLUDE = {
     "work": ("geometry", "scenes"),
     "scenarios": ("geometry", "files", "cones", "guidance", "simulation", "vehicles", "scenes"),
     "fits": ("geometry", "files", "fitting"),
+    "pursuits": ("geometry", "guidance", "simulation", "scenes", "scenarios", "vision", "vision/scene", "vision/footage",
+                 "vision/pursuit"),
     "scanning": ("geometry", "lidar", "cones", "scenes"),
     "vision": ("geometry",),
     "vision/scene": ("geometry", "vision"),
@@ -50,7 +52,7 @@ def library_of(path):
         return "simulation"
     if parts[0] == "guidance" and parts[1] == "vehicles":
         return "vehicles"
-    if parts[0] == "scenes" and parts[1] in ("work", "scenarios", "fit", "scan"):
+    if parts[0] == "scenes" and parts[1] in ("work", "scenarios", "fit", "scan", "pursuits"):
         return {"fit": "fits", "scan": "scanning"}.get(parts[1], parts[1])
     if parts[0] == "vision" and parts[1] in ("scene", "footage", "pursuit"):
         return "vision/" + parts[1]

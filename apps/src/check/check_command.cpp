@@ -116,9 +116,9 @@ void check_body(const std::string& file, scenario::Facts& facts) {
                           "} in a scenario");
 }
 
-/// `vericone check`: what a scene, a scenario, a file with a body, or figures or claims of a paper mean, in
-/// plain words, or the first thing that is wrong with it. Nothing is computed but what the bodies are and how
-/// far apart they stand. As text, or as JSON: a list of label and text.
+/// `vericone check`: what a scene, a scenario, a pursuit, a file with a body, or figures or claims of a paper
+/// mean, in plain words, or the first thing that is wrong with it. Nothing is computed but what the bodies
+/// are and how far apart they stand. As text, or as JSON: a list of label and text.
 int run_check(const std::string& file, bool json, std::ostream& out) {
   std::vector<std::string> scans = files::known_extensions();
   scans.insert(scans.end(), {".bt", ".ot"});
@@ -141,7 +141,7 @@ int run_check(const std::string& file, bool json, std::ostream& out) {
       check_scene(fields, file, facts);
       break;
     case input::FileKind::pursuit:
-      throw InputError(file, "a pursuit", "a scene, a scenario or a body; vericone pursue reads pursuits");
+      hand_over("pursue", "check", json ? std::vector<std::string>{file, "--json"} : std::vector{file}, file);
     default:
       check_body(file, facts);
   }
@@ -154,7 +154,7 @@ int run_check(const std::string& file, bool json, std::ostream& out) {
 int check_command(CommandLine& line) {
   std::string file;
   line.option("file", file,
-              "Scene, scenario, body, figures or claims, YAML (docs/reference/formats.md, "
+              "Scene, scenario, pursuit, body, figures or claims, YAML (docs/reference/formats.md, "
               "docs/reference/scenarios.md, docs/reference/papers.md)")
       .required();
   bool json = false;

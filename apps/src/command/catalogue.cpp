@@ -38,7 +38,8 @@ CatalogueEntry simulation(const char* group, const char* name, const char* what,
 
 const std::vector<CatalogueEntry>& catalogue() {
   static const std::vector<CatalogueEntry> entries{
-      simulation(kCones, "check", "What a scene, a scenario or a body's file means, in plain words",
+      simulation(kCones, "check",
+                 "What a scene, a scenario, a pursuit or a body's file means, in plain words",
                  {"check scene.yaml", "check scenario.yaml"}, "", ""),
       core(kCones, "query", "Exact verdicts on engagements, one JSON object a line",
            {"query cases.jsonl", "query --rung - < cases.jsonl"}, "",
@@ -46,6 +47,8 @@ const std::vector<CatalogueEntry>& catalogue() {
       core(kCones, "cone", "The collision cone of one scene",
            {"cone scene.yaml --out out/first", "cone scene.yaml --method slice --planes 72 --json"}, "", "",
            kNothing),
+      simulation(kCones, "schema", "The JSON schema of a kind of file, for editors",
+                 {"schema scene", "schema scenario > scenario.schema.json"}, "", ""),
       simulation(kFlights, "simulate", "A scenario of moving bodies, with a proof of what was avoided",
                  {"simulate scenario.yaml", "simulate scenario.yaml --json --no-figures --out out/flight"},
                  "", kNothing),

@@ -124,8 +124,21 @@ int run_family(int argc, char** argv, const std::map<std::string, Command>& comm
   });
 }
 
-int run_program(int argc, char** argv, const std::string& name, Command command) {
-  return guarded([&] { return carry_out(command, program_of(argc, argv), name, words_of(argc, argv)); });
+int run_program(int argc, char** argv, const std::string& name, Command command,
+                const std::map<std::string, Command>& others) {
+  return guarded([&] {
+    const std::string called = program_of(argc, argv);
+    const auto other = others.find(called.substr(called.rfind(' ') + 1));
+    return other == others.end() ? carry_out(command, called, name, words_of(argc, argv))
+                                 : carry_out(other->second, called, other->first, words_of(argc, argv));
+  });
+}
+
+void hand_over(const std::string& owner, const std::string& command, const std::vector<std::string>& words,
+               const std::string& field) {
+  if (const auto file = find_program(owner)) become(*file, "vericone " + command, words);
+  const CatalogueEntry* entry = find_entry(owner);
+  throw InputError(field, entry->lacks, entry->needs);
 }
 
 }  // namespace vericone

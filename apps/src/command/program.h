@@ -7,6 +7,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "command/command_line.h"
 
@@ -19,7 +20,13 @@ using Command = int (*)(CommandLine&);
 /// (find_program.h).
 int run_family(int argc, char** argv, const std::map<std::string, Command>& commands);
 
-/// The main function of `vericone-NAME`.
-int run_program(int argc, char** argv, const std::string& name, Command command);
+/// The main function of `vericone-NAME`; of `others` it carries out what hand_over() asked for.
+int run_program(int argc, char** argv, const std::string& name, Command command,
+                const std::map<std::string, Command>& others = {});
+
+/// `vericone COMMAND WORDS...` goes on as the program of `owner`, which alone links what it takes.
+/// Throws InputError naming `field` where that program is not there.
+[[noreturn]] void hand_over(const std::string& owner, const std::string& command,
+                            const std::vector<std::string>& words, const std::string& field);
 
 }  // namespace vericone

@@ -9,8 +9,8 @@
 
 #include "command/cases.h"
 #include "commands.h"
+#include "input/field_table.h"
 #include "json/json_value.h"
-#include "scenarios/scenario_fields.h"
 
 namespace vericone {
 namespace {
@@ -19,7 +19,7 @@ using namespace guidance;
 using Eigen::Vector2d;
 using input::at, input::quoted, input::read_number, input::require_field, input::require_known,
     input::require_object;
-using scenario::if_given, scenario::join;
+using input::if_given, input::join;
 
 /// Beyond this no product of the laws overflows.
 constexpr double kMost = 1e6;
@@ -83,18 +83,18 @@ class GainReader {
   }
   void not_negative(const char* name, double& target) {
     read(name, [&](const Json& v, const std::string& p) {
-      target = scenario::read_not_negative(v, p, "");
+      target = input::not_negative().read(v, p);
       (void)read_bounded(v, p, "");
     });
   }
   void positive(const char* name, double& target) {
     read(name, [&](const Json& v, const std::string& p) {
-      target = scenario::read_positive(v, p, "");
+      target = input::positive().read(v, p);
       (void)read_bounded(v, p, "");
     });
   }
   void flag(const char* name, bool& target) {
-    read(name, [&](const Json& v, const std::string& p) { target = scenario::read_flag(v, p); });
+    read(name, [&](const Json& v, const std::string& p) { target = input::flag().read(v, p); });
   }
   /// After all are read.
   void no_others() const {
@@ -162,7 +162,7 @@ Group read_group(const Json& value) {
     throw InputError("vehicles", quoted(list), "a list of 1 to 1000 vehicles");
   double side = 8;
   if_given(value, "", "side", [&](const Json& v, const std::string& p) {
-    side = scenario::read_positive(v, p, " (m)");
+    side = input::positive("m").read(v, p);
     (void)read_bounded(v, p, " (m)");
   });
   if (!(side >= 0.001)) throw InputError("side", quoted(value["side"]), "at least 0.001 (m)");
@@ -238,8 +238,8 @@ Json focal(const Json& value) {
   state.accelerations = read_two(value, "foci_accelerations", " (m/s^2)", false);
   FocalForm form = FocalForm::source;
   if_given(value, "", "form", [&](const Json& v, const std::string& p) {
-    form = scenario::read_choice<FocalForm>(
-        v, p, {{"source", FocalForm::source}, {"polynomial", FocalForm::polynomial}});
+    form = input::choice<FocalForm>({{"source", FocalForm::source}, {"polynomial", FocalForm::polynomial}})
+               .read(v, p);
   });
   FocalGains gains;
   GainReader read(value);
@@ -314,7 +314,7 @@ Json pursuit(const Json& value) {
   double deviations = 3;
   if_given(value, "", "deviations", [&](const Json& v, const std::string& p) {
     if (!value.contains("covariance")) throw InputError(p, quoted(v), "given with covariance only");
-    deviations = scenario::read_not_negative(v, p, "");
+    deviations = input::not_negative().read(v, p);
     (void)read_bounded(v, p, "");
   });
   const PursuitStep s = pursuit_law(agent.position, agent.velocity, group.ellipse, group.acceleration, gains);
@@ -343,9 +343,10 @@ Json pursuit(const Json& value) {
 Json law_of(const Json& value) {
   require_object(value, "case");
   using Law = Json (*)(const Json&);
-  const Law law = scenario::read_choice<Law>(
-      require_field(value, "", "law", "one of rendezvous, focal, vertical, pursuit"), "law",
-      {{"rendezvous", rendezvous}, {"focal", focal}, {"vertical", vertical}, {"pursuit", pursuit}});
+  const Law law =
+      input::choice<Law>(
+          {{"rendezvous", rendezvous}, {"focal", focal}, {"vertical", vertical}, {"pursuit", pursuit}})
+          .read(require_field(value, "", "law", "one of rendezvous, focal, vertical, pursuit"), "law");
   Json answer = {{"law", value["law"]}};
   answer.update(law(value));
   return answer;

@@ -62,8 +62,7 @@ struct Value {
   std::vector<std::string> fields;  // the first that is there
 };
 
-/// The fields of a series, which may stand beside others. Throws InputError.
-const std::vector<std::string>& series_fields();
+/// Its fields may stand beside others. Throws InputError.
 Series read_series(const Json& fields, const std::string& path);
 Value read_value(const Json& given, const std::string& path);
 

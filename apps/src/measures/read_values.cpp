@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "input/field_table.h"
 #include "input/fields.h"
 #include "measures/measure.h"
-#include "scenarios/scenario_fields.h"
+#include "measures/series_fields.h"
 
 namespace vericone::paper {
 namespace {
 
-using input::at, input::quoted, input::require_field, input::require_known, input::require_object;
-using scenario::if_given, scenario::join, scenario::read_text;
+using input::at, input::quoted, input::require_field, input::require_object;
+using input::if_given, input::join;
 
 constexpr std::pair<const char*, Value::Kind> kTaken[] = {
     {"first", Value::Kind::first},       {"last", Value::Kind::last}, {"least", Value::Kind::least},
@@ -27,11 +28,11 @@ Named read_named(const Json& given, const std::string& path) {
 
 Trial read_trial(const Json& given, const std::string& path) {
   require_object(given, path);
-  require_known(given, path, {"until", "sets", "with", "command"});
+  trial_fields().require_known(given, path);
   Trial trial{
       0, {}, {}, Expression(require_field(given, path, "command", "a formula, m/s^2"), path + ".command")};
-  trial.until = scenario::read_positive(require_field(given, path, "until", "a positive number (s)"),
-                                        path + ".until", " (s)");
+  trial.until = input::positive("s").read(require_field(given, path, "until", "a positive number (s)"),
+                                          path + ".until");
   const Json& sets = require_field(given, path, "sets", "a list of mappings of names and numbers");
   if (!sets.is_array() || sets.empty())
     throw InputError(path + ".sets", quoted(sets), "a list of mappings of names and numbers");
@@ -49,25 +50,6 @@ Trial read_trial(const Json& given, const std::string& path) {
   return trial;
 }
 
-Ascent read_ascent(const Json& given, const std::string& path) {
-  require_object(given, path);
-  require_known(given, path, {"boxes", "draws", "tolerance", "seed"});
-  Ascent ascent;
-  const Json& boxes = require_field(given, path, "boxes", "a list of numbers of boxes");
-  if (!boxes.is_array() || boxes.empty())
-    throw InputError(path + ".boxes", quoted(boxes), "a list of numbers of boxes");
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    ascent.boxes.push_back(scenario::read_count(boxes[i], at(path + ".boxes", i), 1, 10'000));
-  ascent.tolerance = scenario::read_positive(
-      require_field(given, path, "tolerance", "a positive number, of the area"), path + ".tolerance", "");
-  if_given(given, path, "draws",
-           [&](const Json& v, const std::string& p) { ascent.draws = scenario::read_count(v, p, 1, 1000); });
-  if_given(given, path, "seed", [&](const Json& v, const std::string& p) {
-    ascent.seed = scenario::read_count(v, p, 0, 2'000'000'000);
-  });
-  return ascent;
-}
-
 }  // namespace
 
 std::string Series::word(const std::string& column) const {
@@ -76,45 +58,38 @@ std::string Series::word(const std::string& column) const {
   return "";
 }
 
-const std::vector<std::string>& series_fields() {
-  static const std::vector<std::string> fields{"run",      "command", "table",  "body",   "agent",
-                                               "obstacle", "orifice", "event",  "status", "trial",
-                                               "ascent",   "range",   "beside", "with",   "where"};
-  return fields;
-}
-
 Series read_series(const Json& given, const std::string& path) {
   Series series;
   series.path = path;
   const auto text = [&](const char* field, std::string& target) {
     if_given(given, path, field,
-             [&](const Json& v, const std::string& p) { target = read_text(v, p, "a name"); });
+             [&](const Json& v, const std::string& p) { target = input::text("a name").read(v, p); });
   };
   text("run", series.run);
   text("command", series.command);
   text("table", series.table);
   for (const char* column : kWords)
     if_given(given, path, column, [&](const Json& v, const std::string& p) {
-      series.words.emplace_back(column, read_text(v, p, "a name"));
+      series.words.emplace_back(column, input::text("a name").read(v, p));
     });
   if_given(given, path, "trial",
            [&](const Json& v, const std::string& p) { series.trial = read_trial(v, p); });
   if_given(given, path, "ascent",
-           [&](const Json& v, const std::string& p) { series.ascent = read_ascent(v, p); });
+           [&](const Json& v, const std::string& p) { series.ascent = ascent_fields().read(v, p); });
   if_given(given, path, "range", [&](const Json& v, const std::string& p) {
     require_object(v, p);
-    require_known(v, p, {"from", "to", "count"});
+    range_fields().require_known(v, p);
     series.range.emplace(Expression(require_field(v, p, "from", "a number"), p + ".from"),
                          Expression(require_field(v, p, "to", "a number"), p + ".to"));
-    series.count = scenario::read_count(require_field(v, p, "count", "a whole number, 2 or more"),
-                                        p + ".count", 2, 100000);
+    series.count =
+        input::count(2, 100000).read(require_field(v, p, "count", "a whole number, 2 or more"), p + ".count");
   });
   if_given(given, path, "beside", [&](const Json& v, const std::string& p) {
     require_object(v, p);
     for (const auto& [name, fields] : v.items()) {
       const std::string place = p + "." + name;
       require_object(fields, place);
-      require_known(fields, place, series_fields());
+      series_fields().require_known(fields, place);
       series.beside.emplace_back(name, read_series(fields, place));
     }
   });
@@ -139,10 +114,7 @@ Value read_value(const Json& given, const std::string& path) {
     value.formula.emplace(given, path);
     return value;
   }
-  std::vector<std::string> known = series_fields();
-  known.insert(known.end(),
-               {"first", "last", "least", "greatest", "mean", "sum", "count", "field", "length", "course"});
-  require_known(given, path, known);
+  value_fields().require_known(given, path);
   int kinds = 0;
   for (const auto& [name, kind] : kTaken)
     if_given(given, path, name, [&, k = kind](const Json& v, const std::string& p) {
@@ -155,7 +127,7 @@ Value read_value(const Json& given, const std::string& path) {
     if_given(given, path, name, [&, k = kind](const Json& v, const std::string& p) {
       value.kind = k;
       for (const Json& one : v.is_array() ? v : Json::array({v}))
-        value.fields.push_back(read_text(one, p, "the path of a field"));
+        value.fields.push_back(input::text("the path of a field").read(one, p));
       ++kinds;
     });
   if_given(given, path, "course", [&](const Json& v, const std::string& p) {

@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <set>
 
+#include "input/field_table.h"
 #include "input/fields.h"
 #include "input/scene.h"
 #include "output/output_file.h"
+#include "paper/paper_fields.h"
 #include "paper/papers_folder.h"
-#include "scenarios/scenario_fields.h"
 #include "simulate/run_text.h"
 #include "work/provenance.h"
 
@@ -18,11 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 using input::at, input::quoted, input::require_field, input::require_known, input::require_object;
-using scenario::if_given, scenario::join, scenario::read_text;
+using input::if_given, input::join;
 
 std::string read_id(const Json& value, const std::string& path) {
   if (value.is_number()) throw InputError(path, quoted(value), "the figure's number or name, in quotes");
-  const std::string id = read_text(value, path, "the figure's number or name");
+  const std::string id = input::text("the figure's number or name").read(value, path);
   if (id.find_first_of("/ ") != std::string::npos || id[0] == '.')
     throw InputError(path, quoted(value), "fit for the name of a file: no slash, no space, no dot first");
   return id;
@@ -30,26 +31,25 @@ std::string read_id(const Json& value, const std::string& path) {
 
 const Json& text_field(const Json& fields, const std::string& path, const char* field, const char* what) {
   const Json& value = require_field(fields, path, field, what);
-  read_text(value, join(path, field), what);
+  input::text(what).read(value, join(path, field));
   return value;
 }
 
 Line read_line(const Json& fields, const std::string& path) {
-  std::vector<std::string> known = series_fields();
-  known.insert(known.end(), {"each", "name", "x", "y", "dashed", "filled"});
   require_object(fields, path);
-  require_known(fields, path, known);
+  line_fields().require_known(fields, path);
   Line line{read_series(fields, path), "", "",
             Expression(fields.value("x", Json(fields.contains("range") ? "s" : "t")), path + ".x"),
             Expression(require_field(fields, path, "y", "a formula of columns"), path + ".y")};
-  if_given(fields, path, "each",
-           [&](const Json& v, const std::string& p) { line.each = read_text(v, p, "a column of words"); });
+  if_given(fields, path, "each", [&](const Json& v, const std::string& p) {
+    line.each = input::text("a column of words").read(v, p);
+  });
   if_given(fields, path, "name",
-           [&](const Json& v, const std::string& p) { line.name = read_text(v, p, "a name"); });
+           [&](const Json& v, const std::string& p) { line.name = input::text("a name").read(v, p); });
   if_given(fields, path, "dashed",
-           [&](const Json& v, const std::string& p) { line.dashed = scenario::read_flag(v, p); });
+           [&](const Json& v, const std::string& p) { line.dashed = input::flag().read(v, p); });
   if_given(fields, path, "filled",
-           [&](const Json& v, const std::string& p) { line.filled = scenario::read_flag(v, p); });
+           [&](const Json& v, const std::string& p) { line.filled = input::flag().read(v, p); });
   return line;
 }
 
@@ -57,21 +57,16 @@ Panel read_panel(const Json& fields, const std::string& path, const Json& of) {
   require_object(fields, path);
   Panel panel;
   Json own = Json::object();
-  for (const auto& [key, value] : fields.items()) {
-    static const std::vector<std::string> looks{"label", "x_label", "zero",
-                                                "equal", "symlog",  "least_height"};
-    (std::find(looks.begin(), looks.end(), key) == looks.end() ? own : panel.look)[key] = value;
-  }
+  for (const auto& [key, value] : fields.items()) (look_fields().has(key) ? panel.look : own)[key] = value;
   for (const char* field : {"label", "x_label"})
     if_given(panel.look, path, field, [&](const Json& v, const std::string& p) {
-      read_text(v, p, "what the axis shows, with its unit");
+      input::text("what the axis shows, with its unit").read(v, p);
     });
   for (const char* field : {"zero", "equal"})
-    if_given(panel.look, path, field,
-             [&](const Json& v, const std::string& p) { scenario::read_flag(v, p); });
+    if_given(panel.look, path, field, [&](const Json& v, const std::string& p) { input::flag().read(v, p); });
   for (const char* field : {"symlog", "least_height"})
     if_given(panel.look, path, field,
-             [&](const Json& v, const std::string& p) { scenario::read_positive(v, p, ""); });
+             [&](const Json& v, const std::string& p) { input::positive().read(v, p); });
   text_field(fields, path, "label", "what the axis shows, with its unit, as text");
   if (!own.contains("lines")) {
     panel.lines.push_back(read_line(with_defaults(own, of), path));
@@ -86,9 +81,7 @@ Panel read_panel(const Json& fields, const std::string& path, const Json& of) {
 
 Figure read_figure(const Json& fields, const std::string& path) {
   require_object(fields, path);
-  require_known(fields, path,
-                {"id", "caption", "runs", "data", "of", "panels", "drawing", "script", "command", "picture",
-                 "table", "parameters", "columns"});
+  figure_fields().require_known(fields, path);
   Figure figure;
   figure.id =
       read_id(require_field(fields, path, "id", "the figure's number or name, in quotes"), path + ".id");
@@ -96,27 +89,22 @@ Figure read_figure(const Json& fields, const std::string& path) {
   if_given(fields, path, "runs", [&](const Json& v, const std::string& p) {
     require_object(v, p);
     for (const auto& [role, scenario] : v.items())
-      figure.runs.emplace_back(role, read_text(scenario, p + "." + role, "the name of a scenario"));
+      figure.runs.emplace_back(role, input::text("the name of a scenario").read(scenario, p + "." + role));
   });
   if_given(fields, path, "data", [&](const Json& v, const std::string& p) {
     require_object(v, p);
     for (const auto& [role, words] : v.items())
-      figure.data.emplace_back(role, read_text(words, p + "." + role, "a command of vericone"));
+      figure.data.emplace_back(role, input::text("a command of vericone").read(words, p + "." + role));
   });
   int ways = 0;
   for (const auto& [field, target] :
        {std::pair("drawing", &figure.drawing), std::pair("script", &figure.script),
         std::pair("command", &figure.command)})
     if_given(fields, path, field, [&, t = target](const Json& v, const std::string& p) {
-      *t = read_text(v, p, "a name");
+      *t = input::text("a name").read(v, p);
       ++ways;
     });
-  if (!figure.drawing.empty())
-    figure.drawing = scenario::read_choice<std::string>(fields["drawing"], path + ".drawing",
-                                                        {{"plane_trajectory", "plane_trajectory"},
-                                                         {"plane_snapshots", "plane_snapshots"},
-                                                         {"space_trajectory", "space_trajectory"},
-                                                         {"planes", "planes"}});
+  if (!figure.drawing.empty()) figure.drawing = drawings().read(fields["drawing"], path + ".drawing");
   if_given(fields, path, "panels", [&](const Json& v, const std::string& p) {
     ++ways;
     if (!v.is_array() || v.empty()) throw InputError(p, quoted(v), "a list of panels");
@@ -140,7 +128,7 @@ Figure read_figure(const Json& fields, const std::string& path) {
     figure.parameters = v;
   });
   if_given(fields, path, "columns",
-           [&](const Json& v, const std::string& p) { figure.columns = scenario::read_count(v, p, 1, 2); });
+           [&](const Json& v, const std::string& p) { figure.columns = input::count(1, 2).read(v, p); });
   return figure;
 }
 
@@ -171,7 +159,7 @@ Paper::Paper(const std::string& given) : folder(paper_folder(given)), figure_val
   reading(folder / "figures.yaml", [&](const Json& file) {
     require_object(file, "figures.yaml");
     const Json fields = with_templates(file);
-    require_known(fields, "", {"title", "values", "figures"});
+    figures_file_fields().require_known(fields, "");
     title = text_field(fields, "", "title", "what the report is called, as text").get<std::string>();
     figure_values = Scope(fields.value("values", Json()), "values");
     figures = read_figures(fields);

@@ -5,20 +5,21 @@
 #include <regex>
 #include <set>
 
+#include "input/field_table.h"
 #include "input/fields.h"
 #include "paper/claim.h"
-#include "scenarios/scenario_fields.h"
+#include "paper/paper_fields.h"
 
 namespace vericone::paper {
 namespace {
 
-using input::at, input::quoted, input::require_field, input::require_known, input::require_object;
-using scenario::if_given, scenario::join;
+using input::at, input::quoted, input::require_field, input::require_object;
+using input::if_given, input::join;
 
 /// A name that YAML reads as a number would lose its last zeros.
 std::string read_name(const Json& value, const std::string& path, const char* what) {
   if (value.is_number()) throw InputError(path, quoted(value), std::string(what) + ", in quotes");
-  return scenario::read_text(value, path, what);
+  return input::text(what).read(value, path);
 }
 
 std::string required_text(const Json& fields, const std::string& path, const char* field, const char* what) {
@@ -40,7 +41,7 @@ Json completed(const Json& fields, const Json& templates, const std::string& pat
     const std::string place = join(path, "like");
     own = Json::object();
     for (const Json& one : like->is_array() ? *like : Json::array({*like})) {
-      const std::string name = scenario::read_text(one, place, "the name of a template");
+      const std::string name = input::text("the name of a template").read(one, place);
       if (!templates.is_object() || !templates.contains(name))
         throw InputError(place, name, "the name of one of templates");
       require_object(templates[name], "templates." + name);
@@ -58,9 +59,7 @@ Json completed(const Json& fields, const Json& templates, const std::string& pat
 
 /// The entry of a body stands for a claim of each number that is printed of it.
 std::vector<Json> claims_of_body(const Json& entry, const std::string& path) {
-  require_known(
-      entry, path,
-      {"body", "run", "section", "figures", "semi_axes", "k", "position", "speed", "heading_deg", "appears"});
+  body_claim_fields().require_known(entry, path);
   const std::string body = required_text(entry, path, "body", "the name of a body"),
                     run = required_text(entry, path, "run", "the name of a scenario"),
                     section = required_text(entry, path, "section", "a section of the source");
@@ -121,13 +120,6 @@ std::vector<std::string> read_ids(const Json& given, const std::string& path) {
   return figures;
 }
 
-Verdict read_otherwise(const Json& value, const std::string& path) {
-  return scenario::read_choice<Verdict>(value, path,
-                                        {{"differs", Verdict::differs},
-                                         {"not decided", Verdict::not_decided},
-                                         {"source wrong", Verdict::source_wrong}});
-}
-
 /// The printed value, and the Json of half a unit of its last digit, from the text as printed.
 void read_printed(const Json& fields, const std::string& path, ClaimEntry& entry, Json& values) {
   const std::string place = path + ".printed";
@@ -167,11 +159,11 @@ void read_tolerance(const Json& fields, const std::string& path, ClaimEntry& ent
   }
   const Json& given = fields["tolerance"];
   require_object(given, place);
-  require_known(given, place, {"value", "reason", "one_sided"});
+  tolerance_fields().require_known(given, place);
   entry.tolerance.emplace(require_field(given, place, "value", "a number or a formula"), place + ".value");
   entry.tolerance_reason = Text(require_field(given, place, "reason", "why, as text"), place + ".reason");
   if_given(given, place, "one_sided",
-           [&](const Json& v, const std::string& p) { entry.claim.later = scenario::read_flag(v, p); });
+           [&](const Json& v, const std::string& p) { entry.claim.later = input::flag().read(v, p); });
 }
 
 /// The numbers of a list, or one.
@@ -186,8 +178,8 @@ std::vector<double> read_numbers(const Json& value, const std::string& path) {
 std::vector<std::string> read_texts(const Json& value, const std::string& path, const char* what) {
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < (value.is_array() ? value.size() : 1); ++i)
-    texts.push_back(scenario::read_text(value.is_array() ? value[i] : value,
-                                        value.is_array() ? at(path, i) : path, what));
+    texts.push_back(
+        input::text(what).read(value.is_array() ? value[i] : value, value.is_array() ? at(path, i) : path));
   return texts;
 }
 
@@ -196,10 +188,10 @@ Chosen read_chosen(const Json& fields, const std::string& path, const std::strin
   Chosen chosen;
   chosen.name = name;
   if (!fields.is_object()) {
-    chosen.numbers = scenario::read_count(fields, path, 1, 1000);
+    chosen.numbers = input::count(1, 1000).read(fields, path);
     return chosen;
   }
-  require_known(fields, path, {"in", "at", "from", "to", "whole", "logarithmic"});
+  fit_fields().require_known(fields, path);
   chosen.files = read_texts(require_field(fields, path, "in", "files of the paper"), path + ".in",
                             "a file of the paper's folder");
   chosen.paths =
@@ -208,9 +200,9 @@ Chosen read_chosen(const Json& fields, const std::string& path, const std::strin
   const auto from = read_numbers(require_field(fields, path, "from", "a number of each"), path + ".from"),
              to = read_numbers(require_field(fields, path, "to", "a number of each"), path + ".to");
   if_given(fields, path, "whole",
-           [&](const Json& v, const std::string& p) { chosen.whole = scenario::read_flag(v, p); });
+           [&](const Json& v, const std::string& p) { chosen.whole = input::flag().read(v, p); });
   if_given(fields, path, "logarithmic",
-           [&](const Json& v, const std::string& p) { chosen.logarithmic = scenario::read_flag(v, p); });
+           [&](const Json& v, const std::string& p) { chosen.logarithmic = input::flag().read(v, p); });
   if (from.size() != chosen.paths.size() || to.size() != chosen.paths.size())
     throw InputError(path + ".at", std::to_string(chosen.paths.size()) + " paths",
                      "as many as from and to have numbers");
@@ -224,9 +216,7 @@ Chosen read_chosen(const Json& fields, const std::string& path, const std::strin
 }
 
 ClaimEntry read_entry(const Json& fields, const std::string& path, const ClaimsFile& file) {
-  require_known(fields, path,
-                {"id", "section", "figures", "what", "printed", "unit", "given", "code", "ours", "holds",
-                 "text", "tolerance", "fit", "otherwise", "engaged", "note", "values", "of", "needs"});
+  claim_fields().require_known(fields, path);
   ClaimEntry entry;
   Claim& claim = entry.claim;
   claim.id = required_text(fields, path, "id", "a name of the claim's own");
@@ -235,11 +225,10 @@ ClaimEntry read_entry(const Json& fields, const std::string& path, const ClaimsF
   claim.figures = read_ids(require_field(fields, path, "figures", "a list of figures"), path + ".figures");
   for (const auto& [field, kind] : {std::pair("given", Kind::given), std::pair("code", Kind::code)})
     if_given(fields, path, field, [&, k = kind](const Json& v, const std::string& p) {
-      if (scenario::read_flag(v, p)) claim.kind = k;
+      if (input::flag().read(v, p)) claim.kind = k;
     });
-  if_given(fields, path, "needs", [&](const Json& v, const std::string& p) {
-    entry.needs = scenario::read_text(v, p, "a command");
-  });
+  if_given(fields, path, "needs",
+           [&](const Json& v, const std::string& p) { entry.needs = input::text("a command").read(v, p); });
   if_given(fields, path, "unit", [&](const Json& v, const std::string& p) {
     if (!v.is_string()) throw InputError(p, quoted(v), "a unit, as text");
     entry.unit = v.get<std::string>();
@@ -267,7 +256,7 @@ ClaimEntry read_entry(const Json& fields, const std::string& path, const ClaimsF
   if_given(fields, path, "engaged",
            [&](const Json& v, const std::string& p) { entry.engaged.emplace(v, p); });
   if_given(fields, path, "otherwise",
-           [&](const Json& v, const std::string& p) { entry.otherwise = read_otherwise(v, p); });
+           [&](const Json& v, const std::string& p) { entry.otherwise = otherwise_verdict().read(v, p); });
   if_given(fields, path, "text", [&](const Json& v, const std::string& p) { entry.text = Text(v, p); });
   if_given(fields, path, "note", [&](const Json& v, const std::string& p) { entry.note = Text(v, p); });
   if_given(fields, path, "fit", [&](const Json& v, const std::string& p) {
@@ -319,7 +308,7 @@ Json with_defaults(const Json& series, const Json& of) {
 ClaimsFile read_claims(const Json& given) {
   require_object(given, "claims.yaml");
   const Json fields = with_templates(given);
-  require_known(fields, "", {"fits", "values", "claims"});
+  claims_file_fields().require_known(fields, "");
   ClaimsFile file;
   if_given(fields, "", "fits", [&](const Json& v, const std::string& p) {
     require_object(v, p);

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "input/field_table.h"
 #include "input/fields.h"
-#include "scenarios/scenario_fields.h"
 
 namespace vericone::paper {
 
@@ -55,7 +55,7 @@ Text::Text(const Json& given, const std::string& path) {
     input::require_known(part, place, {"if", "text"});
     const Json& words = input::require_field(part, place, "text", "text");
     parts_.push_back({Expression(input::require_field(part, place, "if", "a formula"), place + ".if"),
-                      pieces_of(scenario::read_text(words, place + ".text", "a sentence"), place + ".text")});
+                      pieces_of(input::text("a sentence").read(words, place + ".text"), place + ".text")});
   }
 }
 

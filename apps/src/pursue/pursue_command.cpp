@@ -20,7 +20,7 @@
 #include "output/progress.h"
 #include "pursue/pursuit_campaign.h"
 #include "pursue/pursuit_tables.h"
-#include "pursue/read_pursuit.h"
+#include "pursuits/read_pursuit.h"
 #include "work/interrupt.h"
 #include "work/provenance.h"
 

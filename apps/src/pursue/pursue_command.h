@@ -24,4 +24,7 @@ struct PursueOptions : OutputOptions {
 /// `vericone pursue`. Returns the exit status. Throws InputError.
 int run_pursue(const PursueOptions& options, std::ostream& out);
 
+/// `vericone check` of a pursuit: what its file means, in plain words or as JSON. Throws InputError.
+int check_pursuit(const std::string& file, bool json, std::ostream& out);
+
 }  // namespace vericone::pursuit

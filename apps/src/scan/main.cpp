@@ -4,6 +4,9 @@
 #include <iostream>
 
 #include "command/program.h"
+#include "json/json_value.h"
+#include "output/schemas.h"
+#include "scan/lidar_fields.h"
 #include "scan/run_scan.h"
 
 namespace {
@@ -26,6 +29,13 @@ int scan_command(vericone::CommandLine& line) {
   return 0;
 }
 
+int schema_command(vericone::CommandLine&) {
+  std::cout << vericone::input::schema_text(vericone::scanning::scan_schema());
+  return 0;
+}
+
 }  // namespace
 
-int main(int argc, char** argv) { return vericone::run_program(argc, argv, "scan", scan_command); }
+int main(int argc, char** argv) {
+  return vericone::run_program(argc, argv, "scan", scan_command, {{"schema", schema_command}});
+}

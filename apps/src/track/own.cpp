@@ -10,7 +10,7 @@
 #include "input/scene.h"
 #include "json/json_value.h"
 #include "output/output_file.h"
-#include "pursue/read_pursuit.h"
+#include "pursuits/read_pursuit.h"
 
 namespace vericone::tracking {
 

@@ -626,6 +626,7 @@ def pursuits(ask: Ask) -> None:
                         start=v.simulation.Motion(position=[0, 0, 140], velocity=[20, 0, 0]), cars=cars)
     ask("vision.perception_of", pursuit)
     run = ask("vision.pursue", pursuit)
+    ask("vision.read_pursuit", str(EXAMPLES / "pursuits/two.yaml"))
     ask("vision.summarise", pursuit, run)
 
 

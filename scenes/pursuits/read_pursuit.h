@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// Pursuits from YAML (docs/reference/pursuits.md).
 #pragma once
 
 #include <vericone/vision/pursuit/pursuit.h>
@@ -16,6 +14,7 @@ namespace vericone::pursuit {
 /// through the perspective one, or the source's where it is alone.
 vision::Pursuit read_pursuit(const Json& fields, const std::string& name, const std::filesystem::path& folder,
                              vision::Eyes eyes);
+Json pursuit_schema();
 
 /// What saw a pursuit, for `track --own`.
 struct SeenBy {
