@@ -2,7 +2,6 @@
 //
 // What a node does with an odometry and the poses of obstacles: one command a message. The structs stand for geometry_msgs,
 // whose members have the same names; the functions of vericone take those as they are.
-#include <vericone/guidance/messages.h>
 #include <vericone/vericone.h>
 #include <iostream>
 using namespace vericone;
