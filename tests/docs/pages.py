@@ -18,8 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(os.environ.get("VERICONE_SOURCE", Path(__file__).resolve().parents[2]))
-LANGUAGES = {"console", "cpp", "yaml", "cmake", "json", "text", "bibtex", "python"}
-LANGUAGES = {"console", "cpp", "python", "yaml", "cmake", "json", "text", "bibtex"}
+LANGUAGES = {"console", "c", "cpp", "python", "yaml", "cmake", "json", "text", "bibtex"}
 NOTE = re.compile(r"^<!-- (not run|file|not compiled): (.+) -->$")
 
 

@@ -27,7 +27,7 @@ PaperFields& with_series(PaperFields& rows) {
   rows.special("run", text_schema(), {},
                "A scenario, by the name of its file in scenarios without extension.")
       .special("command", text_schema(), {},
-               "A command of vericone without --out, carried out in the paper's folder.")
+               "A command of vericone, without --out, carried out in the paper's folder.")
       .special("table", text_schema(), {},
                "bodies, encounters, planes, events, looks or proofs of a run; a CSV file of a command.");
   for (const char* column : {"body", "agent", "obstacle", "orifice", "event", "status"})
