@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <sstream>
+#include <stdexcept>
 #include <vector>
 
 namespace vericone {
@@ -18,13 +19,15 @@ bool is_program(const fs::path& file) {
   return fs::is_regular_file(file, error) && access(file.c_str(), X_OK) == 0;
 }
 
+/// Where this program is: what belongs to it is found from there, also when an installation was moved.
+fs::path own_folder() {
+  std::error_code error;
+  return fs::read_symlink("/proc/self/exe", error).parent_path();
+}
+
 std::vector<fs::path> folders() {
   std::vector<fs::path> list;
-  std::error_code error;
-  const fs::path here = fs::read_symlink("/proc/self/exe", error).parent_path();
-  // The relative way also holds for an installation that was moved.
-  if (!error) list = {here, here / VERICONE_PROGRAMS_FROM_HERE};
-  list.emplace_back(VERICONE_INSTALLED_PROGRAMS);
+  if (const fs::path here = own_folder(); !here.empty()) list = {here, here / VERICONE_PROGRAMS_FROM_HERE};
   if (const char* path = std::getenv("PATH")) {
     std::istringstream text(path);
     for (std::string folder; std::getline(text, folder, ':');)
@@ -44,6 +47,14 @@ std::optional<fs::path> find_program(const std::string& name) {
   for (const fs::path& folder : folders())
     if (const fs::path file = folder / ("vericone-" + name); is_program(file)) return file;
   return std::nullopt;
+}
+
+fs::path shared_folder(const std::string& name) {
+  const fs::path here = own_folder(), end = here.root_path();
+  for (fs::path folder = here; folder != end; folder = folder.parent_path())
+    if (const fs::path found = folder / "share/vericone" / name; fs::is_directory(found))
+      return fs::canonical(found);
+  throw std::runtime_error("share/vericone/" + name + " is not there in any folder above " + here.string());
 }
 
 }  // namespace vericone

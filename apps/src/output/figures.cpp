@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "command/find_program.h"
 #include "output/child.h"
 
 namespace vericone {
@@ -13,8 +14,7 @@ namespace {
 
 std::filesystem::path scripts_folder() {
   if (const char* given = std::getenv("VERICONE_FIGURES")) return given;
-  if (std::filesystem::is_directory(VERICONE_FIGURE_SCRIPTS)) return VERICONE_FIGURE_SCRIPTS;
-  return VERICONE_INSTALLED_FIGURE_SCRIPTS;
+  return shared_folder("figures");
 }
 
 /// Debian's own interpreter, by its full path: Python looks for its libraries from the name it is called by,

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "command/find_program.h"
+
 namespace vericone::paper {
 namespace {
 
@@ -12,8 +14,7 @@ namespace fs = std::filesystem;
 
 fs::path our_papers() {
   if (const char* given = std::getenv("VERICONE_PAPERS")) return given;
-  if (fs::is_directory(VERICONE_PAPERS_FOLDER)) return VERICONE_PAPERS_FOLDER;
-  return VERICONE_INSTALLED_PAPERS_FOLDER;
+  return shared_folder("papers");
 }
 
 }  // namespace

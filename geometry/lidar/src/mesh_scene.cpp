@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <embree3/rtcore.h>
 #include <vericone/geometry/error.h>
 #include <vericone/lidar/lidar.h>
 
@@ -10,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "embree.h"
 #include "float_environment.h"
 
 namespace vericone::lidar {
@@ -83,7 +83,7 @@ namespace {
 /// What goes with a ray through Embree: the search in double. The first member is what Embree sees.
 template <typename Parts>
 struct Search {
-  RTCIntersectContext context;
+  RayContext context;
   const Parts& parts;
   Ray ray;
   double offset, least, most;  // the float ray starts `offset` metres along the ray
@@ -193,7 +193,6 @@ std::optional<Hit> MeshScene::first_hit(const Vector3d& origin, const Vector3d& 
   const double offset = std::max(0.0, along - std::sqrt((reach - away) * (reach + away)));
 
   Search<Parts> search{{}, parts, Ray(origin, direction), offset, least, most, {}};
-  rtcInitIntersectContext(&search.context);
   const Vector3d start = (offset * direction - to_center) / parts.radius;
   RTCRayHit ray{};
   ray.ray.org_x = static_cast<float>(start.x());
@@ -207,7 +206,7 @@ std::optional<Hit> MeshScene::first_hit(const Vector3d& origin, const Vector3d& 
   ray.ray.mask = 0xffffffff;
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(parts.scene, &search.context, &ray);
+  lidar::first_hit(parts.scene, search.context, ray);
   return search.best;
 }
 
