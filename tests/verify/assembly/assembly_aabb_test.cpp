@@ -24,6 +24,16 @@ using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterato
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 using Eigen::Vector3d;
 
+// CGAL 6 has variants of std, CGAL 5 of Boost.
+#if CGAL_VERSION_MAJOR >= 6
+using std::get_if;
+#else
+template <typename Value, typename Variant>
+const Value* get_if(const Variant* variant) {
+  return boost::get<Value>(variant);
+}
+#endif
+
 Kernel::Point_3 point(const Vector3d& x) { return {x.x(), x.y(), x.z()}; }
 
 class AabbTrees : public ::testing::TestWithParam<std::string> {};
@@ -85,7 +95,7 @@ TEST_P(AabbTrees, DistancesAndFirstHits) {
       ++hits;
       double nearest = INFINITY;
       for (const auto& hit : all())
-        if (const auto* p = boost::get<Kernel::Point_3>(&hit.first))
+        if (const auto* p = get_if<Kernel::Point_3>(&hit.first))
           nearest = std::min(nearest, std::sqrt(CGAL::squared_distance(*p, point(at))));
       const auto contact = probe.first_contact(w);
       ASSERT_TRUE(contact);
