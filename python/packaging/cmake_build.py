@@ -3,6 +3,7 @@
 
 VERICONE_BUILD_FOLDER names a build that is there already, with -DVERICONE_PYTHON=ON: it is brought up to date, and
 nothing is compiled twice. Without it the build is build/wheel, with every part whose packages are installed.
+VERICONE_WHEEL=core takes the core's module alone, which needs no library but those of C and C++.
 """
 
 import atexit
@@ -94,7 +95,10 @@ class CMakeBuild(build_ext):
             sys.exit(f"vericone: {built} has modules {others or 'of no kind'}, must have some for this Python ({suffix})")
         taken = Path(self.build_lib) / self.wheel
         shutil.rmtree(taken, ignore_errors=True)
-        shutil.copytree(built, taken, ignore=shutil.ignore_patterns("__pycache__"))
+        left_out = ["__pycache__"]
+        if os.environ.get("VERICONE_WHEEL") == "core":
+            left_out += [module.name for module in modules if not module.name.startswith("_core.")]
+        shutil.copytree(built, taken, ignore=shutil.ignore_patterns(*left_out))
 
 
 def set_up(package: str, target: str, needs: Sequence[str] = ()) -> None:

@@ -15,7 +15,7 @@ import yaml
 
 from pages import LANGUAGES, ROOT, anchors, blocks, commands, pages, prose, text_of
 
-SOURCES = ("apps", "benchmarks", "c", "cmake", "cones", "docs", "examples", "geometry", "guidance", "papers", "python", "scripts",
+SOURCES = ("apps", "benchmarks", "c", "cmake", "cones", "docs", "examples", "geometry", "guidance", "packaging", "papers", "python", "scripts",
            "setup.py", "tests", "verify", "CMakeLists.txt", "LICENSE", "check", "run", "packages.txt")
 KINDS = {".h", ".cpp", ".py", ".md", ".txt", ".yaml", ".json", ".cmake", ".js", ""}
 # What other programs take: CTest, CMake, git, googletest, Google Benchmark, g++, pip, and this project's scripts.

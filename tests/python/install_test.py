@@ -47,13 +47,14 @@ def test_the_wheel_is_small(wheel: Path) -> None:
 def test_the_wheel_is_of_this_python_and_machine(wheel: Path, source: Path) -> None:
     found = re.search(r"project\(vericone VERSION (\S+)", (source / "CMakeLists.txt").read_text(encoding="utf-8"))
     assert found
-    assert re.fullmatch(rf"vericone-{re.escape(found.group(1))}-cp311-cp311-linux_\w+\.whl", wheel.name)
+    tag = "cp{}{}".format(*sys.version_info)
+    assert re.fullmatch(rf"vericone-{re.escape(found.group(1))}-{tag}-{tag}-linux_\w+\.whl", wheel.name)
 
 
 def test_the_wheel_has_types_and_licence(wheel: Path) -> None:
     names = set(zipfile.ZipFile(wheel).namelist())
     assert {"vericone/py.typed", "vericone/__init__.pyi", "vericone/_root.pyi", "vericone/guidance.pyi"} <= names
-    assert any(name.endswith(".dist-info/LICENSE") for name in names)
+    assert any(re.search(r"\.dist-info/(licenses/)?LICENSE$", name) for name in names)
 
 
 def test_the_wheel_holds_nothing_under_the_gpl(wheel: Path) -> None:
