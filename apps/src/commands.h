@@ -14,11 +14,11 @@ int accuracy_command(CommandLine& line);
 int signmap_command(CommandLine& line);
 int gallery_command(CommandLine& line);
 int shapes_command(CommandLine& line);
+
+// What moves: not in a build without VERICONE_SIMULATION.
 int robust_law_command(CommandLine& line);
 int law_command(CommandLine& line);
 int estimate_command(CommandLine& line);
-
-// What flies scenarios: not in a build without VERICONE_SIMULATION.
 int check_command(CommandLine& line);
 int schema_command(CommandLine& line);
 int reach_command(CommandLine& line);

@@ -6,17 +6,14 @@
 
 int main(int argc, char** argv) {
   using namespace vericone;
-  std::map<std::string, Command> commands{{"cone", cone_command},
-                                          {"query", query_command},
-                                          {"accuracy", accuracy_command},
-                                          {"signmap", signmap_command},
-                                          {"gallery", gallery_command},
-                                          {"shapes", shapes_command},
-                                          {"robust-law", robust_law_command},
-                                          {"law", law_command},
-                                          {"estimate", estimate_command}};
+  std::map<std::string, Command> commands{{"cone", cone_command},         {"query", query_command},
+                                          {"accuracy", accuracy_command}, {"signmap", signmap_command},
+                                          {"gallery", gallery_command},   {"shapes", shapes_command}};
 #ifdef VERICONE_WITH_SIMULATION
-  commands.merge(std::map<std::string, Command>{{"check", check_command},
+  commands.merge(std::map<std::string, Command>{{"robust-law", robust_law_command},
+                                                {"law", law_command},
+                                                {"estimate", estimate_command},
+                                                {"check", check_command},
                                                 {"schema", schema_command},
                                                 {"reach", reach_command},
                                                 {"simulate", simulate_command},
