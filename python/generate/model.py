@@ -420,7 +420,9 @@ class Model:
 
     def _callable(self, f: Function, scope: tuple[str, ...], values: dict[str, str], record: Record | None) -> Callable_ | None:
         full = "::".join((*scope, f.name)) if record else "::".join((*f.scope, f.name))
-        reason = rules.SKIPPED_OVERLOADS.get((full, ", ".join(p.type for p in f.parameters)))
+        # libclang qualifies a name or not, as its version has it.
+        types = ", ".join(p.type for p in f.parameters).replace("vericone::", "")
+        reason = rules.SKIPPED_OVERLOADS.get((full, types))
         if reason:
             self.names.append(Name(full, "overload", f.header, "", reason, f.doc))
             return None

@@ -67,12 +67,12 @@ SKIPPED_KINDS: list[tuple[re.Pattern[str], str]] = [
     (re.compile(r"^PlaneCones::(opening_slope|tolerance|smooth)$|^widest_vectors$"), "what the library asks itself"),
     (re.compile(r"^guidance::PlaneFilters::\w+$"), "guide() makes and asks them, in its memory"),
 ]
-# (C++ name, types of the parameters): why Python has not this overload.
+# (C++ name, types of the parameters without "vericone::"): why Python has not this overload.
 SKIPPED_OVERLOADS: dict[tuple[str, str], str] = {
     ("ConeOracle::memberships", parameters): "membership() takes arrays of any strides"
-    for parameters in ("const double *, std::ptrdiff_t, std::span<Membership>, vericone::VectorWidth",
-                       "std::span<const Eigen::Vector3d>, std::span<Membership>, vericone::VectorWidth")
-} | {("min_volume_ellipsoid", "const std::vector<Eigen::Matrix<double, D, 1>> &, const vericone::MinVolumeOptions &"):
+    for parameters in ("const double *, std::ptrdiff_t, std::span<Membership>, VectorWidth",
+                       "std::span<const Eigen::Vector3d>, std::span<Membership>, VectorWidth")
+} | {("min_volume_ellipsoid", "const std::vector<Eigen::Matrix<double, D, 1>> &, const MinVolumeOptions &"):
      "points are rows of one array in Python"}
 
 # Enumerations and records that are filled in through a pointer where the caller asks: rung=True.
