@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <sstream>
-#include <stdexcept>
 #include <vector>
+
+#include "output/shared_folder.h"
 
 namespace vericone {
 namespace {
@@ -17,12 +18,6 @@ namespace fs = std::filesystem;
 bool is_program(const fs::path& file) {
   std::error_code error;
   return fs::is_regular_file(file, error) && access(file.c_str(), X_OK) == 0;
-}
-
-/// Where this program is: what belongs to it is found from there, also when an installation was moved.
-fs::path own_folder() {
-  std::error_code error;
-  return fs::read_symlink("/proc/self/exe", error).parent_path();
 }
 
 std::vector<fs::path> folders() {
@@ -47,14 +42,6 @@ std::optional<fs::path> find_program(const std::string& name) {
   for (const fs::path& folder : folders())
     if (const fs::path file = folder / ("vericone-" + name); is_program(file)) return file;
   return std::nullopt;
-}
-
-fs::path shared_folder(const std::string& name) {
-  const fs::path here = own_folder(), end = here.root_path();
-  for (fs::path folder = here; folder != end; folder = folder.parent_path())
-    if (const fs::path found = folder / "share/vericone" / name; fs::is_directory(found))
-      return fs::canonical(found);
-  throw std::runtime_error("share/vericone/" + name + " is not there in any folder above " + here.string());
 }
 
 }  // namespace vericone

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "command/find_program.h"
 #include "output/child.h"
+#include "output/shared_folder.h"
 
 namespace vericone {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "command/find_program.h"
+#include "output/shared_folder.h"
 
 namespace vericone::paper {
 namespace {
