@@ -12,6 +12,7 @@
 #include "measures/sources.h"
 #include "output/child.h"
 #include "output/output_file.h"
+#include "output/shared_folder.h"
 #include "output/temporary_folder.h"
 #include "scenarios/read_scenario.h"
 #include "work/interrupt.h"
@@ -87,7 +88,7 @@ std::unique_ptr<Sources::Carried> Sources::carry_out(const std::string& words, b
   std::vector<std::string> arguments = words_of(words);
   arguments.emplace_back("--json");
   if (files) arguments.insert(arguments.end(), {"--quiet", "--out", carried->files().string()});
-  const ChildOutput child = run_child(fs::read_symlink("/proc/self/exe"), arguments, folder_);
+  const ChildOutput child = run_child(own_program(), arguments, folder_);
   if (interrupted()) throw Interrupted{};
   if (child.status == 0) {
     carried->answer = Json::parse(child.output, nullptr, false);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "output/shared_folder.h"
 
+#include <cstdlib>
 #include <stdexcept>
 #include <system_error>
 
@@ -8,10 +9,13 @@ namespace vericone {
 
 namespace fs = std::filesystem;
 
-fs::path own_folder() {
+fs::path own_program() {
+  if (const char* given = std::getenv("VERICONE_PROGRAM")) return given;
   std::error_code error;
-  return fs::read_symlink("/proc/self/exe", error).parent_path();
+  return fs::read_symlink("/proc/self/exe", error);
 }
+
+fs::path own_folder() { return own_program().parent_path(); }
 
 fs::path shared_folder(const std::string& name) {
   const fs::path here = own_folder(), end = here.root_path();

@@ -26,7 +26,8 @@ struct RungAnswers {
 /// alone.
 std::vector<RungAnswers> answers(const CorpusCase& c);
 
-/// Lines about 100,000 verdicts of random pairs of all kinds, and about contacts and distances: sums over their bits.
+/// Lines about 100,000 verdicts of random pairs of all kinds, and about contacts and distances: sums over
+/// their bits.
 void print_random_answers();
 
 }  // namespace vericone::verify

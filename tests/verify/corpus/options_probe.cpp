@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Prints what must not depend on compiler options or on the machine: the answer of every rung on every case of the
-// corpus, 100,000 verdicts, and constructions in hexadecimal. Built several times with different options
-// (options_test.cpp compares) and for other machines (scripts/machines does).
+// Prints what must not depend on compiler options or on the machine: the answer of every rung on every case
+// of the corpus, 100,000 verdicts, and constructions in hexadecimal. Built several times with different
+// options (options_test.cpp compares) and for other machines (scripts/machines does).
 #include <vericone/cones/ellipsoids/true_cone.h>
 #include <vericone/cones/planar/sector.h>
 #include <vericone/geometry/interval.h>
