@@ -49,6 +49,30 @@ void Core::finish(double size_in_space) {
   reach_ = (frame_->norm() * size + outer_rounding_ + error_) * (1 + 8 * kUlp);
 }
 
+void Core::stretch(const std::array<Interval, 3>& start, const std::array<Interval, 3>& end) {
+  Eigen::Vector3d first, last, size;
+  double off = 0;
+  for (int k = 0; k < 3; ++k) {
+    first(k) = start[k].mid();
+    last(k) = end[k].mid();
+    size(k) = std::max(start[k].magnitude(), end[k].magnitude());
+    off += std::max(start[k].rad(), end[k].rad());
+  }
+  // Each end: a product with G, a difference, a sum.
+  const double way = frame_->norm() * size.norm() * (1 + 8 * kUlp);
+  offset = frame_->to_frame() * first;
+  along_ = frame_->to_frame() * (last - first);
+  error_ += (frame_->norm() * off + 32 * kUlp * way) * (1 + 8 * kUlp);
+  reach_ = (reach_ + 2 * way) * (1 + 8 * kUlp);
+}
+
+Eigen::Vector3d Core::away() const {
+  Eigen::Vector3d to_middle = center_ - offset;
+  if (const double square = along_ ? along_->squaredNorm() : 0; square > 0)
+    to_middle -= std::clamp(to_middle.dot(*along_) / square, 0.0, 1.0) * *along_;
+  return to_middle.isZero(0) ? Eigen::Vector3d(Eigen::Vector3d::UnitX()) : to_middle;
+}
+
 Eigen::Vector3d Core::piece_support(const Eigen::Vector3d& n) const {
   switch (kind_) {
     case Kind::box: {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vericone/geometry/interval.h>
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include "assembly/frame.h"
 
@@ -23,9 +26,17 @@ class Core {
   /// point of the piece that it comes from.
   Eigen::Vector3d support(const Eigen::Vector3d& n, Eigen::Vector3d& on_piece) const {
     on_piece = piece_support(n);
-    if (frame_->round()) return on_piece - offset;
-    return on_piece - frame_->support(n) - offset;
+    const bool at_end = along_ && n.dot(*along_) > 0;
+    const Eigen::Vector3d apex = at_end ? Eigen::Vector3d(offset + *along_) : offset;
+    if (frame_->round()) return on_piece - apex;
+    return on_piece - frame_->support(n) - apex;
   }
+
+  /// From now on about a stretch of the agent's way, metres, not a place: all that comes within rounding of
+  /// the apex on it.
+  void stretch(const std::array<Interval, 3>& start, const std::array<Interval, 3>& end);
+  /// From the nearest place of the stretch to the core's middle, or any vector; not zero.
+  Eigen::Vector3d away() const;
 
   const Eigen::Vector3d& center() const { return center_; }
   /// Of every computed point of the core.
@@ -50,6 +61,7 @@ class Core {
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
   static constexpr std::size_t kFew = 8;
   Eigen::Vector3d few_[kFew];              // the points, mapped; a box: its three half edges
+  std::optional<Eigen::Vector3d> along_;   // to the end of a stretch, in the frame
   const Eigen::Vector3d* many_ = nullptr;  // hulls of more points, not mapped
   std::size_t count_ = 0;
   double radius_ = 0;  // of a ball in space that is an ellipsoid in the frame

@@ -76,6 +76,30 @@ Membership find_membership(const Scene& scene, const Eigen::Vector3d& v_a, const
   return answer == Membership::on && exact::cover_plane(covered) ? Membership::in : answer;
 }
 
+/// `stretch`: in the obstacle's frame.
+Membership find_within(const Scene& scene, const Stretch& stretch, Effort& effort) {
+  const Eigen::Vector3d w = stretch.v_a - stretch.v_b;
+  const Slabs slabs(scene.frame(), scene.body().bounds(), w, stretch.from, stretch.until);
+  const Directions ray(scene.frame(), {w});
+  const BoxTest test(scene.frame(), ray, RayResidual{ray.ray[0]});
+  Membership answer = Membership::out;
+  std::vector<exact::Generators> covered;
+  const double limit = std::numeric_limits<double>::infinity();
+  along_ray(scene, slabs, test, limit, effort, [&](std::uint32_t slot, double) {
+    const Box box = scene.slot_box(slot);
+    if (std::isinf(slabs.enter(box.low.data(), box.high.data())) || test.apart(box.low, box.high))
+      return true;
+    ++effort.pieces;
+    const Membership one = met_within(scene.core(slot), slabs.clipped(stretch, box), [&] {
+      ++effort.exact;
+      return scene.exact_within(slot, stretch, covered);
+    });
+    if (one != Membership::out) answer = one;
+    return one != Membership::in;
+  });
+  return covered.size() > 1 && answer == Membership::on && exact::cover_space(covered) ? Membership::in : answer;
+}
+
 }  // namespace
 
 AssemblyOracle::AssemblyOracle(const Ellipsoid& agent, const Assembly& obstacle, const Pose& pose,
@@ -112,6 +136,16 @@ Membership AssemblyOracle::membership(const Eigen::Vector3d& v_a, const Eigen::V
 
 Verdict AssemblyOracle::verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const {
   return verdict_of(state_->relation, [&] { return membership(v_a, v_b); });
+}
+
+Verdict AssemblyOracle::verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                                const Horizon& horizon, Effort* effort) const {
+  return verdict_within(state_->relation, v_a, v_b, horizon, [&](Stretch stretch) {
+    if (!state_->upright())
+      stretch = {state_->to_body(v_a - v_b), Eigen::Vector3d::Zero(), stretch.from, stretch.until};
+    Effort unused;
+    return to_verdict(find_within(*state_, stretch, effort != nullptr ? *effort : unused));
+  });
 }
 
 }  // namespace vericone

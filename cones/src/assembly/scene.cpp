@@ -158,6 +158,16 @@ Relation Scene::exact_relation(std::uint32_t slot, std::vector<exact::Generators
   });
 }
 
+Membership Scene::exact_within(std::uint32_t slot, const Stretch& stretch,
+                               std::vector<exact::Generators>& covered) const {
+  return with_oracle(*this, slot, [&](const auto& oracle) {
+    exact::Generators cone;
+    const Membership answer = exact::within(oracle, stretch, is_flat_agent() ? &cone : nullptr);
+    if (!cone.empty()) covered.push_back(std::move(cone));
+    return answer;
+  });
+}
+
 std::optional<std::pair<double, double>> Scene::exact_time(std::uint32_t slot,
                                                            const Eigen::Vector3d& w) const {
   return with_oracle(*this, slot, [&](const auto& oracle) {

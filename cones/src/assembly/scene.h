@@ -8,8 +8,10 @@
 #include <cmath>
 #include <limits>
 
+#include "answers/stretch.h"
 #include "assembly/core.h"
 #include "assembly/frame.h"
+#include "assembly/gap.h"
 #include "hulls/seam.h"
 
 namespace vericone::assembly {
@@ -61,6 +63,9 @@ class Scene {
   Membership exact_membership(std::uint32_t slot, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
                               std::vector<exact::Sector>* covered = nullptr) const;
   Relation exact_relation(std::uint32_t slot, std::vector<exact::Generators>* covered = nullptr) const;
+  /// On a stretch in the obstacle's frame.
+  Membership exact_within(std::uint32_t slot, const Stretch& stretch,
+                          std::vector<exact::Generators>& covered) const;
   /// When it is first touched along w, which meets it: s, rounded down and up; nothing where that is not
   /// known.
   std::optional<std::pair<double, double>> exact_time(std::uint32_t slot, const Eigen::Vector3d& w) const;
@@ -204,13 +209,16 @@ struct CircularResidual {
 /// Whether one piece is met in all three directions, and so in all between them: its cone is convex.
 bool meets_all(const Core& core, const Directions (&rays)[3]);
 
-/// A ray from the apex against boxes, each widened by the box around the agent. Conservative: no widened
-/// piece that is met is missed.
+/// A ray from the apex, or a stretch of it, against boxes, each widened by the box around the agent.
+/// Conservative: no widened piece that is met is missed.
 class Slabs {
  public:
-  /// `w`: in space, finite, not zero.
-  Slabs(const Frame& frame, const Box& bounds, const Eigen::Vector3d& w) {
+  /// `w`: in space, finite, not zero. `from`, `until`: seconds.
+  Slabs(const Frame& frame, const Box& bounds, const Eigen::Vector3d& w, double from = 0,
+        double until = std::numeric_limits<double>::infinity()) {
     scale_ = w.cwiseAbs().maxCoeff();
+    from_ = from * scale_ * (1 - 8 * kUlp);
+    until_ = until * scale_ * (1 + 8 * kUlp);
     for (int k = 0; k < 3; ++k) {
       const double component = w(k) / scale_;
       inverse_[k] = std::abs(component) < 1e-290 ? 1e290 : 1 / component;
@@ -226,24 +234,50 @@ class Slabs {
   double enter(const double* low, const double* high) const { return enter_any(low, high); }
   double enter(const Hierarchy::Node& node) const { return enter_any(node.low, node.high); }
 
+  /// The part of a stretch on which a box that is entered can be met.
+  Stretch clipped(Stretch stretch, const Box& box) const {
+    double last;
+    const double first = enter_any(box.low.data(), box.high.data(), &last);
+    const double from = first / scale_ * (1 - 8 * kUlp), until = last / scale_ * (1 + 8 * kUlp);
+    if (from > stretch.from) stretch.from = std::min(from, stretch.until);
+    if (until < stretch.until) stretch.until = std::max(until, stretch.from);
+    return stretch;
+  }
+
   /// Largest |w_k|: what to divide by for times in seconds.
   double scale() const { return scale_; }
 
  private:
   template <class Number>
-  double enter_any(const Number* low, const Number* high) const {
-    double first = 0, last = std::numeric_limits<double>::infinity();
+  double enter_any(const Number* low, const Number* high, double* exit = nullptr) const {
+    double first = from_, last = until_;
     for (int k = 0; k < 3; ++k) {
       const double a = (low[k] + low_[k]) * inverse_[k], b = (high[k] + high_[k]) * inverse_[k];
       first = std::max(first, std::min(a, b));
       last = std::min(last, std::max(a, b));
     }
+    if (exit != nullptr) *exit = last * (1 + 8 * kUlp);
     return first * (1 - 8 * kUlp) <= last * (1 + 8 * kUlp) ? first * (1 - 8 * kUlp)
                                                            : std::numeric_limits<double>::infinity();
   }
 
-  double inverse_[3], low_[3], high_[3], scale_ = 1;
+  double inverse_[3], low_[3], high_[3], scale_ = 1, from_ = 0, until_;
 };
+
+/// What comes of asking one pair of pieces about a stretch: proved by doubles, or by asking `exact()`.
+template <class Exact>
+Membership met_within(Core core, const Stretch& stretch, const Exact& exact) {
+  core.stretch(stretch.way(stretch.from), stretch.way(stretch.until));
+  switch (gap(core, Directions{}, core.away()).answer) {
+    case Gap::Answer::apart:
+      return Membership::out;
+    case Gap::Answer::met:
+      return Membership::in;
+    case Gap::Answer::close:
+      break;
+  }
+  return exact();
+}
 
 /// Calls leaf(slot, enter) for the slots whose boxes the ray enters before `limit`, nearer nodes first;
 /// `limit` may shrink meanwhile. leaf returns false to stop. Boxes that look small beside the agent are

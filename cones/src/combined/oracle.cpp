@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "answers/velocity_ladder.h"
+#include "answers/stretch.h"
 #include "combined/contacts.h"
 
 namespace vericone {
@@ -129,6 +129,13 @@ struct CombinedOracle::State {
     edge.on_a = swapped ? on_b : on_a;
     edge.on_b = swapped ? on_a : on_b;
     return edge;
+  }
+
+  Certified within(const Vector3d& v_a, const Vector3d& v_b, double until) const;
+  /// Seconds a way in the frame along the direction of w; rounded.
+  double seconds_a_way(const IntervalVector3& direction, const Vector3d& w) const {
+    // direction = k F^{-1} w: t w = way F (k F^{-1} w), so t = way k.
+    return (a.ellipsoid().factor() * middle(direction)).norm() / w.norm();
   }
 
   /// `near`: an edge near w, or none. `met`: where to write a contact along w if one is found.
@@ -346,12 +353,48 @@ std::optional<Interval> CombinedOracle::time_to_contact(const Vector3d& w, doubl
     if (outcome == SearchOutcome::undecided) break;
     (outcome == SearchOutcome::found ? hi : lo) = half;
   }
-  // direction = k F^{-1} w: t w = way F (k F^{-1} w), so t = way k.
-  const Vector3d in_space = s.a.ellipsoid().factor() * middle(direction);
-  const double k = in_space.norm() / w.norm();
+  const double k = s.seconds_a_way(direction, w);
   // The way of a contact is not negative, whatever rounding says.
   const Interval time = Interval::between(lo * k * (1 - 1e-9), hi * k * (1 + 1e-9));
   return lo > 0 ? time : Interval::between(0, time.hi());
+}
+
+/// From now on, of disjoint bodies.
+Certified CombinedOracle::State::within(const Vector3d& v_a, const Vector3d& v_b, double until) const {
+  const Vector3d &first = swapped ? v_b : v_a, &second = swapped ? v_a : v_b;
+  const Horizon horizon{0, until};
+  if (exact) return exact->verdict(first, second, horizon) == Verdict::out ? Certified::out : Certified::in;
+  if (around && around->verdict(first, second, horizon) == Verdict::out) return Certified::out;
+  const Simpler& by = simpler();
+  if (by.inside && by.inside->verdict(first, second, horizon) != Verdict::out) return Certified::in;
+  if (!contacts().usable()) return Certified::undecided;
+  for (const CombinedOracle& oracle : by.wider)
+    if (oracle.state_->within(first, second, until) == Certified::out) return Certified::out;
+  for (const CombinedOracle& oracle : by.narrower)
+    if (oracle.state_->within(first, second, until) == Certified::in) return Certified::in;
+  const IntervalVector3 w = direction(first, second);
+  const double way = until / seconds_a_way(w, first - second), longest = contacts().extent();
+  if (contacts().along(w, std::min(way * (1 + 1e-9), longest)).outcome == SearchOutcome::empty)
+    return Certified::out;
+  if (way > 0 && contacts().along(w, std::min(way * (1 - 1e-9), longest)).outcome == SearchOutcome::found)
+    return Certified::in;
+  return Certified::undecided;
+}
+
+Verdict CombinedOracle::verdict(const Vector3d& v_a, const Vector3d& v_b, const Horizon& horizon) const {
+  const State& s = *state_;
+  return verdict_within(s.relation, v_a, v_b, horizon, [&](const Stretch& stretch) {
+    const ConeOracle outer(s.given_a.ellipsoid(), s.given_b.ellipsoid());
+    if (stretch.from > 0 && outer.verdict(v_a, v_b, horizon) == Verdict::out) return Verdict::out;
+    if (s.relation != Relation::disjoint) return Verdict::undecided;
+    const Certified ever = s.within(v_a, v_b, stretch.until);
+    if (ever == Certified::out) return Verdict::out;
+    if (stretch.from == 0) return ever == Certified::in ? Verdict::in : Verdict::undecided;
+    // Of the rounded difference: no certainty is left within its rounding of either end.
+    const auto time = time_to_contact(v_a - v_b);
+    const bool inside = time && time->lo() * (1 - 1e-9) > stretch.from && time->hi() * (1 + 1e-9) < stretch.until;
+    return inside ? Verdict::in : Verdict::undecided;
+  });
 }
 
 }  // namespace vericone

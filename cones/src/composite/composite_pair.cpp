@@ -136,4 +136,15 @@ Verdict CompositePair::verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d
   return answer ? verdict_of(Relation::disjoint, [&] { return *answer; }) : Verdict::undecided;
 }
 
+Verdict CompositePair::verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                               const Horizon& horizon) const {
+  return verdict_within(state_->relation, v_a, v_b, horizon, [&](Stretch stretch) {
+    if (!state_->upright)
+      stretch = {state_->to_obstacle(v_a - v_b), Eigen::Vector3d::Zero(), stretch.from, stretch.until};
+    const auto answer = state_->cells ? composite::delimited_within(*state_, stretch)
+                                      : composite::pieces_within(*state_, stretch);
+    return answer ? to_verdict(*answer) : Verdict::undecided;
+  });
+}
+
 }  // namespace vericone

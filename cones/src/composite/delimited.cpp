@@ -42,4 +42,26 @@ std::optional<Membership> delimited_membership(const State& state, const Eigen::
   return std::nullopt;
 }
 
+std::optional<Membership> delimited_within(const State& state, const Stretch& stretch) {
+  const Horizon horizon{stretch.from, stretch.until};
+  const auto is = [&](const AssemblyOracle& oracle, Verdict verdict) {
+    return oracle.verdict(stretch.v_a, stretch.v_b, horizon) == verdict;
+  };
+  if (is(*state.around, Verdict::out)) return Membership::out;
+  if (state.within && is(*state.within, Verdict::in)) return Membership::in;
+  if (!state.within_range()) return std::nullopt;
+  const Slabs slabs(state.zero, difference(state.agent_bounds(), state.obstacle.bounds()),
+                    stretch.v_a - stretch.v_b, stretch.from, stretch.until);
+  const auto apart = [&](const Box& box) { return std::isinf(slabs.enter(box.low.data(), box.high.data())); };
+  switch (CellSearch(state, apart, stretch, slabs).run()) {
+    case Certified::in:
+      return Membership::in;
+    case Certified::out:
+      return Membership::out;
+    case Certified::undecided:
+      break;
+  }
+  return std::nullopt;
+}
+
 }  // namespace vericone::composite

@@ -28,13 +28,28 @@ class CellSearch {
   /// which one cell inside the body has to meet one piece; nothing else counts.
   CellSearch(const State& state, const assembly::Directions& directions, const Apart& apart,
              std::size_t most_pairs = kMostPairs, const assembly::Directions (*all)[3] = nullptr)
+      : CellSearch(state, directions, apart, most_pairs, all, nullptr, nullptr) {}
+
+  /// On a stretch; `slabs` of it.
+  CellSearch(const State& state, const Apart& apart, const Stretch& stretch, const assembly::Slabs& slabs)
+      : CellSearch(state, kPlace, apart, kMostPairs, nullptr, &stretch, &slabs) {}
+
+ private:
+  static inline const assembly::Directions kPlace{};
+
+  CellSearch(const State& state, const assembly::Directions& directions, const Apart& apart,
+             std::size_t most_pairs, const assembly::Directions (*all)[3], const Stretch* stretch,
+             const assembly::Slabs* slabs)
       : state_(state),
         cells_(*state.cells),
         directions_(directions),
         apart_(apart),
         most_pairs_(most_pairs),
-        all_(all) {}
+        all_(all),
+        stretch_(stretch),
+        slabs_(slabs) {}
 
+ public:
   /// `in`: they meet, interior to interior; `out`: they do not.
   Certified run() {
     later_.push_back({});
@@ -90,8 +105,8 @@ class CellSearch {
     for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot) {
       if (apart_(difference(cell, assembly::piece_box(state_.obstacle, slot)))) continue;
       if (!own) own = state_.frame(HullBody::box(cell.low, cell.high));
-      const assembly::Core core = assembly::piece_core(*own, state_.obstacle, slot);
-      const assembly::Gap found = assembly::gap(core, directions_, first_normal(core, directions_));
+      const assembly::Core core = core_of(*own, slot, cell);
+      const assembly::Gap found = gap(core);
       if (found.answer == assembly::Gap::Answer::apart) continue;
       if (pair.full && all_ != nullptr) {
         // What a cell does not meet in all directions, no part of it does.
@@ -106,12 +121,21 @@ class CellSearch {
         if (const auto point = cells_.witness(pair.cell)) inner = state_.frame(HullBody({*point}));
       sought = true;
       if (!inner) continue;
-      const assembly::Core seen = assembly::piece_core(*inner, state_.obstacle, slot);
-      if (assembly::gap(seen, directions_, first_normal(seen, directions_)).answer ==
-          assembly::Gap::Answer::met)
-        return Outcome::met;
+      if (gap(core_of(*inner, slot, cell)).answer == assembly::Gap::Answer::met) return Outcome::met;
     }
     return any ? Outcome::open : Outcome::done;
+  }
+
+  /// A piece about a part of the body, on the stretch if there is one.
+  assembly::Core core_of(const assembly::Frame& part, std::uint32_t slot, const Box& cell) const {
+    assembly::Core core = assembly::piece_core(part, state_.obstacle, slot);
+    if (stretch_ == nullptr) return core;
+    const Stretch near = slabs_->clipped(*stretch_, difference(cell, assembly::piece_box(state_.obstacle, slot)));
+    core.stretch(near.way(near.from), near.way(near.until));
+    return core;
+  }
+  assembly::Gap gap(const assembly::Core& core) const {
+    return assembly::gap(core, directions_, stretch_ != nullptr ? core.away() : first_normal(core, directions_));
   }
 
   /// Whether the piece is above a plane that the quadrics hold the body below.
@@ -121,8 +145,11 @@ class CellSearch {
     for (int i = 0; i < count; ++i) {
       Eigen::Vector3d n = normals[i];
       // Twice, so that what rounding leaves along the ray is less than what planes are forgiven.
-      if (directions_.count > 0)
-        for (int k = 0; k < 2; ++k) n -= std::max(0.0, n.dot(directions_.middle)) * directions_.middle;
+      if (directions_.count > 0 || stretch_ != nullptr) {
+        const Eigen::Vector3d along = stretch_ != nullptr ? Eigen::Vector3d((stretch_->v_a - stretch_->v_b).normalized())
+                                                          : directions_.middle;
+        for (int k = 0; k < 2; ++k) n -= std::max(0.0, n.dot(along)) * along;
+      }
       const double length = n.norm();
       if (!(length > 0)) continue;
       n /= length;
@@ -139,6 +166,8 @@ class CellSearch {
   std::uint32_t levels_ = 0;
   std::size_t asked_ = 0, most_pairs_;
   const assembly::Directions (*all_)[3];
+  const Stretch* stretch_;
+  const assembly::Slabs* slabs_;
 };
 
 }  // namespace vericone::composite

@@ -160,4 +160,28 @@ Membership pieces_membership(const State& state, const Eigen::Vector3d& v_a, con
   return answer;
 }
 
+Membership pieces_within(const State& state, const Stretch& stretch) {
+  const Slabs slabs(state.zero, difference(state.agent_bounds(), state.obstacle.bounds()),
+                    stretch.v_a - stretch.v_b, stretch.from, stretch.until);
+  Membership answer = Membership::out;
+  std::vector<exact::Touched<exact::Generators>> touched;
+  const auto enter = [&](const Box& box) { return slabs.enter(box.low.data(), box.high.data()); };
+  for_each_pair(state, enter, [&](std::uint32_t i, std::uint32_t j) {
+    const PieceFrame piece(state, i);
+    const Box box = difference(piece_box(*state.agent, i), piece_box(state.obstacle, j));
+    const Membership one = met_within(piece.core(j), slabs.clipped(stretch, box), [&] {
+      exact::Generators cone;
+      const Membership exact = with_exact_oracle(
+          state, i, j, [&](const auto& oracle) { return exact::within(oracle, stretch, &cone); });
+      if (exact::has_interior(cone)) touch(state, i, j, std::move(cone), touched);
+      return exact;
+    });
+    if (one != Membership::out) answer = one;
+    return one != Membership::in;
+  });
+  if (answer == Membership::on && covered_together(std::move(touched), exact::cover_space))
+    return Membership::in;
+  return answer;
+}
+
 }  // namespace vericone::composite

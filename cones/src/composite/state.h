@@ -99,5 +99,9 @@ std::optional<Membership> delimited_membership(const State& state, const Eigen::
 Membership pieces_membership(const State& state, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
                              Effort& effort);
 
+/// On a stretch in the obstacle's frame, however they lie now.
+std::optional<Membership> delimited_within(const State& state, const Stretch& stretch);
+Membership pieces_within(const State& state, const Stretch& stretch);
+
 }  // namespace composite
 }  // namespace vericone

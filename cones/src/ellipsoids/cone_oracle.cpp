@@ -6,6 +6,7 @@
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/interval.h>
 #include <vericone/internal/cones/ellipsoids/contact_frame.h>
+#include <vericone/internal/cones/ellipsoids/rungs.h>
 #include <vericone/internal/geometry/tracked.h>
 #include <Eigen/LU>
 #include <cmath>
@@ -14,6 +15,7 @@
 #include "answers/elementary.h"
 #include "answers/velocity_ladder.h"
 #include "ellipsoids/contact_polynomial.h"
+#include "ellipsoids/line_meets.h"
 #include "ellipsoids/pair_on_grid.h"
 #include "ellipsoids/velocity_forms.h"
 
@@ -81,6 +83,10 @@ ConeOracle::ConeOracle(const Ellipsoid& a, const Ellipsoid& b) : a_(a), b_(b) {
       for (int i = 0; i < 3; ++i)
         normal_(i) = static_cast<double>(exact::Integer((n[i] << 64) / largest)) * 0x1p-64;
       normal_certified_ = separates<3>(a, b, normal_);
+    }
+    if (const double room = triage_gap<3>(a, b, normal_); room > 0) {
+      room_ = room * (1 - 0x1p-50);
+      normal_size_ = normal_.cwiseAbs().sum();
     }
   }
   // Every velocity is in the cone of overlapping bodies: the rungs have nothing to prepare.
@@ -173,16 +179,11 @@ std::optional<Membership> ConeOracle::interval_membership(const std::array<Inter
   return std::nullopt;
 }
 
-namespace {
+namespace exact {
 
-/// Membership of w != 0 by the signs of theory.md, 2. `side`: the sign of n.w for any n that separates
-/// disjoint bodies strictly; for others as side_of_contact().
-template <typename Side>
-Membership decide_exactly(const exact::PairOnGrid<3>& pair, const exact::IntegerVector<3>& w,
-                          const Side& side) {
-  using exact::Integer;
+Membership line_meets(const PairOnGrid<3>& pair, const IntegerVector<3>& w) {
   const int k = w[0] != 0 ? 0 : w[1] != 0 ? 1 : 2, i = (k + 1) % 3, j = (k + 2) % 3;
-  const auto entry = [](const exact::IntegerMatrix<3>& s) {
+  const auto entry = [](const IntegerMatrix<3>& s) {
     return [&s](int r, int col) -> const Integer& { return s[r][col]; };
   };
   const auto ma = shadow<Integer>(entry(pair.a), w[i], w[j], w[k], i, j, k);
@@ -190,13 +191,25 @@ Membership decide_exactly(const exact::PairOnGrid<3>& pair, const exact::Integer
   const ContactCubic<Integer> cubic(ma, mb, w[k] * pair.c[i] - w[i] * pair.c[k],
                                     w[k] * pair.c[j] - w[j] * pair.c[k]);
   const int discriminant = cubic.discriminant().sign();
-  const bool positive_pair = cubic.k1 > 0 || cubic.k2 > 0;
-  if (discriminant > 0 && positive_pair) return Membership::out;
+  if (discriminant < 0 || !(cubic.k1 > 0 || cubic.k2 > 0)) return Membership::in;
+  return discriminant > 0 ? Membership::out : Membership::on;
+}
+
+}  // namespace exact
+
+namespace {
+
+/// Membership of w != 0. `side`: the sign of n.w for any n that separates disjoint bodies strictly; for
+/// others as side_of_contact().
+template <typename Side>
+Membership decide_exactly(const exact::PairOnGrid<3>& pair, const exact::IntegerVector<3>& w,
+                          const Side& side) {
+  const Membership line = exact::line_meets(pair, w);
+  if (line == Membership::out) return line;
   // The line meets K; on which side of the origin?
   const std::optional<int> ahead = side();
   if (!ahead) return Membership::in;
-  if (*ahead < 0) return Membership::out;
-  return discriminant == 0 && positive_pair ? Membership::on : Membership::in;
+  return *ahead < 0 ? Membership::out : line;
 }
 
 bool is_zero(const exact::IntegerVector<3>& w) { return w[0] == 0 && w[1] == 0 && w[2] == 0; }

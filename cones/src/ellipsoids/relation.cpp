@@ -33,15 +33,21 @@ double radius_above(const BasicEllipsoid<D>& body, const Eigen::Matrix<double, D
 }  // namespace
 
 template <int D>
-bool triage_separates(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
-                      const Eigen::Matrix<double, D, 1>& n) {
-  // g(n) = n.c - rho_A(n) - rho_B(n): the difference of the centres and their product with n, 4 roundings,
-  // and two sums.
+double triage_gap(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
+                  const Eigen::Matrix<double, D, 1>& n) {
+  // The difference of the centres and their product with n, 4 roundings, and two sums.
   const Eigen::Matrix<double, D, 1> c = b.center() - a.center(), n_abs = n.cwiseAbs();
   const double along = n.dot(c), radii = radius_above<D>(a, n, n_abs) + radius_above<D>(b, n, n_abs);
   const double magnitude = n_abs.dot(c.cwiseAbs()) + radii;
   // Below 1e-140 a square could leave the normal numbers.
-  return magnitude > 1e-140 && magnitude < 1e150 && along - radii > 16 * kUnitRoundoff * magnitude;
+  if (!(magnitude > 1e-140 && magnitude < 1e150)) return -std::numeric_limits<double>::infinity();
+  return along - radii - 16 * kUnitRoundoff * magnitude;
+}
+
+template <int D>
+bool triage_separates(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
+                      const Eigen::Matrix<double, D, 1>& n) {
+  return triage_gap<D>(a, b, n) > 0;
 }
 
 template <int D>
@@ -144,6 +150,7 @@ Relation relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b, const 
 
 template bool separates<2>(const Ellipse&, const Ellipse&, const Eigen::Vector2d&);
 template bool separates<3>(const Ellipsoid&, const Ellipsoid&, const Eigen::Vector3d&);
+template double triage_gap<3>(const Ellipsoid&, const Ellipsoid&, const Eigen::Vector3d&);
 template bool triage_separates<2>(const Ellipse&, const Ellipse&, const Eigen::Vector2d&);
 template bool triage_separates<3>(const Ellipsoid&, const Ellipsoid&, const Eigen::Vector3d&);
 template std::optional<Relation> triage_relation<2>(const Ellipse&, const Ellipse&, const ContactFrame<2>&);

@@ -339,6 +339,18 @@ template OriginIn origin_in_image<2>(const HullScene&, const Rows<2>&, const std
 template OriginIn origin_in_image<3>(const HullScene&, const Rows<3>&, const std::vector<HullPair>&,
                                      IntegerVector<3>*);
 
+Relation relation(const HullScene& scene) {
+  switch (origin_in_image<3>(scene, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {}, nullptr)) {
+    case OriginIn::interior:
+      return Relation::overlapping;
+    case OriginIn::boundary:
+      return Relation::touching;
+    case OriginIn::outside:
+      break;
+  }
+  return Relation::disjoint;
+}
+
 bool separates(const HullScene& scene, const IntegerVector<3>& n) {
   const ExactSupport support = exact_support(scene, n);
   if (support.value.sign() <= 0) return false;

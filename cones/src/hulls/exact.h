@@ -3,6 +3,7 @@
 // The last rung of the predicates of hulls: the same search in integers, which ends and is never wrong.
 #pragma once
 
+#include <vericone/cones/answers.h>
 #include <cstdint>
 #include <vector>
 
@@ -30,6 +31,10 @@ ExactSupport exact_support(const HullScene& scene, const IntegerVector<3>& n);
 template <int D>
 OriginIn origin_in_image(const HullScene& scene, const Rows<D>& rows, const std::vector<HullPair>& start,
                          IntegerVector<3>* normal);
+
+/// Where the origin lies with regard to K; of a stretch: whether the bodies overlap on it, only touch, or
+/// stay apart.
+Relation relation(const HullScene& scene);
 
 /// Whether n.x > 0 on all of K.
 bool separates(const HullScene& scene, const IntegerVector<3>& n);

@@ -248,6 +248,8 @@ HullOracle::HullOracle(std::shared_ptr<HullScene> scene) : scene_(scene) {
       if (!first_rung && !interval_ahead_of(*scene, n, support, n)) return false;
       normal_ = n;
       normal_certified_ = true;
+      const double room = support.value() - (support_slack(*scene, n) + radius_above(*scene, n)) * kRoundUp;
+      room_ = std::ldexp(std::max(room, 0.0), scene->exponent);
       if (!found || first_rung) relation_rung_ = first_rung ? Rung::triage : Rung::interval;
       found = Relation::disjoint;
       return false;
@@ -271,7 +273,7 @@ HullOracle::HullOracle(std::shared_ptr<HullScene> scene) : scene_(scene) {
 const HullScene& scene_of(const HullOracle& oracle) { return *oracle.scene_; }
 
 Relation HullOracle::exact_relation() const {
-  return relation_of(exact::origin_in_image<3>(*scene_, identity_rows(), {}, nullptr));
+  return exact::relation(*scene_);
 }
 
 std::size_t HullOracle::size() const { return scene_->agent.size() + scene_->obstacle.size(); }
@@ -343,6 +345,15 @@ Membership HullOracle::membership(const Eigen::Vector3d& w, Rung* rung) const {
 
 Membership HullOracle::membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, Rung* rung) const {
   return climb_membership<HullMembership>(*this, v_a, v_b, rung);
+}
+
+bool HullOracle::surely_out(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                            const Horizon& horizon) const noexcept {
+  const Eigen::Vector3d w = v_a - v_b;
+  // Of the normal the largest entry is 1.
+  const double slack = 32 * kUnitRoundoff * w.cwiseAbs().sum();
+  if (normal_certified_ && slack > 1e-280 && (normal_.dot(w) + slack) * horizon.until < room_) return true;
+  return triage_membership(w) == Membership::out || interval_membership(v_a, v_b) == Membership::out;
 }
 
 Passage HullOracle::passage(const Eigen::Vector3d& w) const { return passage_by_membership(*this, w); }

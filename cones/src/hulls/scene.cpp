@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hulls/scene.h"
 
+#include "answers/stretch.h"
+
 #include <vericone/internal/geometry/double_double.h>
 #include <Eigen/LU>
 #include <algorithm>
@@ -127,6 +129,7 @@ HullScene::HullScene(std::vector<Eigen::Vector3d> agent_points, const Eigen::Vec
   if (!std::isfinite(largest)) return;
   const int e = largest == 0 ? 0 : std::ilogb(largest) + 1;
   if (std::abs(e) > 510) return;
+  exponent = e;
   const double scale = std::ldexp(1.0, -e);  // a power of two: scaling is exact but for underflow
   scale_by(scale, centred_agent);
   scale_by(scale, centred_obstacle);
@@ -155,6 +158,37 @@ HullScene::HullScene(std::vector<Eigen::Vector3d> agent_points, const Eigen::Vec
       }
       usable = usable && magnitude < 0x1p20;
     }
+}
+
+HullScene::HullScene(const HullScene& scene, const Stretch& stretch)
+    : agent(scene.agent), obstacle(scene.obstacle), ellipsoid(scene.ellipsoid), stretched(true) {
+  agent.insert(agent.end(), scene.agent.begin(), scene.agent.end());
+  const exact::Way first(stretch, stretch.from), last(stretch, std::isinf(stretch.until) ? 1 : stretch.until);
+  grid = std::min({scene.grid, first.exponent, last.exponent});
+  const auto finer = [&](const exact::Integer& x, int power) {
+    return x << static_cast<unsigned>(power * (scene.grid - grid));
+  };
+  exact_shape = scene.exact_shape;
+  for (auto& row : exact_shape)
+    for (exact::Integer& entry : row) entry = finer(entry, 2);
+  for (int k = 0; k < 3; ++k) {
+    exact_obstacle_at[k] = finer(scene.exact_obstacle_at[k], 1);
+    exact_agent_at[k] = exact_agent_end[k] = finer(scene.exact_agent_at[k], 1);
+    exact_agent_at[k] += first.on(k, grid);
+  }
+  // One that never ends goes on until it has passed: by as much as all numbers together.
+  exact::Integer times = 1;
+  if (std::isinf(stretch.until)) {
+    for (const auto* points : {&agent, &obstacle})
+      for (std::size_t i = 0; i < points->size(); ++i)
+        for (const exact::Integer& x : points == &agent ? exact_agent(i) : exact_obstacle(i)) times += abs(x);
+    for (const auto& row : exact_shape)
+      for (const exact::Integer& entry : row) times += abs(entry);
+  }
+  for (int k = 0; k < 3; ++k) {
+    if (std::isinf(stretch.until)) exact_agent_end[k] += first.on(k, grid);
+    exact_agent_end[k] += last.on(k, grid) * times;
+  }
 }
 
 HullSupport least_support(const HullScene& scene, const Eigen::Vector3d& n) noexcept {

@@ -14,6 +14,8 @@
 
 namespace vericone {
 
+struct Stretch;
+
 /// A point b_j - a_i of the obstacle's points minus the agent's. Where one of the bodies is an ellipsoid its
 /// centre is its only point.
 struct HullPair {
@@ -36,10 +38,15 @@ struct HullScene {
             std::vector<Eigen::Vector3d> obstacle_points, const Eigen::Vector3d& obstacle_at,
             const Eigen::Vector3d& reference, const Ellipsoid* round);
 
+  /// All that the agent meets on a stretch of its way, which ends somewhere: its points, once at the first
+  /// place and once at the last. For the last rung alone: not usable.
+  HullScene(const HullScene& scene, const Stretch& stretch);
+
   std::vector<Eigen::Vector3d> agent, obstacle;  // as given
   std::optional<Ellipsoid> ellipsoid;
 
   bool usable = false;  // whether the following is within the range of doubles
+  int exponent = 0;     // of the scale: lengths are in units of 2^exponent metres
   CentredPoints centred_agent, centred_obstacle;
   Eigen::Vector3d reach = Eigen::Vector3d::Zero();                                    // of both
   Eigen::Matrix3d factor = Eigen::Matrix3d::Zero(), shape = Eigen::Matrix3d::Zero();  // scaled; of E
@@ -53,6 +60,8 @@ struct HullScene {
   int grid = 0;
   exact::IntegerMatrix<3> exact_shape;
   exact::IntegerVector<3> exact_agent_at, exact_obstacle_at;
+  exact::IntegerVector<3> exact_agent_end;  // where the second half of the agent's points stands, on a stretch
+  bool stretched = false;
 
   // A normal that separates exactly, for disjoint bodies.
   exact::IntegerVector<3> exact_normal{0, 0, 0};
@@ -64,7 +73,9 @@ struct HullScene {
   Eigen::Vector3d difference(HullPair p) const {
     return centred_obstacle[p.obstacle] - centred_agent[p.agent];
   }
-  exact::IntegerVector<3> exact_agent(std::size_t i) const { return on_grid(agent[i], exact_agent_at); }
+  exact::IntegerVector<3> exact_agent(std::size_t i) const {
+    return on_grid(agent[i], stretched && i >= agent.size() / 2 ? exact_agent_end : exact_agent_at);
+  }
   exact::IntegerVector<3> exact_obstacle(std::size_t i) const {
     return on_grid(obstacle[i], exact_obstacle_at);
   }

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "ellipsoids/within.h"
+
 namespace vericone::exact {
 namespace {
 
@@ -178,6 +180,24 @@ Generators generators(const HullScene& scene) {
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
+}
+
+Membership within(const ConeOracle& oracle, const Stretch& stretch, Generators*) {
+  return within(oracle.a(), oracle.b(), stretch);
+}
+
+Membership within(const HullOracle& oracle, const Stretch& stretch, Generators* covered) {
+  const HullScene scene(scene_of(oracle), stretch);
+  switch (relation(scene)) {
+    case Relation::overlapping:
+      return Membership::in;
+    case Relation::touching:
+      if (covered != nullptr && !scene.ellipsoid) *covered = generators(scene);
+      return Membership::on;
+    case Relation::disjoint:
+      break;
+  }
+  return Membership::out;
 }
 
 bool has_interior(const Generators& cone) { return spans(cone); }

@@ -31,6 +31,10 @@ bool has_interior(const Generators& cone);
 /// Normals n such that the cone is where all n.x >= 0.
 std::vector<IntegerVector<3>> sides(const Generators& cone);
 
+/// A pair on a stretch; `covered`: where two hulls only touch on it, becomes the cone of all of K there.
+Membership within(const ConeOracle& oracle, const Stretch& stretch, Generators* covered = nullptr);
+Membership within(const HullOracle& oracle, const Stretch& stretch, Generators* covered = nullptr);
+
 /// Directions of the plane from `low` counter-clockwise to `high`, by at most half a turn.
 struct Sector {
   IntegerVector<2> low, high;

@@ -27,6 +27,9 @@ class AssemblyFamily : public Family {
   Verdict verdict(const Vector3d& v_a, const Vector3d& v_b) const override {
     return oracle_->verdict(v_a, v_b);
   }
+  Verdict verdict(const Vector3d& v_a, const Vector3d& v_b, const Horizon& horizon) const override {
+    return oracle_->verdict(v_a, v_b, horizon);
+  }
   std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
     Effort effort;
     if (oracle_->relation() != Relation::disjoint) return Rung::exact;
@@ -124,6 +127,12 @@ class Hulls : public AssemblyFamily {
   std::optional<Relation> relation() const override { return hulls_.relation(); }
   Verdict verdict(const Vector3d& v_a, const Vector3d& v_b) const override {
     return hulls_.verdict(v_a, v_b);
+  }
+  /// What never meets is told by the hulls; when the others do, by the assembly.
+  Verdict verdict(const Vector3d& v_a, const Vector3d& v_b, const Horizon& horizon) const override {
+    const bool ahead = horizon.from == 0 && hulls_.relation() == Relation::disjoint;
+    if (ahead && hulls_.surely_out(v_a, v_b, horizon)) return Verdict::out;
+    return AssemblyFamily::verdict(v_a, v_b, horizon);
   }
   std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
     Rung rung = hulls_.relation_rung();

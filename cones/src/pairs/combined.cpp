@@ -78,6 +78,9 @@ class Combined : public Family {
   Verdict verdict(const Vector3d& v_a, const Vector3d& v_b) const override {
     return pool_.with([&](const CombinedOracle& oracle) { return oracle.verdict(v_a, v_b); });
   }
+  Verdict verdict(const Vector3d& v_a, const Vector3d& v_b, const Horizon& horizon) const override {
+    return pool_.with([&](const CombinedOracle& oracle) { return oracle.verdict(v_a, v_b, horizon); });
+  }
 
   Contact contact(const Vector3d& v_a, const Vector3d& v_b) const override {
     Contact contact;

@@ -29,6 +29,9 @@ class Composite : public Family {
   Verdict verdict(const Vector3d& v_a, const Vector3d& v_b) const override {
     return pair_->verdict(v_a, v_b);
   }
+  Verdict verdict(const Vector3d& v_a, const Vector3d& v_b, const Horizon& horizon) const override {
+    return pair_->verdict(v_a, v_b, horizon);
+  }
 
   std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
     if (!pair_->exact()) return std::nullopt;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "answers/stretch.h"
 #include "pairs/cones.h"
 
 namespace vericone::pairs {
@@ -21,6 +22,9 @@ class Mirrored : public Family {
   std::optional<Relation> relation() const override { return exchanged_->relation(); }
   Verdict verdict(const Vector3d& v_a, const Vector3d& v_b) const override {
     return exchanged_->verdict(v_b, v_a);
+  }
+  Verdict verdict(const Vector3d& v_a, const Vector3d& v_b, const Horizon& horizon) const override {
+    return exchanged_->verdict(v_b, v_a, horizon);
   }
   std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
     return exchanged_->rung(v_b, v_a);
@@ -64,6 +68,9 @@ class Moved : public Family {
   std::optional<Relation> relation() const override { return pair_->relation(); }
   Verdict verdict(const Vector3d& v_a, const Vector3d& v_b) const override {
     return pair_->verdict(v_a, v_b);
+  }
+  Verdict verdict(const Vector3d& v_a, const Vector3d& v_b, const Horizon& horizon) const override {
+    return pair_->verdict(v_a, v_b, horizon);
   }
   std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
     return pair_->rung(v_a, v_b);
@@ -122,13 +129,12 @@ class AnyOf : public Family {
     if (!relation_) return Verdict::undecided;
     if (*relation_ != Relation::disjoint)
       return *relation_ == Relation::touching ? Verdict::touching : Verdict::overlapping;
-    Verdict whole = Verdict::out;
-    for (const FamilyPointer& pair : all_) {
-      const Verdict one = pair->verdict(v_a, v_b);
-      if (one == Verdict::in) return one;
-      if (one == Verdict::undecided || whole == Verdict::out) whole = one;
-    }
-    return whole;
+    return together([&](const Family& pair) { return pair.verdict(v_a, v_b); });
+  }
+  Verdict verdict(const Vector3d& v_a, const Vector3d& v_b, const Horizon& horizon) const override {
+    return verdict_within(relation_, v_a, v_b, horizon, [&](const Stretch&) {
+      return together([&](const Family& pair) { return pair.verdict(v_a, v_b, horizon); });
+    });
   }
 
   /// The last of those that any part needed.
@@ -232,6 +238,17 @@ class AnyOf : public Family {
   }
 
  private:
+  template <typename Ask>
+  Verdict together(const Ask& verdict_of) const {
+    Verdict whole = Verdict::out;
+    for (const FamilyPointer& pair : all_) {
+      const Verdict one = verdict_of(*pair);
+      if (one == Verdict::in) return one;
+      if (one == Verdict::undecided || whole == Verdict::out) whole = one;
+    }
+    return whole;
+  }
+
   std::vector<FamilyPointer> all_;
   Guarantee guarantee_;
   std::optional<Relation> relation_;

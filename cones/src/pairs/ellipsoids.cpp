@@ -26,6 +26,9 @@ class Ellipsoids : public Family {
   Verdict verdict(const Vector3d& v_a, const Vector3d& v_b) const override {
     return oracle_.verdict(v_a, v_b);
   }
+  Verdict verdict(const Vector3d& v_a, const Vector3d& v_b, const Horizon& horizon) const override {
+    return oracle_.verdict(v_a, v_b, horizon);
+  }
 
   Contact contact(const Vector3d& v_a, const Vector3d& v_b) const override {
     Contact contact;

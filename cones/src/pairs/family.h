@@ -18,6 +18,8 @@ class Family {
   virtual Guarantee guarantee() const = 0;
   virtual std::optional<Relation> relation() const = 0;
   virtual Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const = 0;
+  virtual Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                          const Horizon& horizon) const = 0;
   virtual std::optional<Rung> rung(const Eigen::Vector3d&, const Eigen::Vector3d&) const {
     return std::nullopt;
   }

@@ -155,6 +155,11 @@ Verdict Pair::other_verdict(const Vector3d& v_a, const Vector3d& v_b) const {
   return family_->verdict(v_a, v_b);
 }
 
+Verdict Pair::verdict(const Vector3d& v_a, const Vector3d& v_b, const Horizon& horizon) const {
+  if (horizon.from == 0 && horizon.until == std::numeric_limits<double>::infinity()) return verdict(v_a, v_b);
+  return ellipsoids_ ? ellipsoids_->verdict(v_a, v_b, horizon) : family_->verdict(v_a, v_b, horizon);
+}
+
 std::optional<Rung> Pair::rung(const Vector3d& v_a, const Vector3d& v_b) const {
   return family_->rung(v_a, v_b);
 }

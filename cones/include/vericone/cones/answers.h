@@ -6,8 +6,14 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 namespace vericone {
+
+/// The part of the future that is asked about, both ends included.
+struct Horizon {
+  double from = 0, until = std::numeric_limits<double>::infinity();  // s; 0 <= from <= until
+};
 
 /// How two solid bodies lie. One inside the other counts as overlapping, touching from inside too.
 enum class Relation : std::uint8_t { disjoint, touching, overlapping };

@@ -106,6 +106,16 @@ class Pair {
     return ellipsoids_ ? ellipsoids_->verdict(v_a, v_b) : other_verdict(v_a, v_b);
   }
 
+  /// Whether they meet within the horizon. From now on: as verdict(), but `in` where they overlap by its end,
+  /// and `on` where they only touch by then, at the very end too; else `out`. From a later time: `in` where
+  /// they overlap at some time of it, `on` where they only touch, however they lie now. v_a - v_b and its
+  /// products with the times are not rounded (of a turned assembly, the difference is). Of two combined
+  /// quadrics of which one is delimited, from a later time, only the first contact is known. Throws
+  /// InputError naming "horizon", or a velocity. Cost: that of verdict() for most velocities, else
+  /// docs/reference/pairs.md.
+  [[nodiscard]] Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                                const Horizon& horizon) const;
+
   /// The rung of the ladder that decided verdict(); nothing of certified pairs. For measurements.
   [[nodiscard]] std::optional<Rung> rung(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 

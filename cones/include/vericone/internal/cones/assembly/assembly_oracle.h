@@ -98,6 +98,9 @@ class AssemblyOracle : public DirectionClassifier {
                                       Effort* effort = nullptr) const;
   /// Relation and membership in one.
   [[nodiscard]] Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+  /// The same of contacts within a horizon alone, as Pair::verdict().
+  [[nodiscard]] Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                                const Horizon& horizon, Effort* effort = nullptr) const;
 
   /// Nothing where membership(w) is `out`; time 0 where they touch or overlap now.
   [[nodiscard]] std::optional<AssemblyContact> first_contact(const Eigen::Vector3d& w,

@@ -69,6 +69,10 @@ class CombinedOracle {
 
   /// Relation and membership in one.
   [[nodiscard]] Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+  /// The same of contacts within a horizon alone, as Pair::verdict(). Bodies may meet several times: of what
+  /// begins later than now, only the first contact is known.
+  [[nodiscard]] Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                                const Horizon& horizon) const;
 
   /// Whether all directions of the convex hull of two, less than a right angle apart and not zero, are in
   /// (out): true is certain, false says nothing.

@@ -67,6 +67,9 @@ class CompositePair : public DirectionClassifier {
                                                      Effort* effort = nullptr) const;
   /// Relation and membership in one; `undecided` where either is not known.
   [[nodiscard]] Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
+  /// The same of contacts within a horizon alone, as Pair::verdict().
+  [[nodiscard]] Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                                const Horizon& horizon) const;
 
   /// Nothing where membership is proved `out`. Where it is undecided the contact is possible: `earliest` is
   /// finite and `latest` infinite. Time 0 where the relation is not disjoint. For a delimited body

@@ -12,6 +12,11 @@ namespace vericone {
 template <int D>
 [[nodiscard]] Relation exact_relation(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b);
 
+/// A lower bound of g(n) = n.(p_B - p_A) - rho_A(n) - rho_B(n); -infinity where doubles tell nothing.
+template <int D>
+[[nodiscard]] double triage_gap(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
+                                const Eigen::Matrix<double, D, 1>& n);
+
 /// First rung of separates(): true is certain, false says nothing. No allocation, about 20 ns.
 template <int D>
 [[nodiscard]] bool triage_separates(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,

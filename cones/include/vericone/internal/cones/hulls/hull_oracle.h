@@ -91,6 +91,11 @@ class HullOracle {
   [[nodiscard]] Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
                                 Rung* rung = nullptr) const;
 
+  /// Whether disjoint bodies do not meet within a horizon: true is certain, false says nothing. By planes:
+  /// the prepared one, or one along w.
+  [[nodiscard]] bool surely_out(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                                const Horizon& horizon) const noexcept;
+
   /// For disjoint bodies a normal n with n.x > 0 on all of K (certified), unless they are closer than a
   /// vector of doubles tells apart; largest entry about 1. Zero for other relations.
   [[nodiscard]] const Eigen::Vector3d& separating_normal() const { return normal_; }
@@ -108,6 +113,7 @@ class HullOracle {
   Rung relation_rung_ = Rung::exact;
   Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();
   bool normal_certified_ = false;
+  double room_ = 0;  // n.x >= room_ on all of K, metres
 };
 
 /// Tag of HullOracle::membership for rung_counts().
