@@ -134,6 +134,11 @@ VERICONE_API int32_t vericone_pair_relation(const vericone_pair* pair);
 /* enum vericone_verdict. No allocation; two ellipsoids 20 to 40 ns. */
 VERICONE_API int32_t vericone_pair_verdict(const vericone_pair* pair, const double agent_velocity[3],
                                            const double obstacle_velocity[3]);
+/* Whether they meet from `from` until `until`, seconds >= 0; INFINITY: for ever. As Pair::verdict() within a
+ * horizon: `in` where they overlap by its end, `on` where they only touch by then. */
+VERICONE_API int32_t vericone_pair_verdict_within(const vericone_pair* pair, const double agent_velocity[3],
+                                                  const double obstacle_velocity[3], double from,
+                                                  double until);
 /* Of many velocities of the agent, xyz by xyz, a byte each. Returns how many of them may collide: are not
  * out. */
 VERICONE_API int64_t vericone_pair_verdicts(const vericone_pair* pair, const double* agent_velocities,

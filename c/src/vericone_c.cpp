@@ -289,6 +289,15 @@ int32_t vericone_pair_verdict(const vericone_pair* pair, const double agent_velo
   });
 }
 
+int32_t vericone_pair_verdict_within(const vericone_pair* pair, const double agent_velocity[3],
+                                     const double obstacle_velocity[3], double from, double until) {
+  return answered([&] {
+    return int32_t(given(pair, "pair")
+                       .pair.verdict(vector(agent_velocity, "agent_velocity"),
+                                     vector(obstacle_velocity, "obstacle_velocity"), Horizon{from, until}));
+  });
+}
+
 int64_t vericone_pair_verdicts(const vericone_pair* pair, const double* agent_velocities, size_t count,
                                const double obstacle_velocity[3], uint8_t* verdicts) {
   return answered([&] {

@@ -32,23 +32,34 @@ ErrorSet read_set(const Json& value, const std::string& path, const char* unit) 
 
 }  // namespace
 
-std::optional<RelativeErrors> read_errors(const Json& value) {
-  if (!value.contains("position_error") && !value.contains("velocity_error") && !value.contains("horizon"))
-    return std::nullopt;
-  if (!value.contains("position_error") && !value.contains("velocity_error"))
+Horizon read_horizon(const Json& value) {
+  Horizon horizon;
+  if (!value.contains("horizon")) return horizon;
+  const Json& given = value["horizon"];
+  const char* const right = "positive (seconds), or [from, until] with 0 <= from <= until";
+  if (given.is_array()) {
+    const Eigen::Vector2d ends = read_vector<2>(given, "horizon", " (seconds)");
+    horizon = {ends(0), ends(1)};
+    if (!(horizon.from >= 0 && horizon.until >= horizon.from))
+      throw InputError("horizon", quoted(given), right);
+    return horizon;
+  }
+  horizon.until = read_number(given, "horizon", " (seconds)");
+  if (!(horizon.until > 0)) throw InputError("horizon", quoted(given), right);
+  return horizon;
+}
+
+std::optional<RelativeErrors> read_errors(const Json& value, const Horizon& horizon) {
+  if (!value.contains("position_error") && !value.contains("velocity_error")) return std::nullopt;
+  if (horizon.from > 0 || horizon.until == 0)
     throw InputError("horizon", quoted(value["horizon"]),
-                     "beside position_error or velocity_error (a box may be [0, 0, 0]): only `robust` looks "
-                     "ahead that far, the verdict looks ahead for ever");
+                     "seconds from now (one positive number) beside position_error or velocity_error");
   RelativeErrors errors;
+  errors.horizon = horizon.until;
   if (value.contains("position_error"))
     errors.position = read_set(value["position_error"], "position_error", " (metres)");
   if (value.contains("velocity_error"))
     errors.velocity = read_set(value["velocity_error"], "velocity_error", " (m/s)");
-  if (value.contains("horizon")) {
-    errors.horizon = read_number(value["horizon"], "horizon", " (seconds)");
-    if (!(errors.horizon > 0))
-      throw InputError("horizon", quoted(value["horizon"]), "positive (seconds), or left out: for ever");
-  }
   return errors;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Bounded errors of an engagement from JSON values (docs/reference/formats.md, robust verdicts).
+// The horizon and bounded errors of an engagement from JSON values (docs/reference/formats.md).
 #pragma once
 
 #include <vericone/cones/uncertain/robust.h>
@@ -10,8 +10,12 @@
 
 namespace vericone::input {
 
-/// The fields "position_error", "velocity_error" and "horizon"; nothing where none of them is there. Throws
+/// The field "horizon": seconds from now, or from and until when; for ever where it is not there. Throws
+/// InputError naming it.
+Horizon read_horizon(const Json& value);
+
+/// The fields "position_error" and "velocity_error", with the horizon; nothing where neither is there. Throws
 /// InputError naming the field, for example "position_error.ball".
-std::optional<RelativeErrors> read_errors(const Json& value);
+std::optional<RelativeErrors> read_errors(const Json& value, const Horizon& horizon);
 
 }  // namespace vericone::input

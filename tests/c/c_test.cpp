@@ -154,6 +154,9 @@ void expect_same_answers(RandomBodies& random, const Pair& cpp, const vericone_p
                    u = random.in_box(0.1);
     all.insert(all.end(), v.begin(), v.end());
     EXPECT_EQ(vericone_pair_verdict(c, v.data(), u.data()), int(cpp.verdict(v, u)));
+    for (const Horizon& horizon : {Horizon{0, 0.5}, Horizon{0, 2}, Horizon{1, 3}, Horizon{}})
+      EXPECT_EQ(vericone_pair_verdict_within(c, v.data(), u.data(), horizon.from, horizon.until),
+                int(cpp.verdict(v, u, horizon)));
     const auto contact = cpp.contact(v, u);
     vericone_contact touched{};
     ASSERT_EQ(vericone_pair_contact(c, v.data(), u.data(), &touched), contact.has_value());
@@ -370,6 +373,8 @@ TEST(CInterface, BadInputIsALineAndANumber) {
   EXPECT_EQ(vericone_pair_verdict(pair.get(), nan, zero), VERICONE_BAD_INPUT);
   EXPECT_THAT(vericone_error(), StartsWith("agent_velocity[1]: got nan"));
   EXPECT_EQ(vericone_pair_verdict(nullptr, zero, zero), VERICONE_BAD_INPUT);
+  EXPECT_EQ(vericone_pair_verdict_within(pair.get(), zero, zero, 2, 1), VERICONE_BAD_INPUT);
+  EXPECT_NE(std::string(vericone_error()).find("horizon"), std::string::npos);
   EXPECT_EQ(vericone_pair_verdicts(pair.get(), nan, 1, zero, nullptr), VERICONE_BAD_INPUT);
   EXPECT_EQ(vericone_pair_miss(pair.get(), zero, zero, nullptr), VERICONE_BAD_INPUT);
   EXPECT_TRUE(std::isnan(vericone_body_support(nullptr, zero)));

@@ -12,6 +12,8 @@
 namespace vericone {
 namespace {
 
+bool is_ever(const Horizon& horizon) { return horizon.from == 0 && std::isinf(horizon.until); }
+
 Json interval(double low, double high) { return {number_or_null(low), number_or_null(high)}; }
 
 /// Of two that miss, as a pair's miss() has it; rounded.
@@ -28,13 +30,13 @@ double nearest_time(const Ellipsoid& agent, const Ellipsoid& obstacle, const Eig
 /// Two ellipsoids: exact verdicts, rounded lengths and times. What a pair's miss() and contact() say of them,
 /// without the bounds, points and normals that nobody asked for.
 Json answer_of_ellipsoids(const Ellipsoid& agent, const Ellipsoid& obstacle, const Eigen::Vector3d& v_a,
-                          const Eigen::Vector3d& v_b, bool with_rung) {
+                          const Eigen::Vector3d& v_b, bool with_rung, const Horizon& horizon) {
   const ConeOracle oracle(agent, obstacle);
   Rung rung = oracle.relation_rung();  // of bodies that are not disjoint
   Json result = Json::object();
   result.get_ref<Json::object_t&>().reserve(8);
   const Verdict verdict = oracle.verdict(v_a, v_b, &rung);
-  result["verdict"] = to_string(verdict);
+  result["verdict"] = to_string(is_ever(horizon) ? verdict : oracle.verdict(v_a, v_b, horizon, &rung));
   if (with_rung) result["rung"] = to_string(rung);
   result["clearance"] = number_or_null(clearance_ahead(oracle, v_a, v_b));
   result["nearest_time"] =
@@ -97,15 +99,16 @@ void add_left_out(Json& result, const scenes::SceneBody& obstacle) {
 
 }  // namespace
 
-Json answer(const scenes::Scene& scene, bool with_rung) {
+Json answer(const scenes::Scene& scene, bool with_rung, const Horizon& horizon) {
   const Eigen::Vector3d &v_a = scene.agent.velocity, &v_b = scene.obstacle.velocity;
   if (scene.agent.ellipsoid() && scene.obstacle.ellipsoid())
-    return answer_of_ellipsoids(*scene.agent.ellipsoid(), *scene.obstacle.ellipsoid(), v_a, v_b, with_rung);
+    return answer_of_ellipsoids(*scene.agent.ellipsoid(), *scene.obstacle.ellipsoid(), v_a, v_b, with_rung,
+                                horizon);
   const Pair pair = scene.pair();
   const Verdict verdict = pair.verdict(v_a, v_b);
   Json result;
-  result["verdict"] = to_string(verdict);
-  if (with_rung) {
+  result["verdict"] = to_string(is_ever(horizon) ? verdict : pair.verdict(v_a, v_b, horizon));
+  if (with_rung && is_ever(horizon)) {
     const auto rung = pair.rung(v_a, v_b);
     result["rung"] = rung ? to_string(*rung) : "certified";
   }

@@ -33,13 +33,14 @@ void add_robust(Json& result, const scenes::Scene& scene, const RelativeErrors& 
 }
 
 Json answer_case(const Json& value, bool with_rung, const std::filesystem::path& folder) {
-  const auto errors = input::read_errors(value);
+  const Horizon horizon = input::read_horizon(value);
+  const auto errors = input::read_errors(value, horizon);
   const scenes::Scene scene = input::read_engagement(
       value, input::Velocities::required, {"id", "position_error", "velocity_error", "horizon"}, folder);
   if (errors && scene.planar)
-    throw InputError("position_error, velocity_error, horizon", "given for bodies in the plane",
+    throw InputError("position_error, velocity_error", "given for bodies in the plane",
                      "left out, or the bodies in space");
-  Json result = answer(scene, with_rung);
+  Json result = answer(scene, with_rung, horizon);
   if (errors) add_robust(result, scene, *errors);
   return result;
 }
