@@ -33,6 +33,12 @@ struct Stretch {
   }
 };
 
+/// Between two bodies, one of which goes straight from one place to another: where they are nearest.
+struct NearestPlane {
+  Eigen::Vector3d normal;  // from the agent towards the obstacle; rounded
+  double at;               // part of the way, 0 to 1
+};
+
 namespace exact {
 
 /// A way as a multiple of 2^exponent metres.

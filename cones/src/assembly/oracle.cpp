@@ -148,4 +148,22 @@ Verdict AssemblyOracle::verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3
   });
 }
 
+std::optional<NearestPlane> AssemblyOracle::nearest_plane(const Eigen::Vector3d& start,
+                                                          const Eigen::Vector3d& end) const {
+  const Scene& scene = *state_;
+  if (scene.body().size() != 1) return std::nullopt;
+  const Eigen::Vector3d first = scene.to_body(start), last = scene.to_body(end);
+  Core core = scene.core(0);
+  const auto enclosed = [](const Eigen::Vector3d& x) { return std::array<Interval, 3>{x.x(), x.y(), x.z()}; };
+  core.stretch(enclosed(first), enclosed(last));
+  const Gap found = gap(core, Directions{}, core.away(), GapGoal::measure, 1e-6);
+  if (!(found.least > core.outer_rounding())) return std::nullopt;
+  // The nearest point is one of the piece less one of the way; of a small piece, the middle.
+  const Eigen::Vector3d n = scene.frame().to_frame().transpose() * found.v;
+  const Eigen::Vector3d from = scene.frame().to_frame() * first, along = scene.frame().to_frame() * (last - first);
+  const double square = along.squaredNorm();
+  const double at = square > 0 ? (core.center() - found.v - from).dot(along) / square : 0;
+  return NearestPlane{scene.to_world(n), std::clamp(at, 0.0, 1.0)};
+}
+
 }  // namespace vericone

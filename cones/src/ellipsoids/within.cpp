@@ -62,24 +62,29 @@ struct EnclosedWay {
 /// lambda, so one maximum. Above 1 anywhere it has a plane, and at the maximum below 1 a common point.
 class Saddle {
  public:
-  Saddle(const ContactFrame<3>& frame, const EnclosedWay& way)
+  /// Of the way from `start` to `end`.
+  Saddle(const ContactFrame<3>& frame, const Vector3d& start, const Vector3d& end)
       : frame_(frame),
-        start_(frame.center - frame.to_frame * middle(way.start)),
-        along_(frame.to_frame * (middle(way.end) - middle(way.start))),
+        start_(frame.center - frame.to_frame * start),
+        along_(frame.to_frame * (end - start)),
         square_(frame.sigma.cwiseAbs2()) {}
 
-  void look_at(double x) {
-    x_ = x;
-    weight_ = (Vector3d::Ones() + x * square_).cwiseInverse();
-    const double most = along_.cwiseAbs2().dot(weight_);
-    s_ = most > 0 ? std::clamp(start_.cwiseProduct(along_).dot(weight_) / most, 0.0, 1.0) : 0;
-    z_ = start_ - s_ * along_;
-    y_ = z_.cwiseProduct(weight_);
+  /// Calls done() at one x after the other, beginning with x, until it says so or the maximum is reached.
+  template <typename Done>
+  void climb(double x, const Done& done) {
+    constexpr int kMostSteps = 30;
+    double low = 0, high = std::numeric_limits<double>::infinity();
+    for (int step = 0; step < kMostSteps && x > 1e-100 && x < 1e100; ++step) {
+      look_at(x);
+      if (done()) return;
+      const double next = std::sqrt(y_.squaredNorm() / y_.cwiseAbs2().dot(square_));
+      if (!(std::abs(next - x) > 1e-14 * x)) return;
+      (next > x ? low : high) = x;
+      x = next > low && next < high ? next : low > 0 && std::isfinite(high) ? std::sqrt(low * high) : next;
+    }
   }
 
   double value() const { return x_ / (1 + x_) * z_.dot(y_); }
-  /// Where the slope in x would vanish if y did not change; above x where the value grows.
-  double next() const { return std::sqrt(y_.squaredNorm() / y_.cwiseAbs2().dot(square_)); }
   Vector3d normal() const { return frame_.to_frame.transpose() * y_; }
 
   double s() const { return s_; }
@@ -89,6 +94,17 @@ class Saddle {
   Vector3d point() const { return frame_.to_space * y_; }  // from A's centre
 
  private:
+  /// The slope in x would vanish where |y| / |sigma y| is, if y did not change; that is above x where the
+  /// value grows.
+  void look_at(double x) {
+    x_ = x;
+    weight_ = (Vector3d::Ones() + x * square_).cwiseInverse();
+    const double most = along_.cwiseAbs2().dot(weight_);
+    s_ = most > 0 ? std::clamp(start_.cwiseProduct(along_).dot(weight_) / most, 0.0, 1.0) : 0;
+    z_ = start_ - s_ * along_;
+    y_ = z_.cwiseProduct(weight_);
+  }
+
   const ContactFrame<3>& frame_;
   Vector3d start_, along_, square_, weight_, z_, y_;
   double x_ = 1, s_ = 0;
@@ -100,34 +116,31 @@ std::optional<Membership> interval_within(const Ellipsoid& a, const Ellipsoid& b
   const EnclosedWay way(stretch, pair);
   if (!way.usable) return std::nullopt;
   const ContactFrame<3> frame(pair.factor_a, pair.factor_b, pair.center_line);
-  Saddle saddle(frame, way);
-  constexpr int kMostSteps = 30, kMostProofs = 4;
-  double low = 0, high = std::numeric_limits<double>::infinity(), x = frame.ratio;
-  for (int step = 0, proofs = 0; step < kMostSteps && proofs < kMostProofs; ++step) {
-    if (!(x > 1e-100 && x < 1e100)) return std::nullopt;
-    saddle.look_at(x);
+  Saddle saddle(frame, middle(way.start), middle(way.end));
+  constexpr int kMostProofs = 4;
+  int proofs = 0;
+  std::optional<Membership> answer;
+  saddle.climb(frame.ratio, [&] {
     if (saddle.value() > 1) {
       Vector3d n = saddle.normal();
       n /= n.cwiseAbs().maxCoeff();
-      if (!n.allFinite()) return std::nullopt;
+      if (!n.allFinite()) return true;
       const Interval gap = pair.gap(n);
-      if ((gap - dot(n, way.start)).positive() && (gap - dot(n, way.end)).positive()) return Membership::out;
-      ++proofs;
+      if ((gap - dot(n, way.start)).positive() && (gap - dot(n, way.end)).positive())
+        answer = Membership::out;
     } else if (saddle.is_common()) {
       const Vector3d y = saddle.point();
       const IntervalVector d = way.at(saddle.s());
       const IntervalVector of_a{y.x(), y.y(), y.z()};
       IntervalVector of_b;
       for (int k = 0; k < 3; ++k) of_b[k] = of_a[k] - (pair.c[k] - d[k]);
-      if (pair.a.surely_contains(of_a) && pair.b.surely_contains(of_b)) return Membership::in;
-      ++proofs;
+      if (pair.a.surely_contains(of_a) && pair.b.surely_contains(of_b)) answer = Membership::in;
+    } else {
+      return false;
     }
-    const double next = saddle.next();
-    if (!(std::abs(next - x) > 1e-14 * x)) return std::nullopt;
-    (next > x ? low : high) = x;
-    x = next > low && next < high ? next : low > 0 && std::isfinite(high) ? std::sqrt(low * high) : next;
-  }
-  return std::nullopt;
+    return answer || ++proofs == kMostProofs;
+  });
+  return answer;
 }
 
 /// Where a time lies: with regard to the first contact, and with regard to the last; -1 before it, 0 at it, 1
@@ -146,6 +159,24 @@ Phase phase_at(exact::PairOnGrid<3> pair, const exact::Way& way, const exact::In
 }
 
 }  // namespace
+
+std::optional<NearestPlane> nearest_plane(const ContactFrame<3>& frame, const Vector3d& start,
+                                          const Vector3d& end) {
+  Saddle saddle(frame, start, end);
+  double most = 0;
+  NearestPlane plane{Vector3d::Zero(), 0};
+  saddle.climb(frame.ratio, [&] {
+    if (const double value = saddle.value(); value > most) {
+      const bool nearly = value < most * (1 + 1e-9);
+      most = value;
+      plane = {saddle.normal(), saddle.s()};
+      return nearly;
+    }
+    return false;
+  });
+  if (!(most > 1)) return std::nullopt;
+  return plane;
+}
 
 namespace exact {
 
@@ -176,7 +207,10 @@ Verdict ConeOracle::verdict(const Vector3d& v_a, const Vector3d& v_b, const Hori
       decided_by<WithinHorizon>(Rung::triage, rung);
       return Verdict::out;
     }
-    if (side > 0 && horizon.from == 0 && std::isinf(horizon.until)) return Verdict::in;
+    if (side > 0 && horizon.from == 0 && std::isinf(horizon.until)) {
+      decided_by<WithinHorizon>(Rung::triage, rung);
+      return Verdict::in;
+    }
   }
   if (rung && relation_ != Relation::disjoint) *rung = relation_rung_;
   return verdict_within(relation_, v_a, v_b, horizon, [&](const Stretch& stretch) {

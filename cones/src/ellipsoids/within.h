@@ -3,10 +3,19 @@
 
 #include <vericone/cones/answers.h>
 #include <vericone/geometry/ellipsoid.h>
+#include <optional>
 
 namespace vericone {
 
+template <int D>
+struct ContactFrame;
+struct NearestPlane;
 struct Stretch;
+
+/// Of the frame's bodies on A's way from one displacement to another, nearest as the contact function
+/// measures; nothing where they meet, to rounding.
+std::optional<NearestPlane> nearest_plane(const ContactFrame<3>& frame, const Eigen::Vector3d& start,
+                                          const Eigen::Vector3d& end);
 
 namespace exact {
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "answers/elementary.h"
 #include "answers/velocity_ladder.h"
 #include "hulls/certificates.h"
 #include "hulls/exact.h"
@@ -345,6 +346,16 @@ Membership HullOracle::membership(const Eigen::Vector3d& w, Rung* rung) const {
 
 Membership HullOracle::membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, Rung* rung) const {
   return climb_membership<HullMembership>(*this, v_a, v_b, rung);
+}
+
+double HullOracle::gap(const Eigen::Vector3d& n) const noexcept {
+  constexpr double kNothing = -std::numeric_limits<double>::infinity();
+  if (!scene_->usable || !n.allFinite() || n.isZero(0)) return kNothing;
+  int exponent = 0;
+  const Eigen::Vector3d m = at_scale_one(n, exponent);
+  const double least = least_support(*scene_, m).value() -
+                       (support_slack(*scene_, m) + radius_above(*scene_, m)) * kRoundUp;
+  return std::ldexp(least - std::abs(least) * 0x1p-50, exponent + scene_->exponent);
 }
 
 bool HullOracle::surely_out(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,

@@ -134,6 +134,10 @@ class Hulls : public AssemblyFamily {
     if (ahead && hulls_.surely_out(v_a, v_b, horizon)) return Verdict::out;
     return AssemblyFamily::verdict(v_a, v_b, horizon);
   }
+  double gap(const Vector3d& n) const override { return hulls_.gap(n); }
+  std::optional<NearestPlane> nearest_plane(const Vector3d& start, const Vector3d& end) const override {
+    return oracle_->nearest_plane(start, end);
+  }
   std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
     Rung rung = hulls_.relation_rung();
     static_cast<void>(hulls_.verdict(v_a, v_b, &rung));

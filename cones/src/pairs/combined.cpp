@@ -81,6 +81,8 @@ class Combined : public Family {
   Verdict verdict(const Vector3d& v_a, const Vector3d& v_b, const Horizon& horizon) const override {
     return pool_.with([&](const CombinedOracle& oracle) { return oracle.verdict(v_a, v_b, horizon); });
   }
+  /// Of ellipsoids that contain them.
+  double gap(const Vector3d& n) const override { return around_->gap(n); }
 
   Contact contact(const Vector3d& v_a, const Vector3d& v_b) const override {
     Contact contact;

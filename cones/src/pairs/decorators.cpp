@@ -26,6 +26,12 @@ class Mirrored : public Family {
   Verdict verdict(const Vector3d& v_a, const Vector3d& v_b, const Horizon& horizon) const override {
     return exchanged_->verdict(v_b, v_a, horizon);
   }
+  double gap(const Vector3d& n) const override { return exchanged_->gap(-n); }
+  std::optional<NearestPlane> nearest_plane(const Vector3d& start, const Vector3d& end) const override {
+    auto plane = exchanged_->nearest_plane(-start, -end);
+    if (plane) plane->normal *= -1;
+    return plane;
+  }
   std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
     return exchanged_->rung(v_b, v_a);
   }
@@ -71,6 +77,10 @@ class Moved : public Family {
   }
   Verdict verdict(const Vector3d& v_a, const Vector3d& v_b, const Horizon& horizon) const override {
     return pair_->verdict(v_a, v_b, horizon);
+  }
+  double gap(const Vector3d& n) const override { return pair_->gap(n); }
+  std::optional<NearestPlane> nearest_plane(const Vector3d& start, const Vector3d& end) const override {
+    return pair_->nearest_plane(start, end);
   }
   std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
     return pair_->rung(v_a, v_b);
@@ -135,6 +145,12 @@ class AnyOf : public Family {
     return verdict_within(relation_, v_a, v_b, horizon, [&](const Stretch&) {
       return together([&](const Family& pair) { return pair.verdict(v_a, v_b, horizon); });
     });
+  }
+  double gap(const Vector3d& n) const override {
+    double least = std::numeric_limits<double>::infinity();
+    for (const FamilyPointer& pair : all_)
+      if (const double own = pair->gap(n); !(own >= least)) least = own;
+    return least;
   }
 
   /// The last of those that any part needed.

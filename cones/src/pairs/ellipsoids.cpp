@@ -2,13 +2,16 @@
 //
 // Two ellipsoids: exact.
 #include <vericone/cones/ellipsoids/clearance.h>
+#include <vericone/internal/cones/ellipsoids/contact_frame.h>
 #include <vericone/internal/cones/ellipsoids/plane_sector.h>
+#include <vericone/internal/cones/ellipsoids/rungs.h>
 #include <vericone/internal/cones/map/classifiers.h>
 #include <vericone/internal/cones/times/contact_time_enclosure.h>
 #include <algorithm>
 #include <cmath>
 
 #include "ellipsoids/velocity_difference.h"
+#include "ellipsoids/within.h"
 #include "pairs/cones.h"
 
 namespace vericone::pairs {
@@ -18,7 +21,8 @@ using Eigen::Vector3d;
 
 class Ellipsoids : public Family {
  public:
-  Ellipsoids(const Ellipsoid& agent, const Ellipsoid& obstacle) : oracle_(agent, obstacle) {}
+  Ellipsoids(const Ellipsoid& agent, const Ellipsoid& obstacle)
+      : oracle_(agent, obstacle), frame_(agent, obstacle) {}
 
   Guarantee guarantee() const override { return {true, 0, "ellipsoids"}; }
   const ConeOracle* ellipsoids() const override { return &oracle_; }
@@ -28,6 +32,10 @@ class Ellipsoids : public Family {
   }
   Verdict verdict(const Vector3d& v_a, const Vector3d& v_b, const Horizon& horizon) const override {
     return oracle_.verdict(v_a, v_b, horizon);
+  }
+  double gap(const Vector3d& n) const override { return triage_gap<3>(oracle_.a(), oracle_.b(), n); }
+  std::optional<NearestPlane> nearest_plane(const Vector3d& start, const Vector3d& end) const override {
+    return vericone::nearest_plane(frame_, start, end);
   }
 
   Contact contact(const Vector3d& v_a, const Vector3d& v_b) const override {
@@ -120,6 +128,7 @@ class Ellipsoids : public Family {
 
  private:
   ConeOracle oracle_;
+  ContactFrame<3> frame_;
 };
 
 }  // namespace

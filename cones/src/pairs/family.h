@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "answers/stretch.h"
 #include "pairs/sectors.h"
 
 namespace vericone::pairs {
@@ -20,6 +21,16 @@ class Family {
   virtual Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const = 0;
   virtual Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
                           const Horizon& horizon) const = 0;
+  /// At most the least n.x over the obstacle's points less the agent's, metres, proved; NaN where a family
+  /// knows no better than the supports of both.
+  virtual double gap(const Eigen::Vector3d&) const { return std::numeric_limits<double>::quiet_NaN(); }
+  /// Where two convex bodies are nearest while the agent goes straight from one displacement to another,
+  /// metres; nothing where they meet. A search: nothing is proved of it.
+  virtual std::optional<NearestPlane> nearest_plane(const Eigen::Vector3d& start,
+                                                    const Eigen::Vector3d& end) const {
+    static_cast<void>(start), static_cast<void>(end);
+    return std::nullopt;
+  }
   virtual std::optional<Rung> rung(const Eigen::Vector3d&, const Eigen::Vector3d&) const {
     return std::nullopt;
   }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "answers/stretch.h"
 #include "ellipsoids/apart.h"
 #include "ellipsoids/plane_axis.h"
 #include "pairs/family.h"
@@ -158,6 +159,81 @@ Verdict Pair::other_verdict(const Vector3d& v_a, const Vector3d& v_b) const {
 Verdict Pair::verdict(const Vector3d& v_a, const Vector3d& v_b, const Horizon& horizon) const {
   if (horizon.from == 0 && horizon.until == std::numeric_limits<double>::infinity()) return verdict(v_a, v_b);
   return ellipsoids_ ? ellipsoids_->verdict(v_a, v_b, horizon) : family_->verdict(v_a, v_b, horizon);
+}
+
+namespace {
+
+/// At least |x| for every point of the body in the world, to rounding.
+double size_of(const Placed& body) {
+  const Box bounds = body.body.bounds();
+  return bounds.low.cwiseAbs().cwiseMax(bounds.high.cwiseAbs()).norm() + body.pose.position.norm();
+}
+
+/// Largest entry 1; nothing where it is none.
+std::optional<Vector3d> normalised(const Vector3d& n) {
+  const Vector3d unit = n / n.cwiseAbs().maxCoeff();
+  return unit.allFinite() ? std::optional(unit) : std::nullopt;
+}
+
+}  // namespace
+
+double Pair::gap(const Vector3d& n) const {
+  const double own = family_->gap(n);
+  if (!std::isnan(own)) return own;
+  constexpr double kRoundings = 0x1p-46;
+  return -obstacle_->support(-n) - agent_->support(n) -
+         kRoundings * n.cwiseAbs().sum() * (size_of(*agent_) + size_of(*obstacle_));
+}
+
+std::optional<Vector3d> Pair::normal_along(const Vector3d& start, const Vector3d& end) const {
+  const auto nearest = family_->nearest_plane(start, end);
+  return nearest ? normalised(nearest->normal) : std::nullopt;
+}
+
+std::optional<SafeHalfSpace> Pair::safe_half_space(const Vector3d& v_a, const Vector3d& v_b,
+                                                   const Horizon& horizon,
+                                                   const std::optional<Vector3d>& warm) const {
+  require_horizon(horizon);
+  const Vector3d w = pairs::relative_velocity(v_a, v_b);
+  const auto safe = [&](const Vector3d& n) -> std::optional<SafeHalfSpace> {
+    const SafeHalfSpace half{n, gap(n)};
+    // By more than rounding may turn n.w, or the quotient.
+    const double slack = 0x1p-50 * n.cwiseAbs().sum() * w.cwiseAbs().maxCoeff(), most = half.most(horizon);
+    const bool holds = n.dot(w) + slack < most - std::abs(most) * 0x1p-50;
+    return holds ? std::optional(half) : std::nullopt;
+  };
+  if (warm)
+    if (const auto half = safe(*warm)) return half;
+  // For ever: until they have passed, by twice the way that is needed.
+  const Vector3d start = horizon.from * w;
+  const double speed = w.norm();
+  const double passed =
+      std::isinf(horizon.until) && speed > 0
+          ? horizon.from + 2 * (start.norm() + size_of(*agent_) + size_of(*obstacle_)) / speed
+          : horizon.until;
+  const auto nearest = family_->nearest_plane(start, speed > 0 ? Vector3d(passed * w) : start);
+  const auto unit = nearest ? normalised(nearest->normal) : std::nullopt;
+  if (!unit) return std::nullopt;
+  const Vector3d& n = *unit;
+  const double here = gap(n), time = horizon.from + nearest->at * (passed - horizon.from);
+  // Where they are nearest at an end of the time the plane is the one to take. Where they pass, it holds for
+  // little more than w; turned away from w it goes to where it touches the cone. The gap of the turned plane
+  // is concave, so chords between a turn too small and one too large are too small.
+  if (!(speed > 0 && nearest->at > 0 && nearest->at < 1 && here > 0)) return safe(n);
+  const Vector3d back = w / speed;
+  double low = 0, at_low = here, high = std::min(here / (time * speed), 1.0), at_high = here;
+  for (int step = 0; step < 6 && at_high > 0; ++step, high *= 8) at_high = gap(n - high * back);
+  high /= 8;
+  if (at_high > 0) return safe(n - high * back);
+  for (int step = 0; step < 8 && at_low > 1e-6 * here; ++step) {
+    const double between = low + (high - low) * at_low / (at_low - at_high) * (1 - 1e-6);
+    const double at = gap(n - between * back);
+    (at > 0 ? low : high) = between;
+    (at > 0 ? at_low : at_high) = at;
+    if (at > 0) at_high *= 0.5;  // or the other end would stay where it is
+  }
+  if (const auto half = safe(n - low * back)) return half;
+  return safe(n);
 }
 
 std::optional<Rung> Pair::rung(const Vector3d& v_a, const Vector3d& v_b) const {

@@ -69,6 +69,19 @@ struct Miss {
   [[nodiscard]] Eigen::Vector3d gradient_velocity() const { return -time * normal; }
 };
 
+/// Relative velocities w = v_agent - v_obstacle that are proved safe: those with t normal.w < room at both
+/// ends t of a horizon lead to no contact within it. Two square roots check it.
+struct SafeHalfSpace {
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // from the agent towards the obstacle; any length
+  double room = 0;  // m: normal.x >= room for x any point of the obstacle less one of the agent
+
+  /// The most of normal.w that is safe, m/s.
+  [[nodiscard]] double most(const Horizon& horizon) const {
+    if (room > 0) return room / horizon.until;
+    return horizon.from > 0 ? room / horizon.from : -std::numeric_limits<double>::infinity();
+  }
+};
+
 /// Two placed bodies of any kinds, prepared for many velocities. Immutable; a copy shares what was prepared;
 /// may be used by several threads at once. Velocities are m/s in the world; w = v_agent - v_obstacle, and
 /// nothing turns.
@@ -115,6 +128,26 @@ class Pair {
   /// docs/reference/pairs.md.
   [[nodiscard]] Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
                                 const Horizon& horizon) const;
+
+  /// At most the least n.x over the obstacle's points less the agent's, metres, proved: positive where the
+  /// plane with that normal separates them. To a few roundings of the least, of bodies with delimiters or
+  /// pieces of their ellipsoids, or hull. No allocation. Cost: two ellipsoids 30 ns.
+  [[nodiscard]] double gap(const Eigen::Vector3d& n) const;
+
+  /// The normal, from the agent towards the obstacle, along which they stay farthest apart while the agent,
+  /// seen from the obstacle, goes straight from one displacement to another (metres), as a search in doubles
+  /// finds it; largest entry 1. Nothing where they meet, or are not two convex bodies.
+  [[nodiscard]] std::optional<Eigen::Vector3d> normal_along(const Eigen::Vector3d& start,
+                                                            const Eigen::Vector3d& end) const;
+
+  /// A half-space of velocities, with this one in it, that are safe within a horizon, as far towards the cone
+  /// as one plane goes. Nothing where none was found: they meet within it, or are not two convex bodies.
+  /// `warm`: the normal of a moment before, or of a velocity nearby, tried first. Throws InputError naming
+  /// "horizon" or a velocity. Cost: two ellipsoids 0.5 us, with a warm normal that still holds 40 ns.
+  [[nodiscard]] std::optional<SafeHalfSpace> safe_half_space(const Eigen::Vector3d& v_a,
+                                                             const Eigen::Vector3d& v_b,
+                                                             const Horizon& horizon,
+                                                             const std::optional<Eigen::Vector3d>& warm = {}) const;
 
   /// The rung of the ladder that decided verdict(); nothing of certified pairs. For measurements.
   [[nodiscard]] std::optional<Rung> rung(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;

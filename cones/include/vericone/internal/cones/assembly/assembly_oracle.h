@@ -23,6 +23,8 @@
 
 namespace vericone {
 
+struct NearestPlane;
+
 /// How much was looked at: the same on every machine.
 struct Effort {
   std::uint64_t nodes = 0;   // boxes of the hierarchy compared with the question
@@ -101,6 +103,11 @@ class AssemblyOracle : public DirectionClassifier {
   /// The same of contacts within a horizon alone, as Pair::verdict().
   [[nodiscard]] Verdict verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
                                 const Horizon& horizon, Effort* effort = nullptr) const;
+
+  /// Of an obstacle of one piece: where the two are nearest on a straight way of the agent, as it measures;
+  /// rounded, nothing where they meet (cones/src/answers/stretch.h).
+  [[nodiscard]] std::optional<NearestPlane> nearest_plane(const Eigen::Vector3d& start,
+                                                          const Eigen::Vector3d& end) const;
 
   /// Nothing where membership(w) is `out`; time 0 where they touch or overlap now.
   [[nodiscard]] std::optional<AssemblyContact> first_contact(const Eigen::Vector3d& w,

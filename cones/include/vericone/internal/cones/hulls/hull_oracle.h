@@ -96,6 +96,9 @@ class HullOracle {
   [[nodiscard]] bool surely_out(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
                                 const Horizon& horizon) const noexcept;
 
+  /// At most the least n.x over K, metres.
+  [[nodiscard]] double gap(const Eigen::Vector3d& n) const noexcept;
+
   /// For disjoint bodies a normal n with n.x > 0 on all of K (certified), unless they are closer than a
   /// vector of doubles tells apart; largest entry about 1. Zero for other relations.
   [[nodiscard]] const Eigen::Vector3d& separating_normal() const { return normal_; }

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/geometry/error.h>
+#include <vericone/guidance/bands.h>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "command/cases.h"
+#include "commands.h"
+#include "input/body.h"
+#include "input/errors.h"
+#include "input/fields.h"
+#include "json/json_value.h"
+#include "work/threads.h"
+
+namespace vericone {
+namespace {
+
+using guidance::Band, guidance::Bands, guidance::BandOptions, guidance::Intruder, guidance::Range;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// A body with its velocity among its fields.
+Intruder read_intruder(const Json& value, const std::string& path, const std::filesystem::path& folder) {
+  input::require_object(value, path);
+  if (!value.contains("velocity")) throw InputError(path + ".velocity", "nothing", "[x, y, z] (m/s)");
+  const Eigen::Vector3d velocity = input::read_vector<3>(value["velocity"], path + ".velocity", " (m/s)");
+  Json body = value;
+  body.erase("velocity");
+  return {input::read_body(body, path, folder).placed, velocity};
+}
+
+Range read_range(const Json& value, const std::string& path, const char* unit) {
+  const Eigen::Vector2d ends = input::read_vector<2>(value, path, unit);
+  return {ends(0), ends(1)};
+}
+
+void read_limits(const Json& value, BandOptions& options) {
+  input::require_object(value, "limits");
+  input::require_known(value, "limits", {"speed", "climb", "altitude", "lateral", "longitudinal", "vertical"});
+  for (const auto& [field, range, unit] :
+       {std::tuple("speed", &options.speed, " (m/s)"), {"climb", &options.climb, " (m/s)"}, {"altitude", &options.altitude, " (metres)"}})
+    if (value.contains(field)) *range = read_range(value[field], std::string("limits.") + field, unit);
+  for (const auto& [field, number] : {std::pair("lateral", &options.lateral), {"longitudinal", &options.longitudinal},
+                                      {"vertical", &options.vertical}})
+    if (value.contains(field)) *number = input::read_number(value[field], std::string("limits.") + field, " (m/s^2)");
+}
+
+Json ranges(const std::vector<Range>& all, double unit) {
+  Json list = Json::array();
+  for (const Range& range : all) list.push_back({range.from / unit, range.to / unit});
+  return list;
+}
+
+Json band_json(const Band& band, double unit = 1) {
+  return {{"free", ranges(band.free, unit)}, {"conflict", ranges(band.conflict, unit)}};
+}
+
+Json seconds(double last) { return last >= 0 && std::isfinite(last) ? Json(last) : Json(nullptr); }
+
+Json answer_case(const Json& value, const std::filesystem::path& folder) {
+  input::require_object(value, "case");
+  input::require_known(value, "", {"id", "agent", "agent_velocity", "obstacles", "horizon", "wind", "limits"});
+  for (const char* field : {"agent", "agent_velocity", "obstacles"})
+    if (!value.contains(field)) throw InputError(field, "nothing", "there");
+  const Placed agent = input::read_body(value["agent"], "agent", folder).placed;
+  const Eigen::Vector3d velocity = input::read_vector<3>(value["agent_velocity"], "agent_velocity", " (m/s)");
+  if (!value["obstacles"].is_array())
+    throw InputError("obstacles", input::quoted(value["obstacles"]), "a list of bodies, each with its velocity");
+  std::vector<Intruder> intruders;
+  for (const Json& one : value["obstacles"])
+    intruders.push_back(read_intruder(one, "obstacles[" + std::to_string(intruders.size()) + "]", folder));
+  BandOptions options;
+  options.horizon = input::read_horizon(value);
+  if (value.contains("wind")) options.wind = input::read_vector<3>(value["wind"], "wind", " (m/s)");
+  if (value.contains("limits")) read_limits(value["limits"], options);
+
+  const Bands found = bands(agent, velocity, intruders, options);
+  Json result{{"heading", band_json(found.heading, kDegree)},
+              {"speed", band_json(found.speed)},
+              {"climb", band_json(found.climb)}};
+  if (options.altitude.from != 0 || options.altitude.to != 0) result["altitude"] = band_json(found.altitude);
+  result["time_to_violation"] = found.time_to_violation ? Json(*found.time_to_violation) : Json(nullptr);
+  result["last_manoeuvre"] = {{"heading", seconds(found.heading.last)},
+                              {"speed", seconds(found.speed.last)},
+                              {"climb", seconds(found.climb.last)}};
+  if (found.recovery)
+    result["recovery"] = {{"heading", found.recovery->heading / kDegree}, {"time", found.recovery->time}};
+  return result;
+}
+
+}  // namespace
+
+int bands_command(CommandLine& line) {
+  std::string cases;
+  line.option("cases", cases, "File of cases, or - for standard input").required();
+  int threads = 0;
+  line.option("--threads", threads, "Threads, 0: one per processor; the answers are the same");
+  bool json = true;
+  line.flag("--json", json, "Print JSON; this command prints nothing else");
+  line.quiet();
+  line.read();
+  const std::filesystem::path folder = cases == "-" ? "" : std::filesystem::path(cases).parent_path();
+  return answer_cases(
+      cases, [&](const Json& value) { return answer_case(value, folder); }, std::cout, threads_for(threads));
+}
+
+}  // namespace vericone

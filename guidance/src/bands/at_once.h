@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A quantity changed at once: headings, lines of velocities, heights.
+#pragma once
+
+#include <vericone/cones/pair.h>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include "bands/search.h"
+
+namespace vericone::guidance::banding {
+
+using Eigen::Vector3d;
+
+inline constexpr double kPi = std::numbers::pi, kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr double kRoundings = 0x1p-48;  // of a sum of some ten products, relative to all their sizes
+
+/// All values x with slope x < level; nothing where q is not one.
+inline std::optional<Range> below(double q, double slope, double level) {
+  const double end = level / slope, slack = std::abs(end) * kRoundings;
+  if (!(q * slope < level)) return std::nullopt;
+  Range range{-kInfinity, kInfinity};
+  if (slope > 0) range.to = end - slack;
+  if (slope < 0) range.from = end + slack;
+  return range.from <= q && q <= range.to ? std::optional(range) : std::nullopt;
+}
+
+/// One quantity of an agent's velocity, the rest kept: a curve of velocities over ground.
+class Curve {
+ public:
+  virtual ~Curve() = default;
+  virtual Vector3d velocity(double q) const = 0;
+  /// All values about q for which n.v < most, `size` being that of all terms of `most`; nothing where q is
+  /// not surely one.
+  virtual std::optional<Range> about(double q, const Vector3d& n, double most, double size) const = 0;
+  /// Values between two hits that are hits of a convex set of velocities too; asks for single velocities.
+  virtual bool all_hit(double from, double to, const std::function<bool(const Vector3d&)>& hit) const = 0;
+
+};
+
+/// Headings q clockwise from y, at one speed.
+class Headings : public Curve {
+ public:
+  Headings(double speed, double climb, const Vector3d& wind) : speed_(speed), rest_(wind) {
+    rest_.z() += climb;
+  }
+  Vector3d velocity(double q) const override {
+    return rest_ + speed_ * Vector3d(std::sin(q), std::cos(q), 0);
+  }
+
+  // speed (n_x sin q + n_y cos q) < most - n.rest: all but an arc about the direction of n.
+  std::optional<Range> about(double q, const Vector3d& n, double most, double size) const override {
+    const double all = size + n.cwiseAbs().dot(rest_.cwiseAbs()) + speed_ * (std::abs(n.x()) + std::abs(n.y()));
+    const double level = most - n.dot(rest_) - kRoundings * all;
+    const double most_along = speed_ * std::hypot(n.x(), n.y()) * (1 + 8 * 0x1p-53);
+    if (level > most_along) return Range{q - kPi, q + kPi};
+    if (!(level > -most_along)) return std::nullopt;
+    const double half = std::acos(level / most_along) + 0x1p-49;
+    const double off = std::remainder(q - std::atan2(n.x(), n.y()), 2 * kPi);
+    const double slack = 0x1p-49 * (1 + std::abs(q));
+    const double beyond = std::abs(off) - half - slack, rest = 2 * (kPi - half) - beyond - 2 * slack;
+    if (!(beyond > 0 && rest > 0)) return std::nullopt;
+    return off > 0 ? Range{q - beyond, q + rest} : Range{q - rest, q + beyond};
+  }
+
+  /// An arc is in the triangle of its ends and the point where the tangents there meet.
+  bool all_hit(double from, double to, const std::function<bool(const Vector3d&)>& hit) const override {
+    const double half = 0.5 * (to - from);
+    if (half > 0.5) return false;
+    const double middle = from + half, out = speed_ / std::cos(half);
+    return hit(rest_ + out * Vector3d(std::sin(middle), std::cos(middle), 0));
+  }
+
+ private:
+  double speed_;
+  Vector3d rest_;
+};
+
+/// Velocities start + q along.
+class Line : public Curve {
+ public:
+  Line(const Vector3d& start, const Vector3d& along, const Range& range)
+      : start_(start), along_(along), farthest_(std::max(std::abs(range.from), std::abs(range.to))) {}
+  Vector3d velocity(double q) const override { return start_ + q * along_; }
+
+  std::optional<Range> about(double q, const Vector3d& n, double most, double size) const override {
+    const double all = size + n.cwiseAbs().dot(start_.cwiseAbs() + farthest_ * along_.cwiseAbs());
+    return below(q, n.dot(along_), most - n.dot(start_) - kRoundings * all);
+  }
+
+  bool all_hit(double, double, const std::function<bool(const Vector3d&)>&) const override { return true; }
+
+ private:
+  Vector3d start_, along_;
+  double farthest_;  // q
+};
+
+/// Along a curve of velocities.
+class OfVelocity : public Question {
+ public:
+  OfVelocity(const Pair& pair, const Vector3d& other, const Horizon& horizon, const Curve& curve)
+      : pair_(pair), other_(other), horizon_(horizon), curve_(curve) {}
+
+  std::optional<Range> free_about(double q) const override {
+    const auto half = pair_.safe_half_space(curve_.velocity(q), other_, horizon_);
+    if (!half) return std::nullopt;
+    const double most = half->most(horizon_), along = half->normal.dot(other_);
+    return curve_.about(q, half->normal, most + along,
+                        std::abs(most) + half->normal.cwiseAbs().dot(other_.cwiseAbs()));
+  }
+  bool is_hit(double q) const override { return hit(curve_.velocity(q)); }
+  bool all_hit(double from, double to) const override {
+    return curve_.all_hit(from, to, [this](const Vector3d& v) { return hit(v); });
+  }
+
+ private:
+  bool hit(const Vector3d& v) const { return meets(pair_.verdict(v, other_, horizon_)); }
+
+  const Pair& pair_;
+  Vector3d other_;
+  Horizon horizon_;
+  const Curve& curve_;
+};
+
+/// Flying level, higher by q from now on: the heights that hit are one interval.
+class OfAltitude : public Question {
+ public:
+  OfAltitude(const Pair& pair, const Vector3d& level, const Vector3d& other, const Horizon& horizon)
+      : pair_(pair), level_(level), other_(other), horizon_(horizon) {}
+
+  // The plane of the pair at q is one of the pair here, moved.
+  std::optional<Range> free_about(double q) const override {
+    const Vector3d w = level_ - other_, here(0, 0, q);
+    const auto found = pair_.normal_along(here + horizon_.from * w, here + farthest() * w);
+    if (!found) return std::nullopt;
+    // Where they pass, n.w is 0 to rounding; for ever it has to be less.
+    Vector3d n = *found;
+    if (std::isinf(horizon_.until) && !w.isZero(0))
+      n -= (std::max(n.dot(w), 0.0) + kRoundings * n.norm() * w.norm()) / w.squaredNorm() * w;
+    const double room = pair_.gap(n), along = n.dot(w);
+    const double time = along > 0 ? horizon_.until : horizon_.from, reached = along == 0 ? 0 : time * along;
+    const double size = std::abs(room) + time * n.cwiseAbs().dot(level_.cwiseAbs() + other_.cwiseAbs());
+    return below(q, n.z(), room - reached - kRoundings * (std::isfinite(size) ? size : std::abs(room)));
+  }
+  bool is_hit(double q) const override {
+    Placed higher = pair_.agent();
+    higher.pose.position.z() += q;
+    return meets(Pair(higher, pair_.obstacle()).verdict(level_, other_, horizon_));
+  }
+  bool all_hit(double, double) const override { return true; }
+
+ private:
+  /// A time after which they have passed, where the horizon has no end.
+  double farthest() const {
+    const double speed = (level_ - other_).norm();
+    if (std::isfinite(horizon_.until) || !(speed > 0)) return std::isfinite(horizon_.until) ? horizon_.until : 0;
+    const auto size = [](const Placed& body) {
+      const Box bounds = body.body.bounds();
+      return bounds.low.norm() + bounds.high.norm() + body.pose.position.norm();
+    };
+    return horizon_.from + 2 * (size(pair_.agent()) + size(pair_.obstacle())) / speed;
+  }
+
+  const Pair& pair_;
+  Vector3d level_, other_;
+  Horizon horizon_;
+};
+
+}  // namespace vericone::guidance::banding

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/guidance/bands.h>
+
+#include <vericone/cones/pair.h>
+#include <vericone/geometry/error.h>
+#include <string>
+
+#include "bands/at_once.h"
+#include "bands/manoeuvre.h"
+
+namespace vericone::guidance {
+
+using namespace banding;
+
+namespace {
+
+/// Convex bodies that together are the body, or contain it.
+template <typename Use>
+void for_each_part(const Placed& body, const Use& use) {
+  const auto quadric = [&](const CombinedEllipsoid& part) {
+    use(Placed(part.ellipsoid(), body.pose), part.is_ellipsoid());
+  };
+  if (const auto* one = body.body.quadric()) return quadric(*one);
+  if (body.body.hull()) return use(body, true);
+  if (const auto* all = body.body.quadrics()) {
+    std::for_each(all->begin(), all->end(), quadric);
+    return;
+  }
+  const Assembly& pieces = *body.body.assembly();
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    HullBody points = pieces.piece(i);
+    if (pieces.radius() > 0) {
+      const Vector3d radii = Vector3d::Constant(pieces.radius());
+      use(Placed(Ellipsoid::from_axes(points.points().front(), radii), body.pose), true);
+    } else {
+      use(Placed(std::move(points), body.pose), true);
+    }
+  }
+}
+
+void require_finite(const Vector3d& x, const std::string& field) {
+  for (int i = 0; i < 3; ++i)
+    if (!std::isfinite(x(i)))
+      throw InputError(field + "[" + std::to_string(i) + "]", to_text(x(i)), "a finite number (m/s)");
+}
+
+void require_range(const Range& range, double least, const char* field) {
+  if (range.from >= least && range.to >= range.from && std::isfinite(range.to) && std::isfinite(range.from)) return;
+  throw InputError(field, "[" + to_text(range.from) + ", " + to_text(range.to) + "]",
+                   std::string("two finite numbers, the smaller one first") + (least == 0 ? ", none negative" : ""));
+}
+
+bool is_given(const Range& range) { return range.from != 0 || range.to != 0; }
+
+/// One convex part of the agent and one of an intruder.
+struct Parts {
+  Pair pair;
+  Vector3d velocity;  // of the intruder
+  bool exact;         // they are what the bodies are, not more
+};
+
+/// A quantity of the agent's velocity.
+struct Quantity {
+  const Curve& at_once;
+  const Change& change;
+  Domain domain;  // of a closed one: about its present value, half a turn to either side
+};
+
+class Banding {
+ public:
+  Banding(const Placed& agent, std::span<const Intruder> intruders, const BandOptions& options)
+      : options_(options) {
+    for (const Intruder& intruder : intruders)
+      for_each_part(agent, [&](const Placed& own, bool own_exact) {
+        for_each_part(intruder.body, [&](const Placed& other, bool other_exact) {
+          parts_.push_back({Pair(own, other), intruder.velocity, own_exact && other_exact});
+        });
+      });
+  }
+  const std::vector<Parts>& parts() const { return parts_; }
+
+  Band band(const Quantity& quantity) const {
+    const bool takes_time = std::isfinite(quantity.change.rate);
+    return takes_time ? after(quantity, 0) : at_once(quantity, options_.horizon);
+  }
+
+  Band at_once(const Quantity& quantity, const Horizon& horizon) const {
+    Merged merged(whole(quantity));
+    for (const Parts& parts : parts_)
+      merged.add(OfVelocity(parts.pair, parts.velocity, horizon, quantity.at_once), whole(quantity), parts.exact);
+    return merged.band();
+  }
+
+  /// After going on for `wait`.
+  Band after(const Quantity& quantity, double wait) const {
+    Merged merged(whole(quantity));
+    const Domain about{quantity.domain.low, quantity.domain.high};
+    for (const Parts& parts : parts_)
+      merged.add(OfManoeuvre(parts.pair, parts.velocity, quantity.change, wait, options_.horizon.until,
+                             {about.low, about.high}),
+                 about, false);
+    return merged.band();
+  }
+
+  /// Whether all stay apart on the present course from now until then.
+  bool is_clear(const Vector3d& ground, double until) const {
+    return std::all_of(parts_.begin(), parts_.end(), [&](const Parts& parts) {
+      return parts.pair.verdict(ground, parts.velocity, {0, until}) == Verdict::out;
+    });
+  }
+
+  /// See Band::last: what works after a wait works after every shorter one.
+  double last(const Quantity& quantity, const Vector3d& ground) const {
+    const double until = options_.horizon.until;
+    if (is_clear(ground, until)) return kInfinity;
+    if (std::isinf(until)) return std::numeric_limits<double>::quiet_NaN();
+    const auto works = [&](double wait) { return is_clear(ground, wait) && !after(quantity, wait).free.empty(); };
+    if (!works(0)) return -1;
+    double low = 0, high = until;
+    for (int step = 0; step < 20; ++step) {
+      const double between = 0.5 * (low + high);
+      (works(between) ? low : high) = between;
+    }
+    return low;
+  }
+
+  std::optional<Bands::Recovery> recovery(const Quantity& headings) const {
+    const double until = options_.horizon.until;
+    if (std::isinf(until)) return std::nullopt;
+    const auto best = [&](double from) -> std::optional<Bands::Recovery> {
+      const Band band = at_once(headings, {from, until});
+      if (band.free.empty()) return std::nullopt;
+      const auto widest = std::max_element(band.free.begin(), band.free.end(), [](const Range& a, const Range& b) {
+        return a.to - a.from < b.to - b.from;
+      });
+      return Bands::Recovery{0.5 * (widest->from + widest->to), from};
+    };
+    double low = options_.horizon.from, high = until;
+    auto found = best(until);
+    for (int step = 0; found && step < 20; ++step) {
+      const double between = 0.5 * (low + high);
+      const auto sooner = best(between);
+      (sooner ? high : low) = between;
+      if (sooner) found = sooner;
+    }
+    return found;
+  }
+
+ private:
+  static Domain whole(const Quantity& quantity) {
+    return quantity.domain.closed ? Domain{0, 2 * kPi, true} : quantity.domain;
+  }
+
+  const BandOptions& options_;
+  std::vector<Parts> parts_;
+};
+
+void require(const Vector3d& velocity, std::span<const Intruder> intruders, const BandOptions& options) {
+  require_finite(velocity, "velocity");
+  require_finite(options.wind, "wind");
+  for (std::size_t i = 0; i < intruders.size(); ++i)
+    require_finite(intruders[i].velocity, "intruders[" + std::to_string(i) + "].velocity");
+  const Horizon& horizon = options.horizon;
+  if (!(horizon.from >= 0 && horizon.until >= horizon.from && std::isfinite(horizon.from)))
+    throw InputError("horizon", "[" + to_text(horizon.from) + ", " + to_text(horizon.until) + "]",
+                     "from 0 or later to the same time or later (seconds)");
+  require_range(options.speed, 0, "speed");
+  require_range(options.climb, -kInfinity, "climb");
+  require_range(options.altitude, -kInfinity, "altitude");
+  for (const auto& [value, field] : {std::pair(options.lateral, "lateral"), {options.longitudinal, "longitudinal"},
+                                     {options.vertical, "vertical"}}) {
+    if (!(value >= 0 && std::isfinite(value)))
+      throw InputError(field, to_text(value), "positive, or 0: at once (m/s^2)");
+    if (value > 0 && (horizon.from > 0 || std::isinf(horizon.until)))
+      throw InputError("horizon", "[" + to_text(horizon.from) + ", " + to_text(horizon.until) + "]",
+                       "from now to a finite time, for manoeuvres that take time");
+  }
+}
+
+}  // namespace
+
+Bands bands(const Placed& agent, const Vector3d& velocity, std::span<const Intruder> intruders,
+            const BandOptions& options) {
+  require(velocity, intruders, options);
+  const double speed = std::hypot(velocity.x(), velocity.y()), fast = velocity.norm();
+  const Vector3d ahead = speed > 0 ? Vector3d(velocity.x() / speed, velocity.y() / speed, 0) : Vector3d::UnitY();
+  const Vector3d ground = velocity + options.wind, up = Vector3d::UnitZ();
+  const Vector3d level(ground.x(), ground.y(), options.wind.z()), climbing = options.wind + velocity.z() * up;
+  const Range speeds = is_given(options.speed) ? options.speed : Range{0, 2 * speed};
+  const Range climbs = is_given(options.climb) ? options.climb : Range{-fast, fast};
+  const auto rate = [](double acceleration, double by) { return acceleration > 0 ? acceleration / by : kInfinity; };
+
+  const double heading = std::atan2(ahead.x(), ahead.y());
+  const Headings headings(speed, velocity.z(), options.wind);
+  const Line speed_line(climbing, ahead, speeds), climb_line(level, up, climbs);
+  const Turn turn(speed, heading, speed > 0 ? rate(options.lateral, speed) : kInfinity, climbing);
+  const Acceleration faster(climbing, ahead, speed, rate(options.longitudinal, 1));
+  const Acceleration higher(level, up, velocity.z(), rate(options.vertical, 1));
+  const Quantity of_heading{headings, turn, {heading - kPi, heading + kPi, true}};
+  const Quantity of_speed{speed_line, faster, {speeds.from, speeds.to}};
+  const Quantity of_climb{climb_line, higher, {climbs.from, climbs.to}};
+
+  const Banding banding(agent, intruders, options);
+  Bands result;
+  for (const auto& [quantity, band] : {std::pair(&of_heading, &result.heading), {&of_speed, &result.speed},
+                                       {&of_climb, &result.climb}}) {
+    *band = banding.band(*quantity);
+    band->last = banding.last(*quantity, ground);
+  }
+  if (is_given(options.altitude)) {
+    Merged merged({options.altitude.from, options.altitude.to});
+    for (const Parts& parts : banding.parts())
+      merged.add(OfAltitude(parts.pair, level, parts.velocity, options.horizon),
+                 {options.altitude.from, options.altitude.to}, parts.exact);
+    result.altitude = merged.band();
+  }
+  for (const Parts& parts : banding.parts())
+    if (const auto contact = parts.pair.contact(ground, parts.velocity);
+        contact && contact->earliest <= options.horizon.until)
+      result.time_to_violation = std::min(result.time_to_violation.value_or(kInfinity), contact->earliest);
+  const auto none = [](const Band& band) { return band.free.empty(); };
+  if (none(result.heading) && none(result.speed) && none(result.climb))
+    result.recovery = banding.recovery(of_heading);
+  return result;
+}
+
+}  // namespace vericone::guidance
