@@ -77,6 +77,7 @@ Json answer_case(const Json& value, const std::filesystem::path& folder) {
   options.horizon = input::read_horizon(value);
   if (value.contains("wind")) options.wind = input::read_vector<3>(value["wind"], "wind", " (m/s)");
   if (value.contains("limits")) read_limits(value["limits"], options);
+  options.last = true;
 
   const Bands found = bands(agent, velocity, intruders, options);
   Json result{{"heading", band_json(found.heading, kDegree)},

@@ -92,12 +92,12 @@ class Banding {
   }
 
   /// After going on for `wait`.
-  Band after(const Quantity& quantity, double wait) const {
+  Band after(const Quantity& quantity, double wait, int parts_between_hits = 64) const {
     Merged merged(whole(quantity));
     const Domain about{quantity.domain.low, quantity.domain.high};
     for (const Parts& parts : parts_)
       merged.add(OfManoeuvre(parts.pair, parts.velocity, quantity.change, wait, options_.horizon.until,
-                             {about.low, about.high}),
+                             {about.low, about.high}, parts_between_hits),
                  about, false);
     return merged.band();
   }
@@ -114,7 +114,7 @@ class Banding {
     const double until = options_.horizon.until;
     if (is_clear(ground, until)) return kInfinity;
     if (std::isinf(until)) return std::numeric_limits<double>::quiet_NaN();
-    const auto works = [&](double wait) { return is_clear(ground, wait) && !after(quantity, wait).free.empty(); };
+    const auto works = [&](double wait) { return is_clear(ground, wait) && !after(quantity, wait, 16).free.empty(); };
     if (!works(0)) return -1;
     double low = 0, high = until;
     for (int step = 0; step < 20; ++step) {
@@ -205,7 +205,7 @@ Bands bands(const Placed& agent, const Vector3d& velocity, std::span<const Intru
   for (const auto& [quantity, band] : {std::pair(&of_heading, &result.heading), {&of_speed, &result.speed},
                                        {&of_climb, &result.climb}}) {
     *band = banding.band(*quantity);
-    band->last = banding.last(*quantity, ground);
+    if (options.last) band->last = banding.last(*quantity, ground);
   }
   if (is_given(options.altitude)) {
     Merged merged({options.altitude.from, options.altitude.to});

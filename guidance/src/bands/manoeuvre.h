@@ -63,13 +63,15 @@ class Acceleration : public Change {
 /// to where the parabola below it vanishes.
 class OfManoeuvre : public Question {
  public:
+  /// `parts`: of the whole range, between two hits what is narrower than one of so many is not looked at.
   OfManoeuvre(const Pair& pair, const Vector3d& other, const Change& change, double wait, double until,
-              const Range& range)
+              const Range& range, int parts)
       : pair_(pair),
         other_(other),
         change_(change),
         before_(wait * (change.velocity(change.start) - other)),
-        until_(until - wait) {
+        until_(until - wait),
+        finest_((range.to - range.from) / parts) {
     clear_ = {clear_to(range.from), clear_to(range.to)};
   }
 
@@ -113,8 +115,7 @@ class OfManoeuvre : public Question {
     moved.pose.position += displacement(q);
     return meets(Pair(moved, pair_.obstacle()).verdict(change_.velocity(q), other_, {0, left}));
   }
-  /// Not a convex set: what lies between is looked at down to a part of the whole.
-  bool all_hit(double from, double to) const override { return to - from < (clear_.to - clear_.from) / 128; }
+  bool all_hit(double from, double to) const override { return to - from < finest_; }
 
  private:
   Vector3d displacement(double q) const {
@@ -179,7 +180,7 @@ class OfManoeuvre : public Question {
   Vector3d other_;
   const Change& change_;
   Vector3d before_;
-  double until_;
+  double until_, finest_;
   Range clear_;
 };
 

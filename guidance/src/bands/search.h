@@ -51,7 +51,9 @@ class Search {
     const State state = look(low);
     if (state != State::free) return divide(low, high, state == State::hit, state == State::hit);
     const Range own = found_;
-    double from = march(own.from, low - turn), to = march(own.to, from + turn), again = from + turn;
+    double from = march(own.from, low - turn), again = from + turn;
+    double to = own.to < again ? march(own.to, again) : again;
+    if (to >= again) return free.push_back({low, high});
     const auto first = first_hit(to, again), last = first_hit(again, to);
     free.push_back({again - turn, to});
     divide(first.value_or(to), last.value_or(again), first.has_value(), last.has_value());
@@ -76,7 +78,12 @@ class Search {
     const double sign = end > q ? 1 : -1;
     double beyond = 0;
     for (int step = 0; step < 60 && sign * (end - q) > 0; ++step) {
-      if (look(q + sign * beyond) != State::free) break;
+      const State state = look(q + sign * beyond);
+      if (state == State::hit) break;
+      if (state == State::neither) {
+        beyond = std::max(4 * beyond, 2 * finest_);
+        continue;
+      }
       const double next = sign > 0 ? found_.to : found_.from, back = sign > 0 ? found_.from : found_.to;
       if (sign * (back - q) > 0) break;  // not joined
       if (sign * (next - q) > finest_) {

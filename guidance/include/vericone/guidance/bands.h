@@ -34,6 +34,7 @@ struct BandOptions {
   /// m/s^2 across the velocity, along it and upwards, with which the agent changes its heading on a circle,
   /// its speed, its climb rate, and then goes straight on; 0: at once. Needs a horizon from now that ends.
   double lateral = 0, longitudinal = 0, vertical = 0;
+  bool last = false;  // whether to find Band::last: milliseconds an intruder that is met
 };
 
 /// One quantity changed, all else kept. Ranges are in order and apart.
@@ -41,9 +42,9 @@ struct Band {
   std::vector<Range> free;      // proved: no intruder is touched within the horizon
   std::vector<Range> conflict;  // an intruder is, at every value (but for rounding of velocities, 1e-15)
   /// Seconds for which the agent may go on as it does and still have a free value, at least, by a manoeuvre
-  /// or at once; negative where it has none now, infinite where its own course is free, NaN where the horizon
-  /// does not end.
-  double last = -1;
+  /// or at once, as far as that was found; negative where it has none now, infinite where its own course is
+  /// free, NaN where it was not asked or the horizon does not end.
+  double last = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Headings are measured clockwise from y (north), from 0 to 2 pi; a range across north is two.

@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Bands: their ends against closed forms of discs, needles, laws, single velocities of all kinds of bodies,
+// and manoeuvres flown step by step.
+#include <vericone/guidance/bands.h>
+
+#include <gtest/gtest.h>
+#include <vericone/cones/pair.h>
+#include <vericone/geometry/error.h>
+#include <vericone/testing/random_bodies.h>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "support/campaign.h"
+
+namespace vericone::guidance {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using testing::any_body;
+using testing::any_pose;
+using testing::campaign_size;
+using testing::RandomBodies;
+using testing::share;
+
+constexpr double kPi = std::numbers::pi, kTurn = 2 * kPi, kEver = std::numeric_limits<double>::infinity();
+constexpr double kDegree = kPi / 180;
+
+Placed ball(const Vector3d& at, double radius) {
+  return {Ellipsoid::from_axes(Vector3d::Zero(), Vector3d::Constant(radius)), Pose{at}};
+}
+Vector3d on(double heading, double speed) { return {speed * std::sin(heading), speed * std::cos(heading), 0}; }
+
+/// Two discs as seen from the agent.
+struct Discs {
+  Vector2d c, u;
+  double radius, speed, until;
+
+  /// Whether they touch within the horizon: the least distance of a point to a segment.
+  bool meet(double heading) const {
+    const Vector2d w = speed * Vector2d(std::sin(heading), std::cos(heading)) - u;
+    const double t = std::clamp(c.dot(w) / w.squaredNorm(), 0.0, until);
+    return (c - t * w).norm() < radius;
+  }
+  /// Headings at which that may change: the circle of velocities crosses a tangent from the apex u, or the
+  /// arc about u + c / T.
+  std::vector<double> ends() const {
+    std::vector<double> all;
+    const auto add = [&](const Vector2d& v) {
+      double heading = std::atan2(v.x(), v.y());
+      all.push_back(heading < 0 ? heading + kTurn : heading);
+    };
+    const double along = std::asin(radius / c.norm()), line = std::atan2(c.y(), c.x());
+    for (const double angle : {line + along, line - along}) {
+      const Vector2d e(std::cos(angle), std::sin(angle));
+      const double b = u.dot(e), root = b * b - u.squaredNorm() + speed * speed;
+      if (root < 0) continue;
+      for (const double sign : {-1.0, 1.0})
+        if (const double k = -b + sign * std::sqrt(root); k > 0) add(u + k * e);
+    }
+    if (std::isfinite(until)) {
+      const Vector2d m = u + c / until;
+      const double r = radius / until, d = m.norm(), a = (d * d + speed * speed - r * r) / (2 * d);
+      if (speed > std::abs(a)) {
+        const double h = std::sqrt(speed * speed - a * a);
+        const Vector2d x = m / d, y(-x.y(), x.x());
+        add(a * x + h * y);
+        add(a * x - h * y);
+      }
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+  /// Those at which it does.
+  std::vector<double> true_ends() const {
+    const std::vector<double> all = ends();
+    std::vector<double> real;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const double before = i > 0 ? all[i - 1] : all.back() - kTurn, after = i + 1 < all.size() ? all[i + 1] : all[0] + kTurn;
+      if (meet(0.5 * (before + all[i])) != meet(0.5 * (all[i] + after))) real.push_back(all[i]);
+    }
+    return real;
+  }
+};
+
+std::vector<double> ends_of(const Band& band) {
+  std::vector<double> ends;
+  for (const Range& range : band.free)
+    for (const double end : {range.from, range.to})
+      if (end > 0 && end < kTurn) ends.push_back(end);
+  std::sort(ends.begin(), ends.end());
+  return ends;
+}
+
+Band headings(const Discs& d) {
+  const Intruder other{ball({d.c.x(), d.c.y(), 0}, 0.75 * d.radius), {d.u.x(), d.u.y(), 0}};
+  return bands(ball(Vector3d::Zero(), 0.25 * d.radius), on(0.3, d.speed), {&other, 1}, {.horizon = {0, d.until}})
+      .heading;
+}
+
+TEST(BandsOfDiscs, EndWhereTheClosedFormSays) {
+  RandomBodies random(3821);
+  SCOPED_TRACE(random.trace());
+  int some = 0, two = 0;
+  double worst = 0;
+  for (int i = 0; i < share(4000); ++i) {
+    const double far = random.uniform(3, 30), side = random.uniform(0, kTurn);
+    const Discs d{far * Vector2d(std::cos(side), std::sin(side)),
+                  Vector2d(random.uniform(-4, 4), random.uniform(-4, 4)), random.uniform(0.5, 2.5),
+                  random.uniform(0.5, 5), i % 4 == 0 ? kEver : random.uniform(1, 20)};
+    const std::vector<double> expected = d.true_ends(), found = ends_of(headings(d));
+    ASSERT_EQ(found.size(), expected.size()) << "case " << i;
+    for (std::size_t k = 0; k < found.size(); ++k) worst = std::max(worst, std::abs(found[k] - expected[k]));
+    some += !expected.empty();
+    two += expected.size() > 2;
+  }
+  EXPECT_LT(worst, 1e-9 * kDegree);
+  EXPECT_GT(some, share(4000) / 4);
+  EXPECT_GT(two, 0);
+}
+
+TEST(BandsOfDiscs, LoseNoNeedle) {
+  RandomBodies random(3822);
+  SCOPED_TRACE(random.trace());
+  constexpr double kMile = 1852;
+  for (int i = 0; i < share(2000); ++i) {
+    const double side = random.uniform(0, kTurn), own = random.uniform(60, 200);
+    Discs d{random.uniform(9, 14) * kMile * Vector2d(std::cos(side), std::sin(side)), Vector2d::Zero(),
+            random.log_uniform(0.15, 152), own, kEver};
+    // On a collision with some heading, at a speed of the other's own.
+    const double heading = random.uniform(0, kTurn), time = random.uniform(60, 300);
+    d.u = own * Vector2d(std::sin(heading), std::cos(heading)) - d.c / time;
+    const Band band = headings(d);
+    ASSERT_FALSE(band.conflict.empty()) << "needle " << i;
+    const auto holds = [&](const Range& range) { return range.from <= heading && heading <= range.to; };
+    ASSERT_TRUE(std::any_of(band.conflict.begin(), band.conflict.end(), holds)) << "needle " << i;
+  }
+}
+
+/// By another way: bearing and time of a tangent, in plane geometry.
+TEST(BandsOfDiscs, TurnWithTheWorldAndShrinkWithTheHorizon) {
+  RandomBodies random(3823);
+  SCOPED_TRACE(random.trace());
+  const auto free = [](const Band& band) {
+    double sum = 0;
+    for (const Range& range : band.free) sum += range.to - range.from;
+    return sum;
+  };
+  for (int i = 0; i < share(400); ++i) {
+    const double turn = random.uniform(0.5, 3);
+    Discs d{Vector2d(random.uniform(3, 20), random.uniform(-5, 5)), Vector2d(random.uniform(-3, 3), random.uniform(-3, 3)),
+            random.uniform(0.5, 2), random.uniform(1, 5), random.uniform(1, 10)};
+    const Band here = headings(d);
+    Discs turned = d;
+    // Headings go clockwise.
+    const Eigen::Rotation2Dd by(-turn);
+    turned.c = by * d.c;
+    turned.u = by * d.u;
+    ASSERT_NEAR(free(headings(turned)), free(here), 1e-9);
+    Discs longer = d, wider = d;
+    longer.until *= 1.5;
+    wider.radius *= 1.2;
+    ASSERT_LE(free(headings(longer)), free(here) + 1e-9);
+    if (wider.radius < d.c.norm()) {
+      ASSERT_LE(free(headings(wider)), free(here) + 1e-9);
+    }
+  }
+}
+
+/// Free and conflict hold what single verdicts say, for every kind; ends leave little between.
+TEST(Bands, HoldForBodiesOfEveryKind) {
+  RandomBodies random(3824);
+  SCOPED_TRACE(random.trace());
+  int frees = 0, conflicts = 0;
+  for (int i = 0; i < campaign_size(70, 700); ++i) {
+    const BodyKind kind = kBodyKinds[static_cast<std::size_t>(i) % kBodyKinds.size()];
+    const Placed agent(any_body(random, i % 3 == 0 ? BodyKind::hull : BodyKind::ellipsoid), any_pose(random, 0.5));
+    std::vector<Intruder> others;
+    for (int k = 0; k <= i % 3; ++k)
+      others.push_back({Placed(any_body(random, kind), any_pose(random, random.uniform(8, 15))), random.uniform(0, 2) * random.direction()});
+    const Vector3d v = random.uniform(0.5, 4) * random.direction();
+    BandOptions options;
+    options.horizon = {i % 5 == 0 ? 0.5 : 0, i % 4 == 0 ? kEver : random.uniform(2, 15)};
+    options.wind = 0.5 * random.direction();
+    options.altitude = {-9, 9};
+    const Bands found = bands(agent, v, others, options);
+    const double speed = std::hypot(v.x(), v.y());
+    const auto meets = [&](const Vector3d& velocity, double height) {
+      Placed moved = agent;
+      moved.pose.position.z() += height;
+      Verdict worst = Verdict::out;
+      for (const Intruder& other : others)
+        if (const Verdict one = Pair(moved, other.body).verdict(velocity + options.wind, other.velocity, options.horizon);
+            one != Verdict::out)
+          worst = one;
+      return worst;
+    };
+    const auto check = [&](const Band& band, const char* what, auto&& ask) {
+      SCOPED_TRACE(std::string(what) + " of case " + std::to_string(i) + ", " + to_string(kind));
+      for (const Range& range : band.free)
+        for (int k = 1; k < 8; ++k, ++frees)
+          ASSERT_EQ(ask(range.from + (range.to - range.from) * k / 8), Verdict::out);
+      for (const Range& range : band.conflict)
+        for (int k = 1; k < 8; ++k, ++conflicts)
+          ASSERT_NE(ask(range.from + (range.to - range.from) * k / 8), Verdict::out);
+    };
+    check(found.heading, "heading", [&](double q) { return meets(on(q, speed) + v.z() * Vector3d::UnitZ(), 0); });
+    check(found.speed, "speed", [&](double q) { return meets({q * v.x() / speed, q * v.y() / speed, v.z()}, 0); });
+    check(found.climb, "climb", [&](double q) { return meets({v.x(), v.y(), q}, 0); });
+    check(found.altitude, "altitude", [&](double q) { return meets({v.x(), v.y(), 0}, q); });
+  }
+  EXPECT_GT(frees, 1000);
+  EXPECT_GT(conflicts, 50);
+}
+
+/// Ends of two bodies that are neither round nor in the plane, from verdicts beside them.
+TEST(Bands, LeaveNothingBetweenOfConvexBodies) {
+  RandomBodies random(3825);
+  SCOPED_TRACE(random.trace());
+  double between = 0;
+  for (int i = 0; i < share(400); ++i) {
+    const auto kind = i % 2 == 0 ? BodyKind::ellipsoid : BodyKind::hull;
+    const Placed agent(any_body(random, kind), any_pose(random, 0.5));
+    const Intruder other{Placed(any_body(random, BodyKind::ellipsoid), any_pose(random, random.uniform(9, 15))), 2 * random.direction()};
+    const Vector3d v = random.uniform(1, 4) * random.direction();
+    const Bands found = bands(agent, v, {&other, 1}, {.horizon = {0, random.uniform(2, 15)}});
+    double sum = kTurn;
+    for (const auto* list : {&found.heading.free, &found.heading.conflict})
+      for (const Range& range : *list) sum -= range.to - range.from;
+    between = std::max(between, sum);
+  }
+  EXPECT_LT(between, 1e-9);
+}
+
+/// Manoeuvres that take time, flown in small steps.
+TEST(Bands, OfManoeuvresAreFreeWhenFlown) {
+  RandomBodies random(3826);
+  SCOPED_TRACE(random.trace());
+  int flown = 0, missed = 0, free = 0;
+  for (int i = 0; i < campaign_size(24, 240); ++i) {
+    const Placed agent(any_body(random, BodyKind::ellipsoid), any_pose(random, 0.5));
+    const Intruder other{Placed(any_body(random, i % 2 == 0 ? BodyKind::ellipsoid : BodyKind::hull), any_pose(random, random.uniform(10, 20))),
+                         random.direction()};
+    const double until = random.uniform(6, 15);
+    const Vector3d v = (other.body.pose.position - agent.pose.position) / random.uniform(4, 9) + other.velocity;
+    BandOptions options;
+    options.horizon = {0, until};
+    options.lateral = random.uniform(0.3, 3);
+    options.vertical = random.uniform(0.3, 1);
+    options.longitudinal = random.uniform(0.3, 1);
+    options.last = i % 4 == 0;
+    const Bands found = bands(agent, v, {&other, 1}, options);
+    const double speed = std::hypot(v.x(), v.y()), now = std::atan2(v.x(), v.y());
+    if (Pair(agent, other.body).relation() != Relation::disjoint) continue;
+    // Whether the agent, after `wait`, changes by a constant rate to q, and then goes on.
+    const auto hits = [&](auto&& velocity_at, double wait) {
+      constexpr int kSteps = 400;
+      Vector3d x = Vector3d::Zero();
+      for (int step = 0; step < kSteps; ++step) {
+        const double t = until * step / kSteps, dt = until / kSteps;
+        Placed moved = agent;
+        moved.pose.position += x - t * other.velocity;
+        if (relation_of(WorldBody(moved), WorldBody(other.body), 1e-6) == Relation::overlapping) return true;
+        x += dt * velocity_at(t + 0.5 * dt - wait);
+      }
+      return false;
+    };
+    const auto turned = [&](double q) {
+      const double by = std::remainder(q - now, kTurn), duration = std::abs(by) * speed / options.lateral;
+      return [=](double t) {
+        return Vector3d(on(now + by * std::clamp(t / duration, 0.0, 1.0), speed) + v.z() * Vector3d::UnitZ());
+      };
+    };
+    const auto climbing = [&](double q) {
+      const double duration = std::abs(q - v.z()) / options.vertical;
+      return [=](double t) { return Vector3d(v.x(), v.y(), v.z() + (q - v.z()) * std::clamp(t / duration, 0.0, 1.0)); };
+    };
+    const auto check = [&](const Band& band, double low, double high, auto&& flight) {
+      for (int k = 0; k < 16; ++k, ++flown) {
+        const double q = low + (high - low) * (k + 0.5) / 16;
+        const bool said = std::any_of(band.free.begin(), band.free.end(), [&](const Range& r) { return r.from <= q && q <= r.to; });
+        const bool hit = hits(flight(q), 0);
+        ASSERT_FALSE(said && hit) << "case " << i << ", " << q;
+        free += !hit;
+        missed += !hit && !said;
+      }
+    };
+    check(found.heading, 0, kTurn, turned);
+    check(found.climb, -v.norm(), v.norm(), climbing);
+    if (!options.last || !(found.heading.last >= 0) || std::isinf(found.heading.last)) continue;
+    // Well before the last moment some heading is free; it is not after the first contact.
+    ASSERT_LE(found.heading.last, until);
+    ASSERT_TRUE(found.time_to_violation);
+    ASSERT_LE(found.heading.last, *found.time_to_violation * (1 + 1e-9));
+    const double wait = 0.9 * found.heading.last;
+    bool some = false;
+    for (int k = 0; k < 720 && !some; ++k) some = !hits(turned(kTurn * k / 720), wait);
+    ASSERT_TRUE(some) << "case " << i;
+  }
+  EXPECT_GT(free, flown / 4);
+  EXPECT_LT(missed, flown / 50);
+}
+
+TEST(Bands, SayWhenSafetyIsRegained) {
+  // Inside a ball that flies away: nothing is free, the heading back is soonest.
+  const Intruder around{ball({0, 1, 0}, 5), {0, 1, 0}};
+  const Bands found = bands(ball(Vector3d::Zero(), 1), on(0, 2), {&around, 1}, {.horizon = {0, 60}});
+  EXPECT_TRUE(found.heading.free.empty() && found.speed.free.empty() && found.climb.free.empty());
+  EXPECT_EQ(found.time_to_violation, 0);
+  ASSERT_TRUE(found.recovery);
+  EXPECT_NEAR(found.recovery->heading, kPi, 0.02);
+  EXPECT_NEAR(found.recovery->time, 5.0 / 3, 0.01);  // 6 m apart, 1 m on that side already, 3 m/s
+}
+
+TEST(Bands, RefuseWhatIsNone) {
+  const Placed agent = ball(Vector3d::Zero(), 1);
+  const auto refused = [&](const Vector3d& v, const BandOptions& options) {
+    try {
+      static_cast<void>(bands(agent, v, {}, options));
+    } catch (const InputError& error) {
+      return error.field();
+    }
+    return std::string("nothing");
+  };
+  const Vector3d v(1, 0, 0);
+  EXPECT_EQ(refused({NAN, 0, 0}, {}), "velocity[0]");
+  EXPECT_EQ(refused(v, {.horizon = {2, 1}}), "horizon");
+  BandOptions options;
+  options.speed = {2, 1};
+  EXPECT_EQ(refused(v, options), "speed");
+  options.speed = {-1, 1};
+  EXPECT_EQ(refused(v, options), "speed");
+  options.speed = {0, 0};
+  options.lateral = -1;
+  EXPECT_EQ(refused(v, options), "lateral");
+  options.lateral = 1;
+  EXPECT_EQ(refused(v, options), "horizon");
+  const Bands alone = bands(agent, v, {}, {});
+  ASSERT_EQ(alone.heading.free.size(), 1U);
+  EXPECT_EQ(alone.heading.free[0].to, kTurn);
+  EXPECT_FALSE(alone.time_to_violation);
+}
+
+}  // namespace
+}  // namespace vericone::guidance
