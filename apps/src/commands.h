@@ -11,6 +11,7 @@ namespace vericone {
 int cone_command(CommandLine& line);
 int query_command(CommandLine& line);
 int bands_command(CommandLine& line);
+int avoid_command(CommandLine& line);
 int accuracy_command(CommandLine& line);
 int signmap_command(CommandLine& line);
 int gallery_command(CommandLine& line);

@@ -183,6 +183,31 @@ def sector(thing: Any, *, axes: Any = None, radius: float = 1.0, center: Numbers
     return axes
 
 
+def bands(thing: Any, *, axes: Any = None, heading: float | None = None) -> Any:
+    """Draws the headings of Bands as a compass, north up: what is free, what is in conflict, and returns the axes, which
+    are polar. `heading`: the present one, radians clockwise from north."""
+    if not has(thing, "heading", "speed", "climb") or not has(thing.heading, "free", "conflict"):
+        raise wrong_kind("thing", thing, "Bands, of guidance.bands()")
+    with style():
+        if axes is None:
+            axes = plt.figure(figsize=(3.9, 3.5), constrained_layout=True).add_subplot(projection="polar")
+        elif axes.name != "polar":
+            raise refused("axes", axes.name, 'polar: add_subplot(projection="polar")')
+        axes.set_theta_zero_location("N")
+        axes.set_theta_direction(-1)
+        axes.set_ylim(0, 1)
+        axes.set_yticks([])
+        for ranges, color, label in ((thing.heading.conflict, SLICE, "conflict"), (thing.heading.free, AGENT, "free")):
+            for n, span in enumerate(ranges):
+                middle, width = 0.5 * (span.from_ + span.to), span.to - span.from_
+                axes.bar(middle, 0.35, width=width, bottom=0.65, color=color, alpha=0.8 if color == SLICE else 0.35,
+                         linewidth=0.4, edgecolor=color, label=None if n else label)
+        if heading is not None:
+            axes.annotate("", (heading, 0.62), (0, 0), arrowprops={"arrowstyle": "-|>", "color": GREY})
+        axes.legend(loc="center", bbox_to_anchor=(0.5, 0.32), frameon=False)
+    return axes
+
+
 def look_at(axes: Any, axis: Any, velocity: Any) -> None:
     """From the side of the line of centres, the agent on the left; from above, where the velocity turns off it sideways."""
     if abs(axis[2]) > 0.9:  # it rises: across the plane that holds both

@@ -6,11 +6,12 @@
 #include <iostream>
 #include <numbers>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "bands/encounter_case.h"
 #include "command/cases.h"
 #include "commands.h"
-#include "input/body.h"
 #include "input/errors.h"
 #include "input/fields.h"
 #include "json/json_value.h"
@@ -19,24 +20,9 @@
 namespace vericone {
 namespace {
 
-using guidance::Band, guidance::Bands, guidance::BandOptions, guidance::Intruder, guidance::Range;
+using guidance::Band, guidance::Bands, guidance::BandOptions, guidance::Range;
 
 constexpr double kDegree = std::numbers::pi / 180;
-
-/// A body with its velocity among its fields.
-Intruder read_intruder(const Json& value, const std::string& path, const std::filesystem::path& folder) {
-  input::require_object(value, path);
-  if (!value.contains("velocity")) throw InputError(path + ".velocity", "nothing", "[x, y, z] (m/s)");
-  const Eigen::Vector3d velocity = input::read_vector<3>(value["velocity"], path + ".velocity", " (m/s)");
-  Json body = value;
-  body.erase("velocity");
-  return {input::read_body(body, path, folder).placed, velocity};
-}
-
-Range read_range(const Json& value, const std::string& path, const char* unit) {
-  const Eigen::Vector2d ends = input::read_vector<2>(value, path, unit);
-  return {ends(0), ends(1)};
-}
 
 void read_limits(const Json& value, BandOptions& options) {
   input::require_object(value, "limits");
@@ -62,24 +48,14 @@ Json band_json(const Band& band, double unit = 1) {
 Json seconds(double last) { return last >= 0 && std::isfinite(last) ? Json(last) : Json(nullptr); }
 
 Json answer_case(const Json& value, const std::filesystem::path& folder) {
-  input::require_object(value, "case");
-  input::require_known(value, "", {"id", "agent", "agent_velocity", "obstacles", "horizon", "wind", "limits"});
-  for (const char* field : {"agent", "agent_velocity", "obstacles"})
-    if (!value.contains(field)) throw InputError(field, "nothing", "there");
-  const Placed agent = input::read_body(value["agent"], "agent", folder).placed;
-  const Eigen::Vector3d velocity = input::read_vector<3>(value["agent_velocity"], "agent_velocity", " (m/s)");
-  if (!value["obstacles"].is_array())
-    throw InputError("obstacles", input::quoted(value["obstacles"]), "a list of bodies, each with its velocity");
-  std::vector<Intruder> intruders;
-  for (const Json& one : value["obstacles"])
-    intruders.push_back(read_intruder(one, "obstacles[" + std::to_string(intruders.size()) + "]", folder));
+  const EncounterCase given(value, {}, folder);
   BandOptions options;
   options.horizon = input::read_horizon(value);
-  if (value.contains("wind")) options.wind = input::read_vector<3>(value["wind"], "wind", " (m/s)");
+  options.wind = given.wind;
   if (value.contains("limits")) read_limits(value["limits"], options);
   options.last = true;
 
-  const Bands found = bands(agent, velocity, intruders, options);
+  const Bands found = bands(given.agent, given.velocity, given.intruders, options);
   Json result{{"heading", band_json(found.heading, kDegree)},
               {"speed", band_json(found.speed)},
               {"climb", band_json(found.climb)}};

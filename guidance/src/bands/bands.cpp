@@ -7,36 +7,13 @@
 
 #include "bands/at_once.h"
 #include "bands/manoeuvre.h"
+#include "bands/parts.h"
 
 namespace vericone::guidance {
 
 using namespace banding;
 
 namespace {
-
-/// Convex bodies that together are the body, or contain it.
-template <typename Use>
-void for_each_part(const Placed& body, const Use& use) {
-  const auto quadric = [&](const CombinedEllipsoid& part) {
-    use(Placed(part.ellipsoid(), body.pose), part.is_ellipsoid());
-  };
-  if (const auto* one = body.body.quadric()) return quadric(*one);
-  if (body.body.hull()) return use(body, true);
-  if (const auto* all = body.body.quadrics()) {
-    std::for_each(all->begin(), all->end(), quadric);
-    return;
-  }
-  const Assembly& pieces = *body.body.assembly();
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    HullBody points = pieces.piece(i);
-    if (pieces.radius() > 0) {
-      const Vector3d radii = Vector3d::Constant(pieces.radius());
-      use(Placed(Ellipsoid::from_axes(points.points().front(), radii), body.pose), true);
-    } else {
-      use(Placed(std::move(points), body.pose), true);
-    }
-  }
-}
 
 void require_finite(const Vector3d& x, const std::string& field) {
   for (int i = 0; i < 3; ++i)

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vericone/geometry/body.h>
+#include <algorithm>
+
+namespace vericone::guidance::banding {
+
+/// Convex bodies that together are the body, or contain it.
+/// use(part, whether it is what the body is and not more).
+template <typename Use>
+void for_each_part(const Placed& body, const Use& use) {
+  const auto quadric = [&](const CombinedEllipsoid& part) {
+    use(Placed(part.ellipsoid(), body.pose), part.is_ellipsoid());
+  };
+  if (const auto* one = body.body.quadric()) return quadric(*one);
+  if (body.body.hull()) return use(body, true);
+  if (const auto* all = body.body.quadrics()) {
+    std::for_each(all->begin(), all->end(), quadric);
+    return;
+  }
+  const Assembly& pieces = *body.body.assembly();
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    HullBody points = pieces.piece(i);
+    if (pieces.radius() > 0) {
+      const Eigen::Vector3d radii = Eigen::Vector3d::Constant(pieces.radius());
+      use(Placed(Ellipsoid::from_axes(points.points().front(), radii), body.pose), true);
+    } else {
+      use(Placed(std::move(points), body.pose), true);
+    }
+  }
+}
+
+}  // namespace vericone::guidance::banding

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The nearest safe velocity: against single verdicts of what was chosen and of samples nearer by, against a
+// closed form, and what it says where nothing is safe.
+#include <vericone/guidance/avoid.h>
+
+#include <gtest/gtest.h>
+#include <vericone/cones/pair.h>
+#include <vericone/geometry/error.h>
+#include <vericone/testing/random_bodies.h>
+#include <cmath>
+
+#include "support/campaign.h"
+
+namespace vericone::guidance {
+namespace {
+
+using Eigen::Vector3d;
+using testing::any_body;
+using testing::any_pose;
+using testing::campaign_size;
+using testing::RandomBodies;
+
+Placed ball(const Vector3d& at, double radius) {
+  return {Ellipsoid::from_axes(Vector3d::Zero(), Vector3d::Constant(radius)), Pose{at}};
+}
+
+struct Encounter {
+  Placed agent{Body()};
+  Vector3d velocity, wanted;
+  std::vector<Intruder> others;
+  AvoidOptions options;
+
+  Avoidance answer() const { return avoid(agent, velocity, wanted, others, options); }
+  /// Whether a velocity, flown at once, keeps them all away; of meshes and the like as they are.
+  bool is_safe(const Vector3d& v) const {
+    return std::all_of(others.begin(), others.end(), [&](const Intruder& other) {
+      const Pair pair(agent, other.body);
+      if (pair.verdict(v + options.wind, other.velocity, {0, options.until}) != Verdict::out) return false;
+      if (options.margin == 0) return true;
+      const Miss miss = pair.miss(v + options.wind, other.velocity);
+      if (miss.time <= options.until) return miss.distance >= options.margin * (1 - 1e-9);
+      Placed then = agent;  // when time is up they are still approaching
+      then.pose.position += options.until * (v + options.wind - other.velocity);
+      return Pair(then, other.body).distance() >= options.margin * (1 - 1e-9);
+    });
+  }
+  bool can_fly(const Vector3d& v) const {
+    const double speed = v.norm();
+    return speed >= options.speed.from && speed <= options.speed.to && v.z() >= options.climb.from && v.z() <= options.climb.to;
+  }
+};
+
+Vector3d in_ball(RandomBodies& random, double radius) {
+  return radius * std::cbrt(random.uniform(0, 1)) * random.direction();
+}
+
+TEST(Avoid, ChoosesWhatIsSafeAndNothingSafeIsNearer) {
+  RandomBodies random(3831);
+  SCOPED_TRACE(random.trace());
+  int changed = 0, close = 0, samples = 0;
+  for (int i = 0; i < campaign_size(60, 1000); ++i) {
+    SCOPED_TRACE("case " + std::to_string(i));
+    Encounter e;
+    e.agent = Placed(i % 3 == 0 ? any_body(random, BodyKind::hull) : Body(Ellipsoid::from_axes({0, 0, 0}, {0.5, 0.8, 0.3})));
+    const int count = 3 + i % 8;
+    while (static_cast<int>(e.others.size()) < count) {
+      const Placed body(any_body(random, i % 2 == 0 ? BodyKind::ellipsoid : BodyKind::hull), any_pose(random, random.uniform(7, 40)));
+      if (Pair(e.agent, body).relation() == Relation::disjoint) e.others.push_back({body, random.uniform(0, 3) * random.direction()});
+    }
+    e.velocity = random.uniform(1, 5) * random.direction();
+    // Towards one of them as a rule.
+    e.wanted = i % 4 == 0 ? e.velocity : Vector3d(e.others[0].body.pose.position / random.uniform(5, 12) + e.others[0].velocity);
+    e.options.until = random.uniform(4, 15);
+    e.options.speed = {0, 9};
+    e.options.wind = i % 5 == 0 ? Vector3d(0.5 * random.direction()) : Vector3d(Vector3d::Zero());
+    if (i % 6 == 1) e.options.margin = 0.3;
+    if (i % 6 == 2) e.options.climb = {-1, 1};
+    if (i % 6 == 3) e.options.speed = {1, 4};
+    const Avoidance found = e.answer();
+    ASSERT_EQ(found.status, AvoidStatus::free);
+    ASSERT_TRUE(e.is_safe(found.velocity));
+    ASSERT_TRUE(e.can_fly(found.velocity));
+    ASSERT_NEAR((found.velocity - e.wanted).norm(), found.distance, 1e-12);
+    ASSERT_LE(found.lower, found.distance);
+    ASSERT_EQ(found.distance == 0, e.can_fly(e.wanted) && e.is_safe(e.wanted));
+    if (found.distance == 0) continue;
+    ++changed;
+    close += found.distance <= 1.0101 * found.lower;
+    for (int k = 0; k < 300; ++k, ++samples) {
+      const Vector3d v = e.wanted + in_ball(random, found.lower);
+      ASSERT_FALSE(e.can_fly(v) && e.is_safe(v)) << v.transpose();
+    }
+  }
+  EXPECT_GT(changed, 20);
+  EXPECT_GE(close, 0.95 * changed);
+}
+
+TEST(Avoid, OfOneBallIsAsFarAsItsConeOrItsCap) {
+  // The velocity aims at the middle: out through the side of the cone, or slower, whichever is nearer.
+  for (const double until : {3.0, 30.0}) {
+    Encounter e;
+    e.agent = ball(Vector3d::Zero(), 1);
+    e.others = {{ball({10, 0, 0}, 1), Vector3d::Zero()}};
+    e.velocity = e.wanted = {4, 0, 0};
+    e.options.until = until;
+    e.options.speed = {0, 20};
+    const double sine = 2.0 / 10, side = 4 * sine, cap = 4 - 8 / until;
+    const Avoidance found = e.answer();
+    ASSERT_EQ(found.status, AvoidStatus::free);
+    const double expected = std::min(side, cap);
+    EXPECT_GE(found.distance, expected * (1 - 1e-12));
+    EXPECT_LE(found.distance, expected * 1.0101);
+    EXPECT_LE(found.lower, expected * (1 + 1e-12));
+  }
+}
+
+TEST(Avoid, FindsWhatBoundingBallsHaveNot) {
+  // Two long bodies side by side with room between them for a slender agent.
+  Encounter e;
+  e.agent = Placed(Ellipsoid::from_axes({0, 0, 0}, {2, 0.2, 0.2}));
+  for (const double side : {-1.0, 1.0})
+    e.others.push_back({Placed(Ellipsoid::from_axes({0, 0, 0}, {6, 0.5, 6}), Pose{{15, side * 0.9, 0}}), Vector3d::Zero()});
+  e.velocity = e.wanted = {2, 0, 0};
+  e.options.until = 20;
+  e.options.speed = {1.9, 2.1};
+  EXPECT_EQ(e.answer().distance, 0);
+}
+
+TEST(Avoid, ProvesThatNothingIsSafe) {
+  RandomBodies random(3832);
+  SCOPED_TRACE(random.trace());
+  int proved = 0;
+  for (int i = 0; i < campaign_size(6, 60); ++i) {
+    // Six walls close in from all sides.
+    Encounter e;
+    e.agent = ball(Vector3d::Zero(), 0.5);
+    const double far = random.uniform(4, 6), speed = random.uniform(1.5, 2.5);
+    for (int k = 0; k < 6; ++k) {
+      Vector3d half = Vector3d::Constant(2 * far);
+      const Vector3d out = Vector3d::Unit(k / 2) * (k % 2 == 0 ? 1 : -1);
+      half(k / 2) = 1;
+      e.others.push_back({Placed(HullBody::box(-half, half), Pose{(far + 1) * out}), -speed * out});
+    }
+    e.velocity = e.wanted = random.direction();
+    e.options.until = 1.5 * far / speed;
+    e.options.speed = {0, random.uniform(0.5, 3)};
+    const Avoidance found = e.answer();
+    ASSERT_NE(found.status, AvoidStatus::free);
+    proved += found.status == AvoidStatus::nothing_safe;
+    ASSERT_TRUE(found.first);
+    EXPECT_GT(found.first->time, 0);
+    EXPECT_LE(found.first->time, e.options.until);
+    for (int k = 0; k < 1000; ++k) ASSERT_FALSE(e.is_safe(in_ball(random, e.options.speed.to)));
+  }
+  EXPECT_GE(proved, 5 * campaign_size(6, 60) / 6);
+}
+
+TEST(Avoid, ProvesTheWayThereToo) {
+  RandomBodies random(3833);
+  SCOPED_TRACE(random.trace());
+  int changed = 0;
+  for (int i = 0; i < campaign_size(30, 300); ++i) {
+    Encounter e;
+    e.agent = ball(Vector3d::Zero(), 0.5);
+    for (int k = 0; k < 4; ++k)
+      e.others.push_back({Placed(any_body(random, BodyKind::ellipsoid), any_pose(random, random.uniform(10, 30))), 2 * random.direction()});
+    e.velocity = e.wanted = e.others[0].body.pose.position / random.uniform(5, 12) + e.others[0].velocity;
+    e.options.until = random.uniform(6, 15);
+    e.options.speed = {0, 9};
+    e.options.lateral = 2;
+    e.options.longitudinal = 1;
+    const Avoidance found = e.answer();
+    if (found.status != AvoidStatus::free || found.distance == 0) continue;
+    ++changed;
+    // Flown in small steps: a constant acceleration, then straight on.
+    const Vector3d change = found.velocity - e.velocity, ahead = e.velocity.normalized();
+    const double along = std::abs(change.dot(ahead)), across = (change - change.dot(ahead) * ahead).norm();
+    const double duration = std::max(along / e.options.longitudinal, across / e.options.lateral);
+    for (int step = 0; step <= 400; ++step) {
+      const double t = e.options.until * step / 400, r = std::min(t, duration);
+      const Vector3d x = t < duration ? Vector3d(e.velocity * t + 0.5 * t * t / duration * change)
+                                      : Vector3d(e.velocity * r + 0.5 * r * change + (t - r) * found.velocity);
+      for (const Intruder& other : e.others) {
+        Placed moved = e.agent;
+        moved.pose.position += x - t * other.velocity;
+        ASSERT_EQ(relation_of(WorldBody(moved), WorldBody(other.body), 1e-6), Relation::disjoint) << "case " << i;
+      }
+    }
+  }
+  EXPECT_GT(changed, 8);
+}
+
+TEST(Avoid, RefusesWhatIsNone) {
+  const auto refused = [](auto&& set) {
+    Encounter e;
+    e.velocity = e.wanted = {1, 0, 0};
+    set(e);
+    try {
+      static_cast<void>(e.answer());
+    } catch (const InputError& error) {
+      return error.field();
+    }
+    return std::string("nothing");
+  };
+  EXPECT_EQ(refused([](Encounter& e) { e.wanted.x() = NAN; }), "wanted[0]");
+  EXPECT_EQ(refused([](Encounter& e) { e.options.until = 0; }), "until");
+  EXPECT_EQ(refused([](Encounter& e) { e.options.margin = -1; }), "margin");
+  EXPECT_EQ(refused([](Encounter& e) { e.options.speed = {3, 2}; }), "speed");
+  EXPECT_EQ(refused([](Encounter& e) { e.options.climb = {3, 2}; }), "climb");
+  EXPECT_EQ(refused([](Encounter&) {}), "nothing");
+}
+
+}  // namespace
+}  // namespace vericone::guidance
