@@ -240,6 +240,28 @@ TEST(WithinHorizon, NeitherVelocitiesNorTheirProductsWithTimesAreRounded) {
     }
 }
 
+// A velocity with a part below 1e-290 of the rest gets somewhere in the end.
+TEST(WithinHorizon, OfPartsThatAreHardlyThere) {
+  for (const double side : {1.0, -1.0}) {
+    const auto box = [&](const Vector3d& from, const Vector3d& to) {
+      const Vector3d mirror(1, side, 1), p = from.cwiseProduct(mirror), q = to.cwiseProduct(mirror);
+      return Box{p.cwiseMin(q), p.cwiseMax(q)};
+    };
+    const Box small = box({-1, -1e-160, -1}, {1, 0, 1}), wall = box({-5, 1e-152, -1}, {1e150, 1e-150, 1});
+    const Vector3d w(1, side * 1e-300, 0);
+    for (const Body& agent : {Body(HullBody::box(small.low, small.high)), Body(Assembly::boxes({small}))}) {
+      const Pair pair(Placed(agent), Placed(Body(Assembly::boxes({wall}))));
+      SCOPED_TRACE(pair.guarantee().family);
+      EXPECT_EQ(pair.verdict(w, kStill), Verdict::in);
+      EXPECT_EQ(pair.verdict(w, kStill, Horizon{0, 1e147}), Verdict::out);
+      EXPECT_EQ(pair.verdict(w, kStill, Horizon{0, 1e149}), Verdict::in);
+      EXPECT_EQ(pair.verdict(w, kStill, Horizon{1e145, 1e149}), Verdict::in);
+      EXPECT_EQ(pair.verdict(w, kStill, Horizon{1e149, 1e149}), Verdict::in);
+      EXPECT_EQ(pair.verdict(-w, kStill, Horizon{0, 1e149}), Verdict::out);
+    }
+  }
+}
+
 class EveryPairWithin : public ::testing::TestWithParam<std::tuple<BodyKind, BodyKind>> {};
 
 TEST_P(EveryPairWithin, KeepsTheLawsAndAgreesWithAMarch) {
