@@ -2,6 +2,7 @@
 //
 // The oracles against answers known in closed form, so that they can fail on their own.
 #include <gtest/gtest.h>
+#include <vericone/internal/verify/predicates/hull_truth.h>
 #include <vericone/internal/verify/predicates/truth.h>
 
 #include <chrono>
@@ -142,6 +143,63 @@ TEST(ConeTruth, ANormalAlongTheSecondBasisVector) {
         EXPECT_EQ(ConeTruth(ball({0, 0, 0}, 1), ball(c, 2)).membership(w), Membership::in);
       }
     }
+}
+
+TEST(ConeTruth, BallsWithinAHorizon) {
+  // Radii 1 + 2 = 3, 5 apart: along x contact from 2 to 8; along (20, 15, 0) they graze at 4/25, no double.
+  const double ever = std::numeric_limits<double>::infinity();
+  for (const double s : kScales) {
+    SCOPED_TRACE(s);
+    const ConeTruth cone(ball({0, 0, 0}, s), ball({5 * s, 0, 0}, 2 * s));
+    const auto within = [&](const Vector3d& w, double from, double until) {
+      return cone.within(s * w, Vector3d::Zero(), {from, until});
+    };
+    const Vector3d ahead(1, 0, 0), grazing(20, 15, 0);
+    EXPECT_EQ(within(ahead, 0, 2), Membership::on);
+    EXPECT_EQ(within(ahead, 0, down(2)), Membership::out);
+    EXPECT_EQ(within(ahead, 0, up(2)), Membership::in);
+    EXPECT_EQ(within(ahead, 2, 2), Membership::on);
+    EXPECT_EQ(within(ahead, 2, 3), Membership::in);
+    EXPECT_EQ(within(ahead, 0, 8), Membership::in);
+    EXPECT_EQ(within(ahead, 0, 9), Membership::in);
+    EXPECT_EQ(within(ahead, 8, 9), Membership::on);
+    EXPECT_EQ(within(ahead, 8, ever), Membership::on);
+    EXPECT_EQ(within(ahead, up(8), ever), Membership::out);
+    EXPECT_EQ(within(ahead, 3, 4), Membership::in);
+    EXPECT_EQ(within(-ahead, 0, ever), Membership::out);
+    EXPECT_EQ(within(grazing, 0, 0.125), Membership::out);
+    EXPECT_EQ(within(grazing, 0, 0.25), Membership::on);
+    EXPECT_EQ(within(grazing, 0.25, 1), Membership::out);
+    EXPECT_EQ(within(Vector3d::Zero(), 0, ever), Membership::out);
+  }
+  // A difference of velocities that no double is; grazing exactly at an end.
+  const ConeTruth cone(ball({0, 0, 0}, 1), ball({5, 0, 0}, 2));
+  EXPECT_EQ(cone.within(Vector3d(20 + 0x1p50, 15, 0), Vector3d(0x1p50, 0, 0), {0, 1}), Membership::on);
+  EXPECT_EQ(ConeTruth(ball({0, 0, 0}, 1), ball({4, 3, 0}, 2)).within({16, 0, 0}, {0, 0, 0}, {0.25, 0.25}),
+            Membership::on);
+}
+
+TEST(HullTruth, BoxesAndABallWithinAHorizon) {
+  const double ever = std::numeric_limits<double>::infinity();
+  for (const double s : kScales) {
+    SCOPED_TRACE(s);
+    const HullBody cube = HullBody::box(Vector3d(-s, -s, -s), Vector3d(s, s, s)),
+                   far = HullBody::box(Vector3d(4 * s, -s, -s), Vector3d(6 * s, s, s));
+    const Vector3d w(s, 0, 0), still = Vector3d::Zero();
+    for (const HullTruth& truth : {HullTruth(cube, far), HullTruth(ball({0, 0, 0}, s), far)}) {
+      EXPECT_EQ(truth.within(w, still, {0, 3}), Membership::on);
+      EXPECT_EQ(truth.within(w, still, {0, down(3)}), Membership::out);
+      EXPECT_EQ(truth.within(w, still, {0, up(3)}), Membership::in);
+      EXPECT_EQ(truth.within(w, still, {7, ever}), Membership::on);
+      EXPECT_EQ(truth.within(w, still, {up(7), ever}), Membership::out);
+      EXPECT_EQ(truth.within(w, still, {0, ever}), Membership::in);
+      EXPECT_EQ(truth.within(-w, still, {0, ever}), Membership::out);
+    }
+    const HullTruth reversed(far, ball({0, 0, 0}, s));
+    EXPECT_EQ(reversed.within(-w, still, {0, 3}), Membership::on);
+    EXPECT_EQ(reversed.within(-w, still, {0, up(3)}), Membership::in);
+    EXPECT_EQ(reversed.within(w, still, {0, ever}), Membership::out);
+  }
 }
 
 TEST(SectorTruth, DiscsGrazedByIntegerVelocities) {

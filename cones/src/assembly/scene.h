@@ -221,7 +221,9 @@ class Slabs {
     until_ = until * scale_ * (1 + 8 * kUlp);
     for (int k = 0; k < 3; ++k) {
       const double component = w(k) / scale_;
-      inverse_[k] = std::abs(component) < 1e-290 ? 1e290 : 1 / component;
+      const bool crosses = std::abs(component) < 1e-290;  // slower than the inverse says
+      inverse_[k] = crosses ? std::copysign(1e290, component) : 1 / component;
+      later_[k] = crosses ? std::numeric_limits<double>::infinity() : 1;
       const double largest = std::max(std::abs(bounds.low(k)), std::abs(bounds.high(k))) +
                              std::abs(frame.origin()(k)) + frame.reach()(k);
       const double slack = 16 * kUlp * largest + 1e-280;
@@ -254,14 +256,14 @@ class Slabs {
     for (int k = 0; k < 3; ++k) {
       const double a = (low[k] + low_[k]) * inverse_[k], b = (high[k] + high_[k]) * inverse_[k];
       first = std::max(first, std::min(a, b));
-      last = std::min(last, std::max(a, b));
+      last = std::min(last, std::max(a, b) * later_[k]);  // not a number: no bound
     }
     if (exit != nullptr) *exit = last * (1 + 8 * kUlp);
     return first * (1 - 8 * kUlp) <= last * (1 + 8 * kUlp) ? first * (1 - 8 * kUlp)
                                                            : std::numeric_limits<double>::infinity();
   }
 
-  double inverse_[3], low_[3], high_[3], scale_ = 1, from_ = 0, until_;
+  double inverse_[3], later_[3], low_[3], high_[3], scale_ = 1, from_ = 0, until_;
 };
 
 /// What comes of asking one pair of pieces about a stretch: proved by doubles, or by asking `exact()`.

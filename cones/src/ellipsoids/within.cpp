@@ -5,6 +5,7 @@
 // bodies at one time of it. Last: where the ends of the way lie along the line of motion, in integers.
 #include <vericone/cones/ellipsoids/predicates.h>
 #include <vericone/internal/cones/ellipsoids/contact_frame.h>
+#include <vericone/internal/cones/ellipsoids/rungs.h>
 #include <cmath>
 #include <limits>
 
@@ -194,6 +195,16 @@ Membership within(const Ellipsoid& a, const Ellipsoid& b, const Stretch& stretch
 }
 
 }  // namespace exact
+
+std::optional<Membership> interval_within(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& v_a,
+                                          const Vector3d& v_b, const Horizon& horizon) {
+  return interval_within(a, b, Stretch{v_a, v_b, horizon.from, horizon.until});
+}
+
+Membership exact_within(const Ellipsoid& a, const Ellipsoid& b, const Vector3d& v_a, const Vector3d& v_b,
+                        const Horizon& horizon) {
+  return exact::within(a, b, Stretch{v_a, v_b, horizon.from, horizon.until});
+}
 
 Verdict ConeOracle::verdict(const Vector3d& v_a, const Vector3d& v_b, const Horizon& horizon,
                             Rung* rung) const {

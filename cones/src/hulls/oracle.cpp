@@ -7,10 +7,12 @@
 #include <limits>
 
 #include "answers/elementary.h"
+#include "answers/stretch.h"
 #include "answers/velocity_ladder.h"
 #include "hulls/certificates.h"
 #include "hulls/exact.h"
 #include "hulls/scene.h"
+#include "hulls/seam.h"
 #include "hulls/search.h"
 
 namespace vericone {
@@ -273,9 +275,7 @@ HullOracle::HullOracle(std::shared_ptr<HullScene> scene) : scene_(scene) {
 
 const HullScene& scene_of(const HullOracle& oracle) { return *oracle.scene_; }
 
-Relation HullOracle::exact_relation() const {
-  return exact::relation(*scene_);
-}
+Relation HullOracle::exact_relation() const { return exact::relation(*scene_); }
 
 std::size_t HullOracle::size() const { return scene_->agent.size() + scene_->obstacle.size(); }
 
@@ -365,6 +365,11 @@ bool HullOracle::surely_out(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v
   const double slack = 32 * kUnitRoundoff * w.cwiseAbs().sum();
   if (normal_certified_ && slack > 1e-280 && (normal_.dot(w) + slack) * horizon.until < room_) return true;
   return triage_membership(w) == Membership::out || interval_membership(v_a, v_b) == Membership::out;
+}
+
+Membership HullOracle::exact_within(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                                    const Horizon& horizon) const {
+  return exact::within(*this, Stretch{v_a, v_b, horizon.from, horizon.until});
 }
 
 Passage HullOracle::passage(const Eigen::Vector3d& w) const { return passage_by_membership(*this, w); }

@@ -125,10 +125,13 @@ TEST(WithinHorizon, ContactsExactlyAtItsEndsAreOn) {
       w = Vector3d(w.array().round());
       if (w.isZero(0) || t.normal.dot(w) != 0) continue;
     }
-    const double T = std::ldexp(1 + std::floor(random.uniform(0, 200)), -static_cast<int>(random.uniform(0, 8)));
+    const double T =
+        std::ldexp(1 + std::floor(random.uniform(0, 200)), -static_cast<int>(random.uniform(0, 8)));
     const Vector3d v = whole(random, 5), at = t.at + T * w;
     const Pair pair(Placed(t.agent), Placed(t.obstacle, Pose{at}));
-    const auto verdict = [&](double from, double until) { return pair.verdict(w + v, v, Horizon{from, until}); };
+    const auto verdict = [&](double from, double until) {
+      return pair.verdict(w + v, v, Horizon{from, until});
+    };
     const double side = t.normal.dot(w);
     if (i % 5 != 0 && std::abs(side) < 1e-9) continue;
     const bool apart = pair.relation() == Relation::disjoint;
@@ -210,6 +213,55 @@ TEST(WithinHorizon, OfThinBodiesAnInstant) {
   EXPECT_EQ(seam.verdict({1, 0, 0}, kStill, Horizon{0, 4}), Verdict::in);
 }
 
+// Contact from 1 to 5 along w = (1, 0, 0): of a little more or less speed, or time, than doubles can tell
+// from it.
+TEST(WithinHorizon, NeitherVelocitiesNorTheirProductsWithTimesAreRounded) {
+  const HullBody cube = HullBody::box({-1, -1, -1}, {1, 1, 1});
+  const Body bodies[] = {Ellipsoid(), cube, Assembly::polyhedra({cube}),
+                         Assembly::boxes({{{-1, -1, -1}, {1, 1, 1}}})};
+  for (const Body& agent : bodies)
+    for (const Body& obstacle : bodies) {
+      const Pair pair(Placed(agent), Placed(obstacle, Pose{{3, 0, 0}}));
+      SCOPED_TRACE(pair.guarantee().family);
+      const Vector3d w(1, 0, 0), little(0x1p-60, 0, 0);
+      const auto ask = [&](const Vector3d& v_b, double from, double until) {
+        return pair.verdict(w, v_b, Horizon{from, until});
+      };
+      EXPECT_EQ(ask(kStill, 0, 1), Verdict::on);
+      EXPECT_EQ(ask(-little, 0, 1), Verdict::in);
+      EXPECT_EQ(ask(little, 0, 1), Verdict::out);
+      EXPECT_EQ(ask(kStill, 5, kEver), Verdict::on);
+      EXPECT_EQ(ask(-little, 5, kEver), Verdict::out);
+      EXPECT_EQ(ask(-little, 5, 6), Verdict::out);
+      EXPECT_EQ(ask(little, 5, 6), Verdict::in);
+      const double more = 1 + 0x1p-30, less = 1 - 0x1p-30;  // more * less = 1 - 2^-60
+      EXPECT_EQ(pair.verdict(less * w, kStill, Horizon{0, more}), Verdict::out);
+      EXPECT_EQ(pair.verdict(less * w, kStill, Horizon{5 * more, kEver}), Verdict::in);
+    }
+}
+
+// A velocity with a part below 1e-290 of the rest gets somewhere in the end.
+TEST(WithinHorizon, OfPartsThatAreHardlyThere) {
+  for (const double side : {1.0, -1.0}) {
+    const auto box = [&](const Vector3d& from, const Vector3d& to) {
+      const Vector3d mirror(1, side, 1), p = from.cwiseProduct(mirror), q = to.cwiseProduct(mirror);
+      return Box{p.cwiseMin(q), p.cwiseMax(q)};
+    };
+    const Box small = box({-1, -1e-160, -1}, {1, 0, 1}), wall = box({-5, 1e-152, -1}, {1e150, 1e-150, 1});
+    const Vector3d w(1, side * 1e-300, 0);
+    for (const Body& agent : {Body(HullBody::box(small.low, small.high)), Body(Assembly::boxes({small}))}) {
+      const Pair pair(Placed(agent), Placed(Body(Assembly::boxes({wall}))));
+      SCOPED_TRACE(pair.guarantee().family);
+      EXPECT_EQ(pair.verdict(w, kStill), Verdict::in);
+      EXPECT_EQ(pair.verdict(w, kStill, Horizon{0, 1e147}), Verdict::out);
+      EXPECT_EQ(pair.verdict(w, kStill, Horizon{0, 1e149}), Verdict::in);
+      EXPECT_EQ(pair.verdict(w, kStill, Horizon{1e145, 1e149}), Verdict::in);
+      EXPECT_EQ(pair.verdict(w, kStill, Horizon{1e149, 1e149}), Verdict::in);
+      EXPECT_EQ(pair.verdict(-w, kStill, Horizon{0, 1e149}), Verdict::out);
+    }
+  }
+}
+
 class EveryPairWithin : public ::testing::TestWithParam<std::tuple<BodyKind, BodyKind>> {};
 
 TEST_P(EveryPairWithin, KeepsTheLawsAndAgreesWithAMarch) {
@@ -225,7 +277,8 @@ TEST_P(EveryPairWithin, KeepsTheLawsAndAgreesWithAMarch) {
     const Vector3d w = (c + random.uniform(0, 4) * random.direction()) * random.log_uniform(0.1, 10);
     const Vector3d v = random.direction(), v_a = w + v;
     const double way = c.norm() / (v_a - v).norm();  // s
-    std::array<double, 3> t{random.uniform(0, 2) * way, random.uniform(0, 2) * way, random.uniform(0, 2) * way};
+    std::array<double, 3> t{random.uniform(0, 2) * way, random.uniform(0, 2) * way,
+                            random.uniform(0, 2) * way};
     std::sort(t.begin(), t.end());
     const auto ask = [&](double from, double until) { return pair.verdict(v_a, v, Horizon{from, until}); };
     const bool exact = pair.guarantee().exact;
@@ -241,7 +294,9 @@ TEST_P(EveryPairWithin, KeepsTheLawsAndAgreesWithAMarch) {
     }
     if (pair.relation() != Relation::disjoint) continue;
     // It grows with its end, and falls with its beginning.
-    const auto at_most = [](Verdict x, Verdict y) { return rank(x) < 0 || rank(y) < 0 || rank(x) <= rank(y); };
+    const auto at_most = [](Verdict x, Verdict y) {
+      return rank(x) < 0 || rank(y) < 0 || rank(x) <= rank(y);
+    };
     ASSERT_TRUE(at_most(early, late)) << to_string(early) << " " << to_string(late);
     ASSERT_TRUE(at_most(late, ever));
     const Verdict window = ask(t[0], t[2]), before = ask(t[0], t[1]), after = ask(t[1], t[2]);
@@ -288,8 +343,7 @@ std::string name_of(const ::testing::TestParamInfo<EveryPairWithin::ParamType>& 
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, EveryPairWithin,
-                         ::testing::Combine(::testing::ValuesIn(kBodyKinds),
-                                            ::testing::ValuesIn(kBodyKinds)),
+                         ::testing::Combine(::testing::ValuesIn(kBodyKinds), ::testing::ValuesIn(kBodyKinds)),
                          name_of);
 
 TEST(WithinHorizon, IsRefusedWhereItIsNone) {
@@ -303,7 +357,8 @@ TEST(WithinHorizon, IsRefusedWhereItIsNone) {
     return std::string("nothing");
   };
   const Vector3d w(1, 0, 0);
-  for (const Horizon& horizon : {Horizon{-1, 2}, Horizon{2, 1}, Horizon{NAN, 1}, Horizon{0, NAN}, Horizon{kEver, kEver}})
+  for (const Horizon& horizon :
+       {Horizon{-1, 2}, Horizon{2, 1}, Horizon{NAN, 1}, Horizon{0, NAN}, Horizon{kEver, kEver}})
     EXPECT_EQ(refused(w, horizon), "horizon");
   EXPECT_EQ(refused({NAN, 0, 0}, {0, 1}), "agent_velocity[0]");
   EXPECT_EQ(pair.verdict(kStill, kStill, Horizon{0, 1}), Verdict::out);

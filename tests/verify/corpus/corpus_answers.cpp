@@ -249,6 +249,30 @@ RungAnswers quadric_side_answers(const CorpusCase& c) {
   return r;
 }
 
+RungAnswers horizon_answers(const CorpusCase& c) {
+  RungAnswers r;
+  r.what = "horizon";
+  r.truth = c.truth;
+  const auto a = c.body<3>("a"), b = c.body<3>("b");
+  const auto times = c.doubles("horizon");
+  const Eigen::Vector3d v_a = c.vector<3>("v_a"), v_b = c.vector<3>("v_b");
+  Horizon horizon{times->at(0)};
+  if (times->size() > 1) horizon.until = times->at(1);
+  const ConeOracle oracle(*a, *b);
+  Rung rung{};
+  r.ladder = to_string(oracle.verdict(v_a, v_b, horizon, &rung));
+  r.rung = rung;
+  if (rung == Rung::triage) r.triage = r.ladder;
+  r.interval = text(interval_within(*a, *b, v_a, v_b, horizon));
+  r.exact = to_string(exact_within(*a, *b, v_a, v_b, horizon));
+  // The relation at the end in doubles, or at the beginning of what has no end.
+  const Eigen::Vector3d w = v_a - v_b;
+  const auto now = [&](double time) { return ContactFrame<3>(*a, b->translated(-time * w)).contact; };
+  const double first = std::isinf(horizon.until) ? now(horizon.from) : now(horizon.until);
+  r.naive = first > 1 ? "out" : first == 1 ? "on" : "in";
+  return r;
+}
+
 }  // namespace
 
 std::vector<RungAnswers> answers(const CorpusCase& c) {
@@ -264,6 +288,7 @@ std::vector<RungAnswers> answers(const CorpusCase& c) {
             : planar         ? body_side_answers<2>(c)
                              : body_side_answers<3>(c)};
   if (c.predicate == "hull") return {hull_answers(c)};
+  if (c.predicate == "horizon") return {horizon_answers(c)};
   if (c.predicate == "orifice") {
     if (c.doubles("a.radius")->at(0) > 1e150) return {};  // beyond what an ellipsoid may be
     return {orifice_answers(c)};

@@ -152,6 +152,13 @@ TEST(Corpus, HoldsPassageThroughOpenings) {
   EXPECT_GE(t.degenerate, 50);
 }
 
+TEST(Corpus, HoldsContactsAtTheEndsOfAHorizon) {
+  const Tally t = hold("horizon", "horizon");
+  EXPECT_GE(t.cases, 250);
+  EXPECT_GE(t.degenerate, 100);
+  EXPECT_GE(t.naive_wrong, t.naive / 10);
+}
+
 TEST(Corpus, HoldsTheSideOfPoints) {
   const Tally t = hold("side", "side");
   EXPECT_GE(t.cases, 400);

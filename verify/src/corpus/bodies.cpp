@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Two ellipsoids or ellipses: how they lie, and velocities on the boundary of their cone. Frame of all
-// constructions: the common normal is the last axis e; a factor G from random_factor() has its support point
-// along e in its last column, at the height k = G(D, D). (docs/explanation/corpus.md)
+// Two ellipsoids or ellipses: how they lie, velocities on the boundary of their cone, and contacts at the
+// ends of a horizon. Frame of all constructions: the common normal is the last axis e; a factor G from
+// random_factor() has its support point along e in its last column, at the height k = G(D, D).
+// (docs/explanation/corpus.md)
 #include <vericone/cones/ellipsoids/exact_predicates.h>
 #include <vericone/geometry/exact/rational.h>
+
+#include <optional>
 
 #include "corpus/build.h"
 
 namespace vericone::verify::corpus {
 namespace {
 
-constexpr std::uint32_t kPosition = 0xc0501, kRelation = 0xc0502, kMembership = 0xc0503, kSector = 0xc0504;
+constexpr std::uint32_t kPosition = 0xc0501, kRelation = 0xc0502, kMembership = 0xc0503, kSector = 0xc0504,
+                        kHorizon = 0xc0508;
 
 /// Columns, of which the last is scaled: G' = a G with an integer a, so that fractions become integers.
 template <int D>
@@ -225,6 +229,74 @@ CorpusCase sevenths(CorpusCase c) {
   return c;
 }
 
+/// Two bodies that touch at one point at the time `contact`, the agent moving along w.
+struct Meeting {
+  Map<3> map;
+  Body<3> a, b;
+  Vec<3> w, v_b;
+  Rational contact;
+};
+
+/// By `number`: coming, going, or gliding along the common plane.
+Meeting meeting(SeededRandom& random, std::uint64_t index, std::uint64_t number) {
+  Meeting m;
+  m.map = random_map<3>(random, index);
+  m.a.factor = random_factor<3>(random);
+  m.b.factor = random_factor<3>(random);
+  for (auto& x : m.w) x = random.integer(-9, 9);
+  const int along = random.integer(1, 9);
+  m.w[2] = number % 3 == 0 ? along : number % 3 == 1 ? -along : 0;
+  if (m.w[0] == 0 && m.w[1] == 0) m.w[0] = 1;
+  m.contact = Rational(random.integer(1, 16), 1 << random.integer(0, 2));
+  const int turned = random.coin() ? random.integer(0, 40) : 0;
+  for (auto& x : m.v_b) x = turned != 0 ? random.integer(-3, 3) * power_of_two(turned) : Rational();
+  m.b.center = sum<3>(sum<3>(column<3>(m.a.factor, 2), column<3>(m.b.factor, 2)), times<3>(m.contact, m.w));
+  return m;
+}
+
+/// `until`: nothing for ever.
+CorpusCase meeting_case(const Meeting& m, const char* family, std::uint64_t index, const char* truth,
+                        const Rational& from, const std::optional<Rational>& until) {
+  CorpusCase c = start("horizon", family, m.map.kind, index, truth);
+  if (c.truth == "on") c.rung = "exact";
+  add_body<3>(c, "a", m.map, m.a);
+  add_body<3>(c, "b", m.map, m.b);
+  add_direction<3>(c, "v_a", m.map, sum<3>(m.w, m.v_b));
+  add_direction<3>(c, "v_b", m.map, m.v_b);
+  c.fields.push_back({"horizon", {from}});
+  if (until) c.fields.back().values.push_back(*until);
+  return c;
+}
+
+/// Of a contact at one time all that lies before, at and after it is known: before it they are apart where
+/// they come, overlap where they go, and the other way round after it.
+std::vector<CorpusCase> horizons(const Meeting& m, SeededRandom& random, std::uint64_t index) {
+  std::vector<CorpusCase> cases;
+  const Rational& t = m.contact;
+  const auto add = [&](const char* family, const char* truth, const Rational& from,
+                       const std::optional<Rational>& until) {
+    cases.push_back(meeting_case(m, family, index, truth, from, until));
+  };
+  const auto ulps = [&](int sign) {
+    return Rational(moved_by_ulps(*as_double(t), sign * random.integer(1, 8)));
+  };
+  const auto near = [&](int sign) { return t * (1 + sign * power_of_two(-random.integer(3, 40))); };
+  const bool coming = m.w[2] > 0, going = m.w[2] < 0;
+  add("instant", "on", t, t);
+  add("onward", coming ? "in" : "on", t, std::nullopt);
+  if (!going) add("ends", "on", 0, t);
+  for (const bool close : {false, true}) {
+    const char* family = close ? "ulps" : "nudged";
+    const Rational sooner = close ? ulps(-1) : near(-1), later = close ? ulps(1) : near(1);
+    if (!going) add(family, "out", 0, sooner);
+    if (going) add(family, "in", sooner, t);
+    add(family, coming ? "in" : "on", t, later);
+    if (!coming) add(family, "out", later, std::nullopt);
+    if (coming) add(family, "in", 0, later);
+  }
+  return cases;
+}
+
 }  // namespace
 
 std::vector<CorpusCase> position_cases(std::uint64_t seed, int size) {
@@ -309,6 +381,23 @@ std::vector<CorpusCase> sector_cases(std::uint64_t seed, int size) {
     }
     for (CorpusCase& c : known)
       if (fits(c)) cases.push_back(std::move(c));
+  }
+  return cases;
+}
+
+std::vector<CorpusCase> horizon_cases(std::uint64_t seed, int size) {
+  std::vector<CorpusCase> cases;
+  for (std::uint64_t i = 0; i < 36U * static_cast<unsigned>(size); ++i) {
+    SeededRandom random(kHorizon, seed, i);
+    // One that doubles hold: nearly all are.
+    for (int tries = 0; tries < 8; ++tries) {
+      const Meeting m = meeting(random, i, i / 4);
+      const auto all = horizons(m, random, i);
+      if (!fits(all.front())) continue;
+      for (const CorpusCase& c : all)
+        if (fits(c)) cases.push_back(c);
+      break;
+    }
   }
   return cases;
 }

@@ -124,5 +124,6 @@ std::vector<CorpusCase> sector_cases(std::uint64_t seed, int size);
 std::vector<CorpusCase> side_cases(std::uint64_t seed, int size);
 std::vector<CorpusCase> hull_cases(std::uint64_t seed, int size);
 std::vector<CorpusCase> orifice_cases(std::uint64_t seed, int size);
+std::vector<CorpusCase> horizon_cases(std::uint64_t seed, int size);
 
 }  // namespace vericone::verify::corpus

@@ -130,6 +130,7 @@ std::vector<CorpusCase> corpus_cases(std::string_view predicate, std::uint64_t s
   if (predicate == "side") return corpus::side_cases(seed, size);
   if (predicate == "hull") return corpus::hull_cases(seed, size);
   if (predicate == "orifice") return corpus::orifice_cases(seed, size);
+  if (predicate == "horizon") return corpus::horizon_cases(seed, size);
   throw std::invalid_argument("no corpus of \"" + std::string(predicate) + "\"");
 }
 

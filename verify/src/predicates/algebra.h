@@ -94,6 +94,26 @@ Matrix<D> shape_on_unit(const BasicEllipsoid<D>& body, int e) {
   return s;
 }
 
+/// time (v_a - v_b), in whole multiples of 2^e.
+struct Way {
+  Vector<3> of;
+  int e = 0;
+
+  Way(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, double time) {
+    Unit unit;
+    unit.vector<3>(v_a);
+    unit.vector<3>(v_b);
+    if (unit.e == kNoExponent) unit.e = 0;
+    const int of_time = time == 0 ? 0 : exponent(time);
+    const auto a = on_unit<3>(v_a, unit.e), b = on_unit<3>(v_b, unit.e);
+    const Integer times = whole(time, of_time);
+    for (int i = 0; i < 3; ++i) of[i] = (a[i] - b[i]) * times;
+    e = unit.e + of_time;
+  }
+  /// In multiples of 2^unit, unit <= e.
+  Integer on(int i, int unit) const { return of[i] << static_cast<unsigned long>(e - unit); }
+};
+
 template <int D>
 Integer dot(const Vector<D>& x, const Vector<D>& y) {
   Integer sum = 0;

@@ -17,8 +17,8 @@ namespace {
 
 std::vector<Subject> all_subjects() {
   std::vector<Subject> all;
-  for (const auto subjects :
-       {pair_subjects(), hull_subjects(), orifice_subjects(), order_subjects(), side_subjects()})
+  for (const auto subjects : {pair_subjects(), hull_subjects(), horizon_subjects(), orifice_subjects(),
+                              order_subjects(), side_subjects()})
     all.insert(all.end(), subjects.begin(), subjects.end());
   return all;
 }

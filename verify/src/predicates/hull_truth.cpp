@@ -76,6 +76,7 @@ Vector<3> difference(const Vector<3>& x, const Vector<3>& y) {
 }  // namespace
 
 struct HullTruth::Exact {
+  int unit = 0;  // of length: 2^unit
   // The ellipsoid, if there is one: its centre is the origin of the points of b.
   bool ellipsoid = false;
   bool reversed = false;  // the ellipsoid is the obstacle
@@ -118,6 +119,50 @@ struct HullTruth::Exact {
       for (const auto& x : a) u[k] -= n * x[k];
     }
     return u;
+  }
+
+  void refine(int finer) {
+    if (finer >= unit) return;
+    const auto by = static_cast<unsigned long>(unit - finer);
+    for (auto* points : {&a, &b})
+      for (auto& x : *points)
+        for (Integer& entry : x) entry <<= by;
+    for (auto& row : s)
+      for (Integer& entry : row) entry <<= 2 * by;
+    unit = finer;
+  }
+
+  /// More than twice what any two points are apart.
+  Integer size() const {
+    Integer sum = 1;
+    for (const auto* points : {&a, &b})
+      for (const auto& x : *points)
+        for (const Integer& entry : x) sum += abs(entry);
+    for (const auto& row : s)
+      for (const Integer& entry : row) sum += abs(entry);
+    return 4 * sum;
+  }
+
+  /// The body whose points move, once where it starts and once where it ends, and the other one.
+  Membership within(const Vector<3>& start, const Vector<3>& end) {
+    std::vector<Vector<3>>& moving = ellipsoid ? b : a;
+    const bool backwards = ellipsoid && !reversed;
+    std::vector<Vector<3>> swept;
+    for (const Vector<3>& way : {start, end})
+      for (Vector<3> x : moving) {
+        for (int k = 0; k < 3; ++k) x[k] += backwards ? Integer(-way[k]) : way[k];
+        swept.push_back(x);
+      }
+    moving = swept;
+    switch (ellipsoid ? ellipsoid_relation() : hull_relation()) {
+      case Relation::overlapping:
+        return Membership::in;
+      case Relation::touching:
+        return Membership::on;
+      case Relation::disjoint:
+        break;
+    }
+    return Membership::out;
   }
 
   Membership hull_membership(const Vector<3>& w) const {
@@ -186,6 +231,7 @@ HullTruth::HullTruth(const Ellipsoid& agent, const HullBody& obstacle) {
   Unit unit;
   unit.body<3>(agent);
   for (const auto& x : obstacle.points()) unit.vector<3>(x);
+  exact->unit = unit.e;
   exact->ellipsoid = true;
   exact->s = shape_on_unit<3>(agent, unit.e);
   const auto p = on_unit<3>(agent.center(), unit.e);
@@ -205,6 +251,7 @@ HullTruth::HullTruth(const HullBody& agent, const HullBody& obstacle) {
   Unit unit;
   for (const HullBody* body : {&agent, &obstacle})
     for (const auto& x : body->points()) unit.vector<3>(x);
+  exact->unit = unit.e;
   for (const auto& x : agent.points()) exact->a.push_back(on_unit<3>(x, unit.e));
   for (const auto& x : obstacle.points()) exact->b.push_back(on_unit<3>(x, unit.e));
   relation_ = exact->hull_relation();
@@ -221,6 +268,23 @@ Membership HullTruth::membership(const Eigen::Vector3d& v_a, const Eigen::Vector
   if (exact_->reversed)
     for (Integer& x : w) x = -x;
   return exact_->ellipsoid ? exact_->ellipsoid_membership(w) : exact_->hull_membership(w);
+}
+
+Membership HullTruth::within(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                             const Horizon& horizon) const {
+  Exact exact = *exact_;
+  const bool ends = std::isfinite(horizon.until);
+  const Way first(v_a, v_b, horizon.from), last(v_a, v_b, ends ? horizon.until : 1);
+  exact.refine(std::min(first.e, last.e));
+  // One that never ends goes on until it has passed everything: w is at least one unit long.
+  const Integer times = ends ? Integer(1) : exact.size();
+  Vector<3> start, end;
+  for (int k = 0; k < 3; ++k) {
+    start[k] = first.on(k, exact.unit);
+    end[k] = last.on(k, exact.unit) * times;
+    if (!ends) end[k] += start[k];
+  }
+  return exact.within(start, end);
 }
 
 }  // namespace vericone::verify

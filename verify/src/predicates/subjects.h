@@ -78,8 +78,9 @@ struct Subject {
 };
 
 /// Subjects by file.
-std::span<const Subject> pair_subjects();  // relation, cone, sector
-std::span<const Subject> hull_subjects();  // hulls of points
+std::span<const Subject> pair_subjects();     // relation, cone, sector
+std::span<const Subject> hull_subjects();     // hulls of points
+std::span<const Subject> horizon_subjects();  // pairs within a horizon
 std::span<const Subject> orifice_subjects();
 std::span<const Subject> order_subjects();  // tangent directions, times to contact
 std::span<const Subject> side_subjects();   // point against quadric and body

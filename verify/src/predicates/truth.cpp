@@ -241,11 +241,19 @@ TruePosition position_truth(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>&
 template TruePosition position_truth<2>(const Ellipse&, const Ellipse&);
 template TruePosition position_truth<3>(const Ellipsoid&, const Ellipsoid&);
 
-struct ConeTruth::Exact {
+namespace {
+
+/// A pair as it stands, A moving along w != 0.
+struct Encounter {
   Pair<3> pair;
+  Relation relation = Relation::disjoint;
   Vector<3> normal;  // of disjoint bodies: separates them strictly
 
-  Exact(const Ellipsoid& a, const Ellipsoid& b) : pair(a, b) {}
+  explicit Encounter(const Pair<3>& given) : pair(given) {
+    const Apart found = apart<3>(pair);
+    relation = found.relation;
+    if (found.definite_at) find_normal(*found.definite_at);
+  }
 
   /// The least value of lambda q_A + q_B is positive, so the tangent plane of lambda q_A at that point, which
   /// is also that of -q_B, leaves A on one side and B on the other.
@@ -260,50 +268,126 @@ struct ConeTruth::Exact {
     normal = times<3>(adjugate<3>(pair.a), times<3>(adjugate<3>(m), rest));
     if (!separates_strictly<3>(pair, normal)) throw std::logic_error("a definite pencil without a plane");
   }
+
+  /// Of disjoint bodies.
+  Membership membership(const Vector<3>& w) const {
+    // Two integer vectors across w.
+    const int k = w[0] != 0 ? 0 : w[1] != 0 ? 1 : 2;
+    std::array<Vector<3>, 2> e;
+    for (int i = 0; i < 2; ++i) {
+      const int other = (k + 1 + i) % 3;
+      e[i][other] = w[k];
+      e[i][k] = -w[other];
+    }
+    const auto quadratic = [&](const Matrix<3>& s) {
+      return Form({form<3>(s, e[0], e[0]), 2 * form<3>(s, e[0], e[1]), form<3>(s, e[1], e[1])});
+    };
+    const Form line({dot<3>(e[0], pair.c), dot<3>(e[1], pair.c)}),
+        qa = quadratic(pair.a), qb = quadratic(pair.b), g = line * line - qa - qb,
+        f = g * g - Integer(4) * (qa * qb);
+
+    bool grazes = false;
+    if (!f.is_zero()) {  // where it is, G = -2 q_A < 0: similar shadows about one centre
+      if (sgn(f.c[4]) >= 0 && sgn(g.c[2]) > 0) {  // n = e2
+        if (f.c[4] != 0) return Membership::out;
+        grazes = true;
+      }
+      const Roots roots(f);
+      for (const Rational& t : roots.between())
+        if (sign_at(f, t) > 0 && sign_at(g, t) > 0) return Membership::out;
+      for (std::size_t i = 0; i < roots.size() && !grazes; ++i) grazes = roots.sign_at(g, i) > 0;
+    }
+    if (sgn(dot<3>(normal, w)) < 0) return Membership::out;
+    return grazes ? Membership::on : Membership::in;
+  }
+
+  /// Of bodies that touch: the sign of n.w, n the outer normal of A where they do. The common point spans the
+  /// kernel of the semidefinite lambda Q_A + Q_B: a column of its adjugate.
+  int entering(const Vector<3>& w) const {
+    const Matrix<4> qa = quadric<3>(pair.a, Vector<3>{}), qb = quadric<3>(pair.b, pair.c);
+    std::array<std::array<Form, 4>, 4> m;
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) m[i][j] = Form({qb[i][j], qa[i][j]});
+    const auto all = without<4>(-1);
+    const Roots roots(minor_determinant<4, Form>(m, all, all));
+    std::size_t i = 0;
+    while (i < roots.size() && roots.sign_of_root(i) <= 0) ++i;
+    std::array<Form, 4> point;
+    for (int j = 0; j < 4; ++j) {
+      point[j] = minor_determinant<4, Form>(m, without<4>(j), without<4>(3));
+      if (j % 2 == 0) point[j] = Form() - point[j];
+    }
+    Form along;
+    for (int k = 0; k < 3; ++k)
+      for (int j = 0; j < 4; ++j) along = along + Integer(w[k] * qa[k][j]) * point[j];
+    const int weight = roots.sign_at(point[3], i);
+    if (weight == 0) throw std::logic_error("touching bodies without a common point");
+    return weight * roots.sign_at(along, i);
+  }
 };
 
-ConeTruth::ConeTruth(const Ellipsoid& a, const Ellipsoid& b) {
-  auto exact = std::make_shared<Exact>(a, b);
-  const Apart found = apart<3>(exact->pair);
-  relation_ = found.relation;
-  if (found.definite_at) exact->find_normal(*found.definite_at);
-  exact_ = exact;
+/// The pair after A has moved for `time` seconds.
+Encounter later(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& v_a,
+                const Eigen::Vector3d& v_b, double time) {
+  const Way way(v_a, v_b, time);
+  Unit unit;
+  unit.body<3>(a);
+  unit.body<3>(b);
+  unit.e = std::min(unit.e, way.e);
+  Pair<3> pair(a, b, unit.e);
+  for (int i = 0; i < 3; ++i) pair.c[i] -= way.on(i, unit.e);
+  return Encounter(pair);
 }
+
+}  // namespace
+
+struct ConeTruth::Exact : Encounter {
+  Ellipsoid a, b;
+
+  Exact(const Ellipsoid& body_a, const Ellipsoid& body_b)
+      : Encounter(Pair<3>(body_a, body_b)), a(body_a), b(body_b) {}
+};
+
+ConeTruth::ConeTruth(const Ellipsoid& a, const Ellipsoid& b)
+    : exact_(std::make_shared<Exact>(a, b)), relation_(exact_->relation) {}
 
 Membership ConeTruth::membership(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const {
   if (relation_ != Relation::disjoint) throw std::logic_error("the cone of bodies that are not disjoint");
   const Vector<3> w = velocity<3>(v_a, v_b);
-  if (is_zero<3>(w)) return Membership::out;
-  const Pair<3>& pair = exact_->pair;
+  return is_zero<3>(w) ? Membership::out : exact_->membership(w);
+}
 
-  // Two integer vectors across w.
-  const int k = w[0] != 0 ? 0 : w[1] != 0 ? 1 : 2;
-  std::array<Vector<3>, 2> e;
-  for (int i = 0; i < 2; ++i) {
-    const int other = (k + 1 + i) % 3;
-    e[i][other] = w[k];
-    e[i][k] = -w[other];
-  }
-  const auto quadratic = [&](const Matrix<3>& s) {
-    return Form({form<3>(s, e[0], e[0]), 2 * form<3>(s, e[0], e[1]), form<3>(s, e[1], e[1])});
+Membership ConeTruth::within(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                             const Horizon& horizon) const {
+  const auto standing = [](Relation relation) {
+    return relation == Relation::disjoint   ? Membership::out
+           : relation == Relation::touching ? Membership::on
+                                            : Membership::in;
   };
-  const Form line({dot<3>(e[0], pair.c), dot<3>(e[1], pair.c)}),
-      qa = quadratic(pair.a), qb = quadratic(pair.b), g = line * line - qa - qb,
-      f = g * g - Integer(4) * (qa * qb);
-
-  bool grazes = false;
-  if (!f.is_zero()) {  // where it is, G = -2 q_A < 0: similar shadows about one centre
-    if (sgn(f.c[4]) >= 0 && sgn(g.c[2]) > 0) {  // n = e2
-      if (f.c[4] != 0) return Membership::out;
-      grazes = true;
-    }
-    const Roots roots(f);
-    for (const Rational& t : roots.between())
-      if (sign_at(f, t) > 0 && sign_at(g, t) > 0) return Membership::out;
-    for (std::size_t i = 0; i < roots.size() && !grazes; ++i) grazes = roots.sign_at(g, i) > 0;
+  const Vector<3> w = velocity<3>(v_a, v_b);
+  if (is_zero<3>(w)) return standing(relation_);
+  const Encounter start = later(exact_->a, exact_->b, v_a, v_b, horizon.from);
+  if (start.relation == Relation::overlapping || horizon.until == horizon.from)
+    return standing(start.relation);
+  if (start.relation == Relation::touching) {
+    if (start.entering(w) > 0) return Membership::in;
+    const bool ends = std::isfinite(horizon.until);
+    const bool overlap =
+        ends && later(exact_->a, exact_->b, v_a, v_b, horizon.until).relation != Relation::disjoint;
+    if (overlap) throw std::logic_error("bodies that part and meet again");
+    return Membership::on;
   }
-  if (sgn(dot<3>(exact_->normal, w)) < 0) return Membership::out;
-  return grazes ? Membership::on : Membership::in;
+  const Membership ahead = start.membership(w);
+  if (ahead == Membership::out || std::isinf(horizon.until)) return ahead;
+  const Encounter end = later(exact_->a, exact_->b, v_a, v_b, horizon.until);
+  if (end.relation == Relation::overlapping) return Membership::in;
+  if (end.relation == Relation::touching) return end.entering(w) < 0 ? Membership::in : Membership::on;
+  // Apart at both ends: they meet between iff they do forwards from one and backwards from the other.
+  Vector<3> back;
+  for (int i = 0; i < 3; ++i) back[i] = -w[i];
+  const Membership behind = end.membership(back);
+  if (behind != Membership::out && behind != ahead) throw std::logic_error("two answers about one line");
+  return behind;
 }
 
 namespace {

@@ -64,10 +64,10 @@ struct CorpusCase {
 };
 
 /// Truths: position: disjoint, touching, crossing, a_inside_b, b_inside_a, a_inside_b_touching,
-/// b_inside_a_touching, equal; relation: disjoint, touching, overlapping; membership, sector, hull: in, on,
-/// out; orifice: passes, grazes, blocked; side: negative, zero, positive.
-inline constexpr std::array<std::string_view, 7> kCorpusPredicates = {
-    "position", "relation", "membership", "sector", "side", "hull", "orifice"};
+/// b_inside_a_touching, equal; relation: disjoint, touching, overlapping; membership, sector, hull,
+/// horizon: in, on, out; orifice: passes, grazes, blocked; side: negative, zero, positive.
+inline constexpr std::array<std::string_view, 8> kCorpusPredicates = {
+    "position", "relation", "membership", "sector", "side", "hull", "orifice", "horizon"};
 
 /// All cases of one predicate, always in the same order; depends on nothing but the arguments. `size` scales
 /// the number of constructions: 1 for the file in tests/corpus, more for campaigns. Takes a few tenths of a

@@ -22,6 +22,16 @@ template <int D>
 [[nodiscard]] bool triage_separates(const BasicEllipsoid<D>& a, const BasicEllipsoid<D>& b,
                                     const Eigen::Matrix<double, D, 1>& n);
 
+/// Second rung of verdicts within a horizon, for v_a != v_b: a plane with the whole way on its far side, or a
+/// point of both bodies at one time of it; however they lie now. Never answers `on`.
+[[nodiscard]] std::optional<Membership> interval_within(const Ellipsoid& a, const Ellipsoid& b,
+                                                        const Eigen::Vector3d& v_a,
+                                                        const Eigen::Vector3d& v_b, const Horizon& horizon);
+
+/// Last rung, in integers.
+[[nodiscard]] Membership exact_within(const Ellipsoid& a, const Ellipsoid& b, const Eigen::Vector3d& v_a,
+                                      const Eigen::Vector3d& v_b, const Horizon& horizon);
+
 /// With A and B exchanged.
 [[nodiscard]] Position swapped(Position position);
 

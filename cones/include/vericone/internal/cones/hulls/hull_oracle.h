@@ -95,6 +95,9 @@ class HullOracle {
   /// the prepared one, or one along w.
   [[nodiscard]] bool surely_out(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
                                 const Horizon& horizon) const noexcept;
+  /// Within a horizon, in integers, for v_a != v_b: however they lie now.
+  [[nodiscard]] Membership exact_within(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                                        const Horizon& horizon) const;
 
   /// At most the least n.x over K, metres.
   [[nodiscard]] double gap(const Eigen::Vector3d& n) const noexcept;

@@ -32,6 +32,12 @@ class HullTruth {
     return membership(w, Eigen::Vector3d::Zero());
   }
 
+  /// Whether they overlap at some time of the horizon (`in`), only touch at one (`on`), or stay apart,
+  /// however they lie now: the relation of one body and all that the other meets on its way, by the same
+  /// programs. Of bodies without interior `in` means the interior of that as well.
+  [[nodiscard]] Membership within(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                                  const Horizon& horizon) const;
+
  private:
   struct Exact;
   std::shared_ptr<const Exact> exact_;

@@ -61,6 +61,13 @@ class ConeTruth {
     return membership(w, Eigen::Vector3d::Zero());
   }
 
+  /// Whether they overlap at some time of the horizon (`in`), only touch at one (`on`), or stay apart,
+  /// however they lie now. By where the bodies stand at its two ends: apart at both, they meet between iff
+  /// they do forwards from one and backwards from the other; touching, the common point, the kernel of the
+  /// semidefinite pencil, tells coming from going. About 1 ms.
+  [[nodiscard]] Membership within(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                                  const Horizon& horizon) const;
+
  private:
   struct Exact;
   std::shared_ptr<const Exact> exact_;
