@@ -65,7 +65,10 @@ class OnRay : public Question {
                       std::abs(most) + half->normal.cwiseAbs().dot(part_.velocity.cwiseAbs()));
   }
   bool is_hit(double q) const override {
-    return part_.exact && meets(part_.swollen().verdict(ray_.velocity(q), part_.velocity, horizon_));
+    if (!part_.exact) return false;
+    const Vector3d v = ray_.velocity(q);
+    return meets(part_.swollen().verdict(v, part_.velocity, horizon_)) ||
+           (margin_ > 0 && nearest_by(part_, v, horizon_.until).most < margin_);
   }
   bool all_hit(double, double) const override { return part_.exact; }
 
@@ -77,12 +80,22 @@ class OnRay : public Question {
     half->room = part.pair.gap(half->normal) - margin * half->normal.norm() * (1 + 0x1p-48);
     const Vector3d w = velocity - part.velocity;
     if (half->room > 0 && half->normal.dot(w) < half->most(horizon) * (1 - 0x1p-48)) return half;
-    // Where the swollen body is less than the margin, the plane of least distance leaves more.
-    const auto normal = part.pair.normal_along(Vector3d::Zero(), horizon.until * w);
-    if (!normal) return std::nullopt;
-    *half = {*normal, part.pair.gap(*normal) - margin * normal->norm() * (1 + 0x1p-48)};
-    const double slack = 0x1p-48 * normal->norm() * w.norm();
-    return half->room > 0 && normal->dot(w) + slack < half->most(horizon) ? half : std::nullopt;
+    // Where the swollen body is less than the margin, the plane where they are nearest leaves more.
+    const Miss nearest = nearest_by(part, velocity, horizon.until);
+    if (!(nearest.least > margin)) return std::nullopt;
+    const Vector3d& n = nearest.normal;
+    *half = {n, part.pair.gap(n) - margin * n.norm() * (1 + 0x1p-48)};
+    const double slack = 0x1p-48 * n.norm() * w.norm();
+    return half->room > 0 && n.dot(w) + slack < half->most(horizon) ? half : std::nullopt;
+  }
+
+  /// How near they come by then.
+  static Miss nearest_by(const Part& part, const Vector3d& velocity, double until) {
+    Miss miss = part.pair.miss(velocity, part.velocity);
+    if (miss.time <= until) return miss;
+    Placed then = part.pair.agent();
+    then.pose.position += until * (velocity - part.velocity);
+    return Pair(then, part.pair.obstacle()).miss(Vector3d::Zero(), Vector3d::Zero());
   }
 
  private:
