@@ -26,13 +26,17 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 void read_limits(const Json& value, BandOptions& options) {
   input::require_object(value, "limits");
-  input::require_known(value, "limits", {"speed", "climb", "altitude", "lateral", "longitudinal", "vertical"});
-  for (const auto& [field, range, unit] :
-       {std::tuple("speed", &options.speed, " (m/s)"), {"climb", &options.climb, " (m/s)"}, {"altitude", &options.altitude, " (metres)"}})
+  input::require_known(value, "limits",
+                       {"speed", "climb", "altitude", "lateral", "longitudinal", "vertical"});
+  for (const auto& [field, range, unit] : {std::tuple("speed", &options.speed, " (m/s)"),
+                                           {"climb", &options.climb, " (m/s)"},
+                                           {"altitude", &options.altitude, " (metres)"}})
     if (value.contains(field)) *range = read_range(value[field], std::string("limits.") + field, unit);
-  for (const auto& [field, number] : {std::pair("lateral", &options.lateral), {"longitudinal", &options.longitudinal},
+  for (const auto& [field, number] : {std::pair("lateral", &options.lateral),
+                                      {"longitudinal", &options.longitudinal},
                                       {"vertical", &options.vertical}})
-    if (value.contains(field)) *number = input::read_number(value[field], std::string("limits.") + field, " (m/s^2)");
+    if (value.contains(field))
+      *number = input::read_number(value[field], std::string("limits.") + field, " (m/s^2)");
 }
 
 Json ranges(const std::vector<Range>& all, double unit) {

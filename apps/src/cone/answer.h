@@ -10,8 +10,8 @@
 
 namespace vericone {
 
-/// {"verdict", ["rung"], "clearance", "time_to_contact", ...} as docs/reference/formats.md says. The verdict is
-/// that within the horizon, all else as without one.
+/// {"verdict", ["rung"], "clearance", "time_to_contact", ...} as docs/reference/formats.md says. The verdict
+/// is that within the horizon, all else as without one.
 Json answer(const scenes::Scene& scene, bool with_rung, const Horizon& horizon = {});
 
 /// Why a verdict can be relied on: "exact" or "certified".

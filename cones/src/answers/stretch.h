@@ -72,7 +72,9 @@ inline void require_horizon(const Horizon& horizon) {
 
 /// Of bodies that are apart now, or of a later time alone.
 constexpr Verdict to_verdict(Membership membership) {
-  return membership == Membership::in ? Verdict::in : membership == Membership::on ? Verdict::on : Verdict::out;
+  return membership == Membership::in   ? Verdict::in
+         : membership == Membership::on ? Verdict::on
+                                        : Verdict::out;
 }
 
 /// The whole answer within a horizon, of bodies that lie so now; `within(stretch)` is asked for those that

@@ -97,7 +97,8 @@ Membership find_within(const Scene& scene, const Stretch& stretch, Effort& effor
     if (one != Membership::out) answer = one;
     return one != Membership::in;
   });
-  return covered.size() > 1 && answer == Membership::on && exact::cover_space(covered) ? Membership::in : answer;
+  return covered.size() > 1 && answer == Membership::on && exact::cover_space(covered) ? Membership::in
+                                                                                       : answer;
 }
 
 }  // namespace
@@ -160,7 +161,8 @@ std::optional<NearestPlane> AssemblyOracle::nearest_plane(const Eigen::Vector3d&
   if (!(found.least > core.outer_rounding())) return std::nullopt;
   // The nearest point is one of the piece less one of the way; of a small piece, the middle.
   const Eigen::Vector3d n = scene.frame().to_frame().transpose() * found.v;
-  const Eigen::Vector3d from = scene.frame().to_frame() * first, along = scene.frame().to_frame() * (last - first);
+  const Eigen::Vector3d from = scene.frame().to_frame() * first,
+                        along = scene.frame().to_frame() * (last - first);
   const double square = along.squaredNorm();
   const double at = square > 0 ? (core.center() - found.v - from).dot(along) / square : 0;
   return NearestPlane{scene.to_world(n), std::clamp(at, 0.0, 1.0)};

@@ -384,15 +384,18 @@ Certified CombinedOracle::State::within(const Vector3d& v_a, const Vector3d& v_b
 Verdict CombinedOracle::verdict(const Vector3d& v_a, const Vector3d& v_b, const Horizon& horizon) const {
   const State& s = *state_;
   return verdict_within(s.relation, v_a, v_b, horizon, [&](const Stretch& stretch) {
-    const ConeOracle outer(s.given_a.ellipsoid(), s.given_b.ellipsoid());
-    if (stretch.from > 0 && outer.verdict(v_a, v_b, horizon) == Verdict::out) return Verdict::out;
+    if (stretch.from > 0) {
+      const ConeOracle outer(s.given_a.ellipsoid(), s.given_b.ellipsoid());
+      if (outer.verdict(v_a, v_b, horizon) == Verdict::out) return Verdict::out;
+    }
     if (s.relation != Relation::disjoint) return Verdict::undecided;
     const Certified ever = s.within(v_a, v_b, stretch.until);
     if (ever == Certified::out) return Verdict::out;
     if (stretch.from == 0) return ever == Certified::in ? Verdict::in : Verdict::undecided;
     // Of the rounded difference: no certainty is left within its rounding of either end.
     const auto time = time_to_contact(v_a - v_b);
-    const bool inside = time && time->lo() * (1 - 1e-9) > stretch.from && time->hi() * (1 + 1e-9) < stretch.until;
+    const bool inside =
+        time && time->lo() * (1 - 1e-9) > stretch.from && time->hi() * (1 + 1e-9) < stretch.until;
     return inside ? Verdict::in : Verdict::undecided;
   });
 }

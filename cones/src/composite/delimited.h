@@ -130,12 +130,14 @@ class CellSearch {
   assembly::Core core_of(const assembly::Frame& part, std::uint32_t slot, const Box& cell) const {
     assembly::Core core = assembly::piece_core(part, state_.obstacle, slot);
     if (stretch_ == nullptr) return core;
-    const Stretch near = slabs_->clipped(*stretch_, difference(cell, assembly::piece_box(state_.obstacle, slot)));
+    const Stretch near =
+        slabs_->clipped(*stretch_, difference(cell, assembly::piece_box(state_.obstacle, slot)));
     core.stretch(near.way(near.from), near.way(near.until));
     return core;
   }
   assembly::Gap gap(const assembly::Core& core) const {
-    return assembly::gap(core, directions_, stretch_ != nullptr ? core.away() : first_normal(core, directions_));
+    return assembly::gap(core, directions_,
+                         stretch_ != nullptr ? core.away() : first_normal(core, directions_));
   }
 
   /// Whether the piece is above a plane that the quadrics hold the body below.
@@ -146,8 +148,9 @@ class CellSearch {
       Eigen::Vector3d n = normals[i];
       // Twice, so that what rounding leaves along the ray is less than what planes are forgiven.
       if (directions_.count > 0 || stretch_ != nullptr) {
-        const Eigen::Vector3d along = stretch_ != nullptr ? Eigen::Vector3d((stretch_->v_a - stretch_->v_b).normalized())
-                                                          : directions_.middle;
+        const Eigen::Vector3d along = stretch_ != nullptr
+                                          ? Eigen::Vector3d((stretch_->v_a - stretch_->v_b).normalized())
+                                          : directions_.middle;
         for (int k = 0; k < 2; ++k) n -= std::max(0.0, n.dot(along)) * along;
       }
       const double length = n.norm();

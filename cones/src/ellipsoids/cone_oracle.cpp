@@ -70,6 +70,7 @@ struct ScaledShape {
 ConeOracle::ConeOracle(const Ellipsoid& a, const Ellipsoid& b) : a_(a), b_(b) {
   const ContactFrame<3> frame(a, b);
   relation_ = vericone::relation<3>(a, b, frame, &relation_rung_);
+  reach_ = (frame.center_line.norm() + a.factor().norm() + b.factor().norm()) * (1 + 0x1p-40);
   if (relation_ == Relation::disjoint) {
     normal_ = frame.separating_normal();
     normal_certified_ = separates<3>(a, b, normal_);

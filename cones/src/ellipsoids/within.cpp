@@ -89,9 +89,7 @@ class Saddle {
   Vector3d normal() const { return frame_.to_frame.transpose() * y_; }
 
   double s() const { return s_; }
-  bool is_common() const {
-    return y_.squaredNorm() < 1 && x_ * x_ * y_.cwiseAbs2().dot(square_) < 1;
-  }
+  bool is_common() const { return y_.squaredNorm() < 1 && x_ * x_ * y_.cwiseAbs2().dot(square_) < 1; }
   Vector3d point() const { return frame_.to_space * y_; }  // from A's centre
 
  private:
@@ -218,7 +216,8 @@ Verdict ConeOracle::verdict(const Vector3d& v_a, const Vector3d& v_b, const Hori
       decided_by<WithinHorizon>(Rung::triage, rung);
       return Verdict::out;
     }
-    if (side > 0 && horizon.from == 0 && std::isinf(horizon.until)) {
+    // What meets has met when it has gone as far as any of K is.
+    if (side > 0 && horizon.from == 0 && w.cwiseAbs().maxCoeff() * (1 - 0x1p-40) * horizon.until > reach_) {
       decided_by<WithinHorizon>(Rung::triage, rung);
       return Verdict::in;
     }
@@ -226,8 +225,8 @@ Verdict ConeOracle::verdict(const Vector3d& v_a, const Vector3d& v_b, const Hori
   if (rung && relation_ != Relation::disjoint) *rung = relation_rung_;
   return verdict_within(relation_, v_a, v_b, horizon, [&](const Stretch& stretch) {
     return to_verdict(climb<WithinHorizon>(
-        rung, [] { return std::optional<Membership>(); },
-        [&] { return interval_within(a_, b_, stretch); }, [&] { return exact::within(a_, b_, stretch); }));
+        rung, [] { return std::optional<Membership>(); }, [&] { return interval_within(a_, b_, stretch); },
+        [&] { return exact::within(a_, b_, stretch); }));
   });
 }
 

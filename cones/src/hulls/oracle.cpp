@@ -353,8 +353,8 @@ double HullOracle::gap(const Eigen::Vector3d& n) const noexcept {
   if (!scene_->usable || !n.allFinite() || n.isZero(0)) return kNothing;
   int exponent = 0;
   const Eigen::Vector3d m = at_scale_one(n, exponent);
-  const double least = least_support(*scene_, m).value() -
-                       (support_slack(*scene_, m) + radius_above(*scene_, m)) * kRoundUp;
+  const double least =
+      least_support(*scene_, m).value() - (support_slack(*scene_, m) + radius_above(*scene_, m)) * kRoundUp;
   return std::ldexp(least - std::abs(least) * 0x1p-50, exponent + scene_->exponent);
 }
 

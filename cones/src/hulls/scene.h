@@ -60,7 +60,8 @@ struct HullScene {
   int grid = 0;
   exact::IntegerMatrix<3> exact_shape;
   exact::IntegerVector<3> exact_agent_at, exact_obstacle_at;
-  exact::IntegerVector<3> exact_agent_end;  // where the second half of the agent's points stands, on a stretch
+  exact::IntegerVector<3>
+      exact_agent_end;  // where the second half of the agent's points stands, on a stretch
   bool stretched = false;
 
   // A normal that separates exactly, for disjoint bodies.

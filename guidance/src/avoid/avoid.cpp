@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Rays and triangles of rays from the wanted velocity. Along a ray each convex part blocks one interval; where
-// the first gap is, there is a candidate. Between three rays all that the hull of six points of one part
-// holds is blocked; where the chain of those ends, nothing safe is nearer. Best first on that bound.
+// Rays and triangles of rays from the wanted velocity. Along a ray each convex part blocks one interval;
+// where the first gap is, there is a candidate. Between three rays all that the hull of six points of one
+// part holds is blocked; where the chain of those ends, nothing safe is nearer. Best first on that bound.
 #include <vericone/guidance/avoid.h>
 
 #include <vericone/cones/pair.h>
@@ -47,7 +47,8 @@ Placed swollen(const Placed& body, double radius) {
   std::vector<Vector3d> points;
   for (const Vector3d& x : body.body.hull()->points())
     for (int k = 0; k < 3; ++k)
-      for (const double side : {-1.0, 1.0}) points.push_back(x + side * radius * (1 - 1e-12) * Vector3d::Unit(k));
+      for (const double side : {-1.0, 1.0})
+        points.push_back(x + side * radius * (1 - 1e-12) * Vector3d::Unit(k));
   return {HullBody(std::move(points)), body.pose};
 }
 
@@ -105,7 +106,8 @@ class OnRay : public Question {
   double margin_;
 };
 
-/// Along one ray, by part, what is blocked, proved; none where a part leaves it alone. Last: what is too slow.
+/// Along one ray, by part, what is blocked, proved; none where a part leaves it alone. Last: what is too
+/// slow.
 struct Ray {
   Vector3d direction;
   std::vector<std::optional<Range>> hit;
@@ -134,10 +136,14 @@ class Search3 {
     // As far as can be flown; without a limit, as far as one would look.
     double fastest = wanted_.norm();
     for (const Part& part : parts_) fastest = std::max(fastest, part.velocity.norm());
-    reach_ = 1.01 * (wanted_.norm() + (std::isfinite(options_.speed.to) ? options_.speed.to : 4 * fastest)) + 1e-3;
+    reach_ =
+        1.01 * (wanted_.norm() + (std::isfinite(options_.speed.to) ? options_.speed.to : 4 * fastest)) + 1e-3;
     for (const Part& part : parts_) {
       const auto half = OnRay::safe(part, wanted_ + options_.wind, horizon_, options_.margin);
-      away_.push_back(!half ? 0 : (half->most(horizon_) - half->normal.dot(wanted_ + options_.wind - part.velocity)) / half->normal.norm() * (1 - 1e-9));
+      away_.push_back(
+          !half ? 0
+                : (half->most(horizon_) - half->normal.dot(wanted_ + options_.wind - part.velocity)) /
+                      half->normal.norm() * (1 - 1e-9));
     }
     static constexpr int kFaces[8][3] = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
                                          {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
@@ -155,11 +161,14 @@ class Search3 {
       open.pop();
       // Halve the longest side.
       std::array<int, 3> t = nearest.rays;
-      const auto side = [&](int i) { return (direction(t[(i + 1) % 3]) - direction(t[(i + 2) % 3])).squaredNorm(); };
+      const auto side = [&](int i) {
+        return (direction(t[(i + 1) % 3]) - direction(t[(i + 2) % 3])).squaredNorm();
+      };
       int longest = 0;
       for (int i = 1; i < 3; ++i)
         if (side(i) > side(longest)) longest = i;
-      const int apex = t[longest], from = t[(longest + 1) % 3], to = t[(longest + 2) % 3], half = between(from, to);
+      const int apex = t[longest], from = t[(longest + 1) % 3], to = t[(longest + 2) % 3],
+                half = between(from, to);
       add({apex, from, half});
       add({apex, half, to});
     }
@@ -203,7 +212,9 @@ class Search3 {
       if (!(duration <= horizon_.until)) return false;
       const double behind = 0.5 * duration * std::max(0.0, -half->normal.dot(v - velocity_)),
                    along = std::max(0.0, horizon_.until * half->normal.dot(ground - part.velocity));
-      const double slack = 0x1p-46 * half->normal.norm() * (horizon_.until * (ground - part.velocity).norm() + duration * (v - velocity_).norm());
+      const double slack =
+          0x1p-46 * half->normal.norm() *
+          (horizon_.until * (ground - part.velocity).norm() + duration * (v - velocity_).norm());
       if (along + behind + slack < half->room) continue;
       const Vector3d late = -0.5 * duration * (v - velocity_);
       // Another plane, of both straight ways.
@@ -212,7 +223,9 @@ class Search3 {
         const auto n = part.pair.normal_along(shift, horizon_.until * (ground - part.velocity) + shift);
         if (!n) break;
         const double room = part.pair.gap(*n) - options_.margin * n->norm() * (1 + 0x1p-48);
-        held = std::max(0.0, n->dot(late)) + std::max(0.0, horizon_.until * n->dot(ground - part.velocity)) + slack < room;
+        held = std::max(0.0, n->dot(late)) + std::max(0.0, horizon_.until * n->dot(ground - part.velocity)) +
+                   slack <
+               room;
         if (held) break;
       }
       if (!held) return false;
@@ -251,7 +264,8 @@ class Search3 {
         hit = hit ? Range{std::min(hit->from, one.from), std::max(hit->to, one.to)} : one;
       ray.hit.push_back(hit);
       double from = 0;
-      std::sort(search.free.begin(), search.free.end(), [](const Range& a, const Range& b) { return a.from < b.from; });
+      std::sort(search.free.begin(), search.free.end(),
+                [](const Range& a, const Range& b) { return a.from < b.from; });
       for (const Range& free : search.free) {
         if (free.from > from) not_free.push_back({from, free.from});
         from = std::max(from, free.to);
@@ -288,7 +302,8 @@ class Search3 {
       if (here > 0) not_free.push_back({0, slope < 0 ? -here / slope * (1 + 1e-14) : reach_});
       if (here <= 0 && slope > 0) not_free.push_back({-here / slope * (1 - 1e-14), reach_});
     }
-    std::sort(not_free.begin(), not_free.end(), [](const Range& a, const Range& b) { return a.from < b.from; });
+    std::sort(not_free.begin(), not_free.end(),
+              [](const Range& a, const Range& b) { return a.from < b.from; });
     double s = 0;
     for (const Range& range : not_free) {
       if (range.from > s) look_between(d, s, range.from);
@@ -309,8 +324,8 @@ class Search3 {
     return true;
   }
 
-  /// Of values that nothing blocks at once: the first, a little beyond the end, where rounding cannot bring it
-  /// back; where the way to it is blocked, farther ones.
+  /// Of values that nothing blocks at once: the first, a little beyond the end, where rounding cannot bring
+  /// it back; where the way to it is blocked, farther ones.
   void look_between(const Vector3d& d, double from, double to) {
     for (double beyond = 1e-13; beyond < 1e-6; beyond *= 30)
       if (from * (1 + beyond) < std::min(to, upper_) && take(d, from * (1 + beyond))) return;
@@ -342,7 +357,8 @@ class Search3 {
   double bound_of(const std::array<int, 3>& t) const {
     const Vector3d &a = direction(t[0]), &b = direction(t[1]), &c = direction(t[2]);
     const Vector3d across = (b - a).cross(c - a);
-    const double height = std::abs(across.dot(a)) / across.norm() * (1 - 1e-12);  // of the plane through their tips
+    const double height =
+        std::abs(across.dot(a)) / across.norm() * (1 - 1e-12);  // of the plane through their tips
     std::vector<Range> chain;
     for (std::size_t i = 0; i < rays_[t[0]].hit.size(); ++i) {
       Range all{0, kInfinity};
@@ -383,7 +399,8 @@ class Search3 {
   bool all_beyond(const std::array<int, 3>& t, double end) const {
     const auto beyond = [&](const Vector3d& n, double limit) {
       for (const int r : t)
-        if (!(n.dot(wanted_ + end * direction(r)) > limit * (1 + 1e-12) && n.dot(direction(r)) >= 0)) return false;
+        if (!(n.dot(wanted_ + end * direction(r)) > limit * (1 + 1e-12) && n.dot(direction(r)) >= 0))
+          return false;
       return true;
     };
     if (std::isfinite(options_.climb.to) && beyond(Vector3d::UnitZ(), options_.climb.to)) return true;
@@ -391,9 +408,11 @@ class Search3 {
     if (!std::isfinite(options_.speed.to)) return false;
     Vector3d middle = Vector3d::Zero();
     for (const int r : t) middle += direction(r) / 3;
-    const Vector3d at = wanted_ + end * middle, plane = (direction(t[1]) - direction(t[0])).cross(direction(t[2]) - direction(t[0]));
+    const Vector3d at = wanted_ + end * middle,
+                   plane = (direction(t[1]) - direction(t[0])).cross(direction(t[2]) - direction(t[0]));
     const Vector3d facing = plane.dot(middle) > 0 ? plane : Vector3d(-plane);
-    return (at.norm() > 0 && beyond(at.normalized(), options_.speed.to)) || beyond(facing.normalized(), options_.speed.to);
+    return (at.norm() > 0 && beyond(at.normalized(), options_.speed.to)) ||
+           beyond(facing.normalized(), options_.speed.to);
   }
 
   Vector3d velocity_, wanted_;
@@ -410,7 +429,8 @@ class Search3 {
 void require(const Vector3d& x, const char* field) {
   for (int i = 0; i < 3; ++i)
     if (!std::isfinite(x(i)))
-      throw InputError(std::string(field) + "[" + std::to_string(i) + "]", to_text(x(i)), "a finite number (m/s)");
+      throw InputError(std::string(field) + "[" + std::to_string(i) + "]", to_text(x(i)),
+                       "a finite number (m/s)");
 }
 
 void require(const Vector3d& velocity, const Vector3d& wanted, const AvoidOptions& options) {

@@ -37,7 +37,6 @@ class Curve {
   virtual std::optional<Range> about(double q, const Vector3d& n, double most, double size) const = 0;
   /// Values between two hits that are hits of a convex set of velocities too; asks for single velocities.
   virtual bool all_hit(double from, double to, const std::function<bool(const Vector3d&)>& hit) const = 0;
-
 };
 
 /// Headings q clockwise from y, at one speed.
@@ -52,7 +51,8 @@ class Headings : public Curve {
 
   // speed (n_x sin q + n_y cos q) < most - n.rest: all but an arc about the direction of n.
   std::optional<Range> about(double q, const Vector3d& n, double most, double size) const override {
-    const double all = size + n.cwiseAbs().dot(rest_.cwiseAbs()) + speed_ * (std::abs(n.x()) + std::abs(n.y()));
+    const double all =
+        size + n.cwiseAbs().dot(rest_.cwiseAbs()) + speed_ * (std::abs(n.x()) + std::abs(n.y()));
     const double level = most - n.dot(rest_) - kRoundings * all;
     const double most_along = speed_ * std::hypot(n.x(), n.y()) * (1 + 8 * 0x1p-53);
     if (level > most_along) return Range{q - kPi, q + kPi};
@@ -155,7 +155,8 @@ class OfAltitude : public Question {
   /// A time after which they have passed, where the horizon has no end.
   double farthest() const {
     const double speed = (level_ - other_).norm();
-    if (std::isfinite(horizon_.until) || !(speed > 0)) return std::isfinite(horizon_.until) ? horizon_.until : 0;
+    if (std::isfinite(horizon_.until) || !(speed > 0))
+      return std::isfinite(horizon_.until) ? horizon_.until : 0;
     const auto size = [](const Placed& body) {
       const Box bounds = body.body.bounds();
       return bounds.low.norm() + bounds.high.norm() + body.pose.position.norm();

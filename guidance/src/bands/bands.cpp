@@ -22,9 +22,11 @@ void require_finite(const Vector3d& x, const std::string& field) {
 }
 
 void require_range(const Range& range, double least, const char* field) {
-  if (range.from >= least && range.to >= range.from && std::isfinite(range.to) && std::isfinite(range.from)) return;
-  throw InputError(field, "[" + to_text(range.from) + ", " + to_text(range.to) + "]",
-                   std::string("two finite numbers, the smaller one first") + (least == 0 ? ", none negative" : ""));
+  if (range.from >= least && range.to >= range.from && std::isfinite(range.to) && std::isfinite(range.from))
+    return;
+  throw InputError(
+      field, "[" + to_text(range.from) + ", " + to_text(range.to) + "]",
+      std::string("two finite numbers, the smaller one first") + (least == 0 ? ", none negative" : ""));
 }
 
 bool is_given(const Range& range) { return range.from != 0 || range.to != 0; }
@@ -64,7 +66,8 @@ class Banding {
   Band at_once(const Quantity& quantity, const Horizon& horizon) const {
     Merged merged(whole(quantity));
     for (const Parts& parts : parts_)
-      merged.add(OfVelocity(parts.pair, parts.velocity, horizon, quantity.at_once), whole(quantity), parts.exact);
+      merged.add(OfVelocity(parts.pair, parts.velocity, horizon, quantity.at_once), whole(quantity),
+                 parts.exact);
     return merged.band();
   }
 
@@ -91,7 +94,9 @@ class Banding {
     const double until = options_.horizon.until;
     if (is_clear(ground, until)) return kInfinity;
     if (std::isinf(until)) return std::numeric_limits<double>::quiet_NaN();
-    const auto works = [&](double wait) { return is_clear(ground, wait) && !after(quantity, wait, 16).free.empty(); };
+    const auto works = [&](double wait) {
+      return is_clear(ground, wait) && !after(quantity, wait, 16).free.empty();
+    };
     if (!works(0)) return -1;
     double low = 0, high = until;
     for (int step = 0; step < 20; ++step) {
@@ -107,9 +112,9 @@ class Banding {
     const auto best = [&](double from) -> std::optional<Bands::Recovery> {
       const Band band = at_once(headings, {from, until});
       if (band.free.empty()) return std::nullopt;
-      const auto widest = std::max_element(band.free.begin(), band.free.end(), [](const Range& a, const Range& b) {
-        return a.to - a.from < b.to - b.from;
-      });
+      const auto widest =
+          std::max_element(band.free.begin(), band.free.end(),
+                           [](const Range& a, const Range& b) { return a.to - a.from < b.to - b.from; });
       return Bands::Recovery{0.5 * (widest->from + widest->to), from};
     };
     double low = options_.horizon.from, high = until;
@@ -144,7 +149,8 @@ void require(const Vector3d& velocity, std::span<const Intruder> intruders, cons
   require_range(options.speed, 0, "speed");
   require_range(options.climb, -kInfinity, "climb");
   require_range(options.altitude, -kInfinity, "altitude");
-  for (const auto& [value, field] : {std::pair(options.lateral, "lateral"), {options.longitudinal, "longitudinal"},
+  for (const auto& [value, field] : {std::pair(options.lateral, "lateral"),
+                                     {options.longitudinal, "longitudinal"},
                                      {options.vertical, "vertical"}}) {
     if (!(value >= 0 && std::isfinite(value)))
       throw InputError(field, to_text(value), "positive, or 0: at once (m/s^2)");
@@ -160,12 +166,15 @@ Bands bands(const Placed& agent, const Vector3d& velocity, std::span<const Intru
             const BandOptions& options) {
   require(velocity, intruders, options);
   const double speed = std::hypot(velocity.x(), velocity.y()), fast = velocity.norm();
-  const Vector3d ahead = speed > 0 ? Vector3d(velocity.x() / speed, velocity.y() / speed, 0) : Vector3d::UnitY();
+  const Vector3d ahead =
+      speed > 0 ? Vector3d(velocity.x() / speed, velocity.y() / speed, 0) : Vector3d::UnitY();
   const Vector3d ground = velocity + options.wind, up = Vector3d::UnitZ();
   const Vector3d level(ground.x(), ground.y(), options.wind.z()), climbing = options.wind + velocity.z() * up;
   const Range speeds = is_given(options.speed) ? options.speed : Range{0, 2 * speed};
   const Range climbs = is_given(options.climb) ? options.climb : Range{-fast, fast};
-  const auto rate = [](double acceleration, double by) { return acceleration > 0 ? acceleration / by : kInfinity; };
+  const auto rate = [](double acceleration, double by) {
+    return acceleration > 0 ? acceleration / by : kInfinity;
+  };
 
   const double heading = std::atan2(ahead.x(), ahead.y());
   const Headings headings(speed, velocity.z(), options.wind);
@@ -179,8 +188,8 @@ Bands bands(const Placed& agent, const Vector3d& velocity, std::span<const Intru
 
   const Banding banding(agent, intruders, options);
   Bands result;
-  for (const auto& [quantity, band] : {std::pair(&of_heading, &result.heading), {&of_speed, &result.speed},
-                                       {&of_climb, &result.climb}}) {
+  for (const auto& [quantity, band] :
+       {std::pair(&of_heading, &result.heading), {&of_speed, &result.speed}, {&of_climb, &result.climb}}) {
     *band = banding.band(*quantity);
     if (options.last) band->last = banding.last(*quantity, ground);
   }

@@ -129,20 +129,25 @@ class OfManoeuvre : public Question {
   };
   static Reach reach(double value, double slope, double bend) {
     const double root = std::sqrt(slope * slope + 2 * bend * value);
-    const auto to = [&](double towards) {  // the root of value + towards x - bend x^2 / 2, without cancellation
-      return towards >= 0 ? (bend > 0 ? (towards + root) / bend : kInfinity) : 2 * value / (root - towards);
-    };
+    const auto to =
+        [&](double towards) {  // the root of value + towards x - bend x^2 / 2, without cancellation
+          return towards >= 0 ? (bend > 0 ? (towards + root) / bend : kInfinity)
+                              : 2 * value / (root - towards);
+        };
     return {to(-slope), to(slope)};
   }
 
-  std::optional<Range> about(double q, const Vector3d& n, double left, const Vector3d& w, const Vector3d& start,
-                             const Vector3d& end) const {
+  std::optional<Range> about(double q, const Vector3d& n, double left, const Vector3d& w,
+                             const Vector3d& start, const Vector3d& end) const {
     const double size = n.norm(), per_second = std::isinf(change_.rate) ? 0 : 1 / change_.rate;
-    const double gap = pair_.gap(n), slack = kRoundings * size * (start.norm() + end.norm() + until_ * (w.norm() + other_.norm()));
+    const double gap = pair_.gap(n),
+                 slack =
+                     kRoundings * size * (start.norm() + end.norm() + until_ * (w.norm() + other_.norm()));
     const double at_start = gap - n.dot(start) - slack, at_end = gap - n.dot(end) - slack;
     if (!(at_start > 0 && at_end > 0)) return std::nullopt;
     const double side = q < change_.start ? -1 : 1;
-    const Reach first = reach(at_start, -n.dot(w) * side * per_second, size * change_.slope_size * per_second),
+    const Reach first =
+                    reach(at_start, -n.dot(w) * side * per_second, size * change_.slope_size * per_second),
                 last = reach(at_end, -left * n.dot(change_.slope(q)),
                              size * (until_ * change_.bend_size + change_.slope_size * per_second));
     constexpr double kShort = 1 - 1e-9;  // for all that was rounded on the way

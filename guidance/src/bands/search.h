@@ -182,7 +182,8 @@ class Merged {
     const double turn = domain_.high - domain_.low;
     for (const Range& range : given)
       for (int k = domain_.closed ? -2 : 0; k <= (domain_.closed ? 2 : 0); ++k) {
-        const Range moved{std::max(range.from + k * turn, domain_.low), std::min(range.to + k * turn, domain_.high)};
+        const Range moved{std::max(range.from + k * turn, domain_.low),
+                          std::min(range.to + k * turn, domain_.high)};
         if (moved.from <= moved.to) all.push_back(moved);
       }
     std::sort(all.begin(), all.end(), [](const Range& a, const Range& b) { return a.from < b.from; });

@@ -144,10 +144,9 @@ class Pair {
   /// as one plane goes. Nothing where none was found: they meet within it, or are not two convex bodies.
   /// `warm`: the normal of a moment before, or of a velocity nearby, tried first. Throws InputError naming
   /// "horizon" or a velocity. Cost: two ellipsoids 0.5 us, with a warm normal that still holds 40 ns.
-  [[nodiscard]] std::optional<SafeHalfSpace> safe_half_space(const Eigen::Vector3d& v_a,
-                                                             const Eigen::Vector3d& v_b,
-                                                             const Horizon& horizon,
-                                                             const std::optional<Eigen::Vector3d>& warm = {}) const;
+  [[nodiscard]] std::optional<SafeHalfSpace> safe_half_space(
+      const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, const Horizon& horizon,
+      const std::optional<Eigen::Vector3d>& warm = {}) const;
 
   /// The rung of the ladder that decided verdict(); nothing of certified pairs. For measurements.
   [[nodiscard]] std::optional<Rung> rung(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;

@@ -36,8 +36,8 @@ enum class AvoidStatus : std::uint8_t {
 struct Avoidance {
   AvoidStatus status = AvoidStatus::not_found;
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // through the air, m/s
-  double distance = 0;  // m/s, from the velocity that is wanted
-  double lower = 0;     // m/s: no safe velocity is nearer, proved, of those that are changed to at once
+  double distance = 0;                                 // m/s, from the velocity that is wanted
+  double lower = 0;  // m/s: no safe velocity is nearer, proved, of those that are changed to at once
   /// Of the velocity, where it is not free: what is met first, and when, s (the earliest, proved).
   struct First {
     std::size_t obstacle;

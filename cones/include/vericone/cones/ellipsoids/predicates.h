@@ -148,8 +148,8 @@ class ConeOracle {
   Rung relation_rung_{};
   Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();
   bool normal_certified_ = false;
-  // n.x > room_ for every x in K: a bound; |n_x| + |n_y| + |n_z|.
-  double room_ = -detail::VelocityForms::kNothing, normal_size_ = 0;
+  // n.x > room_ for every x in K: a bound; |n_x| + |n_y| + |n_z|; |x| <= reach_.
+  double room_ = -detail::VelocityForms::kNothing, normal_size_ = 0, reach_ = detail::VelocityForms::kNothing;
   // Of velocities that the forms leave.
   [[nodiscard]] std::optional<Membership> triage_rest(const Eigen::Vector3d& w) const noexcept;
   [[nodiscard]] Membership climb_all(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
@@ -165,7 +165,8 @@ class ConeOracle {
   Enclosed enclosed_;
 };
 
-/// Tags of relation(), of ConeOracle::membership and of ConeOracle::verdict within a horizon for rung_counts().
+/// Tags of relation(), of ConeOracle::membership and of ConeOracle::verdict within a horizon for
+/// rung_counts().
 struct EllipsoidRelation;
 struct ConeMembership;
 struct WithinHorizon;

@@ -31,7 +31,9 @@ constexpr double kDegree = kPi / 180;
 Placed ball(const Vector3d& at, double radius) {
   return {Ellipsoid::from_axes(Vector3d::Zero(), Vector3d::Constant(radius)), Pose{at}};
 }
-Vector3d on(double heading, double speed) { return {speed * std::sin(heading), speed * std::cos(heading), 0}; }
+Vector3d on(double heading, double speed) {
+  return {speed * std::sin(heading), speed * std::cos(heading), 0};
+}
 
 /// Two discs as seen from the agent.
 struct Discs {
@@ -78,7 +80,8 @@ struct Discs {
     const std::vector<double> all = ends();
     std::vector<double> real;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const double before = i > 0 ? all[i - 1] : all.back() - kTurn, after = i + 1 < all.size() ? all[i + 1] : all[0] + kTurn;
+      const double before = i > 0 ? all[i - 1] : all.back() - kTurn,
+                   after = i + 1 < all.size() ? all[i + 1] : all[0] + kTurn;
       if (meet(0.5 * (before + all[i])) != meet(0.5 * (all[i] + after))) real.push_back(all[i]);
     }
     return real;
@@ -96,7 +99,8 @@ std::vector<double> ends_of(const Band& band) {
 
 Band headings(const Discs& d) {
   const Intruder other{ball({d.c.x(), d.c.y(), 0}, 0.75 * d.radius), {d.u.x(), d.u.y(), 0}};
-  return bands(ball(Vector3d::Zero(), 0.25 * d.radius), on(0.3, d.speed), {&other, 1}, {.horizon = {0, d.until}})
+  return bands(ball(Vector3d::Zero(), 0.25 * d.radius), on(0.3, d.speed), {&other, 1},
+               {.horizon = {0, d.until}})
       .heading;
 }
 
@@ -150,8 +154,9 @@ TEST(BandsOfDiscs, TurnWithTheWorldAndShrinkWithTheHorizon) {
   };
   for (int i = 0; i < share(400); ++i) {
     const double turn = random.uniform(0.5, 3);
-    Discs d{Vector2d(random.uniform(3, 20), random.uniform(-5, 5)), Vector2d(random.uniform(-3, 3), random.uniform(-3, 3)),
-            random.uniform(0.5, 2), random.uniform(1, 5), random.uniform(1, 10)};
+    Discs d{Vector2d(random.uniform(3, 20), random.uniform(-5, 5)),
+            Vector2d(random.uniform(-3, 3), random.uniform(-3, 3)), random.uniform(0.5, 2),
+            random.uniform(1, 5), random.uniform(1, 10)};
     const Band here = headings(d);
     Discs turned = d;
     // Headings go clockwise.
@@ -176,10 +181,12 @@ TEST(Bands, HoldForBodiesOfEveryKind) {
   int frees = 0, conflicts = 0;
   for (int i = 0; i < campaign_size(70, 700); ++i) {
     const BodyKind kind = kBodyKinds[static_cast<std::size_t>(i) % kBodyKinds.size()];
-    const Placed agent(any_body(random, i % 3 == 0 ? BodyKind::hull : BodyKind::ellipsoid), any_pose(random, 0.5));
+    const Placed agent(any_body(random, i % 3 == 0 ? BodyKind::hull : BodyKind::ellipsoid),
+                       any_pose(random, 0.5));
     std::vector<Intruder> others;
     for (int k = 0; k <= i % 3; ++k)
-      others.push_back({Placed(any_body(random, kind), any_pose(random, random.uniform(8, 15))), random.uniform(0, 2) * random.direction()});
+      others.push_back({Placed(any_body(random, kind), any_pose(random, random.uniform(8, 15))),
+                        random.uniform(0, 2) * random.direction()});
     const Vector3d v = random.uniform(0.5, 4) * random.direction();
     BandOptions options;
     options.horizon = {i % 5 == 0 ? 0.5 : 0, i % 4 == 0 ? kEver : random.uniform(2, 15)};
@@ -192,7 +199,8 @@ TEST(Bands, HoldForBodiesOfEveryKind) {
       moved.pose.position.z() += height;
       Verdict worst = Verdict::out;
       for (const Intruder& other : others)
-        if (const Verdict one = Pair(moved, other.body).verdict(velocity + options.wind, other.velocity, options.horizon);
+        if (const Verdict one =
+                Pair(moved, other.body).verdict(velocity + options.wind, other.velocity, options.horizon);
             one != Verdict::out)
           worst = one;
       return worst;
@@ -206,8 +214,11 @@ TEST(Bands, HoldForBodiesOfEveryKind) {
         for (int k = 1; k < 8; ++k, ++conflicts)
           ASSERT_NE(ask(range.from + (range.to - range.from) * k / 8), Verdict::out);
     };
-    check(found.heading, "heading", [&](double q) { return meets(on(q, speed) + v.z() * Vector3d::UnitZ(), 0); });
-    check(found.speed, "speed", [&](double q) { return meets({q * v.x() / speed, q * v.y() / speed, v.z()}, 0); });
+    check(found.heading, "heading",
+          [&](double q) { return meets(on(q, speed) + v.z() * Vector3d::UnitZ(), 0); });
+    check(found.speed, "speed", [&](double q) {
+      return meets({q * v.x() / speed, q * v.y() / speed, v.z()}, 0);
+    });
     check(found.climb, "climb", [&](double q) { return meets({v.x(), v.y(), q}, 0); });
     check(found.altitude, "altitude", [&](double q) { return meets({v.x(), v.y(), 0}, q); });
   }
@@ -223,7 +234,9 @@ TEST(Bands, LeaveNothingBetweenOfConvexBodies) {
   for (int i = 0; i < share(400); ++i) {
     const auto kind = i % 2 == 0 ? BodyKind::ellipsoid : BodyKind::hull;
     const Placed agent(any_body(random, kind), any_pose(random, 0.5));
-    const Intruder other{Placed(any_body(random, BodyKind::ellipsoid), any_pose(random, random.uniform(9, 15))), 2 * random.direction()};
+    const Intruder other{
+        Placed(any_body(random, BodyKind::ellipsoid), any_pose(random, random.uniform(9, 15))),
+        2 * random.direction()};
     const Vector3d v = random.uniform(1, 4) * random.direction();
     const Bands found = bands(agent, v, {&other, 1}, {.horizon = {0, random.uniform(2, 15)}});
     double sum = kTurn;
@@ -241,10 +254,12 @@ TEST(Bands, OfManoeuvresAreFreeWhenFlown) {
   int flown = 0, missed = 0, free = 0;
   for (int i = 0; i < campaign_size(24, 240); ++i) {
     const Placed agent(any_body(random, BodyKind::ellipsoid), any_pose(random, 0.5));
-    const Intruder other{Placed(any_body(random, i % 2 == 0 ? BodyKind::ellipsoid : BodyKind::hull), any_pose(random, random.uniform(10, 20))),
+    const Intruder other{Placed(any_body(random, i % 2 == 0 ? BodyKind::ellipsoid : BodyKind::hull),
+                                any_pose(random, random.uniform(10, 20))),
                          random.direction()};
     const double until = random.uniform(6, 15);
-    const Vector3d v = (other.body.pose.position - agent.pose.position) / random.uniform(4, 9) + other.velocity;
+    const Vector3d v =
+        (other.body.pose.position - agent.pose.position) / random.uniform(4, 9) + other.velocity;
     BandOptions options;
     options.horizon = {0, until};
     options.lateral = random.uniform(0.3, 3);
@@ -275,12 +290,15 @@ TEST(Bands, OfManoeuvresAreFreeWhenFlown) {
     };
     const auto climbing = [&](double q) {
       const double duration = std::abs(q - v.z()) / options.vertical;
-      return [=](double t) { return Vector3d(v.x(), v.y(), v.z() + (q - v.z()) * std::clamp(t / duration, 0.0, 1.0)); };
+      return [=](double t) {
+        return Vector3d(v.x(), v.y(), v.z() + (q - v.z()) * std::clamp(t / duration, 0.0, 1.0));
+      };
     };
     const auto check = [&](const Band& band, double low, double high, auto&& flight) {
       for (int k = 0; k < 16; ++k, ++flown) {
         const double q = low + (high - low) * (k + 0.5) / 16;
-        const bool said = std::any_of(band.free.begin(), band.free.end(), [&](const Range& r) { return r.from <= q && q <= r.to; });
+        const bool said = std::any_of(band.free.begin(), band.free.end(),
+                                      [&](const Range& r) { return r.from <= q && q <= r.to; });
         const bool hit = hits(flight(q), 0);
         ASSERT_FALSE(said && hit) << "case " << i << ", " << q;
         free += !hit;

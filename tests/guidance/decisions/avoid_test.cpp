@@ -47,7 +47,8 @@ struct Encounter {
   }
   bool can_fly(const Vector3d& v) const {
     const double speed = v.norm();
-    return speed >= options.speed.from && speed <= options.speed.to && v.z() >= options.climb.from && v.z() <= options.climb.to;
+    return speed >= options.speed.from && speed <= options.speed.to && v.z() >= options.climb.from &&
+           v.z() <= options.climb.to;
   }
 };
 
@@ -62,15 +63,20 @@ TEST(Avoid, ChoosesWhatIsSafeAndNothingSafeIsNearer) {
   for (int i = 0; i < campaign_size(60, 1000); ++i) {
     SCOPED_TRACE("case " + std::to_string(i));
     Encounter e;
-    e.agent = Placed(i % 3 == 0 ? any_body(random, BodyKind::hull) : Body(Ellipsoid::from_axes({0, 0, 0}, {0.5, 0.8, 0.3})));
+    e.agent = Placed(i % 3 == 0 ? any_body(random, BodyKind::hull)
+                                : Body(Ellipsoid::from_axes({0, 0, 0}, {0.5, 0.8, 0.3})));
     const int count = 3 + i % 8;
     while (static_cast<int>(e.others.size()) < count) {
-      const Placed body(any_body(random, i % 2 == 0 ? BodyKind::ellipsoid : BodyKind::hull), any_pose(random, random.uniform(7, 40)));
-      if (Pair(e.agent, body).relation() == Relation::disjoint) e.others.push_back({body, random.uniform(0, 3) * random.direction()});
+      const Placed body(any_body(random, i % 2 == 0 ? BodyKind::ellipsoid : BodyKind::hull),
+                        any_pose(random, random.uniform(7, 40)));
+      if (Pair(e.agent, body).relation() == Relation::disjoint)
+        e.others.push_back({body, random.uniform(0, 3) * random.direction()});
     }
     e.velocity = random.uniform(1, 5) * random.direction();
     // Towards one of them as a rule.
-    e.wanted = i % 4 == 0 ? e.velocity : Vector3d(e.others[0].body.pose.position / random.uniform(5, 12) + e.others[0].velocity);
+    e.wanted = i % 4 == 0
+                   ? e.velocity
+                   : Vector3d(e.others[0].body.pose.position / random.uniform(5, 12) + e.others[0].velocity);
     e.options.until = random.uniform(4, 15);
     e.options.speed = {0, 9};
     e.options.wind = i % 5 == 0 ? Vector3d(0.5 * random.direction()) : Vector3d(Vector3d::Zero());
@@ -120,7 +126,8 @@ TEST(Avoid, FindsWhatBoundingBallsHaveNot) {
   Encounter e;
   e.agent = Placed(Ellipsoid::from_axes({0, 0, 0}, {2, 0.2, 0.2}));
   for (const double side : {-1.0, 1.0})
-    e.others.push_back({Placed(Ellipsoid::from_axes({0, 0, 0}, {6, 0.5, 6}), Pose{{15, side * 0.9, 0}}), Vector3d::Zero()});
+    e.others.push_back(
+        {Placed(Ellipsoid::from_axes({0, 0, 0}, {6, 0.5, 6}), Pose{{15, side * 0.9, 0}}), Vector3d::Zero()});
   e.velocity = e.wanted = {2, 0, 0};
   e.options.until = 20;
   e.options.speed = {1.9, 2.1};
@@ -164,7 +171,9 @@ TEST(Avoid, ProvesTheWayThereToo) {
     Encounter e;
     e.agent = ball(Vector3d::Zero(), 0.5);
     for (int k = 0; k < 4; ++k)
-      e.others.push_back({Placed(any_body(random, BodyKind::ellipsoid), any_pose(random, random.uniform(10, 30))), 2 * random.direction()});
+      e.others.push_back(
+          {Placed(any_body(random, BodyKind::ellipsoid), any_pose(random, random.uniform(10, 30))),
+           2 * random.direction()});
     e.velocity = e.wanted = e.others[0].body.pose.position / random.uniform(5, 12) + e.others[0].velocity;
     e.options.until = random.uniform(6, 15);
     e.options.speed = {0, 9};
@@ -179,12 +188,14 @@ TEST(Avoid, ProvesTheWayThereToo) {
     const double duration = std::max(along / e.options.longitudinal, across / e.options.lateral);
     for (int step = 0; step <= 400; ++step) {
       const double t = e.options.until * step / 400, r = std::min(t, duration);
-      const Vector3d x = t < duration ? Vector3d(e.velocity * t + 0.5 * t * t / duration * change)
-                                      : Vector3d(e.velocity * r + 0.5 * r * change + (t - r) * found.velocity);
+      const Vector3d x = t < duration
+                             ? Vector3d(e.velocity * t + 0.5 * t * t / duration * change)
+                             : Vector3d(e.velocity * r + 0.5 * r * change + (t - r) * found.velocity);
       for (const Intruder& other : e.others) {
         Placed moved = e.agent;
         moved.pose.position += x - t * other.velocity;
-        ASSERT_EQ(relation_of(WorldBody(moved), WorldBody(other.body), 1e-6), Relation::disjoint) << "case " << i;
+        ASSERT_EQ(relation_of(WorldBody(moved), WorldBody(other.body), 1e-6), Relation::disjoint)
+            << "case " << i;
       }
     }
   }

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Prints, in Markdown, what answers within a horizon cost beside those without, in one run; and what bands
+// and the nearest safe velocity cost, with how near they come to their bounds.
+//
+// Usage: vericone_decision_ratios [CASES]
+#include <vericone/cones/pair.h>
+#include <vericone/guidance/avoid.h>
+#include <vericone/guidance/bands.h>
+#include <vericone/testing/random_bodies.h>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+namespace {
+
+using namespace vericone;
+using namespace vericone::guidance;
+using Eigen::Vector3d;
+using vericone::testing::any_body;
+using vericone::testing::any_pose;
+using vericone::testing::RandomBodies;
+
+template <typename Work>
+double seconds(const Work& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double quantile(std::vector<double> all, double part) {
+  if (all.empty()) return 0;
+  std::sort(all.begin(), all.end());
+  return all[static_cast<std::size_t>(part * static_cast<double>(all.size() - 1))];
+}
+double mean(const std::vector<double>& all) {
+  double sum = 0;
+  for (const double x : all) sum += x;
+  return sum / static_cast<double>(all.size());
+}
+
+int total = 0;  // so that nothing is left out
+
+void horizon_row(BodyKind first, BodyKind second, int pairs) {
+  RandomBodies random(5);
+  std::vector<double> without, within;
+  for (int i = 0; i < pairs; ++i) {
+    const Placed a(any_body(random, first), any_pose(random, 0.5)),
+        b(any_body(random, second), any_pose(random, random.uniform(4, 15)));
+    const Pair pair(a, b);
+    if (pair.relation() != Relation::disjoint) continue;
+    const Vector3d c = b.pose.position - a.pose.position;
+    for (int k = 0; k < 10; ++k) {
+      const Vector3d w = k % 2 ? Vector3d(c + random.uniform(0, 5) * random.direction())
+                               : Vector3d(c.norm() * random.direction());
+      const Vector3d u = random.direction(), v = w + u;
+      const Horizon horizon{0, random.log_uniform(0.2, 2)};
+      constexpr int kRepeats = 20;
+      without.push_back(seconds([&] {
+                          for (int r = 0; r < kRepeats; ++r) total += int(pair.verdict(v, u));
+                        }) /
+                        kRepeats * 1e9);
+      within.push_back(seconds([&] {
+                         for (int r = 0; r < kRepeats; ++r) total += int(pair.verdict(v, u, horizon));
+                       }) /
+                       kRepeats * 1e9);
+    }
+  }
+  std::printf("| %s and %s | %.0f ns | %.0f ns | %.2f | %.0f ns | %.0f ns | %.2f |\n", to_string(first),
+              to_string(second), quantile(without, 0.5), quantile(within, 0.5),
+              quantile(within, 0.5) / quantile(without, 0.5), mean(without), mean(within),
+              mean(within) / mean(without));
+}
+
+void bands_row(int count, int cases) {
+  RandomBodies random(7);
+  std::vector<double> each;
+  for (int i = 0; i < cases; ++i) {
+    std::vector<Intruder> others;
+    for (int k = 0; k < count; ++k)
+      others.push_back({Placed(Ellipsoid::from_axes({0, 0, 0}, {76.2, 76.2, 15.24}),
+                               Pose{{random.uniform(-3000, 3000), random.uniform(-3000, 3000),
+                                     random.uniform(-100, 100)}}),
+                        {random.uniform(-50, 50), random.uniform(-50, 50), 0}});
+    const Placed agent(Ellipsoid::from_axes({0, 0, 0}, {10, 10, 5}));
+    const double time = seconds([&] {
+      total += int(bands(agent, {0, 100, 0}, others, {.horizon = {0, 60}}).heading.free.size());
+    });
+    each.push_back(time / count * 1e6);
+  }
+  std::printf("| %d | %.1f us | %.1f us |\n", count, quantile(each, 0.5), quantile(each, 0.99));
+}
+
+void avoid_row(int count, int cases) {
+  RandomBodies random(11);
+  std::vector<double> wanted_free, changed;
+  int close = 0, none = 0;
+  for (int i = 0; i < cases; ++i) {
+    const Placed agent(Ellipsoid::from_axes({0, 0, 0}, {0.5, 0.5, 0.3}));
+    std::vector<Intruder> others;
+    while (static_cast<int>(others.size()) < count) {
+      const Placed body(any_body(random, i % 2 ? BodyKind::ellipsoid : BodyKind::hull),
+                        any_pose(random, random.uniform(7, 60)));
+      if (Pair(agent, body).relation() == Relation::disjoint)
+        others.push_back({body, random.uniform(0, 3) * random.direction()});
+    }
+    const Vector3d v = random.uniform(1, 5) * random.direction();
+    AvoidOptions options;
+    options.until = random.uniform(4, 15);
+    options.speed = {0, 9};
+    Avoidance found;
+    const double time = seconds([&] { found = avoid(agent, v, v, others, options); }) * 1e3;
+    none += found.status != AvoidStatus::free;
+    (found.distance == 0 ? wanted_free : changed).push_back(time);
+    close += found.distance > 0 && found.distance <= found.lower * 1.0101;
+  }
+  std::printf("| %d | %zu of %d | %.2f ms | %.2f ms, %.2f ms | %d of %zu | %d |\n", count, wanted_free.size(),
+              cases, quantile(wanted_free, 0.5), quantile(changed, 0.5), quantile(changed, 0.9), close,
+              changed.size(), none);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int cases = argc > 1 ? std::atoi(argv[1]) : 400;
+  std::printf(
+      "| verdict of | median, for ever | within a horizon | ratio | mean, for ever | within a horizon | "
+      "ratio |\n"
+      "| --- | --- | --- | --- | --- | --- | --- |\n");
+  using enum BodyKind;
+  for (const auto& [first, second] : {std::pair(ellipsoid, ellipsoid),
+                                      {ellipsoid, hull},
+                                      {hull, hull},
+                                      {ellipsoid, mesh},
+                                      {ellipsoid, boxes},
+                                      {mesh, boxes},
+                                      {ellipsoid, combined},
+                                      {combined, hull}})
+    horizon_row(first, second, cases);
+  std::printf(
+      "\n| intruders | bands of headings, speeds, climb rates: median an intruder | 99 %% |\n| --- | --- | "
+      "--- |\n");
+  for (const int count : {1, 10, 100}) bands_row(count, cases);
+  std::printf(
+      "\n| bodies | wanted is safe | then | else, median and 90 %% | within 1 %% of the bound | nothing safe "
+      "|\n"
+      "| --- | --- | --- | --- | --- | --- |\n");
+  for (const int count : {10, 100, 1000}) avoid_row(count, count == 1000 ? cases / 20 : cases / 4);
+  return total == 42;
+}
