@@ -30,7 +30,7 @@ void read_limits(const Json& value, AvoidOptions& options) {
     options.longitudinal = input::read_number(value["longitudinal"], "limits.longitudinal", " (m/s^2)");
 }
 
-Json answer_case(const Json& value, const std::filesystem::path& folder) {
+Json avoidance_json(const Json& value, const std::filesystem::path& folder) {
   const EncounterCase given(value, {"wanted", "margin"}, folder);
   AvoidOptions options;
   const Horizon horizon = input::read_horizon(value);
@@ -67,7 +67,8 @@ int avoid_command(CommandLine& line) {
   line.read();
   const std::filesystem::path folder = cases == "-" ? "" : std::filesystem::path(cases).parent_path();
   return answer_cases(
-      cases, [&](const Json& value) { return answer_case(value, folder); }, std::cout, threads_for(threads));
+      cases, [&](const Json& value) { return avoidance_json(value, folder); }, std::cout,
+      threads_for(threads));
 }
 
 }  // namespace vericone

@@ -51,7 +51,7 @@ Json band_json(const Band& band, double unit = 1) {
 
 Json seconds(double last) { return last >= 0 && std::isfinite(last) ? Json(last) : Json(nullptr); }
 
-Json answer_case(const Json& value, const std::filesystem::path& folder) {
+Json bands_json(const Json& value, const std::filesystem::path& folder) {
   const EncounterCase given(value, {}, folder);
   BandOptions options;
   options.horizon = input::read_horizon(value);
@@ -86,7 +86,7 @@ int bands_command(CommandLine& line) {
   line.read();
   const std::filesystem::path folder = cases == "-" ? "" : std::filesystem::path(cases).parent_path();
   return answer_cases(
-      cases, [&](const Json& value) { return answer_case(value, folder); }, std::cout, threads_for(threads));
+      cases, [&](const Json& value) { return bands_json(value, folder); }, std::cout, threads_for(threads));
 }
 
 }  // namespace vericone

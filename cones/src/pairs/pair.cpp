@@ -199,7 +199,7 @@ std::optional<SafeHalfSpace> Pair::safe_half_space(const Vector3d& v_a, const Ve
     const SafeHalfSpace half{n, gap(n)};
     // By more than rounding may turn n.w, or the quotient.
     const double slack = 0x1p-50 * n.cwiseAbs().sum() * w.cwiseAbs().maxCoeff(), most = half.most(horizon);
-    const bool holds = n.dot(w) + slack < most - std::abs(most) * 0x1p-50;
+    const bool holds = n.dot(w) + slack <= most - std::abs(most) * 0x1p-50;
     return holds ? std::optional(half) : std::nullopt;
   };
   if (warm)
@@ -219,7 +219,9 @@ std::optional<SafeHalfSpace> Pair::safe_half_space(const Vector3d& v_a, const Ve
   // Where they are nearest at an end of the time the plane is the one to take. Where they pass, it holds for
   // little more than w; turned away from w it goes to where it touches the cone. The gap of the turned plane
   // is concave, so chords between a turn too small and one too large are too small.
-  if (!(speed > 0 && nearest->at > 0 && nearest->at < 1 && here > 0)) return safe(n);
+  if (!(speed > 0 && here > 0)) return safe(n);
+  if (!(nearest->at > 0 && nearest->at < 1))
+    if (const auto half = safe(n)) return half;  // else along a flat side, for ever
   const Vector3d back = w / speed;
   double low = 0, at_low = here, high = std::min(here / (time * speed), 1.0), at_high = here;
   for (int step = 0; step < 6 && at_high > 0; ++step, high *= 8) at_high = gap(n - high * back);

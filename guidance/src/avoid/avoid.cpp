@@ -193,10 +193,12 @@ class Search3 {
     return answer;
   }
 
+  /// To rounding: a range may be one value.
   bool can_fly(const Vector3d& v) const {
-    const double speed = v.norm();
-    return speed >= options_.speed.from && speed <= options_.speed.to && v.z() >= options_.climb.from &&
-           v.z() <= options_.climb.to;
+    constexpr double kRounded = 1e-12;
+    const double speed = v.norm(), slack = kRounded * speed;
+    return speed >= options_.speed.from - slack && speed <= options_.speed.to + slack &&
+           v.z() >= options_.climb.from - slack && v.z() <= options_.climb.to + slack;
   }
 
   /// Proved: it keeps the margin from all until the horizon, and so does the change to it.
@@ -281,7 +283,7 @@ class Search3 {
     };
     std::optional<Range> slow = crossing(options_.speed.from);
     if (slow && slow->to > 0) {
-      not_free.push_back({std::max(slow->from, 0.0), slow->to * (1 + 1e-14) + 1e-300});
+      not_free.push_back({std::max(slow->from, 0.0), slow->to});
       ray.hit.push_back(Range{std::max(slow->from, 0.0), slow->to});
     } else {
       ray.hit.push_back(std::nullopt);
@@ -291,22 +293,22 @@ class Search3 {
       if (!fast || fast->to <= 0) {
         not_free.push_back({0, reach_});
       } else {
-        if (fast->from > 0) not_free.push_back({0, fast->from * (1 + 1e-14)});
-        not_free.push_back({fast->to * (1 - 1e-14), reach_});
+        if (fast->from > 0) not_free.push_back({0, fast->from});
+        not_free.push_back({fast->to, reach_});
       }
     }
     for (const double side : {-1.0, 1.0}) {
       const double limit = side > 0 ? options_.climb.to : -options_.climb.from;
       if (std::isinf(limit)) continue;
       const double here = side * wanted_.z() - limit, slope = side * d.z();  // positive: too much
-      if (here > 0) not_free.push_back({0, slope < 0 ? -here / slope * (1 + 1e-14) : reach_});
-      if (here <= 0 && slope > 0) not_free.push_back({-here / slope * (1 - 1e-14), reach_});
+      if (here > 0) not_free.push_back({0, slope < 0 ? -here / slope : reach_});
+      if (here <= 0 && slope > 0) not_free.push_back({-here / slope, reach_});
     }
     std::sort(not_free.begin(), not_free.end(),
               [](const Range& a, const Range& b) { return a.from < b.from; });
     double s = 0;
     for (const Range& range : not_free) {
-      if (range.from > s) look_between(d, s, range.from);
+      if (range.from >= s * (1 - kOneValue)) look_between(d, s, range.from);
       s = std::max(s, range.to);
     }
     if (s < far) look_between(d, s, far);
@@ -327,8 +329,9 @@ class Search3 {
   /// Of values that nothing blocks at once: the first, a little beyond the end, where rounding cannot bring
   /// it back; where the way to it is blocked, farther ones.
   void look_between(const Vector3d& d, double from, double to) {
-    for (double beyond = 1e-13; beyond < 1e-6; beyond *= 30)
-      if (from * (1 + beyond) < std::min(to, upper_) && take(d, from * (1 + beyond))) return;
+    for (double beyond = 0; beyond < 1e-6; beyond = std::max(30 * beyond, 1e-13))
+      if (const double s = from * (1 + beyond); s < std::max(to, from * (1 + kOneValue)) && take(d, s))
+        return;
     if (options_.lateral == 0 && options_.longitudinal == 0) return;
     double refused = from;
     for (const double part : {1.0 / 64, 1.0 / 16, 0.25, 0.5, 0.75}) {
@@ -415,6 +418,8 @@ class Search3 {
            beyond(facing.normalized(), options_.speed.to);
   }
 
+  static constexpr double kOneValue = 1e-13;  // a gap between what cannot be flown may be one value
+
   Vector3d velocity_, wanted_;
   const std::vector<Part>& parts_;
   const AvoidOptions& options_;
@@ -448,12 +453,27 @@ void require(const Vector3d& velocity, const Vector3d& wanted, const AvoidOption
   not_negative(options.margin, "margin", "0 or more (metres)");
   not_negative(options.lateral, "lateral", "0 or more (m/s^2)");
   not_negative(options.longitudinal, "longitudinal", "0 or more (m/s^2)");
+  if ((options.lateral > 0) != (options.longitudinal > 0))
+    throw InputError(options.lateral > 0 ? "longitudinal" : "lateral", "0",
+                     "positive, as the other is (m/s^2)");
   if (!(options.speed.from >= 0 && options.speed.to >= options.speed.from))
     throw InputError("speed", "[" + to_text(options.speed.from) + ", " + to_text(options.speed.to) + "]",
                      "two numbers >= 0, the smaller one first (m/s)");
   if (!(options.climb.to >= options.climb.from))
     throw InputError("climb", "[" + to_text(options.climb.from) + ", " + to_text(options.climb.to) + "]",
                      "two numbers, the smaller one first (m/s)");
+}
+
+/// A velocity that can be flown, near the one that is wanted.
+Vector3d nearly(const Vector3d& wanted, const AvoidOptions& options) {
+  const double speed = std::clamp(wanted.norm(), options.speed.from, options.speed.to);
+  const double least = std::max(options.climb.from, -speed),
+               most = std::max(least, std::min(options.climb.to, speed));
+  const double climb = std::clamp(wanted.z(), least, most);
+  const double across = std::hypot(wanted.x(), wanted.y()),
+               level = std::sqrt(std::max(0.0, speed * speed - climb * climb));
+  return across > 0 ? Vector3d(wanted.x() * level / across, wanted.y() * level / across, climb)
+                    : Vector3d(level, 0, climb);
 }
 
 }  // namespace
@@ -486,6 +506,8 @@ Avoidance avoid(const Placed& agent, const Vector3d& velocity, const Vector3d& w
   }
   Avoidance answer = Search3(velocity, wanted, parts, options, options.until).run();
   if (answer.status == AvoidStatus::free) return answer;
+  answer.velocity = nearly(wanted, options);
+  answer.distance = (answer.velocity - wanted).norm();
   // Nothing is safe for so long: what is for half as long, and so on.
   for (double until = 0.5 * options.until; until > 1e-3 * options.until; until *= 0.5) {
     const Avoidance shorter = Search3(velocity, wanted, parts, options, until).run();

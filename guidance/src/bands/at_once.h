@@ -51,6 +51,7 @@ class Headings : public Curve {
 
   // speed (n_x sin q + n_y cos q) < most - n.rest: all but an arc about the direction of n.
   std::optional<Range> about(double q, const Vector3d& n, double most, double size) const override {
+    if (speed_ == 0) return Range{q - kPi, q + kPi};  // all headings are one velocity
     const double all =
         size + n.cwiseAbs().dot(rest_.cwiseAbs()) + speed_ * (std::abs(n.x()) + std::abs(n.y()));
     const double level = most - n.dot(rest_) - kRoundings * all;
@@ -107,8 +108,9 @@ class OfVelocity : public Question {
     const auto half = pair_.safe_half_space(curve_.velocity(q), other_, horizon_);
     if (!half) return std::nullopt;
     const double most = half->most(horizon_), along = half->normal.dot(other_);
-    return curve_.about(q, half->normal, most + along,
-                        std::abs(most) + half->normal.cwiseAbs().dot(other_.cwiseAbs()));
+    const auto about = curve_.about(q, half->normal, most + along,
+                                    std::abs(most) + half->normal.cwiseAbs().dot(other_.cwiseAbs()));
+    return about ? about : Range{q, q};  // of itself, at least
   }
   bool is_hit(double q) const override { return hit(curve_.velocity(q)); }
   bool all_hit(double from, double to) const override {

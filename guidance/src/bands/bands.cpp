@@ -89,11 +89,11 @@ class Banding {
     });
   }
 
-  /// See Band::last: what works after a wait works after every shorter one.
+  /// See Band::last: bisected, as if what works after a wait worked after every shorter one.
   double last(const Quantity& quantity, const Vector3d& ground) const {
     const double until = options_.horizon.until;
+    if (std::isinf(until) || options_.horizon.from > 0) return std::numeric_limits<double>::quiet_NaN();
     if (is_clear(ground, until)) return kInfinity;
-    if (std::isinf(until)) return std::numeric_limits<double>::quiet_NaN();
     const auto works = [&](double wait) {
       return is_clear(ground, wait) && !after(quantity, wait, 16).free.empty();
     };
@@ -143,9 +143,10 @@ void require(const Vector3d& velocity, std::span<const Intruder> intruders, cons
   for (std::size_t i = 0; i < intruders.size(); ++i)
     require_finite(intruders[i].velocity, "intruders[" + std::to_string(i) + "].velocity");
   const Horizon& horizon = options.horizon;
-  if (!(horizon.from >= 0 && horizon.until >= horizon.from && std::isfinite(horizon.from)))
+  if (!(horizon.from >= 0 && horizon.until >= horizon.from && horizon.until > 0 &&
+        std::isfinite(horizon.from)))
     throw InputError("horizon", "[" + to_text(horizon.from) + ", " + to_text(horizon.until) + "]",
-                     "from 0 or later to the same time or later (seconds)");
+                     "from 0 or later to a time after now, not before that (seconds)");
   require_range(options.speed, 0, "speed");
   require_range(options.climb, -kInfinity, "climb");
   require_range(options.altitude, -kInfinity, "altitude");
@@ -200,10 +201,12 @@ Bands bands(const Placed& agent, const Vector3d& velocity, std::span<const Intru
                  {options.altitude.from, options.altitude.to}, parts.exact);
     result.altitude = merged.band();
   }
-  for (const Parts& parts : banding.parts())
-    if (const auto contact = parts.pair.contact(ground, parts.velocity);
-        contact && contact->earliest <= options.horizon.until)
-      result.time_to_violation = std::min(result.time_to_violation.value_or(kInfinity), contact->earliest);
+  for (const Parts& parts : banding.parts()) {
+    if (parts.pair.verdict(ground, parts.velocity, options.horizon) == Verdict::out) continue;
+    const auto contact = parts.pair.contact(ground, parts.velocity);
+    const double time = std::max(contact ? contact->earliest : 0, options.horizon.from);
+    result.time_to_violation = std::min(result.time_to_violation.value_or(kInfinity), time);
+  }
   const auto none = [](const Band& band) { return band.free.empty(); };
   if (none(result.heading) && none(result.speed) && none(result.climb))
     result.recovery = banding.recovery(of_heading);

@@ -34,9 +34,10 @@ class Turn : public Change {
   }
   Vector3d slope(double q) const override { return speed_ * Vector3d(std::cos(q), -std::sin(q), 0); }
   Vector3d way(double q) const override {
-    const double radius = (q < start ? -1 : 1) * speed_ / rate;
-    return duration(q) * rest_ +
-           radius * Vector3d(std::cos(start) - std::cos(q), std::sin(q) - std::sin(start), 0);
+    // Of the chord, without the difference of two cosines.
+    const double half = 0.5 * (q - start), middle = start + half;
+    const double chord = (q < start ? -2 : 2) * speed_ / rate * std::sin(half);
+    return duration(q) * rest_ + chord * Vector3d(std::sin(middle), std::cos(middle), 0);
   }
 
  private:
@@ -100,7 +101,7 @@ class OfManoeuvre : public Question {
       most = low;
     }
     std::optional<Range> best;
-    for (const double part : {0.0, 0.5, 0.9, 0.99}) {
+    for (const double part : {0.0, 0.25, 0.5, 0.75, 0.9, 0.97, 0.99, 0.997, 0.999}) {
       const auto range = about(q, *normal - part * most * back, left, w, start, end);
       if (range && (!best || range->to - range->from > best->to - best->from)) best = range;
       if (most == 0) break;

@@ -47,6 +47,11 @@ class Search {
 
   void run() {
     const double low = domain_.low, high = domain_.high, turn = high - low;
+    if (turn == 0) {
+      const State state = look(low);
+      if (state != State::neither) (state == State::free ? free : hit).push_back({low, high});
+      return;
+    }
     if (!domain_.closed) return divide(low, high, question_.is_hit(low), question_.is_hit(high));
     const State state = look(low);
     if (state != State::free) return divide(low, high, state == State::hit, state == State::hit);
@@ -97,7 +102,7 @@ class Search {
   }
 
   /// From an end of what is free towards `end`: where the first hit is, found by steps that grow, and then
-  /// brought as near as can be; `q` goes on to where what is free then ends. Nothing where all steps miss.
+  /// brought as near as can be; `q` goes on to where what is free then ends. Nothing where that is not known.
   std::optional<double> first_hit(double& q, double end) {
     const double sign = end > q ? 1 : -1;
     double step = finest_;
@@ -107,9 +112,13 @@ class Search {
     while (std::abs(first - q) > finest_ && looks_ < kMostLooks) {
       const double between = 0.5 * (q + first);
       const State state = look(between);
-      if (state == State::neither) break;
+      // Nearly at the end; or nothing is known of what is between.
+      if (state == State::neither && std::abs(first - q) < 1e3 * finest_) break;
+      if (state == State::neither) return std::nullopt;
       if (state == State::hit) first = between;
-      if (state == State::free) q = march(sign > 0 ? found_.to : found_.from, first);
+      if (state != State::free) continue;
+      if (sign * ((sign > 0 ? found_.from : found_.to) - q) > 0) return std::nullopt;  // not joined
+      q = march(sign > 0 ? found_.to : found_.from, first);
     }
     return first;
   }
@@ -151,16 +160,17 @@ class Merged {
   void add(const Question& question, const Domain& domain, bool hits) {
     Search one(question, domain);
     one.run();
+    std::vector<Range> free = joined(one.free);
     if (domain_.closed)  // a turn is not a double
-      for (Range& range : one.free)
+      for (Range& range : free)
         if (range.to - range.from < domain_.high) range = {range.from + kTurned, range.to - kTurned};
-    const std::vector<Range> own = in_order(one.free);
+    const std::vector<Range> own = in_order(free);
     double from = domain_.low;
     for (const Range& range : own) {
       if (range.from > from) blocked_.push_back({from, range.from});
       from = std::max(from, range.to);
     }
-    if (from < domain_.high) blocked_.push_back({from, domain_.high});
+    if (from < domain_.high || own.empty()) blocked_.push_back({from, domain_.high});
     if (hits) hit_.insert(hit_.end(), one.hit.begin(), one.hit.end());
   }
 
@@ -171,7 +181,7 @@ class Merged {
       if (range.from > from) result.free.push_back({from, range.from});
       from = std::max(from, range.to);
     }
-    if (from < domain_.high) result.free.push_back({from, domain_.high});
+    if (from < domain_.high || blocked_.empty()) result.free.push_back({from, domain_.high});
     return result;
   }
 
@@ -186,16 +196,20 @@ class Merged {
                           std::min(range.to + k * turn, domain_.high)};
         if (moved.from <= moved.to) all.push_back(moved);
       }
+    return joined(std::move(all));
+  }
+
+  static std::vector<Range> joined(std::vector<Range> all) {
     std::sort(all.begin(), all.end(), [](const Range& a, const Range& b) { return a.from < b.from; });
-    std::vector<Range> joined;
+    std::vector<Range> result;
     for (const Range& range : all) {
-      if (!joined.empty() && range.from <= joined.back().to) {
-        joined.back().to = std::max(joined.back().to, range.to);
+      if (!result.empty() && range.from <= result.back().to) {
+        result.back().to = std::max(result.back().to, range.to);
       } else {
-        joined.push_back(range);
+        result.push_back(range);
       }
     }
-    return joined;
+    return result;
   }
 
   static constexpr double kTurned = 0x1p-48;

@@ -10,6 +10,7 @@
 #include <vericone/testing/random_bodies.h>
 #include <cmath>
 
+#include "guidance/decisions/balls.h"
 #include "support/campaign.h"
 
 namespace vericone::guidance {
@@ -20,10 +21,6 @@ using testing::any_body;
 using testing::any_pose;
 using testing::campaign_size;
 using testing::RandomBodies;
-
-Placed ball(const Vector3d& at, double radius) {
-  return {Ellipsoid::from_axes(Vector3d::Zero(), Vector3d::Constant(radius)), Pose{at}};
-}
 
 struct Encounter {
   Placed agent{Body()};
@@ -46,9 +43,9 @@ struct Encounter {
     });
   }
   bool can_fly(const Vector3d& v) const {
-    const double speed = v.norm();
-    return speed >= options.speed.from && speed <= options.speed.to && v.z() >= options.climb.from &&
-           v.z() <= options.climb.to;
+    const double speed = v.norm(), slack = 1e-12 * speed;
+    return speed >= options.speed.from - slack && speed <= options.speed.to + slack &&
+           v.z() >= options.climb.from - slack && v.z() <= options.climb.to + slack;
   }
 };
 
@@ -202,6 +199,32 @@ TEST(Avoid, ProvesTheWayThereToo) {
   EXPECT_GT(changed, 8);
 }
 
+TEST(Avoid, KeepsToOneSpeedOrToALevel) {
+  RandomBodies random(3834);
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < campaign_size(10, 100); ++i) {
+    Encounter e;
+    e.agent = ball(Vector3d::Zero(), 0.5);
+    e.others = {{ball({12, 0.3, 0.2}, 2), {-1, 0, 0}}};
+    e.velocity = e.wanted =
+        i % 2 ? Vector3d(3, 0, 0) : Vector3d(0.1 * random.direction() + Vector3d(3, 0, 0));
+    e.options.until = 20;
+    if (i % 3 == 0) {
+      e.options.climb = {0, 0};
+    } else {
+      e.options.speed = {3, 3};
+    }
+    const Avoidance found = e.answer();
+    ASSERT_EQ(found.status, AvoidStatus::free) << "case " << i;
+    ASSERT_TRUE(e.is_safe(found.velocity));
+    if (i % 3 == 0) {
+      ASSERT_NEAR(found.velocity.z(), 0, 1e-11);
+    } else {
+      ASSERT_NEAR(found.velocity.norm(), 3, 1e-11);
+    }
+  }
+}
+
 TEST(Avoid, RefusesWhatIsNone) {
   const auto refused = [](auto&& set) {
     Encounter e;
@@ -219,6 +242,7 @@ TEST(Avoid, RefusesWhatIsNone) {
   EXPECT_EQ(refused([](Encounter& e) { e.options.margin = -1; }), "margin");
   EXPECT_EQ(refused([](Encounter& e) { e.options.speed = {3, 2}; }), "speed");
   EXPECT_EQ(refused([](Encounter& e) { e.options.climb = {3, 2}; }), "climb");
+  EXPECT_EQ(refused([](Encounter& e) { e.options.lateral = 1; }), "longitudinal");
   EXPECT_EQ(refused([](Encounter&) {}), "nothing");
 }
 

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "guidance/decisions/balls.h"
 #include "support/campaign.h"
 
 namespace vericone::guidance {
@@ -28,9 +29,6 @@ using testing::share;
 constexpr double kPi = std::numbers::pi, kTurn = 2 * kPi, kEver = std::numeric_limits<double>::infinity();
 constexpr double kDegree = kPi / 180;
 
-Placed ball(const Vector3d& at, double radius) {
-  return {Ellipsoid::from_axes(Vector3d::Zero(), Vector3d::Constant(radius)), Pose{at}};
-}
 Vector3d on(double heading, double speed) {
   return {speed * std::sin(heading), speed * std::cos(heading), 0};
 }
@@ -332,6 +330,27 @@ TEST(Bands, SayWhenSafetyIsRegained) {
   EXPECT_NEAR(found.recovery->time, 5.0 / 3, 0.01);  // 6 m apart, 1 m on that side already, 3 m/s
 }
 
+TEST(Bands, OfWhatOnlyPassesForEver) {
+  // Level over a box, along its top; at one velocity; a range of one value; a contact that is over by then.
+  const Intruder box{{HullBody::box({-1, -1, -1}, {1, 1, 1}), Pose{{5, 3, 1}}}, {2, 0, 0}};
+  const Bands beside = bands(ball(Vector3d::Zero(), 0.5), {2, 0, 0}, {&box, 1}, {});
+  double free = 0;
+  for (const Range& range : beside.climb.free) free += range.to - range.from;
+  EXPECT_NEAR(free, 4, 1e-9);
+  const Bands resting = bands(ball(Vector3d::Zero(), 0.5), Vector3d::Zero(), {&box, 1}, {});
+  const Intruder still{box.body, Vector3d::Zero()};
+  const Bands both = bands(ball(Vector3d::Zero(), 0.5), Vector3d::Zero(), {&still, 1}, {});
+  EXPECT_EQ(both.heading.free.size(), 1U);
+  EXPECT_EQ(both.speed.free.size(), 1U);
+  EXPECT_EQ(resting.speed.free.size(), 1U);
+  const Intruder ahead{ball({0, 10, 0}, 1), Vector3d::Zero()};
+  BandOptions later;
+  later.horizon = {20, 30};
+  EXPECT_FALSE(bands(ball(Vector3d::Zero(), 1), on(0, 1), {&ahead, 1}, later).time_to_violation);
+  later.horizon = {9, 30};
+  EXPECT_EQ(bands(ball(Vector3d::Zero(), 1), on(0, 1), {&ahead, 1}, later).time_to_violation, 9);
+}
+
 TEST(Bands, RefuseWhatIsNone) {
   const Placed agent = ball(Vector3d::Zero(), 1);
   const auto refused = [&](const Vector3d& v, const BandOptions& options) {
@@ -345,6 +364,7 @@ TEST(Bands, RefuseWhatIsNone) {
   const Vector3d v(1, 0, 0);
   EXPECT_EQ(refused({NAN, 0, 0}, {}), "velocity[0]");
   EXPECT_EQ(refused(v, {.horizon = {2, 1}}), "horizon");
+  EXPECT_EQ(refused(v, {.horizon = {0, 0}}), "horizon");
   BandOptions options;
   options.speed = {2, 1};
   EXPECT_EQ(refused(v, options), "speed");

@@ -16,11 +16,11 @@ struct AvoidOptions {
   double until = 60;                               // s: contacts later than that do not count
   double margin = 0;                               // m to keep from every body
   Eigen::Vector3d wind = Eigen::Vector3d::Zero();  // m/s, added to the agent's velocity through the air
-  /// What the agent can fly, through the air: |v|, and upwards, m/s.
+  /// What the agent can fly, through the air: |v|, and upwards, m/s; to 1e-12 of the speed.
   Range speed{0, std::numeric_limits<double>::infinity()};
   Range climb{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  /// m/s^2 across its present velocity and along it, with which it gets there at a constant acceleration; 0:
-  /// at once.
+  /// m/s^2 across its present velocity and along it, with which it gets there at a constant acceleration;
+  /// both 0: at once.
   double lateral = 0, longitudinal = 0;
   double gap = 0.01;       // between `lower` and `distance`, relative, at which the search ends
   std::size_t most = 400;  // rays from the wanted velocity that are looked along

@@ -41,9 +41,9 @@ struct BandOptions {
 struct Band {
   std::vector<Range> free;      // proved: no intruder is touched within the horizon
   std::vector<Range> conflict;  // an intruder is, at every value (but for rounding of velocities, 1e-15)
-  /// Seconds for which the agent may go on as it does and still have a free value, at least, by a manoeuvre
-  /// or at once, as far as that was found; negative where it has none now, infinite where its own course is
-  /// free, NaN where it was not asked or the horizon does not end.
+  /// Seconds for which the agent may go on as it does and still have a free value, by a manoeuvre or at once:
+  /// a moment at which one was found, sought by halving. Negative where it has none now, infinite where its
+  /// own course is free, NaN where it was not asked or the horizon does not begin now and end.
   double last = std::numeric_limits<double>::quiet_NaN();
 };
 
