@@ -206,7 +206,8 @@ QUERIES = [
     ("a ball of errors with a rotation", case(position_error={"ball": 1, "rotation": [1, 0, 0, 0]})),
     ("a horizon of zero", case(position_error={"ball": 1}, horizon=0)),
     ("a horizon that is text", case(position_error={"ball": 1}, horizon="for ever")),
-    ("a horizon without an error", case(horizon=5)),
+    ("a horizon that ends before it begins", case(horizon=[3, 2])),
+    ("a later horizon beside an error", case(position_error={"ball": 1}, horizon=[1, 2])),
     ("errors in the plane", {**planar(semi_axes=[3, 2]), "position_error": {"ball": 1}}),
 ]
 

@@ -77,9 +77,15 @@ class Query(unittest.TestCase):
         self.assertEqual(verdict(velocity_error={"ball": 2})["robust"], "depends")
         self.assertEqual(verdict(velocity_error={"ball": 2}, horizon=1)["robust"], "out")
         self.assertEqual(verdict(position_error={"box": [0, 0, 0]}, horizon=1)["robust"], "out")
-        refused = query({**case, "horizon": 1})
-        self.assertEqual(refused[0].returncode, 2)
-        self.assertIn("horizon: got 1", refused[1][0]["error"])
+        # The verdict itself: 17 m to go at 10 m/s; a window after they have passed.
+        hit = engagement(a, ball([20, 0, 0], 2), [10, 0, 0])
+        for horizon, word in ((1.5, "out"), (1.6999, "out"), (1.7001, "in"), ([2.2, 9], "in"), ([2.3001, 9], "out")):
+            self.assertEqual(query({**hit, "horizon": horizon})[1][0]["verdict"], word, horizon)
+        self.assertEqual(query({**engagement(ball([0, 0, 0], 1), ball([5, 0, 0], 1), [1, 0, 0]), "horizon": 3})[1][0]["verdict"], "on")
+        for bad in (0, -1, [2, 1], [-1, 2], "soon"):
+            refused = query({**case, "horizon": bad})
+            self.assertEqual(refused[0].returncode, 2)
+            self.assertIn("horizon", refused[1][0]["error"])
         head_on = engagement(a, ball([20, 0, 0], 2), [10, 0, 0])
         answer = query({**head_on, "position_error": {"ball": 1}, "velocity_error": {"ball": 0.5}})[1][0]
         self.assertEqual((answer["robust"], answer["witness"]), ("in", None))

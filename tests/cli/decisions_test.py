@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bands and the nearest safe velocity from files of cases: closed forms of balls, what is refused."""
+import json
+import math
+import unittest
+
+from command import SOURCE, run
+
+
+def ask(command, *cases):
+    result = run(command, "-", input="".join(json.dumps(case) + "\n" for case in cases))
+    return result, [json.loads(line) for line in result.stdout.splitlines()]
+
+
+def ball(center, radius, velocity=None):
+    return {"center": center, "semi_axes": [radius] * 3, **({"velocity": velocity} if velocity else {})}
+
+
+def case(**fields):
+    return {"id": 1, "agent": ball([0, 0, 0], 1), "agent_velocity": [0, 4, 0], "obstacles": [ball([0, 10, 0], 1, [0, 0, 0])],
+            "horizon": 60, **fields}
+
+
+class Decisions(unittest.TestCase):
+    def test_bands_of_a_ball_ahead(self):
+        answer = ask("bands", case())[1][0]
+        half = math.degrees(math.asin(0.2))
+        for found, right in zip(sum(answer["heading"]["free"], []), (half, 360 - half)):
+            self.assertAlmostEqual(found, right, 9)
+        self.assertAlmostEqual(answer["heading"]["conflict"][0][1], half, 9)
+        self.assertAlmostEqual(answer["speed"]["free"][0][1], 8 / 60, 9)
+        self.assertAlmostEqual(answer["climb"]["free"][1][0], 4 * math.tan(math.asin(0.2)), 9)
+        self.assertAlmostEqual(answer["time_to_violation"], 2, 12)
+        self.assertAlmostEqual(answer["last_manoeuvre"]["heading"], 2, 4)
+        self.assertNotIn("altitude", answer)
+        higher = ask("bands", case(limits={"altitude": [-5, 5]}))[1][0]["altitude"]
+        self.assertAlmostEqual(higher["conflict"][0][1], 2, 9)
+
+    def test_bands_with_wind_and_with_a_turn(self):
+        # Drift alone leads past it.
+        beside = ask("bands", case(wind=[2, 0, 0]))[1][0]
+        self.assertIsNone(beside["time_to_violation"])
+        slow = ask("bands", case(limits={"lateral": 2}))[1][0]
+        at_once = ask("bands", case())[1][0]
+        wide = lambda answer: sum(to - start for start, to in answer["heading"]["free"])
+        self.assertLess(wide(slow), wide(at_once))
+        self.assertLess(slow["last_manoeuvre"]["heading"], at_once["last_manoeuvre"]["heading"])
+        inside = ask("bands", case(obstacles=[ball([0, 1, 0], 5, [0, 1, 0])]))[1][0]
+        self.assertEqual(inside["heading"]["free"], [])
+        self.assertIn("recovery", inside)
+
+    def test_the_nearest_safe_velocity(self):
+        answer = ask("avoid", case(wanted=[0, 4, 0], limits={"speed": [0, 20]}))[1][0]
+        self.assertEqual(answer["status"], "free")
+        right = min(4 * 0.2, 4 - 8 / 60)  # out at the side of the cone, or slower
+        self.assertGreaterEqual(answer["distance"], right * (1 - 1e-12))
+        self.assertLessEqual(answer["distance"], right * 1.0101)
+        self.assertLessEqual(answer["lower"], right * (1 + 1e-12))
+        wider = ask("avoid", case(margin=1, limits={"speed": [0, 20]}))[1][0]
+        self.assertGreaterEqual(wider["distance"], 4 * 0.3 * (1 - 1e-12))
+        held = ask("avoid", case(wanted=[0, 0, 0]))[1][0]
+        self.assertEqual((held["distance"], held["velocity"]), (0, [0, 0, 0]))
+
+    def test_examples(self):
+        answers = [json.loads(line) for line in run("avoid", SOURCE + "/docs/examples/avoid.jsonl").stdout.splitlines()]
+        one, window, walls = answers
+        self.assertEqual((one["status"], window["status"], walls["status"]), ("free", "free", "nothing_safe"))
+        self.assertEqual(window["distance"], 0)
+        self.assertIsNone(walls["lower"])
+        self.assertGreater(walls["first"]["time"], 0)
+
+    def test_what_is_refused(self):
+        for command, fields, field in (
+                ("bands", {"obstacles": 3}, "obstacles"), ("bands", {"obstacles": [ball([9, 0, 0], 1)]}, "obstacles[0].velocity"),
+                ("bands", {"agent_velocity": [0, 4]}, "agent_velocity"), ("bands", {"limits": {"speed": [2, 1]}}, "speed"),
+                ("bands", {"limits": {"latteral": 1}}, "limits.latteral"), ("bands", {"horizon": [2, 1]}, "horizon"),
+                ("bands", {"wanted": [0, 0, 0]}, "wanted"), ("avoid", {"horizon": [1, 2]}, "horizon"),
+                ("avoid", {"margin": -1}, "margin"), ("avoid", {"limits": {"altitude": [0, 1]}}, "limits.altitude"),
+                ("avoid", {"limits": {"lateral": 1}}, "longitudinal"), ("avoid", {"wanted": [0, 1]}, "wanted")):
+            result, answers = ask(command, case(**fields), case())
+            self.assertEqual(result.returncode, 2, fields)
+            self.assertTrue(answers[0]["error"].startswith(field + ":"), answers[0]["error"])
+            self.assertNotIn("error", answers[1])
+
+
+if __name__ == "__main__":
+    unittest.main()
