@@ -106,7 +106,10 @@ void avoid_row(int count, int cases) {
       if (Pair(agent, body).relation() == Relation::disjoint)
         others.push_back({body, random.uniform(0, 3) * random.direction()});
     }
-    const Vector3d v = random.uniform(1, 5) * random.direction();
+    // Of two, one aims at a body.
+    const Intruder& first = others.front();
+    const Vector3d v = i % 2 ? Vector3d(random.uniform(1, 5) * random.direction())
+                             : Vector3d(first.body.pose.position / random.uniform(5, 12) + first.velocity);
     AvoidOptions options;
     options.until = random.uniform(4, 15);
     options.speed = {0, 9};

@@ -281,6 +281,8 @@ std::string makers_text(PyTypeObject* type) {
 PyObject* construct_record(const TypeInfo& info, PyTypeObject* type, PyObject* arguments,
                            PyObject* named) noexcept {
   try {
+    if (!info.make)
+      throw WrongType{short_name(info) + " has no value to begin with and is made in C++ alone"};
     auto value = info.make();
     std::vector<bool> set(info.fields.size());
     const Py_ssize_t n = PyTuple_GET_SIZE(arguments);

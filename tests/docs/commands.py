@@ -26,6 +26,8 @@ from manual import commands, help_of  # noqa: E402
 EXAMPLES = {
     "cone": "cone docs/examples/source-6.5.yaml --method slice --planes 72",
     "query": "query docs/examples/cases.jsonl --rung",
+    "bands": "bands docs/examples/bands.jsonl",
+    "avoid": "avoid docs/examples/avoid.jsonl",
     "robust-law": "robust-law docs/examples/robust-law.jsonl",
     "law": "law docs/examples/law.jsonl",
     "estimate": "estimate docs/examples/track.csv --noise 0.3",
@@ -105,7 +107,7 @@ def measured(program):
     with tempfile.TemporaryDirectory() as folder:
         for line in [*EXAMPLES.values(), *MEASURED]:
             arguments = line.replace("OUT", os.path.join(folder, "out")).split()
-            if "--out" not in arguments and arguments[0] not in ("query", "check", "claims", "verify", "cone") and "--list" not in arguments:
+            if "--out" not in arguments and arguments[0] not in ("query", "bands", "avoid", "check", "claims", "verify", "cone") and "--list" not in arguments:
                 arguments += ["--out", os.path.join(folder, "out")]
             before, began = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
             done = subprocess.run([program, *arguments], capture_output=True, check=False)

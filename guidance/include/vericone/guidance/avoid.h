@@ -6,6 +6,7 @@
 
 #include <vericone/guidance/bands.h>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>

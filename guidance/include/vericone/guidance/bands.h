@@ -21,7 +21,7 @@ struct Range {
 
 /// Another body: it keeps its velocity, m/s over ground.
 struct Intruder {
-  Placed body;
+  Placed body{Body()};  // where it is now
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
 };
 
