@@ -3,16 +3,13 @@
 #include <vericone/guidance/avoid.h>
 #include <cmath>
 #include <filesystem>
-#include <iostream>
 #include <string>
 
 #include "bands/encounter_case.h"
-#include "command/cases.h"
 #include "commands.h"
 #include "input/errors.h"
 #include "input/fields.h"
 #include "json/json_value.h"
-#include "work/threads.h"
 
 namespace vericone {
 namespace {
@@ -56,19 +53,6 @@ Json avoidance_json(const Json& value, const std::filesystem::path& folder) {
 
 }  // namespace
 
-int avoid_command(CommandLine& line) {
-  std::string cases;
-  line.option("cases", cases, "File of cases, or - for standard input").required();
-  int threads = 0;
-  line.option("--threads", threads, "Threads, 0: one per processor; the answers are the same");
-  bool json = true;
-  line.flag("--json", json, "Print JSON; this command prints nothing else");
-  line.quiet();
-  line.read();
-  const std::filesystem::path folder = cases == "-" ? "" : std::filesystem::path(cases).parent_path();
-  return answer_cases(
-      cases, [&](const Json& value) { return avoidance_json(value, folder); }, std::cout,
-      threads_for(threads));
-}
+int avoid_command(CommandLine& line) { return answer_encounters(line, avoidance_json); }
 
 }  // namespace vericone

@@ -3,19 +3,16 @@
 #include <vericone/guidance/bands.h>
 #include <cmath>
 #include <filesystem>
-#include <iostream>
 #include <numbers>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "bands/encounter_case.h"
-#include "command/cases.h"
 #include "commands.h"
 #include "input/errors.h"
 #include "input/fields.h"
 #include "json/json_value.h"
-#include "work/threads.h"
 
 namespace vericone {
 namespace {
@@ -75,18 +72,6 @@ Json bands_json(const Json& value, const std::filesystem::path& folder) {
 
 }  // namespace
 
-int bands_command(CommandLine& line) {
-  std::string cases;
-  line.option("cases", cases, "File of cases, or - for standard input").required();
-  int threads = 0;
-  line.option("--threads", threads, "Threads, 0: one per processor; the answers are the same");
-  bool json = true;
-  line.flag("--json", json, "Print JSON; this command prints nothing else");
-  line.quiet();
-  line.read();
-  const std::filesystem::path folder = cases == "-" ? "" : std::filesystem::path(cases).parent_path();
-  return answer_cases(
-      cases, [&](const Json& value) { return bands_json(value, folder); }, std::cout, threads_for(threads));
-}
+int bands_command(CommandLine& line) { return answer_encounters(line, bands_json); }
 
 }  // namespace vericone

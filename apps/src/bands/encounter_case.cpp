@@ -2,10 +2,13 @@
 #include "bands/encounter_case.h"
 
 #include <vericone/geometry/error.h>
+#include <iostream>
 
+#include "command/cases.h"
 #include "input/body.h"
 #include "input/fields.h"
 #include "json/json_value.h"
+#include "work/threads.h"
 
 namespace vericone {
 
@@ -50,6 +53,20 @@ EncounterCase::EncounterCase(const Json& value, const std::vector<std::string>& 
     throw InputError("obstacles", input::quoted(obstacles), "a list of bodies, each with its velocity");
   for (const Json& one : obstacles)
     intruders.push_back(read_intruder(one, "obstacles[" + std::to_string(intruders.size()) + "]", folder));
+}
+
+int answer_encounters(CommandLine& line, Json (*answer)(const Json&, const std::filesystem::path&)) {
+  std::string cases;
+  line.option("cases", cases, "File of cases, or - for standard input").required();
+  int threads = 0;
+  line.option("--threads", threads, "Threads, 0: one per processor; the answers are the same");
+  bool json = true;
+  line.flag("--json", json, "Print JSON; this command prints nothing else");
+  line.quiet();
+  line.read();
+  const std::filesystem::path folder = cases == "-" ? "" : std::filesystem::path(cases).parent_path();
+  return answer_cases(
+      cases, [&](const Json& value) { return answer(value, folder); }, std::cout, threads_for(threads));
 }
 
 Range read_range(const Json& value, const std::string& path, const char* unit) {

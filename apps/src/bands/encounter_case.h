@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "command/program.h"
 #include "json/json_forward.h"
 
 namespace vericone {
@@ -21,6 +22,10 @@ struct EncounterCase {
   /// `also`: fields besides those that every such case has. Throws InputError naming the field.
   EncounterCase(const Json& value, const std::vector<std::string>& also, const std::filesystem::path& folder);
 };
+
+/// A command that answers a file of such cases; `answer` takes one and the folder that names of files in it
+/// are relative to. Returns the exit status.
+int answer_encounters(CommandLine& line, Json (*answer)(const Json&, const std::filesystem::path&));
 
 guidance::Range read_range(const Json& value, const std::string& path, const char* unit);
 
