@@ -72,11 +72,11 @@ class Decisions(unittest.TestCase):
     def test_what_is_refused(self):
         for command, fields, field in (
                 ("bands", {"obstacles": 3}, "obstacles"), ("bands", {"obstacles": [ball([9, 0, 0], 1)]}, "obstacles[0].velocity"),
-                ("bands", {"agent_velocity": [0, 4]}, "agent_velocity"), ("bands", {"limits": {"speed": [2, 1]}}, "speed"),
+                ("bands", {"agent_velocity": [0, 4]}, "agent_velocity"), ("bands", {"limits": {"speed": [2, 1]}}, "limits.speed"),
                 ("bands", {"limits": {"latteral": 1}}, "limits.latteral"), ("bands", {"horizon": [2, 1]}, "horizon"),
                 ("bands", {"wanted": [0, 0, 0]}, "wanted"), ("avoid", {"horizon": [1, 2]}, "horizon"),
                 ("avoid", {"margin": -1}, "margin"), ("avoid", {"limits": {"altitude": [0, 1]}}, "limits.altitude"),
-                ("avoid", {"limits": {"lateral": 1}}, "longitudinal"), ("avoid", {"wanted": [0, 1]}, "wanted")):
+                ("avoid", {"limits": {"lateral": 1}}, "limits.longitudinal"), ("avoid", {"wanted": [0, 1]}, "wanted")):
             result, answers = ask(command, case(**fields), case())
             self.assertEqual(result.returncode, 2, fields)
             self.assertTrue(answers[0]["error"].startswith(field + ":"), answers[0]["error"])

@@ -41,7 +41,8 @@ Json avoidance_json(const Json& value, const std::filesystem::path& folder) {
   const Eigen::Vector3d wanted =
       value.contains("wanted") ? input::read_vector<3>(value["wanted"], "wanted", " (m/s)") : given.velocity;
 
-  const Avoidance found = avoid(given.agent, given.velocity, wanted, given.intruders, options);
+  const Avoidance found =
+      within_limits([&] { return avoid(given.agent, given.velocity, wanted, given.intruders, options); });
   Json result{{"status", to_string(found.status)},
               {"velocity", vector_json(found.velocity)},
               {"distance", found.distance},

@@ -56,7 +56,8 @@ Json bands_json(const Json& value, const std::filesystem::path& folder) {
   if (value.contains("limits")) read_limits(value["limits"], options);
   options.last = true;
 
-  const Bands found = bands(given.agent, given.velocity, given.intruders, options);
+  const Bands found =
+      within_limits([&] { return bands(given.agent, given.velocity, given.intruders, options); });
   Json result{{"heading", band_json(found.heading, kDegree)},
               {"speed", band_json(found.speed)},
               {"climb", band_json(found.climb)}};

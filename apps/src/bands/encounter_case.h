@@ -3,6 +3,7 @@
 // One agent among others from a line of a file of cases (docs/reference/formats.md).
 #pragma once
 
+#include <vericone/geometry/error.h>
 #include <vericone/guidance/bands.h>
 #include <filesystem>
 #include <string>
@@ -26,6 +27,18 @@ struct EncounterCase {
 /// A command that answers a file of such cases; `answer` takes one and the folder that names of files in it
 /// are relative to. Returns the exit status.
 int answer_encounters(CommandLine& line, Json (*answer)(const Json&, const std::filesystem::path&));
+
+/// What `ask` answers; what it says of a limit is said of the field that gave it: "limits.speed".
+template <typename Ask>
+auto within_limits(const Ask& ask) {
+  try {
+    return ask();
+  } catch (const InputError& error) {
+    for (const char* name : {"speed", "climb", "altitude", "lateral", "longitudinal", "vertical"})
+      if (error.field() == name) throw error.within("limits");
+    throw;
+  }
+}
 
 guidance::Range read_range(const Json& value, const std::string& path, const char* unit);
 

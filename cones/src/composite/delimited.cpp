@@ -21,6 +21,15 @@ std::optional<Relation> delimited_relation(const State& state) {
   return std::nullopt;
 }
 
+namespace {
+
+std::optional<Membership> decided(Certified answer) {
+  if (answer == Certified::undecided) return std::nullopt;
+  return answer == Certified::in ? Membership::in : Membership::out;
+}
+
+}  // namespace
+
 std::optional<Membership> delimited_membership(const State& state, const Eigen::Vector3d& v_a,
                                                const Eigen::Vector3d& v_b) {
   if (state.around->relation() == Relation::disjoint && state.around->membership(v_a, v_b) == Membership::out)
@@ -31,15 +40,7 @@ std::optional<Membership> delimited_membership(const State& state, const Eigen::
   const Slabs slabs(state.zero, difference(state.agent_bounds(), state.obstacle.bounds()), w);
   const Directions ray(state.zero, {w});
   const auto apart = [&](const Box& box) { return std::isinf(slabs.enter(box.low.data(), box.high.data())); };
-  switch (CellSearch(state, ray, apart).run()) {
-    case Certified::in:
-      return Membership::in;
-    case Certified::out:
-      return Membership::out;
-    case Certified::undecided:
-      break;
-  }
-  return std::nullopt;
+  return decided(CellSearch(state, ray, apart).run());
 }
 
 std::optional<Membership> delimited_within(const State& state, const Stretch& stretch) {
@@ -53,15 +54,7 @@ std::optional<Membership> delimited_within(const State& state, const Stretch& st
   const Slabs slabs(state.zero, difference(state.agent_bounds(), state.obstacle.bounds()),
                     stretch.v_a - stretch.v_b, stretch.from, stretch.until);
   const auto apart = [&](const Box& box) { return std::isinf(slabs.enter(box.low.data(), box.high.data())); };
-  switch (CellSearch(state, apart, stretch, slabs).run()) {
-    case Certified::in:
-      return Membership::in;
-    case Certified::out:
-      return Membership::out;
-    case Certified::undecided:
-      break;
-  }
-  return std::nullopt;
+  return decided(CellSearch(state, apart, stretch, slabs).run());
 }
 
 }  // namespace vericone::composite
