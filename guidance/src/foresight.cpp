@@ -12,6 +12,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 Vector3d Navigator::Flight::velocity(double t) const {
+  if (t > course.brakes) return std::max(0.0, 1 - (t - course.brakes) / course.braking) * course.velocity;
+  if (t >= course.turning) return course.velocity;
   if (course.radius > 0) {
     const double turned = course.angle * t / course.turning;
     return now.speed * (std::cos(turned) * now.ahead + std::sin(turned) * course.aside);
@@ -21,20 +23,38 @@ Vector3d Navigator::Flight::velocity(double t) const {
 
 Matrix3d Navigator::Flight::rotation(double t) const {
   if (!now.carried || course.turning == 0) return Matrix3d::Identity();
+  t = std::min(t, course.turning);
   if (course.radius > 0) return Eigen::AngleAxisd(course.angle * t / course.turning, axis).toRotationMatrix();
-  const Vector3d v = velocity(t);
+  const Vector3d v = now.velocity + t * course.most * course.aside;
   if (!(v.norm() > 1e-9 * now.speed)) return Matrix3d::Identity();
   return Eigen::Quaterniond::FromTwoVectors(now.ahead, v).toRotationMatrix();
 }
 
 Vector3d Navigator::Flight::moved(double t) const {
-  if (!(course.radius > 0)) return t * (now.velocity + 0.5 * t * course.most * course.aside);
-  const double turned = course.angle * t / course.turning;
-  return course.radius * (std::sin(turned) * now.ahead + (1 - std::cos(turned)) * course.aside);
+  const double manoeuvre = std::min(t, course.turning);
+  Vector3d x;
+  if (course.radius > 0) {
+    const double turned = course.angle * manoeuvre / course.turning;
+    x = course.radius * (std::sin(turned) * now.ahead + (1 - std::cos(turned)) * course.aside);
+  } else {
+    x = manoeuvre * (now.velocity + 0.5 * manoeuvre * course.most * course.aside);
+  }
+  return t > course.turning ? Vector3d(x + beyond(t)) : x;
+}
+
+Vector3d Navigator::Flight::beyond(double t) const {
+  double seconds = std::min(t, course.brakes) - course.turning;  // at its velocity
+  if (const double part = std::min(t - course.brakes, course.braking); part > 0)
+    seconds += part * (1 - 0.5 * part / course.braking);
+  return seconds * course.velocity;
+}
+
+Vector3d Navigator::Flight::manoeuvring(double t) const {
+  return now.position + rotation(t) * (now.body.center() - now.position) + moved(t);
 }
 
 Vector3d Navigator::Flight::center(double t) const {
-  return now.position + rotation(t) * (now.body.center() - now.position) + moved(t);
+  return t >= course.turning ? Vector3d(after + beyond(t)) : manoeuvring(t);
 }
 
 Ellipsoid Navigator::Flight::body(double t) const {
@@ -62,7 +82,8 @@ Near Navigator::Body::near(const Sweep& sweep, Wanted wanted) const {
   return itself ? courses::near(sweep, *itself, wanted) : courses::near(sweep, body, wanted);
 }
 
-/// A part of the manoeuvre: its chord, and how far from the chord the body may be, which turns meanwhile.
+/// A part of the manoeuvre, or of the braking: its chord, and how far from the chord the body may be, which
+/// turns meanwhile.
 struct Navigator::Chord {
   Sweep sweep;
   double beside;  // m
@@ -71,8 +92,11 @@ struct Navigator::Chord {
   Chord(const Flight& flight, const Body& other, double begin, double end) {
     const Moment& now = flight.now;
     const double middle = 0.5 * (begin + end), span = end - begin;
-    beside = flight.course.most * span * span / 8;
-    if (now.carried) {
+    const bool brakes = begin >= flight.course.brakes;
+    const double acceleration =
+        brakes ? flight.course.velocity.norm() / flight.course.braking : flight.course.most;
+    beside = acceleration * span * span / 8;
+    if (now.carried && !brakes) {
       const auto between = [&](double s, double t) {
         const Vector3d u = flight.velocity(s), v = flight.velocity(t);
         return std::atan2(u.cross(v).norm(), u.dot(v));
@@ -155,23 +179,23 @@ void Navigator::see_turn(const Flight& flight, const Body& other, double begin, 
   seen.depth = found.depth;
 }
 
-/// From `begin`, after the manoeuvre, until `end`.
+/// From `begin`, after the manoeuvre, until `end`, at a velocity that it keeps.
 void Navigator::see_straight(const Flight& flight, const Body& other, double begin, double end,
                              Meeting meeting, Approach& seen) const {
+  ++looks_;
   const Moment& now = flight.now;
-  const double turning = flight.course.turning;
-  const Vector3d w = flight.course.velocity - other.velocity;
+  const Vector3d velocity = flight.velocity(begin), w = velocity - other.velocity;
   const double speed = w.norm(), reach = other.reach + now.reach;
-  const Vector3d start = flight.center(turning) + (begin - turning) * flight.course.velocity;
+  const Vector3d start = flight.center(begin);
   const Vector3d there = (now.since + begin) * other.velocity, c = other.body.center() + there - start;
-  if (!(speed > 1e-9 * (now.speed + flight.course.velocity.norm() + other.velocity.norm()))) end = begin;
+  if (!(speed > 1e-9 * (now.speed + velocity.norm() + other.velocity.norm()))) end = begin;
   // Once past it, and the reach of both, they move apart.
   end = std::min(end, begin + (std::max(0.0, c.dot(w)) / speed + reach) / speed);
   if (!(end > begin)) end = begin;
   const Vector3d along = (end - begin) * w;
   const double part = end > begin ? std::clamp(c.dot(along) / along.squaredNorm(), 0.0, 1.0) : 0;
   if ((c - part * along).norm() - reach >= seen.least) return;
-  const Ellipsoid agent = flight.body(turning);
+  const Ellipsoid agent = flight.body(begin);
   const Near found = other.near({agent.translated(start - there - agent.center()), along},
                                 {seen.least, seen.hopeless, meeting, now.reach});
   if (found.distance >= seen.least) return;
@@ -181,44 +205,103 @@ void Navigator::see_straight(const Flight& flight, const Body& other, double beg
   seen.depth = found.depth;
 }
 
+/// From `begin`, after the manoeuvre, to where it rests, past a body at rest: one way, however it brakes.
+void Navigator::see_stop(const Flight& flight, const Body& other, double begin, double end, Meeting meeting,
+                         Approach& seen) const {
+  ++looks_;
+  const Vector3d from = flight.center(begin), along = flight.center(end) - from;
+  const Ellipsoid agent = flight.body(begin);
+  const Near found = other.near({agent.translated(from - agent.center()), along},
+                                {seen.least, seen.hopeless, meeting, flight.now.reach});
+  if (found.distance >= seen.least) return;
+  seen.least = found.distance;
+  if (found.distance > 0) return;
+  // When it has gone so far.
+  double low = begin, high = end;
+  for (int i = 0; i < 40; ++i) {
+    const double t = 0.5 * (low + high);
+    ((flight.center(t) - from).norm() < found.part * along.norm() ? low : high) = t;
+  }
+  seen.hit = low;
+  seen.depth = found.depth;
+}
+
+/// The manoeuvre or the braking.
+void Navigator::see_curved(const Flight& flight, const Body& other, double begin, double end, Meeting meeting,
+                           Approach& seen) const {
+  if (seen.hopeless > 0 && fails(flight, other, begin, end, seen.hopeless))
+    seen.least = std::min(seen.least, seen.hopeless);
+  else
+    see_turn(flight, other, begin, end, meeting, seen);
+}
+
 /// Of the course from `begin` on; `enough` metres are as good as more, `hopeless` metres as bad as less.
 Navigator::Approach Navigator::see(const Flight& flight, const Body& other, double begin, double enough,
                                    double hopeless, Meeting meeting) const {
   Approach seen;
   seen.least = enough;
   seen.hopeless = hopeless;
-  const double turning = flight.course.turning,
-               end = std::max(begin, std::min(flight.course.until, other.matters - flight.now.since));
-  // The straight part first: what is no good is so there mostly.
-  if (end >= turning) see_straight(flight, other, std::max(begin, turning), end, meeting, seen);
-  if (!(begin < turning) || (seen.done() && meeting == Meeting::whether)) return seen;
-  if (hopeless > 0 && fails(flight, other, begin, std::min(turning, end), hopeless)) {
-    seen.least = hopeless;
-    return seen;
+  const Course& course = flight.course;
+  const double end = std::max(begin, std::min(course.until, other.matters - flight.now.since));
+  using Look = void (Navigator::*)(const Flight&, const Body&, double, double, Meeting, Approach&) const;
+  const auto part = [&](double from, double to, Look look) {
+    from = std::max(from, begin);
+    to = std::min(to, end);
+    if (!(from <= to) || (seen.done() && meeting == Meeting::whether)) return;
+    Approach of_part;
+    of_part.least = seen.hit < kFar ? enough : seen.least;
+    of_part.hopeless = hopeless;
+    (this->*look)(flight, other, from, to, meeting, of_part);
+    if (of_part.hit < kFar)
+      seen = of_part;
+    else
+      seen.least = std::min(seen.least, of_part.least);
+  };
+  // The later parts first: what is no good is so there mostly.
+  const bool still = other.velocity.isZero(0);
+  if (course.brakes == kFar) {
+    part(course.turning, kFar, &Navigator::see_straight);
+  } else if (still) {
+    part(course.turning, std::max(course.rests(), begin), &Navigator::see_stop);
+  } else {
+    part(course.rests(), kFar, &Navigator::see_straight);
+    if (course.braking > 0) part(course.brakes, course.rests(), &Navigator::see_curved);
+    part(course.turning, course.brakes, &Navigator::see_straight);
   }
-  Approach turn;
-  turn.least = enough;
-  turn.hopeless = hopeless;
-  see_turn(flight, other, begin, std::min(turning, end), meeting, turn);
-  if (turn.hit < kFar) return turn;
-  seen.least = std::min(seen.least, turn.least);
+  if (begin < course.turning) part(0, course.turning, &Navigator::see_curved);
   return seen;
 }
 
 /// Whether they meet before `until`.
 bool Navigator::meets(const Flight& flight, const Body& other, double until) const {
-  const double end = std::min({until, flight.course.until, other.matters - flight.now.since}),
-               turning = flight.course.turning;
-  Approach straight;
-  straight.least = 1e-300;
-  if (end > turning) see_straight(flight, other, turning, end, Meeting::whether, straight);
-  return straight.hit < kFar || (turning > 0 && fails(flight, other, 0, std::min(turning, end), 0));
+  const Course& course = flight.course;
+  const double end = std::min({until, course.until, other.matters - flight.now.since});
+  const auto straight = [&](double from, double to) {
+    Approach seen;
+    seen.least = 1e-300;
+    to = std::min(to, end);
+    if (to > from) see_straight(flight, other, from, to, Meeting::whether, seen);
+    return seen.hit < kFar;
+  };
+  const auto curved = [&](double from, double to) {
+    to = std::min(to, end);
+    return to > from && fails(flight, other, from, to, 0);
+  };
+  return straight(course.turning, course.brakes) || curved(0, course.turning) ||
+         (course.brakes < kFar && (curved(course.brakes, course.rests()) || straight(course.rests(), kFar)));
+}
+
+/// Whether it rests within what the agent sees. Where it stops at once it does so wherever that is.
+bool Navigator::in_sight(const Flight& flight) const {
+  if (options_.range == kFar || flight.course.brakes == kFar || flight.course.velocity.isZero(0)) return true;
+  return flight.moved(flight.course.rests()).norm() + flight.now.reach + required_ <= options_.range;
 }
 
 /// What the course keeps of required and beyond. Gives up where it cannot be better than `floor`.
 Navigator::Foreseen Navigator::foresee(const Moment& now, const Course& course, const Foreseen& floor) {
   const Flight flight(now, course);
   const Meeting meeting = floor.kept > 0 ? Meeting::whether : Meeting::when;
+  if (!in_sight(flight)) return Foreseen::nothing();
   Foreseen result;
   result.kept = required_ + beyond_;
   for (std::size_t n = 0; n < bodies_.size(); ++n) {
@@ -250,14 +333,12 @@ Navigator::Foreseen Navigator::foresee(const Moment& now, const Course& course, 
 /// When it has flown the course for `t` seconds.
 Navigator::Moment Navigator::later(const Moment& now, const Course& course, double t) {
   const Flight flight(now, course);
-  const double turned = std::min(t, course.turning);
-  const Vector3d straight = (t - turned) * course.velocity;
   Moment then = now;
-  then.position = now.position + flight.moved(turned) + straight;
-  then.velocity = t < course.turning ? flight.velocity(t) : course.velocity;
+  then.position = now.position + flight.moved(t);
+  then.velocity = flight.velocity(t);
   then.speed = then.velocity.norm();
   if (then.speed > 0) then.ahead = then.velocity / then.speed;
-  then.body = flight.body(turned).translated(straight);
+  then.body = flight.body(t);
   then.carried = now.carried && then.speed > 0;
   then.since = now.since + t;
   return then;

@@ -27,11 +27,12 @@ struct Navigator::Moment {
   double most;         // m/s^2
   double to_turn = 0;  // s: within bodies that hold it no course matters for longer
   double since = 0;    // s, of a moment to come: from the command
+  bool stops = false;  // courses end at rest
   bool planar, carried;
 };
 
 /// A manoeuvre to another velocity, then straight on: a turn about a circle, or a constant acceleration where
-/// the speed may change.
+/// the speed may change. That course may end at rest: it brakes, and stays where it is.
 struct Navigator::Course {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, at the end
   Eigen::Vector3d aside = Eigen::Vector3d::Zero();     // unit: of the acceleration now
@@ -41,6 +42,10 @@ struct Navigator::Course {
   double radius = 0;                                   // m, of its circle; 0: no turn
   double turning = 0;                                  // s, how long the manoeuvre takes
   double until = kFar;                                 // s from its moment, when the course ends
+  double brakes = kFar;                                // s from its moment, when it begins to brake
+  double braking = 0;                                  // s, how long that takes
+
+  [[nodiscard]] double rests() const { return brakes + braking; }
 };
 
 /// What courses are compared by: the larger the better. A course that hits keeps nothing.
@@ -55,19 +60,34 @@ struct Navigator::Foreseen {
   [[nodiscard]] static Foreseen nothing() { return {-1, 0}; }  // worse than any
 };
 
+/// What is taken at a step.
+struct Navigator::Choice {
+  Course course;
+  Foreseen foreseen;
+  bool way = false;       // to the destination, or back to its speed
+  bool aims = false;      // there is such a way
+  bool looked = false;    // all others were tried
+  bool stopping = false;  // the stop that was in hand: nothing better is known
+};
+
 /// A course as the agent flies it.
 struct Navigator::Flight {
   const Moment& now;
   const Course& course;
-  Eigen::Vector3d axis;  // of a turn
+  Eigen::Vector3d axis;   // of a turn
+  Eigen::Vector3d after;  // m, the centre of its body after the manoeuvre
 
-  Flight(const Moment& at, const Course& on) : now(at), course(on), axis(at.ahead.cross(on.aside)) {}
-  // While it turns:
+  Flight(const Moment& at, const Course& on)
+      : now(at), course(on), axis(at.ahead.cross(on.aside)), after(manoeuvring(on.turning)) {}
   [[nodiscard]] Eigen::Vector3d velocity(double t) const;
   [[nodiscard]] Eigen::Vector3d moved(double t) const;
   [[nodiscard]] Eigen::Matrix3d rotation(double t) const;  // of its body, since now
   [[nodiscard]] Eigen::Vector3d center(double t) const;    // of its body
   [[nodiscard]] Ellipsoid body(double t) const;
+
+ private:
+  [[nodiscard]] Eigen::Vector3d manoeuvring(double t) const;  // its centre, t <= turning
+  [[nodiscard]] Eigen::Vector3d beyond(double t) const;       // how far it is after the manoeuvre
 };
 
 /// How near a course comes to one body.

@@ -4,6 +4,7 @@
 #include <vericone/cones/cone_geometry.h>
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/geometry/error.h>
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,7 @@
 
 #include "check_numbers.h"
 #include "foresight.h"
+#include "route.h"
 
 namespace vericone::guidance {
 namespace {
@@ -67,6 +69,13 @@ double reach_of(const Ellipsoid& body, const Vector3d& about, bool planar) {
   return (planar ? std::max(axes(1), axes(2)) : axes(0)) + (body.center() - about).norm();
 }
 
+/// Its largest semi-axis, a little too much: of every body at every step, so without its other axes.
+double longest_axis(const Ellipsoid& body) {
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver =
+      Eigen::SelfAdjointEigenSolver<Matrix3d>().computeDirect(body.shape(), Eigen::EigenvaluesOnly);
+  return std::sqrt(solver.eigenvalues().maxCoeff()) * (1 + 1e-6);
+}
+
 double angle_between(const Vector3d& u, const Vector3d& v) { return std::atan2(u.cross(v).norm(), u.dot(v)); }
 
 /// A unit vector across `ahead` on the side of `direction`; left or e1 where that is straight ahead or
@@ -101,7 +110,8 @@ Navigator::Body Navigator::body_of(const BodyState& other, bool planar) {
   const Placed* placed = other.shape.placed();
   const bool as_it_is = placed && rigid(other) && !placed->body.quadric();
   Body body{as_it_is ? ball_about(*placed) : seen(other), other.velocity};
-  body.reach = reach_of(body.body, body.body.center(), planar);
+  body.reach =
+      planar || !rigid(other) ? reach_of(body.body, body.body.center(), planar) : longest_axis(body.body);
   if (as_it_is) body.itself = *placed;
   if (!rigid(other)) body.body = Ellipsoid::from_axes(body.body.center(), Vector3d::Constant(body.reach));
   return body;
@@ -126,6 +136,7 @@ Navigator::Course Navigator::towards(const Moment& now, const Vector3d& velocity
     const Vector3d change = velocity - now.velocity;
     course.aside = change.normalized();  // zero stays zero
     if (change.norm() > kAligned * now.pace) in_steps(change.norm());
+    if (now.stops) brake_from(now, velocity.isZero(0) ? course.turning : course.turning + now.step, course);
     return course;
   }
   const Vector3d direction = velocity.normalized();
@@ -138,24 +149,48 @@ Navigator::Course Navigator::towards(const Moment& now, const Vector3d& velocity
   return course;
 }
 
-/// Nothing where the point lies within the circle that the agent can turn on.
-std::optional<Navigator::Course> Navigator::to_destination(const Moment& now,
-                                                           const Destination& destination) const {
-  const Vector3d to_point = destination.point - now.position;
+/// In a whole number of steps too.
+void Navigator::brake_from(const Moment& now, double t, Course& course) {
+  const double steps = std::ceil(course.velocity.norm() / (course.asked * now.step) - 1e-6);
+  course.brakes = std::max(t, course.turning);
+  course.braking = std::max(steps, 0.0) * now.step;
+}
+
+/// At a part of the speed that it would have. Nothing where the point lies within the circle that the agent
+/// can turn on.
+std::optional<Navigator::Course> Navigator::to_destination(const Moment& now, const Destination& destination,
+                                                           double part) const {
+  const Vector3d to_point = destination.point - now.position, &u = destination.velocity;
   const double distance = to_point.norm(), most = std::min(destination.most, options_.most);
-  if (!(distance > 0)) return std::nullopt;
+  if (!(distance > 0) && !destination.stay) return std::nullopt;
   if (options_.longitudinal) {
-    // At the speed of the start; who started at rest, as fast as it can still stop there.
-    const double soon = now.speed + 1 * most,
-                 pace = *pace_ > 0 ? *pace_ : std::min(soon, std::sqrt(2 * kBraking * most * distance));
-    Course course = towards(now, pace / distance * to_point, most);
-    course.until = std::max(course.turning, distance / pace);
+    // At the speed that it has; without one, as fast as it can still stop there.
+    const double soon = now.speed + 1 * most, stopping = std::sqrt(2 * kBraking * most * distance);
+    double pace = *pace_ > 0 ? std::max(*pace_, u.norm()) : std::min(soon, stopping) + u.norm();
+    pace = part * std::min(pace, options_.fastest);
+    const Vector3d ahead = to_point.normalized();
+    // u + closing ahead, as fast as that.
+    const double along = u.dot(ahead), root = along * along - u.squaredNorm() + pace * pace;
+    double closing = root > 0 ? std::max(0.0, std::sqrt(root) - along) : 0;
+    if (destination.stay) closing = std::min({closing, stopping, distance / now.step});
+    Course course = towards(now, u + closing * ahead, most);
+    if (closing == 0 || now.stops) return course;
+    // What is after it counts too: it stops there, or behind it.
+    const double arrives = std::max(course.turning, distance / closing);
+    if (!destination.stay)
+      brake_from(now, arrives, course);
+    else if (u.isZero(0))
+      brake_from(now, arrives - 0.5 * closing / most, course);
     return course;
   }
   const double radius = now.speed * now.speed / most;
-  const Vector3d aside = side_of(now.ahead, to_point, now.planar);
+  // Where a point that moves will be met, by who flies straight there; where it is now, of one too fast.
+  const double a = now.speed * now.speed - u.squaredNorm(), half = to_point.dot(u),
+               root = half * half + a * distance * distance;
+  const double meets = a > 0 ? (half + std::sqrt(root)) / a : 0;
+  const Vector3d there = to_point + meets * u, aside = side_of(now.ahead, there, now.planar);
   // From the circle's centre the point is at R(angle) (length, -radius).
-  const double x = to_point.dot(now.ahead), y = to_point.dot(aside) - radius;
+  const double x = there.dot(now.ahead), y = there.dot(aside) - radius;
   const double square = x * x + y * y - radius * radius;
   if (square < 0) return std::nullopt;
   const double length = std::sqrt(square);
@@ -207,7 +242,7 @@ bool Navigator::refine(const Moment& now, Course& course, Foreseen& foreseen) {
   const double most = course.asked;
   double width = 0.1;
   bool found = false;
-  for (int i = 0; i < 16 && width > 4e-3; ++i) {
+  for (int i = 0; i < 16 && width > 4e-3 && !spent(); ++i) {
     const AxisFrame frame(course.velocity.isZero(0) ? Vector3d(Vector3d::UnitX()) : course.velocity);
     bool better = false;
     for (int k = 0; k < 6 && !better; ++k) {
@@ -269,17 +304,24 @@ void Navigator::spread(const Moment& now, const Vector3d& wanted, double less_th
             [](const Candidate& x, const Candidate& y) { return x.cost < y.cost; });
 }
 
-/// The first safe course, less than `less_than` beside the wanted one; else, where that is no bound, the best
-/// that is better than the one given. False: there is none.
-bool Navigator::search(const Moment& now, const Vector3d& wanted, double less_than, Course& course,
+/// The first safe course, less than `less_than` beside the wanted one; else, where `any` will do, the best
+/// that is better than the one given. False: there is none, or there was no time to find it: the next search
+/// goes on from there.
+bool Navigator::search(const Moment& now, const Vector3d& wanted, double less_than, bool any, Course& course,
                        Foreseen& foreseen) {
   spread(now, wanted, less_than, 1);
-  const bool any = less_than == kFar;
   if (!any) foreseen = {required_ + beyond_ - kAlmost, kFar};
   bool found = false;
   double most = now.most;
   while (true) {
-    for (const Candidate& candidate : candidates_) {
+    const std::size_t count = candidates_.size(), first = count > 0 ? resume_ % count : 0;
+    resume_ = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Candidate& candidate = candidates_[(first + i) % count];
+      if (spent()) {
+        resume_ = first + i;
+        return found;
+      }
       const Course tried = towards(now, candidate.velocity, most);
       const Foreseen seen = foresee(now, tried, foreseen);
       if (!seen.better_than(foreseen) || (!any && !seen.keeps(required_ + beyond_))) continue;
@@ -324,18 +366,20 @@ Vector3d Navigator::wanted(const Way& way, const Moment& at, const Vector3d& hel
 bool Navigator::look_farther(const Moment& now, const Way& way, double time, Course& course,
                              Foreseen& foreseen) {
   tried_.clear();
-  looks_ = 0;
+  const long looks = looks_;
   Moment at = now;
   Course of_leg = towards(now, course.velocity, course.asked);
   Foreseen found = foreseen;
   double contact = found.hit;
   // What keeps next to nothing is soon lost again.
-  for (int look = 0; look < kMostLooks && looks_ < kMostAhead && found.kept < 0.02 * now.reach; ++look) {
+  for (int look = 0;
+       look < kMostLooks && looks_ - looks < kMostAhead && !spent() && found.kept < 0.02 * now.reach;
+       ++look) {
     at = later(at, of_leg, look_again(now, contact - at.since));
     if (!(at.since < contact)) break;
     of_leg = towards(at, of_leg.velocity, of_leg.asked);
     Course better = of_leg;
-    if (!search(at, wanted(way, at, of_leg.velocity), kFar, better, found)) continue;
+    if (!search(at, wanted(way, at, of_leg.velocity), kFar, true, better, found)) continue;
     of_leg = better;
     tried_.push_back({time + at.since, better.velocity, better.asked});
     if (found.hits()) contact = found.hit;
@@ -405,96 +449,168 @@ NavigatorStep Navigator::step(const BodyState& agent, std::span<const BodyState>
   const Vector3d axes = now.body.semi_axes();
   now.uneven = (now.planar ? axes(1) : axes(0)) - axes(2);
   now.carried = agent.turning == Turning::with_heading && now.speed > 0 && now.uneven > 1e-12 * axes(2);
-  if (!pace_) pace_ = now.speed;
+  if (!pace_) pace_ = options_.fastest < kFar ? options_.fastest : now.speed;
   now.pace = std::max(now.speed, *pace_);
   if (options_.longitudinal) {
     for (const BodyState& other : others) now.pace = std::max(now.pace, other.velocity.norm());
     if (!(now.pace > 0)) now.pace = now.reach;  // nothing moves: any speed will do
+    now.pace = std::min(now.pace, options_.fastest);
   }
   now.most = std::isfinite(options_.most) ? options_.most : kUnhurriedTurn * now.pace;
   now.to_turn = kLookAgain + (options_.longitudinal ? 1 : kPi) * now.speed / now.most;
+  now.stops = options_.longitudinal && std::isfinite(options_.range);
   required_ = options_.required.value_or(now.reach / 20);
   beyond_ = options_.beyond.value_or(now.reach / 10);
   bodies_.clear();
   for (const BodyState& other : others) {
     Body& body = bodies_.emplace_back(body_of(other, now.planar));
-    if (body.holds(now.position, now.reach)) body.matters = now.to_turn;
+    if (body.holds(now.position, now.reach)) {
+      now.stops |= options_.longitudinal;
+      if (!now.stops) body.matters = now.to_turn;
+    }
     const double apart = (body.body.center() - now.position).norm() - body.reach - now.reach;
     if (apart < required_ + beyond_)
       body.now = body.near({now.body, Vector3d::Zero()}, {.reach = now.reach}).distance;
   }
   failed_by_ = 0;
+  looks_ = 0;
+  if (destination && now.stops) return fly(now, on_the_way(now, *destination, time), time);
   return fly(now, destination, time);
+}
+
+/// The way to the destination, or of who may change its speed back to that of the start, that is safe; else
+/// what is flown now; else what a search finds.
+Navigator::Choice Navigator::choose(const Moment& now, const std::optional<Destination>& destination,
+                                    double time) {
+  const double surely = required_ + beyond_;
+  Choice chosen;
+  bool decided = false;
+  std::optional<Course> direct;
+  for (double part = 1; part > 0.2 && !decided; part *= 0.5) {
+    std::optional<Course> tried;
+    if (destination) tried = to_destination(now, *destination, part);
+    if (!tried && options_.longitudinal)
+      tried = towards(now, part * *pace_ * held_.value_or(now.ahead).normalized(), now.most);
+    if (!tried) break;
+    const Foreseen seen = foresee(now, *tried, direct ? chosen.foreseen : Foreseen::nothing());
+    if (!direct || seen.better_than(chosen.foreseen)) {
+      chosen = {*tried, seen};
+      chosen.way = decided = seen.keeps(held_is_way_ ? required_ : surely);
+    }
+    if (!direct) direct = tried;
+    if (!now.stops) break;  // slower is no safer
+  }
+  const bool aims = direct.has_value();
+  const Way to{direct ? &*direct : nullptr, destination ? &destination->point : nullptr};
+  const Vector3d wanted = this->wanted(to, now, held_.value_or(now.velocity));
+  if (decided) return chosen;
+  const bool had = held_.has_value() && !held_is_way_;
+  const Course before = towards(now, had ? *held_ : now.velocity, had ? turn_ : now.most);
+  const Foreseen of_before = foresee_all(now, before, legs_, time);
+  decided = of_before.keeps(had ? required_ : surely);
+  // Who keeps something gives it up for what is worth it only.
+  const auto worth = [&](Foreseen in_hand) {
+    if (in_hand.kept > 0) in_hand.kept += 0.01 * surely;
+    return in_hand;
+  };
+  chosen.way = direct && !decided &&
+               (held_is_way_ ? !of_before.better_than(worth(chosen.foreseen))
+                             : chosen.foreseen.better_than(worth(of_before)));
+  if (!chosen.way) chosen = {before, of_before};
+  chosen.aims = aims;
+  bool stopping = false;
+  if (now.stops && !chosen.foreseen.keeps(required_)) {
+    const Course stop = in_hand(now, time);
+    const Foreseen of_stop = foresee(now, stop, chosen.foreseen);
+    if ((stopping = of_stop.better_than(chosen.foreseen))) chosen = {stop, of_stop, false, aims};
+  }
+  const bool due = time > next_look_ - 0.5 * now.step || (stopping && !stopping_),
+             worse = chosen.foreseen.kept < 0.95 * kept_ || time + chosen.foreseen.hit < hit_ - now.step;
+  // Who touches already hits on every course.
+  if (!(chosen.foreseen.hit > 0) || !(decided ? direct && due : due || worse)) {
+    chosen.stopping = stopping;
+    return chosen;
+  }
+  Choice better = chosen;
+  better.foreseen = decided ? chosen.foreseen : worth(chosen.foreseen);
+  const double bound = decided ? beside(now, wanted, chosen.course.velocity) - kWorthChanging : kFar;
+  // Who can stop need not take what is not safe.
+  const bool any = !decided && (now.stops || !options_.longitudinal);
+  if (search(now, wanted, bound, any, better.course, better.foreseen)) {
+    chosen = {better.course, better.foreseen, false, aims};
+    stopping = false;
+    legs_.clear();
+  }
+  if (any && !now.stops && chosen.foreseen.hits() && worse)
+    if (look_farther(now, to, time, chosen.course, chosen.foreseen)) chosen.way = false;
+  chosen.looked = !spent();
+  chosen.stopping = stopping;
+  return chosen;
+}
+
+/// Where a wall is before it, what it goes to on its way round.
+Destination Navigator::on_the_way(const Moment& now, const Destination& destination, double time) {
+  if (!route_)
+    route_ = std::make_shared<Route>();
+  else if (route_.use_count() > 1)
+    route_ = std::make_shared<Route>(*route_);
+  const double keep = required_ + beyond_;
+  const Ellipsoid ball = Ellipsoid::from_axes(now.position, Vector3d::Constant(now.reach));
+  const auto clear = [&](const Vector3d& from, const Vector3d& to, double more) {
+    return std::none_of(bodies_.begin(), bodies_.end(), [&](const Body& body) {
+      if (!body.velocity.isZero(0)) return false;
+      const Sweep sweep{ball.translated(from - now.position), to - from};
+      const double enough = std::min(keep, 0.8 * body.now) + more;  // who is nearer may be so for a while
+      return body.near(sweep, {enough, enough - kAlmost, Meeting::whether, now.reach}).distance < enough;
+    });
+  };
+  const Vector3d point =
+      route_->towards(destination.point, now.position, now.reach + keep, now.planar, time, clear);
+  if (point == destination.point) return destination;
+  return {.point = point, .most = destination.most, .stay = true};
+}
+
+/// The rest of what was taken before, with the stop at its end; without one, a stop at once.
+Navigator::Course Navigator::in_hand(const Moment& now, double time) const {
+  const double left = brakes_ - time;
+  if (!held_ || !(left > 0.5 * now.step && left < kFar)) return towards(now, Vector3d::Zero(), now.most);
+  Course course = towards(now, *held_, turn_);
+  brake_from(now, left, course);
+  return course;
 }
 
 NavigatorStep Navigator::fly(const Moment& now, const std::optional<Destination>& destination, double time) {
   NavigatorStep result;
-  Course course;
   if (!(now.speed > 0) && !options_.longitudinal) {
+    const Course course;
     tell(now, course, time, result);
     const Foreseen stays = foresee(now, course, Foreseen::nothing());
     result.status = stays.hits() ? NavigatorStatus::cannot_avoid : NavigatorStatus::no_course;
     return result;
   }
-  Foreseen foreseen = Foreseen::nothing();
-  bool decided = false, way = false;
   while (!legs_.empty() && legs_.front().begin < time + 0.5 * now.step) {
     held_ = legs_.front().velocity;
     turn_ = legs_.front().most;
     legs_.erase(legs_.begin());
   }
-  // The way: to the destination, or of who may change its speed back to that of the start.
-  std::optional<Course> direct;
-  if (destination) direct = to_destination(now, *destination);
-  if (!direct && options_.longitudinal)
-    direct = towards(now, *pace_ * held_.value_or(now.ahead).normalized(), now.most);
-  const double surely = required_ + beyond_;
-  if (direct) {
-    course = *direct;
-    foreseen = foresee(now, course, Foreseen::nothing());
-    way = decided = foreseen.keeps(held_is_way_ ? required_ : surely);
+  Choice chosen = choose(now, destination, time);
+  if (options_.longitudinal && !now.stops && !chosen.foreseen.keeps(required_)) {
+    Moment careful = now;
+    careful.stops = true;
+    const Choice stops = choose(careful, destination, time);
+    if (stops.foreseen.better_than(chosen.foreseen)) chosen = stops;
   }
-  const Way to{direct ? &*direct : nullptr, destination ? &destination->point : nullptr};
-  const Vector3d wanted = this->wanted(to, now, held_.value_or(now.velocity));
-  if (!decided) {
-    const bool had = held_.has_value() && !held_is_way_;
-    const Course before = towards(now, had ? *held_ : now.velocity, had ? turn_ : now.most);
-    const Foreseen of_before = foresee_all(now, before, legs_, time);
-    decided = of_before.keeps(had ? required_ : surely);
-    // Who keeps something gives it up for what is worth it only.
-    const auto worth = [&](Foreseen in_hand) {
-      if (in_hand.kept > 0) in_hand.kept += 0.01 * surely;
-      return in_hand;
-    };
-    way = direct && !decided &&
-          (held_is_way_ ? !of_before.better_than(worth(foreseen)) : foreseen.better_than(worth(of_before)));
-    if (!way) {
-      course = before;
-      foreseen = of_before;
-    }
-    const bool due = time > next_look_ - 0.5 * now.step,
-               worse = foreseen.kept < 0.95 * kept_ || time + foreseen.hit < hit_ - now.step;
-    // Who touches already hits on every course.
-    if (foreseen.hit > 0 && (decided ? direct && due : due || worse)) {
-      Course better = course;
-      Foreseen of_better = decided ? foreseen : worth(foreseen);
-      const double bound = decided ? beside(now, wanted, course.velocity) - kWorthChanging : kFar;
-      if (search(now, wanted, bound, better, of_better)) {
-        course = better;
-        foreseen = of_better;
-        way = false;
-        legs_.clear();
-      }
-      if (foreseen.hits() && worse && look_farther(now, to, time, course, foreseen)) way = false;
-      next_look_ = time + (foreseen.hits() ? look_again(now, foreseen.hit) : kLookAgain);
-    }
-  }
+  const auto& [course, foreseen, way, aims, looked, stopping] = chosen;
   if (way) legs_.clear();
+  if (looked) next_look_ = time + (foreseen.hits() ? look_again(now, foreseen.hit) : kLookAgain);
   kept_ = foreseen.kept;
   hit_ = time + foreseen.hit;
   held_ = course.velocity;
   held_is_way_ = way;
   turn_ = course.asked;
+  brakes_ = time + course.brakes;
+  stopping_ = stopping;
+  result.rest = course.rests();
   if (options_.longitudinal) {
     const double missing = (course.velocity - now.velocity).norm() / now.step;
     result.acceleration = std::min(course.most, missing) * course.aside;
@@ -511,7 +627,7 @@ NavigatorStep Navigator::fly(const Moment& now, const std::optional<Destination>
   } else if (!foreseen.keeps(required_)) {
     result.status = too_near;
   } else {
-    const bool straight_on = way || (result.acceleration.isZero(0) && !direct);
+    const bool straight_on = way || (result.acceleration.isZero(0) && !aims);
     result.status = way && destination ? homing : straight_on ? straight : avoiding;
   }
   return result;

@@ -7,50 +7,21 @@
 
 #include <vericone/cones/pair.h>
 #include <vericone/geometry/error.h>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
-#include <queue>
 #include <string>
 #include <vector>
 
 #include "bands/at_once.h"
-#include "bands/parts.h"
+#include "bands/threats.h"
 
 namespace vericone::guidance {
 
 using namespace banding;
 
 namespace {
-
-/// A convex part of the agent and one of an intruder. `inner`: the agent's with less than the margin around
-/// it; what meets that comes nearer than the margin.
-struct Part {
-  Pair pair;
-  std::optional<Pair> inner;
-  Vector3d velocity;
-  std::size_t intruder;
-  bool exact;
-
-  const Pair& swollen() const { return inner ? *inner : pair; }
-};
-
-/// A body that the agent and a ball of that radius around each of its points contain.
-Placed swollen(const Placed& body, double radius) {
-  if (const auto* quadric = body.body.quadric()) {
-    const Ellipsoid& e = quadric->ellipsoid();
-    Eigen::Matrix3d axes = e.axis_directions();
-    if (axes.determinant() < 0) axes.col(0) *= -1;
-    const Vector3d longer = e.semi_axes() + Vector3d::Constant(radius * (1 - 1e-12));
-    return {Ellipsoid::from_axes(e.center(), longer, axes), body.pose};
-  }
-  std::vector<Vector3d> points;
-  for (const Vector3d& x : body.body.hull()->points())
-    for (int k = 0; k < 3; ++k)
-      for (const double side : {-1.0, 1.0})
-        points.push_back(x + side * radius * (1 - 1e-12) * Vector3d::Unit(k));
-  return {HullBody(std::move(points)), body.pose};
-}
 
 /// A ray from the wanted velocity against a part.
 class OnRay : public Question {
@@ -90,10 +61,11 @@ class OnRay : public Question {
     return half->room > 0 && n.dot(w) + slack < half->most(horizon) ? half : std::nullopt;
   }
 
-  /// How near they come by then.
+  /// How near they come by then, of a pair that does not meet until then. Of one that meets later the time of
+  /// Miss is not that of the contact; until then it only comes nearer.
   static Miss nearest_by(const Part& part, const Vector3d& velocity, double until) {
     Miss miss = part.pair.miss(velocity, part.velocity);
-    if (miss.time <= until) return miss;
+    if (miss.least > 0 && miss.time <= until) return miss;
     Placed then = part.pair.agent();
     then.pose.position += until * (velocity - part.velocity);
     return Pair(then, part.pair.obstacle()).miss(Vector3d::Zero(), Vector3d::Zero());
@@ -106,81 +78,114 @@ class OnRay : public Question {
   double margin_;
 };
 
-/// Along one ray, by part, what is blocked, proved; none where a part leaves it alone. Last: what is too
-/// slow.
+/// Along one ray what is blocked: by part, proved, none where a part leaves it alone; first what is too slow.
+/// `not_free`: all together, what is not known to be free.
 struct Ray {
   Vector3d direction;
   std::vector<std::optional<Range>> hit;
+  std::vector<Range> not_free;
 };
 
 struct Triangle {
   double bound;             // no safe velocity in it is nearer
   std::array<int, 3> rays;  // counter-clockwise
-};
-struct Farther {
-  bool operator()(const Triangle& a, const Triangle& b) const { return a.bound > b.bound; }
+  bool operator<(const Triangle& other) const { return bound > other.bound; }  // the nearest on top
 };
 
+/// Of some parts alone, those that were in the way of an answer: what they leave is nearer than what all
+/// leave, so its bound is one. What is found is asked of all, and those in its way are added.
 class Search3 {
  public:
-  Search3(const Vector3d& velocity, const Vector3d& wanted, const std::vector<Part>& parts,
-          const AvoidOptions& options, double until)
-      : velocity_(velocity), wanted_(wanted), parts_(parts), options_(options), horizon_{0, until} {}
+  Search3(const Vector3d& velocity, const Vector3d& wanted, Threats& threats, const AvoidOptions& options,
+          double until)
+      : velocity_(velocity),
+        wanted_(wanted),
+        threats_(threats),
+        options_(options),
+        horizon_{0, until},
+        most_(options.most) {}
 
   Avoidance run() {
-    if (is_free(wanted_)) {
+    add_those_in_the_way(wanted_);
+    if (parts_.empty() && can_fly(wanted_)) {
       best_ = wanted_;
       upper_ = 0;
       return found(0);
     }
     // As far as can be flown; without a limit, as far as one would look.
-    double fastest = wanted_.norm();
-    for (const Part& part : parts_) fastest = std::max(fastest, part.velocity.norm());
+    const double fastest = std::max(wanted_.norm(), threats_.fastest());
     reach_ =
         1.01 * (wanted_.norm() + (std::isfinite(options_.speed.to) ? options_.speed.to : 4 * fastest)) + 1e-3;
-    for (const Part& part : parts_) {
-      const auto half = OnRay::safe(part, wanted_ + options_.wind, horizon_, options_.margin);
-      away_.push_back(
-          !half ? 0
-                : (half->most(horizon_) - half->normal.dot(wanted_ + options_.wind - part.velocity)) /
-                      half->normal.norm() * (1 - 1e-9));
-    }
     static constexpr int kFaces[8][3] = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
                                          {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
     for (int k = 0; k < 6; ++k) ray(Vector3d::Unit(k / 2) * (k % 2 == 0 ? 1 : -1));
-    std::priority_queue<Triangle, std::vector<Triangle>, Farther> open;
-    const auto add = [&](const std::array<int, 3>& rays) {
-      const double bound = bound_of(rays);
-      if (std::isfinite(bound)) open.push({bound, rays});
-    };
-    for (const auto& face : kFaces) add({face[0], face[1], face[2]});
-    while (!open.empty()) {
-      const Triangle nearest = open.top();
-      if (upper_ <= nearest.bound * (1 + options_.gap)) return found(nearest.bound);
-      if (rays_.size() >= options_.most) return found(nearest.bound);
-      open.pop();
+    for (const auto& face : kFaces) open({face[0], face[1], face[2]});
+    while (true) {
+      refine();
+      if (std::isinf(upper_)) break;
+      const double lower = open_.empty() ? upper_ / (1 + options_.gap) : open_.front().bound;
+      if (!add_those_in_the_way(best_)) return found(lower);
+    }
+    Avoidance none;
+    if (open_.empty()) none.status = AvoidStatus::nothing_safe;
+    none.lower = open_.empty() ? kInfinity : open_.front().bound;
+    return none;
+  }
+
+ private:
+  const Vector3d& direction(int ray) const { return rays_[ray].direction; }
+
+  /// Until the nearest candidate is nearly as near as the bound, or as many rays were looked along as may be.
+  void refine() {
+    while (!open_.empty() && !(upper_ <= open_.front().bound * (1 + options_.gap)) && rays_.size() < most_) {
+      const std::array<int, 3> t = open_.front().rays;
       // Halve the longest side.
-      std::array<int, 3> t = nearest.rays;
       const auto side = [&](int i) {
         return (direction(t[(i + 1) % 3]) - direction(t[(i + 2) % 3])).squaredNorm();
       };
       int longest = 0;
       for (int i = 1; i < 3; ++i)
         if (side(i) > side(longest)) longest = i;
+      if (side(longest) < kTiny * kTiny) return;  // where parts only touch: no more is proved
+      std::pop_heap(open_.begin(), open_.end());
+      open_.pop_back();
       const int apex = t[longest], from = t[(longest + 1) % 3], to = t[(longest + 2) % 3],
                 half = between(from, to);
-      add({apex, from, half});
-      add({apex, half, to});
+      open({apex, from, half});
+      open({apex, half, to});
     }
-    if (std::isfinite(upper_)) return found(upper_ / (1 + options_.gap));
-    Avoidance none;
-    none.status = AvoidStatus::nothing_safe;
-    none.lower = kInfinity;
-    return none;
   }
 
- private:
-  const Vector3d& direction(int ray) const { return rays_[ray].direction; }
+  void open(const std::array<int, 3>& rays) {
+    const double bound = bound_of(rays);
+    if (std::isinf(bound)) return;
+    open_.push_back({bound, rays});
+    std::push_heap(open_.begin(), open_.end());
+  }
+
+  /// Adds the parts that do not let a velocity pass; what was found without them counts no more. False: there
+  /// are none.
+  bool add_those_in_the_way(const Vector3d& v) {
+    const std::size_t before = parts_.size();
+    const double duration = ramp(v);
+    threats_.near(v + options_.wind, horizon_.until, 0.5 * duration * (v - velocity_).norm(),
+                  [&](std::size_t i) {
+                    const Part* part = &threats_[i];
+                    if (!lets_pass(*part, v, duration)) parts_.push_back(part);
+                  });
+    if (parts_.size() == before) return false;
+    if (std::any_of(parts_.begin(), parts_.end(), [](const Part* part) { return !part->exact; }))
+      most_ = std::min(most_, options_.most / 10);
+    upper_ = kInfinity;
+    for (Ray& ray : rays_) {
+      for (std::size_t i = before; i < parts_.size(); ++i) block(ray, *parts_[i]);
+      look_along(ray);
+    }
+    std::vector<Triangle> again;
+    std::swap(again, open_);
+    for (const Triangle& triangle : again) open(triangle.rays);
+    return true;
+  }
 
   Avoidance found(double lower) const {
     Avoidance answer;
@@ -201,38 +206,39 @@ class Search3 {
            v.z() >= options_.climb.from - slack && v.z() <= options_.climb.to + slack;
   }
 
-  /// Proved: it keeps the margin from all until the horizon, and so does the change to it.
+  /// Proved: it keeps the margin from all parts so far until the horizon, and so does the change to it.
   bool is_free(const Vector3d& v) const {
-    if (!can_fly(v)) return false;
-    const Vector3d ground = v + options_.wind;
     const double duration = ramp(v);
-    for (const Part& part : parts_) {
-      auto half = OnRay::safe(part, ground, horizon_, options_.margin);
-      if (!half) return false;
-      if (duration == 0) continue;
-      // The ramp is behind the straight flight by at most half its duration, along the change.
-      if (!(duration <= horizon_.until)) return false;
-      const double behind = 0.5 * duration * std::max(0.0, -half->normal.dot(v - velocity_)),
-                   along = std::max(0.0, horizon_.until * half->normal.dot(ground - part.velocity));
-      const double slack =
-          0x1p-46 * half->normal.norm() *
-          (horizon_.until * (ground - part.velocity).norm() + duration * (v - velocity_).norm());
-      if (along + behind + slack < half->room) continue;
-      const Vector3d late = -0.5 * duration * (v - velocity_);
-      // Another plane, of both straight ways.
-      bool held = false;
-      for (const Vector3d& shift : {Vector3d(0.5 * late), late}) {
-        const auto n = part.pair.normal_along(shift, horizon_.until * (ground - part.velocity) + shift);
-        if (!n) break;
-        const double room = part.pair.gap(*n) - options_.margin * n->norm() * (1 + 0x1p-48);
-        held = std::max(0.0, n->dot(late)) + std::max(0.0, horizon_.until * n->dot(ground - part.velocity)) +
-                   slack <
-               room;
-        if (held) break;
-      }
-      if (!held) return false;
+    return can_fly(v) && std::all_of(parts_.begin(), parts_.end(),
+                                     [&](const Part* part) { return lets_pass(*part, v, duration); });
+  }
+
+  /// `duration`: s, of the change of velocity.
+  bool lets_pass(const Part& part, const Vector3d& v, double duration) const {
+    const Vector3d ground = v + options_.wind;
+    auto half = OnRay::safe(part, ground, horizon_, options_.margin);
+    if (!half) return false;
+    if (duration == 0) return true;
+    // The ramp is behind the straight flight by at most half its duration, along the change.
+    if (!(duration <= horizon_.until)) return false;
+    const double behind = 0.5 * duration * std::max(0.0, -half->normal.dot(v - velocity_)),
+                 along = std::max(0.0, horizon_.until * half->normal.dot(ground - part.velocity));
+    const double slack =
+        0x1p-46 * half->normal.norm() *
+        (horizon_.until * (ground - part.velocity).norm() + duration * (v - velocity_).norm());
+    if (along + behind + slack < half->room) return true;
+    const Vector3d late = -0.5 * duration * (v - velocity_);
+    // Another plane, of both straight ways.
+    for (const Vector3d& shift : {Vector3d(0.5 * late), late}) {
+      const auto n = part.pair.normal_along(shift, horizon_.until * (ground - part.velocity) + shift);
+      if (!n) return false;
+      const double room = part.pair.gap(*n) - options_.margin * n->norm() * (1 + 0x1p-48);
+      if (std::max(0.0, n->dot(late)) + std::max(0.0, horizon_.until * n->dot(ground - part.velocity)) +
+              slack <
+          room)
+        return true;
     }
-    return true;
+    return false;
   }
   double ramp(const Vector3d& v) const {
     if (options_.lateral == 0 && options_.longitudinal == 0) return 0;
@@ -245,36 +251,37 @@ class Search3 {
   }
 
   int ray(const Vector3d& given) {
-    const Vector3d d = given.normalized();
-    Ray ray{d, {}};
-    const Line line(wanted_ + options_.wind, d, {0, reach_});
-    // What is farther than a candidate does not matter.
-    const double far = std::min(reach_, 2 * upper_);
-    const Domain domain{0, far};
-    std::vector<Range> not_free;
-    for (std::size_t i = 0; i < parts_.size(); ++i) {
-      const Part& part = parts_[i];
-      if (away_[i] >= upper_) {
-        ray.hit.push_back(std::nullopt);
-        continue;
-      }
-      const OnRay question(part, line, horizon_, options_.margin);
-      Search search(question, domain);
-      search.run();
-      std::optional<Range> hit;  // all between the first and the last: a convex set
-      for (const Range& one : search.hit)
-        hit = hit ? Range{std::min(hit->from, one.from), std::max(hit->to, one.to)} : one;
-      ray.hit.push_back(hit);
-      double from = 0;
-      std::sort(search.free.begin(), search.free.end(),
-                [](const Range& a, const Range& b) { return a.from < b.from; });
-      for (const Range& free : search.free) {
-        if (free.from > from) not_free.push_back({from, free.from});
-        from = std::max(from, free.to);
-      }
-      if (from < far) not_free.push_back({from, reach_});
+    Ray ray{given.normalized(), {}, {}};
+    limit(ray);
+    for (const Part* part : parts_) block(ray, *part);
+    look_along(ray);
+    rays_.push_back(std::move(ray));
+    return static_cast<int>(rays_.size()) - 1;
+  }
+
+  /// What a part blocks of it.
+  void block(Ray& ray, const Part& part) const {
+    const Line line(wanted_ + options_.wind, ray.direction, {0, reach_});
+    const OnRay question(part, line, horizon_, options_.margin);
+    Search search(question, {0, reach_});
+    search.run();
+    std::optional<Range> hit;  // all between the first and the last: a convex set
+    for (const Range& one : search.hit)
+      hit = hit ? Range{std::min(hit->from, one.from), std::max(hit->to, one.to)} : one;
+    ray.hit.push_back(hit);
+    double from = 0;
+    std::sort(search.free.begin(), search.free.end(),
+              [](const Range& a, const Range& b) { return a.from < b.from; });
+    for (const Range& free : search.free) {
+      if (free.from > from) ray.not_free.push_back({from, free.from});
+      from = std::max(from, free.to);
     }
-    // What cannot be flown, along the ray.
+    if (from < reach_) ray.not_free.push_back({from, reach_});
+  }
+
+  /// What of it cannot be flown.
+  void limit(Ray& ray) const {
+    const Vector3d& d = ray.direction;
     const double along = wanted_.dot(d);
     const auto crossing = [&](double speed) -> std::optional<Range> {
       const double root = along * along - wanted_.squaredNorm() + speed * speed;
@@ -283,37 +290,39 @@ class Search3 {
     };
     std::optional<Range> slow = crossing(options_.speed.from);
     if (slow && slow->to > 0) {
-      not_free.push_back({std::max(slow->from, 0.0), slow->to});
-      ray.hit.push_back(Range{std::max(slow->from, 0.0), slow->to});
+      ray.not_free.push_back({std::max(slow->from, 0.0), slow->to});
+      ray.hit.push_back(ray.not_free.back());
     } else {
       ray.hit.push_back(std::nullopt);
     }
     if (std::isfinite(options_.speed.to)) {
       const auto fast = crossing(options_.speed.to);
       if (!fast || fast->to <= 0) {
-        not_free.push_back({0, reach_});
+        ray.not_free.push_back({0, reach_});
       } else {
-        if (fast->from > 0) not_free.push_back({0, fast->from});
-        not_free.push_back({fast->to, reach_});
+        if (fast->from > 0) ray.not_free.push_back({0, fast->from});
+        ray.not_free.push_back({fast->to, reach_});
       }
     }
     for (const double side : {-1.0, 1.0}) {
-      const double limit = side > 0 ? options_.climb.to : -options_.climb.from;
-      if (std::isinf(limit)) continue;
-      const double here = side * wanted_.z() - limit, slope = side * d.z();  // positive: too much
-      if (here > 0) not_free.push_back({0, slope < 0 ? -here / slope : reach_});
-      if (here <= 0 && slope > 0) not_free.push_back({-here / slope, reach_});
+      const double most = side > 0 ? options_.climb.to : -options_.climb.from;
+      if (std::isinf(most)) continue;
+      const double here = side * wanted_.z() - most, slope = side * d.z();  // positive: too much
+      if (here > 0) ray.not_free.push_back({0, slope < 0 ? -here / slope : reach_});
+      if (here <= 0 && slope > 0) ray.not_free.push_back({-here / slope, reach_});
     }
-    std::sort(not_free.begin(), not_free.end(),
+  }
+
+  /// For a candidate.
+  void look_along(Ray& ray) {
+    std::sort(ray.not_free.begin(), ray.not_free.end(),
               [](const Range& a, const Range& b) { return a.from < b.from; });
     double s = 0;
-    for (const Range& range : not_free) {
-      if (range.from >= s * (1 - kOneValue)) look_between(d, s, range.from);
+    for (const Range& range : ray.not_free) {
+      if (range.from >= s * (1 - kOneValue)) look_between(ray.direction, s, range.from);
       s = std::max(s, range.to);
     }
-    if (s < far) look_between(d, s, far);
-    rays_.push_back(std::move(ray));
-    return static_cast<int>(rays_.size()) - 1;
+    if (s < reach_) look_between(ray.direction, s, reach_);
   }
 
   /// Whether a velocity of the ray is a candidate; then it is the one to beat.
@@ -360,8 +369,12 @@ class Search3 {
   double bound_of(const std::array<int, 3>& t) const {
     const Vector3d &a = direction(t[0]), &b = direction(t[1]), &c = direction(t[2]);
     const Vector3d across = (b - a).cross(c - a);
-    const double height =
-        std::abs(across.dot(a)) / across.norm() * (1 - 1e-12);  // of the plane through their tips
+    // Of a point between the tips |p|^2 = 1 - sum of l_i l_j d_ij^2, which is at most a third of the longest
+    // d^2; or of their plane.
+    const double widest = std::max({(b - a).squaredNorm(), (c - a).squaredNorm(), (c - b).squaredNorm()});
+    double height = std::sqrt(std::max(0.0, 1 - widest / 3));
+    if (widest > kTiny * kTiny) height = std::max(height, std::abs(across.dot(a)) / across.norm());
+    height *= 1 - 1e-12;
     std::vector<Range> chain;
     for (std::size_t i = 0; i < rays_[t[0]].hit.size(); ++i) {
       Range all{0, kInfinity};
@@ -418,16 +431,19 @@ class Search3 {
            beyond(facing.normalized(), options_.speed.to);
   }
 
+  static constexpr double kTiny = 1e-5;       // rad, a triangle that is not divided
   static constexpr double kOneValue = 1e-13;  // a gap between what cannot be flown may be one value
 
   Vector3d velocity_, wanted_;
-  const std::vector<Part>& parts_;
+  Threats& threats_;
   const AvoidOptions& options_;
   Horizon horizon_;
+  std::size_t most_;                // rays
+  std::vector<const Part*> parts_;  // those that are looked at
   double reach_ = 0, upper_ = kInfinity;
-  std::vector<double> away_;  // m/s, at least, from the wanted velocity to those that a part blocks
   Vector3d best_ = Vector3d::Zero();
   std::vector<Ray> rays_;
+  std::vector<Triangle> open_;  // a heap
   std::map<std::pair<int, int>, int> middles_;
 };
 
@@ -493,36 +509,29 @@ const char* to_string(AvoidStatus status) {
 Avoidance avoid(const Placed& agent, const Vector3d& velocity, const Vector3d& wanted,
                 std::span<const Intruder> intruders, const AvoidOptions& options) {
   require(velocity, wanted, options);
-  std::vector<Part> parts;
-  for (std::size_t i = 0; i < intruders.size(); ++i) {
+  for (std::size_t i = 0; i < intruders.size(); ++i)
     require(intruders[i].velocity, ("intruders[" + std::to_string(i) + "].velocity").c_str());
-    for_each_part(agent, [&](const Placed& own, bool own_exact) {
-      for_each_part(intruders[i].body, [&](const Placed& other, bool other_exact) {
-        Part part{Pair(own, other), {}, intruders[i].velocity, i, own_exact && other_exact};
-        if (options.margin > 0) part.inner.emplace(swollen(own, options.margin), other);
-        parts.push_back(std::move(part));
-      });
-    });
-  }
-  Avoidance answer = Search3(velocity, wanted, parts, options, options.until).run();
+  Threats threats(agent, intruders, options.margin);
+  Avoidance answer = Search3(velocity, wanted, threats, options, options.until).run();
   if (answer.status == AvoidStatus::free) return answer;
   answer.velocity = nearly(wanted, options);
   answer.distance = (answer.velocity - wanted).norm();
   // Nothing is safe for so long: what is for half as long, and so on.
   for (double until = 0.5 * options.until; until > 1e-3 * options.until; until *= 0.5) {
-    const Avoidance shorter = Search3(velocity, wanted, parts, options, until).run();
+    const Avoidance shorter = Search3(velocity, wanted, threats, options, until).run();
     if (shorter.status != AvoidStatus::free) continue;
     answer.velocity = shorter.velocity;
     answer.distance = shorter.distance;
     break;
   }
+  const Vector3d ground = answer.velocity + options.wind;
   double first = kInfinity;
-  for (const Part& part : parts)
-    if (const auto contact = part.pair.contact(answer.velocity + options.wind, part.velocity);
-        contact && contact->earliest < first) {
-      first = contact->earliest;
-      answer.first = {part.intruder, first};
-    }
+  threats.near(ground, kInfinity, 0, [&](std::size_t i) {
+    const auto contact = threats[i].pair.contact(ground, threats[i].velocity);
+    if (!contact || !(contact->earliest < first)) return;
+    first = contact->earliest;
+    answer.first = {threats[i].intruder, first};
+  });
   return answer;
 }
 

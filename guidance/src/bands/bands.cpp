@@ -7,7 +7,7 @@
 
 #include "bands/at_once.h"
 #include "bands/manoeuvre.h"
-#include "bands/parts.h"
+#include "bands/threats.h"
 
 namespace vericone::guidance {
 
@@ -31,13 +31,6 @@ void require_range(const Range& range, double least, const char* field) {
 
 bool is_given(const Range& range) { return range.from != 0 || range.to != 0; }
 
-/// One convex part of the agent and one of an intruder.
-struct Parts {
-  Pair pair;
-  Vector3d velocity;  // of the intruder
-  bool exact;         // they are what the bodies are, not more
-};
-
 /// A quantity of the agent's velocity.
 struct Quantity {
   const Curve& at_once;
@@ -48,15 +41,7 @@ struct Quantity {
 class Banding {
  public:
   Banding(const Placed& agent, std::span<const Intruder> intruders, const BandOptions& options)
-      : options_(options) {
-    for (const Intruder& intruder : intruders)
-      for_each_part(agent, [&](const Placed& own, bool own_exact) {
-        for_each_part(intruder.body, [&](const Placed& other, bool other_exact) {
-          parts_.push_back({Pair(own, other), intruder.velocity, own_exact && other_exact});
-        });
-      });
-  }
-  const std::vector<Parts>& parts() const { return parts_; }
+      : options_(options), threats_(agent, intruders, 0) {}
 
   Band band(const Quantity& quantity) const {
     const bool takes_time = std::isfinite(quantity.change.rate);
@@ -64,29 +49,50 @@ class Banding {
   }
 
   Band at_once(const Quantity& quantity, const Horizon& horizon) const {
-    Merged merged(whole(quantity));
-    for (const Parts& parts : parts_)
-      merged.add(OfVelocity(parts.pair, parts.velocity, horizon, quantity.at_once), whole(quantity),
-                 parts.exact);
-    return merged.band();
+    const Domain whole = quantity.domain.closed ? Domain{0, 2 * kPi, true} : quantity.domain;
+    return of_all({whole, whole}, true, [&](const Pair& pair, const Vector3d& velocity) {
+      return OfVelocity(pair, velocity, horizon, quantity.at_once);
+    });
   }
 
   /// After going on for `wait`.
   Band after(const Quantity& quantity, double wait, int parts_between_hits = 64) const {
-    Merged merged(whole(quantity));
-    const Domain about{quantity.domain.low, quantity.domain.high};
-    for (const Parts& parts : parts_)
-      merged.add(OfManoeuvre(parts.pair, parts.velocity, quantity.change, wait, options_.horizon.until,
-                             {about.low, about.high}, parts_between_hits),
-                 about, false);
-    return merged.band();
+    const Domain whole = quantity.domain.closed ? Domain{0, 2 * kPi, true} : quantity.domain,
+                 about{quantity.domain.low, quantity.domain.high};
+    return of_all({whole, about}, false, [&](const Pair& pair, const Vector3d& velocity) {
+      return OfManoeuvre(pair, velocity, quantity.change, wait, options_.horizon.until,
+                         {about.low, about.high}, parts_between_hits);
+    });
+  }
+
+  Band of_altitude(const Vector3d& level) const {
+    const Domain whole{options_.altitude.from, options_.altitude.to};
+    return of_all({whole, whole}, true, [&](const Pair& pair, const Vector3d& velocity) {
+      return OfAltitude(pair, level, velocity, options_.horizon);
+    });
+  }
+
+  /// When the bodies meet first on the present course; none within the horizon.
+  std::optional<double> violation(const Vector3d& ground) const {
+    std::optional<double> first;
+    threats_.near(ground, options_.horizon.until, 0, [&](std::size_t i) {
+      const Part& part = threats_[i];
+      if (part.pair.verdict(ground, part.velocity, options_.horizon) == Verdict::out) return;
+      const auto contact = part.pair.contact(ground, part.velocity);
+      const double time = std::max(contact ? contact->earliest : 0, options_.horizon.from);
+      first = std::min(first.value_or(kInfinity), time);
+    });
+    return first;
   }
 
   /// Whether all stay apart on the present course from now until then.
   bool is_clear(const Vector3d& ground, double until) const {
-    return std::all_of(parts_.begin(), parts_.end(), [&](const Parts& parts) {
-      return parts.pair.verdict(ground, parts.velocity, {0, until}) == Verdict::out;
+    bool clear = true;
+    threats_.near(ground, until, 0, [&](std::size_t i) {
+      const Part& part = threats_[i];
+      clear = clear && part.pair.verdict(ground, part.velocity, {0, until}) == Verdict::out;
     });
+    return clear;
   }
 
   /// See Band::last: bisected, as if what works after a wait worked after every shorter one.
@@ -129,12 +135,24 @@ class Banding {
   }
 
  private:
-  static Domain whole(const Quantity& quantity) {
-    return quantity.domain.closed ? Domain{0, 2 * kPi, true} : quantity.domain;
+  /// `ask(pair, velocity of its obstacle)` is the question of one pair.
+  template <typename Ask>
+  Band of_all(Merged merged, bool hits, const Ask& ask) const {
+    threats_.descend(
+        Where{true, {}},
+        [&](const Pair& pair, const Vector3d& velocity, const Where& where) {
+          return merged.not_free(ask(pair, velocity), merged.without_known(where, hits), false);
+        },
+        [&](const Part& part, const Where& where) {
+          const Where still = where.everywhere ? where : merged.without_known(where, hits);
+          if (!still.empty())
+            merged.block(merged.not_free(ask(part.pair, part.velocity), still, hits && part.exact).ranges);
+        });
+    return merged.band();
   }
 
   const BandOptions& options_;
-  std::vector<Parts> parts_;
+  mutable Threats threats_;  // prepares what is asked about
 };
 
 void require(const Vector3d& velocity, std::span<const Intruder> intruders, const BandOptions& options) {
@@ -195,18 +213,9 @@ Bands bands(const Placed& agent, const Vector3d& velocity, std::span<const Intru
     if (options.last) band->last = banding.last(*quantity, ground);
   }
   if (is_given(options.altitude)) {
-    Merged merged({options.altitude.from, options.altitude.to});
-    for (const Parts& parts : banding.parts())
-      merged.add(OfAltitude(parts.pair, level, parts.velocity, options.horizon),
-                 {options.altitude.from, options.altitude.to}, parts.exact);
-    result.altitude = merged.band();
+    result.altitude = banding.of_altitude(level);
   }
-  for (const Parts& parts : banding.parts()) {
-    if (parts.pair.verdict(ground, parts.velocity, options.horizon) == Verdict::out) continue;
-    const auto contact = parts.pair.contact(ground, parts.velocity);
-    const double time = std::max(contact ? contact->earliest : 0, options.horizon.from);
-    result.time_to_violation = std::min(result.time_to_violation.value_or(kInfinity), time);
-  }
+  result.time_to_violation = banding.violation(ground);
   const auto none = [](const Band& band) { return band.free.empty(); };
   if (none(result.heading) && none(result.speed) && none(result.climb))
     result.recovery = banding.recovery(of_heading);

@@ -6,6 +6,15 @@
 
 namespace vericone::guidance::banding {
 
+/// One convex piece of an assembly, where the body is.
+inline Placed piece_of(const Placed& body, std::size_t i) {
+  const Assembly& pieces = *body.body.assembly();
+  HullBody points = pieces.piece(i);
+  if (!(pieces.radius() > 0)) return Placed(std::move(points), body.pose);
+  const Eigen::Vector3d radii = Eigen::Vector3d::Constant(pieces.radius());
+  return Placed(Ellipsoid::from_axes(points.points().front(), radii), body.pose);
+}
+
 /// Convex bodies that together are the body, or contain it.
 /// use(part, whether it is what the body is and not more).
 template <typename Use>
@@ -19,16 +28,7 @@ void for_each_part(const Placed& body, const Use& use) {
     std::for_each(all->begin(), all->end(), quadric);
     return;
   }
-  const Assembly& pieces = *body.body.assembly();
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    HullBody points = pieces.piece(i);
-    if (pieces.radius() > 0) {
-      const Eigen::Vector3d radii = Eigen::Vector3d::Constant(pieces.radius());
-      use(Placed(Ellipsoid::from_axes(points.points().front(), radii), body.pose), true);
-    } else {
-      use(Placed(std::move(points), body.pose), true);
-    }
-  }
+  for (std::size_t i = 0; i < body.body.assembly()->size(); ++i) use(piece_of(body, i), true);
 }
 
 }  // namespace vericone::guidance::banding

@@ -151,41 +151,102 @@ class Search {
   Range found_;
 };
 
+/// Where something is asked: everywhere, or in these ranges.
+struct Where {
+  bool everywhere = false;
+  std::vector<Range> ranges;
+  bool empty() const { return !everywhere && ranges.empty(); }
+};
+
 /// The ranges of all together: free for every one, or hit by some.
 class Merged {
  public:
-  explicit Merged(const Domain& domain) : domain_(domain) {}
+  /// `domain`: of the quantity; of a closed one, the turn that is answered. `search`: where a search begins,
+  /// of a closed quantity a turn anywhere.
+  Merged(const Domain& domain, const Domain& search) : domain_(domain), search_(search) {}
 
-  /// `domain`: where to search; of a closed quantity a turn anywhere. `hits`: whether they count.
-  void add(const Question& question, const Domain& domain, bool hits) {
-    Search one(question, domain);
-    one.run();
-    std::vector<Range> free = joined(one.free);
-    if (domain_.closed)  // a turn is not a double
-      for (Range& range : free)
-        if (range.to - range.from < domain_.high) range = {range.from + kTurned, range.to - kTurned};
-    const std::vector<Range> own = in_order(free);
-    double from = domain_.low;
-    for (const Range& range : own) {
-      if (range.from > from) blocked_.push_back({from, range.from});
-      from = std::max(from, range.to);
+  /// Of these, all that a question does not find free. `hits`: whether they count.
+  Where not_free(const Question& question, const Where& where, bool hits) {
+    Where result;
+    if (where.everywhere) {
+      Search one(question, search_);
+      one.run();
+      std::vector<Range> free = joined(one.free);
+      if (domain_.closed)  // a turn is not a double
+        for (Range& range : free)
+          if (range.to - range.from < domain_.high) range = {range.from + kTurned, range.to - kTurned};
+      add_rest(in_order(free), {domain_.low, domain_.high}, result.ranges);
+      if (hits) add_hits(one.hit);
     }
-    if (from < domain_.high || own.empty()) blocked_.push_back({from, domain_.high});
-    if (hits) hit_.insert(hit_.end(), one.hit.begin(), one.hit.end());
+    for (const Range& range : where.ranges)
+      for (const double turn : turns()) {
+        const Range here{std::max(range.from - turn, search_.low), std::min(range.to - turn, search_.high)};
+        if (here.from > here.to) continue;
+        Search one(question, {here.from, here.to});
+        one.run();
+        std::vector<Range> rest;
+        add_rest(joined(one.free), here, rest);
+        for (const Range& r : rest) result.ranges.push_back(turned(r, turn));
+        if (hits) add_hits(one.hit);
+      }
+    result.ranges = joined(std::move(result.ranges));
+    return result;
+  }
+
+  /// Without what is known to be hit already; or, where hits do not matter, to be blocked.
+  Where without_known(const Where& where, bool hits) const {
+    const std::vector<Range>& known = hits ? hit_ : blocked_;
+    if (known.empty()) return where;
+    Where result;
+    for (const Range& range :
+         where.everywhere ? std::vector<Range>{{domain_.low, domain_.high}} : where.ranges)
+      add_rest(known, range, result.ranges);
+    return result;
+  }
+
+  void block(const std::vector<Range>& ranges) {
+    blocked_.insert(blocked_.end(), ranges.begin(), ranges.end());
+    blocked_ = joined(std::move(blocked_));
   }
 
   Band band() const {
-    Band result{{}, in_order(hit_)};
-    double from = domain_.low;
-    for (const Range& range : in_order(blocked_)) {
-      if (range.from > from) result.free.push_back({from, range.from});
-      from = std::max(from, range.to);
-    }
-    if (from < domain_.high || blocked_.empty()) result.free.push_back({from, domain_.high});
+    Band result{{}, hit_};
+    add_rest(blocked_, {domain_.low, domain_.high}, result.free);
     return result;
   }
 
  private:
+  /// By which what is answered may be off what is searched.
+  std::vector<double> turns() const {
+    if (!domain_.closed || search_.closed) return {0};
+    const double turn = domain_.high - domain_.low;
+    return {0, turn};
+  }
+  Range turned(const Range& range, double turn) const {
+    if (turn == 0) return range;
+    return {std::max(range.from + turn - kTurned, domain_.low),
+            std::min(range.to + turn + kTurned, domain_.high)};
+  }
+
+  void add_hits(const std::vector<Range>& hits) {
+    const std::vector<Range> ordered = in_order(hits);
+    hit_.insert(hit_.end(), ordered.begin(), ordered.end());
+    hit_ = joined(std::move(hit_));
+  }
+
+  /// What of a range is in none of those, which are in order; of a range of one value that value.
+  static void add_rest(const std::vector<Range>& those, const Range& range, std::vector<Range>& rest) {
+    double from = range.from;
+    bool any = false;
+    for (const Range& one : those) {
+      if (one.to < range.from || one.from > range.to) continue;
+      any = true;
+      if (one.from > from) rest.push_back({from, one.from});
+      from = std::max(from, one.to);
+    }
+    if (from < range.to || !any) rest.push_back({from, range.to});
+  }
+
   /// Within the ends of the curve, joined where they overlap.
   std::vector<Range> in_order(const std::vector<Range>& given) const {
     std::vector<Range> all;
@@ -214,8 +275,8 @@ class Merged {
 
   static constexpr double kTurned = 0x1p-48;
 
-  Domain domain_;
-  std::vector<Range> blocked_, hit_;
+  Domain domain_, search_;
+  std::vector<Range> blocked_, hit_;  // in order, apart
 };
 
 }  // namespace vericone::guidance::banding

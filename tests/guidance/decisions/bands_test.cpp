@@ -9,6 +9,7 @@
 #include <vericone/geometry/error.h>
 #include <vericone/testing/random_bodies.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -245,6 +246,39 @@ TEST(Bands, LeaveNothingBetweenOfConvexBodies) {
   EXPECT_LT(between, 1e-9);
 }
 
+/// A room of 3,600 boxes and more: each heading is decided, and what single verdicts say.
+TEST(Bands, AmongTheBoxesOfAMap) {
+  std::vector<Box> boxes;
+  for (int i = -30; i < 30; ++i)
+    for (int j = -15; j < 15; ++j)
+      for (const double side : {-3.1, 3.0}) {
+        const double along = 0.1 * i, up = 0.1 * j;
+        if (i >= 5 && i < 12 && side > 0) continue;  // a door
+        boxes.push_back({{along, side, up}, {along + 0.1, side + 0.1, up + 0.1}});
+        boxes.push_back({{side, along, up}, {side + 0.1, along + 0.1, up + 0.1}});
+      }
+  const Placed map(Body(Assembly::boxes(boxes))), agent(Ellipsoid::from_axes({0.2, 0.4, 0}, {0.3, 0.2, 0.1}));
+  const Intruder room{map, {0, 0.1, 0}};
+  const Pair pair(agent, map);
+  for (const double lateral : {0.0, 2.0}) {
+    const Bands found = bands(agent, {1, 0.7, 0}, {&room, 1}, {.horizon = {0, 4}, .lateral = lateral});
+    double decided = 0;
+    for (const auto* list : {&found.heading.free, &found.heading.conflict})
+      for (const Range& range : *list) {
+        decided += range.to - range.from;
+        for (int k = 1; k < 40 && lateral == 0; ++k) {
+          const double heading = range.from + (range.to - range.from) * k / 40;
+          const Verdict verdict = pair.verdict(on(heading, std::hypot(1, 0.7)), room.velocity, {0, 4});
+          ASSERT_EQ(verdict == Verdict::out, list == &found.heading.free) << heading;
+        }
+      }
+    EXPECT_GE(found.heading.free.size(), 1);
+    if (lateral == 0) {
+      EXPECT_GT(decided, kTurn - 1e-6);
+    }
+  }
+}
+
 /// Manoeuvres that take time, flown in small steps.
 TEST(Bands, OfManoeuvresAreFreeWhenFlown) {
   RandomBodies random(3826);
@@ -252,8 +286,8 @@ TEST(Bands, OfManoeuvresAreFreeWhenFlown) {
   int flown = 0, missed = 0, free = 0;
   for (int i = 0; i < campaign_size(24, 240); ++i) {
     const Placed agent(any_body(random, BodyKind::ellipsoid), any_pose(random, 0.5));
-    const Intruder other{Placed(any_body(random, i % 2 == 0 ? BodyKind::ellipsoid : BodyKind::hull),
-                                any_pose(random, random.uniform(10, 20))),
+    const BodyKind kind = std::array{BodyKind::ellipsoid, BodyKind::hull, BodyKind::boxes}[i % 3];
+    const Intruder other{Placed(any_body(random, kind), any_pose(random, random.uniform(10, 20))),
                          random.direction()};
     const double until = random.uniform(6, 15);
     const Vector3d v =

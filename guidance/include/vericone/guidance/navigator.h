@@ -8,11 +8,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace vericone::guidance {
+
+class Route;
 
 namespace courses {
 struct Near;
@@ -28,12 +31,18 @@ struct NavigatorOptions {
       beyond;  // metres more that a course must keep when it is taken; left out: a tenth of it
   double most = std::numeric_limits<double>::infinity();  // m/s^2, across the velocity
   bool longitudinal = false;  // it may change its speed too: `most` is of the whole acceleration
+  // Of who may change its speed:
+  double fastest = std::numeric_limits<double>::infinity();  // m/s; given: the speed that it goes at
+  double range = std::numeric_limits<double>::infinity();    // m: it comes to rest within what it sees
+  std::size_t looks = 0;  // distances measured a step, about, at most; 0: as many as it takes
 };
 
 /// Where the agent wants to go.
 struct Destination {
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  // m
-  double most = 0;                                  // m/s^2, with which it turns towards the point
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();     // m
+  double most = 0;                                     // m/s^2, with which it turns towards the point
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, of the point
+  bool stay = false;  // who may change its speed comes to rest there, or goes on with the point
 };
 
 enum class NavigatorStatus : std::uint8_t {
@@ -55,6 +64,8 @@ struct NavigatorStep {
   /// pieces, the one touched first). Infinite without bodies. `nearest`: its index in `others`.
   double least = std::numeric_limits<double>::infinity();
   std::size_t nearest = 0;
+  /// s from now when it is at rest by the course flown; infinite: that goes straight on for ever.
+  double rest = std::numeric_limits<double>::infinity();
 };
 
 /// Flies by courses: turn to a direction on a circle, as hard as allowed, then straight on; where the speed
@@ -69,13 +80,18 @@ struct NavigatorStep {
 /// where all hit the one that hits last: asking for more never makes a decision hit. Before it says so it
 /// looks for further courses that may follow that one, and holds what it finds.
 ///
-/// Who may change its speed goes at that of its first step; who was at rest then goes to its destination as
-/// fast as it can still stop there, and without one stops again. At rest without `longitudinal` it stays.
+/// Who may change its speed goes at `fastest`, or at that of its first step; who was at rest then goes to its destination as
+/// fast as it can still stop there, and without one stops again. Where no straight line is safe for ever, and
+/// within the bounds of a body that is judged as it is, its courses end at rest: the command of this step,
+/// then braking as hard as allowed, and staying there. Such a stop is then in hand at every step, and is
+/// flown where nothing else is found. There it also looks for a way to its destination among the bodies at
+/// rest, some hundred cells a step, and goes to the farthest point of it that it sees. At rest without
+/// `longitudinal` it stays.
 ///
 /// Placed bodies that do not turn are judged as they are (of combined quadrics in unions what their
 /// delimiters cut away counts too), so that an agent can fly through them; within the bounds of one, where
-/// every straight line may end at a wall, a course is judged for half a second more than it takes to turn
-/// right round (who may change its speed: to stop). Other bodies stand for themselves as ellipsoids that
+/// every straight line may end at a wall, a course at constant speed is judged for half a second more than it
+/// takes to turn right round. Other bodies stand for themselves as ellipsoids that
 /// contain them; one that turns or changes its shape by the ball about it. Deterministic. No allocation once
 /// it has searched.
 ///
@@ -100,6 +116,7 @@ class Navigator {
   struct Foreseen;
   struct Moment;
   struct Flight;
+  struct Choice;
   struct Approach;
   struct Chord;
 
@@ -126,21 +143,33 @@ class Navigator {
                 Approach& seen) const;
   void see_straight(const Flight& flight, const Body& other, double begin, double end,
                     courses::Meeting meeting, Approach& seen) const;
+  void see_stop(const Flight& flight, const Body& other, double begin, double end, courses::Meeting meeting,
+                Approach& seen) const;
+  void see_curved(const Flight& flight, const Body& other, double begin, double end, courses::Meeting meeting,
+                  Approach& seen) const;
   [[nodiscard]] Approach see(const Flight& flight, const Body& other, double begin, double enough,
                              double hopeless, courses::Meeting meeting) const;
+  [[nodiscard]] bool in_sight(const Flight& flight) const;
   [[nodiscard]] Foreseen foresee(const Moment& now, const Course& course, const Foreseen& floor);
   [[nodiscard]] bool meets(const Flight& flight, const Body& other, double until) const;
   void tell(const Moment& now, Course course, double time, NavigatorStep& step) const;
 
   [[nodiscard]] double beside(const Moment& now, const Eigen::Vector3d& u, const Eigen::Vector3d& v) const;
   [[nodiscard]] Course towards(const Moment& now, const Eigen::Vector3d& velocity, double most) const;
-  [[nodiscard]] std::optional<Course> to_destination(const Moment& now, const Destination& destination) const;
+  static void brake_from(const Moment& now, double t, Course& course);
+  [[nodiscard]] std::optional<Course> to_destination(const Moment& now, const Destination& destination,
+                                                     double part) const;
   void closer(const Moment& now, const Eigen::Vector3d& wanted, double most, Course& course,
               Foreseen& foreseen);
   bool refine(const Moment& now, Course& course, Foreseen& foreseen);
   void spread(const Moment& now, const Eigen::Vector3d& wanted, double less_than, int finer);
-  bool search(const Moment& now, const Eigen::Vector3d& wanted, double less_than, Course& course,
+  bool search(const Moment& now, const Eigen::Vector3d& wanted, double less_than, bool any, Course& course,
               Foreseen& foreseen);
+  [[nodiscard]] Choice choose(const Moment& now, const std::optional<Destination>& destination, double time);
+  [[nodiscard]] Destination on_the_way(const Moment& now, const Destination& destination, double time);
+  [[nodiscard]] Course in_hand(const Moment& now, double time) const;
+  /// As many distances were measured in this step as may be.
+  [[nodiscard]] bool spent() const { return options_.looks > 0 && looks_ >= long(options_.looks); }
 
   /// A course that is to follow the one that is flown.
   struct Leg {
@@ -169,6 +198,8 @@ class Navigator {
   double kept_ = 0;                                              // m, by it, of those required
   double hit_ = std::numeric_limits<double>::infinity();         // s, by it
   double next_look_ = -std::numeric_limits<double>::infinity();  // s
+  double brakes_ = std::numeric_limits<double>::infinity();      // s, when what was taken brakes to rest
+  bool stopping_ = false;                                        // it is the stop that was in hand
   double required_ = 0, beyond_ = 0;                             // metres
   // Of the step; members to keep their memory.
   std::vector<Body> bodies_;
@@ -178,8 +209,10 @@ class Navigator {
   };
   std::vector<Candidate> candidates_;
   std::vector<Leg> tried_;
-  std::size_t failed_by_ = 0;  // the body that the course tried before failed by
-  mutable long looks_ = 0;     // how many distances were measured
+  std::size_t failed_by_ = 0;     // the body that the course tried before failed by
+  std::size_t resume_ = 0;        // the candidate that a search goes on with
+  std::shared_ptr<Route> route_;  // written to where no copy has it too
+  mutable long looks_ = 0;        // distances measured in this step
 };
 
 }  // namespace vericone::guidance

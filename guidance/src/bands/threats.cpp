@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bands/threats.h"
+
+#include <algorithm>
+
+namespace vericone::guidance::banding {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// A body that the agent and a ball of that radius around each of its points contain.
+Placed swollen(const Placed& body, double radius) {
+  if (const auto* quadric = body.body.quadric()) {
+    const Ellipsoid& e = quadric->ellipsoid();
+    Eigen::Matrix3d axes = e.axis_directions();
+    if (axes.determinant() < 0) axes.col(0) *= -1;
+    const Vector3d longer = e.semi_axes() + Vector3d::Constant(radius * (1 - 1e-12));
+    return {Ellipsoid::from_axes(e.center(), longer, axes), body.pose};
+  }
+  std::vector<Vector3d> points;
+  for (const Vector3d& x : body.body.hull()->points())
+    for (int k = 0; k < 3; ++k)
+      for (const double side : {-1.0, 1.0})
+        points.push_back(x + side * radius * (1 - 1e-12) * Vector3d::Unit(k));
+  return {HullBody(std::move(points)), body.pose};
+}
+
+}  // namespace
+
+Threats::Threats(const Placed& agent, std::span<const Intruder> intruders, double margin)
+    : intruders_(intruders), margin_(margin), own_(convex_parts(agent)) {
+  for (const Intruder& intruder : intruders) {
+    Kept& kept = kept_.emplace_back();
+    kept.tree = intruder.body.body.assembly();
+    if (!kept.tree) kept.flat = convex_parts(intruder.body);
+  }
+}
+
+double Threats::fastest() const {
+  double most = 0;
+  for (const Intruder& intruder : intruders_) most = std::max(most, intruder.velocity.norm());
+  return most;
+}
+
+std::vector<Threats::Convex> Threats::convex_parts(const Placed& body) {
+  std::vector<Convex> parts;
+  for_each_part(body, [&](const Placed& part, bool exact) {
+    Vector3d center;
+    double square = 0;
+    if (const auto* quadric = part.body.quadric()) {
+      center = quadric->ellipsoid().center();
+      square = quadric->ellipsoid().factor().squaredNorm();  // the sum of its semi-axes' squares
+    } else {
+      const Box bounds = part.body.bounds();
+      center = bounds.center();
+      for (const Vector3d& x : part.body.hull()->points())
+        square = std::max(square, (x - center).squaredNorm());
+    }
+    const double rounded = 0x1p-48 * (center.norm() + part.pose.position.norm());
+    parts.push_back({part, exact, {part.pose.to_world(center), std::sqrt(square) * (1 + 0x1p-48) + rounded}});
+  });
+  return parts;
+}
+
+Threats::Ball Threats::ball_about(const Hierarchy::Node& node, const Pose& pose) {
+  const Box box = node.box();
+  const Vector3d center = box.center();
+  const double rounded = 0x1p-48 * (center.norm() + pose.position.norm());
+  return {pose.to_world(center), box.half_widths().norm() * (1 + 0x1p-48) + rounded};
+}
+
+std::size_t Threats::part(std::size_t own, std::size_t intruder, std::size_t i) {
+  const auto [found, is_new] =
+      known_.try_emplace((own * intruders_.size() + intruder) << 32 | i, parts_.size());
+  if (!is_new) return found->second;
+  const Kept& kept = kept_[intruder];
+  const Placed& body = intruders_[intruder].body;
+  const auto add = [&](const Placed& other, bool exact) {
+    const Placed& agent = own_[own].body;
+    Part& part = parts_.emplace_back(
+        Part{Pair(agent, other), {}, intruders_[intruder].velocity, intruder, own_[own].exact && exact});
+    if (margin_ > 0) part.inner.emplace(swollen(agent, margin_), other);
+  };
+  if (kept.tree)
+    add(piece_of(body, kept.tree->hierarchy().order()[i]), true);
+  else
+    add(kept.flat[i].body, kept.flat[i].exact);
+  return found->second;
+}
+
+}  // namespace vericone::guidance::banding

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A way among bodies at rest, by cells: where the straight one is blocked, the point to go to next. What it
+// says is a wish; whether a course is safe is judged by others.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <queue>
+#include <unordered_map>
+#include <vector>
+
+namespace vericone::guidance {
+
+class Route {
+ public:
+  /// Whether the agent goes straight from one point to another, nothing nearer than it is to keep; and so
+  /// does one whose radius is some metres more.
+  using Clear = std::function<bool(const Eigen::Vector3d&, const Eigen::Vector3d&, double)>;
+
+  /// The point to go to now, metres: the goal, where it is in sight; else the farthest on the way to it that
+  /// is; else, while the way is looked for, the goal. `radius`: m, of the agent with what it is to keep.
+  /// Looks at a few hundred cells a call at most.
+  [[nodiscard]] Eigen::Vector3d towards(const Eigen::Vector3d& goal, const Eigen::Vector3d& position,
+                                        double radius, bool planar, double time, const Clear& clear);
+
+ private:
+  using Index = Eigen::Matrix<int, 3, 1>;
+  struct Node {
+    double cost = 0;  // m, from the start
+    std::uint64_t before = 0;
+    Index at = Index::Zero();
+    bool done = false, blocked = false;
+  };
+  struct Open {
+    double total;
+    std::uint64_t key;
+    bool operator<(const Open& other) const {
+      return total != other.total ? total > other.total : key > other.key;
+    }
+  };
+
+  void start(const Eigen::Vector3d& goal, const Eigen::Vector3d& position, double radius, double time);
+  void advance(bool planar, const Clear& clear);
+  void finish(std::uint64_t last, bool arrived);
+  [[nodiscard]] Eigen::Vector3d center(const Index& at) const { return from_ + cell_ * at.cast<double>(); }
+  [[nodiscard]] double left(const Index& at) const { return (goal_ - center(at)).norm(); }
+
+  Eigen::Vector3d goal_ = Eigen::Vector3d::Zero(), from_ = Eigen::Vector3d::Zero();
+  double cell_ = 0;     // m, the width of cells
+  double more_ = 0;     // m: of two cells beside each other that are free with it, all between is
+  double started_ = 0;  // s
+  bool sought_ = false, looking_ = false;
+  std::unordered_map<std::uint64_t, Node> nodes_;
+  std::priority_queue<Open> open_;
+  std::uint64_t nearest_ = 0;
+  std::vector<Eigen::Vector3d> way_;
+  std::size_t at_ = 0;  // of the way, where it goes now
+};
+
+}  // namespace vericone::guidance
