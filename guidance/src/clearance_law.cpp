@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <vericone/guidance/plane_view.h>
 
@@ -236,6 +237,9 @@ ClearanceCommand clearance_law(const BodyState& a, const BodyState& b, const Cle
   return command;
 }
 
-double law_clearance(const BodyState& a, const BodyState& b) { return view_of(a, b).miss.m; }
+double law_clearance(const BodyState& a, const BodyState& b) {
+  if (a.velocity == b.velocity) return std::numeric_limits<double>::infinity();
+  return view_of(a, b).miss.m;
+}
 
 }  // namespace vericone::guidance

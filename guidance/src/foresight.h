@@ -23,6 +23,7 @@ struct Navigator::Moment {
   Ellipsoid body;
   double reach;        // of the agent about its position
   double uneven;       // m, of its longest less its shortest semi-axis: what its turning changes, at most
+  double cruise;       // m/s, at which it goes to its destination
   double pace;         // m/s: of velocities that are tried
   double most;         // m/s^2
   double to_turn = 0;  // s: within bodies that hold it no course matters for longer

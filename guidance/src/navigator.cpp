@@ -166,7 +166,7 @@ std::optional<Navigator::Course> Navigator::to_destination(const Moment& now, co
   if (options_.longitudinal) {
     // At the speed that it has; without one, as fast as it can still stop there.
     const double soon = now.speed + 1 * most, stopping = std::sqrt(2 * kBraking * most * distance);
-    double pace = *pace_ > 0 ? std::max(*pace_, u.norm()) : std::min(soon, stopping) + u.norm();
+    double pace = now.cruise > 0 ? std::max(now.cruise, u.norm()) : std::min(soon, stopping) + u.norm();
     pace = part * std::min(pace, options_.fastest);
     const Vector3d ahead = to_point.normalized();
     // u + closing ahead, as fast as that.
@@ -449,8 +449,9 @@ NavigatorStep Navigator::step(const BodyState& agent, std::span<const BodyState>
   const Vector3d axes = now.body.semi_axes();
   now.uneven = (now.planar ? axes(1) : axes(0)) - axes(2);
   now.carried = agent.turning == Turning::with_heading && now.speed > 0 && now.uneven > 1e-12 * axes(2);
-  if (!pace_) pace_ = options_.fastest < kFar ? options_.fastest : now.speed;
-  now.pace = std::max(now.speed, *pace_);
+  if (!pace_) pace_ = now.speed;
+  now.cruise = options_.fastest < kFar ? options_.fastest : *pace_;
+  now.pace = std::max(now.speed, now.cruise);
   if (options_.longitudinal) {
     for (const BodyState& other : others) now.pace = std::max(now.pace, other.velocity.norm());
     if (!(now.pace > 0)) now.pace = now.reach;  // nothing moves: any speed will do

@@ -12,12 +12,12 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr int kCellsACall = 1000;
+constexpr int kCellsACall = 500;
 constexpr std::size_t kMostCells = 400'000;
-constexpr double kOfRadius = 0.4;  // the width of a cell
-constexpr double kGreedy = 1.2;    // the way may be longer by this, and is found sooner
-constexpr double kSeekAgain = 2;   // s, at least, from one search to the next
-constexpr int kSightsACall = 8;    // straight lines that are tried along the way
+constexpr double kCoarse = 0.4, kFine = 0.2;  // of the radius: the width of a cell
+constexpr double kGreedy = 1.2;               // the way may be longer by this, and is found sooner
+constexpr double kSeekAgain = 2;              // s, at least, from one search to the next
+constexpr int kSightsACall = 8;               // straight lines that are tried along the way
 
 std::uint64_t key_of(const Eigen::Matrix<int, 3, 1>& at) {
   constexpr int kMiddle = 1 << 20;
@@ -29,12 +29,11 @@ std::uint64_t key_of(const Eigen::Matrix<int, 3, 1>& at) {
 
 }  // namespace
 
-void Route::start(const Vector3d& goal, const Vector3d& position, double radius, double time) {
+void Route::start(const Vector3d& goal, const Vector3d& position, double cell) {
   goal_ = goal;
   from_ = position;
-  cell_ = kOfRadius * radius;
-  more_ = std::sqrt(radius * radius + 0.75 * cell_ * cell_) - radius;
-  started_ = time;
+  cell_ = cell;
+  more_ = std::sqrt(radius_ * radius_ + 0.75 * cell_ * cell_) - radius_;
   sought_ = looking_ = true;
   nodes_.clear();
   open_ = {};
@@ -46,10 +45,15 @@ void Route::start(const Vector3d& goal, const Vector3d& position, double radius,
   open_.push({left(first.at), nearest_});
 }
 
+bool Route::is_fine() const { return cell_ < 0.5 * (kCoarse + kFine) * radius_; }
+
 void Route::advance(bool planar, const Clear& clear) {
   int looked = 0;
   while (looked < kCellsACall) {
-    if (open_.empty() || nodes_.size() > kMostCells) return finish(nearest_, false);
+    if (open_.empty() || nodes_.size() > kMostCells) {
+      if (is_fine() || !open_.empty()) return finish(nearest_, false);
+      return start(goal_, from_, kFine * radius_);  // narrow places need smaller cells
+    }
     const std::uint64_t key = open_.top().key;
     open_.pop();
     Node& node = nodes_.at(key);
@@ -96,7 +100,11 @@ Vector3d Route::towards(const Vector3d& goal, const Vector3d& position, double r
                         double time, const Clear& clear) {
   if (clear(position, goal, 0)) return goal;
   const bool other = !sought_ || (goal - goal_).norm() > cell_;
-  if (other) start(goal, position, radius, time);
+  if (other) {
+    radius_ = radius;
+    started_ = time;
+    start(goal, position, kCoarse * radius);
+  }
   if (looking_) advance(planar, clear);
   if (looking_ || way_.empty()) return goal;
   // The farthest in sight, by steps that grow.

@@ -41,13 +41,15 @@ class Route {
     }
   };
 
-  void start(const Eigen::Vector3d& goal, const Eigen::Vector3d& position, double radius, double time);
+  void start(const Eigen::Vector3d& goal, const Eigen::Vector3d& position, double cell);
   void advance(bool planar, const Clear& clear);
   void finish(std::uint64_t last, bool arrived);
+  [[nodiscard]] bool is_fine() const;
   [[nodiscard]] Eigen::Vector3d center(const Index& at) const { return from_ + cell_ * at.cast<double>(); }
   [[nodiscard]] double left(const Index& at) const { return (goal_ - center(at)).norm(); }
 
   Eigen::Vector3d goal_ = Eigen::Vector3d::Zero(), from_ = Eigen::Vector3d::Zero();
+  double radius_ = 0;   // m
   double cell_ = 0;     // m, the width of cells
   double more_ = 0;     // m: of two cells beside each other that are free with it, all between is
   double started_ = 0;  // s

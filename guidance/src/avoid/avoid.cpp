@@ -261,6 +261,13 @@ class Search3 {
 
   /// What a part blocks of it.
   void block(Ray& ray, const Part& part) const {
+    // All velocities of the ray lead through one plane: of many small parts most are beside it.
+    const Vector3d w = wanted_ + options_.wind - part.velocity, n = w.cross(ray.direction);
+    const double rounded = 0x1p-40 * (part.apart.norm() + part.reach) * w.norm();
+    if (std::abs(n.dot(part.apart)) > part.reach * n.norm() + rounded) {
+      ray.hit.push_back(std::nullopt);
+      return;
+    }
     const Line line(wanted_ + options_.wind, ray.direction, {0, reach_});
     const OnRay question(part, line, horizon_, options_.margin);
     Search search(question, {0, reach_});

@@ -43,22 +43,25 @@ double Threats::fastest() const {
   return most;
 }
 
+Threats::Ball Threats::ball_about(const Placed& part) {
+  Vector3d center;
+  double square = 0;
+  if (const auto* quadric = part.body.quadric()) {
+    center = quadric->ellipsoid().center();
+    square = quadric->ellipsoid().factor().squaredNorm();  // the sum of its semi-axes' squares
+  } else {
+    center = part.body.bounds().center();
+    for (const Vector3d& x : part.body.hull()->points())
+      square = std::max(square, (x - center).squaredNorm());
+  }
+  const double rounded = 0x1p-48 * (center.norm() + part.pose.position.norm());
+  return {part.pose.to_world(center), std::sqrt(square) * (1 + 0x1p-48) + rounded};
+}
+
 std::vector<Threats::Convex> Threats::convex_parts(const Placed& body) {
   std::vector<Convex> parts;
   for_each_part(body, [&](const Placed& part, bool exact) {
-    Vector3d center;
-    double square = 0;
-    if (const auto* quadric = part.body.quadric()) {
-      center = quadric->ellipsoid().center();
-      square = quadric->ellipsoid().factor().squaredNorm();  // the sum of its semi-axes' squares
-    } else {
-      const Box bounds = part.body.bounds();
-      center = bounds.center();
-      for (const Vector3d& x : part.body.hull()->points())
-        square = std::max(square, (x - center).squaredNorm());
-    }
-    const double rounded = 0x1p-48 * (center.norm() + part.pose.position.norm());
-    parts.push_back({part, exact, {part.pose.to_world(center), std::sqrt(square) * (1 + 0x1p-48) + rounded}});
+    parts.push_back({part, exact, ball_about(part)});
   });
   return parts;
 }
@@ -76,16 +79,24 @@ std::size_t Threats::part(std::size_t own, std::size_t intruder, std::size_t i) 
   if (!is_new) return found->second;
   const Kept& kept = kept_[intruder];
   const Placed& body = intruders_[intruder].body;
-  const auto add = [&](const Placed& other, bool exact) {
-    const Placed& agent = own_[own].body;
-    Part& part = parts_.emplace_back(
-        Part{Pair(agent, other), {}, intruders_[intruder].velocity, intruder, own_[own].exact && exact});
-    if (margin_ > 0) part.inner.emplace(swollen(agent, margin_), other);
+  const auto add = [&](const Placed& other, bool exact, const Ball& ball) {
+    const Convex& agent = own_[own];
+    Part& part = parts_.emplace_back(Part{Pair(agent.body, other),
+                                          {},
+                                          intruders_[intruder].velocity,
+                                          intruder,
+                                          agent.exact && exact,
+                                          ball.center - agent.ball.center,
+                                          (ball.radius + agent.ball.radius + margin_) * (1 + 0x1p-48)});
+    if (margin_ > 0) part.inner.emplace(swollen(agent.body, margin_), other);
   };
-  if (kept.tree)
-    add(piece_of(body, kept.tree->hierarchy().order()[i]), true);
-  else
-    add(kept.flat[i].body, kept.flat[i].exact);
+  if (kept.tree) {
+    const Placed piece = piece_of(body, kept.tree->hierarchy().order()[i]);
+    add(piece, true, ball_about(piece));
+  } else {
+    const Convex& one = kept.flat[i];
+    add(one.body, one.exact, one.ball);
+  }
   return found->second;
 }
 

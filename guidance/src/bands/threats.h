@@ -23,7 +23,9 @@ struct Part {
   std::optional<Pair> inner;
   Eigen::Vector3d velocity;
   std::size_t intruder;
-  bool exact;  // they are what the bodies are, not more
+  bool exact;             // they are what the bodies are, not more
+  Eigen::Vector3d apart;  // m, between balls about them
+  double reach;           // m, of both balls and the margin
 
   const Pair& swollen() const { return inner ? *inner : pair; }
 };
@@ -113,6 +115,7 @@ class Threats {
       of_part(parts_[part(own, intruder, slot)], rest);
   }
 
+  static Ball ball_about(const Placed& part);
   static std::vector<Convex> convex_parts(const Placed& body);
   static Ball ball_about(const Hierarchy::Node& node, const Pose& pose);
   /// Prepared when it is asked for first.

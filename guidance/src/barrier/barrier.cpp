@@ -27,7 +27,7 @@ struct Motion {
   double until;  // s
 };
 
-/// What one normal, of length 1 to rounding, proves.
+/// What one normal, of length 1 to rounding, proves, m.
 struct Proof {
   Vector3d n = Vector3d::Zero();
   double least = -kInfinity;
@@ -42,12 +42,12 @@ double size_of(const Placed& body) {
 /// Two convex bodies.
 class Convex {
  public:
-  Convex(const Pair& pair, const Motion& motion) : pair_(pair), motion_(motion), look_(motion) {
+  Convex(const Pair& pair, const Motion& motion) : pair_(pair), motion_(motion) {
     // Nearest on the line they are no later than this, and no nearer afterwards.
     const double far = (pair.obstacle().pose.position - pair.agent().pose.position).norm() +
                        size_of(pair.agent()) + size_of(pair.obstacle());
     speed_ = motion.w.norm();
-    look_.until = speed_ > 0 ? std::min(motion.until, 2 * far / speed_) : 0;
+    look_ = speed_ > 0 ? std::min(motion.until, 2 * far / speed_) : 0;
   }
 
   Barrier run() {
@@ -55,7 +55,7 @@ class Convex {
     if (!(best_.least > 0)) climb();
     Barrier result;
     result.least = best_.least;
-    result.h = std::max(best_.least, value(best_.n, look_));
+    result.h = std::max(best_.least, value(best_.n));
     Vector3d on_agent = Vector3d::Zero();
     for (const Corner& x : corners(best_.n, kTight)) {
       result.time += x.weight * x.time;
@@ -68,9 +68,7 @@ class Convex {
   }
 
  private:
-  double value(const Vector3d& n, const Motion& motion) const {
-    return pair_.gap(n) - motion.until * std::max(0.0, n.dot(motion.w));
-  }
+  double value(const Vector3d& n) const { return pair_.gap(n) - look_ * std::max(0.0, n.dot(motion_.w)); }
 
   double proved(const Vector3d& n) const {
     const double along = n.dot(motion_.w) + kRoundings * n.norm() * speed_;
@@ -95,7 +93,7 @@ class Convex {
     const Miss miss = pair_.miss(motion_.w, Vector3d::Zero());
     if (miss.least > 0 && miss.time <= motion_.until) return near(miss);
     Placed then = pair_.agent();
-    then.pose.position += look_.until * motion_.w;
+    then.pose.position += look_ * motion_.w;
     near(Pair(then, pair_.obstacle()).miss(Vector3d::Zero(), Vector3d::Zero()));
   }
 
@@ -110,8 +108,8 @@ class Convex {
   /// The corners of both bodies and of time that are extreme along n.
   std::vector<Corner> corners(const Vector3d& n, double slack) const {
     const double along = n.dot(motion_.w);
-    const double earliest = along > kPassing * speed_ ? look_.until : 0,
-                 latest = along < -kPassing * speed_ ? 0 : look_.until;
+    const double earliest = along > kPassing * speed_ ? look_ : 0,
+                 latest = along < -kPassing * speed_ ? 0 : look_;
     return witnesses(pair_.agent(), pair_.obstacle(), n, slack, motion_.w, earliest, latest);
   }
 
@@ -126,11 +124,11 @@ class Convex {
     take(across.dot(n) < 0 ? -across : across);
   }
 
-  /// From the best of some normals.
+  /// From the best three of normals all around, in case they meet: there may be several tops.
   void climb() {
     std::vector<std::pair<double, Vector3d>> starts;
     const auto start = [&](const Vector3d& n) {
-      if (n.norm() > 0) starts.emplace_back(value(n.normalized(), look_), n.normalized());
+      if (n.norm() > 0) starts.emplace_back(value(n.normalized()), n.normalized());
     };
     for (int x = -1; x <= 1; ++x)
       for (int y = -1; y <= 1; ++y)
@@ -155,7 +153,7 @@ class Convex {
   /// Up the sphere by steps that shrink; perpendicular to `crease` where there is one. Where the bodies pass
   /// the value has a crease too; one of the two directions of steps is along it.
   Vector3d top(Vector3d n, const std::optional<Vector3d>& crease, double step) const {
-    double at = value(n, look_);
+    double at = value(n);
     Vector3d last = Vector3d::Zero();  // a step that helped is tried again
     int values = 0;
     while (step > 1e-9 && values < kMostValues) {
@@ -166,7 +164,7 @@ class Convex {
       bool moved = false;
       const auto attempt = [&](const Vector3d& by) {
         const Vector3d there = (n + by).normalized();
-        const double value_there = value(there, look_);
+        const double value_there = value(there);
         if (++values; !(value_there > at)) return false;
         last = there - n;
         n = there;
@@ -190,8 +188,8 @@ class Convex {
   static constexpr double kTwelfth = 0.52359877559829887, kPassing = 1e-6, kTight = 1e-9, kLoose = 1e-3;
 
   const Pair& pair_;
-  Motion motion_, look_;  // as asked; as far as it matters
-  double speed_ = 0;
+  Motion motion_;
+  double speed_ = 0, look_ = 0;  // m/s; s, `until` as far as it matters
   Proof best_;
 };
 

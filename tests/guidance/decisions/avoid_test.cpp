@@ -28,12 +28,14 @@ struct Encounter {
   Vector3d velocity, wanted;
   std::vector<Intruder> others;
   AvoidOptions options;
+  mutable std::vector<Pair> pairs = {};  // with each, once they are asked about
 
   Avoidance answer() const { return avoid(agent, velocity, wanted, others, options); }
   /// Whether a velocity, flown at once, keeps them all away; of meshes and the like as they are.
   bool is_safe(const Vector3d& v) const {
+    for (std::size_t i = pairs.size(); i < others.size(); ++i) pairs.emplace_back(agent, others[i].body);
     return std::all_of(others.begin(), others.end(), [&](const Intruder& other) {
-      const Pair pair(agent, other.body);
+      const Pair& pair = pairs[std::size_t(&other - others.data())];
       if (pair.verdict(v + options.wind, other.velocity, {0, options.until}) != Verdict::out) return false;
       if (options.margin == 0) return true;
       const Miss miss = pair.miss(v + options.wind, other.velocity);
@@ -126,15 +128,15 @@ TEST(Avoid, OfOneBallIsAsFarAsItsConeOrItsCap) {
 }
 
 TEST(Avoid, AmongManyOnlyThoseInTheWayCost) {
-  // A wall of 6,400 boxes with a door; beside it nothing is in the way, before it the door or its edge is.
+  // A wall of some 560 boxes with a door; beside it nothing is in the way, before it the door or its edge is.
   std::vector<Box> boxes;
-  for (int i = -40; i < 40; ++i)
-    for (int j = -40; j < 40; ++j)
-      if (i < 3 || i > 12 || j > 8)
-        boxes.push_back({{5, 0.1 * i, 0.1 * j}, {5.1, 0.1 * i + 0.1, 0.1 * j + 0.1}});
+  for (int i = -12; i < 12; ++i)
+    for (int j = -12; j < 12; ++j)
+      if (i < 1 || i > 4 || j > 3)
+        boxes.push_back({{5, 0.3 * i, 0.3 * j}, {5.1, 0.3 * i + 0.3, 0.3 * j + 0.3}});
   RandomBodies random(3835);
   SCOPED_TRACE(random.trace());
-  for (int i = 0; i < campaign_size(8, 40); ++i) {
+  for (int i = 0; i < campaign_size(6, 200); ++i) {
     Encounter e;
     e.agent = Placed(Ellipsoid::from_axes({0, 0, 0}, {0.3, 0.2, 0.1}));
     e.others = {{Placed(Body(Assembly::boxes(boxes))), {random.uniform(-0.5, 0.5), 0, 0}}};
@@ -187,15 +189,8 @@ TEST(Avoid, ProvesThatNothingIsSafe) {
     ASSERT_TRUE(found.first);
     EXPECT_GT(found.first->time, 0);
     EXPECT_LE(found.first->time, e.options.until);
-    std::vector<Pair> pairs;
-    for (const Intruder& other : e.others) pairs.emplace_back(e.agent, other.body);
-    for (int k = 0; k < campaign_size(1000, 1'000'000); ++k) {
-      const Vector3d v = in_ball(random, e.options.speed.to);
-      bool hit = false;
-      for (std::size_t j = 0; j < pairs.size() && !hit; ++j)
-        hit = pairs[j].verdict(v, e.others[j].velocity, {0, e.options.until}) != Verdict::out;
-      ASSERT_TRUE(hit) << v.transpose();
-    }
+    for (int k = 0; k < campaign_size(1000, 1'000'000); ++k)
+      ASSERT_FALSE(e.is_safe(in_ball(random, e.options.speed.to)));
   }
   EXPECT_GE(proved, 5 * campaign_size(6, 60) / 6);
 }

@@ -80,24 +80,24 @@ struct NavigatorStep {
 /// where all hit the one that hits last: asking for more never makes a decision hit. Before it says so it
 /// looks for further courses that may follow that one, and holds what it finds.
 ///
-/// Who may change its speed goes at `fastest`, or at that of its first step; who was at rest then goes to its destination as
-/// fast as it can still stop there, and without one stops again. Where no straight line is safe for ever, and
-/// within the bounds of a body that is judged as it is, its courses end at rest: the command of this step,
-/// then braking as hard as allowed, and staying there. Such a stop is then in hand at every step, and is
-/// flown where nothing else is found. There it also looks for a way to its destination among the bodies at
-/// rest, some hundred cells a step, and goes to the farthest point of it that it sees. At rest without
-/// `longitudinal` it stays.
+/// Who may change its speed goes to its destination at `fastest`, or at the speed of its first step; without
+/// either, as fast as it can still stop there. Without a destination it goes back to the speed of its first
+/// step: who was at rest stops again. Where no straight line is safe for ever, and within the bounds of a
+/// body that is judged as it is, its courses end at rest: the command of this step, then braking as hard as
+/// allowed, and staying there. Such a stop is then in hand at every step, and is flown where nothing else is
+/// found. There it also looks for a way to its destination among the bodies at rest, some hundred cells a
+/// step, and goes to the farthest point of it that it sees. At rest without `longitudinal` it stays.
 ///
 /// Placed bodies that do not turn are judged as they are (of combined quadrics in unions what their
 /// delimiters cut away counts too), so that an agent can fly through them; within the bounds of one, where
 /// every straight line may end at a wall, a course at constant speed is judged for half a second more than it
-/// takes to turn right round. Other bodies stand for themselves as ellipsoids that
-/// contain them; one that turns or changes its shape by the ball about it. Deterministic. No allocation once
-/// it has searched.
+/// takes to turn right round. Other bodies stand for themselves as ellipsoids that contain them; one that
+/// turns or changes its shape by the ball about it. Deterministic. No allocation once it has searched, but
+/// for a way round walls.
 ///
-/// Cost: where the course is kept 2 to 10 us an ellipsoid, 20 to 200 us a map of 140,000 boxes that the agent
-/// is in; where a course is looked for up to 30 ms, where all hit up to 0.3 s
-/// (docs/measured/guidance.md).
+/// Cost: where the course is kept 0.2 to 0.3 us an ellipsoid among many, 20 to 200 us a map of 140,000 boxes
+/// that the agent is in; where a course is looked for up to 30 ms, where all hit up to 0.3 s, in a map with a
+/// stop in hand up to 10 ms (docs/measured/guidance.md).
 class Navigator {
  public:
   /// Throws InputError naming "required" or "beyond" unless finite and not negative, and "most" unless

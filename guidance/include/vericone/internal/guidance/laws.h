@@ -11,6 +11,7 @@ namespace vericone::guidance {
 [[nodiscard]] bool commands_nothing(LawStatus status);
 
 /// m(w) of the bodies as the law sees them, without errors; of planar ones in the plane.
+/// Infinite where they do not move to each other.
 [[nodiscard]] double law_clearance(const BodyState& a, const BodyState& b);
 
 }  // namespace vericone::guidance
