@@ -10,12 +10,12 @@ from matplotlib.colors import to_rgb
 from plot.bodies import body_colors, is_planar, outline, polygons, posed, radii, surface
 from plot.orifices import RIM, orifices, quaternion
 from vericone_figures.style import folder, read
-from plot.tables import groups, rows
+from plot.tables import goal_at, groups, rows
 
 MOST_ROWS = 400  # of a body; in between the page interpolates
 HAPPENS = {"enters-cone": "enters the cone of", "leaves-cone": "leaves the cone of", "aligned": "is aligned with its goal",
            "reaches-goal": "reaches its goal", "contact": "meets", "cannot-avoid": "cannot avoid",
-           "goes-through": "goes through", "goes-beside": "crosses the plane beside"}
+           "goes-through": "goes through", "goes-beside": "crosses the plane beside", "loses": "loses sight of"}
 AT_ORIGIN = {"x": 0.0, "y": 0.0, "z": 0.0, "qw": 1.0, "qx": 0.0, "qy": 0.0, "qz": 0.0, "k": float("nan")}
 
 
@@ -85,10 +85,10 @@ proof, run = read("proof.json"), read("run.json")
 shapes = {s["name"]: s for s in read("shapes.json")}
 planar = is_planar(shapes)
 agents = list(dict.fromkeys(agent for agent, _ in encounters))
-colors, goals = body_colors(list(tracks), agents), {g["agent"]: g for g in run["goals"]}
+colors = body_colors(list(tracks), agents)
 flown = np.nan_to_num(np.vstack([np.stack([tracks[n][c] for c in "xyz"], axis=-1) for n in agents or tracks]))
 
-bodies, extent = [], [np.array(g["point"])[None] for g in run["goals"]]
+bodies, extent = [], [goal_at(g, tracks, t)[None] for g in run["goals"] for t in (0, run["end"])]
 for name, columns in tracks.items():
     kept = np.unique(np.linspace(0, len(columns["t"]) - 1, MOST_ROWS).round().astype(int))
     track = {n: np.nan_to_num(v[kept]) for n, v in columns.items() if n != "body"}
@@ -110,8 +110,10 @@ for name, columns in tracks.items():
         body["triangles"] = np.asarray(shape["triangles"]).tolist()
     if "sizes" in shape:
         body["sizes"] = numbers(shape["sizes"])
-    if name in goals:
-        body["goal"] = {"point": goals[name]["point"], "reached": goals[name]["reached"]}
+    for goal in [g for g in run["goals"] if g["agent"] == name]:
+        moves = "velocity" in goal or "follows" in goal
+        point = numbers([goal_at(goal, tracks, t) for t in track["t"]], 9) if moves else goal["point"]
+        body.setdefault("goals", []).append({"point": point, "reached": goal["reached"]})
     bodies.append(body)
 
 for orifice in orifices(folder()):  # rims, as flat bands

@@ -167,6 +167,20 @@ typedef struct vericone_miss {
 VERICONE_API int32_t vericone_pair_miss(const vericone_pair* pair, const double agent_velocity[3],
                                         const double obstacle_velocity[3], vericone_miss* miss);
 
+/* h: the least distance from now until `until` (s, 0 or more, INFINITY: for ever) while both go straight on;
+ * where they meet, minus the way by which one would have to be shifted. A row for optimisers. */
+typedef struct vericone_barrier {
+  double h;              /* m, the best estimate */
+  double least;          /* m: h is no less, proved */
+  double by_position[3]; /* derivatives of h, to the agent's position; to the obstacle's, the opposite */
+  double by_velocity[3]; /* s, to the agent's velocity; to the obstacle's, the opposite */
+  double by_rotation[3]; /* m/rad, to a small rotation of the agent about its position */
+  double time;           /* s, when they are nearest */
+} vericone_barrier;
+VERICONE_API int32_t vericone_pair_barrier(const vericone_pair* pair, const double agent_velocity[3],
+                                           const double obstacle_velocity[3], double until,
+                                           vericone_barrier* barrier);
+
 /* The least sector that holds the colliding directions on the plane through the line of sight and `across`.
  */
 typedef struct vericone_sector {

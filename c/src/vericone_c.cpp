@@ -5,6 +5,7 @@
 #include <vericone/cones/pair.h>
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/sound_arithmetic.h>
+#include <vericone/guidance/barrier.h>
 #include <vericone/guidance/navigator.h>
 #include <algorithm>
 #include <array>
@@ -338,6 +339,21 @@ int32_t vericone_pair_miss(const vericone_pair* pair, const double agent_velocit
     vericone_miss& to = given(miss, "miss");
     to = {found.least, found.most, found.depth, {}, found.time, found.distance};
     write(found.normal, to.normal);
+    return int32_t{VERICONE_OK};
+  });
+}
+
+int32_t vericone_pair_barrier(const vericone_pair* pair, const double agent_velocity[3],
+                              const double obstacle_velocity[3], double until, vericone_barrier* barrier) {
+  return answered([&] {
+    const guidance::Barrier found =
+        guidance::barrier(given(pair, "pair").pair, vector(agent_velocity, "agent_velocity"),
+                          vector(obstacle_velocity, "obstacle_velocity"), until);
+    vericone_barrier& to = given(barrier, "barrier");
+    to = {found.h, found.least, {}, {}, {}, found.time};
+    write(found.by_position, to.by_position);
+    write(found.by_velocity, to.by_velocity);
+    write(found.by_rotation, to.by_rotation);
     return int32_t{VERICONE_OK};
   });
 }

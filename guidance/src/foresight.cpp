@@ -312,8 +312,11 @@ Navigator::Foreseen Navigator::foresee(const Moment& now, const Course& course, 
       failed_by_ = i;
       return {0, 0};
     }
-    // Who is nearer than it should be may stay so for a while, but not come much nearer.
-    const bool near = other.now < result.kept && other.now > 0;
+    // Who is nearer than it should be may stay so for a while, but not come much nearer. Not who can stop,
+    // and once was as far as it should be from a body at rest: in a narrow place what errors of sensors make
+    // too near on one side would let it come too near on the other.
+    const bool late = now.stops && now.clear && other.velocity.isZero(0);
+    const bool near = other.now < result.kept && other.now > 0 && !late;
     const double enough = near ? std::min(result.kept, 0.8 * other.now) : result.kept;
     Approach seen =
         see(flight, other, 0, std::max(enough, 1e-300), std::min(floor.kept, enough - kAlmost), meeting);

@@ -26,9 +26,11 @@ struct Navigator::Moment {
   double cruise;       // m/s, at which it goes to its destination
   double pace;         // m/s: of velocities that are tried
   double most;         // m/s^2
+  double surely = 0;   // m, that a course must keep when it is taken
   double to_turn = 0;  // s: within bodies that hold it no course matters for longer
   double since = 0;    // s, of a moment to come: from the command
   bool stops = false;  // courses end at rest
+  bool clear = false;  // what is required of bodies at rest was kept once
   bool planar, carried;
 };
 

@@ -28,6 +28,8 @@ constexpr long kMostAhead = 200000;     // distances measured for them
 constexpr double kWorthChanging = 0.1;  // rad nearer to what is wanted
 constexpr double kUnhurriedTurn = 2;    // rad/s, where no acceleration is too much
 constexpr double kHurriedTurn = 32;     // rad/s, there, where that does not help
+constexpr double kAtRest = 1e-3;        // m/s: who is slower does not turn
+constexpr long kLooksWithAStop = 400;   // it goes on at the next step
 constexpr double kBraking = 0.9;        // of what it can, who is to stop at its destination
 
 /// In the plane z = 0 an ellipse does what a spatial body does that is symmetric about it; tall, so that no
@@ -156,6 +158,9 @@ void Navigator::brake_from(const Moment& now, double t, Course& course) {
   course.braking = std::max(steps, 0.0) * now.step;
 }
 
+/// m/s, in a second, of who was at rest.
+double Navigator::soon(const Moment& now, double most) { return now.speed + 1 * most; }
+
 /// At a part of the speed that it would have. Nothing where the point lies within the circle that the agent
 /// can turn on.
 std::optional<Navigator::Course> Navigator::to_destination(const Moment& now, const Destination& destination,
@@ -165,8 +170,9 @@ std::optional<Navigator::Course> Navigator::to_destination(const Moment& now, co
   if (!(distance > 0) && !destination.stay) return std::nullopt;
   if (options_.longitudinal) {
     // At the speed that it has; without one, as fast as it can still stop there.
-    const double soon = now.speed + 1 * most, stopping = std::sqrt(2 * kBraking * most * distance);
-    double pace = now.cruise > 0 ? std::max(now.cruise, u.norm()) : std::min(soon, stopping) + u.norm();
+    const double stopping = std::sqrt(2 * kBraking * most * distance);
+    double pace =
+        now.cruise > 0 ? std::max(now.cruise, u.norm()) : std::min(soon(now, most), stopping) + u.norm();
     pace = part * std::min(pace, options_.fastest);
     const Vector3d ahead = to_point.normalized();
     // u + closing ahead, as fast as that.
@@ -216,7 +222,7 @@ void Navigator::closer(const Moment& now, const Vector3d& wanted, double most, C
   const Vector3d found = course.velocity;
   const Vector3d aside = side_of(wanted.normalized(), found.normalized(), now.planar);
   const double angle = angle_between(wanted, found);
-  const Foreseen all{required_ + beyond_ - kAlmost, kFar};
+  const Foreseen all{now.surely - kAlmost, kFar};
   double low = 0, high = 1;
   for (int i = 0; i < 5; ++i) {
     const double part = 0.5 * (low + high);
@@ -260,7 +266,7 @@ bool Navigator::refine(const Moment& now, Course& course, Foreseen& foreseen) {
       foreseen = seen;
       found = true;
     }
-    if (found && foreseen.keeps(required_ + beyond_)) break;
+    if (found && foreseen.keeps(now.surely)) break;
     if (!better) width *= 0.5;
   }
   return found;
@@ -310,7 +316,7 @@ void Navigator::spread(const Moment& now, const Vector3d& wanted, double less_th
 bool Navigator::search(const Moment& now, const Vector3d& wanted, double less_than, bool any, Course& course,
                        Foreseen& foreseen) {
   spread(now, wanted, less_than, 1);
-  if (!any) foreseen = {required_ + beyond_ - kAlmost, kFar};
+  if (!any) foreseen = {now.surely - kAlmost, kFar};
   bool found = false;
   double most = now.most;
   while (true) {
@@ -324,11 +330,11 @@ bool Navigator::search(const Moment& now, const Vector3d& wanted, double less_th
       }
       const Course tried = towards(now, candidate.velocity, most);
       const Foreseen seen = foresee(now, tried, foreseen);
-      if (!seen.better_than(foreseen) || (!any && !seen.keeps(required_ + beyond_))) continue;
+      if (!seen.better_than(foreseen) || (!any && !seen.keeps(now.surely))) continue;
       course = tried;
       foreseen = seen;
       found = true;
-      if (seen.keeps(required_ + beyond_)) {
+      if (seen.keeps(now.surely)) {
         closer(now, wanted, most, course, foreseen);
         return true;
       }
@@ -448,12 +454,14 @@ NavigatorStep Navigator::step(const BodyState& agent, std::span<const BodyState>
   now.reach = reach_of(now.body, now.position, now.planar);
   const Vector3d axes = now.body.semi_axes();
   now.uneven = (now.planar ? axes(1) : axes(0)) - axes(2);
-  now.carried = agent.turning == Turning::with_heading && now.speed > 0 && now.uneven > 1e-12 * axes(2);
+  now.carried = agent.turning == Turning::with_heading && now.speed > kAtRest && now.uneven > 1e-12 * axes(2);
   if (!pace_) pace_ = now.speed;
   now.cruise = options_.fastest < kFar ? options_.fastest : *pace_;
   now.pace = std::max(now.speed, now.cruise);
   if (options_.longitudinal) {
     for (const BodyState& other : others) now.pace = std::max(now.pace, other.velocity.norm());
+    if (destination && !(now.cruise > 0))
+      now.pace = std::max(now.pace, soon(now, std::min(destination->most, options_.most)));
     if (!(now.pace > 0)) now.pace = now.reach;  // nothing moves: any speed will do
     now.pace = std::min(now.pace, options_.fastest);
   }
@@ -473,8 +481,18 @@ NavigatorStep Navigator::step(const BodyState& agent, std::span<const BodyState>
     if (apart < required_ + beyond_)
       body.now = body.near({now.body, Vector3d::Zero()}, {.reach = now.reach}).distance;
   }
+  clear_ = clear_ || std::all_of(bodies_.begin(), bodies_.end(), [&](const Body& body) {
+             return body.now >= required_ + beyond_ || !body.velocity.isZero(0);
+           });
+  now.clear = clear_;
+  now.surely = required_ + beyond_;
+  // Who is between both moves on by courses that keep what is required.
+  if (now.stops && clear_)
+    for (const Body& body : bodies_)
+      if (body.now < now.surely && body.velocity.isZero(0)) now.surely = required_;
   failed_by_ = 0;
   looks_ = 0;
+  limit_ = options_.looks > 0 ? long(options_.looks) : now.stops && clear_ ? kLooksWithAStop : 0;
   if (destination && now.stops) return fly(now, on_the_way(now, *destination, time), time);
   return fly(now, destination, time);
 }
@@ -483,7 +501,7 @@ NavigatorStep Navigator::step(const BodyState& agent, std::span<const BodyState>
 /// what is flown now; else what a search finds.
 Navigator::Choice Navigator::choose(const Moment& now, const std::optional<Destination>& destination,
                                     double time) {
-  const double surely = required_ + beyond_;
+  const double surely = now.surely;
   Choice chosen;
   bool decided = false;
   std::optional<Course> direct;
@@ -521,9 +539,12 @@ Navigator::Choice Navigator::choose(const Moment& now, const std::optional<Desti
   chosen.aims = aims;
   bool stopping = false;
   if (now.stops && !chosen.foreseen.keeps(required_)) {
+    // What was judged safe before is not given up for what looks a little better now: by errors of sensors
+    // alone something always does.
     const Course stop = in_hand(now, time);
-    const Foreseen of_stop = foresee(now, stop, chosen.foreseen);
-    if ((stopping = of_stop.better_than(chosen.foreseen))) chosen = {stop, of_stop, false, aims};
+    const Foreseen of_stop = foresee(now, stop, Foreseen::nothing());
+    if ((stopping = !of_stop.hits() || of_stop.better_than(chosen.foreseen)))
+      chosen = {stop, of_stop, false, aims};
   }
   const bool due = time > next_look_ - 0.5 * now.step || (stopping && !stopping_),
              worse = chosen.foreseen.kept < 0.95 * kept_ || time + chosen.foreseen.hit < hit_ - now.step;
@@ -536,7 +557,7 @@ Navigator::Choice Navigator::choose(const Moment& now, const std::optional<Desti
   better.foreseen = decided ? chosen.foreseen : worth(chosen.foreseen);
   const double bound = decided ? beside(now, wanted, chosen.course.velocity) - kWorthChanging : kFar;
   // Who can stop need not take what is not safe.
-  const bool any = !decided && (now.stops || !options_.longitudinal);
+  const bool any = !decided && (now.stops ? chosen.foreseen.hits() : !options_.longitudinal);
   if (search(now, wanted, bound, any, better.course, better.foreseen)) {
     chosen = {better.course, better.foreseen, false, aims};
     stopping = false;
@@ -552,9 +573,9 @@ Navigator::Choice Navigator::choose(const Moment& now, const std::optional<Desti
 /// Where a wall is before it, what it goes to on its way round.
 Destination Navigator::on_the_way(const Moment& now, const Destination& destination, double time) {
   if (!route_)
-    route_ = std::make_shared<Route>();
+    route_ = std::make_shared<courses::Route>();
   else if (route_.use_count() > 1)
-    route_ = std::make_shared<Route>(*route_);
+    route_ = std::make_shared<courses::Route>(*route_);
   const double keep = required_ + beyond_;
   const Ellipsoid ball = Ellipsoid::from_axes(now.position, Vector3d::Constant(now.reach));
   const auto clear = [&](const Vector3d& from, const Vector3d& to, double more) {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vericone::guidance {
+namespace vericone::guidance::courses {
 
 using Eigen::Vector3d;
 
@@ -126,4 +126,4 @@ Vector3d Route::towards(const Vector3d& goal, const Vector3d& position, double r
   return way_[at_];
 }
 
-}  // namespace vericone::guidance
+}  // namespace vericone::guidance::courses

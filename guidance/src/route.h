@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace vericone::guidance {
+namespace vericone::guidance::courses {
 
 class Route {
  public:
@@ -61,4 +61,4 @@ class Route {
   std::size_t at_ = 0;  // of the way, where it goes now
 };
 
-}  // namespace vericone::guidance
+}  // namespace vericone::guidance::courses

@@ -2,6 +2,7 @@
 #include "scenarios/parts.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "input/field_table.h"
 
@@ -87,22 +88,33 @@ struct GoalFile : simulation::Goal {
 
 const Fields<GoalFile>& goal_fields() {
   using G = GoalFile;
-  const auto point = [](const Json& v, const std::string& p, G& goal) {
-    if (goal.planar)
-      goal.point.head<2>() = read_vector<2>(v, p, " (metres)");
-    else
-      goal.point = read_vector<3>(v, p, " (metres)");
+  const auto vector_of = [](Eigen::Vector3d simulation::Goal::*member, const char* unit) {
+    return [=](const Json& v, const std::string& p, G& goal) {
+      if (goal.planar)
+        (goal.*member).head<2>() = read_vector<2>(v, p, unit);
+      else
+        goal.*member = read_vector<3>(v, p, unit);
+    };
   };
   static const Fields<G> fields =
       Fields<G>("goal")
-          .special("point", {{"$ref", "body.schema.json#/$defs/point"}, {"unit", "m"}}, point,
-                   "Where it wants to be.", required("[x, y, z] in metres, [x, y] in the plane"))
+          .special("point", {{"$ref", "body.schema.json#/$defs/point"}, {"unit", "m"}},
+                   vector_of(&simulation::Goal::point, " (metres)"), "Where it wants to be.",
+                   required("[x, y, z] in metres, [x, y] in the plane"))
           .row("most", &G::most, positive("m/s²"), "Acceleration with which it turns towards the point.",
                required("an acceleration (m/s^2)"))
           .row("after", &G::after, text("the name of a body"), "A body that must be passed first.",
                absent("none"))
           .row("reached", &G::reached, positive("m"),
-               "This near is there. When all agents with goals are there the run ends.");
+               "This near is there. When all agents have been to all their goals the run ends.")
+          .special("velocity", {{"$ref", "body.schema.json#/$defs/point"}, {"unit", "m/s"}},
+                   vector_of(&simulation::Goal::velocity, " (m/s)"),
+                   "Of the point, which is where `point` says at the start of the run.", absent("at rest"))
+          .row("follows", &G::follows, text("the name of a body"),
+               "A body from whose position `point` is measured, in the world's axes; there is no such goal "
+               "before the body appears.",
+               absent("none"))
+          .row("stay", &G::stay, not_negative("s"), "So long there, before the next goal or the end.");
   return fields;
 }
 
@@ -138,7 +150,13 @@ void read_goal(const Json& value, const std::string& path, PilotFile& pilot) {
   GoalFile goal;
   goal.planar = pilot.planar;
   goal_fields().read(value, path, goal);
-  pilot.goal = goal;
+  pilot.goals.push_back(std::move(goal));
+}
+
+void read_goals(const Json& value, const std::string& path, PilotFile& pilot) {
+  if (!pilot.goals.empty()) throw InputError(path, quoted(value), "left out beside goal");
+  if (!value.is_array() || value.empty()) throw InputError(path, quoted(value), "a list of goals");
+  for (std::size_t i = 0; i < value.size(); ++i) read_goal(value[i], input::at(path, i), pilot);
 }
 
 void read_side(const Json& value, const std::string& path, PilotFile& pilot) {
@@ -194,6 +212,13 @@ void add_fields_of_all(Fields<PilotFile>& fields) {
           "when nothing threatens.",
           absent("none"))
       .only_of({}, "all")
+      .special("goals",
+               {{"type", "array"},
+                {"items", {{"$ref", "#/$defs/goal"}}},
+                {"minItems", 1},
+                {"title", "list of goals"}},
+               read_goals, "In place of `goal`: one after the other.", absent("none"))
+      .only_of({}, "all")
       .row(
           "reference", [](F& f) -> double& { return f.guide.inversion.reference; }, number(),
           "The value to which y is driven; of `orifice` required, w between -(R_B - R_A)² and 0 m².")
@@ -213,6 +238,21 @@ void add_fields_of_planes(Fields<PilotFile>& fields) {
            "`source`: it follows the law's own command for the body that it would meet first. The other laws "
            "have "
            "this manner only.")
+      .only_of({"avoidance", "clearance"}, "avoidance, clearance")
+      .row(
+          "fastest", &F::fastest, positive("m/s"),
+          "Of a guarded pilot that may change its speed (`longitudinal`): it goes to its goal at this speed, "
+          "and never faster.",
+          absent("the speed of its start"))
+      .only_of({"avoidance", "clearance"}, "avoidance, clearance")
+      .special(
+          "looks", input::count(1, 1'000'000'000).schema,
+          [](const Json& v, const std::string& p, F& f) {
+            f.looks = std::size_t(input::count(1, 1'000'000'000).read(v, p));
+          },
+          "Of a guarded pilot: about so many distances are measured a command, at most. Bounds what one "
+          "costs; the best course found by then is flown.",
+          absent("as many as it takes"))
       .only_of({"avoidance", "clearance"}, "avoidance, clearance")
       .row("passing", &F::passing,
            choice<Passing>({{"bisector", Passing::bisector}, {"centres", Passing::centres}}),

@@ -149,6 +149,16 @@ const Fields<simulation::ProofOptions>& proof_fields() {
   return fields;
 }
 
+/// The path of a field as the file has it: a pilot's only goal may be its `goal`.
+std::string as_written(std::string path, const Json& fields) {
+  const Json& bodies = fields["bodies"];
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const std::string goal = at("bodies", i) + ".pilot.goal", first = goal + "s[0]";
+    if (path.starts_with(first) && bodies[i]["pilot"].contains("goal")) path.replace(0, first.size(), goal);
+  }
+  return path;
+}
+
 /// Every row of the tables is kept until the run is over.
 void check_size(const simulation::Scenario& scenario) {
   constexpr double kMostRows = 3e6;
@@ -227,7 +237,11 @@ simulation::Scenario read_scenario(const Json& fields, const std::string& name,
   simulation::Scenario scenario = std::move(read);
   for (simulation::Body& body : scenario.bodies)  // the outer loop's step is the scenario's
     if (body.pilot && body.pilot->guide.robust) body.pilot->guide.robust->model.dt = scenario.step;
-  simulation::check(scenario);
+  try {
+    simulation::check(scenario);
+  } catch (const InputError& e) {
+    throw InputError(as_written(e.field(), fields), e.value(), e.requirement());
+  }
   check_size(scenario);
   return scenario;
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "input/field_table.h"
 #include "scenarios/robust_fields.h"
@@ -19,6 +21,7 @@ const Fields<simulation::Sensor>& sensor_fields() {
   using S = simulation::Sensor;
   using P = guidance::EngagementParts;
   using enum simulation::Noise;
+  const std::vector<std::string> of_state{"per-axis", "isotropic", "bounded"};
   const auto part = [](double P::*member) { return input::within_part(&S::engagement, member); };
   static const Fields<S> fields =
       Fields<S>("sensor", "noise")
@@ -38,10 +41,10 @@ const Fields<simulation::Sensor>& sensor_fields() {
                "(`isotropic`), or the "
                "radius of the ball (`bounded`).",
                input::alternative())
-          .only_of({"per-axis", "isotropic", "bounded"}, nullptr)
+          .only_of(of_state, nullptr)
           .row("velocity", &S::velocity, not_negative("a part, or m/s"), "The same of the velocity.",
                input::alternative())
-          .only_of({"per-axis", "isotropic", "bounded"}, nullptr)
+          .only_of(of_state, nullptr)
           .row("r", part(&P::r), not_negative(), "Of `engagement`, as the following: a part of r.")
           .only_of({"engagement"}, nullptr)
           .row("V_r", part(&P::v_r), not_negative(), "A part of V_r.")
@@ -63,7 +66,35 @@ const Fields<simulation::Sensor>& sensor_fields() {
                "True: one random number a measurement for all channels, the literal reading of m(t). False: "
                "each has "
                "its own. Not of `bounded`.")
-          .only_of({"engagement", "per-axis", "isotropic"}, nullptr);
+          .only_of({"engagement", "per-axis", "isotropic"}, nullptr)
+          .row("bias", &S::bias, not_negative("m"),
+               "Of every position of one body, in a direction drawn once. This and the following not of "
+               "`engagement`.")
+          .only_of(of_state, nullptr)
+          .row("period", &S::period, not_negative("s"),
+               "From one measurement to the next, at commands; 0: at every command.")
+          .only_of(of_state, nullptr)
+          .row("delay", &S::delay, not_negative("s"), "So much later a measurement arrives.")
+          .only_of(of_state, nullptr)
+          .row("dropout", &S::dropout,
+               input::checked(
+                   not_negative(), "a number, 0 or more, below 1", +[](const double& x) { return x < 1; }),
+               "The share of measurements that never arrive, below 1.")
+          .only_of(of_state, nullptr)
+          .row("range", &S::range, positive("m"),
+               "From the agent's position to the nearest of a body that it sees. A guarded pilot that may "
+               "change its speed comes to rest within it.",
+               absent("no limit"))
+          .only_of(of_state, nullptr)
+          .row("view_deg", &S::view,
+               input::checked(
+                   positive("degrees", kDegree), "a positive number, at most 180 (degrees)",
+                   +[](const double& angle) { return angle <= std::numbers::pi; }),
+               "To each side of its velocity, at rest of its x axis; at most 180.", absent("all round"))
+          .only_of(of_state, nullptr)
+          .row("occluded", &S::occluded, input::flag(),
+               "True: it does not see a body whose centre and sides are behind others.")
+          .only_of(of_state, nullptr);
   return fields;
 }
 

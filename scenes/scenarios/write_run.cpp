@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "json/json_value.h"
 #include "json/plain_text.h"
@@ -52,9 +53,13 @@ Json run_json(const simulation::Scenario& scenario, const simulation::Run& run, 
     accelerations.push_back({{"agent", body.name},
                              {"most", std::isfinite(most) ? Json(most) : Json(nullptr)},
                              {"reached", run.tracks[i].most_acceleration()}});
-    if (!body.pilot->goal) continue;
-    const simulation::Goal& goal = *body.pilot->goal;
-    goals.push_back({{"agent", body.name}, {"point", vector_json(goal.point)}, {"reached", goal.reached}});
+    for (const simulation::Goal& goal : body.pilot->goals) {
+      Json one{{"agent", body.name}, {"point", vector_json(goal.point)}, {"reached", goal.reached}};
+      if (goal.velocity.any()) one["velocity"] = vector_json(goal.velocity);
+      if (!goal.follows.empty()) one["follows"] = goal.follows;
+      if (goal.stay > 0) one["stay"] = goal.stay;
+      goals.push_back(std::move(one));
+    }
   }
   Json beyond = Json::array();
   for (const simulation::VehicleBeyond& b : run.limits_broken)

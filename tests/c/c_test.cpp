@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/cone.h>
 #include <vericone/cones/pair.h>
+#include <vericone/guidance/barrier.h>
 #include <vericone/guidance/navigator.h>
 #include <vericone/testing/random_bodies.h>
 #include <vericone_c.h>
@@ -174,6 +175,15 @@ void expect_same_answers(RandomBodies& random, const Pair& cpp, const vericone_p
     expect_same(miss.most, missed.most);
     expect_same(miss.time, missed.time);
     expect_same(miss.normal, missed.normal);
+    const guidance::Barrier expected = guidance::barrier(cpp, v, u, 2);
+    vericone_barrier barrier{};
+    ASSERT_EQ(vericone_pair_barrier(c, v.data(), u.data(), 2, &barrier), VERICONE_OK);
+    expect_same(expected.h, barrier.h);
+    expect_same(expected.least, barrier.least);
+    expect_same(expected.by_position, barrier.by_position);
+    expect_same(expected.by_velocity, barrier.by_velocity);
+    expect_same(expected.by_rotation, barrier.by_rotation);
+    expect_same(expected.time, barrier.time);
   }
   std::uint8_t verdicts[kVelocities];
   const Vector3d still = Vector3d::Zero();
@@ -377,6 +387,10 @@ TEST(CInterface, BadInputIsALineAndANumber) {
   EXPECT_NE(std::string(vericone_error()).find("horizon"), std::string::npos);
   EXPECT_EQ(vericone_pair_verdicts(pair.get(), nan, 1, zero, nullptr), VERICONE_BAD_INPUT);
   EXPECT_EQ(vericone_pair_miss(pair.get(), zero, zero, nullptr), VERICONE_BAD_INPUT);
+  vericone_barrier barrier{};
+  EXPECT_EQ(vericone_pair_barrier(pair.get(), zero, zero, -1, &barrier), VERICONE_BAD_INPUT);
+  EXPECT_STREQ(vericone_error(), "until: got -1, must be 0 or more (seconds)");
+  EXPECT_EQ(vericone_pair_barrier(pair.get(), zero, zero, 1, nullptr), VERICONE_BAD_INPUT);
   EXPECT_TRUE(std::isnan(vericone_body_support(nullptr, zero)));
   EXPECT_EQ(vericone_cone_new(pair.get(), 2, 0, 1), nullptr);
   EXPECT_THAT(vericone_error(), StartsWith("tolerance: got 2"));
@@ -423,11 +437,12 @@ TEST(CInterface, NumbersAndSizesAreThoseOfBothLanguages) {
                 VERICONE_TOO_NEAR == int(NavigatorStatus::too_near) &&
                 VERICONE_CANNOT_AVOID == int(NavigatorStatus::cannot_avoid) &&
                 VERICONE_NO_COURSE == int(NavigatorStatus::no_course));
-  std::size_t sizes[6];
-  ASSERT_EQ(sizes_in_c(sizes), 6u);
-  EXPECT_THAT(sizes, ::testing::ElementsAre(sizeof(vericone_hyperboloid), sizeof(vericone_contact),
-                                            sizeof(vericone_miss), sizeof(vericone_sector),
-                                            sizeof(vericone_moving), sizeof(vericone_command)));
+  std::size_t sizes[7];
+  ASSERT_EQ(sizes_in_c(sizes), 7u);
+  EXPECT_THAT(sizes,
+              ::testing::ElementsAre(sizeof(vericone_hyperboloid), sizeof(vericone_contact),
+                                     sizeof(vericone_miss), sizeof(vericone_barrier), sizeof(vericone_sector),
+                                     sizeof(vericone_moving), sizeof(vericone_command)));
   EXPECT_EQ(vericone_sound_arithmetic(), VERICONE_OK);
 }
 

@@ -9,6 +9,7 @@ size_t sizes_in_c(size_t* list) {
   list[n++] = sizeof(vericone_hyperboloid);
   list[n++] = sizeof(vericone_contact);
   list[n++] = sizeof(vericone_miss);
+  list[n++] = sizeof(vericone_barrier);
   list[n++] = sizeof(vericone_sector);
   list[n++] = sizeof(vericone_moving);
   list[n++] = sizeof(vericone_command);

@@ -339,7 +339,7 @@ class RunPages(InFolder):
                         self.assertAlmostEqual(body["at"][3 * i + k], float(row[c + " [m]"]), 6)
                     for k, c in enumerate("wxyz"):
                         self.assertAlmostEqual(body["turn"][4 * i + k], float(row["q" + c]), 5)
-                self.assertEqual(body["goal"]["reached"], 0.5)
+                self.assertEqual([g["reached"] for g in body["goals"]], [0.5])
 
     def test_what_the_page_shows_is_where_the_bodies_are(self):
         self.page(agents(3, 2))
@@ -409,6 +409,21 @@ class RunPages(InFolder):
         self.assertEqual(text.count("</script>"), 2)
         self.assertEqual(data["bodies"][0]["name"], name)
         self.assertEqual(self.shown(0)["names"][0], name + " (star: its goal)")
+
+    def test_several_goals_and_those_that_move(self):
+        scenario = agents(2, 2)
+        pilot = scenario["bodies"][0]["pilot"]
+        first = pilot.pop("goal")
+        pilot["goals"] = [first, {**first, "point": [1, 2], "follows": "A1"}]
+        _, data = self.page(scenario)
+        still, moves = data["bodies"][0]["goals"]
+        self.assertEqual(still["point"], [*first["point"], 0])
+        other = data["bodies"][1]["at"]
+        self.assertEqual(len(moves["point"]), len(data["bodies"][0]["at"]))
+        for i in range(0, len(other), 3):
+            self.assertAlmostEqual(moves["point"][i], other[i] + 1, 6)
+            self.assertAlmostEqual(moves["point"][i + 1], other[i + 1] + 2, 6)
+        self.assertEqual(self.shown(0, 1)["names"], ["A0 (stars: its goals)", "A1 (star: its goal)"])
 
     def test_without_python_all_else_is_written(self):
         self.write("scenario.yaml", json.dumps(agents(2, 2)))

@@ -154,6 +154,53 @@ bodies:
         self.assertRegex(result.stdout, r"verdict +avoided, proved; nearer than required: 0\.\d+ of 1 m\n")
         self.assertIn("A is on course to pass B nearer than 1 m, at 0.1 m", result.stdout)
 
+    def test_goals_are_flown_to_one_after_the_other(self):
+        goals = ("[{point: [10, 0, 0], most: 2, stay: 0.5}, {point: [0, 9, 0], most: 2, follows: B, velocity: [0, 0, 1]}]")
+        text = balls("avoidance, most: 1.0e-9, goals: " + goals, 100)
+        run_json = self.simulate(text)["run"]
+        self.assertEqual(run_json["goals"], [
+            {"agent": "A", "point": [10, 0, 0], "reached": 1, "stay": 0.5},
+            {"agent": "A", "point": [0, 9, 0], "reached": 1, "velocity": [0, 0, 1], "follows": "B"}])
+        reached = [r for r in self.table("events.csv") if r["event"] == "reaches-goal"]
+        self.assertEqual([round(float(r["t [s]"]), 9) for r in reached], [1.8])
+        checked = run("check", os.path.join(self.folder, "scenario.yaml"))
+        self.assertIn("goal (10, 0, 0) m; stays 0.5 s\n", checked.stdout)
+        self.assertIn("goal (0, 9, 0) m from B; moves at (0, 0, 1) m/s\n", checked.stdout)
+
+    def test_what_goals_and_sensors_cannot_be_is_said(self):
+        exact = "avoidance, manner: source, sensor: {noise: isotropic, position: 0, velocity: 0, %s}"
+        engagement = "avoidance, manner: source, sensor: {noise: engagement, period: 1}"
+        goal = "{point: [9, 0, 0], most: 1%s}"
+        for law, field, must_be in (
+                ("avoidance, goal: %s, goals: [%s]" % (goal % "", goal % ""), "goals", "left out beside goal"),
+                ("avoidance, goals: []", "goals", "a list of goals"),
+                ("avoidance, goal: " + goal % ", follows: A", "goal.follows", "the name of another body"),
+                ("avoidance, goals: [%s]" % goal % ", follows: C", "goals[0].follows", "the name of another body"),
+                ("avoidance, goals: [%s]" % goal % ", stay: -1", "goals[0].stay", "a number, 0 or more (s)"),
+                ("avoidance, manner: source, looks: 9", "looks", "left out: only a guarded pilot reads it"),
+                ("avoidance, fastest: 9", "fastest", "left out, or given with clearance.longitudinal: true: else it keeps its speed"),
+                ("cooperative-avoidance, looks: 9", "looks", "left out: only avoidance, clearance reads it"),
+                (engagement, "sensor.period", "left out: only per-axis, isotropic, bounded reads it"),
+                (exact % "dropout: 1", "sensor.dropout", "a number, 0 or more, below 1"),
+                (exact % "view_deg: 200", "sensor.view_deg", "a positive number, at most 180 (degrees)"),
+                (exact % "range: 0", "sensor.range", "a positive number (metres)")):
+            result = run("simulate", self.write(balls(law)), "--out", self.out, "--quiet", "--no-figures")
+            self.assertEqual(result.returncode, 2, law)
+            self.assertRegex(result.stderr, r"\Avericone: bodies\[0\]\.pilot\.%s: got .+, must be %s\n\Z"
+                             % (re.escape(field), re.escape(must_be)))
+
+    def test_a_body_that_comes_within_range_is_seen(self):
+        sensor = "avoidance, manner: source, sensor: {noise: isotropic, position: 0, velocity: 0, range: 9.01}"
+        text = balls(sensor, 5)
+        self.simulate(text)
+        events = [(r["event"], float(r["t [s]"])) for r in self.table("events.csv")]
+        # Of a ball of 2 m that comes at 6 m/s, 5 m aside: hypot(20 - 6 t, 5) = 11.01, at the next command.
+        first = (20 - math.sqrt(11.01 ** 2 - 25)) / 6
+        self.assertEqual([round(t, 9) for e, t in events if e == "sees"], [round(math.ceil(first / 0.02) * 0.02, 9)])
+        text = run("simulate", self.write(text), "--out", self.out + "2", "--no-figures").stdout
+        self.assertIn("A sees B", text)
+        self.assertIn("A loses sight of B", text)
+
     def test_defaults_avoid_a_ball_at_rest(self):
         for law in ("avoidance", "clearance"):
             proof = self.simulate(balls(law).replace("[-1, 0, 0]", "[0, 0, 0]"))["proof"]

@@ -14,7 +14,7 @@ from declarations import blanked, declarations
 from house_test import public_headers
 
 LIST = Path(__file__).with_name("api.txt")
-MOST_HEADERS = 82
+MOST_HEADERS = 83
 
 
 def public():

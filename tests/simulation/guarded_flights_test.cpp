@@ -67,18 +67,19 @@ Scenario flight(std::uint64_t seed) {
   Pilot& pilot = agent.pilot.emplace();
   pilot.guide.law = Law::avoidance;
   pilot.guide.inversion.most = pilot.guide.clearance.most = kMost;
-  pilot.goal = Goal{distance * to_goal, kMost, "", 1};
+  pilot.goals = {Goal{distance * to_goal, kMost, "", 1, Vector3d::Zero(), ""}};
 
   Body ghost = agent;
   ghost.pilot->manner = Manner::source;
-  ghost.pilot->goal->point = 0.5 * distance * to_goal + random.uniform(0, 0.4) * distance * world.direction();
+  ghost.pilot->goals[0].point =
+      0.5 * distance * to_goal + random.uniform(0, 0.4) * distance * world.direction();
   Scenario alone = scenario;
   alone.bodies = {ghost};
   RunOptions quick;
   quick.prove = quick.log = false;
   const Run aside = simulate(alone, quick);
   alone.bodies[0].start = aside.tracks[0].motion(aside.end);
-  alone.bodies[0].pilot->goal->point = pilot.goal->point;
+  alone.bodies[0].pilot->goals[0].point = pilot.goals[0].point;
   const Run home = simulate(alone, quick);
   std::vector<Vector3d> witness;
   for (double t = 0; t < aside.end; t += 0.05) witness.push_back(aside.tracks[0].motion(t).position);

@@ -82,8 +82,8 @@ Scenario scene(std::uint64_t seed, double required) {
     }
   }
   if (seed % 4 == 0 && kind != 1)
-    pilot.goal = scenario.bodies[0].pilot->goal =
-        Goal{{30, random.uniform(-5, 5), 0}, pilot.guide.clearance.most, "", 1};
+    pilot.goals = scenario.bodies[0].pilot->goals = {
+        Goal{{30, random.uniform(-5, 5), 0}, pilot.guide.clearance.most, "", 1, Vector3d::Zero(), ""}};
   return scenario;
 }
 
@@ -175,7 +175,7 @@ TEST(GuardedMargins, LeastIsWhatTheFlightShows) {
   for (const std::uint64_t seed : seeds()) {
     const Scenario scenario = scene(seed, 0.3);
     const Pilot& pilot = *scenario.bodies[0].pilot;
-    if (pilot.goal || pilot.guide.clearance.longitudinal) continue;
+    if (!pilot.goals.empty() || pilot.guide.clearance.longitudinal) continue;
     guidance::Navigator navigator({.required = 0.3, .beyond = 0.03, .most = pilot.guide.clearance.most});
     std::vector<Track> tracks;
     for (const Body& body : scenario.bodies) tracks.emplace_back(body.shape, body.start, body.orientation, 0);
@@ -255,7 +255,7 @@ TEST(GuardedMargins, WhoSaysThatItAvoidsKeepsWhatIsRequired) {
   for (std::uint64_t seed = 4; seed <= from_environment("VERICONE_CASES", 200); seed += 4) {
     const Scenario scenario = scene(seed, kRequired);
     const Pilot& pilot = *scenario.bodies[0].pilot;
-    if (!pilot.goal) continue;
+    if (pilot.goals.empty()) continue;
     guidance::Navigator navigator({.required = kRequired,
                                    .beyond = 0.03,
                                    .most = pilot.guide.clearance.most,
@@ -266,8 +266,9 @@ TEST(GuardedMargins, WhoSaysThatItAvoidsKeepsWhatIsRequired) {
       const double t = k * kStep;
       std::vector<guidance::BodyState> others;
       for (std::size_t i = 1; i < tracks.size(); ++i) others.push_back(tracks[i].state(t));
-      const guidance::NavigatorStep said = navigator.step(
-          tracks[0].state(t), others, guidance::Destination{pilot.goal->point, pilot.goal->most}, t, kStep);
+      const guidance::NavigatorStep said =
+          navigator.step(tracks[0].state(t), others,
+                         guidance::Destination{pilot.goals[0].point, pilot.goals[0].most}, t, kStep);
       if (said.status == NavigatorStatus::cannot_avoid) break;
       if (said.status == NavigatorStatus::avoiding) {
         ++avoiding;

@@ -58,7 +58,7 @@ TEST(Guarded, DefaultsAvoidABallAtRest) {
           scenario.bodies[0].pilot = pilot(law);
           scenario.bodies[0].pilot->guide.inversion.most = scenario.bodies[0].pilot->guide.clearance.most =
               most;
-          if (with_goal) scenario.bodies[0].pilot->goal = Goal{{20, 0, 0}, 8, "", 1};
+          if (with_goal) scenario.bodies[0].pilot->goals = {Goal{{20, 0, 0}, 8, "", 1, Vector3d::Zero(), ""}};
           const auto run = simulate(scenario);
           EXPECT_EQ(run.verdict(), ProofVerdict::avoided);
           EXPECT_EQ(happened(run, EventKind::reaches_goal), with_goal);
@@ -101,7 +101,7 @@ TEST(Guarded, TenAgentsExchangePlaces) {
     bodies.push_back(ball("A" + std::to_string(i), 0.5, at, -at / 20 * 4));
     bodies.back().pilot = pilot(Law::avoidance);
     bodies.back().pilot->guide.inversion.most = 8;
-    bodies.back().pilot->goal = Goal{-at, 8, "", 1};
+    bodies.back().pilot->goals = {Goal{-at, 8, "", 1, Vector3d::Zero(), ""}};
   }
   Scenario scenario = of(bodies, 60);
   scenario.step = 0.05;

@@ -119,7 +119,7 @@ TEST(PilotModel, IsAskedInOrderAndToldOfItsGoal) {
   Pilot& pilot = scenario.bodies[0].pilot.emplace();
   pilot.own = noting;
   pilot.partners = {"B"};
-  pilot.goal = Goal{{100, 0, 0}, 1, "B", 1};
+  pilot.goals = {Goal{{100, 0, 0}, 1, "B", 1, Vector3d::Zero(), ""}};
   const auto run = simulate(scenario);
   std::string expected;
   for (int i = 0; i < 16; ++i) expected += "lrcgm";

@@ -147,7 +147,7 @@ Scenario through_the_wall(guidance::Law law, const Vector3d& aim, const Vector3d
   pilot.guide.inversion.most = pilot.guide.clearance.most = 3;
   pilot.guide.clearance.required = 0.2;
   pilot.guide.clearance.beyond = 0.05;
-  pilot.goal = Goal{aim, 3, "", 0.3};
+  pilot.goals = {Goal{aim, 3, "", 0.3, Vector3d::Zero(), ""}};
   scenario.bodies[0].pilot = pilot;
   return scenario;
 }
@@ -203,7 +203,7 @@ TEST(UnguardedAmongPlaced, TheClearanceLawKeepsAwayFromAShell) {
   scenario.bodies[0].start.velocity = {2, 0, 0};
   Pilot& pilot = *scenario.bodies[0].pilot;
   pilot.manner = Manner::source;
-  pilot.goal.reset();
+  pilot.goals.clear();
   pilot.guide.clearance.gain = 2;
   EXPECT_EQ(simulate(scenario).verdict(), ProofVerdict::avoided);
   pilot.guide.clearance.most = 1e-6;
@@ -226,7 +226,7 @@ TEST(UnguardedAmongPlaced, TheSourcesLawKeepsAwayFromAShell) {
       pilot.guide.plane.refine = false;
     }
     pilot.manner = Manner::source;
-    pilot.goal.reset();
+    pilot.goals.clear();
     pilot.guide.inversion.gain = 4;
     pilot.guide.inversion.reference = 0.02;
     pilot.guide.inversion.cease = 0.01;

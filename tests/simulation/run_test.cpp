@@ -199,7 +199,7 @@ TEST(Run, TurnsToItsGoalAndReachesIt) {
   scenario.duration = 20;
   scenario.bodies.push_back(ellipse("A", {2, 1}, {0, 0}, 5, 0));
   scenario.bodies[0].pilot = pilot(Law::avoidance);
-  scenario.bodies[0].pilot->goal = Goal{{0, 30, 0}, 5, "", 1};
+  scenario.bodies[0].pilot->goals = {Goal{{0, 30, 0}, 5, "", 1, Vector3d::Zero(), ""}};
   const auto run = simulate(scenario);
   // A circle of radius v^2/a = 5 m about (0, 5) until the tangent points at the goal: the tangent length from
   // (0, 30) is sqrt(25^2 - 5^2), the angle turned pi - acos(5 / 25) - (angle at the goal's side).
@@ -252,7 +252,8 @@ TEST(Run, SeveralAgentsAvoidEachOther) {
   scenario.bodies.push_back(ellipsoid("B", {2, 1, 1}, {20, 0, 0}, {-5, -0.2, -0.1}));
   for (const int i : {0, 1}) {
     scenario.bodies[i].pilot = pilot(Law::clearance);
-    scenario.bodies[i].pilot->goal = Goal{-scenario.bodies[i].start.position, 3, "", 1};
+    scenario.bodies[i].pilot->goals = {
+        Goal{-scenario.bodies[i].start.position, 3, "", 1, Vector3d::Zero(), ""}};
   }
   const auto run = simulate(scenario);
   EXPECT_EQ(run.verdict(), ProofVerdict::avoided);
@@ -345,9 +346,9 @@ TEST(ScenarioCheck, NamesTheField) {
   with([](Scenario& s) { s.bodies[1] = ellipse("B", {1, 1}, {9, 9}, 1, 0); }, "bodies[1].shape");
   with(
       [](Scenario& s) {
-        s.bodies[0].pilot->goal = Goal{{0, 0, 0}, 1, "X", 1};
+        s.bodies[0].pilot->goals = {Goal{{0, 0, 0}, 1, "X", 1, Vector3d::Zero(), ""}};
       },
-      "bodies[0].pilot.goal.after");
+      "bodies[0].pilot.goals[0].after");
 }
 
 TEST(Run, SaysHowLongDecisionsTookAndShowsHowFarProofsAre) {
@@ -383,7 +384,8 @@ TEST(Run, SaysHowLongDecisionsTookAndShowsHowFarProofsAre) {
 TEST(Run, SaysWhatAccelerationWasReached) {
   Scenario scenario = encounter();
   scenario.bodies[0].pilot = pilot(Law::avoidance, 3);
-  scenario.bodies[0].pilot->goal = Goal{{0, 90, 0}, 5, "", 1};  // turns harder than its law may
+  scenario.bodies[0].pilot->goals = {
+      Goal{{0, 90, 0}, 5, "", 1, Vector3d::Zero(), ""}};  // turns harder than its law may
   const auto run = simulate(scenario);
   EXPECT_EQ(most_commanded(*scenario.bodies[0].pilot), 3);
   double most = 0;

@@ -131,7 +131,7 @@ TEST(Through, AMissedRingAndTheGoalThatWaits) {
   Through& through = *scenario.bodies[0].pilot->through;
   through.orifices = {"O"};
   through.passage.most = 0.01;  // too weak to get there
-  scenario.bodies[0].pilot->goal = Goal{{6, 0, 0}, 1, "", 0.5};
+  scenario.bodies[0].pilot->goals = {Goal{{6, 0, 0}, 1, "", 0.5, Vector3d::Zero(), ""}};
   simulation::Run run = simulate(scenario);
   EXPECT_EQ(run.passages.at(0).proof.verdict, PassageVerdict::missed);
   EXPECT_EQ(events_of(run, EventKind::goes_beside).size(), 1u);
@@ -156,7 +156,7 @@ TEST(Through, AnOrificeThatNeverCameIsMissed) {
   other.name = "B";
   other.start.position = {0, 9, 0};
   other.pilot.emplace();
-  other.pilot->goal = Goal{{6, 9, 0}, 1, "", 0.5};
+  other.pilot->goals = {Goal{{6, 9, 0}, 1, "", 0.5, Vector3d::Zero(), ""}};
   scenario.bodies.push_back(other);
   scenario.bodies[0].pilot->through->minds_none = true;
   const simulation::Run run = simulate(scenario);

@@ -77,6 +77,26 @@ Scenario engagement() {
   return scenario;
 }
 
+TEST(Trials, ALevelIsOfTheErrorsAlone) {
+  Scenario scenario = engagement();
+  Sensor& sensor = scenario.bodies[0].pilot->sensor.emplace();
+  sensor.position = sensor.bias = 0.5;
+  sensor.range = 9;
+  sensor.period = 0.2;
+  const Sensor
+      percent = trial_scenario(scenario, TrialLaw::own, trial_level("6:15")).bodies[0].pilot->sensor.value(),
+      twice = trial_scenario(scenario, TrialLaw::own, trial_level("x2")).bodies[0].pilot->sensor.value();
+  EXPECT_EQ(percent.noise, Noise::per_axis);
+  EXPECT_EQ(percent.position, 0.06);
+  EXPECT_EQ(percent.bias, 0);
+  EXPECT_EQ(twice.position, 1);
+  EXPECT_EQ(twice.bias, 1);
+  for (const Sensor& one : {percent, twice}) {
+    EXPECT_EQ(one.range, 9);
+    EXPECT_EQ(one.period, 0.2);
+  }
+}
+
 TEST(Trials, AllLawsFlyAndATrialAloneIsTheSame) {
   for (const TrialLaw law : all_trial_laws()) {
     const Scenario flown = trial_scenario(engagement(), law, trial_level("5:10"));

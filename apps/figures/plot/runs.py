@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # mypy: disable-error-code="import"
 """A run: the bodies on their ways at several times; y, clearance and accelerations over time."""
+import collections
 import collections.abc
 import json
 import os
@@ -17,7 +18,7 @@ from .kinds import Array, Axes, Data, Figure, Path, Row, Shape, Tables
 from .orifices import COLORS as PASSAGE
 from .orifices import orifices
 from .style import GREY, TWO_COLUMNS
-from .tables import groups, row_at, rows
+from .tables import goal_at, groups, row_at, rows
 
 NEAREST = 6  # pairs that are drawn over time where there are more
 WHOLE = ("mesh", "cloud", "boxes", "pieces")  # drawn once where they stand still
@@ -46,6 +47,10 @@ class Flown:
             if {p["a"], p["b"]} == set(pair):
                 return p["least_distance"] if p["verdict"] == "avoided" else -1
         return np.nanmin(self.encounters[pair]["m"], initial=np.inf)
+
+    def goals(self) -> Any:
+        """Agent, place at the end, metres, and how near to it is there, of every goal."""
+        return [(goal["agent"], goal_at(goal, self.bodies, self.end), goal["reached"]) for goal in self.run["goals"]]
 
     def around(self, row: Row) -> Array:
         """Of a map: what is around the agents' ways, cut open a little above them; in its own frame."""
@@ -96,11 +101,10 @@ def ways_in_plane(space: Axes, run: Flown) -> None:
             out = (start - middle_point) / max(float(np.linalg.norm(start - middle_point)), 1e-12)
             space.annotate(name, start, fontsize=6, xytext=9 * out, textcoords="offset points", ha="center", va="center",
                            color=colors[name])
-    for goal in run.run["goals"]:
-        space.add_patch(Circle(goal["point"][:2], goal["reached"], fill=False, linewidth=0.6, linestyle=":",
-                               edgecolor=colors[goal["agent"]], zorder=6))
-        space.plot(*goal["point"][:2], "*", color=colors[goal["agent"]], markersize=8, markeredgecolor="w",
-                   markeredgewidth=0.5, zorder=8)
+    for agent, at, reached in run.goals():
+        space.add_patch(Circle(at[:2], reached, fill=False, linewidth=0.6, linestyle=":", edgecolor=colors[agent],
+                               zorder=6))
+        space.plot(*at[:2], "*", color=colors[agent], markersize=8, markeredgecolor="w", markeredgewidth=0.5, zorder=8)
     space.set_aspect("equal", adjustable="datalim")
     space.margins(0.08)
     space.set_xlabel("x (m)")
@@ -162,10 +166,9 @@ def ways_in_space(space: Axes, run: Flown) -> None:
         if len(bodies) > MANY:
             space.text(*way[0], name, fontsize=6, ha="center", color=colors[name], zorder=9)
     extent += draw_rims(space, run)
-    for goal in run.run["goals"]:
-        extent.append(np.array([goal["point"]]))
-        space.plot(*np.array([goal["point"]]).T, "*", color=colors[goal["agent"]], markersize=8, markeredgecolor="w",
-                   markeredgewidth=0.5, zorder=8)
+    for agent, at, _ in run.goals():
+        extent.append(at[None])
+        space.plot(*at[None].T, "*", color=colors[agent], markersize=8, markeredgecolor="w", markeredgewidth=0.5, zorder=8)
     frame(space, np.vstack(extent))
 
 
@@ -326,12 +329,12 @@ def legend(figure: Figure, run: Flown, drawn: Any) -> None:
     else:
         near = [(pair, run.nearness(pair)) for pair in run.pairs]
         named = [(drawn[pair], "%s, %s%s" % (*pair, ": %.3g m" % m if m > 0 else "")) for pair, m in near]
-    goals = run.run["goals"]
-    for goal in goals if len(goals) <= 3 else goals[:1]:
-        several = len(goals) > 3
-        named.append((plt.Line2D([], [], color=GREY if several else run.colors[goal["agent"]], marker="*", markersize=7,
-                                 linestyle=""),
-                      "goals, each in its agent's colour" if several else "goal of " + goal["agent"]))
+    goals = collections.Counter(goal["agent"] for goal in run.run["goals"])
+    several = len(goals) > 3
+    for agent, count in list(goals.items())[:1 if several else 3]:
+        named.append((plt.Line2D([], [], color=GREY if several else run.colors[agent], marker="*", markersize=7, linestyle=""),
+                      "goals, each in its agent's colour" if several else
+                      ("goal of " if count == 1 else "goals of ") + agent))
     if run.pairs and any(p["verdict"] == "avoided" for p in run.proof["pairs"]):
         named.append((plt.Line2D([], [], color=GREY, marker="o", markersize=4.5, linestyle=""), "least distance, proved"))
         named.append((plt.Line2D([], [], color=GREY, linewidth=1.2), "m: were all to go straight on"))

@@ -41,3 +41,12 @@ def row_at(columns: Any, t: float) -> dict[str, Any]:
     """The row nearest in time."""
     i = int(np.argmin(np.abs(columns["t"] - t)))
     return {n: v[i] for n, v in columns.items()}
+
+
+def goal_at(goal: Any, bodies: Any, t: float) -> Any:
+    """Where a goal of run.json is at a time, metres. `bodies`: the columns of bodies.csv of each."""
+    at = np.array(goal["point"]) + t * np.array(goal.get("velocity", (0, 0, 0)))
+    if "follows" in goal:
+        row = row_at(bodies[goal["follows"]], t)
+        at = at + np.nan_to_num([row["x"], row["y"], row["z"]])
+    return at

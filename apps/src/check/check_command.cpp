@@ -66,6 +66,17 @@ void check_scene(const Json& fields, const std::string& file, scenario::Facts& f
   if (v_a == v_b) facts.add("note", "the velocities are equal: they never meet");
 }
 
+std::string goal_words(const simulation::Goal& goal) {
+  const auto vector_words = [](const Eigen::Vector3d& x) {
+    return "(" + brief(x.x()) + ", " + brief(x.y()) + ", " + brief(x.z()) + ")";
+  };
+  std::string text = "goal " + vector_words(goal.point) + " m";
+  if (!goal.follows.empty()) text += " from " + goal.follows;
+  if (goal.velocity.any()) text += "; moves at " + vector_words(goal.velocity) + " m/s";
+  if (goal.stay > 0) text += "; stays " + brief(goal.stay) + " s";
+  return text;
+}
+
 void check_scenario(const Json& fields, const std::string& file, scenario::Facts& facts) {
   scenario::Readings readings;
   const simulation::Scenario scenario = scenario::read_scenario(fields, fs::path(file).stem().string(),
@@ -80,10 +91,8 @@ void check_scenario(const Json& fields, const std::string& file, scenario::Facts
     if (body.appears > 0) text += "; appears at " + brief(body.appears) + " s";
     facts.add(body.name, text);
     if (body.pilot) facts.add("", scenario::agent_text(scenario, body));
-    if (body.pilot && body.pilot->goal)
-      facts.add("", "goal (" + brief(body.pilot->goal->point.x()) + ", " +
-                        brief(body.pilot->goal->point.y()) + ", " + brief(body.pilot->goal->point.z()) +
-                        ") m");
+    if (body.pilot)
+      for (const simulation::Goal& goal : body.pilot->goals) facts.add("", goal_words(goal));
     add_notes(readings[i], facts);
   }
   if (scenario.water.moves()) facts.add("current", scenario::current_text(scenario.water));

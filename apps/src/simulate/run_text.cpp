@@ -84,6 +84,10 @@ std::string event_text(const Scenario& scenario, const Event& event) {
       return agent +
              (event.kind == EventKind::goes_through ? " goes through " : " crosses the plane beside ") +
              other + ", " + brief(event.value) + " m from its centre";
+    case EventKind::sees:
+      return agent + " sees " + other;
+    case EventKind::loses:
+      return agent + " loses sight of " + other;
     case EventKind::contact:
       return agent + " and " + other + " meet: apart before " + brief(event.value) + " s, proved";
   }

@@ -90,8 +90,9 @@ class Convex {
 
   /// The distance is a convex function of time: it is least where they pass, or when time is up.
   void apart() {
-    const Miss miss = pair_.miss(motion_.w, Vector3d::Zero());
-    if (miss.least > 0 && miss.time <= motion_.until) return near(miss);
+    if (pair_.verdict(motion_.w, Vector3d::Zero()) == Verdict::out)
+      if (const Miss miss = pair_.miss(motion_.w, Vector3d::Zero()); miss.time <= motion_.until)
+        return near(miss);
     Placed then = pair_.agent();
     then.pose.position += look_ * motion_.w;
     near(Pair(then, pair_.obstacle()).miss(Vector3d::Zero(), Vector3d::Zero()));
@@ -102,7 +103,9 @@ class Convex {
     if (!(miss.least > 0)) return;
     take(miss.normal);
     constexpr double kExact = 1e-12;
-    if (!(miss.most - miss.least < kExact * miss.most)) polish(miss.normal);
+    if (miss.most - miss.least < kExact * miss.most) return;
+    polish(miss.normal, kLoose);
+    polish(best_.n, kCloser);
   }
 
   /// The corners of both bodies and of time that are extreme along n.
@@ -113,13 +116,13 @@ class Convex {
     return witnesses(pair_.agent(), pair_.obstacle(), n, slack, motion_.w, earliest, latest);
   }
 
-  /// Nearly the best normal. It is perpendicular to all that is between the corners it belongs to, where
-  /// the value has creases; along a crease it is smooth.
-  void polish(const Vector3d& n) {
-    const auto some = corners(n, kLoose);
-    if (some.size() == 1) return take(top(n, {}, kLoose));
+  /// Nearly the best normal, to within `slack`. It is perpendicular to all that is between the corners it
+  /// belongs to, where the value has creases; along a crease it is smooth.
+  void polish(const Vector3d& n, double slack) {
+    const auto some = corners(n, slack);
+    if (some.size() == 1) return take(top(n, {}, slack));
     const Vector3d first = (some[1].between - some[0].between).normalized();
-    if (some.size() == 2) return take(top((n - n.dot(first) * first).normalized(), first, kLoose));
+    if (some.size() == 2) return take(top((n - n.dot(first) * first).normalized(), first, slack));
     const Vector3d across = first.cross(some[2].between - some[0].between).normalized();
     take(across.dot(n) < 0 ? -across : across);
   }
@@ -146,7 +149,7 @@ class Convex {
     for (int i = 0; i < kClimbs; ++i) {
       const Vector3d n = top(starts[i].second, {}, 0.3);
       take(n);
-      polish(n);
+      polish(n, kLoose);
     }
   }
 
@@ -185,7 +188,8 @@ class Convex {
   }
 
   static constexpr int kClimbs = 3, kMostValues = 500;
-  static constexpr double kTwelfth = 0.52359877559829887, kPassing = 1e-6, kTight = 1e-9, kLoose = 1e-3;
+  static constexpr double kTwelfth = 0.52359877559829887, kPassing = 1e-6, kTight = 1e-9, kLoose = 1e-3,
+                          kCloser = 1e-5;
 
   const Pair& pair_;
   Motion motion_;

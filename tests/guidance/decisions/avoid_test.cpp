@@ -10,6 +10,7 @@
 #include <vericone/testing/random_bodies.h>
 #include <array>
 #include <cmath>
+#include <iostream>
 
 #include "guidance/decisions/balls.h"
 #include "support/campaign.h"
@@ -104,6 +105,7 @@ TEST(Avoid, ChoosesWhatIsSafeAndNothingSafeIsNearer) {
       ASSERT_FALSE(e.can_fly(v) && e.is_safe(v)) << v.transpose();
     }
   }
+  std::cout << "[ avoid    ] " << changed << " changed, " << close << " of them within 1 % of the bound\n";
   EXPECT_GT(changed, 20);
   EXPECT_GE(close, 0.95 * changed);
 }

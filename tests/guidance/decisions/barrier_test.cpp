@@ -147,6 +147,16 @@ TEST(Barrier, OfBallsByTheClosedForm) {
   EXPECT_GT(inside, 300);
 }
 
+/// Not where one normal or time is about to take the place of another.
+bool is_smooth(const Flight& f, const Barrier& found) {
+  for (int k = 0; k < 12; ++k) {
+    Flight moved = f;
+    (k % 2 ? moved.agent.pose.position : moved.v)(k % 3) += k < 6 ? 1e-3 : -1e-3;
+    if ((moved.answer().by_velocity - found.by_velocity).norm() > 0.01 * (1 + f.until)) return false;
+  }
+  return true;
+}
+
 /// Against central differences of `value(flight)`.
 template <typename Value>
 void expect_gradient(const Flight& f, const Barrier& found, double error, const Value& value) {
@@ -174,7 +184,7 @@ TEST(Barrier, OfConvexBodiesByDistancesAtSingleTimes) {
   RandomBodies random(4102);
   SCOPED_TRACE(random.trace());
   constexpr std::array kinds{BodyKind::ellipsoid, BodyKind::hull};
-  int apart = 0, inside = 0;
+  int apart = 0, inside = 0, differenced = 0;
   for (int i = 0; i < campaign_size(80, 3000); ++i) {
     const Flight f = random_flight(random, any_placed(random, kinds[i % 2], 0.3),
                                    any_placed(random, kinds[i / 2 % 2], random.uniform(4, 15)));
@@ -188,7 +198,10 @@ TEST(Barrier, OfConvexBodiesByDistancesAtSingleTimes) {
     EXPECT_NEAR(found.h, expected, 1e-8);
     EXPECT_LE(found.least, expected + 1e-8);
     EXPECT_LE(found.h - found.least, 1e-10);
-    expect_gradient(f, found, 5e-5, least_distance);
+    if (is_smooth(f, found)) {
+      ++differenced;
+      expect_gradient(f, found, 5e-5, least_distance);
+    }
     // No normal beside it proves more.
     const Pair pair(f.agent, f.obstacle);
     for (double step = 1e-2; step > 1e-8; step /= 4)
@@ -199,6 +212,7 @@ TEST(Barrier, OfConvexBodiesByDistancesAtSingleTimes) {
   }
   EXPECT_GT(apart, 30);
   EXPECT_GT(inside, 8);
+  EXPECT_GT(differenced, 0.8 * apart);
 }
 
 TEST(Barrier, OfEllipsoidsThatMeetByAllNormals) {
@@ -218,15 +232,7 @@ TEST(Barrier, OfEllipsoidsThatMeetByAllNormals) {
     ASSERT_LE(found.h - found.least, 1e-10);
     if (found.h < expected - 1e-6) continue;
     ++best;
-    // Where one normal is best and not two, nor nearly so.
-    if (met % 10 != 0 || found.h > expected + 1e-9) continue;
-    bool one = true;
-    for (int k = 0; k < 6; ++k) {
-      Flight moved = f;
-      (k < 3 ? moved.agent.pose.position : moved.v)(k % 3) += 1e-3;
-      one = one && (moved.answer().by_velocity - found.by_velocity).norm() < 0.01 * (1 + f.until);
-    }
-    if (!one) continue;
+    if (met % 10 != 0 || found.h > expected + 1e-9 || !is_smooth(f, found)) continue;
     ++differenced;
     expect_gradient(f, found, 1e-4, best_of_all_normals);
   }

@@ -340,6 +340,7 @@ def laws(ask: Ask) -> None:
     other = g.Intruder(body=v.Placed(v.Body(LONG)), velocity=[0, 0, 0])
     ask("guidance.bands", v.Placed(v.Body(BALL)), [1, 0, 0], [other], g.BandOptions(horizon=v.Horizon(until=9)))
     ask("guidance.avoid", v.Placed(v.Body(BALL)), [1, 0, 0], [1, 0, 0], [other], g.AvoidOptions(until=9))
+    ask("guidance.barrier", v.Pair(BALL, LONG), [1, 0, 0], [0, 0, 0], 9)
     ask("guidance.choose_plane", a, b, v.SectorMethod.slice, g.PlaneOptions())
     ask("guidance.guide", a, b, g.GuideOptions(), g.GuideMemory(), 0)
     ring = g.OrificeState(opening=v.PlacedOpening(v.Opening.ellipse([2, 1.5]), [6, 0.5, 0]))

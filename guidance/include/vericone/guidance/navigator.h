@@ -15,9 +15,8 @@
 
 namespace vericone::guidance {
 
-class Route;
-
 namespace courses {
+class Route;
 struct Near;
 struct Sweep;
 struct Wanted;
@@ -34,7 +33,8 @@ struct NavigatorOptions {
   // Of who may change its speed:
   double fastest = std::numeric_limits<double>::infinity();  // m/s; given: the speed that it goes at
   double range = std::numeric_limits<double>::infinity();    // m: it comes to rest within what it sees
-  std::size_t looks = 0;  // distances measured a step, about, at most; 0: as many as it takes
+  /// Distances measured a step, about, at most; 0: as many as it takes, or 400 where a stop is in hand.
+  std::size_t looks = 0;
 };
 
 /// Where the agent wants to go.
@@ -156,6 +156,7 @@ class Navigator {
 
   [[nodiscard]] double beside(const Moment& now, const Eigen::Vector3d& u, const Eigen::Vector3d& v) const;
   [[nodiscard]] Course towards(const Moment& now, const Eigen::Vector3d& velocity, double most) const;
+  [[nodiscard]] static double soon(const Moment& now, double most);
   static void brake_from(const Moment& now, double t, Course& course);
   [[nodiscard]] std::optional<Course> to_destination(const Moment& now, const Destination& destination,
                                                      double part) const;
@@ -169,7 +170,7 @@ class Navigator {
   [[nodiscard]] Destination on_the_way(const Moment& now, const Destination& destination, double time);
   [[nodiscard]] Course in_hand(const Moment& now, double time) const;
   /// As many distances were measured in this step as may be.
-  [[nodiscard]] bool spent() const { return options_.looks > 0 && looks_ >= long(options_.looks); }
+  [[nodiscard]] bool spent() const { return limit_ > 0 && looks_ >= limit_; }
 
   /// A course that is to follow the one that is flown.
   struct Leg {
@@ -200,7 +201,8 @@ class Navigator {
   double next_look_ = -std::numeric_limits<double>::infinity();  // s
   double brakes_ = std::numeric_limits<double>::infinity();      // s, when what was taken brakes to rest
   bool stopping_ = false;                                        // it is the stop that was in hand
-  double required_ = 0, beyond_ = 0;                             // metres
+  bool clear_ = false;                // of bodies at rest it has kept what is required
+  double required_ = 0, beyond_ = 0;  // metres
   // Of the step; members to keep their memory.
   std::vector<Body> bodies_;
   struct Candidate {
@@ -209,10 +211,11 @@ class Navigator {
   };
   std::vector<Candidate> candidates_;
   std::vector<Leg> tried_;
-  std::size_t failed_by_ = 0;     // the body that the course tried before failed by
-  std::size_t resume_ = 0;        // the candidate that a search goes on with
-  std::shared_ptr<Route> route_;  // written to where no copy has it too
-  mutable long looks_ = 0;        // distances measured in this step
+  std::size_t failed_by_ = 0;              // the body that the course tried before failed by
+  std::size_t resume_ = 0;                 // the candidate that a search goes on with
+  std::shared_ptr<courses::Route> route_;  // written to where no copy has it too
+  mutable long looks_ = 0;                 // distances measured in this step
+  long limit_ = 0;                         // of them; 0: none
 };
 
 }  // namespace vericone::guidance

@@ -48,6 +48,18 @@ guidance::OuterLoopOptions usual_outer_loop(double step) {
   return outer;
 }
 
+/// When it measures and what it sees stays.
+Sensor with_errors_of(const Sensor& errors, Sensor sensor) {
+  sensor.noise = errors.noise;
+  sensor.engagement = errors.engagement;
+  sensor.position = errors.position;
+  sensor.velocity = errors.velocity;
+  sensor.deviation = errors.deviation;
+  sensor.shared = errors.shared;
+  sensor.bias = errors.bias;
+  return sensor;
+}
+
 void require_sensor(bool there, const TrialLevel& level) {
   if (!there)
     throw InputError("--levels", level.name, "such as 7.5:15: the scenario has no sensor to be multiplied");
@@ -127,7 +139,7 @@ Scenario trial_scenario(const Scenario& scenario, TrialLaw law, const TrialLevel
     if (!about_bodies(body)) continue;
     Pilot& pilot = *body.pilot;
     if (level.sensor)
-      pilot.sensor = level.sensor;
+      pilot.sensor = with_errors_of(*level.sensor, pilot.sensor.value_or(Sensor{}));
     else if (pilot.sensor)
       pilot.sensor = pilot.sensor->times(level.times);
     any = true;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "pilots/line_of_sight.h"
 #include "tracks/sign_change.h"
 
 namespace vericone::simulation {
@@ -80,7 +81,7 @@ Engagement::Engagement(std::size_t agent, std::size_t obstacle, const Pilot& pil
 }
 
 const BodyState& Engagement::believed(const Instant& now) const {
-  return observer_ ? observer_->last().believed : now.bodies[obstacle_];
+  return observer_ ? observer_->last()->believed : now.bodies[obstacle_];
 }
 
 void Engagement::look(const Instant& now) {
@@ -92,7 +93,9 @@ void Engagement::look(const Instant& now) {
     ask(a, b, now.t, gone_, {});
     return;
   }
-  const Observed& seen = observer_->look(a, b, now.tracks[obstacle_], now.t, now.command);
+  observer_->look(now, agent_, obstacle_);
+  if (!known(now)) return;
+  const Observed& seen = *observer_->last();
   ask(a, seen.believed, now.t, false, seen.sight);
   if (step_ && (step_->reading ? step_->v_r_hat >= 0 : step_->status == LawStatus::receding))
     seen_passed_ = true;
@@ -123,7 +126,9 @@ double Engagement::edge() const {
 
 double Engagement::margin(const Instant& now, double t) const {
   const BodyState a = now.tracks[agent_].state(t), b = now.tracks[obstacle_].state(t);
-  if (metres_) return guidance::law_clearance(a, b) - edge();
+  if (metres_)  // none of bodies that do not move against each other
+    return a.velocity != b.velocity ? guidance::law_clearance(a, b) - edge()
+                                    : std::numeric_limits<double>::quiet_NaN();
   const auto course = guidance::on_collision_course(a, b, pilot_->guide.sector, edge());
   return course ? (*course ? -1 : 1) : std::numeric_limits<double>::quiet_NaN();
 }
@@ -137,6 +142,7 @@ bool Engagement::first(const Instant& now) const {
 void Engagement::report(const Instant& now, bool log, Run& run) {
   if (!there(now)) return;
   if (observer_) {
+    if (sees_in_part(*pilot_->sensor)) report_sight(now, run);
     if (log) report_truth(now, run);
     return;
   }
@@ -152,6 +158,12 @@ void Engagement::report(const Instant& now, bool log, Run& run) {
     if (!inside && closing) run.events.push_back({when, EventKind::leaves_cone, agent_, obstacle_, edge()});
   }
   inside_ = inside;
+}
+
+void Engagement::report_sight(const Instant& now, Run& run) {
+  if (observer_->sees() == in_sight_) return;
+  in_sight_ = !in_sight_;
+  run.events.push_back({now.t, in_sight_ ? EventKind::sees : EventKind::loses, agent_, obstacle_, 0});
 }
 
 void Engagement::report_truth(const Instant& now, Run& run) {
@@ -194,7 +206,7 @@ void Engagement::log(const Instant& now, bool attended, int planes, Run& run) {
   if (!there(now)) return;
   const BodyState &a = now.bodies[agent_], &b = now.bodies[obstacle_];
   run.encounters.push_back(sample(a, b, now.t, attended));
-  if (observer_) run.sights.push_back(sight_sample(a, b, now.t));
+  if (observer_ && known(now)) run.sights.push_back(sight_sample(a, b, now.t));
   if (planes > 0 && !passed_)
     for (const auto& plane : guidance::all_planes(a, b, pilot_->guide.sector, planes))
       run.planes.push_back({now.t, agent_, obstacle_, plane});
@@ -238,6 +250,7 @@ EncounterSample Engagement::sample(const BodyState& a, const BodyState& b, doubl
   sample.attended = attended;
   sample.cone = step_.has_value() && !passed_ && !metres_;
   if (step_) sample.step = *step_;
+  if (observer_ && !observer_->last()) sample.step.m = std::numeric_limits<double>::quiet_NaN();
   if (passed_) sample.step.status = LawStatus::receding;
   // Of an agent with a sensor the log tells the truth; what it measured stands beside it.
   if (sample.cone && (!demands() || pilot_->sensor) && !follow(a, b, sample) && pilot_->sensor)
@@ -252,7 +265,7 @@ EncounterSample Engagement::sample(const BodyState& a, const BodyState& b, doubl
 }
 
 SightSample Engagement::sight_sample(const BodyState& a, const BodyState& b, double t) {
-  const Observed& observed = observer_->last();
+  const Observed& observed = *observer_->last();
   SightSample sample;
   sample.t = t;
   sample.agent = agent_;

@@ -41,13 +41,15 @@ class Engagement {
 
   std::size_t obstacle() const { return obstacle_; }
   bool there(const Instant& now) const { return now.there(obstacle_); }
-  /// The obstacle as the agent has it.
+  /// It is there, and the agent knows of it.
+  bool known(const Instant& now) const { return there(now) && (!observer_ || observer_->last()); }
+  /// The obstacle as the agent has it. Requires that it is known.
   const guidance::BodyState& believed(const Instant& now) const;
 
   /// What sensor, estimator and law make of it.
   void look(const Instant& now);
   /// Whether the cone was entered or left since the command before. Of an agent with a sensor, whose law does
-  /// not know, on the tracks, and only where `log`.
+  /// not know, on the tracks, and only where `log`; and whether it is seen now.
   void report(const Instant& now, bool log, Run& run);
   /// Whether it was passed during the step.
   void moved(const Instant& now, Run& run);
@@ -72,6 +74,7 @@ class Engagement {
   EncounterSample sample(const guidance::BodyState& a, const guidance::BodyState& b, double t, bool attended);
   /// Of an agent with a sensor: the bodies as they are, and what was made of them.
   SightSample sight_sample(const guidance::BodyState& a, const guidance::BodyState& b, double t);
+  void report_sight(const Instant& now, Run& run);
   void report_truth(const Instant& now, Run& run);
   /// Negative on a collision course as the law sees it: m - required, or -1 and 1.
   double margin(const Instant& now, double t) const;
@@ -93,6 +96,7 @@ class Engagement {
   bool passed_ = false;       // and the law has nothing to say
   bool inside_ = false;       // at the command before
   bool seen_ = false;         // both were there at the command before
+  bool in_sight_ = false;     // of its sensor, at the command before
   bool gone_ = false;         // passed, at the time reached
   bool has_passed_ = false;   // at some time
   bool seen_passed_ = false;  // as the agent knows it

@@ -16,6 +16,9 @@ guidance::NavigatorOptions courses_of(const Pilot& pilot) {
     options.most = pilot.guide.clearance.most;
   }
   options.longitudinal = pilot.guide.clearance.longitudinal;
+  options.fastest = pilot.fastest;
+  options.looks = pilot.looks;
+  if (pilot.sensor) options.range = pilot.sensor->range;
   return options;
 }
 
@@ -30,12 +33,13 @@ class FlyingGuarded : public FlyingLaw {
     minded_.clear();
     indices_.clear();
     for (const Engagement& e : engagements_) {
-      if (!e.there(now)) continue;
+      if (!e.known(now)) continue;
       minded_.push_back(e.believed(now));
       indices_.push_back(e.obstacle());
     }
     std::optional<guidance::Destination> destination;
-    if (now.goal != nullptr) destination = {now.goal->point, now.goal->most};
+    if (now.goal != nullptr)
+      destination = {now.goal->point, now.goal->most, now.goal->velocity, now.goal->stay > 0};
     using enum guidance::NavigatorStatus;
     const guidance::NavigatorStep said =
         navigator_.step(now.own(), minded_, destination, now.t, now.until - now.t);

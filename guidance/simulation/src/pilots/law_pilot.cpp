@@ -54,8 +54,22 @@ void LawPilot::check(const Scenario& scenario, const Body& self) const {
   guidance::check(pilot_.guide);
   if (!pilot_.partners.empty() && !cooperates(pilot_.guide.law))
     throw InputError("partners", pilot_.partners.front(), "no partners with this law, or a cooperative one");
+  check_courses();
   check_kinds(scenario, self);
   check_sensing(scenario.step);
+}
+
+/// What only guarded pilots read.
+void LawPilot::check_courses() const {
+  if (!(pilot_.fastest > 0)) throw InputError("fastest", to_text(pilot_.fastest), "positive (m/s)");
+  const bool limited = std::isfinite(pilot_.fastest);
+  if (!guarded(pilot_) && (limited || pilot_.looks > 0))
+    throw InputError(limited ? "fastest" : "looks",
+                     limited ? to_text(pilot_.fastest) : std::to_string(pilot_.looks),
+                     "left out: only a guarded pilot reads it");
+  if (limited && !pilot_.guide.clearance.longitudinal)
+    throw InputError("fastest", to_text(pilot_.fastest),
+                     "left out, or given with clearance.longitudinal: true: else it keeps its speed");
 }
 
 /// What the law can see; and whether meetings of the kinds can be proved.

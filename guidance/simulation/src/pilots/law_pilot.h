@@ -29,6 +29,7 @@ class LawPilot : public PilotModel {
   const Pilot& pilot_;
 
  private:
+  void check_courses() const;
   void check_kinds(const Scenario& scenario, const Body& self) const;
   void check_sensing(double step) const;
 };

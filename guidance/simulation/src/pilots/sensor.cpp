@@ -16,7 +16,8 @@ using detail::mixed;
 using Eigen::Vector3d;
 
 // Channels of a measurement. A shared m is that of the first of all.
-constexpr std::uint64_t kShared = 0, kPosition = 1, kVelocity = 4, kEngagement = 7, kBall = 16;
+constexpr std::uint64_t kShared = 0, kPosition = 1, kVelocity = 4, kEngagement = 7, kBall = 16, kDropout = 64,
+                        kBias = 65;
 
 double m_of(const Sensor& sensor, const Draw& draw, std::uint64_t channel) {
   return sensor.deviation * draw.normal(sensor.shared ? kShared : channel);
@@ -29,6 +30,12 @@ Vector3d in_ball(double radius, const Draw& draw, std::uint64_t channel, bool pl
   if (planar) return radius * std::sqrt(part) * Vector3d(std::cos(azimuth), std::sin(azimuth), 0);
   const double z = 2 * draw.uniform(channel + 2) - 1, across = std::sqrt(1 - z * z);
   return radius * std::cbrt(part) * Vector3d(across * std::cos(azimuth), across * std::sin(azimuth), z);
+}
+
+/// Of every measurement of the pair, m.
+Vector3d bias_of(const Sensor& sensor, Draw draw, bool planar) {
+  draw.step = 0;
+  return sensor.bias * in_ball(1, draw, kBias, planar).normalized();
 }
 
 /// The standard deviation along an axis of what is uniform in a ball of radius 1, or in a disc.
@@ -49,7 +56,7 @@ const char* to_string(Estimator estimator) {
 Sensor Sensor::times(double factor) const {
   Sensor other = *this;
   for (double* x :
-       {&other.position, &other.velocity, &other.engagement.r, &other.engagement.v_r,
+       {&other.position, &other.velocity, &other.bias, &other.engagement.r, &other.engagement.v_r,
         &other.engagement.v_theta, &other.engagement.theta, &other.engagement.theta_b, &other.engagement.psi})
     *x *= factor;
   return other;
@@ -103,7 +110,12 @@ Measurement measure(const Sensor& sensor, const guidance::BodyState& a, const gu
       break;
     }
   }
+  if (sensor.bias > 0) seen.position += bias_of(sensor, draw, planar);
   return seen;
+}
+
+bool arrives(const Sensor& sensor, const Draw& draw) {
+  return !(sensor.dropout > 0) || draw.uniform(kDropout) >= sensor.dropout;
 }
 
 guidance::Sight sight_of(const Sensor& sensor, const Measurement& measurement, const Draw& draw) {
@@ -137,9 +149,26 @@ void check(const Sensor& sensor) {
                                                    {"V_theta", e.v_theta},
                                                    {"theta", e.theta},
                                                    {"theta_b", e.theta_b},
-                                                   {"psi", e.psi}};
+                                                   {"psi", e.psi},
+                                                   {"period", sensor.period},
+                                                   {"delay", sensor.delay},
+                                                   {"dropout", sensor.dropout},
+                                                   {"bias", sensor.bias}};
   for (const auto& [name, value] : fields)
     if (!(value >= 0) || !std::isfinite(value)) throw InputError(name, to_text(value), "a number, 0 or more");
+  if (!(sensor.dropout < 1)) throw InputError("dropout", to_text(sensor.dropout), "below 1");
+  if (!(sensor.range > 0)) throw InputError("range", to_text(sensor.range), "positive (m)");
+  if (!(sensor.view > 0) || (sensor.view > std::numbers::pi && std::isfinite(sensor.view)))
+    throw InputError("view", to_text(sensor.view), "positive, at most pi (rad)");
+  if (sensor.noise != Noise::engagement) return;
+  const std::pair<const char*, bool> others[] = {
+      {"period", sensor.period > 0},          {"delay", sensor.delay > 0},
+      {"dropout", sensor.dropout > 0},        {"bias", sensor.bias > 0},
+      {"range", std::isfinite(sensor.range)}, {"view", std::isfinite(sensor.view)},
+      {"occluded", sensor.occluded}};
+  for (const auto& [name, given] : others)
+    if (given)
+      throw InputError(name, "given", "left out: the sensor engagement measures at every command, and all");
 }
 
 }  // namespace vericone::simulation

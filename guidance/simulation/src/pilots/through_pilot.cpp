@@ -220,7 +220,7 @@ class ThroughPilot : public PilotModel {
     ReachLimits limits;
     const bool turns_only = through_.law == Through::Law::passage && !through_.passage.longitudinal;
     double most = this->most();
-    if (pilot_.goal) most = std::max(most, pilot_.goal->most);
+    for (const Goal& goal : pilot_.goals) most = std::max(most, goal.most);
     double slowest = body.start.velocity.norm(), fastest = slowest;
     for (const double speed : through_.speeds) {
       slowest = std::min(slowest, speed);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "names.h"
@@ -66,7 +67,7 @@ class Runner {
       models_.push_back(pilot ? model_of(*pilot) : nullptr);
       pilots_.push_back(pilot ? models_.back()->launch(scenario, i, options) : nullptr);
     }
-    reached_.assign(n, false);
+    ways_.resize(n);
     states_.resize(n);
     commands_.resize(n);
     spent_.assign(n, 0);
@@ -133,7 +134,7 @@ class Runner {
       pilot.report(now, run_);
     });
     each_pilot(now, [&](FlyingPilot& pilot) {
-      now.goal = open_goal(now.self);
+      now.goal = open_goal(now.self, t);
       {
         const Timed timed(spent_[now.self]);
         pilot.command(now, commands_, run_);
@@ -162,9 +163,9 @@ class Runner {
       return;
     }
     if (options_.log) vehicles_[i]->log(run_.vehicles.emplace_back(VehicleSample{t, i, {}}).values);
-    if (const Goal* goal = open_goal(i); goal && !wanted.aim) {
+    if (const Goal* goal = open_goal(i, t); goal && !wanted.aim) {
       const double speed = states_[i].velocity.norm();
-      wanted.aim = {goal->point, Vector3d::Zero(),
+      wanted.aim = {goal->point, goal->velocity,
                     speed > 0 ? (goal->point - states_[i].position).norm() / speed : 0};
     }
     way_.clear();
@@ -176,32 +177,62 @@ class Runner {
     for (const Curve& curve : way_) run_.tracks[i].append(curve);
   }
 
-  /// Where a pilot may go now; null: nowhere.
-  const Goal* open_goal(std::size_t agent) const {
+  const std::vector<Goal>& goals(std::size_t agent) const {
+    static const std::vector<Goal> kNone;
     const auto& pilot = scenario_.bodies[agent].pilot;
-    if (!pilot || !pilot->goal || reached_[agent]) return nullptr;
-    std::optional<std::size_t> after;
-    if (!pilot->goal->after.empty()) after = index_of(scenario_.bodies, pilot->goal->after);
-    return pilots_[agent]->goal_opens(after) ? &*pilot->goal : nullptr;
+    return pilot ? pilot->goals : kNone;
   }
 
+  /// Of the point of a goal, m and m/s, at t; what it follows is there then.
+  std::pair<Vector3d, Vector3d> whereabouts(const Goal& goal, double t) const {
+    std::pair<Vector3d, Vector3d> at{goal.point, goal.velocity};
+    if (goal.velocity.any()) at.first += t * goal.velocity;
+    if (goal.follows.empty()) return at;
+    const Motion followed = run_.tracks[index_of(scenario_.bodies, goal.follows)].motion(t);
+    return {followed.position + at.first, followed.velocity + at.second};
+  }
+
+  /// Where a pilot may go at t, until it is asked again; null: nowhere.
+  const Goal* open_goal(std::size_t agent, double t) {
+    if (ways_[agent].next == goals(agent).size()) return nullptr;
+    const Goal& goal = goals(agent)[ways_[agent].next];
+    if (!goal.follows.empty() && run_.tracks[index_of(scenario_.bodies, goal.follows)].appears() > t)
+      return nullptr;
+    std::optional<std::size_t> after;
+    if (!goal.after.empty()) after = index_of(scenario_.bodies, goal.after);
+    if (!pilots_[agent]->goal_opens(after)) return nullptr;
+    goal_ = goal;
+    std::tie(goal_.point, goal_.velocity) = whereabouts(goal, t);
+    return &goal_;
+  }
+
+  /// Whether its agent has come to its goal between t and `to`, and stayed.
   void reaching(std::size_t agent, double t, double to) {
-    const Goal* goal = open_goal(agent);
-    if (goal == nullptr) return;
-    const auto outside = [&](double s) {
-      return goal->reached - (run_.tracks[agent].motion(s).position - goal->point).norm();
-    };
-    if (!(outside(t) < 0) || !(outside(to) >= 0)) return;
-    event({sign_change(outside, t, to), EventKind::reaches_goal, agent, agent, goal->reached});
-    reached_[agent] = true;
+    if (open_goal(agent, t) == nullptr) return;
+    Way& way = ways_[agent];
+    const Goal& goal = goals(agent)[way.next];
+    if (!way.since) {
+      const auto inside = [&](double s) {
+        return goal.reached - (run_.tracks[agent].motion(s).position - whereabouts(goal, s).first).norm();
+      };
+      if (!(inside(to) >= 0)) return;
+      const bool at_once = inside(t) >= 0;
+      // Who starts within its only goal would be done before it has flown.
+      if (at_once && goals(agent).size() == 1 && goal.stay == 0) return;
+      way.since = at_once ? t : sign_change(inside, t, to);
+      event({*way.since, EventKind::reaches_goal, agent, agent, goal.reached});
+    }
+    if (to - *way.since < goal.stay) return;
+    ++way.next;
+    way.since.reset();
     done_ = true;
-    for (std::size_t i = 0; i < scenario_.bodies.size(); ++i)
-      if (scenario_.bodies[i].pilot && scenario_.bodies[i].pilot->goal && !reached_[i]) done_ = false;
+    for (std::size_t i = 0; i < ways_.size(); ++i)
+      if (ways_[i].next < goals(i).size()) done_ = false;
   }
 
   bool all_passed(double t) const {
     for (const Body& body : scenario_.bodies)
-      if (body.appears > t || (body.pilot && body.pilot->goal)) return false;
+      if (body.appears > t || (body.pilot && !body.pilot->goals.empty())) return false;
     return std::all_of(pilots_.begin(), pilots_.end(),
                        [](const auto& pilot) { return !pilot || pilot->passed_all(); });
   }
@@ -290,7 +321,13 @@ class Runner {
   std::vector<BodyState> states_;
   std::vector<VehicleCommand> commands_;
   std::vector<Curve> way_;
-  std::vector<bool> reached_;              // their goals
+  /// Of an agent, to its goals.
+  struct Way {
+    std::size_t next = 0;         // the one that it goes to
+    std::optional<double> since;  // s, when it came there
+  };
+  std::vector<Way> ways_;
+  Goal goal_;                              // as it is now, for who is asked
   std::vector<double> spent_, decisions_;  // s: at this command by each agent, and all that are done
   double before_ = -1;
   std::uint64_t command_ = 0;  // number of the command, from 0
@@ -321,7 +358,7 @@ Run simulate(const Scenario& scenario, const RunOptions& options) {
 const char* to_string(EventKind kind) {
   constexpr const char* kWords[] = {"appears",      "enters-cone",  "leaves-cone", "passes",
                                     "aligned",      "reaches-goal", "contact",     "cannot-avoid",
-                                    "goes-through", "goes-beside"};
+                                    "goes-through", "goes-beside",  "sees",        "loses"};
   return kWords[std::size_t(kind)];
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "names.h"
 
@@ -23,6 +24,17 @@ void require_positive(double value, const char* field, const char* unit) {
 void require_not_negative(double value, const char* field, const char* unit) {
   if (!(value >= 0) || !std::isfinite(value))
     throw InputError(field, to_text(value), std::string("a finite number, 0 or more") + unit);
+}
+
+void check_goal(const Goal& goal, const Body& self, const std::vector<Body>& bodies) {
+  if (!goal.point.allFinite()) throw InputError("point", "a number that is not finite", "finite (m)");
+  if (!goal.velocity.allFinite()) throw InputError("velocity", "a number that is not finite", "finite (m/s)");
+  require_positive(goal.most, "most", " (m/s^2)");
+  require_positive(goal.reached, "reached", " (m)");
+  require_not_negative(goal.stay, "stay", " (s)");
+  for (const auto& [field, name] : {std::pair("after", goal.after), std::pair("follows", goal.follows)})
+    if (!name.empty() && (name == self.name || index_of(bodies, name) == bodies.size()))
+      throw InputError(field, name, "the name of another body");
 }
 
 void check_pilot(const Pilot& pilot, const PilotModel& model, const Body& self, const Scenario& scenario) {
@@ -44,14 +56,13 @@ void check_pilot(const Pilot& pilot, const PilotModel& model, const Body& self, 
                        "a body without a road, which leaves it no choice");
   }
   model.check(scenario, self);
-  if (!pilot.goal) return;
-  if (!pilot.goal->point.allFinite())
-    throw InputError("goal.point", "a number that is not finite", "finite (m)");
-  require_positive(pilot.goal->most, "goal.most", " (m/s^2)");
-  require_positive(pilot.goal->reached, "goal.reached", " (m)");
-  const std::string& after = pilot.goal->after;
-  if (!after.empty() && (after == self.name || index_of(bodies, after) == bodies.size()))
-    throw InputError("goal.after", after, "the name of another body");
+  for (std::size_t i = 0; i < pilot.goals.size(); ++i) {
+    try {
+      check_goal(pilot.goals[i], self, bodies);
+    } catch (const InputError& e) {
+      throw e.within(at("goals", i));
+    }
+  }
 }
 
 void check_body(const Body& body, const Scenario& scenario) {

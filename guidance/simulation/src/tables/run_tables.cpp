@@ -315,7 +315,7 @@ std::string unit_of(const Scenario& scenario, const Event& event) {
   require_event_of(scenario, event);
   using enum EventKind;
   const EventKind kind = event.kind;
-  if (kind == appears || kind == aligned || kind == reaches_goal) return "";
+  if (kind == appears || kind == aligned || kind == reaches_goal || kind == sees || kind == loses) return "";
   if (kind == contact) return "s";
   const bool of_cone = kind == enters_cone || kind == leaves_cone;
   return of_cone && !in_metres(scenario.bodies[event.agent]) ? "1" : "m";

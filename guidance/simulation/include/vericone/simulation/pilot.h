@@ -51,6 +51,15 @@ struct Sensor {
   /// One m for all channels of a measurement, the literal reading of m(t); otherwise each has its own, as the
   /// source's variances assume.
   bool shared = false;
+  // When it measures; between measurements a body goes on as it was measured last.
+  double period = 0;   // s, from one to the next; 0: at every command
+  double delay = 0;    // s, after which one arrives
+  double dropout = 0;  // share of measurements that never arrive
+  double bias = 0;     // m, of every position of one body, in a direction drawn once
+  // What it sees; a body that it has never seen is not minded.
+  double range = std::numeric_limits<double>::infinity();  // m, from the agent to the nearest of the body
+  double view = std::numeric_limits<double>::infinity();   // rad, to each side of the heading
+  bool occluded = false;                                   // not what is behind other bodies
 
   /// All errors times a number.
   [[nodiscard]] Sensor times(double factor) const;
@@ -96,7 +105,11 @@ struct Goal {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  // m
   double most = 0;                                  // m/s^2, with which it turns towards the point
   std::string after;   // obstacle that has to be passed first; empty: none, or all orifices
-  double reached = 1;  // metres; when all agents with goals have been this near the run ends
+  double reached = 1;  // metres; when all agents have been this near to all their goals the run ends
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, of the point, from the start of the run
+  std::string follows =
+      {};           // body about whose reference point the point is, in the axes of the world; or none
+  double stay = 0;  // s there, before the next goal
 };
 
 /// How a pilot avoids.
@@ -142,7 +155,7 @@ struct Through {
 
 /// What flies a body. Bodies without one keep their velocity.
 struct Pilot {
-  /// In place of all the laws below, of which nothing but `partners` and `goal` is read then.
+  /// In place of all the laws below, of which nothing but `partners` and `goals` is read then.
   std::shared_ptr<const PilotModel> own;
   /// In place of a law about bodies: `guide`, `manner`, `passing`, `minds`, `partners` and sensors are not
   /// read.
@@ -155,7 +168,10 @@ struct Pilot {
   std::vector<std::string> minds;
   /// Cooperative laws: the body that carries out the second acceleration. Has no pilot of its own.
   std::vector<std::string> partners;
-  std::optional<Goal> goal;
+  std::vector<Goal> goals;  // one after the other
+  /// m/s: it goes to its goals at this speed, and never faster. Of a guarded pilot that may change its speed.
+  double fastest = std::numeric_limits<double>::infinity();
+  std::size_t looks = 0;  // of a guarded pilot, NavigatorOptions::looks
   /// What it measures of the bodies it minds; left out: it knows them. Its law sees nothing else, so neither
   /// does it know when a body has been passed but by what it measures.
   std::optional<Sensor> sensor;

@@ -84,6 +84,8 @@ enum class EventKind : std::uint8_t {
   cannot_avoid,  // every course tried meets `obstacle`, as far as a guarded pilot can foresee
   goes_through,  // the agent's reference point crosses the plane of an orifice inside the rim
   goes_beside,   // or outside of it
+  sees,          // the agent measures the obstacle from now on
+  loses,         // its sensor does not see the obstacle any more
 };
 [[nodiscard]] const char* to_string(EventKind kind);
 

@@ -21,8 +21,8 @@ struct Instant {
   std::size_t self = 0;                         // the body that is flown
   std::span<const guidance::BodyState> bodies;  // now; of bodies that are there()
   std::span<const Track> tracks;                // until now; after a step until its end
-  const Goal* goal = nullptr;                   // where it may go now; null: nowhere
-  const Vehicle* vehicle = nullptr;             // that carries out what it commands; null: a point mass
+  const Goal* goal = nullptr;        // where it may go, its point and velocity as they are now; null: nowhere
+  const Vehicle* vehicle = nullptr;  // that carries out what it commands; null: a point mass
 
   [[nodiscard]] bool there(std::size_t body) const { return tracks[body].appears() <= t; }
   [[nodiscard]] const guidance::BodyState& own() const { return bodies[self]; }

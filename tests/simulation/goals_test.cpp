@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Several goals, one after the other, that stand still, move, or follow a body.
+#include <gtest/gtest.h>
+#include <vericone/geometry/error.h>
+#include <vericone/internal/simulation/flying_pilot.h>
+#include <vericone/simulation/run.h>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace vericone::simulation::goals_test {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Flies straight on, and notes which goal it is told.
+class Straight : public PilotModel {
+ public:
+  std::unique_ptr<FlyingPilot> launch(const Scenario&, std::size_t, const RunOptions&) const override {
+    return std::make_unique<Flying>(*this);
+  }
+  struct Told {
+    double t;
+    std::optional<Goal> goal;
+  };
+  mutable std::vector<Told> told;
+
+ private:
+  struct Flying : FlyingPilot {
+    explicit Flying(const Straight& model) : straight(model) {}
+    void command(const Instant& now, std::span<VehicleCommand>, Run&) override {
+      straight.told.push_back({now.t, now.goal ? std::optional(*now.goal) : std::nullopt});
+    }
+    const Straight& straight;
+  };
+};
+
+Body ball(const std::string& name, const Vector3d& position, const Vector3d& velocity) {
+  Body body;
+  body.name = name;
+  body.shape = RigidShape{CombinedEllipsoid(Ellipsoid::from_axes(Vector3d::Zero(), Vector3d::Ones()))};
+  body.start.position = position;
+  body.start.velocity = velocity;
+  return body;
+}
+
+Goal goal(const Vector3d& point, double stay = 0) {
+  Goal goal;
+  goal.point = point;
+  goal.most = 1;
+  goal.stay = stay;
+  return goal;
+}
+
+/// A flies along x at 5 m/s, far beside B.
+struct Flight {
+  std::shared_ptr<Straight> pilot = std::make_shared<Straight>();
+  Scenario scenario;
+
+  explicit Flight(std::vector<Goal> goals) {
+    scenario.duration = 20;
+    scenario.bodies = {ball("A", {0, 0, 0}, {5, 0, 0}), ball("B", {10, 50, 0}, {2, 0, 0})};
+    scenario.bodies[0].pilot.emplace().own = pilot;
+    scenario.bodies[0].pilot->goals = std::move(goals);
+  }
+  [[nodiscard]] Run run() const {
+    RunOptions options;
+    options.prove = false;
+    return simulate(scenario, options);
+  }
+};
+
+std::vector<Event> reached(const Run& run) {
+  std::vector<Event> events;
+  for (const Event& event : run.events)
+    if (event.kind == EventKind::reaches_goal) events.push_back(event);
+  return events;
+}
+
+TEST(Goals, AreReachedInOrderAndTheRunEndsAtTheLast) {
+  const Flight flight({goal({20, 0, 0}), goal({40, 0, 0})});
+  const auto run = flight.run();
+  const auto events = reached(run);
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_NEAR(events[0].t, 19 / 5.0, 1e-9);
+  EXPECT_NEAR(events[1].t, 39 / 5.0, 1e-9);
+  EXPECT_GE(run.end, events[1].t);
+  EXPECT_LE(run.end, events[1].t + flight.scenario.step);
+  for (const auto& told : flight.pilot->told)
+    EXPECT_EQ(told.goal.value().point.x(), told.t < events[0].t ? 20 : 40) << told.t;
+}
+
+TEST(Goals, StayBeforeTheNextAndBeforeTheEnd) {
+  const Flight flight({goal({20, 0, 0}, 1.5), goal({40, 0, 0}, 2)});
+  const auto run = flight.run();
+  const auto events = reached(run);
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_NEAR(events[0].t, 3.8, 1e-9);
+  EXPECT_NEAR(events[1].t, 7.8, 1e-9);
+  EXPECT_NEAR(run.end, 9.8, flight.scenario.step + 1e-9);
+  for (const auto& told : flight.pilot->told) {
+    if (std::abs(told.t - 5.3) <= flight.scenario.step) continue;
+    EXPECT_EQ(told.goal.value().point.x(), told.t < 5.3 ? 20 : 40) << told.t;
+  }
+}
+
+TEST(Goals, OneThatItIsAtAlreadyIsReachedAtOnce) {
+  Goal wide = goal({11, 0, 0});
+  wide.reached = 4;
+  const auto events = reached(Flight({goal({10, 0, 0}), wide, goal({30, 0, 0})}).run());
+  ASSERT_EQ(events.size(), 3u);
+  EXPECT_NEAR(events[0].t, 1.8, 1e-9);
+  EXPECT_NEAR(events[1].t, 1.8, 0.01 + 1e-9);
+  EXPECT_NEAR(events[2].t, 5.8, 1e-9);
+  // The only one, which would end the run before it began, is not.
+  const Flight only({goal({0.5, 0, 0})});
+  EXPECT_TRUE(reached(only.run()).empty());
+  EXPECT_EQ(only.run().end, 20);
+}
+
+TEST(Goals, MoveAndFollow) {
+  Goal ahead = goal({10, 0, 0}), escort = goal({0, -50, 0});
+  ahead.velocity = {2, 0, 0};
+  escort.follows = "B";
+  for (const Goal& one : {ahead, escort}) {
+    const Flight flight({one});
+    const auto run = flight.run();
+    // 10 + 2 t - 5 t = 1.
+    ASSERT_EQ(reached(run).size(), 1u);
+    EXPECT_NEAR(reached(run)[0].t, 3, 1e-9);
+    for (const auto& told : flight.pilot->told) {
+      EXPECT_LT((told.goal.value().point - Vector3d(10 + 2 * told.t, 0, 0)).norm(), 1e-12);
+      EXPECT_EQ(told.goal->velocity, Vector3d(2, 0, 0));
+    }
+  }
+  escort.velocity = {0, 0, 1};
+  const Flight drifting({escort});
+  EXPECT_TRUE(reached(drifting.run()).empty());
+  for (const auto& told : drifting.pilot->told) {
+    EXPECT_LT((told.goal.value().point - Vector3d(10 + 2 * told.t, 0, told.t)).norm(), 1e-12);
+    EXPECT_EQ(told.goal->velocity, Vector3d(2, 0, 1));
+  }
+}
+
+TEST(Goals, ThereIsNoneBeforeTheBodyThatItFollowsAppears) {
+  Goal escort = goal({0, -50, 0});
+  escort.follows = "B";
+  Flight flight({escort});
+  flight.scenario.bodies[1].appears = 1.005;
+  static_cast<void>(flight.run());
+  for (const auto& told : flight.pilot->told) EXPECT_EQ(told.goal.has_value(), told.t >= 1.005) << told.t;
+}
+
+TEST(Goals, AllAgentsGoToAllOfTheirs) {
+  Flight flight({goal({10, 0, 0})});
+  Pilot& other = flight.scenario.bodies[1].pilot.emplace();
+  other.own = std::make_shared<Straight>();
+  other.goals = {goal({20, 50, 0}), goal({30, 50, 0})};
+  const auto run = flight.run();
+  EXPECT_EQ(reached(run).size(), 3u);
+  EXPECT_NEAR(run.end, 19 / 2.0, flight.scenario.step + 1e-9);
+}
+
+/// Of a guarded pilot that may change its speed: it is there as long as it is to be.
+TEST(Goals, AGuardedPilotStays) {
+  Scenario scenario;
+  scenario.duration = 60;
+  scenario.bodies = {ball("A", {0, 0, 0}, {0, 0, 0})};
+  Pilot& pilot = scenario.bodies[0].pilot.emplace();
+  pilot.guide.law = guidance::Law::clearance;
+  pilot.guide.clearance.most = 2;
+  pilot.guide.clearance.longitudinal = true;
+  for (const Vector3d& point : {Vector3d(20, 0, 0), Vector3d(20, 15, 0)}) {
+    pilot.goals.push_back(goal(point, 5));
+    pilot.goals.back().most = 2;
+  }
+  const auto run = simulate(scenario);
+  const auto events = reached(run);
+  ASSERT_EQ(events.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i)
+    for (double t = events[i].t + 1e-9; t < events[i].t + 5; t += 0.1)
+      EXPECT_LT((run.tracks[0].motion(t).position - pilot.goals[i].point).norm(), 1) << t;
+  EXPECT_NEAR(run.end, events[1].t + 5, scenario.step + 1e-9);
+}
+
+TEST(Goals, WhatCannotBeIsRefusedByName) {
+  const auto refused = [](void (*spoil)(Goal&)) -> std::string {
+    Flight flight({goal({20, 0, 0}), goal({40, 0, 0})});
+    spoil(flight.scenario.bodies[0].pilot->goals[1]);
+    try {
+      static_cast<void>(flight.run());
+      return "nothing";
+    } catch (const InputError& e) {
+      return e.field();
+    }
+  };
+  const std::string path = "bodies[0].pilot.goals[1].";
+  EXPECT_EQ(refused([](Goal& g) { g.follows = "A"; }), path + "follows");
+  EXPECT_EQ(refused([](Goal& g) { g.follows = "C"; }), path + "follows");
+  EXPECT_EQ(refused([](Goal& g) { g.stay = -1; }), path + "stay");
+  EXPECT_EQ(refused([](Goal& g) { g.velocity.y() = std::numeric_limits<double>::infinity(); }),
+            path + "velocity");
+  EXPECT_EQ(refused([](Goal& g) { g.reached = 0; }), path + "reached");
+  EXPECT_EQ(refused([](Goal& g) { g.follows = "B"; }), "nothing");
+}
+
+}  // namespace
+}  // namespace vericone::simulation::goals_test
