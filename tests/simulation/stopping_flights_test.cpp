@@ -14,30 +14,13 @@
 #include <limits>
 
 #include "support/campaign.h"
+#include "support/hall.h"
 
 namespace vericone::simulation::stopping_flights_test {
 namespace {
 
 using Eigen::Vector3d;
 using testing::campaign_size, testing::from_environment, testing::RandomBodies;
-
-/// 12 x 12 x 4 m, a wall across with a door, pillars; boxes that do not move.
-std::vector<Box> hall(RandomBodies& random) {
-  std::vector<Box> boxes;
-  const auto add = [&](const Vector3d& low, const Vector3d& high) { boxes.push_back({low, high}); };
-  for (const double x : {-6.2, 6.0}) add({x, -6.2, 0}, {x + 0.2, 6.2, 4});
-  for (const double y : {-6.2, 6.0}) add({-6.2, y, 0}, {6.2, y + 0.2, 4});
-  for (const double z : {-0.2, 4.0}) add({-6.2, -6.2, z}, {6.2, 6.2, z + 0.2});
-  const double door = random.uniform(-4.5, 3.5), wide = random.uniform(1.6, 2.2);
-  add({-0.1, -6, 0}, {0.1, door, 4});
-  add({-0.1, door + wide, 0}, {0.1, 6, 4});
-  for (int i = random.integer(0, 5); i > 0; --i) {
-    const Vector3d at(random.uniform(-5, 5), random.uniform(-5, 5), 0),
-        half(random.uniform(0.1, 0.6), random.uniform(0.1, 0.6), 0);
-    if (std::abs(at.x()) > 1.8) add(at - half, at + half + Vector3d(0, 0, random.uniform(1, 4)));
-  }
-  return boxes;
-}
 
 Body ellipsoid(const std::string& name, const Vector3d& axes, const Vector3d& position,
                const Vector3d& velocity) {
@@ -56,14 +39,11 @@ Scenario flight(std::uint64_t seed) {
   scenario.step = 0.05;
   scenario.duration = 40;
   scenario.seed = seed;
-  const std::vector<Box> boxes = hall(random);
+  const std::vector<Box> boxes = testing::hall(random, 1.6);
   const auto free = [&](double room) {
     while (true) {
       const Vector3d x(random.uniform(-5.2, 5.2), random.uniform(-5.2, 5.2), random.uniform(0.8, 3.2));
-      if (std::all_of(boxes.begin(), boxes.end(), [&](const Box& box) {
-            return (x.cwiseMax(box.low).cwiseMin(box.high) - x).norm() > room;
-          }))
-        return x;
+      if (testing::distance(x, boxes) > room) return x;
     }
   };
   const bool quadrotor = seed % 4 == 0;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "support/campaign.h"
+#include "support/hall.h"
 
 namespace vericone::guidance::stops_test {
 namespace {
@@ -34,29 +35,16 @@ struct World {
   Vector3d start, velocity, goal;
 
   double apart(const Vector3d& x, double t) const {
-    double least = std::numeric_limits<double>::infinity();
-    for (const Box& box : boxes) least = std::min(least, (x.cwiseMax(box.low).cwiseMin(box.high) - x).norm());
+    double least = testing::distance(x, boxes);
     for (const Ball& ball : balls)
       least = std::min(least, (ball.center + t * ball.velocity - x).norm() - ball.radius);
     return least - kRadius;
   }
 };
 
-/// A hall of 12 x 12 x 4 m with a wall across that has a door, and pillars.
-World hall(RandomBodies& random, bool traffic) {
+World in_a_hall(RandomBodies& random, bool traffic) {
   World world;
-  const auto add = [&](const Vector3d& low, const Vector3d& high) { world.boxes.push_back({low, high}); };
-  for (const double x : {-6.2, 6.0}) add({x, -6.2, 0}, {x + 0.2, 6.2, 4});
-  for (const double y : {-6.2, 6.0}) add({-6.2, y, 0}, {6.2, y + 0.2, 4});
-  for (const double z : {-0.2, 4.0}) add({-6.2, -6.2, z}, {6.2, 6.2, z + 0.2});
-  const double door = random.uniform(-4.5, 3.5), wide = random.uniform(1.2, 2);
-  add({-0.1, -6, 0}, {0.1, door, 4});
-  add({-0.1, door + wide, 0}, {0.1, 6, 4});
-  for (int i = random.integer(0, 6); i > 0; --i) {
-    const Vector3d at(random.uniform(-5, 5), random.uniform(-5, 5), 0),
-        half(random.uniform(0.1, 0.6), random.uniform(0.1, 0.6), 0);
-    add(at - half, at + half + Vector3d(0, 0, random.uniform(1, 4)));
-  }
+  world.boxes = testing::hall(random, 1.3);
   const auto free = [&] {
     while (true) {
       const Vector3d x(random.uniform(-5.5, 5.5), random.uniform(-5.5, 5.5), random.uniform(0.6, 3.4));
@@ -147,7 +135,7 @@ TEST(Stops, InHallsNothingIsEverTouched) {
   int arrived = 0;
   for (int i = 0; i < count; ++i) {
     RandomBodies random(1000 + i);
-    const World world = hall(random, false);
+    const World world = in_a_hall(random, false);
     const Flown flown = fly(world, pilot(), 40);
     EXPECT_GT(flown.least, 0) << i;
     EXPECT_LT(flown.said, 0) << i;
@@ -162,7 +150,7 @@ TEST(Stops, WithHardlyAnyTimeToDecideEither) {
   int arrived = 0;
   for (int i = 0; i < count; ++i) {
     RandomBodies random(1000 + i);
-    const World world = hall(random, false);
+    const World world = in_a_hall(random, false);
     const Flown flown = fly(world, pilot(1 + i % 30), 40);
     EXPECT_GT(flown.least, 0) << i;
     EXPECT_LT(flown.said, 0) << i;
@@ -177,7 +165,7 @@ TEST(Stops, AmongTrafficWhatHitsIsSaidBefore) {
   int arrived = 0, hit = 0, said = 0;
   for (int i = 0; i < count; ++i) {
     RandomBodies random(1000 + i);
-    const World world = hall(random, true);
+    const World world = in_a_hall(random, true);
     const Flown flown = fly(world, pilot(), 40);
     arrived += flown.arrived >= 0;
     hit += flown.hit >= 0;

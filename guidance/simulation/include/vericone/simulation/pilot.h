@@ -104,12 +104,11 @@ void check(const Sensor& sensor);
 struct Goal {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  // m
   double most = 0;                                  // m/s^2, with which it turns towards the point
-  std::string after;   // obstacle that has to be passed first; empty: none, or all orifices
-  double reached = 1;  // metres; when all agents have been this near to all their goals the run ends
+  std::string after = {};  // obstacle that has to be passed first; empty: none, or all orifices
+  double reached = 1;      // metres; when all agents have been this near to all their goals the run ends
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, of the point, from the start of the run
-  std::string follows =
-      {};           // body about whose reference point the point is, in the axes of the world; or none
-  double stay = 0;  // s there, before the next goal
+  std::string follows = {};  // body from whose reference point `point` is, in the axes of the world; or none
+  double stay = 0;           // s there, before the next goal
 };
 
 /// How a pilot avoids.
