@@ -23,7 +23,7 @@ struct AvoidOptions {
   /// m/s^2 across its present velocity and along it, with which it gets there at a constant acceleration;
   /// both 0: at once.
   double lateral = 0, longitudinal = 0;
-  double gap = 0.01;       // between `lower` and `distance`, relative, at which the search ends
+  double gap = 0.01;  // between `lower` and `distance`, relative, at which the search ends
   /// Rays from the wanted velocity that are looked along; a tenth of them where a body with delimiters is in
   /// the way, of which no conflict is proved.
   std::size_t most = 2000;
