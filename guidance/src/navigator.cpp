@@ -417,6 +417,8 @@ Navigator::Navigator(const NavigatorOptions& options) : options_(options) {
   if (options.required) require_not_negative(*options.required, "required", " (m)");
   if (options.beyond) require_not_negative(*options.beyond, "beyond", " (m)");
   if (!(options.most > 0)) throw InputError("most", to_text(options.most), "positive (m/s^2)");
+  if (!(options.fastest > 0)) throw InputError("fastest", to_text(options.fastest), "positive (m/s)");
+  if (!(options.range > 0)) throw InputError("range", to_text(options.range), "positive (m)");
 }
 
 NavigatorStep Navigator::step(const BodyState& agent, std::span<const BodyState> others,
@@ -426,6 +428,7 @@ NavigatorStep Navigator::step(const BodyState& agent, std::span<const BodyState>
   if (destination) {
     require_finite(destination->point, "destination.point", " (m)");
     require_not_negative(destination->most, "destination.most", " (m/s^2)");
+    require_finite(destination->velocity, "destination.velocity", " (m/s)");
   }
   try {
     require_course(agent);

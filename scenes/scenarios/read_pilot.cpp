@@ -252,7 +252,7 @@ void add_fields_of_planes(Fields<PilotFile>& fields) {
           },
           "Of a guarded pilot: about so many distances are measured a command, at most. Bounds what one "
           "costs; the best course found by then is flown.",
-          absent("as many as it takes"))
+          absent("as many as it takes; 400 where a stop is in hand"))
       .only_of({"avoidance", "clearance"}, "avoidance, clearance")
       .row("passing", &F::passing,
            choice<Passing>({{"bisector", Passing::bisector}, {"centres", Passing::centres}}),

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/pair.h>
+#include <vericone/geometry/error.h>
 #include <vericone/guidance/navigator.h>
 #include <vericone/testing/random_bodies.h>
 
@@ -357,6 +358,23 @@ TEST(Navigator, WhoMayChangeItsSpeedStartsBrakesAndStops) {
         EXPECT_NEAR(s.agent.velocity.norm(), speed, 1e-6) << "back to its speed";
       }
     }
+}
+
+TEST(Navigator, NamesWhatItIsNotGivenRight) {
+  const auto refused = [](const NavigatorOptions& options, const Destination& destination) {
+    try {
+      Navigator navigator(options);
+      static_cast<void>(navigator.step(body(Ellipsoid::from_axes({0, 0, 0}, {1, 1, 1}), {1, 0, 0}), {},
+                                       destination, 0, 0.1));
+    } catch (const InputError& error) {
+      return error.field();
+    }
+    return std::string("nothing");
+  };
+  EXPECT_EQ(refused({.required = 0, .beyond = 0, .fastest = 0}, {}), "fastest");
+  EXPECT_EQ(refused({.required = 0, .beyond = 0, .range = NAN}, {}), "range");
+  EXPECT_EQ(refused({}, {.most = 1, .velocity = {0, NAN, 0}}), "destination.velocity[1]");
+  EXPECT_EQ(refused({}, {.most = 1}), "nothing");
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <vericone/geometry/body.h>
 #include <cstdint>
 
+#include "bands/parts.h"
+
 namespace vericone::guidance::barriers {
 
 class PartsTree {
@@ -45,11 +47,7 @@ class PartsTree {
     if (const auto* one = body_.body.quadric()) return {one->ellipsoid(), body_.pose};
     if (quadrics_) return {(*quadrics_)[node - inner_].ellipsoid(), body_.pose};
     if (!assembly_) return body_;
-    HullBody points = assembly_->piece(assembly_->hierarchy().order()[node - inner_]);
-    if (assembly_->radius() > 0)
-      return {Ellipsoid::from_axes(points.points().front(), Eigen::Vector3d::Constant(assembly_->radius())),
-              body_.pose};
-    return {std::move(points), body_.pose};
+    return banding::piece_of(body_, assembly_->hierarchy().order()[node - inner_]);
   }
 
   const Pose& pose() const { return body_.pose; }

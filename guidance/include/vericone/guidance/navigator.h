@@ -100,12 +100,13 @@ struct NavigatorStep {
 /// stop in hand up to 10 ms (docs/measured/guidance.md).
 class Navigator {
  public:
-  /// Throws InputError naming "required" or "beyond" unless finite and not negative, and "most" unless
-  /// positive (it may be infinite).
+  /// Throws InputError naming "required" or "beyond" unless finite and not negative, and "most",
+  /// "fastest" or "range" unless positive (they may be infinite).
   explicit Navigator(const NavigatorOptions& options);
 
   /// At `time`; the command is held for `step` seconds. Throws InputError naming "step" unless it is positive
-  /// and finite, "time", "destination.point" or "destination.most" unless finite, "agent.position" and the
+  /// and finite, "time", "destination.point", "destination.most" or
+  /// "destination.velocity" unless finite, "agent.position" and the
   /// like where it holds a number that is not finite, and "others[i]" where one is planar and the agent is
   /// not, or the other way round.
   NavigatorStep step(const BodyState& agent, std::span<const BodyState> others,
