@@ -203,6 +203,7 @@ double Body::support(const Vector3d& n) const {
 }
 
 Box Body::bounds() const {
+  if (const Assembly* pieces = assembly()) return pieces->bounds();
   Box box;
   for (int k = 0; k < 3; ++k) {
     box.high(k) = support(Vector3d::Unit(k));

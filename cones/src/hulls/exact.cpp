@@ -65,10 +65,16 @@ void candidates(const HullScene& scene, const std::vector<Eigen::Vector3d>& poin
       consider(i);
 }
 
-/// Position of the origin in a hull seen through a map to the line, where it is known to be inside.
-bool inside_interval(const HullScene& scene, const IntegerVector<3>& n) {
+/// Position of the origin in a hull seen through a map to the line, where it is known to be inside. Where it
+/// is at an end, `supporting` has no point of the hull below it.
+bool inside_interval(const HullScene& scene, const IntegerVector<3>& n, IntegerVector<3>& supporting) {
   const IntegerVector<3> minus{-n[0], -n[1], -n[2]};
-  return exact_support(scene, n).value < 0 && exact_support(scene, minus).value < 0;
+  for (const IntegerVector<3>* side : {&n, &minus})
+    if (exact_support(scene, *side).value >= 0) {
+      supporting = *side;
+      return false;
+    }
+  return true;
 }
 
 template <int D>
@@ -100,33 +106,46 @@ class Image {
   /// Ends: every step that does not answer adds a point with n.s < n.y, so that the next nearest point is
   /// strictly nearer; a nearest point is that of the affine hull of its face, and there are finitely many
   /// faces.
-  OriginIn position(const std::vector<HullPair>& start, IntegerVector<3>* normal) {
+  OriginIn position(const std::vector<HullPair>& start, IntegerVector<3>* normal, Shown* shown) {
+    shown_ = shown;
+    const OriginIn answer = position(start);
+    if (normal && answer == OriginIn::outside) *normal = supporting_;
+    if (shown) shown->normal = supporting_;
+    return answer;
+  }
+
+ private:
+  OriginIn position(const std::vector<HullPair>& start) {
     for (const HullPair& p : start) add(p);
     if (points_.empty()) add({0, 0});
     for (;;) {
       reduce();
+      show();
       if (is_zero<D>(nearest_)) return round_ ? OriginIn::interior : around_face();
-      const IntegerVector<3> n = in_space(nearest_);
+      const IntegerVector<3> n = supporting_ = in_space(nearest_);
       const Vector& m = nearest_;
       // The nearest point's plane n.x = level; rho(n)^2 = m^T M m.
       const Integer level = dot<D>(m, points_[0].x);
       const Integer squared_radius = round_ ? quadratic(shape_, m) : Integer(0);
       if (round_ && level * level < squared_radius) return OriginIn::interior;
       const ExactSupport support = exact_support(scene_, n);
-      if (support.value > 0 && support.value * support.value > squared_radius) {
-        if (normal) *normal = n;
-        return OriginIn::outside;
-      }
+      if (support.value > 0 && support.value * support.value > squared_radius) return OriginIn::outside;
       if (support.value >= level) return OriginIn::boundary;  // level > 0 is the distance, equal to rho
       add(support.pair);
     }
   }
 
- private:
   struct Point {
     HullPair pair;
     Vector x;
   };
+
+  void show() {
+    if (!shown_) return;
+    shown_->pairs.clear();
+    for (const Point& p : points_) shown_->pairs.push_back(p.pair);
+    shown_->weights = weights_;
+  }
 
   static Integer quadratic(const IntegerMatrix<D>& s, const Vector& v) {
     Integer sum = 0;
@@ -218,6 +237,7 @@ class Image {
       std::vector<Point> kept;
       for (const int f : face) kept.push_back(std::move(points_[f]));
       points_ = std::move(kept);
+      weights_ = std::move(w);
       nearest_ = n;
       return;
     }
@@ -234,15 +254,18 @@ class Image {
       case 2: {
         const Vector& v = points_[0].x;
         if constexpr (D == 2) {
-          return answer(inside_interval(scene_, in_space({-v[1], v[0]})));
+          return answer(inside_interval(scene_, in_space({-v[1], v[0]}), supporting_));
         } else {
           const Rows<2> rows = shadow_rows(v);
-          return answer(Image<2>(scene_, compose(rows)).around_zero());
+          Image<2> along(scene_, compose(rows));
+          const bool interior = along.around_zero();
+          supporting_ = along.supporting_;
+          return answer(interior);
         }
       }
       case 3:
         if constexpr (D == 3)
-          return answer(inside_interval(scene_, in_space(cross(points_[0].x, points_[1].x))));
+          return answer(inside_interval(scene_, in_space(cross(points_[0].x, points_[1].x)), supporting_));
         return OriginIn::interior;
       default:
         return OriginIn::interior;
@@ -267,24 +290,31 @@ class Image {
     points_.clear();
     Vector e;
     for (int i = 0; i < D; ++i) e[i] = i == 0;
-    const ExactSupport first = exact_support(scene_, in_space(e));
+    supporting_ = in_space(e);
+    const ExactSupport first = exact_support(scene_, supporting_);
     if (first.value >= 0) return false;
     add(first.pair);
     for (;;) {
       reduce();
       if (is_zero<D>(nearest_)) return around_face() == OriginIn::interior;
-      const ExactSupport support = exact_support(scene_, in_space(nearest_));
+      supporting_ = in_space(nearest_);
+      const ExactSupport support = exact_support(scene_, supporting_);
       if (support.value >= 0) return false;
       add(support.pair);
     }
   }
 
  private:
+  template <int>
+  friend class Image;
   const HullScene& scene_;
   Rows<D> rows_;
   bool round_;
   IntegerMatrix<D> shape_, metric_;  // M and adj(M) of the ellipsoid's image; the identity without one
   std::vector<Point> points_;
+  std::vector<Integer> weights_;  // of the nearest point, up to a common factor
+  IntegerVector<3> supporting_{0, 0, 0};
+  Shown* shown_ = nullptr;
   Vector nearest_;  // metric times the nearest point of the points' hull, up to a positive factor
 };
 
@@ -331,13 +361,13 @@ Rows<2> shadow_rows(const IntegerVector<3>& w) {
 
 template <int D>
 OriginIn origin_in_image(const HullScene& scene, const Rows<D>& rows, const std::vector<HullPair>& start,
-                         IntegerVector<3>* normal) {
-  return Image<D>(scene, rows).position(start, normal);
+                         IntegerVector<3>* normal, Shown* shown) {
+  return Image<D>(scene, rows).position(start, normal, shown);
 }
 template OriginIn origin_in_image<2>(const HullScene&, const Rows<2>&, const std::vector<HullPair>&,
-                                     IntegerVector<3>*);
+                                     IntegerVector<3>*, Shown*);
 template OriginIn origin_in_image<3>(const HullScene&, const Rows<3>&, const std::vector<HullPair>&,
-                                     IntegerVector<3>*);
+                                     IntegerVector<3>*, Shown*);
 
 Relation relation(const HullScene& scene) {
   switch (origin_in_image<3>(scene, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {}, nullptr)) {

@@ -25,12 +25,20 @@ struct ExactSupport {
 };
 ExactSupport exact_support(const HullScene& scene, const IntegerVector<3>& n);
 
+/// What shows where the origin lies: the point of the points' hull that is nearest to it, by weights > 0 up
+/// to a common factor; and, unless it is in the interior, a normal in space with n.x >= 0 on all of K.
+struct Shown {
+  std::vector<HullPair> pairs;
+  std::vector<Integer> weights;
+  IntegerVector<3> normal{0, 0, 0};
+};
+
 /// Position of the origin in the image of K under `rows` (linearly independent; D = 2 or 3). `start`: pairs
 /// to start the search from, may be empty. Where it is outside, `normal` becomes a normal in space with n.x >
 /// 0 on all of K.
 template <int D>
 OriginIn origin_in_image(const HullScene& scene, const Rows<D>& rows, const std::vector<HullPair>& start,
-                         IntegerVector<3>* normal);
+                         IntegerVector<3>* normal, Shown* shown = nullptr);
 
 /// Where the origin lies with regard to K; of a stretch: whether the bodies overlap on it, only touch, or
 /// stay apart.

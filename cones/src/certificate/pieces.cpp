@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "certificate/pieces.h"
+
+#include "certificate/ellipsoids.h"
+#include "certificate/polytopes.h"
+
+namespace vericone::certificates {
+namespace {
+
+bool are_round(const PairOfPieces& pair) { return pair.a.round() && pair.b.round(); }
+
+/// Asks the pair of two ellipsoids, or that of others.
+template <typename OfEllipsoids, typename OfOthers>
+auto ask(const PairOfPieces& pair, const OfEllipsoids& of_ellipsoids, const OfOthers& of_others) {
+  const Question& question = pair.question;
+  const int grid = pair.grid();
+  const Eigen::Vector3d &at_a = question.agent.at(), &at_b = question.obstacle.at();
+  if (!are_round(pair))
+    return of_others(
+        PolytopePair(pair.a, at_a, pair.b, at_b, question.v_a, question.v_b, question.horizon, grid), grid);
+  const Motion motion(question.v_a, question.v_b, question.horizon.from, question.horizon.until, grid);
+  const auto center = [&](const Piece& piece, const Eigen::Vector3d& at) {
+    return on_grid(piece.round()->center(), grid) + on_grid(at, grid);
+  };
+  return of_ellipsoids(
+      EllipsoidPair(*pair.a.round(), center(pair.a, at_a), *pair.b.round(), center(pair.b, at_b), motion),
+      grid);
+}
+
+void write_pieces(Text& text, const PairOfPieces& pair) {
+  if (pair.agent) text.raw(", \"agent_piece\": ").index(*pair.agent);
+  if (pair.obstacle) text.raw(", \"obstacle_piece\": ").index(*pair.obstacle);
+}
+
+void write_weights(Text& text, const char* field, const Weights& weights) {
+  if (weights.empty()) return;
+  text.raw(", \"").raw(field).raw("\": [");
+  const char* between = "[";
+  for (const auto& [corner, weight] : weights) {
+    text.raw(between).index(corner).raw(", ").number(weight).raw("]");
+    between = ", [";
+  }
+  text.raw("]");
+}
+
+void write_meeting(Text& text, const Meeting& meeting, int grid, bool inside_agent) {
+  text.raw("{\"rule\": \"point\", \"time\": ").number(meeting.time).raw(", \"point\": ");
+  text.number(meeting.point, grid - static_cast<int>(meeting.finer)).raw(", \"inside\": ");
+  text.raw(inside_agent ? "\"agent\"" : "\"obstacle\"");
+}
+
+void write_touch(Text& text, const Touch& touch, int grid) {
+  text.raw("{\"rule\": \"touch\", \"n\": ").number(touch.normal).raw(", \"time\": ").number(touch.time);
+  const char* between = ", \"point\": [";
+  for (const Rational& x : touch.point) {
+    text.raw(between).number(x, grid);
+    between = ", ";
+  }
+  text.raw("]");
+}
+
+void write_crossing(Text& text, const Crossing& crossing) {
+  text.raw("{\"rule\": \"cross\", \"time\": ").number(crossing.time);
+  const char* between = ", \"pairs\": [[";
+  for (const auto& term : crossing.terms) {
+    text.raw(between).index(term.pair.agent).raw(", ").index(term.pair.obstacle).raw(", ");
+    text.number(term.weight).raw("]");
+    between = ", [";
+  }
+  text.raw("]");
+}
+
+}  // namespace
+
+int PairOfPieces::grid() const {
+  const int least = std::min({a.grid(), b.grid(), grid_of(question.agent.at()),
+                              grid_of(question.obstacle.at()), grid_of(question.v_a), grid_of(question.v_b)});
+  return least == kNoGrid ? 0 : least;
+}
+
+bool PairOfPieces::has_dents() const {
+  for (const Piece* piece : {&a, &b})
+    if (piece->delimited()) return true;
+  return false;
+}
+
+void write(Text& text, const Plane& plane) {
+  text.raw("{\"rule\": \"plane\", ");
+  if (!plane.across) {
+    text.raw("\"n\": ").number(plane.normal).raw("}");
+    return;
+  }
+  const auto& [k, a, b] = *plane.across;
+  // The two other axes in rising order.
+  text.raw("\"across_w\": [").index(static_cast<std::size_t>(k)).raw(", ");
+  text.number(k == 1 ? b : a).raw(", ").number(k == 1 ? a : b).raw("]}");
+}
+
+std::optional<Plane> plane_between(const PairOfPieces& pair) {
+  const auto plane = [](const auto& of, int) { return of.plane(); };
+  return ask(pair, plane, plane);
+}
+
+bool prove_out(const PairOfPieces& pair, Text& proof) {
+  const auto plane = plane_between(pair);
+  if (plane) write(proof, *plane);
+  return plane.has_value();
+}
+
+bool prove_in(const PairOfPieces& pair, Text& proof) {
+  const bool found = ask(
+      pair,
+      [&](const EllipsoidPair& of, int grid) {
+        const auto meeting = of.meeting();
+        if (meeting) write_meeting(proof, *meeting, grid, true);
+        return meeting.has_value();
+      },
+      [&](const PolytopePair& of, int grid) {
+        if (of.has_round()) {
+          const auto found_point = of.meeting();
+          if (!found_point) return false;
+          const bool of_agent = found_point->corners_of_agent;
+          write_meeting(proof, found_point->meeting, grid, !of_agent);
+          write_weights(proof, of_agent ? "agent_weights" : "obstacle_weights", found_point->weights);
+          return true;
+        }
+        const auto crossing = of.crossing();
+        if (crossing) write_crossing(proof, *crossing);
+        return crossing.has_value();
+      });
+  if (!found) return false;
+  write_pieces(proof, pair);
+  proof.raw("}");
+  return true;
+}
+
+bool prove_on(const PairOfPieces& pair, Text& proof) {
+  const bool found = ask(
+      pair,
+      [&](const EllipsoidPair& of, int grid) {
+        const auto touch = of.touch();
+        if (touch) write_touch(proof, *touch, grid);
+        return touch.has_value();
+      },
+      [&](const PolytopePair& of, int grid) {
+        const auto touch = of.touch();
+        if (!touch) return false;
+        write_touch(proof, touch->touch, grid);
+        write_weights(proof, "agent_weights", touch->agent);
+        write_weights(proof, "obstacle_weights", touch->obstacle);
+        return true;
+      });
+  if (!found) return false;
+  write_pieces(proof, pair);
+  proof.raw("}");
+  return true;
+}
+
+}  // namespace vericone::certificates
