@@ -1,0 +1,588 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""checker/vericone_check.py: what it accepts is true, by decide.py; the false certificates that one can think of; damaged
+ones; anything at all as a file. Environment: VERICONE_SOURCE (the project), VERICONE_CASES (how many random ones)."""
+import contextlib
+import copy
+import hashlib
+import importlib.util
+import io
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from fractions import Fraction
+from pathlib import Path
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import make  # noqa: E402
+
+ROOT = Path(os.environ.get("VERICONE_SOURCE", Path(__file__).resolve().parents[2]))
+PROGRAM = ROOT / "checker/vericone_check.py"
+PAGE = ROOT / "docs/reference/certificates.md"
+CASES = int(os.environ.get("VERICONE_CASES", "60"))
+
+spec = importlib.util.spec_from_file_location("vericone_check", PROGRAM)
+checker = importlib.util.module_from_spec(spec)
+sys.modules["vericone_check"] = checker
+sys.dont_write_bytecode = True
+spec.loader.exec_module(checker)
+
+
+def status(document, folder="."):
+    """(exit status, what is printed) of one certificate, an object or text."""
+    data = document if isinstance(document, bytes) else (
+        document if isinstance(document, str) else json.dumps(document)).encode()
+    said = io.StringIO()
+    with contextlib.redirect_stdout(said):
+        found = checker.checked(io.BytesIO(data), "test", checker.Reader(folder, 160 * 10 ** 6))
+    return (1 if 1 in found else max(found)), said.getvalue()
+
+
+def examples():
+    return [json.loads(block) for block in re.findall(r"```json\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)]
+
+
+def example(rule, says=None):
+    return copy.deepcopy(next(x for x in examples() if x["proof"].get("rule") == rule and says in (None, x["claim"]["says"])))
+
+
+def changed(document, path, value):
+    """A copy with another value at that place; `None` as path's last item appends."""
+    out = copy.deepcopy(document)
+    at = out
+    for key in path[:-1]:
+        at = at[key]
+    if value is DROP:
+        del at[path[-1]]
+    elif path[-1] is None:
+        at.append(value)
+    else:
+        at[path[-1]] = value
+    return out
+
+
+DROP = object()
+
+
+class Examples(unittest.TestCase):
+    def test_each_is_accepted_and_every_rule_has_one(self):
+        rules = set()
+
+        def collect(proof):
+            if isinstance(proof, dict):
+                rules.update([proof["rule"]] if isinstance(proof.get("rule"), str) else [])
+                for x in proof.values():
+                    collect(x)
+            elif isinstance(proof, list):
+                for x in proof:
+                    collect(x)
+        for document in examples():
+            self.assertEqual(status(document)[0], 0, status(document)[1])
+            collect(document["proof"])
+        self.assertEqual(rules, {rule for some in checker.RULES.values() for rule in some} | {"pairs"})
+
+    def test_the_file_of_examples_has_them(self):
+        lines = (ROOT / "docs/examples/certificates.jsonl").read_text(encoding="utf-8").splitlines()
+        self.assertEqual([json.loads(line) for line in lines], examples())
+
+    def test_what_is_printed_is_what_was_read(self):
+        said = status(example("plane"))[1]
+        self.assertIn('out: no common point at any time of the horizon. {says "out", agent {kind "ellipsoid", '
+                      "velocity (10, 0, 0), factor ((3, 0, 0), (0, 1, 0), (0, 0, 1))}", said)
+
+    def test_it_is_small_and_alone(self):
+        text = PROGRAM.read_text(encoding="utf-8")
+        self.assertNotIn("vericone.", re.sub(r"docs/\S+", "", text))
+        self.assertLessEqual(set(re.findall(r"^(?:import|from) (\w+)", text, re.MULTILINE)), set(sys.stdlib_module_names))
+        self.assertLessEqual(max(map(len, text.splitlines())), 120)
+
+    def test_the_schema_takes_them(self):
+        schema = json.loads((ROOT / "docs/schemas/certificate.schema.json").read_text(encoding="utf-8"))
+        for document in examples():
+            self.assertEqual(wrong_with(document, schema, schema), [])
+        self.assertNotEqual(wrong_with(changed(examples()[0], ["version"], 2), schema, schema), [])
+
+
+def wrong_with(value, node, root, path=""):
+    """The keywords of JSON schema that ours uses."""
+    known = {"$schema", "title", "description", "$defs", "$ref", "type", "properties", "required", "additionalProperties", "items",
+             "minItems", "maxItems", "anyOf", "const", "enum", "pattern", "minimum", "exclusiveMinimum", "patternProperties"}
+    assert set(node) <= known, set(node) - known
+    if "$ref" in node:
+        return wrong_with(value, root["$defs"][node["$ref"].rsplit("/", 1)[1]], root, path)
+    types = {"object": dict, "array": list, "string": str, "integer": int, "number": (int, float), "null": type(None)}
+    names = [node["type"]] if isinstance(node.get("type"), str) else node.get("type", [])
+    if names and (isinstance(value, bool) or not any(isinstance(value, types[name]) for name in names)):
+        return [f"{path}: no {names}"]
+    wrong = []
+    if "const" in node and value != node["const"] or "enum" in node and value not in node["enum"]:
+        wrong.append(f"{path}: {value}")
+    if "anyOf" in node and all(wrong_with(value, one, root, path) for one in node["anyOf"]):
+        wrong.append(f"{path}: none of them")
+    if isinstance(value, str) and "pattern" in node and not re.search(node["pattern"], value):
+        wrong.append(f"{path}: {value}")
+    if isinstance(value, (int, float)) and ("minimum" in node and value < node["minimum"]):
+        wrong.append(f"{path}: {value}")
+    if isinstance(value, list):
+        if not node.get("minItems", 0) <= len(value) <= node.get("maxItems", len(value)):
+            wrong.append(f"{path}: {len(value)} items")
+        for x in value if "items" in node else []:
+            wrong += wrong_with(x, node["items"], root, path + "[]")
+    if isinstance(value, dict):
+        wrong += [f"{path}: {name} is missing" for name in node.get("required", []) if name not in value]
+        for name, x in value.items():
+            if name in node.get("properties", {}):
+                wrong += wrong_with(x, node["properties"][name], root, f"{path}.{name}")
+            elif node.get("additionalProperties") is False:
+                wrong.append(f"{path}.{name}: unknown")
+    return wrong
+
+
+# The false certificates that a checker with one mistake would accept: what is changed in an example.
+OUT, POINT, TOUCH = ("plane", "out"), ("point", "in"), ("touch", None)
+FALSE = [
+    # numbers
+    *((OUT, ["claim", "agent", "velocity", 0], x) for x in (
+        "0/0", "1/0", "1/-1", "1_000", " 1/2", "1/2 ", "１", "+1", "1e3", "0x1", "", "-", "1/", "1/2/3", "inf", "nan", None, True,
+        [], {}, "1" * 4301, "1\n")),
+    (OUT, ["proof", "across_w"], ["0/0", "0/0", "0/0"]), (OUT, ["proof", "across_w"], [0, "0/0", "0/0"]),
+    (OUT, ["proof", "across_w"], [0, 0, 0]), (OUT, ["proof", "across_w"], [1, 1, 0]), (OUT, ["proof", "across_w"], [True, 1, 0]),
+    (OUT, ["proof", "across_w"], [-3, 1, 0]), (OUT, ["proof", "across_w"], [0.0, 1, 0]), (OUT, ["proof", "across_w"], [0, -1, 0]),
+    # squares: a support below, with the right square
+    (OUT, ["proof", "agent_at_most"], -10), (OUT, ["proof", "agent_at_most"], "99999/10000"),
+    (OUT, ["proof", "obstacle_at_least"], "800001/10000"), (OUT, ["proof", "obstacle_at_least"], 10),
+    (TOUCH, ["claim", "agent", "radius"], -1), (TOUCH, ["claim", "obstacle", "shape", 1, 1], -1),
+    (TOUCH, ["claim", "obstacle", "shape", 2, 2], 0), (TOUCH, ["claim", "obstacle", "shape", 0, 1], 1),
+    (TOUCH, ["proof", "n"], [0, -1, 0]), (TOUCH, ["proof", "n"], [0, 0, 0]), (TOUCH, ["proof", "n"], [1, 1, 0]),
+    (TOUCH, ["proof", "n"], [0, 1]), (TOUCH, ["proof", "time"], -5), (TOUCH, ["proof", "point", 1], "1000001/1000000"),
+    (TOUCH, ["claim", "obstacle", "center", 1], "1999999/1000000"), (TOUCH, ["claim", "obstacle", "center", 1], "2000001/1000000"),
+    (TOUCH, ["claim", "horizon"], 4), (TOUCH, ["claim", "horizon"], [6, None]), (TOUCH, ["claim", "says"], "in"),
+    (TOUCH, ["claim", "says"], "out"), (TOUCH, ["claim", "says"], "touching"), (POINT, ["claim", "says"], "on"),
+    (POINT, ["proof", "point"], ["11/2", "1/2", "0"]), (POINT, ["proof", "time"], 10), (POINT, ["claim", "horizon"], [0, 4]),
+    (POINT, ["claim", "horizon"], [5, 4]), (POINT, ["claim", "horizon"], [-1, 5]), (POINT, ["claim", "horizon"], -1),
+    (POINT, ["claim", "horizon"], []), (POINT, ["claim", "horizon"], DROP), (POINT, ["proof", "inside"], "both"),
+    (POINT, ["proof", "obstacle_weights"], []), (POINT, ["proof", "obstacle_weights"], DROP),
+    (POINT, ["proof", "obstacle_weights"], [[0, "1/2"], [1, "1/6"], [2, "1/3"]]),
+    (POINT, ["proof", "obstacle_weights", 0], [0, "-1/2"]), (POINT, ["proof", "obstacle_weights", 0], [-4, "1/2"]),
+    (POINT, ["proof", "obstacle_weights", 0], [1, "1/2"]), (POINT, ["proof", "obstacle_weights", 0], [4, "1/2"]),
+    (POINT, ["proof", "obstacle_piece"], -1), (POINT, ["proof", "obstacle_piece"], 1), (POINT, ["proof", "agent_piece"], True),
+    (POINT, ["proof", "agent_piece"], False), (POINT, ["proof", "agent_piece"], ""), (POINT, ["proof", "agent_piece"], 0.0),
+    (("forms", "out"), ["proof", "products"], False), (("forms", "out"), ["proof", "products"], ""),
+    # the statement
+    (OUT, ["version"], 2), (OUT, ["version"], True), (OUT, ["version"], 1.0), (OUT, ["version"], "1"), (OUT, ["format"], "vericone"),
+    (OUT, ["extra"], 1), (OUT, ["claim", "extra"], 1), (OUT, ["proof", "extra"], 1), (OUT, ["claim", "agent", "extra"], 1),
+    (OUT, ["proof", "agent"], {"kind": "ball"}), (OUT, ["claim", "says"], "in"), (OUT, ["claim", "says"], "on"),
+    (OUT, ["claim", "says"], "in for all"), (OUT, ["claim", "says"], ["out"]), (OUT, ["claim", "says"], "inside"),
+    (OUT, ["claim", "says"], "overlapping"), (OUT, ["claim", "horizon"], DROP), (OUT, ["claim", "agent", "velocity"], [10, 1, 0]),
+    (OUT, ["claim", "agent", "velocity"], DROP), (OUT, ["claim", "by"], 8), (OUT, ["claim", "by"], -1), (OUT, ["claim", "id"], {}),
+    (OUT, ["claim", "obstacle", "points"], []), (OUT, ["claim", "obstacle", "points", None], [40, 0, 0]),
+    (OUT, ["claim", "obstacle", "points", None], [40, 9]), (OUT, ["claim", "obstacle", "kind"], "HULL"),
+    (OUT, ["claim", "agent", "factor"], [[3, 0, 0], [0, 1, 0]]), (OUT, ["claim", "agent", "shape"], [[1, 0, 0], [0, 1, 0], [0, 0, 1]]),
+    (OUT, ["claim", "position_error"], {"ball": 1}), (OUT, ["claim", "velocity_error"], {"ball": "1/1000000"}),
+    (OUT, ["claim", "position_error"], {"ball": -1}), (OUT, ["claim", "position_error"], {"box": [0, -1, 0]}),
+    (OUT, ["claim", "position_error"], {}), (OUT, ["proof", "position_error_at_most"], 0), (OUT, ["proof"], []), (OUT, ["proof"], {}),
+    (OUT, ["claim", "agent"], {"kind": "file", "name": "../x", "sha256": "0" * 64, "velocity": [0, 0, 0]}),
+    # pieces
+    (("groups", "out"), ["proof", "runs"], [[0, 1]]), (("groups", "out"), ["proof", "runs"], [[0, 2]]),
+    (("groups", "out"), ["proof", "runs"], [[0, 1], [1, 2]]), (("groups", "out"), ["proof", "runs"], []),
+    (("groups", "out"), ["proof", "runs"], [[1, 1], [0, 1]]), (("groups", "out"), ["proof", "runs"], [[0, 1], [0, 0], [1, 1]]),
+    (("groups", "out"), ["proof", "runs"], [[0, 1], [-1, 1]]), (("groups", "out"), ["proof", "runs"], [[0, 3], [1, -1]]),
+    (("groups", "out"), ["proof", "of"], "agent"), (("groups", "out"), ["proof", "proofs"], []),
+    (("groups", "out"), ["proof", "proofs", None], {"rule": "plane", "n": [0, 1, 0]}),
+    (("groups", "out"), ["claim", "obstacle", "triangles", 0], [0, 1, 5]), (("groups", "out"), ["claim", "obstacle", "triangles", 0], [0, 1, -1]),
+    (("groups", "out"), ["claim", "obstacle", "triangles", None], [0, 1, 3]), (("groups", "out"), ["claim", "obstacle", "triangles"], []),
+    (("groups", "out"), ["claim", "says"], "on"),
+    # times
+    (("times", "out"), ["proof", "cuts"], [4]), (("times", "out"), ["proof", "cuts"], [11]), (("times", "out"), ["proof", "cuts"], [-1]),
+    (("times", "out"), ["proof", "cuts"], [0]), (("times", "out"), ["proof", "cuts"], []),
+    (("times", "out"), ["proof", "cuts"], ["3/2", "3/2"]), (("times", "out"), ["proof", "proofs", 1], DROP),
+    # multipliers
+    (("forms", "out"), ["proof", "agent"], [-5]), (("forms", "out"), ["proof", "agent"], [0]), (("forms", "out"), ["proof", "obstacle"], [0, 0]),
+    (("forms", "out"), ["proof", "obstacle"], [1]), (("forms", "out"), ["proof", "obstacle"], [-1, 1]), (("forms", "out"), ["proof", "agent"], []),
+    (("forms", "out"), ["proof", "products", 0, 2], -2), (("forms", "out"), ["proof", "products", 0, 0], "until"),
+    (("forms", "out"), ["proof", "products", 0, 0], ["cut", 0]), (("forms", "out"), ["proof", "products", 0, 0], ["agent", [1, 0, 0]]),
+    (("forms", "out"), ["claim", "agent", "velocity"], [-1, 0, 0]), (("forms", "out"), ["claim", "obstacle", "delimiters", 0, "matrix", 0, 1], 1),
+    (("forms", "out"), ["claim", "obstacle", "delimiters"], []), (("forms", "out"), ["claim", "by"], 0.1),
+    (("forms", "out"), ["claim", "position_error"], {"ball": 100}), (("forms", "out"), ["claim", "velocity_error"], {"ball": 100}),
+    (("halves", "disjoint"), ["claim", "position_error"], {"ball": 100}),
+    (("halves", "disjoint"), ["proof", "above"], {"rule": "plane", "n": [0, 1, 0]}), (("halves", "disjoint"), ["proof", "above"], DROP),
+    (("halves", "disjoint"), ["proof", "normal"], [0, 1]), (("halves", "disjoint"), ["proof", "below", "products", 2, 0], ["cut", 1]),
+    # errors
+    (("octants", "in"), ["proof", "nodes", 7], DROP), (("octants", "in"), ["proof", "nodes", 7, 0], 11), (("octants", "in"), ["proof", "nodes", 0, 0], 0),
+    (("octants", "in"), ["proof", "nodes", 0, 1], ["9/10", "9/10", 0]), (("octants", "in"), ["claim", "position_error", "ball"], 1),
+    (("octants", "in"), ["claim", "velocity_error", "box", 1], 1), (("octants", "in"), ["claim", "horizon"], 4),
+    (("errors", "depends"), ["proof", "collides", "position"], [0, "-51/100", 0]), (("errors", "depends"), ["proof", "passes", "position"], [0, 1, 0]),
+    (("errors", "depends"), ["proof", "passes", "velocity"], [0, -1, 0]), (("errors", "depends"), ["claim", "position_error"], DROP),
+    # inside
+    (("vertices", "inside"), ["claim", "agent", "points", 2, 2], "21/10"), (("vertices", "inside"), ["claim", "agent", "points", 0, 1], "1/1000"),
+    # crossings
+    (("cross", "in"), ["proof", "pairs", 0, 2], -1), (("cross", "in"), ["proof", "pairs", 0, 2], 0), (("cross", "in"), ["proof", "pairs", 0, 1], -1),
+    (("cross", "in"), ["proof", "time"], 6), (("cross", "in"), ["claim", "horizon"], 5), (("cross", "in"), ["proof", "pairs"], []),
+    (("cross", "in"), ["proof", "pairs"], [[0, 1, 1], [0, 2, 1]]), (("cross", "in"), ["claim", "obstacle", "points", 0], [5, -3, 1]),
+    # runs
+    *((("pairs", "apart"), ["proof", "pairs", "0 1", *path], value) for path, value in (
+        (["times"], [0, 1]), (["times"], [1, 2]), (["times"], [0, 2, 1]), (["times"], [0, 1, 1, 2]),
+        (["planes", 0, 0], [0, -1, 0]), (["planes", 0, 0], [0, 0, 0]), (["planes", 0, 1], "99/100"), (["planes", 0, 1], -1),
+        (["planes", 0, 2], ["1/2", "1/2"]), (["planes", 0, 3], ["24/100"]), (["planes", 0, 2], []), (["planes", 1], DROP), (["planes", 0, 2], [2]))),
+    (("pairs", "apart"), ["claim", "by"], "3/4"), (("pairs", "apart"), ["claim", "by"], DROP), (("pairs", "apart"), ["claim", "pairs"], []),
+    (("pairs", "apart"), ["claim", "pairs"], [[1, 0]]), (("pairs", "apart"), ["claim", "pairs"], [[0, 1], [0, 1]]),
+    (("pairs", "apart"), ["claim", "pairs"], [[0, 0]]), (("pairs", "apart"), ["claim", "pairs"], [[0, 2]]), (("pairs", "apart"), ["proof", "pairs"], {}),
+    (("pairs", "apart"), ["claim", "tracks", 0, "radius"], "1/2"), (("pairs", "apart"), ["claim", "tracks", 0, "radius"], -1),
+    (("pairs", "apart"), ["claim", "tracks", 0, "turns", 0], [[1, 0, 0, 0], [-1, 0, 0, 0]]),
+    (("pairs", "apart"), ["claim", "tracks", 0, "turns", 0], [[0, 0, 0, 0], [0, 0, 0, 0]]),
+    (("pairs", "apart"), ["claim", "tracks", 0, "turns", 0], [[1, 0, 0, 0], [0, 0, 0, 1]]),
+    (("pairs", "apart"), ["claim", "tracks", 0, "times"], [0, 1]), (("pairs", "apart"), ["claim", "tracks", 0, "times"], [0, 0]),
+    (("pairs", "apart"), ["claim", "tracks", 1, "grid"], 2), (("pairs", "apart"), ["claim", "tracks", 1, "grid"], -1),
+    (("pairs", "apart"), ["claim", "tracks", 0, "grid"], False), (("pairs", "apart"), ["claim", "tracks", 1, "grid"], None),
+    (("pairs", "apart"), ["proof", "pairs", "0 1", "planes", 0, 0], [0, 1]), (OUT, ["claim", "id"], None), (("pairs", "apart"), ["claim", "tracks", 0, "grid"], 1.0),
+    (("pairs", "apart"), ["claim", "tracks", 1, "grid"], True), (("pairs", "apart"), ["claim", "tracks", 1, "positions", 0, 1], [8, 2, 0]),
+    (("pairs", "apart"), ["claim", "to"], 3), (("pairs", "apart"), ["claim", "from"], -1), (("pairs", "apart"), ["claim", "from"], 2),
+    (("pairs", "apart"), ["claim", "tracks", 1], DROP), (("pairs", "apart"), ["claim", "bodies", 1, "radius"], 1),
+    (("point", "meet"), ["proof", "time"], 1), (("point", "meet"), ["proof", "time"], 5), (("point", "meet"), ["claim", "tracks", 0, "radius"], "1/10"),
+    (("point", "meet"), ["proof", "point"], [2, 4, 0]), (("point", "meet"), ["claim", "pair"], [1, 1]),
+]
+
+
+class FalseCertificates(unittest.TestCase):
+    maxDiff = None
+
+    def test_each_is_refused(self):
+        seen, accepted = set(), []
+        for (rule, says), path, value in FALSE:
+            code, said = status(changed(example(rule, says), path, value))
+            accepted += [] if code else [f"{rule}: {path} = {value}: {said}"]
+            seen.add(code)
+        self.assertEqual(accepted, [])
+        self.assertEqual(seen, {1, 2})
+
+    def test_texts_that_json_readers_take(self):
+        good = json.dumps(example(*OUT))
+        for old, new in (('"horizon": null', '"horizon": NaN'), ('"horizon": null', '"horizon": 1e999'), ("[10, 0, 0]", "[10, 0, Infinity]"),
+                         ('"id": "17"', '"says": "out"'), ('"rule": "plane"', '"rule": "plane", "rule": "plane"'),
+                         ('"version": 1', '"version": 1, "version": 1'), ('"id": "17"', '"\\u0073ays": "in"'),
+                         ("[10, 0, 0]", "[10, 0, " + "1" * 5000 + "]"), ("[10, 0, 0]", "[10, 0, 01]"), (": 80}", ": 1e99999999999}")):
+            self.assertIn(old, good)
+            self.assertEqual(status(good.replace(old, new))[0], 2, new)
+        self.assertEqual(status(good + good)[0], 2)
+        self.assertEqual(status(good.encode("utf-16"))[0], 2)
+
+    def test_an_integer_is_the_nearest_double(self):
+        """2^53 + 1 is 2^53, so a proof for the one is none for the other."""
+        document = example("plane", "disjoint")
+        document["claim"].pop("by")
+        document["claim"]["obstacle"]["center"] = [2 ** 53 + 1, 0]
+        document["proof"] = {"rule": "plane", "n": [1, 0], "agent_at_most": 1, "obstacle_at_least": str(2 ** 53)}
+        self.assertEqual(status(document)[0], 1)
+        document["claim"]["obstacle"]["center"] = [str(2 ** 53 + 1), 0]
+        self.assertEqual(status(document)[0], 0)
+        self.assertEqual(checker.number(checker.parsed("0.1")), Fraction(0.1))
+
+    def test_delimited_bodies_are_not_convex(self):
+        """By octants, all planes meet the hull of a body with dents: no proof that its errors collide."""
+        document = example("octants")
+        document["claim"]["obstacle"] = {"kind": "delimited", "center": [5, 0, 0], "velocity": [0, 0, 0], "factor": [
+            [1, 0, 0], [0, 1, 0], [0, 0, 1]], "delimiters": [{"matrix": [[0, 0, 0], [0, 0, 0], [0, 0, 0]], "level": 1}]}
+        self.assertEqual(status(document)[0], 2)
+
+    def test_a_certificate_of_another_case(self):
+        documents = examples()
+        accepted = 0
+        for i, one in enumerate(documents):
+            for j, other in enumerate(documents):
+                if i != j:
+                    code, said = status({**one, "proof": other["proof"]})
+                    accepted += code == 0
+                    self.assertTrue(code or one["claim"]["says"] == other["claim"]["says"] == "out", said)
+        # a plane along e_y parts more than one of the examples
+        self.assertLessEqual(accepted, 3)
+
+    def test_answers(self):
+        document = example(*OUT)
+        answer = {"id": 17, "verdict": "out", "clearance": 3.0, "certificate": document}
+        self.assertEqual(status(answer)[0], 0)
+        self.assertEqual(status({**answer, "verdict": "in"})[0], 1)
+        self.assertEqual(status({**answer, "verdict": None})[0], 1)
+        self.assertEqual(status({**answer, "certificate": None})[0], 2)
+        self.assertEqual(status({**answer, "certificate": answer})[0], 2)
+
+    def test_jumps(self):
+        """At a jump both segments count, and a piece of time lies in one of them."""
+        document = example("pairs")
+        document["claim"]["tracks"][0] = {"times": [0, 1, 2], "positions": [[[0, 0, 0]], [[0, -1, 0]]], "radius": 0}
+        self.assertEqual(status(document)[0], 0)
+        document["claim"]["tracks"][0]["positions"] = [[[0, 0, 0]], [[0, 1, 0]]]
+        self.assertEqual(status(document)[0], 1)
+        document["claim"]["tracks"][0] = {"times": [0, 1.5, 2], "positions": [[[0, 0, 0]], [[0, -1, 0]]], "radius": 0}
+        self.assertEqual(status(document)[0], 1)
+
+    def test_files_of_bodies(self):
+        with tempfile.TemporaryDirectory() as folder:
+            document = example("groups", "out")
+            mesh = document["claim"]["obstacle"]
+            velocity = mesh.pop("velocity")
+            data = json.dumps(mesh).encode()
+            (Path(folder) / "mesh.json").write_bytes(data)
+            body = {"kind": "file", "name": "mesh.json", "sha256": hashlib.sha256(data).hexdigest(), "velocity": velocity}
+            document["claim"]["obstacle"] = body
+            self.assertEqual(status(document, folder)[0], 0)
+            self.assertEqual(status(document)[0], 2)
+            self.assertEqual(status(changed(document, ["claim", "obstacle", "center"], [0, -2, 0]), folder)[0], 1)
+            (Path(folder) / "mesh.json").write_bytes(data.replace(b"-2", b"-1"))
+            self.assertEqual(status(document, folder)[0], 1)
+            again = json.dumps(body).encode()
+            (Path(folder) / "mesh.json").write_bytes(again)
+            body["sha256"] = hashlib.sha256(again).hexdigest()
+            self.assertEqual(status(document, folder)[0], 2)
+
+    def test_unions_touch_by_pieces(self):
+        ball = {"kind": "ball", "radius": 1}
+        pieces = [{**ball, "center": [0, 2, 0]}, {**ball, "center": [0, 9, 0]}]
+        document = make.certificate(
+            {"says": "touching", "agent": {**ball, "center": [0, 0, 0]}, "obstacle": {"kind": "union", "pieces": pieces}},
+            {"rule": "groups", "of": "obstacle", "runs": [[0, 1], [1, 1]], "proofs": [
+                {"rule": "touch", "n": [0, 1, 0], "time": 0, "point": [0, 1, 0], "obstacle_piece": 0}, {"rule": "plane", "n": [0, 1, 0]}]})
+        self.assertEqual(status(document)[0], 0)
+        only = {"rule": "touch", "n": [0, 1, 0], "time": 0, "point": [0, 1, 0], "obstacle_piece": 0}
+        self.assertEqual(status({**document, "proof": only})[0], 0)
+        for piece in (1, -1, 2, None):
+            self.assertNotEqual(status({**document, "proof": {**only, "obstacle_piece": piece}})[0], 0)
+        pieces[1]["center"] = [0, 1.5, 0]  # overlaps
+        self.assertNotEqual(status(document)[0], 0)
+        self.assertNotEqual(status({**document, "proof": only})[0], 0)
+        pieces[1]["center"] = [0, 9, 0]
+        document["proof"]["proofs"][0] = {"rule": "plane", "n": [0, 1, 0]}
+        self.assertNotEqual(status(document)[0], 0)
+        pieces[0]["center"] = [0, 3, 0]  # none touches
+        self.assertEqual(status(document)[0], 1)
+
+
+def made(count, first=0):
+    """(certificate, statement) of random pairs, every seventh in the plane."""
+    found = [make.verdict(make.generator(seed), 2 if seed % 7 == 0 else 3) for seed in range(first, first + count)]
+    return [one for one in found if one]
+
+
+SAID = {"disjoint": "out", "touching": "on", "overlapping": "in"}
+
+
+class Made(unittest.TestCase):
+    def test_random_verdicts_are_accepted_and_true(self):
+        """Every exactly tangent pair, every `out`; `in` where this maker finds a point."""
+        certificates = made(CASES)
+        self.assertGreater(len(certificates), CASES // 2)
+        for document, _ in certificates:
+            says = document["claim"]["says"]
+            self.assertEqual(make.true_verdict(document["claim"]), SAID.get(says, says), document)
+            code, said = status(document)
+            self.assertEqual(code, 0, said)
+            self.assertLess(len(json.dumps(document)), 3000)
+
+    def test_two_ellipsoids_take_below_5_ms(self):
+        """A bound of machines ten times slower; the time itself is in the README."""
+        document = example("touch")
+        start = time.process_time()
+        for _ in range(20):
+            status(document)
+        self.assertLess((time.process_time() - start) / 20, 0.05)
+
+
+class Damaged(unittest.TestCase):
+    def test_refused_or_still_true(self):
+        rng = make.generator(1)
+        certificates = made(CASES // 2, 1000)
+        accepted = refused = 0
+        for _ in range(CASES * 5):
+            document, _ = rng.choice(certificates)
+            bad = damaged(rng, document)
+            code, said = status(bad)
+            refused += code != 0
+            if code == 0:
+                accepted += 1
+                says = bad["claim"]["says"]
+                self.assertEqual(make.true_verdict(bad["claim"]), SAID.get(says, says), f"{document} became {bad}: {said}")
+        self.assertGreater(refused, CASES)
+        self.assertGreater(accepted, CASES // 10)
+
+
+def numbers_of(value, path=()):
+    if isinstance(value, (dict, list)):
+        for key, x in value.items() if isinstance(value, dict) else enumerate(value):
+            yield from numbers_of(x, (*path, key))
+    elif isinstance(value, (int, float)) or isinstance(value, str) and re.fullmatch(r"-?\d+(/\d+)?", value):
+        yield path
+
+
+def lists_of(value, path=()):
+    if isinstance(value, (dict, list)):
+        if isinstance(value, list):
+            yield path
+        for key, x in value.items() if isinstance(value, dict) else enumerate(value):
+            yield from lists_of(x, (*path, key))
+
+
+def at(value, path):
+    for key in path:
+        value = value[key]
+    return value
+
+
+def damaged(rng, document):
+    """A digit, a sign, an order, a number for another, A for B, a piece less, or another word."""
+    document = copy.deepcopy(document)
+    paths = [path for path in numbers_of(document) if path != ("version",)]
+    how = rng.random()
+    path = list(rng.choice(paths))
+    old = at(document, path)
+    if how < 0.4:
+        digits = list(str(old) if isinstance(old, str) else repr(old))
+        places = [i for i, c in enumerate(digits) if c.isdigit()]
+        digits[rng.choice(places)] = rng.choice("0123456789")
+        new = "".join(digits)
+        return changed(document, path, new if isinstance(old, str) else float(new) if "." in new or "e" in new else int(new))
+    if how < 0.55:
+        return changed(document, path, (old[1:] if old[0] == "-" else "-" + old) if isinstance(old, str) else -old)
+    if how < 0.65:
+        return changed(document, path, at(document, rng.choice(paths)))
+    if how < 0.8:
+        some = list(rng.choice(list(lists_of(document))))
+        new = list(at(document, some))
+        if rng.random() < 0.5 and len(new) > 1:
+            i, j = rng.sample(range(len(new)), 2)
+            new[i], new[j] = new[j], new[i]
+        elif new:
+            del new[rng.randrange(len(new))]
+        return changed(document, some, new)
+    claim = document["claim"]
+    if how < 0.85:
+        claim["agent"], claim["obstacle"] = claim["obstacle"], claim["agent"]
+    elif how < 0.92 and "velocity" in claim["agent"]:
+        claim["agent"]["velocity"], claim["obstacle"]["velocity"] = claim["obstacle"]["velocity"], claim["agent"]["velocity"]
+    elif how < 0.96 and "horizon" in claim:
+        claim["horizon"] = rng.choice([None, 0, 1, 100])
+    else:
+        claim["says"] = rng.choice(["in", "on", "out"] if "horizon" in claim else ["disjoint", "overlapping", "touching"])
+    return document
+
+
+class Runs(unittest.TestCase):
+    def test_turning_bodies(self):
+        """Two or three; what is accepted is not contradicted by samples; and damaged tracks."""
+        rng, accepted, tried, refused = make.generator(5), 0, 0, 0
+        for seed in range(max(4, CASES // 12)):
+            its, flights = make.run(make.generator(seed), 2 + seed % 2, duration=3)
+            proofs = {f"{i} {j}": make.pieces(flights[i], flights[j], its["to"]) for i, j in its["pairs"]}
+            its["pairs"] = [[int(k) for k in name.split()] for name, proof in proofs.items() if proof]
+            if not its["pairs"]:
+                continue
+            document = make.certificate(its, {"rule": "pairs", "pairs": {name: proof for name, proof in proofs.items() if proof}})
+            tried += 1
+            accepted += self.held(document)
+            for _ in range(4):
+                bad = changed_number(rng, document)
+                code = self.held(bad)
+                refused += not code
+        self.assertGreater(accepted, tried // 2)
+        self.assertGreater(refused, tried)
+
+    def held(self, document):
+        code, said = status(document)
+        if code == 0:
+            its = document["claim"]
+            flights = [make.Flight(*both) for both in zip(its["bodies"], its["tracks"])]
+            for i, j in its["pairs"]:
+                for k in range(12):
+                    t = float(its["from"] + (its["to"] - its["from"]) * (k + 0.5) / 12)
+                    gap = max(make.best_normal(flights[i], flights[j], t, n)[1] for n in ([0, 1.0, 0], [0, -1.0, 0]))
+                    self.assertGreater(gap, its["by"] - 1e-9, f"{its} at {t}: {said}")
+        return code == 0
+
+
+def changed_number(rng, document):
+    paths = [path for path in numbers_of(document) if path[0] == "claim" and path[-1] not in ("from", "to", "grid") and path[1] != "pairs"
+             and "times" not in path] if rng.random() < 0.5 else [path for path in numbers_of(document["proof"], ("proof",))]
+    path = list(rng.choice(paths))
+    old = at(document, path)
+    new = Fraction(old) * rng.choice([-1, 0, 2, Fraction(9, 10), Fraction(11, 10)])
+    return changed(document, path, make.text(new) if not isinstance(old, int) else int(new))
+
+
+HOSTILE = {
+    "deep lists": b"[" * 10 ** 6, "deep objects": b'{"a":' * 10 ** 6, "long text": b'"' + b"a" * 10 ** 8, "a long number": b"1" * 10 ** 7,
+    "an exponent": b'{"format": 1e3000000000}', "many lists": b"[" + b"[]," * 3 * 10 ** 7, "many numbers": b"[" + b"0," * 5 * 10 ** 7,
+    "many objects": b"[" + b"{}," * 2 * 10 ** 7, "zeros": bytes(10 ** 8), "many lines": b"{}\n" * 20000, "nothing": b"", "blank": b"\n\n",
+}
+
+
+class Program(unittest.TestCase):
+    def run_it(self, *arguments, data=b""):
+        return subprocess.run([sys.executable, PROGRAM, *arguments], input=data, capture_output=True, check=False, timeout=250)
+
+    def test_exit_statuses(self):
+        good, bad = json.dumps(example(*OUT)), json.dumps(changed(example(*OUT), ["proof", "agent_at_most"], 9))
+        for lines, code in (((good,), 0), ((good, good), 0), ((good, bad), 1), ((good, "{"), 2), (("{}", bad), 1), ((bad, "x"), 1)):
+            self.assertEqual(self.run_it("-", data="\n".join(lines).encode()).returncode, code, lines)
+        self.assertEqual(self.run_it("-", data=json.dumps(example(*OUT), indent=2).encode()).returncode, 0)
+        self.assertEqual(self.run_it("/nowhere/at/all").returncode, 2)
+        self.assertEqual(self.run_it().returncode, 2)
+        first = self.run_it("-", data=bad.encode()).stdout.decode()
+        self.assertIn("-: 1: refused, this does not hold: agent: 0 + sqrt(100) <= 9", first)
+
+    def test_hostile_files_take_little(self):
+        most = "import resource, subprocess, sys; done = subprocess.run(sys.argv[1:], stdin=sys.stdin, capture_output=True); " \
+            "print(done.returncode, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss, done.stderr.decode()[-300:])"
+        for name, data in HOSTILE.items():
+            done = subprocess.run([sys.executable, "-c", most, sys.executable, PROGRAM, "-"], input=data, capture_output=True, check=True)
+            code, kilobytes, *errors = done.stdout.decode().split()
+            self.assertEqual((code, errors), ("2", []), name)
+            self.assertLess(int(kilobytes), 200_000, name)
+
+    def test_anything_as_a_file(self):
+        """Bytes changed, cut and doubled: never accepted unless it says the same."""
+        rng = make.generator(3)
+        texts = [json.dumps(document).encode() for document in examples()]
+        for _ in range(CASES * 10):
+            data = bytearray(rng.choice(texts))
+            for _ in range(rng.randint(1, 3)):
+                i = rng.randrange(len(data))
+                kind = rng.random()
+                if kind < 0.5:
+                    data[i] = rng.choice(b'0123456789-/.eE"[]{},: \n\x00\xff')
+                elif kind < 0.75:
+                    del data[i:i + rng.randint(1, 9)]
+                else:
+                    data[i:i] = data[i:i + rng.randint(1, 9)]
+            code, said = status(bytes(data))
+            self.assertIn(code, (0, 1, 2))
+            if code == 0:
+                json.loads(bytes(data))  # it is one
+
+    def test_any_value_in_any_place(self):
+        """Never anything but the three statuses."""
+        rng, seen, documents = make.generator(4), set(), examples()
+        for _ in range(CASES * 10):
+            document = rng.choice(documents)
+            path = list(rng.choice([path for path in places(document) if path]))
+            value = rng.choice(VALUES) if rng.random() < 0.7 else at(document, rng.choice(list(places(document))))
+            seen.add(status(changed(document, path, DROP if rng.random() < 0.1 else value))[0])
+        self.assertEqual(seen, {0, 1, 2})
+
+
+VALUES = [None, True, False, 0, -1, 1, "", "x", "0", "1/3", "-1", [], {}, [[]], [0], 1e308, 5e-324, "1" * 4000, "1/" + "7" * 4000,
+          [0, 0, 0], [0, 0], [[1, 0, 0], [0, 1, 0], [0, 0, 1]], [[1, 0], [0, 1]], 1.0, 2 ** 60]
+
+
+def places(value, path=()):
+    yield path
+    if isinstance(value, (dict, list)):
+        for key, x in value.items() if isinstance(value, dict) else enumerate(value):
+            yield from places(x, (*path, key))
+
+
+if __name__ == "__main__":
+    unittest.main()

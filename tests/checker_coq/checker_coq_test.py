@@ -1,0 +1,222 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""vericone-check is built in a temporary folder and held against fractions: `python3 -m pytest tests/checker_coq -s`.
+
+Skipped where Coq, OCaml or Zarith is not installed (checker/coq/packages.txt)."""
+import json
+import os
+import random
+import re
+import shutil
+import struct
+import subprocess
+import time
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+import damage
+import make
+import truth
+
+ROOT = Path(__file__).resolve().parents[2]
+SOURCES = ROOT / "checker" / "coq"
+AXIOMS = {"ClassicalDedekindReals.sig_not_dec", "ClassicalDedekindReals.sig_forall_dec",
+          "FunctionalExtensionality.functional_extensionality_dep"}
+
+
+def missing():
+    """What is needed and not installed."""
+    for program in ("coqc", "ocamlfind", "gcc"):
+        if not shutil.which(program):
+            return program
+    if subprocess.run(["ocamlfind", "query", "zarith"], capture_output=True, check=False).returncode:
+        return "zarith"
+    return None
+
+
+@pytest.fixture(scope="session")
+def built(tmp_path_factory):
+    """A folder with the compiled proofs and vericone-check; VERICONE_CHECK_BUILD names one that stands already."""
+    if ready := os.environ.get("VERICONE_CHECK_BUILD"):
+        return Path(ready)
+    if lacks := missing():
+        pytest.skip(f"{lacks} is not installed")
+    folder = tmp_path_factory.mktemp("coq")
+    began = time.monotonic()
+    subprocess.run([SOURCES / "build", folder], check=True)
+    print(f"\nproved and compiled in {time.monotonic() - began:.0f} s")
+    return folder
+
+
+@pytest.fixture(scope="session")
+def check(built, tmp_path_factory):
+    """(exit status, answers) of lines."""
+    folder = tmp_path_factory.mktemp("lines")
+
+    def run(lines):
+        path = folder / "lines.json"
+        path.write_bytes(b"\n".join(line if isinstance(line, bytes) else line.encode() for line in lines) + b"\n")
+        done = subprocess.run([built / "vericone-check", path], capture_output=True, check=False, timeout=600)
+        assert done.stderr == b""
+        found = [line.partition(": ")[2].partition(": ")[2] for line in done.stdout.decode(errors="replace").splitlines()]
+        return done.returncode, found
+    return run
+
+
+def test_nothing_is_admitted():
+    for path in SOURCES.glob("*.v"):
+        text = re.sub(r"\(\*.*?\*\)", "", path.read_text(), flags=re.S)
+        assert not re.search(r"\b(Admitted|admit|Axiom|Axioms|Parameter|Parameters|Conjecture|Abort)\b", text), path
+
+
+def test_axioms_are_those_of_the_reals(built):
+    shutil.copy(SOURCES / "Theorems.v", built)
+    done = subprocess.run(["coqc", "-q", "-Q", ".", "Vericone", "Theorems.v"], cwd=built, capture_output=True, text=True, check=True)
+    names = re.findall(r"^([A-Za-z_.]+)(?: :|$)", done.stdout.partition("Axioms:")[2], flags=re.M)
+    assert names and set(names) <= AXIOMS, done.stdout
+    assert done.stdout.count("Axioms:") == 5
+
+
+def test_constructed_certificates_are_accepted(check):
+    maker = make.Maker(7)
+    values = [getattr(maker, maker.RULES[k % len(maker.RULES)])() for k in range(1100)]
+    began = time.monotonic()
+    status, answers = check([json.dumps(value) for value in values])
+    print(f"\n{len(values)} constructed: {1e3 * (time.monotonic() - began) / len(values):.3f} ms each, read and printed")
+    assert [a[:300] for a in answers if not a.startswith("accepted: ")] == []
+    assert status == 0
+    assert len(answers) == len(values)
+
+
+def test_damaged_certificates_are_accepted_exactly_where_true(check):
+    maker, rng = make.Maker(8), random.Random(8)
+    values = [getattr(maker, maker.RULES[k % len(maker.RULES)])() for k in range(1100)]
+    lines = [json.dumps(damage.damaged(rng, rng.choice(values), rng.choice(values))) for _ in range(10000)]
+    _, answers = check(lines)
+    decided = [truth.decide(line) for line in lines]
+    wrong = [(line, answer[:200], true) for line, answer, true in zip(lines, answers, decided)
+             if answer.startswith("accepted: ") != (true is True)]
+    print(f"\n{len(lines)} damaged: {decided.count(True)} still true, {decided.count(False)} false, "
+          f"{decided.count(None)} no certificates")
+    assert len(answers) == len(lines)
+    assert wrong == [], f"{len(wrong)}: {wrong[0]}"
+    assert decided.count(True) > 500
+    assert decided.count(False) > 1000
+
+
+BALLS = {"format": "vericone-certificate", "version": 1, "claim": {"says": "out", "horizon": None,
+         "agent": {"kind": "ball", "center": [0, 0, 0], "radius": 1, "velocity": [1, 0, 0]},
+         "obstacle": {"kind": "ball", "center": [5, 0, 0], "radius": 1, "velocity": [0, 0, 0]}},
+         "proof": {"rule": "plane", "n": ["0/0", "0/0", "0/0"]}}
+
+
+def changed(value, path, new):
+    value = json.loads(json.dumps(value))
+    *way, last = path
+    place = value
+    for key in way:
+        place = place[key]
+    place[last] = new
+    return value
+
+
+@pytest.mark.parametrize("number", ["0/0", "1/0", "1/-1", "-1/0", " 1", "1 ", "1_0", "+1", "１", "1/2/3", "", "-", "/", "0x1",
+                                    "1e3", "0.5", "9" * 4301, True, None, [], {}, "1/00"])
+def test_no_number(check, number):
+    for path in (("proof", "n", 0), ("claim", "agent", "radius"), ("claim", "horizon")):
+        if path[-1] != "horizon" or number not in (None, []):
+            assert check([json.dumps(changed(changed(BALLS, ("proof", "n"), [1, 0, 0]), path, number))])[0] == 2
+
+
+def test_the_false_certificate_of_zero_by_zero(check):
+    status, answers = check([json.dumps(BALLS)])
+    assert status == 2
+    assert "denominator of 0" in answers[0]
+
+
+def test_forms_prove_nothing_of_errors(check):
+    page = (ROOT / "docs" / "reference" / "certificates.md").read_text()
+    for one in map(json.loads, re.findall(r"```json\n(.*?)```", page, flags=re.S)):
+        if one["claim"]["says"] == "out" and one["proof"]["rule"] == "forms":
+            for name in ("position_error", "velocity_error"):
+                assert check([json.dumps(one)])[0] == 0
+                assert check([json.dumps(changed(one, ("claim", name), {"ball": 100}))])[0] == 1
+
+
+@pytest.mark.parametrize("text", [
+    "", "{", "[]", "1", "nul", "{}", '{"a": 1, "a": 2}', '{"format": "vericone-certificate"}', "NaN", "Infinity", "-", "01", "1.",
+    ".5", '"\\ud800"', '"\\x"', "[1,]", '{"a" 1}', "\x00", "[1e999]", '"' + "a" * 10])
+def test_no_certificate(check, text):
+    assert check([text + " "])[0] == 2
+
+
+def test_deep_nesting_is_no_certificate(check):
+    for text in ("[" * 100000, '{"a":' * 100000, "[" * 10**6 + "]" * 10**6):
+        assert check([text])[0] == 2
+
+
+def test_doubled_fields_and_unknown_ones(check):
+    good = json.dumps(changed(changed(BALLS, ("proof", "n"), [0, 1, 0]), ("claim", "obstacle", "center"), [0, 5, 0]))
+    assert check([good])[0] == 0
+    for old, new in (('"version": 1', '"version": 1, "version": 1'), ('"version": 1', '"version": 2'),
+                     ('"version": 1', '"version": 1.0'), ('"version": 1', '"version": true'), ('"radius": 1', '"radius": 1, "x": 1'),
+                     ('"rule"', '"note": "", "rule"'), ('"horizon": null, ', ""), ('"kind": "ball"', '"kind": "bal"'),
+                     ('"radius": 1', '"radius": -1'), ("vericone-certificate", "vericone"), ('"n"', '"across_w": [0, 1, 0], "n"')):
+        assert old in good
+        assert check([good.replace(old, new, 1)])[0] == 2, new
+
+
+def test_an_answer_with_another_verdict_is_refused(check):
+    good = changed(changed(BALLS, ("proof", "n"), [0, 1, 0]), ("claim", "obstacle", "center"), [0, 5, 0])
+    assert check([json.dumps({"verdict": "out", "certificate": good})])[0] == 0
+    assert check([json.dumps({"verdict": "in", "certificate": good})])[0] == 1
+
+
+def test_a_number_is_the_nearest_double(check):
+    rng = random.Random(9)
+    for _ in range(300):
+        bits = rng.getrandbits(63)
+        x = struct.unpack("<d", struct.pack("<Q", bits))[0]
+        if x != x or x == float("inf"):
+            continue
+        text = rng.choice([repr(x), f"{x:.25e}", f"{x:.17g}"])
+        line = json.dumps(changed(BALLS, ("proof", "n"), [0, 1, 0])).replace('"radius": 1', f'"radius": {text}', 1)
+        said = re.search(r"ball of radius (\S+) about", check([line])[1][0]).group(1)
+        assert Fraction(said) == Fraction(x), text
+
+
+def test_examples_of_the_page(check):
+    page = (ROOT / "docs" / "reference" / "certificates.md").read_text()
+    examples = re.findall(r"```json\n(.*?)```", page, flags=re.S)
+    answers = [check([json.dumps(json.loads(one))])[1][0] for one in examples]
+    accepted = sum(a.startswith("accepted: ") for a in answers)
+    unknown = [a for a in answers if a.startswith("not known to this checker: ")]
+    print(f"\n{accepted} of {len(examples)} accepted; {unknown}")
+    assert accepted >= 13
+    assert accepted + len(unknown) == len(examples)
+
+
+def test_noise_is_no_certificate(check):
+    rng, maker = random.Random(10), make.Maker(10)
+    lines = []
+    for _ in range(2000):
+        line = bytearray(json.dumps(maker.any()).encode())
+        for _ in range(rng.randint(1, 5)):
+            at = rng.randrange(len(line))
+            what = rng.randrange(3)
+            if what == 0:
+                line[at] = rng.choice([c for c in range(256) if c != 10])
+            elif what == 1:
+                del line[at:at + rng.randint(1, 20)]
+            else:
+                line[at:at] = line[at:at + rng.randint(1, 20)]
+        lines.append(bytes(line))
+    _, answers = check(lines)
+    assert len(answers) == len(lines)
+    for line, answer in zip(lines, answers):
+        try:
+            true = truth.decide(line.decode())
+        except UnicodeDecodeError:
+            true = None
+        assert answer.startswith("accepted: ") == (true is True), (line, answer[:200])
