@@ -35,7 +35,7 @@ class Examples(unittest.TestCase):
         self.folder = Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, self.folder)
         shutil.copytree(ROOT / "docs/examples", self.folder / "docs/examples")
-        for name in ("papers", "examples", "tests"):
+        for name in ("papers", "examples", "tests", "checker"):
             (self.folder / name).symlink_to(ROOT / name)
         scans = self.folder / "build/scans"
         scans.mkdir(parents=True)
