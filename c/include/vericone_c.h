@@ -261,6 +261,83 @@ VERICONE_API int32_t vericone_navigator_step(vericone_navigator* navigator, cons
                                              const double destination[3], double destination_acceleration,
                                              double time, double step, vericone_command* command);
 
+/* ---- Bands and the nearest safe velocity ---- */
+
+typedef struct vericone_range {
+  double from, to;
+} vericone_range;
+
+typedef struct vericone_band_options {
+  double from, until;                     /* s, contacts at other times do not count; INFINITY: for ever */
+  double margin;                          /* m to keep from every body */
+  double wind[3];                         /* m/s, added to the agent's velocity through the air */
+  double speed[2], climb[2];              /* m/s, what is asked about; both 0: about the agent's own */
+  double altitude[2];                     /* m above where it is; both 0: not asked */
+  double lateral, longitudinal, vertical; /* m/s^2 with which it changes its velocity; 0: at once */
+  int32_t last;                           /* not 0: vericone_band.last is looked for */
+} vericone_band_options;
+/* From now on for ever, no margin, no wind, at once. */
+VERICONE_API int32_t vericone_band_defaults(vericone_band_options* options);
+
+/* One quantity changed: headings in rad clockwise from y, speeds and climb rates in m/s, altitudes in m. The
+ * first ranges, in order, are written to arrays of the caller's; the counts say how many there are. */
+typedef struct vericone_band {
+  vericone_range* free; /* every value keeps the margin from all, proved */
+  size_t free_capacity;
+  vericone_range* conflict; /* no value does, proved; what is in neither is not known */
+  size_t conflict_capacity;
+  size_t free_count, conflict_count; /* written */
+  double last; /* written: s for which the agent may go on and still have a free value; negative: it has none
+                  now; INFINITY: its course is free; NaN: not asked */
+} vericone_band;
+
+typedef struct vericone_course {
+  double time_to_violation; /* s until the margin is lost on the present course, at least; INFINITY: kept */
+  double recovery_heading, recovery_time; /* where nothing is free: the heading (rad) that is out soonest, and
+                                             when (s); NaN: none */
+} vericone_course;
+
+/* Which headings, speeds, climb rates and altitudes keep an agent apart from all others, which keep their
+ * velocities. Bands and `course` may be NULL. 0: the present course keeps the margin; 1: it does not, or that
+ * is not known. Nothing may turn: `omega` is 0. Ellipsoids 10 us each. */
+VERICONE_API int32_t vericone_bands(const vericone_moving* agent, const vericone_moving* others, size_t count,
+                                    const vericone_band_options* options, vericone_band* heading,
+                                    vericone_band* speed, vericone_band* climb, vericone_band* altitude,
+                                    vericone_course* course);
+
+typedef struct vericone_avoid_options {
+  double until;                 /* s: contacts later than that do not count */
+  double margin;                /* m to keep from every body */
+  double wind[3];               /* m/s, added to the agent's velocity through the air */
+  double speed[2], climb[2];    /* m/s, least and most of what the agent can fly */
+  double lateral, longitudinal; /* m/s^2 with which it changes its velocity; both 0: at once */
+  double gap;                   /* between `lower` and `distance`, relative, at which the search ends */
+  size_t most;                  /* rays that are looked along */
+} vericone_avoid_options;
+/* 60 s, no margin, no wind, any speed and climb, at once, 0.01, 2000. */
+VERICONE_API int32_t vericone_avoid_defaults(vericone_avoid_options* options);
+
+enum vericone_avoid_status {
+  VERICONE_FREE,         /* the velocity keeps the margin until then, proved */
+  VERICONE_NOTHING_SAFE, /* none that can be flown does, proved */
+  VERICONE_NOT_FOUND     /* none was found */
+};
+
+typedef struct vericone_avoidance {
+  double velocity[3];        /* m/s, through the air */
+  double distance, lower;    /* m/s from the wanted one; no safe velocity is nearer than `lower`, proved */
+  double safe_until, latest; /* s: the velocity keeps the margin until the first, none does until the second,
+                                proved; INFINITY: not known */
+  double first_time;         /* s: where it is not free, when it meets a body first; NaN: never */
+  int64_t first;             /* the index of that body, or -1 */
+} vericone_avoidance;
+
+/* The safe velocity that is nearest to the wanted one; enum vericone_avoid_status. Nothing may turn: `omega`
+ * is 0. Some microseconds where the wanted velocity is safe, a millisecond where it is not. */
+VERICONE_API int32_t vericone_avoid(const vericone_moving* agent, const double wanted[3],
+                                    const vericone_moving* others, size_t count,
+                                    const vericone_avoid_options* options, vericone_avoidance* found);
+
 #ifdef __cplusplus
 }
 #endif

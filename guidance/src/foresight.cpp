@@ -12,6 +12,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 Vector3d Navigator::Flight::velocity(double t) const {
+  if (t > course.brakes && !(course.braking > 0)) return Vector3d::Zero();
   if (t > course.brakes) return std::max(0.0, 1 - (t - course.brakes) / course.braking) * course.velocity;
   if (t >= course.turning) return course.velocity;
   if (course.radius > 0) {
@@ -76,48 +77,41 @@ Near Navigator::Body::near(const Sweep& sweep, Wanted wanted) const {
   const Vector3d c = body.center() - sweep.agent.center();
   const double square = sweep.along.squaredNorm();
   const double part = square > 0 ? std::clamp(c.dot(sweep.along) / square, 0.0, 1.0) : 0;
-  const double balls = (c - part * sweep.along).norm() - reach - wanted.reach;
+  const double balls = (c - part * sweep.along).norm() - reach - wanted.reach - sweep.widest();
   if (balls >= wanted.enough) return {balls};
   wanted.normal = &normal;
   return itself ? courses::near(sweep, *itself, wanted) : courses::near(sweep, body, wanted);
 }
 
-/// A part of the manoeuvre, or of the braking: its chord, and how far from the chord the body may be, which
-/// turns meanwhile.
-struct Navigator::Chord {
-  Sweep sweep;
-  double beside;  // m
-  bool fine;      // no shorter one is looked at
+Navigator::Chord::Chord(const Flight& flight, const Body& other, double begin, double end) {
+  const Moment& now = flight.now;
+  const double middle = 0.5 * (begin + end), span = end - begin;
+  const bool brakes = begin >= flight.course.brakes;
+  const double acceleration =
+      brakes ? flight.course.velocity.norm() / flight.course.braking : flight.course.most;
+  beside = bent = acceleration * span * span / 8;
+  if (now.carried && !brakes) {
+    const auto between = [&](double s, double t) {
+      const Vector3d u = flight.velocity(s), v = flight.velocity(t);
+      return std::atan2(u.cross(v).norm(), u.dot(v));
+    };
+    turned = std::max(between(begin, middle), between(middle, end));
+    const double offset = (now.body.center() - now.position).norm();
+    beside += std::min(2.0, turned) * now.uneven + 0.5 * offset * turned * turned;
+  }
+  fine = beside <= 5e-4 * now.reach || span <= 0.25 * now.step;
+  const Vector3d from = flight.center(begin) - (now.since + begin) * other.velocity;
+  sweep = {now.carried ? flight.body(middle) : now.body,
+           flight.center(end) - (now.since + end) * other.velocity - from, flight.swerved(other, begin),
+           flight.swerved(other, end)};
+  sweep.agent = sweep.agent.translated(from - sweep.agent.center());
+}
 
-  Chord(const Flight& flight, const Body& other, double begin, double end) {
-    const Moment& now = flight.now;
-    const double middle = 0.5 * (begin + end), span = end - begin;
-    const bool brakes = begin >= flight.course.brakes;
-    const double acceleration =
-        brakes ? flight.course.velocity.norm() / flight.course.braking : flight.course.most;
-    beside = acceleration * span * span / 8;
-    if (now.carried && !brakes) {
-      const auto between = [&](double s, double t) {
-        const Vector3d u = flight.velocity(s), v = flight.velocity(t);
-        return std::atan2(u.cross(v).norm(), u.dot(v));
-      };
-      const double turned = std::max(between(begin, middle), between(middle, end));
-      const double offset = (now.body.center() - now.position).norm();
-      beside += std::min(2.0, turned) * now.uneven + 0.5 * offset * turned * turned;
-    }
-    fine = beside <= 5e-4 * now.reach || span <= 0.25 * now.step;
-    const Vector3d from = flight.center(begin) - (now.since + begin) * other.velocity;
-    sweep = {now.carried ? flight.body(middle) : now.body,
-             flight.center(end) - (now.since + end) * other.velocity - from};
-    sweep.agent = sweep.agent.translated(from - sweep.agent.center());
-  }
-  /// The part of it where the centres are nearest.
-  [[nodiscard]] double nearest(const Body& other) const {
-    const double square = sweep.along.squaredNorm();
-    const Vector3d c = other.body.center() - sweep.agent.center();
-    return square > 0 ? std::clamp(c.dot(sweep.along) / square, 0.0, 1.0) : 0;
-  }
-};
+double Navigator::Chord::nearest(const Body& other) const {
+  const double square = sweep.along.squaredNorm();
+  const Vector3d c = other.body.center() - sweep.agent.center();
+  return square > 0 ? std::clamp(c.dot(sweep.along) / square, 0.0, 1.0) : 0;
+}
 
 /// Whether, from `begin` to `end` of the manoeuvre, it comes as near as `hopeless`. Most courses that are
 /// tried are left here.
@@ -146,8 +140,9 @@ bool Navigator::fails(const Flight& flight, const Body& other, double begin, dou
 bool Navigator::fails_at(const Flight& flight, const Body& other, double t, double hopeless) const {
   const Vector3d there = flight.center(t) - (flight.now.since + t) * other.velocity;
   const Ellipsoid body = flight.now.carried ? flight.body(t) : flight.now.body;
+  const double wider = flight.swerved(other, t);
   return other
-             .near({body.translated(there - body.center()), Vector3d::Zero()},
+             .near({body.translated(there - body.center()), Vector3d::Zero(), wider, wider},
                    {hopeless + kAlmost, hopeless, Meeting::whether, flight.now.reach})
              .distance <= hopeless;
 }
@@ -188,16 +183,22 @@ void Navigator::see_straight(const Flight& flight, const Body& other, double beg
   const double speed = w.norm(), reach = other.reach + now.reach;
   const Vector3d start = flight.center(begin);
   const Vector3d there = (now.since + begin) * other.velocity, c = other.body.center() + there - start;
-  if (!(speed > 1e-9 * (now.speed + velocity.norm() + other.velocity.norm()))) end = begin;
+  // Who swerves does so until the agent rests, or as long as it matters; then it keeps its velocity.
+  const bool swerves = other.swerves > 0 && begin < flight.course.rests();
+  if (!swerves && !(speed > 1e-9 * (now.speed + velocity.norm() + other.velocity.norm()))) end = begin;
   // Once past it, and the reach of both, they move apart.
-  end = std::min(end, begin + (std::max(0.0, c.dot(w)) / speed + reach) / speed);
+  if (!swerves) end = std::min(end, begin + (std::max(0.0, c.dot(w)) / speed + reach) / speed);
   if (!(end > begin)) end = begin;
+  const double wider_from = swerves ? flight.swerved(other, begin) : 0,
+               wider_to = swerves ? flight.swerved(other, end) : 0;
   const Vector3d along = (end - begin) * w;
-  const double part = end > begin ? std::clamp(c.dot(along) / along.squaredNorm(), 0.0, 1.0) : 0;
-  if ((c - part * along).norm() - reach >= seen.least) return;
+  const double square = along.squaredNorm();
+  const double part = square > 0 ? std::clamp(c.dot(along) / square, 0.0, 1.0) : 0;
+  if ((c - part * along).norm() - reach - wider_to >= seen.least) return;
   const Ellipsoid agent = flight.body(begin);
-  const Near found = other.near({agent.translated(start - there - agent.center()), along},
-                                {seen.least, seen.hopeless, meeting, now.reach});
+  const Near found =
+      other.near({agent.translated(start - there - agent.center()), along, wider_from, wider_to},
+                 {seen.least, seen.hopeless, meeting, now.reach});
   if (found.distance >= seen.least) return;
   seen.least = found.distance;
   if (found.distance > 0) return;
@@ -258,7 +259,7 @@ Navigator::Approach Navigator::see(const Flight& flight, const Body& other, doub
       seen.least = std::min(seen.least, of_part.least);
   };
   // The later parts first: what is no good is so there mostly.
-  const bool still = other.velocity.isZero(0);
+  const bool still = other.stays();
   if (course.brakes == kFar) {
     part(course.turning, kFar, &Navigator::see_straight);
   } else if (still) {
@@ -315,7 +316,7 @@ Navigator::Foreseen Navigator::foresee(const Moment& now, const Course& course, 
     // Who is nearer than it should be may stay so for a while, but not come much nearer. Not who can stop,
     // and once was as far as it should be from a body at rest: in a narrow place what errors of sensors make
     // too near on one side would let it come too near on the other.
-    const bool late = now.stops && now.clear && other.velocity.isZero(0);
+    const bool late = now.stops && now.clear && other.stays();
     const bool near = other.now < result.kept && other.now > 0 && !late;
     const double enough = near ? std::min(result.kept, 0.8 * other.now) : result.kept;
     Approach seen =

@@ -34,23 +34,6 @@ struct Navigator::Moment {
   bool planar, carried;
 };
 
-/// A manoeuvre to another velocity, then straight on: a turn about a circle, or a constant acceleration where
-/// the speed may change. That course may end at rest: it brakes, and stays where it is.
-struct Navigator::Course {
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, at the end
-  Eigen::Vector3d aside = Eigen::Vector3d::Zero();     // unit: of the acceleration now
-  double most = 0;                                     // m/s^2, of the acceleration
-  double asked = 0;                                    // m/s^2, of which it may be less
-  double angle = 0;                                    // rad, of a turn
-  double radius = 0;                                   // m, of its circle; 0: no turn
-  double turning = 0;                                  // s, how long the manoeuvre takes
-  double until = kFar;                                 // s from its moment, when the course ends
-  double brakes = kFar;                                // s from its moment, when it begins to brake
-  double braking = 0;                                  // s, how long that takes
-
-  [[nodiscard]] double rests() const { return brakes + braking; }
-};
-
 /// What courses are compared by: the larger the better. A course that hits keeps nothing.
 struct Navigator::Foreseen {
   double kept = kFar;  // m, of the whole course, as far as it counts; 0 where it hits
@@ -87,10 +70,29 @@ struct Navigator::Flight {
   [[nodiscard]] Eigen::Matrix3d rotation(double t) const;  // of its body, since now
   [[nodiscard]] Eigen::Vector3d center(double t) const;    // of its body
   [[nodiscard]] Ellipsoid body(double t) const;
+  /// m: so far another body may be from where its velocity takes it.
+  [[nodiscard]] double swerved(const Body& other, double t) const {
+    return 0.5 * other.swerves * (now.since + t) * (now.since + t) * (1 + 1e-12);
+  }
+  [[nodiscard]] double rounding(const Body& other, double t) const;
 
  private:
   [[nodiscard]] Eigen::Vector3d manoeuvring(double t) const;  // its centre, t <= turning
   [[nodiscard]] Eigen::Vector3d beyond(double t) const;       // how far it is after the manoeuvre
+};
+
+/// A part of the manoeuvre, or of the braking: its chord, and how far from the chord the body may be, which
+/// turns meanwhile.
+struct Navigator::Chord {
+  Sweep sweep;
+  double beside;      // m
+  double bent;        // m, of it what is not by turning
+  double turned = 0;  // rad, of its body from the middle to either end
+  bool fine;          // no shorter one is looked at
+
+  Chord(const Flight& flight, const Body& other, double begin, double end);
+  /// The part of it where the centres are nearest.
+  [[nodiscard]] double nearest(const Body& other) const;
 };
 
 /// How near a course comes to one body.

@@ -108,13 +108,15 @@ const char* to_string(NavigatorStatus status) {
   return "?";
 }
 
-Navigator::Body Navigator::body_of(const BodyState& other, bool planar) {
+Navigator::Body Navigator::body_of(const BodyState& other, bool planar) const {
   const Placed* placed = other.shape.placed();
   const bool as_it_is = placed && rigid(other) && !placed->body.quadric();
   Body body{as_it_is ? ball_about(*placed) : seen(other), other.velocity};
   body.reach =
       planar || !rigid(other) ? reach_of(body.body, body.body.center(), planar) : longest_axis(body.body);
   if (as_it_is) body.itself = *placed;
+  if (!as_it_is || !other.velocity.isZero(0)) body.swerves = options_.others_most;
+  if (!other.omega.isZero(0)) body.offset = (body.body.center() - other.position).norm();
   if (!rigid(other)) body.body = Ellipsoid::from_axes(body.body.center(), Vector3d::Constant(body.reach));
   return body;
 }
@@ -416,6 +418,7 @@ void require_course(const BodyState& body) {
 Navigator::Navigator(const NavigatorOptions& options) : options_(options) {
   if (options.required) require_not_negative(*options.required, "required", " (m)");
   if (options.beyond) require_not_negative(*options.beyond, "beyond", " (m)");
+  require_not_negative(options.others_most, "others_most", " (m/s^2)");
   if (!(options.most > 0)) throw InputError("most", to_text(options.most), "positive (m/s^2)");
   if (!(options.fastest > 0)) throw InputError("fastest", to_text(options.fastest), "positive (m/s)");
   if (!(options.range > 0)) throw InputError("range", to_text(options.range), "positive (m)");
@@ -476,7 +479,7 @@ NavigatorStep Navigator::step(const BodyState& agent, std::span<const BodyState>
   bodies_.clear();
   for (const BodyState& other : others) {
     Body& body = bodies_.emplace_back(body_of(other, now.planar));
-    if (body.holds(now.position, now.reach)) {
+    if (body.swerves > 0 || body.holds(now.position, now.reach)) {
       now.stops |= options_.longitudinal;
       if (!now.stops) body.matters = now.to_turn;
     }
@@ -485,14 +488,14 @@ NavigatorStep Navigator::step(const BodyState& agent, std::span<const BodyState>
       body.now = body.near({now.body, Vector3d::Zero()}, {.reach = now.reach}).distance;
   }
   clear_ = clear_ || std::all_of(bodies_.begin(), bodies_.end(), [&](const Body& body) {
-             return body.now >= required_ + beyond_ || !body.velocity.isZero(0);
+             return body.now >= required_ + beyond_ || !body.stays();
            });
   now.clear = clear_;
   now.surely = required_ + beyond_;
   // Who is between both moves on by courses that keep what is required.
   if (now.stops && clear_)
     for (const Body& body : bodies_)
-      if (body.now < now.surely && body.velocity.isZero(0)) now.surely = required_;
+      if (body.now < now.surely && body.stays()) now.surely = required_;
   failed_by_ = 0;
   looks_ = 0;
   limit_ = options_.looks > 0 ? long(options_.looks) : now.stops && clear_ ? kLooksWithAStop : 0;
@@ -583,7 +586,7 @@ Destination Navigator::on_the_way(const Moment& now, const Destination& destinat
   const Ellipsoid ball = Ellipsoid::from_axes(now.position, Vector3d::Constant(now.reach));
   const auto clear = [&](const Vector3d& from, const Vector3d& to, double more) {
     return std::none_of(bodies_.begin(), bodies_.end(), [&](const Body& body) {
-      if (!body.velocity.isZero(0)) return false;
+      if (!body.stays()) return false;
       const Sweep sweep{ball.translated(from - now.position), to - from};
       const double enough = std::min(keep, 0.8 * body.now) + more;  // who is nearer may be so for a while
       return body.near(sweep, {enough, enough - kAlmost, Meeting::whether, now.reach}).distance < enough;
@@ -609,6 +612,8 @@ NavigatorStep Navigator::fly(const Moment& now, const std::optional<Destination>
   if (!(now.speed > 0) && !options_.longitudinal) {
     const Course course;
     tell(now, course, time, result);
+    prove(now, course, time, result);
+    fly_on(now, course, time);
     const Foreseen stays = foresee(now, course, Foreseen::nothing());
     result.status = stays.hits() ? NavigatorStatus::cannot_avoid : NavigatorStatus::no_course;
     return result;
@@ -625,8 +630,21 @@ NavigatorStep Navigator::fly(const Moment& now, const std::optional<Destination>
     const Choice stops = choose(careful, destination, time);
     if (stops.foreseen.better_than(chosen.foreseen)) chosen = stops;
   }
+  if (chosen.way) legs_.clear();
+  prove(now, chosen.course, time, result);
+  if (!result.proved && now.stops && !chosen.stopping) {
+    // What is proved is not given up for what is not.
+    const Course stop = in_hand(now, time);
+    std::swap(legs_, tried_);
+    legs_.clear();
+    prove(now, stop, time, result);
+    if (result.proved)
+      chosen = {stop, foresee(now, stop, Foreseen::nothing()), false, chosen.aims, false, true};
+    else
+      std::swap(legs_, tried_);
+  }
   const auto& [course, foreseen, way, aims, looked, stopping] = chosen;
-  if (way) legs_.clear();
+  fly_on(now, course, time);
   if (looked) next_look_ = time + (foreseen.hits() ? look_again(now, foreseen.hit) : kLookAgain);
   kept_ = foreseen.kept;
   hit_ = time + foreseen.hit;
@@ -649,7 +667,7 @@ NavigatorStep Navigator::fly(const Moment& now, const std::optional<Destination>
   using enum NavigatorStatus;
   if (foreseen.hits()) {
     result.status = cannot_avoid;
-  } else if (!foreseen.keeps(required_)) {
+  } else if (!foreseen.keeps(required_) || !result.proved) {
     result.status = too_near;
   } else {
     const bool straight_on = way || (result.acceleration.isZero(0) && !aims);

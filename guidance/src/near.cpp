@@ -72,6 +72,8 @@ class Piece {
     return points_[best];
   }
   double radius() const { return radius_; }
+  /// Surely no more than the least n.(x - from) over the piece.
+  double surely_lowest(const Vector3d& n, const Vector3d& from) const;
 
  private:
   const Vector3d* points_ = nullptr;
@@ -85,6 +87,7 @@ class Piece {
 struct Way {
   Vector3d from, along;
   Matrix3d factor;
+  double wider_from = 0, wider_to = 0;  // m, as of Sweep
 };
 
 /// The point of the sweep with the most n.x.
@@ -93,8 +96,51 @@ Vector3d highest(const Way& sweep, const Vector3d& n) {
   const double length = u.norm();
   Vector3d x = sweep.from;
   if (length > 0) x += sweep.factor * (u / length);
-  if (n.dot(sweep.along) > 0) x += sweep.along;
+  if (sweep.wider_from == 0 && sweep.wider_to == 0) {
+    if (n.dot(sweep.along) > 0) x += sweep.along;
+    return x;
+  }
+  const double size = n.norm();
+  const bool at_end = n.dot(sweep.along) + size * (sweep.wider_to - sweep.wider_from) > 0;
+  if (at_end) x += sweep.along;
+  if (size > 0) x += (at_end ? sweep.wider_to : sweep.wider_from) / size * n;
   return x;
+}
+
+constexpr double kRoundings = 0x1p-49;  // of a sum of some products, relative to all their sizes
+
+/// Surely no more than n.(x - from): the difference is rounded relative to itself.
+double surely_along(const Vector3d& n, const Vector3d& x, const Vector3d& from) {
+  const Vector3d d = x - from;
+  return n.dot(d) - kRoundings * n.cwiseAbs().dot(d.cwiseAbs());
+}
+
+/// Surely no less than |F^T n|; of an ellipsoid that its shape matrix defines as well, of which the factor is
+/// a rounded root.
+double surely_radius(const Matrix3d& factor, const Vector3d& n) {
+  return std::sqrt((factor.transpose() * n).squaredNorm() * (1 + kRoundings) +
+                   0x1p-45 * factor.squaredNorm() * n.squaredNorm());
+}
+
+double Piece::surely_lowest(const Vector3d& n, const Vector3d& from) const {
+  if (box_) return surely_along(n, (n.array() > 0).select(box_->low, box_->high), from);
+  if (ellipsoid_) return surely_along(n, ellipsoid_->center(), from) - surely_radius(ellipsoid_->factor(), n);
+  double least = kNever;
+  for (std::size_t i = 0; i < count_; ++i) least = std::min(least, surely_along(n, points_[i], from));
+  return least - radius_ * n.norm() * (1 + kRoundings);
+}
+
+/// Surely no more than the distance of the sweep from what lies beyond `lowest`, a bound of n.(x - from).
+double surely_between(const Way& sweep, const Vector3d& n, double lowest) {
+  const double size = n.norm();
+  if (!(size > 0)) return -kNever;
+  const double radius = surely_radius(sweep.factor, n),
+               along = -surely_along(-n, sweep.along, Vector3d::Zero());
+  const double highest = std::max(size * sweep.wider_from, along + size * sweep.wider_to);
+  const double sizes =
+      std::abs(lowest) + radius + std::abs(along) + size * (sweep.wider_from + sweep.wider_to);
+  const double gap = lowest - radius - highest - kRoundings * sizes - 1e-290;
+  return gap / size - kRoundings * std::abs(gap / size);
 }
 
 /// Up to four points; the point of their hull nearest to 0.
@@ -206,15 +252,20 @@ Apart apart(const Way& sweep, const Piece& piece, double enough, double stop, do
   return result;
 }
 
+/// Where it is at a part of its way.
+Way at_part(const Way& sweep, double part) {
+  const double wider = sweep.wider_from + part * (sweep.wider_to - sweep.wider_from);
+  return {sweep.from + part * sweep.along, Vector3d::Zero(), sweep.factor, wider, wider};
+}
+
 /// Of a sweep that meets the piece: the part of the way until then. Newton's method from before, which never
 /// passes the contact.
 double first_contact(const Way& sweep, const Piece& piece) {
   const double size = sweep.factor.norm() + piece.radius();
   double part = 0;
   for (int i = 0; i < 40; ++i) {
-    const Apart now =
-        apart({sweep.from + part * sweep.along, Vector3d::Zero(), sweep.factor}, piece, kNever, 0);
-    const double closing = now.normal.dot(sweep.along);
+    const Apart now = apart(at_part(sweep, part), piece, kNever, 0);
+    const double closing = now.normal.dot(sweep.along) + sweep.wider_to - sweep.wider_from;
     if (!(now.distance > 1e-5 * size) || !(closing > 0)) break;
     part += std::max(now.least, 0.5 * now.distance) / closing;
     if (part >= 1) return 1;
@@ -273,6 +324,7 @@ class Nearest {
     near_.part *= part;
     if (wanted_.meeting == Meeting::depth) near_.depth = depth_across(sweep_, piece);
     sweep_.along *= part;
+    sweep_.wider_to = sweep_.wider_from + part * (sweep_.wider_to - sweep_.wider_from);
     bound();
   }
 
@@ -307,7 +359,9 @@ class Nearest {
     return met_ ? 0 : near_.distance < wanted_.enough ? 0.99 * near_.distance : near_.distance;
   }
   void bound() {
-    const Vector3d end = sweep_.from + sweep_.along, extent = sweep_.factor.rowwise().norm();
+    const Vector3d end = sweep_.from + sweep_.along;
+    Vector3d extent = sweep_.factor.rowwise().norm();
+    extent.array() += std::max(sweep_.wider_from, sweep_.wider_to);
     low_ = sweep_.from.cwiseMin(end) - extent;
     high_ = sweep_.from.cwiseMax(end) + extent;
   }
@@ -324,23 +378,25 @@ class Nearest {
   bool met_ = false;
 };
 
+/// Of an assembly, by slot.
+Piece piece_of(const Assembly& body, std::uint32_t slot) {
+  const Assembly::Storage& pieces = body.by_slot();
+  switch (body.kind()) {
+    case PieceKind::triangle:
+      return Piece::points(pieces.triangles[slot].data(), 3);
+    case PieceKind::ball:
+      return Piece::points(&pieces.balls[slot], 1, body.radius());
+    case PieceKind::box:
+      return Piece::box(pieces.boxes[slot]);
+    case PieceKind::hull:
+      break;
+  }
+  return Piece::points(pieces.hulls[slot].points().data(), pieces.hulls[slot].size());
+}
+
 void descend(const Assembly& body, Nearest& nearest) {
   const auto nodes = body.hierarchy().nodes();
   if (nodes.empty()) return;
-  const Assembly::Storage& pieces = body.by_slot();
-  const auto piece = [&](std::uint32_t slot) {
-    switch (body.kind()) {
-      case PieceKind::triangle:
-        return Piece::points(pieces.triangles[slot].data(), 3);
-      case PieceKind::ball:
-        return Piece::points(&pieces.balls[slot], 1, body.radius());
-      case PieceKind::box:
-        return Piece::box(pieces.boxes[slot]);
-      case PieceKind::hull:
-        break;
-    }
-    return Piece::points(pieces.hulls[slot].points().data(), pieces.hulls[slot].size());
-  };
   struct Item {
     std::uint32_t node;
     double least;
@@ -354,7 +410,7 @@ void descend(const Assembly& body, Nearest& nearest) {
     if (!nearest.may_count(node, item.least)) continue;
     if (node.is_leaf()) {
       for (std::uint32_t slot = node.first; slot < node.first + node.count && !nearest.done(); ++slot)
-        nearest.look(piece(slot));
+        nearest.look(piece_of(body, slot));
       continue;
     }
     Item one{node.first, nearest.least(nodes[node.first])},
@@ -368,20 +424,90 @@ void descend(const Assembly& body, Nearest& nearest) {
   }
 }
 
+Way way_of(const Sweep& sweep) {
+  return {sweep.agent.center(), sweep.along, sweep.agent.factor(), sweep.wider_from, sweep.wider_to};
+}
+
+/// In the frame of a body.
+Way way_of(const Sweep& sweep, const Pose& pose) {
+  const Matrix3d to_body = pose.rotation.transpose();
+  return {pose.to_body(sweep.agent.center()), to_body * sweep.along, to_body * sweep.agent.factor(),
+          sweep.wider_from, sweep.wider_to};
+}
+
+/// What is surely kept from pieces that are looked at one after the other.
+class Kept {
+ public:
+  Kept(const Way& sweep, double enough) : sweep_(sweep), kept_(enough) {
+    size_ = sweep.from.norm() + sweep.along.norm() + sweep.factor.norm();
+  }
+
+  void look(const Piece& piece, Vector3d& normal) {
+    // A little more, which the proof loses by rounding.
+    const double enough = std::max(kept_, 0.0) + 1e-12 * size_;
+    normal = apart(sweep_, piece, enough, 0, kRelative, normal).normal;
+    kept_ = std::min(kept_, surely_between(sweep_, normal, piece.surely_lowest(normal, sweep_.from)));
+  }
+  /// Whether what is in the box may be nearer than what was found.
+  bool matters(const Box& box) const {
+    const Vector3d n = towards(box);
+    return surely_between(sweep_, n, Piece::box(box).surely_lowest(n, sweep_.from)) < kept_;
+  }
+  bool meets() const { return !(kept_ >= 0); }
+  double kept() const { return kept_; }
+
+ private:
+  /// From about the nearest of the way to about the nearest of the box.
+  Vector3d towards(const Box& box) const {
+    const double square = sweep_.along.squaredNorm();
+    const auto on_way = [&](const Vector3d& x) {
+      if (!(square > 0)) return sweep_.from;
+      return Vector3d(sweep_.from +
+                      std::clamp((x - sweep_.from).dot(sweep_.along) / square, 0.0, 1.0) * sweep_.along);
+    };
+    const auto in_box = [&](const Vector3d& x) { return Vector3d(x.cwiseMax(box.low).cwiseMin(box.high)); };
+    const Vector3d x = on_way(in_box(on_way(box.center())));
+    return in_box(x) - x;
+  }
+
+  Way sweep_;
+  double kept_, size_;
+};
+
+void descend(const Assembly& body, Kept& kept) {
+  const auto nodes = body.hierarchy().nodes();
+  if (nodes.empty()) return;
+  std::uint32_t stack[128];
+  int size = 0;
+  stack[size++] = 0;
+  Vector3d normal = Vector3d::Zero();
+  while (size > 0 && !kept.meets()) {
+    const Hierarchy::Node& node = nodes[stack[--size]];
+    if (!kept.matters(node.box())) continue;
+    if (!node.is_leaf()) {
+      stack[size++] = node.first;
+      stack[size++] = node.first + 1;
+      continue;
+    }
+    for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot) {
+      const Piece piece = piece_of(body, slot);
+      normal.setZero();
+      kept.look(piece, normal);
+    }
+  }
+}
+
 }  // namespace
 
 Near near(const Sweep& sweep, const Ellipsoid& body, const Wanted& wanted) {
-  Nearest nearest({sweep.agent.center(), sweep.along, sweep.agent.factor()}, wanted);
+  Nearest nearest(way_of(sweep), wanted);
   nearest.look(Piece::ellipsoid(body));
   return nearest.result();
 }
 
 Near near(const Sweep& sweep, const Placed& body, Wanted wanted) {
   wanted.normal = nullptr;  // of many pieces each has its own
-  const Matrix3d to_body = body.pose.rotation.transpose();
-  Nearest nearest(
-      {body.pose.to_body(sweep.agent.center()), to_body * sweep.along, to_body * sweep.agent.factor()},
-      wanted);
+  Nearest nearest(way_of(sweep, body.pose), wanted);
   if (const Assembly* assembly = body.body.assembly()) {
     descend(*assembly, nearest);
   } else if (const HullBody* hull = body.body.hull()) {
@@ -393,6 +519,34 @@ Near near(const Sweep& sweep, const Placed& body, Wanted wanted) {
       if (!nearest.done()) nearest.look(Piece::ellipsoid(each.ellipsoid()));
   }
   return nearest.result();
+}
+
+double surely_apart(const Sweep& sweep, const Ellipsoid& body, double enough, Vector3d& normal) {
+  Kept kept(way_of(sweep), enough);
+  kept.look(Piece::ellipsoid(body), normal);
+  return kept.kept();
+}
+
+double surely_apart(const Sweep& sweep, const Placed& body, double enough) {
+  // In the body's frame all is rounded once more, and a rotation is one to 1e-12.
+  const double rounded = body.pose.rotation.isIdentity(0) ? 1e-14 : 4e-12;
+  const double size = body.pose.position.norm() + sweep.agent.center().norm() + sweep.along.norm() +
+                      sweep.agent.factor().norm();
+  Kept kept(way_of(sweep, body.pose), enough + rounded * size);
+  Vector3d normal = Vector3d::Zero();
+  if (const Assembly* assembly = body.body.assembly()) {
+    descend(*assembly, kept);
+  } else if (const HullBody* hull = body.body.hull()) {
+    kept.look(Piece::points(hull->points().data(), hull->size()), normal);
+  } else if (const CombinedEllipsoid* quadric = body.body.quadric()) {
+    kept.look(Piece::ellipsoid(quadric->ellipsoid()), normal);
+  } else {
+    for (const CombinedEllipsoid& each : *body.body.quadrics()) {
+      normal.setZero();
+      kept.look(Piece::ellipsoid(each.ellipsoid()), normal);
+    }
+  }
+  return kept.kept() - rounded * size;
 }
 
 }  // namespace vericone::guidance::courses

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// How near an ellipsoid that moves comes to a body: what courses are judged by. In doubles: decisions need no
-// more, and what a run was is proved by others.
+// How near an ellipsoid that moves comes to a body: what courses are judged by, in doubles (near), and what
+// is proved of the one that is taken (surely_apart).
 #pragma once
 
 #include <vericone/geometry/body.h>
@@ -13,6 +13,10 @@ namespace vericone::guidance::courses {
 struct Sweep {
   Ellipsoid agent;        // where it starts
   Eigen::Vector3d along;  // m, how far it goes
+  /// m: so much wider it is at the start, and at the end, and no wider between than a cone from one to the
+  /// other.
+  double wider_from = 0, wider_to = 0;
+  [[nodiscard]] double widest() const { return wider_from > wider_to ? wider_from : wider_to; }
 };
 
 /// What is wanted of a sweep that meets the body.
@@ -45,5 +49,12 @@ struct Near {
 /// Meshes, clouds, maps, hulls and unions as they are; of combined quadrics what their delimiters
 /// cut away counts too. No allocation.
 [[nodiscard]] Near near(const Sweep& sweep, const Placed& body, Wanted wanted);
+
+/// Metres that the sweep surely keeps from the body, at most `enough`, negative where it may meet it: the gap
+/// of a plane between both with all that rounding may take; of many pieces each has one, or a box about many
+/// has. `normal`: as Wanted::normal.
+[[nodiscard]] double surely_apart(const Sweep& sweep, const Ellipsoid& body, double enough,
+                                  Eigen::Vector3d& normal);
+[[nodiscard]] double surely_apart(const Sweep& sweep, const Placed& body, double enough);
 
 }  // namespace vericone::guidance::courses

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/cone.h>
 #include <vericone/cones/pair.h>
+#include <vericone/guidance/avoid.h>
+#include <vericone/guidance/bands.h>
 #include <vericone/guidance/barrier.h>
 #include <vericone/guidance/navigator.h>
 #include <vericone/testing/random_bodies.h>
@@ -267,6 +269,131 @@ TEST(CInterface, ConesAreThoseOfPairs) {
   EXPECT_EQ(vericone_cone_loops(c.get(), 2), VERICONE_BAD_INPUT);
 }
 
+/// Bodies about the origin with velocities, in both worlds.
+struct Encounters {
+  std::vector<Both> bodies;
+  std::vector<vericone_moving> c;
+  std::vector<guidance::Intruder> cpp;
+
+  void add(Both body, const Vector3d& at, const Vector3d& velocity) {
+    vericone_moving moving{};
+    moving.body = body.c.get();
+    std::copy_n(at.data(), 3, moving.position);
+    std::copy_n(velocity.data(), 3, moving.velocity);
+    c.push_back(moving);
+    cpp.push_back({Placed(body.cpp, {at}), velocity});
+    bodies.push_back(std::move(body));
+  }
+};
+
+void expect_same(const std::vector<guidance::Range>& expected, const vericone_range* found,
+                 std::size_t count) {
+  ASSERT_EQ(count, expected.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    expect_same(expected[i].from, found[i].from);
+    expect_same(expected[i].to, found[i].to);
+  }
+}
+
+TEST(CInterface, BandsAndSafeVelocitiesAreThoseOfTheLibrary) {
+  RandomBodies random(3705);
+  for (int i = 0; i < 20; ++i) {
+    Encounters own, all;
+    own.add(ellipsoid(random), random.in_box(1), Vector3d(2, 0, 0) + random.in_box(1));
+    for (const auto kind : {ellipsoid, hull, boxes})
+      all.add(kind(random), Vector3d(9, 0, 0) + random.in_box(4), random.in_box(1));
+    vericone_band_options options{};
+    ASSERT_EQ(vericone_band_defaults(&options), VERICONE_OK);
+    guidance::BandOptions cpp;
+    cpp.horizon.until = options.until = 20;
+    cpp.margin = options.margin = i % 2 ? 0.1 : 0;
+    options.last = i % 4 == 0;
+    cpp.last = options.last != 0;
+    cpp.altitude = {-3, 3};
+    options.altitude[0] = -3;
+    options.altitude[1] = 3;
+    const guidance::Bands expected = guidance::bands(own.cpp[0].body, own.cpp[0].velocity, all.cpp, cpp);
+    vericone_range free[4][32], conflict[32];
+    vericone_band heading{free[0], 32, conflict, 32, 0, 0, 0}, speed{free[1], 32, nullptr, 0, 0, 0, 0},
+        climb{free[2], 32, nullptr, 0, 0, 0, 0}, altitude{free[3], 32, nullptr, 0, 0, 0, 0};
+    vericone_course course{};
+    ASSERT_EQ(vericone_bands(own.c.data(), all.c.data(), all.c.size(), &options, &heading, &speed, &climb,
+                             &altitude, &course),
+              int(expected.time_to_violation.has_value()))
+        << vericone_error();
+    expect_same(expected.heading.free, free[0], heading.free_count);
+    expect_same(expected.heading.conflict, conflict, heading.conflict_count);
+    expect_same(expected.speed.free, free[1], speed.free_count);
+    EXPECT_EQ(speed.conflict_count, expected.speed.conflict.size());
+    expect_same(expected.climb.free, free[2], climb.free_count);
+    expect_same(expected.altitude.free, free[3], altitude.free_count);
+    if (options.last) {
+      expect_same(expected.heading.last, heading.last);
+    }
+    expect_same(expected.time_to_violation.value_or(std::numeric_limits<double>::infinity()),
+                course.time_to_violation);
+    EXPECT_EQ(std::isnan(course.recovery_time), !expected.recovery.has_value());
+
+    vericone_avoid_options limits{};
+    ASSERT_EQ(vericone_avoid_defaults(&limits), VERICONE_OK);
+    guidance::AvoidOptions same;
+    EXPECT_EQ(limits.gap, same.gap);
+    EXPECT_EQ(limits.most, same.most);
+    EXPECT_EQ(limits.climb[0], same.climb.from);
+    EXPECT_EQ(limits.speed[1], same.speed.to);
+    same.until = limits.until = 20;
+    same.speed.to = limits.speed[1] = 5;
+    const guidance::Avoidance nearest =
+        guidance::avoid(own.cpp[0].body, own.cpp[0].velocity, own.cpp[0].velocity, all.cpp, same);
+    vericone_avoidance found{};
+    ASSERT_EQ(vericone_avoid(own.c.data(), own.c[0].velocity, all.c.data(), all.c.size(), &limits, &found),
+              int(nearest.status))
+        << vericone_error();
+    expect_same(nearest.velocity, found.velocity);
+    expect_same(nearest.distance, found.distance);
+    expect_same(nearest.lower, found.lower);
+    expect_same(nearest.safe_until, found.safe_until);
+    expect_same(nearest.latest, found.latest);
+    EXPECT_EQ(found.first, nearest.first ? std::int64_t(nearest.first->obstacle) : -1);
+  }
+}
+
+TEST(CInterface, BandsAndSafeVelocitiesRefuseWhatIsNone) {
+  RandomBodies random(3706);
+  Encounters all;
+  all.add(ellipsoid(random), {0, 0, 0}, {1, 0, 0});
+  all.add(ellipsoid(random), {9, 0, 0}, {0, 0, 0});
+  vericone_band_options options{};
+  vericone_avoid_options limits{};
+  vericone_band_defaults(&options);
+  vericone_avoid_defaults(&limits);
+  const auto bands = [&] {
+    return vericone_bands(all.c.data(), all.c.data() + 1, 1, &options, nullptr, nullptr, nullptr, nullptr,
+                          nullptr);
+  };
+  EXPECT_EQ(bands(), 1);  // they meet
+  options.margin = -1;
+  EXPECT_EQ(bands(), VERICONE_BAD_INPUT);
+  EXPECT_THAT(vericone_error(), StartsWith("margin: got -1, must be"));
+  options.margin = 0;
+  all.c[1].omega[2] = 1;
+  EXPECT_EQ(bands(), VERICONE_BAD_INPUT);
+  EXPECT_THAT(vericone_error(), StartsWith("others[0].omega[2]: got 1, must be 0"));
+  all.c[1].omega[2] = 0;
+  all.c[1].body = nullptr;
+  EXPECT_EQ(bands(), VERICONE_BAD_INPUT);
+  EXPECT_THAT(vericone_error(), StartsWith("others[0].body: got NULL"));
+  EXPECT_EQ(vericone_avoid(all.c.data(), nullptr, nullptr, 0, &limits, nullptr), VERICONE_BAD_INPUT);
+  EXPECT_THAT(vericone_error(), StartsWith("wanted: got NULL"));
+  EXPECT_EQ(vericone_avoid(all.c.data(), all.c[0].velocity, nullptr, 0, nullptr, nullptr),
+            VERICONE_BAD_INPUT);
+  EXPECT_EQ(vericone_avoid(all.c.data(), all.c[0].velocity, nullptr, 0, &limits, nullptr), VERICONE_FREE);
+  vericone_band none{nullptr, 1, nullptr, 0, 0, 0, 0};
+  EXPECT_EQ(vericone_bands(all.c.data(), nullptr, 0, &options, &none, nullptr, nullptr, nullptr, nullptr),
+            VERICONE_BAD_INPUT);
+  EXPECT_THAT(vericone_error(), StartsWith("free: got NULL"));
+}
+
 guidance::BodyState state(const vericone::Body& body, const vericone_moving& moving) {
   guidance::BodyState state;
   state.position = Vector3d(moving.position);
@@ -437,12 +564,18 @@ TEST(CInterface, NumbersAndSizesAreThoseOfBothLanguages) {
                 VERICONE_TOO_NEAR == int(NavigatorStatus::too_near) &&
                 VERICONE_CANNOT_AVOID == int(NavigatorStatus::cannot_avoid) &&
                 VERICONE_NO_COURSE == int(NavigatorStatus::no_course));
-  std::size_t sizes[7];
-  ASSERT_EQ(sizes_in_c(sizes), 7u);
-  EXPECT_THAT(sizes,
-              ::testing::ElementsAre(sizeof(vericone_hyperboloid), sizeof(vericone_contact),
-                                     sizeof(vericone_miss), sizeof(vericone_barrier), sizeof(vericone_sector),
-                                     sizeof(vericone_moving), sizeof(vericone_command)));
+  using guidance::AvoidStatus;
+  static_assert(VERICONE_FREE == int(AvoidStatus::free) &&
+                VERICONE_NOTHING_SAFE == int(AvoidStatus::nothing_safe) &&
+                VERICONE_NOT_FOUND == int(AvoidStatus::not_found));
+  std::size_t sizes[12];
+  ASSERT_EQ(sizes_in_c(sizes), 12u);
+  EXPECT_THAT(sizes, ::testing::ElementsAre(sizeof(vericone_hyperboloid), sizeof(vericone_contact),
+                                            sizeof(vericone_miss), sizeof(vericone_barrier),
+                                            sizeof(vericone_sector), sizeof(vericone_moving),
+                                            sizeof(vericone_command), sizeof(vericone_band_options),
+                                            sizeof(vericone_band), sizeof(vericone_course),
+                                            sizeof(vericone_avoid_options), sizeof(vericone_avoidance)));
   EXPECT_EQ(vericone_sound_arithmetic(), VERICONE_OK);
 }
 

@@ -13,5 +13,10 @@ size_t sizes_in_c(size_t* list) {
   list[n++] = sizeof(vericone_sector);
   list[n++] = sizeof(vericone_moving);
   list[n++] = sizeof(vericone_command);
+  list[n++] = sizeof(vericone_band_options);
+  list[n++] = sizeof(vericone_band);
+  list[n++] = sizeof(vericone_course);
+  list[n++] = sizeof(vericone_avoid_options);
+  list[n++] = sizeof(vericone_avoidance);
   return n;
 }

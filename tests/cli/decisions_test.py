@@ -49,6 +49,39 @@ class Decisions(unittest.TestCase):
         self.assertEqual(inside["heading"]["free"], [])
         self.assertIn("recovery", inside)
 
+    def test_bands_with_a_margin_and_levels(self):
+        half = lambda radius: math.degrees(math.asin(radius / 10))
+        answer = ask("bands", case(margin=1))[1][0]
+        self.assertAlmostEqual(answer["heading"]["conflict"][0][1], half(3), 9)
+        self.assertAlmostEqual(answer["time_to_violation"], 7 / 4, 9)
+        levels = ask("bands", case(levels=[3, 1, 0]))[1][0]["levels"]
+        for level, margin in zip(levels, (3, 1, 0), strict=True):
+            self.assertEqual(level["margin"], margin)
+            self.assertAlmostEqual(level["heading"]["conflict"][0][1], half(2 + margin), 9)
+        # Within the outer level now, the inner one ahead: out soonest straight away from it, and not through it.
+        within = ask("bands", case(levels=[9, 0]))[1][0]
+        self.assertEqual(within["levels"][0]["heading"]["free"], [])
+        self.assertAlmostEqual(within["recovery"]["heading"], 180, delta=3)
+        self.assertAlmostEqual(within["recovery"]["time"], 1 / 4, delta=0.01)
+
+    def test_conflict_by_a_turn(self):
+        answer = ask("bands", case(limits={"lateral": 2, "longitudinal": 1}))[1][0]
+        for name, whole in (("heading", 360), ("speed", 8)):
+            wide = {key: sum(to - start for start, to in answer[name][key]) for key in ("free", "conflict")}
+            self.assertGreater(wide["conflict"], 0)
+            self.assertAlmostEqual(sum(wide.values()), whole, delta=1e-3 * whole)
+
+    def test_out_of_a_dent(self):
+        dented = {"center": [0, 0, 0], "semi_axes": [5, 5, 5], "velocity": [0, 0, 0],
+                  "hyperboloids": [{"semi_axes": [1, 1, 1], "sheets": 2}]}
+        inside = case(agent=ball([3, 0, 0], 0.3), agent_velocity=[1, 0, 0], obstacles=[dented], horizon=5)
+        answer = ask("bands", inside)[1][0]
+        self.assertEqual(len(answer["heading"]["free"]), 1)
+        start, to = answer["heading"]["free"][0]
+        self.assertTrue(start < 30 and to > 150)
+        self.assertIsNone(answer["time_to_violation"])
+        self.assertEqual(ask("avoid", inside)[1][0]["distance"], 0)
+
     def test_the_nearest_safe_velocity(self):
         answer = ask("avoid", case(wanted=[0, 4, 0], limits={"speed": [0, 20]}))[1][0]
         self.assertEqual(answer["status"], "free")
@@ -67,7 +100,12 @@ class Decisions(unittest.TestCase):
         self.assertEqual((one["status"], window["status"], walls["status"]), ("free", "free", "nothing_safe"))
         self.assertEqual(window["distance"], 0)
         self.assertIsNone(walls["lower"])
-        self.assertGreater(walls["first"]["time"], 0)
+        # The walls are 2 m off on either side and 2 m/s fast: who stands still has a second; they are thinner farther out.
+        self.assertGreaterEqual(walls["latest"], 1 - 1e-9)
+        self.assertLessEqual(walls["latest"], 1.2)
+        self.assertLessEqual(walls["latest"], 1.2 * walls["safe_until"])
+        self.assertLessEqual(walls["safe_until"], walls["first"]["time"] + 1e-9)
+        self.assertEqual((one["safe_until"], one["latest"]), (20, None))
 
     def test_what_is_refused(self):
         for command, fields, field in (
@@ -75,7 +113,8 @@ class Decisions(unittest.TestCase):
                 ("bands", {"agent_velocity": [0, 4]}, "agent_velocity"), ("bands", {"limits": {"speed": [2, 1]}}, "limits.speed"),
                 ("bands", {"limits": {"latteral": 1}}, "limits.latteral"), ("bands", {"horizon": [2, 1]}, "horizon"),
                 ("bands", {"wanted": [0, 0, 0]}, "wanted"), ("avoid", {"horizon": [1, 2]}, "horizon"),
-                ("avoid", {"margin": -1}, "margin"), ("avoid", {"limits": {"altitude": [0, 1]}}, "limits.altitude"),
+                ("bands", {"margin": -1}, "margin"), ("bands", {"levels": [1, 2]}, "levels[1]"), ("bands", {"levels": 3}, "levels"),
+                ("bands", {"levels": [1], "margin": 1}, "margin"), ("avoid", {"margin": -1}, "margin"), ("avoid", {"limits": {"altitude": [0, 1]}}, "limits.altitude"),
                 ("avoid", {"limits": {"lateral": 1}}, "limits.longitudinal"), ("avoid", {"wanted": [0, 1]}, "wanted")):
             result, answers = ask(command, case(**fields), case())
             self.assertEqual(result.returncode, 2, fields)

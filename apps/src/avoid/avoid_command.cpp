@@ -47,6 +47,8 @@ Json avoidance_json(const Json& value, const std::filesystem::path& folder) {
               {"velocity", vector_json(found.velocity)},
               {"distance", found.distance},
               {"lower", std::isfinite(found.lower) ? Json(found.lower) : Json(nullptr)},
+              {"safe_until", found.safe_until},
+              {"latest", std::isfinite(found.latest) ? Json(found.latest) : Json(nullptr)},
               {"first", nullptr}};
   if (found.first) result["first"] = {{"obstacle", found.first->obstacle}, {"time", found.first->time}};
   return result;

@@ -48,16 +48,11 @@ Json band_json(const Band& band, double unit = 1) {
 
 Json seconds(double last) { return last >= 0 && std::isfinite(last) ? Json(last) : Json(nullptr); }
 
-Json bands_json(const Json& value, const std::filesystem::path& folder) {
-  const EncounterCase given(value, {}, folder);
-  BandOptions options;
-  options.horizon = input::read_horizon(value);
-  options.wind = given.wind;
-  if (value.contains("limits")) read_limits(value["limits"], options);
-  options.last = true;
+Json recovery_json(const Bands::Recovery& recovery) {
+  return {{"heading", recovery.heading / kDegree}, {"time", recovery.time}};
+}
 
-  const Bands found =
-      within_limits([&] { return bands(given.agent, given.velocity, given.intruders, options); });
+Json one_level(const Bands& found, const BandOptions& options) {
   Json result{{"heading", band_json(found.heading, kDegree)},
               {"speed", band_json(found.speed)},
               {"climb", band_json(found.climb)}};
@@ -66,9 +61,48 @@ Json bands_json(const Json& value, const std::filesystem::path& folder) {
   result["last_manoeuvre"] = {{"heading", seconds(found.heading.last)},
                               {"speed", seconds(found.speed.last)},
                               {"climb", seconds(found.climb.last)}};
-  if (found.recovery)
-    result["recovery"] = {{"heading", found.recovery->heading / kDegree}, {"time", found.recovery->time}};
+  if (found.recovery) result["recovery"] = recovery_json(*found.recovery);
   return result;
+}
+
+/// Of margins, the largest first.
+Json levels_json(const EncounterCase& given, const Json& value, const BandOptions& options) {
+  if (!value.is_array() || value.empty())
+    throw InputError("levels", input::quoted(value), "a list of margins, the largest first (metres)");
+  std::vector<double> margins;
+  for (const Json& one : value)
+    margins.push_back(input::read_number(one, "levels[" + std::to_string(margins.size()) + "]", " (metres)"));
+  for (std::size_t i = 0; i < margins.size(); ++i)
+    if (!(margins[i] >= 0 && (i == 0 || margins[i] < margins[i - 1])))
+      throw InputError("levels[" + std::to_string(i) + "]", input::quoted(value[i]),
+                       "0 or more, and less than the one before (metres)");
+  const guidance::AlertBands found = within_limits(
+      [&] { return alert_bands(given.agent, given.velocity, given.intruders, margins, options); });
+  Json result{{"levels", Json::array()}};
+  for (std::size_t i = 0; i < margins.size(); ++i) {
+    Json level = one_level(found.levels[i], options);
+    level["margin"] = margins[i];
+    result["levels"].push_back(std::move(level));
+  }
+  if (found.recovery) result["recovery"] = recovery_json(*found.recovery);
+  return result;
+}
+
+Json bands_json(const Json& value, const std::filesystem::path& folder) {
+  const EncounterCase given(value, {"margin", "levels"}, folder);
+  BandOptions options;
+  options.horizon = input::read_horizon(value);
+  options.wind = given.wind;
+  if (value.contains("margin")) options.margin = input::read_number(value["margin"], "margin", " (metres)");
+  if (value.contains("limits")) read_limits(value["limits"], options);
+  options.last = true;
+  if (value.contains("levels")) {
+    if (value.contains("margin"))
+      throw InputError("margin", input::quoted(value["margin"]), "left out beside `levels`");
+    return levels_json(given, value["levels"], options);
+  }
+  return one_level(
+      within_limits([&] { return bands(given.agent, given.velocity, given.intruders, options); }), options);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "bands/at_once.h"
+#include "bands/delimited.h"
 #include "bands/threats.h"
 
 namespace vericone::guidance {
@@ -22,61 +23,6 @@ namespace vericone::guidance {
 using namespace banding;
 
 namespace {
-
-/// A ray from the wanted velocity against a part.
-class OnRay : public Question {
- public:
-  OnRay(const Part& part, const Line& ray, const Horizon& horizon, double margin)
-      : part_(part), ray_(ray), horizon_(horizon), margin_(margin) {}
-
-  std::optional<Range> free_about(double q) const override {
-    const auto half = safe(part_, ray_.velocity(q), horizon_, margin_);
-    if (!half) return std::nullopt;
-    const double most = half->most(horizon_), along = half->normal.dot(part_.velocity);
-    return ray_.about(q, half->normal, most + along,
-                      std::abs(most) + half->normal.cwiseAbs().dot(part_.velocity.cwiseAbs()));
-  }
-  bool is_hit(double q) const override {
-    if (!part_.exact) return false;
-    const Vector3d v = ray_.velocity(q);
-    return meets(part_.swollen().verdict(v, part_.velocity, horizon_)) ||
-           (margin_ > 0 && nearest_by(part_, v, horizon_.until).most < margin_);
-  }
-  bool all_hit(double, double) const override { return part_.exact; }
-
-  /// What one plane proves to keep the margin, with this velocity over ground in it.
-  static std::optional<SafeHalfSpace> safe(const Part& part, const Vector3d& velocity, const Horizon& horizon,
-                                           double margin) {
-    auto half = part.swollen().safe_half_space(velocity, part.velocity, horizon);
-    if (!half || margin == 0) return half;
-    half->room = part.pair.gap(half->normal) - margin * half->normal.norm() * (1 + 0x1p-48);
-    const Vector3d w = velocity - part.velocity;
-    if (half->room > 0 && half->normal.dot(w) < half->most(horizon) * (1 - 0x1p-48)) return half;
-    // Where the swollen body is less than the margin, the plane where they are nearest leaves more.
-    const Miss nearest = nearest_by(part, velocity, horizon.until);
-    if (!(nearest.least > margin)) return std::nullopt;
-    const Vector3d& n = nearest.normal;
-    *half = {n, part.pair.gap(n) - margin * n.norm() * (1 + 0x1p-48)};
-    const double slack = 0x1p-48 * n.norm() * w.norm();
-    return half->room > 0 && n.dot(w) + slack < half->most(horizon) ? half : std::nullopt;
-  }
-
-  /// How near they come by then, of a pair that does not meet until then. Of one that meets later the time of
-  /// Miss is not that of the contact; until then it only comes nearer.
-  static Miss nearest_by(const Part& part, const Vector3d& velocity, double until) {
-    Miss miss = part.pair.miss(velocity, part.velocity);
-    if (miss.least > 0 && miss.time <= until) return miss;
-    Placed then = part.pair.agent();
-    then.pose.position += until * (velocity - part.velocity);
-    return Pair(then, part.pair.obstacle()).miss(Vector3d::Zero(), Vector3d::Zero());
-  }
-
- private:
-  const Part& part_;
-  const Line& ray_;
-  Horizon horizon_;
-  double margin_;
-};
 
 /// Along one ray what is blocked: by part, proved, none where a part leaves it alone; first what is too slow.
 /// `not_free`: all together, what is not known to be free.
@@ -97,13 +43,14 @@ struct Triangle {
 class Search3 {
  public:
   Search3(const Vector3d& velocity, const Vector3d& wanted, Threats& threats, const AvoidOptions& options,
-          double until)
+          double until, bool any = false)
       : velocity_(velocity),
         wanted_(wanted),
         threats_(threats),
         options_(options),
         horizon_{0, until},
-        most_(options.most) {}
+        gap_(any ? 1e9 : options.gap),
+        most_(any ? options.most / 4 : options.most) {}
 
   Avoidance run() {
     add_those_in_the_way(wanted_);
@@ -123,7 +70,7 @@ class Search3 {
     while (true) {
       refine();
       if (std::isinf(upper_)) break;
-      const double lower = open_.empty() ? upper_ / (1 + options_.gap) : open_.front().bound;
+      const double lower = open_.empty() ? upper_ / (1 + gap_) : open_.front().bound;
       if (!add_those_in_the_way(best_)) return found(lower);
     }
     Avoidance none;
@@ -137,7 +84,7 @@ class Search3 {
 
   /// Until the nearest candidate is nearly as near as the bound, or as many rays were looked along as may be.
   void refine() {
-    while (!open_.empty() && !(upper_ <= open_.front().bound * (1 + options_.gap)) && rays_.size() < most_) {
+    while (!open_.empty() && !(upper_ <= open_.front().bound * (1 + gap_)) && rays_.size() < most_) {
       const std::array<int, 3> t = open_.front().rays;
       // Halve the longest side.
       const auto side = [&](int i) {
@@ -174,8 +121,9 @@ class Search3 {
                     if (!lets_pass(*part, v, duration)) parts_.push_back(part);
                   });
     if (parts_.size() == before) return false;
-    if (std::any_of(parts_.begin(), parts_.end(), [](const Part* part) { return !part->exact; }))
-      most_ = std::min(most_, options_.most / 10);
+    any_delimited_ =
+        std::any_of(parts_.begin(), parts_.end(), [](const Part* part) { return !part->exact(); });
+    if (any_delimited_) most_ = std::min(most_, options_.most / 10);
     upper_ = kInfinity;
     for (Ray& ray : rays_) {
       for (std::size_t i = before; i < parts_.size(); ++i) block(ray, *parts_[i]);
@@ -216,8 +164,12 @@ class Search3 {
   /// `duration`: s, of the change of velocity.
   bool lets_pass(const Part& part, const Vector3d& v, double duration) const {
     const Vector3d ground = v + options_.wind;
-    auto half = OnRay::safe(part, ground, horizon_, options_.margin);
-    if (!half) return false;
+    auto half = safe(part, ground, horizon_, options_.margin);
+    if (!half) {
+      const double beside = options_.margin + 0.5 * duration * (v - velocity_).norm() * (1 + 1e-12);
+      return part.truth && duration <= horizon_.until &&
+             AsTheyAre(*part.truth).apart(ground, part.velocity, horizon_, beside);
+    }
     if (duration == 0) return true;
     // The ramp is behind the straight flight by at most half its duration, along the change.
     if (!(duration <= horizon_.until)) return false;
@@ -269,21 +221,54 @@ class Search3 {
       return;
     }
     const Line line(wanted_ + options_.wind, ray.direction, {0, reach_});
-    const OnRay question(part, line, horizon_, options_.margin);
+    const OfVelocity question(part, horizon_, options_.margin, line);
     Search search(question, {0, reach_});
     search.run();
-    std::optional<Range> hit;  // all between the first and the last: a convex set
-    for (const Range& one : search.hit)
+    const std::vector<Range> blocked = not_free(search, {0, reach_});
+    if (part.exact()) {
+      ray.hit.push_back(hull_of(search.hit));
+      ray.not_free.insert(ray.not_free.end(), blocked.begin(), blocked.end());
+      return;
+    }
+    ray.hit.push_back(hit_core(part, line));
+    const OfDelimited as_it_is(part, horizon_, options_.margin, line, 1e-4 * reach_);
+    for (const Range& range : blocked) {
+      Search one(as_it_is, {range.from, range.to});
+      one.run();
+      const std::vector<Range> still = not_free(one, range);
+      ray.not_free.insert(ray.not_free.end(), still.begin(), still.end());
+    }
+  }
+
+  /// All between the first and the last: of a convex set.
+  static std::optional<Range> hull_of(const std::vector<Range>& hits) {
+    std::optional<Range> hit;
+    for (const Range& one : hits)
       hit = hit ? Range{std::min(hit->from, one.from), std::max(hit->to, one.to)} : one;
-    ray.hit.push_back(hit);
-    double from = 0;
+    return hit;
+  }
+
+  static std::vector<Range> not_free(Search& search, const Range& all) {
+    std::vector<Range> result;
+    double from = all.from;
     std::sort(search.free.begin(), search.free.end(),
               [](const Range& a, const Range& b) { return a.from < b.from; });
     for (const Range& free : search.free) {
-      if (free.from > from) ray.not_free.push_back({from, free.from});
+      if (free.from > from) result.push_back({from, free.from});
       from = std::max(from, free.to);
     }
-    if (from < reach_) ray.not_free.push_back({from, reach_});
+    if (from < all.to) result.push_back({from, all.to});
+    return result;
+  }
+
+  /// Of bodies with delimiters: what meets the ellipsoids within them.
+  std::optional<Range> hit_core(const Part& part, const Line& line) const {
+    if (!part.core) return std::nullopt;
+    const Part core{*part.core, {}, {}, {}, part.velocity, part.intruder, part.apart, part.reach};
+    const OfVelocity question(core, horizon_, 0, line);
+    Search search(question, {0, reach_});
+    search.run();
+    return hull_of(search.hit);
   }
 
   /// What of it cannot be flown.
@@ -345,7 +330,8 @@ class Search3 {
   /// Of values that nothing blocks at once: the first, a little beyond the end, where rounding cannot bring
   /// it back; where the way to it is blocked, farther ones.
   void look_between(const Vector3d& d, double from, double to) {
-    for (double beyond = 0; beyond < 1e-6; beyond = std::max(30 * beyond, 1e-13))
+    const double most = any_delimited_ ? 1e-2 : 1e-6;  // those are undecided for a while
+    for (double beyond = 0; beyond < most; beyond = std::max(30 * beyond, 1e-13))
       if (const double s = from * (1 + beyond); s < std::max(to, from * (1 + kOneValue)) && take(d, s))
         return;
     if (options_.lateral == 0 && options_.longitudinal == 0) return;
@@ -445,7 +431,9 @@ class Search3 {
   Threats& threats_;
   const AvoidOptions& options_;
   Horizon horizon_;
-  std::size_t most_;                // rays
+  double gap_;        // at which it ends
+  std::size_t most_;  // rays
+  bool any_delimited_ = false;
   std::vector<const Part*> parts_;  // those that are looked at
   double reach_ = 0, upper_ = kInfinity;
   Vector3d best_ = Vector3d::Zero();
@@ -499,6 +487,98 @@ Vector3d nearly(const Vector3d& wanted, const AvoidOptions& options) {
                     : Vector3d(level, 0, climb);
 }
 
+/// What is met first with a velocity over ground.
+std::optional<Avoidance::First> first_met(Threats& threats, const Vector3d& ground) {
+  std::optional<Avoidance::First> first;
+  threats.near(ground, kInfinity, 0, [&](std::size_t i) {
+    const auto contact = threats[i].as_it_is().contact(ground, threats[i].velocity);
+    if (contact && !(first && first->time <= contact->earliest))
+      first = {threats[i].intruder, contact->earliest};
+  });
+  return first;
+}
+
+/// Where nothing is safe for as long as was asked: for how long something is. What blocks until a time blocks
+/// until every later one, so halving brings together a time until which a velocity is safe and one until
+/// which none is.
+class Shorter {
+ public:
+  Shorter(const Vector3d& velocity, const Vector3d& wanted, Threats& threats, const AvoidOptions& options)
+      : velocity_(velocity), wanted_(wanted), threats_(threats), options_(options) {}
+
+  /// `answer`: of the whole time, not free.
+  void look(Avoidance& answer) {
+    note(options_.until, answer);
+    if (none_now()) {
+      latest_ = 0;
+    } else {
+      // Half as long, and so on, until one is safe.
+      for (double until = 0.5 * options_.until; safe_ == 0 && until > 1e-3 * options_.until; until *= 0.5)
+        ask(until, answer);
+      for (int step = 0; safe_ > 0 && step < 12; ++step) {
+        // Between what is safe and what was not shown to be either; between that and where none is.
+        const double low = (tried_ ? tried_->from : latest_) - safe_,
+                     high = tried_ && std::isfinite(latest_) ? latest_ - tried_->to : 0;
+        if (!(std::max(low, high) > options_.gap * safe_)) break;
+        ask(low >= high ? safe_ + 0.5 * low : tried_->to + 0.5 * high, answer);
+      }
+    }
+    answer.safe_until = safe_;
+    if (safe_ == options_.until) {  // found for less, and good for all
+      answer.status = AvoidStatus::free;
+      return;
+    }
+    answer.latest = latest_;
+    if (std::isinf(latest_)) return;
+    answer.status = AvoidStatus::nothing_safe;
+    answer.lower = kInfinity;
+  }
+
+ private:
+  /// Whether some body is too near already.
+  bool none_now() {
+    bool none = false;
+    threats_.near(Vector3d::Zero(), 0, 0, [&](std::size_t i) {
+      const Part& part = threats_[i];
+      none = none || (part.exact() && part.swollen().relation() == Relation::overlapping);
+    });
+    return none;
+  }
+
+  void ask(double until, Avoidance& answer) {
+    const Avoidance found = Search3(velocity_, wanted_, threats_, options_, until, true).run();
+    note(until, found);
+    if (found.status != AvoidStatus::free) return;
+    answer.velocity = found.velocity;
+    answer.distance = found.distance;
+  }
+
+  void note(double until, const Avoidance& found) {
+    if (found.status == AvoidStatus::free) {
+      safe_ = until;
+      // Without a margin and a way there, until its first contact.
+      if (options_.margin == 0 && options_.lateral == 0) {
+        const auto first = first_met(threats_, found.velocity + options_.wind);
+        safe_ = std::max(safe_, std::min(first ? first->time : kInfinity, options_.until));
+      }
+    } else if (found.status == AvoidStatus::nothing_safe) {
+      latest_ = until;
+    } else {
+      tried_ =
+          tried_ ? Range{std::min(tried_->from, until), std::max(tried_->to, until)} : Range{until, until};
+    }
+    if (!tried_) return;
+    *tried_ = {std::max(tried_->from, safe_), std::min(tried_->to, latest_)};
+    if (tried_->from >= latest_ || tried_->to <= safe_) tried_.reset();
+  }
+
+  Vector3d velocity_, wanted_;
+  Threats& threats_;
+  const AvoidOptions& options_;
+  double safe_ = 0, latest_ = kInfinity;  // s: until when one is, and none is
+  std::optional<Range> tried_;            // s: asked in vain
+};
+
 }  // namespace
 
 const char* to_string(AvoidStatus status) {
@@ -520,25 +600,13 @@ Avoidance avoid(const Placed& agent, const Vector3d& velocity, const Vector3d& w
     require(intruders[i].velocity, ("intruders[" + std::to_string(i) + "].velocity").c_str());
   Threats threats(agent, intruders, options.margin);
   Avoidance answer = Search3(velocity, wanted, threats, options, options.until).run();
+  answer.safe_until = options.until;
   if (answer.status == AvoidStatus::free) return answer;
+  answer.safe_until = 0;
   answer.velocity = nearly(wanted, options);
   answer.distance = (answer.velocity - wanted).norm();
-  // Nothing is safe for so long: what is for half as long, and so on.
-  for (double until = 0.5 * options.until; until > 1e-3 * options.until; until *= 0.5) {
-    const Avoidance shorter = Search3(velocity, wanted, threats, options, until).run();
-    if (shorter.status != AvoidStatus::free) continue;
-    answer.velocity = shorter.velocity;
-    answer.distance = shorter.distance;
-    break;
-  }
-  const Vector3d ground = answer.velocity + options.wind;
-  double first = kInfinity;
-  threats.near(ground, kInfinity, 0, [&](std::size_t i) {
-    const auto contact = threats[i].pair.contact(ground, threats[i].velocity);
-    if (!contact || !(contact->earliest < first)) return;
-    first = contact->earliest;
-    answer.first = {threats[i].intruder, first};
-  });
+  Shorter(velocity, wanted, threats, options).look(answer);
+  if (answer.status != AvoidStatus::free) answer.first = first_met(threats, answer.velocity + options.wind);
   return answer;
 }
 

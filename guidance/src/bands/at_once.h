@@ -8,7 +8,9 @@
 #include <limits>
 #include <numbers>
 
+#include "bands/margin.h"
 #include "bands/search.h"
+#include "bands/threats.h"
 
 namespace vericone::guidance::banding {
 
@@ -32,6 +34,7 @@ class Curve {
  public:
   virtual ~Curve() = default;
   virtual Vector3d velocity(double q) const = 0;
+  virtual double slope() const = 0;  // of the velocity's derivative, at most
   /// All values about q for which n.v < most, `size` being that of all terms of `most`; nothing where q is
   /// not surely one.
   virtual std::optional<Range> about(double q, const Vector3d& n, double most, double size) const = 0;
@@ -48,6 +51,8 @@ class Headings : public Curve {
   Vector3d velocity(double q) const override {
     return rest_ + speed_ * Vector3d(std::sin(q), std::cos(q), 0);
   }
+
+  double slope() const override { return speed_; }
 
   // speed (n_x sin q + n_y cos q) < most - n.rest: all but an arc about the direction of n.
   std::optional<Range> about(double q, const Vector3d& n, double most, double size) const override {
@@ -85,6 +90,7 @@ class Line : public Curve {
   Line(const Vector3d& start, const Vector3d& along, const Range& range)
       : start_(start), along_(along), farthest_(std::max(std::abs(range.from), std::abs(range.to))) {}
   Vector3d velocity(double q) const override { return start_ + q * along_; }
+  double slope() const override { return along_.norm(); }
 
   std::optional<Range> about(double q, const Vector3d& n, double most, double size) const override {
     const double all = size + n.cwiseAbs().dot(start_.cwiseAbs() + farthest_ * along_.cwiseAbs());
@@ -98,18 +104,19 @@ class Line : public Curve {
   double farthest_;  // q
 };
 
-/// Along a curve of velocities.
+/// Along a curve of velocities, keeping a margin from a part.
 class OfVelocity : public Question {
  public:
-  OfVelocity(const Pair& pair, const Vector3d& other, const Horizon& horizon, const Curve& curve)
-      : pair_(pair), other_(other), horizon_(horizon), curve_(curve) {}
+  OfVelocity(const Part& part, const Horizon& horizon, double margin, const Curve& curve)
+      : part_(part), horizon_(horizon), margin_(margin), curve_(curve) {}
 
   std::optional<Range> free_about(double q) const override {
-    const auto half = pair_.safe_half_space(curve_.velocity(q), other_, horizon_);
+    const Vector3d& other = part_.velocity;
+    const auto half = safe(part_, curve_.velocity(q), horizon_, margin_);
     if (!half) return std::nullopt;
-    const double most = half->most(horizon_), along = half->normal.dot(other_);
+    const double most = half->most(horizon_), along = half->normal.dot(other);
     const auto about = curve_.about(q, half->normal, most + along,
-                                    std::abs(most) + half->normal.cwiseAbs().dot(other_.cwiseAbs()));
+                                    std::abs(most) + half->normal.cwiseAbs().dot(other.cwiseAbs()));
     return about ? about : Range{q, q};  // of itself, at least
   }
   bool is_hit(double q) const override { return hit(curve_.velocity(q)); }
@@ -118,57 +125,63 @@ class OfVelocity : public Question {
   }
 
  private:
-  bool hit(const Vector3d& v) const { return meets(pair_.verdict(v, other_, horizon_)); }
+  bool hit(const Vector3d& v) const { return comes_nearer(part_, v, horizon_, margin_); }
 
-  const Pair& pair_;
-  Vector3d other_;
+  const Part& part_;
   Horizon horizon_;
+  double margin_;
   const Curve& curve_;
 };
 
 /// Flying level, higher by q from now on: the heights that hit are one interval.
 class OfAltitude : public Question {
  public:
-  OfAltitude(const Pair& pair, const Vector3d& level, const Vector3d& other, const Horizon& horizon)
-      : pair_(pair), level_(level), other_(other), horizon_(horizon) {}
+  OfAltitude(const Part& part, const Vector3d& level, const Horizon& horizon, double margin)
+      : part_(part), level_(level), horizon_(horizon), margin_(margin) {}
 
   // The plane of the pair at q is one of the pair here, moved.
   std::optional<Range> free_about(double q) const override {
-    const Vector3d w = level_ - other_, here(0, 0, q);
-    const auto found = pair_.normal_along(here + horizon_.from * w, here + farthest() * w);
+    const Vector3d w = level_ - part_.velocity, here(0, 0, q);
+    const auto found = part_.swollen().normal_along(here + horizon_.from * w, here + farthest() * w);
     if (!found) return std::nullopt;
     // Where they pass, n.w is 0 to rounding; for ever it has to be less.
     Vector3d n = *found;
     if (std::isinf(horizon_.until) && !w.isZero(0))
       n -= (std::max(n.dot(w), 0.0) + kRoundings * n.norm() * w.norm()) / w.squaredNorm() * w;
-    const double room = pair_.gap(n), along = n.dot(w);
+    const double room = part_.pair.gap(n) - margin_ * n.norm() * (1 + 0x1p-48), along = n.dot(w);
     const double time = along > 0 ? horizon_.until : horizon_.from, reached = along == 0 ? 0 : time * along;
-    const double size = std::abs(room) + time * n.cwiseAbs().dot(level_.cwiseAbs() + other_.cwiseAbs());
+    const double size =
+        std::abs(room) + time * n.cwiseAbs().dot(level_.cwiseAbs() + part_.velocity.cwiseAbs());
     return below(q, n.z(), room - reached - kRoundings * (std::isfinite(size) ? size : std::abs(room)));
   }
   bool is_hit(double q) const override {
-    Placed higher = pair_.agent();
-    higher.pose.position.z() += q;
-    return meets(Pair(higher, pair_.obstacle()).verdict(level_, other_, horizon_));
+    const auto higher = [q](const Pair& pair) {
+      Placed moved = pair.agent();
+      moved.pose.position.z() += q;
+      return Pair(moved, pair.obstacle());
+    };
+    if (meets(higher(part_.swollen()).verdict(level_, part_.velocity, horizon_))) return true;
+    return margin_ > 0 && nearest_within(higher(part_.pair), level_, part_.velocity, horizon_).most < margin_;
   }
   bool all_hit(double, double) const override { return true; }
 
  private:
   /// A time after which they have passed, where the horizon has no end.
   double farthest() const {
-    const double speed = (level_ - other_).norm();
+    const double speed = (level_ - part_.velocity).norm();
     if (std::isfinite(horizon_.until) || !(speed > 0))
       return std::isfinite(horizon_.until) ? horizon_.until : 0;
     const auto size = [](const Placed& body) {
       const Box bounds = body.body.bounds();
       return bounds.low.norm() + bounds.high.norm() + body.pose.position.norm();
     };
-    return horizon_.from + 2 * (size(pair_.agent()) + size(pair_.obstacle())) / speed;
+    return horizon_.from + 2 * (size(part_.pair.agent()) + size(part_.pair.obstacle()) + margin_) / speed;
   }
 
-  const Pair& pair_;
-  Vector3d level_, other_;
+  const Part& part_;
+  Vector3d level_;
   Horizon horizon_;
+  double margin_;
 };
 
 }  // namespace vericone::guidance::banding

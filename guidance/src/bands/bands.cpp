@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bands/at_once.h"
+#include "bands/delimited.h"
 #include "bands/manoeuvre.h"
 #include "bands/threats.h"
 
@@ -40,57 +41,64 @@ struct Quantity {
 
 class Banding {
  public:
-  Banding(const Placed& agent, std::span<const Intruder> intruders, const BandOptions& options)
-      : options_(options), threats_(agent, intruders, 0) {}
+  Banding(const Placed& agent, std::span<const Intruder> intruders, const BandOptions& options, double margin)
+      : options_(options), margin_(margin), threats_(agent, intruders, margin) {}
 
   Band band(const Quantity& quantity) const {
     const bool takes_time = std::isfinite(quantity.change.rate);
-    return takes_time ? after(quantity, 0) : at_once(quantity, options_.horizon);
+    return takes_time ? after(quantity, 0, true) : at_once(quantity, options_.horizon);
   }
 
   Band at_once(const Quantity& quantity, const Horizon& horizon) const {
     const Domain whole = quantity.domain.closed ? Domain{0, 2 * kPi, true} : quantity.domain;
-    return of_all({whole, whole}, true, [&](const Pair& pair, const Vector3d& velocity) {
-      return OfVelocity(pair, velocity, horizon, quantity.at_once);
-    });
+    const double finest = 1e-5 * (whole.high - whole.low);
+    return of_all(
+        {whole, whole}, true,
+        [&](const Part& part, double margin, bool) {
+          return OfVelocity(part, horizon, margin, quantity.at_once);
+        },
+        [&](const Part& part) { return OfDelimited(part, horizon, margin_, quantity.at_once, finest); });
   }
 
-  /// After going on for `wait`.
-  Band after(const Quantity& quantity, double wait, int parts_between_hits = 64) const {
+  /// After going on for `wait`. `hits`: whether what conflicts is proved, and looked at as finely.
+  Band after(const Quantity& quantity, double wait, bool hits) const {
     const Domain whole = quantity.domain.closed ? Domain{0, 2 * kPi, true} : quantity.domain,
                  about{quantity.domain.low, quantity.domain.high};
-    return of_all({whole, about}, false, [&](const Pair& pair, const Vector3d& velocity) {
-      return OfManoeuvre(pair, velocity, quantity.change, wait, options_.horizon.until,
-                         {about.low, about.high}, parts_between_hits);
+    return of_all({whole, about}, hits, [&](const Part& part, double margin, bool prove) {
+      const int parts = prove ? 1 << 16 : hits ? 64 : 16;
+      return OfManoeuvre(part, margin, quantity.change, wait, options_.horizon.until, {about.low, about.high},
+                         parts, prove);
     });
   }
 
   Band of_altitude(const Vector3d& level) const {
     const Domain whole{options_.altitude.from, options_.altitude.to};
-    return of_all({whole, whole}, true, [&](const Pair& pair, const Vector3d& velocity) {
-      return OfAltitude(pair, level, velocity, options_.horizon);
+    return of_all({whole, whole}, true, [&](const Part& part, double margin, bool) {
+      return OfAltitude(part, level, options_.horizon, margin);
     });
   }
 
-  /// When the bodies meet first on the present course; none within the horizon.
+  /// When the first body comes nearer than the margin on the present course, at least; none within the
+  /// horizon.
   std::optional<double> violation(const Vector3d& ground) const {
     std::optional<double> first;
     threats_.near(ground, options_.horizon.until, 0, [&](std::size_t i) {
       const Part& part = threats_[i];
-      if (part.pair.verdict(ground, part.velocity, options_.horizon) == Verdict::out) return;
-      const auto contact = part.pair.contact(ground, part.velocity);
+      if (keeps(part, ground, options_.horizon)) return;
+      const Pair& whole = part.as_it_is();
+      const Pair wider = margin_ > 0 ? Pair(wider_than(whole.agent(), margin_), whole.obstacle()) : whole;
+      const auto contact = wider.contact(ground, part.velocity);
       const double time = std::max(contact ? contact->earliest : 0, options_.horizon.from);
       first = std::min(first.value_or(kInfinity), time);
     });
     return first;
   }
 
-  /// Whether all stay apart on the present course from now until then.
+  /// Whether all keep the margin on the present course from now until then.
   bool is_clear(const Vector3d& ground, double until) const {
     bool clear = true;
     threats_.near(ground, until, 0, [&](std::size_t i) {
-      const Part& part = threats_[i];
-      clear = clear && part.pair.verdict(ground, part.velocity, {0, until}) == Verdict::out;
+      clear = clear && keeps(threats_[i], ground, {0, until});
     });
     return clear;
   }
@@ -101,7 +109,7 @@ class Banding {
     if (std::isinf(until) || options_.horizon.from > 0) return std::numeric_limits<double>::quiet_NaN();
     if (is_clear(ground, until)) return kInfinity;
     const auto works = [&](double wait) {
-      return is_clear(ground, wait) && !after(quantity, wait, 16).free.empty();
+      return is_clear(ground, wait) && !after(quantity, wait, false).free.empty();
     };
     if (!works(0)) return -1;
     double low = 0, high = until;
@@ -112,15 +120,16 @@ class Banding {
     return low;
   }
 
-  std::optional<Bands::Recovery> recovery(const Quantity& headings) const {
+  /// Of headings in some ranges alone.
+  std::optional<Bands::Recovery> recovery(const Quantity& headings, const std::vector<Range>& among) const {
     const double until = options_.horizon.until;
     if (std::isinf(until)) return std::nullopt;
     const auto best = [&](double from) -> std::optional<Bands::Recovery> {
-      const Band band = at_once(headings, {from, until});
-      if (band.free.empty()) return std::nullopt;
-      const auto widest =
-          std::max_element(band.free.begin(), band.free.end(),
-                           [](const Range& a, const Range& b) { return a.to - a.from < b.to - b.from; });
+      const std::vector<Range> free = common(at_once(headings, {from, until}).free, among);
+      if (free.empty()) return std::nullopt;
+      const auto widest = std::max_element(free.begin(), free.end(), [](const Range& a, const Range& b) {
+        return a.to - a.from < b.to - b.from;
+      });
       return Bands::Recovery{0.5 * (widest->from + widest->to), from};
     };
     double low = options_.horizon.from, high = until;
@@ -135,23 +144,48 @@ class Banding {
   }
 
  private:
-  /// `ask(pair, velocity of its obstacle)` is the question of one pair.
-  template <typename Ask>
-  Band of_all(Merged merged, bool hits, const Ask& ask) const {
+  /// What both have, each in order.
+  static std::vector<Range> common(const std::vector<Range>& some, const std::vector<Range>& others) {
+    std::vector<Range> both;
+    for (const Range& one : some)
+      for (const Range& other : others)
+        if (const Range range{std::max(one.from, other.from), std::min(one.to, other.to)};
+            range.from <= range.to)
+          both.push_back(range);
+    return both;
+  }
+
+  /// Proved.
+  bool keeps(const Part& part, const Vector3d& ground, const Horizon& horizon) const {
+    if (margin_ == 0) return part.as_it_is().verdict(ground, part.velocity, horizon) == Verdict::out;
+    return safe(part, ground, horizon, margin_) ||
+           (part.truth && AsTheyAre(*part.truth).apart(ground, part.velocity, horizon, margin_));
+  }
+
+  /// `ask(part, margin, whether hits are to be proved)` is the question of one part; `ask_as_it_is(part)` of
+  /// one of which a body has delimiters, where there is such a question.
+  template <typename Ask, typename AskAsItIs = std::nullptr_t>
+  Band of_all(Merged merged, bool hits, const Ask& ask, const AskAsItIs& ask_as_it_is = nullptr) const {
     threats_.descend(
         Where{true, {}},
-        [&](const Pair& pair, const Vector3d& velocity, const Where& where) {
-          return merged.not_free(ask(pair, velocity), merged.without_known(where, hits), false);
+        [&](const Part& ball, const Where& where) {
+          return merged.not_free(ask(ball, 0, false), merged.without_known(where, hits), false);
         },
         [&](const Part& part, const Where& where) {
           const Where still = where.everywhere ? where : merged.without_known(where, hits);
-          if (!still.empty())
-            merged.block(merged.not_free(ask(part.pair, part.velocity), still, hits && part.exact).ranges);
+          if (still.empty()) return;
+          const bool prove = hits && part.exact();
+          Where blocked = merged.not_free(ask(part, margin_, prove), still, prove);
+          if constexpr (!std::is_null_pointer_v<AskAsItIs>)
+            if (!part.exact() && !blocked.empty())
+              blocked = merged.not_free(ask_as_it_is(part), blocked, hits);
+          merged.block(blocked.ranges);
         });
     return merged.band();
   }
 
   const BandOptions& options_;
+  double margin_;            // m
   mutable Threats threats_;  // prepares what is asked about
 };
 
@@ -165,6 +199,8 @@ void require(const Vector3d& velocity, std::span<const Intruder> intruders, cons
         std::isfinite(horizon.from)))
     throw InputError("horizon", "[" + to_text(horizon.from) + ", " + to_text(horizon.until) + "]",
                      "from 0 or later to a time after now, not before that (seconds)");
+  if (!(options.margin >= 0 && std::isfinite(options.margin)))
+    throw InputError("margin", to_text(options.margin), "0 or more (metres)");
   require_range(options.speed, 0, "speed");
   require_range(options.climb, -kInfinity, "climb");
   require_range(options.altitude, -kInfinity, "altitude");
@@ -179,46 +215,84 @@ void require(const Vector3d& velocity, std::span<const Intruder> intruders, cons
   }
 }
 
+/// The quantities of an agent that flies with a velocity through the air.
+class Quantities {
+ public:
+  Quantities(const Vector3d& velocity, const BandOptions& options)
+      : speed_(std::hypot(velocity.x(), velocity.y())),
+        ahead_(speed_ > 0 ? Vector3d(velocity.x() / speed_, velocity.y() / speed_, 0) : Vector3d::UnitY()),
+        ground_(velocity + options.wind),
+        level_(ground_.x(), ground_.y(), options.wind.z()),
+        climbing_(options.wind + velocity.z() * Vector3d::UnitZ()),
+        speeds_(is_given(options.speed) ? options.speed : Range{0, 2 * speed_}),
+        climbs_(is_given(options.climb) ? options.climb : Range{-velocity.norm(), velocity.norm()}),
+        now_(std::atan2(ahead_.x(), ahead_.y())),
+        headings_(speed_, velocity.z(), options.wind),
+        speed_line_(climbing_, ahead_, speeds_),
+        climb_line_(level_, Vector3d::UnitZ(), climbs_),
+        turn_(speed_, now_, speed_ > 0 ? rate(options.lateral, speed_) : kInfinity, climbing_),
+        faster_(climbing_, ahead_, speed_, rate(options.longitudinal, 1)),
+        higher_(level_, Vector3d::UnitZ(), velocity.z(), rate(options.vertical, 1)) {}
+
+  Quantity heading() const { return {headings_, turn_, {now_ - kPi, now_ + kPi, true}}; }
+
+  Bands bands(const Banding& banding, const BandOptions& options) const {
+    const Quantity of_heading = heading(), of_speed{speed_line_, faster_, {speeds_.from, speeds_.to}},
+                   of_climb{climb_line_, higher_, {climbs_.from, climbs_.to}};
+    Bands result;
+    for (const auto& [quantity, band] :
+         {std::pair(&of_heading, &result.heading), {&of_speed, &result.speed}, {&of_climb, &result.climb}}) {
+      *band = banding.band(*quantity);
+      if (options.last) band->last = banding.last(*quantity, ground_);
+    }
+    if (is_given(options.altitude)) result.altitude = banding.of_altitude(level_);
+    result.time_to_violation = banding.violation(ground_);
+    const auto none = [](const Band& band) { return band.free.empty(); };
+    if (none(result.heading) && none(result.speed) && none(result.climb))
+      result.recovery = banding.recovery(of_heading, {{0, 2 * kPi}});
+    return result;
+  }
+
+ private:
+  static double rate(double acceleration, double by) {
+    return acceleration > 0 ? acceleration / by : kInfinity;
+  }
+
+  double speed_;
+  Vector3d ahead_, ground_, level_, climbing_;
+  Range speeds_, climbs_;
+  double now_;  // rad
+  Headings headings_;
+  Line speed_line_, climb_line_;
+  Turn turn_;
+  Acceleration faster_, higher_;
+};
+
 }  // namespace
 
 Bands bands(const Placed& agent, const Vector3d& velocity, std::span<const Intruder> intruders,
             const BandOptions& options) {
   require(velocity, intruders, options);
-  const double speed = std::hypot(velocity.x(), velocity.y()), fast = velocity.norm();
-  const Vector3d ahead =
-      speed > 0 ? Vector3d(velocity.x() / speed, velocity.y() / speed, 0) : Vector3d::UnitY();
-  const Vector3d ground = velocity + options.wind, up = Vector3d::UnitZ();
-  const Vector3d level(ground.x(), ground.y(), options.wind.z()), climbing = options.wind + velocity.z() * up;
-  const Range speeds = is_given(options.speed) ? options.speed : Range{0, 2 * speed};
-  const Range climbs = is_given(options.climb) ? options.climb : Range{-fast, fast};
-  const auto rate = [](double acceleration, double by) {
-    return acceleration > 0 ? acceleration / by : kInfinity;
-  };
+  return Quantities(velocity, options).bands(Banding(agent, intruders, options, options.margin), options);
+}
 
-  const double heading = std::atan2(ahead.x(), ahead.y());
-  const Headings headings(speed, velocity.z(), options.wind);
-  const Line speed_line(climbing, ahead, speeds), climb_line(level, up, climbs);
-  const Turn turn(speed, heading, speed > 0 ? rate(options.lateral, speed) : kInfinity, climbing);
-  const Acceleration faster(climbing, ahead, speed, rate(options.longitudinal, 1));
-  const Acceleration higher(level, up, velocity.z(), rate(options.vertical, 1));
-  const Quantity of_heading{headings, turn, {heading - kPi, heading + kPi, true}};
-  const Quantity of_speed{speed_line, faster, {speeds.from, speeds.to}};
-  const Quantity of_climb{climb_line, higher, {climbs.from, climbs.to}};
-
-  const Banding banding(agent, intruders, options);
-  Bands result;
-  for (const auto& [quantity, band] :
-       {std::pair(&of_heading, &result.heading), {&of_speed, &result.speed}, {&of_climb, &result.climb}}) {
-    *band = banding.band(*quantity);
-    if (options.last) band->last = banding.last(*quantity, ground);
-  }
-  if (is_given(options.altitude)) {
-    result.altitude = banding.of_altitude(level);
-  }
-  result.time_to_violation = banding.violation(ground);
-  const auto none = [](const Band& band) { return band.free.empty(); };
-  if (none(result.heading) && none(result.speed) && none(result.climb))
-    result.recovery = banding.recovery(of_heading);
+AlertBands alert_bands(const Placed& agent, const Vector3d& velocity, std::span<const Intruder> intruders,
+                       std::span<const double> margins, const BandOptions& options) {
+  require(velocity, intruders, options);
+  for (std::size_t i = 0; i < margins.size(); ++i)
+    if (!(margins[i] >= 0 && std::isfinite(margins[i]) && (i == 0 || margins[i] < margins[i - 1])))
+      throw InputError("margins[" + std::to_string(i) + "]", to_text(margins[i]),
+                       "0 or more, and less than the one before (metres)");
+  const Quantities quantities(velocity, options);
+  AlertBands result;
+  for (const double margin : margins)
+    result.levels.push_back(quantities.bands(Banding(agent, intruders, options, margin), options));
+  if (margins.size() < 2 || !result.levels.front().recovery) return result;
+  // Out of the outermost as soon as can be, and never in the innermost.
+  const Banding outermost(agent, intruders, options, margins.front()),
+      innermost(agent, intruders, options, margins.back());
+  const Band never = innermost.at_once(quantities.heading(), options.horizon);
+  if (!never.free.empty()) result.recovery = outermost.recovery(quantities.heading(), never.free);
   return result;
 }
 

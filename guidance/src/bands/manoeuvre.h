@@ -62,18 +62,27 @@ class Acceleration : public Change {
 /// With a normal n the gap of the plane less n.D is a smooth function of q at either end of the straight
 /// part, with a bound of its second derivative, and linear between; so one normal frees q and all about it up
 /// to where the parabola below it vanishes.
+///
+/// Displacements that hit are a convex set. At a value that hits there is a time within the horizon when the
+/// bodies overlap; between two such values and times the displacement is near the straight line between both,
+/// so a range is hit where balls about its ends are in that set.
 class OfManoeuvre : public Question {
  public:
   /// `parts`: of the whole range, between two hits what is narrower than one of so many is not looked at.
-  OfManoeuvre(const Pair& pair, const Vector3d& other, const Change& change, double wait, double until,
-              const Range& range, int parts)
-      : pair_(pair),
-        other_(other),
+  /// `hits`: whether ranges that hit are to be proved.
+  OfManoeuvre(const Part& part, double margin, const Change& change, double wait, double until,
+              const Range& range, int parts, bool hits)
+      : part_(part),
+        pair_(part.swollen()),
+        margin_(margin),
+        other_(part.velocity),
         change_(change),
-        before_(wait * (change.velocity(change.start) - other)),
+        before_(wait * (change.velocity(change.start) - part.velocity)),
         until_(until - wait),
-        finest_((range.to - range.from) / parts) {
+        finest_((range.to - range.from) / parts),
+        hits_(hits) {
     clear_ = {clear_to(range.from), clear_to(range.to)};
+    hit_ = {hit_from(clear_.from, range.from), hit_from(clear_.to, range.to)};
   }
 
   std::optional<Range> free_about(double q) const override {
@@ -88,7 +97,7 @@ class OfManoeuvre : public Question {
     const Vector3d back = w.isZero(0) ? w : Vector3d(w.normalized());
     const auto at_start = [&](double turn) {
       const Vector3d n = *normal - turn * back;
-      return pair_.gap(n) - n.dot(start);
+      return room(n) - n.dot(start);
     };
     double most = 0;
     if (const double here = at_start(0); here > 0 && !back.isZero(0)) {
@@ -110,15 +119,97 @@ class OfManoeuvre : public Question {
   }
 
   bool is_hit(double q) const override {
+    if (q <= hit_.from || q >= hit_.to) return true;
     const double left = until_ - change_.duration(q);
     if (left <= 0) return false;
     Placed moved = pair_.agent();
     moved.pose.position += displacement(q);
     return meets(Pair(moved, pair_.obstacle()).verdict(change_.velocity(q), other_, {0, left}));
   }
-  bool all_hit(double from, double to) const override { return to - from < finest_; }
+  bool all_hit(double from, double to) const override {
+    if (!hits_) return false;
+    if (to <= hit_.from || from >= hit_.to) return true;
+    if (from < change_.start && to > change_.start) return false;
+    const auto first = overlap(from), last = overlap(to);
+    if (!first || !last) return false;
+    // The second derivative of the displacement along the line of values and times.
+    const double width = to - from, slope = width > 0 ? std::abs(*last - *first) / width : 0;
+    const double bend =
+        until_ * change_.bend_size + change_.slope_size / change_.rate + 2 * slope * change_.slope_size;
+    const double off = 0.125 * bend * width * width * (1 + 1e-9);
+    return overlaps(at(from, *first), off) && overlaps(at(to, *last), off);
+  }
+  double finest_between_hits() const override { return finest_; }
 
  private:
+  /// Displacement of the agent, seen from the obstacle, a time after `wait` that is not before the change to
+  /// q is done.
+  Vector3d at(double q, double time) const {
+    return displacement(q) + (time - change_.duration(q)) * (change_.velocity(q) - other_);
+  }
+
+  /// Whether all displacements within `off` of one, and of its rounding, surely make the bodies overlap: the
+  /// corners of an octahedron about that ball do.
+  bool overlaps(const Vector3d& displacement, double off) const {
+    const double size = until_ * (change_.velocity(change_.start).norm() + other_.norm()) +
+                        pair_.agent().pose.position.norm() + displacement.norm();
+    const double corner = std::sqrt(3.0) * (off + kRoundings * size) * (1 + 1e-12);
+    for (int k = 0; k < 6; ++k) {
+      Placed moved = pair_.agent();
+      moved.pose.position += displacement + (k % 2 == 0 ? corner : -corner) * Vector3d::Unit(k / 2);
+      if (Pair(moved, pair_.obstacle()).relation() != Relation::overlapping) return false;
+    }
+    return true;
+  }
+
+  /// A time after the change to q, in the middle of those when they overlap within the horizon.
+  std::optional<double> overlap(double q) const {
+    const double done = change_.duration(q), left = until_ - done;
+    if (!(left > 0)) return std::nullopt;
+    Placed moved = pair_.agent();
+    moved.pose.position += displacement(q);
+    const auto contact = Pair(moved, pair_.obstacle()).contact(change_.velocity(q), other_);
+    if (!contact || !(contact->latest < left)) return std::nullopt;
+    double over = contact->latest, apart = left;
+    const auto overlapping = [&](double time) {
+      Placed then = pair_.agent();
+      then.pose.position += at(q, done + time);
+      return Pair(then, pair_.obstacle()).relation() == Relation::overlapping;
+    };
+    if (overlapping(left)) {
+      over = left;
+    } else {
+      // From outside a few parts of what is left, then by halves.
+      for (int step = 0; step < 24; ++step) {
+        const double between = 0.5 * (over + apart);
+        (overlapping(between) ? over : apart) = between;
+        if (over > contact->latest && apart - over < 0.25 * (over - contact->latest)) break;
+      }
+    }
+    return done + 0.5 * (contact->latest + over);
+  }
+
+  /// Beyond where the change is clear: from where on it hits itself, so that all farther values do.
+  double hit_from(double clear, double end) const {
+    const double side = end < change_.start ? -1 : 1, none = side * kInfinity;
+    if (!hits_ || std::isinf(change_.rate) || clear == end) return none;
+    const auto hits = [&](double q) {
+      return side * (end - q) >= 0 && change_.duration(q) <= until_ && overlaps(displacement(q), 0);
+    };
+    double low = clear, step = 1e-9;
+    while (step < std::abs(end - clear) && !hits(clear + side * step)) step *= 2;
+    double high = clear + side * step;
+    if (!hits(high)) return none;
+    for (int k = 0; k < 30; ++k) {
+      const double between = 0.5 * (low + high);
+      (hits(between) ? high : low) = between;
+    }
+    return high;
+  }
+
+  /// Less the margin.
+  double room(const Vector3d& n) const { return part_.pair.gap(n) - margin_ * n.norm() * (1 + 0x1p-48); }
+
   Vector3d displacement(double q) const {
     if (std::isinf(change_.rate)) return before_;
     return before_ + change_.way(q) - change_.duration(q) * other_;
@@ -141,9 +232,8 @@ class OfManoeuvre : public Question {
   std::optional<Range> about(double q, const Vector3d& n, double left, const Vector3d& w,
                              const Vector3d& start, const Vector3d& end) const {
     const double size = n.norm(), per_second = std::isinf(change_.rate) ? 0 : 1 / change_.rate;
-    const double gap = pair_.gap(n),
-                 slack =
-                     kRoundings * size * (start.norm() + end.norm() + until_ * (w.norm() + other_.norm()));
+    const double gap = room(n), slack = kRoundings * size *
+                                        (start.norm() + end.norm() + until_ * (w.norm() + other_.norm()));
     const double at_start = gap - n.dot(start) - slack, at_end = gap - n.dot(end) - slack;
     if (!(at_start > 0 && at_end > 0)) return std::nullopt;
     const double side = q < change_.start ? -1 : 1;
@@ -171,7 +261,7 @@ class OfManoeuvre : public Question {
       const auto n = pair_.normal_along(at, at);
       if (!n) break;
       const double slack = kRoundings * n->norm() * (at.norm() + until_ * (w.norm() + other_.norm()));
-      const double value = pair_.gap(*n) - n->dot(at) - slack;
+      const double value = room(*n) - n->dot(at) - slack;
       if (!(value > 0)) break;
       // In time.
       const double time = reach(value, -n->dot(w), n->norm() * change_.slope_size * change_.rate).up;
@@ -182,12 +272,15 @@ class OfManoeuvre : public Question {
     return side * (end - q) > 0 && change_.duration(q) < until_ ? q : end;
   }
 
-  const Pair& pair_;
+  const Part& part_;
+  const Pair& pair_;  // with less than the margin around the agent
+  double margin_;
   Vector3d other_;
   const Change& change_;
   Vector3d before_;
   double until_, finest_;
-  Range clear_;
+  bool hits_;
+  Range clear_, hit_;  // values up to which the change itself is clear; beyond which it hits
 };
 
 }  // namespace vericone::guidance::banding

@@ -3,6 +3,7 @@
 
 #include <vericone/geometry/body.h>
 #include <algorithm>
+#include <optional>
 
 namespace vericone::guidance::banding {
 
@@ -15,20 +16,21 @@ inline Placed piece_of(const Placed& body, std::size_t i) {
   return Placed(Ellipsoid::from_axes(points.points().front(), radii), body.pose);
 }
 
-/// Convex bodies that together are the body, or contain it.
-/// use(part, whether it is what the body is and not more).
+/// Convex bodies that together are the body, or contain it. use(part, the body that it contains where it is
+/// more than that: with its delimiters).
 template <typename Use>
 void for_each_part(const Placed& body, const Use& use) {
   const auto quadric = [&](const CombinedEllipsoid& part) {
-    use(Placed(part.ellipsoid(), body.pose), part.is_ellipsoid());
+    use(Placed(part.ellipsoid(), body.pose),
+        part.is_ellipsoid() ? std::nullopt : std::optional(Placed(part, body.pose)));
   };
   if (const auto* one = body.body.quadric()) return quadric(*one);
-  if (body.body.hull()) return use(body, true);
+  if (body.body.hull()) return use(body, std::nullopt);
   if (const auto* all = body.body.quadrics()) {
     std::for_each(all->begin(), all->end(), quadric);
     return;
   }
-  for (std::size_t i = 0; i < body.body.assembly()->size(); ++i) use(piece_of(body, i), true);
+  for (std::size_t i = 0; i < body.body.assembly()->size(); ++i) use(piece_of(body, i), std::nullopt);
 }
 
 }  // namespace vericone::guidance::banding

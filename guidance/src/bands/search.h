@@ -13,7 +13,7 @@
 
 namespace vericone::guidance::banding {
 
-inline constexpr double kFinest = 1e-12;  // of a range, relative: narrower ones are neither free nor conflict
+inline constexpr double kFinest = 1e-12;  // of a range, relative
 
 /// What is asked of one pair of convex parts.
 class Question {
@@ -24,6 +24,10 @@ class Question {
   virtual bool is_hit(double q) const = 0;
   /// All values between two hits; false says nothing.
   virtual bool all_hit(double from, double to) const = 0;
+  /// Narrower ranges are neither free nor conflict.
+  virtual double finest() const { return 0; }
+  /// Between two hits narrower ones are not divided.
+  virtual double finest_between_hits() const { return 0; }
 
  protected:
   static bool meets(Verdict verdict) { return verdict == Verdict::in || verdict == Verdict::overlapping; }
@@ -41,7 +45,8 @@ class Search {
   Search(const Question& question, const Domain& domain)
       : question_(question),
         domain_(domain),
-        finest_(kFinest * std::max({1.0, std::abs(domain.low), std::abs(domain.high)})) {}
+        finest_(std::max(question.finest(),
+                         kFinest * std::max({1.0, std::abs(domain.low), std::abs(domain.high)}))) {}
 
   std::vector<Range> free, hit;  // of a closed curve beyond its ends too, by a turn at most
 
@@ -126,9 +131,12 @@ class Search {
   /// All between two values, each of which is a hit or not.
   void divide(double from, double to, bool hit_from, bool hit_to) {
     if (hit_from && hit_to && question_.all_hit(from, to)) return hit.push_back({from, to});
-    if (!(to - from > finest_) || looks_ > kMostLooks) return;
+    const double finest = hit_from && hit_to ? std::max(finest_, question_.finest_between_hits()) : finest_;
+    if (!(to - from > finest) || looks_ > kMostLooks) return;
     const double q = from + 0.5 * (to - from);
     const State state = look(q);
+    // Where bodies only touch nothing is decided however finely.
+    if (state == State::neither && !hit_from && !hit_to && to - from < 1e3 * finest_) return;
     if (state != State::free) {
       divide(from, q, hit_from, state == State::hit);
       divide(q, to, state == State::hit, hit_to);

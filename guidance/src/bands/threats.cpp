@@ -9,6 +9,13 @@ using Eigen::Vector3d;
 
 namespace {
 
+/// An ellipsoid within a part.
+std::optional<Placed> core_of(const Placed& convex, const std::optional<Placed>& delimited) {
+  if (!delimited) return convex;
+  const auto inside = delimited->body.quadric()->inscribed_ellipsoid();
+  return inside ? std::optional(Placed(*inside, delimited->pose)) : std::nullopt;
+}
+
 /// A body that the agent and a ball of that radius around each of its points contain.
 Placed swollen(const Placed& body, double radius) {
   if (const auto* quadric = body.body.quadric()) {
@@ -60,8 +67,8 @@ Threats::Ball Threats::ball_about(const Placed& part) {
 
 std::vector<Threats::Convex> Threats::convex_parts(const Placed& body) {
   std::vector<Convex> parts;
-  for_each_part(body, [&](const Placed& part, bool exact) {
-    parts.push_back({part, exact, ball_about(part)});
+  for_each_part(body, [&](const Placed& part, const std::optional<Placed>& delimited) {
+    parts.push_back({part, delimited, ball_about(part)});
   });
   return parts;
 }
@@ -79,23 +86,21 @@ std::size_t Threats::part(std::size_t own, std::size_t intruder, std::size_t i) 
   if (!is_new) return found->second;
   const Kept& kept = kept_[intruder];
   const Placed& body = intruders_[intruder].body;
-  const auto add = [&](const Placed& other, bool exact, const Ball& ball) {
+  const auto add = [&](const Placed& other, const std::optional<Placed>& delimited, const Ball& ball) {
     const Convex& agent = own_[own];
-    Part& part = parts_.emplace_back(Part{Pair(agent.body, other),
-                                          {},
-                                          intruders_[intruder].velocity,
-                                          intruder,
-                                          agent.exact && exact,
-                                          ball.center - agent.ball.center,
-                                          (ball.radius + agent.ball.radius + margin_) * (1 + 0x1p-48)});
+    Part& part = parts_.emplace_back(part_of(own, other, intruder, ball));
     if (margin_ > 0) part.inner.emplace(swollen(agent.body, margin_), other);
+    if (!agent.delimited && !delimited) return;
+    part.truth.emplace(agent.delimited.value_or(agent.body), delimited.value_or(other));
+    const auto core = core_of(agent.body, agent.delimited), other_core = core_of(other, delimited);
+    if (core && other_core) part.core.emplace(margin_ > 0 ? swollen(*core, margin_) : *core, *other_core);
   };
   if (kept.tree) {
     const Placed piece = piece_of(body, kept.tree->hierarchy().order()[i]);
-    add(piece, true, ball_about(piece));
+    add(piece, std::nullopt, ball_about(piece));
   } else {
     const Convex& one = kept.flat[i];
-    add(one.body, one.exact, one.ball);
+    add(one.body, one.delimited, one.ball);
   }
   return found->second;
 }

@@ -17,17 +17,21 @@
 namespace vericone::guidance::banding {
 
 /// A convex part of the agent and one of an intruder. `inner`: the agent's with less than the margin around
-/// it; what meets that comes nearer than the margin.
+/// it; what meets that comes nearer than the margin. Of a body with delimiters `pair` is of its ellipsoid;
+/// `truth` is of the bodies as they are, and `core` of ellipsoids within them, with the same around the
+/// agent's.
 struct Part {
   Pair pair;
-  std::optional<Pair> inner;
+  std::optional<Pair> inner, truth, core;
   Eigen::Vector3d velocity;
   std::size_t intruder;
-  bool exact;             // they are what the bodies are, not more
   Eigen::Vector3d apart;  // m, between balls about them
   double reach;           // m, of both balls and the margin
 
+  bool exact() const { return !truth; }  // they are what the bodies are, not more
   const Pair& swollen() const { return inner ? *inner : pair; }
+  /// What single flights are asked of.
+  const Pair& as_it_is() const { return truth ? *truth : pair; }
 };
 
 class Threats {
@@ -67,8 +71,8 @@ class Threats {
       }
   }
 
-  /// From everything down: of a ball about many parts `ball(pair, velocity, what)`, where pair is of a part
-  /// of the agent and the ball, says what there is still to ask of those within it; `part(part, what)`: of
+  /// From everything down: of a ball about many parts and the margin `ball(part, what)`, where part is one of
+  /// the agent and the ball, says what there is still to ask of those within it; `of_part(part, what)`: of
   /// one.
   template <typename What, typename OfBall, typename OfPart>
   void descend(const What& all, const OfBall& ball, const OfPart& of_part) {
@@ -90,7 +94,7 @@ class Threats {
   };
   struct Convex {
     Placed body;
-    bool exact;
+    std::optional<Placed> delimited;  // that the convex body contains
     Ball ball;
   };
   /// Of one intruder: its parts, or a tree of them.
@@ -105,8 +109,9 @@ class Threats {
     const auto nodes = kept_[intruder].tree->hierarchy().nodes();
     const Hierarchy::Node& node = nodes[at];
     const Ball about = ball_about(node, intruders_[intruder].body.pose);
-    const Placed placed(Ellipsoid::from_axes(about.center, Eigen::Vector3d::Constant(about.radius)));
-    const What rest = ball(Pair(own_[own].body, placed), intruders_[intruder].velocity, all);
+    const double radius = (about.radius + margin_) * (1 + 0x1p-48);
+    const Placed placed(Ellipsoid::from_axes(about.center, Eigen::Vector3d::Constant(radius)));
+    const What rest = ball(part_of(own, placed, intruder, about), all);
     if (rest.empty()) return;
     if (!node.is_leaf())
       for (const std::uint32_t child : {node.first, node.first + 1})
@@ -115,6 +120,17 @@ class Threats {
       of_part(parts_[part(own, intruder, slot)], rest);
   }
 
+  Part part_of(std::size_t own, const Placed& other, std::size_t intruder, const Ball& about) const {
+    const Convex& agent = own_[own];
+    return {Pair(agent.body, other),
+            {},
+            {},
+            {},
+            intruders_[intruder].velocity,
+            intruder,
+            about.center - agent.ball.center,
+            (about.radius + agent.ball.radius + margin_) * (1 + 0x1p-48)};
+  }
   static Ball ball_about(const Placed& part);
   static std::vector<Convex> convex_parts(const Placed& body);
   static Ball ball_about(const Hierarchy::Node& node, const Pose& pose);

@@ -8,9 +8,11 @@
 #include <vericone/cones/pair.h>
 #include <vericone/geometry/error.h>
 #include <vericone/testing/random_bodies.h>
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <iostream>
+#include <numbers>
 
 #include "guidance/decisions/balls.h"
 #include "support/campaign.h"
@@ -167,6 +169,53 @@ TEST(Avoid, FindsWhatBoundingBallsHaveNot) {
   EXPECT_EQ(e.answer().distance, 0);
 }
 
+TEST(Avoid, FindsTheWayOutOfADent) {
+  // The ellipsoid is all about the agent.
+  RandomBodies random(3837);
+  SCOPED_TRACE(random.trace());
+  int close = 0;
+  const int count = campaign_size(3, 20);
+  for (int i = 0; i < count; ++i) {
+    SCOPED_TRACE("case " + std::to_string(i));
+    Encounter e;
+    e.agent = {Ellipsoid::from_axes(Vector3d::Zero(), {0.3, 0.25, 0.2}), any_pose(random, 0)};
+    e.agent.pose.position = {random.uniform(2.8, 3.3), random.uniform(-0.2, 0.2), 0};
+    std::vector<Delimiter<3>> dents{hyperboloid(2, {1, 1, 1.2})};
+    if (i % 2 == 1)
+      dents.push_back(
+          hyperboloid(2, {1.1, 1, 1}, Eigen::AngleAxisd(std::numbers::pi / 2, Vector3d::UnitZ()).matrix()));
+    e.others = {{Placed(CombinedEllipsoid(Ellipsoid::from_axes(Vector3d::Zero(), {5, 5, 6}), dents)),
+                 0.2 * random.direction()}};
+    e.velocity = e.wanted = {-random.uniform(0.6, 1), random.uniform(-0.2, 0.2), 0};
+    e.options.until = random.uniform(3, 6);
+    e.options.speed = {0, 3};
+    if (i % 4 == 2) e.options.margin = 0.05;
+    const Avoidance found = e.answer();
+    ASSERT_EQ(found.status, AvoidStatus::free);
+    // Points as far about the agent as the margin, step by step, against the inequalities of the body.
+    const Vector3d semi(0.3, 0.25, 0.2), w = found.velocity - e.others[0].velocity;
+    for (int k = 0; k < 400; ++k) {
+      const Vector3d n = random.direction();
+      const Vector3d own = (semi.array().square() * n.array()).matrix() / semi.cwiseProduct(n).norm();
+      for (int step = 0; step <= 200; ++step) {
+        const Vector3d x =
+            e.agent.pose.to_world(own + e.options.margin * n) + e.options.until * step / 200 * w;
+        const bool inside = x.cwiseQuotient(Vector3d(5, 5, 6)).squaredNorm() < 1 &&
+                            std::all_of(dents.begin(), dents.end(),
+                                        [&](const Delimiter<3>& dent) { return dent.value(x) < 0; });
+        ASSERT_FALSE(inside);
+      }
+    }
+    // Distances of such bodies are estimates, so not of margins.
+    ASSERT_TRUE(e.options.margin > 0 || e.is_safe(found.velocity));
+    ASSERT_GT(found.distance, 0);
+    close += found.distance < 1.1 * found.lower;
+    for (int k = 0; k < (e.options.margin > 0 ? 0 : 100); ++k)
+      ASSERT_FALSE(e.is_safe(e.wanted + in_ball(random, found.lower)));
+  }
+  std::cout << "[ dents    ] " << close << " of " << count << " within 10 % of the bound\n";
+}
+
 TEST(Avoid, ProvesThatNothingIsSafe) {
   RandomBodies random(3832);
   SCOPED_TRACE(random.trace());
@@ -189,12 +238,77 @@ TEST(Avoid, ProvesThatNothingIsSafe) {
     ASSERT_NE(found.status, AvoidStatus::free);
     proved += found.status == AvoidStatus::nothing_safe;
     ASSERT_TRUE(found.first);
+    // To stand still is best: the walls are equally far and equally fast.
+    const double longest = (far - 0.5) / speed;
+    EXPECT_LE(found.safe_until, longest * (1 + 1e-12));
+    EXPECT_GE(found.latest, longest * (1 - 1e-12));
+    if (found.status == AvoidStatus::nothing_safe) {
+      EXPECT_LE(found.latest, 1.0101 * found.safe_until);
+    }
     EXPECT_GT(found.first->time, 0);
     EXPECT_LE(found.first->time, e.options.until);
     for (int k = 0; k < campaign_size(1000, 1'000'000); ++k)
       ASSERT_FALSE(e.is_safe(in_ball(random, e.options.speed.to)));
   }
   EXPECT_GE(proved, 5 * campaign_size(6, 60) / 6);
+}
+
+TEST(Avoid, SaysForHowLongSomethingIsSafe) {
+  // Bodies all around come nearer, some sooner: against the first contacts of many velocities.
+  RandomBodies random(3836);
+  SCOPED_TRACE(random.trace());
+  int proved = 0, none = 0;
+  for (int i = 0; i < campaign_size(5, 100); ++i) {
+    SCOPED_TRACE("case " + std::to_string(i));
+    Encounter e;
+    e.agent = Placed(any_body(random, i % 2 == 0 ? BodyKind::ellipsoid : BodyKind::hull));
+    const double far = random.uniform(14, 20);
+    for (int k = 0; k < 40; ++k) {
+      // Evenly about, from a spiral.
+      const double z = -1 + (2 * k + 1) / 40.0, around = 2.399963 * k, level = std::sqrt(1 - z * z);
+      const Vector3d out(level * std::cos(around), level * std::sin(around), z);
+      const double size = random.uniform(4.5, 5.5);
+      e.others.push_back(
+          {Placed(Ellipsoid::from_axes({0, 0, 0}, {size, 1.1 * size, size})), -random.uniform(1, 2) * out});
+      e.others.back().body.pose = any_pose(random, 0.1);
+      e.others.back().body.pose.position += far * out;
+    }
+    e.velocity = e.wanted = random.direction();
+    e.options.until = 30;
+    e.options.speed = {0, random.uniform(0.5, 2)};
+    e.options.margin = i % 8 == 7 ? 0.2 : 0;
+    if (i % 4 == 1) e.options.wind = 0.3 * random.direction();
+    const Avoidance found = e.answer();
+    ASSERT_NE(found.status, AvoidStatus::free);
+    ASSERT_GT(found.safe_until, 0);
+    ASSERT_LE(found.safe_until, found.latest);
+    ASSERT_TRUE(e.can_fly(found.velocity));
+    proved += found.status == AvoidStatus::nothing_safe;
+    none += found.status == AvoidStatus::nothing_safe && found.latest <= 1.0101 * found.safe_until;
+    e.options.until = found.safe_until * (1 - 1e-12);
+    ASSERT_TRUE(e.is_safe(found.velocity));
+    if (std::isinf(found.latest)) continue;
+    e.options.until = found.latest;
+    const bool costly = e.options.margin > 0;
+    for (int k = 0; k < (costly ? 50 : campaign_size(1000, 100'000)); ++k)
+      ASSERT_FALSE(e.is_safe(in_ball(random, e.options.speed.to)));
+    // Near the best ones too.
+    for (int k = 0; k < (costly ? 20 : 200); ++k) {
+      const Vector3d v = found.velocity + in_ball(random, 0.05);
+      ASSERT_FALSE(e.can_fly(v) && e.is_safe(v));
+    }
+  }
+  std::cout << "[ latest   ] " << proved << " proved, " << none << " of them within 1 %\n";
+  EXPECT_GT(none, campaign_size(5, 100) / 2);
+  // Too near already: no time at all.
+  Encounter e;
+  e.agent = ball(Vector3d::Zero(), 1);
+  e.others = {{ball({1.5, 0, 0}, 1), Vector3d::Zero()}};
+  e.velocity = e.wanted = {1, 0, 0};
+  const Avoidance found = e.answer();
+  EXPECT_EQ(found.status, AvoidStatus::nothing_safe);
+  EXPECT_EQ(found.safe_until, 0);
+  EXPECT_EQ(found.latest, 0);
 }
 
 TEST(Avoid, ProvesTheWayThereToo) {

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iostream>
 #include <numbers>
 
 #include "guidance/decisions/balls.h"
@@ -246,6 +247,68 @@ TEST(Bands, LeaveNothingBetweenOfConvexBodies) {
   EXPECT_LT(between, 1e-9);
 }
 
+/// Points about a centre, evenly.
+std::vector<Vector3d> on_sphere(int count) {
+  std::vector<Vector3d> points;
+  for (int k = 0; k < count; ++k) {
+    const double z = -1 + (2 * k + 1.0) / count, level = std::sqrt(1 - z * z);
+    points.emplace_back(level * std::cos(2.399963 * k), level * std::sin(2.399963 * k), z);
+  }
+  return points;
+}
+
+/// In a dent, where ellipsoids overlap and the bodies do not: against points of the agent and the
+/// inequalities of the body, step by step.
+TEST(Bands, InADentAreThoseOfTheBodyAsItIs) {
+  RandomBodies random(3827);
+  SCOPED_TRACE(random.trace());
+  const std::vector<Vector3d> points = on_sphere(300);
+  double between = 0;
+  int freed = 0;
+  for (int i = 0; i < campaign_size(6, 100); ++i) {
+    SCOPED_TRACE("case " + std::to_string(i));
+    const Vector3d semi(random.uniform(0.8, 1.2), random.uniform(0.8, 1.2), random.uniform(0.8, 1.2));
+    const Ellipsoid outer = Ellipsoid::from_axes(Vector3d::Zero(), {5, 6, 5.5});
+    const Delimiter<3> delimiter = hyperboloid(2, semi);
+    const Intruder other{Placed(CombinedEllipsoid(outer, {delimiter})),
+                         random.uniform(0, 0.5) * random.direction()};
+    const Vector3d at(random.uniform(2.8, 3.4), random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3));
+    constexpr double kRadius = 0.3;
+    const double until = i % 3 == 0 ? kEver : random.uniform(2, 6);
+    const Vector3d v = random.uniform(0.5, 2) * random.direction();
+    const auto touches = [&](const Vector3d& velocity) {
+      const Vector3d w = velocity - other.velocity;
+      const double longest = std::min(until, 20 / w.norm());
+      for (int step = 0; step <= 400; ++step)
+        for (const Vector3d& p : points) {
+          const Vector3d x = at + longest * step / 400 * w + kRadius * p;
+          if (x.cwiseQuotient(Vector3d(5, 6, 5.5)).squaredNorm() < 1 && delimiter.value(x) < 0) return true;
+        }
+      return false;
+    };
+    const Bands found = bands(ball(at, kRadius), v, {&other, 1}, {.horizon = {0, until}});
+    const double level = std::hypot(v.x(), v.y());
+    const auto check = [&](const Band& band, double all, auto&& velocity) {
+      for (const Range& range : band.free) {
+        ++freed;
+        all -= range.to - range.from;
+        for (int k = 1; k < 12; ++k)
+          ASSERT_FALSE(touches(velocity(range.from + (range.to - range.from) * k / 12)));
+      }
+      for (const Range& range : band.conflict) {
+        all -= range.to - range.from;
+        for (int k = 2; k < 11 && range.to - range.from > 0.2; ++k)
+          ASSERT_TRUE(touches(velocity(range.from + (range.to - range.from) * k / 12)));
+      }
+      between = std::max(between, all);
+    };
+    check(found.heading, kTurn, [&](double q) { return Vector3d(on(q, level) + v.z() * Vector3d::UnitZ()); });
+    check(found.climb, 2 * v.norm(), [&](double q) { return Vector3d(v.x(), v.y(), q); });
+  }
+  EXPECT_GT(freed, campaign_size(6, 100));
+  EXPECT_LT(between, 0.02);
+}
+
 /// A room of 3,600 boxes and more: each heading is decided, and what single verdicts say.
 TEST(Bands, AmongTheBoxesOfAMap) {
   std::vector<Box> boxes;
@@ -283,7 +346,8 @@ TEST(Bands, AmongTheBoxesOfAMap) {
 TEST(Bands, OfManoeuvresAreFreeWhenFlown) {
   RandomBodies random(3826);
   SCOPED_TRACE(random.trace());
-  int flown = 0, missed = 0, free = 0;
+  int flown = 0, missed = 0, free = 0, conflicts = 0, grazed = 0;
+  std::vector<double> between;  // neither free nor conflict, of the whole range
   for (int i = 0; i < campaign_size(24, 240); ++i) {
     const Placed agent(any_body(random, BodyKind::ellipsoid), any_pose(random, 0.5));
     const BodyKind kind = std::array{BodyKind::ellipsoid, BodyKind::hull, BodyKind::boxes}[i % 3];
@@ -336,6 +400,15 @@ TEST(Bands, OfManoeuvresAreFreeWhenFlown) {
         free += !hit;
         missed += !hit && !said;
       }
+      // What conflicts hits, unless it only grazes between two steps.
+      double left = high - low;
+      for (const Range& range : band.free) left -= range.to - range.from;
+      for (const Range& range : band.conflict) {
+        left -= range.to - range.from;
+        for (int k = 1; k < 6; ++k, ++conflicts)
+          grazed += !hits(flight(range.from + (range.to - range.from) * k / 6), 0);
+      }
+      if (!band.conflict.empty()) between.push_back(left / (high - low));
     };
     check(found.heading, 0, kTurn, turned);
     check(found.climb, -v.norm(), v.norm(), climbing);
@@ -351,6 +424,174 @@ TEST(Bands, OfManoeuvresAreFreeWhenFlown) {
   }
   EXPECT_GT(free, flown / 4);
   EXPECT_LT(missed, flown / 50);
+  EXPECT_GT(conflicts, campaign_size(24, 240));
+  EXPECT_LE(grazed, conflicts / 50);
+  std::sort(between.begin(), between.end());
+  std::cout << "[ neither  ] median " << between[between.size() / 2] << ", at most " << between.back() << "; "
+            << grazed << " of " << conflicts << " only graze\n";
+  EXPECT_LT(between[between.size() / 2], 1e-3);
+}
+
+/// Margins: against the distances at many times, by a method of their own.
+TEST(Bands, KeepTheMargin) {
+  RandomBodies random(3828);
+  SCOPED_TRACE(random.trace());
+  int frees = 0, conflicts = 0;
+  double between = 0;
+  for (int i = 0; i < campaign_size(12, 120); ++i) {
+    SCOPED_TRACE("case " + std::to_string(i));
+    const BodyKind kind = std::array{BodyKind::ellipsoid, BodyKind::hull, BodyKind::boxes}[i % 3];
+    const Placed agent(any_body(random, i / 3 % 2 == 0 ? BodyKind::ellipsoid : BodyKind::hull),
+                       any_pose(random, 0.5));
+    const Intruder other{Placed(any_body(random, kind), any_pose(random, random.uniform(12, 18))),
+                         random.direction()};
+    BandOptions options;
+    options.margin = random.uniform(0.2, 1);
+    options.horizon = {i % 4 == 0 ? 1.0 : 0, random.uniform(6, 12)};
+    options.altitude = {-5, 5};
+    const Vector3d v =
+        (other.body.pose.position - agent.pose.position) / random.uniform(4, 7) + other.velocity;
+    if (Pair(agent, other.body).distance() < 1) continue;
+    // The distance is 1-Lipschitz: between two times the least is known to within a step's way.
+    const auto least = [&](const Vector3d& velocity, double height) {
+      constexpr int kSteps = 400;
+      const double span = options.horizon.until - options.horizon.from;
+      double result = kEver;
+      for (int step = 0; step <= kSteps; ++step) {
+        Placed moved = agent;
+        moved.pose.position += (options.horizon.from + span * step / kSteps) * (velocity - other.velocity);
+        moved.pose.position.z() += height;
+        result = std::min(result, Pair(moved, other.body).distance());
+      }
+      return std::pair(result, result - 0.5 * span / kSteps * (velocity - other.velocity).norm());
+    };
+    const Bands found = bands(agent, v, {&other, 1}, options);
+    const double speed = std::hypot(v.x(), v.y());
+    const auto check = [&](const Band& band, double all, auto&& velocity, bool heights) {
+      for (const auto* list : {&band.free, &band.conflict})
+        for (const Range& range : *list) {
+          all -= range.to - range.from;
+          for (int k = 1; k < 5; ++k) {
+            const double q = range.from + (range.to - range.from) * k / 5;
+            const auto [most, lower] = least(velocity(q), heights ? q : 0);
+            if (list == &band.free) {
+              ASSERT_GE(most, options.margin * (1 - 1e-9));
+              ++frees;
+            } else {
+              ASSERT_LE(lower, options.margin);
+              ++conflicts;
+            }
+          }
+        }
+      if (kind != BodyKind::boxes) between = std::max(between, all);
+    };
+    check(
+        found.heading, kTurn, [&](double q) { return Vector3d(on(q, speed) + v.z() * Vector3d::UnitZ()); },
+        false);
+    check(
+        found.altitude, 10, [&](double) { return Vector3d(v.x(), v.y(), 0); }, true);
+    ASSERT_EQ(found.time_to_violation.has_value(), least(v, 0).first < options.margin);
+    if (found.time_to_violation) {
+      options.horizon.until = *found.time_to_violation;
+      if (options.horizon.until > options.horizon.from) {
+        ASSERT_GE(least(v, 0).first, options.margin * (1 - 1e-9));
+      }
+    }
+  }
+  EXPECT_GT(frees, 50);
+  EXPECT_GT(conflicts, 50);
+  EXPECT_LT(between, 1e-4);
+}
+
+/// A ball with a margin is a larger ball, by manoeuvres too.
+TEST(Bands, KeepTheMarginAsALargerBallDoes) {
+  RandomBodies random(3829);
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < campaign_size(20, 400); ++i) {
+    SCOPED_TRACE("case " + std::to_string(i));
+    const double margin = random.uniform(0.1, 1), radius = random.uniform(0.5, 2);
+    const Vector3d at = random.uniform(8, 20) * random.direction(), u = random.direction();
+    const Vector3d v = at / random.uniform(4, 8) + u;
+    BandOptions options;
+    options.horizon.until = random.uniform(8, 15);
+    if (i % 2 == 0) options.lateral = options.longitudinal = options.vertical = random.uniform(0.5, 2);
+    const Intruder plain{ball(at, radius), u}, larger{ball(at, radius + margin), u};
+    const Bands whole = bands(ball(Vector3d::Zero(), 0.5), v, {&larger, 1}, options);
+    options.margin = margin;
+    const Bands kept = bands(ball(Vector3d::Zero(), 0.5), v, {&plain, 1}, options);
+    for (const Band Bands::*band : {&Bands::heading, &Bands::speed, &Bands::climb})
+      for (const auto list : {&Band::free, &Band::conflict}) {
+        double difference = 0;
+        for (const Range& range : kept.*band.*list) difference += range.to - range.from;
+        for (const Range& range : whole.*band.*list) difference -= range.to - range.from;
+        ASSERT_NEAR(difference, 0, options.lateral > 0 ? 1e-3 : 1e-8);
+      }
+    ASSERT_EQ(kept.time_to_violation.has_value(), whole.time_to_violation.has_value());
+    if (kept.time_to_violation) {
+      ASSERT_NEAR(*kept.time_to_violation, *whole.time_to_violation, 1e-9);
+    }
+  }
+}
+
+TEST(AlertBands, AreNestedAndSayTheWayOut) {
+  RandomBodies random(3830);
+  SCOPED_TRACE(random.trace());
+  const auto holds = [](const std::vector<Range>& ranges, double q) {
+    return std::any_of(ranges.begin(), ranges.end(),
+                       [&](const Range& r) { return r.from <= q && q <= r.to; });
+  };
+  const std::array<double, 3> margins{6, 3, 0};
+  int recovered = 0;
+  for (int i = 0; i < campaign_size(20, 200); ++i) {
+    SCOPED_TRACE("case " + std::to_string(i));
+    // Within the outermost volume already, as a rule.
+    const Vector3d out = random.direction();
+    const Intruder other{ball(random.uniform(4.5, 8) * out, 1),
+                         random.uniform(0, 1) * random.direction() - 0.5 * out};
+    const Vector3d v = random.uniform(1, 2) * Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), 0.1);
+    BandOptions options;
+    options.horizon.until = 30;
+    const AlertBands found = alert_bands(ball(Vector3d::Zero(), 1), v, {&other, 1}, margins, options);
+    ASSERT_EQ(found.levels.size(), 3U);
+    for (std::size_t k = 0; k < 3; ++k) {
+      options.margin = margins[k];
+      const Bands alone = bands(ball(Vector3d::Zero(), 1), v, {&other, 1}, options);
+      ASSERT_EQ(alone.heading.free.size(), found.levels[k].heading.free.size());
+      if (k > 0) {
+        for (const Range& range : found.levels[k - 1].heading.free)
+          ASSERT_TRUE(holds(found.levels[k].heading.free, 0.5 * (range.from + range.to)));
+      }
+    }
+    if (!found.recovery) continue;
+    ++recovered;
+    ASSERT_TRUE(found.levels[0].heading.free.empty());
+    // Out of the largest from then on, never in the least, by the distance of two points.
+    const Vector3d w =
+        on(found.recovery->heading, std::hypot(v.x(), v.y())) + v.z() * Vector3d::UnitZ() - other.velocity;
+    const Vector3d c = other.body.pose.position;
+    const auto nearest = [&](double from) {
+      return (c - std::clamp(c.dot(w) / w.squaredNorm(), from, 30.0) * w).norm() - 2;
+    };
+    ASSERT_GT(nearest(0), 0);
+    ASSERT_GE(nearest(found.recovery->time), 6 * (1 - 1e-9));
+    // No heading of many is out sooner, by 1 %.
+    for (int k = 0; k < 720; ++k) {
+      const Vector3d other_w =
+          on(kTurn * k / 720, std::hypot(v.x(), v.y())) + v.z() * Vector3d::UnitZ() - other.velocity;
+      const double sooner = 0.99 * found.recovery->time, along = c.dot(other_w) / other_w.squaredNorm();
+      const double least = (c - std::clamp(along, sooner, 30.0) * other_w).norm() - 2,
+                   inner = (c - std::clamp(along, 0.0, 30.0) * other_w).norm() - 2;
+      ASSERT_FALSE(least > 6 * (1 + 1e-9) && inner > 0) << k;
+    }
+  }
+  EXPECT_GT(recovered, 3);
+  const std::array<double, 2> wrong{1, 2};
+  try {
+    static_cast<void>(alert_bands(ball(Vector3d::Zero(), 1), {1, 0, 0}, {}, wrong, {}));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.field(), "margins[1]");
+  }
 }
 
 TEST(Bands, SayWhenSafetyIsRegained) {

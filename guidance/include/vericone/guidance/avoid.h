@@ -23,15 +23,15 @@ struct AvoidOptions {
   /// m/s^2 across its present velocity and along it, with which it gets there at a constant acceleration;
   /// both 0: at once.
   double lateral = 0, longitudinal = 0;
-  double gap = 0.01;  // between `lower` and `distance`, relative, at which the search ends
+  double gap = 0.01;  // between `lower` and `distance`, relative, at which the search ends; of times likewise
   /// Rays from the wanted velocity that are looked along; a tenth of them where a body with delimiters is in
-  /// the way, of which no conflict is proved.
+  /// the way.
   std::size_t most = 2000;
 };
 
 enum class AvoidStatus : std::uint8_t {
   free,          // the velocity is safe until then
-  nothing_safe,  // no velocity that can be flown is, proved; this one is met last of those looked at
+  nothing_safe,  // no velocity that can be flown is, proved; this one is nearly as long as any
   not_found,     // none was found, and that there is none is not proved: as nothing_safe
 };
 [[nodiscard]] const char* to_string(AvoidStatus status);
@@ -41,6 +41,11 @@ struct Avoidance {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // through the air, m/s
   double distance = 0;                                 // m/s, from the velocity that is wanted
   double lower = 0;  // m/s: no safe velocity is nearer, proved, of those that are changed to at once
+  /// s: until then the velocity keeps the margin, proved; where it is free, until the end.
+  double safe_until = 0;
+  /// s: no velocity that can be flown, changed to at once, keeps the margin until then, proved; infinite
+  /// where that is not known. As a rule within `gap` of `safe_until`, relative.
+  double latest = std::numeric_limits<double>::infinity();
   /// Of the velocity, where it is not free: what is met first, and when, s (the earliest, proved).
   struct First {
     std::size_t obstacle;

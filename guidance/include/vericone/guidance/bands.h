@@ -27,6 +27,7 @@ struct Intruder {
 
 struct BandOptions {
   Horizon horizon;                                 // contacts at other times do not count
+  double margin = 0;                               // m to keep from every body
   Eigen::Vector3d wind = Eigen::Vector3d::Zero();  // m/s, added to the agent's velocity through the air
   Range speed{0, 0};     // what is asked about, horizontal, m/s; both 0: from 0 to twice the agent's
   Range climb{0, 0};     // m/s upwards; both 0: as fast down and up as the agent is fast
@@ -39,8 +40,8 @@ struct BandOptions {
 
 /// One quantity changed, all else kept. Ranges are in order and apart.
 struct Band {
-  std::vector<Range> free;      // proved: no intruder is touched within the horizon
-  std::vector<Range> conflict;  // an intruder is, at every value (but for rounding of velocities, 1e-15)
+  std::vector<Range> free;      // proved: no intruder comes nearer than the margin within the horizon
+  std::vector<Range> conflict;  // one does, at every value (but for rounding of velocities, 1e-15)
   /// Seconds for which the agent may go on as it does and still have a free value, by a manoeuvre or at once:
   /// a moment at which one was found, sought by halving. Negative where it has none now, infinite where its
   /// own course is free, NaN where it was not asked or the horizon does not begin now and end.
@@ -51,7 +52,7 @@ struct Band {
 struct Bands {
   Band heading, speed, climb;
   Band altitude;  // of the agent flying level there, from now on; `last` is not found
-  /// Seconds until the first contact on the present course, at least; nothing where there is none within the
+  /// Seconds until the margin is lost on the present course, at least; nothing where it is kept within the
   /// horizon.
   std::optional<double> time_to_violation;
   /// Where nothing is free: the heading on which the agent is apart from all others soonest, and stays so
@@ -63,11 +64,26 @@ struct Bands {
 };
 
 /// For an agent with a velocity through the air. What is between free and conflict is neither proved: some
-/// 1e-12 rad at each end, all that delimiters cut away (those bodies count as their ellipsoids), and ranges
-/// where bodies only touch. Of manoeuvres that take time no conflict is proved. Convex parts of intruders are
-/// asked one by one. Throws InputError naming "velocity", "wind", "horizon", an acceleration or a range.
-/// Cost: docs/measured/guidance.md.
+/// 1e-12 rad at each end, and ranges where bodies only touch; by manoeuvres that take time at most 1e-4 of
+/// the range at each end; beside bodies with delimiters 1e-4, and by manoeuvres and altitudes all that
+/// delimiters cut away (there they count as their ellipsoids). Convex parts of intruders are asked one by
+/// one. Throws InputError naming "velocity", "wind", "horizon", "margin", an acceleration or a range. Cost:
+/// docs/measured/guidance.md.
 [[nodiscard]] Bands bands(const Placed& agent, const Eigen::Vector3d& velocity,
                           std::span<const Intruder> intruders, const BandOptions& options);
+
+/// Nested volumes about the intruders: bands of each, and how to get out where the outermost leaves nothing.
+struct AlertBands {
+  std::vector<Bands> levels;
+  /// Where nothing is free at the outermost level, and some heading at the innermost: a heading on which the
+  /// agent keeps the least margin all the time, and the largest one soonest and then until the horizon ends.
+  std::optional<Bands::Recovery> recovery;
+};
+
+/// `margins`: m, the largest first; options.margin does not count. Throws like bands(), and naming
+/// "margins[i]". Cost: as many calls of it.
+[[nodiscard]] AlertBands alert_bands(const Placed& agent, const Eigen::Vector3d& velocity,
+                                     std::span<const Intruder> intruders, std::span<const double> margins,
+                                     const BandOptions& options);
 
 }  // namespace vericone::guidance

@@ -24,15 +24,18 @@ enum class Meeting : std::uint8_t;
 }  // namespace courses
 
 struct NavigatorOptions {
-  std::optional<double>
-      required;  // metres to keep from every body; left out: a twentieth of the agent's half-length
-  std::optional<double>
-      beyond;  // metres more that a course must keep when it is taken; left out: a tenth of it
+  /// Metres to keep from every body; left out: a twentieth of the agent's half-length.
+  std::optional<double> required = {};
+  /// Metres more that a course must keep when it is taken; left out: a tenth of it.
+  std::optional<double> beyond = {};
   double most = std::numeric_limits<double>::infinity();  // m/s^2, across the velocity
   bool longitudinal = false;  // it may change its speed too: `most` is of the whole acceleration
   // Of who may change its speed:
   double fastest = std::numeric_limits<double>::infinity();  // m/s; given: the speed that it goes at
   double range = std::numeric_limits<double>::infinity();    // m: it comes to rest within what it sees
+  /// m/s^2: so much every other body may accelerate, at any time and any way; 0: each keeps its velocity. A
+  /// mesh, a cloud, a map or a union that is at rest stays so.
+  double others_most = 0;
   /// Distances measured a step, about, at most; 0: as many as it takes, or 400 where a stop is in hand.
   std::size_t looks = 0;
 };
@@ -66,6 +69,20 @@ struct NavigatorStep {
   std::size_t nearest = 0;
   /// s from now when it is at rest by the course flown; infinite: that goes straight on for ever.
   double rest = std::numeric_limits<double>::infinity();
+  /// Of the course flown: metres, at most what is required, that it is proved to keep from every body until
+  /// `until`, if the agent flies as it is commanded and all that it is given is so; nothing where that it
+  /// touches none is not proved. Never nothing where the status is straight, homing or avoiding; there it may
+  /// be a fiftieth less than required, or what is kept by who is nearer already.
+  std::optional<double> proved = {};
+  /// s from now: its end at the destination, or as long as it counts within a body; where others may
+  /// accelerate, when it is at rest; else infinite.
+  double until = std::numeric_limits<double>::infinity();
+};
+
+/// Where a course has the agent.
+struct PlannedMotion {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // m
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s
 };
 
 /// Flies by courses: turn to a direction on a circle, as hard as allowed, then straight on; where the speed
@@ -100,8 +117,8 @@ struct NavigatorStep {
 /// stop in hand up to 10 ms (docs/measured/guidance.md).
 class Navigator {
  public:
-  /// Throws InputError naming "required" or "beyond" unless finite and not negative, and "most",
-  /// "fastest" or "range" unless positive (they may be infinite).
+  /// Throws InputError naming "required", "beyond" or "others_most" unless finite and not negative, and
+  /// "most", "fastest" or "range" unless positive (they may be infinite).
   explicit Navigator(const NavigatorOptions& options);
 
   /// At `time`; the command is held for `step` seconds. Throws InputError naming "step" unless it is positive
@@ -112,8 +129,33 @@ class Navigator {
   NavigatorStep step(const BodyState& agent, std::span<const BodyState> others,
                      const std::optional<Destination>& destination, double time, double step);
 
+  /// Of the course flown since the last step, `seconds` after it: what is proved is proved of that. A step
+  /// commands the beginning of it. Throws InputError naming "seconds" unless finite and not negative.
+  [[nodiscard]] PlannedMotion planned(double seconds) const;
+
  private:
-  struct Course;
+  /// A manoeuvre to another velocity, then straight on: a turn about a circle, or a constant acceleration
+  /// where the speed may change. It may end at rest: it brakes, and stays where it is.
+  struct Course {
+    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();       // m/s, at the end
+    Eigen::Vector3d aside = Eigen::Vector3d::Zero();          // unit: of the acceleration now
+    double most = 0;                                          // m/s^2, of the acceleration
+    double asked = 0;                                         // m/s^2, of which it may be less
+    double angle = 0;                                         // rad, of a turn
+    double radius = 0;                                        // m, of its circle; 0: no turn
+    double turning = 0;                                       // s, how long the manoeuvre takes
+    double until = std::numeric_limits<double>::infinity();   // s from its moment, when it ends
+    double brakes = std::numeric_limits<double>::infinity();  // s from its moment, when it brakes
+    double braking = 0;                                       // s, how long that takes
+
+    [[nodiscard]] double rests() const { return brakes + braking; }
+  };
+  /// A course that is to follow the one that is flown.
+  struct Leg {
+    double begin;  // s
+    Eigen::Vector3d velocity;
+    double most;
+  };
   struct Foreseen;
   struct Moment;
   struct Flight;
@@ -129,12 +171,16 @@ class Navigator {
     double matters = std::numeric_limits<double>::infinity();  // s: what it does later does not count
     std::optional<Placed> itself = std::nullopt;               // judged as it is; `body` is a ball about it
     mutable Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // to it, when it was last asked how near it is
+    double swerves = 0;                                        // m/s^2, so much it may accelerate
+    double offset = 0;  // m: so far its middle may be from what it turns about
+
+    [[nodiscard]] bool stays() const { return swerves == 0 && velocity.isZero(0); }
 
     [[nodiscard]] courses::Near near(const courses::Sweep& sweep, courses::Wanted wanted) const;
     /// Whether the point is nearer than `margin` to the bounds of a body that is judged as it is.
     [[nodiscard]] bool holds(const Eigen::Vector3d& point, double margin) const;
   };
-  [[nodiscard]] static Body body_of(const BodyState& other, bool planar);
+  [[nodiscard]] Body body_of(const BodyState& other, bool planar) const;
 
   NavigatorStep fly(const Moment& now, const std::optional<Destination>& destination, double time);
   [[nodiscard]] bool fails(const Flight& flight, const Body& other, double begin, double end,
@@ -155,6 +201,17 @@ class Navigator {
   [[nodiscard]] bool meets(const Flight& flight, const Body& other, double until) const;
   void tell(const Moment& now, Course course, double time, NavigatorStep& step) const;
 
+  [[nodiscard]] Course as_flown(const Moment& now, Course course) const;
+  [[nodiscard]] double surely(const Body& other, const courses::Sweep& sweep, double reach,
+                              double enough) const;
+  [[nodiscard]] double surely_curved(const Flight& flight, const Body& other, double begin, double end,
+                                     double enough) const;
+  [[nodiscard]] double surely_straight(const Flight& flight, const Body& other, double begin, double end,
+                                       double enough) const;
+  [[nodiscard]] double surely_all(const Flight& flight, const Body& other, double end, double enough) const;
+  void prove(const Moment& now, Course course, double time, NavigatorStep& step) const;
+  void fly_on(const Moment& now, const Course& course, double time);
+
   [[nodiscard]] double beside(const Moment& now, const Eigen::Vector3d& u, const Eigen::Vector3d& v) const;
   [[nodiscard]] Course towards(const Moment& now, const Eigen::Vector3d& velocity, double most) const;
   [[nodiscard]] static double soon(const Moment& now, double most);
@@ -173,12 +230,6 @@ class Navigator {
   /// As many distances were measured in this step as may be.
   [[nodiscard]] bool spent() const { return limit_ > 0 && looks_ >= limit_; }
 
-  /// A course that is to follow the one that is flown.
-  struct Leg {
-    double begin;  // s
-    Eigen::Vector3d velocity;
-    double most;
-  };
   [[nodiscard]] static Moment later(const Moment& now, const Course& course, double t);
   [[nodiscard]] Foreseen foresee_all(const Moment& now, Course course, const std::vector<Leg>& legs,
                                      double time);
@@ -204,6 +255,10 @@ class Navigator {
   bool stopping_ = false;                                        // it is the stop that was in hand
   bool clear_ = false;                // of bodies at rest it has kept what is required
   double required_ = 0, beyond_ = 0;  // metres
+  // What is flown since the last step; `legs_` after it.
+  Course flown_;
+  Eigen::Vector3d from_ = Eigen::Vector3d::Zero(), at_ = Eigen::Vector3d::Zero();  // m, m/s, at its beginning
+  double time_ = 0, step_ = 1;                                                     // s
   // Of the step; members to keep their memory.
   std::vector<Body> bodies_;
   struct Candidate {
