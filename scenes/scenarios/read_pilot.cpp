@@ -254,6 +254,10 @@ void add_fields_of_planes(Fields<PilotFile>& fields) {
           "costs; the best course found by then is flown.",
           absent("as many as it takes; 400 where a stop is in hand"))
       .only_of({"avoidance", "clearance"}, "avoidance, clearance")
+      .row("others_most", &F::others_most, not_negative("m/s²"),
+           "Of a guarded pilot: so much every body that it minds may accelerate, at any time and any way; a "
+           "mesh, a cloud, a map or a union at rest stays so. Its courses are proved until they end at rest.")
+      .only_of({"avoidance", "clearance"}, "avoidance, clearance")
       .row("passing", &F::passing,
            choice<Passing>({{"bisector", Passing::bisector}, {"centres", Passing::centres}}),
            "When a body counts as passed. `bisector`: the centres recede and V_r_hat >= 0, as (5.1) says. "

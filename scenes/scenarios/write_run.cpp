@@ -61,6 +61,13 @@ Json run_json(const simulation::Scenario& scenario, const simulation::Run& run, 
       goals.push_back(std::move(one));
     }
   }
+  Json plans = Json::array();
+  for (const simulation::PlansProved& own : run.plans)
+    plans.push_back({{"agent", scenario.bodies[own.agent].name},
+                     {"commands", own.commands},
+                     {"proved", own.proved},
+                     {"others_most", own.others_most},
+                     {"range", std::isfinite(own.range) ? Json(own.range) : Json(nullptr)}});
   Json beyond = Json::array();
   for (const simulation::VehicleBeyond& b : run.limits_broken)
     beyond.push_back({{"body", scenario.bodies[b.body].name},
@@ -90,6 +97,7 @@ Json run_json(const simulation::Scenario& scenario, const simulation::Run& run, 
             {"real_time_factor", run.end / origin.seconds},
             {"provenance", provenance_of(origin)}};
   if (!run.vehicles.empty()) json["limits_broken"] = beyond;
+  if (!run.plans.empty()) json["plans"] = plans;
   return json;
 }
 

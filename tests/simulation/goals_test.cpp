@@ -87,6 +87,8 @@ TEST(Goals, AreReachedInOrderAndTheRunEndsAtTheLast) {
   ASSERT_EQ(events.size(), 2u);
   EXPECT_NEAR(events[0].t, 19 / 5.0, 1e-9);
   EXPECT_NEAR(events[1].t, 39 / 5.0, 1e-9);
+  EXPECT_EQ(events[0].value, 1);  // which of them
+  EXPECT_EQ(events[1].value, 2);
   EXPECT_GE(run.end, events[1].t);
   EXPECT_LE(run.end, events[1].t + flight.scenario.step);
   for (const auto& told : flight.pilot->told)
@@ -184,6 +186,9 @@ TEST(Goals, AGuardedPilotStays) {
     for (double t = events[i].t + 1e-9; t < events[i].t + 5; t += 0.1)
       EXPECT_LT((run.tracks[0].motion(t).position - pilot.goals[i].point).norm(), 1) << t;
   EXPECT_NEAR(run.end, events[1].t + 5, scenario.step + 1e-9);
+  ASSERT_EQ(run.plans.size(), 1u);
+  EXPECT_EQ(run.plans[0].commands, run.times.decisions);
+  EXPECT_EQ(run.plans[0].proved, run.plans[0].commands);
 }
 
 TEST(Goals, WhatCannotBeIsRefusedByName) {

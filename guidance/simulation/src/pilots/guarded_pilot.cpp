@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/guidance/navigator.h>
 
+#include <algorithm>
+
 #include "pilots/kinds.h"
 #include "pilots/law_pilot.h"
 
@@ -18,6 +20,7 @@ guidance::NavigatorOptions courses_of(const Pilot& pilot) {
   options.longitudinal = pilot.guide.clearance.longitudinal;
   options.fastest = pilot.fastest;
   options.looks = pilot.looks;
+  options.others_most = pilot.others_most;
   if (pilot.sensor) options.range = pilot.sensor->range;
   return options;
 }
@@ -25,7 +28,7 @@ guidance::NavigatorOptions courses_of(const Pilot& pilot) {
 class FlyingGuarded : public FlyingLaw {
  public:
   FlyingGuarded(const Pilot& pilot, const Scenario& scenario, std::size_t self, const RunOptions& options)
-      : FlyingLaw(pilot, scenario, self, options), navigator_(courses_of(pilot)) {}
+      : FlyingLaw(pilot, scenario, self, options), options_(courses_of(pilot)), navigator_(options_) {}
 
   /// Of all that it minds, not of the one met first alone.
   void command(const Instant& now, std::span<VehicleCommand> commands, Run& run) override {
@@ -44,6 +47,7 @@ class FlyingGuarded : public FlyingLaw {
     const guidance::NavigatorStep said =
         navigator_.step(now.own(), minded_, destination, now.t, now.until - now.t);
     commands[now.self].acceleration = said.acceleration;
+    note(now.self, said.proved.has_value(), run);
     if (said.status == homing || said.status == straight) attended_ = nullptr;
     const bool hopeless = said.status == cannot_avoid;
     if (hopeless && !hopeless_)
@@ -53,6 +57,17 @@ class FlyingGuarded : public FlyingLaw {
   }
 
  private:
+  void note(std::size_t self, bool proved, Run& run) {
+    const auto at = std::lower_bound(run.plans.begin(), run.plans.end(), self,
+                                     [](const PlansProved& plans, std::size_t i) { return plans.agent < i; });
+    PlansProved& plans = at != run.plans.end() && at->agent == self
+                             ? *at
+                             : *run.plans.insert(at, {self, 0, 0, options_.others_most, options_.range});
+    ++plans.commands;
+    plans.proved += proved;
+  }
+
+  guidance::NavigatorOptions options_;
   guidance::Navigator navigator_;
   std::vector<guidance::BodyState> minded_;
   std::vector<std::size_t> indices_;

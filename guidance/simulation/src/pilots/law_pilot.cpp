@@ -62,6 +62,9 @@ void LawPilot::check(const Scenario& scenario, const Body& self) const {
 /// What only guarded pilots read.
 void LawPilot::check_courses() const {
   if (!(pilot_.fastest > 0)) throw InputError("fastest", to_text(pilot_.fastest), "positive (m/s)");
+  require_from_zero(pilot_.others_most, "others_most", " (m/s^2)");
+  if (!guarded(pilot_) && pilot_.others_most > 0)
+    throw InputError("others_most", to_text(pilot_.others_most), "left out: only a guarded pilot reads it");
   const bool limited = std::isfinite(pilot_.fastest);
   if (!guarded(pilot_) && (limited || pilot_.looks > 0))
     throw InputError(limited ? "fastest" : "looks",

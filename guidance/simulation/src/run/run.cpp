@@ -220,7 +220,7 @@ class Runner {
       // Who starts within its only goal would be done before it has flown.
       if (at_once && goals(agent).size() == 1 && goal.stay == 0) return;
       way.since = at_once ? t : sign_change(inside, t, to);
-      event({*way.since, EventKind::reaches_goal, agent, agent, goal.reached});
+      event({*way.since, EventKind::reaches_goal, agent, agent, double(way.next + 1)});
     }
     if (to - *way.since < goal.stay) return;
     ++way.next;

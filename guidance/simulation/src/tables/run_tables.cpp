@@ -315,7 +315,8 @@ std::string unit_of(const Scenario& scenario, const Event& event) {
   require_event_of(scenario, event);
   using enum EventKind;
   const EventKind kind = event.kind;
-  if (kind == appears || kind == aligned || kind == reaches_goal || kind == sees || kind == loses) return "";
+  if (kind == appears || kind == aligned || kind == sees || kind == loses) return "";
+  if (kind == reaches_goal) return scenario.bodies[event.agent].pilot->goals.size() > 1 ? "goal" : "";
   if (kind == contact) return "s";
   const bool of_cone = kind == enters_cone || kind == leaves_cone;
   return of_cone && !in_metres(scenario.bodies[event.agent]) ? "1" : "m";

@@ -170,7 +170,8 @@ struct Pilot {
   std::vector<Goal> goals;  // one after the other
   /// m/s: it goes to its goals at this speed, and never faster. Of a guarded pilot that may change its speed.
   double fastest = std::numeric_limits<double>::infinity();
-  std::size_t looks = 0;  // of a guarded pilot, NavigatorOptions::looks
+  std::size_t looks = 0;   // of a guarded pilot, NavigatorOptions::looks
+  double others_most = 0;  // m/s^2, of a guarded pilot, NavigatorOptions::others_most
   /// What it measures of the bodies it minds; left out: it knows them. Its law sees nothing else, so neither
   /// does it know when a body has been passed but by what it measures.
   std::optional<Sensor> sensor;

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -74,12 +75,12 @@ struct OrificeSample {
 };
 
 enum class EventKind : std::uint8_t {
-  appears,      // body `agent`
-  enters_cone,  // y < 0 and closing from now on, as the law sees it (of an agent with a sensor: in truth)
-  leaves_cone,  // y >= 0 (or m >= required) from now on; the last sample before it was inside
-  passes,       // as the pilot's `passing` says; of a placed body: out of its bounds, whose middle recedes
-  aligned,      // the velocity points at the goal from now on
-  reaches_goal,
+  appears,       // body `agent`
+  enters_cone,   // y < 0 and closing from now on, as the law sees it (of an agent with a sensor: in truth)
+  leaves_cone,   // y >= 0 (or m >= required) from now on; the last sample before it was inside
+  passes,        // as the pilot's `passing` says; of a placed body: out of its bounds, whose middle recedes
+  aligned,       // the velocity points at the goal from now on
+  reaches_goal,  // its number from 1 is the value
   contact,       // proved
   cannot_avoid,  // every course tried meets `obstacle`, as far as a guarded pilot can foresee
   goes_through,  // the agent's reference point crosses the plane of an orifice inside the rim
@@ -95,7 +96,7 @@ struct Event {
   std::size_t agent = 0, obstacle = 0;  // equal where only one body is concerned; goes_*: of an orifice
   /// passes: distance of the centres (of a placed body of the middle of its bounds), m; enters_cone: y (or m,
   /// metres) at that command; leaves_cone: what it had to reach, cease or required; contact: the earliest
-  /// time, s; goes_*: from the opening's centre, m.
+  /// time, s; goes_*: from the opening's centre, m; reaches_goal: which of the pilot's, from 1.
   double value = 0;
 };
 
@@ -122,6 +123,16 @@ struct NotChecked {
   std::size_t a = 0, b = 0;
 };
 
+/// Of a guarded pilot: how often the course that it flew was proved to touch nothing, and what that took for
+/// granted: that the others are where it knows them, each keeps its velocity or accelerates no more than
+/// `others_most`, and what is farther than `range` and not seen stays where it is.
+struct PlansProved {
+  std::size_t agent = 0;
+  std::uint64_t commands = 0, proved = 0;
+  double others_most = 0;                                  // m/s^2
+  double range = std::numeric_limits<double>::infinity();  // m, of its sensor
+};
+
 /// What a run cost in seconds, by the clock: another each time. A decision is all that a pilot does at one
 /// command: sensor, estimator, laws of all that it minds, courses.
 struct RunTimes {
@@ -143,6 +154,7 @@ struct Run {
   std::vector<NotChecked> not_checked;
   std::vector<OrificeSample> orifices;   // by time, agent
   std::vector<PassageOutcome> passages;  // of every body that is flown, and every orifice
+  std::vector<PlansProved> plans;  // of every guarded pilot that commanded, in the order of their bodies
   bool interrupted = false;
   RunTimes times;
 
