@@ -702,6 +702,18 @@ TRIALS = [
 ]
 
 
+def once(run):
+    """The same question again: what it said the first time."""
+    said = {}
+
+    def asked(*question):
+        key = repr(question)
+        if key not in said:
+            said[key] = run(*question)
+        return said[key]
+    return asked
+
+
 def run_queries(vericone, cases=None, command="query"):
     lines = [q if isinstance(q, str) else json.dumps(q) for _, q in cases or QUERIES]
     with tempfile.TemporaryDirectory() as folder:
@@ -714,6 +726,7 @@ def run_queries(vericone, cases=None, command="query"):
     return lines, answers, result
 
 
+@once
 def run_command(vericone, arguments, scene):
     with tempfile.TemporaryDirectory() as folder:
         name = {"FILE.off": "scan.off", "FILE.csv": "track.csv"}.get(
@@ -726,6 +739,7 @@ def run_command(vericone, arguments, scene):
         return arguments, result, os.listdir(folder)
 
 
+@once
 def run_fit(vericone, arguments, files):
     with tempfile.TemporaryDirectory() as folder:
         for name, content in files.items():
@@ -736,6 +750,7 @@ def run_fit(vericone, arguments, files):
         return result, sorted(set(os.listdir(folder)) - set(files))
 
 
+@once
 def run_track(vericone, arguments, files):
     with tempfile.TemporaryDirectory() as folder:
         for name, content in files.items():
