@@ -76,7 +76,9 @@ std::string event_text(const Scenario& scenario, const Event& event) {
     case EventKind::aligned:
       return agent + " points at its goal";
     case EventKind::reaches_goal:
-      return agent + " reaches its goal";
+      if (unit.empty()) return agent + " reaches its goal";
+      return agent + " reaches goal " + brief(event.value) + " of " +
+             std::to_string(scenario.bodies[event.agent].pilot->goals.size());
     case EventKind::cannot_avoid:
       return agent + " finds no course that avoids " + other;
     case EventKind::goes_through:
@@ -265,6 +267,7 @@ std::string agent_text(const Scenario& scenario, const simulation::Body& body) {
   }
   text += guarded(pilot) ? ", guarded" : ", gain " + brief(guide.inversion.gain) + "/s";
   text += most;
+  if (pilot.others_most > 0) text += ", others at most " + brief(pilot.others_most) + " m/s^2";
   std::string minds;
   for (const std::string& name : pilot.minds) minds.append(minds.empty() ? "; minds " : ", ").append(name);
   return text + (scenario.bodies.size() > 2 ? minds : "");

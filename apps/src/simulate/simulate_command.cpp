@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/simulation/certificate.h>
 #include <vericone/work/staged_folder.h>
 #include <filesystem>
 #include <iostream>
@@ -10,6 +11,7 @@
 #include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/figures.h"
+#include "output/output_file.h"
 #include "output/output_options.h"
 #include "output/progress.h"
 #include "scenarios/read_scenario.h"
@@ -27,13 +29,44 @@ struct SimulateOptions : OutputOptions {
   SimulateOptions() { out = "out/simulate"; }
   std::string scenario;
   bool animate = false;  // also a page that shows the run over time
+  bool certificate = false;
 };
 
 const std::vector<std::string>& names_of_files() {
-  static const std::vector<std::string> names{
-      "bodies.csv", "encounters.csv", "planes.csv",     "events.csv",     "proof.json",     "shapes.json",
-      "run.json",   "scenario.yaml",  "simulation.png", "simulation.pdf", "simulation.html"};
+  static const std::vector<std::string> names{"bodies.csv",     "encounters.csv",  "planes.csv",
+                                              "events.csv",     "proof.json",      "shapes.json",
+                                              "run.json",       "scenario.yaml",   "simulation.png",
+                                              "simulation.pdf", "simulation.html", "certificate.json"};
   return names;
+}
+
+/// One certificate a line.
+std::string lines_of(const simulation::RunCertificates& certificates) {
+  std::string text;
+  for (const simulation::RunCertificate& one : certificates.made) text.append(one.text).append("\n");
+  return text;
+}
+
+Json certificate_json(const simulation::RunCertificates& certificates) {
+  Json json{{"pairs", 0}, {"none", Json::array()}};
+  std::size_t pairs = 0;
+  for (const simulation::RunCertificate& one : certificates.made) pairs += one.pairs.size();
+  json["pairs"] = pairs;
+  for (const simulation::WithoutCertificate& none : certificates.none)
+    json["none"].push_back(Json{{"what", none.what}, {"reason", none.reason}});
+  return json;
+}
+
+void print_certificates(const simulation::RunCertificates& certificates, std::ostream& out) {
+  for (const simulation::RunCertificate& one : certificates.made)
+    scenario::print_line(out, &one == &certificates.made.front() ? "certificate" : "",
+                         std::to_string(one.pairs.size()) + (one.pairs.size() == 1 ? " pair" : " pairs") +
+                             " apart" + (one.by > 0 ? " by " + to_text(one.by) + " m" : "") + " from " +
+                             to_text(one.from) + " to " + to_text(one.to) + " s");
+  for (const simulation::WithoutCertificate& none : certificates.none)
+    scenario::print_line(
+        out, certificates.made.empty() && &none == &certificates.none.front() ? "certificate" : "",
+        "none of " + none.what + ": " + none.reason);
 }
 
 /// Carries out a scenario and writes what happened and what is proved of it. Returns the exit status: 0
@@ -43,6 +76,7 @@ int run_simulate(const SimulateOptions& options, std::ostream& out) {
   const std::string text = input::read_scene_text(options.scenario);
   const simulation::Scenario scenario = scenario::scenario_of_text(text, options.scenario);
   std::optional<simulation::Run> run;
+  std::optional<simulation::RunCertificates> certificates;
   Json summary;
   double seconds = 0;
   {
@@ -55,21 +89,34 @@ int run_simulate(const SimulateOptions& options, std::ostream& out) {
     run = simulation::simulate(scenario, run_options);
     seconds = seconds_since(start);
     if (run->interrupted) return kExitInterrupted;
+    if (options.certificate) {
+      bool stopped = false;
+      certificates = simulation::certificates(scenario, *run, [&](double share) {
+        stopped = !progress.show("certificates of " + scenario.name, share);
+        return !stopped;
+      });
+      if (stopped) return kExitInterrupted;
+    }
     progress.show("writing", 0);
     const scenario::RunOrigin origin{
         options.scenario, provenance(options.command_line, 1, {options.scenario}).dump(), seconds, text};
     summary = scenario::run_json(scenario, *run, origin);
     scenario::write_run(scenario, *run, origin, folder.path());
+    if (certificates && !certificates->made.empty())
+      write_whole(folder.path() / "certificate.json", lines_of(*certificates));
     if (options.figures || options.animate) progress.show("drawing", 0);
     if (options.figures) draw_figures("simulation.py", folder.path());
     if (options.animate) draw_figures("animation.py", folder.path());
   }
   const std::vector<fs::path> files = folder.publish(names_of_files());
   if (options.json) {
-    out << Json{{"proof", scenario::proof_json(scenario, *run)}, {"run", summary}}.dump(1) << '\n';
+    Json answer{{"proof", scenario::proof_json(scenario, *run)}, {"run", summary}};
+    if (certificates) answer["certificate"] = certificate_json(*certificates);
+    out << answer.dump(1) << '\n';
     return 0;
   }
   scenario::print_run(scenario, *run, seconds, out);
+  if (certificates) print_certificates(*certificates, out);
   std::string list;
   for (const fs::path& file : files) list.append(list.empty() ? "" : ", ").append(file.filename().string());
   out << "written             " << options.out << ": " << list << '\n';
@@ -84,6 +131,9 @@ int simulate_command(CommandLine& line) {
   line.option("--out", simulate.out, "Folder for tables, proof and picture");
   line.negative_flag("--no-figures", simulate.figures, "Tables and proof only");
   line.flag("--animate", simulate.animate, "Also the run over time, simulation.html: a page for any browser");
+  line.flag("--certificate", simulate.certificate,
+            "Also what proves that bodies stay apart, certificate.json, for programs that check it "
+            "(docs/reference/certificates.md)");
   line.flag("--quiet", simulate.quiet, "No progress");
   line.flag("--json", simulate.json, "Print JSON");
   line.read();

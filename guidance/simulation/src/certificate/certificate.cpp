@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/simulation/certificate.h>
+
+#include <vericone/geometry/error.h>
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "certificate/planes.h"
+#include "certificate/solid.h"
+#include "certificate/tube.h"
+
+namespace vericone::simulation {
+namespace certified {
+namespace {
+
+constexpr std::size_t kMostPieces = 200'000;  // of a body
+constexpr double kFinest = 1e-6,
+                 kCoarsest = 1e-3;  // m, and of the body's reach: how near polynomials are fitted
+
+std::string quoted(const std::string& words) {
+  std::string text = "\"";
+  for (const char c : words) {
+    if (c == '"' || c == '\\') text += '\\';
+    text += static_cast<unsigned char>(c) < 32 ? ' ' : c;
+  }
+  return text + "\"";
+}
+
+/// A body over a time: what a certificate states of it.
+struct Stated {
+  Solid solid;
+  bool dents = false;
+  std::optional<StatedTrack> track;
+};
+
+/// Pairs that stand in one certificate.
+struct Claim {
+  double from, to, by;
+  bool operator<(const Claim& other) const {
+    return std::tie(from, to, by) < std::tie(other.from, other.to, other.by);
+  }
+};
+struct Proved {
+  std::size_t a, b;
+  std::string proof;
+};
+
+class Maker {
+ public:
+  Maker(const Scenario& scenario, const Run& run) : scenario_(scenario), run_(run) {
+    slack_.assign(scenario.bodies.size(), std::numeric_limits<double>::infinity());
+    for (const PairOutcome& pair : run.proofs) {
+      if (pair.proof.verdict != ProofVerdict::avoided) continue;
+      const double slack = pair.proof.least_distance - (pair.kept() ? pair.required : 0);
+      for (const std::size_t body : {pair.a, pair.b}) slack_[body] = std::min(slack_[body], slack);
+    }
+  }
+
+  RunCertificates made(const std::function<bool(double)>& goes_on) {
+    std::size_t done = 0;
+    for (const PairOutcome& pair : run_.proofs) {
+      if (goes_on && !goes_on(static_cast<double>(done++) / static_cast<double>(run_.proofs.size()))) break;
+      take(pair);
+    }
+    for (const PassageOutcome& passage : run_.passages)
+      found_.none.push_back(
+          {scenario_.bodies[passage.agent].name + ", " + scenario_.orifices[passage.orifice].name,
+           "certificates do not tell of passages"});
+    for (const auto& [claim, pairs] : proved_) found_.made.push_back(written(claim, pairs));
+    return std::move(found_);
+  }
+
+ private:
+  [[nodiscard]] std::string names(std::size_t a, std::size_t b) const {
+    return scenario_.bodies[a].name + ", " + scenario_.bodies[b].name;
+  }
+
+  void take(const PairOutcome& pair) {
+    const ProofVerdict verdict = pair.proof.verdict;
+    if (verdict != ProofVerdict::avoided) {
+      found_.none.push_back({names(pair.a, pair.b), verdict == ProofVerdict::touched
+                                                        ? "they meet, at a point within the radius of tracks"
+                                                        : "undecided"});
+      return;
+    }
+    std::string reason;
+    const double required = pair.kept() ? pair.required : 0;
+    if (prove(pair, required, reason)) return;
+    if (required > 0 && prove(pair, 0, reason)) {
+      found_.none.push_back(
+          {names(pair.a, pair.b), "apart, but not by " + to_text(required) + " m: " + reason});
+      return;
+    }
+    found_.none.push_back({names(pair.a, pair.b), reason});
+  }
+
+  bool prove(const PairOutcome& pair, double by, std::string& reason) {
+    const double from = pair.proof.from, to = pair.proof.to;
+    if (!(from < to)) {
+      reason = "they are there together at one time only";
+      return false;
+    }
+    const Stated &a = stated(pair.a, from, to), &b = stated(pair.b, from, to);
+    for (const auto& [which, body] : {std::pair{&a, pair.a}, std::pair{&b, pair.b}}) {
+      if (which->track) continue;
+      reason = which->solid.size() > kMostPieces
+                   ? scenario_.bodies[body].name + " has more than " + std::to_string(kMostPieces) + " pieces"
+                   : "how " + scenario_.bodies[body].name + " turns has no bound";
+      return false;
+    }
+    const PairQuestion question{a.solid, b.solid, *a.track, *b.track, by, from, to, a.dents || b.dents};
+    auto proof = proof_of_pair(question, reason);
+    if (!proof) return false;
+    proved_[{from, to, by}].push_back({pair.a, pair.b, std::move(*proof)});
+    return true;
+  }
+
+  const Stated& stated(std::size_t body, double from, double to) {
+    const auto [at, fresh] = stated_.try_emplace({body, from, to});
+    Stated& found = at->second;
+    if (!fresh) return found;
+    const Track& track = run_.tracks[body];
+    OwnFrame own = in_own_frame(track.shape(), from, to);
+    found.solid = std::move(own.solid);
+    found.dents = own.dents;
+    if (found.solid.size() > kMostPieces) return found;
+    TubeQuestion question{};
+    question.from = from;
+    question.to = to;
+    question.reach = reach(track.shape());
+    question.tolerance =
+        std::max(kFinest, std::min(slack_[body] / 20, kCoarsest * std::max(1.0, question.reach)));
+    question.turns_matter = !found.solid.is_ball();
+    question.padding =
+        scenario_.proof.padding + scenario_.proof.drift * (to - track.appears()) + own.rounding;
+    found.track = tube(track, question);
+    return found;
+  }
+
+  [[nodiscard]] RunCertificate written(const Claim& claim, const std::vector<Proved>& pairs) const {
+    std::set<std::size_t> bodies;
+    for (const Proved& pair : pairs) bodies.insert({pair.a, pair.b});
+    std::map<std::size_t, std::string> number;
+    std::string names, solids, tracks, list, proofs;
+    for (const std::size_t body : bodies) {
+      const Stated& its = stated_.at({body, claim.from, claim.to});
+      const char* between = number.empty() ? "" : ", ";
+      number.emplace(body, std::to_string(number.size()));
+      names.append(between).append(scenario_.bodies[body].name);
+      solids.append(between).append(text_of(its.solid));
+      tracks.append(between).append(text_of(*its.track));
+    }
+    RunCertificate certificate{{}, claim.by, claim.from, claim.to, {}};
+    for (const Proved& pair : pairs) {
+      const char* between = list.empty() ? "" : ", ";
+      const std::string &a = number.at(pair.a), &b = number.at(pair.b);
+      list.append(between).append("[" + a + ", " + b + "]");
+      proofs.append(between).append("\"" + a + " " + b + "\": " + pair.proof);
+      certificate.pairs.emplace_back(pair.a, pair.b);
+    }
+    certificate.text =
+        R"({"format": "vericone-certificate", "version": 1, "claim": {"says": "apart", "id": )" +
+        quoted(scenario_.name + ": " + names) + ", \"by\": " + text_of(claim.by) +
+        ", \"from\": " + text_of(claim.from) + ", \"to\": " + text_of(claim.to) + ", \"bodies\": [" + solids +
+        "], \"tracks\": [" + tracks + "], \"pairs\": [" + list +
+        R"(]}, "proof": {"rule": "pairs", "pairs": {)" + proofs + "}}}";
+    return certificate;
+  }
+
+  const Scenario& scenario_;
+  const Run& run_;
+  std::vector<double> slack_;  // m, of each body: what its nearest pair leaves
+  std::map<std::tuple<std::size_t, double, double>, Stated> stated_;
+  std::map<Claim, std::vector<Proved>> proved_;
+  RunCertificates found_;
+};
+
+}  // namespace
+}  // namespace certified
+
+RunCertificates certificates(const Scenario& scenario, const Run& run,
+                             const std::function<bool(double)>& goes_on) {
+  if (run.tracks.size() != scenario.bodies.size())
+    throw InputError("run", std::to_string(run.tracks.size()) + " tracks",
+                     std::to_string(scenario.bodies.size()) + ", one for each body of the scenario");
+  return certified::Maker(scenario, run).made(goes_on);
+}
+
+}  // namespace vericone::simulation

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "certificate/stated.h"
+
+namespace vericone::simulation::certified {
+
+/// Two bodies on their tubes, which are to be proved farther apart than `by` m at all times of [from, to].
+struct PairQuestion {
+  const Solid& a;
+  const Solid& b;
+  const StatedTrack& track_a;
+  const StatedTrack& track_b;
+  double by, from, to;
+  bool dents = false;  // of a body that counts as an ellipsoid around it
+};
+
+/// The proof, JSON, each of whose planes was checked in integers: one plane for each piece of time, by groups
+/// of the bodies' pieces where one does not do for all. Nothing, and the `reason`, where none was found.
+[[nodiscard]] std::optional<std::string> proof_of_pair(const PairQuestion& question, std::string& reason);
+
+/// Of groups of pieces by planes. `stuck`: the time from which there is none.
+[[nodiscard]] std::optional<StatedPieces> planes_between(const Side& a, const Side& b, double by, double from,
+                                                         double to, double& stuck);
+
+}  // namespace vericone::simulation::certified
