@@ -103,7 +103,7 @@ class Examples(unittest.TestCase):
         self.assertLessEqual(max(map(len, text.splitlines())), 120)
 
     def test_the_schema_takes_them(self):
-        schema = json.loads((ROOT / "docs/schemas/certificate.schema.json").read_text(encoding="utf-8"))
+        schema = json.loads((ROOT / "checker/certificate.schema.json").read_text(encoding="utf-8"))
         for document in examples():
             self.assertEqual(wrong_with(document, schema, schema), [])
         self.assertNotEqual(wrong_with(changed(examples()[0], ["version"], 2), schema, schema), [])
