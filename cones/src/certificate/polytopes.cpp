@@ -218,6 +218,18 @@ std::optional<Plane> PolytopePair::plane() const {
 
 namespace {
 
+/// Each corner once, with the sum of its weights.
+template <typename Weight>
+void count(std::vector<std::pair<std::uint32_t, Weight>>& weights, std::uint32_t corner,
+           const Weight& weight) {
+  for (auto& [old, sum] : weights)
+    if (old == corner) {
+      sum += weight;
+      return;
+    }
+  weights.emplace_back(corner, weight);
+}
+
 /// Of parts that are rounded down, the sum made right at the largest.
 void sum_up(std::vector<std::pair<std::uint32_t, Integer>>& parts, unsigned bits) {
   Integer left = Integer(1) << bits;
@@ -303,12 +315,7 @@ std::optional<CornerMeeting> PolytopePair::exact_meeting(const exact::Shown& sho
     for (std::size_t i = 0; i < shown.pairs.size(); ++i) {
       const std::uint32_t corner = of_agent ? shown.pairs[i].agent : shown.pairs[i].obstacle;
       const Integer part = (shown.weights[i] << static_cast<unsigned>(bits)) / all;
-      const auto same =
-          std::find_if(parts.begin(), parts.end(), [&](const auto& old) { return old.first == corner; });
-      if (same != parts.end())
-        same->second += part;
-      else
-        parts.emplace_back(corner, part);
+      count(parts, corner, part);
     }
     sum_up(parts, static_cast<unsigned>(bits));
     Dyadic t{floor_of(time * (Integer(1) << static_cast<unsigned>(bits))), static_cast<unsigned>(bits)};
@@ -330,12 +337,7 @@ std::optional<CornerMeeting> PolytopePair::meeting() const {
       const HullPair pair = found.simplex.pair[i];
       const std::uint32_t corner = of_agent ? pair.agent & ~kEnd : pair.obstacle;
       const double weight = found.simplex.weight[i] / sum;
-      const auto same =
-          std::find_if(weights.begin(), weights.end(), [&](const auto& old) { return old.first == corner; });
-      if (same != weights.end())
-        same->second += weight;
-      else
-        weights.emplace_back(corner, weight);
+      count(weights, corner, weight);
     }
     if (auto meeting = rounded_meeting(weights, horizon_.from + found.share * (end_of_way() - horizon_.from)))
       return meeting;
@@ -597,12 +599,7 @@ std::optional<CornerTouch> PolytopePair::touch_of(const exact::Shown& shown,
     for (std::size_t i = 0; i < shown.pairs.size(); ++i) {
       const std::uint32_t corner = of_agent ? shown.pairs[i].agent : shown.pairs[i].obstacle;
       const Rational weight(shown.weights[i], all);
-      const auto same =
-          std::find_if(weights.begin(), weights.end(), [&](const auto& old) { return old.first == corner; });
-      if (same != weights.end())
-        same->second += weight;
-      else
-        weights.emplace_back(corner, weight);
+      count(weights, corner, weight);
     }
   };
   if (!agent_.round) weigh(found.agent, true);
