@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 
 namespace vericone::guidance {
 
@@ -12,6 +13,10 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 Vector3d Navigator::Flight::velocity(double t) const {
+  if (t > course.circles) {
+    const double turned = turns() * (t - course.circles);
+    return std::cos(turned) * course.velocity + std::sin(turned) * now.speed * course.inward;
+  }
   if (t > course.brakes && !(course.braking > 0)) return Vector3d::Zero();
   if (t > course.brakes) return std::max(0.0, 1 - (t - course.brakes) / course.braking) * course.velocity;
   if (t >= course.turning) return course.velocity;
@@ -23,7 +28,12 @@ Vector3d Navigator::Flight::velocity(double t) const {
 }
 
 Matrix3d Navigator::Flight::rotation(double t) const {
-  if (!now.carried || course.turning == 0) return Matrix3d::Identity();
+  if (!now.carried) return Matrix3d::Identity();
+  if (t > course.circles) {
+    const Vector3d about = course.velocity.cross(course.inward).normalized();
+    return Eigen::AngleAxisd(turns() * (t - course.circles), about) * rotation(course.circles);
+  }
+  if (course.turning == 0) return Matrix3d::Identity();
   t = std::min(t, course.turning);
   if (course.radius > 0) return Eigen::AngleAxisd(course.angle * t / course.turning, axis).toRotationMatrix();
   const Vector3d v = now.velocity + t * course.most * course.aside;
@@ -44,7 +54,12 @@ Vector3d Navigator::Flight::moved(double t) const {
 }
 
 Vector3d Navigator::Flight::beyond(double t) const {
-  double seconds = std::min(t, course.brakes) - course.turning;  // at its velocity
+  double seconds = std::min({t, course.brakes, course.circles}) - course.turning;  // at its velocity
+  if (t > course.circles) {
+    const double turned = turns() * (t - course.circles);
+    return seconds * course.velocity + round() / now.speed * std::sin(turned) * course.velocity +
+           round() * (1 - std::cos(turned)) * course.inward;
+  }
   if (const double part = std::min(t - course.brakes, course.braking); part > 0)
     seconds += part * (1 - 0.5 * part / course.braking);
   return seconds * course.velocity;
@@ -54,12 +69,18 @@ Vector3d Navigator::Flight::manoeuvring(double t) const {
   return now.position + rotation(t) * (now.body.center() - now.position) + moved(t);
 }
 
+Vector3d Navigator::Flight::middle() const {
+  return now.position + moved(course.circles) + round() * course.inward;
+}
+
 Vector3d Navigator::Flight::center(double t) const {
+  if (t > course.circles) return manoeuvring(t);
   return t >= course.turning ? Vector3d(after + beyond(t)) : manoeuvring(t);
 }
 
 Ellipsoid Navigator::Flight::body(double t) const {
-  if (!now.carried || course.turning == 0) return now.body.translated(center(t) - now.body.center());
+  if (!now.carried || (course.turning == 0 && !(t > course.circles)))
+    return now.body.translated(center(t) - now.body.center());
   const Matrix3d factor = rotation(t) * now.body.factor();
   return Ellipsoid::trusted(center(t), factor * factor.transpose(), factor, true);
 }
@@ -87,8 +108,9 @@ Navigator::Chord::Chord(const Flight& flight, const Body& other, double begin, d
   const Moment& now = flight.now;
   const double middle = 0.5 * (begin + end), span = end - begin;
   const bool brakes = begin >= flight.course.brakes;
-  const double acceleration =
-      brakes ? flight.course.velocity.norm() / flight.course.braking : flight.course.most;
+  const double acceleration = brakes ? flight.course.velocity.norm() / flight.course.braking
+                              : begin >= flight.course.circles ? flight.course.asked
+                                                               : flight.course.most;
   beside = bent = acceleration * span * span / 8;
   if (now.carried && !brakes) {
     const auto between = [&](double s, double t) {
@@ -236,6 +258,44 @@ void Navigator::see_curved(const Flight& flight, const Body& other, double begin
     see_turn(flight, other, begin, end, meeting, seen);
 }
 
+/// Until when the circle that a course ends on is to be looked at: once round among bodies at rest; else
+/// until the other has left what is `enough` metres about the circle, for ever. Infinite: that takes too
+/// long.
+double Navigator::round_until(const Flight& flight, const Body& other, double enough) {
+  constexpr double kMostRounds = 20;
+  const Moment& now = flight.now;
+  const double begin = flight.course.circles, once = 2 * std::numbers::pi / flight.turns() * (1 + 1e-9);
+  if (other.stays()) return begin + once;
+  if (other.swerves > 0) return kFar;
+  const Vector3d& u = other.velocity;
+  const Vector3d c = other.body.center() + (now.since + begin) * u - flight.middle();
+  const double reach =
+      flight.round() + now.reach + (now.body.center() - now.position).norm() + other.reach + 2 * other.offset;
+  const double wide = (enough < kFar ? enough + reach : c.norm() + reach) * (1 + 1e-9);
+  const double square = u.squaredNorm(), half = c.dot(u);
+  if (!(square > 0)) return begin + once;
+  const double root = half * half - square * (c.squaredNorm() - wide * wide);
+  if (root < 0) return begin;
+  const double seconds = (std::sqrt(root) - half) / std::sqrt(square) / std::sqrt(square);
+  if (seconds > kMostRounds * once) return kFar;
+  return begin + std::max(0.0, seconds) * (1 + 1e-9);
+}
+
+/// On the circle that it ends on, for ever; what takes too long to look at counts as a hit.
+void Navigator::see_circle(const Flight& flight, const Body& other, double end, Meeting meeting,
+                           Approach& seen) const {
+  const double begin = flight.course.circles;
+  const double until = std::min(end, round_until(flight, other, seen.least));
+  if (until == kFar) {
+    seen.least = 0;
+    seen.hit = begin;
+    return;
+  }
+  const double quarter = 0.5 * std::numbers::pi / flight.turns();
+  for (double from = begin; from < until && !seen.done(); from += quarter)
+    see_curved(flight, other, from, std::min(until, from + quarter), meeting, seen);
+}
+
 /// Of the course from `begin` on; `enough` metres are as good as more, `hopeless` metres as bad as less.
 Navigator::Approach Navigator::see(const Flight& flight, const Body& other, double begin, double enough,
                                    double hopeless, Meeting meeting) const {
@@ -243,7 +303,8 @@ Navigator::Approach Navigator::see(const Flight& flight, const Body& other, doub
   seen.least = enough;
   seen.hopeless = hopeless;
   const Course& course = flight.course;
-  const double end = std::max(begin, std::min(course.until, other.matters - flight.now.since));
+  const double matters = flight.now.circles ? kFar : other.matters - flight.now.since;
+  const double end = std::max(begin, std::min(course.until, matters));
   using Look = void (Navigator::*)(const Flight&, const Body&, double, double, Meeting, Approach&) const;
   const auto part = [&](double from, double to, Look look) {
     from = std::max(from, begin);
@@ -260,7 +321,17 @@ Navigator::Approach Navigator::see(const Flight& flight, const Body& other, doub
   };
   // The later parts first: what is no good is so there mostly.
   const bool still = other.stays();
-  if (course.brakes == kFar) {
+  if (course.circles < kFar) {
+    part(course.turning, course.circles, &Navigator::see_straight);
+    if (end > course.circles && !(seen.done() && meeting == Meeting::whether)) {
+      Approach round;
+      round.least = seen.hit < kFar ? enough : seen.least;
+      round.hopeless = hopeless;
+      see_circle(flight, other, end, meeting, round);
+      seen.least = std::min(seen.least, round.least);
+      if (round.hit < seen.hit) seen = round;
+    }
+  } else if (course.brakes == kFar) {
     part(course.turning, kFar, &Navigator::see_straight);
   } else if (still) {
     part(course.turning, std::max(course.rests(), begin), &Navigator::see_stop);
@@ -276,7 +347,8 @@ Navigator::Approach Navigator::see(const Flight& flight, const Body& other, doub
 /// Whether they meet before `until`.
 bool Navigator::meets(const Flight& flight, const Body& other, double until) const {
   const Course& course = flight.course;
-  const double end = std::min({until, course.until, other.matters - flight.now.since});
+  const double matters = flight.now.circles ? kFar : other.matters - flight.now.since;
+  const double end = std::min({until, course.until, matters});
   const auto straight = [&](double from, double to) {
     Approach seen;
     seen.least = 1e-300;
@@ -288,6 +360,13 @@ bool Navigator::meets(const Flight& flight, const Body& other, double until) con
     to = std::min(to, end);
     return to > from && fails(flight, other, from, to, 0);
   };
+  if (course.circles < kFar) {
+    if (straight(course.turning, course.circles) || curved(0, course.turning)) return true;
+    Approach seen;
+    seen.least = 1e-300;
+    if (end > course.circles) see_circle(flight, other, end, Meeting::whether, seen);
+    return seen.hit < kFar;
+  }
   return straight(course.turning, course.brakes) || curved(0, course.turning) ||
          (course.brakes < kFar && (curved(course.brakes, course.rests()) || straight(course.rests(), kFar)));
 }
@@ -298,11 +377,40 @@ bool Navigator::in_sight(const Flight& flight) const {
   return flight.moved(flight.course.rests()).norm() + flight.now.reach + required_ <= options_.range;
 }
 
+/// m: how far a ball about a point is out of the corridor; negative within.
+double Navigator::out_of_corridor(const Vector3d& position, double reach) const {
+  const Vector3d c = position - corridor_->from;
+  const double square = leg_.squaredNorm();
+  const double part = square > 0 ? std::clamp(c.dot(leg_) / square, 0.0, 1.0) : 0;
+  return (c - part * leg_).norm() + reach - corridor_->radius;
+}
+
+/// The same of a course, at most, until it rests: a corridor is convex, so that the ends of what is straight
+/// are enough, and of a manoeuvre those of its chords, less what is beside them.
+double Navigator::out_of_corridor(const Flight& flight) const {
+  const Course& course = flight.course;
+  const Moment& now = flight.now;
+  if (course.brakes == kFar && !course.velocity.isZero(0)) return kFar;
+  const double reach = now.reach * (1 + 1e-12);
+  double most =
+      course.brakes < kFar ? out_of_corridor(now.position + flight.moved(course.rests()), reach) : -kFar;
+  const double sagitta = course.most * course.turning * course.turning / 8;
+  const int chords = std::clamp(int(std::ceil(std::sqrt(sagitta / (1e-4 * now.reach)))), 1, 100);
+  for (int i = 0; i <= chords; ++i)
+    most = std::max(most, out_of_corridor(now.position + flight.moved(course.turning * i / chords), reach));
+  const double sizes = now.position.norm() + corridor_->from.norm() + leg_.norm() + reach +
+                       (course.turning + course.rests()) * (now.speed + course.velocity.norm());
+  return most + sagitta / (chords * chords) + 0x1p-44 * (course.brakes < kFar ? sizes : now.position.norm());
+}
+
 /// What the course keeps of required and beyond. Gives up where it cannot be better than `floor`.
 Navigator::Foreseen Navigator::foresee(const Moment& now, const Course& course, const Foreseen& floor) {
   const Flight flight(now, course);
   const Meeting meeting = floor.kept > 0 ? Meeting::whether : Meeting::when;
   if (!in_sight(flight)) return Foreseen::nothing();
+  if (corridor_ &&
+      out_of_corridor(flight) > std::max(-now.slack, out_of_corridor(now.position, now.reach) + now.slack))
+    return Foreseen::nothing();
   Foreseen result;
   result.kept = required_ + beyond_;
   for (std::size_t n = 0; n < bodies_.size(); ++n) {
@@ -316,7 +424,7 @@ Navigator::Foreseen Navigator::foresee(const Moment& now, const Course& course, 
     // Who is nearer than it should be may stay so for a while, but not come much nearer. Not who can stop,
     // and once was as far as it should be from a body at rest: in a narrow place what errors of sensors make
     // too near on one side would let it come too near on the other.
-    const bool late = now.stops && now.clear && other.stays();
+    const bool late = (now.stops || now.circles) && now.clear && other.stays();
     const bool near = other.now < result.kept && other.now > 0 && !late;
     const double enough = near ? std::min(result.kept, 0.8 * other.now) : result.kept;
     Approach seen =

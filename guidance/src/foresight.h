@@ -3,9 +3,13 @@
 // What a navigator thinks in: courses, and what will happen on them.
 #pragma once
 
+#include <vericone/cones/cone_geometry.h>
 #include <vericone/guidance/navigator.h>
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "near.h"
 
@@ -13,6 +17,7 @@ namespace vericone::guidance {
 
 using courses::Meeting, courses::Near, courses::Sweep, courses::Wanted;
 
+inline constexpr double kPi = std::numbers::pi;
 inline constexpr double kFar = std::numeric_limits<double>::infinity();
 inline constexpr double kAligned = 1e-6;  // rad
 inline constexpr double kAlmost = 1e-9;   // m, what rounding may take
@@ -21,18 +26,41 @@ struct Navigator::Moment {
   Eigen::Vector3d position, velocity, ahead;
   double speed, step;
   Ellipsoid body;
-  double reach;        // of the agent about its position
-  double uneven;       // m, of its longest less its shortest semi-axis: what its turning changes, at most
-  double cruise;       // m/s, at which it goes to its destination
-  double pace;         // m/s: of velocities that are tried
-  double most;         // m/s^2
-  double surely = 0;   // m, that a course must keep when it is taken
-  double to_turn = 0;  // s: within bodies that hold it no course matters for longer
-  double since = 0;    // s, of a moment to come: from the command
-  bool stops = false;  // courses end at rest
-  bool clear = false;  // what is required of bodies at rest was kept once
+  double reach;          // of the agent about its position
+  double uneven;         // m, of its longest less its shortest semi-axis: what its turning changes, at most
+  double cruise;         // m/s, at which it goes to its destination
+  double pace;           // m/s: of velocities that are tried
+  double most;           // m/s^2
+  double surely = 0;     // m, that a course must keep when it is taken
+  double to_turn = 0;    // s: within bodies that hold it no course matters for longer
+  double since = 0;      // s, of a moment to come: from the command
+  bool stops = false;    // courses end at rest
+  bool circles = false;  // or, of who keeps its speed, on a circle
+  double side = 1;       // of the circles: 1 as it turned before, else -1
+  double before = 0;     // s, straight on before them, beside the command of a step
+  double slack = 0;      // m: so much a course that is new must stay off the wall of a corridor
+  bool clear = false;    // what is required of bodies at rest was kept once
   bool planar, carried;
 };
+
+[[nodiscard]] inline double angle_between(const Eigen::Vector3d& u, const Eigen::Vector3d& v) {
+  return std::atan2(u.cross(v).norm(), u.dot(v));
+}
+
+/// A unit vector across `ahead` on the side of `direction`; left or e1 where that is straight ahead or
+/// behind.
+[[nodiscard]] inline Eigen::Vector3d side_of(const Eigen::Vector3d& ahead, const Eigen::Vector3d& direction,
+                                             bool planar) {
+  const Eigen::Vector3d across = direction - direction.dot(ahead) * ahead;
+  if (across.norm() > 1e-12) return across.normalized();
+  return planar ? Eigen::Vector3d(-ahead.y(), ahead.x(), 0) : AxisFrame(ahead).e1;
+}
+
+/// For a course that is held already.
+[[nodiscard]] inline auto as_held(auto now) {
+  now.slack = 0;
+  return now;
+}
 
 /// What courses are compared by: the larger the better. A course that hits keeps nothing.
 struct Navigator::Foreseen {
@@ -67,6 +95,10 @@ struct Navigator::Flight {
       : now(at), course(on), axis(at.ahead.cross(on.aside)), after(manoeuvring(on.turning)) {}
   [[nodiscard]] Eigen::Vector3d velocity(double t) const;
   [[nodiscard]] Eigen::Vector3d moved(double t) const;
+  /// Of the circle that it ends on: metres, and rad/s.
+  [[nodiscard]] double round() const { return now.speed * now.speed / course.asked; }
+  [[nodiscard]] double turns() const { return course.asked / now.speed; }
+  [[nodiscard]] Eigen::Vector3d middle() const;            // of it
   [[nodiscard]] Eigen::Matrix3d rotation(double t) const;  // of its body, since now
   [[nodiscard]] Eigen::Vector3d center(double t) const;    // of its body
   [[nodiscard]] Ellipsoid body(double t) const;

@@ -8,7 +8,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "check_numbers.h"
 #include "foresight.h"
@@ -20,14 +19,9 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kLookAgain = 0.5;      // s
-constexpr double kOfTimeLeft = 0.25;    // before a contact it looks again when this part of it has gone
-constexpr int kMostLooks = 8;           // ahead, before it says that all courses hit
-constexpr long kMostAhead = 200000;     // distances measured for them
 constexpr double kWorthChanging = 0.1;  // rad nearer to what is wanted
 constexpr double kUnhurriedTurn = 2;    // rad/s, where no acceleration is too much
-constexpr double kHurriedTurn = 32;     // rad/s, there, where that does not help
 constexpr double kAtRest = 1e-3;        // m/s: who is slower does not turn
 constexpr long kLooksWithAStop = 400;   // it goes on at the next step
 constexpr double kBraking = 0.9;        // of what it can, who is to stop at its destination
@@ -78,16 +72,6 @@ double longest_axis(const Ellipsoid& body) {
   return std::sqrt(solver.eigenvalues().maxCoeff()) * (1 + 1e-6);
 }
 
-double angle_between(const Vector3d& u, const Vector3d& v) { return std::atan2(u.cross(v).norm(), u.dot(v)); }
-
-/// A unit vector across `ahead` on the side of `direction`; left or e1 where that is straight ahead or
-/// behind.
-Vector3d side_of(const Vector3d& ahead, const Vector3d& direction, bool planar) {
-  const Vector3d across = direction - direction.dot(ahead) * ahead;
-  if (across.norm() > 1e-12) return across.normalized();
-  return planar ? Vector3d(-ahead.y(), ahead.x(), 0) : AxisFrame(ahead).e1;
-}
-
 }  // namespace
 
 const char* to_string(NavigatorStatus status) {
@@ -108,14 +92,14 @@ const char* to_string(NavigatorStatus status) {
   return "?";
 }
 
-Navigator::Body Navigator::body_of(const BodyState& other, bool planar) const {
+Navigator::Body Navigator::body_of(const BodyState& other, bool planar, double swerves) const {
   const Placed* placed = other.shape.placed();
   const bool as_it_is = placed && rigid(other) && !placed->body.quadric();
   Body body{as_it_is ? ball_about(*placed) : seen(other), other.velocity};
   body.reach =
       planar || !rigid(other) ? reach_of(body.body, body.body.center(), planar) : longest_axis(body.body);
   if (as_it_is) body.itself = *placed;
-  if (!as_it_is || !other.velocity.isZero(0)) body.swerves = options_.others_most;
+  if (!as_it_is || !other.velocity.isZero(0)) body.swerves = swerves;
   if (!other.omega.isZero(0)) body.offset = (body.body.center() - other.position).norm();
   if (!rigid(other)) body.body = Ellipsoid::from_axes(body.body.center(), Vector3d::Constant(body.reach));
   return body;
@@ -147,10 +131,23 @@ Navigator::Course Navigator::towards(const Moment& now, const Vector3d& velocity
   course.velocity = now.speed * direction;
   course.aside = side_of(now.ahead, direction, now.planar);
   course.angle = angle_between(now.ahead, direction);
-  if (!(course.angle > kAligned)) return course;
-  in_steps(course.angle * now.speed);
-  course.radius = now.speed * now.speed / course.most;
+  if (course.angle > kAligned) {
+    in_steps(course.angle * now.speed);
+    course.radius = now.speed * now.speed / course.most;
+  }
+  if (now.circles) circle_from(now, course.turning + now.step + now.before, course);
   return course;
+}
+
+/// The way that it has turned, or the other; who has not turned, level to the left, or the right.
+void Navigator::circle_from(const Moment& now, double t, Course& course) {
+  course.circles = t;
+  const Vector3d ahead = course.velocity.normalized(), left(-ahead.y(), ahead.x(), 0);
+  if (course.angle > kAligned)
+    course.inward = std::cos(course.angle) * course.aside - std::sin(course.angle) * now.ahead;
+  else
+    course.inward = left.norm() > 1e-6 ? Vector3d(left.normalized()) : AxisFrame(ahead).e1;
+  course.inward *= now.side;
 }
 
 /// In a whole number of steps too.
@@ -209,6 +206,7 @@ std::optional<Navigator::Course> Navigator::to_destination(const Moment& now, co
   course.aside = aside;
   course.asked = course.most = most;
   course.velocity = now.speed * (std::cos(angle) * now.ahead + std::sin(angle) * aside);
+  if (now.circles) return towards(now, course.velocity, most);
   course.until = (radius * angle + length) / now.speed;
   if (!(angle > kAligned)) return course;
   course.angle = angle;
@@ -217,200 +215,23 @@ std::optional<Navigator::Course> Navigator::to_destination(const Moment& now, co
   return course;
 }
 
-/// Moves a safe course towards the one that is wanted, as far as it stays safe: the velocities tried are some
-/// way apart.
-void Navigator::closer(const Moment& now, const Vector3d& wanted, double most, Course& course,
-                       Foreseen& foreseen) {
-  const Vector3d found = course.velocity;
-  const Vector3d aside = side_of(wanted.normalized(), found.normalized(), now.planar);
-  const double angle = angle_between(wanted, found);
-  const Foreseen all{now.surely - kAlmost, kFar};
-  double low = 0, high = 1;
-  for (int i = 0; i < 5; ++i) {
-    const double part = 0.5 * (low + high);
-    const Vector3d velocity =
-        options_.longitudinal
-            ? Vector3d(wanted + part * (found - wanted))
-            : Vector3d(std::cos(part * angle) * wanted.normalized() + std::sin(part * angle) * aside);
-    const Course tried = towards(now, velocity, most);
-    const Foreseen seen = foresee(now, tried, all);
-    if (!seen.better_than(all)) {
-      low = part;
-      continue;
-    }
-    high = part;
-    course = tried;
-    foreseen = seen;
-  }
-}
-
-/// Where none is safe the best of those tried may be some way from the best there is: steps to all sides,
-/// halved where none is better.
-bool Navigator::refine(const Moment& now, Course& course, Foreseen& foreseen) {
-  const double most = course.asked;
-  double width = 0.1;
-  bool found = false;
-  for (int i = 0; i < 16 && width > 4e-3 && !spent(); ++i) {
-    const AxisFrame frame(course.velocity.isZero(0) ? Vector3d(Vector3d::UnitX()) : course.velocity);
-    bool better = false;
-    for (int k = 0; k < 6 && !better; ++k) {
-      const double sign = k % 2 == 0 ? 1 : -1;
-      Vector3d step = k < 2 ? frame.e1 : k < 4 ? frame.e2 : frame.axis;
-      if (k >= 4 && !options_.longitudinal) break;
-      if (now.planar) {
-        if (k < 2) step = Vector3d::UnitZ().cross(frame.axis);
-        if (k == 2 || k == 3) continue;
-      }
-      const Course tried = towards(now, course.velocity + sign * width * now.pace * step, most);
-      const Foreseen seen = foresee(now, tried, foreseen);
-      if (!(better = seen.better_than(foreseen))) continue;
-      course = tried;
-      foreseen = seen;
-      found = true;
-    }
-    if (found && foreseen.keeps(now.surely)) break;
-    if (!better) width *= 0.5;
-  }
-  return found;
-}
-
-/// The velocities that are tried, those nearer to the one that is wanted before others.
-void Navigator::spread(const Moment& now, const Vector3d& wanted, double less_than, int finer) {
-  candidates_.clear();
-  const auto add = [&](const Vector3d& velocity) {
-    const double from_wanted = beside(now, wanted, velocity);
-    if (from_wanted < less_than)
-      candidates_.push_back({from_wanted + 0.25 * beside(now, now.velocity, velocity), velocity});
-  };
-  const Vector3d axis = !wanted.isZero(0) ? wanted
-                        : now.speed > 0   ? now.velocity
-                                          : Vector3d(Vector3d::UnitX());
-  const auto around = [&](double pace, int in_plane, int rings, int in_ring) {
-    if (now.planar) {
-      for (int k = 0; k < in_plane; ++k)
-        add(pace * (Eigen::AngleAxisd(2 * kPi * k / in_plane, Vector3d::UnitZ()) * axis.normalized()));
-      return;
-    }
-    const AxisFrame frame(axis);
-    add(pace * frame.axis);
-    add(-pace * frame.axis);
-    for (int ring = 1; ring < rings; ++ring)
-      for (int k = 0; k < in_ring; ++k) {
-        const double tilt = kPi * ring / rings, at = 2 * kPi * (k + 0.5 * (ring % 2)) / in_ring;
-        add(pace * (std::cos(tilt) * frame.axis + std::sin(tilt) * frame.across(at)));
-      }
-  };
-  add(now.velocity);
-  add(wanted);
-  if (options_.longitudinal) {
-    add(Vector3d::Zero());
-    for (const double part : {0.25, 0.5, 1.0}) around(part * now.pace, finer * 36, finer * 12, finer * 12);
-  } else {
-    around(now.speed, finer * 72, finer * 24, finer * 16);
-  }
-  std::sort(candidates_.begin(), candidates_.end(),
-            [](const Candidate& x, const Candidate& y) { return x.cost < y.cost; });
-}
-
-/// The first safe course, less than `less_than` beside the wanted one; else, where `any` will do, the best
-/// that is better than the one given. False: there is none, or there was no time to find it: the next search
-/// goes on from there.
-bool Navigator::search(const Moment& now, const Vector3d& wanted, double less_than, bool any, Course& course,
-                       Foreseen& foreseen) {
-  spread(now, wanted, less_than, 1);
-  if (!any) foreseen = {now.surely - kAlmost, kFar};
-  bool found = false;
-  double most = now.most;
-  while (true) {
-    const std::size_t count = candidates_.size(), first = count > 0 ? resume_ % count : 0;
-    resume_ = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Candidate& candidate = candidates_[(first + i) % count];
-      if (spent()) {
-        resume_ = first + i;
-        return found;
-      }
-      const Course tried = towards(now, candidate.velocity, most);
-      const Foreseen seen = foresee(now, tried, foreseen);
-      if (!seen.better_than(foreseen) || (!any && !seen.keeps(now.surely))) continue;
-      course = tried;
-      foreseen = seen;
-      found = true;
-      if (seen.keeps(now.surely)) {
-        closer(now, wanted, most, course, foreseen);
-        return true;
-      }
-    }
-    if (!any || std::isfinite(options_.most) || most >= kHurriedTurn * now.pace) break;
-    most *= 4;
-  }
-  if (any && refine(now, course, foreseen)) found = true;
-  // Before it says that all hit: between those tried too. In a map, which is not judged to its end, and of
-  // what is to come, that is not worth what it costs.
-  if (!any || !foreseen.hits() || now.since > 0 ||
-      std::any_of(bodies_.begin(), bodies_.end(), [](const Body& b) { return b.itself.has_value(); }))
-    return found;
-  spread(now, wanted, less_than, 2);
-  for (const Candidate& candidate : candidates_) {
-    const Course tried = towards(now, candidate.velocity, now.most);
-    const Foreseen seen = foresee(now, tried, foreseen);
-    if (!seen.better_than(foreseen)) continue;
-    course = tried;
-    foreseen = seen;
-    found = true;
-  }
-  if (refine(now, course, foreseen)) found = true;
-  return found;
-}
-
-/// The velocity that it would like best who is on a course to `held`.
-Vector3d Navigator::wanted(const Way& way, const Moment& at, const Vector3d& held) const {
-  if (!way.course) return held;
-  return options_.longitudinal ? way.course->velocity : Vector3d(*way.point - at.position);
-}
-
-/// Where all courses hit: flies on in thought by the one that hits last, looks again on the way as it will,
-/// and follows what it finds. False: nothing was found that is better.
-bool Navigator::look_farther(const Moment& now, const Way& way, double time, Course& course,
-                             Foreseen& foreseen) {
-  tried_.clear();
-  const long looks = looks_;
-  Moment at = now;
-  Course of_leg = towards(now, course.velocity, course.asked);
-  Foreseen found = foreseen;
-  double contact = found.hit;
-  // What keeps next to nothing is soon lost again.
-  for (int look = 0;
-       look < kMostLooks && looks_ - looks < kMostAhead && !spent() && found.kept < 0.02 * now.reach;
-       ++look) {
-    at = later(at, of_leg, look_again(now, contact - at.since));
-    if (!(at.since < contact)) break;
-    of_leg = towards(at, of_leg.velocity, of_leg.asked);
-    Course better = of_leg;
-    if (!search(at, wanted(way, at, of_leg.velocity), kFar, true, better, found)) continue;
-    of_leg = better;
-    tried_.push_back({time + at.since, better.velocity, better.asked});
-    if (found.hits()) contact = found.hit;
-  }
-  if (tried_.empty()) return false;
-  course = towards(now, course.velocity, course.asked);
-  found = foresee_all(now, course, tried_, time);
-  if (!found.better_than(foreseen)) return false;
-  foreseen = found;
-  std::swap(legs_, tried_);
-  return true;
-}
-
-/// Seconds from one look to the next before a contact in `left` seconds.
-double Navigator::look_again(const Moment& now, double left) {
-  return std::max(1.0, std::floor(kOfTimeLeft * left / now.step + 1e-6)) * now.step;
-}
-
 namespace {
 
 void require_course(const BodyState& body) {
   require_finite(body.position, "position", " (m)");
   require_finite(body.velocity, "velocity", " (m/s)");
+}
+
+void require_corridor(const Destination& destination, bool longitudinal) {
+  const Corridor& corridor = *destination.corridor;
+  require_finite(corridor.from, "destination.corridor.from", " (m)");
+  if (!(corridor.radius > 0 && corridor.radius < kFar))
+    throw InputError("destination.corridor.radius", to_text(corridor.radius), "positive and finite (m)");
+  if (!longitudinal)
+    throw InputError("destination.corridor", "of an agent that keeps its speed",
+                     "left out, or longitudinal: in a corridor courses end at rest");
+  if (!destination.velocity.isZero(0))
+    throw InputError("destination.corridor", "beside a velocity", "left out: the leg would turn");
 }
 
 }  // namespace
@@ -425,14 +246,21 @@ Navigator::Navigator(const NavigatorOptions& options) : options_(options) {
 }
 
 NavigatorStep Navigator::step(const BodyState& agent, std::span<const BodyState> others,
-                              const std::optional<Destination>& destination, double time, double step) {
+                              const std::optional<Destination>& destination, double time, double step,
+                              std::span<const double> others_most) {
   if (!(step > 0 && step < kFar)) throw InputError("step", to_text(step), "positive and finite (s)");
   if (!std::isfinite(time)) throw InputError("time", to_text(time), "a finite number (s)");
   if (destination) {
     require_finite(destination->point, "destination.point", " (m)");
     require_not_negative(destination->most, "destination.most", " (m/s^2)");
     require_finite(destination->velocity, "destination.velocity", " (m/s)");
+    if (destination->corridor) require_corridor(*destination, options_.longitudinal);
   }
+  if (!others_most.empty() && others_most.size() != others.size())
+    throw InputError("others_most", std::to_string(others_most.size()) + " numbers",
+                     "one of each of the " + std::to_string(others.size()) + " others");
+  for (std::size_t i = 0; i < others_most.size(); ++i)
+    require_not_negative(others_most[i], ("others_most[" + std::to_string(i) + "]").c_str(), " (m/s^2)");
   try {
     require_course(agent);
   } catch (const InputError& e) {
@@ -473,15 +301,20 @@ NavigatorStep Navigator::step(const BodyState& agent, std::span<const BodyState>
   }
   now.most = std::isfinite(options_.most) ? options_.most : kUnhurriedTurn * now.pace;
   now.to_turn = kLookAgain + (options_.longitudinal ? 1 : kPi) * now.speed / now.most;
-  now.stops = options_.longitudinal && std::isfinite(options_.range);
+  corridor_ = destination ? destination->corridor : std::nullopt;
+  if (corridor_) leg_ = destination->point - corridor_->from;
+  now.stops = options_.longitudinal && (std::isfinite(options_.range) || corridor_);
+  now.slack = 1e-3 * now.reach;
   required_ = options_.required.value_or(now.reach / 20);
   beyond_ = options_.beyond.value_or(now.reach / 10);
   bodies_.clear();
   for (const BodyState& other : others) {
-    Body& body = bodies_.emplace_back(body_of(other, now.planar));
+    const double swerves = others_most.empty() ? options_.others_most : others_most[bodies_.size()];
+    Body& body = bodies_.emplace_back(body_of(other, now.planar, swerves));
     if (body.swerves > 0 || body.holds(now.position, now.reach)) {
       now.stops |= options_.longitudinal;
       if (!now.stops) body.matters = now.to_turn;
+      now.circles = !now.stops && now.speed > 0;
     }
     const double apart = (body.body.center() - now.position).norm() - body.reach - now.reach;
     if (apart < required_ + beyond_)
@@ -491,14 +324,18 @@ NavigatorStep Navigator::step(const BodyState& agent, std::span<const BodyState>
              return body.now >= required_ + beyond_ || !body.stays();
            });
   now.clear = clear_;
+  const auto swerves = [](const Body& body) { return body.swerves > 0; };
+  if (!legs_.empty() || std::any_of(bodies_.begin(), bodies_.end(), swerves)) now.circles = false;
   now.surely = required_ + beyond_;
   // Who is between both moves on by courses that keep what is required.
-  if (now.stops && clear_)
+  if ((now.stops || now.circles) && clear_)
     for (const Body& body : bodies_)
       if (body.now < now.surely && body.stays()) now.surely = required_;
   failed_by_ = 0;
   looks_ = 0;
-  limit_ = options_.looks > 0 ? long(options_.looks) : now.stops && clear_ ? kLooksWithAStop : 0;
+  limit_ = options_.looks > 0                     ? long(options_.looks)
+           : (now.stops && clear_) || now.circles ? kLooksWithAStop
+                                                  : 0;
   if (destination && now.stops) return fly(now, on_the_way(now, *destination, time), time);
   return fly(now, destination, time);
 }
@@ -512,12 +349,14 @@ Navigator::Choice Navigator::choose(const Moment& now, const std::optional<Desti
   bool decided = false;
   std::optional<Course> direct;
   for (double part = 1; part > 0.2 && !decided; part *= 0.5) {
-    std::optional<Course> tried;
-    if (destination) tried = to_destination(now, *destination, part);
-    if (!tried && options_.longitudinal)
-      tried = towards(now, part * *pace_ * held_.value_or(now.ahead).normalized(), now.most);
+    std::optional<Course> tried = way(now, destination, part);
     if (!tried) break;
-    const Foreseen seen = foresee(now, *tried, direct ? chosen.foreseen : Foreseen::nothing());
+    const Foreseen floor = direct ? chosen.foreseen : Foreseen::nothing();
+    Foreseen seen = foresee(now, *tried, floor);
+    if (now.circles && !seen.keeps(surely)) {
+      const Foreseen other = foresee_towards(now, tried->velocity, tried->asked, seen, *tried, true);
+      if (other.better_than(seen)) seen = other;
+    }
     if (!direct || seen.better_than(chosen.foreseen)) {
       chosen = {*tried, seen};
       chosen.way = decided = seen.keeps(held_is_way_ ? required_ : surely);
@@ -530,8 +369,12 @@ Navigator::Choice Navigator::choose(const Moment& now, const std::optional<Desti
   const Vector3d wanted = this->wanted(to, now, held_.value_or(now.velocity));
   if (decided) return chosen;
   const bool had = held_.has_value() && !held_is_way_;
-  const Course before = towards(now, had ? *held_ : now.velocity, had ? turn_ : now.most);
-  const Foreseen of_before = foresee_all(now, before, legs_, time);
+  Course before = towards(now, had ? *held_ : now.velocity, had ? turn_ : now.most);
+  Foreseen of_before = foresee_all(now, before, legs_, time);
+  if (now.circles && !of_before.keeps(surely)) {
+    const Foreseen other = foresee_towards(now, before.velocity, before.asked, of_before, before, true);
+    if (other.better_than(of_before)) of_before = other;
+  }
   decided = of_before.keeps(had ? required_ : surely);
   // Who keeps something gives it up for what is worth it only.
   const auto worth = [&](Foreseen in_hand) {
@@ -544,11 +387,12 @@ Navigator::Choice Navigator::choose(const Moment& now, const std::optional<Desti
   if (!chosen.way) chosen = {before, of_before};
   chosen.aims = aims;
   bool stopping = false;
-  if (now.stops && !chosen.foreseen.keeps(required_)) {
+  const bool in_hand = now.stops || now.circles;
+  if (in_hand && !chosen.foreseen.keeps(required_)) {
     // What was judged safe before is not given up for what looks a little better now: by errors of sensors
     // alone something always does.
-    const Course stop = in_hand(now, time);
-    const Foreseen of_stop = foresee(now, stop, Foreseen::nothing());
+    const Course stop = this->in_hand(now, time);
+    const Foreseen of_stop = foresee(as_held(now), stop, Foreseen::nothing());
     if ((stopping = !of_stop.hits() || of_stop.better_than(chosen.foreseen)))
       chosen = {stop, of_stop, false, aims};
   }
@@ -563,17 +407,28 @@ Navigator::Choice Navigator::choose(const Moment& now, const std::optional<Desti
   better.foreseen = decided ? chosen.foreseen : worth(chosen.foreseen);
   const double bound = decided ? beside(now, wanted, chosen.course.velocity) - kWorthChanging : kFar;
   // Who can stop need not take what is not safe.
-  const bool any = !decided && (now.stops ? chosen.foreseen.hits() : !options_.longitudinal);
+  const bool any = !decided && (in_hand ? chosen.foreseen.hits() : !options_.longitudinal);
   if (search(now, wanted, bound, any, better.course, better.foreseen)) {
     chosen = {better.course, better.foreseen, false, aims};
     stopping = false;
     legs_.clear();
   }
-  if (any && !now.stops && chosen.foreseen.hits() && worse)
+  if (any && !in_hand && chosen.foreseen.hits() && worse)
     if (look_farther(now, to, time, chosen.course, chosen.foreseen)) chosen.way = false;
   chosen.looked = !spent();
   chosen.stopping = stopping;
   return chosen;
+}
+
+/// To the destination, or of who may change its speed back to that of the start.
+std::optional<Navigator::Course> Navigator::way(const Moment& now,
+                                                const std::optional<Destination>& destination,
+                                                double part) const {
+  std::optional<Course> course;
+  if (destination) course = to_destination(now, *destination, part);
+  if (!course && options_.longitudinal)
+    course = towards(now, part * *pace_ * held_.value_or(now.ahead).normalized(), now.most);
+  return course;
 }
 
 /// Where a wall is before it, what it goes to on its way round.
@@ -585,6 +440,7 @@ Destination Navigator::on_the_way(const Moment& now, const Destination& destinat
   const double keep = required_ + beyond_;
   const Ellipsoid ball = Ellipsoid::from_axes(now.position, Vector3d::Constant(now.reach));
   const auto clear = [&](const Vector3d& from, const Vector3d& to, double more) {
+    if (corridor_ && out_of_corridor(to, now.reach + more + 2 * now.slack) > 0) return false;
     return std::none_of(bodies_.begin(), bodies_.end(), [&](const Body& body) {
       if (!body.stays()) return false;
       const Sweep sweep{ball.translated(from - now.position), to - from};
@@ -598,13 +454,50 @@ Destination Navigator::on_the_way(const Moment& now, const Destination& destinat
   return {.point = point, .most = destination.most, .stay = true};
 }
 
-/// The rest of what was taken before, with the stop at its end; without one, a stop at once.
+/// The rest of what was taken before, with the stop or the circle at its end; without one, that at once.
 Navigator::Course Navigator::in_hand(const Moment& now, double time) const {
+  if (now.circles) {
+    const double left = circles_ - time;
+    const bool later = held_ && left > 0.5 * now.step && left < kFar;
+    Moment straight = now;
+    straight.circles = false;
+    Course course =
+        towards(straight, later ? *held_ : now.velocity, held_ && circles_ < kFar ? turn_ : now.most);
+    if (!later) course.angle = course.turning = course.radius = 0;
+    circle_from(now, later ? std::max(left, course.turning) : 0, course);
+    if (held_ && circles_ < kFar) course.inward = about_.cross(course.velocity).normalized();
+    return course;
+  }
   const double left = brakes_ - time;
   if (!held_ || !(left > 0.5 * now.step && left < kFar)) return towards(now, Vector3d::Zero(), now.most);
   Course course = towards(now, *held_, turn_);
   brake_from(now, left, course);
   return course;
+}
+
+/// What is taken, with what is proved of it.
+Navigator::Choice Navigator::decide(const Moment& now, const std::optional<Destination>& destination,
+                                    double time, NavigatorStep& step) {
+  Choice chosen = choose(now, destination, time);
+  if (options_.longitudinal && !now.stops && !chosen.foreseen.keeps(required_)) {
+    Moment careful = now;
+    careful.stops = true;
+    const Choice stops = choose(careful, destination, time);
+    if (stops.foreseen.better_than(chosen.foreseen)) chosen = stops;
+  }
+  if (chosen.way) legs_.clear();
+  prove(now, chosen.course, time, step);
+  if (step.proved || !(now.stops || now.circles) || chosen.stopping) return chosen;
+  // What is proved is not given up for what is not.
+  const Course stop = in_hand(now, time);
+  std::swap(legs_, tried_);
+  legs_.clear();
+  prove(now, stop, time, step);
+  if (step.proved)
+    chosen = {stop, foresee(as_held(now), stop, Foreseen::nothing()), false, chosen.aims, false, true};
+  else
+    std::swap(legs_, tried_);
+  return chosen;
 }
 
 NavigatorStep Navigator::fly(const Moment& now, const std::optional<Destination>& destination, double time) {
@@ -623,25 +516,18 @@ NavigatorStep Navigator::fly(const Moment& now, const std::optional<Destination>
     turn_ = legs_.front().most;
     legs_.erase(legs_.begin());
   }
-  Choice chosen = choose(now, destination, time);
-  if (options_.longitudinal && !now.stops && !chosen.foreseen.keeps(required_)) {
-    Moment careful = now;
-    careful.stops = true;
-    const Choice stops = choose(careful, destination, time);
-    if (stops.foreseen.better_than(chosen.foreseen)) chosen = stops;
+  Moment as = now;
+  Choice chosen = decide(as, destination, time, result);
+  if (as.circles && !result.proved) {
+    as.circles = false;  // there is no room for a circle
+    looks_ = 0;
+    chosen = decide(as, destination, time, result);
   }
-  if (chosen.way) legs_.clear();
-  prove(now, chosen.course, time, result);
-  if (!result.proved && now.stops && !chosen.stopping) {
-    // What is proved is not given up for what is not.
-    const Course stop = in_hand(now, time);
-    std::swap(legs_, tried_);
-    legs_.clear();
-    prove(now, stop, time, result);
-    if (result.proved)
-      chosen = {stop, foresee(now, stop, Foreseen::nothing()), false, chosen.aims, false, true};
-    else
-      std::swap(legs_, tried_);
+  if (corridor_ && chosen.foreseen.kept < 0) {  // no course stays in it
+    corridor_.reset();
+    looks_ = 0;
+    chosen = decide(as, destination, time, result);
+    result.inside = false;
   }
   const auto& [course, foreseen, way, aims, looked, stopping] = chosen;
   fly_on(now, course, time);
@@ -652,18 +538,24 @@ NavigatorStep Navigator::fly(const Moment& now, const std::optional<Destination>
   held_is_way_ = way;
   turn_ = course.asked;
   brakes_ = time + course.brakes;
+  circles_ = time + course.circles;
+  about_ = course.velocity.cross(course.inward).normalized();
   stopping_ = stopping;
   result.rest = course.rests();
+  result.circles = course.circles;
   if (options_.longitudinal) {
     const double missing = (course.velocity - now.velocity).norm() / now.step;
     result.acceleration = std::min(course.most, missing) * course.aside;
     result.aligned = way && destination && missing <= course.most * (1 + 1e-9);
   } else {
     const double missing = course.angle * now.speed / now.step;
-    if (course.angle > kAligned) result.acceleration = std::min(course.most, missing) * course.aside;
+    if (course.angle > kAligned)
+      result.acceleration = std::min(course.most, missing) * course.aside;
+    else if (course.circles < 0.5 * now.step)
+      result.acceleration = course.asked * course.inward;
     result.aligned = way && missing <= course.most * (1 + 1e-9);
   }
-  tell(now, course, time, result);
+  tell(as, course, time, result);
   using enum NavigatorStatus;
   if (foreseen.hits()) {
     result.status = cannot_avoid;

@@ -309,9 +309,9 @@ class Nearest {
   bool done() const { return met_ ? wanted_.meeting == Meeting::whether : near_.distance <= wanted_.stop; }
 
   void look(const Piece& piece) {
-    const Apart found = apart(sweep_, piece, std::max(counts(), 1e-300), wanted_.stop, wanted_.rough,
-                              wanted_.normal ? *wanted_.normal : Vector3d(Vector3d::Zero()));
-    if (wanted_.normal) *wanted_.normal = found.normal;
+    Vector3d& normal = wanted_.normal ? *wanted_.normal : normal_;
+    const Apart found = apart(sweep_, piece, std::max(counts(), 1e-300), wanted_.stop, wanted_.rough, normal);
+    normal = found.normal;
     if (found.distance > 0) {
       near_.distance = std::min(near_.distance, found.distance);
       return;
@@ -339,8 +339,9 @@ class Nearest {
     const Vector3d n = clamped(on_way) - on_way;
     const double length = n.norm();
     if (!(length > 0)) return 0;
-    const Vector3d corner = (n.array() > 0).select(box.low, box.high);
-    const double least = n.dot(corner - highest(sweep_, n)) / length;
+    double least = gap(box, n) / length;
+    // Of what is beside the piece looked at last the plane between tells more, mostly.
+    if (least <= most && !normal_.isZero(0)) least = std::max(least, gap(box, normal_));
     return least > most || (least > 0 && least == most) ? kNever : std::max(least, 0.0);
   }
 
@@ -354,6 +355,10 @@ class Nearest {
   Near result() const { return near_; }
 
  private:
+  double gap(const Box& box, const Vector3d& n) const {
+    const Vector3d corner = (n.array() > 0).select(box.low, box.high);
+    return n.dot(corner - highest(sweep_, n));
+  }
   /// Of flat walls all pieces are as near: what is a hundredth nearer than the nearest does not count.
   double counts() const {
     return met_ ? 0 : near_.distance < wanted_.enough ? 0.99 * near_.distance : near_.distance;
@@ -374,7 +379,8 @@ class Nearest {
   Way sweep_;
   Wanted wanted_;
   Near near_;
-  Vector3d low_, high_;  // of the sweep's box
+  Vector3d low_, high_;                 // of the sweep's box
+  Vector3d normal_ = Vector3d::Zero();  // unit, to the piece that was looked at last
   bool met_ = false;
 };
 
@@ -448,11 +454,15 @@ class Kept {
     normal = apart(sweep_, piece, enough, 0, kRelative, normal).normal;
     kept_ = std::min(kept_, surely_between(sweep_, normal, piece.surely_lowest(normal, sweep_.from)));
   }
-  /// Whether what is in the box may be nearer than what was found.
-  bool matters(const Box& box) const {
-    const Vector3d n = towards(box);
-    return surely_between(sweep_, n, Piece::box(box).surely_lowest(n, sweep_.from)) < kept_;
+  /// Whether what is in the box may be nearer than what was found. `normal`: to what was looked at last.
+  bool matters(const Box& box, const Vector3d& normal) const {
+    const auto by = [&](const Vector3d& n) {
+      return surely_between(sweep_, n, Piece::box(box).surely_lowest(n, sweep_.from)) < kept_;
+    };
+    return by(towards(box)) && (normal.isZero(0) || by(normal));
   }
+  /// About how far the box is from the way.
+  double beside(const Box& box) const { return towards(box).squaredNorm(); }
   bool meets() const { return !(kept_ >= 0); }
   double kept() const { return kept_; }
 
@@ -483,17 +493,16 @@ void descend(const Assembly& body, Kept& kept) {
   Vector3d normal = Vector3d::Zero();
   while (size > 0 && !kept.meets()) {
     const Hierarchy::Node& node = nodes[stack[--size]];
-    if (!kept.matters(node.box())) continue;
+    if (!kept.matters(node.box(), normal)) continue;
     if (!node.is_leaf()) {
-      stack[size++] = node.first;
-      stack[size++] = node.first + 1;
+      // The nearer one first.
+      const bool second = kept.beside(nodes[node.first].box()) > kept.beside(nodes[node.first + 1].box());
+      stack[size++] = second ? node.first : node.first + 1;
+      stack[size++] = second ? node.first + 1 : node.first;
       continue;
     }
-    for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot) {
-      const Piece piece = piece_of(body, slot);
-      normal.setZero();
-      kept.look(piece, normal);
-    }
+    for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot)
+      kept.look(piece_of(body, slot), normal);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "foresight.h"
 
@@ -34,7 +35,11 @@ class Outline {
     };
     corners_[count_++] = {flight.center(0), 0, 0};
     if (course.turning > 0) corner(course.turning, course.most, 2 * offset);
-    if (course.brakes < kFar) {
+    if (course.circles < kFar) {
+      corner(course.circles, 0, 0);
+      // Whoever circles is somewhere about its middle.
+      about_ = 2 * flight.round() * kAbove + 2 * offset;
+    } else if (course.brakes < kFar) {
       corner(course.brakes, 0, 0);
       if (course.braking > 0) corner(course.rests(), course.velocity.norm() / course.braking, 0);
     } else {
@@ -59,6 +64,7 @@ class Outline {
       if (!((c + part * along).norm() >= enough + more)) return false;
       c = next;
     }
+    enough += about_;
     const Vector3d w = velocity_ - other.velocity;
     const double square = w.squaredNorm(), last = corners_[count_ - 1].t;
     const double nearest = square > 0 ? std::max(0.0, c.dot(w) / square) : 0;
@@ -73,7 +79,7 @@ class Outline {
   std::array<Corner, 4> corners_;
   int count_ = 0;
   Vector3d velocity_ = Vector3d::Zero();  // m/s, after the last
-  double since_, reach_;
+  double since_, reach_, about_ = 0;
 };
 
 }  // namespace
@@ -91,10 +97,13 @@ Navigator::Course Navigator::as_flown(const Moment& now, Course course) const {
   } else if (!(course.angle > kAligned)) {
     course.velocity = now.velocity;
     course.turning = course.angle = course.radius = 0;
+    if (course.circles < kFar)  // across that velocity
+      course.inward = (course.inward - course.inward.dot(now.ahead) * now.ahead).normalized();
   } else if (course.turning < now.step) {
     course.turning = now.step;
     course.most = course.angle * now.speed / now.step;
     course.radius = now.speed * now.step / course.angle;
+    course.circles = std::max(course.circles, now.step);
   }
   return course;
 }
@@ -172,6 +181,17 @@ double Navigator::surely_straight(const Flight& flight, const Body& other, doubl
   return surely(other, sweep, now.reach, enough + rounded) - rounded;
 }
 
+/// On the circle that it ends on, for ever.
+double Navigator::surely_round(const Flight& flight, const Body& other, double enough) const {
+  const double begin = flight.course.circles, until = round_until(flight, other, enough);
+  if (until == kFar) return -kFar;
+  const double quarter = 0.5 * std::numbers::pi / flight.turns();
+  double kept = enough;
+  for (double from = begin; from < until && kept >= 0; from += quarter)
+    kept = surely_curved(flight, other, from, std::min(until, from + quarter), kept);
+  return kept;
+}
+
 /// On the whole course, as far as it counts.
 double Navigator::surely_all(const Flight& flight, const Body& other, double end, double enough) const {
   const Course& course = flight.course;
@@ -181,7 +201,10 @@ double Navigator::surely_all(const Flight& flight, const Body& other, double end
     to = std::min(to, end);
     if (kept >= 0 && from <= to) kept = (this->*look)(flight, other, from, to, kept);
   };
-  if (course.brakes == kFar) {
+  if (course.circles < kFar) {
+    part(course.turning, course.circles, &Navigator::surely_straight);
+    if (kept >= 0 && course.circles <= end) kept = surely_round(flight, other, kept);
+  } else if (course.brakes == kFar) {
     part(course.turning, kFar, &Navigator::surely_straight);
   } else {
     if (other.swerves == 0) part(course.rests(), kFar, &Navigator::surely_straight);
@@ -208,6 +231,7 @@ double Navigator::surely_all(const Flight& flight, const Body& other, double end
 void Navigator::prove(const Moment& now, Course course, double time, NavigatorStep& step) const {
   step.proved.reset();
   step.until = kFar;
+  step.inside = !corridor_;
   double kept = required_;
   Moment at = now;
   for (std::size_t leg = 0;; ++leg) {
@@ -217,11 +241,12 @@ void Navigator::prove(const Moment& now, Course course, double time, NavigatorSt
     const Flight flight(at, course);
     const Outline outline(flight);
     for (const Body& other : bodies_) {
-      double end = std::min(course.until, std::max(0.0, other.matters - at.since));
+      const double matters = at.circles ? kFar : std::max(0.0, other.matters - at.since);
+      double end = std::min(course.until, matters);
       if (other.swerves > 0) end = std::min(end, course.rests());
       // Of two that go on together the least difference counts some time.
       const Vector3d w = course.velocity - other.velocity;
-      if (course.brakes == kFar && !w.isZero(0) &&
+      if (course.brakes == kFar && course.circles == kFar && !w.isZero(0) &&
           w.norm() < 1e-9 * (course.velocity.norm() + other.velocity.norm()))
         end = std::min(end, kAsGoodAsEver);
       const bool ends = other.swerves > 0 && course.brakes == kFar;
@@ -229,6 +254,7 @@ void Navigator::prove(const Moment& now, Course course, double time, NavigatorSt
       if (!(kept >= 0)) return;
       if (last) step.until = std::min(step.until, at.since + end);
     }
+    if (last) step.inside = !corridor_ || (leg == 0 && out_of_corridor(flight) <= 0);
     if (last) break;
     at = later(at, course, course.until);
     course = towards(at, legs_[leg].velocity, legs_[leg].most);

@@ -5,13 +5,40 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <queue>
 #include <unordered_map>
 #include <vector>
 
 namespace vericone::guidance::courses {
+
+/// What is known of cells, in blocks that are kept when it is cleared: a table of single cells would be gone
+/// over as a whole, now and then, and one call in some hundred would take a hundred times as long.
+class Cells {
+ public:
+  using Index = Eigen::Matrix<int, 3, 1>;
+  struct Cell {
+    double cost = 0;  // m, from the start
+    std::uint64_t before = 0;
+    bool known = false, done = false, blocked = false;
+  };
+
+  [[nodiscard]] static std::uint64_t key_of(const Index& at);
+  [[nodiscard]] static Index at_of(std::uint64_t key);
+  /// Not known the first time. Stays where it is until clear().
+  [[nodiscard]] Cell& at(const Index& at);
+  void clear();
+
+  std::size_t known = 0;
+
+ private:
+  std::unordered_map<std::uint64_t, std::size_t> where_;  // of blocks
+  std::deque<std::array<Cell, 64>> blocks_;               // 4 x 4 x 4 cells
+  std::size_t used_ = 0;
+};
 
 class Route {
  public:
@@ -26,13 +53,7 @@ class Route {
                                         double radius, bool planar, double time, const Clear& clear);
 
  private:
-  using Index = Eigen::Matrix<int, 3, 1>;
-  struct Node {
-    double cost = 0;  // m, from the start
-    std::uint64_t before = 0;
-    Index at = Index::Zero();
-    bool done = false, blocked = false;
-  };
+  using Index = Cells::Index;
   struct Open {
     double total;
     std::uint64_t key;
@@ -54,7 +75,7 @@ class Route {
   double more_ = 0;     // m: of two cells beside each other that are free with it, all between is
   double started_ = 0;  // s
   bool sought_ = false, looking_ = false;
-  std::unordered_map<std::uint64_t, Node> nodes_;
+  Cells cells_;
   std::priority_queue<Open> open_;
   std::uint64_t nearest_ = 0;
   std::vector<Eigen::Vector3d> way_;

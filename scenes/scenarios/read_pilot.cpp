@@ -114,7 +114,12 @@ const Fields<GoalFile>& goal_fields() {
                "A body from whose position `point` is measured, in the world's axes; there is no such goal "
                "before the body appears.",
                absent("none"))
-          .row("stay", &G::stay, not_negative("s"), "So long there, before the next goal or the end.");
+          .row("stay", &G::stay, not_negative("s"), "So long there, before the next goal or the end.")
+          .row("corridor", &G::corridor, positive("m"),
+               "A guarded pilot that may change its speed stays within so much of the leg with all of its "
+               "body: "
+               "of the straight line to `point` from the goal before, or from its start.",
+               absent("as it likes"));
   return fields;
 }
 
@@ -144,6 +149,16 @@ void read_minds(const Json& value, const std::string& path, PilotFile& pilot) {
   if (!value.is_array() || !value.empty())
     throw InputError(path, quoted(value), "[]: laws of orifices see no bodies");
   pilot.way.minds_none = true;
+}
+
+void read_swerves(const Json& value, const std::string& path, PilotFile& pilot) {
+  const auto most = not_negative("m/s²");
+  if (!value.is_object()) {
+    pilot.others_most = most.read(value, path);
+    return;
+  }
+  for (const auto& [name, each] : value.items())
+    pilot.others_most_of[name] = most.read(each, path + "." + name);
 }
 
 void read_goal(const Json& value, const std::string& path, PilotFile& pilot) {
@@ -232,6 +247,11 @@ void add_fields_of_planes(Fields<PilotFile>& fields) {
   using F = PilotFile;
   using guidance::GuideRates, guidance::SectorMethod, simulation::Manner, simulation::Passing;
   const char* planes = "all about bodies but clearance";
+  const Json most = not_negative().schema;
+  const Json swerves{{"title", "number, 0 or more, or one by the name of a body"},
+                     {"anyOf", {most, {{"type", "object"}, {"additionalProperties", most}}}},
+                     {"default", 0},
+                     {"unit", "m/s²"}};
   fields
       .row("manner", &F::manner, choice<Manner>({{"guarded", Manner::guarded}, {"source", Manner::source}}),
            "`guarded`: the pilot flies courses that no cone holds, tested against every body that it minds. "
@@ -254,9 +274,11 @@ void add_fields_of_planes(Fields<PilotFile>& fields) {
           "costs; the best course found by then is flown.",
           absent("as many as it takes; 400 where a stop is in hand"))
       .only_of({"avoidance", "clearance"}, "avoidance, clearance")
-      .row("others_most", &F::others_most, not_negative("m/s²"),
-           "Of a guarded pilot: so much every body that it minds may accelerate, at any time and any way; a "
-           "mesh, a cloud, a map or a union at rest stays so. Its courses are proved until they end at rest.")
+      .special(
+          "others_most", swerves, read_swerves,
+          "Of a guarded pilot: so much every body that it minds may accelerate, at any time and any way; a "
+          "mesh, a cloud, a map or a union at rest stays so. Its courses are proved until they end at rest. "
+          "By name: so much each of these may; the others keep their velocities.")
       .only_of({"avoidance", "clearance"}, "avoidance, clearance")
       .row("passing", &F::passing,
            choice<Passing>({{"bisector", Passing::bisector}, {"centres", Passing::centres}}),

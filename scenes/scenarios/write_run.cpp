@@ -58,15 +58,20 @@ Json run_json(const simulation::Scenario& scenario, const simulation::Run& run, 
       if (goal.velocity.any()) one["velocity"] = vector_json(goal.velocity);
       if (!goal.follows.empty()) one["follows"] = goal.follows;
       if (goal.stay > 0) one["stay"] = goal.stay;
+      if (std::isfinite(goal.corridor)) one["corridor"] = goal.corridor;
       goals.push_back(std::move(one));
     }
   }
   Json plans = Json::array();
+  const auto swerves = [&](const simulation::PlansProved& own) {
+    const auto& pilot = scenario.bodies[own.agent].pilot;
+    return pilot && !pilot->others_most_of.empty() ? Json(pilot->others_most_of) : Json(own.others_most);
+  };
   for (const simulation::PlansProved& own : run.plans)
     plans.push_back({{"agent", scenario.bodies[own.agent].name},
                      {"commands", own.commands},
                      {"proved", own.proved},
-                     {"others_most", own.others_most},
+                     {"others_most", swerves(own)},
                      {"range", std::isfinite(own.range) ? Json(own.range) : Json(nullptr)}});
   Json beyond = Json::array();
   for (const simulation::VehicleBeyond& b : run.limits_broken)

@@ -94,6 +94,30 @@ class Decisions(unittest.TestCase):
         held = ask("avoid", case(wanted=[0, 0, 0]))[1][0]
         self.assertEqual((held["distance"], held["velocity"]), (0, [0, 0, 0]))
 
+    def test_a_map_of_velocities(self):
+        # In the plane through a ball, of what arrives in time: |v| within asin(0.2) of it, faster than 8 / 60.
+        given = {"low": [-2, 1, 0], "high": [2, 5, 0], "resolution": 0.05, "time": 0.5}
+        found = ask("avoid", case(map=given))[1][0]["map"]
+        tangent = math.tan(math.asin(0.2))
+        area = tangent * (5 ** 2 - 1 ** 2) / 4 ** 2  # a trapezium, of the square
+        self.assertLessEqual(found["colliding"], area)
+        self.assertGreaterEqual(found["colliding"] + found["undecided"], area)
+        self.assertLess(found["undecided"], 0.05)
+        self.assertEqual((found["safe_regions"], found["complete"]), (2, True))
+        for cell in found["cells"]:
+            x, y = (0.5 * (cell["low"][i] + cell["high"][i]) for i in (0, 1))
+            if cell["label"] != "undecided":
+                self.assertEqual(cell["label"] == "colliding", abs(x) < tangent * y)
+            if cell["label"] == "colliding":
+                speed = math.hypot(x, y)
+                first = (10 * y / speed - math.sqrt(4 - (10 * x / speed) ** 2)) / speed
+                self.assertTrue(cell["first"] and cell["obstacle"] == 0)
+                self.assertLessEqual(cell["time"][0], first + 1e-9)
+                self.assertGreaterEqual(cell["time"][1], first - 1e-9)
+        for wrong, field in (({"low": [0, 0, 0]}, "map.high"), ({**given, "resolution": -1}, "map.resolution"),
+                             ({**given, "high": [-3, 5, 0]}, "map.high[0]"), ({**given, "until": 1}, "map.until")):
+            self.assertIn(field + ": got", ask("avoid", case(map=wrong))[1][0]["error"])
+
     def test_examples(self):
         answers = [json.loads(line) for line in run("avoid", SOURCE + "/docs/examples/avoid.jsonl").stdout.splitlines()]
         one, window, walls = answers

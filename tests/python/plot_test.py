@@ -145,6 +145,20 @@ def test_maps_agree_with_the_cone() -> None:
     assert plot.cone_map(cells).get_xlabel() == "azimuth (deg)"
 
 
+def test_maps_of_velocities_cover_their_section() -> None:
+    g = vc.guidance
+    others = [g.Intruder(body=vc.Placed(vc.Body(AHEAD)), velocity=[0, 0, 0])]
+    section = g.velocity_map(vc.Placed(vc.Body(BALL)), others, g.VelocityMapOptions(low=[0, -2, 0], high=[4, 2, 0], resolution=0.1, until=30))
+    axes = plot.velocity_map(section)
+    area = sum(patch.get_width() * patch.get_height() for patch in axes.patches)
+    assert abs(area - 16) < 1e-9 and axes.get_xlabel() == "$v_x$ (m/s)"
+    names = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert names == ["meets 0", "safe", "undecided"]
+    box = g.velocity_map(vc.Placed(vc.Body(BALL)), others, g.VelocityMapOptions(resolution=2, until=30))
+    with pytest.raises(vc.InputError, match="thing: got a map of a box, must be a section"):
+        plot.velocity_map(box)
+
+
 def test_clearances_are_those_of_the_pair() -> None:
     pair = vc.Pair(BALL, AHEAD)
     axes = plot.clearance_field(pair, 2.0, n=21)

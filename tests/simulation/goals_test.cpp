@@ -5,6 +5,7 @@
 #include <vericone/geometry/error.h>
 #include <vericone/internal/simulation/flying_pilot.h>
 #include <vericone/simulation/run.h>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -15,6 +16,8 @@ namespace vericone::simulation::goals_test {
 namespace {
 
 using Eigen::Vector3d;
+
+constexpr double kEver = std::numeric_limits<double>::infinity();
 
 /// Flies straight on, and notes which goal it is told.
 class Straight : public PilotModel {
@@ -191,6 +194,73 @@ TEST(Goals, AGuardedPilotStays) {
   EXPECT_EQ(run.plans[0].proved, run.plans[0].commands);
 }
 
+/// Round a corner, past a ball on the second leg: both legs are kept to, each until its goal is reached.
+Scenario cornered() {
+  Scenario scenario;
+  scenario.duration = 40;
+  scenario.bodies = {ball("A", {0, 0, 0}, {0, 0, 0}), ball("B", {30, 16, 0}, {0, 0, 0})};
+  Pilot& pilot = scenario.bodies[0].pilot.emplace();
+  pilot.guide.law = guidance::Law::clearance;
+  pilot.guide.clearance.required = 0.1;
+  pilot.guide.clearance.beyond = 0.1;
+  pilot.guide.clearance.most = 2;
+  pilot.guide.clearance.longitudinal = true;
+  pilot.fastest = 3;
+  pilot.goals = {goal({30, 0, 0}, 1), goal({30, 30, 0})};
+  for (Goal& each : pilot.goals) each.most = 2;
+  pilot.goals[0].reached = pilot.goals[1].reached = 0.5;
+  pilot.goals[0].corridor = 1.5;
+  pilot.goals[1].corridor = 4;
+  return scenario;
+}
+
+TEST(Goals, CorridorsAreKeptTo) {
+  const Scenario scenario = cornered();
+  const auto run = simulate(scenario);
+  std::vector<double> reached;
+  for (const Event& e : run.events)
+    if (e.kind == EventKind::reaches_goal) reached.push_back(e.t);
+  ASSERT_EQ(reached.size(), 2U);
+  double aside = 0;
+  for (double t = 0; t < run.end; t += 0.01) {
+    const Vector3d at = run.tracks[0].motion(t).position;
+    const double first = (at - Vector3d(std::clamp(at.x(), 0.0, 30.0), 0, 0)).norm(),
+                 second = (at - Vector3d(30, std::clamp(at.y(), 0.0, 30.0), 0)).norm();
+    if (t < reached[0]) {
+      EXPECT_LE(first + 1, 1.5) << t;
+    } else if (t > reached[0] + 1) {
+      EXPECT_LE(second + 1, 4) << t;
+      aside = std::max(aside, second);
+    }
+  }
+  EXPECT_GT(aside, 1);  // round the ball
+  ASSERT_EQ(run.plans.size(), 1U);
+  EXPECT_EQ(run.plans[0].proved, run.plans[0].commands);
+}
+
+TEST(Goals, CorridorsThatCannotBeKeptAreRefused) {
+  const auto refused = [](void (*spoil)(Pilot&)) -> std::string {
+    Scenario scenario = cornered();
+    spoil(*scenario.bodies[0].pilot);
+    try {
+      static_cast<void>(simulate(scenario));
+      return "nothing";
+    } catch (const InputError& e) {
+      return e.field();
+    }
+  };
+  const std::string pilot = "bodies[0].pilot.";
+  EXPECT_EQ(refused([](Pilot& p) { p.goals[1].velocity = {1, 0, 0}; }), pilot + "goals[1].corridor");
+  EXPECT_EQ(refused([](Pilot& p) { p.goals[0].corridor = kEver, p.goals[0].follows = "B"; }),
+            pilot + "goals[1].corridor");
+  EXPECT_EQ(refused([](Pilot& p) { p.goals[1].from = {kEver, 0, 0}; }), pilot + "goals[1].from");
+  EXPECT_EQ(refused([](Pilot& p) { p.guide.clearance.longitudinal = false, p.fastest = kEver; }),
+            pilot + "goals[0].corridor");
+  // Of each body its own bound of accelerations, by name.
+  EXPECT_EQ(refused([](Pilot& p) { p.others_most_of["C"] = 1; }), pilot + "others_most");
+  EXPECT_EQ(refused([](Pilot& p) { p.others_most_of["B"] = -1; }), pilot + "others_most.B");
+}
+
 TEST(Goals, WhatCannotBeIsRefusedByName) {
   const auto refused = [](void (*spoil)(Goal&)) -> std::string {
     Flight flight({goal({20, 0, 0}), goal({40, 0, 0})});
@@ -209,6 +279,8 @@ TEST(Goals, WhatCannotBeIsRefusedByName) {
   EXPECT_EQ(refused([](Goal& g) { g.velocity.y() = std::numeric_limits<double>::infinity(); }),
             path + "velocity");
   EXPECT_EQ(refused([](Goal& g) { g.reached = 0; }), path + "reached");
+  EXPECT_EQ(refused([](Goal& g) { g.corridor = 0; }), path + "corridor");
+  EXPECT_EQ(refused([](Goal& g) { g.corridor = 3; }), path + "corridor");  // its own pilot knows none
   EXPECT_EQ(refused([](Goal& g) { g.follows = "B"; }), "nothing");
 }
 

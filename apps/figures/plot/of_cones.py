@@ -9,7 +9,7 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import ListedColormap, TwoSlopeNorm
-from matplotlib.patches import Arc, Patch, Wedge
+from matplotlib.patches import Arc, Patch, Rectangle, Wedge
 
 from . import course as courses
 from . import in_space, sphere
@@ -20,6 +20,7 @@ from .signs import ANSWERS
 from .style import AGENT, EXACT, GREY, OBSTACLE, SLICE, style
 
 COMPARED = (EXACT, AGENT, OBSTACLE, "#b8860b", "#00808f")  # of cones on the same axes
+OTHERS = (OBSTACLE, EXACT, "#b8860b", "#00808f", SLICE)  # of obstacles
 
 TOWARDS: "weakref.WeakKeyDictionary[Any, Any]" = weakref.WeakKeyDictionary()  # of axes that show directions: the one in their middle
 
@@ -205,6 +206,46 @@ def bands(thing: Any, *, axes: Any = None, heading: float | None = None) -> Any:
         if heading is not None:
             axes.annotate("", (heading, 0.62), (0, 0), arrowprops={"arrowstyle": "-|>", "color": GREY})
         axes.legend(loc="center", bbox_to_anchor=(0.5, 0.32), frameon=False)
+    return axes
+
+
+def velocity_map(thing: Any, *, axes: Any = None) -> Any:
+    """Draws a section of a VelocityMap, one whose box has no width along one axis, and returns the axes, m/s: what is
+    safe, undecided, and what meets which obstacle, the darker the sooner (all that may be another is hatched)."""
+    if not has(thing, "cells", "colliding", "safe_regions"):
+        raise wrong_kind("thing", thing, "a VelocityMap, of guidance.velocity_map()")
+    axes_in_plane(axes)
+    low, high = np.array([cell.low for cell in thing.cells]), np.array([cell.high for cell in thing.cells])
+    flat = [axis for axis in range(3) if np.all(low[:, axis] == high[:, axis])]
+    if len(flat) != 1:
+        raise refused("thing", "a map of %s" % ("a box" if not flat else "a line"), "a section: low and high equal along one axis")
+    across, up = (axis for axis in range(3) if axis != flat[0])
+    with style():
+        if axes is None:
+            axes = plt.figure(figsize=(4.6, 3.9), constrained_layout=True).add_subplot()
+        met = [cell for cell in thing.cells if cell.label.name.startswith("in")]
+        soonest, latest = (f([cell.earliest for cell in met], default=0.0) for f in (min, max))
+        seen: dict[str, Any] = {}
+        for cell, a, b in zip(thing.cells, low, high, strict=True):
+            name = cell.label.name
+            colliding = name.startswith("in")
+            label = "meets %d" % cell.obstacle if colliding else "safe" if name == "out" else name
+            color = OTHERS[cell.obstacle % len(OTHERS)] if colliding else AGENT if name == "out" else GREY
+            sooner = (latest - cell.earliest) / max(latest - soonest, 1e-300)
+            alpha = 0.25 + 0.65 * sooner if colliding else 0.18 if name == "out" else 0.6
+            hatch = "///" if colliding and not cell.first else None
+            axes.add_patch(Rectangle((a[across], a[up]), b[across] - a[across], b[up] - a[up], facecolor=color, alpha=alpha,
+                                     linewidth=0, hatch=hatch))
+            seen[label] = Patch(facecolor=color, alpha=0.18 if label == "safe" else 0.6)
+        axes.set_xlim(low[:, across].min(), high[:, across].max())
+        axes.set_ylim(low[:, up].min(), high[:, up].max())
+        axes.set_aspect("equal")
+        axes.set_xlabel("$v_%s$ (m/s)" % "xyz"[across])
+        axes.set_ylabel("$v_%s$ (m/s)" % "xyz"[up])
+        axes.grid(False)
+        names = sorted(seen)
+        axes.legend([seen[name] for name in names], names, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncol=4,
+                    frameon=False)
     return axes
 
 

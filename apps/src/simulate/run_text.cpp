@@ -268,6 +268,7 @@ std::string agent_text(const Scenario& scenario, const simulation::Body& body) {
   text += guarded(pilot) ? ", guarded" : ", gain " + brief(guide.inversion.gain) + "/s";
   text += most;
   if (pilot.others_most > 0) text += ", others at most " + brief(pilot.others_most) + " m/s^2";
+  for (const auto& [name, a] : pilot.others_most_of) text += ", " + name + " at most " + brief(a) + " m/s^2";
   std::string minds;
   for (const std::string& name : pilot.minds) minds.append(minds.empty() ? "; minds " : ", ").append(name);
   return text + (scenario.bodies.size() > 2 ? minds : "");

@@ -3,6 +3,7 @@
 // Rays and triangles of rays from the wanted velocity. Along a ray each convex part blocks one interval;
 // where the first gap is, there is a candidate. Between three rays all that the hull of six points of one
 // part holds is blocked; where the chain of those ends, nothing safe is nearer. Best first on that bound.
+// Parts are looked for where a chain or a ray has come to, and only those there are asked for their ends.
 #include <vericone/guidance/avoid.h>
 
 #include <vericone/cones/pair.h>
@@ -10,10 +11,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <string>
+#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
+#include "avoid/flown.h"
+#include "avoid/longest.h"
 #include "bands/at_once.h"
 #include "bands/delimited.h"
 #include "bands/threats.h"
@@ -21,40 +27,47 @@
 namespace vericone::guidance {
 
 using namespace banding;
+using namespace avoiding;
 
 namespace {
 
-/// Along one ray what is blocked: by part, proved, none where a part leaves it alone; first what is too slow.
-/// `not_free`: all together, what is not known to be free.
+/// What a part does to a ray: proved to be hit, and not known to be free.
+struct Blocked {
+  std::optional<Range> hit;
+  std::vector<Range> not_free;
+};
+
+/// From the wanted velocity. `slow`: too slow to be flown; `limits`: all that cannot be flown.
 struct Ray {
   Vector3d direction;
-  std::vector<std::optional<Range>> hit;
-  std::vector<Range> not_free;
+  std::optional<Range> slow;
+  std::vector<Range> limits;
+  std::unordered_map<const Part*, Blocked> parts = {};  // those asked about
 };
 
 struct Triangle {
   double bound;             // no safe velocity in it is nearer
   std::array<int, 3> rays;  // counter-clockwise
+  std::size_t known;        // parts when that was found
   bool operator<(const Triangle& other) const { return bound > other.bound; }  // the nearest on top
 };
 
-/// Of some parts alone, those that were in the way of an answer: what they leave is nearer than what all
-/// leave, so its bound is one. What is found is asked of all, and those in its way are added.
+/// Of some parts alone, those that were in the way of candidates: what they leave is nearer than what all
+/// leave, so its bound is one. A candidate is asked of all, and some of those in its way are added.
 class Search3 {
  public:
   Search3(const Vector3d& velocity, const Vector3d& wanted, Threats& threats, const AvoidOptions& options,
-          double until, bool any = false)
-      : velocity_(velocity),
+          double until)
+      : flown_(velocity, options),
         wanted_(wanted),
         threats_(threats),
         options_(options),
         horizon_{0, until},
-        gap_(any ? 1e9 : options.gap),
-        most_(any ? options.most / 4 : options.most) {}
+        gap_(options.gap),
+        most_(options.most) {}
 
   Avoidance run() {
-    add_those_in_the_way(wanted_);
-    if (parts_.empty() && can_fly(wanted_)) {
+    if (flown_.can_fly(wanted_) && !add_those_in_the_way(wanted_)) {
       best_ = wanted_;
       upper_ = 0;
       return found(0);
@@ -67,12 +80,8 @@ class Search3 {
                                          {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
     for (int k = 0; k < 6; ++k) ray(Vector3d::Unit(k / 2) * (k % 2 == 0 ? 1 : -1));
     for (const auto& face : kFaces) open({face[0], face[1], face[2]});
-    while (true) {
-      refine();
-      if (std::isinf(upper_)) break;
-      const double lower = open_.empty() ? upper_ / (1 + gap_) : open_.front().bound;
-      if (!add_those_in_the_way(best_)) return found(lower);
-    }
+    refine();
+    if (std::isfinite(upper_)) return found(open_.empty() ? upper_ / (1 + gap_) : open_.front().bound);
     Avoidance none;
     if (open_.empty()) none.status = AvoidStatus::nothing_safe;
     none.lower = open_.empty() ? kInfinity : open_.front().bound;
@@ -80,12 +89,19 @@ class Search3 {
   }
 
  private:
-  const Vector3d& direction(int ray) const { return rays_[ray].direction; }
+  const Vector3d& direction(int ray) const { return rays_[static_cast<std::size_t>(ray)].direction; }
 
   /// Until the nearest candidate is nearly as near as the bound, or as many rays were looked along as may be.
   void refine() {
     while (!open_.empty() && !(upper_ <= open_.front().bound * (1 + gap_)) && rays_.size() < most_) {
-      const std::array<int, 3> t = open_.front().rays;
+      const Triangle nearest = open_.front();
+      std::pop_heap(open_.begin(), open_.end());
+      open_.pop_back();
+      if (nearest.known < parts_.size()) {  // more may be known to be blocked by now
+        open(nearest.rays);
+        continue;
+      }
+      const std::array<int, 3>& t = nearest.rays;
       // Halve the longest side.
       const auto side = [&](int i) {
         return (direction(t[(i + 1) % 3]) - direction(t[(i + 2) % 3])).squaredNorm();
@@ -93,9 +109,11 @@ class Search3 {
       int longest = 0;
       for (int i = 1; i < 3; ++i)
         if (side(i) > side(longest)) longest = i;
-      if (side(longest) < kTiny * kTiny) return;  // where parts only touch: no more is proved
-      std::pop_heap(open_.begin(), open_.end());
-      open_.pop_back();
+      if (side(longest) < kTiny * kTiny) {  // where parts only touch: no more is proved
+        open_.push_back(nearest);
+        std::push_heap(open_.begin(), open_.end());
+        return;
+      }
       const int apex = t[longest], from = t[(longest + 1) % 3], to = t[(longest + 2) % 3],
                 half = between(from, to);
       open({apex, from, half});
@@ -104,35 +122,44 @@ class Search3 {
   }
 
   void open(const std::array<int, 3>& rays) {
+    const std::size_t known = parts_.size();
     const double bound = bound_of(rays);
     if (std::isinf(bound)) return;
-    open_.push_back({bound, rays});
+    open_.push_back({bound, rays, known});
     std::push_heap(open_.begin(), open_.end());
   }
 
-  /// Adds the parts that do not let a velocity pass; what was found without them counts no more. False: there
-  /// are none.
+  /// Adds some of the parts that do not let a velocity pass, none of which is known. False: there are none.
   bool add_those_in_the_way(const Vector3d& v) {
     const std::size_t before = parts_.size();
-    const double duration = ramp(v);
-    threats_.near(v + options_.wind, horizon_.until, 0.5 * duration * (v - velocity_).norm(),
-                  [&](std::size_t i) {
-                    const Part* part = &threats_[i];
-                    if (!lets_pass(*part, v, duration)) parts_.push_back(part);
-                  });
-    if (parts_.size() == before) return false;
-    any_delimited_ =
-        std::any_of(parts_.begin(), parts_.end(), [](const Part* part) { return !part->exact(); });
-    if (any_delimited_) most_ = std::min(most_, options_.most / 10);
-    upper_ = kInfinity;
-    for (Ray& ray : rays_) {
-      for (std::size_t i = before; i < parts_.size(); ++i) block(ray, *parts_[i]);
-      look_along(ray);
-    }
-    std::vector<Triangle> again;
-    std::swap(again, open_);
-    for (const Triangle& triangle : again) open(triangle.rays);
-    return true;
+    const double duration = flown_.ramp(v);
+    threats_.near_until(v + options_.wind, horizon_.until, flown_.beside(v), [&](std::size_t i) {
+      const Part& part = threats_[i];
+      if (flown_.lets_pass(part, v, duration, horizon_.until)) return false;
+      add(part);
+      return parts_.size() >= before + kAtOnce;
+    });
+    return parts_.size() > before;
+  }
+
+  /// Adds some of the parts that block two velocities.
+  void add_across(const Vector3d& v, const Vector3d& other) {
+    const std::size_t before = parts_.size();
+    threats_.near_until(v + options_.wind, horizon_.until, 0, [&](std::size_t i) {
+      const Part& part = threats_[i];
+      const auto hit = [&](const Vector3d& one) {
+        return comes_nearer(part, one + options_.wind, horizon_, options_.margin);
+      };
+      if (part.exact() && !known_.contains(&part) && hit(other) && hit(v)) add(part);
+      return parts_.size() >= before + kAtOnce;
+    });
+  }
+
+  void add(const Part& part) {
+    parts_.push_back(&part);
+    known_.insert(&part);
+    if (!part.exact()) most_ = std::min(most_, options_.most / 10);
+    any_delimited_ = any_delimited_ || !part.exact();
   }
 
   Avoidance found(double lower) const {
@@ -146,98 +173,97 @@ class Search3 {
     return answer;
   }
 
-  /// To rounding: a range may be one value.
-  bool can_fly(const Vector3d& v) const {
-    constexpr double kRounded = 1e-12;
-    const double speed = v.norm(), slack = kRounded * speed;
-    return speed >= options_.speed.from - slack && speed <= options_.speed.to + slack &&
-           v.z() >= options_.climb.from - slack && v.z() <= options_.climb.to + slack;
+  /// Whether a part that is known does not let a velocity pass.
+  bool is_known_to_be_blocked(const Vector3d& v) const {
+    const double duration = flown_.ramp(v), beside = flown_.beside(v);
+    return std::any_of(parts_.begin(), parts_.end(), [&](const Part* part) {
+      return may_meet(part->apart, part->reach + beside, v + options_.wind - part->velocity,
+                      horizon_.until) &&
+             !flown_.lets_pass(*part, v, duration, horizon_.until);
+    });
   }
 
-  /// Proved: it keeps the margin from all parts so far until the horizon, and so does the change to it.
-  bool is_free(const Vector3d& v) const {
-    const double duration = ramp(v);
-    return can_fly(v) && std::all_of(parts_.begin(), parts_.end(),
-                                     [&](const Part* part) { return lets_pass(*part, v, duration); });
-  }
-
-  /// `duration`: s, of the change of velocity.
-  bool lets_pass(const Part& part, const Vector3d& v, double duration) const {
-    const Vector3d ground = v + options_.wind;
-    auto half = safe(part, ground, horizon_, options_.margin);
-    if (!half) {
-      const double beside = options_.margin + 0.5 * duration * (v - velocity_).norm() * (1 + 1e-12);
-      return part.truth && duration <= horizon_.until &&
-             AsTheyAre(*part.truth).apart(ground, part.velocity, horizon_, beside);
-    }
-    if (duration == 0) return true;
-    // The ramp is behind the straight flight by at most half its duration, along the change.
-    if (!(duration <= horizon_.until)) return false;
-    const double behind = 0.5 * duration * std::max(0.0, -half->normal.dot(v - velocity_)),
-                 along = std::max(0.0, horizon_.until * half->normal.dot(ground - part.velocity));
-    const double slack =
-        0x1p-46 * half->normal.norm() *
-        (horizon_.until * (ground - part.velocity).norm() + duration * (v - velocity_).norm());
-    if (along + behind + slack < half->room) return true;
-    const Vector3d late = -0.5 * duration * (v - velocity_);
-    // Another plane, of both straight ways.
-    for (const Vector3d& shift : {Vector3d(0.5 * late), late}) {
-      const auto n = part.pair.normal_along(shift, horizon_.until * (ground - part.velocity) + shift);
-      if (!n) return false;
-      const double room = part.pair.gap(*n) - options_.margin * n->norm() * (1 + 0x1p-48);
-      if (std::max(0.0, n->dot(late)) + std::max(0.0, horizon_.until * n->dot(ground - part.velocity)) +
-              slack <
-          room)
-        return true;
-    }
-    return false;
-  }
-  double ramp(const Vector3d& v) const {
-    if (options_.lateral == 0 && options_.longitudinal == 0) return 0;
-    const Vector3d change = v - velocity_;
-    const double speed = velocity_.norm();
-    const double along = speed > 0 ? std::abs(change.dot(velocity_)) / speed : change.norm();
-    const double across = std::sqrt(std::max(0.0, change.squaredNorm() - along * along));
-    const auto duration = [](double of, double by) { return of <= 1e-12 ? 0 : by > 0 ? of / by : 0; };
-    return std::max(duration(along, options_.longitudinal), duration(across, options_.lateral));
+  /// Proved: it can be flown and keeps the margin from all parts until the horizon, and so does the change to
+  /// it. Parts in its way are known from then on.
+  bool is_free(const Vector3d& v) {
+    return flown_.can_fly(v) && !is_known_to_be_blocked(v) && !add_those_in_the_way(v);
   }
 
   int ray(const Vector3d& given) {
     Ray ray{given.normalized(), {}, {}};
     limit(ray);
-    for (const Part* part : parts_) block(ray, *part);
-    look_along(ray);
     rays_.push_back(std::move(ray));
+    look_along(rays_.back());
     return static_cast<int>(rays_.size()) - 1;
   }
 
-  /// What a part blocks of it.
-  void block(Ray& ray, const Part& part) const {
+  Vector3d at(const Ray& ray, double s) const { return wanted_ + s * ray.direction; }
+  bool may_meet_at(const Part& part, const Vector3d& v) const {
+    return may_meet(part.apart, part.reach, v + options_.wind - part.velocity, horizon_.until);
+  }
+
+  /// What a part blocks of a ray.
+  const Blocked& blocked(Ray& ray, const Part& part) const {
+    const auto [found, is_new] = ray.parts.try_emplace(&part);
+    if (is_new) found->second = ask(ray, part);
+    return found->second;
+  }
+
+  Blocked ask(const Ray& ray, const Part& part) const {
     // All velocities of the ray lead through one plane: of many small parts most are beside it.
     const Vector3d w = wanted_ + options_.wind - part.velocity, n = w.cross(ray.direction);
     const double rounded = 0x1p-40 * (part.apart.norm() + part.reach) * w.norm();
-    if (std::abs(n.dot(part.apart)) > part.reach * n.norm() + rounded) {
-      ray.hit.push_back(std::nullopt);
-      return;
-    }
+    if (std::abs(n.dot(part.apart)) > part.reach * n.norm() + rounded) return {};
     const Line line(wanted_ + options_.wind, ray.direction, {0, reach_});
     const OfVelocity question(part, horizon_, options_.margin, line);
+    if (part.exact())
+      if (const auto interval = interval_of(question)) return *interval;
     Search search(question, {0, reach_});
     search.run();
-    const std::vector<Range> blocked = not_free(search, {0, reach_});
-    if (part.exact()) {
-      ray.hit.push_back(hull_of(search.hit));
-      ray.not_free.insert(ray.not_free.end(), blocked.begin(), blocked.end());
-      return;
-    }
-    ray.hit.push_back(hit_core(part, line));
+    const std::vector<Range> rest = not_free(search, {0, reach_});
+    if (part.exact()) return {hull_of(search.hit), rest};
+    Blocked result{hit_core(part, line), {}};
     const OfDelimited as_it_is(part, horizon_, options_.margin, line, 1e-4 * reach_);
-    for (const Range& range : blocked) {
+    for (const Range& range : rest) {
       Search one(as_it_is, {range.from, range.to});
       one.run();
       const std::vector<Range> still = not_free(one, range);
-      ray.not_free.insert(ray.not_free.end(), still.begin(), still.end());
+      result.not_free.insert(result.not_free.end(), still.begin(), still.end());
     }
+    return result;
+  }
+
+  /// The one interval of a convex part, from outside by Newton's method, its ends as near as the gap asks.
+  /// Nothing where that does not end soon, as where they only touch.
+  std::optional<Blocked> interval_of(const OfVelocity& question) const {
+    const auto from = end_towards(question, 0, reach_);
+    if (!from) return std::nullopt;
+    if (from->free >= reach_) return Blocked{};
+    const auto to = end_towards(question, reach_, 0);
+    if (!to || !(to->hit >= from->hit)) return std::nullopt;
+    return Blocked{Range{from->hit, to->hit}, {Range{from->free, to->free}}};
+  }
+  struct End {
+    double free, hit;  // up to where it is free, and where it is hit
+  };
+  std::optional<End> end_towards(const OfVelocity& question, double start, double end) const {
+    const double side = end > start ? 1 : -1;
+    if (question.is_hit(start)) return End{start, start};
+    double q = start, beyond = 0;
+    for (int step = 0; step < 40; ++step) {
+      const double next = q + side * beyond;
+      if (side * (end - next) <= 0) return End{end, end};
+      if (beyond > 0 && question.is_hit(next)) return End{q, next};
+      const auto free = question.free_about(next);
+      if (free && side * ((side > 0 ? free->from : free->to) - q) > 0) return std::nullopt;  // not joined
+      const double reached = !free ? q : side > 0 ? free->to : free->from;
+      if (side * (end - reached) <= 0) return End{end, end};
+      const double least = kEnds * options_.gap * std::abs(reached) + 1e-13 * reach_;
+      beyond = side * (reached - q) > least ? least : 4 * std::max(beyond, 0.5 * least);
+      if (beyond > 1e3 * least) return std::nullopt;
+      if (side * (reached - q) > 0) q = reached;
+    }
+    return std::nullopt;
   }
 
   /// All between the first and the last: of a convex set.
@@ -280,41 +306,52 @@ class Search3 {
       if (!(root > 0)) return std::nullopt;
       return Range{-along - std::sqrt(root), -along + std::sqrt(root)};
     };
-    std::optional<Range> slow = crossing(options_.speed.from);
-    if (slow && slow->to > 0) {
-      ray.not_free.push_back({std::max(slow->from, 0.0), slow->to});
-      ray.hit.push_back(ray.not_free.back());
-    } else {
-      ray.hit.push_back(std::nullopt);
+    if (const auto slow = crossing(options_.speed.from); slow && slow->to > 0) {
+      ray.slow = {std::max(slow->from, 0.0), slow->to};
+      ray.limits.push_back(*ray.slow);
     }
     if (std::isfinite(options_.speed.to)) {
       const auto fast = crossing(options_.speed.to);
       if (!fast || fast->to <= 0) {
-        ray.not_free.push_back({0, reach_});
+        ray.limits.push_back({0, reach_});
       } else {
-        if (fast->from > 0) ray.not_free.push_back({0, fast->from});
-        ray.not_free.push_back({fast->to, reach_});
+        if (fast->from > 0) ray.limits.push_back({0, fast->from});
+        ray.limits.push_back({fast->to, reach_});
       }
     }
     for (const double side : {-1.0, 1.0}) {
       const double most = side > 0 ? options_.climb.to : -options_.climb.from;
       if (std::isinf(most)) continue;
       const double here = side * wanted_.z() - most, slope = side * d.z();  // positive: too much
-      if (here > 0) ray.not_free.push_back({0, slope < 0 ? -here / slope : reach_});
-      if (here <= 0 && slope > 0) ray.not_free.push_back({-here / slope, reach_});
+      if (here > 0) ray.limits.push_back({0, slope < 0 ? -here / slope : reach_});
+      if (here <= 0 && slope > 0) ray.limits.push_back({-here / slope, reach_});
     }
   }
 
-  /// For a candidate.
+  /// For a candidate: past all that is known to block, then asked of everything.
   void look_along(Ray& ray) {
-    std::sort(ray.not_free.begin(), ray.not_free.end(),
-              [](const Range& a, const Range& b) { return a.from < b.from; });
     double s = 0;
-    for (const Range& range : ray.not_free) {
-      if (range.from >= s * (1 - kOneValue)) look_between(ray.direction, s, range.from);
-      s = std::max(s, range.to);
+    bool tried = false;  // a gap of one value here
+    for (int step = 0; step < kMostSteps && s < std::min(reach_, upper_); ++step) {
+      const double here = s;
+      const auto past = [&](const Range& range) {
+        const bool inside = range.from <= s * (tried ? 1 + 1e-6 : 1 - kOneValue) && s < range.to;
+        if (inside) s = range.to;
+      };
+      for (const Range& range : ray.limits) past(range);
+      for (const Part* part : parts_)
+        if (may_meet_at(*part, at(ray, s)))
+          for (const Range& range : blocked(ray, *part).not_free) past(range);
+      if (s > here) {
+        tried = false;
+        continue;
+      }
+      const std::size_t known = parts_.size();
+      if (look_from(ray.direction, s)) return;
+      if (parts_.size() > known) continue;
+      if (tried) return;
+      tried = true;
     }
-    if (s < reach_) look_between(ray.direction, s, reach_);
   }
 
   /// Whether a velocity of the ray is a candidate; then it is the one to beat.
@@ -327,18 +364,20 @@ class Search3 {
     return true;
   }
 
-  /// Of values that nothing blocks at once: the first, a little beyond the end, where rounding cannot bring
-  /// it back; where the way to it is blocked, farther ones.
-  void look_between(const Vector3d& d, double from, double to) {
+  /// Of values that nothing known blocks at once: the first, a little beyond the end, where rounding cannot
+  /// bring it back; where the way to it is blocked, farther ones.
+  bool look_from(const Vector3d& d, double from) {
+    const std::size_t known = parts_.size();
     const double most = any_delimited_ ? 1e-2 : 1e-6;  // those are undecided for a while
-    for (double beyond = 0; beyond < most; beyond = std::max(30 * beyond, 1e-13))
-      if (const double s = from * (1 + beyond); s < std::max(to, from * (1 + kOneValue)) && take(d, s))
-        return;
-    if (options_.lateral == 0 && options_.longitudinal == 0) return;
+    for (double beyond = 0; beyond < most; beyond = std::max(30 * beyond, 1e-13)) {
+      if (take(d, from * (1 + beyond))) return true;
+      if (parts_.size() > known || from == 0) break;
+    }
+    if (parts_.size() > known || (options_.lateral == 0 && options_.longitudinal == 0)) return false;
     double refused = from;
-    for (const double part : {1.0 / 64, 1.0 / 16, 0.25, 0.5, 0.75}) {
-      double taken = from + part * (to - from);
-      if (!(taken < upper_)) return;
+    for (const double part : {1.0 / 256, 1.0 / 64, 1.0 / 16, 0.25, 0.5, 0.75}) {
+      double taken = from + part * (reach_ - from);
+      if (!(taken < upper_)) return false;
       if (!take(d, taken)) {
         refused = taken;
         continue;
@@ -347,8 +386,9 @@ class Search3 {
         const double between = 0.5 * (refused + taken);
         (take(d, between) ? taken : refused) = between;
       }
-      return;
+      return true;
     }
+    return false;
   }
 
   int between(int from, int to) {
@@ -359,7 +399,7 @@ class Search3 {
   }
 
   /// Below which no safe velocity is in a triangle of rays; infinite where none is.
-  double bound_of(const std::array<int, 3>& t) const {
+  double bound_of(const std::array<int, 3>& t) {
     const Vector3d &a = direction(t[0]), &b = direction(t[1]), &c = direction(t[2]);
     const Vector3d across = (b - a).cross(c - a);
     // Of a point between the tips |p|^2 = 1 - sum of l_i l_j d_ij^2, which is at most a third of the longest
@@ -368,21 +408,44 @@ class Search3 {
     double height = std::sqrt(std::max(0.0, 1 - widest / 3));
     if (widest > kTiny * kTiny) height = std::max(height, std::abs(across.dot(a)) / across.norm());
     height *= 1 - 1e-12;
-    std::vector<Range> chain;
-    for (std::size_t i = 0; i < rays_[t[0]].hit.size(); ++i) {
-      Range all{0, kInfinity};
-      for (const int r : t) {
-        const auto& hit = rays_[r].hit[i];
-        if (!hit) all = {1, 0};
-        if (hit) all = {std::max(all.from, hit->from), std::min(all.to, hit->to)};
-      }
-      if (all.from < all.to) chain.push_back(all);
-    }
-    std::sort(chain.begin(), chain.end(), [](const Range& x, const Range& y) { return x.from < y.from; });
     double end = too_much_before(t);
-    for (const Range& range : chain)
-      if (range.from <= end) end = std::max(end, range.to);
-    if (all_beyond(t, end)) return kInfinity;
+    const auto extend = [&](const std::array<std::optional<Range>, 3>& hits) {
+      Range all{0, kInfinity};
+      for (const auto& hit : hits) {
+        if (!hit) return false;
+        all = {std::max(all.from, hit->from), std::min(all.to, hit->to)};
+      }
+      if (!(all.from <= end && all.to > end)) return false;
+      end = all.to;
+      return true;
+    };
+    const auto of = [&](int i) -> Ray& {
+      return rays_[static_cast<std::size_t>(t[static_cast<std::size_t>(i)])];
+    };
+    for (int step = 0; step < kMostSteps; ++step) {
+      if (all_beyond(t, end)) return kInfinity;
+      if (extend({of(0).slow, of(1).slow, of(2).slow})) continue;
+      // What blocks all between the rays here blocks the middle too.
+      const Vector3d v = wanted_ + (end * (1 + 1e-9) + 1e-13 * reach_) / 3 * (a + b + c);
+      bool any = false;
+      for (const Part* part : parts_) {
+        if (!may_meet_at(*part, v)) continue;
+        std::array<std::optional<Range>, 3> hits;
+        for (int i = 0; i < 3; ++i)
+          if (hits[static_cast<std::size_t>(i)] = blocked(of(i), *part).hit;
+              !hits[static_cast<std::size_t>(i)])
+            break;
+        any = extend(hits) || any;
+      }
+      if (any) continue;
+      // Nothing known: of everything, where it may be the answer, or else what reaches well across the end.
+      if (!((v - wanted_).norm() < upper_)) break;
+      const std::size_t known = parts_.size();
+      if (take(v - wanted_, 1)) break;
+      if (parts_.size() == known && threats_.any_trees())
+        add_across(v, wanted_ + end * (1 - 0.25 * std::sqrt(widest)) / 3 * (a + b + c));
+      if (parts_.size() == known) break;
+    }
     return end * height;
   }
 
@@ -426,18 +489,23 @@ class Search3 {
 
   static constexpr double kTiny = 1e-5;       // rad, a triangle that is not divided
   static constexpr double kOneValue = 1e-13;  // a gap between what cannot be flown may be one value
+  static constexpr double kEnds = 1e-4;       // of the gap, how near to each other the sides of an end are
+  static constexpr std::size_t kAtOnce = 4;   // parts that are added
+  static constexpr int kMostSteps = 500;      // of a chain or along a ray
 
-  Vector3d velocity_, wanted_;
+  Flown flown_;
+  Vector3d wanted_;
   Threats& threats_;
   const AvoidOptions& options_;
   Horizon horizon_;
   double gap_;        // at which it ends
   std::size_t most_;  // rays
   bool any_delimited_ = false;
-  std::vector<const Part*> parts_;  // those that are looked at
+  std::vector<const Part*> parts_;  // those known
+  std::unordered_set<const Part*> known_;
   double reach_ = 0, upper_ = kInfinity;
   Vector3d best_ = Vector3d::Zero();
-  std::vector<Ray> rays_;
+  std::deque<Ray> rays_;
   std::vector<Triangle> open_;  // a heap
   std::map<std::pair<int, int>, int> middles_;
 };
@@ -487,98 +555,6 @@ Vector3d nearly(const Vector3d& wanted, const AvoidOptions& options) {
                     : Vector3d(level, 0, climb);
 }
 
-/// What is met first with a velocity over ground.
-std::optional<Avoidance::First> first_met(Threats& threats, const Vector3d& ground) {
-  std::optional<Avoidance::First> first;
-  threats.near(ground, kInfinity, 0, [&](std::size_t i) {
-    const auto contact = threats[i].as_it_is().contact(ground, threats[i].velocity);
-    if (contact && !(first && first->time <= contact->earliest))
-      first = {threats[i].intruder, contact->earliest};
-  });
-  return first;
-}
-
-/// Where nothing is safe for as long as was asked: for how long something is. What blocks until a time blocks
-/// until every later one, so halving brings together a time until which a velocity is safe and one until
-/// which none is.
-class Shorter {
- public:
-  Shorter(const Vector3d& velocity, const Vector3d& wanted, Threats& threats, const AvoidOptions& options)
-      : velocity_(velocity), wanted_(wanted), threats_(threats), options_(options) {}
-
-  /// `answer`: of the whole time, not free.
-  void look(Avoidance& answer) {
-    note(options_.until, answer);
-    if (none_now()) {
-      latest_ = 0;
-    } else {
-      // Half as long, and so on, until one is safe.
-      for (double until = 0.5 * options_.until; safe_ == 0 && until > 1e-3 * options_.until; until *= 0.5)
-        ask(until, answer);
-      for (int step = 0; safe_ > 0 && step < 12; ++step) {
-        // Between what is safe and what was not shown to be either; between that and where none is.
-        const double low = (tried_ ? tried_->from : latest_) - safe_,
-                     high = tried_ && std::isfinite(latest_) ? latest_ - tried_->to : 0;
-        if (!(std::max(low, high) > options_.gap * safe_)) break;
-        ask(low >= high ? safe_ + 0.5 * low : tried_->to + 0.5 * high, answer);
-      }
-    }
-    answer.safe_until = safe_;
-    if (safe_ == options_.until) {  // found for less, and good for all
-      answer.status = AvoidStatus::free;
-      return;
-    }
-    answer.latest = latest_;
-    if (std::isinf(latest_)) return;
-    answer.status = AvoidStatus::nothing_safe;
-    answer.lower = kInfinity;
-  }
-
- private:
-  /// Whether some body is too near already.
-  bool none_now() {
-    bool none = false;
-    threats_.near(Vector3d::Zero(), 0, 0, [&](std::size_t i) {
-      const Part& part = threats_[i];
-      none = none || (part.exact() && part.swollen().relation() == Relation::overlapping);
-    });
-    return none;
-  }
-
-  void ask(double until, Avoidance& answer) {
-    const Avoidance found = Search3(velocity_, wanted_, threats_, options_, until, true).run();
-    note(until, found);
-    if (found.status != AvoidStatus::free) return;
-    answer.velocity = found.velocity;
-    answer.distance = found.distance;
-  }
-
-  void note(double until, const Avoidance& found) {
-    if (found.status == AvoidStatus::free) {
-      safe_ = until;
-      // Without a margin and a way there, until its first contact.
-      if (options_.margin == 0 && options_.lateral == 0) {
-        const auto first = first_met(threats_, found.velocity + options_.wind);
-        safe_ = std::max(safe_, std::min(first ? first->time : kInfinity, options_.until));
-      }
-    } else if (found.status == AvoidStatus::nothing_safe) {
-      latest_ = until;
-    } else {
-      tried_ =
-          tried_ ? Range{std::min(tried_->from, until), std::max(tried_->to, until)} : Range{until, until};
-    }
-    if (!tried_) return;
-    *tried_ = {std::max(tried_->from, safe_), std::min(tried_->to, latest_)};
-    if (tried_->from >= latest_ || tried_->to <= safe_) tried_.reset();
-  }
-
-  Vector3d velocity_, wanted_;
-  Threats& threats_;
-  const AvoidOptions& options_;
-  double safe_ = 0, latest_ = kInfinity;  // s: until when one is, and none is
-  std::optional<Range> tried_;            // s: asked in vain
-};
-
 }  // namespace
 
 const char* to_string(AvoidStatus status) {
@@ -605,7 +581,7 @@ Avoidance avoid(const Placed& agent, const Vector3d& velocity, const Vector3d& w
   answer.safe_until = 0;
   answer.velocity = nearly(wanted, options);
   answer.distance = (answer.velocity - wanted).norm();
-  Shorter(velocity, wanted, threats, options).look(answer);
+  Longest(velocity, wanted, threats, options).look(answer);
   if (answer.status != AvoidStatus::free) answer.first = first_met(threats, answer.velocity + options.wind);
   return answer;
 }

@@ -36,7 +36,22 @@ bool is_given(const Range& range) { return range.from != 0 || range.to != 0; }
 struct Quantity {
   const Curve& at_once;
   const Change& change;
-  Domain domain;  // of a closed one: about its present value, half a turn to either side
+  Domain domain;   // of a closed one: about its present value, half a turn to either side
+  Box velocities;  // over ground, of all values and the present one
+};
+
+/// Whether a ball may be met before `until` at all: by the box of all ways seen from it.
+struct Within {
+  Box velocities;  // over ground
+  double until;
+
+  bool operator()(const Vector3d& center, double radius, const Vector3d& other) const {
+    if (std::isinf(until)) return true;
+    const Vector3d least = (until * (velocities.low - other)).cwiseMin(0),
+                   most = (until * (velocities.high - other)).cwiseMax(0);
+    const double rounded = 0x1p-40 * (radius + center.norm() + least.norm() + most.norm());
+    return (center - center.cwiseMax(least).cwiseMin(most)).norm() <= radius + rounded;
+  }
 };
 
 class Banding {
@@ -53,7 +68,7 @@ class Banding {
     const Domain whole = quantity.domain.closed ? Domain{0, 2 * kPi, true} : quantity.domain;
     const double finest = 1e-5 * (whole.high - whole.low);
     return of_all(
-        {whole, whole}, true,
+        {whole, whole}, true, Within{quantity.velocities, horizon.until},
         [&](const Part& part, double margin, bool) {
           return OfVelocity(part, horizon, margin, quantity.at_once);
         },
@@ -64,7 +79,8 @@ class Banding {
   Band after(const Quantity& quantity, double wait, bool hits) const {
     const Domain whole = quantity.domain.closed ? Domain{0, 2 * kPi, true} : quantity.domain,
                  about{quantity.domain.low, quantity.domain.high};
-    return of_all({whole, about}, hits, [&](const Part& part, double margin, bool prove) {
+    const Within reached{quantity.velocities, options_.horizon.until};
+    return of_all({whole, about}, hits, reached, [&](const Part& part, double margin, bool prove) {
       const int parts = prove ? 1 << 16 : hits ? 64 : 16;
       return OfManoeuvre(part, margin, quantity.change, wait, options_.horizon.until, {about.low, about.high},
                          parts, prove);
@@ -73,9 +89,16 @@ class Banding {
 
   Band of_altitude(const Vector3d& level) const {
     const Domain whole{options_.altitude.from, options_.altitude.to};
-    return of_all({whole, whole}, true, [&](const Part& part, double margin, bool) {
-      return OfAltitude(part, level, options_.horizon, margin);
-    });
+    const auto all = [](const Vector3d&, double, const Vector3d&) { return true; };
+    const double finest = 1e-5 * (whole.high - whole.low);
+    return of_all(
+        {whole, whole}, true, all,
+        [&](const Part& part, double margin, bool) {
+          return OfAltitude(part, level, options_.horizon, margin);
+        },
+        [&](const Part& part) {
+          return OfDelimitedAltitude(part, level, options_.horizon, margin_, finest);
+        });
   }
 
   /// When the first body comes nearer than the margin on the present course, at least; none within the
@@ -164,10 +187,11 @@ class Banding {
 
   /// `ask(part, margin, whether hits are to be proved)` is the question of one part; `ask_as_it_is(part)` of
   /// one of which a body has delimiters, where there is such a question.
-  template <typename Ask, typename AskAsItIs = std::nullptr_t>
-  Band of_all(Merged merged, bool hits, const Ask& ask, const AskAsItIs& ask_as_it_is = nullptr) const {
+  template <typename Reaches, typename Ask, typename AskAsItIs = std::nullptr_t>
+  Band of_all(Merged merged, bool hits, const Reaches& reaches, const Ask& ask,
+              const AskAsItIs& ask_as_it_is = nullptr) const {
     threats_.descend(
-        Where{true, {}},
+        Where{true, {}}, reaches,
         [&](const Part& ball, const Where& where) {
           return merged.not_free(ask(ball, 0, false), merged.without_known(where, hits), false);
         },
@@ -234,11 +258,15 @@ class Quantities {
         faster_(climbing_, ahead_, speed_, rate(options.longitudinal, 1)),
         higher_(level_, Vector3d::UnitZ(), velocity.z(), rate(options.vertical, 1)) {}
 
-  Quantity heading() const { return {headings_, turn_, {now_ - kPi, now_ + kPi, true}}; }
+  Quantity heading() const {
+    const Vector3d about(speed_, speed_, 0);
+    return {headings_, turn_, {now_ - kPi, now_ + kPi, true}, {climbing_ - about, climbing_ + about}};
+  }
 
   Bands bands(const Banding& banding, const BandOptions& options) const {
-    const Quantity of_heading = heading(), of_speed{speed_line_, faster_, {speeds_.from, speeds_.to}},
-                   of_climb{climb_line_, higher_, {climbs_.from, climbs_.to}};
+    const Quantity of_heading = heading(),
+                   of_speed{speed_line_, faster_, {speeds_.from, speeds_.to}, all_of(speed_line_, speeds_)},
+                   of_climb{climb_line_, higher_, {climbs_.from, climbs_.to}, all_of(climb_line_, climbs_)};
     Bands result;
     for (const auto& [quantity, band] :
          {std::pair(&of_heading, &result.heading), {&of_speed, &result.speed}, {&of_climb, &result.climb}}) {
@@ -254,6 +282,10 @@ class Quantities {
   }
 
  private:
+  Box all_of(const Line& line, const Range& range) const {
+    const Vector3d from = line.velocity(range.from), to = line.velocity(range.to);
+    return {from.cwiseMin(to).cwiseMin(ground_), from.cwiseMax(to).cwiseMax(ground_)};
+  }
   static double rate(double acceleration, double by) {
     return acceleration > 0 ? acceleration / by : kInfinity;
   }

@@ -172,4 +172,47 @@ class OfDelimited : public Question {
   mutable double by_ = 0;  // m, of the value asked about before
 };
 
+/// Flying level, higher by q from now on, against two parts as they are.
+class OfDelimitedAltitude : public Question {
+ public:
+  OfDelimitedAltitude(const Part& part, const Vector3d& level, const Horizon& horizon, double margin,
+                      double finest)
+      : part_(part), level_(level), horizon_(horizon), margin_(margin), finest_(finest) {}
+
+  std::optional<Range> free_about(double q) const override {
+    const Pair moved = higher(q);
+    const AsTheyAre truth(moved);
+    if (!truth.apart(level_, part_.velocity, horizon_, margin_)) return std::nullopt;
+    double by = by_ > 0 ? 2 * by_ : 0.25 * part_.reach;
+    const double least = std::max(1e-7 * part_.reach, 4 * finest_);
+    while (by > least && !truth.apart(level_, part_.velocity, horizon_, margin_ + by + slack())) by *= 0.5;
+    by_ = by;
+    return by > least ? std::optional(Range{q - by, q + by}) : std::nullopt;
+  }
+  bool is_hit(double q) const override {
+    const Pair moved = higher(q);
+    return AsTheyAre(moved).meets(level_, part_.velocity, horizon_, 0);
+  }
+  bool all_hit(double from, double to) const override {
+    const Pair moved = higher(from + 0.5 * (to - from));
+    const double by = 0.5 * (to - from) * (1 + 1e-9) + slack();
+    return AsTheyAre(moved).meets(level_, part_.velocity, horizon_, by);
+  }
+  double finest() const override { return finest_; }
+
+ private:
+  Pair higher(double q) const {
+    Placed moved = part_.truth->agent();
+    moved.pose.position.z() += q;
+    return {moved, part_.truth->obstacle()};
+  }
+  double slack() const { return 0x1p-40 * (part_.reach + part_.apart.norm()); }
+
+  const Part& part_;
+  Vector3d level_;
+  Horizon horizon_;
+  double margin_, finest_;
+  mutable double by_ = 0;  // m, of the value asked about before
+};
+
 }  // namespace vericone::guidance::banding

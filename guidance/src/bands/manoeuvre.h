@@ -148,6 +148,11 @@ class OfManoeuvre : public Question {
     return displacement(q) + (time - change_.duration(q)) * (change_.velocity(q) - other_);
   }
 
+  /// After a displacement, seen from the obstacle: a second of that velocity, and no sooner.
+  bool overlap_at(const Vector3d& displacement) const {
+    return meets(pair_.verdict(displacement, Vector3d::Zero(), {1, 1}));
+  }
+
   /// Whether all displacements within `off` of one, and of its rounding, surely make the bodies overlap: the
   /// corners of an octahedron about that ball do.
   bool overlaps(const Vector3d& displacement, double off) const {
@@ -155,9 +160,7 @@ class OfManoeuvre : public Question {
                         pair_.agent().pose.position.norm() + displacement.norm();
     const double corner = std::sqrt(3.0) * (off + kRoundings * size) * (1 + 1e-12);
     for (int k = 0; k < 6; ++k) {
-      Placed moved = pair_.agent();
-      moved.pose.position += displacement + (k % 2 == 0 ? corner : -corner) * Vector3d::Unit(k / 2);
-      if (Pair(moved, pair_.obstacle()).relation() != Relation::overlapping) return false;
+      if (!overlap_at(displacement + (k % 2 == 0 ? corner : -corner) * Vector3d::Unit(k / 2))) return false;
     }
     return true;
   }
@@ -171,11 +174,7 @@ class OfManoeuvre : public Question {
     const auto contact = Pair(moved, pair_.obstacle()).contact(change_.velocity(q), other_);
     if (!contact || !(contact->latest < left)) return std::nullopt;
     double over = contact->latest, apart = left;
-    const auto overlapping = [&](double time) {
-      Placed then = pair_.agent();
-      then.pose.position += at(q, done + time);
-      return Pair(then, pair_.obstacle()).relation() == Relation::overlapping;
-    };
+    const auto overlapping = [&](double time) { return overlap_at(at(q, done + time)); };
     if (overlapping(left)) {
       over = left;
     } else {

@@ -80,6 +80,28 @@ Threats::Ball Threats::ball_about(const Hierarchy::Node& node, const Pose& pose)
   return {pose.to_world(center), box.half_widths().norm() * (1 + 0x1p-48) + rounded};
 }
 
+std::vector<Threats::Piece> Threats::all() const {
+  std::vector<Piece> pieces;
+  for (std::uint32_t k = 0; k < own_.size(); ++k)
+    for (std::uint32_t j = 0; j < kept_.size(); ++j) {
+      for (std::uint32_t i = 0; i < kept_[j].flat.size(); ++i) pieces.push_back({k, j, i, false});
+      if (kept_[j].tree) pieces.push_back({k, j, 0, true});
+    }
+  return pieces;
+}
+
+Threats::Apart Threats::apart(const Piece& piece) const {
+  const Kept& kept = kept_[piece.intruder];
+  const Placed& body = intruders_[piece.intruder].body;
+  const Ball ball = [&] {
+    if (piece.is_node) return ball_about(kept.tree->hierarchy().nodes()[piece.index], body.pose);
+    return kept.tree ? ball_about(piece_of(body, kept.tree->hierarchy().order()[piece.index]))
+                     : kept.flat[piece.index].ball;
+  }();
+  const Ball& own = own_[piece.own].ball;
+  return {ball.center - own.center, (ball.radius + own.radius + margin_) * (1 + 0x1p-48)};
+}
+
 std::size_t Threats::part(std::size_t own, std::size_t intruder, std::size_t i) {
   const auto [found, is_new] =
       known_.try_emplace((own * intruders_.size() + intruder) << 32 | i, parts_.size());

@@ -264,7 +264,7 @@ TEST(Bands, InADentAreThoseOfTheBodyAsItIs) {
   SCOPED_TRACE(random.trace());
   const std::vector<Vector3d> points = on_sphere(300);
   double between = 0;
-  int freed = 0;
+  int freed = 0, altitudes = 0;
   for (int i = 0; i < campaign_size(6, 100); ++i) {
     SCOPED_TRACE("case " + std::to_string(i));
     const Vector3d semi(random.uniform(0.8, 1.2), random.uniform(0.8, 1.2), random.uniform(0.8, 1.2));
@@ -276,36 +276,39 @@ TEST(Bands, InADentAreThoseOfTheBodyAsItIs) {
     constexpr double kRadius = 0.3;
     const double until = i % 3 == 0 ? kEver : random.uniform(2, 6);
     const Vector3d v = random.uniform(0.5, 2) * random.direction();
-    const auto touches = [&](const Vector3d& velocity) {
+    const auto touches = [&](const Vector3d& velocity, double higher = 0) {
       const Vector3d w = velocity - other.velocity;
       const double longest = std::min(until, 20 / w.norm());
       for (int step = 0; step <= 400; ++step)
         for (const Vector3d& p : points) {
-          const Vector3d x = at + longest * step / 400 * w + kRadius * p;
+          const Vector3d x = at + higher * Vector3d::UnitZ() + longest * step / 400 * w + kRadius * p;
           if (x.cwiseQuotient(Vector3d(5, 6, 5.5)).squaredNorm() < 1 && delimiter.value(x) < 0) return true;
         }
       return false;
     };
-    const Bands found = bands(ball(at, kRadius), v, {&other, 1}, {.horizon = {0, until}});
+    const Bands found =
+        bands(ball(at, kRadius), v, {&other, 1}, {.horizon = {0, until}, .altitude = {-8, 8}});
     const double level = std::hypot(v.x(), v.y());
-    const auto check = [&](const Band& band, double all, auto&& velocity) {
+    const auto check = [&](const Band& band, double all, auto&& touches_at) {
       for (const Range& range : band.free) {
         ++freed;
         all -= range.to - range.from;
-        for (int k = 1; k < 12; ++k)
-          ASSERT_FALSE(touches(velocity(range.from + (range.to - range.from) * k / 12)));
+        for (int k = 1; k < 12; ++k) ASSERT_FALSE(touches_at(range.from + (range.to - range.from) * k / 12));
       }
       for (const Range& range : band.conflict) {
         all -= range.to - range.from;
         for (int k = 2; k < 11 && range.to - range.from > 0.2; ++k)
-          ASSERT_TRUE(touches(velocity(range.from + (range.to - range.from) * k / 12)));
+          ASSERT_TRUE(touches_at(range.from + (range.to - range.from) * k / 12));
       }
       between = std::max(between, all);
     };
-    check(found.heading, kTurn, [&](double q) { return Vector3d(on(q, level) + v.z() * Vector3d::UnitZ()); });
-    check(found.climb, 2 * v.norm(), [&](double q) { return Vector3d(v.x(), v.y(), q); });
+    check(found.heading, kTurn, [&](double q) { return touches(on(q, level) + v.z() * Vector3d::UnitZ()); });
+    check(found.climb, 2 * v.norm(), [&](double q) { return touches({v.x(), v.y(), q}); });
+    check(found.altitude, 16, [&](double q) { return touches({v.x(), v.y(), 0}, q); });
+    altitudes += !found.altitude.free.empty() && !found.altitude.conflict.empty();
   }
   EXPECT_GT(freed, campaign_size(6, 100));
+  EXPECT_GT(altitudes, 0);
   EXPECT_LT(between, 0.02);
 }
 

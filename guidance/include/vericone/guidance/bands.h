@@ -65,8 +65,8 @@ struct Bands {
 
 /// For an agent with a velocity through the air. What is between free and conflict is neither proved: some
 /// 1e-12 rad at each end, and ranges where bodies only touch; by manoeuvres that take time at most 1e-4 of
-/// the range at each end; beside bodies with delimiters 1e-4, and by manoeuvres and altitudes all that
-/// delimiters cut away (there they count as their ellipsoids). Convex parts of intruders are asked one by
+/// the range at each end; beside bodies with delimiters 1e-4, and by manoeuvres all that delimiters cut away
+/// (there they count as their ellipsoids). Convex parts of intruders are asked one by
 /// one. Throws InputError naming "velocity", "wind", "horizon", "margin", an acceleration or a range. Cost:
 /// docs/measured/guidance.md.
 [[nodiscard]] Bands bands(const Placed& agent, const Eigen::Vector3d& velocity,

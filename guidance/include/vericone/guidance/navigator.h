@@ -40,12 +40,21 @@ struct NavigatorOptions {
   std::size_t looks = 0;
 };
 
+/// The leg that an agent is to keep to: all points within `radius` of the line from a point to its
+/// destination.
+struct Corridor {
+  Eigen::Vector3d from = Eigen::Vector3d::Zero();  // m
+  double radius = 0;                               // m
+};
+
 /// Where the agent wants to go.
 struct Destination {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();     // m
   double most = 0;                                     // m/s^2, with which it turns towards the point
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, of the point
   bool stay = false;  // who may change its speed comes to rest there, or goes on with the point
+  /// Of who may change its speed: it stays in it with all of its body, and courses end at rest there.
+  std::optional<Corridor> corridor = {};
 };
 
 enum class NavigatorStatus : std::uint8_t {
@@ -69,6 +78,10 @@ struct NavigatorStep {
   std::size_t nearest = 0;
   /// s from now when it is at rest by the course flown; infinite: that goes straight on for ever.
   double rest = std::numeric_limits<double>::infinity();
+  /// s from now when it begins to circle for ever by the course flown; infinite: never.
+  double circles = std::numeric_limits<double>::infinity();
+  /// The course flown is proved to stay in the corridor, if there is one.
+  bool inside = true;
   /// Of the course flown: metres, at most what is required, that it is proved to keep from every body until
   /// `until`, if the agent flies as it is commanded and all that it is given is so; nothing where that it
   /// touches none is not proved. Never nothing where the status is straight, homing or avoiding; there it may
@@ -105,12 +118,20 @@ struct PlannedMotion {
 /// found. There it also looks for a way to its destination among the bodies at rest, some hundred cells a
 /// step, and goes to the farthest point of it that it sees. At rest without `longitudinal` it stays.
 ///
+/// Who keeps its speed has a circle in hand in place of a stop, within such bounds: its courses turn, go
+/// straight on for the command of a step, and then round and round as tightly as allowed; that is judged for
+/// ever. Where there is no room for any circle its courses are judged for a while, below.
+///
+/// In a corridor courses are tried that stay in it. Where none does (the agent is too fast, or a gust took it
+/// out) the step says so, `inside`, and is taken as without a corridor; out of it already, the agent goes no
+/// farther out while it can.
+///
 /// Placed bodies that do not turn are judged as they are (of combined quadrics in unions what their
 /// delimiters cut away counts too), so that an agent can fly through them; within the bounds of one, where
-/// every straight line may end at a wall, a course at constant speed is judged for half a second more than it
-/// takes to turn right round. Other bodies stand for themselves as ellipsoids that contain them; one that
-/// turns or changes its shape by the ball about it. Deterministic. No allocation once it has searched, but
-/// for a way round walls.
+/// every straight line may end at a wall, a course at constant speed that ends on no circle is judged for
+/// half a second more than it takes to turn right round. Other bodies stand for themselves as ellipsoids that
+/// contain them; one that turns or changes its shape by the ball about it. Deterministic. No allocation once
+/// it has searched, but for a way round walls.
 ///
 /// Cost: where the course is kept 0.2 to 0.3 us an ellipsoid among many, 20 to 200 us a map of 140,000 boxes
 /// that the agent is in; where a course is looked for up to 30 ms, where all hit up to 0.3 s, in a map with a
@@ -125,9 +146,13 @@ class Navigator {
   /// and finite, "time", "destination.point", "destination.most" or
   /// "destination.velocity" unless finite, "agent.position" and the
   /// like where it holds a number that is not finite, and "others[i]" where one is planar and the agent is
-  /// not, or the other way round.
+  /// not, or the other way round; "destination.corridor" unless its radius is positive and finite, its point
+  /// finite, the destination at rest, and the speed may change. `others_most`: m/s^2, of each of the others,
+  /// in place of that of the options; empty: that. Throws naming it unless there are as many as others,
+  /// finite and not negative.
   NavigatorStep step(const BodyState& agent, std::span<const BodyState> others,
-                     const std::optional<Destination>& destination, double time, double step);
+                     const std::optional<Destination>& destination, double time, double step,
+                     std::span<const double> others_most = {});
 
   /// Of the course flown since the last step, `seconds` after it: what is proved is proved of that. A step
   /// commands the beginning of it. Throws InputError naming "seconds" unless finite and not negative.
@@ -135,18 +160,20 @@ class Navigator {
 
  private:
   /// A manoeuvre to another velocity, then straight on: a turn about a circle, or a constant acceleration
-  /// where the speed may change. It may end at rest: it brakes, and stays where it is.
+  /// where the speed may change. It may end at rest: it brakes, and stays where it is; or on a circle.
   struct Course {
-    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();       // m/s, at the end
-    Eigen::Vector3d aside = Eigen::Vector3d::Zero();          // unit: of the acceleration now
-    double most = 0;                                          // m/s^2, of the acceleration
-    double asked = 0;                                         // m/s^2, of which it may be less
-    double angle = 0;                                         // rad, of a turn
-    double radius = 0;                                        // m, of its circle; 0: no turn
-    double turning = 0;                                       // s, how long the manoeuvre takes
-    double until = std::numeric_limits<double>::infinity();   // s from its moment, when it ends
-    double brakes = std::numeric_limits<double>::infinity();  // s from its moment, when it brakes
-    double braking = 0;                                       // s, how long that takes
+    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();        // m/s, at the end
+    Eigen::Vector3d aside = Eigen::Vector3d::Zero();           // unit: of the acceleration now
+    double most = 0;                                           // m/s^2, of the acceleration
+    double asked = 0;                                          // m/s^2, of which it may be less
+    double angle = 0;                                          // rad, of a turn
+    double radius = 0;                                         // m, of its circle; 0: no turn
+    double turning = 0;                                        // s, how long the manoeuvre takes
+    double until = std::numeric_limits<double>::infinity();    // s from its moment, when it ends
+    double brakes = std::numeric_limits<double>::infinity();   // s from its moment, when it brakes
+    double braking = 0;                                        // s, how long that takes
+    double circles = std::numeric_limits<double>::infinity();  // s from its moment, when it begins to circle
+    Eigen::Vector3d inward = Eigen::Vector3d::Zero();          // unit: from there to the circle's centre
 
     [[nodiscard]] double rests() const { return brakes + braking; }
   };
@@ -180,7 +207,7 @@ class Navigator {
     /// Whether the point is nearer than `margin` to the bounds of a body that is judged as it is.
     [[nodiscard]] bool holds(const Eigen::Vector3d& point, double margin) const;
   };
-  [[nodiscard]] Body body_of(const BodyState& other, bool planar) const;
+  [[nodiscard]] Body body_of(const BodyState& other, bool planar, double swerves) const;
 
   NavigatorStep fly(const Moment& now, const std::optional<Destination>& destination, double time);
   [[nodiscard]] bool fails(const Flight& flight, const Body& other, double begin, double end,
@@ -196,7 +223,12 @@ class Navigator {
                   Approach& seen) const;
   [[nodiscard]] Approach see(const Flight& flight, const Body& other, double begin, double enough,
                              double hopeless, courses::Meeting meeting) const;
+  [[nodiscard]] static double round_until(const Flight& flight, const Body& other, double enough);
+  void see_circle(const Flight& flight, const Body& other, double end, courses::Meeting meeting,
+                  Approach& seen) const;
   [[nodiscard]] bool in_sight(const Flight& flight) const;
+  [[nodiscard]] double out_of_corridor(const Eigen::Vector3d& position, double reach) const;
+  [[nodiscard]] double out_of_corridor(const Flight& flight) const;
   [[nodiscard]] Foreseen foresee(const Moment& now, const Course& course, const Foreseen& floor);
   [[nodiscard]] bool meets(const Flight& flight, const Body& other, double until) const;
   void tell(const Moment& now, Course course, double time, NavigatorStep& step) const;
@@ -208,6 +240,7 @@ class Navigator {
                                      double enough) const;
   [[nodiscard]] double surely_straight(const Flight& flight, const Body& other, double begin, double end,
                                        double enough) const;
+  [[nodiscard]] double surely_round(const Flight& flight, const Body& other, double enough) const;
   [[nodiscard]] double surely_all(const Flight& flight, const Body& other, double end, double enough) const;
   void prove(const Moment& now, Course course, double time, NavigatorStep& step) const;
   void fly_on(const Moment& now, const Course& course, double time);
@@ -216,6 +249,7 @@ class Navigator {
   [[nodiscard]] Course towards(const Moment& now, const Eigen::Vector3d& velocity, double most) const;
   [[nodiscard]] static double soon(const Moment& now, double most);
   static void brake_from(const Moment& now, double t, Course& course);
+  static void circle_from(const Moment& now, double t, Course& course);
   [[nodiscard]] std::optional<Course> to_destination(const Moment& now, const Destination& destination,
                                                      double part) const;
   void closer(const Moment& now, const Eigen::Vector3d& wanted, double most, Course& course,
@@ -224,7 +258,13 @@ class Navigator {
   void spread(const Moment& now, const Eigen::Vector3d& wanted, double less_than, int finer);
   bool search(const Moment& now, const Eigen::Vector3d& wanted, double less_than, bool any, Course& course,
               Foreseen& foreseen);
+  [[nodiscard]] Foreseen foresee_towards(const Moment& now, const Eigen::Vector3d& velocity, double most,
+                                         const Foreseen& floor, Course& course, bool patient = false);
   [[nodiscard]] Choice choose(const Moment& now, const std::optional<Destination>& destination, double time);
+  [[nodiscard]] Choice decide(const Moment& now, const std::optional<Destination>& destination, double time,
+                              NavigatorStep& step);
+  [[nodiscard]] std::optional<Course> way(const Moment& now, const std::optional<Destination>& destination,
+                                          double part) const;
   [[nodiscard]] Destination on_the_way(const Moment& now, const Destination& destination, double time);
   [[nodiscard]] Course in_hand(const Moment& now, double time) const;
   /// As many distances were measured in this step as may be.
@@ -252,9 +292,13 @@ class Navigator {
   double hit_ = std::numeric_limits<double>::infinity();         // s, by it
   double next_look_ = -std::numeric_limits<double>::infinity();  // s
   double brakes_ = std::numeric_limits<double>::infinity();      // s, when what was taken brakes to rest
+  double circles_ = std::numeric_limits<double>::infinity();     // s, when what was taken begins to circle
+  Eigen::Vector3d about_ = Eigen::Vector3d::Zero();              // unit: the axis of that circle
   bool stopping_ = false;                                        // it is the stop that was in hand
-  bool clear_ = false;                // of bodies at rest it has kept what is required
-  double required_ = 0, beyond_ = 0;  // metres
+  bool clear_ = false;                             // of bodies at rest it has kept what is required
+  double required_ = 0, beyond_ = 0;               // metres
+  std::optional<Corridor> corridor_;               // of the step
+  Eigen::Vector3d leg_ = Eigen::Vector3d::Zero();  // m, along it
   // What is flown since the last step; `legs_` after it.
   Course flown_;
   Eigen::Vector3d from_ = Eigen::Vector3d::Zero(), at_ = Eigen::Vector3d::Zero();  // m, m/s, at its beginning

@@ -2,6 +2,7 @@
 #include <vericone/guidance/navigator.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "pilots/kinds.h"
 #include "pilots/law_pilot.h"
@@ -28,26 +29,35 @@ guidance::NavigatorOptions courses_of(const Pilot& pilot) {
 class FlyingGuarded : public FlyingLaw {
  public:
   FlyingGuarded(const Pilot& pilot, const Scenario& scenario, std::size_t self, const RunOptions& options)
-      : FlyingLaw(pilot, scenario, self, options), options_(courses_of(pilot)), navigator_(options_) {}
+      : FlyingLaw(pilot, scenario, self, options), options_(courses_of(pilot)), navigator_(options_) {
+    for (const Body& body : scenario.bodies) {
+      const auto own = pilot.others_most_of.find(body.name);
+      swerves_of_.push_back(own != pilot.others_most_of.end() ? own->second : pilot.others_most);
+    }
+  }
 
   /// Of all that it minds, not of the one met first alone.
   void command(const Instant& now, std::span<VehicleCommand> commands, Run& run) override {
     attend(now);
     minded_.clear();
     indices_.clear();
+    swerves_.clear();
     for (const Engagement& e : engagements_) {
       if (!e.known(now)) continue;
       minded_.push_back(e.believed(now));
       indices_.push_back(e.obstacle());
+      swerves_.push_back(swerves_of_[e.obstacle()]);
     }
     std::optional<guidance::Destination> destination;
     if (now.goal != nullptr)
       destination = {now.goal->point, now.goal->most, now.goal->velocity, now.goal->stay > 0};
+    if (now.goal != nullptr && std::isfinite(now.goal->corridor))
+      destination->corridor = {*now.goal->from, now.goal->corridor};
     using enum guidance::NavigatorStatus;
     const guidance::NavigatorStep said =
-        navigator_.step(now.own(), minded_, destination, now.t, now.until - now.t);
+        navigator_.step(now.own(), minded_, destination, now.t, now.until - now.t, swerves_);
     commands[now.self].acceleration = said.acceleration;
-    note(now.self, said.proved.has_value(), run);
+    note(now.self, said.proved && said.inside, run);
     if (said.status == homing || said.status == straight) attended_ = nullptr;
     const bool hopeless = said.status == cannot_avoid;
     if (hopeless && !hopeless_)
@@ -71,6 +81,7 @@ class FlyingGuarded : public FlyingLaw {
   guidance::Navigator navigator_;
   std::vector<guidance::BodyState> minded_;
   std::vector<std::size_t> indices_;
+  std::vector<double> swerves_, swerves_of_;  // m/s^2, of those minded, and of all bodies
   bool hopeless_ = false;
 };
 

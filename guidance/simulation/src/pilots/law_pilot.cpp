@@ -55,6 +55,10 @@ void LawPilot::check(const Scenario& scenario, const Body& self) const {
   if (!pilot_.partners.empty() && !cooperates(pilot_.guide.law))
     throw InputError("partners", pilot_.partners.front(), "no partners with this law, or a cooperative one");
   check_courses();
+  for (const auto& each : pilot_.others_most_of)
+    if (each.first == self.name || std::none_of(scenario.bodies.begin(), scenario.bodies.end(),
+                                                [&](const Body& body) { return body.name == each.first; }))
+      throw InputError("others_most", each.first, "the name of another body");
   check_kinds(scenario, self);
   check_sensing(scenario.step);
 }
@@ -63,6 +67,10 @@ void LawPilot::check(const Scenario& scenario, const Body& self) const {
 void LawPilot::check_courses() const {
   if (!(pilot_.fastest > 0)) throw InputError("fastest", to_text(pilot_.fastest), "positive (m/s)");
   require_from_zero(pilot_.others_most, "others_most", " (m/s^2)");
+  for (const auto& [name, most] : pilot_.others_most_of)
+    require_from_zero(most, ("others_most." + name).c_str(), " (m/s^2)");
+  if (!guarded(pilot_) && !pilot_.others_most_of.empty())
+    throw InputError("others_most", "of each", "left out: only a guarded pilot reads it");
   if (!guarded(pilot_) && pilot_.others_most > 0)
     throw InputError("others_most", to_text(pilot_.others_most), "left out: only a guarded pilot reads it");
   const bool limited = std::isfinite(pilot_.fastest);

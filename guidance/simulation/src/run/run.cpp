@@ -203,6 +203,10 @@ class Runner {
     if (!pilots_[agent]->goal_opens(after)) return nullptr;
     goal_ = goal;
     std::tie(goal_.point, goal_.velocity) = whereabouts(goal, t);
+    if (std::isfinite(goal.corridor) && !goal.from) {
+      const std::size_t next = ways_[agent].next;
+      goal_.from = next > 0 ? goals(agent)[next - 1].point : scenario_.bodies[agent].start.position;
+    }
     return &goal_;
   }
 

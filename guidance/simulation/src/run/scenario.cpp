@@ -32,9 +32,26 @@ void check_goal(const Goal& goal, const Body& self, const std::vector<Body>& bod
   require_positive(goal.most, "most", " (m/s^2)");
   require_positive(goal.reached, "reached", " (m)");
   require_not_negative(goal.stay, "stay", " (s)");
+  if (!(goal.corridor > 0)) throw InputError("corridor", to_text(goal.corridor), "positive (m)");
+  if (goal.from && !goal.from->allFinite())
+    throw InputError("from", "a number that is not finite", "finite (m)");
   for (const auto& [field, name] : {std::pair("after", goal.after), std::pair("follows", goal.follows)})
     if (!name.empty() && (name == self.name || index_of(bodies, name) == bodies.size()))
       throw InputError(field, name, "the name of another body");
+}
+
+/// A leg is a straight line that stays, and who keeps to it can stop there.
+void check_corridor(const Pilot& pilot, std::size_t i) {
+  const std::vector<Goal>& goals = pilot.goals;
+  if (!std::isfinite(goals[i].corridor)) return;
+  const auto moves = [](const Goal& goal) { return goal.velocity.any() || !goal.follows.empty(); };
+  const auto refuse = [&](const char* meant) {
+    throw InputError("corridor", to_text(goals[i].corridor), meant);
+  };
+  if (pilot.own || pilot.through || !guarded(pilot) || !pilot.guide.clearance.longitudinal)
+    refuse("left out: only a guarded pilot that may change its speed (clearance.longitudinal) keeps to one");
+  if (moves(goals[i])) refuse("left out: its goal moves");
+  if (i > 0 && !goals[i].from && moves(goals[i - 1])) refuse("left out: the goal before it moves");
 }
 
 void check_pilot(const Pilot& pilot, const PilotModel& model, const Body& self, const Scenario& scenario) {
@@ -59,6 +76,7 @@ void check_pilot(const Pilot& pilot, const PilotModel& model, const Body& self, 
   for (std::size_t i = 0; i < pilot.goals.size(); ++i) {
     try {
       check_goal(pilot.goals[i], self, bodies);
+      check_corridor(pilot, i);
     } catch (const InputError& e) {
       throw e.within(at("goals", i));
     }

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -109,6 +110,11 @@ struct Goal {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, of the point, from the start of the run
   std::string follows = {};  // body from whose reference point `point` is, in the axes of the world; or none
   double stay = 0;           // s there, before the next goal
+  /// m: so near to the leg that leads to it a guarded pilot stays with all of its body; it may change its
+  /// speed.
+  double corridor = std::numeric_limits<double>::infinity();
+  std::optional<Eigen::Vector3d> from =
+      {};  // m, where the leg begins; left out: the goal before, or the start
 };
 
 /// How a pilot avoids.
@@ -172,6 +178,7 @@ struct Pilot {
   double fastest = std::numeric_limits<double>::infinity();
   std::size_t looks = 0;   // of a guarded pilot, NavigatorOptions::looks
   double others_most = 0;  // m/s^2, of a guarded pilot, NavigatorOptions::others_most
+  std::map<std::string, double> others_most_of = {};  // m/s^2, by name, in place of it
   /// What it measures of the bodies it minds; left out: it knows them. Its law sees nothing else, so neither
   /// does it know when a body has been passed but by what it measures.
   std::optional<Sensor> sensor;
