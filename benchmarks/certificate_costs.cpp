@@ -54,10 +54,61 @@ double quantile(std::vector<double> all, double part) {
   return all[static_cast<std::size_t>(part * static_cast<double>(all.size() - 1))];
 }
 
+using Table = std::map<std::string, Seen>;
+
+/// Makes one, and notes what it cost and how long it is.
+template <typename Make>
+void note(Table& table, const std::string& verdict, const Make& make, std::ofstream* file) {
+  const auto begin = std::chrono::steady_clock::now();
+  const Certificate made = make();
+  const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  Seen& seen = table[verdict];
+  if (made.text.empty()) {
+    ++seen.none;
+    return;
+  }
+  seen.seconds.push_back(took);
+  seen.bytes.push_back(static_cast<double>(made.text.size() - made.text.find("\"proof\"")));
+  if (file) *file << made.text << '\n';
+}
+
+void print(const char* name, const Table& table) {
+  for (const auto& [verdict, seen] : table)
+    std::printf("| %s | %s | %zu | %d | %.3f, %.3f | %.0f, %.0f |\n", name, verdict.c_str(),
+                seen.seconds.size() + static_cast<std::size_t>(seen.none), seen.none,
+                1e3 * quantile(seen.seconds, 0.5), 1e3 * quantile(seen.seconds, 0.99),
+                quantile(seen.bytes, 0.5), quantile(seen.bytes, 1));
+}
+
+/// What all errors of two ellipsoids lead to.
+void row_of_errors(int cases, std::ofstream* file) {
+  RandomBodies random(2);
+  Table table;
+  for (int i = 0; i < cases; ++i) {
+    const auto body = [&] {
+      return Ellipsoid::from_axes({0, 0, 0},
+                                  {random.uniform(0.3, 2), random.uniform(0.3, 2), random.uniform(0.3, 2)},
+                                  random.rotation());
+    };
+    Placed other(body());
+    other.pose.position = random.uniform(5, 12) * random.direction();
+    const Vector3d w = other.pose.position * random.uniform(0.2, 1) + 1.5 * random.direction();
+    const Pair pair(Placed(body()), other);
+    RelativeErrors errors;
+    errors.position = ErrorSet::ball(random.uniform(0.05, 0.8));
+    errors.velocity = ErrorSet::ball(random.uniform(0, 0.2));
+    const RobustVerdict verdict = robust_verdict(pair, w, Vector3d::Zero(), errors).verdict;
+    if (verdict == RobustVerdict::undecided) continue;
+    note(
+        table, to_string(verdict), [&] { return certificate(pair, w, Vector3d::Zero(), errors); }, file);
+  }
+  print("an ellipsoid, with errors", table);
+}
+
 void row(const char* name, int cases, const std::function<Placed(RandomBodies&)>& obstacle,
          std::ofstream* file) {
   RandomBodies random(1);
-  std::map<std::string, Seen> all;
+  Table table;
   for (int i = 0; i < cases; ++i) {
     const Placed agent(Ellipsoid::from_axes(
         {0, 0, 0}, {random.uniform(0.3, 2), random.uniform(0.3, 2), random.uniform(0.3, 2)},
@@ -67,23 +118,10 @@ void row(const char* name, int cases, const std::function<Placed(RandomBodies&)>
     const Vector3d w = other.pose.position * random.uniform(0.2, 1) + 2.5 * random.direction();
     const Pair pair(agent, other);
     const Verdict verdict = pair.verdict(w, Vector3d::Zero());
-    const auto begin = std::chrono::steady_clock::now();
-    const Certificate made = certificate(pair, w, Vector3d::Zero());
-    const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    Seen& seen = all[to_string(verdict)];
-    if (made.text.empty()) {
-      ++seen.none;
-      continue;
-    }
-    seen.seconds.push_back(took);
-    seen.bytes.push_back(static_cast<double>(made.text.size() - made.text.find("\"proof\"")));
-    if (file) *file << made.text << '\n';
+    note(
+        table, to_string(verdict), [&] { return certificate(pair, w, Vector3d::Zero()); }, file);
   }
-  for (const auto& [verdict, seen] : all)
-    std::printf("| %s | %s | %zu | %d | %.3f, %.3f | %.0f, %.0f |\n", name, verdict.c_str(),
-                seen.seconds.size() + static_cast<std::size_t>(seen.none), seen.none,
-                1e3 * quantile(seen.seconds, 0.5), 1e3 * quantile(seen.seconds, 0.99),
-                quantile(seen.bytes, 0.5), quantile(seen.bytes, 1));
+  print(name, table);
 }
 
 }  // namespace
@@ -119,6 +157,7 @@ int main(int argc, char** argv) {
                                         {hyperboloid(1, Vector3d(r.uniform(0.5, 1), 1, 1))}));
       },
       file);
+  row_of_errors(cases, file);
   const Body mesh(wavy(51));
   row(
       "a mesh of 5,000 triangles", std::max(1, cases / 20), [&](RandomBodies&) { return Placed(mesh); },

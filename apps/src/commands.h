@@ -24,6 +24,7 @@ int estimate_command(CommandLine& line);
 int check_command(CommandLine& line);
 int schema_command(CommandLine& line);
 int reach_command(CommandLine& line);
+int certify_command(CommandLine& line);
 int simulate_command(CommandLine& line);
 int campaign_command(CommandLine& line);
 int trials_command(CommandLine& line);

@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
                                                 {"check", check_command},
                                                 {"schema", schema_command},
                                                 {"reach", reach_command},
+                                                {"certify", certify_command},
                                                 {"simulate", simulate_command},
                                                 {"campaign", campaign_command},
                                                 {"trials", trials_command},

@@ -112,6 +112,7 @@ let rec body folder ~moves ~inner value : (C.q C.body * (string * t) list) =
   let kind = kind_of "a body" value in
   let needed, allowed = match List.assoc_opt kind body_fields with
     | Some known -> known
+    | None when List.mem kind ["octree"; "quadrics"] -> unknown ("the kind " ^ kind)
     | None -> malformed ("an unknown kind of body: " ^ kind) in
   let read = fields ("the " ^ kind) (("kind" :: needed) @ (if moves then ["velocity"] else [])) ("center" :: allowed) value in
   let p = match optional "center" read with Some c -> vector c | None -> origin in
@@ -142,6 +143,7 @@ let rec body folder ~moves ~inner value : (C.q C.body * (string * t) list) =
     | "union" ->
       form (not inner) "a union in a union";
       let part value =
+        if kind_of "a piece" value = "quadrics" then unknown "the kind quadrics";
         form (List.mem (kind_of "a piece" value) ["ellipsoid"; "ball"; "hull"; "box"; "delimited"]) "a piece of a union of another kind";
         List.map (moved p) (fst (body folder ~moves:false ~inner:true value)) in
       List.concat_map part (items (field "pieces" read))
@@ -276,7 +278,7 @@ let rec proof sides value : C.proof =
     let read = read ["normal"; "at"; "below"; "above"] [] in
     let half name = proof sides (field name read) in
     C.Halves (vector_of (field "normal" read), rational (number (field "at" read)), half "below", half "above")
-  | "octants" | "errors" | "vertices" -> unknown ("the rule " ^ rule)
+  | "octants" | "errors" | "vertices" | "cover" -> unknown ("the rule " ^ rule)
   | _ -> malformed ("an unknown rule: " ^ rule)
 
 and runs value =
@@ -420,7 +422,8 @@ let rec run_proof value : C.run_proof =
       | [n; long; a; b] ->
         let numbers l = List.map (fun x -> rational (number x)) (few 4 l) in
         { C.its_normal = vector_of n; its_length = rational (not_negative long); at_most_a = numbers a; at_most_b = numbers b }
-      | _ -> malformed "a plane of a piece is a list of four" in
+      | [_; _; _; _; _] | [_; _; _; _; _; _] -> unknown "multipliers in runs"
+      | _ -> malformed "a plane of a piece is a list of four to six" in
     let planes = List.map plane (items (field "planes" read)) in
     form (List.length planes = List.length times - 1) "a plane for each piece";
     C.Pieces (rational (List.hd times), List.combine (List.map rational (List.tl times)) planes)
@@ -429,6 +432,7 @@ let rec run_proof value : C.run_proof =
     let of_agent = match text "of" read with
       | "agent" -> true | "obstacle" -> false | _ -> malformed "groups are of the agent or of the obstacle" in
     C.PiecesOf (of_agent, runs (field "runs" read), List.map run_proof (items (field "proofs" read)))
+  | "cover" -> unknown "the rule cover"
   | _ -> raise (Refused (rule ^ " is a rule for apart"))
 
 (* The bodies on their tracks. *)
@@ -476,6 +480,10 @@ let meeting folder claim proof_read =
   form (i < j) "a pair is [i, j] with i < j";
   let start = number (field "from" read) and finish = number (field "to" read) in
   if not (Q.lt start finish) then raise (Refused "from < to");
+  let more = ["agent_point"; "obstacle_point"; "agent_depth"; "obstacle_depth"] in
+  (match proof_read with
+   | Object given when List.exists (fun name -> List.mem_assoc name given) more -> unknown "points at a depth"
+   | _ -> ());
   let whole = fields "the proof" ["rule"; "time"; "point"] members proof_read in
   if text "rule" whole <> "point" then raise (Refused "point is the rule for meet");
   let one = all.(i) and other = all.(j) in
@@ -522,7 +530,7 @@ let statement folder value =
     | "apart" -> run folder claim (field "proof" read)
     | "meet" -> meeting folder claim (field "proof" read)
     | "inside" -> fit folder claim (field "proof" read)
-    | "depends" -> unknown ("the claim " ^ says)
+    | "depends" | "near" -> unknown ("the claim " ^ says)
     | _ -> malformed ("an unknown claim: " ^ says) in
   (match answer with
    | Some members ->

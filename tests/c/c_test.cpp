@@ -3,6 +3,7 @@
 // Each answer of the C interface is that of the C++ behind it, to the bit; errors are lines and numbers.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <vericone/cones/certificate.h>
 #include <vericone/cones/cone.h>
 #include <vericone/cones/pair.h>
 #include <vericone/guidance/avoid.h>
@@ -147,6 +148,21 @@ void expect_same(double expected, double found) {
 
 constexpr int kVelocities = 2;
 
+void expect_same_certificate(const Pair& cpp, const vericone_pair* c, const Vector3d& v, const Vector3d& u) {
+  const Certificate expected = certificate(cpp, v, u, {0, 2});
+  const std::string& told = expected.text.empty() ? expected.reason : expected.text;
+  const auto ask = [&](char* text, std::size_t capacity) {
+    return vericone_pair_certificate(c, v.data(), u.data(), 0, 2, text, capacity);
+  };
+  EXPECT_EQ(ask(nullptr, 0), std::int64_t(expected.text.size()));
+  std::string text(told.size() + 10, 'x');
+  EXPECT_EQ(ask(text.data(), told.size() + 1), std::int64_t(expected.text.size()));
+  EXPECT_EQ(std::string(text.c_str()), told);
+  EXPECT_EQ(text.substr(told.size() + 1), "xxxxxxxxx");
+  ask(text.data(), 6);
+  EXPECT_EQ(std::string(text.c_str()), told.substr(0, 5));
+}
+
 void expect_same_answers(RandomBodies& random, const Pair& cpp, const vericone_pair* c) {
   EXPECT_EQ(vericone_pair_exact(c), cpp.guarantee().exact);
   const auto relation = cpp.relation();
@@ -160,6 +176,7 @@ void expect_same_answers(RandomBodies& random, const Pair& cpp, const vericone_p
     for (const Horizon& horizon : {Horizon{0, 0.5}, Horizon{0, 2}, Horizon{1, 3}, Horizon{}})
       EXPECT_EQ(vericone_pair_verdict_within(c, v.data(), u.data(), horizon.from, horizon.until),
                 int(cpp.verdict(v, u, horizon)));
+    if (i == 0) expect_same_certificate(cpp, c, v, u);
     const auto contact = cpp.contact(v, u);
     vericone_contact touched{};
     ASSERT_EQ(vericone_pair_contact(c, v.data(), u.data(), &touched), contact.has_value());
@@ -512,6 +529,11 @@ TEST(CInterface, BadInputIsALineAndANumber) {
   EXPECT_EQ(vericone_pair_verdict(nullptr, zero, zero), VERICONE_BAD_INPUT);
   EXPECT_EQ(vericone_pair_verdict_within(pair.get(), zero, zero, 2, 1), VERICONE_BAD_INPUT);
   EXPECT_NE(std::string(vericone_error()).find("horizon"), std::string::npos);
+  char text[8] = "";
+  EXPECT_EQ(vericone_pair_certificate(pair.get(), nan, zero, 0, 1, text, 8), VERICONE_BAD_INPUT);
+  EXPECT_EQ(vericone_pair_certificate(pair.get(), zero, zero, 2, 1, text, 8), VERICONE_BAD_INPUT);
+  EXPECT_EQ(vericone_pair_certificate(pair.get(), zero, zero, 0, 1, nullptr, 8), VERICONE_BAD_INPUT);
+  EXPECT_STREQ(vericone_error(), "text: got NULL, must be given");
   EXPECT_EQ(vericone_pair_verdicts(pair.get(), nan, 1, zero, nullptr), VERICONE_BAD_INPUT);
   EXPECT_EQ(vericone_pair_miss(pair.get(), zero, zero, nullptr), VERICONE_BAD_INPUT);
   vericone_barrier barrier{};

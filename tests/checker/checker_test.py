@@ -21,6 +21,7 @@ from pathlib import Path
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import make  # noqa: E402
+from false_certificates import DROP, FALSE, OUT  # noqa: E402
 
 ROOT = Path(os.environ.get("VERICONE_SOURCE", Path(__file__).resolve().parents[2]))
 PROGRAM = ROOT / "checker/vericone_check.py"
@@ -48,8 +49,8 @@ def examples():
     return [json.loads(block) for block in re.findall(r"```json\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)]
 
 
-def example(rule, says=None):
-    return copy.deepcopy(next(x for x in examples() if x["proof"].get("rule") == rule and says in (None, x["claim"]["says"])))
+def example(rule, says=None, which=0):
+    return copy.deepcopy([x for x in examples() if x["proof"].get("rule") == rule and says in (None, x["claim"]["says"])][which])
 
 
 def changed(document, path, value):
@@ -65,9 +66,6 @@ def changed(document, path, value):
     else:
         at[path[-1]] = value
     return out
-
-
-DROP = object()
 
 
 class Examples(unittest.TestCase):
@@ -144,119 +142,14 @@ def wrong_with(value, node, root, path=""):
     return wrong
 
 
-# The false certificates that a checker with one mistake would accept: what is changed in an example.
-OUT, POINT, TOUCH = ("plane", "out"), ("point", "in"), ("touch", None)
-FALSE = [
-    # numbers
-    *((OUT, ["claim", "agent", "velocity", 0], x) for x in (
-        "0/0", "1/0", "1/-1", "1_000", " 1/2", "1/2 ", "１", "+1", "1e3", "0x1", "", "-", "1/", "1/2/3", "inf", "nan", None, True,
-        [], {}, "1" * 4301, "1\n")),
-    (OUT, ["proof", "across_w"], ["0/0", "0/0", "0/0"]), (OUT, ["proof", "across_w"], [0, "0/0", "0/0"]),
-    (OUT, ["proof", "across_w"], [0, 0, 0]), (OUT, ["proof", "across_w"], [1, 1, 0]), (OUT, ["proof", "across_w"], [True, 1, 0]),
-    (OUT, ["proof", "across_w"], [-3, 1, 0]), (OUT, ["proof", "across_w"], [0.0, 1, 0]), (OUT, ["proof", "across_w"], [0, -1, 0]),
-    # squares: a support below, with the right square
-    (OUT, ["proof", "agent_at_most"], -10), (OUT, ["proof", "agent_at_most"], "99999/10000"),
-    (OUT, ["proof", "obstacle_at_least"], "800001/10000"), (OUT, ["proof", "obstacle_at_least"], 10),
-    (TOUCH, ["claim", "agent", "radius"], -1), (TOUCH, ["claim", "obstacle", "shape", 1, 1], -1),
-    (TOUCH, ["claim", "obstacle", "shape", 2, 2], 0), (TOUCH, ["claim", "obstacle", "shape", 0, 1], 1),
-    (TOUCH, ["proof", "n"], [0, -1, 0]), (TOUCH, ["proof", "n"], [0, 0, 0]), (TOUCH, ["proof", "n"], [1, 1, 0]),
-    (TOUCH, ["proof", "n"], [0, 1]), (TOUCH, ["proof", "time"], -5), (TOUCH, ["proof", "point", 1], "1000001/1000000"),
-    (TOUCH, ["claim", "obstacle", "center", 1], "1999999/1000000"), (TOUCH, ["claim", "obstacle", "center", 1], "2000001/1000000"),
-    (TOUCH, ["claim", "horizon"], 4), (TOUCH, ["claim", "horizon"], [6, None]), (TOUCH, ["claim", "says"], "in"),
-    (TOUCH, ["claim", "says"], "out"), (TOUCH, ["claim", "says"], "touching"), (POINT, ["claim", "says"], "on"),
-    (POINT, ["proof", "point"], ["11/2", "1/2", "0"]), (POINT, ["proof", "time"], 10), (POINT, ["claim", "horizon"], [0, 4]),
-    (POINT, ["claim", "horizon"], [5, 4]), (POINT, ["claim", "horizon"], [-1, 5]), (POINT, ["claim", "horizon"], -1),
-    (POINT, ["claim", "horizon"], []), (POINT, ["claim", "horizon"], DROP), (POINT, ["proof", "inside"], "both"),
-    (POINT, ["proof", "obstacle_weights"], []), (POINT, ["proof", "obstacle_weights"], DROP),
-    (POINT, ["proof", "obstacle_weights"], [[0, "1/2"], [1, "1/6"], [2, "1/3"]]),
-    (POINT, ["proof", "obstacle_weights", 0], [0, "-1/2"]), (POINT, ["proof", "obstacle_weights", 0], [-4, "1/2"]),
-    (POINT, ["proof", "obstacle_weights", 0], [1, "1/2"]), (POINT, ["proof", "obstacle_weights", 0], [4, "1/2"]),
-    (POINT, ["proof", "obstacle_piece"], -1), (POINT, ["proof", "obstacle_piece"], 1), (POINT, ["proof", "agent_piece"], True),
-    (POINT, ["proof", "agent_piece"], False), (POINT, ["proof", "agent_piece"], ""), (POINT, ["proof", "agent_piece"], 0.0),
-    (("forms", "out"), ["proof", "products"], False), (("forms", "out"), ["proof", "products"], ""),
-    # the statement
-    (OUT, ["version"], 2), (OUT, ["version"], True), (OUT, ["version"], 1.0), (OUT, ["version"], "1"), (OUT, ["format"], "vericone"),
-    (OUT, ["extra"], 1), (OUT, ["claim", "extra"], 1), (OUT, ["proof", "extra"], 1), (OUT, ["claim", "agent", "extra"], 1),
-    (OUT, ["proof", "agent"], {"kind": "ball"}), (OUT, ["claim", "says"], "in"), (OUT, ["claim", "says"], "on"),
-    (OUT, ["claim", "says"], "in for all"), (OUT, ["claim", "says"], ["out"]), (OUT, ["claim", "says"], "inside"),
-    (OUT, ["claim", "says"], "overlapping"), (OUT, ["claim", "horizon"], DROP), (OUT, ["claim", "agent", "velocity"], [10, 1, 0]),
-    (OUT, ["claim", "agent", "velocity"], DROP), (OUT, ["claim", "by"], 8), (OUT, ["claim", "by"], -1), (OUT, ["claim", "id"], {}),
-    (OUT, ["claim", "obstacle", "points"], []), (OUT, ["claim", "obstacle", "points", None], [40, 0, 0]),
-    (OUT, ["claim", "obstacle", "points", None], [40, 9]), (OUT, ["claim", "obstacle", "kind"], "HULL"),
-    (OUT, ["claim", "agent", "factor"], [[3, 0, 0], [0, 1, 0]]), (OUT, ["claim", "agent", "shape"], [[1, 0, 0], [0, 1, 0], [0, 0, 1]]),
-    (OUT, ["claim", "position_error"], {"ball": 1}), (OUT, ["claim", "velocity_error"], {"ball": "1/1000000"}),
-    (OUT, ["claim", "position_error"], {"ball": -1}), (OUT, ["claim", "position_error"], {"box": [0, -1, 0]}),
-    (OUT, ["claim", "position_error"], {}), (OUT, ["proof", "position_error_at_most"], 0), (OUT, ["proof"], []), (OUT, ["proof"], {}),
-    (OUT, ["claim", "agent"], {"kind": "file", "name": "../x", "sha256": "0" * 64, "velocity": [0, 0, 0]}),
-    # pieces
-    (("groups", "out"), ["proof", "runs"], [[0, 1]]), (("groups", "out"), ["proof", "runs"], [[0, 2]]),
-    (("groups", "out"), ["proof", "runs"], [[0, 1], [1, 2]]), (("groups", "out"), ["proof", "runs"], []),
-    (("groups", "out"), ["proof", "runs"], [[1, 1], [0, 1]]), (("groups", "out"), ["proof", "runs"], [[0, 1], [0, 0], [1, 1]]),
-    (("groups", "out"), ["proof", "runs"], [[0, 1], [-1, 1]]), (("groups", "out"), ["proof", "runs"], [[0, 3], [1, -1]]),
-    (("groups", "out"), ["proof", "of"], "agent"), (("groups", "out"), ["proof", "proofs"], []),
-    (("groups", "out"), ["proof", "proofs", None], {"rule": "plane", "n": [0, 1, 0]}),
-    (("groups", "out"), ["claim", "obstacle", "triangles", 0], [0, 1, 5]), (("groups", "out"), ["claim", "obstacle", "triangles", 0], [0, 1, -1]),
-    (("groups", "out"), ["claim", "obstacle", "triangles", None], [0, 1, 3]), (("groups", "out"), ["claim", "obstacle", "triangles"], []),
-    (("groups", "out"), ["claim", "says"], "on"),
-    # times
-    (("times", "out"), ["proof", "cuts"], [4]), (("times", "out"), ["proof", "cuts"], [11]), (("times", "out"), ["proof", "cuts"], [-1]),
-    (("times", "out"), ["proof", "cuts"], [0]), (("times", "out"), ["proof", "cuts"], []),
-    (("times", "out"), ["proof", "cuts"], ["3/2", "3/2"]), (("times", "out"), ["proof", "proofs", 1], DROP),
-    # multipliers
-    (("forms", "out"), ["proof", "agent"], [-5]), (("forms", "out"), ["proof", "agent"], [0]), (("forms", "out"), ["proof", "obstacle"], [0, 0]),
-    (("forms", "out"), ["proof", "obstacle"], [1]), (("forms", "out"), ["proof", "obstacle"], [-1, 1]), (("forms", "out"), ["proof", "agent"], []),
-    (("forms", "out"), ["proof", "products", 0, 2], -2), (("forms", "out"), ["proof", "products", 0, 0], "until"),
-    (("forms", "out"), ["proof", "products", 0, 0], ["cut", 0]), (("forms", "out"), ["proof", "products", 0, 0], ["agent", [1, 0, 0]]),
-    (("forms", "out"), ["claim", "agent", "velocity"], [-1, 0, 0]), (("forms", "out"), ["claim", "obstacle", "delimiters", 0, "matrix", 0, 1], 1),
-    (("forms", "out"), ["claim", "obstacle", "delimiters"], []), (("forms", "out"), ["claim", "by"], 0.1),
-    (("forms", "out"), ["claim", "position_error"], {"ball": 100}), (("forms", "out"), ["claim", "velocity_error"], {"ball": 100}),
-    (("halves", "disjoint"), ["claim", "position_error"], {"ball": 100}),
-    (("halves", "disjoint"), ["proof", "above"], {"rule": "plane", "n": [0, 1, 0]}), (("halves", "disjoint"), ["proof", "above"], DROP),
-    (("halves", "disjoint"), ["proof", "normal"], [0, 1]), (("halves", "disjoint"), ["proof", "below", "products", 2, 0], ["cut", 1]),
-    # errors
-    (("octants", "in"), ["proof", "nodes", 7], DROP), (("octants", "in"), ["proof", "nodes", 7, 0], 11), (("octants", "in"), ["proof", "nodes", 0, 0], 0),
-    (("octants", "in"), ["proof", "nodes", 0, 1], ["9/10", "9/10", 0]), (("octants", "in"), ["claim", "position_error", "ball"], 1),
-    (("octants", "in"), ["claim", "velocity_error", "box", 1], 1), (("octants", "in"), ["claim", "horizon"], 4),
-    (("errors", "depends"), ["proof", "collides", "position"], [0, "-51/100", 0]), (("errors", "depends"), ["proof", "passes", "position"], [0, 1, 0]),
-    (("errors", "depends"), ["proof", "passes", "velocity"], [0, -1, 0]), (("errors", "depends"), ["claim", "position_error"], DROP),
-    # inside
-    (("vertices", "inside"), ["claim", "agent", "points", 2, 2], "21/10"), (("vertices", "inside"), ["claim", "agent", "points", 0, 1], "1/1000"),
-    # crossings
-    (("cross", "in"), ["proof", "pairs", 0, 2], -1), (("cross", "in"), ["proof", "pairs", 0, 2], 0), (("cross", "in"), ["proof", "pairs", 0, 1], -1),
-    (("cross", "in"), ["proof", "time"], 6), (("cross", "in"), ["claim", "horizon"], 5), (("cross", "in"), ["proof", "pairs"], []),
-    (("cross", "in"), ["proof", "pairs"], [[0, 1, 1], [0, 2, 1]]), (("cross", "in"), ["claim", "obstacle", "points", 0], [5, -3, 1]),
-    # runs
-    *((("pairs", "apart"), ["proof", "pairs", "0 1", *path], value) for path, value in (
-        (["times"], [0, 1]), (["times"], [1, 2]), (["times"], [0, 2, 1]), (["times"], [0, 1, 1, 2]),
-        (["planes", 0, 0], [0, -1, 0]), (["planes", 0, 0], [0, 0, 0]), (["planes", 0, 1], "99/100"), (["planes", 0, 1], -1),
-        (["planes", 0, 2], ["1/2", "1/2"]), (["planes", 0, 3], ["24/100"]), (["planes", 0, 2], []), (["planes", 1], DROP), (["planes", 0, 2], [2]))),
-    (("pairs", "apart"), ["claim", "by"], "3/4"), (("pairs", "apart"), ["claim", "by"], DROP), (("pairs", "apart"), ["claim", "pairs"], []),
-    (("pairs", "apart"), ["claim", "pairs"], [[1, 0]]), (("pairs", "apart"), ["claim", "pairs"], [[0, 1], [0, 1]]),
-    (("pairs", "apart"), ["claim", "pairs"], [[0, 0]]), (("pairs", "apart"), ["claim", "pairs"], [[0, 2]]), (("pairs", "apart"), ["proof", "pairs"], {}),
-    (("pairs", "apart"), ["claim", "tracks", 0, "radius"], "1/2"), (("pairs", "apart"), ["claim", "tracks", 0, "radius"], -1),
-    (("pairs", "apart"), ["claim", "tracks", 0, "turns", 0], [[1, 0, 0, 0], [-1, 0, 0, 0]]),
-    (("pairs", "apart"), ["claim", "tracks", 0, "turns", 0], [[0, 0, 0, 0], [0, 0, 0, 0]]),
-    (("pairs", "apart"), ["claim", "tracks", 0, "turns", 0], [[1, 0, 0, 0], [0, 0, 0, 1]]),
-    (("pairs", "apart"), ["claim", "tracks", 0, "times"], [0, 1]), (("pairs", "apart"), ["claim", "tracks", 0, "times"], [0, 0]),
-    (("pairs", "apart"), ["claim", "tracks", 1, "grid"], 2), (("pairs", "apart"), ["claim", "tracks", 1, "grid"], -1),
-    (("pairs", "apart"), ["claim", "tracks", 0, "grid"], False), (("pairs", "apart"), ["claim", "tracks", 1, "grid"], None),
-    (("pairs", "apart"), ["proof", "pairs", "0 1", "planes", 0, 0], [0, 1]), (OUT, ["claim", "id"], None), (("pairs", "apart"), ["claim", "tracks", 0, "grid"], 1.0),
-    (("pairs", "apart"), ["claim", "tracks", 1, "grid"], True), (("pairs", "apart"), ["claim", "tracks", 1, "positions", 0, 1], [8, 2, 0]),
-    (("pairs", "apart"), ["claim", "to"], 3), (("pairs", "apart"), ["claim", "from"], -1), (("pairs", "apart"), ["claim", "from"], 2),
-    (("pairs", "apart"), ["claim", "tracks", 1], DROP), (("pairs", "apart"), ["claim", "bodies", 1, "radius"], 1),
-    (("point", "meet"), ["proof", "time"], 1), (("point", "meet"), ["proof", "time"], 5), (("point", "meet"), ["claim", "tracks", 0, "radius"], "1/10"),
-    (("point", "meet"), ["proof", "point"], [2, 4, 0]), (("point", "meet"), ["claim", "pair"], [1, 1]),
-]
-
-
 class FalseCertificates(unittest.TestCase):
     maxDiff = None
 
     def test_each_is_refused(self):
         seen, accepted = set(), []
-        for (rule, says), path, value in FALSE:
-            code, said = status(changed(example(rule, says), path, value))
-            accepted += [] if code else [f"{rule}: {path} = {value}: {said}"]
+        for which, path, value in FALSE:
+            code, said = status(changed(example(*which), path, value))
+            accepted += [] if code else [f"{which}: {path} = {value}: {said}"]
             seen.add(code)
         self.assertEqual(accepted, [])
         self.assertEqual(seen, {1, 2})
@@ -290,6 +183,86 @@ class FalseCertificates(unittest.TestCase):
             [1, 0, 0], [0, 1, 0], [0, 0, 1]], "delimiters": [{"matrix": [[0, 0, 0], [0, 0, 0], [0, 0, 0]], "level": 1}]}
         self.assertEqual(status(document)[0], 2)
 
+    def test_quadrics_are_only_what_something_is_inside_of(self):
+        """A ball by its matrix: a fit's body. It has no support function here, so no plane is of it."""
+        sphere = {"kind": "quadrics", "matrices": [[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, -1]]]}
+        corners = {"kind": "hull", "points": [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}
+        for body, center, code in ((sphere, [0, 0, 0], 0), (sphere, ["1/1000", 0, 0], 1), (sphere, [0, 0], 2),
+                                   ({**sphere, "matrices": [[[1, 0, 0], [0, 1, 0], [0, 0, -1]]]}, [0, 0, 0], 2),
+                                   ({**sphere, "matrices": []}, [0, 0, 0], 2), ({**sphere, "matrices": [[[1, 0], [0, -1]]]}, [0, 0, 0], 2),
+                                   (changed(sphere, ["matrices", 0, 0, 3], 1), [0, 0, 0], 2)):
+            document = make.certificate({"says": "inside", "agent": corners, "obstacle": {**body, "center": center}}, {"rule": "vertices"})
+            self.assertEqual(status(document)[0], code, document)
+        ball = {"kind": "ball", "center": [5, 0, 0], "radius": 1}
+        for agent, obstacle in ((sphere, ball), ({**sphere, "center": [9, 0, 0]}, ball)):
+            for proof in ({"rule": "plane", "n": [1, 0, 0]}, {"rule": "plane", "n": [1, 0, 0], "agent_at_most": 1, "obstacle_at_least": 4},
+                          {"rule": "forms", "agent": [1], "obstacle": [1]}):
+                self.assertEqual(status(make.certificate({"says": "disjoint", "agent": agent, "obstacle": obstacle}, proof))[0], 2)
+
+    def test_triangles_in_a_dent(self):
+        """x^2 - y^2 <= 1 in a large ball: exactly those triangles whose points all keep to it, by samples in fractions."""
+        rng, seen = make.generator(9), {True: 0, False: 0}
+        form = [[1, 0, 0, 0], [0, -1, 0, 0], [0, 0, 0, 0], [0, 0, 0, -1]]
+        large = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, -100]]
+        grid = [(Fraction(i, 24), Fraction(j, 24), Fraction(24 - i - j, 24)) for i in range(25) for j in range(25 - i)]
+        for _ in range(500):
+            points = [[rng.randint(-5, 5) for _ in range(3)] for _ in range(3)]
+            document = make.certificate(
+                {"says": "inside", "agent": {"kind": "mesh", "points": points, "triangles": [[0, 1, 2]]},
+                 "obstacle": {"kind": "quadrics", "matrices": [form, large]}}, {"rule": "vertices"})
+            corners = [[Fraction(x) for x in p] for p in points]
+            means = ([sum(w * c[i] for w, c in zip(weights, corners)) for i in range(3)] for weights in grid)
+            sampled = all(x * x - y * y <= 1 for x, y, _ in means)
+            accepted = status(document)[0] == 0
+            self.assertTrue(sampled or not accepted, points)
+            seen[accepted] += 1
+            if sampled and not accepted:  # by a hair, or never
+                self.assertTrue(any(abs(x * x - y * y - 1) < Fraction(1, 2) for x, y, _ in
+                                    ([sum(w * c[i] for w, c in zip(weights, corners)) for i in range(3)] for weights in grid)), points)
+        self.assertGreater(min(seen.values()), 20)
+
+    def test_never_negative(self):
+        """Small whole numbers, against the values at a grid of the triangle."""
+        rng, seen = make.generator(10), {True: 0, False: 0}
+        grid = [(i, j, 24 - i - j) for i in range(25) for j in range(25 - i)]
+        for _ in range(1500):
+            a, b, c, d, e, f = (rng.randint(-6, 9) for _ in range(6))
+            m = [checker.V(row) for row in ((abs(a), d, e), (d, abs(b), f), (e, f, abs(c)))]
+            sampled = min(sum(x * m[i][j] * y for i, x in enumerate(w) for j, y in enumerate(w)) for w in grid)
+            found = checker.never_negative(m)
+            self.assertTrue(sampled >= 0 or not found, m)
+            self.assertTrue(found or sampled < 24 * 24 / 4, m)  # the grid may miss the least value by little
+            seen[found] += 1
+        self.assertGreater(min(seen.values()), 200)
+
+    def test_octrees_are_their_cells(self):
+        """Random trees, read apart, as lists of boxes: the same proofs hold."""
+        rng, accepted = make.generator(12), 0
+        for _ in range(40):
+            cells = []
+
+            def node(low, edge, cells=cells):
+                block, below = "", ""
+                for bits in range(8):
+                    at = [x + edge * (bits >> i & 1) for i, x in enumerate(low)]
+                    what = rng.choice(".#+" if edge > 1 else "..#")
+                    block += what
+                    if what == "#":
+                        cells.append([at, [x + edge for x in at]])
+                    elif what == "+":
+                        below += node(at, edge // 2)
+                return block + below
+            tree = node([0, 0, 0], 4)
+            if not cells:
+                continue
+            ball = {"kind": "ball", "center": [rng.randint(-3, 12) for _ in range(3)], "radius": 1}
+            proof = {"rule": "plane", "n": [4 - x for x in ball["center"]]}
+            codes = {status(make.certificate({"says": "disjoint", "agent": ball, "obstacle": body}, proof))[0] for body in (
+                {"kind": "octree", "low": [0, 0, 0], "cell": 1, "depth": 2, "tree": tree}, {"kind": "boxes", "boxes": cells})}
+            self.assertEqual(len(codes), 1, tree)
+            accepted += codes == {0}
+        self.assertGreater(accepted, 9)
+
     def test_a_certificate_of_another_case(self):
         documents = examples()
         accepted = 0
@@ -298,9 +271,9 @@ class FalseCertificates(unittest.TestCase):
                 if i != j:
                     code, said = status({**one, "proof": other["proof"]})
                     accepted += code == 0
-                    self.assertTrue(code or one["claim"]["says"] == other["claim"]["says"] == "out", said)
+                    self.assertTrue(code or one["claim"]["says"] == other["claim"]["says"] in ("out", "disjoint", "near", "meet", "inside"), said)
         # a plane along e_y parts more than one of the examples
-        self.assertLessEqual(accepted, 3)
+        self.assertLessEqual(accepted, 6)
 
     def test_answers(self):
         document = example(*OUT)
@@ -531,7 +504,7 @@ class Program(unittest.TestCase):
         self.assertEqual(self.run_it("/nowhere/at/all").returncode, 2)
         self.assertEqual(self.run_it().returncode, 2)
         first = self.run_it("-", data=bad.encode()).stdout.decode()
-        self.assertIn("-: 1: refused, this does not hold: agent: 0 + sqrt(100) <= 9", first)
+        self.assertIn("-: 1: refused, this does not hold: agent: r^2 - n.S n is not negative", first)
 
     def test_hostile_files_take_little(self):
         most = "import resource, subprocess, sys; done = subprocess.run(sys.argv[1:], stdin=sys.stdin, capture_output=True); " \

@@ -12,6 +12,9 @@ import sys
 import tempfile
 import zlib
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "certify"))
+import certify_cases  # noqa: E402
+
 GOOD_AGENT = {"center": [0, 0, 0], "semi_axes": [1, 2, 3], "rotation": [1, 0, 0, 0]}
 GOOD_OBSTACLE = {"center": [10, 0, 0], "shape": [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}
 
@@ -389,6 +392,7 @@ FITS = [
      {"scan.xyz": rows(SPIRAL), "fit.json": json.dumps(RESULT).replace("[[[1, 0", "[[[1, 2")}),
     ("a check of a certificate without numbers", ["scan.xyz", "--check", "fit.json"],
      {"scan.xyz": rows(SPIRAL), "fit.json": json.dumps(RESULT)}),
+    ("a certificate of what is not checked", ["scan.xyz", "--certificate", "c.json"], {"scan.xyz": rows(SPIRAL)}),
     ("a check and a fit at once", ["scan.xyz", "--check", "fit.json", "--shape", "star"],
      {"scan.xyz": rows(SPIRAL), "fit.json": json.dumps(RESULT)}),
 ]
@@ -811,6 +815,7 @@ def answers(vericone):
     yield "Fits", said(FITS, lambda arguments, files: run_fit(vericone, arguments, files)[0])
     yield "Tracks", said(TRACKS, lambda arguments, files: run_track(vericone, arguments, files)[0])
     yield "Scenarios", said(SCENARIOS, lambda text: run_scenario(vericone, text)[0])
+    yield "Tracks of others", said(certify_cases.CASES, lambda text: certify_cases.run_tracks(vericone, text)[0])
     yield "Pursuits", said(PURSUITS, lambda arguments, text: run_pursuit(vericone, arguments, text)[0])
     yield "Campaigns", said(CAMPAIGNS, lambda arguments: run_campaign(vericone, arguments)[0])
     yield "Trials", said(TRIALS, lambda arguments: run_trials(vericone, arguments)[0])

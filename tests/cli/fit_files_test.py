@@ -12,7 +12,7 @@ import unittest
 from fractions import Fraction
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from command import VERICONE, run  # noqa: E402
+from command import SOURCE, VERICONE, run  # noqa: E402
 from fit_test import CUBE, SIDES, Files, exactly, fit, inside, peanut, rows, shell, value  # noqa: E402
 from pieces_test import DATA, obj  # noqa: E402
 
@@ -187,6 +187,63 @@ class FitCheck(Files):
         self.assertEqual((answer["points_outside"], answer["triangles_outside"], answer["holds"]), (0, 1, False))
         along = self.write("along.obj", obj([[-1, 0.4, 0], [1, 0.4, 0], [1, 0.4, 0.1]], [(0, 1, 2)]))
         self.assertEqual(self.check(along).returncode, 0)
+
+
+class FitCertificates(Files):
+    """What --certificate writes, as the checker that shares no line with the library reads it."""
+
+    def certificate(self, file):
+        path = os.path.join(self.folder, "certificate.json")
+        answer = json.loads(run("fit", file, "--check", os.path.join(self.out, "fit.json"), "--certificate", path,
+                                "--json").stdout)
+        self.assertEqual(answer["certificate"], path)
+        with open(path, encoding="utf-8") as text:
+            return json.load(text)
+
+    def verdict(self, document):
+        return subprocess.run([sys.executable, os.path.join(SOURCE, "checker", "vericone_check.py"), "-"],
+                              input=json.dumps(document), capture_output=True, text=True, check=False)
+
+    def test_of_meshes_clouds_and_unions(self):
+        points, faces = peanut()
+        for name, content, arguments in (
+                ("mesh.obj", obj(points, faces), ("--shape", "biconvex")),
+                ("mesh.obj", obj(points, faces), ("--shape", "ellipsoid", "--pieces", "2")),
+                ("cloud.xyz", rows(shell(300, noise=0.02)), ("--shape", "ellipsoid")),
+                ("flat.xyz", rows([x[:2] + [1] for x in shell(50)]), ("--shape", "ellipse"))):
+            file = self.write(name, content)
+            fit(file, *arguments, out=self.out)
+            found = self.certificate(file)
+            said = self.verdict(found)
+            self.assertEqual(said.returncode, 0, said.stdout)
+            self.assertIn("each point of the agent is in the obstacle", said.stdout)
+            result = json.loads(self.read("fit.json"))
+            pieces = found["claim"]["obstacle"].get("pieces", [found["claim"]["obstacle"]])
+            self.assertEqual([piece["matrices"] for piece in pieces], [piece["quadrics"] for piece in result["pieces"]])
+            with_one_out = json.loads(json.dumps(found))
+            with_one_out["claim"]["agent"]["points"][0] = [9, 9, 9]
+            self.assertEqual(self.verdict(with_one_out).returncode, 1)
+
+    def test_of_triangles_beside_a_dent(self):
+        # The needle of FitCheck, a triangle that bulges into the dent by less than its corners tell, and one beside it.
+        q = [[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, -4]], [[-1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 0],
+                                                                         [0, 0, 0, -0.25]]]
+        os.makedirs(self.out)
+        for triangle, known in (([[-1, 0.5, 0], [1, 0.5, 0], [1, 0.4, 0.1]], True),
+                                ([[-1, 0.5, 0], [1, 0.5, 0], [1, 0.5 + 2 ** -40, 0.1]], False),
+                                ([[-0.5, 0.7, 0], [0.5, -0.7, 0], [0.5, -0.7, 0.1]], True)):
+            self.write("out/fit.json", json.dumps({
+                "pieces": [{"quadrics": q}], "certified": True, "coverage": 1, "margin": 0,
+                "certificate": {"points": 3, "points_inside": 3, "triangles": 1, "triangles_inside": 1, "margins_inside": 3}}))
+            file = self.write("one.obj", obj(triangle, [(0, 1, 2)]))
+            if known:
+                self.assertEqual(self.verdict(self.certificate(file)).returncode, 0)
+                continue
+            answer = json.loads(run("fit", file, "--check", os.path.join(self.out, "fit.json"), "--certificate",
+                                    os.path.join(self.folder, "none.json"), "--json").stdout)
+            self.assertIsNone(answer["certificate"])
+            self.assertEqual(answer["no_certificate"], "1 of 1 triangles are in no piece as a whole")
+            self.assertFalse(os.path.exists(os.path.join(self.folder, "none.json")))
 
 
 class FitRealFiles(Files):

@@ -42,6 +42,7 @@ EXAMPLES = {
     "check": "check docs/examples/scenarios/clearance.yaml",
     "schema": "schema scan",
     "reach": "reach docs/examples/scenarios/orifices.yaml --current --quiet",
+    "certify": "certify docs/examples/tracks/tracks.yaml --quiet",
     "simulate": "simulate docs/examples/scenarios/elephant.yaml --no-figures --quiet",
     "campaign": "campaign -N 500 --no-figures --quiet",
     "trials": "trials docs/examples/scenarios/noise.yaml -N 40 --levels x1,x2 --laws di,clearance --no-figures --quiet",

@@ -9,6 +9,7 @@
 #include <vericone/fits/fit_files.h>
 #include "input/fields.h"
 #include "json/json_value.h"
+#include "output/output_file.h"
 
 namespace vericone {
 namespace {
@@ -99,9 +100,15 @@ Json found_json(const Claim& claim, const fitting::Certificate& found) {
           {"by_exact", found.by_exact}};
 }
 
+void add_certificate(Json& answer, const fitting::InsideCertificate& proved, const std::string& file) {
+  answer["certificate"] = proved.text.empty() ? Json(nullptr) : Json(file);
+  if (proved.text.empty()) answer["no_certificate"] = proved.reason;
+}
+
 }  // namespace
 
-int check_fit(const std::string& file, const std::string& result, bool json, std::ostream& out) {
+int check_fit(const std::string& file, const std::string& result, const std::string& certificate, bool json,
+              std::ostream& out) {
   const Json written = read_json(result);
   const Claim claim = [&] {
     try {
@@ -112,9 +119,13 @@ int check_fit(const std::string& file, const std::string& result, bool json, std
   }();
   const fits::Scan scan = fits::read_scan(file);
   const fitting::Certificate found = fitting::check(claim.pieces, scan.sample, claim.margin);
-  const Json answer = found_json(claim, found);
   const bool good = holds(claim, found);
+  fitting::InsideCertificate proved;
+  if (!certificate.empty()) proved = fitting::inside_certificate(claim.pieces, scan.sample);
+  if (!proved.text.empty()) write_whole(certificate, proved.text + "\n");
   if (json) {
+    Json answer = found_json(claim, found);
+    if (!certificate.empty()) add_certificate(answer, proved, certificate);
     out << answer.dump(1) << '\n';
     return good ? 0 : 1;
   }
@@ -131,6 +142,8 @@ int check_fit(const std::string& file, const std::string& result, bool json, std
           : claim.certified ? "does NOT hold"
                             : "claims nothing")
       << " (" << result << ")\n";
+  if (!proved.text.empty()) out << "written             " << certificate << '\n';
+  if (!proved.reason.empty()) out << "not written         " << proved.reason << '\n';
   return good ? 0 : 1;
 }
 

@@ -160,7 +160,7 @@ void print(const Answer& a, const FitCommandOptions& given, const std::vector<fs
 }  // namespace
 
 int run_fit(const FitCommandOptions& given, std::ostream& out) {
-  if (!given.check.empty()) return check_fit(given.file, given.check, given.json, out);
+  if (!given.check.empty()) return check_fit(given.file, given.check, given.certificate, given.json, out);
   work::StagedFolder folder(given.out, "--out");
   try {
     std::vector<fs::path> files;

@@ -20,8 +20,9 @@ struct FitCommandOptions : OutputOptions {
   double margin = 0;  // metres
   int pieces = 1;
   std::uint64_t seed = kDefaultSeed;
-  std::string cone;   // the agent of a comparison of cones; empty: none
-  std::string check;  // the written result to check instead of fitting; empty: none
+  std::string cone;         // the agent of a comparison of cones; empty: none
+  std::string check;        // the written result to check instead of fitting; empty: none
+  std::string certificate;  // beside it: the file for what proves it; empty: none
 };
 
 /// `vericone fit`: a quadric hull of a scan, with what is proved of it (docs/reference/formats.md). Writes

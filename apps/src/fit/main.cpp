@@ -40,6 +40,10 @@ int fit_command(vericone::CommandLine& line) {
   const Option check =
       line.option("--check", fit.check,
                   "Instead of fitting: repeat the certificate of this fit.json; 1: it does not hold");
+  const Option certificate =
+      line.option("--certificate", fit.certificate,
+                  "With --check: write to this file what proves it, for programs that check it "
+                  "(docs/reference/certificates.md)");
   line.flag("--json", fit.json, "Print JSON");
   line.option("--out", fit.out, "Folder for result, meshes and picture");
   line.negative_flag("--no-figures", fit.figures, "Result and meshes only");
@@ -48,6 +52,8 @@ int fit_command(vericone::CommandLine& line) {
   for (const auto& [name, option] : of_fits)
     if (check.given() && option.given())
       throw vericone::InputError("--check", fit.check, "given without " + name + ", which is of a fit");
+  if (certificate.given() && !check.given())
+    throw vericone::InputError("--certificate", fit.certificate, "given beside --check");
   if (coverage_option.given()) fit.coverage = coverage;
   fit.command_line = line.text();
   return vericone::run_fit(fit, std::cout);

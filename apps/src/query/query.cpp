@@ -33,12 +33,16 @@ void add_robust(Json& result, const scenes::Scene& scene, const RelativeErrors& 
     result["witness"] = {{"collides", error_json(found.collides)}, {"passes", error_json(found.passes)}};
 }
 
-/// What proves the verdict, or why there is nothing that does.
-void add_certificate(Json& result, const Json& value, const scenes::Scene& scene, const Horizon& horizon) {
+/// What proves the verdict, or beside errors what all of them lead to; or why there is nothing that does.
+void add_certificate(Json& result, const Json& value, const scenes::Scene& scene, const Horizon& horizon,
+                     const std::optional<RelativeErrors>& errors) {
   const auto id = value.find("id");
   const bool named = id != value.end() && (id->is_string() || id->is_number());
-  const Certificate proved = certificate(scene.pair(), scene.agent.velocity, scene.obstacle.velocity, horizon,
-                                         named ? id->dump() : std::string());
+  const std::string name = named ? id->dump() : std::string();
+  const Pair pair = scene.pair();
+  const Eigen::Vector3d &v_a = scene.agent.velocity, &v_b = scene.obstacle.velocity;
+  const Certificate proved =
+      errors ? certificate(pair, v_a, v_b, *errors, name) : certificate(pair, v_a, v_b, horizon, name);
   result["certificate"] = proved.text.empty() ? Json(nullptr) : Json::parse(proved.text);
   if (proved.text.empty()) result["no_certificate"] = proved.reason;
 }
@@ -57,7 +61,7 @@ Json answer_case(const Json& value, const Wanted& wanted, const std::filesystem:
                      "left out, or the bodies in space");
   Json result = answer(scene, wanted.rung, horizon);
   if (errors) add_robust(result, scene, *errors);
-  if (wanted.certificate) add_certificate(result, value, scene, horizon);
+  if (wanted.certificate) add_certificate(result, value, scene, horizon, errors);
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include "output/schemas.h"
 #include "paper/paper_fields.h"
 #include "scenarios/schema.h"
+#include "scenarios/tracks_json.h"
 
 namespace vericone {
 namespace {
@@ -20,12 +21,14 @@ void print(const Json& schema) { std::cout << input::schema_text(schema); }
 /// `vericone schema`: what an editor needs to complete and check a file (docs/schemas has its output).
 int schema_command(CommandLine& line) {
   std::string kind;
-  line.option("kind", kind, "One of body, scene, scenario, claims, figures, scan, pursuit").required();
+  line.option("kind", kind, "One of body, scene, scenario, tracks, claims, figures, scan, pursuit")
+      .required();
   line.quiet();
   line.read();
   input::choice<Print>({{"body", [] { print(input::body_schema()); }},
                         {"scene", [] { print(input::scene_schema()); }},
                         {"scenario", [] { print(scenario::scenario_schema()); }},
+                        {"tracks", [] { print(scenario::tracks_schema()); }},
                         {"claims", [] { print(paper::claims_schema()); }},
                         {"figures", [] { print(paper::figures_schema()); }},
                         {"scan", [] { hand_over("scan", "schema", {}, "kind"); }},

@@ -118,6 +118,7 @@ Piece Stated::piece(std::size_t i) const {
       for (const std::uint32_t k : triangles_[i]) piece.corners.push_back(points_[k]);
       break;
     case Kind::cloud:
+      piece.is_ball = true;
       if (radius_ > 0)
         piece.ball = Ellipsoid::from_axes(points_[i], Vector3d::Constant(radius_));
       else

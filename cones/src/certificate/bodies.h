@@ -19,6 +19,7 @@ struct Piece {
   std::vector<Eigen::Vector3d> corners = {};   // none of round ones
   const CombinedEllipsoid* quadric = nullptr;  // about its own center
   std::optional<Ellipsoid> ball = {};          // of a cloud
+  bool is_ball = false;                        // that, or one of radius 0, which has a corner
 
   [[nodiscard]] const Ellipsoid* round() const {
     return quadric ? &quadric->ellipsoid() : ball ? &*ball : nullptr;

@@ -235,6 +235,54 @@ TEST(Certificates, OfEveryTwoKindsSayTheVerdict) {
   EXPECT_LE(without, of_dents / 20);
 }
 
+TEST(Certificates, OfErrorsSayWhatAllOfThemLeadTo) {
+  RandomBodies random(805);
+  SCOPED_TRACE(random.trace());
+  int seen[4] = {};
+  for (int i = 0; i < 200; ++i) {
+    const auto [a, b] = random.scaled_from_touching(0.3, 3, random.uniform(1.2, 3));
+    const Pair pair{Placed(a), Placed(b)};
+    const Vector3d v_b = random.in_box(1), v_a = v_b + 0.3 * (b.center() - a.center()) + random.in_box(0.6);
+    RelativeErrors errors;
+    const double size = random.uniform(0.01, 1);
+    if (i % 3 == 0) errors.position = ErrorSet::ball(size);
+    if (i % 3 == 1) errors.position = ErrorSet::box(size * Vector3d(1, 0, 0.5));
+    if (i % 3 == 2) errors.position = ErrorSet::ellipsoid(Vector3d(size, 1, 0.1), random.rotation());
+    if (random.coin()) errors.velocity = ErrorSet::ball(0.1 * size);
+    if (random.coin()) errors.horizon = random.integer(1, 40) / 4.0;
+    const RobustVerdict verdict = robust_verdict(pair, v_a, v_b, errors).verdict;
+    const Certificate found = certificate(pair, v_a, v_b, errors, "3");
+    ++seen[static_cast<int>(verdict)];
+    if (verdict == RobustVerdict::undecided) continue;
+    EXPECT_NE(found.text.find("\"says\": \"" + std::string(to_string(verdict)) + "\", \"id\": 3"),
+              std::string::npos)
+        << found.text << found.reason;
+    EXPECT_NE(found.text.find("\"position_error\": "), std::string::npos);
+  }
+  for (const RobustVerdict verdict : {RobustVerdict::out, RobustVerdict::in, RobustVerdict::depends})
+    EXPECT_GT(seen[static_cast<int>(verdict)], 10) << to_string(verdict);
+}
+
+TEST(Certificates, OfErrorsThatTheFormatHasNot) {
+  const Pair pair(Placed(Ellipsoid{}), Placed(Ellipsoid{}.translated({4, 3, 0})));
+  const auto with = [&](const auto& change) {
+    RelativeErrors errors;
+    errors.horizon = 3;
+    change(errors);
+    return certificate(pair, Vector3d(1, 0, 0), Vector3d::Zero(), errors);
+  };
+  EXPECT_EQ(with([](auto& e) { e.size = 0.1; }).reason, "the format has no errors of size");
+  EXPECT_EQ(with([](auto& e) { e.attitude_b = 0.1; }).reason, "the format has no errors of attitude");
+  EXPECT_EQ(with([](auto& e) { e.acceleration = 0.1; }).reason, "the format has no accelerations");
+  EXPECT_EQ(with([](auto& e) {
+              e.position = ErrorSet::ball(0.1) + ErrorSet::box({0.1, 0, 0});
+            }).reason,
+            "the errors are no ball, ellipsoid or box along the axes, but a sum of some");
+  EXPECT_TRUE(with([](auto& e) { e.size = 0.1; }).text.empty());
+  // No error at all: the certificate of the verdict.
+  EXPECT_EQ(with([](auto&) {}).text, certificate(pair, Vector3d(1, 0, 0), Vector3d::Zero(), {0, 3}).text);
+}
+
 TEST(Certificates, BadVelocitiesAreRefused) {
   const Pair pair(Placed(Ellipsoid{}), Placed(Ellipsoid{}.translated({4, 0, 0})));
   EXPECT_THROW(static_cast<void>(certificate(pair, Vector3d(NAN, 0, 0), Vector3d::Zero())), std::exception);

@@ -290,6 +290,7 @@ def questions(ask: Ask) -> None:
     ask("Pair", DISC, STAR)
     pair = ask("Pair", BALL, DENT)
     ask("certificate", pair, [1, 0, 0], [0, 0, 0], v.Horizon(until=9), "7")
+    ask("certificate", pair, [1, 0, 0], [0, 0, 0], v.RelativeErrors(position=v.ErrorSet.ball(0.1)), "7")
     each(ask, pair, "contact miss passage rung verdict", w, still)
     each(ask, pair, "sector", still, [7, 0, 1], [0, 1, 0])
     each(ask, pair, "cone distance")
@@ -342,6 +343,7 @@ def laws(ask: Ask) -> None:
     ask("guidance.bands", v.Placed(v.Body(BALL)), [1, 0, 0], [other], g.BandOptions(horizon=v.Horizon(until=9)))
     ask("guidance.alert_bands", v.Placed(v.Body(BALL)), [1, 0, 0], [other], [1, 0], g.BandOptions(horizon=v.Horizon(until=9)))
     ask("guidance.avoid", v.Placed(v.Body(BALL)), [1, 0, 0], [1, 0, 0], [other], g.AvoidOptions(until=9))
+    ask("guidance.velocity_map", v.Placed(v.Body(BALL)), [other], g.VelocityMapOptions(resolution=0.5, until=9))
     ask("guidance.barrier", v.Pair(BALL, LONG), [1, 0, 0], [0, 0, 0], 9)
     ask("guidance.choose_plane", a, b, v.SectorMethod.slice, g.PlaneOptions())
     ask("guidance.guide", a, b, g.GuideOptions(), g.GuideMemory(), 0)
@@ -397,6 +399,7 @@ def fitting(ask: Ask) -> None:
     shape = f.Shape.ellipsoid
     ask("fitting.parameters", shape)
     ask("fitting.check", [[LONG.quadric()]], f.Sample(points=cloud() * 0.3 + [8, 1, 2]), 0)
+    ask("fitting.inside_certificate", [[LONG.quadric()]], f.Sample(points=cloud() * 0.3 + [8, 1, 2]))
     options = f.FitOptions(shape=shape)
     found = ask("fitting.fit", sample, options)
     pieces = found.pieces
@@ -529,6 +532,29 @@ def runs(ask: Ask) -> None:
     ask("scenario.write_run", scenario, run, v.scenario.RunOrigin(), here)
 
 
+def tracks_of_others(ask: Ask) -> None:
+    s, here = v.simulation, Path.cwd()
+    times, points = [0.0, 1.0, 2.0], np.array([[0, 0, 0], [1, 0, 0], [2, 1, 0.0]])
+    way = ask("simulation.piecewise_through", times, points)
+    ask("simulation.piecewise_through", times, points, ask("simulation.velocities_through", times, points))
+    ask("simulation.piecewise_of_powers", times, [points, points + [2, 1, 0]])
+    ask("simulation.piecewise_of_spline", 2, [0, 0, 0, 1, 1, 1], points)
+    each(ask, way, "at", 0.5)
+    each(ask, way, "from_ to")
+    ask("simulation.greatest", way, 1)
+    trajectory = ask("simulation.turned_through", s.Trajectory(position=way), times, [np.eye(3)] * 3)
+    ball = s.ShapeInTime(s.RigidShape(v.WorldBody(BALL)))
+    ask("simulation.fitted_track", ball, trajectory)
+    bodies = [s.TrackedBody(name="A", shape=ball, trajectory=trajectory, most_speed=3),
+              s.TrackedBody(name="B", shape=ball, start=s.Motion(position=[0, 9, 0]), radius=0.1)]
+    certified = ask("simulation.certify", bodies, s.CertifyOptions(required=0.5))
+    each(ask, certified, "verdict")
+    ask("simulation.certificates", bodies, certified, s.CertifyOptions(required=0.5))
+    file = EXAMPLES / "tracks/tracks.yaml"
+    ask("scenario.read_tracks", str(file))
+    ask("scenario.tracks_of_text", file.read_text(encoding="utf-8"), str(file))
+
+
 def campaigns(ask: Ask) -> None:
     m, here = v.montecarlo, Path.cwd()
     settings, campaign = m.FlightSettings(), m.Campaign(engagements=1, laws=["exact"])
@@ -647,4 +673,4 @@ lidars:
 # Why no call is answered by an overload: (name, its index).
 UNREACHED: dict[tuple[str, int], str] = {}
 ALL = (geometry, bodies, numbers, predicates, cones, questions, exact, numbers_of_bodies, guidance, laws, words, files, scenes, fitting,
-       vehicles, motions, runs, campaigns, octomap, lidar, scanning, vision, work, pursuits)
+       vehicles, motions, runs, tracks_of_others, campaigns, octomap, lidar, scanning, vision, work, pursuits)

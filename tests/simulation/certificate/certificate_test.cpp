@@ -134,7 +134,10 @@ TEST(OwnFrame, HoldsTheBodyAtAllTimes) {
       for (int j = 0; j < 400; ++j) {
         const WorldBody body = shape_at(shape, random.uniform(1, 3), Vector3d::Zero(), Matrix3d::Identity());
         const Vector3d u = planar(shape) ? random.flat_vector(1) : random.vector(1);
-        farthest = std::max(farthest, (inverse * u / body.gauge(u)).norm());
+        const Vector3d end = u / body.gauge(u);
+        farthest = std::max(farthest, (inverse * end).norm());
+        for (const auto& delimiter : own.solid.rounds.front().delimiters())
+          EXPECT_LE(delimiter.value(end), 1e-12);
       }
       EXPECT_LE(farthest, 1 + 1e-12);
       EXPECT_GT(farthest, 0.9);
@@ -316,14 +319,53 @@ TEST(RunCertificate, OfARunAllPairsThatItCan) {
   scenario.bodies[2].appears = 1;
   const auto run = simulate(scenario);
   const RunCertificates found = certificates(scenario, run);
-  ASSERT_EQ(found.made.size(), 2U);  // A and B from the start, B and C from 1 s on
+  ASSERT_EQ(found.made.size(), 3U);  // A and B from the start, B and C from 1 s on; A meets C
   EXPECT_EQ(found.made[0].from, 0);
   EXPECT_EQ(found.made[1].from, 1);
   EXPECT_EQ(found.made[0].pairs.front(), (std::pair<std::size_t, std::size_t>{0, 1}));
   EXPECT_NE(found.made[0].text.find(R"("id": "a \"name\": A, B")"), std::string::npos);
-  ASSERT_EQ(found.none.size(), 1U);  // A meets C
-  EXPECT_EQ(found.none[0].what, "A, C");
-  EXPECT_NE(found.none[0].reason.find("meet"), std::string::npos);
+  EXPECT_FALSE(found.made[1].near);
+  EXPECT_TRUE(found.made[2].near);
+  EXPECT_EQ(found.made[2].pairs.front(), (std::pair<std::size_t, std::size_t>{0, 2}));
+  EXPECT_NE(found.made[2].text.find(R"("says": "meet")"), std::string::npos);
+  EXPECT_TRUE(found.none.empty());
+}
+
+/// Parts a ball from the dents of a body in whose ellipsoid it is, by planes that its delimiter narrows.
+TEST(RunCertificate, OfDentsByMultipliers) {
+  // |y| <= 1 + x^2 and so on: the ellipsoid reaches 4 m along y, what is left of it 1.8 m.
+  const CombinedEllipsoid waisted(Ellipsoid::from_axes({0, 0, 0}, {4, 4, 4}, Matrix3d::Identity()),
+                                  {hyperboloid(1, {1.5, 1, 1})});
+  const Track a = straight(ball(0.5), {-9, 3.9, 0}, {3, 0, 0}, 6);
+  const Track b = straight(RigidShape{waisted}, {0, 0, 0}, {0, 0, 0}, 6);
+  const OwnFrame of_a = in_own_frame(a.shape(), 0, 6), of_b = in_own_frame(b.shape(), 0, 6);
+  const TubeQuestion asked{0, 6, 1e-4, 4, true, 1e-8};
+  const auto tube_a = tube(a, asked), tube_b = tube(b, asked);
+  const Group group{0};
+  double stuck = 0;
+  const auto pieces =
+      planes_between({&of_a.solid, &*tube_a, &group}, {&of_b.solid, &*tube_b, &group}, 0, 0, 6, stuck);
+  ASSERT_TRUE(pieces) << stuck;
+  const auto narrowed = std::find_if(pieces->planes.begin(), pieces->planes.end(),
+                                     [](const StatedPlane& plane) { return !plane.multipliers[1].empty(); });
+  ASSERT_NE(narrowed, pieces->planes.end());
+  const auto k = static_cast<std::size_t>(narrowed - pieces->planes.begin());
+  const auto holds = [&](const StatedPlane& plane) {
+    return separates({&of_a.solid, &*tube_a, &group}, {&of_b.solid, &*tube_b, &group}, 0, pieces->times[k],
+                     pieces->times[k + 1], plane);
+  };
+  EXPECT_TRUE(holds(*narrowed));
+  for (const std::vector<double>& wrong :
+       {std::vector<double>{}, {1}, {1, -1}, {0, 0}, {1, 0}, {1, 1, 1}, {0, 1}}) {
+    StatedPlane other = *narrowed;
+    other.multipliers[1] = wrong;
+    EXPECT_FALSE(holds(other));
+  }
+  StatedPlane other = *narrowed;
+  other.multipliers[0] = {1};  // of a ball: as its ellipsoid
+  EXPECT_TRUE(holds(other));
+  other.multipliers[0] = {2, 1};
+  EXPECT_FALSE(holds(other));
 }
 
 TEST(RunCertificate, EndsWhereItIsTold) {

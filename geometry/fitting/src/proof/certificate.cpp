@@ -8,6 +8,7 @@
 #include <string>
 
 #include "middle.h"
+#include "proof/homes.h"
 #include "proof/piece_check.h"
 
 namespace vericone::fitting {
@@ -29,16 +30,16 @@ class Checking {
       : sample_(sample),
         used_(used_points(sample)),
         home_(sample.points.size(), -1),
+        triangle_home_(sample.triangles.size(), -1),
         ball_(margin > 0 ? sample.points.size() : 0, 0),
         point_exact_(sample.points.size(), 0),
-        triangle_inside_(sample.triangles.size(), 0),
         triangle_exact_(sample.triangles.size(), 0),
         margin_(margin) {
     const Eigen::Vector3d near = middle(sample, used_);
     for (const auto& quadrics : pieces) pieces_.emplace_back(quadrics, near);
   }
 
-  Certificate run() {
+  void run() {
     for (const bool exactly : {false, true})
       for (std::size_t k = 0; k < pieces_.size(); ++k) {
         place_.assign(sample_.points.size(), Place::unasked);
@@ -46,6 +47,11 @@ class Checking {
         ask_triangles(k, exactly);
         if (!exactly && margin_ > 0) ask_balls(k);
       }
+  }
+
+  Assignment homes() const { return {home_, triangle_home_}; }
+
+  Certificate certificate() const {
     Certificate c;
     c.points = used_.size();
     c.points_inside = used_.size() - static_cast<std::size_t>(std::count_if(
@@ -54,7 +60,8 @@ class Checking {
     const auto count = [](const std::vector<char>& flags) {
       return static_cast<std::size_t>(std::count(flags.begin(), flags.end(), 1));
     };
-    c.triangles_inside = count(triangle_inside_);
+    c.triangles_inside = static_cast<std::size_t>(
+        std::count_if(triangle_home_.begin(), triangle_home_.end(), [](int home) { return home >= 0; }));
     c.margin = margin_;
     c.margins_inside = margin_ > 0 ? count(ball_) : c.points_inside;
     c.by_exact = count(point_exact_) + count(triangle_exact_);
@@ -87,7 +94,7 @@ class Checking {
 
   void ask_triangles(std::size_t piece, bool exactly) {
     for (std::size_t t = 0; t < sample_.triangles.size(); ++t) {
-      if (triangle_inside_[t]) continue;
+      if (triangle_home_[t] >= 0) continue;
       bool inside = true;
       for (const std::uint32_t i : sample_.triangles[t]) {
         if (!inside) break;
@@ -106,7 +113,7 @@ class Checking {
           inside = pieces_[piece].contains_exactly(corners);
         }
       }
-      triangle_inside_[t] = inside;
+      if (inside) triangle_home_[t] = static_cast<int>(piece);
     }
   }
 
@@ -137,22 +144,35 @@ class Checking {
   const Sample& sample_;
   std::vector<PieceCheck> pieces_;
   std::vector<std::uint32_t> used_;
-  std::vector<int> home_;  // the first piece that contains the point, or -1
-  std::vector<char> ball_, point_exact_, triangle_inside_, triangle_exact_;
+  std::vector<int> home_, triangle_home_;  // the first piece that was seen to contain it, or -1
+  std::vector<char> ball_, point_exact_, triangle_exact_;
   std::vector<Place> place_;  // of the piece at hand
   double margin_;
 };
 
-}  // namespace
-
-Certificate check(const std::vector<std::vector<Quadric>>& pieces, const Sample& sample, double margin) {
+void require(const std::vector<std::vector<Quadric>>& pieces, double margin) {
   if (pieces.empty()) throw InputError("pieces", "none", "one piece or more");
   for (std::size_t k = 0; k < pieces.size(); ++k)
     if (pieces[k].empty())
       throw InputError("pieces[" + std::to_string(k) + "]", "no quadric", "one quadric or more");
   if (!(margin >= 0) || !std::isfinite(margin))
     throw InputError("margin", to_text(margin), "finite and not negative (metres)");
-  return Checking(pieces, sample, margin).run();
+}
+
+}  // namespace
+
+Certificate check(const std::vector<std::vector<Quadric>>& pieces, const Sample& sample, double margin) {
+  require(pieces, margin);
+  Checking checking(pieces, sample, margin);
+  checking.run();
+  return checking.certificate();
+}
+
+Assignment homes_of(const std::vector<std::vector<Quadric>>& pieces, const Sample& sample) {
+  require(pieces, 0);
+  Checking checking(pieces, sample, 0);
+  checking.run();
+  return checking.homes();
 }
 
 }  // namespace vericone::fitting

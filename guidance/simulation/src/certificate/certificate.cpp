@@ -2,6 +2,7 @@
 #include <vericone/simulation/certificate.h>
 
 #include <vericone/geometry/error.h>
+#include <vericone/internal/simulation/certificates_within.h>
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -10,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "certificate/meeting.h"
 #include "certificate/planes.h"
 #include "certificate/solid.h"
 #include "certificate/tube.h"
@@ -52,7 +54,8 @@ struct Proved {
 
 class Maker {
  public:
-  Maker(const Scenario& scenario, const Run& run) : scenario_(scenario), run_(run) {
+  Maker(const Scenario& scenario, const Run& run, const std::vector<double>& radii)
+      : scenario_(scenario), run_(run), radii_(radii) {
     slack_.assign(scenario.bodies.size(), std::numeric_limits<double>::infinity());
     for (const PairOutcome& pair : run.proofs) {
       if (pair.proof.verdict != ProofVerdict::avoided) continue;
@@ -71,7 +74,8 @@ class Maker {
       found_.none.push_back(
           {scenario_.bodies[passage.agent].name + ", " + scenario_.orifices[passage.orifice].name,
            "certificates do not tell of passages"});
-    for (const auto& [claim, pairs] : proved_) found_.made.push_back(written(claim, pairs));
+    for (const auto& [claim, pairs] : proved_) found_.made.push_back(written(claim, pairs, false));
+    for (const auto& [claim, pair] : near_) found_.made.push_back(written(claim, {pair}, true));
     return std::move(found_);
   }
 
@@ -82,13 +86,17 @@ class Maker {
 
   void take(const PairOutcome& pair) {
     const ProofVerdict verdict = pair.proof.verdict;
-    if (verdict != ProofVerdict::avoided) {
-      found_.none.push_back({names(pair.a, pair.b), verdict == ProofVerdict::touched
-                                                        ? "they meet, at a point within the radius of tracks"
-                                                        : "undecided"});
+    std::string reason;
+    if (verdict == ProofVerdict::touched) {
+      if (!prove_near(pair, 0, reason))
+        found_.none.push_back({names(pair.a, pair.b), "they meet: " + reason});
       return;
     }
-    std::string reason;
+    if (verdict != ProofVerdict::avoided) {
+      found_.none.push_back({names(pair.a, pair.b), "undecided"});
+      return;
+    }
+    if (pair.required > 0 && !pair.kept()) prove_near(pair, pair.required, reason);
     const double required = pair.kept() ? pair.required : 0;
     if (prove(pair, required, reason)) return;
     if (required > 0 && prove(pair, 0, reason)) {
@@ -100,24 +108,41 @@ class Maker {
   }
 
   bool prove(const PairOutcome& pair, double by, std::string& reason) {
-    const double from = pair.proof.from, to = pair.proof.to;
-    if (!(from < to)) {
+    const Claim claim{pair.proof.from, pair.proof.to, by};
+    const auto proof = proof_of(
+        pair, claim, reason, [&](const PairQuestion& question) { return proof_of_pair(question, reason); });
+    if (proof) proved_[claim].push_back({pair.a, pair.b, *proof});
+    return proof.has_value();
+  }
+
+  /// That they come as near as `by` at a time, over all that both are there.
+  bool prove_near(const PairOutcome& pair, double by, std::string& reason) {
+    const Track &a = run_.tracks[pair.a], &b = run_.tracks[pair.b];
+    const Claim claim{std::max(a.appears(), b.appears()), std::min(a.end(), b.end()), by};
+    const auto proof = proof_of(pair, claim, reason, [&](const PairQuestion& question) {
+      reason = "no deeper than their tracks are known, or no ellipsoids";
+      return proof_of_nearness(question);
+    });
+    if (proof) near_.push_back({claim, {pair.a, pair.b, *proof}});
+    return proof.has_value();
+  }
+
+  template <typename Prove>
+  std::optional<std::string> proof_of(const PairOutcome& pair, const Claim& claim, std::string& reason,
+                                      const Prove& prove) {
+    if (!(claim.from < claim.to)) {
       reason = "they are there together at one time only";
-      return false;
+      return std::nullopt;
     }
-    const Stated &a = stated(pair.a, from, to), &b = stated(pair.b, from, to);
+    const Stated &a = stated(pair.a, claim.from, claim.to), &b = stated(pair.b, claim.from, claim.to);
     for (const auto& [which, body] : {std::pair{&a, pair.a}, std::pair{&b, pair.b}}) {
       if (which->track) continue;
       reason = which->solid.size() > kMostPieces
                    ? scenario_.bodies[body].name + " has more than " + std::to_string(kMostPieces) + " pieces"
                    : "how " + scenario_.bodies[body].name + " turns has no bound";
-      return false;
+      return std::nullopt;
     }
-    const PairQuestion question{a.solid, b.solid, *a.track, *b.track, by, from, to, a.dents || b.dents};
-    auto proof = proof_of_pair(question, reason);
-    if (!proof) return false;
-    proved_[{from, to, by}].push_back({pair.a, pair.b, std::move(*proof)});
-    return true;
+    return prove({a.solid, b.solid, *a.track, *b.track, claim.by, claim.from, claim.to, a.dents || b.dents});
   }
 
   const Stated& stated(std::size_t body, double from, double to) {
@@ -138,11 +163,14 @@ class Maker {
     question.turns_matter = !found.solid.is_ball();
     question.padding =
         scenario_.proof.padding + scenario_.proof.drift * (to - track.appears()) + own.rounding;
+    // That of position and orientation together, while a padding counts for each.
+    if (!radii_.empty()) question.padding += 0.5 * radii_[body];
     found.track = tube(track, question);
     return found;
   }
 
-  [[nodiscard]] RunCertificate written(const Claim& claim, const std::vector<Proved>& pairs) const {
+  [[nodiscard]] RunCertificate written(const Claim& claim, const std::vector<Proved>& pairs,
+                                       bool near) const {
     std::set<std::size_t> bodies;
     for (const Proved& pair : pairs) bodies.insert({pair.a, pair.b});
     std::map<std::size_t, std::string> number;
@@ -155,7 +183,7 @@ class Maker {
       solids.append(between).append(text_of(its.solid));
       tracks.append(between).append(text_of(*its.track));
     }
-    RunCertificate certificate{{}, claim.by, claim.from, claim.to, {}};
+    RunCertificate certificate{{}, claim.by, claim.from, claim.to, {}, near};
     for (const Proved& pair : pairs) {
       const char* between = list.empty() ? "" : ", ";
       const std::string &a = number.at(pair.a), &b = number.at(pair.b);
@@ -163,20 +191,27 @@ class Maker {
       proofs.append(between).append("\"" + a + " " + b + "\": " + pair.proof);
       certificate.pairs.emplace_back(pair.a, pair.b);
     }
+    const bool meet = near && claim.by == 0;
     certificate.text =
-        R"({"format": "vericone-certificate", "version": 1, "claim": {"says": "apart", "id": )" +
-        quoted(scenario_.name + ": " + names) + ", \"by\": " + text_of(claim.by) +
-        ", \"from\": " + text_of(claim.from) + ", \"to\": " + text_of(claim.to) + ", \"bodies\": [" + solids +
-        "], \"tracks\": [" + tracks + "], \"pairs\": [" + list +
-        R"(]}, "proof": {"rule": "pairs", "pairs": {)" + proofs + "}}}";
+        std::string(R"({"format": "vericone-certificate", "version": 1, "claim": {"says": ")") +
+        (meet   ? "meet"
+         : near ? "near"
+                : "apart") +
+        "\", \"id\": " + quoted(scenario_.name + ": " + names) +
+        (meet ? "" : ", \"by\": " + text_of(claim.by)) + ", \"from\": " + text_of(claim.from) +
+        ", \"to\": " + text_of(claim.to) + ", \"bodies\": [" + solids + "], \"tracks\": [" + tracks +
+        (near ? "], \"pair\": " + list + "}, \"proof\": " + pairs.front().proof + "}"
+              : "], \"pairs\": [" + list + R"(]}, "proof": {"rule": "pairs", "pairs": {)" + proofs + "}}}");
     return certificate;
   }
 
   const Scenario& scenario_;
   const Run& run_;
+  const std::vector<double>& radii_;
   std::vector<double> slack_;  // m, of each body: what its nearest pair leaves
   std::map<std::tuple<std::size_t, double, double>, Stated> stated_;
   std::map<Claim, std::vector<Proved>> proved_;
+  std::vector<std::pair<Claim, Proved>> near_;
   RunCertificates found_;
 };
 
@@ -185,10 +220,16 @@ class Maker {
 
 RunCertificates certificates(const Scenario& scenario, const Run& run,
                              const std::function<bool(double)>& goes_on) {
+  return certificates_within(scenario, run, {}, goes_on);
+}
+
+RunCertificates certificates_within(const Scenario& scenario, const Run& run,
+                                    const std::vector<double>& radii,
+                                    const std::function<bool(double)>& goes_on) {
   if (run.tracks.size() != scenario.bodies.size())
     throw InputError("run", std::to_string(run.tracks.size()) + " tracks",
                      std::to_string(scenario.bodies.size()) + ", one for each body of the scenario");
-  return certified::Maker(scenario, run).made(goes_on);
+  return certified::Maker(scenario, run, radii).made(goes_on);
 }
 
 }  // namespace vericone::simulation

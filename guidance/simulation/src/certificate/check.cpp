@@ -184,6 +184,115 @@ Form less_points(const Form& limit, const Unturned& seen, const std::vector<Eige
   return r;
 }
 
+using IntegerMatrix = std::array<std::array<Integer, 3>, 3>;
+
+/// Whole numbers in units of 2^exponent.
+struct OnGrid {
+  IntegerMatrix m;
+  int exponent;
+};
+
+OnGrid on_grid(const Eigen::Matrix3d& matrix) {
+  int grid = kNoGrid;
+  for (int i = 0; i < 9; ++i) grid = std::min(grid, grid_of(matrix(i / 3, i % 3)));
+  OnGrid found{{}, some(grid)};
+  for (int i = 0; i < 9; ++i) found.m[i / 3][i % 3] = exact::on_grid(matrix(i / 3, i % 3), found.exponent);
+  return found;
+}
+
+IntegerMatrix adjugate(const IntegerMatrix& m) {
+  IntegerMatrix found;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      found[i][j] = m[(j + 1) % 3][(i + 1) % 3] * m[(j + 2) % 3][(i + 2) % 3] -
+                    m[(j + 1) % 3][(i + 2) % 3] * m[(j + 2) % 3][(i + 1) % 3];
+  return found;
+}
+
+Integer inner(const std::array<Integer, 3>& a, const std::array<Integer, 3>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+OnGrid shape_of(const Ellipsoid& body) {
+  if (!body.defined_by_factor()) return on_grid(body.shape());
+  const OnGrid f = on_grid(body.factor());
+  OnGrid s{{}, 2 * f.exponent};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) s.m[i][j] = inner(f.m[i], f.m[j]);
+  return s;
+}
+
+/// D Q and D L, D > 0, of the sum of the body's forms with these multipliers: y.Q y <= L for its points y
+/// about its center.
+struct Weighted {
+  OnGrid q;
+  Integer level;
+  int level_exponent;
+};
+
+void rescale(Integer& x, int from, int to) { x <<= static_cast<unsigned>(from - to); }
+
+std::optional<Weighted> weighted(const CombinedEllipsoid& body, const std::vector<double>& multipliers) {
+  const auto& delimiters = body.delimiters();
+  if (multipliers.size() != delimiters.size() + 1) return std::nullopt;
+  if (std::any_of(multipliers.begin(), multipliers.end(), [](double x) { return !(x >= 0); }))
+    return std::nullopt;
+  const OnGrid s = shape_of(body.ellipsoid());
+  const IntegerMatrix adjoint = adjugate(s.m);
+  const Integer determinant = inner(s.m[0], {adjoint[0][0], adjoint[1][0], adjoint[2][0]});
+  if (determinant.sign() <= 0) return std::nullopt;
+  int units = kNoGrid, q_exponent = -s.exponent, level_exponent = 0;
+  for (const double x : multipliers) units = std::min(units, grid_of(x));
+  units = some(units);
+  for (const auto& one : delimiters) {
+    q_exponent = std::min(q_exponent, on_grid(one.matrix).exponent);
+    level_exponent = std::min(level_exponent, some(grid_of(one.level)));
+  }
+  Weighted sum{{{}, q_exponent + units}, {}, level_exponent + units};
+  const auto add = [&](const OnGrid& form, const Integer& scale, const Integer& level, double multiplier) {
+    const Integer factor = exact::on_grid(multiplier, units);
+    for (std::size_t i = 0; i < 9; ++i) {
+      Integer x = factor * scale * form.m[i / 3][i % 3];
+      rescale(x, form.exponent, q_exponent);
+      sum.q.m[i / 3][i % 3] += x;
+    }
+    sum.level += factor * determinant * level;
+  };
+  add({adjoint, -s.exponent}, 1, Integer(1) << static_cast<unsigned>(-level_exponent), multipliers[0]);
+  for (std::size_t k = 0; k < delimiters.size(); ++k)
+    add(on_grid(delimiters[k].matrix), determinant, exact::on_grid(delimiters[k].level, level_exponent),
+        multipliers[k + 1]);
+  return sum;
+}
+
+/// [[Q, m], [m, r^2 / L]] is positive definite everywhere, m the normal seen from the body: of each k the
+/// matrix of the c_k is.
+bool definite(const Form& r, const Unturned& seen, const CombinedEllipsoid& body,
+              const std::vector<double>& multipliers) {
+  const std::optional<Weighted> sum = weighted(body, multipliers);
+  if (!sum || sum->level.sign() <= 0) return false;
+  const IntegerMatrix adjoint = adjugate(sum->q.m);
+  const auto& q = sum->q.m;
+  const Integer determinant = inner(q[0], {adjoint[0][0], adjoint[1][0], adjoint[2][0]});
+  if (q[0][0].sign() <= 0 || adjoint[2][2].sign() <= 0 || determinant.sign() <= 0) return false;
+  const Coefficients square = product(r.c, r.c);
+  std::array<Coefficients, 3> normal;
+  for (std::size_t i = 0; i < 3; ++i) normal[i] = raised(seen.normal[i], square.size());
+  // D cancels: (r^2)_k C(N,k) / L > m_k . Q^-1 m_k with D Q and D L in their places.
+  const int shift = 2 * r.exponent + sum->q.exponent - sum->level_exponent;
+  for (std::size_t k = 0; k < square.size(); ++k) {
+    const std::array<Integer, 3> m{normal[0][k], normal[1][k], normal[2][k]};
+    Integer left = square[k] * binomial(square.size() - 1, k) * determinant;
+    Integer right =
+        (m[0] * inner(adjoint[0], m) + m[1] * inner(adjoint[1], m) + m[2] * inner(adjoint[2], m)) *
+        sum->level;
+    if (shift > 0) rescale(left, shift, 0);
+    if (shift < 0) rescale(right, -shift, 0);
+    if (!(left > right)) return false;
+  }
+  return true;
+}
+
 std::vector<Eigen::Vector3d> corners_of(const Side& side) {
   std::vector<std::uint32_t> numbers;
   for (const std::uint32_t piece : *side.group)
@@ -197,18 +306,22 @@ std::vector<Eigen::Vector3d> corners_of(const Side& side) {
 
 /// n.R b <= limit for the points b of the pieces, R the rotation of q.
 bool bounds(const Side& side, const std::array<Coefficients, 4>& q, const std::array<std::int64_t, 3>& n,
-            const Form& most) {
+            const Form& most, const std::vector<double>& multipliers) {
   const Unturned seen = unturned(q, n);
   if (!positive(seen.square)) return false;
   const Form limit{product(most.c, seen.square), most.exponent};
   if (side.solid->rounds.empty()) {
-    const Form r = less_points(limit, seen, side.cover ? *side.cover : corners_of(side));
+    if (!multipliers.empty()) return false;
+    const Form r = less_points(limit, seen, corners_of(side));
     return not_negative(r.c) && (side.solid->radius == 0 ||
                                  covers(r, seen, side.solid->radius * Eigen::Matrix3d::Identity(), true));
   }
   return std::all_of(side.group->begin(), side.group->end(), [&](std::uint32_t piece) {
     const Ellipsoid& body = side.solid->rounds[piece].ellipsoid();
     const Form r = less_points(limit, seen, {body.center()});
+    if (!multipliers.empty())
+      return side.group->size() == 1 && not_negative(r.c) &&
+             definite(r, seen, side.solid->rounds[piece], multipliers);
     const bool factor = body.defined_by_factor();
     return not_negative(r.c) && covers(r, seen, factor ? body.factor() : body.shape(), factor);
   });
@@ -244,6 +357,14 @@ Form constant(double x) {
 
 }  // namespace
 
+Box Solid::bounds(std::uint32_t piece) const {
+  if (!boxes.empty()) return boxes[piece];
+  Box box{points[pieces[piece].front()], points[pieces[piece].front()]};
+  for (const std::uint32_t i : pieces[piece]) box.include({points[i], points[i]});
+  const Eigen::Vector3d about = Eigen::Vector3d::Constant(radius);
+  return {box.low - about, box.high + about};
+}
+
 bool Solid::is_ball() const {
   if (rounds.size() != 1 || !rounds.front().is_ellipsoid()) return false;
   const Ellipsoid& body = rounds.front().ellipsoid();
@@ -275,8 +396,8 @@ bool separates(const Side& a, const Side& b, double by, double from, double to, 
     add(gap, of_a->position[i], -of_b->scale * plane.normal[i]);
     add(gap, of_b->position[i], of_a->scale * plane.normal[i]);
   }
-  return positive(gap.c) && bounds(a, of_a->turn, plane.normal, most_a) &&
-         bounds(b, of_b->turn, {-x, -y, -z}, most_b);
+  return positive(gap.c) && bounds(a, of_a->turn, plane.normal, most_a, plane.multipliers[0]) &&
+         bounds(b, of_b->turn, {-x, -y, -z}, most_b, plane.multipliers[1]);
 }
 
 bool proves(const Side& a, const Side& b, double by, double from, double to, const StatedPieces& pieces) {

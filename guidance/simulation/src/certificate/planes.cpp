@@ -5,6 +5,8 @@
 
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/geometry/error.h>
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,7 +23,6 @@ using Eigen::Vector3d;
 constexpr int kSamples = 9;                 // of a piece of time
 constexpr double kNormalUnits = 16384;      // of a normal, which is written as whole numbers
 constexpr double kShortestPiece = 0x1p-13;  // s
-constexpr std::size_t kMostGroups = 2000;
 
 /// Where a side's body is at a time, and its support there.
 class Posed {
@@ -57,11 +58,6 @@ class Posed {
         best = x;
       }
     };
-    if (side_->cover) {
-      for (const Vector3d& x : *side_->cover) consider(x);
-      if (solid.radius > 0) best += solid.radius * n.normalized();
-      return best;
-    }
     for (const std::uint32_t piece : *side_->group) {
       if (solid.rounds.empty()) {
         for (const std::uint32_t i : solid.pieces[piece]) consider(solid.points[i]);
@@ -182,6 +178,65 @@ std::optional<StatedPlane> plane_along(const Samples& samples, const Vector3d& u
   return plane;
 }
 
+/// A body with delimiters within another ellipsoid, that multipliers give.
+class Narrowed {
+ public:
+  /// The one that reaches least along n, in the body's own axes, of few digits; the body's own where it has
+  /// no delimiter.
+  Narrowed(const Side& side, const Vector3d& n) {
+    if (side.group->size() != 1 || side.solid->rounds.empty()) return;
+    const CombinedEllipsoid& body = side.solid->rounds[side.group->front()];
+    if (body.is_ellipsoid()) return;
+    multipliers_.assign(body.delimiters().size() + 1, 0);
+    multipliers_[0] = 1;
+    double least = reach(body, n);
+    for (int round = 0; round < 2; ++round)
+      for (std::size_t k = 1; k < multipliers_.size(); ++k) {
+        const double own = multipliers_[k];
+        double best = own;
+        for (int step = -24; step <= 24; ++step) {
+          multipliers_[k] = std::ldexp(1.0 + 0.25 * (step & 3), step >> 2);
+          if (const double now = reach(body, n); now < least) {
+            least = now;
+            best = multipliers_[k];
+          }
+        }
+        multipliers_[k] = best;
+      }
+    solid_.rounds = {CombinedEllipsoid(Ellipsoid::from_shape(body.ellipsoid().center(), shape(body)))};
+    narrowed_ = true;
+  }
+
+  [[nodiscard]] bool is_narrowed() const { return narrowed_; }
+  [[nodiscard]] const std::vector<double>& multipliers() const { return multipliers_; }
+  [[nodiscard]] Side side(const Side& own) const {
+    return narrowed_ ? Side{&solid_, own.track, &group_} : own;
+  }
+
+ private:
+  /// L Q^-1.
+  [[nodiscard]] Eigen::Matrix3d shape(const CombinedEllipsoid& body) const {
+    Eigen::Matrix3d q = multipliers_[0] * body.ellipsoid().shape().inverse();
+    double level = multipliers_[0];
+    for (std::size_t k = 1; k < multipliers_.size(); ++k) {
+      q += multipliers_[k] * body.delimiters()[k - 1].matrix;
+      level += multipliers_[k] * body.delimiters()[k - 1].level;
+    }
+    const Eigen::Matrix3d s = level * q.inverse();
+    return 0.5 * (s + s.transpose());
+  }
+  [[nodiscard]] double reach(const CombinedEllipsoid& body, const Vector3d& n) const {
+    const Eigen::Matrix3d s = shape(body);
+    const bool definite = s.allFinite() && Eigen::LLT<Eigen::Matrix3d>(s).info() == Eigen::Success;
+    return definite ? std::sqrt(n.dot(s * n)) : std::numeric_limits<double>::infinity();
+  }
+
+  Solid solid_;
+  Group group_{0};
+  std::vector<double> multipliers_;
+  bool narrowed_ = false;
+};
+
 class Search {
  public:
   Search(const Side& a, const Side& b, double by)
@@ -206,27 +261,63 @@ class Search {
  private:
   bool piece(double from, double to) {
     checkpoint();
-    const Samples samples(a_, b_, from, to);
+    bool there = false;
+    if (part(Samples(a_, b_, from, to), {}, from, to, there) || part_narrowed(from, to, there)) return true;
+    stuck_ = from;
+    // No plane in the middle either: no piece is short enough.
+    if (!there || to - from < kShortestPiece) return false;
+    const double middle = middle_of(from, to);
+    return piece(from, middle) && piece(middle, to);
+  }
+
+  /// `there`: set if one is found in the middle at least.
+  bool part(const Samples& samples, const std::array<std::vector<double>, 2>& multipliers, double from,
+            double to, bool& there) {
     const std::vector<Vector3d> normals = samples.normals(previous_);
     const auto better = [&](const Vector3d& x, const Vector3d& y) {
       return samples.least_gap(x) < samples.least_gap(y);
     };
-    if (!normals.empty()) {
-      const Vector3d& best = *std::max_element(normals.begin(), normals.end(), better);
-      if (const auto plane = plane_along(samples, best, needed_);
-          plane && separates(a_, b_, by_, from, to, *plane)) {
+    if (normals.empty()) return false;
+    const Vector3d& best = *std::max_element(normals.begin(), normals.end(), better);
+    if (auto plane = plane_along(samples, best, needed_)) {
+      plane->multipliers = multipliers;
+      if (separates(a_, b_, by_, from, to, *plane)) {
         previous_ = best;
         found_.times.push_back(to);
-        found_.planes.push_back(*plane);
+        found_.planes.push_back(std::move(*plane));
         return true;
       }
     }
-    stuck_ = from;
-    const auto there = [&](const Vector3d& n) { return samples.gap(n, kSamples / 2) > needed_; };
-    // No plane in the middle either: no piece is short enough.
-    if (std::none_of(normals.begin(), normals.end(), there) || to - from < kShortestPiece) return false;
-    const double middle = middle_of(from, to);
-    return piece(from, middle) && piece(middle, to);
+    there = there || std::any_of(normals.begin(), normals.end(),
+                                 [&](const Vector3d& n) { return samples.gap(n, kSamples / 2) > needed_; });
+    return false;
+  }
+
+  /// With bodies that have delimiters in narrower ellipsoids, for the normal of the nearest points of their
+  /// hulls in the middle.
+  bool part_narrowed(double from, double to, bool& there) {
+    if (!Narrowed(a_, Vector3d::UnitX()).is_narrowed() && !Narrowed(b_, Vector3d::UnitX()).is_narrowed())
+      return false;
+    const double middle = 0.5 * (from + to);
+    const auto narrowed = [&](const Side& side, const Vector3d& n) {
+      const Placement at = placement(*side.track, side.track->segment_of(from, to), middle);
+      return Narrowed(side, at.rotation.transpose() * n);
+    };
+    const auto farthest_of = [&](const Side& side, const Vector3d& n) -> Vector3d {
+      const Narrowed body = narrowed(side, n);
+      return Posed(body.side(side), side.track->segment_of(from, to), middle).support_point(n);
+    };
+    const auto farthest = [&](const Vector3d& d) -> Vector3d {
+      return farthest_of(b_, d) - farthest_of(a_, -d);
+    };
+    const Samples samples(a_, b_, from, to);
+    const Vector3d nearest = least_point(farthest, samples.between(kSamples / 2));
+    if (nearest.isZero(0)) return false;
+    const Vector3d n = nearest.normalized();
+    const Narrowed a = narrowed(a_, n), b = narrowed(b_, -n);
+    const Side of_a = a.side(a_), of_b = b.side(b_);
+    previous_ = n;
+    return part(Samples(of_a, of_b, from, to), {a.multipliers(), b.multipliers()}, from, to, there);
   }
 
   /// A time of few digits about the middle.
@@ -241,118 +332,6 @@ class Search {
   std::optional<Vector3d> previous_;
 };
 
-Vector3d middle_of_piece(const Solid& solid, std::uint32_t piece) {
-  if (!solid.rounds.empty()) return solid.rounds[piece].ellipsoid().center();
-  Vector3d sum = Vector3d::Zero();
-  for (const std::uint32_t i : solid.pieces[piece]) sum += solid.points[i];
-  return sum / static_cast<double>(solid.pieces[piece].size());
-}
-
-/// Two halves, along the widest extent of the pieces' middles.
-std::array<Group, 2> halves_of(const Solid& solid, const Group& group) {
-  Vector3d low = middle_of_piece(solid, group.front()), high = low;
-  for (const std::uint32_t piece : group) {
-    low = low.cwiseMin(middle_of_piece(solid, piece));
-    high = high.cwiseMax(middle_of_piece(solid, piece));
-  }
-  int axis = 0;
-  (high - low).maxCoeff(&axis);
-  Group sorted = group;
-  const auto half = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), half, sorted.end(), [&](std::uint32_t x, std::uint32_t y) {
-    return middle_of_piece(solid, x)(axis) < middle_of_piece(solid, y)(axis);
-  });
-  std::array<Group, 2> halves{Group(sorted.begin(), half), Group(half, sorted.end())};
-  for (Group& one : halves) std::sort(one.begin(), one.end());
-  return halves;
-}
-
-/// Of many pieces, the corners of boxes that hold some of them each; of few, nothing.
-std::optional<std::vector<Vector3d>> cover_of(const Solid& solid, const Group& group) {
-  constexpr std::size_t kMany = 256, kBoxes = 128;
-  if (group.size() <= kMany || !solid.rounds.empty()) return std::nullopt;
-  std::vector<Group> parts{group};
-  while (parts.size() < kBoxes) {
-    std::vector<Group> finer;
-    for (const Group& part : parts)
-      for (Group& half : halves_of(solid, part)) finer.push_back(std::move(half));
-    parts = std::move(finer);
-  }
-  std::vector<Vector3d> corners;
-  for (const Group& part : parts) {
-    Box box{solid.points[solid.pieces[part.front()].front()],
-            solid.points[solid.pieces[part.front()].front()]};
-    for (const std::uint32_t piece : part)
-      for (const std::uint32_t i : solid.pieces[piece]) box.include({solid.points[i], solid.points[i]});
-    const HullBody hull = HullBody::box(box.low, box.high);
-    corners.insert(corners.end(), hull.points().begin(), hull.points().end());
-  }
-  return corners;
-}
-
-/// Divides groups of pieces until planes part them.
-class ByGroups {
- public:
-  explicit ByGroups(const PairQuestion& question) : question_(question) {}
-
-  std::optional<std::string> prove(const Group& a, const Group& b) {
-    const auto cover_a = cover_of(question_.a, a), cover_b = cover_of(question_.b, b);
-    const Side of_a{&question_.a, &question_.track_a, &a, cover_a ? &*cover_a : nullptr},
-        of_b{&question_.b, &question_.track_b, &b, cover_b ? &*cover_b : nullptr};
-    if (const auto pieces = planes_between(of_a, of_b, question_.by, question_.from, question_.to, stuck_)) {
-      if (!proves(of_a, of_b, question_.by, question_.from, question_.to, *pieces)) return std::nullopt;
-      return text_of(*pieces);
-    }
-    if ((a.size() == 1 && b.size() == 1) || ++groups_ > kMostGroups) return std::nullopt;
-    const bool agent = a.size() > b.size();
-    const auto halves = halves_of(agent ? question_.a : question_.b, agent ? a : b);
-    std::array<std::string, 2> proofs;
-    for (std::size_t i = 0; i < 2; ++i) {
-      auto proof = agent ? prove(halves[i], b) : prove(a, halves[i]);
-      if (!proof) return std::nullopt;
-      proofs[i] = std::move(*proof);
-    }
-    return std::string(R"({"rule": "groups", "of": ")") + (agent ? "agent" : "obstacle") +
-           "\", \"proofs\": [" + proofs[0] + ", " + proofs[1] + "], \"runs\": [" +
-           runs(agent ? a : b, halves[0]) + "]}";
-  }
-
-  [[nodiscard]] double stuck() const { return stuck_; }
-  [[nodiscard]] bool too_many() const { return groups_ > kMostGroups; }
-
- private:
-  static std::string runs(const Group& whole, const Group& first) {
-    std::string text;
-    std::size_t count = 0;
-    int last = -1;
-    const auto end = [&] {
-      if (count > 0)
-        text += (text.empty() ? "[" : ", [") + std::to_string(last) + ", " + std::to_string(count) + "]";
-    };
-    for (const std::uint32_t piece : whole) {
-      const int k = std::binary_search(first.begin(), first.end(), piece) ? 0 : 1;
-      if (k != last) {
-        end();
-        last = k;
-        count = 0;
-      }
-      ++count;
-    }
-    end();
-    return text;
-  }
-
-  const PairQuestion& question_;
-  std::size_t groups_ = 0;
-  double stuck_ = 0;
-};
-
-Group all_of(const Solid& solid) {
-  Group group(solid.size());
-  std::iota(group.begin(), group.end(), 0);
-  return group;
-}
-
 }  // namespace
 
 std::optional<StatedPieces> planes_between(const Side& a, const Side& b, double by, double from, double to,
@@ -361,17 +340,6 @@ std::optional<StatedPieces> planes_between(const Side& a, const Side& b, double 
   if (search.run(from, to)) return std::move(search.found_);
   stuck = search.stuck_;
   return std::nullopt;
-}
-
-std::optional<std::string> proof_of_pair(const PairQuestion& question, std::string& reason) {
-  ByGroups groups(question);
-  auto proof = groups.prove(all_of(question.a), all_of(question.b));
-  if (!proof)
-    reason = groups.too_many()
-                 ? "it takes more than " + std::to_string(kMostGroups) + " groups of pieces"
-                 : "no plane is found from " + to_text(groups.stuck()) + " s on" +
-                       (question.dents ? ", where a body with dents counts as its ellipsoid" : "");
-  return proof;
 }
 
 }  // namespace vericone::simulation::certified

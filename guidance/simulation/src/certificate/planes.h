@@ -16,11 +16,12 @@ struct PairQuestion {
   const StatedTrack& track_a;
   const StatedTrack& track_b;
   double by, from, to;
-  bool dents = false;  // of a body that counts as an ellipsoid around it
+  bool dents = false;  // one of them has some
 };
 
 /// The proof, JSON, each of whose planes was checked in integers: one plane for each piece of time, by groups
-/// of the bodies' pieces where one does not do for all. Nothing, and the `reason`, where none was found.
+/// of the bodies' pieces where one does not do for all, boxes for runs of many. Nothing, and the `reason`,
+/// where none was found.
 [[nodiscard]] std::optional<std::string> proof_of_pair(const PairQuestion& question, std::string& reason);
 
 /// Of groups of pieces by planes. `stuck`: the time from which there is none.

@@ -10,6 +10,8 @@
 #include <utility>
 #include <variant>
 
+#include "certificate/octree.h"
+
 namespace vericone::simulation::certified {
 namespace {
 
@@ -55,8 +57,71 @@ std::vector<T> in_order(const Assembly& body, const std::vector<T>& by_slot) {
   return list;
 }
 
-Solid of_assembly(const Assembly& body, bool upright) {
-  Solid solid;
+/// Neighbours one after the other: halves along the widest extent of their middles, and so on.
+std::vector<std::uint32_t> side_by_side(const Solid& solid) {
+  std::vector<std::uint32_t> order(solid.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::vector<Vector3d> middles;
+  for (const std::uint32_t k : order) middles.push_back(solid.bounds(k).center());
+  std::vector<std::pair<std::size_t, std::size_t>> open{{0, order.size()}};
+  while (!open.empty()) {
+    const auto [first, last] = open.back();
+    open.pop_back();
+    if (last - first < 3) continue;
+    Box box{middles[order[first]], middles[order[first]]};
+    for (std::size_t k = first; k < last; ++k) box.include({middles[order[k]], middles[order[k]]});
+    int axis = 0;
+    (box.high - box.low).maxCoeff(&axis);
+    const std::size_t half = first + (last - first) / 2;
+    const auto at = [&](std::size_t k) { return order.begin() + static_cast<std::ptrdiff_t>(k); };
+    std::nth_element(at(first), at(half), at(last), [&](std::uint32_t x, std::uint32_t y) {
+      return std::pair(middles[x](axis), x) < std::pair(middles[y](axis), y);
+    });
+    open.insert(open.end(), {{first, half}, {half, last}});
+  }
+  return order;
+}
+
+void put_side_by_side(Solid& solid) {
+  if (solid.size() <= kManyPieces) return;
+  const std::vector<std::uint32_t> order = side_by_side(solid);
+  const auto put = [&](auto& list) {
+    if (list.empty()) return;
+    auto sorted = list;
+    for (std::size_t k = 0; k < order.size(); ++k) sorted[k] = list[order[k]];
+    list = std::move(sorted);
+  };
+  put(solid.boxes);
+  if (solid.kind == Solid::Kind::cloud)
+    put(solid.points);  // a piece is the point of its number
+  else
+    put(solid.pieces);
+}
+
+OwnFrame of_boxes(std::vector<Box> boxes, bool upright) {
+  OwnFrame own;
+  Solid& solid = own.solid;
+  solid.kind = upright ? Solid::Kind::boxes : Solid::Kind::hulls;
+  const bool many = upright && boxes.size() > kManyPieces;
+  if (many) {
+    if (auto octree = octree_of(boxes)) {
+      solid.kind = Solid::Kind::octree;
+      solid.boxes = octree->boxes;
+      own.rounding = octree->rounding;
+      solid.octree = std::make_shared<Octree>(std::move(*octree));
+      return own;
+    }
+  } else {
+    Corners corners(solid);
+    for (const Box& box : boxes) corners.add(HullBody::box(box.low, box.high).points());
+  }
+  if (upright) solid.boxes = std::move(boxes);
+  return own;
+}
+
+OwnFrame of_assembly(const Assembly& body, bool upright) {
+  OwnFrame own;
+  Solid& solid = own.solid;
   Corners corners(solid);
   const Assembly::Storage& storage = body.by_slot();
   switch (body.kind()) {
@@ -71,16 +136,15 @@ Solid of_assembly(const Assembly& body, bool upright) {
       for (std::uint32_t i = 0; i < solid.points.size(); ++i) solid.pieces.push_back({i});
       break;
     case PieceKind::box:
-      solid.kind = upright ? Solid::Kind::boxes : Solid::Kind::hulls;
-      solid.boxes = in_order(body, storage.boxes);
-      for (const Box& box : solid.boxes) corners.add(HullBody::box(box.low, box.high).points());
+      own = of_boxes(in_order(body, storage.boxes), upright);
       break;
     case PieceKind::hull:
       solid.kind = Solid::Kind::hulls;
       for (const HullBody& hull : in_order(body, storage.hulls)) corners.add(hull.points());
       break;
   }
-  return solid;
+  if (solid.kind != Solid::Kind::octree) put_side_by_side(solid);
+  return own;
 }
 
 OwnFrame of_placed(const Placed& placed) {
@@ -92,14 +156,14 @@ OwnFrame of_placed(const Placed& placed) {
   else if (const HullBody* hull = placed.body.hull())
     own.solid = of_hull(*hull);
   else if (const Assembly* assembly = placed.body.assembly())
-    own.solid = of_assembly(*assembly, upright);
+    own = of_assembly(*assembly, upright);
   else
     own.solid.rounds = *placed.body.quadrics();
   if (upright) return own;
   for (Vector3d& x : own.solid.points) x = pose.to_world(x);
   for (CombinedEllipsoid& x : own.solid.rounds) x = in_world(x, pose);
   const Box bounds = placed.body.bounds();
-  own.rounding = 1e-14 * (pose.position.norm() + bounds.low.norm() + bounds.high.norm());
+  own.rounding += 1e-14 * (pose.position.norm() + bounds.low.norm() + bounds.high.norm());
   return own;
 }
 
@@ -108,6 +172,8 @@ CombinedEllipsoid of_flat(const CombinedEllipse& flat) {
   const Eigen::Matrix2d& f = flat.ellipsoid().factor();
   return raised(flat, f.colwise().norm().minCoeff());
 }
+
+constexpr double kPinched = 0.99;  // k of dents
 
 OwnFrame of_shape(const ShapeInTime& shape, double from, double to) {
   const WorldBody body =
@@ -119,7 +185,9 @@ OwnFrame of_shape(const ShapeInTime& shape, double from, double to) {
     return own;
   }
   const CombinedEllipsoid quadric = body.flat() ? of_flat(*body.flat()) : *body.quadric();
-  own.solid.rounds = {shape.rigid() ? quadric : CombinedEllipsoid(quadric.ellipsoid())};
+  // Rounding moves a pinched waist by far more than its last digit: there the ellipsoid alone.
+  const bool pinched = !shape.rigid() && shape.k()->range(from, to).low > kPinched;
+  own.solid.rounds = {pinched ? CombinedEllipsoid(quadric.ellipsoid()) : quadric};
   if (!shape.rigid() || body.flat()) own.rounding = 1e-14 * body.reach();
   return own;
 }

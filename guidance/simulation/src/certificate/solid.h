@@ -7,10 +7,13 @@
 
 namespace vericone::simulation::certified {
 
+/// Of more, neighbours stand side by side, and boxes that hold some of them each are tried in their place.
+constexpr std::size_t kManyPieces = 256;
+
 /// A body as a certificate states it, about its reference point, in its own axes.
 struct OwnFrame {
   Solid solid;
-  bool dents = false;   // it, or a piece, counts as an ellipsoid around it
+  bool dents = false;   // it, or a piece, has some
   double rounding = 0;  // m, by how much a point of the body may be off in it
 };
 

@@ -8,13 +8,18 @@
 #include <vericone/geometry/combined.h>
 #include <vericone/geometry/pose.h>
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace vericone::simulation::certified {
+
+struct Octree;
 
 /// A body in its own frame: round pieces, or pieces with corners, which a radius may round.
 struct Solid {
@@ -22,11 +27,17 @@ struct Solid {
   std::vector<Eigen::Vector3d> points;             // m
   std::vector<std::vector<std::uint32_t>> pieces;  // of each the numbers of its points
   double radius = 0;                               // m, of a cloud
-  /// How it is written; `boxes` has the low and the high corner of each piece beside.
-  enum class Kind : std::uint8_t { rounds, hull, mesh, cloud, boxes, hulls } kind = Kind::rounds;
+  /// How it is written; `boxes` and `octree` have the low and the high corner of each piece beside, and of
+  /// many pieces these alone.
+  enum class Kind : std::uint8_t { rounds, hull, mesh, cloud, boxes, octree, hulls } kind = Kind::rounds;
   std::vector<Box> boxes;
+  std::shared_ptr<const Octree> octree;
 
-  [[nodiscard]] std::size_t size() const { return rounds.empty() ? pieces.size() : rounds.size(); }
+  [[nodiscard]] std::size_t size() const {
+    return rounds.empty() ? std::max(pieces.size(), boxes.size()) : rounds.size();
+  }
+  /// That holds a piece which is no round one.
+  [[nodiscard]] Box bounds(std::uint32_t piece) const;
   /// A ball about the origin: how it is turned does not matter.
   [[nodiscard]] bool is_ball() const;
 };
@@ -55,6 +66,9 @@ struct StatedPlane {
   std::array<std::int64_t, 3> normal;    // from A towards B
   std::int64_t length;                   // not below its length
   std::array<double, 2> most_a, most_b;  // linear: n.(points of A from its position), -n.(those of B), in m
+  /// Of A and of B, of a body with delimiters: of its ellipsoid and of each delimiter; empty where it counts
+  /// as its ellipsoid.
+  std::array<std::vector<double>, 2> multipliers;
 };
 
 /// Planes between two bodies, one for each piece of time.
@@ -68,9 +82,6 @@ struct Side {
   const Solid* solid;
   const StatedTrack* track;
   const Group* group;
-  /// Of many pieces: points whose convex hull holds all their corners. What is proved of these is proved of
-  /// them.
-  const std::vector<Eigen::Vector3d>* cover = nullptr;
 };
 
 /// Whether the plane is between the tubes of the two all over [from, to], farther than `by` m apart. In
@@ -84,6 +95,7 @@ struct Side {
 
 // JSON as the page has it.
 [[nodiscard]] std::string text_of(const Solid& solid);
+[[nodiscard]] std::string text_of(const std::vector<Box>& boxes);
 [[nodiscard]] std::string text_of(const StatedTrack& track);
 [[nodiscard]] std::string text_of(const StatedPieces& pieces);
 [[nodiscard]] std::string text_of(double x);

@@ -2,6 +2,7 @@
 #include <charconv>
 #include <string_view>
 
+#include "certificate/octree.h"
 #include "certificate/stated.h"
 
 namespace vericone::simulation::certified {
@@ -64,6 +65,11 @@ std::string hull_text(const Solid& solid, const std::vector<std::uint32_t>& piec
 
 std::string text_of(double x) { return digits_of(x == 0 ? 0.0 : x); }
 
+std::string text_of(const std::vector<Box>& boxes) {
+  return list_of(
+      boxes, [](const Box& box) { return "[" + vector_text(box.low) + ", " + vector_text(box.high) + "]"; });
+}
+
 std::string text_of(const Solid& solid) {
   switch (solid.kind) {
     case Solid::Kind::rounds:
@@ -79,12 +85,11 @@ std::string text_of(const Solid& solid) {
     case Solid::Kind::cloud:
       return points_text("cloud", solid.points) + ", \"radius\": " + text_of(solid.radius) + "}";
     case Solid::Kind::boxes:
-      return R"({"kind": "boxes", "boxes": )" +
-             list_of(solid.boxes,
-                     [](const Box& box) {
-                       return "[" + vector_text(box.low) + ", " + vector_text(box.high) + "]";
-                     }) +
-             "}";
+      return R"({"kind": "boxes", "boxes": )" + text_of(solid.boxes) + "}";
+    case Solid::Kind::octree:
+      return R"({"kind": "octree", "low": )" + vector_text(solid.octree->low) +
+             ", \"cell\": " + text_of(solid.octree->cell) + ", \"depth\": " + digits_of(solid.octree->depth) +
+             ", \"tree\": \"" + solid.octree->tree + "\"}";
     case Solid::Kind::hulls:
       return R"({"kind": "union", "pieces": )" +
              list_of(solid.pieces, [&](const auto& piece) { return hull_text(solid, piece); }) + "}";
@@ -111,8 +116,11 @@ std::string text_of(const StatedPieces& pieces) {
   return R"({"rule": "pieces", "times": )" + list_of(pieces.times, numbers) + ", \"planes\": " +
          list_of(pieces.planes,
                  [&](const StatedPlane& plane) {
+                   const auto& [of_a, of_b] = plane.multipliers;
+                   const bool none = of_a.empty() && of_b.empty();
                    return "[" + whole_numbers(plane.normal) + ", " + digits_of(plane.length) + ", " +
-                          list_of(plane.most_a, numbers) + ", " + list_of(plane.most_b, numbers) + "]";
+                          list_of(plane.most_a, numbers) + ", " + list_of(plane.most_b, numbers) +
+                          (none ? "" : ", " + list_of(of_a, numbers) + ", " + list_of(of_b, numbers)) + "]";
                  }) +
          "}";
 }

@@ -102,6 +102,19 @@ struct Certificate {
 [[nodiscard]] Certificate check(const std::vector<std::vector<Quadric>>& pieces, const Sample& sample,
                                 double margin = 0);
 
+/// A claim and its proof as text, or why there is none.
+struct InsideCertificate {
+  std::string text;    // one JSON object, on one line; empty where there is none
+  std::string reason;  // empty where there is one
+};
+
+/// That everything that counts in the sample is inside, each point or triangle in one piece, for a program
+/// that checks it and knows nothing of this library (docs/reference/certificates.md): all numbers of the
+/// sample and of the quadrics, and which piece contains what. There is none where check() finds something
+/// outside. Margins are no part of it. Throws as check(). Costs a check, and some 100 bytes a point.
+[[nodiscard]] InsideCertificate inside_certificate(const std::vector<std::vector<Quadric>>& pieces,
+                                                   const Sample& sample);
+
 /// Which piece is to contain what; -1: none has to. Sizes of points and triangles of the sample.
 struct Assignment {
   std::vector<int> points, triangles;

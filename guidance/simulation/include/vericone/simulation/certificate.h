@@ -13,13 +13,14 @@
 
 namespace vericone::simulation {
 
-/// Of pairs that are apart over the same time by the same distance: the claim, with their bodies and tracks,
-/// and its proof.
+/// Of pairs that are apart over the same time by the same distance, or of one that comes nearer: the claim,
+/// with their bodies and tracks, and its proof.
 struct RunCertificate {
   std::string text;                                        // one JSON object, on one line
-  double by = 0;                                           // m: farther apart than this
+  double by = 0;                                           // m: farther apart than this; near: no farther
   double from = 0, to = 0;                                 // s
   std::vector<std::pair<std::size_t, std::size_t>> pairs;  // bodies of the scenario
+  bool near = false;                                       // at a time, not at all times
 };
 
 /// A pair, or a body and an orifice, of which there is no certificate, or of less than the run says.
@@ -32,15 +33,16 @@ struct RunCertificates {
   std::vector<WithoutCertificate> none;
 };
 
-/// Of all pairs of a run that are proved apart (PairProof), by what is required of them where that is kept.
-/// Bodies stand in it as they are in their own frames; planar ones as bodies of space of which they are the
-/// section by z = 0, those whose dents change as the ellipsoid that contains them all the time. Each has a
-/// track of polynomials and a radius that holds the run's track and all motions that its proof holds for
-/// (ProofOptions), proved. Planes between bodies, or groups of their pieces, were checked in exact
-/// arithmetic: there is a right certificate, or none. There is none where bodies meet, where one is in the
-/// other's dent, and of passages. `goes_on`: called with the share that is done before each pair; false ends
-/// it there, the rest left out. Cost: 1 ms for a pair and second, mostly checks. Throws InputError for a run
-/// that is not the scenario's.
+/// Of all pairs of a run that are proved apart (PairProof), by what is required of them where that is kept;
+/// of ellipsoids that meet or come nearer than required, that they do. Bodies stand in it as they are in
+/// their own frames; planar ones as bodies of space of which they are the section by z = 0, those whose dents
+/// change as a body that contains them all the time. Each has a track of polynomials and a radius that
+/// holds the run's track and all motions that its proof holds for (ProofOptions), proved. Planes between
+/// bodies, or groups of their pieces, were checked in exact arithmetic: there is a right certificate, or
+/// none. Of many pieces (a map) boxes stand for runs of them. There is none where other bodies meet, where
+/// one is in the other's dent, and of passages. `goes_on`: called with the share that is done before each
+/// pair; false ends it there, the rest left out. Cost: 1 ms for a pair and second, mostly checks. Throws
+/// InputError for a run that is not the scenario's.
 [[nodiscard]] RunCertificates certificates(const Scenario& scenario, const Run& run,
                                            const std::function<bool(double)>& goes_on = {});
 

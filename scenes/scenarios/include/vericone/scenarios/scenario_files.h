@@ -7,11 +7,13 @@
 #include <vericone/simulation/run.h>
 #include <vericone/simulation/run_tables.h>
 #include <vericone/simulation/scenario.h>
+#include <vericone/simulation/trajectory.h>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace vericone::scenario {
 
@@ -21,6 +23,20 @@ namespace vericone::scenario {
 
 /// The same from `text`; `file` is named in errors.
 [[nodiscard]] simulation::Scenario scenario_of_text(const std::string& text, const std::string& file);
+
+/// Bodies on tracks that somebody else made, and what is to be proved of them.
+struct TracksFile {
+  std::string name;
+  std::vector<simulation::TrackedBody> bodies;
+  simulation::CertifyOptions options;
+};
+
+/// Reads them, and the files they name, relative to its folder (docs/reference/formats.md). Throws InputError
+/// naming the file or the field, for example "bodies[1].track.knots", or line and column of a file.
+[[nodiscard]] TracksFile read_tracks(const std::string& file);
+
+/// The same from `text`; `file` is named in errors.
+[[nodiscard]] TracksFile tracks_of_text(const std::string& text, const std::string& file);
 
 // A run as files: tables with units in their column names and JSON, described in docs/reference/scenarios.md.
 // What does not apply is an empty field.

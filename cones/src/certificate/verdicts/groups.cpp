@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "certificate/groups.h"
+#include "certificate/verdicts/groups.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
-#include "certificate/forms.h"
+#include "certificate/forms/forms.h"
 #include "certificate/polytopes.h"
 
 namespace vericone::certificates {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "certificate/prove.h"
 
-#include "certificate/groups.h"
 #include "certificate/pieces.h"
+#include "certificate/verdicts/groups.h"
 
 namespace vericone::certificates {
 
