@@ -44,7 +44,8 @@ Found contact_of_pieces(const State& state, const ContactMeasure& measure, const
     const Gap found = gap(core, ray, first_normal(core, ray));
     if (found.answer != Gap::Answer::close) return found.answer == Gap::Answer::met;
     return with_exact_oracle(state, i, j, [&](const auto& oracle) {
-      return oracle.relation() != Relation::disjoint || oracle.membership(w) != Membership::out;
+      return oracle.relation() != Relation::disjoint ||
+             known_membership(oracle, w, Eigen::Vector3d::Zero()) != Membership::out;
     });
   };
   return least_of_pieces(
@@ -96,7 +97,7 @@ Found contact_of_cells(const State& state, const ContactMeasure& measure, const 
 Found ContactMeasure::of_piece(const Frame& frame, const Core& core, double limit,
                                const std::function<Seconds()>& exact_time) const {
   Found found;
-  auto contact = piece_contact(frame, core, state_.obstacle.radius(), d_, limit);
+  auto contact = piece_contact(frame, core, d_, limit);
   if (!contact) return found;
   if (exact_time && contact->is_wide()) contact->refine(exact_time(), slabs_.scale());
   found.least = contact->earliest;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "certificate/solid.h"
 
+#include <vericone/geometry/error.h>
 #include <vericone/geometry/world_body.h>
 #include <vericone/internal/simulation/shape_in_time.h>
 #include <algorithm>
@@ -55,6 +56,12 @@ std::vector<T> in_order(const Assembly& body, const std::vector<T>& by_slot) {
   return list;
 }
 
+/// Certificates have no words for cylinders and other bodies of round and other parts.
+[[noreturn]] void refuse_round_parts() {
+  throw InputError("body", "one with round parts beside others, or a margin",
+                   "an ellipsoid, a hull, or a union of them");
+}
+
 Solid of_assembly(const Assembly& body, bool upright) {
   Solid solid;
   Corners corners(solid);
@@ -75,6 +82,8 @@ Solid of_assembly(const Assembly& body, bool upright) {
       solid.boxes = in_order(body, storage.boxes);
       for (const Box& box : solid.boxes) corners.add(HullBody::box(box.low, box.high).points());
       break;
+    case PieceKind::convex:
+      refuse_round_parts();
     case PieceKind::hull:
       solid.kind = Solid::Kind::hulls;
       for (const HullBody& hull : in_order(body, storage.hulls)) corners.add(hull.points());
@@ -93,6 +102,8 @@ OwnFrame of_placed(const Placed& placed) {
     own.solid = of_hull(*hull);
   else if (const Assembly* assembly = placed.body.assembly())
     own.solid = of_assembly(*assembly, upright);
+  else if (placed.body.convex())
+    refuse_round_parts();
   else
     own.solid.rounds = *placed.body.quadrics();
   if (upright) return own;
