@@ -14,7 +14,7 @@ from declarations import blanked, declarations
 from house_test import public_headers
 
 LIST = Path(__file__).with_name("api.txt")
-MOST_HEADERS = 85  # two for certificates: what others check stands apart from what is asked for
+MOST_HEADERS = 87  # two for certificates: what others check stands apart from what is asked for; two for shapes
 
 
 def public():

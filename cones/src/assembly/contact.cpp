@@ -57,8 +57,8 @@ AssemblyContact in_world(const Scene& scene, const PieceContact& contact, std::u
 
 }  // namespace
 
-std::optional<PieceContact> piece_contact(const Frame& frame, Core core, const Eigen::Vector3d& d,
-                                          double limit) {
+std::optional<PieceContact> piece_contact(const Frame& frame, Core core, double radius,
+                                          const Eigen::Vector3d& d, double limit) {
   const Directions apex{};
   PieceContact contact;
   Eigen::Vector3d normal = core.center().isZero(0) ? d : core.center();
@@ -96,7 +96,7 @@ std::optional<PieceContact> piece_contact(const Frame& frame, Core core, const E
   contact.normal = frame.to_frame().transpose() * normal;
   contact.normal.normalize();
   contact.point = frame.to_space(on_piece);
-  if (frame.is_space()) contact.point -= core.own_radius() * contact.normal;
+  if (frame.is_space()) contact.point -= radius * contact.normal;
   return contact;
 }
 
@@ -115,7 +115,8 @@ std::optional<AssemblyContact> first_contact(const Scene& scene, const Eigen::Ve
     if (!(slabs.enter(box.low.data(), box.high.data()) < limit) || test.apart(box.low, box.high)) return true;
     ++effort.pieces;
     if (!meets(scene, slot, ray, w, effort)) return true;
-    std::optional<PieceContact> contact = piece_contact(scene.frame(), scene.core(slot), d, limit);
+    const Core core = scene.core(slot);
+    std::optional<PieceContact> contact = piece_contact(scene.frame(), core, core.own_radius(), d, limit);
     if (!contact) return true;
     if (contact->is_wide()) contact->refine(scene.exact_time(slot, w), slabs.scale());
     if (contact->earliest < first.earliest) {

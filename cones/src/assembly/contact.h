@@ -24,9 +24,10 @@ struct PieceContact {
 
 /// Newton's method on the distance between the moving apex and the core, which is convex in time: from the
 /// left it never passes the contact, and every step is a plane that the agent has to reach first. `d`: the
-/// velocity in the frame. Nothing where a plane proves that there is no contact before `limit`.
-std::optional<PieceContact> piece_contact(const Frame& frame, Core core, const Eigen::Vector3d& d,
-                                          double limit);
+/// velocity in the frame; `radius`: of the piece, for the point only. Nothing where a plane proves that there
+/// is no contact before `limit`.
+std::optional<PieceContact> piece_contact(const Frame& frame, Core core, double radius,
+                                          const Eigen::Vector3d& d, double limit);
 
 /// First contact along w, in the obstacle's frame and not zero, for bodies that are disjoint now; nothing
 /// where no piece is met.

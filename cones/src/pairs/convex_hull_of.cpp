@@ -31,7 +31,8 @@ void ConvexHullOf::add(const HullBody& hull, const Pose& pose) {
 void ConvexHullOf::add(const Assembly& body, const Pose& pose) {
   add_points(body.corners(), pose);
   radius = body.radius();
-  convex = body.size() == 1;  // every piece is
+  // Every piece is, but of round parts the corners say more.
+  convex = body.size() == 1 && body.kind() != PieceKind::convex;
 }
 
 /// Around ellipses and ellipsoids; what has a margin and a round part is one of the ellipsoids that hold it.

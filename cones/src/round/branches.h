@@ -39,8 +39,8 @@ struct Branch {
 /// the square of a rational factor: their norms are not 0 everywhere.
 [[nodiscard]] std::vector<Branch> simplified(const Branch& f);
 
-/// Product of the conjugates of f, all signs of the roots, of degree 2^k; a factor may be missing or added.
-/// Every zero of f is one of it. f is simplified.
+/// Product of the conjugates of f (all signs of the roots) up to a factor, of degree at most 2^k: every zero
+/// of f is one of it. f is simplified.
 [[nodiscard]] Polynomial norm(const Branch& f);
 
 /// Where a q vanishes.

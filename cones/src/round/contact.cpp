@@ -170,7 +170,7 @@ class FirstContact {
   /// Three points near the contact, as far from it as the time may be off; whether they are around it.
   bool triangle() {
     const Vector3d n = across_w(solve(last_.y), n_);
-    const double off = std::sqrt(kEnough * std::abs(last_.z) / curve_.trace());
+    const double off = std::sqrt(0.1 * kEnough * std::abs(last_.z) / curve_.trace());
     constexpr double kX[] = {1, -0.5, -0.5}, kY[] = {0, 0.866, -0.866};
     std::array<Vertex, 3> near;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -222,7 +222,7 @@ class FirstContact {
   }
 
   static constexpr int kMostSteps = 48;
-  static constexpr double kEnough = 1e-9, kKnown = 1e-6;
+  static constexpr double kEnough = 1e-8, kKnown = 1e-6;
 
   const RoundScene& scene_;
   Vector3d w_;

@@ -268,8 +268,10 @@ class NormalSearch {
     Integer largest = 0;
     for (const Integer& x : exact_edge) largest = std::max(largest, Integer(abs(x)));
     for (int i = 0; i < 3; ++i) {
-      around[0][i] = (exact_edge[i] << (digits_ / 3)) - largest;
-      around[1][i] = (exact_edge[i] << (digits_ / 3)) + largest;
+      const bool is_largest = abs(exact_edge[i]) == largest;  // others are relative to it
+      const Integer wide = is_largest ? Integer(0) : largest;
+      around[0][i] = (exact_edge[i] << (digits_ / 3)) - wide;
+      around[1][i] = (exact_edge[i] << (digits_ / 3)) + wide;
     }
     const Vector edge = simplest_direction(std::move(around));
     Vector across = cross(part.center(), edge);

@@ -17,7 +17,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// Of lengths in the unit of the scene, in which K is of size 1.
-constexpr double kTolerance = 0x1p-35;
+constexpr double kTolerance = 0x1p-40;
 constexpr int kSteps = 1000;
 
 /// The body in the world; nothing where it is none of those that have pieces.
@@ -25,8 +25,8 @@ std::optional<Convex> convex_of(const Placed& placed) {
   const Body& body = placed.body;
   if (const Convex* convex = body.convex()) return in_world(*convex, placed.pose);
   if (const HullBody* hull = body.hull()) return Convex::rounded(in_world(*hull, placed.pose), 0);
-  if (body.kind() == BodyKind::ellipsoid)
-    return Convex::rounded(in_world(body.quadric()->ellipsoid(), placed.pose), 0);
+  if (const auto* quadric = body.quadric(); quadric && quadric->is_ellipsoid())
+    return Convex::rounded(in_world(quadric->ellipsoid(), placed.pose), 0);
   return std::nullopt;
 }
 

@@ -230,7 +230,7 @@ class SupportOnLine {
     for (std::size_t i = 0; i < norms.size(); ++i)
       for (std::size_t j = i; j < norms.size(); ++j) {
         if (norms[i].size() == 1 || norms[j].size() == 1) continue;  // without a root
-        if (i == j && norms[i].empty()) continue;                    // f = 0 everywhere: where others cross it
+        if (i == j && norms[i].empty()) continue;  // f = 0 everywhere: where others cross it
         const Polynomial common = exact::gcd(norms[i], j == i ? exact::derivative(norms[i]) : norms[j]);
         if (common.size() < 2) continue;
         for (RealRoot& x : exact::real_roots_in(common, *lo_, *hi_))

@@ -3,13 +3,13 @@
 // The sign of the least value of a support function on a line of normals: whether a straight line meets a
 // body of round pieces, and whether a plane that turns about an edge can part two bodies.
 //
-// Along n(t) = u + t v the support function of K = obstacle - agent is convex: the largest of f = l +
-// sqrt(q_1)
-// + ... + sqrt(q_k), k <= 3, with l of degree 1 and q of degree 2, over all pairs of pieces. Its least value
-// is bracketed by bisection with exact signs. What it does not decide is a least value of 0: that is attained
-// at a root of few polynomials (theory-shapes: a multiple root of the norm of one f, a common root of two, or
-// where some q vanishes), so their roots in the bracket are tried, exactly, and where none is one the
-// bisection ends.
+// Along n(t) = u + t v the support function of K = obstacle - agent is convex: the largest of functions f,
+// one for each pair of pieces, each the sum of a linear term l and at most three roots of quadratic ones, q
+// (branches.h). Its least value is bracketed by bisection with exact signs, and nearly always decided there.
+// Bisection alone would not end at a least value of 0. That is attained where some q vanishes (a disc
+// edge-on: a rational t), at a multiple root of the norm of one f (f = f' = 0), or at a common root of the
+// norms of two (a corner of the largest): those few roots in the bracket are tried, exactly, and where none
+// is a zero bisection goes on and ends.
 #pragma once
 
 #include <vericone/internal/geometry/exact/algebraic.h>
