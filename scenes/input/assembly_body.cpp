@@ -10,9 +10,10 @@
 #include <string_view>
 
 #include "input/body_kind.h"
-#include "input/convex_body.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
+#include "robot/robot_body.h"
+#include "solids/convex_body.h"
 
 namespace vericone::input {
 namespace {
@@ -294,6 +295,7 @@ const std::vector<BodyKind>& body_kinds() {
         cloud(), octree(), of_file("hull", file_rows("hull", "File of points: their solid convex hull.")),
         hull_of_points()};
     for (BodyKind& kind : convex_kinds()) all.push_back(std::move(kind));
+    all.push_back(robot_kind());
     return all;
   }();
   return kinds;

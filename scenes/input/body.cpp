@@ -3,10 +3,10 @@
 
 #include "input/assembly_body.h"
 #include "input/body_kind.h"
-#include "input/convex_body.h"
 #include "input/file_body.h"
 #include "input/planar_body.h"
 #include "json/json_value.h"
+#include "solids/convex_body.h"
 
 namespace vericone::input {
 namespace {

@@ -2,10 +2,10 @@
 #include "output/schemas.h"
 
 #include "input/body_kind.h"
-#include "input/convex_body.h"
 #include "input/file_body.h"
 #include "input/planar_body.h"
 #include "input/scene.h"
+#include "solids/convex_body.h"
 
 namespace vericone::input {
 namespace {

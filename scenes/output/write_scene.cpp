@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "input/body.h"
-#include "input/convex_body.h"
 #include "input/planar_body.h"
 #include "input/scene.h"
 #include "json/json_value.h"
 #include "output/output_file.h"
+#include "solids/convex_body.h"
 
 namespace vericone::scenes {
 namespace {

@@ -45,6 +45,10 @@ def planar(agent_velocity=(1, 0), **obstacle):
 TRACK = "t,x,y\n0,1,2\n"
 # Files in the folder that the commands run in.
 FILES = {"junk.obj": "v 1 2\n", "points.xyz": "0 0 0\n1 0 0\n", "cut.bt": "# Octomap OcTree binary file\nid OcTree\n"}
+FILES["arm.urdf"] = ("<robot name='arm'><link name='base'/><link name='bar'><collision><geometry><sphere radius='1'/>"
+                     "</geometry></collision></link><joint name='shoulder' type='revolute'><parent link='base'/>"
+                     "<child link='bar'/><limit lower='-1' upper='2'/></joint></robot>\n")
+FILES["cut.urdf"] = FILES["arm.urdf"][:90]
 CUBE = {"points": [[x, y, z] for x in (9, 11) for y in (-1, 1) for z in (-1, 1)]}
 
 
@@ -209,6 +213,14 @@ QUERIES = [
     ("a margin that is text", case(obstacle={"margin": "1 m"})),
     ("a margin of a body with dents", dented(GOOD_HYPERBOLOID, margin=1)),
     ("a margin in the plane", planar(semi_axes=[3, 2], margin=1)),
+    ("a robot that is not there", pieces(robot="nowhere.urdf")),
+    ("a robot that is a mesh", pieces(robot="junk.obj")),
+    ("a robot that breaks off", pieces(robot="cut.urdf")),
+    ("a joint that a robot has not", pieces(robot="arm.urdf", joints={"elbow": 1})),
+    ("a joint beyond its limits", pieces(robot="arm.urdf", joints={"shoulder": 3})),
+    ("joints in a list", pieces(robot="arm.urdf", joints=[1])),
+    ("a link that a robot has not", pieces(robot="arm.urdf", links=["foot"])),
+    ("a robot without pictures", pieces(robot="arm.urdf", geometry="visual")),
     ("a union of a mesh", pieces(pieces=[{"mesh": "points.xyz"}])),
     ("a union of a cylinder and a body with dents", pieces(pieces=[{"cylinder": {"radius": 1, "height": 2}}, {
         "center": [9, 0, 0], "semi_axes": [1, 2, 3], "hyperboloids": [GOOD_HYPERBOLOID]}])),
@@ -290,7 +302,7 @@ COMMANDS = [
      "agent: {center: [0, 0], semi_axes: [1, 2]}\nobstacle: {points: [[0, 0], [1, 0], [1, 1]], center: [9, 0]}\n"),
     ("a planar agent before pieces", ["cone", "FILE"],
      "agent: {center: [0, 0], semi_axes: [1, 2]}\nobstacle: {points: [[0, 0, 0], [1, 0, 0], [1, 1, 0]]}\n"),
-    ("a cylinder", ["cone", "FILE"], SCENE.replace("semi_axes: [1, 1, 1]", "cylinder: {radius: 1, height: 3}")),
+    ("a word that there is not", ["cone", "FILE"], SCENE.replace("semi_axes: [1, 1, 1]", "torus: {radii: [1, 3]}")),
     ("a pose as a rotation", ["cone", "FILE"], SCENE.replace(
         "[1, 1, 1]", "[1, 1, 1], rotation: [[1, 0, 0, 9], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]")),
     ("a scan without lidars", ["scan", "FILE"], PIECES_SCENE),

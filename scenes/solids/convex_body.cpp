@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "input/convex_body.h"
+#include "solids/convex_body.h"
 
 #include <vericone/internal/scenes/words.h>
 #include <cmath>
