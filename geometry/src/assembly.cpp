@@ -61,6 +61,8 @@ const char* to_string(PieceKind kind) {
       return "box";
     case PieceKind::hull:
       return "hull";
+    case PieceKind::convex:
+      return "convex";
   }
   return "";
 }
@@ -157,6 +159,16 @@ Assembly Assembly::polyhedra(std::vector<HullBody> hulls) {
   return Assembly(std::move(data));
 }
 
+Assembly Assembly::convexes(std::vector<Convex> pieces) {
+  require_count("pieces", pieces.size(), "body");
+  std::vector<Box> boxes(pieces.size());
+  for (std::size_t i = 0; i < pieces.size(); ++i) boxes[i] = pieces[i].bounds();
+  auto data = std::make_shared<Data>();
+  data->kind = PieceKind::convex;
+  data->place(boxes, std::move(pieces), &Storage::convexes);
+  return Assembly(std::move(data));
+}
+
 PieceKind Assembly::kind() const { return data_->kind; }
 std::size_t Assembly::size() const { return data_->slot.size(); }
 double Assembly::radius() const { return data_->radius; }
@@ -181,6 +193,13 @@ std::vector<Eigen::Vector3d> Assembly::corners() const {
     case PieceKind::hull:
       for (const HullBody& hull : storage.hulls) add(hull.points());
       break;
+    case PieceKind::convex:
+      for (const Convex& body : storage.convexes)
+        for (const Eigen::Vector3d& x : body.corners()) {
+          const Eigen::Vector3d beside = Eigen::Vector3d::Constant(body.margin());
+          add(HullBody::box(x - beside, x + beside).points());
+        }
+      break;
   }
   return all;
 }
@@ -197,9 +216,17 @@ HullBody Assembly::piece(std::size_t i) const {
     case PieceKind::box:
       return HullBody::box(storage.boxes[slot].low, storage.boxes[slot].high);
     case PieceKind::hull:
+      return storage.hulls[slot];
+    case PieceKind::convex:
       break;
   }
-  return storage.hulls[slot];
+  return HullBody(storage.convexes[slot].corners());
+}
+
+Convex Assembly::convex_piece(std::size_t i) const {
+  if (kind() != PieceKind::convex) return Convex::rounded(piece(i), radius());
+  VERICONE_REQUIRES(i < size(), "i", "no such piece", "below size()");
+  return data_->storage.convexes[data_->slot[i]];
 }
 
 }  // namespace vericone

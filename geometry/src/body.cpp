@@ -27,6 +27,8 @@ const char* to_string(BodyKind kind) {
       return "boxes";
     case BodyKind::pieces:
       return "pieces";
+    case BodyKind::convex:
+      return "convex";
   }
   return "";
 }
@@ -35,6 +37,7 @@ namespace {
 
 double support_of(const CombinedEllipsoid& body, const Vector3d& n) { return body.ellipsoid().support(n); }
 double support_of(const HullBody& hull, const Vector3d& n) { return hull.support(n); }
+double support_of(const Convex& body, const Vector3d& n) { return body.support(n); }
 double support_of(const std::vector<CombinedEllipsoid>& pieces, const Vector3d& n) {
   double most = -std::numeric_limits<double>::infinity();
   for (const CombinedEllipsoid& piece : pieces) most = std::max(most, support_of(piece, n));
@@ -53,9 +56,11 @@ double of_slot(const Assembly& body, std::size_t slot, const Vector3d& n) {
     case PieceKind::box:
       return n.dot(pieces.boxes[slot].center()) + n.cwiseAbs().dot(pieces.boxes[slot].half_widths());
     case PieceKind::hull:
+      return pieces.hulls[slot].support(n);
+    case PieceKind::convex:
       break;
   }
-  return pieces.hulls[slot].support(n);
+  return pieces.convexes[slot].support(n);
 }
 
 /// A descent that leaves out what cannot reach farther.
@@ -121,6 +126,18 @@ Ellipsoid containing(const CombinedEllipsoid& body) {
 
 Ellipsoid containing(const HullBody& hull) { return containing_points(hull.points()); }
 
+/// Around the ellipses and ellipsoids are the corners of what their axes span.
+Ellipsoid containing(const Convex& body) {
+  const Convex::Piece& first = body.pieces().front();
+  if (body.pieces().size() == 1 && first.rank == 3) {
+    const Eigen::Matrix3d square = (1 + 1e-12) * first.factor * first.factor.transpose();
+    const Eigen::Matrix3d shape = 0.5 * (square + square.transpose());
+    const Ellipsoid own = Ellipsoid::from_shape(first.center, first.shape ? *first.shape : shape);
+    return widened(own, body.margin());
+  }
+  return widened(containing_points(body.corners()), body.margin());
+}
+
 Ellipsoid containing(const Assembly& body) {
   return widened(containing_points(body.corners()), body.radius());
 }
@@ -157,6 +174,7 @@ Body::Body(const Ellipsoid& ellipsoid) : Body(CombinedEllipsoid(ellipsoid)) {}
 Body::Body(const CombinedEllipsoid& body) : data_(std::make_shared<Data>(body)) {}
 Body::Body(HullBody hull) : data_(std::make_shared<Data>(std::move(hull))) {}
 Body::Body(Assembly assembly) : data_(std::make_shared<Data>(std::move(assembly))) {}
+Body::Body(Convex convex) : data_(std::make_shared<Data>(std::move(convex))) {}
 
 Body Body::pieces(std::vector<CombinedEllipsoid> pieces) {
   if (pieces.empty()) throw InputError("pieces", "none", "one piece or more");
@@ -173,6 +191,7 @@ const Assembly* Body::assembly() const { return std::get_if<Assembly>(&data_->sh
 const std::vector<CombinedEllipsoid>* Body::quadrics() const {
   return std::get_if<std::vector<CombinedEllipsoid>>(&data_->shape);
 }
+const Convex* Body::convex() const { return std::get_if<Convex>(&data_->shape); }
 
 BodyKind Body::kind() const {
   struct Name {
@@ -189,10 +208,12 @@ BodyKind Body::kind() const {
         case PieceKind::box:
           return BodyKind::boxes;
         case PieceKind::hull:
+        case PieceKind::convex:
           break;
       }
       return BodyKind::pieces;
     }
+    BodyKind operator()(const Convex&) const { return BodyKind::convex; }
     BodyKind operator()(const std::vector<CombinedEllipsoid>&) const { return BodyKind::pieces; }
   };
   return std::visit(Name{}, data_->shape);
@@ -221,6 +242,7 @@ Vector3d Body::middle() const {
       for (const Vector3d& x : hull.points()) sum += x / static_cast<double>(hull.size());
       return sum;
     }
+    Vector3d operator()(const Convex& convex) const { return convex.middle(); }
     Vector3d operator()(const Assembly& assembly) const { return assembly.bounds().center(); }
     Vector3d operator()(const std::vector<CombinedEllipsoid>&) const { return body.bounds().center(); }
   };
@@ -232,6 +254,43 @@ const Ellipsoid& Body::containing_ellipsoid() const {
     data_->containing = std::visit([](const auto& shape) { return containing(shape); }, data_->shape);
   });
   return data_->containing;
+}
+
+namespace {
+
+struct Swell {
+  double margin;
+
+  Body operator()(const CombinedEllipsoid& body) const {
+    if (!body.is_ellipsoid())
+      throw InputError("margin", to_text(margin), "left out of a body that hyperboloids delimit");
+    return Convex::rounded(body.ellipsoid(), margin);
+  }
+  Body operator()(const HullBody& hull) const { return Convex::rounded(hull, margin); }
+  Body operator()(const Convex& body) const { return body.swollen(margin); }
+  Body operator()(const std::vector<CombinedEllipsoid>& parts) const {
+    std::vector<Convex> all;
+    for (const CombinedEllipsoid& part : parts) all.push_back(*(*this)(part).convex());
+    return Assembly::convexes(std::move(all));
+  }
+  Body operator()(const Assembly& body) const {
+    if (body.kind() == PieceKind::ball) {
+      std::vector<Vector3d> points;
+      for (std::size_t i = 0; i < body.size(); ++i) points.push_back(body.piece(i).points().front());
+      return Assembly::cloud(std::move(points), body.radius() + margin);
+    }
+    std::vector<Convex> all;
+    for (std::size_t i = 0; i < body.size(); ++i) all.push_back(body.convex_piece(i).swollen(margin));
+    return Assembly::convexes(std::move(all));
+  }
+};
+
+}  // namespace
+
+Body swollen(const Body& body, double margin) {
+  if (!(std::isfinite(margin) && margin >= 0))
+    throw InputError("margin", to_text(margin), "a finite number >= 0 (m)");
+  return margin == 0 ? body : std::visit(Swell{margin}, body.shape());
 }
 
 Ellipsoid Placed::containing_ellipsoid() const { return in_world(body.containing_ellipsoid(), pose); }

@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-#include "surface_mesh.h"
+#include "mesh/surface_mesh.h"
 
 namespace vericone {
 namespace {

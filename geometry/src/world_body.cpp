@@ -182,6 +182,7 @@ struct Farthest {
     return *std::max_element(hull.points().begin(), hull.points().end(),
                              [this](const Vector3d& x, const Vector3d& y) { return n.dot(x) < n.dot(y); });
   }
+  Point operator()(const Convex& body) const { return body.support_point(n); }
   Point operator()(const Placed& body) const {
     const Vector3d seen = body.pose.rotation.transpose() * n;
     const Point own = std::visit(Farthest{seen}, body.body.shape());

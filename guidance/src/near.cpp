@@ -14,6 +14,8 @@
 #include <numbers>
 #include <utility>
 
+#include "bands/parts.h"
+
 namespace vericone::guidance::courses {
 namespace {
 
@@ -395,6 +397,7 @@ Piece piece_of(const Assembly& body, std::uint32_t slot) {
     case PieceKind::box:
       return Piece::box(pieces.boxes[slot]);
     case PieceKind::hull:
+    case PieceKind::convex:  // refused before
       break;
   }
   return Piece::points(pieces.hulls[slot].points().data(), pieces.hulls[slot].size());
@@ -515,6 +518,7 @@ Near near(const Sweep& sweep, const Ellipsoid& body, const Wanted& wanted) {
 }
 
 Near near(const Sweep& sweep, const Placed& body, Wanted wanted) {
+  banding::refuse_round_parts(body.body);
   wanted.normal = nullptr;  // of many pieces each has its own
   Nearest nearest(way_of(sweep, body.pose), wanted);
   if (const Assembly* assembly = body.body.assembly()) {
@@ -537,6 +541,7 @@ double surely_apart(const Sweep& sweep, const Ellipsoid& body, double enough, Ve
 }
 
 double surely_apart(const Sweep& sweep, const Placed& body, double enough) {
+  banding::refuse_round_parts(body.body);
   // In the body's frame all is rounded once more, and a rotation is one to 1e-12.
   const double rounded = body.pose.rotation.isIdentity(0) ? 1e-14 : 4e-12;
   const double size = body.pose.position.norm() + sweep.agent.center().norm() + sweep.along.norm() +

@@ -94,6 +94,11 @@ void describe_dimension() {
 }
 
 PyObject* assembly_state(const Assembly& x) {
+  if (x.kind() == PieceKind::convex) {
+    std::vector<Convex> pieces;
+    for (std::size_t i = 0; i < x.size(); ++i) pieces.push_back(x.convex_piece(i));
+    return tuple_of({to_python(x.kind()), to_python(x.radius()), to_python(pieces)});
+  }
   // The pieces in their order: by slot they lie as the tree has them, which is made again.
   const std::size_t n = x.size();
   if (x.kind() == PieceKind::hull || x.kind() == PieceKind::box || x.kind() == PieceKind::ball ||
@@ -129,6 +134,8 @@ Assembly restored_assembly(PyObject* state) {
   PyObject* pieces = PyTuple_GET_ITEM(state, 2);
   if (kind == PieceKind::hull)
     return Assembly::polyhedra(Convert<std::vector<HullBody>>::from(pieces, {nullptr, "pieces"}));
+  if (kind == PieceKind::convex)
+    return Assembly::convexes(Convert<std::vector<Convex>>::from(pieces, {nullptr, "pieces"}));
   const auto points = Convert<std::vector<Eigen::Vector3d>>::from(pieces, {nullptr, "pieces"});
   if (kind == PieceKind::ball)
     return Assembly::cloud(points, Convert<double>::from(PyTuple_GET_ITEM(state, 1), {nullptr, "radius"}));
@@ -162,6 +169,12 @@ void describe_values() {
   describe_value<HullBody>(
       "points", [](const auto& x) { return state_of(x.points()); },
       [](PyObject* state) { return HullBody(std::get<0>(parts<std::vector<Eigen::Vector3d>>(state))); });
+  describe_value<Convex>(
+      "pieces margin word", [](const auto& x) { return state_of(x.pieces(), x.margin(), x.word()); },
+      [](PyObject* state) {
+        auto [pieces, margin, word] = parts<std::vector<Convex::Piece>, double, std::string>(state);
+        return Convex::of_pieces(std::move(pieces), margin).called(std::move(word));
+      });
   describe_value<Assembly>(
       "kind radius pieces", [](const auto& x) { return assembly_state(x); },
       [](PyObject* state) { return restored_assembly(state); });

@@ -99,6 +99,11 @@ def hull(thing: Any) -> tuple[Rows, bool, Draw | None]:
             ("to", vector(points.max(axis=0), "m"))], False, draw_body(thing)
 
 
+def convex(thing: Any) -> tuple[Rows, bool, Draw | None]:
+    swollen = [("margin", "%.6g m" % thing.margin())] if thing.margin() else []
+    return [("is", thing.word()), *swollen, *bounds(thing.bounds())], False, draw_body(thing)
+
+
 def assembly(thing: Any) -> tuple[Rows, bool, Draw | None]:
     return ([("pieces", "%d of the kind %s" % (thing.size(), word(thing.kind()))), *bounds(thing.bounds())], False,
             draw_body(thing) if thing.size() <= MOST_PIECES else None)
@@ -240,8 +245,8 @@ def fit(thing: Any) -> tuple[Rows, bool, Draw | None]:
 
 SHOWN: dict[str, Callable[[Any], tuple[Rows, bool, Draw | None]]] = {
     "Ellipse": ellipsoid, "Ellipsoid": ellipsoid, "CombinedEllipse": combined, "CombinedEllipsoid": combined,
-    "HullBody": hull, "Assembly": assembly, "Body": body, "Placed": placed, "Pair": pair, "Cone": cone, "TrueCone": cone,
-    "ConeBounds": cone, "PolyhedralCone": cone, "SliceCone": slice_cone, "CombinedSliceCone": slice_cone,
+    "HullBody": hull, "Convex": convex, "Assembly": assembly, "Body": body, "Placed": placed, "Pair": pair, "Cone": cone,
+    "TrueCone": cone, "ConeBounds": cone, "PolyhedralCone": cone, "SliceCone": slice_cone, "CombinedSliceCone": slice_cone,
     "ConeMap": cone_map, "PlaneSector": plane_sector, "Sector": plane_sector, "Interval": enclosure, "Contact": contact,
     "Miss": miss, "Run": run, "FitResult": fit,
 }

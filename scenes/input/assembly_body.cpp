@@ -12,6 +12,8 @@
 #include "input/body_kind.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
+#include "robot/robot_body.h"
+#include "solids/convex_body.h"
 
 namespace vericone::input {
 namespace {
@@ -157,6 +159,8 @@ const char* plural(PieceKind kind) {
       return "boxes";
     case PieceKind::hull:
       return "hull";
+    case PieceKind::convex:
+      return "convex bodies";
   }
   return "";
 }
@@ -277,17 +281,23 @@ BodyKind hull_of_points() {
 }  // namespace
 
 const std::vector<BodyKind>& body_kinds() {
-  static const std::vector<BodyKind> kinds{
-      of_file(
-          "mesh",
-          file_rows(
-              "mesh",
-              "File with faces. The body is its **surface**, closed or open: an agent within a closed mesh "
-              "is "
-              "`disjoint` from it, as in a room. Polygons are cut into triangles, dented ones by their ears "
-              "([files](files.md)). Points that belong to no face are left out.")),
-      cloud(), octree(), of_file("hull", file_rows("hull", "File of points: their solid convex hull.")),
-      hull_of_points()};
+  static const std::vector<BodyKind> kinds = [] {
+    std::vector<BodyKind> all{
+        of_file(
+            "mesh",
+            file_rows(
+                "mesh",
+                "File with faces. The body is its **surface**, closed or open: an agent within a closed mesh "
+                "is "
+                "`disjoint` from it, as in a room. Polygons are cut into triangles, dented ones by their "
+                "ears "
+                "([files](files.md)). Points that belong to no face are left out.")),
+        cloud(), octree(), of_file("hull", file_rows("hull", "File of points: their solid convex hull.")),
+        hull_of_points()};
+    for (BodyKind& kind : convex_kinds()) all.push_back(std::move(kind));
+    all.push_back(robot_kind());
+    return all;
+  }();
   return kinds;
 }
 
@@ -303,7 +313,7 @@ std::vector<std::string_view> pieces_fields() {
   for (const BodyKind& kind : body_kinds()) fields.emplace_back(kind.name);
   for (const BodyKind& kind : body_kinds())
     for (const std::string_view field : kind.fields)
-      if (field != "center" && field != "rotation" &&
+      if (field != "center" && field != "rotation" && field != "margin" &&
           std::find(fields.begin(), fields.end(), field) == fields.end())
         fields.push_back(field);
   return fields;
@@ -315,7 +325,9 @@ bool is_pieces_body(const Json& value) {
 }
 
 SceneBody read_pieces_body(const Json& value, const std::string& path, const std::filesystem::path& folder) {
-  return kind_of(value, path).read(value, path, folder);
+  const BodyKind& kind = kind_of(value, path);
+  refuse_margin(value, path);
+  return kind.read(value, path, folder);
 }
 
 SceneBody read_any_body(const std::filesystem::path& file, double radius, const std::string& unknown) {

@@ -6,6 +6,7 @@
 #include "input/file_body.h"
 #include "input/planar_body.h"
 #include "json/json_value.h"
+#include "solids/convex_body.h"
 
 namespace vericone::input {
 namespace {
@@ -46,7 +47,8 @@ void read_velocities(const Json& value, Velocities velocities, Scene& scene) {
 constexpr const char* kPlanarBody =
     "a body: center with semi_axes and rotation, with shape, or with a_c, b_c, k, phi";
 constexpr const char* kSpatialBody =
-    "a body: center with semi_axes and rotation, or with shape; or quadric, or one made of pieces; or file";
+    "a body: center with semi_axes and rotation, or with shape; or quadric, or one made of pieces; or a word "
+    "(cylinder, ...) with its sizes; or file";
 
 SceneBody quadric_body(const CombinedEllipsoid& body) {
   return {Body(body), body.is_ellipsoid() ? "ellipsoid" : "combined quadric"};
@@ -67,7 +69,8 @@ Scene planar_scene(const Json& value, Velocities velocities) {
 /// Whether the agent is a convex hull before a body of pieces: it is then read as one.
 bool is_hull_agent(const Json& agent, const Json& obstacle) {
   return (agent.contains("hull") || agent.contains("points")) && is_pieces_body(agent) &&
-         is_pieces_body(obstacle) && !is_union(agent);
+         is_pieces_body(obstacle) && !is_union(agent) && !agent.contains("margin") &&
+         !obstacle.contains("margin");
 }
 
 Scene quadric_scene(const Json& value, Velocities velocities) {
@@ -91,11 +94,18 @@ void require_space(const Json& scene) {
   }
   for (const char* body : {"agent", "obstacle"})
     if (has(body) && dimension(scene[body]) == Dimension::planar)
-      throw InputError(std::string(body) + ".center", quoted(scene[body]["center"]),
-                       "[x, y, z]: a body of pieces is in space, and so is what it may meet");
+      throw InputError(
+          std::string(body) + ".center", quoted(scene[body]["center"]),
+          "[x, y, z]: a body of pieces, one with a margin or a solid of the words (cylinder, ...) "
+          "is in space, and so is what it may meet");
 }
 
-/// At least one body is made of pieces, or is a union.
+/// Whether a body is one of those that pieces_scene() reads.
+bool is_of_pieces(const Json& body) {
+  return is_pieces_body(body) || is_union(body) || (body.is_object() && body.contains("margin"));
+}
+
+/// At least one body is made of pieces, is a union, or has a margin.
 Scene pieces_scene(const Json& value, Velocities velocities, const std::filesystem::path& folder) {
   const Json& agent = require_field(value, "", "agent", kSpatialBody);
   const Json& obstacle = require_field(value, "", "obstacle", kSpatialBody);
@@ -136,7 +146,13 @@ Json plain(const Json& engagement, const std::filesystem::path& folder) {
 }  // namespace
 
 SceneBody read_body(const Json& given, const std::string& path, const std::filesystem::path& folder) {
-  const Json value = body_fields(given, path, folder);
+  Json value = body_fields(given, path, folder);
+  if (value.is_object() && value.contains("margin")) {
+    const double margin = not_negative("m").read(value["margin"], join(path, "margin"));
+    value.erase("margin");
+    SceneBody body = read_body(value, path, folder);
+    return within(path, [&] { return with_margin(std::move(body), margin); });
+  }
   if (is_pieces_body(value) && !is_union(value)) return read_pieces_body(value, path, folder);
   if (!is_union(value)) return quadric_body(read_spatial_body(value, path));
   Placed body = read_union(value, path, folder);
@@ -170,8 +186,7 @@ Scene read_engagement(const Json& value, Velocities velocities, const std::vecto
   };
   const Json &a = field("agent"), &b = field("obstacle");
   if (!is_plain(a) || !is_plain(b)) return read_engagement(plain(value, folder), velocities, also, folder);
-  if (is_pieces_body(a) || is_union(a) || is_pieces_body(b) || is_union(b))
-    return pieces_scene(value, velocities, folder);
+  if (is_of_pieces(a) || is_of_pieces(b)) return pieces_scene(value, velocities, folder);
   const Dimension agent = dimension(a), obstacle = dimension(b);
   const bool planar = agent != Dimension::spatial && obstacle != Dimension::spatial &&
                       (agent == Dimension::planar || obstacle == Dimension::planar);

@@ -28,18 +28,33 @@ inline constexpr const char* kRotationSentence =
     "with determinant +1; in the plane an angle, counter-clockwise, radians.";
 
 /// [x, y] or [x, y, z], as schemas have it of either.
+inline constexpr const char* kMarginSentence =
+    "The body and all that is within this distance of it, exactly: each of its parts. Of a body from a file, "
+    "in addition to the file's own. Not of bodies with hyperboloids, nor in the plane.";
+
 template <int D>
 Value<Eigen::Matrix<double, D, 1>> point(const char* unit = "m") {
   return shown_as(vector<D>(unit), {{"$ref", "body.schema.json#/$defs/point"}});
 }
 
-/// Adds the rows `center` and `rotation`.
+/// Adds the row `margin`, which read_body() reads before it reads the body.
+template <typename S>
+Fields<S>& with_margin_row(Fields<S>& fields) {
+  return fields.special("margin", not_negative("m").schema, {}, kMarginSentence, absent("none"));
+}
+/// For readers of bodies that are asked for one without.
+inline void refuse_margin(const Json& body, const std::string& path) {
+  if (body.contains("margin"))
+    throw InputError(join(path, "margin"), quoted(body["margin"]), "left out of this body");
+}
+
+/// Adds the rows `center`, `rotation` and `margin`.
 template <typename S>
 Fields<S>& with_place(Fields<S>& fields) {
-  return fields
-      .row("center", within_part(&S::pose, &Pose::position), point<3>(), kCenterSentence, alternative())
-      .row("rotation", within_part(&S::pose, &Pose::rotation), rotation(), kRotationSentence,
-           absent("not turned"));
+  return with_margin_row(
+      fields.row("center", within_part(&S::pose, &Pose::position), point<3>(), kCenterSentence, alternative())
+          .row("rotation", within_part(&S::pose, &Pose::rotation), rotation(), kRotationSentence,
+               absent("not turned")));
 }
 
 struct BodyKind {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "input/file_body.h"
 
+#include <algorithm>
+
 #include "input/assembly_body.h"
 #include "input/body_kind.h"
 #include "input/scene.h"
@@ -26,7 +28,8 @@ const Fields<std::string>& file_fields() {
                "own origin.",
                alternative())
           .special("center", {}, {}, kCenterSentence)
-          .special("rotation", {}, {}, kRotationSentence);
+          .special("rotation", {}, {}, kRotationSentence)
+          .special("margin", {}, {}, kMarginSentence);
   return fields;
 }
 
@@ -40,8 +43,8 @@ const Fields<PlaceFields>& union_fields() {
            {{"type", "array"}, {"items", {{"$ref", "#/$defs/body"}}}, {"minItems", 1}}}},
          {"title", "list of bodies, or file"}},
         {},
-        "A union of bodies: ellipsoids, with hyperboloids too, or convex hulls; or the name of a file "
-        "that has the list, as `vericone fit --pieces` writes it.");
+        "A union of bodies: ellipsoids, with hyperboloids too; or convex bodies of any kinds, each with its "
+        "own margin; or the name of a file that has the list, as `vericone fit --pieces` writes it.");
     return with_place(rows);
   }();
   return fields;
@@ -58,7 +61,7 @@ Json body_of_file(const std::string& name, const std::string& path, const Path& 
   if (!fields.is_object()) throw InputError(path, name, kBodyFile);
   if (fields.contains("pieces")) {
     Json body = {{"pieces", fields["pieces"]}};
-    for (const char* field : {"center", "rotation"})
+    for (const char* field : {"center", "rotation", "margin"})
       if (fields.contains(field)) body[field] = fields[field];
     return body;
   }
@@ -72,9 +75,12 @@ Json body_of_file(const std::string& name, const std::string& path, const Path& 
 /// Names of files as seen from the folder that the body's own file is named from.
 void follow_names(Json& body, const Path& to) {
   if (to.empty() || !body.is_object()) return;
-  for (const char* field : {"mesh", "cloud", "octree", "hull", "file"})
+  for (const char* field : {"mesh", "cloud", "octree", "hull", "robot", "file"})
     if (body.contains(field) && body[field].is_string())
       body[field] = (to / body[field].get<std::string>()).string();
+  if (body.contains("packages") && body["packages"].is_object())
+    for (Json& package : body["packages"])
+      if (package.is_string()) package = (to / package.get<std::string>()).string();
   if (!body.contains("pieces")) return;
   Json& pieces = body["pieces"];
   if (pieces.is_string()) pieces = (to / pieces.get<std::string>()).string();
@@ -114,6 +120,16 @@ Json moved(Json body, const Json& by, const std::string& path) {
   return body;
 }
 
+/// The body with the margin beside its file's name, in addition to its own.
+Json swollen(Json body, Json& by, const std::string& path) {
+  if (!by.contains("margin")) return body;
+  double margin = not_negative("m").read(by["margin"], join(path, "margin"));
+  if (body.contains("margin")) margin += not_negative("m").read(body["margin"], join(path, "margin"));
+  body["margin"] = margin;
+  by.erase("margin");
+  return body;
+}
+
 /// `files`: how many have been followed to come here.
 Json without_files(Json body, const std::string& path, const Path& folder, int files) {
   if (!body.is_object() || !body.contains("file")) return body;
@@ -124,6 +140,7 @@ Json without_files(Json body, const std::string& path, const Path& folder, int f
   follow_names(found, Path(name).parent_path());
   found = without_files(std::move(found), path, folder, files + 1);
   body.erase("file");
+  found = swollen(std::move(found), body, path);
   return body.empty() ? found : moved(std::move(found), body, path);
 }
 
@@ -142,10 +159,51 @@ std::string remembered_fields(const Json& value, const std::string& path, const 
   return fields.dump();
 }
 
+namespace {
+
+/// One of the pieces of a union, in their common frame.
+Body convex_part(const Json& piece, const std::string& path, const Path& folder) {
+  if (!piece.contains("margin") && !is_pieces_body(piece)) return read_spatial_body(piece, path);
+  if (!piece.contains("margin") && (piece.contains("hull") || piece.contains("points"))) {
+    const SceneBody body = read_hull_agent(piece, path, folder);
+    return within(path, [&] { return in_world(*body.hull(), body.placed.pose); });
+  }
+  const SceneBody body = read_body(piece, path, folder);
+  const Pose& pose = body.placed.pose;
+  if (body.hull()) return within(path, [&] { return in_world(*body.hull(), pose); });
+  if (const Convex* convex = body.placed.body.convex())
+    return within(path, [&] { return in_world(*convex, pose); });
+  throw InputError(path, body.name, "a convex body: of a union each piece is one");
+}
+
+bool all_quadrics(const std::vector<Body>& parts) {
+  return std::all_of(parts.begin(), parts.end(), [](const Body& part) { return part.quadric(); });
+}
+
+/// Ellipsoids and hulls alone stay what they are, which is faster.
+Body union_of(const std::vector<Body>& parts) {
+  std::vector<CombinedEllipsoid> quadrics;
+  std::vector<HullBody> hulls;
+  std::vector<Convex> convexes;
+  for (const Body& part : parts) {
+    if (part.quadric()) quadrics.push_back(*part.quadric());
+    if (part.hull()) hulls.push_back(*part.hull());
+    convexes.push_back(part.convex() ? *part.convex()
+                       : part.hull() ? Convex::rounded(*part.hull(), 0)
+                                     : Convex::rounded(part.quadric()->ellipsoid(), 0));
+  }
+  if (quadrics.size() == parts.size()) return Body::pieces(std::move(quadrics));
+  if (hulls.size() == parts.size()) return Assembly::polyhedra(std::move(hulls));
+  return Assembly::convexes(std::move(convexes));
+}
+
+}  // namespace
+
 bool is_union(const Json& value) { return value.is_object() && value.contains("pieces"); }
 
 Placed read_union(const Json& value, const std::string& path, const Path& folder) {
   union_fields().require_known(value, path);
+  refuse_margin(value, path);
   const std::string field = path + ".pieces";
   Json list = value["pieces"];
   if (list.is_string()) {
@@ -156,25 +214,19 @@ Placed read_union(const Json& value, const std::string& path, const Path& folder
   }
   if (!list.is_array() || list.empty())
     throw InputError(field, quoted(list), "a list of bodies, or the name of a file that has one");
-  std::vector<CombinedEllipsoid> quadrics;
-  std::vector<HullBody> hulls;
+  std::vector<Body> parts;
   for (std::size_t i = 0; i < list.size(); ++i) {
     require_object(list[i], at(field, i));
     // fit.json has what it knows of a piece around the body.
     const bool around = list[i].contains("body") && list[i]["body"].is_object();
     const Json piece = body_fields(around ? list[i]["body"] : list[i], at(field, i), folder);
-    if (is_pieces_body(piece)) {
-      const SceneBody body = read_hull_agent(piece, at(field, i), folder);
-      hulls.push_back(within(at(field, i), [&] { return in_world(*body.hull(), body.placed.pose); }));
-    } else {
-      quadrics.push_back(read_spatial_body(piece, at(field, i)));
-    }
-    if (!hulls.empty() && !quadrics.empty())
-      throw InputError(at(field, i), quoted(piece), "like the pieces before it: hulls, or none");
+    parts.push_back(convex_part(piece, at(field, i), folder));
   }
-  const Pose pose = union_fields().read(value, path).pose;
-  return {hulls.empty() ? Body::pieces(std::move(quadrics)) : Body(Assembly::polyhedra(std::move(hulls))),
-          pose};
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (!all_quadrics(parts) && parts[i].quadric() && !parts[i].quadric()->is_ellipsoid())
+      throw InputError(at(field, i), quoted(list[i]),
+                       "without hyperboloids: not all of the pieces are ellipsoids or have them");
+  return {union_of(parts), union_fields().read(value, path).pose};
 }
 
 Json file_body_schema() { return file_fields().schema(); }

@@ -13,7 +13,7 @@ bool have_octrees() { return false; }
 
 OctreePieces read_octree_pieces(const OctreeFields&, const std::string& name, const std::filesystem::path&,
                                 double) {
-  throw InputError("octree", quoted(name),
+  throw InputError("octree", input::quoted(name),
                    "left out: this vericone was built without octree maps (VERICONE_OCTOMAP)");
 }
 

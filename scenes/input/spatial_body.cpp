@@ -66,10 +66,10 @@ const Fields<SpatialFields>& spatial_fields() {
   using S = SpatialFields;
   static const Fields<S> fields = [] {
     Fields<S> rows("body");
-    return with_quadric<3>(rows, turn(), "hyperboloids",
-                           list("hyperboloids, each with sheets and semi_axes",
-                                mapping("hyperboloid", hyperboloid_fields())),
-                           "With `semi_axes` in space: what delimits the ellipsoid.")
+    with_quadric<3>(
+        rows, turn(), "hyperboloids",
+        list("hyperboloids, each with sheets and semi_axes", mapping("hyperboloid", hyperboloid_fields())),
+        "With `semi_axes` in space: what delimits the ellipsoid.")
         .row("quadric", &S::quadric,
              matrix<4>("", {{"type", "array"},
                             {"items", {{"$ref", "#/$defs/vector4"}}},
@@ -78,6 +78,7 @@ const Fields<SpatialFields>& spatial_fields() {
                             {"title", "4x4 matrix"}}),
              "In place of all others: symmetric 4x4 matrix Q of the surface x̃ᵀQx̃ = 0, an ellipsoid, "
              "either sign.");
+    return with_margin_row(rows);
   }();
   return fields;
 }
@@ -147,6 +148,7 @@ Eigen::Matrix3d read_rotation(const Json& body, const std::string& path) {
 CombinedEllipsoid read_spatial_body(const Json& value, const std::string& path) {
   require_object(value, path);
   check_spatial(value, path);
+  refuse_margin(value, path);
   SpatialFields read;
   spatial_fields().read_known(value, path, read);
   return within(path, [&] { return ellipsoid_of(read); });

@@ -53,6 +53,13 @@ struct Words {
   std::string operator()(const HullBody& hull) const {
     return "convex hull of " + counted(hull.size(), "point") + within_box(placed);
   }
+  std::string operator()(const Convex& body) const {
+    const bool named = body.word() != "convex";
+    // Of a capsule the margin is its radius.
+    const bool swollen = body.margin() > 0 && body.word() != "capsule";
+    return (named ? body.word() : "convex body of " + counted(body.pieces().size(), "piece")) +
+           (swollen ? " with a margin of " + brief(body.margin()) + " m" : "") + within_box(placed);
+  }
   std::string operator()(const Assembly& pieces) const {
     const std::string box = within_box(placed);
     switch (pieces.kind()) {
@@ -63,9 +70,11 @@ struct Words {
       case PieceKind::box:
         return std::to_string(pieces.size()) + (pieces.size() == 1 ? " solid box" : " solid boxes") + box;
       case PieceKind::hull:
+        return "union of " + counted(pieces.size(), "convex hull") + box;
+      case PieceKind::convex:
         break;
     }
-    return "union of " + counted(pieces.size(), "convex hull") + box;
+    return "union of " + counted(pieces.size(), "convex piece") + box;
   }
   std::string operator()(const std::vector<CombinedEllipsoid>& pieces) const {
     return "union of " + counted(pieces.size(), "ellipsoid") + within_box(placed);

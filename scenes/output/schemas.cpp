@@ -5,6 +5,7 @@
 #include "input/file_body.h"
 #include "input/planar_body.h"
 #include "input/scene.h"
+#include "solids/convex_body.h"
 
 namespace vericone::input {
 namespace {
@@ -84,6 +85,7 @@ Json body_schema() {
   Json names = values();
   names["hyperboloid"] = hyperboloid_schema();
   names["hyperbola"] = hyperbola_schema();
+  names.update(convex_schemas());
   names["body"] = {
       {"title", "body"}, {"type", "object"}, {"properties", fields}, {"additionalProperties", false}};
   return schema_of("a body", "Metres, radians. Exactly one of the kinds: " + kinds + ", pieces, file.",

@@ -14,6 +14,7 @@
 #include "input/scene.h"
 #include "json/json_value.h"
 #include "output/output_file.h"
+#include "solids/convex_body.h"
 
 namespace vericone::scenes {
 namespace {
@@ -35,6 +36,8 @@ bool same(const BasicCombined<D>& a, const BasicCombined<D>& b) {
   return true;
 }
 
+bool same(const Convex& a, const Convex& b) { return a.pieces() == b.pieces() && a.margin() == b.margin(); }
+
 bool same(const Assembly& a, const Assembly& b) {
   const Assembly::Storage &x = a.by_slot(), &y = b.by_slot();
   const auto equal = [](const auto& p, const auto& q, const auto& one) {
@@ -45,7 +48,8 @@ bool same(const Assembly& a, const Assembly& b) {
          equal(x.boxes, y.boxes,
                [](const Box& p, const Box& q) { return p.low == q.low && p.high == q.high; }) &&
          equal(x.hulls, y.hulls,
-               [](const HullBody& p, const HullBody& q) { return p.points() == q.points(); });
+               [](const HullBody& p, const HullBody& q) { return p.points() == q.points(); }) &&
+         equal(x.convexes, y.convexes, [](const Convex& p, const Convex& q) { return same(p, q); });
 }
 
 /// A hull alone, which files give as an assembly of one; null for other bodies.
@@ -62,6 +66,7 @@ bool same(const Placed& a, const Placed& b) {
   if (a.body.kind() != b.body.kind()) return false;
   if (a.body.quadric()) return same(*a.body.quadric(), *b.body.quadric());
   if (a.body.assembly()) return same(*a.body.assembly(), *b.body.assembly());
+  if (a.body.convex()) return same(*a.body.convex(), *b.body.convex());
   const auto &p = *a.body.quadrics(), &q = *b.body.quadrics();
   return std::equal(p.begin(), p.end(), q.begin(), q.end(),
                     [](const CombinedEllipsoid& x, const CombinedEllipsoid& y) { return same(x, y); });
@@ -163,6 +168,7 @@ std::optional<Json> numbers_of(const Placed& placed, const fs::path& name, std::
   } else if (const Assembly* assembly = body.assembly()) {
     switch (assembly->kind()) {
       case PieceKind::box:
+      case PieceKind::convex:
         return std::nullopt;
       case PieceKind::hull: {
         fields["pieces"] = Json::array();
@@ -176,6 +182,9 @@ std::optional<Json> numbers_of(const Placed& placed, const fs::path& name, std::
         fields[assembly->kind() == PieceKind::ball ? "cloud" : "mesh"] = name.string();
         if (assembly->kind() == PieceKind::ball) fields["radius"] = assembly->radius();
     }
+  } else if (const Convex* convex = body.convex()) {
+    fields = input::word_fields(*convex);
+    if (fields.is_null()) return std::nullopt;
   } else {
     fields["points"] = points_json(body.hull()->points());
   }
@@ -185,9 +194,14 @@ std::optional<Json> numbers_of(const Placed& placed, const fs::path& name, std::
 
 /// Names of files, as SceneBody::fields has them, as seen from a folder.
 void name_from(Json& fields, const fs::path& folder) {
-  for (const char* field : {"mesh", "cloud", "octree", "hull", "file", "pieces"})
-    if (fields.contains(field) && fields[field].is_string())
-      fields[field] = fs::path(fields[field].get<std::string>()).lexically_proximate(folder).string();
+  const auto rename = [&](Json& name) {
+    name = fs::path(name.get<std::string>()).lexically_proximate(folder).string();
+  };
+  for (const char* field : {"mesh", "cloud", "octree", "hull", "robot", "file", "pieces"})
+    if (fields.contains(field) && fields[field].is_string()) rename(fields[field]);
+  if (fields.contains("packages") && fields["packages"].is_object())
+    for (Json& package : fields["packages"])
+      if (package.is_string()) rename(package);
   if (fields.contains("pieces") && fields["pieces"].is_array())
     for (Json& piece : fields["pieces"])
       if (piece.is_object()) name_from(piece, folder);
@@ -215,7 +229,7 @@ bool gives(const Gives& read) {
   throw InputError(
       name, body.name.empty() ? to_string(body.placed.body.kind()) : body.name,
       "a body that a file gave, an ellipsoid without a pose (in_world() makes one), a hull, a mesh, a cloud, "
-      "or a union of ellipsoids or of hulls");
+      "a union of ellipsoids or of hulls, or a cylinder, capsule, cone, frustum or disc of its own frame");
 }
 
 void write_all(const std::vector<Beside>& files, const fs::path& file, const Json& fields) {

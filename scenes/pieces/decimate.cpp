@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "json/json_value.h"
+#include "pieces/convex_mesh.h"
 
 namespace vericone {
 namespace {
@@ -99,6 +100,15 @@ Json shown_hulls(const Assembly& pieces, const Pose& pose) {
   return {{"hulls", list}, {"thinned", false}};
 }
 
+Json shown_convexes(const Assembly& pieces, const Pose& pose) {
+  // Coarser where there are many.
+  const int rings = pieces.size() <= 20 ? 24 : pieces.size() <= 200 ? 8 : 4;
+  Json list = Json::array();
+  for (const Convex& body : pieces.by_slot().convexes)
+    for (const Triangle& t : convex_mesh(body, pose, rings)) list.push_back(triangle_json(t));
+  return {{"triangles", list}, {"thinned", false}};
+}
+
 /// Around the image of a box of the body's frame.
 Box in_world(const Box& box, const Pose& pose) {
   const Eigen::Vector3d center = pose.to_world(box.center());
@@ -155,6 +165,12 @@ class Columns {
 
 }  // namespace
 
+Json shown_convex(const Convex& body, const Pose& pose) {
+  Json list = Json::array();
+  for (const Triangle& t : convex_mesh(body, pose)) list.push_back(triangle_json(t));
+  return {{"triangles", list}, {"thinned", false}};
+}
+
 Json shown_pieces(const Assembly& pieces, const Pose& pose) {
   switch (pieces.kind()) {
     case PieceKind::triangle:
@@ -165,6 +181,8 @@ Json shown_pieces(const Assembly& pieces, const Pose& pose) {
       return shown_boxes(pieces, pose);
     case PieceKind::hull:
       return shown_hulls(pieces, pose);
+    case PieceKind::convex:
+      return shown_convexes(pieces, pose);
   }
   return nullptr;
 }
@@ -185,6 +203,7 @@ Json top_view(const Assembly& pieces, const Pose& pose, double low, double high)
     for (const Eigen::Vector3d& x : hull.points()) box.include({x, x});
     columns.mark(in_world(box, pose));
   }
+  for (const Convex& body : all.convexes) columns.mark(in_world(body.bounds(), pose));
   return columns.json();
 }
 

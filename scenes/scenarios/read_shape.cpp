@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "input/assembly_body.h"
+#include "input/body.h"
 #include "input/field_table.h"
 #include "input/fields.h"
 #include "input/file_body.h"
@@ -118,6 +119,22 @@ simulation::RigidShape read_hull(const Json& value, const std::string& path,
   return {input::within(path, [&] { return in_world(*body.hull(), body.placed.pose); })};
 }
 
+/// A body with a margin; the centre may be left out.
+simulation::RigidShape read_swollen(const Json& value, const std::string& path,
+                                    const std::filesystem::path& folder,
+                                    std::optional<scenes::Reading>& reading) {
+  const char* requirement = "left out: bodies in the plane and bodies that change have none";
+  for (const char* changing : {"k", "a_c", "dented", "hyperbolas"})
+    if (value.contains(changing)) throw InputError(path + ".margin", quoted(value["margin"]), requirement);
+  if (is_planar(value)) throw InputError(path + ".margin", quoted(value["margin"]), requirement);
+  Json body = value;
+  if ((value.contains("semi_axes") || value.contains("shape")) && !value.contains("center"))
+    body["center"] = {0, 0, 0};
+  scenes::SceneBody read = input::read_body(body, path, folder);
+  reading = std::move(read.reading);
+  return {std::move(read.placed)};
+}
+
 /// A mesh, cloud or map as it stands in the body's frame; the hull of a file's points.
 simulation::RigidShape read_file_body(const Json& value, const std::string& path,
                                       const std::filesystem::path& folder,
@@ -125,6 +142,8 @@ simulation::RigidShape read_file_body(const Json& value, const std::string& path
   if (value.contains("hull")) return read_hull(value, path, folder, reading);
   scenes::SceneBody body = input::read_pieces_body(value, path, folder);
   reading = std::move(body.reading);
+  if (const HullBody* hull = body.hull())  // a box
+    return {input::within(path, [&] { return in_world(*hull, body.placed.pose); })};
   return {std::move(body.placed)};
 }
 
@@ -135,6 +154,7 @@ simulation::ShapeInTime read_shape(const Json& given, const std::string& path,
                                    std::optional<scenes::Reading>& reading) {
   require_object(given, path);
   const Json value = input::body_fields(given, path, folder);
+  if (value.contains("margin")) return read_swollen(value, path, folder, reading);
   const bool from_file = input::is_pieces_body(value) && !value.contains("points");
   if (!from_file && !input::is_union(value)) shape_fields().require_known(value, path);
   const int kinds = value.contains("semi_axes") + value.contains("shape") + value.contains("quadric") +

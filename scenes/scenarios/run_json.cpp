@@ -60,6 +60,9 @@ Json placed_json(const Placed& placed) {
     } else {
       json.update(shown_pieces(*assembly, placed.pose));
     }
+  } else if (const Convex* convex = placed.body.convex()) {
+    json["word"] = convex->word();
+    json.update(shown_convex(*convex, placed.pose));
   }
   return json;
 }

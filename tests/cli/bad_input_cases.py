@@ -48,6 +48,10 @@ def planar(agent_velocity=(1, 0), **obstacle):
 TRACK = "t,x,y\n0,1,2\n"
 # Files in the folder that the commands run in.
 FILES = {"junk.obj": "v 1 2\n", "points.xyz": "0 0 0\n1 0 0\n", "cut.bt": "# Octomap OcTree binary file\nid OcTree\n"}
+FILES["arm.urdf"] = ("<robot name='arm'><link name='base'/><link name='bar'><collision><geometry><sphere radius='1'/>"
+                     "</geometry></collision></link><joint name='shoulder' type='revolute'><parent link='base'/>"
+                     "<child link='bar'/><limit lower='-1' upper='2'/></joint></robot>\n")
+FILES["cut.urdf"] = FILES["arm.urdf"][:90]
 CUBE = {"points": [[x, y, z] for x in (9, 11) for y in (-1, 1) for z in (-1, 1)]}
 
 
@@ -192,6 +196,37 @@ QUERIES = [
     ("a cube turned by a shear", pieces(**CUBE, rotation=[[1, 0.1, 0], [0, 1, 0], [0, 0, 1]])),
     ("an agent that is a mesh", pieces({"mesh": "points.xyz"}, **CUBE)),
     ("a planar agent before pieces", pieces({"center": [0, 0], "semi_axes": [1, 2]}, **CUBE)),
+    ("a cylinder without a height", pieces(cylinder={"radius": 1})),
+    ("a cylinder without a radius", pieces(cylinder={"height": 1})),
+    ("a cylinder of a radius and semi-axes", pieces(cylinder={"radius": 1, "semi_axes": [1, 2], "height": 1})),
+    ("a cylinder with a length", pieces(cylinder={"radius": 1, "length": 1})),
+    ("a cylinder that is a list", pieces(cylinder=[1, 2])),
+    ("a cylinder of negative radius", pieces(cylinder={"radius": -1, "height": 2})),
+    ("a disc of text", pieces(disc={"radius": "1 m"})),
+    ("a disc with one semi-axis", pieces(disc={"semi_axes": [1]})),
+    ("a capsule with a height", pieces(capsule={"radius": 1, "height": 2})),
+    ("a cone of negative height", pieces(cone={"radius": 1, "height": -2})),
+    ("a frustum of one radius", pieces(frustum={"radius": 1, "height": 2})),
+    ("a frustum of three radii", pieces(frustum={"radii": [1, 2, 3], "height": 2})),
+    ("a box of whole sizes", pieces(box={"size": [1, 2, 3]})),
+    ("a box with a negative side", pieces(box={"half_widths": [1, -2, 3]})),
+    ("a cylinder and a box", pieces(cylinder={"radius": 1, "height": 2}, box={"half_widths": [1, 2, 3]})),
+    ("a cylinder in the plane", pieces(cylinder={"radius": 1, "height": 2}, center=[9, 0])),
+    ("a negative margin", case(obstacle={"margin": -1})),
+    ("a margin that is text", case(obstacle={"margin": "1 m"})),
+    ("a margin of a body with dents", dented(GOOD_HYPERBOLOID, margin=1)),
+    ("a margin in the plane", planar(semi_axes=[3, 2], margin=1)),
+    ("a robot that is not there", pieces(robot="nowhere.urdf")),
+    ("a robot that is a mesh", pieces(robot="junk.obj")),
+    ("a robot that breaks off", pieces(robot="cut.urdf")),
+    ("a joint that a robot has not", pieces(robot="arm.urdf", joints={"elbow": 1})),
+    ("a joint beyond its limits", pieces(robot="arm.urdf", joints={"shoulder": 3})),
+    ("joints in a list", pieces(robot="arm.urdf", joints=[1])),
+    ("a link that a robot has not", pieces(robot="arm.urdf", links=["foot"])),
+    ("a robot without pictures", pieces(robot="arm.urdf", geometry="visual")),
+    ("a union of a mesh", pieces(pieces=[{"mesh": "points.xyz"}])),
+    ("a union of a cylinder and a body with dents", pieces(pieces=[{"cylinder": {"radius": 1, "height": 2}}, {
+        "center": [9, 0, 0], "semi_axes": [1, 2, 3], "hyperboloids": [GOOD_HYPERBOLOID]}])),
     ("a line that is a list", [1, 2, 3]),
     ("a line that is a number", 7),
     ("a broken line", '{"id": 7, "agent": {'),
@@ -270,7 +305,7 @@ COMMANDS = [
      "agent: {center: [0, 0], semi_axes: [1, 2]}\nobstacle: {points: [[0, 0], [1, 0], [1, 1]], center: [9, 0]}\n"),
     ("a planar agent before pieces", ["cone", "FILE"],
      "agent: {center: [0, 0], semi_axes: [1, 2]}\nobstacle: {points: [[0, 0, 0], [1, 0, 0], [1, 1, 0]]}\n"),
-    ("a cylinder", ["cone", "FILE"], SCENE.replace("semi_axes: [1, 1, 1]", "cylinder: {radius: 1, height: 3}")),
+    ("a word that there is not", ["cone", "FILE"], SCENE.replace("semi_axes: [1, 1, 1]", "torus: {radii: [1, 3]}")),
     ("a pose as a rotation", ["cone", "FILE"], SCENE.replace(
         "[1, 1, 1]", "[1, 1, 1], rotation: [[1, 0, 0, 9], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]")),
     ("a scan without lidars", ["scan", "FILE"], PIECES_SCENE),
@@ -626,8 +661,12 @@ SCENARIOS = [
     ("a body and a position", scenario("{name: B, center: [20, 0, 0], semi_axes: [2, 2, 2], position: [1, 0, 0]}")),
     ("a mesh that is not there", scenario(BODY.replace("semi_axes: [2, 2, 2]", "mesh: none.off"))),
     ("a shape of no pieces", scenario(BODY.replace("semi_axes: [2, 2, 2]", "pieces: []"))),
-    ("pieces of two kinds", scenario(BODY.replace("semi_axes: [2, 2, 2]", "pieces: [{center: [0, 0, 0], "
-                                                  "semi_axes: [1, 1, 1]}, {points: [[0, 0, 0]]}]"))),
+    ("a piece with dents beside a hull", scenario(BODY.replace(
+        "semi_axes: [2, 2, 2]", "pieces: [{center: [0, 0, 0], semi_axes: [1, 1, 1], hyperboloids: [{sheets: 2, "
+                                "semi_axes: [0.5, 1, 1]}]}, {points: [[0, 0, 0]]}]"))),
+    ("a margin of a body that changes", scenario(BODY.replace("semi_axes:", "k: 0.5, margin: 1, dented:"))),
+    ("a margin of a body in the plane", scenario(BODY.replace("[2, 2, 2]", "[2, 2], margin: 1"))),
+    ("a capsule with a height", scenario(BODY.replace("semi_axes: [2, 2, 2]", "capsule: {radius: 1, height: 2}"))),
     ("a fish above the water", fish("{kind: fish, depth: -1}")),
     ("a fish with more gas than its chamber holds", fish("{kind: fish, gas: 1.0e-5}")),
     ("a fish that can never rise", fish("{kind: fish, neutral_gas: 9.0e-6}")),

@@ -8,6 +8,7 @@
 #include <vericone/internal/cones/combined/cone.h>
 #include <vericone/internal/cones/composite/composite_pair.h>
 #include <vericone/internal/cones/hulls/hull_oracle.h>
+#include <vericone/internal/cones/round/round_oracle.h>
 #include <vericone/testing/laws.h>
 #include <vericone/testing/random_bodies.h>
 #include <variant>
@@ -27,6 +28,7 @@ using testing::share;
 static_assert(LadderPredicate<ConeOracle, Vector3d>);
 static_assert(LadderPredicate<SectorOracle, Vector2d>);
 static_assert(LadderPredicate<HullOracle, Vector3d>);
+static_assert(LadderPredicate<RoundOracle, Vector3d>);
 static_assert(VelocityPredicate<CombinedOracle, Vector3d>);
 static_assert(VelocityPredicate<AssemblyOracle, Vector3d>);
 static_assert(VelocityPredicate<CompositePair, Vector3d>);
@@ -62,6 +64,16 @@ TEST_F(FamilyLaws, Hulls) {
     ASSERT_EQ(broken_velocity_law(HullOracle(a, b), HullOracle(b, a), velocity({5, 1, 0}), true), "") << i;
     const Ellipsoid e = random.ellipsoid({0, 0, 0}, 0.2, 2);
     ASSERT_EQ(broken_velocity_law(HullOracle(e, b), HullOracle(b, e), velocity({5, 1, 0}), true), "") << i;
+  }
+}
+
+TEST_F(FamilyLaws, ConvexBodies) {
+  for (int i = 0; i < share(1000); ++i) {
+    const auto convex = [&] {
+      return in_world(*body(BodyKind::convex).convex(), {Vector3d::Zero(), random.rotation()});
+    };
+    const Convex a = convex(), b = convex().translated({5, 1, 0});
+    ASSERT_EQ(broken_velocity_law(RoundOracle(a, b), RoundOracle(b, a), velocity({5, 1, 0}), true), "") << i;
   }
 }
 

@@ -19,6 +19,7 @@
 #include <vericone/internal/cones/ellipsoids/rungs.h>
 #include <vericone/internal/cones/hulls/hull_oracle.h>
 #include <vericone/internal/cones/may_meet.h>
+#include <vericone/internal/cones/round/round_oracle.h>
 #include <vericone/internal/cones/times/contact_time_enclosure.h>
 #include <vericone/testing/random_bodies.h>
 #include <Eigen/Core>
@@ -141,6 +142,21 @@ TEST(NoAllocation, Hulls) {
     expect_none_of_lower_rungs(oracle, w);
     EXPECT_EQ(allocations_of([&] { static_cast<void>(oracle.interval_membership(enclosed(w))); }), 0);
   }
+}
+
+TEST(NoAllocation, ConvexBodies) {
+  RandomBodies random(8110);
+  SCOPED_TRACE(random.trace());
+  int touched = 0;
+  for (int i = 0; i < kCases; ++i) {
+    const auto body = [&] { return *testing::any_body(random, BodyKind::convex).convex(); };
+    const RoundOracle oracle(body(), body(), Vector3d::Zero(), Vector3d(6, 0, 0));
+    const Vector3d w = Vector3d(6, 0, 0) + random.in_box(4);
+    expect_none_of_lower_rungs(oracle, w);
+    EXPECT_EQ(allocations_of([&] { touched += oracle.first_contact(w).has_value(); }), 0);
+    EXPECT_EQ(allocations_of([&] { static_cast<void>(oracle.gap(w)); }), 0);
+  }
+  EXPECT_GT(touched, kCases / 4);
 }
 
 TEST(NoAllocation, PlaneConesOfEllipsoids) {

@@ -38,7 +38,7 @@ MAY_INCLUDE = {
     "verify": ("geometry", "cones"),
 }
 # Of cones: each folder may include itself and what stands before it.
-FAMILIES = ["", "answers", "ellipsoids", "planar", "combined", "hulls", "opening", "times", "assembly", "composite",
+FAMILIES = ["", "answers", "ellipsoids", "planar", "combined", "hulls", "round", "opening", "times", "assembly", "composite",
             "slices", "map", "pairs", "uncertain", "certificate"]
 LIBRARY_FOLDERS = ("geometry", "cones", "guidance", "c", "scenes", "vision", "verify")
 MOST_FILES = 25

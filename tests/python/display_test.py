@@ -23,6 +23,7 @@ PICTURED: dict[str, tuple[Any, str]] = {
     "ellipse": (vc.Ellipse.from_axes([1, 2], [3, 1]), "m²"), "ellipsoid": (BALL, "m³"),
     "combined": (vc.CombinedEllipsoid(BALL, [vc.hyperboloid(2, [0.3, 0.5, 0.5])]), "1 hyperboloids"),
     "hull": (vc.HullBody.box([0, 0, 0], [1, 1, 1]), "8"), "body": (vc.Body(BALL), "ellipsoid"),
+    "convex": (vc.Body(vc.Convex.cylinder(1, 2)).convex().swollen(0.25), "0.25 m"),
     "placed": (vc.Placed(BALL, vc.Pose(position=[1, 2, 3])), "(1, 2, 3) m"), "pair": (PAIR, "exact"),
     "cloud": (vc.Assembly.cloud(np.eye(3), 0.1), "3 of the kind ball"),
     "cone": (PAIR.cone(), " sr, proved"), "true cone": (vc.true_cone(BALL, AHEAD, 24), " sr"),

@@ -54,6 +54,7 @@ class RandomAssemblies : public Random {
         return Assembly::boxes(boxes);
       }
       case PieceKind::hull:
+      case PieceKind::convex:  // any_body.cpp has those
         break;
     }
     std::vector<HullBody> hulls;

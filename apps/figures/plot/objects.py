@@ -121,7 +121,22 @@ def assembly_shape(assembly: Any) -> dict[str, Any]:
         low = np.array([np.asarray(box.low) for box in parts.boxes])
         high = np.array([np.asarray(box.high) for box in parts.boxes])
         return {"kind": "boxes", "triangles": box_triangles(low, high)}
+    if kind == "convex":
+        rings = 16 if len(parts.convexes) <= 20 else 6
+        return {"kind": "mesh", "triangles": np.concatenate([convex_triangles(b, rings) for b in parts.convexes])}
     return {"kind": "pieces", "pieces": [{"kind": "hull", "points": np.asarray(h.points())} for h in parts.hulls]}
+
+
+def convex_triangles(body: Any, rings: int = 16) -> Any:
+    """The surface between the points farthest along a grid of directions about z, in the body's frame."""
+    polar = np.pi * np.clip((np.arange(rings + 2) - 0.5) / rings, 0, 1)[:, None]
+    azimuth = np.pi * (np.arange(2 * rings) + 0.5) / rings
+    normals = np.stack(np.broadcast_arrays(np.sin(polar) * np.cos(azimuth), np.sin(polar) * np.sin(azimuth), np.cos(polar)), -1)
+    grid = np.array([[np.asarray(body.support_point(n)) for n in ring] for ring in normals])
+    a, b, c, d = grid[:-1], grid[1:], np.roll(grid[1:], -1, axis=1), np.roll(grid[:-1], -1, axis=1)
+    faces = np.stack([np.stack([a, b, c], 2), np.stack([a, c, d], 2)], 2).reshape(-1, 3, 3)
+    areas = np.linalg.norm(np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0]), axis=1)
+    return faces[areas > 1e-9 * np.ptp(grid.reshape(-1, 3), axis=0).max() ** 2]
 
 
 def box_triangles(low: Any, high: Any) -> Any:
@@ -152,6 +167,8 @@ def shape_and_row(thing: Any, argument: str = "thing") -> tuple[dict[str, Any], 
         return quadric_shape(thing), at_origin
     if has(thing, "by_slot"):
         return assembly_shape(thing), at_origin
+    if has(thing, "support_point", "margin"):
+        return {"kind": "convex", "triangles": convex_triangles(thing)}, at_origin
     if has(thing, "flat", "quadric", "hull"):  # a body of the world that is not placed
         parts = (thing.flat(), thing.quadric(), thing.hull())
         return shape_and_row(next(part for part in parts if part is not None), argument)

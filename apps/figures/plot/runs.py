@@ -120,8 +120,9 @@ def draw_shape(space: Axes, run: Flown, name: str, row: Row, alpha: float, order
                                                 alpha=0.5 if shape["kind"] == "boxes" else 0.9))
         extent += faces
     elif faces:
-        space.add_collection3d(Poly3DCollection(faces, facecolor=color, edgecolor="k", linewidth=0.2, zorder=order,
-                                                alpha=alpha))
+        few = len(faces) <= 300
+        space.add_collection3d(Poly3DCollection(faces, facecolor=color if few else lit(faces, color), edgecolor="k" if few else None,
+                                                linewidth=0.2 if few else 0, zorder=order, alpha=alpha))
         extent += faces
     for piece in [p for p in shape["pieces"] if p["kind"] != "hull"] if "pieces" in shape else [] if faces else [shape]:
         if "factor" not in piece and "k" not in piece:

@@ -115,8 +115,8 @@ std::optional<AssemblyContact> first_contact(const Scene& scene, const Eigen::Ve
     if (!(slabs.enter(box.low.data(), box.high.data()) < limit) || test.apart(box.low, box.high)) return true;
     ++effort.pieces;
     if (!meets(scene, slot, ray, w, effort)) return true;
-    std::optional<PieceContact> contact =
-        piece_contact(scene.frame(), scene.core(slot), scene.body().radius(), d, limit);
+    const Core core = scene.core(slot);
+    std::optional<PieceContact> contact = piece_contact(scene.frame(), core, core.own_radius(), d, limit);
     if (!contact) return true;
     if (contact->is_wide()) contact->refine(scene.exact_time(slot, w), slabs.scale());
     if (contact->earliest < first.earliest) {

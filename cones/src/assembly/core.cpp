@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "assembly/core.h"
 
+#include <limits>
+
 namespace vericone::assembly {
 
 Core Core::of_points(const Frame& frame, const Eigen::Vector3d* points, std::size_t count, double radius) {
@@ -15,7 +17,7 @@ Core Core::of_points(const Frame& frame, const Eigen::Vector3d* points, std::siz
   }
   if (count > kFew) core.many_ = points;
   core.center_ = frame.to_frame() * (0.5 * (low + high));
-  core.inner_rounding_ = core.outer_rounding_ = radius;
+  core.inner_rounding_ = core.outer_rounding_ = core.own_radius_ = radius;
   core.finish(low.cwiseAbs().cwiseMax(high.cwiseAbs()).norm());
   return core;
 }
@@ -37,6 +39,36 @@ Core Core::of_ball(const Frame& frame, const Eigen::Vector3d& center, double rad
   core.center_ = frame.to_frame() * c;
   core.radius_ = radius;
   core.finish(c.norm() + radius);
+  return core;
+}
+
+Core Core::of_convex(const Frame& frame, const Convex& body, double radius) {
+  Core core(frame, Kind::convex);
+  core.convex_ = &body;
+  const double margin = body.margin() + radius;
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  double round = 0, off = 0;
+  for (const Convex::Piece& piece : body.pieces()) {
+    const Eigen::Vector3d c = frame.relative(piece.center);
+    low = low.cwiseMin(c);
+    high = high.cwiseMax(c);
+    round = std::max(round, piece.factor.norm());
+    // That of a shape matrix is off its factor by less than the root of what their squares differ by.
+    if (piece.shape)
+      off = std::max(off, std::sqrt((piece.factor * piece.factor.transpose() - *piece.shape).norm() +
+                                    32 * kUlp * piece.factor.squaredNorm()));
+  }
+  core.center_ = frame.to_frame() * (0.5 * (low + high));
+  const double size = low.cwiseAbs().cwiseMax(high.cwiseAbs()).norm() + round;
+  if (frame.is_space()) {
+    core.inner_rounding_ = core.outer_rounding_ = core.own_radius_ = margin;
+    core.finish(size);
+  } else {
+    core.radius_ = margin;
+    core.finish(size + margin);
+  }
+  core.error_ += frame.error(size) + frame.norm() * off * (1 + 8 * kUlp);
+  core.reach_ += frame.norm() * off * (1 + 8 * kUlp);
   return core;
 }
 
@@ -92,6 +124,8 @@ Eigen::Vector3d Core::piece_support(const Eigen::Vector3d& n) const {
       if (!(length > 0)) return center_;
       return center_ - frame_->to_frame() * (back * (radius_ / length));
     }
+    case Kind::convex:
+      return convex_support(n);
     case Kind::points:
       break;
   }
@@ -114,6 +148,27 @@ Eigen::Vector3d Core::piece_support(const Eigen::Vector3d& n) const {
       best = i;
     }
   return few_[best];
+}
+
+Eigen::Vector3d Core::convex_support(const Eigen::Vector3d& n) const {
+  const Eigen::Vector3d back = frame_->to_frame().transpose() * n;
+  double least = std::numeric_limits<double>::infinity(), length = 0;
+  Eigen::Vector3d x = Eigen::Vector3d::Zero(), seen = x;
+  const Convex::Piece* best = nullptr;
+  for (const Convex::Piece& piece : convex_->pieces()) {
+    const Eigen::Vector3d center = frame_->relative(piece.center);
+    const Eigen::Vector3d own = piece.factor.transpose() * back;
+    const double radius = own.norm(), value = back.dot(center) - radius;
+    if (!(value < least)) continue;
+    least = value;
+    x = center;
+    seen = own;
+    length = radius;
+    best = &piece;
+  }
+  if (best != nullptr && length > 0) x -= best->factor * (seen / length);
+  if (const double whole = radius_ > 0 ? back.norm() : 0; whole > 0) x -= back * (radius_ / whole);
+  return frame_->to_frame() * x;
 }
 
 }  // namespace vericone::assembly

@@ -21,6 +21,8 @@ class Core {
                         double radius = 0);
   static Core of_box(const Frame& frame, const Eigen::Vector3d& low, const Eigen::Vector3d& high);
   static Core of_ball(const Frame& frame, const Eigen::Vector3d& center, double radius);
+  /// `body` must outlive it.
+  static Core of_convex(const Frame& frame, const Convex& body, double radius = 0);
 
   /// The point of the core with the least n.k; rounded, off by less than error() in place. `on_piece`: the
   /// point of the piece that it comes from.
@@ -47,14 +49,17 @@ class Core {
   /// `outer_rounding`.
   double inner_rounding() const { return inner_rounding_; }
   double outer_rounding() const { return outer_rounding_; }
+  /// By which the piece itself is rounded beyond support(), m; 0 where the frame is not space.
+  double own_radius() const { return own_radius_; }
 
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  // where the apex is: t d for a moving agent
 
  private:
-  enum class Kind { points, box, ball };
+  enum class Kind { points, box, ball, convex };
   Core(const Frame& frame, Kind kind) : frame_(&frame), kind_(kind) {}
   void finish(double size_in_space);
   Eigen::Vector3d piece_support(const Eigen::Vector3d& n) const;
+  Eigen::Vector3d convex_support(const Eigen::Vector3d& n) const;
 
   const Frame* frame_;
   Kind kind_;
@@ -64,7 +69,9 @@ class Core {
   std::optional<Eigen::Vector3d> along_;   // to the end of a stretch, in the frame
   const Eigen::Vector3d* many_ = nullptr;  // hulls of more points, not mapped
   std::size_t count_ = 0;
+  const Convex* convex_ = nullptr;
   double radius_ = 0;  // of a ball in space that is an ellipsoid in the frame
+  double own_radius_ = 0;
   double error_ = 0, reach_ = 0, inner_rounding_ = 0, outer_rounding_ = 0;
 };
 

@@ -99,6 +99,7 @@ void Frame::check_range(double largest) {
 }
 
 Eigen::Vector3d Frame::support(const Eigen::Vector3d& n) const {
+  if (convex_) return convex_->point(convex_->farthest(n));
   if (points_.empty()) {
     const Eigen::Vector3d back = factor_.transpose() * n;
     const double length = back.norm();
@@ -178,6 +179,33 @@ Frame::Frame(const HullBody& agent, const Place& place) {
   }
   norm_ = std::sqrt(3.0) * (1 + 4 * kUlp);
   set_origin(middle, place);
+}
+
+Frame::Frame(const Convex& agent, const Place& place) {
+  const bool points = std::all_of(agent.pieces().begin(), agent.pieces().end(),
+                                  [](const Convex::Piece& piece) { return piece.rank == 0; });
+  if (points) {
+    std::vector<Eigen::Vector3d> centers;
+    for (const Convex::Piece& piece : agent.pieces()) centers.push_back(piece.center);
+    *this = Frame(HullBody(std::move(centers)), place);
+  } else {
+    const Box bounds = agent.bounds();
+    const Eigen::Vector3d middle = 0.5 * bounds.low + 0.5 * bounds.high;
+    convex_ = std::make_shared<RoundBody>(round_body(agent, Eigen::Vector3d::Zero(), middle));
+    ball_ = convex_->reach + convex_->off;
+    support_error_ = (32 * kUlp * ball_ + 2 * convex_->off) * (1 + 8 * kUlp);
+    for (int k = 0; k < 3; ++k)
+      for (const double side : {-1.0, 1.0}) {
+        const Eigen::Vector3d n = side * Eigen::Vector3d::Unit(k);
+        reach_(k) = std::max(reach_(k), convex_->farthest(n).value + support_error_);
+      }
+    norm_ = std::sqrt(3.0) * (1 + 4 * kUlp);
+    set_origin(middle, place);
+  }
+  // A margin is what it is rounded by.
+  inner_ = outer_ = agent.margin();
+  ball_ = (ball_ + outer_) * (1 + 8 * kUlp);
+  reach_ = (reach_.array() + outer_) * (1 + 8 * kUlp);
 }
 
 Directions::Directions(const Frame& frame, std::initializer_list<Eigen::Vector3d> rays_in_space) {

@@ -3,6 +3,7 @@
 // The agent in the coordinates in which questions about assemblies are answered.
 #pragma once
 
+#include <vericone/geometry/convex.h>
 #include <vericone/geometry/ellipsoid.h>
 #include <vericone/geometry/hull_body.h>
 #include <vericone/internal/geometry/hierarchy.h>
@@ -10,7 +11,10 @@
 #include <algorithm>
 #include <initializer_list>
 #include <limits>
+#include <memory>
 #include <vector>
+
+#include "round/scene.h"
 
 namespace vericone::assembly {
 
@@ -25,7 +29,8 @@ struct Place {
 
 /// y = G (x - p). G is any matrix as stored, so nothing depends on how well it inverts the agent's factor:
 /// what the agent becomes, E, lies between two balls whose radii are proved. A hull keeps G = 1 and becomes
-/// the points a_i - p; so does an ellipsoid where lengths in space are asked for.
+/// the points a_i - p; so does an ellipsoid where lengths in space are asked for, and any other convex body:
+/// its margin then counts as rounding.
 ///
 /// Computed coordinates y of a point x differ from the exact ones by at most error(|x - p|).
 class Frame {
@@ -33,6 +38,7 @@ class Frame {
   /// `place`: where the agent's own origin is in the coordinates of x. Throws InputError naming "agent".
   explicit Frame(const Ellipsoid& agent, const Place& place = {});
   explicit Frame(const HullBody& agent, const Place& place = {});
+  explicit Frame(const Convex& agent, const Place& place = {});
   /// With G = 1.
   static Frame in_space(const Ellipsoid& agent, const Place& place = {});
 
@@ -45,7 +51,7 @@ class Frame {
 
   /// E is nearly a ball about 0.
   bool round() const { return round_; }
-  /// Where round(): E is between the balls of these radii; 0 otherwise.
+  /// Where round(): E is between the balls of these radii; otherwise the margin, which support() leaves out.
   double inner() const { return inner_; }
   double outer() const { return outer_; }
 
@@ -57,13 +63,16 @@ class Frame {
   /// At least the support max n.e over E; `length`: |n|.
   double extent(const Eigen::Vector3d& n, double length) const {
     if (round_) return outer_ * length;
+    if (convex_)
+      return convex_->farthest(n).value +
+             (support_error_ + outer_ + 16 * kUlp * ball_) * length * (1 + 8 * kUlp);
     if (points_.empty()) return (factor_.transpose() * n).norm() * (1 + 16 * kUlp) + support_error_ * length;
     return std::min(ball_ * length, n.cwiseAbs().dot(reach_)) * (1 + 8 * kUlp);
   }
   /// The same, no more than rounding above it; in the time of a support call.
   double least_extent(const Eigen::Vector3d& n, double length) const {
-    if (round_ || points_.empty()) return extent(n, length);
-    return n.dot(support(n)) + 8 * kUlp * ball_ * length;
+    if (round_ || convex_ || points_.empty()) return extent(n, length);
+    return n.dot(support(n)) + (outer_ + 8 * kUlp * ball_) * length;
   }
   /// Largest |e| over E, at most.
   double ball() const { return ball_; }
@@ -108,6 +117,7 @@ class Frame {
   std::vector<Eigen::Vector3d> points_;  // of a hull, by slot of the hierarchy where there is one
   Hierarchy hierarchy_;                  // of the points, where they are many
   Eigen::Matrix3d factor_ = Eigen::Matrix3d::Identity();  // of an ellipsoid in space
+  std::shared_ptr<const RoundBody> convex_;               // about p, where it is more than points
 };
 
 /// The directions asked about: rays from the apex and all between them (none: the apex alone).

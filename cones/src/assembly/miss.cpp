@@ -123,7 +123,7 @@ class MissSearch {
     miss_.most = most;
     const Eigen::Vector3d n =
         found.v.isZero(0) ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : found.v.normalized();
-    miss_.point = scene_.point_to_world(space_.to_space(found.on_piece - scene_.body().radius() * n));
+    miss_.point = scene_.point_to_world(space_.to_space(found.on_piece - core.own_radius() * n));
     miss_.normal = scene_.to_world(n);
     miss_.time = speed_ > 0 ? found.along[0] / speed_ : 0;
     miss_.piece = scene_.piece(slot);
@@ -182,7 +182,8 @@ AssemblyMiss AssemblyOracle::miss_distance(const Eigen::Vector3d& w, double tole
                                            effort != nullptr ? *effort : unused)
                           .run();
   if (state_->relation != Relation::disjoint) {
-    miss.least = miss.most = 0;
+    miss.least = 0;
+    if (state_->decided) miss.most = 0;
     miss.normal.setZero();
   }
   return miss;

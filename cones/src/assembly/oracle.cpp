@@ -4,6 +4,7 @@
 #include "answers/velocity_ladder.h"
 #include "assembly/gap.h"
 #include "assembly/state.h"
+#include "round/undecided.h"
 
 namespace vericone {
 using namespace assembly;
@@ -15,11 +16,12 @@ struct ApexResidual {
   Eigen::Vector3d operator()(const Eigen::Vector3d& y) const { return y; }
 };
 
-Relation find_relation(const Scene& scene) {
+/// Nothing where it hangs on a piece that is not decided.
+std::optional<Relation> find_relation(const Scene& scene) {
   const Directions apex{};
   const BoxTest test(scene.frame(), apex, ApexResidual{});
   const auto nodes = scene.nodes();
-  Relation relation = Relation::disjoint;
+  std::optional<Relation> relation = Relation::disjoint;
   std::vector<exact::Generators> covered;
   std::vector<std::uint32_t> stack{0};
   while (!stack.empty()) {
@@ -36,23 +38,28 @@ Relation find_relation(const Scene& scene) {
       const Gap found = gap(core, apex, core.center().isZero(0) ? Eigen::Vector3d::UnitX() : core.center());
       if (found.answer == Gap::Answer::apart) continue;
       if (found.answer == Gap::Answer::met) return Relation::overlapping;
-      const Relation exact = scene.exact_relation(slot, &covered);
+      const std::optional<Relation> exact = scene.exact_relation(slot, &covered);
       if (exact == Relation::overlapping) return exact;
-      if (exact == Relation::touching) relation = exact;
+      if (exact != Relation::disjoint && relation) relation = exact;
     }
   }
   return covered.size() > 1 && exact::cover_space(covered) ? Relation::overlapping : relation;
 }
 
-Membership find_membership(const Scene& scene, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
-                           Effort& effort) {
+/// One piece more: `in` counts for all, then one that is not decided.
+void take(const std::optional<Membership>& one, std::optional<Membership>& answer) {
+  if (one == Membership::in || (one != Membership::out && answer)) answer = one;
+}
+
+std::optional<Membership> find_membership(const Scene& scene, const Eigen::Vector3d& v_a,
+                                          const Eigen::Vector3d& v_b, Effort& effort) {
   Eigen::Vector3d w = v_a - v_b;
   if (w.isZero(0)) return Membership::out;  // differences of doubles vanish only where they are equal
   if (!w.allFinite()) w = 0.5 * v_a - 0.5 * v_b;
   const Slabs slabs(scene.frame(), scene.body().bounds(), w);
   const Directions ray(scene.frame(), {w});
   const BoxTest test(scene.frame(), ray, RayResidual{ray.ray[0]});
-  Membership answer = Membership::out;
+  std::optional<Membership> answer = Membership::out;
   std::vector<exact::Sector> covered;
   const double limit = std::numeric_limits<double>::infinity();
   along_ray(scene, slabs, test, limit, effort, [&](std::uint32_t slot, double) {
@@ -69,20 +76,20 @@ Membership find_membership(const Scene& scene, const Eigen::Vector3d& v_a, const
       return false;
     }
     ++effort.exact;
-    const Membership exact = scene.exact_membership(slot, v_a, v_b, &covered);
-    if (exact != Membership::out) answer = exact;
+    const std::optional<Membership> exact = scene.exact_membership(slot, v_a, v_b, &covered);
+    take(exact, answer);
     return exact != Membership::in;
   });
-  return answer == Membership::on && exact::cover_plane(covered) ? Membership::in : answer;
+  return answer == Membership::on && exact::cover_plane(covered) ? std::optional(Membership::in) : answer;
 }
 
 /// `stretch`: in the obstacle's frame.
-Membership find_within(const Scene& scene, const Stretch& stretch, Effort& effort) {
+std::optional<Membership> find_within(const Scene& scene, const Stretch& stretch, Effort& effort) {
   const Eigen::Vector3d w = stretch.v_a - stretch.v_b;
   const Slabs slabs(scene.frame(), scene.body().bounds(), w, stretch.from, stretch.until);
   const Directions ray(scene.frame(), {w});
   const BoxTest test(scene.frame(), ray, RayResidual{ray.ray[0]});
-  Membership answer = Membership::out;
+  std::optional<Membership> answer = Membership::out;
   std::vector<exact::Generators> covered;
   const double limit = std::numeric_limits<double>::infinity();
   along_ray(scene, slabs, test, limit, effort, [&](std::uint32_t slot, double) {
@@ -90,15 +97,16 @@ Membership find_within(const Scene& scene, const Stretch& stretch, Effort& effor
     if (std::isinf(slabs.enter(box.low.data(), box.high.data())) || test.apart(box.low, box.high))
       return true;
     ++effort.pieces;
-    const Membership one = met_within(scene.core(slot), slabs.clipped(stretch, box), [&] {
+    const std::optional<Membership> one = met_within(scene.core(slot), slabs.clipped(stretch, box), [&] {
       ++effort.exact;
       return scene.exact_within(slot, stretch, covered);
     });
-    if (one != Membership::out) answer = one;
+    take(one, answer);
     return one != Membership::in;
   });
-  return covered.size() > 1 && answer == Membership::on && exact::cover_space(covered) ? Membership::in
-                                                                                       : answer;
+  return covered.size() > 1 && answer == Membership::on && exact::cover_space(covered)
+             ? std::optional(Membership::in)
+             : answer;
 }
 
 }  // namespace
@@ -106,12 +114,17 @@ Membership find_within(const Scene& scene, const Stretch& stretch, Effort& effor
 AssemblyOracle::AssemblyOracle(const Ellipsoid& agent, const Assembly& obstacle, const Pose& pose,
                                const Eigen::Vector3d& agent_at)
     : state_(std::make_unique<State>(agent, agent_at, obstacle, pose)) {
-  state_->relation = find_relation(*state_);
+  state_->set(find_relation(*state_));
+}
+AssemblyOracle::AssemblyOracle(const Convex& agent, const Assembly& obstacle, const Pose& pose,
+                               const Eigen::Vector3d& agent_at)
+    : state_(std::make_unique<State>(agent, agent_at, obstacle, pose)) {
+  state_->set(find_relation(*state_));
 }
 AssemblyOracle::AssemblyOracle(const HullBody& agent, const Assembly& obstacle, const Pose& pose,
                                const Eigen::Vector3d& agent_at)
     : state_(std::make_unique<State>(agent, agent_at, obstacle, pose)) {
-  state_->relation = find_relation(*state_);
+  state_->set(find_relation(*state_));
 }
 AssemblyOracle::~AssemblyOracle() = default;
 AssemblyOracle::AssemblyOracle(AssemblyOracle&&) noexcept = default;
@@ -119,6 +132,17 @@ AssemblyOracle& AssemblyOracle::operator=(AssemblyOracle&&) noexcept = default;
 
 const Assembly& AssemblyOracle::obstacle() const { return state_->body(); }
 Relation AssemblyOracle::relation() const { return state_->relation; }
+bool AssemblyOracle::decided() const { return state_->decided; }
+
+namespace {
+
+/// What is not decided is undecided of the whole; verdicts say so.
+Membership known(const std::optional<Membership>& answer) {
+  if (!answer) throw round::Undecided{};
+  return *answer;
+}
+
+}  // namespace
 
 Membership AssemblyOracle::membership(const Eigen::Vector3d& w, Effort* effort) const {
   return membership(w, Eigen::Vector3d::Zero(), effort);
@@ -131,21 +155,28 @@ Membership AssemblyOracle::membership(const Eigen::Vector3d& v_a, const Eigen::V
   Effort unused;
   Effort& count = effort != nullptr ? *effort : unused;
   if (state_->relation != Relation::disjoint) return v_a == v_b ? Membership::out : Membership::in;
-  if (state_->upright()) return find_membership(*state_, v_a, v_b, count);
-  return find_membership(*state_, state_->to_body(v_a - v_b), Eigen::Vector3d::Zero(), count);
+  if (state_->upright()) return known(find_membership(*state_, v_a, v_b, count));
+  return known(find_membership(*state_, state_->to_body(v_a - v_b), Eigen::Vector3d::Zero(), count));
 }
 
 Verdict AssemblyOracle::verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const {
-  return verdict_of(state_->relation, [&] { return membership(v_a, v_b); });
+  if (!state_->decided) return Verdict::undecided;
+  try {
+    return verdict_of(state_->relation, [&] { return membership(v_a, v_b); });
+  } catch (const round::Undecided&) {
+    return Verdict::undecided;
+  }
 }
 
 Verdict AssemblyOracle::verdict(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
                                 const Horizon& horizon, Effort* effort) const {
-  return verdict_within(state_->relation, v_a, v_b, horizon, [&](Stretch stretch) {
+  const auto now = state_->decided ? std::optional(state_->relation) : std::nullopt;
+  return verdict_within(now, v_a, v_b, horizon, [&](Stretch stretch) {
     if (!state_->upright())
       stretch = {state_->to_body(v_a - v_b), Eigen::Vector3d::Zero(), stretch.from, stretch.until};
     Effort unused;
-    return to_verdict(find_within(*state_, stretch, effort != nullptr ? *effort : unused));
+    const auto answer = find_within(*state_, stretch, effort != nullptr ? *effort : unused);
+    return answer ? to_verdict(*answer) : Verdict::undecided;
   });
 }
 

@@ -2,9 +2,11 @@
 #include "assembly/scene.h"
 
 #include <vericone/internal/cones/hulls/hull_oracle.h>
+#include <vericone/internal/cones/round/round_oracle.h>
 #include <vericone/internal/geometry/rotation.h>
 
 #include "ellipsoids/apart.h"
+#include "round/seam.h"
 
 namespace vericone::assembly {
 
@@ -34,11 +36,23 @@ HullBody in_obstacle_frame(const HullBody& agent, const Eigen::Vector3d& at, con
   return HullBody(std::move(points));
 }
 
+Convex in_obstacle_frame(const Convex& agent, const Eigen::Vector3d& at, const Pose& pose) {
+  if (is_upright(pose)) return agent;
+  return in_world(agent, {pose.to_body(at), pose.rotation.transpose()});
+}
+
+Convex convex_agent(const Scene& scene) {
+  if (scene.ellipsoid() != nullptr) return Convex::rounded(*scene.ellipsoid(), 0);
+  return scene.hull() != nullptr ? Convex::rounded(*scene.hull(), 0) : *scene.convex();
+}
+
 /// Calls ask() with the exact oracle of the agent and the piece.
 template <class Ask>
 auto with_oracle(const Scene& scene, std::uint32_t slot, Ask&& ask) {
   const Assembly& body = scene.body();
   const Place& at = scene.place();
+  if (scene.convex() != nullptr || body.kind() == PieceKind::convex)
+    return ask(RoundOracle(convex_agent(scene), body.convex_piece(scene.piece(slot)), at.agent, at.obstacle));
   const auto hull = [&](HullBody piece) {
     return scene.ellipsoid() != nullptr ? ask(HullOracle(*scene.ellipsoid(), piece, at.agent, at.obstacle))
                                         : ask(HullOracle(*scene.hull(), piece, at.agent, at.obstacle));
@@ -55,6 +69,7 @@ auto with_oracle(const Scene& scene, std::uint32_t slot, Ask&& ask) {
     case PieceKind::hull:
       return hull(body.by_slot().hulls[slot]);
     case PieceKind::ball:
+    case PieceKind::convex:
       break;
   }
   const Eigen::Vector3d& center = body.by_slot().balls[slot];
@@ -87,6 +102,16 @@ Scene::Scene(const HullBody& agent, const Eigen::Vector3d& at, const Assembly& b
   check_range();
 }
 
+Scene::Scene(const Convex& agent, const Eigen::Vector3d& at, const Assembly& body, const Pose& pose)
+    : body_(body),
+      pose_(pose),
+      upright_(is_upright(pose)),
+      place_(place_of(at, pose)),
+      convex_(in_obstacle_frame(agent, at, pose)),
+      frame_(*convex_, place_) {
+  check_range();
+}
+
 void Scene::check_range() { frame_.check_range(largest()); }
 
 double Scene::largest() const {
@@ -108,9 +133,11 @@ Core piece_core(const Frame& frame, const Assembly& body, std::uint32_t slot, do
       return Core::of_points(frame, corners.points().data(), 8, radius);
     }
     case PieceKind::hull:
+      return Core::of_points(frame, storage.hulls[slot].points().data(), storage.hulls[slot].size(), radius);
+    case PieceKind::convex:
       break;
   }
-  return Core::of_points(frame, storage.hulls[slot].points().data(), storage.hulls[slot].size(), radius);
+  return Core::of_convex(frame, storage.convexes[slot], radius);
 }
 
 Box piece_box(const Assembly& body, std::uint32_t slot) {
@@ -128,6 +155,8 @@ Box piece_box(const Assembly& body, std::uint32_t slot) {
     }
     case PieceKind::box:
       return storage.boxes[slot];
+    case PieceKind::convex:
+      return storage.convexes[slot].bounds();
     case PieceKind::hull:
       break;
   }
@@ -136,11 +165,15 @@ Box piece_box(const Assembly& body, std::uint32_t slot) {
   return box;
 }
 
-Membership Scene::exact_membership(std::uint32_t slot, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
-                                   std::vector<exact::Sector>* covered) const {
-  return with_oracle(*this, slot, [&](const auto& oracle) {
-    if (oracle.relation() != Relation::disjoint) return Membership::in;
-    const Membership answer = oracle.membership(v_a, v_b);
+std::optional<Membership> Scene::exact_membership(std::uint32_t slot, const Eigen::Vector3d& v_a,
+                                                  const Eigen::Vector3d& v_b,
+                                                  std::vector<exact::Sector>* covered) const {
+  return with_oracle(*this, slot, [&](const auto& oracle) -> std::optional<Membership> {
+    const auto now = known_relation(oracle);
+    if (!now) return std::nullopt;
+    if (*now != Relation::disjoint) return Membership::in;
+    const std::optional<Membership> answer = known_membership(oracle, v_a, v_b);
+    if (answer == Membership::on && body_.size() > 1 && may_join(oracle)) return std::nullopt;
     if (covered != nullptr && answer == Membership::on && is_flat_agent())
       if (const HullScene* hulls = exact::two_hulls(oracle))
         if (const auto sector = exact::image(exact::generators(*hulls),
@@ -150,19 +183,23 @@ Membership Scene::exact_membership(std::uint32_t slot, const Eigen::Vector3d& v_
   });
 }
 
-Relation Scene::exact_relation(std::uint32_t slot, std::vector<exact::Generators>* covered) const {
-  return with_oracle(*this, slot, [&](const auto& oracle) {
+std::optional<Relation> Scene::exact_relation(std::uint32_t slot,
+                                              std::vector<exact::Generators>* covered) const {
+  return with_oracle(*this, slot, [&](const auto& oracle) -> std::optional<Relation> {
+    if (oracle.relation() == Relation::touching && body_.size() > 1 && may_join(oracle)) return std::nullopt;
     if (covered != nullptr && oracle.relation() == Relation::touching && is_flat_agent())
       if (const HullScene* hulls = exact::two_hulls(oracle)) covered->push_back(exact::generators(*hulls));
     return oracle.relation();
   });
 }
 
-Membership Scene::exact_within(std::uint32_t slot, const Stretch& stretch,
-                               std::vector<exact::Generators>& covered) const {
-  return with_oracle(*this, slot, [&](const auto& oracle) {
+std::optional<Membership> Scene::exact_within(std::uint32_t slot, const Stretch& stretch,
+                                              std::vector<exact::Generators>& covered) const {
+  return with_oracle(*this, slot, [&](const auto& oracle) -> std::optional<Membership> {
     exact::Generators cone;
-    const Membership answer = exact::within(oracle, stretch, is_flat_agent() ? &cone : nullptr);
+    const std::optional<Membership> answer =
+        exact::within(oracle, stretch, is_flat_agent() ? &cone : nullptr);
+    if (answer == Membership::on && body_.size() > 1 && may_join(oracle)) return std::nullopt;
     if (!cone.empty()) covered.push_back(std::move(cone));
     return answer;
   });

@@ -31,6 +31,7 @@ class Scene {
  public:
   Scene(const Ellipsoid& agent, const Eigen::Vector3d& at, const Assembly& body, const Pose& pose);
   Scene(const HullBody& agent, const Eigen::Vector3d& at, const Assembly& body, const Pose& pose);
+  Scene(const Convex& agent, const Eigen::Vector3d& at, const Assembly& body, const Pose& pose);
 
   const Frame& frame() const { return frame_; }
   const Assembly& body() const { return body_; }
@@ -59,13 +60,15 @@ class Scene {
   Box slot_box(std::uint32_t slot) const { return piece_box(body_, slot); }
 
   /// The piece's own exact predicates. `w` = v_a - v_b in the obstacle's frame. `covered`: where a flat agent
-  /// touches the piece, what that covers is added.
-  Membership exact_membership(std::uint32_t slot, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
-                              std::vector<exact::Sector>* covered = nullptr) const;
-  Relation exact_relation(std::uint32_t slot, std::vector<exact::Generators>* covered = nullptr) const;
+  /// touches the piece, what that covers is added. Nothing where the last rung has no answer.
+  std::optional<Membership> exact_membership(std::uint32_t slot, const Eigen::Vector3d& v_a,
+                                             const Eigen::Vector3d& v_b,
+                                             std::vector<exact::Sector>* covered = nullptr) const;
+  std::optional<Relation> exact_relation(std::uint32_t slot,
+                                         std::vector<exact::Generators>* covered = nullptr) const;
   /// On a stretch in the obstacle's frame.
-  Membership exact_within(std::uint32_t slot, const Stretch& stretch,
-                          std::vector<exact::Generators>& covered) const;
+  std::optional<Membership> exact_within(std::uint32_t slot, const Stretch& stretch,
+                                         std::vector<exact::Generators>& covered) const;
   /// When it is first touched along w, which meets it: s, rounded down and up; nothing where that is not
   /// known.
   std::optional<std::pair<double, double>> exact_time(std::uint32_t slot, const Eigen::Vector3d& w) const;
@@ -76,6 +79,7 @@ class Scene {
   /// Of the agent; the one that there is.
   const Ellipsoid* ellipsoid() const { return ellipsoid_ ? &*ellipsoid_ : nullptr; }
   const HullBody* hull() const { return hull_ ? &*hull_ : nullptr; }
+  const Convex* convex() const { return convex_ ? &*convex_ : nullptr; }
 
  private:
   void check_range();
@@ -87,6 +91,7 @@ class Scene {
   Place place_;
   std::optional<Ellipsoid> ellipsoid_;
   std::optional<HullBody> hull_;
+  std::optional<Convex> convex_;
   Frame frame_;
 };
 
@@ -268,7 +273,7 @@ class Slabs {
 
 /// What comes of asking one pair of pieces about a stretch: proved by doubles, or by asking `exact()`.
 template <class Exact>
-Membership met_within(Core core, const Stretch& stretch, const Exact& exact) {
+std::optional<Membership> met_within(Core core, const Stretch& stretch, const Exact& exact) {
   core.stretch(stretch.way(stretch.from), stretch.way(stretch.until));
   switch (gap(core, Directions{}, core.away()).answer) {
     case Gap::Answer::apart:

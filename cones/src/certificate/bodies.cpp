@@ -45,6 +45,13 @@ void Stated::take(const HullBody& body, const Pose& pose) {
   points_ = is_upright(pose) ? body.points() : in_world(body, pose).points();
 }
 
+void Stated::take(const vericone::Convex& body, const Pose& pose) {
+  has_words_ = body.is_hull();
+  std::vector<Vector3d> points;
+  for (const auto& piece : body.pieces()) points.push_back(piece.center);
+  take(HullBody(std::move(points)), pose);
+}
+
 void Stated::take(const std::vector<CombinedEllipsoid>& bodies, const Pose& pose) {
   kind_ = Kind::quadrics;
   count_ = bodies.size();
@@ -73,6 +80,9 @@ void Stated::take(const Assembly& body, const Pose& pose) {
     case PieceKind::hull:
       kind_ = Kind::hulls;
       in_order(storage.hulls, hulls_);
+      break;
+    case PieceKind::convex:
+      has_words_ = false;
       break;
     case PieceKind::box:
       kind_ = rounded_ ? Kind::hulls : Kind::boxes;

@@ -46,6 +46,9 @@ class Stated {
   [[nodiscard]] const std::vector<Eigen::Vector3d>& points() const { return points_; }
   [[nodiscard]] const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return triangles_; }
 
+  /// Whether certificates have words for it: not for round parts beside others.
+  [[nodiscard]] bool has_words() const { return has_words_; }
+
   /// With its velocity, or none.
   void write(Text& text, const Eigen::Vector3d* velocity) const;
 
@@ -55,6 +58,7 @@ class Stated {
   void take(const HullBody& body, const Pose& pose);
   void take(const Assembly& body, const Pose& pose);
   void take(const std::vector<CombinedEllipsoid>& bodies, const Pose& pose);
+  void take(const vericone::Convex& body, const Pose& pose);
   void take_triangles(const Assembly& body);
   void write_quadric(Text& text, const CombinedEllipsoid& body) const;
   void write_center(Text& text, const Eigen::Vector3d& own) const;
@@ -63,7 +67,7 @@ class Stated {
   Kind kind_ = Kind::quadric;
   std::size_t count_ = 1;
   Eigen::Vector3d at_ = Eigen::Vector3d::Zero();
-  bool rounded_ = false;
+  bool rounded_ = false, has_words_ = true;
   double radius_ = 0;
   std::vector<CombinedEllipsoid> quadrics_;
   std::vector<Eigen::Vector3d> points_;

@@ -31,6 +31,12 @@ Assembly moved(const Assembly& body, const Pose& from, const Pose& to) {
   std::vector<Eigen::Vector3d> points;
   std::vector<Assembly::Triangle> triangles;
   std::vector<HullBody> hulls;
+  if (body.kind() == PieceKind::convex) {
+    std::vector<Convex> convexes;
+    const Pose across = composed(inverse(to), from);
+    for (std::size_t i = 0; i < body.size(); ++i) convexes.push_back(in_world(body.convex_piece(i), across));
+    return Assembly::convexes(std::move(convexes));
+  }
   for (std::size_t i = 0; i < body.size(); ++i) {
     std::vector<Eigen::Vector3d> piece = body.piece(i).points();
     for (Eigen::Vector3d& x : piece) x = to.to_body(from.to_world(x));
@@ -100,6 +106,8 @@ CompositePair::CompositePair(const Assembly& agent, const Pose& agent_pose, cons
     state->frames.reserve(state->agent->size());
     for (const HullBody& hull : state->agent->by_slot().hulls) state->frames.push_back(state->frame(hull));
   }
+  if (state->agent->kind() == PieceKind::convex)
+    for (const Convex& body : state->agent->by_slot().convexes) state->frames.push_back(state->frame(body));
   state->relation = composite::pieces_relation(*state);
   state_ = std::move(state);
 }

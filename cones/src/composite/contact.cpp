@@ -44,7 +44,8 @@ Found contact_of_pieces(const State& state, const ContactMeasure& measure, const
     const Gap found = gap(core, ray, first_normal(core, ray));
     if (found.answer != Gap::Answer::close) return found.answer == Gap::Answer::met;
     return with_exact_oracle(state, i, j, [&](const auto& oracle) {
-      return oracle.relation() != Relation::disjoint || oracle.membership(w) != Membership::out;
+      return oracle.relation() != Relation::disjoint ||
+             known_membership(oracle, w, Eigen::Vector3d::Zero()) != Membership::out;
     });
   };
   return least_of_pieces(
@@ -96,7 +97,8 @@ Found contact_of_cells(const State& state, const ContactMeasure& measure, const 
 Found ContactMeasure::of_piece(const Frame& frame, const Core& core, double limit,
                                const std::function<Seconds()>& exact_time) const {
   Found found;
-  auto contact = piece_contact(frame, core, state_.obstacle.radius(), d_, limit);
+  const double radius = core.own_radius() - (state_.agent ? state_.agent->radius() : 0);
+  auto contact = piece_contact(frame, core, radius, d_, limit);
   if (!contact) return found;
   if (exact_time && contact->is_wide()) contact->refine(exact_time(), slabs_.scale());
   found.least = contact->earliest;
@@ -125,8 +127,10 @@ Found MissMeasure::of_piece(const Frame& frame, const Core& core, double limit) 
   found.least = std::max(0.0, near.least - radius);
   const Eigen::Vector3d n = near.v.isZero(0) ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : near.v.normalized();
   if (!n.isZero(0)) found.normal = n;
-  found.point = frame.to_space(near.on_piece) - state_.obstacle.radius() * n;
-  found.other = frame.to_space(near.on_piece - near.k) + (state_.agent ? state_.agent->radius() : 0) * n;
+  // What rounds the agent's balls is part of the core's radius, what rounds its other pieces of the frame.
+  const double ball = state_.agent ? state_.agent->radius() : 0;
+  found.point = frame.to_space(near.on_piece) - (core.own_radius() - ball) * n;
+  found.other = frame.to_space(near.on_piece - near.k) + (ball + frame.outer()) * n;
   if (speed_ > 0) found.time = near.along[0] / speed_;
   return found;
 }

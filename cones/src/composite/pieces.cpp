@@ -26,6 +26,9 @@ PieceFrame::PieceFrame(const State& state, std::uint32_t slot) : state_(&state) 
     case PieceKind::hull:
       own_ = state.frame(storage.hulls[slot]);
       break;
+    case PieceKind::convex:
+      own_ = state.frame(storage.convexes[slot]);
+      break;
   }
   frame_ = &*own_;
 }
@@ -90,12 +93,12 @@ bool plane_between(const State& state, const exact::Generators& cone) {
 
 }  // namespace
 
-Relation pieces_relation(const State& state) {
+std::optional<Relation> pieces_relation(const State& state) {
   const Directions apex{};
   Relation relation = Relation::disjoint;
   std::vector<exact::Touched<exact::Generators>> touched;
   std::size_t count = 0;
-  bool apart = false;
+  bool apart = false, decided = true;
   const auto enter = [&](const Box& box) {
     return state.holds_apex(box) ? 0 : std::numeric_limits<double>::infinity();
   };
@@ -105,7 +108,9 @@ Relation pieces_relation(const State& state) {
     const Gap found = gap(core, apex, first_normal(core, apex));
     if (found.answer == Gap::Answer::apart) return true;
     const auto ask = [&](const auto& oracle) {
-      if (oracle.relation() != Relation::touching) return oracle.relation();
+      const std::optional<Relation> own = oracle.relation();
+      if (!own || (*own == Relation::touching && may_join(state, oracle))) decided = false;
+      if (own != Relation::touching) return own.value_or(Relation::touching);
       const HullScene* hulls = exact::two_hulls(oracle);
       if (hulls == nullptr) return Relation::touching;
       const exact::Generators cone = exact::generators(*hulls);
@@ -120,17 +125,19 @@ Relation pieces_relation(const State& state) {
     return exact != Relation::overlapping && !apart;
   });
   if (apart) return relation;
+  if (!decided && relation != Relation::overlapping) return std::nullopt;
   if (relation == Relation::touching && covered_together(std::move(touched), exact::cover_space))
     return Relation::overlapping;
   return relation;
 }
 
-Membership pieces_membership(const State& state, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
-                             Effort& effort) {
+std::optional<Membership> pieces_membership(const State& state, const Eigen::Vector3d& v_a,
+                                            const Eigen::Vector3d& v_b, Effort& effort) {
   const Eigen::Vector3d w = relative_velocity(v_a, v_b);
   const Slabs slabs(state.zero, difference(state.agent_bounds(), state.obstacle.bounds()), w);
   const Directions ray(state.zero, {w});
   Membership answer = Membership::out;
+  bool decided = true;
   std::vector<exact::Touched<exact::Sector>> touched;
   const auto enter = [&](const Box& box) { return slabs.enter(box.low.data(), box.high.data()); };
   for_each_pair(state, enter, [&](std::uint32_t i, std::uint32_t j) {
@@ -143,7 +150,10 @@ Membership pieces_membership(const State& state, const Eigen::Vector3d& v_a, con
     const Membership exact = found.answer == Gap::Answer::met
                                  ? Membership::in
                                  : with_exact_oracle(state, i, j, [&](const auto& oracle) {
-                                     const Membership own = oracle.membership(v_a, v_b);
+                                     const auto known = known_membership(oracle, v_a, v_b);
+                                     if (!known || (*known == Membership::on && may_join(state, oracle)))
+                                       decided = false;
+                                     const Membership own = known.value_or(Membership::on);
                                      if (const HullScene* hulls = exact::two_hulls(oracle);
                                          hulls != nullptr && own == Membership::on)
                                        if (const auto sector = exact::image(
@@ -155,30 +165,37 @@ Membership pieces_membership(const State& state, const Eigen::Vector3d& v_a, con
     if (exact != Membership::out) answer = exact;
     return exact != Membership::in;
   });
+  if (!decided && answer != Membership::in) return std::nullopt;
   if (answer == Membership::on && covered_together(std::move(touched), exact::cover_plane))
     return Membership::in;
   return answer;
 }
 
-Membership pieces_within(const State& state, const Stretch& stretch) {
+std::optional<Membership> pieces_within(const State& state, const Stretch& stretch) {
   const Slabs slabs(state.zero, difference(state.agent_bounds(), state.obstacle.bounds()),
                     stretch.v_a - stretch.v_b, stretch.from, stretch.until);
   Membership answer = Membership::out;
+  bool decided = true;
   std::vector<exact::Touched<exact::Generators>> touched;
   const auto enter = [&](const Box& box) { return slabs.enter(box.low.data(), box.high.data()); };
   for_each_pair(state, enter, [&](std::uint32_t i, std::uint32_t j) {
     const PieceFrame piece(state, i);
     const Box box = difference(piece_box(*state.agent, i), piece_box(state.obstacle, j));
-    const Membership one = met_within(piece.core(j), slabs.clipped(stretch, box), [&] {
+    const std::optional<Membership> one = met_within(piece.core(j), slabs.clipped(stretch, box), [&] {
       exact::Generators cone;
-      const Membership exact = with_exact_oracle(
-          state, i, j, [&](const auto& oracle) { return exact::within(oracle, stretch, &cone); });
+      const auto exact = with_exact_oracle(state, i, j, [&](const auto& oracle) -> std::optional<Membership> {
+        const std::optional<Membership> own = exact::within(oracle, stretch, &cone);
+        if (own == Membership::on && may_join(state, oracle)) return std::nullopt;
+        return own;
+      });
       if (exact::has_interior(cone)) touch(state, i, j, std::move(cone), touched);
       return exact;
     });
-    if (one != Membership::out) answer = one;
+    if (!one) decided = false;
+    if (one != Membership::out) answer = one.value_or(Membership::on);
     return one != Membership::in;
   });
+  if (!decided && answer != Membership::in) return std::nullopt;
   if (answer == Membership::on && covered_together(std::move(touched), exact::cover_space))
     return Membership::in;
   return answer;

@@ -4,11 +4,13 @@
 #pragma once
 
 #include <vericone/internal/cones/hulls/hull_oracle.h>
+#include <vericone/internal/cones/round/round_oracle.h>
 #include <optional>
 #include <vector>
 
 #include "composite/state.h"
 #include "ellipsoids/apart.h"
+#include "round/seam.h"
 
 namespace vericone::composite {
 
@@ -40,6 +42,9 @@ auto with_exact_oracle(const State& state, std::uint32_t agent_slot, std::uint32
   };
   const Assembly &a = *state.agent, &b = state.obstacle;
   const Eigen::Vector3d &a_at = state.place.agent, &b_at = state.place.obstacle;
+  if (a.kind() == PieceKind::convex || b.kind() == PieceKind::convex)
+    return ask(RoundOracle(a.convex_piece(a.hierarchy().order()[agent_slot]),
+                           b.convex_piece(b.hierarchy().order()[obstacle_slot]), a_at, b_at));
   if (a.radius() > 0 && b.radius() > 0) {
     const auto pair = apart(ball(a, agent_slot), a_at, ball(b, obstacle_slot), b_at);
     return ask(ConeOracle(pair.a, pair.b));
@@ -47,6 +52,12 @@ auto with_exact_oracle(const State& state, std::uint32_t agent_slot, std::uint32
   if (a.radius() > 0) return ask(HullOracle(ball(a, agent_slot), points(b, obstacle_slot), a_at, b_at));
   if (b.radius() > 0) return ask(HullOracle(points(a, agent_slot), ball(b, obstacle_slot), a_at, b_at));
   return ask(HullOracle(points(a, agent_slot), points(b, obstacle_slot), a_at, b_at));
+}
+
+/// Whether other pieces may make an overlap of a touch, and it is not known whether they do.
+template <class Oracle>
+bool may_join(const State& state, const Oracle& oracle) {
+  return (state.agent->size() > 1 || state.obstacle.size() > 1) && vericone::may_join(oracle);
 }
 
 /// Adds what two pieces that touch cover, see covered_together(); unless both are solid.

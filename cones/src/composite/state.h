@@ -55,6 +55,11 @@ struct CompositePair::State {
     made.check_range(largest);
     return made;
   }
+  assembly::Frame frame(const Convex& body) const {
+    assembly::Frame made(body, place);
+    made.check_range(largest);
+    return made;
+  }
   /// Whether the difference of two boxes, less the place, may hold 0. Boxes that are not numbers may.
   bool holds_apex(const Box& difference) const {
     const Eigen::Vector3d &apex = zero.origin(), low = difference.low - apex, high = difference.high - apex;
@@ -83,9 +88,9 @@ inline Eigen::Vector3d first_normal(const assembly::Core& core, const assembly::
   return core.center().isZero(0) ? Eigen::Vector3d(Eigen::Vector3d::UnitX()) : core.center();
 }
 
-/// How the two lie (delimited bodies: nothing where it is not decided).
+/// How the two lie; nothing where it is not decided.
 std::optional<Relation> delimited_relation(const State& state);
-Relation pieces_relation(const State& state);
+std::optional<Relation> pieces_relation(const State& state);
 
 /// v_a - v_b, or half of it where that is beyond the range of doubles. Directions have room for its rounding.
 inline Eigen::Vector3d relative_velocity(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) {
@@ -96,12 +101,12 @@ inline Eigen::Vector3d relative_velocity(const Eigen::Vector3d& v_a, const Eigen
 /// Velocities in the obstacle's frame, not equal, where the relation is disjoint or not known.
 std::optional<Membership> delimited_membership(const State& state, const Eigen::Vector3d& v_a,
                                                const Eigen::Vector3d& v_b);
-Membership pieces_membership(const State& state, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
-                             Effort& effort);
+std::optional<Membership> pieces_membership(const State& state, const Eigen::Vector3d& v_a,
+                                            const Eigen::Vector3d& v_b, Effort& effort);
 
 /// On a stretch in the obstacle's frame, however they lie now.
 std::optional<Membership> delimited_within(const State& state, const Stretch& stretch);
-Membership pieces_within(const State& state, const Stretch& stretch);
+std::optional<Membership> pieces_within(const State& state, const Stretch& stretch);
 
 }  // namespace composite
 }  // namespace vericone

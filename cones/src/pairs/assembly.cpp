@@ -3,6 +3,7 @@
 // A convex agent against hulls and assemblies: exact.
 #include <vericone/internal/cones/assembly/assembly_sectors.h>
 #include <vericone/internal/cones/hulls/hull_sectors.h>
+#include <vericone/internal/cones/round/round_oracle.h>
 #include <cmath>
 #include <type_traits>
 
@@ -22,8 +23,10 @@ class AssemblyFamily : public Family {
         axis_(pose.to_world(obstacle.bounds().center()) - (middle(agent.body) + agent.at)),
         size_(size_of(agent.body)) {}
 
-  Guarantee guarantee() const override { return {true, 0, "assembly"}; }
-  std::optional<Relation> relation() const override { return oracle_->relation(); }
+  Guarantee guarantee() const override { return {oracle_->decided(), 0, "assembly"}; }
+  std::optional<Relation> relation() const override {
+    return oracle_->decided() ? std::optional(oracle_->relation()) : std::nullopt;
+  }
   Verdict verdict(const Vector3d& v_a, const Vector3d& v_b) const override {
     return oracle_->verdict(v_a, v_b);
   }
@@ -40,7 +43,7 @@ class AssemblyFamily : public Family {
   Contact contact(const Vector3d& v_a, const Vector3d& v_b) const override {
     Contact contact;
     if (oracle_->relation() != Relation::disjoint) {
-      contact.latest = 0;
+      if (oracle_->decided()) contact.latest = 0;
       return contact;
     }
     contact.time = std::numeric_limits<double>::quiet_NaN();
@@ -90,6 +93,7 @@ class AssemblyFamily : public Family {
     return std::isfinite(open) && (open <= kOfTime * contact.latest || open * w.norm() <= kOfSize * size_);
   }
 
+  static double size_of(const Convex& agent) { return agent.bounds().half_widths().maxCoeff(); }
   static double size_of(const Ellipsoid& agent) { return agent.factor().rowwise().norm().maxCoeff(); }
   static double size_of(const HullBody& agent) {
     Vector3d low = agent.points().front(), high = low;
@@ -97,6 +101,7 @@ class AssemblyFamily : public Family {
     return 0.5 * (high - low).maxCoeff();
   }
 
+  static Vector3d middle(const Convex& agent) { return agent.middle(); }
   static Vector3d middle(const Ellipsoid& agent) { return agent.center(); }
   /// In the hull, even where it has few points.
   static Vector3d middle(const HullBody& agent) {
@@ -159,8 +164,73 @@ class Hulls : public AssemblyFamily {
   HullOracle hulls_;
 };
 
+/// Verdicts and relation by the predicate of convex bodies; all else as an assembly of one of them.
+class Convexes : public AssemblyFamily {
+ public:
+  Convexes(const Standing<Convex>& agent, const Standing<Convex>& obstacle)
+      : AssemblyFamily(agent, Assembly::convexes({obstacle.body}), Pose{obstacle.at}),
+        convexes_(agent.body, obstacle.body, agent.at, obstacle.at) {
+    axis_ = (middle(obstacle.body) + obstacle.at) - (middle(agent.body) + agent.at);
+  }
+
+  Guarantee guarantee() const override { return {convexes_.relation().has_value(), 0, "convex"}; }
+  std::optional<Relation> relation() const override { return convexes_.relation(); }
+  Verdict verdict(const Vector3d& v_a, const Vector3d& v_b) const override {
+    return convexes_.verdict(v_a, v_b);
+  }
+  /// What never meets is told by the predicate; when the others do, by the assembly.
+  Verdict verdict(const Vector3d& v_a, const Vector3d& v_b, const Horizon& horizon) const override {
+    const bool ahead = horizon.from == 0 && convexes_.relation() == Relation::disjoint;
+    if (ahead && convexes_.surely_out(v_a, v_b, horizon)) return Verdict::out;
+    if (const auto found = ahead ? first_contact(v_a, v_b) : std::nullopt) {
+      const double room = 0x1p-40 * found->latest;  // the difference of velocities was rounded
+      if (found->latest + room < horizon.until) return Verdict::in;
+      if (found->earliest - room > horizon.until) return Verdict::out;
+    }
+    return AssemblyFamily::verdict(v_a, v_b, horizon);
+  }
+  Contact contact(const Vector3d& v_a, const Vector3d& v_b) const override {
+    const auto found = first_contact(v_a, v_b);
+    if (!found) return AssemblyFamily::contact(v_a, v_b);
+    const double time = 0.5 * (found->earliest + found->latest);
+    return {found->earliest, found->latest, time, in_world_at(found->point, time, v_b), found->normal};
+  }
+  Miss miss(const Vector3d& v_a, const Vector3d& v_b) const override {
+    const auto found = first_contact(v_a, v_b);
+    if (!found) return AssemblyFamily::miss(v_a, v_b);
+    Miss miss;
+    miss.depth = std::numeric_limits<double>::quiet_NaN();
+    miss.normal = found->normal;
+    miss.time = 0.5 * (found->earliest + found->latest);
+    return miss;
+  }
+  double gap(const Vector3d& n) const override { return convexes_.gap(n); }
+  std::optional<NearestPlane> nearest_plane(const Vector3d& start, const Vector3d& end) const override {
+    return oracle_->nearest_plane(start, end);
+  }
+  std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
+    Rung rung = convexes_.relation_rung();
+    static_cast<void>(convexes_.verdict(v_a, v_b, &rung));
+    return rung;
+  }
+  Cone cone(const ConeOptions& options) const override { return cone_of_hulls(*oracle_, axis_, options); }
+
+ private:
+  std::optional<RoundOracle::FirstContact> first_contact(const Vector3d& v_a, const Vector3d& v_b) const {
+    return convexes_.first_contact(relative_velocity(v_a, v_b));
+  }
+
+  RoundOracle convexes_;
+};
+
 }  // namespace
 
+FamilyPointer convex_family(const Standing<Convex>& agent, const Standing<Convex>& obstacle) {
+  return std::make_shared<Convexes>(agent, obstacle);
+}
+FamilyPointer assembly_family(const Standing<Convex>& agent, const Assembly& obstacle, const Pose& pose) {
+  return std::make_shared<AssemblyFamily>(agent, obstacle, pose);
+}
 FamilyPointer hull_family(const Standing<Ellipsoid>& agent, const Standing<HullBody>& obstacle) {
   return std::make_shared<Hulls<Ellipsoid>>(agent, obstacle);
 }

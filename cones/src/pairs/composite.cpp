@@ -23,7 +23,8 @@ class Composite : public Family {
       : pair_(std::move(pair)), tolerance_(tolerance), axis_(axis), piece_(std::move(piece)) {}
 
   Guarantee guarantee() const override {
-    return {pair_->exact(), pair_->exact() ? 0 : tolerance_, "composite"};
+    const bool exact = pair_->exact() && pair_->relation();
+    return {exact, exact ? 0 : tolerance_, "composite"};
   }
   std::optional<Relation> relation() const override { return pair_->relation(); }
   Verdict verdict(const Vector3d& v_a, const Vector3d& v_b) const override {
@@ -95,6 +96,7 @@ class Composite : public Family {
 
 /// One of its pieces as a body of its own.
 Body piece_of(const Assembly& assembly, std::uint32_t i) {
+  if (assembly.kind() == PieceKind::convex) return assembly.convex_piece(i);
   HullBody points = assembly.piece(i);
   if (!(assembly.radius() > 0)) return points;
   return Ellipsoid::from_axes(points.points().front(), Vector3d::Constant(assembly.radius()));

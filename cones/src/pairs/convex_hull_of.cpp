@@ -3,6 +3,7 @@
 
 #include <vericone/geometry/assembly.h>
 #include <vericone/geometry/error.h>
+#include <algorithm>
 #include <string>
 #include <variant>
 
@@ -30,7 +31,16 @@ void ConvexHullOf::add(const HullBody& hull, const Pose& pose) {
 void ConvexHullOf::add(const Assembly& body, const Pose& pose) {
   add_points(body.corners(), pose);
   radius = body.radius();
-  convex = body.size() == 1;  // every piece is
+  // Every piece is, but of round parts the corners say more.
+  convex = body.size() == 1 && body.kind() != PieceKind::convex;
+}
+
+/// Around ellipses and ellipsoids; what has a margin and a round part is one of the ellipsoids that hold it.
+void ConvexHullOf::add(const Convex& body, const Pose& pose) {
+  add_points(body.corners(), pose);
+  radius = body.margin();
+  convex = std::all_of(body.pieces().begin(), body.pieces().end(),
+                       [](const Convex::Piece& piece) { return piece.rank == 0; });
 }
 
 void ConvexHullOf::add_points(std::span<const Eigen::Vector3d> more, const Pose& pose) {

@@ -25,6 +25,7 @@ struct ConvexHullOf {
   void add(const std::vector<CombinedEllipsoid>& pieces, const Pose& pose);
   void add(const HullBody& hull, const Pose& pose);
   void add(const Assembly& body, const Pose& pose);
+  void add(const Convex& body, const Pose& pose);
   void add_points(std::span<const Eigen::Vector3d> more, const Pose& pose);
 };
 

@@ -72,6 +72,9 @@ FamilyPointer hull_family(const Standing<Ellipsoid>& agent, const Standing<HullB
 FamilyPointer hull_family(const Standing<HullBody>& agent, const Standing<HullBody>& obstacle);
 FamilyPointer assembly_family(const Standing<Ellipsoid>& agent, const Assembly& obstacle, const Pose& pose);
 FamilyPointer assembly_family(const Standing<HullBody>& agent, const Assembly& obstacle, const Pose& pose);
+FamilyPointer assembly_family(const Standing<Convex>& agent, const Assembly& obstacle, const Pose& pose);
+/// Of bodies that are neither two ellipsoids nor hulls.
+FamilyPointer convex_family(const Standing<Convex>& agent, const Standing<Convex>& obstacle);
 FamilyPointer composite_family(const Standing<CombinedEllipsoid>& agent, const Assembly& obstacle,
                                const Pose& pose, double tolerance);
 FamilyPointer composite_family(const Assembly& agent, const Pose& agent_pose, const Assembly& obstacle,

@@ -58,6 +58,14 @@ bool is_moved(const Assembly& a, const Pose& a_pose, const Assembly& b, const Po
   return !less(b_pose.rotation, a_pose.rotation);
 }
 
+/// The points of a convex body that is no more than their hull.
+std::optional<HullBody> hull_of(const Convex& body) {
+  if (!body.is_hull()) return std::nullopt;
+  std::vector<Vector3d> points;
+  for (const Convex::Piece& piece : body.pieces()) points.push_back(piece.center);
+  return HullBody(std::move(points));
+}
+
 /// One of each kind of shape against the other, agents that are no simpler than the obstacle first.
 struct Choose {
   const Pose &agent_pose, &obstacle_pose;
@@ -88,6 +96,24 @@ struct Choose {
     return hull_family(standing(agent, agent_pose), standing(obstacle, obstacle_pose));
   }
   FamilyPointer operator()(const HullBody& agent, const Assembly& obstacle) const {
+    return assembly_family(standing(agent, agent_pose), obstacle, obstacle_pose);
+  }
+  FamilyPointer operator()(const CombinedEllipsoid& agent, const Convex& obstacle) const {
+    if (const auto hull = hull_of(obstacle)) return (*this)(agent, *hull);
+    if (agent.is_ellipsoid())
+      return convex_family(standing(Convex::rounded(agent.ellipsoid(), 0), agent_pose),
+                           standing(obstacle, obstacle_pose));
+    return (*this)(agent, Assembly::convexes({obstacle}));
+  }
+  FamilyPointer operator()(const HullBody& agent, const Convex& obstacle) const {
+    if (const auto hull = hull_of(obstacle)) return (*this)(agent, *hull);
+    return convex_family(standing(Convex::rounded(agent, 0), agent_pose), standing(obstacle, obstacle_pose));
+  }
+  FamilyPointer operator()(const Convex& agent, const Convex& obstacle) const {
+    return convex_family(standing(agent, agent_pose), standing(obstacle, obstacle_pose));
+  }
+  FamilyPointer operator()(const Convex& agent, const Assembly& obstacle) const {
+    if (const auto hull = hull_of(agent)) return (*this)(*hull, obstacle);
     return assembly_family(standing(agent, agent_pose), obstacle, obstacle_pose);
   }
   FamilyPointer operator()(const Assembly& agent, const Assembly& obstacle) const {

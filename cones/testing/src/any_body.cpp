@@ -83,6 +83,36 @@ Body any_pieces(RandomBodies& random) {
   return Body::pieces(std::move(parts));
 }
 
+/// Of every word, upright in its own frame; some with a margin.
+Body any_convex(RandomBodies& random) {
+  const auto size = [&] { return random.uniform(0.2, 1.2); };
+  const auto ellipsoid = [&] { return random_ellipsoid_body(random, random.in_box(0.5)); };
+  const auto base = [&]() -> Convex {
+    switch (random.integer(0, 8)) {
+      case 0:
+        return Convex::cylinder(size(), 2 * size());
+      case 1:
+        return Convex::capsule(size(), 2 * size());
+      case 2:
+        return Convex::cone(size(), 2 * size());
+      case 3:
+        return Convex::frustum(size(), size(), 2 * size());
+      case 4:
+        return Convex::elliptic_cylinder(size(), size(), 2 * size());
+      case 5:
+        return Convex::disc(size());
+      case 6:
+        return Convex::rounded(HullBody(hull_points(random, Vector3d::Zero(), 0.8)), 0.4 * size());
+      case 7:
+        return Convex::rounded(ellipsoid(), 0.4 * size());
+      default:
+        return Convex::hull_of(ellipsoid(), ellipsoid());
+    }
+  };
+  const Convex body = base();
+  return random.integer(0, 3) == 0 ? body.swollen(0.3 * size()) : body;
+}
+
 }  // namespace
 
 Body any_body(RandomBodies& random, BodyKind kind) {
@@ -99,6 +129,8 @@ Body any_body(RandomBodies& random, BodyKind kind) {
       return any_cloud(random);
     case BodyKind::boxes:
       return any_boxes(random);
+    case BodyKind::convex:
+      return any_convex(random);
     case BodyKind::pieces:
       break;
   }

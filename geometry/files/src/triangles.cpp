@@ -7,25 +7,22 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 
 namespace vericone::files {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// A polygon as seen along the axis from which its fan looks largest; turns are told exactly.
+/// A polygon as seen along a coordinate axis: that coordinate left out, so that nothing is rounded and turns
+/// are told exactly.
 class Outline {
  public:
-  Outline(const std::vector<Eigen::Vector3d>& points, const Face& face) : points_(points) {
-    Eigen::Vector3d sizes = Eigen::Vector3d::Zero();
-    const Eigen::Vector3d& first = points[face[0]];
-    for (std::size_t k = 2; k < face.size(); ++k)
-      sizes += (points[face[k - 1]] - first).cross(points[face[k]] - first).cwiseAbs();
-    Eigen::Index axis = 0;
-    sizes.maxCoeff(&axis);
-    i_ = (axis + 1) % 3;
-    j_ = (axis + 2) % 3;
-  }
+  Outline(const std::vector<Eigen::Vector3d>& points, Eigen::Index axis)
+      : points_(points), i_((axis + 1) % 3), j_((axis + 2) % 3) {}
+
+  Eigen::Vector2d at(std::uint32_t a) const { return {points_[a](i_), points_[a](j_)}; }
 
   /// Which way a to b to c turns: 1, 0, -1.
   int turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
@@ -49,29 +46,157 @@ class Outline {
   Eigen::Index i_ = 0, j_ = 1;
 };
 
-/// Ears: corners whose triangle with their neighbours is inside the polygon. False where some are left that
-/// have none: then the polygon crosses itself. `way`: how it turns.
-bool cut_ears(const Outline& outline, Face corners, int way, std::vector<Triangle>& triangles) {
-  std::size_t at = 0, passed = 0;
-  while (corners.size() > 2) {
-    const std::size_t n = corners.size();
-    if (passed > n) return false;
-    const Triangle ear{corners[(at + n - 1) % n], corners[at % n], corners[(at + 1) % n]};
-    const int turn = way * outline.turn(ear[0], ear[1], ear[2]);
-    const bool cuts = turn == 0 || (turn > 0 && std::none_of(corners.begin(), corners.end(), [&](auto x) {
-                                      return outline.holds(ear, way, x);
-                                    }));
-    if (!cuts) {
-      at = (at + 1) % n;
-      ++passed;
-      continue;
+/// How large the polygon looks along each coordinate axis.
+Eigen::Vector3d sizes_along_axes(const std::vector<Eigen::Vector3d>& points, const Face& face) {
+  Eigen::Vector3d sizes = Eigen::Vector3d::Zero();
+  const Eigen::Vector3d& first = points[face[0]];
+  for (std::size_t k = 2; k < face.size(); ++k)
+    sizes += (points[face[k - 1]] - first).cross(points[face[k]] - first).cwiseAbs();
+  return sizes;
+}
+
+/// The corners of a polygon in square cells, about one a cell: which are near a triangle.
+class CornerGrid {
+ public:
+  CornerGrid(const Outline& outline, const Face& corners) {
+    Eigen::Vector2d high = low_ = outline.at(corners[0]);
+    for (const std::uint32_t c : corners)
+      low_ = low_.cwiseMin(outline.at(c)), high = high.cwiseMax(outline.at(c));
+    side_ = std::max(1, int(std::sqrt(double(corners.size()))));
+    // Halved so that it is finite; of no width, or less than can be divided by: one cell.
+    const Eigen::Vector2d half = 0.5 * high - 0.5 * low_;
+    for (int k = 0; k < 2; ++k) per_half_(k) = half(k) > 0x1p-900 ? side_ / half(k) : 0;
+    cells_.resize(std::size_t(side_) * std::size_t(side_));
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const auto [i, j] = cell(outline.at(corners[k]));
+      cells_[std::size_t(i * side_ + j)].push_back(std::uint32_t(k));
     }
-    triangles.push_back(ear);
-    corners.erase(corners.begin() + std::ptrdiff_t(at % n));
-    at = at % n % corners.size();
-    passed = 0;
   }
-  return true;
+
+  /// Whether `holds(k)` for a corner number k of the cells that the triangle's box touches.
+  template <typename Holds>
+  bool any_near(const Outline& outline, const Triangle& t, const Holds& holds) const {
+    const Eigen::Vector2d a = outline.at(t[0]), b = outline.at(t[1]), c = outline.at(t[2]);
+    const auto low = cell(a.cwiseMin(b).cwiseMin(c)), high = cell(a.cwiseMax(b).cwiseMax(c));
+    for (int i = low[0]; i <= high[0]; ++i)
+      for (int j = low[1]; j <= high[1]; ++j)
+        for (const std::uint32_t k : cells_[std::size_t(i * side_ + j)])
+          if (holds(k)) return true;
+    return false;
+  }
+
+ private:
+  /// Rises with each coordinate, rounded or not: that is all that any_near() needs.
+  std::array<int, 2> cell(const Eigen::Vector2d& x) const {
+    std::array<int, 2> place{};
+    for (int k = 0; k < 2; ++k) {
+      const double at = (0.5 * x(k) - 0.5 * low_(k)) * per_half_(k);
+      place[std::size_t(k)] = int(std::clamp(at, 0., double(side_ - 1)));
+    }
+    return place;
+  }
+
+  Eigen::Vector2d low_, per_half_;
+  int side_ = 1;
+  std::vector<std::vector<std::uint32_t>> cells_;
+};
+
+/// Ears: corners whose triangle with their neighbours turns as the polygon does and holds no other corner.
+/// Each is cut off, so that the triangles cover what the outline winds round, as often as it does.
+class Ears {
+ public:
+  /// `way`: how the polygon turns, 1 or -1.
+  Ears(const Outline& outline, const Face& corners, int way)
+      : outline_(outline),
+        corners_(corners),
+        way_(way),
+        grid_(outline, corners),
+        next_(corners.size()),
+        before_(corners.size()),
+        left_(corners.size()) {
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      next_[k] = std::uint32_t((k + 1) % corners.size());
+      before_[k] = std::uint32_t((k + corners.size() - 1) % corners.size());
+    }
+  }
+
+  /// False where some corners are left that are no ears: the polygon then turns the other way, or winds round
+  /// parts of itself both ways.
+  bool cut(std::vector<Triangle>& triangles) {
+    std::uint32_t at = 0;
+    for (std::size_t passed = 0; left_ > 2;) {
+      if (passed > left_) return false;
+      if (!is_ear(at)) {
+        at = next_[at];
+        ++passed;
+        continue;
+      }
+      triangles.push_back(triangle(at));
+      const std::uint32_t a = before_[at], b = next_[at];
+      next_[a] = b;
+      before_[b] = a;
+      before_[at] = kGone;
+      --left_;
+      passed = 0;
+      // The corner before is the other that may be an ear now.
+      at = is_ear(a) ? a : b;
+    }
+    return true;
+  }
+
+ private:
+  static constexpr std::uint32_t kGone = std::numeric_limits<std::uint32_t>::max();
+
+  Triangle triangle(std::uint32_t k) const { return {corners_[before_[k]], corners_[k], corners_[next_[k]]}; }
+
+  /// A corner on a straight edge is one: nobody else's triangle reaches the edge's neighbour there.
+  bool is_ear(std::uint32_t k) const {
+    const Triangle t = triangle(k);
+    const int turn = way_ * outline_.turn(t[0], t[1], t[2]);
+    return turn == 0 || (turn > 0 && !grid_.any_near(outline_, t, [&](std::uint32_t other) {
+             return before_[other] != kGone && outline_.holds(t, way_, corners_[other]);
+           }));
+  }
+
+  const Outline& outline_;
+  const Face& corners_;
+  int way_;
+  CornerGrid grid_;
+  std::vector<std::uint32_t> next_, before_;  // of the corners that are left; kGone: not one of them
+  std::size_t left_;
+};
+
+/// Whether the fan of triangles turns one way: then it covers what the outline winds round.
+bool is_even(const Outline& outline, std::span<const Triangle> fan) {
+  bool left = false, right = false;
+  for (const Triangle& t : fan) {
+    const int turn = outline.turn(t[0], t[1], t[2]);
+    left = left || turn > 0;
+    right = right || turn < 0;
+  }
+  return !(left && right);
+}
+
+/// Appends the polygon's triangles; false where there are none.
+bool cut_polygon(const std::vector<Eigen::Vector3d>& points, const Face& face,
+                 std::vector<Triangle>& triangles) {
+  const std::size_t before = triangles.size();
+  for (std::size_t k = 2; k < face.size(); ++k) triangles.push_back({face[0], face[k - 1], face[k]});
+  if (face.size() <= 3) return true;
+  Eigen::Vector3d sizes = sizes_along_axes(points, face);
+  Eigen::Index axis = 0;
+  sizes.maxCoeff(&axis);
+  if (is_even(Outline(points, axis), std::span(triangles).subspan(before))) return true;
+  // A polygon that is far from flat may cross itself as seen along one axis and not along another.
+  const double least = 0.5 * sizes(axis);
+  for (; sizes.maxCoeff(&axis) > 0 && sizes(axis) >= least; sizes(axis) = 0) {
+    const Outline outline(points, axis);
+    for (const int way : {1, -1}) {
+      triangles.resize(before);
+      if (Ears(outline, face, way).cut(triangles)) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -85,27 +210,11 @@ std::vector<Triangle> triangles_of(const std::vector<Eigen::Vector3d>& points,
       if (f[k] >= points.size() || !points[f[k]].allFinite())
         throw InputError("faces[" + std::to_string(i) + "][" + std::to_string(k) + "]", std::to_string(f[k]),
                          "the number of a finite point, below " + std::to_string(points.size()));
-    const std::size_t before = triangles.size();
-    for (std::size_t k = 2; k < f.size(); ++k) triangles.push_back({f[0], f[k - 1], f[k]});
-    if (f.size() <= 3) continue;
-    // Where all triangles of the fan turn the same way, it is the polygon.
-    const Outline outline(points, f);
-    bool left = false, right = false;
-    for (std::size_t k = before; k < triangles.size(); ++k) {
-      const int turn = outline.turn(triangles[k][0], triangles[k][1], triangles[k][2]);
-      left = left || turn > 0;
-      right = right || turn < 0;
-    }
-    if (!(left && right)) continue;
-    for (const int way : {1, -1}) {
-      triangles.resize(before);
-      if (cut_ears(outline, f, way, triangles)) break;
-      if (way < 0)
-        throw InputError("faces[" + std::to_string(i) + "]",
-                         "face " + std::to_string(i) + ", a polygon of " + std::to_string(f.size()) +
-                             " corners that crosses itself",
-                         "one that does not, as seen along the axis from which it looks largest");
-    }
+    if (!cut_polygon(points, f, triangles))
+      throw InputError("faces[" + std::to_string(i) + "]",
+                       "face " + std::to_string(i) + ", a polygon of " + std::to_string(f.size()) +
+                           " corners that crosses itself",
+                       "one that does not, as seen along one of the coordinate axes");
   }
   return triangles;
 }

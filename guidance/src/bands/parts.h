@@ -2,10 +2,19 @@
 #pragma once
 
 #include <vericone/geometry/body.h>
+#include <vericone/geometry/error.h>
 #include <algorithm>
 #include <optional>
 
 namespace vericone::guidance::banding {
+
+/// Of cylinders and other bodies of flat, round and straight parts no question is asked here yet.
+inline void refuse_round_parts(const Body& body) {
+  const Assembly* pieces = body.assembly();
+  if (body.convex() || (pieces && pieces->kind() == PieceKind::convex))
+    throw InputError("body", "one with round parts beside others, or a margin",
+                     "an ellipsoid, a hull, or a union of them");
+}
 
 /// One convex piece of an assembly, where the body is.
 inline Placed piece_of(const Placed& body, std::size_t i) {
@@ -20,6 +29,7 @@ inline Placed piece_of(const Placed& body, std::size_t i) {
 /// more than that: with its delimiters).
 template <typename Use>
 void for_each_part(const Placed& body, const Use& use) {
+  refuse_round_parts(body.body);
   const auto quadric = [&](const CombinedEllipsoid& part) {
     use(Placed(part.ellipsoid(), body.pose),
         part.is_ellipsoid() ? std::nullopt : std::optional(Placed(part, body.pose)));

@@ -338,13 +338,13 @@ TEST_P(EveryPairWithin, KeepsTheLawsAndAgreesWithAMarch) {
   EXPECT_GT(marched, asked / 4);
 }
 
-std::string name_of(const ::testing::TestParamInfo<EveryPairWithin::ParamType>& info) {
+std::string kinds_within(const ::testing::TestParamInfo<EveryPairWithin::ParamType>& info) {
   return std::string(to_string(std::get<0>(info.param))) + "_and_" + to_string(std::get<1>(info.param));
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, EveryPairWithin,
                          ::testing::Combine(::testing::ValuesIn(kBodyKinds), ::testing::ValuesIn(kBodyKinds)),
-                         name_of);
+                         kinds_within);
 
 TEST(WithinHorizon, IsRefusedWhereItIsNone) {
   const Pair pair(Placed(Ellipsoid()), Placed(Ellipsoid(), Pose{{5, 0, 0}}));

@@ -108,13 +108,13 @@ TEST_P(EveryPair, AgreesWithSampledSweepsAndItsMirrorImage) {
   EXPECT_GE(clear, asked / 2);
 }
 
-std::string name_of(const ::testing::TestParamInfo<EveryPair::ParamType>& info) {
+std::string kinds_of(const ::testing::TestParamInfo<EveryPair::ParamType>& info) {
   return std::string(to_string(std::get<0>(info.param))) + "_and_" + to_string(std::get<1>(info.param));
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, EveryPair,
                          ::testing::Combine(::testing::ValuesIn(kBodyKinds), ::testing::ValuesIn(kBodyKinds)),
-                         name_of);
+                         kinds_of);
 
 Placed ball(const Vector3d& center, double radius) {
   return Placed(Ellipsoid::from_axes(center, Vector3d::Constant(radius)));

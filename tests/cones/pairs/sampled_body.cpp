@@ -214,6 +214,54 @@ void add_box(SampledBody& sampled, const Box& box, std::vector<Hit>& hits) {
   hits.push_back([box](const Vector3d& x, const Vector3d& d) { return slab_hit(box, x, d); });
 }
 
+/// The farthest point along n, by the definition.
+Vector3d farthest_of(const Convex& body, const Vector3d& n) {
+  Vector3d best = Vector3d::Zero();
+  double most = -1e300;
+  for (const Convex::Piece& piece : body.pieces()) {
+    Vector3d x = piece.center;
+    const Vector3d across = piece.factor * (piece.factor.transpose() * n);
+    if (const double square = n.dot(across); square > 0) x += across / std::sqrt(square);
+    if (n.dot(x) > most) most = n.dot(x), best = x;
+  }
+  return best + body.margin() * n.normalized();
+}
+
+/// Inside: the hull of the farthest points along 26 directions; outside: planes along many.
+void add_convex(SampledBody& sampled, const Convex& body, std::vector<Hit>& hits) {
+  std::vector<Vector3d> points;
+  for (int i = 0; i < 27; ++i)
+    if (i != 13) points.push_back(farthest_of(body, Vector3d(i % 3 - 1.02, i / 3 % 3 - 1.01, i / 9 - 0.97)));
+  std::vector<std::pair<Vector3d, double>> planes;
+  for (int i = 0; i < 150; ++i) {
+    const double z = 1 - (2 * i + 1) / 150.0, angle = 2.399963 * i, r = std::sqrt(1 - z * z);
+    const Vector3d n(r * std::cos(angle), r * std::sin(angle), z);
+    planes.emplace_back(n, n.dot(farthest_of(body, n)));
+  }
+  Vector3d low = points[0], high = points[0];
+  for (int k = 0; k < 3; ++k) {
+    low(k) = farthest_of(body, -Vector3d::Unit(k))(k);
+    high(k) = farthest_of(body, Vector3d::Unit(k))(k);
+  }
+  constexpr int kCells = 7;
+  const Vector3d half = (high - low) / (2 * kCells);
+  for (int i = 0; i < kCells; ++i)
+    for (int j = 0; j < kCells; ++j)
+      for (int k = 0; k < kCells; ++k) {
+        const Vector3d x = low + half.cwiseProduct(Vector3d(2 * i + 1, 2 * j + 1, 2 * k + 1));
+        const bool near = std::all_of(planes.begin(), planes.end(), [&](const auto& plane) {
+          return plane.first.dot(x) <= plane.second + half.norm() + 1e-12;
+        });
+        if (near) sampled.cover.push_back({x, half.norm() + 1e-12});
+      }
+  const Vector3d middle = body.middle();
+  for (const Vector3d& x : points)
+    for (const double part : {1 - 1e-9, 0.5}) sampled.inside.push_back(middle + part * (x - middle));
+  if (half.minCoeff() < 1e-6 || body.pieces().size() + (body.margin() > 0) < 2) return;  // flat
+  const auto facets = facets_of(points);
+  hits.push_back([facets](const Vector3d& x, const Vector3d& d) { return facet_hit(facets, x, d); });
+}
+
 }  // namespace
 
 SampledBody sampled(const Body& body) {
@@ -222,6 +270,7 @@ SampledBody sampled(const Body& body) {
     std::vector<Hit>& hits;
     void operator()(const CombinedEllipsoid& part) const { add_forms(result, part, hits); }
     void operator()(const HullBody& hull) const { add_hull(result, hull.points(), hits); }
+    void operator()(const Convex& body) const { add_convex(result, body, hits); }
     void operator()(const std::vector<CombinedEllipsoid>& parts) const {
       for (const CombinedEllipsoid& part : parts) add_forms(result, part, hits);
     }
@@ -231,6 +280,7 @@ SampledBody sampled(const Body& body) {
       for (const Vector3d& center : pieces.balls) add_ball(result, center, assembly.radius(), hits);
       for (const Box& box : pieces.boxes) add_box(result, box, hits);
       for (const HullBody& hull : pieces.hulls) add_hull(result, hull.points(), hits);
+      for (const Convex& body : pieces.convexes) add_convex(result, body, hits);
     }
   };
   SampledBody result{body, {}, {}, {}};

@@ -133,12 +133,12 @@ TEST_P(EveryPairSector, RatesAreThoseOfMovedBodies) {
   EXPECT_GE(right, one ? 0.9 * asked - 1 : 0.7 * asked) << "of " << asked;
 }
 
-std::string name_of(const ::testing::TestParamInfo<EveryPairSector::ParamType>& info) {
+std::string kinds_on_plane(const ::testing::TestParamInfo<EveryPairSector::ParamType>& info) {
   return std::string(to_string(std::get<0>(info.param))) + "_" + to_string(std::get<1>(info.param));
 }
 INSTANTIATE_TEST_SUITE_P(Kinds, EveryPairSector,
                          ::testing::Combine(::testing::ValuesIn(kBodyKinds), ::testing::ValuesIn(kBodyKinds)),
-                         name_of);
+                         kinds_on_plane);
 
 TEST(PairSector, IsThatOfTheFamilyAndRefusesWhatIsNoPlane) {
   const Ellipsoid a, b = Ellipsoid::from_axes({10, 0, 0}, Vector3d::Constant(2));

@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 #include <vericone/files/files.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/exact/rational.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 
 #include "support/random.h"
 
@@ -127,6 +129,85 @@ TEST(Triangles, OfSlotsCombsSpiralsAndHoles) {
       }
 }
 
+using exact::Rational;
+
+/// Twice the area as seen along z, in fractions.
+Rational exact_twice_area(const std::vector<Vector3d>& points, std::span<const std::uint32_t> corners) {
+  Rational sum = 0;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vector3d &a = points[corners[k]], &b = points[corners[(k + 1) % corners.size()]];
+    sum += Rational(a.x()) * Rational(b.y()) - Rational(a.y()) * Rational(b.x());
+  }
+  return sum;
+}
+
+TEST(Triangles, OfEdgesThatAreStraightButForRoundingAddUpInFractions) {
+  testing::Random random(73);
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < testing::share(300); ++i) {
+    // A star about the origin with two corners at the thirds of each edge, rounded to one side or the other.
+    std::vector<Vector3d> points;
+    const int tips = random.integer(4, 12);
+    std::vector<Vector2d> star;
+    for (int k = 0; k < tips; ++k) {
+      const double angle = (2 * M_PI * k + random.uniform(0, 3)) / tips;
+      star.push_back(random.uniform(1, 9) * Vector2d(std::cos(angle), std::sin(angle)));
+    }
+    for (int k = 0; k < tips; ++k)
+      for (int third = 0; third < 3; ++third) {
+        const Vector2d x = star[k] + third / 3. * (star[(k + 1) % tips] - star[k]);
+        points.emplace_back(x.x(), x.y(), 0.125 * x.x());
+      }
+    Face face(points.size());
+    std::iota(face.begin(), face.end(), 0U);
+    if (i % 2 == 0) std::reverse(face.begin(), face.end());
+    std::rotate(face.begin(), face.begin() + random.integer(0, int(face.size()) - 1), face.end());
+    const Rational whole = exact_twice_area(points, face);
+    Rational sum = 0;
+    const auto triangles = triangles_of(points, {face});
+    for (const auto& t : triangles) {
+      const Rational own = exact_twice_area(points, t);
+      ASSERT_GE(own * whole, 0) << i;  // in fractions: no triangle turns the other way by a rounding
+      sum += own;
+    }
+    ASSERT_EQ(sum, whole) << i;
+    ASSERT_EQ(triangles.size(), points.size() - 2);
+  }
+}
+
+TEST(Triangles, OfAPolygonOfManyCornersAreCutInTime) {
+  // A corridor that winds up, of 20,000 corners: each ear is told by the corners near it.
+  std::vector<Vector3d> points;
+  constexpr int kSteps = 10'000;
+  for (int k = 0; k < 2 * kSteps; ++k) {
+    const int step = k < kSteps ? k : 2 * kSteps - 1 - k;
+    const double angle = 0.1 * step, radius = 1 + 0.2 * angle + (k < kSteps ? 0 : 0.3);
+    points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
+  }
+  Face face(points.size());
+  std::iota(face.begin(), face.end(), 0U);
+  const auto triangles = triangles_of(points, {face});
+  ASSERT_EQ(triangles.size(), points.size() - 2);
+  const Rational whole = exact_twice_area(points, face);
+  ASSERT_TRUE(std::all_of(triangles.begin(), triangles.end(),
+                          [&](const auto& t) { return exact_twice_area(points, t) * whole >= 0; }));
+}
+
+TEST(Triangles, OfAPolygonThatCrossesItselfAlongOneAxisAlone) {
+  std::vector<Vector3d> pentagram;
+  for (int k = 0; k < 5; ++k) pentagram.emplace_back(std::cos(0.8 * M_PI * k), std::sin(0.8 * M_PI * k), 1);
+  EXPECT_THROW((void)triangles_of(pentagram, {{0, 1, 2, 3, 4}}), InputError);
+  const std::vector<Vector3d> eight{{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {0, 2, 0}};
+  EXPECT_THROW((void)triangles_of(eight, {{0, 1, 2, 3}}), InputError);
+  // The same seen along z, but along y a trapezium.
+  const std::vector<Vector3d> bent{{0, 0, 0}, {2, 2, 0.5}, {2, 0, 1.5}, {0, 2, 1.9}};
+  const auto triangles = triangles_of(bent, {{0, 1, 2, 3}});
+  ASSERT_EQ(triangles.size(), 2U);
+  double area = 0;
+  for (const auto& t : triangles) area += (bent[t[1]] - bent[t[0]]).cross(bent[t[2]] - bent[t[0]]).y();
+  EXPECT_DOUBLE_EQ(std::abs(area), 2 * (1.9 + 1));
+}
+
 TEST(Triangles, CornersThatAreNoPointsAreRefused) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<Eigen::Vector3d> points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, nan, 0}};
@@ -150,7 +231,7 @@ TEST(Triangles, StayFansWhereThatIsTheFace) {
   } catch (const InputError& e) {
     EXPECT_STREQ(e.what(),
                  "faces[1]: got face 1, a polygon of 4 corners that crosses itself, must be one that "
-                 "does not, as seen along the axis from which it looks largest");
+                 "does not, as seen along one of the coordinate axes");
   }
 }
 

@@ -176,7 +176,39 @@ def words(ask: Ask) -> None:
     ask("to_text", 0.1)
 
 
+def convex_bodies(ask: Ask) -> None:
+    """Cylinders and their kin, and what a margin makes of others."""
+    cylinder = ask("Convex.cylinder", 1, 2)
+    ask("Convex.elliptic_cylinder", 1, 2, 3)
+    ask("Convex.capsule", 1, 2)
+    ask("Convex.cone", 1, 2)
+    ask("Convex.frustum", 1, 0.5, 2)
+    ask("Convex.disc", 1)
+    ask("Convex.ellipse", 1, 2)
+    ask("Convex.box", [1, 2, 3])
+    ask("Convex.point")
+    ask("Convex.point", [1, 2, 3])
+    ask("Convex.segment", [0, 0, 0], [1, 2, 3])
+    ask("Convex.rounded", v.HullBody(CORNERS), 0.1)
+    ask("Convex.rounded", LONG, 0.1)
+    ask("Convex.hull_of", BALL, LONG)
+    ask("Convex.of_pieces", cylinder.pieces())
+    ask("Convex.of_pieces", cylinder.pieces(), 0.1)
+    each(ask, cylinder, "called", "tin")
+    each(ask, cylinder, "support support_point", [1, 0.2, 0.3])
+    each(ask, cylinder, "swollen", 0.1)
+    each(ask, cylinder, "translated", [1, 2, 3])
+    each(ask, cylinder, "scaled", 2)
+    ask("in_world", cylinder, v.Pose([6, 1, 0.5]))
+    both = ask("Assembly.convexes", [cylinder, cylinder.translated([4, 0, 0])])
+    each(ask, both, "convex_piece", 1)
+    ask("Body", cylinder)
+    for own in (v.Body(LONG), v.Body(cylinder), v.Body(both)):
+        ask("swollen", own, 0.1)
+
+
 def bodies(ask: Ask) -> None:
+    convex_bodies(ask)
     hull, pose = v.HullBody(CORNERS), v.Pose([6, 1, 0.5])
     for name in ("Ellipse", "Ellipsoid", "CombinedEllipse", "CombinedEllipsoid", "HullBody", "Body", "WorldBody", "ErrorSet", "Interval", "nadir"):
         ask(name)

@@ -30,7 +30,7 @@ def objects() -> list[Any]:
     made = [ball, long, small, disc, flat, dent, star, hull, far, mesh, cloud, pose, opening, window, *bodies,
             v.CombinedEllipse(disc), v.CombinedEllipsoid(ball), v.ConeOracle(ball, long), v.SectorOracle(disc, flat), v.OrificeOracle(ball, opening), v.Pair(ball, long), v.Pair(dent, hull), v.Pair(v.Body(mesh), v.Placed(v.Body(ball), pose)),
             v.WorldBody(ball), v.WorldBody(dent), v.true_cone(ball, long, 64), v.AxisFrame([1, 2, 3.0]), v.PlaneFrame([0, 0, 0], [1, 0, 0], [0, 1, 0]),
-            v.Box([0, 0, 0], [1, 2, 3])]
+            v.Box([0, 0, 0], [1, 2, 3]), v.Convex.cylinder(1, 2), v.Convex.capsule(0.5, 1).translated([7, 1, 0])]
     g = v.guidance
     made += [g.BodyState(shape=v.WorldBody(x), position=at, velocity=w) for x, at, w in
              ((ball, [0, 0, 0], [2, 0.2, 0]), (v.Ellipsoid.from_axes([9, 1, 2], [2, 1, 1]), [9, 1, 2], [-1, 0, 0.3]), (dent, [7, 0, 1], [-1, 0, 0]))]

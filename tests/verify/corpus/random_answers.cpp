@@ -65,6 +65,8 @@ Body body(Numbers& numbers, BodyKind kind) {
       for (const Vector3d& x : numbers.points(5)) boxes.push_back({x, x + Vector3d(0.25, 0.5, 0.125)});
       return Assembly::boxes(std::move(boxes));
     }
+    case BodyKind::convex:
+      return Convex::cylinder(0.5, 1.5);
     case BodyKind::pieces:
       break;
   }
@@ -85,7 +87,7 @@ class Sum {
 }  // namespace
 
 void print_random_answers() {
-  constexpr int kPairs = 10, kVelocities = 208;  // of each two kinds: 49 * 10 * 208 = 101,920 verdicts
+  constexpr int kPairs = 10, kVelocities = 208;  // of each two kinds: 64 * 10 * 208 = 133,120 verdicts
   Numbers numbers;
   for (const BodyKind first : kBodyKinds)
     for (const BodyKind second : kBodyKinds) {

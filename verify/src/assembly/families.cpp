@@ -111,6 +111,9 @@ class Maker {
       }
       case PieceKind::hull:
         case_.hulls.emplace_back(placed);
+        break;
+      case PieceKind::convex:  // has a truth of its own
+        break;
     }
   }
 

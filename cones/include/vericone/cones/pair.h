@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Any two bodies: whether they will meet, when and where, and by how much they miss. The front door; the
-// families behind it (ellipsoids/, combined/, hulls/, assembly/, composite/) are for those who want their
-// rungs.
+// families behind it (ellipsoids/, combined/, hulls/, round/, assembly/, composite/) are for those who want
+// their rungs.
 #pragma once
 
 #include <vericone/cones/answers.h>
@@ -35,7 +35,7 @@ struct Guarantee {
   bool exact = true;
   double tolerance = 0;  // relative; where not exact: see PairOptions
   const char* family =
-      "";  // who answers: "ellipsoids", "combined", "hulls", "assembly", "composite", "union"
+      "";  // who answers: "ellipsoids", "combined", "hulls", "convex", "assembly", "composite", "union"
 };
 
 /// The first contact.

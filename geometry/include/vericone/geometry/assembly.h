@@ -3,6 +3,7 @@
 // Bodies made of very many convex pieces: meshes, point clouds, maps of cells, convex polyhedra.
 #pragma once
 
+#include <vericone/geometry/convex.h>
 #include <vericone/geometry/hull_body.h>
 #include <vericone/geometry/pose.h>
 #include <vericone/internal/geometry/hierarchy.h>
@@ -21,6 +22,7 @@ enum class PieceKind : std::uint8_t {
   ball,      // about each point, all of one radius, which may be 0
   box,       // solid, axis-aligned in the body's frame
   hull,      // solid convex hulls of points
+  convex,    // convex bodies of flat, round and straight parts
 };
 [[nodiscard]] const char* to_string(PieceKind kind);
 
@@ -44,6 +46,9 @@ class Assembly {
   /// Solid convex polyhedra. Throws InputError naming "hulls".
   [[nodiscard]] static Assembly polyhedra(std::vector<HullBody> hulls);
 
+  /// Cylinders, capsules and other convex bodies. Throws InputError naming "pieces".
+  [[nodiscard]] static Assembly convexes(std::vector<Convex> pieces);
+
   [[nodiscard]] PieceKind kind() const;
   /// Number of pieces.
   [[nodiscard]] std::size_t size() const;
@@ -55,9 +60,13 @@ class Assembly {
   [[nodiscard]] const Hierarchy& hierarchy() const;
 
   /// The points whose convex hull, rounded by radius(), is piece i (0 <= i < size(), in the order given).
+  /// Of a convex body that is no hull: points whose hull, rounded by its margin, contains it.
   [[nodiscard]] HullBody piece(std::size_t i) const;
+  /// Piece i, whatever its kind.
+  [[nodiscard]] Convex convex_piece(std::size_t i) const;
 
-  /// Those of all pieces, by slot: their convex hull, rounded by radius(), is that of the body. Metres.
+  /// Those of all pieces, by slot: their convex hull, rounded by radius(), is that of the body; of convex
+  /// bodies, contains it. Metres.
   [[nodiscard]] std::vector<Eigen::Vector3d> corners() const;
 
   /// The pieces by *slot* of the hierarchy, so that those of a leaf lie side by side. Only that of kind() is
@@ -67,6 +76,7 @@ class Assembly {
     std::vector<Eigen::Vector3d> balls;                     // m
     std::vector<Box> boxes;
     std::vector<HullBody> hulls;
+    std::vector<Convex> convexes;
   };
   [[nodiscard]] const Storage& by_slot() const;
 

@@ -5,6 +5,7 @@
 
 #include <vericone/geometry/assembly.h>
 #include <vericone/geometry/combined.h>
+#include <vericone/geometry/convex.h>
 #include <vericone/geometry/hull_body.h>
 #include <vericone/geometry/pose.h>
 #include <array>
@@ -23,11 +24,12 @@ enum class BodyKind : std::uint8_t {
   mesh,      // triangles, without what they enclose
   cloud,     // balls about points
   boxes,     // solid boxes, as of an octree map
-  pieces,    // the union of ellipsoids and combined quadrics, or of convex polyhedra
+  pieces,    // the union of ellipsoids and combined quadrics, or of convex bodies
+  convex,    // a cylinder, a capsule, a cone, any of the kinds before with a margin: convex.h
 };
-inline constexpr std::array<BodyKind, 7> kBodyKinds{BodyKind::ellipsoid, BodyKind::combined, BodyKind::hull,
+inline constexpr std::array<BodyKind, 8> kBodyKinds{BodyKind::ellipsoid, BodyKind::combined, BodyKind::hull,
                                                     BodyKind::mesh,      BodyKind::cloud,    BodyKind::boxes,
-                                                    BodyKind::pieces};
+                                                    BodyKind::pieces,    BodyKind::convex};
 [[nodiscard]] const char* to_string(BodyKind kind);
 
 /// A body of any kind in its own frame, metres. Immutable; a copy shares what it holds and costs no more than
@@ -35,8 +37,9 @@ inline constexpr std::array<BodyKind, 7> kBodyKinds{BodyKind::ellipsoid, BodyKin
 class Body {
  public:
   /// What a body is made of: one combined quadric (an ellipsoid is one without delimiters), the hull of
-  /// points, an assembly of convex pieces, or the union of combined quadrics.
-  using Shape = std::variant<CombinedEllipsoid, HullBody, Assembly, std::vector<CombinedEllipsoid>>;
+  /// points, an assembly of convex pieces, the union of combined quadrics, or one convex body of flat, round
+  /// and straight parts.
+  using Shape = std::variant<CombinedEllipsoid, HullBody, Assembly, std::vector<CombinedEllipsoid>, Convex>;
 
   /// The unit ball about the origin.
   Body();
@@ -44,6 +47,7 @@ class Body {
   Body(const CombinedEllipsoid& body);  // NOLINT
   Body(HullBody hull);                  // NOLINT
   Body(Assembly assembly);              // NOLINT
+  Body(Convex convex);                  // NOLINT
 
   /// Their union. Throws InputError naming "pieces" where there is none.
   [[nodiscard]] static Body pieces(std::vector<CombinedEllipsoid> pieces);
@@ -56,6 +60,7 @@ class Body {
   [[nodiscard]] const HullBody* hull() const;
   [[nodiscard]] const Assembly* assembly() const;
   [[nodiscard]] const std::vector<CombinedEllipsoid>* quadrics() const;  // of a union
+  [[nodiscard]] const Convex* convex() const;
 
   /// Support function max n.x over the body; rounded to a few units in the last place of the largest term. Of
   /// a combined body, the ellipsoid's that contains it: it may be too large, never too small. Linear in the
@@ -100,6 +105,11 @@ struct Placed {
 [[nodiscard]] Ellipsoid in_world(const Ellipsoid& body, const Pose& pose);
 [[nodiscard]] CombinedEllipsoid in_world(const CombinedEllipsoid& body, const Pose& pose);
 [[nodiscard]] HullBody in_world(const HullBody& body, const Pose& pose);
+
+/// All within `margin` metres of the body: the Minkowski sum with a ball, of each of its parts. Margins add,
+/// rounded once; 0 leaves the body as it is. An assembly becomes one of convex bodies, a cloud stays one.
+/// Throws InputError naming "margin": not finite, negative, or of a body that hyperboloids delimit.
+[[nodiscard]] Body swollen(const Body& body, double margin);
 
 /// x_C = first(second(x)).
 [[nodiscard]] Pose composed(const Pose& first, const Pose& second);

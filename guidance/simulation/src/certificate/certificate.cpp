@@ -36,7 +36,7 @@ std::string quoted(const std::string& words) {
 /// A body over a time: what a certificate states of it.
 struct Stated {
   Solid solid;
-  bool dents = false;
+  bool dents = false, has_words = true;
   std::optional<StatedTrack> track;
 };
 
@@ -137,7 +137,8 @@ class Maker {
     const Stated &a = stated(pair.a, claim.from, claim.to), &b = stated(pair.b, claim.from, claim.to);
     for (const auto& [which, body] : {std::pair{&a, pair.a}, std::pair{&b, pair.b}}) {
       if (which->track) continue;
-      reason = which->solid.size() > kMostPieces
+      reason = !which->has_words ? "of " + scenario_.bodies[body].name + " certificates have no words"
+               : which->solid.size() > kMostPieces
                    ? scenario_.bodies[body].name + " has more than " + std::to_string(kMostPieces) + " pieces"
                    : "how " + scenario_.bodies[body].name + " turns has no bound";
       return std::nullopt;
@@ -153,6 +154,10 @@ class Maker {
     OwnFrame own = in_own_frame(track.shape(), from, to);
     found.solid = std::move(own.solid);
     found.dents = own.dents;
+    found.has_words = own.has_words;
+    if (!found.has_words) return found;
+    found.has_words = own.has_words;
+    if (!found.has_words) return found;
     if (found.solid.size() > kMostPieces) return found;
     TubeQuestion question{};
     question.from = from;

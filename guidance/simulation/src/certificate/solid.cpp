@@ -138,6 +138,9 @@ OwnFrame of_assembly(const Assembly& body, bool upright) {
     case PieceKind::box:
       own = of_boxes(in_order(body, storage.boxes), upright);
       break;
+    case PieceKind::convex:
+      own.has_words = false;
+      break;
     case PieceKind::hull:
       solid.kind = Solid::Kind::hulls;
       for (const HullBody& hull : in_order(body, storage.hulls)) corners.add(hull.points());
@@ -157,6 +160,8 @@ OwnFrame of_placed(const Placed& placed) {
     own.solid = of_hull(*hull);
   else if (const Assembly* assembly = placed.body.assembly())
     own = of_assembly(*assembly, upright);
+  else if (placed.body.convex())
+    own.has_words = false;
   else
     own.solid.rounds = *placed.body.quadrics();
   if (upright) return own;

@@ -65,9 +65,11 @@ struct PointFile {
 /// The faces cut into triangles, n - 2 for n corners. A polygon is looked at along the coordinate axis from
 /// which it looks largest: it becomes the fan about its first corner where all of that turns the same way
 /// (convex polygons), else its ears are cut one by one, both decided exactly. So a flat polygon is itself; of
-/// one that is not flat this choice is made. Throws InputError naming "faces[i]" for one that crosses itself,
-/// "faces[i][k]" for a corner that is no finite point. Quadratic in the number of corners of a dented
-/// polygon.
+/// one that is not flat this choice is made; where it crosses itself as seen along that axis, another along
+/// which it looks half as large is tried. Corners on straight edges are kept (triangles without area), as
+/// neighbours use them. Throws InputError naming "faces[i]" for one that crosses itself, "faces[i][k]" for a
+/// corner that is no finite point. Cost: of a dented polygon, for each triangle that of the corners near it
+/// (20,000 corners of a spiral: 0.1 s).
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangles_of(
     const std::vector<Eigen::Vector3d>& points, const std::vector<Face>& faces);
 

@@ -79,6 +79,8 @@ class AssemblyOracle : public DirectionClassifier {
                  const Eigen::Vector3d& agent_at = Eigen::Vector3d::Zero());
   AssemblyOracle(const HullBody& agent, const Assembly& obstacle, const Pose& pose = {},
                  const Eigen::Vector3d& agent_at = Eigen::Vector3d::Zero());
+  AssemblyOracle(const Convex& agent, const Assembly& obstacle, const Pose& pose = {},
+                 const Eigen::Vector3d& agent_at = Eigen::Vector3d::Zero());
   ~AssemblyOracle() override;
   AssemblyOracle(AssemblyOracle&&) noexcept;
   AssemblyOracle& operator=(AssemblyOracle&&) noexcept;
@@ -89,6 +91,9 @@ class AssemblyOracle : public DirectionClassifier {
   /// agent has no interior and the pieces touched leave it no small shift to get apart
   /// (docs/explanation/predicates/composite.md, Seams).
   [[nodiscard]] Relation relation() const;
+  /// Whether the relation is known. Where it is not, bodies with round parts are within rounding of touching,
+  /// relation() says so, and verdict() is `undecided`.
+  [[nodiscard]] bool decided() const;
 
   /// Exact. `w` = v_agent - v_obstacle. `in`: the agent will overlap a piece, or has no interior and enters
   /// where pieces join; `on`: it will only touch some; `out`. For bodies that are not disjoint every w != 0

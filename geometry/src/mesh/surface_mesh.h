@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "whitened_forms.h"
+#include "../whitened_forms.h"
 
 namespace vericone {
 

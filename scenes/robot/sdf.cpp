@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// SDF (sdformat.org/spec): models with their links, poses between named frames. Whole sizes, metres and
+// radians; cylinders and capsules about z and about their middle, a capsule's length between the centres of
+// its ends.
+#include <vericone/geometry/body.h>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "robot/robot.h"
+
+namespace vericone::robot {
+namespace {
+
+using Eigen::Vector3d;
+
+std::string shown_name(const std::string& text) { return text.substr(0, 40); }
+
+std::string trimmed(const std::string& text) {
+  const char* const blanks = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(blanks);
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+/// Of a <pose>, of nothing where there is none.
+Pose pose_of(const Element* element) {
+  Pose pose;
+  if (!element || trimmed(element->text).empty()) return pose;
+  const std::string* format = element->attribute("rotation_format");
+  if (format && *format == "quat_xyzw") {
+    const auto x = vector_of<7>(element->text, element->line, "pose");
+    const Eigen::Vector4d q(x(6), x(3), x(4), x(5));
+    if (!(std::abs(q.stableNorm() - 1) < 1e-6))
+      refuse(element->line, "a quaternion of another length", "one of length 1");
+    pose.position = x.head<3>();
+    pose.rotation = rotation_3d(q);
+    return pose;
+  }
+  if (format && *format != "euler_rpy") refuse(element->line, shown_name(*format), "euler_rpy or quat_xyzw");
+  const auto x = vector_of<6>(element->text, element->line, "pose");
+  const std::string* degrees = element->attribute("degrees");
+  const double unit = degrees && (*degrees == "true" || *degrees == "1") ? std::numbers::pi / 180 : 1;
+  pose.position = x.head<3>();
+  pose.rotation = turn_of(unit * x.tail<3>());
+  return pose;
+}
+
+/// Named frames of a model, each in another.
+class Frames {
+ public:
+  void add(const std::string& name, const std::string& in, const Pose& pose, int line) {
+    if (!frames_.emplace(name, Frame{in, pose, line}).second)
+      refuse(line, shown_name(name), "a name that no other link, joint or frame of the model has");
+  }
+  /// In the model's frame.
+  Pose at(const std::string& name, int line) const {
+    Pose pose;
+    std::string at = name;
+    for (std::size_t steps = 0; !at.empty() && at != "__model__"; ++steps) {
+      const auto found = frames_.find(at);
+      if (found == frames_.end())
+        refuse(line, shown_name(at), "the name of a link, a joint or a frame of the model");
+      if (steps > frames_.size())
+        refuse(line, shown_name(name), "frames that are not relative to each other in a circle");
+      pose = steps == 0 ? found->second.pose : composed(found->second.pose, pose);
+      line = found->second.line;
+      at = found->second.in;
+    }
+    return pose;
+  }
+
+ private:
+  struct Frame {
+    std::string in;
+    Pose pose;
+    int line;
+  };
+  std::map<std::string, Frame> frames_;
+};
+
+/// The frame that a pose is written in.
+std::string relative_to(const Element& owner, const std::string& otherwise) {
+  const Element* pose = owner.child("pose");
+  const std::string* given = pose ? pose->attribute("relative_to") : nullptr;
+  return given && !given->empty() ? *given : otherwise;
+}
+
+double size_in(const Element& shape, const char* name) {
+  const Element& size = needed_child(shape, name);
+  return size_of(size.text, size.line, name);
+}
+
+Geometry sdf_geometry(const Element& owner) {
+  Geometry result;
+  const Element& geometry = needed_child(owner, "geometry");
+  if (geometry.children.size() != 1)
+    refuse(geometry.line, "<geometry> of " + std::to_string(geometry.children.size()), "one shape");
+  const Element& shape = geometry.children.front();
+  const auto sizes = [&](const char* name) {
+    const Element& size = needed_child(shape, name);
+    const Vector3d x = vector_of<3>(size.text, size.line, name);
+    if (!(x.array() >= 0).all()) refuse(size.line, std::string(name) + " below 0", "0 or more (metres)");
+    return x;
+  };
+  if (shape.name == "box") {
+    result.body = Convex::box(0.5 * sizes("size"));
+  } else if (shape.name == "sphere") {
+    result.body = Convex::capsule(size_in(shape, "radius"), 0).called("ball");
+  } else if (shape.name == "cylinder") {
+    result.body = Convex::cylinder(size_in(shape, "radius"), size_in(shape, "length"));
+  } else if (shape.name == "capsule") {
+    result.body = Convex::capsule(size_in(shape, "radius"), size_in(shape, "length"));
+  } else if (shape.name == "cone") {
+    result.body = Convex::cone(size_in(shape, "radius"), size_in(shape, "length"));
+  } else if (shape.name == "ellipsoid") {
+    const Vector3d radii = sizes("radii");
+    if (!(radii.array() > 0).all()) refuse(shape.line, "a radius of 0", "positive radii (metres)");
+    result.body = Convex::rounded(Ellipsoid::from_axes(Vector3d::Zero(), radii), 0).called("ellipsoid");
+  } else if (shape.name == "mesh") {
+    if (shape.child("submesh")) refuse(shape.line, "<submesh>", "left out: the whole file");
+    const Element& uri = needed_child(shape, "uri");
+    result.mesh = {trimmed(uri.text), Vector3d::Ones(), uri.line};
+    if (const Element* scale = shape.child("scale"))
+      result.mesh.scale = vector_of<3>(scale->text, scale->line, "scale");
+  } else {
+    refuse(shape.line, "<" + shown_name(shape.name) + ">",
+           "box, sphere, cylinder, capsule, cone, ellipsoid or mesh");
+  }
+  return result;
+}
+
+class SdfModel {
+ public:
+  SdfModel(const Element& model, Shown shown, Robot& robot, const std::string& prefix)
+      : model_(model), shown_(shown), robot_(robot), prefix_(prefix), place_(pose_of(model.child("pose"))) {}
+
+  void read() {
+    for (const char* other : {"model", "include"})
+      if (const Element* nested = model_.child(other))
+        refuse(nested->line, std::string("<") + other + "> in a model",
+               "a model with its links: no model in another");
+    if (model_.attribute("placement_frame"))
+      refuse(model_.line, "placement_frame", "left out: the model's pose is that of its own frame");
+    add_frames();
+    for (const Element& element : model_.children)
+      if (element.name == "link") add_link(element);
+    for (const Element& element : model_.children)
+      if (element.name == "joint") add_joint(element);
+  }
+
+ private:
+  void add_frames() {
+    for (const Element& element : model_.children) {
+      const bool link = element.name == "link", joint = element.name == "joint",
+                 frame = element.name == "frame";
+      if (!link && !joint && !frame) continue;
+      std::string in = "__model__";
+      if (joint) in = trimmed(needed_child(element, "child").text);
+      if (const std::string* attached = element.attribute("attached_to"); frame && attached) in = *attached;
+      frames_.add(needed(element, "name"), relative_to(element, in), pose_of(element.child("pose")),
+                  element.line);
+    }
+  }
+
+  void add_link(const Element& element) {
+    Link link;
+    const std::string& name = needed(element, "name");
+    const Pose own = frames_.at(name, element.line);
+    link.name = prefix_ + name;
+    link.rest = composed(place_, own);
+    for (const Element& part : element.children) {
+      if (part.name != (shown_ == Shown::collision ? "collision" : "visual")) continue;
+      Geometry geometry = sdf_geometry(part);
+      const std::string in = relative_to(part, name);
+      geometry.pose = pose_of(part.child("pose"));
+      if (in != name)
+        geometry.pose = composed(inverse(own), composed(frames_.at(in, part.line), geometry.pose));
+      link.geometries.push_back(std::move(geometry));
+    }
+    numbers_.emplace(name, robot_.links.size());
+    robot_.links.push_back(std::move(link));
+  }
+
+  std::size_t link_of(const Element& joint, const char* role) {
+    const Element& named = needed_child(joint, role);
+    const std::string name = trimmed(named.text);
+    if (const auto found = numbers_.find(name); found != numbers_.end()) return found->second;
+    if (name != "world" || std::string(role) != "parent")
+      refuse(named.line, shown_name(name), "the name of a link");
+    numbers_.emplace(name, robot_.links.size());
+    robot_.links.push_back({prefix_ + "world", {}, Pose()});
+    return robot_.links.size() - 1;
+  }
+
+  void add_joint(const Element& element) {
+    Joint joint;
+    joint.line = element.line;
+    joint.name = prefix_ + needed(element, "name");
+    joint.type = needed(element, "type");
+    const char* const kinds[] = {"fixed",     "revolute", "continuous", "prismatic", "ball",
+                                 "universal", "screw",    "revolute2",  "gearbox"};
+    if (std::find(std::begin(kinds), std::end(kinds), joint.type) == std::end(kinds))
+      refuse(element.line, "type \"" + shown_name(joint.type) + "\"", "a type of joint");
+    joint.parent = link_of(element, "parent");
+    joint.child = link_of(element, "child");
+    const Pose own = frames_.at(needed(element, "name"), element.line), in_world = composed(place_, own);
+    joint.origin = composed(inverse(*robot_.links[joint.parent].rest), in_world);
+    joint.child_in = composed(inverse(in_world), *robot_.links[joint.child].rest);
+    if (const Element* axis = element.child("axis"); axis && joint.moves()) add_axis(*axis, own, joint);
+    robot_.joints.push_back(std::move(joint));
+  }
+
+  void add_axis(const Element& axis, const Pose& own, Joint& joint) const {
+    joint.axis = Vector3d::UnitZ();  // as SDF says
+    if (axis.child("mimic")) refuse(axis.child("mimic")->line, "<mimic>", "left out: of SDF it is not read");
+    if (const Element* xyz = axis.child("xyz")) {
+      joint.axis = unit_axis(vector_of<3>(xyz->text, xyz->line, "xyz"), xyz->line);
+      const std::string* in = xyz->attribute("expressed_in");
+      const Element* old = axis.child("use_parent_model_frame");
+      const bool model = old && (trimmed(old->text) == "1" || trimmed(old->text) == "true");
+      if ((in && !in->empty()) || model) {
+        const Pose frame = frames_.at(in && !in->empty() ? *in : "__model__", xyz->line);
+        joint.axis = own.rotation.transpose() * (frame.rotation * joint.axis);
+        joint.axis /= joint.axis.norm();
+      }
+    }
+    const Element* limit = axis.child("limit");
+    if (!limit || joint.type == "continuous") return;
+    for (const auto& [name, end] : {std::pair("lower", &joint.lower), std::pair("upper", &joint.upper)})
+      if (const Element* given = limit->child(name)) {
+        const std::string text = trimmed(given->text);
+        if (text != "inf" && text != "-inf") *end = numbers(text, 1, given->line, name).front();
+      }
+  }
+
+  const Element& model_;
+  Shown shown_;
+  Robot& robot_;
+  std::string prefix_;
+  Pose place_;
+  Frames frames_;
+  std::map<std::string, std::size_t> numbers_;
+};
+
+}  // namespace
+
+Robot read_sdf(const Element& root, Shown shown) {
+  std::vector<const Element*> models;
+  const auto gather = [&](const Element& owner) {
+    for (const Element& element : owner.children) {
+      if (element.name == "model") models.push_back(&element);
+      if (element.name == "include")
+        refuse(element.line, "<include>", "models that stand in the file: other files are not read");
+    }
+  };
+  gather(root);
+  for (const Element& world : root.children)
+    if (world.name == "world") gather(world);
+  if (models.empty()) refuse(root.line, "no model", "one model or more");
+  Robot robot;
+  std::set<std::string> names;
+  for (const Element* model : models) {
+    const std::string& name = needed(*model, "name");
+    if (!names.insert(name).second) refuse(model->line, shown_name(name), "a name that no other model has");
+    SdfModel(*model, shown, robot, models.size() > 1 ? name + "::" : "").read();
+  }
+  return robot;
+}
+
+}  // namespace vericone::robot

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Depths against closed forms, and against the least value of the support function over directions that a
+// dense grid and a descent from its best points find.
+#include <gtest/gtest.h>
+#include <vericone/cones/penetration.h>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "support/random.h"
+
+namespace vericone::testing {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+Placed at(Body body, const Vector3d& position) {
+  return {std::move(body), Pose{position, Matrix3d::Identity()}};
+}
+
+/// h(n) of agent - obstacle.
+double support(const Placed& agent, const Placed& obstacle, const Vector3d& n) {
+  return agent.support(n) + obstacle.support(-n);
+}
+
+/// An upper bound of the depth, close to it.
+double depth_by_directions(const Placed& agent, const Placed& obstacle) {
+  constexpr int kGrid = 3000, kStarts = 24;
+  std::vector<std::pair<double, Vector3d>> tried;
+  for (int i = 0; i < kGrid; ++i) {
+    const double z = 1 - (2 * i + 1.0) / kGrid, r = std::sqrt(1 - z * z), phi = i * 2.399963229728653;
+    const Vector3d n(r * std::cos(phi), r * std::sin(phi), z);
+    tried.emplace_back(support(agent, obstacle, n), n);
+  }
+  std::partial_sort(tried.begin(), tried.begin() + kStarts, tried.end(),
+                    [](const auto& x, const auto& y) { return x.first < y.first; });
+  double least = tried[0].first;
+  for (int s = 0; s < kStarts; ++s) {
+    auto [value, n] = tried[s];
+    // A pattern of eight directions around, ever finer: the function has corners.
+    for (double step = 0.03; step > 1e-10;) {
+      bool better = false;
+      const Vector3d u = n.unitOrthogonal(), v = n.cross(u);
+      for (int k = 0; k < 8; ++k) {
+        const Vector3d m =
+            (n + step * (std::cos(k * M_PI / 4) * u + std::sin(k * M_PI / 4) * v)).normalized();
+        if (const double other = support(agent, obstacle, m); other < value) {
+          value = other;
+          n = m;
+          better = true;
+        }
+      }
+      if (!better) step *= 0.5;
+    }
+    least = std::min(least, value);
+  }
+  return least;
+}
+
+Body body_of(const std::string& kind, Random& random) {
+  const auto size = [&] { return random.uniform(0.5, 3); };
+  if (kind == "cylinder") return Convex::cylinder(size(), size());
+  if (kind == "capsule") return Convex::capsule(size(), size());
+  if (kind == "cone") return Convex::cone(size(), size());
+  if (kind == "frustum") return Convex::frustum(size(), size(), size());
+  if (kind == "box") return Convex::box({size(), size(), size()});
+  if (kind == "round box") return Convex::box({size(), size(), size()}).swollen(0.4);
+  if (kind == "disc") return Convex::disc(size());
+  if (kind == "round cylinder") return Convex::cylinder(size(), size()).swollen(0.3);
+  return Ellipsoid::from_axes(Vector3d::Zero(), {size(), size(), size()});
+}
+
+const std::vector<std::string> kKinds{"cylinder", "capsule",        "cone",      "frustum",  "box",
+                                      "disc",     "round cylinder", "ellipsoid", "round box"};
+
+TEST(Penetration, LiesBelowEveryDirectionAndAtTheLeastOfThem) {
+  Random random(21);
+  SCOPED_TRACE(random.trace());
+  int overlapping = 0;
+  const int n = campaign_size(60, 10000);
+  for (int i = 0; i < n; ++i) {
+    const auto& a = kKinds[random.integer(0, static_cast<int>(kKinds.size()) - 1)];
+    const auto& b = kKinds[random.integer(0, static_cast<int>(kKinds.size()) - 1)];
+    SCOPED_TRACE("case " + std::to_string(i) + ": " + a + ", " + b);
+    const Placed agent{body_of(a, random), {random.vector<3>(), random.rotation<3>()}},
+        obstacle{body_of(b, random), {random.vector<3>(), random.rotation<3>()}};
+    const double sampled = depth_by_directions(agent, obstacle);
+    const auto depth = penetration(agent, obstacle);
+    if (!depth) {
+      EXPECT_LT(sampled, 1e-9);
+      continue;
+    }
+    ++overlapping;
+    EXPECT_GT(sampled, depth->least - 1e-13);
+    EXPECT_LT(depth->most, sampled + 1e-9);
+    EXPECT_LT(depth->most - depth->least, 1e-9);
+    EXPECT_NEAR(support(agent, obstacle, depth->normal), depth->most, 1e-12);
+    EXPECT_NEAR(depth->normal.norm(), 1, 1e-14);
+  }
+  EXPECT_GT(overlapping, n / 2);
+}
+
+void expect_depth(const Placed& agent, const Placed& obstacle, double expected, const std::string& what) {
+  SCOPED_TRACE(what);
+  const auto depth = penetration(agent, obstacle);
+  ASSERT_TRUE(depth.has_value());
+  EXPECT_LE(depth->least, expected * (1 + 1e-15));
+  EXPECT_GE(depth->most, expected * (1 - 1e-15));
+  EXPECT_LT(depth->most - depth->least, 1e-9);
+}
+
+TEST(Penetration, IsThatOfClosedForms) {
+  Random random(22);
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 40; ++i) {
+    // Boxes with parallel axes: the least overlap of an axis.
+    const Vector3d p(random.uniform(0.5, 2), random.uniform(0.5, 2), random.uniform(0.5, 2)),
+        q(random.uniform(0.5, 2), random.uniform(0.5, 2), random.uniform(0.5, 2)),
+        c(random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9));
+    expect_depth(at(Convex::box(p), Vector3d::Zero()), at(Convex::box(q), c),
+                 (p + q - c.cwiseAbs()).minCoeff(), "boxes");
+    // Capsules on crossed axes at a height: both radii less it.
+    const double r = random.uniform(0.5, 1), s = random.uniform(0.5, 1), h = random.uniform(0.01, 0.9);
+    Matrix3d turned;
+    turned << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+    expect_depth(at(Convex::capsule(r, 4), Vector3d::Zero()),
+                 {Convex::capsule(s, 4), Pose{Vector3d(0.3, h, 0.2), turned}}, r + s - h, "capsules");
+    // A ball beside a cylinder, its centre inside of it and outside.
+    const double x = random.uniform(0.2, 2.5);
+    expect_depth(at(Convex::cylinder(2, 40), Vector3d::Zero()), at(Convex::capsule(1, 0), {x, 0, 3}), 3 - x,
+                 "a ball and a cylinder");
+    // A point in a ball.
+    expect_depth(at(Convex::point(), {x / 3, 0, 0}), at(Convex::capsule(1, 0), Vector3d::Zero()), 1 - x / 3,
+                 "a point");
+  }
+}
+
+TEST(Penetration, ThereIsNoneOfBodiesThatAreApart) {
+  EXPECT_FALSE(
+      penetration(at(Convex::cylinder(1, 2), Vector3d::Zero()), at(Convex::cone(1, 2), {2.1, 0, 0})));
+  EXPECT_FALSE(
+      penetration(at(Convex::capsule(1, 2), Vector3d::Zero()), at(Convex::capsule(1, 2), {0, 2.5, 0})));
+  EXPECT_FALSE(
+      penetration(at(HullBody::box({0, 0, 0}, {1, 1, 1}), Vector3d::Zero()), at(Ellipsoid(), {0, 0, 3})));
+}
+
+TEST(Penetration, OfBodiesAboutOneAxisIsBracketed) {
+  // All sideways displacements are equally short.
+  const auto depth =
+      penetration(at(Convex::cylinder(1, 8), Vector3d::Zero()), at(Convex::cylinder(2, 9), {0, 0, 1}));
+  ASSERT_TRUE(depth.has_value());
+  EXPECT_LE(depth->least, 3);
+  EXPECT_GE(depth->most, 3);
+  EXPECT_GT(depth->least, 2.9);
+  EXPECT_LT(depth->most, 3 + 1e-9);
+}
+
+TEST(Penetration, FollowsTheBodiesSize) {
+  for (const double scale : {1e-60, 1e-3, 1.0, 1e7, 1e60}) {
+    const auto depth = penetration(at(Convex::cylinder(scale, 3 * scale), Vector3d::Zero()),
+                                   at(Convex::box({scale, scale, scale}), Vector3d(1.5, 0.1, 0.2) * scale));
+    ASSERT_TRUE(depth.has_value()) << scale;
+    EXPECT_LE(depth->least, 0.5 * scale);
+    EXPECT_GE(depth->most, 0.5 * scale * (1 - 1e-15));
+    EXPECT_LT(depth->most - depth->least, 1e-9 * scale);
+  }
+}
+
+}  // namespace
+}  // namespace vericone::testing
